@@ -1,0 +1,35 @@
+# Warnings, sanitizers and the two kinds of target that every directory declares.
+
+add_library(hexpipe_flags INTERFACE)
+target_compile_options(hexpipe_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wcast-align
+  # No fused multiply-add: the same input gives the same bytes on every machine.
+  -ffp-contract=off)
+if(HEXPIPE_WERROR)
+  target_compile_options(hexpipe_flags INTERFACE -Werror)
+endif()
+if(HEXPIPE_SANITIZE)
+  target_compile_options(hexpipe_flags INTERFACE
+    -fsanitize=${HEXPIPE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(hexpipe_flags INTERFACE -fsanitize=${HEXPIPE_SANITIZE})
+endif()
+
+# hexpipe_library(NAME SOURCES... [LINK LIBS...])
+function(hexpipe_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  add_library(${name} STATIC ${arg_SOURCES})
+  target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${name} PUBLIC hexpipe_flags ${arg_LINK})
+endfunction()
+
+# hexpipe_tool(NAME [SOURCES...] [LINK LIBS...]): library NAME_core with the algorithms, executable NAME from main.cpp.
+function(hexpipe_tool name)
+  cmake_parse_arguments(arg "" "COMPONENT" "SOURCES;LINK" ${ARGN})
+  hexpipe_library(${name}_core SOURCES ${arg_SOURCES} LINK ${arg_LINK})
+  add_executable(${name} main.cpp)
+  target_link_libraries(${name} PRIVATE ${name}_core hexpipe_formats hexpipe_common)
+  if(arg_COMPONENT)
+    install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${arg_COMPONENT})
+  else()
+    install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT hexpipe)
+  endif()
+endfunction()

@@ -1,0 +1,45 @@
+#pragma once
+// The cells that could be built by merging tets: what findhex finds, buildgraph compares and assemble builds.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/mesh/cell_topology.hpp"
+#include "common/mesh/tet_mesh.hpp"
+
+namespace hexpipe {
+
+struct Candidates {
+  std::vector<std::array<Vertex, 8>> vertices;  // in the numbering of cell_topology.hpp, padded with -1
+  std::vector<CellKind> kind;
+  std::vector<double> quality;                  // least scaled Jacobian, of the corners or over the element
+  std::vector<double> volume;
+  std::vector<std::int64_t> tet_offsets{0};     // k+1: interior tets of candidate i are tets[offsets[i]..offsets[i+1])
+  std::vector<std::int32_t> tets;               // ascending within a candidate
+  std::vector<std::int64_t> boundary_tet_offsets{0};
+  std::vector<std::int32_t> boundary_tets;
+
+  std::size_t size() const { return kind.size(); }
+  std::span<const std::int32_t> interior_tets_of(std::size_t i) const {
+    return std::span(tets).subspan(tet_offsets[i], tet_offsets[i + 1] - tet_offsets[i]);
+  }
+  std::span<const std::int32_t> boundary_tets_of(std::size_t i) const {
+    return std::span(boundary_tets)
+        .subspan(boundary_tet_offsets[i], boundary_tet_offsets[i + 1] - boundary_tet_offsets[i]);
+  }
+  std::span<const Vertex> corners_of(std::size_t i) const {
+    return std::span(vertices[i]).first(corner_count(kind[i]));
+  }
+  bool operator==(const Candidates&) const = default;
+};
+
+// Throws DataError naming `source` when arrays disagree in length, a kind is unknown, the padding is wrong, offsets do
+// not ascend, or a number is not finite.
+void validate(const Candidates& candidates, const char* source);
+
+// Throws DataError naming `source` when a candidate names a vertex or a tet that `mesh` does not have.
+void validate_against(const Candidates& candidates, const TetMesh& mesh, const char* source);
+
+}  // namespace hexpipe

@@ -1,0 +1,57 @@
+#include "common/run/deadline.hpp"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstring>
+#include <limits>
+
+namespace hexpipe {
+namespace {
+
+// Only lock-free atomics and plain memory: signal handlers touch them.
+std::atomic<bool> stop_flag{false};
+std::atomic<bool> first_signal_stops_searches{false};
+std::atomic<bool> file_registered{false};
+char registered_file[4096];
+
+void on_signal(int signal_number) {
+  if (first_signal_stops_searches.load() && !stop_flag.exchange(true)) return;
+  if (file_registered.load()) unlink(registered_file);
+  signal(signal_number, SIG_DFL);
+  raise(signal_number);
+}
+
+}  // namespace
+
+bool Deadline::passed() const {
+  return stop_flag.load(std::memory_order_relaxed) || (limit_ && watch_.seconds() >= *limit_);
+}
+
+double Deadline::remaining() const {
+  return limit_ ? *limit_ - watch_.seconds() : std::numeric_limits<double>::infinity();
+}
+
+void stop_searches_on_signal() { first_signal_stops_searches = true; }
+
+bool stop_requested() { return stop_flag.load(std::memory_order_relaxed); }
+
+void remove_on_signal(const char* path) {
+  file_registered = false;
+  if (*path == '\0' || std::strlen(path) >= sizeof registered_file) return;
+  std::strcpy(registered_file, path);
+  file_registered = true;
+}
+
+void install_signal_handlers() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  // SA_NODEFER: the raise() inside the handler takes effect at once. SA_RESTART: a stop request does not make reads fail.
+  action.sa_flags = SA_RESTART | SA_NODEFER;
+  sigemptyset(&action.sa_mask);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
+  signal(SIGPIPE, SIG_IGN);
+}
+
+}  // namespace hexpipe

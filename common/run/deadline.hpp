@@ -1,0 +1,49 @@
+#pragma once
+// When a search has to end: at its time limit, or when the user asks for it by SIGINT or SIGTERM.
+
+#include <chrono>
+#include <optional>
+
+namespace hexpipe {
+
+// Wall-clock seconds since construction.
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+class Deadline {
+ public:
+  // Without a limit only a signal ends the search.
+  explicit Deadline(std::optional<double> seconds = std::nullopt) : limit_(seconds) {}
+
+  // Cheap enough for every iteration of a search: tens of nanoseconds.
+  bool passed() const;
+  double elapsed() const { return watch_.seconds(); }
+  // Infinite without a limit.
+  double remaining() const;
+
+ private:
+  Stopwatch watch_;
+  std::optional<double> limit_;
+};
+
+// After this call the first SIGINT or SIGTERM makes stop_requested() true and every Deadline pass; the second ends the
+// process as an uncaught signal would. Without it the first one already does. Either way the temporary files
+// registered with remove_on_signal are gone.
+void stop_searches_on_signal();
+bool stop_requested();
+
+// Registers a file to be removed when a signal ends the process; an empty path takes the registration back.
+// One file at a time: a tool writes one output.
+void remove_on_signal(const char* path);
+
+// Makes SIGINT, SIGTERM and SIGHUP remove the registered file before they end the process, and SIGPIPE ignored, so that a
+// closed pipe is an error of write(2).
+void install_signal_handlers();
+
+}  // namespace hexpipe

@@ -1,0 +1,65 @@
+#pragma once
+// Parallel loops whose results do not depend on the number of threads: work is cut into blocks by its size alone, and
+// what blocks produce is put together in block order.
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace hexpipe {
+
+// While one stands, parallel loops use `threads` threads; 0 means all that the machine has. tool_main holds one.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  struct Control;
+  std::unique_ptr<Control> control_;
+};
+
+// The number of threads that parallel loops use now.
+int thread_count();
+
+// body(i) for i in [0, count), in any order; bodies write to places of their own.
+template <class Body>
+void parallel_for(std::int64_t count, std::int64_t grain, Body&& body) {
+  tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, count, grain), [&](const auto& range) {
+    for (std::int64_t i = range.begin(); i != range.end(); ++i) body(i);
+  });
+}
+
+// Cuts [0, count) into blocks of `block` items, calls produce(begin, end) -> Product in parallel and consume(Product&&)
+// one at a time in block order. At most a few blocks per thread are held at once.
+template <class Produce, class Consume>
+void parallel_in_order(std::int64_t count, std::int64_t block, Produce&& produce, Consume&& consume) {
+  using Product = decltype(produce(std::int64_t{}, std::int64_t{}));
+  std::int64_t next = 0;
+  tbb::parallel_pipeline(
+      static_cast<std::size_t>(4 * thread_count()),
+      tbb::make_filter<void, std::int64_t>(tbb::filter_mode::serial_in_order,
+                                           [&](tbb::flow_control& control) {
+                                             const std::int64_t begin = next;
+                                             if (begin >= count) control.stop();
+                                             next = begin + block;
+                                             return begin;
+                                           }) &
+          tbb::make_filter<std::int64_t, std::shared_ptr<Product>>(
+              tbb::filter_mode::parallel,
+              [&](std::int64_t begin) {
+                return std::make_shared<Product>(produce(begin, std::min(begin + block, count)));
+              }) &
+          tbb::make_filter<std::shared_ptr<Product>, void>(
+              tbb::filter_mode::serial_in_order,
+              [&](const std::shared_ptr<Product>& product) { consume(std::move(*product)); }));
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,46 @@
+#pragma once
+// Bytes to a file or to standard output. A file is written beside its place and renamed when it is whole, so that a
+// failure leaves the old file as it was.
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hexpipe {
+
+class Output {
+ public:
+  // Empty or "-" is standard output. A path to something that is no regular file (/dev/full, a FIFO) is written directly.
+  explicit Output(const std::string& path);
+  // Without commit(), the destructor removes what was written beside the file.
+  ~Output();
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+
+  const std::string& name() const { return name_; }
+  // Throws DataError when the disk is full or the reader has gone.
+  void write(std::string_view bytes);
+  template <class... Args>
+  void print(fmt::format_string<Args...> text, Args&&... args) {
+    fmt::format_to(std::back_inserter(buffer_), text, std::forward<Args>(args)...);
+    if (buffer_.size() >= buffer_limit) flush();
+  }
+  // Everything is written: flush, close, put in place. Throws DataError when any of it fails.
+  void commit();
+
+ private:
+  static constexpr std::size_t buffer_limit = 1 << 20;
+  void flush();
+  void write_through(std::string_view bytes);
+
+  std::string name_, path_, temporary_;
+  int descriptor_ = -1;
+  std::string buffer_;
+  bool committed_ = false;
+};
+
+}  // namespace hexpipe

@@ -1,0 +1,57 @@
+#pragma once
+// One stage of the pipeline as every tool runs it: takes its inputs from a bundle or from files by role, passes the
+// members that it read on to its output as they come, appends its own product and a history entry.
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/graph/conflict_graph.hpp"
+#include "common/mesh/candidates.hpp"
+#include "common/mesh/mixed_mesh.hpp"
+#include "common/mesh/tet_mesh.hpp"
+#include "common/run/tool_main.hpp"
+
+namespace hexpipe {
+
+// What a stage has read; a role that was not asked for or not there stays empty.
+struct StageData {
+  std::optional<TetMesh> mesh;
+  std::optional<Candidates> candidates;
+  std::optional<ConflictGraph> graph;
+  std::optional<IndependentSet> solution;
+  std::optional<MixedMesh> result;
+  std::vector<nlohmann::ordered_json> history;
+};
+
+class Stage {
+ public:
+  // Judges the command line: throws UsageError when a bundle would go to a terminal, nothing is there to read, two inputs
+  // are standard input, or the format is unknown for the product.
+  explicit Stage(const RunContext& context);
+  ~Stage();
+
+  // Reads the roles in `needs` (an error when one is missing) and those in `wants` (taken when there), each validated,
+  // and the solution against the graph. When the output is a bundle every other member passes through, except the
+  // tool's own product and what depends on it.
+  StageData read(const std::vector<Role>& needs, const std::vector<Role>& wants = {});
+
+  // For a tool without StageData input (tetmesh): nothing is read, the bundle starts empty.
+  void begin();
+
+  // Write the product, in the form that the command line asks for, then the history entry {tool, version, options,
+  // ...details}, and commit.
+  void write(const TetMesh& mesh, const nlohmann::ordered_json& details);
+  void write(const Candidates& candidates, const nlohmann::ordered_json& details);
+  void write(const ConflictGraph& graph, const nlohmann::ordered_json& details);
+  void write(const IndependentSet& solution, const ConflictGraph& graph, const nlohmann::ordered_json& details);
+  void write(const MixedMesh& result, const nlohmann::ordered_json& details);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace hexpipe

@@ -1,0 +1,56 @@
+# Loaded by every .bats file: `load helpers`. Puts the built tools on the PATH and gives each test a directory of its own.
+
+export BATS_LIB_PATH="${BATS_LIB_PATH:-/usr/lib/bats}"
+load "$BATS_LIB_PATH/bats-support/load.bash"
+load "$BATS_LIB_PATH/bats-assert/load.bash"
+bats_require_minimum_version 1.5.0
+
+HEXPIPE_SOURCE="${HEXPIPE_SOURCE:-$(cd "$BATS_TEST_DIRNAME/.." && pwd)}"
+HEXPIPE_BIN="${HEXPIPE_BIN:-$HEXPIPE_SOURCE/build/bin}"
+DATA="$HEXPIPE_SOURCE/tests/data"
+CHECKERS="$HEXPIPE_SOURCE/tests/checkers"
+# Debian's python3, for which the apt packages numpy, meshio and vtk are installed.
+PYTHON=/usr/bin/python3
+export PATH="$HEXPIPE_BIN:$PATH"
+
+setup() {
+  cd "$BATS_TEST_TMPDIR" || return 1
+}
+
+# stdout and stderr apart: $output and $stderr.
+run_apart() {
+  run --separate-stderr "$@"
+}
+
+# assert_fails_with CODE PATTERN COMMAND...: exit code CODE, nothing on stdout, one line on stderr that matches PATTERN
+# (extended regular expression).
+assert_fails_with() {
+  local code=$1 pattern=$2
+  shift 2
+  run_apart "$@"
+  assert_equal "$status" "$code"
+  assert_equal "$output" ""
+  assert_equal "$(wc -l <<<"$stderr")" 1
+  if ! grep -Eq -- "$pattern" <<<"$stderr"; then
+    fail "standard error does not match '$pattern': $stderr"
+  fi
+}
+
+# A command in a shell, for pipes: assert_fails_with 1 'cut off' shell 'head -c 100 x.tar | findhex'
+shell() {
+  bash -o pipefail -c "$1"
+}
+
+# assert_same_bytes A B
+assert_same_bytes() {
+  if ! cmp "$1" "$2"; then fail "$1 and $2 differ"; fi
+}
+
+# assert_different_bytes A B: an option has to change something.
+assert_different_bytes() {
+  if cmp -s "$1" "$2"; then fail "$1 and $2 are the same"; fi
+}
+
+sanitized() {
+  [[ -n "${HEXPIPE_SANITIZE:-}" ]]
+}
