@@ -2,6 +2,7 @@
 // The conflict graph: a vertex for each candidate cell, an edge where two cannot be chosen together.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,7 +12,7 @@ namespace hexpipe {
 struct ConflictGraph {
   std::vector<std::int64_t> offsets{0};       // vertices + 1
   std::vector<std::int32_t> neighbours;       // both directions, ascending within a vertex
-  std::vector<std::int64_t> weights;          // one a vertex, positive
+  std::vector<std::int64_t> weights;          // one a vertex, 0 or more
 
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(weights.size()); }
   std::int64_t edge_count() const { return static_cast<std::int64_t>(neighbours.size()) / 2; }
@@ -25,6 +26,14 @@ struct ConflictGraph {
 
 // An independent set: vertices of a conflict graph, ascending.
 using IndependentSet = std::vector<std::int32_t>;
+
+// An edge that only one of its ends names: `to` stands among the neighbours of `from`, but not the other way.
+struct OneSidedEdge {
+  std::int32_t from, to;
+};
+
+// For lists that are ascending, in range and without loops. O(vertices + edges).
+std::optional<OneSidedEdge> find_one_sided_edge(const ConflictGraph& graph);
 
 // Throws DataError naming `source` when arrays disagree in length, offsets do not ascend, neighbours are out of range,
 // unsorted, repeated, loops or one-sided, weights are negative, or their sum does not fit 64 bits.

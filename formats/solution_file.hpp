@@ -1,0 +1,19 @@
+#pragma once
+// .sol, an independent set in either of the two forms that solvers write: the numbers of the chosen vertices, counted from
+// 1, one a line (CHILS); or a line 0 or 1 for each vertex (KaMIS). formats/README.md shows both.
+
+#include "common/graph/conflict_graph.hpp"
+#include "formats/input.hpp"
+#include "formats/output.hpp"
+
+namespace hexpipe {
+
+// Told apart by the graph's size: a file with a line for each vertex, each of them 0 or 1, is of the second form. One
+// file is both, a single line 1 for a graph of one vertex, and means the same either way. Numbers may come in any order.
+// Throws FormatError with the line for numbers out of range or repeated, DataError when two chosen vertices are neighbours.
+IndependentSet read_solution(Input& input, const ConflictGraph& graph);
+
+// Writes the first form, ascending.
+void write_solution(const IndependentSet& solution, Output& output);
+
+}  // namespace hexpipe
