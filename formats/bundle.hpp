@@ -1,19 +1,20 @@
 #pragma once
 // Bundles: tar archives (pax) of .npy arrays and small JSON files, streamed through libarchive, never sought.
 
+#include <algorithm>
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "formats/input.hpp"
+#include "formats/npy.hpp"
 #include "formats/output.hpp"
 
 struct archive;
-struct archive_entry;
 
 namespace hexpipe {
 
@@ -32,14 +33,24 @@ class BundleWriter {
 
   // T is a number, or an array of numbers (a row); the .npy shape is (n) or (n,columns).
   template <class T>
-  void add_array(const std::string& name, std::span<const T> rows);
+  void add_array(const std::string& name, const std::vector<T>& rows) {
+    NpyHeader header{npy_type<typename NpyRow<T>::Number>(), {rows.size()}};
+    if (NpyRow<T>::columns > 0) header.shape.push_back(NpyRow<T>::columns);
+    add_array(name, header, rows.data(), rows.size() * sizeof(T));
+  }
 
   // Writes the end of the archive.
   void close();
 
  private:
+  static long on_write(archive*, void* self, const void* data, std::size_t bytes);
+  void add_array(const std::string& name, const NpyHeader& header, const void* data, std::size_t bytes);
+  [[noreturn]] void fail() const;
+
   Output& output_;
   archive* archive_;
+  // What Output threw inside libarchive's callback, which no exception may cross.
+  std::exception_ptr output_error_;
 };
 
 class BundleReader {
@@ -60,7 +71,19 @@ class BundleReader {
   // The current member as an array with the rows of T (see add_array). Integers of any width are taken where they fit,
   // floats of any width as f8. Throws DataError on a wrong shape, type, or number of bytes.
   template <class T>
-  std::vector<T> read_array();
+  std::vector<T> read_array() {
+    using Number = typename NpyRow<T>::Number;
+    const NpyHeader header = begin_array(NpyRow<T>::columns);
+    std::vector<T> rows;
+    read_rows(
+        header, npy_type<Number>(), sizeof(T),
+        [&](std::size_t count) { rows.reserve(std::max(count, rows.capacity())); },
+        [&](std::size_t count) {
+          rows.resize(count);
+          return static_cast<void*>(rows.data());
+        });
+    return rows;
+  }
   // The current member as text; throws DataError when larger than `limit`.
   std::string read_text(std::size_t limit = 64 << 20);
   // The current member's bytes, unchanged, to another bundle.
@@ -68,9 +91,18 @@ class BundleReader {
 
  private:
   static long on_read(archive*, void* self, const void** data);
-  std::size_t read_bytes(void* data, std::size_t bytes);
+  // Exactly this many bytes of the current member.
+  void read_bytes(void* data, std::size_t bytes);
+  // The array's header, its shape checked against the columns wanted (0: one dimension) and the member's size.
+  NpyHeader begin_array(std::uint64_t columns);
+  // Reads all rows, growing the destination by `resize` (new row count -> first byte) as data arrives, so that an array
+  // that only claims to be huge costs nothing; `reserve` is called with the whole count first.
+  void read_rows(const NpyHeader& header, NpyType wanted, std::size_t row_bytes,
+                 const std::function<void(std::size_t)>& reserve, const std::function<void*(std::size_t)>& resize);
+  [[noreturn]] void fail(const char* what) const;
 
   Input& input_;
+  std::exception_ptr input_error_;
   archive* archive_;
   std::string name_;
   std::uint64_t size_ = 0;

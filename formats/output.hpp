@@ -14,7 +14,8 @@ namespace hexpipe {
 
 class Output {
  public:
-  // Empty or "-" is standard output. A path to something that is no regular file (/dev/full, a FIFO) is written directly.
+  // Empty or "-" is standard output. A path to something that is no regular file (/dev/full, a FIFO) is written
+  // directly.
   explicit Output(const std::string& path);
   // Without commit(), the destructor removes what was written beside the file.
   ~Output();

@@ -28,8 +28,8 @@ struct StageData {
 
 class Stage {
  public:
-  // Judges the command line: throws UsageError when a bundle would go to a terminal, nothing is there to read, two inputs
-  // are standard input, or the format is unknown for the product.
+  // Judges the command line: throws UsageError when a bundle would go to a terminal, nothing is there to read, two
+  // inputs are standard input, or the format is unknown for the product.
   explicit Stage(const RunContext& context);
   ~Stage();
 
@@ -46,7 +46,7 @@ class Stage {
   void write(const TetMesh& mesh, const nlohmann::ordered_json& details);
   void write(const Candidates& candidates, const nlohmann::ordered_json& details);
   void write(const ConflictGraph& graph, const nlohmann::ordered_json& details);
-  void write(const IndependentSet& solution, const ConflictGraph& graph, const nlohmann::ordered_json& details);
+  void write(const IndependentSet& solution, const nlohmann::ordered_json& details);
   void write(const MixedMesh& result, const nlohmann::ordered_json& details);
 
  private:

@@ -10,9 +10,9 @@
 namespace hexpipe {
 
 struct ConflictGraph {
-  std::vector<std::int64_t> offsets{0};       // vertices + 1
-  std::vector<std::int32_t> neighbours;       // both directions, ascending within a vertex
-  std::vector<std::int64_t> weights;          // one a vertex, 0 or more
+  std::vector<std::int64_t> offsets{0};  // vertices + 1
+  std::vector<std::int32_t> neighbours;  // both directions, ascending within a vertex
+  std::vector<std::int64_t> weights;     // one a vertex, 0 or more
 
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(weights.size()); }
   std::int64_t edge_count() const { return static_cast<std::int64_t>(neighbours.size()) / 2; }

@@ -37,8 +37,8 @@ class TetAdjacency {
   bool has_edge(Vertex a, Vertex b) const;
 
  private:
-  std::vector<std::int32_t> across_;           // 4 a tet
-  std::vector<std::int64_t> tet_offsets_;      // vertices + 1
+  std::vector<std::int32_t> across_;       // 4 a tet
+  std::vector<std::int64_t> tet_offsets_;  // vertices + 1
   std::vector<std::int32_t> tets_at_vertex_;
   std::vector<std::int64_t> neighbour_offsets_;
   std::vector<Vertex> neighbours_;

@@ -14,10 +14,10 @@ namespace hexpipe {
 struct Candidates {
   std::vector<std::array<Vertex, 8>> vertices;  // in the numbering of cell_topology.hpp, padded with -1
   std::vector<CellKind> kind;
-  std::vector<double> quality;                  // least scaled Jacobian, of the corners or over the element
+  std::vector<double> quality;  // least scaled Jacobian, of the corners or over the element
   std::vector<double> volume;
-  std::vector<std::int64_t> tet_offsets{0};     // k+1: interior tets of candidate i are tets[offsets[i]..offsets[i+1])
-  std::vector<std::int32_t> tets;               // ascending within a candidate
+  std::vector<std::int64_t> tet_offsets{0};  // k+1: interior tets of candidate i are tets[offsets[i]..offsets[i+1])
+  std::vector<std::int32_t> tets;            // ascending within a candidate
   std::vector<std::int64_t> boundary_tet_offsets{0};
   std::vector<std::int32_t> boundary_tets;
 

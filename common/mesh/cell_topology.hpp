@@ -1,20 +1,20 @@
 #pragma once
-// The one numbering of corners, edges and facets that everything in hexpipe uses. Hex, pyramid and tet are as in VTK,
-// Gmsh and MEDIT; the prism is Gmsh's and MEDIT's (det(01, 02, 03) > 0), which is also VTK's parametrization.
-//
-//        hex                      prism                   pyramid                  tet
-//
-//       7--------6                 5                        4                       3
-//      /|       /|               / | \                    /|\ \                    /|\
-//     / |      / |              3-----4                  / | \  \                 / | \
-//    4--------5  |              |  |  |                 /  3--\---2              /  |  \
-//    |  3-----|--2              |  2  |                / /     \ /              0---|---2
-//    | /      | /               | / \ |               0---------1                \  |  /
-//    |/       |/                |/   \|                                            \|/
-//    0--------1                 0-----1                                             1
-//
-// Facets are listed with their corners counter-clockwise seen from outside, so their normals point out of a cell whose
-// Jacobian is positive.
+/* The one numbering of corners, edges and facets that everything in hexpipe uses. Hex, pyramid and tet are as in VTK,
+   Gmsh and MEDIT; the prism is Gmsh's and MEDIT's (det(01, 02, 03) > 0), which is also VTK's parametrization.
+
+          hex                      prism                   pyramid                  tet
+
+         7--------6                 5                        4                       3
+        /|       /|               / | \                    /|\ \                    /|\
+       / |      / |              3-----4                  / | \  \                 / | \
+      4--------5  |              |  |  |                 /  3--\---2              /  |  \
+      |  3-----|--2              |  2  |                / /     \ /              0---|---2
+      | /      | /               | / \ |               0---------1                \  |  /
+      |/       |/                |/   \|                                            \|/
+      0--------1                 0-----1                                             1
+
+   Facets are listed with their corners counter-clockwise seen from outside, so their normals point out of a cell whose
+   Jacobian is positive. */
 
 #include <array>
 #include <cstddef>
@@ -49,14 +49,8 @@ struct HexTopology {
   static constexpr std::array<LocalTriangle, 0> triangles{};
   static constexpr std::array<LocalQuad, 6> quads{
       {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
-  static constexpr std::array<LocalCorner, 8> corners{{{0, 1, 3, 4},
-                                                       {1, 2, 0, 5},
-                                                       {2, 3, 1, 6},
-                                                       {3, 0, 2, 7},
-                                                       {4, 7, 5, 0},
-                                                       {5, 4, 6, 1},
-                                                       {6, 5, 7, 2},
-                                                       {7, 6, 4, 3}}};
+  static constexpr std::array<LocalCorner, 8> corners{
+      {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7}, {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}}};
 };
 
 struct PrismTopology {
@@ -74,8 +68,7 @@ struct PrismTopology {
 struct PyramidTopology {
   static constexpr CellKind kind = CellKind::pyramid;
   static constexpr int corner_count = 5;
-  static constexpr std::array<LocalEdge, 8> edges{
-      {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}};
+  static constexpr std::array<LocalEdge, 8> edges{{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}};
   static constexpr std::array<LocalTriangle, 4> triangles{{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}};
   static constexpr std::array<LocalQuad, 1> quads{{{0, 3, 2, 1}}};
   static constexpr std::array<LocalCorner, 4> corners{{{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}}};
@@ -85,10 +78,14 @@ struct PyramidTopology {
 template <class Visitor>
 constexpr decltype(auto) with_topology(CellKind kind, Visitor&& visit) {
   switch (kind) {
-    case CellKind::hex: return visit(HexTopology{});
-    case CellKind::prism: return visit(PrismTopology{});
-    case CellKind::pyramid: return visit(PyramidTopology{});
-    case CellKind::tet: break;
+    case CellKind::hex:
+      return visit(HexTopology{});
+    case CellKind::prism:
+      return visit(PrismTopology{});
+    case CellKind::pyramid:
+      return visit(PyramidTopology{});
+    case CellKind::tet:
+      break;
   }
   return visit(TetTopology{});
 }
@@ -99,10 +96,14 @@ constexpr int corner_count(CellKind kind) {
 
 constexpr const char* name_of(CellKind kind) {
   switch (kind) {
-    case CellKind::hex: return "hex";
-    case CellKind::prism: return "prism";
-    case CellKind::pyramid: return "pyramid";
-    case CellKind::tet: break;
+    case CellKind::hex:
+      return "hex";
+    case CellKind::prism:
+      return "prism";
+    case CellKind::pyramid:
+      return "pyramid";
+    case CellKind::tet:
+      break;
   }
   return "tet";
 }

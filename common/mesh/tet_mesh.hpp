@@ -18,10 +18,10 @@ using Quad = std::array<Vertex, 4>;
 
 struct TetMesh {
   std::vector<Vec3> points;
-  std::vector<Tet> tets;                   // positively oriented: det(01, 02, 03) > 0
-  std::vector<std::int32_t> tet_tags;      // region of each tet
-  std::vector<Triangle> triangles;         // boundary and interfaces between regions
-  std::vector<std::int32_t> triangle_tags; // surface tag of each triangle
+  std::vector<Tet> tets;                    // positively oriented: det(01, 02, 03) > 0
+  std::vector<std::int32_t> tet_tags;       // region of each tet
+  std::vector<Triangle> triangles;          // boundary and interfaces between regions
+  std::vector<std::int32_t> triangle_tags;  // surface tag of each triangle
 
   bool operator==(const TetMesh&) const = default;
 };

@@ -33,9 +33,13 @@ double Deadline::remaining() const {
   return limit_ ? *limit_ - watch_.seconds() : std::numeric_limits<double>::infinity();
 }
 
-void stop_searches_on_signal() { first_signal_stops_searches = true; }
+void stop_searches_on_signal() {
+  first_signal_stops_searches = true;
+}
 
-bool stop_requested() { return stop_flag.load(std::memory_order_relaxed); }
+bool stop_requested() {
+  return stop_flag.load(std::memory_order_relaxed);
+}
 
 void remove_on_signal(const char* path) {
   file_registered = false;
@@ -47,7 +51,8 @@ void remove_on_signal(const char* path) {
 void install_signal_handlers() {
   struct sigaction action {};
   action.sa_handler = on_signal;
-  // SA_NODEFER: the raise() inside the handler takes effect at once. SA_RESTART: a stop request does not make reads fail.
+  // SA_NODEFER: the raise() inside the handler takes effect at once. SA_RESTART: a stop request does not make reads
+  // fail.
   action.sa_flags = SA_RESTART | SA_NODEFER;
   sigemptyset(&action.sa_mask);
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);

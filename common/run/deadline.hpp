@@ -42,8 +42,8 @@ bool stop_requested();
 // One file at a time: a tool writes one output.
 void remove_on_signal(const char* path);
 
-// Makes SIGINT, SIGTERM and SIGHUP remove the registered file before they end the process, and SIGPIPE ignored, so that a
-// closed pipe is an error of write(2).
+// Makes SIGINT, SIGTERM and SIGHUP remove the registered file before they end the process, and SIGPIPE ignored, so that
+// a closed pipe is an error of write(2).
 void install_signal_handlers();
 
 }  // namespace hexpipe

@@ -10,9 +10,9 @@ struct ThreadLimit::Control {
 };
 
 ThreadLimit::ThreadLimit(int threads)
-    : control_(new Control{tbb::global_control(
-          tbb::global_control::max_allowed_parallelism,
-          static_cast<std::size_t>(threads > 0 ? threads : tbb::info::default_concurrency()))}) {}
+    : control_(new Control{
+          tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                              static_cast<std::size_t>(threads > 0 ? threads : tbb::info::default_concurrency()))}) {}
 
 ThreadLimit::~ThreadLimit() = default;
 

@@ -43,23 +43,22 @@ template <class Produce, class Consume>
 void parallel_in_order(std::int64_t count, std::int64_t block, Produce&& produce, Consume&& consume) {
   using Product = decltype(produce(std::int64_t{}, std::int64_t{}));
   std::int64_t next = 0;
-  tbb::parallel_pipeline(
-      static_cast<std::size_t>(4 * thread_count()),
-      tbb::make_filter<void, std::int64_t>(tbb::filter_mode::serial_in_order,
-                                           [&](tbb::flow_control& control) {
-                                             const std::int64_t begin = next;
-                                             if (begin >= count) control.stop();
-                                             next = begin + block;
-                                             return begin;
-                                           }) &
-          tbb::make_filter<std::int64_t, std::shared_ptr<Product>>(
-              tbb::filter_mode::parallel,
-              [&](std::int64_t begin) {
-                return std::make_shared<Product>(produce(begin, std::min(begin + block, count)));
-              }) &
-          tbb::make_filter<std::shared_ptr<Product>, void>(
-              tbb::filter_mode::serial_in_order,
-              [&](const std::shared_ptr<Product>& product) { consume(std::move(*product)); }));
+  tbb::parallel_pipeline(static_cast<std::size_t>(4 * thread_count()),
+                         tbb::make_filter<void, std::int64_t>(tbb::filter_mode::serial_in_order,
+                                                              [&](tbb::flow_control& control) {
+                                                                const std::int64_t begin = next;
+                                                                if (begin >= count) control.stop();
+                                                                next = begin + block;
+                                                                return begin;
+                                                              }) &
+                             tbb::make_filter<std::int64_t, std::shared_ptr<Product>>(
+                                 tbb::filter_mode::parallel,
+                                 [&](std::int64_t begin) {
+                                   return std::make_shared<Product>(produce(begin, std::min(begin + block, count)));
+                                 }) &
+                             tbb::make_filter<std::shared_ptr<Product>, void>(
+                                 tbb::filter_mode::serial_in_order,
+                                 [&](const std::shared_ptr<Product>& product) { consume(std::move(*product)); }));
 }
 
 }  // namespace hexpipe

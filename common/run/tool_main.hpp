@@ -17,20 +17,19 @@ namespace hexpipe {
 
 struct ToolInfo {
   std::string name;
-  std::string summary;              // one sentence
-  std::string example;              // a worked example for --help
-  std::vector<Role> reads;          // roles that may come from files; the first is what a plain operand holds
-  std::optional<Role> product;      // what -o FILE writes; none: the tool writes no stream
-  bool random = false;              // has --seed
-  bool searches = false;            // has --time-limit, --iterations and --log, and stops gracefully on signals
+  std::string summary;          // one sentence
+  std::string example;          // a worked example for --help
+  std::vector<Role> reads;      // roles that may come from files; the first is what a plain operand holds
+  std::optional<Role> product;  // what -o FILE writes; none: the tool writes no stream
+  bool random = false;          // has --seed
+  bool searches = false;        // has --time-limit, --iterations and --log, and stops gracefully on signals
   std::optional<double> default_time_limit{};  // of a search that is given neither limit, seconds
-  std::string default_time_limit_note{};       // how --help shows it
 };
 
 struct CommonOptions {
   int threads = 0;  // 0: all
   std::uint64_t seed = 1;
-  std::optional<double> time_limit;          // seconds
+  std::optional<double> time_limit;  // seconds
   std::optional<std::int64_t> iterations;
   std::string stats_file;
   std::string log_file;

@@ -1,0 +1,143 @@
+#include "common/mesh/adjacency.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <tuple>
+
+#include "common/mesh/cell_topology.hpp"
+#include "common/run/error.hpp"
+#include "common/run/parallel.hpp"
+
+namespace hexpipe {
+namespace {
+
+// A facet filed under its lowest vertex: the two others ascending, and 4 * tet + facet.
+struct FiledFacet {
+  Vertex middle, high;
+  std::int64_t code;
+};
+
+std::array<Vertex, 3> sorted_facet(const Tet& tet, int facet) {
+  const auto& corners = TetTopology::triangles[facet];
+  std::array<Vertex, 3> v{tet[corners[0]], tet[corners[1]], tet[corners[2]]};
+  std::sort(v.begin(), v.end());
+  return v;
+}
+
+// Counts become offsets: entry v holds the sum of the counts before v, the last entry the total.
+std::vector<std::int64_t> offsets_from_counts(std::vector<std::int64_t> counts) {
+  counts.push_back(0);
+  std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), std::int64_t{0});
+  return counts;
+}
+
+std::vector<std::int32_t> match_facets(const TetMesh& mesh, const char* source) {
+  std::vector<std::int64_t> counts(mesh.points.size(), 0);
+  for (const Tet& tet : mesh.tets)
+    for (int facet = 0; facet < 4; ++facet) ++counts[sorted_facet(tet, facet)[0]];
+  const std::vector<std::int64_t> offsets = offsets_from_counts(std::move(counts));
+
+  std::vector<FiledFacet> filed(4 * mesh.tets.size());
+  std::vector<std::int64_t> next(offsets.begin(), offsets.end() - 1);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    for (int facet = 0; facet < 4; ++facet) {
+      const auto v = sorted_facet(mesh.tets[t], facet);
+      filed[next[v[0]]++] = {v[1], v[2], static_cast<std::int64_t>(4 * t) + facet};
+    }
+
+  std::vector<std::int32_t> across(4 * mesh.tets.size(), TetAdjacency::none);
+  parallel_for(static_cast<std::int64_t>(mesh.points.size()), 1024, [&](std::int64_t v) {
+    const auto begin = filed.begin() + offsets[v], end = filed.begin() + offsets[v + 1];
+    std::sort(begin, end, [](const FiledFacet& a, const FiledFacet& b) {
+      return std::tie(a.middle, a.high, a.code) < std::tie(b.middle, b.high, b.code);
+    });
+    auto same = [](const FiledFacet& a, const FiledFacet& b) { return a.middle == b.middle && a.high == b.high; };
+    for (auto i = begin; i != end && i + 1 != end; ++i) {
+      if (!same(*i, *(i + 1))) continue;
+      if (i + 2 != end && same(*i, *(i + 2)))
+        throw DataError::at(source,
+                            "expected at most two tets at each facet, found tets {}, {} and {} at vertices {} {} {}",
+                            i->code / 4, (i + 1)->code / 4, (i + 2)->code / 4, v, i->middle, i->high);
+      across[i->code] = static_cast<std::int32_t>((i + 1)->code / 4);
+      across[(i + 1)->code] = static_cast<std::int32_t>(i->code / 4);
+      ++i;
+    }
+  });
+  return across;
+}
+
+}  // namespace
+
+TetAdjacency::TetAdjacency(const TetMesh& mesh, const char* source) : across_(match_facets(mesh, source)) {
+  const std::size_t vertex_count = mesh.points.size();
+  std::vector<std::int64_t> counts(vertex_count, 0);
+  for (const Tet& tet : mesh.tets)
+    for (const Vertex v : tet) ++counts[v];
+  tet_offsets_ = offsets_from_counts(std::move(counts));
+
+  tets_at_vertex_.resize(4 * mesh.tets.size());
+  std::vector<std::int64_t> next(tet_offsets_.begin(), tet_offsets_.end() - 1);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    for (const Vertex v : mesh.tets[t]) tets_at_vertex_[next[v]++] = static_cast<std::int32_t>(t);
+
+  neighbour_offsets_.assign(vertex_count + 1, 0);
+  parallel_in_order(
+      static_cast<std::int64_t>(vertex_count), 4096,
+      [&](std::int64_t begin, std::int64_t end) {
+        std::pair<std::vector<std::int64_t>, std::vector<Vertex>> block;
+        std::vector<Vertex> around;
+        for (std::int64_t v = begin; v < end; ++v) {
+          around.clear();
+          for (const std::int32_t t : tets_at(static_cast<Vertex>(v)))
+            for (const Vertex w : mesh.tets[t])
+              if (w != v) around.push_back(w);
+          std::sort(around.begin(), around.end());
+          around.erase(std::unique(around.begin(), around.end()), around.end());
+          block.first.push_back(static_cast<std::int64_t>(around.size()));
+          block.second.insert(block.second.end(), around.begin(), around.end());
+        }
+        return block;
+      },
+      [&, v = std::size_t{0}](auto&& block) mutable {
+        for (const std::int64_t count : block.first) {
+          neighbour_offsets_[v + 1] = neighbour_offsets_[v] + count;
+          ++v;
+        }
+        neighbours_.insert(neighbours_.end(), block.second.begin(), block.second.end());
+      });
+}
+
+bool TetAdjacency::has_edge(Vertex a, Vertex b) const {
+  const auto around = neighbours_of(a);
+  return std::binary_search(around.begin(), around.end(), b);
+}
+
+std::size_t add_missing_boundary_triangles(TetMesh& mesh, const TetAdjacency& adjacency, std::int32_t tag) {
+  auto key = [](Triangle t) {
+    std::sort(t.begin(), t.end());
+    return t;
+  };
+  std::vector<Triangle> named(mesh.triangles.size());
+  std::transform(mesh.triangles.begin(), mesh.triangles.end(), named.begin(), key);
+  std::sort(named.begin(), named.end());
+
+  const std::size_t before = mesh.triangles.size();
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    for (int facet = 0; facet < 4; ++facet) {
+      const std::int32_t beyond = adjacency.tet_beyond(static_cast<std::int32_t>(t), facet);
+      const bool boundary = beyond == TetAdjacency::none;
+      const bool interface =
+          !boundary && static_cast<std::size_t>(beyond) > t && mesh.tet_tags[beyond] != mesh.tet_tags[t];
+      if (!boundary && !interface) continue;
+      const auto& corners = TetTopology::triangles[facet];
+      const Tet& tet = mesh.tets[t];
+      const Triangle triangle{tet[corners[0]], tet[corners[1]], tet[corners[2]]};
+      if (std::binary_search(named.begin(), named.end(), key(triangle))) continue;
+      mesh.triangles.push_back(triangle);
+    }
+  mesh.triangle_tags.resize(mesh.triangles.size(), tag);
+  return mesh.triangles.size() - before;
+}
+
+}  // namespace hexpipe

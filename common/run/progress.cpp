@@ -1,0 +1,27 @@
+#include "common/run/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace hexpipe {
+
+Progress::Progress(std::string label, bool quiet)
+    : label_(std::move(label)), visible_(!quiet && isatty(STDERR_FILENO) != 0) {}
+
+Progress::~Progress() {
+  if (visible_ && next_ > 0) fmt::print(stderr, "\r\033[K");
+}
+
+bool Progress::due() {
+  return visible_ && watch_.seconds() >= next_;
+}
+
+void Progress::show(const std::string& text) {
+  next_ = watch_.seconds() + 0.1;
+  fmt::print(stderr, "\r\033[K{}: {}", label_, text);
+  std::fflush(stderr);
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,182 @@
+#include "common/run/tool_main.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <new>
+
+#include "common/run/error.hpp"
+#include "common/run/parallel.hpp"
+#include "common/run/version.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr int exit_data = 1;
+constexpr int exit_usage = 2;
+
+// Options that say where things are or how to run, but not what comes out: they stay out of the history, so that the
+// same input and options give the same bytes.
+bool decides_result(const CLI::Option& option) {
+  static const std::vector<std::string> outside{"help",    "version", "config", "threads", "stats",   "log",
+                                                "verbose", "quiet",   "output", "format",  "compress"};
+  if (option.get_lnames().empty()) return false;
+  const std::string& long_name = option.get_lnames().front();
+  for (const Role role : all_roles)
+    if (long_name == name_of(role)) return false;
+  return std::find(outside.begin(), outside.end(), long_name) == outside.end();
+}
+
+nlohmann::ordered_json options_for_history(const CLI::App& app) {
+  nlohmann::ordered_json options = nlohmann::ordered_json::object();
+  for (const CLI::Option* option : app.get_options()) {
+    if (!decides_result(*option)) continue;
+    const std::string value =
+        option->count() > 0 ? CLI::detail::join(option->results(), ",") : option->get_default_str();
+    if (!value.empty()) options[option->get_lnames().front()] = value;
+  }
+  return options;
+}
+
+void declare_streams(CLI::App& app, RunContext& context) {
+  StreamOptions& streams = context.streams;
+  const auto& reads = context.info.reads;
+  if (!reads.empty()) {
+    app.add_option(
+           "input", streams.operand,
+           fmt::format("A bundle, or a {} in any format; '-' or nothing: standard input", name_of(reads.front())))
+        ->type_name("FILE");
+    for (const Role role : reads)
+      app.add_option(fmt::format("--{}", name_of(role)), streams.files[role],
+                     fmt::format("Take the {} from this file, whatever the bundle holds", name_of(role)))
+          ->type_name("FILE");
+  }
+  if (!context.info.product) return;
+  app.add_option(
+         "-o,--output", streams.output,
+         fmt::format("Write to a file: a bundle (.tar, .tar.zst), else the {} alone, in the format that the ending "
+                     "names",
+                     name_of(*context.info.product)))
+      ->type_name("FILE");
+  app.add_option("--format", streams.format, "The format of the output, whatever its name")->type_name("NAME");
+  app.add_flag("--compress", streams.compress, "Compress the bundle with zstd");
+}
+
+void declare_common(CLI::App& app, RunContext& context) {
+  CommonOptions& common = context.common;
+  const ToolInfo& info = context.info;
+  app.add_option("--threads", common.threads, "Threads to use; 0: as many as the machine has")
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
+  if (info.random)
+    app.add_option("--seed", common.seed, "Seed of the random numbers")->type_name("N")->capture_default_str();
+  if (info.searches) {
+    const std::string note = info.default_time_limit
+                                 ? fmt::format(" [{:g} unless --iterations is given]", *info.default_time_limit)
+                                 : std::string();
+    app.add_option("--time-limit", common.time_limit, "Stop after this many seconds" + note)
+        ->type_name("SECONDS")
+        ->check(CLI::Range(0.0, 1e9).description(""));
+    app.add_option("--iterations", common.iterations, "Stop after this many iterations")
+        ->type_name("N")
+        ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 62).description(""));
+    app.add_option("--log", common.log_file, "Write the course of the search to a file, a JSON object a line")
+        ->type_name("FILE");
+  }
+  app.add_option("--stats", common.stats_file, "Write counts and times to a file as JSON")->type_name("FILE");
+  app.add_flag("-v,--verbose", common.verbose, "Say what is done, on standard error");
+  app.add_flag("-q,--quiet", common.quiet, "No warnings");
+  app.set_config("--config", "", "Read options from a file (name=value)")->type_name("FILE");
+  app.allow_config_extras(CLI::config_extras_mode::error);
+}
+
+std::string footer(const ToolInfo& info) {
+  return fmt::format(
+      "\nExample:\n  {}\n\nExit codes: 0 done, 1 bad data or failed input or output, 2 bad command line.",
+      info.example);
+}
+
+void write_statistics(const RunContext& context) {
+  if (context.common.stats_file.empty()) return;
+  errno = 0;
+  std::ofstream file(context.common.stats_file);
+  file << context.statistics.dump(2) << '\n';
+  file.close();
+  if (!file) throw DataError::at(context.common.stats_file, "cannot write: {}", std::strerror(errno));
+}
+
+int report(const std::string& tool, std::string_view message, int code) {
+  fmt::print(stderr, "{}: {}\n", tool, message);
+  return code;
+}
+
+// CLI11's messages may run over several lines; ours are one.
+std::string one_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+}  // namespace
+
+Deadline RunContext::deadline() const {
+  if (common.time_limit) return Deadline(common.time_limit);
+  if (common.iterations) return Deadline();
+  return Deadline(info.default_time_limit);
+}
+
+void RunContext::note(const std::string& text) const {
+  if (common.verbose) fmt::print(stderr, "{}: {}\n", info.name, text);
+}
+
+void RunContext::warn(const std::string& text) const {
+  if (!common.quiet) fmt::print(stderr, "{}: warning: {}\n", info.name, text);
+}
+
+int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<void(CLI::App&)>& declare,
+              const std::function<void(RunContext&)>& run) {
+  install_signal_handlers();
+  if (info.searches) stop_searches_on_signal();
+
+  RunContext context;
+  context.info = info;
+  CLI::App app(info.summary, info.name);
+  app.set_version_flag("--version", fmt::format("{} (hexpipe) {}", info.name, version()));
+  app.footer(footer(info));
+  app.option_defaults()->always_capture_default();
+  declare(app);
+  app.option_defaults()->always_capture_default(false);
+  declare_streams(app, context);
+  declare_common(app, context);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help, --version
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    return report(info.name, one_line(error.what()) + fmt::format(" (see {} --help)", info.name), exit_usage);
+  }
+  std::erase_if(context.streams.files, [](const auto& file) { return file.second.empty(); });
+  context.options = options_for_history(app);
+  context.statistics["tool"] = info.name;
+
+  try {
+    const ThreadLimit limit(context.common.threads);
+    const Stopwatch watch;
+    run(context);
+    context.statistics["seconds"] = watch.seconds();
+    write_statistics(context);
+    return 0;
+  } catch (const UsageError& error) {
+    return report(info.name, error.what(), exit_usage);
+  } catch (const std::bad_alloc&) {
+    return report(info.name, "not enough memory", exit_data);
+  } catch (const std::exception& error) {
+    return report(info.name, error.what(), exit_data);
+  }
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,26 @@
+#pragma once
+// Which members of a bundle hold which role, and how they are read and written. formats/README.md lists them.
+
+#include <optional>
+#include <string_view>
+
+#include "common/run/stream_options.hpp"
+#include "formats/bundle.hpp"
+#include "formats/stage.hpp"
+
+namespace hexpipe {
+
+// The role that a member belongs to by its name's folder; nothing for history and for members that we do not know.
+std::optional<Role> role_of_member(std::string_view name);
+
+// Takes the current member into `data` when it is one of its role's arrays, and also writes it to `copy` unless that is
+// null. False: the member is not known (and still unread).
+bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy);
+
+void write_members(BundleWriter& writer, const TetMesh& mesh);
+void write_members(BundleWriter& writer, const Candidates& candidates);
+void write_members(BundleWriter& writer, const ConflictGraph& graph);
+void write_members(BundleWriter& writer, const IndependentSet& solution);
+void write_members(BundleWriter& writer, const MixedMesh& result);
+
+}  // namespace hexpipe

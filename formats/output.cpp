@@ -1,0 +1,112 @@
+#include "formats/output.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "common/run/deadline.hpp"
+#include "common/run/error.hpp"
+
+namespace hexpipe {
+namespace {
+
+bool is_regular_or_new(const std::string& path) {
+  struct stat status {};
+  return stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode);
+}
+
+// The file that a chain of symbolic links names, so that the rename replaces it and not the link.
+std::string behind_links(std::string path) {
+  char target[4096];
+  for (int depth = 0; depth < 40; ++depth) {
+    const ssize_t length = readlink(path.c_str(), target, sizeof target);
+    if (length < 0) break;
+    const std::string next(target, static_cast<std::size_t>(length));
+    const std::size_t slash = path.rfind('/');
+    path = next.front() == '/' || slash == std::string::npos ? next : path.substr(0, slash + 1) + next;
+  }
+  return path;
+}
+
+// The permissions that the finished file gets: those of the file it replaces, else what the umask leaves.
+mode_t mode_for(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) == 0) return status.st_mode & 07777;
+  const mode_t mask = umask(0);
+  umask(mask);
+  return 0666 & ~mask;
+}
+
+}  // namespace
+
+Output::Output(const std::string& path) {
+  if (path.empty() || path == "-") {
+    name_ = "stdout";
+    descriptor_ = STDOUT_FILENO;
+    fcntl(descriptor_, F_SETPIPE_SZ, buffer_limit);
+    return;
+  }
+  name_ = path;
+  if (!is_regular_or_new(path)) {
+    descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) throw DataError::at(name_, "cannot write: {}", std::strerror(errno));
+    return;
+  }
+  path_ = behind_links(path);
+  temporary_ = path_ + ".XXXXXX";
+  descriptor_ = mkostemp(temporary_.data(), O_CLOEXEC);
+  if (descriptor_ < 0) {
+    temporary_.clear();
+    throw DataError::at(name_, "cannot write: {}", std::strerror(errno));
+  }
+  remove_on_signal(temporary_.c_str());
+  fchmod(descriptor_, mode_for(path_));
+}
+
+Output::~Output() {
+  if (descriptor_ >= 0 && descriptor_ != STDOUT_FILENO) ::close(descriptor_);
+  if (!committed_ && !temporary_.empty()) {
+    unlink(temporary_.c_str());
+    remove_on_signal("");
+  }
+}
+
+void Output::write(std::string_view bytes) {
+  if (buffer_.size() + bytes.size() < buffer_limit) {
+    buffer_.append(bytes);
+    return;
+  }
+  flush();
+  write_through(bytes);
+}
+
+void Output::flush() {
+  write_through(buffer_);
+  buffer_.clear();
+}
+
+void Output::write_through(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) throw DataError::at(name_, "cannot write: {}", std::strerror(errno));
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void Output::commit() {
+  flush();
+  const int descriptor = descriptor_;
+  descriptor_ = -1;
+  // Some file systems tell of a full disk only here.
+  if (::close(descriptor) != 0) throw DataError::at(name_, "cannot write: {}", std::strerror(errno));
+  if (!temporary_.empty() && rename(temporary_.c_str(), path_.c_str()) != 0)
+    throw DataError::at(name_, "cannot write: {}", std::strerror(errno));
+  committed_ = true;
+  remove_on_signal("");
+}
+
+}  // namespace hexpipe
