@@ -21,6 +21,12 @@ class TextScanner {
   std::size_t position() const { return at_; }
   // True when only white space and comments are left.
   bool at_end();
+  // True when only blanks and a comment are left on this line.
+  bool at_line_end() const {
+    std::size_t i = at_;
+    while (i < text_.size() && (text_[i] == ' ' || text_[i] == '\t' || text_[i] == '\r')) ++i;
+    return i == text_.size() || text_[i] == '\n' || (comment_ != '\0' && text_[i] == comment_);
+  }
   // The next word without taking it; empty at the end.
   std::string_view peek_word();
   // The next word; an error "expected <what>, found end of file" at the end.
