@@ -88,6 +88,12 @@ bool convert_numbers(NpyType from, const char* data, NpyType to, void* destinati
   return convert_to(from, data, static_cast<std::uint8_t*>(destination), count);
 }
 
+// A writer that has not been closed would write the end of the archive now, and a failed one must not look complete.
+int free_writer(archive* handle) {
+  archive_write_fail(handle);
+  return archive_write_free(handle);
+}
+
 }  // namespace
 
 bool looks_like_bundle(Input& input) {
@@ -97,19 +103,14 @@ bool looks_like_bundle(Input& input) {
 
 // ---- writing
 
-BundleWriter::BundleWriter(Output& output, bool compress) : output_(output), archive_(archive_write_new()) {
-  archive_write_set_format_pax_restricted(archive_);
-  if (compress) archive_write_add_filter_zstd(archive_);
+BundleWriter::BundleWriter(Output& output, bool compress)
+    : output_(output), archive_(archive_write_new(), &free_writer) {
+  archive_write_set_format_pax_restricted(archive_.get());
+  if (compress) archive_write_add_filter_zstd(archive_.get());
   // Output has a buffer; none here, so that arrays go through without a copy.
-  archive_write_set_bytes_per_block(archive_, 0);
-  archive_write_set_bytes_in_last_block(archive_, 1);
-  if (archive_write_open(archive_, this, nullptr, &BundleWriter::on_write, nullptr) != ARCHIVE_OK) fail();
-}
-
-BundleWriter::~BundleWriter() {
-  // Without close() nothing may look complete: a failed archive writes no end.
-  archive_write_fail(archive_);
-  archive_write_free(archive_);
+  archive_write_set_bytes_per_block(archive_.get(), 0);
+  archive_write_set_bytes_in_last_block(archive_.get(), 1);
+  if (archive_write_open(archive_.get(), this, nullptr, &BundleWriter::on_write, nullptr) != ARCHIVE_OK) fail();
 }
 
 long BundleWriter::on_write(archive* handle, void* self, const void* data, std::size_t bytes) {
@@ -126,7 +127,7 @@ long BundleWriter::on_write(archive* handle, void* self, const void* data, std::
 
 void BundleWriter::fail() const {
   if (output_error_) std::rethrow_exception(output_error_);
-  throw DataError::at(output_.name(), "cannot write the bundle: {}", archive_error_string(archive_));
+  throw DataError::at(output_.name(), "cannot write the bundle: {}", archive_error_string(archive_.get()));
 }
 
 void BundleWriter::begin_member(const std::string& name, std::uint64_t bytes) {
@@ -136,11 +137,11 @@ void BundleWriter::begin_member(const std::string& name, std::uint64_t bytes) {
   archive_entry_set_filetype(entry.get(), AE_IFREG);
   archive_entry_set_perm(entry.get(), 0644);
   archive_entry_set_mtime(entry.get(), 0, 0);
-  if (archive_write_header(archive_, entry.get()) != ARCHIVE_OK) fail();
+  if (archive_write_header(archive_.get(), entry.get()) != ARCHIVE_OK) fail();
 }
 
 void BundleWriter::write(const void* data, std::size_t bytes) {
-  if (bytes > 0 && archive_write_data(archive_, data, bytes) != static_cast<la_ssize_t>(bytes)) fail();
+  if (bytes > 0 && archive_write_data(archive_.get(), data, bytes) != static_cast<la_ssize_t>(bytes)) fail();
 }
 
 void BundleWriter::add_text(const std::string& name, std::string_view text) {
@@ -156,20 +157,16 @@ void BundleWriter::add_array(const std::string& name, const NpyHeader& header, c
 }
 
 void BundleWriter::close() {
-  if (archive_write_close(archive_) != ARCHIVE_OK) fail();
+  if (archive_write_close(archive_.get()) != ARCHIVE_OK) fail();
 }
 
 // ---- reading
 
-BundleReader::BundleReader(Input& input) : input_(input), archive_(archive_read_new()) {
-  archive_read_support_format_tar(archive_);
-  archive_read_support_filter_zstd(archive_);
-  if (archive_read_open(archive_, this, nullptr, &BundleReader::on_read, nullptr) != ARCHIVE_OK)
+BundleReader::BundleReader(Input& input) : input_(input), archive_(archive_read_new(), &archive_read_free) {
+  archive_read_support_format_tar(archive_.get());
+  archive_read_support_filter_zstd(archive_.get());
+  if (archive_read_open(archive_.get(), this, nullptr, &BundleReader::on_read, nullptr) != ARCHIVE_OK)
     fail("expected a bundle");
-}
-
-BundleReader::~BundleReader() {
-  archive_read_free(archive_);
 }
 
 long BundleReader::on_read(archive* handle, void* self, const void** data) {
@@ -187,7 +184,7 @@ long BundleReader::on_read(archive* handle, void* self, const void** data) {
 
 void BundleReader::fail(const char* what) const {
   if (input_error_) std::rethrow_exception(input_error_);
-  const char* const reason = archive_error_string(archive_);
+  const char* const reason = archive_error_string(archive_.get());
   throw DataError::at(name_.empty() ? input_.name() : where(), "{}, found: {}", what,
                       reason ? reason : "the end of the input");
 }
@@ -197,14 +194,15 @@ std::string BundleReader::where() const {
 }
 
 bool BundleReader::next() {
-  if (left_ > 0) archive_read_data_skip(archive_);
+  // Also takes the padding after a member that was read, so that the count below stands at the next header.
+  if (!name_.empty()) archive_read_data_skip(archive_.get());
   // libarchive takes the end of the input between two members for the end of the archive. Ours ends with blocks of
-  // zeros; what it takes for the last member's padding is less than a block.
-  const la_int64_t before = archive_filter_bytes(archive_, 0);
+  // zeros.
+  const la_int64_t before = archive_filter_bytes(archive_.get(), 0);
   archive_entry* entry = nullptr;
-  const int result = archive_read_next_header(archive_, &entry);
+  const int result = archive_read_next_header(archive_.get(), &entry);
   if (result == ARCHIVE_EOF) {
-    const la_int64_t after = archive_filter_bytes(archive_, 0);
+    const la_int64_t after = archive_filter_bytes(archive_.get(), 0);
     if (after - before < static_cast<la_int64_t>(tar_block))
       throw DataError::at(input_.name(), "expected the end of the bundle{}, found the end of the input: it is cut off",
                           name_.empty() ? "" : " after " + name_);
@@ -224,7 +222,7 @@ bool BundleReader::next() {
 void BundleReader::read_bytes(void* data, std::size_t bytes) {
   auto* at = static_cast<char*>(data);
   while (bytes > 0) {
-    const la_ssize_t got = archive_read_data(archive_, at, bytes);
+    const la_ssize_t got = archive_read_data(archive_.get(), at, bytes);
     if (got <= 0) fail("expected the rest of the member");
     at += got;
     bytes -= static_cast<std::size_t>(got);

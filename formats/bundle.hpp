@@ -18,6 +18,9 @@ struct archive;
 
 namespace hexpipe {
 
+// With the function that frees it.
+using ArchiveHandle = std::unique_ptr<archive, int (*)(archive*)>;
+
 // True when the first bytes are those of a tar archive, plain or compressed by zstd.
 bool looks_like_bundle(Input& input);
 
@@ -25,7 +28,8 @@ class BundleWriter {
  public:
   // The output stays the caller's, who commits it after close().
   BundleWriter(Output& output, bool compress);
-  ~BundleWriter();
+  BundleWriter(const BundleWriter&) = delete;  // libarchive holds its address
+  BundleWriter& operator=(const BundleWriter&) = delete;
 
   void begin_member(const std::string& name, std::uint64_t bytes);
   void write(const void* data, std::size_t bytes);
@@ -48,7 +52,7 @@ class BundleWriter {
   [[noreturn]] void fail() const;
 
   Output& output_;
-  archive* archive_;
+  ArchiveHandle archive_;
   // What Output threw inside libarchive's callback, which no exception may cross.
   std::exception_ptr output_error_;
 };
@@ -56,8 +60,7 @@ class BundleWriter {
 class BundleReader {
  public:
   explicit BundleReader(Input& input);
-  ~BundleReader();
-  BundleReader(const BundleReader&) = delete;
+  BundleReader(const BundleReader&) = delete;  // libarchive holds its address
   BundleReader& operator=(const BundleReader&) = delete;
 
   // Goes to the next member; false at the end. Throws DataError when the archive is cut off or damaged, a member is no
@@ -103,7 +106,7 @@ class BundleReader {
 
   Input& input_;
   std::exception_ptr input_error_;
-  archive* archive_;
+  ArchiveHandle archive_;
   std::string name_;
   std::uint64_t size_ = 0;
   std::uint64_t left_ = 0;
