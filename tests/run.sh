@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Runs every test twice: optimized, and with asserts under the address and undefined-behaviour sanitizers. Installs what is
+# missing, treats warnings as errors. Ends with the closing line of ctest.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+./bootstrap.sh packages
+
+# Sanitized tools are slow, and TetGen leaks what it allocates.
+export ASAN_OPTIONS="${ASAN_OPTIONS:-detect_leaks=1:abort_on_error=0}"
+export UBSAN_OPTIONS="${UBSAN_OPTIONS:-print_stacktrace=1}"
+jobs=$(nproc)
+
+for preset in ci ci-sanitize; do
+  cmake --preset "$preset"
+  cmake --build --preset "$preset" --parallel "$jobs"
+  ctest --test-dir "build-$preset" --output-on-failure --parallel "$jobs" --no-tests=error
+done
