@@ -2,10 +2,12 @@
 // Words and numbers of a text with their line, for the readers of ASCII formats.
 
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "common/run/error.hpp"
 
@@ -13,9 +15,10 @@ namespace hexpipe {
 
 class TextScanner {
  public:
-  // `comment`: from this character to the end of the line is skipped; '\0' for none. Both texts must outlive the scanner.
-  TextScanner(std::string_view text, std::string_view file, char comment = '\0')
-      : text_(text), file_(file), comment_(comment) {}
+  // `comment`: from this character to the end of the line is skipped; '\0' for none. Both texts must outlive the
+  // scanner. `first_line`: where the text begins in its file.
+  TextScanner(std::string_view text, std::string_view file, char comment = '\0', long first_line = 1)
+      : text_(text), file_(file), comment_(comment), line_(first_line) {}
 
   long line() const { return line_; }
   std::size_t position() const { return at_; }
@@ -31,12 +34,13 @@ class TextScanner {
   std::string_view peek_word();
   // The next word; an error "expected <what>, found end of file" at the end.
   std::string_view word(std::string_view what);
-  // The next word as a number that fits T; an error "expected <what>, found '...'" otherwise.
+  // The next word as a number that fits T; an error "expected <what>, found '...'" otherwise. A leading '+' is taken;
+  // infinities and NaN are errors.
   template <class T>
   T number(std::string_view what);
   // The next word must be this one, ASCII case ignored.
   void expect(std::string_view word);
-  // The rest of the line, without its end; goes to the next line.
+  // The rest of the line, without its end and a comment; goes to the next line.
   std::string_view rest_of_line();
   // Takes `bytes` raw bytes from here; an error when fewer are left.
   std::string_view raw(std::size_t bytes, std::string_view what);
@@ -47,10 +51,16 @@ class TextScanner {
   std::size_t count(std::string_view what, std::size_t bytes_each);
 
   [[noreturn]] void fail(std::string_view message) const { throw FormatError(file_, line_, message); }
+  // `found` is a word of the text; empty for its end.
   [[noreturn]] void fail_expected(std::string_view expected, std::string_view found) const;
 
  private:
+  static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+  bool ends_word(char c) const { return is_space(c) || (c == comment_ && comment_ != '\0'); }
   void skip_space();
+  void skip_comment();
+  // The next word as a double where from_chars gives up on a magnitude that is too small; an error else.
+  double underflowing_number(std::string_view what);
 
   std::string_view text_, file_;
   char comment_;
@@ -59,5 +69,43 @@ class TextScanner {
 };
 
 bool equal_ignoring_case(std::string_view a, std::string_view b);
+
+// A word of a file as messages show it: in quotes, cut after 40 characters, '?' for what is not printable ASCII; "end
+// of file" when it is empty.
+std::string quote_found(std::string_view word);
+
+inline void TextScanner::skip_space() {
+  for (; at_ < text_.size(); ++at_) {
+    const char c = text_[at_];
+    if (c == '\n') {
+      ++line_;
+    } else if (!is_space(c)) {
+      if (c != comment_ || comment_ == '\0') return;
+      skip_comment();
+      if (at_ == text_.size()) return;
+      ++line_;
+    }
+  }
+}
+
+template <class T>
+T TextScanner::number(std::string_view what) {
+  static_assert(std::is_arithmetic_v<T>);
+  skip_space();
+  const char* begin = text_.data() + at_;
+  const char* const end = text_.data() + text_.size();
+  if (end - begin > 1 && *begin == '+' && begin[1] != '-') ++begin;
+  T value{};
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  const bool whole_word = stop == end || ends_word(*stop);
+  if constexpr (std::is_floating_point_v<T>) {
+    if (error == std::errc::result_out_of_range && whole_word) return static_cast<T>(underflowing_number(what));
+    if (error != std::errc{} || !whole_word || !std::isfinite(value)) fail_expected(what, peek_word());
+  } else {
+    if (error != std::errc{} || !whole_word) fail_expected(what, peek_word());
+  }
+  at_ = static_cast<std::size_t>(stop - text_.data());
+  return value;
+}
 
 }  // namespace hexpipe
