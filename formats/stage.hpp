@@ -12,7 +12,7 @@
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/mixed_mesh.hpp"
 #include "common/mesh/tet_mesh.hpp"
-#include "common/run/tool_main.hpp"
+#include "common/run/run_context.hpp"
 
 namespace hexpipe {
 

@@ -123,20 +123,6 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-Deadline RunContext::deadline() const {
-  if (common.time_limit) return Deadline(common.time_limit);
-  if (common.iterations) return Deadline();
-  return Deadline(info.default_time_limit);
-}
-
-void RunContext::note(const std::string& text) const {
-  if (common.verbose) fmt::print(stderr, "{}: {}\n", info.name, text);
-}
-
-void RunContext::warn(const std::string& text) const {
-  if (!common.quiet) fmt::print(stderr, "{}: warning: {}\n", info.name, text);
-}
-
 int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<void(CLI::App&)>& declare,
               const std::function<void(RunContext&)>& run) {
   install_signal_handlers();

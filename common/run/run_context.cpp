@@ -1,0 +1,23 @@
+#include "common/run/run_context.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace hexpipe {
+
+Deadline RunContext::deadline() const {
+  if (common.time_limit) return Deadline(common.time_limit);
+  if (common.iterations) return Deadline();
+  return Deadline(info.default_time_limit);
+}
+
+void RunContext::note(const std::string& text) const {
+  if (common.verbose) fmt::print(stderr, "{}: {}\n", info.name, text);
+}
+
+void RunContext::warn(const std::string& text) const {
+  if (!common.quiet) fmt::print(stderr, "{}: warning: {}\n", info.name, text);
+}
+
+}  // namespace hexpipe
