@@ -1,0 +1,68 @@
+# The direction of includes: tools -> formats -> common, and each library in its place.
+
+load helpers
+
+# includes_of PATHS...: "file:included" for every #include in the sources there.
+includes_of() {
+  (cd "$HEXPIPE_SOURCE" && grep -rHE '^[[:space:]]*#[[:space:]]*include' --include='*.hpp' --include='*.cpp' "$@") |
+    sed -E 's/^([^:]+):[[:space:]]*#[[:space:]]*include[[:space:]]*[<"]([^>"]+)[>"].*/\1:\2/'
+}
+
+# assert_none TITLE: standard input must be empty.
+assert_none() {
+  local found
+  found=$(cat)
+  if [[ -n "$found" ]]; then fail "$1: $found"; fi
+}
+
+@test "the search finds includes at all" {
+  run includes_of common formats tools
+  assert_success
+  assert [ "${#lines[@]}" -gt 100 ]
+}
+
+@test "common includes nothing of formats or tools" {
+  includes_of common | grep -E ':(formats|tools)/' | assert_none "common must know no format and no tool"
+}
+
+@test "formats includes nothing of tools" {
+  includes_of formats | grep -E ':tools/' | assert_none "formats must know no tool"
+}
+
+@test "no tool includes another" {
+  local tool
+  for tool in "$HEXPIPE_SOURCE"/tools/*/; do
+    tool=$(basename "$tool")
+    includes_of "tools/$tool" | grep -E ':tools/' | grep -vE ":tools/$tool/" | assert_none "$tool includes another tool"
+  done
+}
+
+@test "CLI11 only in main.cpp and common/run" {
+  includes_of common formats tools | grep -E ':CLI/' | grep -vE '^(tools/[a-z]+/main\.cpp|common/run/[^:]+):' |
+    assert_none "CLI11 out of place"
+  includes_of common formats tools | grep -E ':common/run/tool_main.hpp' |
+    grep -vE '^(tools/[a-z]+/main\.cpp|common/run/[^:]+):' | assert_none "tool_main out of place"
+}
+
+@test "TetGen in one file of tetmesh, CGAL only in tetmesh" {
+  run bash -c "grep -rlE '#include [<\"]tetgen.h' '$HEXPIPE_SOURCE'/{common,formats,tools}"
+  assert_equal "${#lines[@]}" 1
+  assert_output --partial "tools/tetmesh/"
+  includes_of common formats tools | grep -E ':CGAL/' | grep -vE '^tools/tetmesh/' | assert_none "CGAL out of place"
+}
+
+@test "OpenMesh only where surfaces are read and in tetmesh" {
+  includes_of common formats tools | grep -E ':OpenMesh/' |
+    grep -vE '^(tools/tetmesh/|formats/(surface|stl|obj|ply|off))' | assert_none "OpenMesh out of place"
+}
+
+@test "every header is included once" {
+  local header
+  for header in $(cd "$HEXPIPE_SOURCE" && find common formats tools -name '*.hpp'); do
+    assert_equal "$(head -1 "$HEXPIPE_SOURCE/$header") $header" "#pragma once $header"
+  done
+}
+
+@test "the checkers share no header with the project" {
+  if grep -rnE '#include "(common|formats|tools)/' "$CHECKERS"; then fail "a checker includes the project's headers"; fi
+}
