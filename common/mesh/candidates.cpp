@@ -1,0 +1,86 @@
+#include "common/mesh/candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/run/error.hpp"
+
+namespace hexpipe {
+namespace {
+
+void check_length(const char* source, const char* what, std::size_t expected, std::size_t found) {
+  if (found != expected) throw DataError::at(source, "expected {} {}, found {}", expected, what, found);
+}
+
+void check_kind_and_corners(const Candidates& candidates, std::size_t i, const char* source) {
+  const CellKind kind = candidates.kind[i];
+  if (kind != CellKind::hex && kind != CellKind::prism && kind != CellKind::pyramid)
+    throw DataError::at(source, "expected kind 12, 13 or 14 of candidate {}, found {}", i, static_cast<int>(kind));
+  const auto corners = candidates.corners_of(i);
+  for (std::size_t c = 0; c < 8; ++c) {
+    const Vertex v = candidates.vertices[i][c];
+    if (c >= corners.size() && v != -1)
+      throw DataError::at(source, "expected -1 after the {} vertices of candidate {}, found {}", corners.size(), i, v);
+    if (c < corners.size() && v < 0)
+      throw DataError::at(source, "expected {} vertices of candidate {}, found {}", corners.size(), i, v);
+    if (c < corners.size() && std::find(corners.begin(), corners.begin() + c, v) != corners.begin() + c)
+      throw DataError::at(source, "expected different vertices of candidate {}, found {} twice", i, v);
+  }
+  if (!std::isfinite(candidates.quality[i]))
+    throw DataError::at(source, "expected a finite quality of candidate {}, found {}", i, candidates.quality[i]);
+  if (!std::isfinite(candidates.volume[i]))
+    throw DataError::at(source, "expected a finite volume of candidate {}, found {}", i, candidates.volume[i]);
+}
+
+// `what`: "tets" or "boundary tets".
+void check_tets(std::size_t count, const std::vector<std::int64_t>& offsets, const std::vector<std::int32_t>& tets,
+                const char* what, const char* source) {
+  if (offsets.size() != count + 1)
+    throw DataError::at(source, "expected {} offsets of {}, found {}", count + 1, what, offsets.size());
+  if (offsets.front() != 0)
+    throw DataError::at(source, "expected offsets of {} from 0, found {}", what, offsets.front());
+  if (!std::is_sorted(offsets.begin(), offsets.end()))
+    throw DataError::at(source, "expected ascending offsets of {}", what);
+  if (offsets.back() != static_cast<std::int64_t>(tets.size()))
+    throw DataError::at(source, "expected offsets of {} up to {}, found {}", what, tets.size(), offsets.back());
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto begin = tets.begin() + offsets[i], end = tets.begin() + offsets[i + 1];
+    if (begin != end && *begin < 0)
+      throw DataError::at(source, "expected {} of candidate {}, found {}", what, i, *begin);
+    if (std::adjacent_find(begin, end, std::greater_equal<>()) != end)
+      throw DataError::at(source, "expected ascending {} of candidate {}", what, i);
+  }
+}
+
+void check_against_mesh(const std::vector<std::int64_t>& offsets, const std::vector<std::int32_t>& tets,
+                        const TetMesh& mesh, std::size_t i, const char* source) {
+  // Ascending: the last is the largest.
+  if (offsets[i] == offsets[i + 1]) return;
+  const std::int32_t last = tets[offsets[i + 1] - 1];
+  if (static_cast<std::size_t>(last) >= mesh.tets.size())
+    throw DataError::at(source, "expected tets below {} in candidate {}, found {}", mesh.tets.size(), i, last);
+}
+
+}  // namespace
+
+void validate(const Candidates& candidates, const char* source) {
+  const std::size_t count = candidates.kind.size();
+  check_length(source, "rows of vertices", count, candidates.vertices.size());
+  check_length(source, "qualities", count, candidates.quality.size());
+  check_length(source, "volumes", count, candidates.volume.size());
+  for (std::size_t i = 0; i < count; ++i) check_kind_and_corners(candidates, i, source);
+  check_tets(count, candidates.tet_offsets, candidates.tets, "tets", source);
+  check_tets(count, candidates.boundary_tet_offsets, candidates.boundary_tets, "boundary tets", source);
+}
+
+void validate_against(const Candidates& candidates, const TetMesh& mesh, const char* source) {
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    for (const Vertex v : candidates.corners_of(i))
+      if (static_cast<std::size_t>(v) >= mesh.points.size())
+        throw DataError::at(source, "expected vertices below {} in candidate {}, found {}", mesh.points.size(), i, v);
+    check_against_mesh(candidates.tet_offsets, candidates.tets, mesh, i, source);
+    check_against_mesh(candidates.boundary_tet_offsets, candidates.boundary_tets, mesh, i, source);
+  }
+}
+
+}  // namespace hexpipe

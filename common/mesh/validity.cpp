@@ -1,0 +1,206 @@
+// The sign of Jacobians, exactly. Hexes by Bezier coefficients and subdivision: A. Johnen, J.-C. Weill, J.-F. Remacle,
+// Robust and efficient validation of the linear hexahedral element (IMR 2017). They subdivide the polynomial; here the
+// points are subdivided, which gives the same coefficients (a part of a trilinear hex is a trilinear hex) from one
+// formula. Exactness comes from integers of any length after a filter in doubles, not from expansions.
+
+#include "common/mesh/validity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "common/mesh/jacobian.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr int max_subdivisions = 4;  // rule 4
+constexpr double epsilon = std::numeric_limits<double>::epsilon() / 2;
+
+using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
+
+struct IntegerVector {
+  Integer x, y, z;
+};
+IntegerVector operator+(const IntegerVector& a, const IntegerVector& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+IntegerVector operator-(const IntegerVector& a, const IntegerVector& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+IntegerVector operator*(int s, const IntegerVector& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+Integer det(const IntegerVector& a, const IntegerVector& b, const IntegerVector& c) {
+  return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
+}
+
+// mantissa * 2^exponent, with a whole mantissa; an exponent of INT_MAX for zero.
+struct Dyadic {
+  std::int64_t mantissa = 0;
+  int exponent = std::numeric_limits<int>::max();
+
+  explicit Dyadic(double value) {
+    if (value == 0) return;
+    constexpr int digits = std::numeric_limits<double>::digits;
+    mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), digits));
+    exponent -= digits;
+  }
+};
+
+// The points on a common scale, a power of two.
+template <std::size_t Count>
+std::array<IntegerVector, Count> to_integers(std::span<const Vec3> points) {
+  int lowest = std::numeric_limits<int>::max();
+  for (const Vec3& p : points)
+    for (int axis = 0; axis < 3; ++axis) lowest = std::min(lowest, Dyadic(p[axis]).exponent);
+  auto whole = [lowest](double value) {
+    const Dyadic d(value);
+    return d.mantissa == 0 ? Integer(0) : Integer(d.mantissa) << (d.exponent - lowest);
+  };
+  std::array<IntegerVector, Count> result;
+  for (std::size_t i = 0; i < Count; ++i) result[i] = {whole(points[i].x), whole(points[i].y), whole(points[i].z)};
+  return result;
+}
+
+enum class Answer { no, yes, unsure };
+
+// Of sums of determinants, counted in determinants of vectors whose components are at most `extent` along each axis.
+// Such a one is a sum of 6 products, with less than 16 roundings in the way of each (differences and sums of points
+// included).
+class ErrorBound {
+ public:
+  ErrorBound(const Vec3& extent, double determinants)
+      : bound_(determinants * 6 * 16 * epsilon * extent.x * extent.y * extent.z) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(extent[axis] > smallest && extent[axis] < largest)) bound_ = std::numeric_limits<double>::infinity();
+  }
+
+  Answer positive(double value) const {
+    return value > bound_ ? Answer::yes : value < -bound_ ? Answer::no : Answer::unsure;
+  }
+
+ private:
+  // Beyond these a product of two or three may overflow, or lose its digits.
+  static constexpr double smallest = 1e-90, largest = 1e90;
+  double bound_;
+};
+
+void extend(Vec3& extent, const Vec3& v) {
+  extent.x = std::max(extent.x, std::abs(v.x));
+  extent.y = std::max(extent.y, std::abs(v.y));
+  extent.z = std::max(extent.z, std::abs(v.z));
+}
+
+Vec3 extent_of(const HexTangents<Vec3>& t) {
+  Vec3 extent;
+  for (int a = 0; a < 2; ++a)
+    for (int b = 0; b < 2; ++b) {
+      extend(extent, t.along_i[a][b]);
+      extend(extent, t.along_j[a][b]);
+      extend(extent, t.along_k[a][b]);
+    }
+  return extent;
+}
+
+using HexPoints = std::array<IntegerVector, 8>;
+
+bool is_positive(const Integer& value) {
+  return value.sign() > 0;
+}
+
+// unsure: positive at the 20 places, but not everywhere as far as the Bezier coefficients can tell.
+Answer judge_exactly(const HexPoints& points) {
+  const HexJacobian<IntegerVector> jacobian{HexTangents<IntegerVector>(points)};
+  if (!jacobian.all_determinants(is_positive)) return Answer::no;
+  return std::ranges::all_of(jacobian.bezier(), is_positive) ? Answer::yes : Answer::unsure;
+}
+
+bool is_valid_exactly(const HexPoints& points, int subdivisions = 0) {
+  const Answer answer = judge_exactly(points);
+  if (answer != Answer::unsure) return answer == Answer::yes;
+  if (subdivisions == max_subdivisions) return false;
+  return std::ranges::all_of(split(points),
+                             [&](const HexPoints& part) { return is_valid_exactly(part, subdivisions + 1); });
+}
+
+Answer judge_in_doubles(std::span<const Vec3> corners) {
+  const HexTangents<Vec3> tangents(corners);
+  const Vec3 extent = extent_of(tangents);
+  const HexJacobian<Vec3> jacobian(tangents);
+  // The largest determinant is one of an edge: two of its vectors are sums of two.
+  const ErrorBound determinant_bound(extent, 4);
+  Answer answer = Answer::yes;
+  jacobian.all_determinants([&](double value) {
+    const Answer one = determinant_bound.positive(value);
+    if (one != Answer::yes) answer = one;
+    return one != Answer::no;
+  });
+  if (answer != Answer::yes) return answer;
+  // The coefficient at the centre sums 12 determinants at edges and 5 times 8 at corners, with up to 24 additions.
+  const ErrorBound coefficient_bound(extent, 4 * (12 * 4 + 5 * 8));
+  auto surely_positive = [&](double value) { return coefficient_bound.positive(value) == Answer::yes; };
+  return std::ranges::all_of(jacobian.bezier(), surely_positive) ? Answer::yes : Answer::unsure;
+}
+
+bool is_valid_hex(std::span<const Vec3> corners) {
+  const Answer answer = judge_in_doubles(corners);
+  return answer == Answer::unsure ? is_valid_exactly(to_integers<8>(corners)) : answer == Answer::yes;
+}
+
+// Whether the quadratic with these Bezier coefficients (the middle one may be negative) is positive on [0, 1].
+template <class Number>
+bool is_positive_quadratic(const std::array<Number, 3>& b) {
+  if (b[0] <= 0 || b[2] <= 0) return false;
+  return b[1] >= 0 || b[1] * b[1] < b[0] * b[2];
+}
+
+bool is_valid_prism(std::span<const Vec3> corners) {
+  Vec3 extent;
+  for (const auto& edge : PrismTopology::edges) extend(extent, corners[edge[1]] - corners[edge[0]]);
+  const ErrorBound bound(extent, 2);
+  bool all_yes = true;
+  for (const auto& quadratic : prism_bezier<Vec3>(corners)) {
+    for (const double value : quadratic) all_yes = all_yes && bound.positive(value) == Answer::yes;
+    if (bound.positive(quadratic[0]) == Answer::no || bound.positive(quadratic[2]) == Answer::no) return false;
+  }
+  if (all_yes) return true;
+  return std::ranges::all_of(prism_bezier<IntegerVector>(to_integers<6>(corners)), is_positive_quadratic<Integer>);
+}
+
+bool is_valid_pyramid(std::span<const Vec3> corners) {
+  return std::ranges::all_of(PyramidTopology::corners, [&](const LocalCorner& c) {
+    return orientation(corners[c[0]], corners[c[1]], corners[c[2]], corners[c[3]]) > 0;
+  });
+}
+
+}  // namespace
+
+int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 u = b - a, v = c - a, w = d - a;
+  Vec3 extent;
+  for (const Vec3& edge : {u, v, w}) extend(extent, edge);
+  const Answer positive = ErrorBound(extent, 1).positive(det(u, v, w));
+  if (positive != Answer::unsure) return positive == Answer::yes ? 1 : -1;
+  const auto p = to_integers<4>(std::array{a, b, c, d});
+  return det(p[1] - p[0], p[2] - p[0], p[3] - p[0]).sign();
+}
+
+bool is_valid(CellKind kind, std::span<const Vec3> corners) {
+  switch (kind) {
+    case CellKind::hex:
+      return is_valid_hex(corners);
+    case CellKind::prism:
+      return is_valid_prism(corners);
+    case CellKind::pyramid:
+      return is_valid_pyramid(corners);
+    case CellKind::tet:
+      break;
+  }
+  return orientation(corners[0], corners[1], corners[2], corners[3]) > 0;
+}
+
+}  // namespace hexpipe
