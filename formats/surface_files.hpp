@@ -1,5 +1,5 @@
 #pragma once
-// Surfaces as they come: triangle soups from STL, OBJ, PLY and OFF, with the line or the offset of every triangle, so
+// Surfaces as they come: triangle soups from STL, OBJ, PLY and OFF, with the line or the number of every triangle, so
 // that later checks can name a place.
 
 #include <cstdint>
@@ -12,12 +12,18 @@
 namespace hexpipe {
 
 struct SurfaceSoup {
-  std::vector<Vec3> points;              // STL: one for each distinct coordinate triple (exact equality)
-  std::vector<Triangle> triangles;       // polygons are fanned
-  std::vector<std::int32_t> tags;        // surface tag: STL solid or attribute, OBJ group, else 0
-  std::vector<std::int64_t> places;      // line (text) or facet number (binary) of each triangle, from 1
-  bool text = true;                      // what `places` counts
-  std::string name;                      // of the input, for messages
+  std::vector<Vec3> points;         // one for each distinct coordinate triple (exact equality, -0 = 0)
+  std::vector<Triangle> triangles;  // polygons are fanned from their first corner
+  std::vector<std::int32_t>
+      tags;  // surface tag: number of the STL solid, STL attribute, number of the OBJ group, else 0
+  std::vector<std::int64_t> places;  // line (text) or number in the file (binary) of each triangle's facet, from 1
+  bool text = true;                  // what `places` counts
+  std::string name;                  // of the input, for messages
+
+  // "part.stl:12" or "part.stl: triangle 3", to begin a message with.
+  std::string place_of(std::size_t triangle) const;
+  // "12" or "3": a place as it is listed inside a message, see place_unit().
+  const char* place_unit() const { return text ? "line" : "triangle"; }
 };
 
 // The format is told by content. Throws FormatError or DataError naming line or facet.

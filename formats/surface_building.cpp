@@ -1,0 +1,60 @@
+#include "formats/surface_building.hpp"
+
+#include <bit>
+#include <limits>
+
+#include "common/run/error.hpp"
+
+namespace hexpipe {
+
+std::size_t PointMerger::Hash::operator()(const Vec3& p) const {
+  // Multiplication spreads low bits upwards, rotation brings them back: coordinates of a grid differ in few bits.
+  std::uint64_t hash = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    hash = std::rotl((hash ^ std::bit_cast<std::uint64_t>(p[axis])) * 0x9e3779b97f4a7c15u, 29);
+  return hash;
+}
+
+Vertex PointMerger::index_of(const Vec3& point) {
+  // -0 + 0 = 0: the two zeros are one coordinate.
+  const Vec3 key = point + Vec3{0, 0, 0};
+  const auto [entry, is_new] = indices_.try_emplace(key, static_cast<Vertex>(points_.size()));
+  if (is_new) {
+    if (points_.size() == std::numeric_limits<Vertex>::max()) throw DataError("expected fewer than 2^31 points");
+    points_.push_back(key);
+  }
+  return entry->second;
+}
+
+SurfaceSoup merge_equal_points(SurfaceSoup soup) {
+  constexpr Vertex unknown = -1;
+  std::vector<Vec3> merged;
+  PointMerger merger(merged);
+  std::vector<Vertex> new_index(soup.points.size(), unknown);
+  for (Triangle& triangle : soup.triangles) {
+    for (Vertex& corner : triangle) {
+      Vertex& index = new_index[corner];
+      if (index == unknown) index = merger.index_of(soup.points[corner]);
+      corner = index;
+    }
+  }
+  soup.points = std::move(merged);
+  return soup;
+}
+
+void append_polygon(SurfaceSoup& soup, std::span<const Vertex> corners, std::int32_t tag, std::int64_t place) {
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    soup.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+    soup.tags.push_back(tag);
+    soup.places.push_back(place);
+  }
+}
+
+Vec3 read_coordinates(TextScanner& scanner) {
+  const auto x = number_on_line<double>(scanner, "a finite coordinate");
+  const auto y = number_on_line<double>(scanner, "a finite coordinate");
+  const auto z = number_on_line<double>(scanner, "a finite coordinate");
+  return {x, y, z};
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,45 @@
+#pragma once
+// What the readers of surface formats share: merging equal points, fanning polygons, reading finite coordinates.
+
+#include <tsl/robin_map.h>
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "formats/surface_files.hpp"
+#include "formats/text_scanner.hpp"
+
+namespace hexpipe {
+
+// Gives every distinct coordinate triple one index, in the order of first appearance.
+class PointMerger {
+ public:
+  explicit PointMerger(std::vector<Vec3>& points) : points_(points) {}
+  Vertex index_of(const Vec3& point);
+
+ private:
+  struct Hash {
+    std::size_t operator()(const Vec3& p) const;
+  };
+  std::vector<Vec3>& points_;
+  tsl::robin_map<Vec3, Vertex, Hash> indices_;
+};
+
+// The soup with one point for those that are equal, in the order of first use, and none that no triangle uses.
+SurfaceSoup merge_equal_points(SurfaceSoup soup);
+
+// Corner numbers must be valid already; at least three.
+void append_polygon(SurfaceSoup& soup, std::span<const Vertex> corners, std::int32_t tag, std::int64_t place);
+
+// Three words as coordinates. Throws FormatError where one is missing, no number, or not finite.
+Vec3 read_coordinates(TextScanner& scanner);
+
+// The word at the scanner, on this line. Throws FormatError at the end of the line.
+template <class T>
+T number_on_line(TextScanner& scanner, std::string_view what) {
+  if (scanner.at_line_end()) scanner.fail(fmt::format("expected {}, found the end of the line", what));
+  return scanner.number<T>(what);
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,292 @@
+#include "formats/surface_files.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "common/run/error.hpp"
+
+namespace hexpipe {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+SurfaceSoup read(const std::string& bytes) {
+  Input input = Input::from_memory(bytes, "part");
+  return read_surface(input);
+}
+
+std::string error_of(const std::string& bytes) {
+  try {
+    read(bytes);
+  } catch (const DataError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+template <class T>
+void append(std::string& bytes, T value, bool swap = false) {
+  std::string raw(sizeof value, '\0');
+  std::memcpy(raw.data(), &value, sizeof value);
+  if (swap) std::ranges::reverse(raw);
+  bytes += raw;
+}
+
+// The tet (0,0,0) (1,0,0) (0,1,0) (0,0,1), outward.
+const std::vector<Vec3> tet_points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+const std::vector<Triangle> tet_triangles{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+
+// The same surface in every format. STL numbers points as facets meet them.
+void expect_tet(const SurfaceSoup& soup) {
+  ASSERT_EQ(soup.points.size(), 4u);
+  ASSERT_EQ(soup.triangles.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      EXPECT_EQ(soup.points[soup.triangles[i][corner]], tet_points[tet_triangles[i][corner]]);
+}
+
+std::string ascii_stl() {
+  std::string text = "solid tet\n";
+  for (const Triangle& t : tet_triangles) {
+    text += "  facet normal 0 0 nan\n    outer loop\n";
+    for (const Vertex v : t)
+      text += fmt::format("      vertex {} {:.1e} {}\n", tet_points[v].x, tet_points[v].y, tet_points[v].z);
+    text += "    endloop\n  endfacet\n";
+  }
+  return text + "endsolid tet\n";
+}
+
+std::string binary_stl(const std::string& header = "any header") {
+  std::string bytes = header;
+  bytes.resize(80, '\0');
+  append(bytes, static_cast<std::uint32_t>(tet_triangles.size()));
+  for (std::size_t i = 0; i < tet_triangles.size(); ++i) {
+    for (int k = 0; k < 3; ++k) append(bytes, 0.0f);
+    for (const Vertex v : tet_triangles[i])
+      for (int axis = 0; axis < 3; ++axis) append(bytes, static_cast<float>(tet_points[v][axis]));
+    append(bytes, static_cast<std::uint16_t>(7 * (i % 2)));
+  }
+  return bytes;
+}
+
+std::string obj() {
+  return "# a tet\nmtllib x.mtl\nv 0 0 0\nv 1 0 0 1.0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvn 0 0 1\ns off\n"
+         "f 1/1/1 3/1/1 2/1/1\nf 1//1 2//1 4//1\nf -3 -2 \\\n  -1\nf 1/1 4/1 3/1\n";
+}
+
+std::string ply_header(const std::string& format) {
+  return "ply\nformat " + format +
+         " 1.0\ncomment made by hand\nobj_info none\n"
+         "element vertex 4\nproperty float x\nproperty uchar red\nproperty double y\nproperty float32 z\n"
+         "element material 2\nproperty list uchar short codes\n"
+         "element face 4\nproperty int16 flags\nproperty list uchar int vertex_indices\nproperty list int uint8 "
+         "texture\n"
+         "element nothing 1000000000000\nend_header\n";
+}
+
+std::string ascii_ply() {
+  std::string text = ply_header("ascii");
+  for (const Vec3& p : tet_points) text += fmt::format("{} 255 {} {}\n", p.x, p.y, p.z);
+  text += "0\n2 -5 6\n";
+  for (const Triangle& t : tet_triangles) text += fmt::format("-1 3 {} {} {} 2 1 1\n", t[0], t[1], t[2]);
+  return text;
+}
+
+std::string binary_ply(bool big_endian) {
+  const bool swap = big_endian == (std::endian::native == std::endian::little);
+  std::string bytes = ply_header(big_endian ? "binary_big_endian" : "binary_little_endian");
+  for (const Vec3& p : tet_points) {
+    append(bytes, static_cast<float>(p.x), swap);
+    append(bytes, std::uint8_t{255}, swap);
+    append(bytes, p.y, swap);
+    append(bytes, static_cast<float>(p.z), swap);
+  }
+  append(bytes, std::uint8_t{0}, swap);
+  append(bytes, std::uint8_t{2}, swap);
+  append(bytes, std::int16_t{-5}, swap), append(bytes, std::int16_t{6}, swap);
+  for (const Triangle& t : tet_triangles) {
+    append(bytes, std::int16_t{-1}, swap);
+    append(bytes, std::uint8_t{3}, swap);
+    for (const Vertex v : t) append(bytes, v, swap);
+    append(bytes, std::int32_t{1}, swap);
+    append(bytes, std::uint8_t{9}, swap);
+  }
+  return bytes;
+}
+
+std::string off() {
+  return "# a tet\nOFF\n4 4 # no count of edges\n\n0 0 0\n1 0 0 # right\n0 1 0\n0 0 1\n"
+         "3 0 2 1\n3 0 1 3 255 0 0\n3 1 2 3\n3 0 3 2\n";
+}
+
+std::string coff() {
+  return "COFF 4 4 6\n0 0 0 1 1 1 1\n1 0 0 1 1 1 1\n0 1 0 1 1 1 1\n0 0 1 1 1 1 1\n"
+         "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+}
+
+TEST(SurfaceFiles, ReadsTheSameSurfaceFromEveryFormat) {
+  for (const std::string& bytes :
+       {ascii_stl(), binary_stl(), obj(), ascii_ply(), binary_ply(false), binary_ply(true), off(), coff()})
+    expect_tet(read(bytes));
+}
+
+TEST(SurfaceFiles, TakesABinaryStlWhoseHeaderSaysSolid) {
+  expect_tet(read(binary_stl("solid but binary")));
+}
+
+TEST(SurfaceFiles, TakesDosLineEndsAndKeywordsInAnyCase) {
+  std::string text;
+  for (const char c : ascii_stl())
+    text += c == '\n' ? std::string("\r\n") : std::string(1, static_cast<char>(std::toupper(c)));
+  expect_tet(read(text));
+  std::string dos;
+  for (const char c : ascii_ply()) dos += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  expect_tet(read(dos));
+}
+
+TEST(SurfaceFiles, PlacesAreLinesOfTextAndNumbersInBinaryFiles) {
+  EXPECT_THAT(read(ascii_stl()).places, ElementsAre(2, 9, 16, 23));
+  EXPECT_THAT(read(binary_stl()).places, ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(read(obj()).places, ElementsAre(10, 11, 12, 14));
+  EXPECT_THAT(read(off()).places, ElementsAre(9, 10, 11, 12));
+  EXPECT_THAT(read(binary_ply(true)).places, ElementsAre(1, 2, 3, 4));
+  EXPECT_EQ(read(ascii_stl()).place_of(1), "part:9");
+  EXPECT_EQ(read(binary_stl()).place_of(1), "part: triangle 2");
+}
+
+TEST(SurfaceFiles, TagsAreSolidsAttributesAndGroups) {
+  EXPECT_THAT(read(ascii_stl()).tags, ElementsAre(1, 1, 1, 1));
+  EXPECT_THAT(read(ascii_stl() + ascii_stl()).tags, ElementsAre(1, 1, 1, 1, 2, 2, 2, 2));
+  EXPECT_THAT(read(binary_stl()).tags, ElementsAre(0, 7, 0, 7));
+  EXPECT_THAT(read(obj()).tags, ElementsAre(0, 0, 0, 0));
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  EXPECT_THAT(read(vertices + "f 1 2 3\no empty\ng top\nf 1 2 3\ng bottom\nf 1 2 3\ng top\nf 1 2 3\n").tags,
+              ElementsAre(0, 1, 2, 1));
+}
+
+TEST(SurfaceFiles, FansPolygons) {
+  const SurfaceSoup soup = read("OFF 5 1 0\n0 0 0\n2 0 0\n3 1 0\n2 2 0\n0 2 0\n5 0 1 2 3 4\n");
+  EXPECT_THAT(soup.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}, Triangle{0, 3, 4}));
+  EXPECT_THAT(soup.places, ElementsAre(7, 7, 7));
+}
+
+TEST(SurfaceFiles, MergesEqualPointsAndDropsUnusedOnes) {
+  const SurfaceSoup soup = read("v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv -0 0 0\nv 1 0 0\nv 0 0 1\nf 2 3 4\nf 5 6 7\n");
+  EXPECT_EQ(soup.points.size(), 4u);
+  EXPECT_THAT(soup.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 1, 3}));
+  EXPECT_FALSE(std::signbit(soup.points[0].x));
+}
+
+TEST(SurfaceFiles, ForwardReferencesOfObjAreLegal) {
+  EXPECT_EQ(read("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n").triangles.size(), 1u);
+}
+
+// What a cut may leave whole: the last digits of the last number, or white space and words that say nothing.
+void expect_every_prefix_rejected(const std::string& bytes, std::size_t harmless) {
+  for (std::size_t length = 0; length + harmless < bytes.size(); ++length)
+    EXPECT_NE(error_of(bytes.substr(0, length)), "no error") << length << " of " << bytes.size() << " bytes";
+}
+
+TEST(SurfaceFiles, RejectsEveryTruncatedPrefix) {
+  expect_every_prefix_rejected(ascii_stl(), std::string(" tet\n").size());
+  expect_every_prefix_rejected(binary_stl(), 0);
+  expect_every_prefix_rejected(binary_stl("solid but binary"), 0);
+  expect_every_prefix_rejected(ascii_ply(), 1);
+  expect_every_prefix_rejected(binary_ply(false), 0);
+  expect_every_prefix_rejected(binary_ply(true), 0);
+  expect_every_prefix_rejected(off(), 1);
+  expect_every_prefix_rejected(coff(), 1);
+}
+
+TEST(SurfaceFiles, RejectsWhatFollowsTheEnd) {
+  EXPECT_THAT(error_of(binary_stl() + "x"),
+              HasSubstr("part: expected 284 bytes of binary STL for 4 facets, found 285"));
+  EXPECT_THAT(error_of(ascii_stl() + "x"), HasSubstr("part:31: expected solid, found 'x'"));
+  EXPECT_THAT(error_of(ascii_ply() + "x"), HasSubstr("expected the end of the file, found 'x'"));
+  EXPECT_THAT(error_of(binary_ply(true) + "x"), HasSubstr("expected the end of the file, found 1 more bytes"));
+  EXPECT_THAT(error_of(off() + "x"), HasSubstr("part:13: expected the end of the file after 4 faces, found 'x'"));
+}
+
+TEST(SurfaceFiles, RejectsCoordinatesThatAreNotFinite) {
+  std::string stl = binary_stl();
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  std::memcpy(&stl[84 + 50 + 16], &nan, sizeof nan);
+  EXPECT_THAT(error_of(stl), HasSubstr("part: triangle 2: expected finite coordinates, found 0, nan, 0"));
+  EXPECT_EQ(error_of("v 0 0 0\nv 0 nan 0\n"), "part:2: expected a finite coordinate, found 'nan'");
+  EXPECT_EQ(error_of("v 0 0 0\nv 0 0 1e999\n"), "part:2: expected a finite coordinate, found '1e999'");
+  std::string ply = binary_ply(false);
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::memcpy(&ply[ply_header("binary_little_endian").size() + 17 + 5], &infinity, sizeof infinity);
+  EXPECT_EQ(error_of(ply), "part: vertex 2: expected finite coordinates, found NaN or infinity");
+}
+
+TEST(SurfaceFiles, RejectsBadIndicesOfObj) {
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  EXPECT_EQ(error_of(vertices + "f 0 1 2\n"),
+            "part:4: expected a vertex index, counted from 1 or back from -1, found '0'");
+  EXPECT_EQ(error_of(vertices + "f 1 2 4\n"), "part:4: expected a vertex index up to 3, found 4");
+  EXPECT_EQ(error_of(vertices + "f 1 2 -4\n"), "part:4: expected a vertex index among the 3 so far, found '-4'");
+  EXPECT_EQ(error_of(vertices + "f 1 2 x/1\n"), "part:4: expected a vertex index, found 'x/1'");
+  EXPECT_EQ(error_of(vertices + "f 1 2 99999999999999999999\n"),
+            "part:4: expected a vertex index, found '99999999999999999999'");
+  EXPECT_EQ(error_of(vertices + "f 1 2\n"), "part:4: expected a face of three or more vertices, found 2");
+  EXPECT_EQ(error_of(vertices + "f 1 2 3\ncurv 1 2 3\n"), "part:5: expected an OBJ statement, found 'curv'");
+  EXPECT_EQ(error_of("v 1 2\nv 1 2 3\n"), "part:1: expected a finite coordinate, found the end of the line");
+}
+
+TEST(SurfaceFiles, RejectsCountsThatTheFileCannotHold) {
+  EXPECT_THAT(error_of("OFF\n1000000000000 1 0\n0 0 0\n"), HasSubstr("part:2: expected the number of vertices"));
+  EXPECT_THAT(error_of("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4000000000 0 1 2\n"), HasSubstr("part:6:"));
+  const std::string vertex = "property float x\nproperty float y\nproperty float z\n";
+  EXPECT_THAT(
+      error_of("ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\n" + vertex + "end_header\n"),
+      HasSubstr("part: expected at most 0 elements 'vertex' in the rest of the file"));
+  EXPECT_THAT(error_of("ply\nformat ascii 1.0\nelement vertex 3\n" + vertex +
+                       "element face 1\nproperty list int int vertex_index\nend_header\n"
+                       "0 0 0\n1 0 0\n0 1 0\n1000000000 0 1 2\n"),
+              HasSubstr("part:13: expected a list that the rest of the file can hold, found a length of 1000000000"));
+}
+
+TEST(SurfaceFiles, RejectsBadPly) {
+  const std::string vertex = "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string ascii = "ply\nformat ascii 1.0\n";
+  EXPECT_THAT(error_of("ply\nformat text 1.0\n"), HasSubstr("part:2: expected ascii, binary_little_endian or"));
+  EXPECT_THAT(error_of(ascii + "property float x\n"), HasSubstr("part:3: expected 'element', 'property'"));
+  EXPECT_THAT(error_of(ascii + "element vertex 1\nproperty complex x\n"),
+              HasSubstr("expected a PLY type, found 'complex'"));
+  EXPECT_THAT(error_of(ascii + "element vertex 1\nproperty float x\nend_header\n1\n"),
+              HasSubstr("expected a property y"));
+  EXPECT_THAT(error_of(ascii + vertex + "end_header\n0 0 0\n"), HasSubstr("found no triangles"));
+  EXPECT_THAT(
+      error_of(ascii + vertex + "element face 1\nproperty list uchar float vertex_index\nend_header\n0 0 0\n3 0 0 0\n"),
+      HasSubstr("expected a list of integers"));
+  EXPECT_THAT(
+      error_of(ascii + vertex + "element face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0\n3 0 0 1\n"),
+      HasSubstr("part:11: expected a vertex index below 1, found 1"));
+}
+
+TEST(SurfaceFiles, RejectsOtherOff) {
+  EXPECT_THAT(error_of("4OFF\n1 1 1\n"), HasSubstr("part:1: expected OFF in three dimensions, found '4OFF'"));
+  EXPECT_THAT(error_of("OFF BINARY\n"), HasSubstr("part:1: expected ASCII OFF, found 'BINARY'"));
+  EXPECT_THAT(error_of("OFF 3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
+              HasSubstr("part:5: expected a vertex index below 3"));
+  EXPECT_THAT(error_of("OFF 3 1\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n"), HasSubstr("part:3: expected a finite coordinate"));
+}
+
+TEST(SurfaceFiles, RejectsWhatIsNoSurface) {
+  EXPECT_THAT(error_of(""), HasSubstr("it is empty"));
+  EXPECT_THAT(error_of("# only a comment\n"), HasSubstr("found no triangles"));
+  EXPECT_THAT(error_of("hello\n"), HasSubstr("expected a surface in STL, OBJ, PLY or OFF, found 'hello'"));
+  EXPECT_THAT(error_of("solid empty\nendsolid\n"), HasSubstr("found no triangles"));
+  EXPECT_THAT(error_of(std::string(300, '\0')), HasSubstr("expected 84 bytes of binary STL for 0 facets, found 300"));
+}
+
+}  // namespace
+}  // namespace hexpipe
