@@ -1,0 +1,359 @@
+# What every tool of the pipeline does alike: help, exit codes, messages, streams, files, limits.
+
+load helpers
+
+# Each stage's input as a bundle: $STAGES/<tool>.in
+setup_file() {
+  load helpers
+  export STAGES="$BATS_FILE_TMPDIR"
+  cd "$STAGES"
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 2 >lattice.mesh
+  cp "$DATA/cube.stl" tetmesh.in
+  findhex --mesh lattice.mesh --min-quality 0.4 -o buildgraph.in --format tar
+  $PYTHON - <<'PYTHON'
+import tarfile
+with tarfile.open("buildgraph.in") as whole, tarfile.open("findhex.in", "w", format=tarfile.PAX_FORMAT) as start:
+    for member in whole:
+        if member.name.startswith("mesh/"):
+            start.addfile(member, whole.extractfile(member))
+PYTHON
+  buildgraph buildgraph.in -o initsol.in --format tar
+  initsol --iterations 0 initsol.in -o lns.in --format tar
+  lns --iterations 10 lns.in -o assemble.in --format tar
+}
+
+TOOLS="tetmesh findhex buildgraph initsol lns assemble"
+READERS="findhex buildgraph initsol lns assemble"
+
+# limited TOOL: the options that make its result independent of the clock.
+limited() {
+  case $1 in
+    initsol | lns) echo "--iterations 20" ;;
+    tetmesh) echo "--size 0.5" ;;
+  esac
+}
+
+# product_ending TOOL: of the file format of what it makes.
+product_ending() {
+  case $1 in
+    tetmesh) echo mesh ;;
+    findhex) echo cand ;;
+    buildgraph) echo graph ;;
+    initsol | lns) echo sol ;;
+    assemble) echo vtk ;;
+  esac
+}
+
+@test "--help explains itself, with an example that names the tool, on standard output" {
+  for tool in $TOOLS; do
+    run_apart $tool --help
+    assert_success
+    assert_equal "$stderr" ""
+    assert_output --partial "Example:"
+    assert_output --regexp "Example:.*$tool "
+    assert_output --partial "--output"
+    assert [ "$(wc -L <<<"$output")" -le 140 ]
+  done
+}
+
+@test "--version names tool and version" {
+  for tool in $TOOLS; do
+    run_apart $tool --version
+    assert_success
+    assert_output --regexp "^$tool \(hexpipe\) [0-9]+\.[0-9]+\.[0-9]+$"
+  done
+}
+
+@test "a bad command line ends with 2 and one line" {
+  for tool in $TOOLS; do
+    assert_fails_with 2 "$tool: .*--no-such-option" $tool --no-such-option
+    assert_fails_with 2 "$tool: .*threads" $tool --threads many
+    assert_fails_with 2 "$tool: .*threads" $tool --threads -1
+    assert_fails_with 2 "$tool: .*extra" $tool "$STAGES/$tool.in" extra another
+    assert_fails_with 2 "$tool: .*x.png" $tool "$STAGES/$tool.in" -o x.png
+    assert_fails_with 2 "$tool: .*'png'" $tool "$STAGES/$tool.in" --format png
+  done
+}
+
+@test "two inputs from standard input are refused" {
+  assert_fails_with 2 "at most one" lns --graph - --solution -
+}
+
+@test "an unknown key in a --config file ends with 2; a known one counts" {
+  echo "no-such-key=1" >bad.ini
+  echo "threads=0" >good.ini
+  for tool in $TOOLS; do
+    assert_fails_with 2 "$tool: " $tool --config bad.ini "$STAGES/$tool.in"
+    run_apart $tool --config good.ini $(limited $tool) "$STAGES/$tool.in" -o "out.$(product_ending $tool)"
+    assert_success
+    rm out.*
+  done
+}
+
+@test "a bundle is not written to a terminal" {
+  for tool in $TOOLS; do
+    run script -qec "$tool '$STAGES/$tool.in' 2>message" /dev/null </dev/null
+    assert_equal "$status" 2
+    assert_equal "$(wc -l <message)" 1
+    grep -q "terminal" message
+  done
+}
+
+@test "nothing to read at a terminal ends with 2" {
+  for tool in $READERS; do
+    run script -qec "$tool -o out.tar" /dev/null </dev/null
+    assert_equal "$status" 2
+    assert_output --partial "nothing to read"
+  done
+}
+
+@test "missing, empty and nonsense input end with 1 and leave the old output" {
+  : >empty
+  echo "certainly no mesh, graph or bundle" >nonsense
+  for tool in $TOOLS; do
+    echo old >out.tar
+    assert_fails_with 1 "^$tool: missing: .*No such file" $tool missing -o out.tar
+    assert_fails_with 1 "^$tool: empty" $tool empty -o out.tar
+    assert_fails_with 1 "^$tool: nonsense" $tool nonsense -o out.tar
+    assert_fails_with 1 "^$tool: .*directory" $tool . -o out.tar
+    assert_fails_with 1 "^$tool: stdin" shell ": | $tool -o out.tar"
+    assert_equal "$(cat out.tar)" old
+    assert_equal "$(ls | tr '\n' ' ')" "empty nonsense out.tar "
+  done
+}
+
+@test "a bundle that lacks what the tool needs is named" {
+  assert_fails_with 1 "expected candidates for buildgraph, found mesh" buildgraph "$STAGES/findhex.in"
+  assert_fails_with 1 "expected graph for initsol, found mesh, candidates" initsol "$STAGES/buildgraph.in"
+  assert_fails_with 1 "expected solution for lns, found mesh, candidates, graph" lns "$STAGES/initsol.in"
+  assert_fails_with 1 "expected solution for assemble" assemble "$STAGES/initsol.in"
+}
+
+@test "success is silent" {
+  for tool in $TOOLS; do
+    run_apart $tool $(limited $tool) "$STAGES/$tool.in" -o out.tar -q
+    assert_success
+    assert_equal "$output$stderr" ""
+  done
+}
+
+@test "-v speaks on standard error only" {
+  for tool in $TOOLS; do
+    run_apart $tool $(limited $tool) "$STAGES/$tool.in" -o out.tar -v
+    assert_success
+    assert_equal "$output" ""
+    assert [ -n "$stderr" ]
+  done
+}
+
+@test "file, pipe and process substitution give the same bytes" {
+  for tool in $READERS; do
+    $tool $(limited $tool) "$STAGES/$tool.in" -o file.tar
+    $tool $(limited $tool) <"$STAGES/$tool.in" >redirected.tar
+    cat "$STAGES/$tool.in" | $tool $(limited $tool) | cat >piped.tar
+    $tool $(limited $tool) <(cat "$STAGES/$tool.in") >substituted.tar
+    $tool $(limited $tool) - <"$STAGES/$tool.in" >dashed.tar
+    for other in redirected piped substituted dashed; do assert_same_bytes file.tar $other.tar; done
+  done
+}
+
+@test "1 and 2 threads, and two runs, give the same bytes" {
+  for tool in $TOOLS; do
+    $tool $(limited $tool) --threads 1 "$STAGES/$tool.in" -o one.tar -q
+    $tool $(limited $tool) --threads 2 "$STAGES/$tool.in" -o two.tar -q
+    $tool $(limited $tool) --threads 2 "$STAGES/$tool.in" -o again.tar -q
+    assert_same_bytes one.tar two.tar
+    assert_same_bytes two.tar again.tar
+  done
+}
+
+@test "every output is a bundle that the independent checker accepts" {
+  for tool in $TOOLS; do
+    $tool $(limited $tool) "$STAGES/$tool.in" -o out.tar -q
+    run "$CHECKERS/bundle_check.py" out.tar
+    assert_success
+    assert_output --partial "history"
+    assert_output --regexp "$tool$"
+  done
+}
+
+@test "compressed bundles are written by name or by --compress, and read" {
+  for tool in $READERS; do
+    $tool $(limited $tool) "$STAGES/$tool.in" -o plain.tar
+    $tool $(limited $tool) "$STAGES/$tool.in" -o small.tar.zst
+    $tool $(limited $tool) --compress <"$STAGES/$tool.in" >small.too
+    zstd -dqc small.tar.zst | cmp - plain.tar
+    zstd -dqc small.too | cmp - plain.tar
+    zstd -qc "$STAGES/$tool.in" | $tool $(limited $tool) >from_compressed.tar
+    assert_same_bytes plain.tar from_compressed.tar
+  done
+}
+
+@test "the product alone: by ending, by --format on standard output, the same bytes" {
+  for tool in $TOOLS; do
+    local ending
+    ending=$(product_ending $tool)
+    $tool $(limited $tool) "$STAGES/$tool.in" -o "out.$ending" -q
+    $tool $(limited $tool) "$STAGES/$tool.in" --format "$ending" -q >stdout.file
+    assert_same_bytes "out.$ending" stdout.file
+    assert [ "$(head -c 400 stdout.file | tr -d '\0' | wc -c)" -gt 0 ]
+  done
+}
+
+@test "a bundle cut anywhere is an error, and nothing looks complete" {
+  local step=1
+  if sanitized; then step=7; fi
+  for tool in $READERS; do
+    local size complete length cut
+    size=$(stat -c %s "$STAGES/$tool.in")
+    # Behind the first block of zeros the archive is complete. tarfile pads to 10240.
+    complete=$($PYTHON -c "
+import sys
+data = open(sys.argv[1], 'rb').read()
+print((len(data.rstrip(b'\0')) + 511) // 512 * 512)" "$STAGES/$tool.in")
+    # Every block boundary and points around it, and a spread of others.
+    for cut in $(seq 0 $step 40); do
+      length=$((cut * complete / 40 / 512 * 512 + cut % 3))
+      if ((length >= complete)); then continue; fi
+      run_apart shell "head -c $length '$STAGES/$tool.in' | $tool $(limited $tool) -o out.tar"
+      if ((status != 1)); then fail "$tool read $length of $size bytes and ended with $status"; fi
+      assert_equal "$(wc -l <<<"$stderr")" 1
+      assert [ ! -e out.tar ]
+      # On standard output what passed on is cut off as well.
+      run shell "head -c $length '$STAGES/$tool.in' | $tool $(limited $tool) >passed.tar 2>/dev/null"
+      assert_equal "$status" 1
+      run "$CHECKERS/bundle_check.py" passed.tar
+      if grep -q "history.*$tool\$" <<<"$output"; then fail "looks complete: $output"; fi
+    done
+  done
+}
+
+@test "a full disk is an error for bundle, product and stats" {
+  for tool in $TOOLS; do
+    assert_fails_with 1 "$tool: /dev/full: cannot write: No space left" $tool $(limited $tool) -q "$STAGES/$tool.in" -o /dev/full
+    assert_fails_with 1 "$tool: stdout: cannot write: No space left" shell "$tool -q $(limited $tool) '$STAGES/$tool.in' >/dev/full"
+    assert_fails_with 1 "$tool: /dev/full: cannot write" $tool $(limited $tool) -q "$STAGES/$tool.in" -o out.tar --stats /dev/full
+    assert_fails_with 1 "$tool: nowhere/out.tar: cannot write: No such file" $tool -q $(limited $tool) "$STAGES/$tool.in" -o nowhere/out.tar
+    rm -f out.tar
+  done
+}
+
+@test "a reader that goes away is an error" {
+  for tool in $READERS; do
+    run bash -c "($tool $(limited $tool) '$STAGES/$tool.in'; echo \$? >code) 2>message | true; sleep 0.2"
+    # A bundle smaller than the pipe may be taken before the reader goes.
+    if [[ "$(cat code)" != 0 ]]; then
+      assert_equal "$(cat code)" 1
+      grep -q "stdout: cannot write: Broken pipe" message
+    fi
+  done
+}
+
+@test "--stats writes JSON with the tool's name and seconds" {
+  for tool in $TOOLS; do
+    $tool $(limited $tool) -q "$STAGES/$tool.in" -o out.tar --stats stats.json
+    run $PYTHON -c "
+import json
+stats = json.load(open('stats.json'))
+assert stats['tool'] == '$tool', stats
+assert stats['seconds'] >= 0, stats
+assert len(stats) > 2, stats"
+    assert_success
+  done
+}
+
+@test "a killed tool leaves neither a temporary file nor a half-written one" {
+  mkfifo slow
+  for tool in $READERS; do
+    echo old >out.tar
+    (head -c 700 "$STAGES/$tool.in"; sleep 30) >slow &
+    local writer=$!
+    $tool -o out.tar slow 2>/dev/null &
+    local reader=$!
+    sleep 0.3
+    # The searches take the first signal as a wish to end soon; the second ends them.
+    kill -TERM $reader
+    sleep 0.1
+    kill -TERM $reader 2>/dev/null || true
+    wait $reader && fail "$tool ended well"
+    pkill -P $writer 2>/dev/null || true
+    kill $writer 2>/dev/null || true
+    wait $writer 2>/dev/null || true
+    assert_equal "$(cat out.tar)" old
+    assert_equal "$(ls | tr '\n' ' ')" "out.tar slow "
+  done
+}
+
+@test "members that no tool knows pass through untouched" {
+  $PYTHON - "$STAGES/findhex.in" with.tar <<'PYTHON'
+import io, sys, tarfile
+with tarfile.open(sys.argv[1]) as old, tarfile.open(sys.argv[2], "w", format=tarfile.PAX_FORMAT) as new:
+    note = tarfile.TarInfo("notes/of the user.txt")
+    note.size = 5
+    new.addfile(note, io.BytesIO(b"hello"))
+    for member in old:
+        new.addfile(member, old.extractfile(member))
+PYTHON
+  findhex <with.tar | buildgraph | initsol --iterations 5 | lns --iterations 5 | assemble >through.tar
+  assert_equal "$(tar xOf through.tar 'notes/of the user.txt')" hello
+}
+
+@test "arrays of the wrong shape or type are named" {
+  # damage MEMBER EXPRESSION: copies buildgraph's input with one array changed.
+  damage() {
+    $PYTHON - "$STAGES/buildgraph.in" damaged.tar "$1" "$2" <<'PYTHON'
+import io, sys, tarfile
+import numpy as np
+source, target, name, expression = sys.argv[1:]
+with tarfile.open(source) as old, tarfile.open(target, "w", format=tarfile.PAX_FORMAT) as new:
+    for member in old:
+        data = old.extractfile(member).read()
+        if member.name == name:
+            a = np.load(io.BytesIO(data))
+            buffer = io.BytesIO()
+            np.save(buffer, eval(expression))
+            data = buffer.getvalue()
+            member.size = len(data)
+        new.addfile(member, io.BytesIO(data))
+PYTHON
+  }
+  damage candidates/vertices.npy 'a[:, :7]'
+  assert_fails_with 1 "candidates/vertices.npy: expected an array of shape \(n,8\), found \([0-9]+,7\)" buildgraph damaged.tar -o out.tar
+  damage candidates/vertices.npy 'a.astype("f4")'
+  assert_fails_with 1 "candidates/vertices.npy: expected numbers of type i4, found f4" buildgraph damaged.tar -o out.tar
+  damage candidates/kind.npy 'a[:-1]'
+  assert_fails_with 1 "candidates" buildgraph damaged.tar -o out.tar
+  damage candidates/tet_offsets.npy 'a[::-1].copy()'
+  assert_fails_with 1 "candidates" buildgraph damaged.tar -o out.tar
+  damage candidates/tets.npy 'a + 1000000'
+  assert_fails_with 1 "candidates" buildgraph damaged.tar -o out.tar
+  damage candidates/kind.npy 'a + 40'
+  assert_fails_with 1 "candidates" buildgraph damaged.tar -o out.tar
+  damage candidates/quality.npy 'a * np.nan'
+  assert_fails_with 1 "candidates" buildgraph damaged.tar -o out.tar
+  damage candidates/vertices.npy 'a.astype(">i4")'
+  assert_fails_with 1 "little-endian" buildgraph damaged.tar -o out.tar
+  # Wider integers are taken where they fit: a stage in Python makes them without thinking.
+  damage candidates/vertices.npy 'a.astype("i8")'
+  buildgraph "$STAGES/buildgraph.in" --format graph >plain.graph
+  buildgraph damaged.tar --format graph >wide.graph
+  assert_same_bytes plain.graph wide.graph
+}
+
+@test "a link, a device or a way out in a bundle is an error" {
+  $PYTHON - <<'PYTHON'
+import io, tarfile
+def bundle(path, name, kind, link=""):
+    with tarfile.open(path, "w", format=tarfile.PAX_FORMAT) as archive:
+        member = tarfile.TarInfo(name)
+        member.type, member.linkname = kind, link
+        archive.addfile(member, io.BytesIO(b""))
+bundle("link.tar", "mesh/points.npy", tarfile.SYMTYPE, "/etc/passwd")
+bundle("hard.tar", "mesh/points.npy", tarfile.LNKTYPE, "/etc/passwd")
+bundle("device.tar", "mesh/points.npy", tarfile.CHRTYPE)
+bundle("out.of.tar", "../points.npy", tarfile.REGTYPE)
+PYTHON
+  for file in link hard device out.of; do
+    for tool in $READERS; do assert_fails_with 1 "$file.tar: " $tool $file.tar; done
+  done
+}

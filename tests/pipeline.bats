@@ -1,0 +1,141 @@
+# The stages together, the way users chain, swap and drive them.
+
+load helpers
+
+mesh_is_valid() {
+  # Everything that holds before cells are made conforming: no overlap, a closed skin, no inverted cell.
+  run $PYTHON "$CHECKERS/meshstats.py" --json --exact "$1"
+  assert_success
+  $PYTHON - "$output" <<'PYTHON'
+import json, sys
+stats = json.loads(sys.argv[1])
+assert "error" not in stats, stats
+for key in ("f>2", "perm", "bedge_odd", "dupcells", "orphan_nodes", "inv", "hexbad", "negvol"):
+    assert stats.get(key, 0) == 0, (key, stats)
+assert stats["hex"] > 0, stats
+PYTHON
+}
+
+@test "a surface becomes a mesh through one line of pipes, and other programs open it" {
+  shell "tetmesh '$DATA/bracket.stl' --size 6 -q | findhex | buildgraph | initsol --iterations 2000 |
+    lns --iterations 200 | tee stages.tar | assemble -o bracket.vtu"
+  mesh_is_valid bracket.vtu
+  "$CHECKERS/bundle_check.py" stages.tar
+  for format in msh vtk mesh inp; do assemble stages.tar -o bracket.$format; done
+  assemble stages.tar -o bracket22.msh --format msh22
+  cat >count.py <<'PYTHON'
+import sys, meshio
+for path in sys.argv[1:]:
+    mesh = meshio.read(path)
+    cells = {kind: sum(len(block.data) for block in mesh.cells if block.type == kind) for kind in ("hexahedron", "tetra")}
+    print(len(mesh.points), cells)
+PYTHON
+  run $PYTHON count.py bracket.vtu bracket.msh bracket22.msh bracket.vtk bracket.mesh
+  assert_success
+  assert_equal "$(grep -E 'hexahedron' <<<"$output" | sort -u | wc -l)" 1
+  run gmsh bracket.msh -0 -o gmsh.vtk
+  assert_success
+  refute_output --partial "Error"
+  run $PYTHON -c "
+import vtk
+reader = vtk.vtkXMLUnstructuredGridReader()
+reader.SetFileName('bracket.vtu')
+reader.Update()
+grid = reader.GetOutput()
+assert grid.GetNumberOfCells() > 100
+assert reader.GetErrorCode() == 0"
+  assert_success
+}
+
+@test "Makefile.examples drives it through files, several parts at a time" {
+  make -s -j2 -f "$HEXPIPE_SOURCE/Makefile.examples" BIN="$HEXPIPE_BIN" PARTS="$DATA" SIZE=8 TIME=1 bracket.vtu bracket.msh
+  mesh_is_valid bracket.vtu
+  for file in bracket.mesh bracket.cand bracket.graph bracket.start.sol bracket.sol bracket.lns.jsonl; do assert [ -s $file ]; done
+  # Nothing is made twice.
+  run make -s -f "$HEXPIPE_SOURCE/Makefile.examples" BIN="$HEXPIPE_BIN" PARTS="$DATA" bracket.vtu
+  assert_output ""
+}
+
+@test "files and pipes give the same result" {
+  tetmesh "$DATA/bracket.stl" --size 8 -q -o b.mesh
+  findhex --mesh b.mesh -o b.cand
+  buildgraph --mesh b.mesh --candidates b.cand -o b.graph
+  initsol --graph b.graph --iterations 500 -o b.start.sol
+  lns --graph b.graph --solution b.start.sol --iterations 50 -o b.sol
+  assemble --mesh b.mesh --candidates b.cand --solution b.sol -o files.vtu
+  shell "tetmesh '$DATA/bracket.stl' --size 8 -q | findhex | buildgraph | initsol --iterations 500 | lns --iterations 50 |
+    assemble -o pipes.vtu"
+  assert_same_bytes files.vtu pipes.vtu
+}
+
+@test "the whole pipeline gives the same bytes for 1 and 2 threads" {
+  for threads in 1 2; do
+    shell "tetmesh '$DATA/bracket.stl' --size 8 -q --threads $threads | findhex --threads $threads |
+      buildgraph --threads $threads | initsol --iterations 500 --threads $threads |
+      lns --iterations 50 --threads $threads | assemble --threads $threads >$threads.tar"
+  done
+  assert_same_bytes 1.tar 2.tar
+}
+
+@test "the Python stage of formats/README.md works in the middle of a pipe" {
+  sed -n '/^```python stage$/,/^```$/p' "$HEXPIPE_SOURCE/formats/README.md" | sed '1d;$d' >stage.py
+  assert [ "$(grep -c . stage.py)" -le 20 ]
+  shell "tetmesh '$DATA/bracket.stl' --size 8 -q | findhex | tee plain.tar | $PYTHON stage.py | buildgraph | initsol --iterations 100 |
+    lns --iterations 10 | assemble -o out.tar"
+  run "$CHECKERS/bundle_check.py" out.tar
+  assert_success
+  # The stage there doubles the quality of candidates near the boundary or the like: it has to have changed something.
+  tar xOf plain.tar candidates/quality.npy >before.npy
+  tar xOf out.tar candidates/quality.npy >after.npy
+  assert_different_bytes before.npy after.npy
+}
+
+@test "coinor-cbc stands in for initsol and lns, and finds the optimum" {
+  tetmesh "$DATA/bracket.stl" --size 12 -q -o b.mesh
+  findhex --mesh b.mesh -o b.cand
+  buildgraph --mesh b.mesh --candidates b.cand -o b.graph
+  $PYTHON "$CHECKERS/solve_with_cbc.py" b.graph b.cbc.sol
+  $PYTHON "$CHECKERS/solution_check.py" b.graph b.cbc.sol
+  assemble --mesh b.mesh --candidates b.cand --solution b.cbc.sol -o b.vtu
+  mesh_is_valid b.vtu
+  # Ours may not be better than the optimum; on a graph this small it has to reach it.
+  shell "initsol --graph b.graph --iterations 5000 | lns --iterations 2000 -o b.sol"
+  optimum=$($PYTHON "$CHECKERS/solution_check.py" b.graph b.cbc.sol | grep -oE 'weight [0-9]+')
+  ours=$($PYTHON "$CHECKERS/solution_check.py" b.graph b.sol | grep -oE 'weight [0-9]+')
+  assert_equal "$ours" "$optimum"
+}
+
+@test "a user's own mesh from Gmsh, with regions, is the start" {
+  cat >two.geo <<'GEO'
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+Box(2) = {1, 0, 0, 1, 1, 1};
+Coherence;
+Physical Volume("left", 11) = {1};
+Physical Volume("right", 12) = {2};
+Physical Surface("all", 21) = Surface{:};
+Mesh.MeshSizeMax = 0.25;
+GEO
+  for version in 2.2 4.1; do
+    for binary in "" -bin; do
+      gmsh -3 -format msh${version/.2/2} $binary two.geo -o two.msh >/dev/null || gmsh -3 -format msh${version/.1/} $binary two.geo -o two.msh
+      shell "findhex --mesh two.msh | buildgraph | initsol --iterations 100 | lns --iterations 100 | tee two.tar | assemble -o two.vtu"
+      mesh_is_valid two.vtu
+      $PYTHON - two.tar <<'PYTHON'
+import io, sys, tarfile
+import numpy as np
+with tarfile.open(sys.argv[1]) as t:
+    load = lambda name: np.load(io.BytesIO(t.extractfile(name).read()))
+    assert sorted(set(load("mesh/tet_tags.npy"))) == [11, 12]
+    assert set(load("mesh/triangle_tags.npy")) == {21}
+PYTHON
+    done
+  done
+}
+
+@test "a cut pipe anywhere in the chain is an error at its end" {
+  for bytes in 0 1000 20000; do
+    assert_fails_with 1 "findhex: stdin: " bash -c "set -o pipefail; tetmesh '$DATA/bracket.stl' --size 8 -q 2>/dev/null | head -c $bytes | findhex -o out.tar"
+    assert [ ! -e out.tar ]
+  done
+}
