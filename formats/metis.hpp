@@ -1,6 +1,6 @@
 #pragma once
-// METIS .graph: a header line `n m [fmt [ncon]]`, then a line for each vertex with its weight and its neighbours, counted
-// from 1, every edge at both ends. formats/README.md shows one.
+// METIS .graph: a header line `n m [fmt [ncon]]`, then a line for each vertex with its weight and its neighbours,
+// counted from 1, every edge at both ends. formats/README.md shows one.
 
 #include <optional>
 #include <string>
@@ -19,8 +19,9 @@ ConflictGraph read_metis(Input& input);
 // Writes `n m 10`, neighbours ascending.
 void write_metis(const ConflictGraph& graph, Output& output);
 
-// What other programs would do to these weights: METIS itself holds them in 31 bits, KaMIS sums them in 32, both without
-// a word when they overflow. Says which --weight-scale would fit, as a factor of the present one. Empty when all is well.
+// What other programs would do to these weights: METIS itself holds them in 31 bits, KaMIS sums them in 32, both
+// without a word when they overflow. Says which --weight-scale would fit, as a factor of the present one. Empty when
+// all is well.
 std::optional<std::string> metis_weight_warning(const ConflictGraph& graph);
 
 }  // namespace hexpipe

@@ -40,8 +40,7 @@ void check_neighbour_lists(const ConflictGraph& graph, const char* source) {
   for (std::int32_t v = 0; v < n; ++v) {
     std::int32_t last = -1;
     for (const std::int32_t u : graph.neighbours_of(v)) {
-      if (u < 0 || u >= n)
-        throw DataError::at(source, "expected neighbours below {}, found {} at vertex {}", n, u, v);
+      if (u < 0 || u >= n) throw DataError::at(source, "expected neighbours below {}, found {} at vertex {}", n, u, v);
       if (u == v) throw DataError::at(source, "expected no loops, found one at vertex {}", v);
       if (u <= last)
         throw DataError::at(source, "expected ascending neighbours without repeats, found {} after {} at vertex {}", u,
@@ -96,7 +95,8 @@ void validate(const IndependentSet& set, const ConflictGraph& graph, const char*
   for (const std::int32_t v : set) {
     if (v < 0 || v >= n)
       throw DataError::at(source, "expected vertices below {} (the graph's number of them), found {}", n, v);
-    if (v <= last) throw DataError::at(source, "expected ascending vertices without repeats, found {} after {}", v, last);
+    if (v <= last)
+      throw DataError::at(source, "expected ascending vertices without repeats, found {} after {}", v, last);
     last = v;
     chosen[v] = 1;
   }

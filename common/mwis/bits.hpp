@@ -1,0 +1,61 @@
+#pragma once
+// Sets of small numbers as rows of 64-bit words.
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace hexpipe::bits {
+
+using Word = std::uint64_t;
+
+constexpr std::size_t words_for(std::size_t count) {
+  return (count + 63) / 64;
+}
+constexpr bool test(const Word* set, std::size_t i) {
+  return (set[i / 64] >> (i % 64) & 1) != 0;
+}
+constexpr void insert(Word* set, std::size_t i) {
+  set[i / 64] |= Word{1} << (i % 64);
+}
+constexpr void erase(Word* set, std::size_t i) {
+  set[i / 64] &= ~(Word{1} << (i % 64));
+}
+
+// {0, 1, ..., count-1}
+constexpr void fill(Word* set, std::size_t count) {
+  const std::size_t words = words_for(count);
+  for (std::size_t w = 0; w < words; ++w) set[w] = ~Word{0};
+  if (count % 64 != 0) set[words - 1] = (Word{1} << (count % 64)) - 1;
+}
+
+constexpr bool empty(const Word* set, std::size_t words) {
+  for (std::size_t w = 0; w < words; ++w)
+    if (set[w] != 0) return false;
+  return true;
+}
+
+constexpr std::size_t count(const Word* set, std::size_t words) {
+  std::size_t sum = 0;
+  for (std::size_t w = 0; w < words; ++w) sum += static_cast<std::size_t>(std::popcount(set[w]));
+  return sum;
+}
+
+// Calls visit(i) for every member, ascending. Members that `visit` erases from words not yet reached are skipped.
+template <class Visit>
+constexpr void for_each(const Word* set, std::size_t words, Visit&& visit) {
+  for (std::size_t w = 0; w < words; ++w)
+    for (Word word = set[w]; word != 0; word &= word - 1)
+      visit(64 * w + static_cast<std::size_t>(std::countr_zero(word)));
+}
+
+// As for_each, until visit returns false; false when it did.
+template <class Visit>
+constexpr bool all_of(const Word* set, std::size_t words, Visit&& visit) {
+  for (std::size_t w = 0; w < words; ++w)
+    for (Word word = set[w]; word != 0; word &= word - 1)
+      if (!visit(64 * w + static_cast<std::size_t>(std::countr_zero(word)))) return false;
+  return true;
+}
+
+}  // namespace hexpipe::bits

@@ -1,0 +1,69 @@
+#pragma once
+// An independent set under change, with what every search asks of it: how many chosen neighbours a vertex has
+// (tightness), what they weigh, and, when there is one, which it is.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/graph/conflict_graph.hpp"
+
+namespace hexpipe {
+
+// add and remove are the only two mutators; each costs O(degree).
+class SolutionState {
+ public:
+  explicit SolutionState(const ConflictGraph& graph);
+  SolutionState(const ConflictGraph& graph, const IndependentSet& solution);
+
+  const ConflictGraph& graph() const { return *graph_; }
+  bool contains(std::int32_t v) const { return chosen_[v] != 0; }
+  std::int32_t tightness(std::int32_t v) const { return around_[v].tightness; }
+  // The weight of the chosen neighbours.
+  std::int64_t adjacent_weight(std::int32_t v) const { return around_[v].weight; }
+  // The sum of the numbers of the chosen neighbours, modulo 2^32: names the last one when all others are known.
+  std::uint32_t neighbour_sum(std::int32_t v) const { return around_[v].number_sum; }
+  // What Push(v) would gain: v in, its chosen neighbours out.
+  std::int64_t push_gain(std::int32_t v) const { return graph_->weights[v] - around_[v].weight; }
+  std::int64_t weight() const { return weight_; }
+
+  // v is neither chosen nor has a chosen neighbour.
+  void add(std::int32_t v);
+  // v is chosen.
+  void remove(std::int32_t v);
+
+  // Calls visit(u) for the chosen neighbours of v, ascending; the state must not change meanwhile.
+  template <class Visit>
+  void for_each_chosen_neighbour(std::int32_t v, Visit&& visit) const {
+    std::int32_t left = around_[v].tightness;
+    if (left == 1) return visit(static_cast<std::int32_t>(around_[v].number_sum));
+    for (const std::int32_t* u = graph_->neighbours.data() + graph_->offsets[v]; left > 0; ++u)
+      if (chosen_[*u] != 0) {
+        --left;
+        visit(*u);
+      }
+  }
+
+  // Adds free vertices, the heaviest first, until none is left. Zero weights count: a set is maximal with them.
+  void make_maximal();
+
+  IndependentSet to_set() const;
+
+  // True when everything kept agrees with the chosen vertices, and these are independent. O(vertices + edges), for
+  // tests.
+  bool check() const;
+
+ private:
+  struct Around {
+    std::int64_t weight = 0;
+    std::int32_t tightness = 0;
+    std::uint32_t number_sum = 0;
+    bool operator==(const Around&) const = default;
+  };
+
+  const ConflictGraph* graph_;
+  std::vector<Around> around_;
+  std::vector<std::uint8_t> chosen_;
+  std::int64_t weight_ = 0;
+};
+
+}  // namespace hexpipe

@@ -1,0 +1,121 @@
+#include "tools/lns/fragment.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace hexpipe {
+
+void Fragment::clear() {
+  released.clear();
+  vertices.clear();
+  frontier.clear();
+  whole_component = false;
+}
+
+FragmentGrower::FragmentGrower(const SolutionState& state)
+    : state_(state), marks_(static_cast<std::size_t>(state.graph().vertex_count())) {}
+
+void FragmentGrower::begin_round() {
+  // Stamps are never used twice; before they run out (after 4 billion fragments) all marks are taken back.
+  if (stamp_ > std::numeric_limits<std::uint32_t>::max() / 2) {
+    std::ranges::fill(marks_, Mark{});
+    stamp_ = 0;
+  }
+  round_begin_ = stamp_ + 1;
+}
+
+void FragmentGrower::grow(std::int32_t seed, std::size_t target, std::size_t limit, Fragment& fragment) {
+  fragment.clear();
+  fragment.stamp = ++stamp_;
+  partly_freed_.clear();
+  next_partly_freed_ = 0;
+  left_out_ = false;
+
+  queue(seed, fragment);
+  std::size_t next = 0;
+  while (fragment.vertices.size() < target) {
+    if (next == fragment.frontier.size() && !queue_beyond_shared(fragment)) {
+      fragment.whole_component = !left_out_;
+      break;
+    }
+    release(fragment.frontier[next++], limit, fragment);
+  }
+  fragment.frontier.erase(fragment.frontier.begin(), fragment.frontier.begin() + static_cast<std::ptrdiff_t>(next));
+}
+
+void FragmentGrower::release(std::int32_t v, std::size_t limit, Fragment& fragment) {
+  fragment.released.push_back(v);
+  include(v, fragment);
+  for (const std::int32_t u : state_.graph().neighbours_of(v)) touch(u, v, limit, fragment);
+}
+
+// u has lost a chosen neighbour.
+void FragmentGrower::touch(std::int32_t u, std::int32_t released, std::size_t limit, Fragment& fragment) {
+  Mark& mark = marks_[u];
+  if (mark.touched != fragment.stamp) {
+    mark.touched = fragment.stamp;
+    mark.released_neighbours = 0;
+    mark.released_sum = 0;
+  }
+  ++mark.released_neighbours;
+  mark.released_sum += static_cast<std::uint32_t>(released);
+
+  const std::int32_t left = state_.tightness(u) - mark.released_neighbours;
+  if (left == 0) {
+    const bool claimed = mark.claim >= round_begin_ && mark.claim != fragment.stamp;
+    if (claimed || fragment.vertices.size() >= limit)
+      left_out_ = true;
+    else
+      include(u, fragment);
+  } else if (left == 1) {
+    queue(static_cast<std::int32_t>(state_.neighbour_sum(u) - mark.released_sum), fragment);
+  } else {
+    partly_freed_.push_back(u);
+  }
+}
+
+void FragmentGrower::include(std::int32_t v, Fragment& fragment) {
+  Mark& mark = marks_[v];
+  mark.claim = fragment.stamp;
+  mark.member = fragment.stamp;
+  mark.index = static_cast<std::int32_t>(fragment.vertices.size());
+  fragment.vertices.push_back(v);
+  for (const std::int32_t u : state_.graph().neighbours_of(v))
+    if (marks_[u].claim < round_begin_) marks_[u].claim = fragment.stamp;
+}
+
+void FragmentGrower::queue(std::int32_t v, Fragment& fragment) {
+  Mark& mark = marks_[v];
+  if (mark.queued == fragment.stamp) return;
+  mark.queued = fragment.stamp;
+  const bool released_by_another = mark.member >= round_begin_;
+  if (released_by_another)
+    left_out_ = true;
+  else
+    fragment.frontier.push_back(v);
+}
+
+// Queues the chosen neighbours of the vertices that still have two or more of them; false when there are no such
+// vertices.
+bool FragmentGrower::queue_beyond_shared(Fragment& fragment) {
+  const std::size_t before = fragment.frontier.size();
+  while (next_partly_freed_ < partly_freed_.size() && fragment.frontier.size() == before)
+    state_.for_each_chosen_neighbour(partly_freed_[next_partly_freed_++],
+                                     [&](std::int32_t chosen) { queue(chosen, fragment); });
+  return fragment.frontier.size() > before;
+}
+
+void FragmentGrower::extract(const Fragment& fragment, DenseGraph& graph, std::vector<bits::Word>& chosen) const {
+  graph.reset(fragment.vertices.size());
+  chosen.assign(graph.words(), 0);
+  for (std::size_t i = 0; i < fragment.vertices.size(); ++i) {
+    const std::int32_t v = fragment.vertices[i];
+    graph.set_weight(i, state_.graph().weights[v]);
+    if (state_.contains(v)) bits::insert(chosen.data(), i);
+    bits::Word* const row = graph.row(i);
+    for (const std::int32_t u : state_.graph().neighbours_of(v))
+      if (marks_[u].member == fragment.stamp) bits::insert(row, static_cast<std::size_t>(marks_[u].index));
+  }
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,43 @@
+#pragma once
+// Large neighbourhood search (Verhetsel 2017, 3.4 and 4.3): frees a fragment of the graph, solves it exactly while the
+// rest stays, and keeps what is not lighter. Deviates from algorithms 13 to 16 in working in rounds of fragments that
+// do not touch each other, solved in parallel and applied in order, so that the result does not depend on the number of
+// threads.
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+
+#include "common/graph/conflict_graph.hpp"
+#include "common/run/deadline.hpp"
+
+namespace hexpipe {
+
+struct LnsOptions {
+  std::uint64_t seed = 1;
+  std::int64_t iterations = std::numeric_limits<std::int64_t>::max();  // fragments solved
+  std::size_t fragment_size = 200;                                     // free vertices of the first fragments
+  std::size_t largest_fragment = 1000;
+  std::int64_t node_limit = 3000;  // of branch and bound, a fragment
+  int batch = 16;                  // fragments in a round
+};
+
+struct LnsProgress {
+  std::int64_t iteration;
+  std::int64_t weight;
+};
+
+struct LnsResult {
+  IndependentSet solution;
+  std::int64_t weight = 0;
+  std::int64_t iterations = 0;
+  std::int64_t improvements = 0;
+  // Every connected component was solved to the end: there is no heavier solution.
+  bool complete = false;
+};
+
+// `initial` is independent. `report` is called for every improvement.
+LnsResult improve_by_lns(const ConflictGraph& graph, const IndependentSet& initial, const LnsOptions& options,
+                         const Deadline& deadline, const std::function<void(const LnsProgress&)>& report = {});
+
+}  // namespace hexpipe

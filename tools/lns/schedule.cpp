@@ -1,0 +1,62 @@
+#include "tools/lns/schedule.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace hexpipe {
+namespace {
+
+constexpr std::uint32_t not_waiting = std::numeric_limits<std::uint32_t>::max();
+
+}  // namespace
+
+Schedule::Schedule(std::size_t vertices, std::size_t first_size, std::size_t largest_size, Random random)
+    : largest_size_(largest_size),
+      random_(random),
+      places_(vertices, Place{0, not_waiting, static_cast<std::uint32_t>(std::min(first_size, largest_size)), false}) {}
+
+std::optional<std::int32_t> Schedule::take() {
+  for (; lowest_ < waiting_.size(); ++lowest_) {
+    auto& list = waiting_[lowest_];
+    while (!list.empty()) {
+      std::swap(list[random_.below(list.size())], list.back());
+      const std::int32_t v = list.back();
+      list.pop_back();
+      if (places_[v].waiting_at != lowest_ || places_[v].closed) continue;
+      places_[v].waiting_at = not_waiting;
+      return v;
+    }
+  }
+  return std::nullopt;
+}
+
+void Schedule::renew(std::int32_t v) {
+  places_[v].tries = 0;
+  wait(v);
+}
+
+void Schedule::retire(std::int32_t v) {
+  ++places_[v].tries;
+  wait(v);
+}
+
+void Schedule::wait(std::int32_t v) {
+  Place& place = places_[v];
+  if (place.closed || place.waiting_at == place.tries) return;
+  place.waiting_at = place.tries;
+  if (waiting_.size() <= place.tries) waiting_.resize(place.tries + 1);
+  waiting_[place.tries].push_back(v);
+  lowest_ = std::min<std::size_t>(lowest_, place.tries);
+}
+
+// The factors are the usual gentle ones; what matters is that growing is the slower of the two per unit of time,
+// because a larger fragment costs more.
+void Schedule::enlarge(std::int32_t v) {
+  places_[v].size = static_cast<std::uint32_t>(std::min<std::size_t>(largest_size_, places_[v].size * 5 / 4 + 1));
+}
+
+void Schedule::shrink(std::int32_t v) {
+  places_[v].size = std::max<std::uint32_t>(smallest_size, places_[v].size * 3 / 4);
+}
+
+}  // namespace hexpipe
