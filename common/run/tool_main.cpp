@@ -100,11 +100,14 @@ std::string footer(const ToolInfo& info) {
       info.example);
 }
 
-void write_statistics(const RunContext& context) {
+void write_statistics(const RunContext& context, double seconds) {
   if (context.common.stats_file.empty()) return;
+  nlohmann::ordered_json statistics{{"tool", context.info.name}};
+  statistics.update(context.statistics);
+  statistics["seconds"] = seconds;
   errno = 0;
   std::ofstream file(context.common.stats_file);
-  file << context.statistics.dump(2) << '\n';
+  file << statistics.dump(2) << '\n';
   file.close();
   if (!file) throw DataError::at(context.common.stats_file, "cannot write: {}", std::strerror(errno));
 }
@@ -147,14 +150,12 @@ int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<v
   }
   std::erase_if(context.streams.files, [](const auto& file) { return file.second.empty(); });
   context.options = options_for_history(app);
-  context.statistics["tool"] = info.name;
 
   try {
     const ThreadLimit limit(context.common.threads);
     const Stopwatch watch;
     run(context);
-    context.statistics["seconds"] = watch.seconds();
-    write_statistics(context);
+    write_statistics(context, watch.seconds());
     return 0;
   } catch (const UsageError& error) {
     return report(info.name, error.what(), exit_usage);
