@@ -15,7 +15,7 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 // True when the Jacobian is positive everywhere in the cell with these corners (8, 6, 5 or 4 of them, finite), in the
 // numbering of cell_topology.hpp. Sides of hexes, prisms and pyramids are bilinear.
 //
-// Hex: ALGORITHMS.md 1, rule 4: 20 determinants, 27 Bezier coefficients, at most 4 subdivisions; a hex that is still
+// Hex: docs/definitions.md 1, rule 4: 20 determinants, 27 Bezier coefficients, at most 4 subdivisions; a hex that is still
 // undecided then, its Jacobian touching zero or nearly so, is not valid.
 // Prism: three quadratics, one along each of 03, 14, 25, decided without subdivision.
 // Pyramid: the Jacobian is the bilinear interpolation of its value at the four base corners, times a square.
