@@ -1,0 +1,55 @@
+#include <gtest/gtest.h>
+
+#include "assemble_lattice.hpp"
+#include "tools/assemble/assemble.hpp"
+
+namespace hexpipe {
+namespace {
+
+using testing::jitter;
+using testing::make_lattice;
+using testing::random_choice;
+
+constexpr AssembleOptions conforming{.conformity = AssembleOptions::Conformity::pyramids};
+
+// assemble() checks every result itself (self_check_test shows that the check can fail), so that these have to look at
+// what it does, not whether it is valid.
+
+TEST(Conform, OneCubeAmongTetsKeepsItsHexAndGetsAPyramidOnEachSide) {
+  const auto lattice = make_lattice(3);
+  const AssembleResult result = assemble(lattice.mesh, lattice.cubes, {13}, conforming);
+  EXPECT_EQ(result.mesh.hexes.size(), 1u);
+  EXPECT_EQ(result.mesh.pyramids.size(), 6u);
+  EXPECT_EQ(result.statistics.volumes.nonconforming_quads, 0);
+  EXPECT_NEAR(result.statistics.volumes.parts, 27, 1e-9);
+  EXPECT_GT(result.statistics.kinds[2].least, 0.1);
+}
+
+TEST(Conform, AllCubesNeedNothing) {
+  const auto lattice = make_lattice(2);
+  const AssembleResult result = assemble(lattice.mesh, lattice.cubes, {0, 1, 2, 3, 4, 5, 6, 7}, conforming);
+  EXPECT_EQ(result.mesh.hexes.size(), 8u);
+  EXPECT_EQ(result.statistics.cells(), 8);
+  EXPECT_EQ(result.mesh.quads.size(), 24u);
+  EXPECT_EQ(result.mesh.triangles.size(), 0u);
+  EXPECT_EQ(result.mesh.points, lattice.mesh.points);
+}
+
+TEST(Conform, RandomChoicesOnJitteredLatticesStayConforming) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    auto lattice = make_lattice(5);
+    jitter(lattice, 0.15, random);
+    const auto chosen = random_choice(lattice, random.uniform(0.1, 0.9), random);
+    const AssembleResult result = assemble(lattice.mesh, lattice.cubes, chosen, conforming);
+    EXPECT_EQ(result.statistics.volumes.nonconforming_quads, 0);
+    std::int64_t given_back = 0;
+    for (auto count : result.statistics.conformity.given_back) given_back += count;
+    EXPECT_EQ(result.statistics.kinds[0].count + given_back, static_cast<std::int64_t>(chosen.size()));
+    RecordProperty("given_back_" + std::to_string(seed), static_cast<int>(given_back));
+  }
+}
+
+}  // namespace
+}  // namespace hexpipe

@@ -1,0 +1,22 @@
+#pragma once
+// From the mesh under assembly to the result: cells in stable order, tagged facets, vertices without gaps.
+
+#include "common/mesh/mixed_mesh.hpp"
+#include "common/mesh/tet_mesh.hpp"
+#include "tools/assemble/hybrid_mesh.hpp"
+#include "tools/assemble/surface_tags.hpp"
+
+namespace hexpipe {
+
+struct Extract {
+  MixedMesh mesh;
+  // The vertex of the mesh under assembly that each point was; below the input's number of points also of the input.
+  std::vector<Vertex> origin;
+};
+
+// Cells come in the order of their candidates, then tets and pyramids in the order in which they were made; each tagged
+// facet of `input` is there as a triangle, or as a quad with another one, in the input's order and orientation;
+// vertices keep their order, those that no cell uses are dropped.
+Extract extract(const HybridMesh& mesh, const TetMesh& input, const SurfaceTags& tags);
+
+}  // namespace hexpipe

@@ -1,0 +1,58 @@
+#pragma once
+// Edges and facets as keys of hash maps: their vertices in ascending order.
+
+#include <tsl/robin_map.h>
+#include <tsl/robin_set.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "common/mesh/tet_mesh.hpp"
+
+namespace hexpipe {
+
+template <std::size_t N>
+using VertexKey = std::array<Vertex, N>;
+
+template <std::size_t N>
+VertexKey<N> key_of(std::array<Vertex, N> vertices) {
+  std::sort(vertices.begin(), vertices.end());
+  return vertices;
+}
+inline VertexKey<2> edge_key(Vertex a, Vertex b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+template <std::size_t N>
+struct VertexKeyHash {
+  std::size_t operator()(const VertexKey<N>& key) const {
+    std::uint64_t h = 0;
+    for (Vertex v : key) {
+      // Multiply and fold, as in splitmix64: consecutive vertex numbers must not share low bits.
+      h = (h ^ static_cast<std::uint32_t>(v)) * 0x9e3779b97f4a7c15u;
+      h ^= h >> 32;
+    }
+    return static_cast<std::size_t>(h);
+  }
+};
+
+template <std::size_t N, class T>
+using KeyMap = tsl::robin_map<VertexKey<N>, T, VertexKeyHash<N>>;
+template <std::size_t N>
+using KeySet = tsl::robin_set<VertexKey<N>, VertexKeyHash<N>>;
+
+// The two triangles into which a diagonal cuts a quad, with the quad's orientation. `diagonal` 0 joins corners 0 and 2,
+// 1 joins corners 1 and 3.
+inline std::array<Triangle, 2> triangles_of(const Quad& q, int diagonal) {
+  if (diagonal == 0) return {{{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}};
+  return {{{q[1], q[2], q[3]}, {q[1], q[3], q[0]}}};
+}
+
+// True when both quads, which have the same four vertices, have the same diagonals.
+inline bool same_diagonals(const Quad& a, const Quad& b) {
+  return edge_key(a[0], a[2]) == edge_key(b[0], b[2]) || edge_key(a[0], a[2]) == edge_key(b[1], b[3]);
+}
+
+}  // namespace hexpipe

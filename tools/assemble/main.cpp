@@ -1,0 +1,37 @@
+#include <map>
+
+#include "common/run/tool_main.hpp"
+#include "formats/stage.hpp"
+#include "tools/assemble/assemble.hpp"
+
+using namespace hexpipe;
+
+int main(int argc, char** argv) {
+  const std::map<std::string, AssembleOptions::Conformity> conformities{
+      {"pyramids", AssembleOptions::Conformity::pyramids}, {"none", AssembleOptions::Conformity::none}};
+  const ToolInfo info{
+      .name = "assemble",
+      .summary = "Build the hex-dominant mesh from the chosen candidates and the tets that remain.",
+      .example = "tetmesh bracket.stl --size 3 | findhex | buildgraph | initsol | assemble -v -o bracket.vtu",
+      .reads = {Role::mesh, Role::candidates, Role::graph, Role::solution},
+      .product = Role::result,
+  };
+  std::string conformity = "pyramids";
+  auto declare = [&](CLI::App& app) {
+    app.add_option("--conformity", conformity,
+                   "pyramids: every quad gets a cell on its other side; none: quads may face two triangles")
+        ->check(CLI::IsMember(conformities))
+        ->capture_default_str();
+  };
+  auto run = [&](RunContext& context) {
+    const AssembleOptions options{.conformity = conformities.at(conformity)};
+    context.options["conformity"] = conformity;
+    Stage stage(context);
+    const StageData data = stage.read({Role::mesh, Role::candidates, Role::solution}, {Role::graph});
+    const AssembleResult result = assemble(*data.mesh, *data.candidates, *data.solution, options);
+    context.statistics = to_json(result.statistics);
+    for (const auto& line : summary_lines(result.statistics)) context.note(line);
+    stage.write(result.mesh, {{"counts", to_json(result.statistics)["cells"]}});
+  };
+  return tool_main(argc, argv, info, declare, run);
+}

@@ -1,0 +1,69 @@
+#pragma once
+// The quality of the elements around one vertex as a function of where it stands, and the search for its best place.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "common/mesh/cell_topology.hpp"
+#include "common/mesh/vec3.hpp"
+
+namespace hexpipe {
+
+// The corners of elements whose scaled Jacobian depends on one vertex. A corner at o with edges to a, b, c has
+// det(a-o, b-o, c-o) / (|a-o| |b-o| |c-o|); for a tet times the square root of 2, so that the regular tet has 1.
+class PointStar {
+ public:
+  void clear() { terms_.clear(); }
+  bool empty() const { return terms_.empty(); }
+  // The corners of an element that involve its corner `moving`; the position given for it is not used.
+  void add(CellKind kind, std::span<const Vec3> corners, int moving);
+
+  std::size_t size() const { return terms_.size(); }
+  double value(std::size_t term, const Vec3& at) const;
+  Vec3 gradient(std::size_t term, const Vec3& at) const;
+  // Least and mean over all corners.
+  double worst(const Vec3& at) const;
+  double mean(const Vec3& at) const;
+  // True when worst(at) > bound; stops at the first corner that is not.
+  bool exceeds(const Vec3& at, double bound) const;
+
+ private:
+  // The moving vertex is the corner itself, fixed = its three neighbours; or it is one of the neighbours, fixed[0] =
+  // the corner, and `normal` the cross product of the unit edges to the other two.
+  struct Term {
+    std::array<Vec3, 3> fixed;
+    Vec3 normal;
+    double scale;
+    bool is_corner;
+  };
+  void add_corner(std::span<const Vec3> corners, const LocalCorner& corner, int moving, double scale);
+
+  std::vector<Term> terms_;
+};
+
+// Where a vertex may go from where it is: anywhere, in a plane with this normal, along a line, or nowhere.
+struct Freedom {
+  enum class Kind { space, plane, line, none };
+  Kind kind = Kind::space;
+  Vec3 axis{};  // unit normal of the plane, or unit direction of the line
+
+  Vec3 allowed(const Vec3& direction) const;
+};
+
+struct Placement {
+  Vec3 at;
+  double worst;
+};
+
+// Climbs from `start`, in at most `steps` steps, to a place where the least scaled Jacobian around the vertex is
+// (locally) greatest. Elements may be inverted at the start.
+Placement raise_worst(const PointStar& star, const Vec3& start, int steps, const Freedom& freedom = {});
+
+// Takes at most `steps` steps that raise the mean without bringing the least below `floor`.
+Placement raise_mean(const PointStar& star, const Vec3& start, int steps, double floor, const Freedom& freedom = {});
+
+// The point of the convex hull of `vectors` (not empty) nearest to the origin, nearly.
+Vec3 shortest_in_hull(std::span<const Vec3> vectors);
+
+}  // namespace hexpipe

@@ -1,0 +1,209 @@
+#include "tools/assemble/selection.hpp"
+
+#include <optional>
+
+#include "common/run/error.hpp"
+
+namespace hexpipe {
+namespace {
+
+// Interior tets by the cell that replaces them, slivers by how many cells absorb them.
+struct Claims {
+  std::vector<std::int32_t> owner;  // candidate, or HybridCell::none
+  std::vector<std::uint8_t> absorbed;
+};
+
+[[noreturn]] void fail_misfit(std::int32_t candidate) {
+  throw DataError::at("candidates", "expected candidates of this mesh, found candidate {} whose tets do not form it",
+                      candidate + 1);
+}
+
+[[noreturn]] void fail_conflict(std::int32_t a, std::int32_t b, const char* how) {
+  throw DataError::at("solution", "expected candidates that fit together, found {} and {} which {}", a + 1, b + 1, how);
+}
+
+void claim_interior(const Candidates& candidates, std::int32_t candidate, Claims& claims) {
+  for (std::int32_t t : candidates.interior_tets_of(candidate)) {
+    if (claims.owner[t] != HybridCell::none) fail_conflict(claims.owner[t], candidate, "share a tet");
+    claims.owner[t] = candidate;
+  }
+}
+
+// The facets of the interior tets that no two of them share: the skin of what the cell replaces. At most 15 tets, so
+// quadratic search is the fast one.
+std::vector<VertexKey<3>> skin_of(const TetMesh& mesh, std::span<const std::int32_t> tets) {
+  std::vector<VertexKey<3>> skin;
+  for (std::int32_t t : tets)
+    for (const auto& f : TetTopology::triangles) {
+      const auto key = key_of(Triangle{mesh.tets[t][f[0]], mesh.tets[t][f[1]], mesh.tets[t][f[2]]});
+      const auto twin = std::find(skin.begin(), skin.end(), key);
+      if (twin == skin.end()) {
+        skin.push_back(key);
+      } else {
+        *twin = skin.back();
+        skin.pop_back();
+      }
+    }
+  return skin;
+}
+
+bool contains_all(const std::vector<VertexKey<3>>& skin, std::span<const Triangle> triangles) {
+  return std::all_of(triangles.begin(), triangles.end(),
+                     [&](const Triangle& t) { return std::find(skin.begin(), skin.end(), key_of(t)) != skin.end(); });
+}
+
+// Finds each facet of the cell on the skin, and each quad's diagonal; nullopt when the skin is not the cell's.
+template <class Topology>
+bool match_skin(const std::vector<VertexKey<3>>& skin, HybridCell& cell) {
+  if (skin.size() != Topology::triangles.size() + 2 * Topology::quads.size()) return false;
+  for (const auto& f : Topology::triangles) {
+    const Triangle triangle{cell.corners[f[0]], cell.corners[f[1]], cell.corners[f[2]]};
+    if (!contains_all(skin, std::span(&triangle, 1))) return false;
+  }
+  for (int i = 0; i < static_cast<int>(Topology::quads.size()); ++i) {
+    const bool first = contains_all(skin, triangles_of(cell.quad(i), 0));
+    if (!first && !contains_all(skin, triangles_of(cell.quad(i), 1))) return false;
+    cell.inner_diagonal[i] = first ? 0 : 1;
+  }
+  return true;
+}
+
+int quad_with_vertices(const HybridCell& cell, const VertexKey<4>& key) {
+  for (int i = 0; i < cell.quad_count(); ++i)
+    if (key_of(cell.quad(i)) == key) return i;
+  return -1;
+}
+
+HybridCell make_cell(const TetMesh& mesh, const Candidates& candidates, std::int32_t candidate) {
+  const auto interior = candidates.interior_tets_of(candidate);
+  if (interior.empty() || candidates.kind[candidate] == CellKind::tet) fail_misfit(candidate);
+  HybridCell cell;
+  cell.kind = candidates.kind[candidate];
+  cell.corners = candidates.vertices[candidate];
+  cell.candidate = candidate;
+  cell.region = mesh.tet_tags[interior.front()];
+  for (std::int32_t t : interior)
+    if (mesh.tet_tags[t] != cell.region) fail_misfit(candidate);
+  const auto skin = skin_of(mesh, interior);
+  if (!with_topology(cell.kind, [&](auto topology) { return match_skin<decltype(topology)>(skin, cell); }))
+    fail_misfit(candidate);
+  for (std::int32_t t : candidates.boundary_tets_of(candidate)) {
+    const int quad = quad_with_vertices(cell, key_of(mesh.tets[t]));
+    if (quad < 0 || cell.sliver[quad] != HybridCell::none) fail_misfit(candidate);
+    cell.sliver[quad] = t;
+  }
+  return cell;
+}
+
+// Which chosen cell has a quad, to notice a third and one in another cyclic order.
+struct QuadOwner {
+  std::int32_t cell;
+  Quad quad;
+  std::int32_t partner = HybridCell::none;
+};
+
+void pair_quads(const std::vector<HybridCell>& cells, KeyMap<4, QuadOwner>& owners) {
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(cells.size()); ++c)
+    for (int i = 0; i < cells[c].quad_count(); ++i) {
+      const Quad quad = cells[c].quad(i);
+      auto [entry, added] = owners.try_emplace(key_of(quad), QuadOwner{c, quad});
+      if (added) continue;
+      QuadOwner& owner = entry.value();
+      if (owner.partner != HybridCell::none || !same_diagonals(owner.quad, quad))
+        fail_conflict(cells[owner.cell].candidate, cells[c].candidate, "cross at a quad");
+      owner.partner = c;
+    }
+}
+
+void absorb_slivers(const SurfaceTags& tags, const KeyMap<4, QuadOwner>& owners, std::vector<HybridCell>& cells,
+                    Claims& claims) {
+  for (auto& cell : cells)
+    for (int i = 0; i < cell.quad_count(); ++i) {
+      std::int32_t& sliver = cell.sliver[i];
+      if (sliver == HybridCell::none) continue;
+      if (claims.owner[sliver] != HybridCell::none) fail_conflict(claims.owner[sliver], cell.candidate, "share a tet");
+      const bool alone = owners.at(key_of(cell.quad(i))).partner == HybridCell::none;
+      if (alone && tags.covers_partly(cell.quad(i), cell.outer_diagonal(i)))
+        sliver = HybridCell::none;
+      else
+        claims.absorbed[sliver] = 1;
+    }
+}
+
+// Each half of a quad without a partner has to face a tet or lie on the boundary; else another cell stands across it.
+// Likewise no other cell may use its diagonal, which conformity is going to split.
+void check_open_sides(const HybridMesh& mesh, const SurfaceTags& tags) {
+  KeyMap<2, std::int32_t> diagonals;
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c)
+    for (int i = 0; i < mesh.cell(c).quad_count(); ++i) {
+      const Quad quad = mesh.cell(c).quad(i);
+      const auto inner = triangles_of(quad, mesh.cell(c).inner_diagonal[i]);
+      if (const std::int32_t partner = mesh.partner_at(quad, c); partner != HybridMesh::none) {
+        if (mesh.tet_at(inner[0]) == HybridMesh::none) continue;
+        fail_conflict(mesh.cell(c).candidate, mesh.cell(partner).candidate, "have a tet between them");
+      }
+      const int diagonal = mesh.cell(c).outer_diagonal(i);
+      int tets = 0;
+      for (const auto& half : triangles_of(quad, diagonal)) tets += mesh.tet_at(half) != HybridMesh::none;
+      if (tets == 0 && tags.cover_of(quad, diagonal)) continue;
+      const auto candidate = mesh.cell(c).candidate;
+      if (tets != 2)
+        throw DataError::at("solution",
+                            "expected candidates that fit together, found {} with a quad that another crosses",
+                            candidate + 1);
+      const auto [other, added] = diagonals.try_emplace(edge_key(quad[diagonal], quad[diagonal + 2]), candidate);
+      if (!added) fail_conflict(other->second, candidate, "cross at an edge");
+    }
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c)
+    with_topology(mesh.cell(c).kind, [&](auto topology) {
+      const auto& corners = mesh.cell(c).corners;
+      for (const auto& e : decltype(topology)::edges) {
+        const auto found = diagonals.find(edge_key(corners[e[0]], corners[e[1]]));
+        if (found != diagonals.end()) fail_conflict(found->second, mesh.cell(c).candidate, "cross at an edge");
+      }
+    });
+}
+
+}  // namespace
+
+HybridMesh build_selection(const TetMesh& mesh, const SurfaceTags& tags, const Candidates& candidates,
+                           const IndependentSet& chosen) {
+  Claims claims{std::vector<std::int32_t>(mesh.tets.size(), HybridCell::none),
+                std::vector<std::uint8_t>(mesh.tets.size(), 0)};
+  std::vector<HybridCell> cells;
+  cells.reserve(chosen.size());
+  for (std::int32_t candidate : chosen) {
+    claim_interior(candidates, candidate, claims);
+    cells.push_back(make_cell(mesh, candidates, candidate));
+  }
+  KeyMap<4, QuadOwner> owners;
+  owners.reserve(4 * cells.size());
+  pair_quads(cells, owners);
+  absorb_slivers(tags, owners, cells, claims);
+
+  std::vector<bool> removed(mesh.tets.size());
+  for (std::size_t t = 0; t < removed.size(); ++t)
+    removed[t] = claims.owner[t] != HybridCell::none || claims.absorbed[t];
+  HybridMesh result(mesh, removed);
+  for (const auto& cell : cells) result.add_cell(cell);
+  check_open_sides(result, tags);
+  return result;
+}
+
+bool is_open(const HybridMesh& mesh, std::int32_t cell, int i) {
+  const Quad quad = mesh.cell(cell).quad(i);
+  if (mesh.partner_at(quad, cell) != HybridMesh::none) return false;
+  return mesh.tet_at(triangles_of(quad, mesh.cell(cell).outer_diagonal(i))[0]) != HybridMesh::none;
+}
+
+std::vector<OpenQuad> open_quads(const HybridMesh& mesh) {
+  std::vector<OpenQuad> result;
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
+    if (!mesh.cell(c).alive) continue;
+    for (int i = 0; i < mesh.cell(c).quad_count(); ++i)
+      if (is_open(mesh, c, i)) result.push_back({c, i});
+  }
+  return result;
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,31 @@
+#pragma once
+// From the chosen candidates to a mesh of cells and remaining tets, not conforming yet.
+
+#include "common/graph/conflict_graph.hpp"
+#include "common/mesh/candidates.hpp"
+#include "common/mesh/tet_mesh.hpp"
+#include "tools/assemble/hybrid_mesh.hpp"
+#include "tools/assemble/surface_tags.hpp"
+
+namespace hexpipe {
+
+// The chosen cells in place of their interior tets and of the boundary tets on their quads. A boundary tet stays where
+// taking it would leave a quad half on a tagged surface.
+//
+// Throws DataError when a chosen candidate is not what its tets form (a candidate of another mesh) or two chosen ones
+// cannot stand together: they share an interior tet, their facets cross, or a diagonal of one is an edge of the other.
+HybridMesh build_selection(const TetMesh& mesh, const SurfaceTags& tags, const Candidates& candidates,
+                           const IndependentSet& chosen);
+
+// A quad of a cell that faces two tets, each with a triangle of it.
+struct OpenQuad {
+  std::int32_t cell;
+  int quad;
+};
+
+// All of them, by cell and quad.
+std::vector<OpenQuad> open_quads(const HybridMesh& mesh);
+// Whether quad `i` of the cell faces a tet rather than another cell or nothing.
+bool is_open(const HybridMesh& mesh, std::int32_t cell, int i);
+
+}  // namespace hexpipe

@@ -1,0 +1,158 @@
+#include "tools/assemble/self_check.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "common/mesh/quality.hpp"
+#include "common/mesh/validity.hpp"
+#include "common/run/error.hpp"
+#include "tools/assemble/facet_table.hpp"
+
+namespace hexpipe {
+namespace {
+
+// Of the volumes' sum of magnitudes: a million terms lose no more.
+constexpr double volume_tolerance = 1e-9;
+
+template <class... Args>
+[[noreturn]] void fail(fmt::format_string<Args...> text, Args&&... args) {
+  throw DataError::at("self-check of the result", text, std::forward<Args>(args)...);
+}
+
+void check_cells_valid(const MixedMesh& mesh) {
+  for_each_cell(mesh, [&](CellKind kind, std::span<const Vertex> corners, std::int32_t) {
+    const auto at = corner_points(mesh.points, corners);
+    if (!is_valid(kind, std::span<const Vec3>(at).first(corners.size())))
+      fail("expected valid cells, found an invalid {} at {} {} {}", name_of(kind), at[0].x, at[0].y, at[0].z);
+  });
+}
+
+template <int Corners>
+void mark_tagged(const CellBlock<Corners>& block, FacetTable& table) {
+  for (const auto& facet : block.cells) {
+    FacetTable::Entry* entry = table.find(FacetForm::of(facet));
+    if (entry == nullptr) fail("expected tagged facets of cells, found one at vertex {} of none", facet[0]);
+    if (entry->tagged) fail("expected tagged facets once, found one at vertex {} twice", facet[0]);
+    entry->tagged = true;
+  }
+}
+
+// The quad with the orientation in which the entry's first cell goes around it.
+Quad quad_of(const FacetTable::Entry& entry) {
+  const auto& [least, opposite, low, high] = entry.vertices;
+  return entry.forward ? Quad{least, low, opposite, high} : Quad{least, high, opposite, low};
+}
+
+// How much further out the bilinear quad lies than its two triangles.
+double bulge_of(std::span<const Vec3> points, const Quad& quad, int diagonal) {
+  const double sixth = tet_determinant(points, quad) / 12;
+  return diagonal == 0 ? sixth : -sixth;
+}
+
+// The diagonal along which two facets of one cell each, marked as used, lie under the quad.
+std::optional<int> open_diagonal(const Quad& quad, FacetTable& table) {
+  for (int diagonal = 0; diagonal < 2; ++diagonal) {
+    const auto halves = triangles_of(quad, diagonal);
+    FacetTable::Entry* first = table.find(FacetForm::of(halves[0]));
+    FacetTable::Entry* second = table.find(FacetForm::of(halves[1]));
+    if (first == nullptr || second == nullptr || first->uses != 1 || second->uses != 1) continue;
+    first->tagged = second->tagged = true;
+    return diagonal;
+  }
+  return std::nullopt;
+}
+
+double volume_over(std::span<const Vec3> points, const Vec3& origin, const Triangle& t) {
+  return det(points[t[0]] - origin, points[t[1]] - origin, points[t[2]] - origin) / 6;
+}
+
+// Between a bilinear quad and a point: the mean over both diagonals.
+double volume_over(std::span<const Vec3> points, const Vec3& origin, const Quad& q) {
+  double sum = 0;
+  for (int diagonal = 0; diagonal < 2; ++diagonal)
+    for (const auto& half : triangles_of(q, diagonal)) sum += volume_over(points, origin, half);
+  return sum / 2;
+}
+
+// Enclosed by the facets of one cell.
+double skin_volume(const MixedMesh& mesh, FacetTable& table) {
+  double sum = 0;
+  for (const auto& entry : table.entries()) {
+    if (entry.uses != 1) continue;
+    const auto& v = entry.vertices;
+    const Triangle triangle = entry.forward ? Triangle{v[0], v[1], v[2]} : Triangle{v[0], v[2], v[1]};
+    const Vec3& origin = mesh.points.front();
+    sum +=
+        entry.is_quad() ? volume_over(mesh.points, origin, quad_of(entry)) : volume_over(mesh.points, origin, triangle);
+  }
+  return sum;
+}
+
+// Judges every facet and sums the bulges.
+void check_facets(const Extract& result, const SurfaceTags& tags, bool conforming, FacetTable& table,
+                  CheckedVolumes& volumes) {
+  const MixedMesh& mesh = result.mesh;
+  mark_tagged(mesh.triangles, table);
+  mark_tagged(mesh.quads, table);
+  for (auto& entry : table.entries()) {
+    const Vertex at = entry.vertices[0];
+    if (entry.uses > 2 || entry.one_way) fail("expected one cell on each side of a facet, found more at vertex {}", at);
+    if (entry.uses == 2 && entry.regions[0] != entry.regions[1] && !entry.tagged)
+      fail("expected interfaces to be tagged, found one at vertex {} that is not", at);
+    if (entry.uses == 2 || !entry.is_quad()) continue;
+    const Quad quad = quad_of(entry);
+    // First, since an interface quad can be both tagged and open.
+    if (const auto diagonal = conforming ? std::nullopt : open_diagonal(quad, table)) {
+      volumes.open_bulge += bulge_of(mesh.points, quad, *diagonal);
+      ++volumes.nonconforming_quads;
+      entry.tagged = true;
+      continue;
+    }
+    if (!entry.tagged) fail("expected cells on both sides of a quad, found one at vertex {} with one side", at);
+    Quad input_quad;
+    for (int i = 0; i < 4; ++i) input_quad[i] = result.origin[quad[i]];
+    volumes.bulge += bulge_of(mesh.points, quad, tags.cover_of(input_quad, 0) ? 0 : 1);
+  }
+  for (const auto& entry : table.entries())
+    if (entry.uses == 1 && !entry.tagged)
+      fail("expected boundary facets to be tagged, found one at vertex {} that is not", entry.vertices[0]);
+}
+
+void check_points_used(const MixedMesh& mesh) {
+  std::vector<bool> used(mesh.points.size());
+  for_each_cell(mesh, [&](CellKind, std::span<const Vertex> corners, std::int32_t) {
+    for (Vertex v : corners) used[v] = true;
+  });
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (!used[v]) fail("expected cells at every vertex, found none at vertex {}", v);
+}
+
+void check_volumes(const CheckedVolumes& volumes) {
+  auto check = [&](double found, double expected, const char* what) {
+    if (!(std::abs(found - expected) <= volume_tolerance * volumes.input))
+      fail("expected {} of {}, found {}", what, expected, found);
+  };
+  check(volumes.parts, volumes.input + volumes.bulge + volumes.open_bulge, "a volume of the parts");
+  check(volumes.skin, volumes.input + volumes.bulge + volumes.open_bulge, "a volume inside the skin");
+}
+
+}  // namespace
+
+CheckedVolumes check_result(const Extract& result, const TetMesh& input, const SurfaceTags& tags, bool conforming) {
+  const MixedMesh& mesh = result.mesh;
+  CheckedVolumes volumes;
+  check_cells_valid(mesh);
+  check_points_used(mesh);
+  FacetTable table(mesh);
+  check_facets(result, tags, conforming, table, volumes);
+  volumes.skin = skin_volume(mesh, table);
+  for_each_cell(mesh, [&](CellKind kind, std::span<const Vertex> corners, std::int32_t) {
+    volumes.parts +=
+        cell_volume(kind, std::span<const Vec3>(corner_points(mesh.points, corners)).first(corners.size()));
+  });
+  for (const auto& tet : input.tets) volumes.input += tet_determinant(input.points, tet) / 6;
+  check_volumes(volumes);
+  return volumes;
+}
+
+}  // namespace hexpipe

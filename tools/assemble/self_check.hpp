@@ -1,0 +1,26 @@
+#pragma once
+// The proof that a result is what assemble promises, made from the result itself before anything is written.
+
+#include <cstdint>
+
+#include "common/mesh/tet_mesh.hpp"
+#include "tools/assemble/extract.hpp"
+#include "tools/assemble/surface_tags.hpp"
+
+namespace hexpipe {
+
+struct CheckedVolumes {
+  double input = 0;       // of the tets
+  double parts = 0;       // of the cells, with bilinear sides
+  double skin = 0;        // enclosed by the facets that one cell has; equals `parts` in a conforming mesh
+  double bulge = 0;       // of boundary quads over the two triangles that they replace: skin = input + bulge
+  double open_bulge = 0;  // of non-conforming quads over the tets that they face: parts = input + bulge + open_bulge
+  std::int64_t nonconforming_quads = 0;
+};
+
+// Throws DataError when a cell is not valid everywhere, a facet has more than two cells or two on the same side, a
+// facet of one cell or between two regions is not tagged, a tagged facet is none of a cell, a vertex is unused, or
+// volumes do not add up; and, for a conforming result, when a quad faces two triangles.
+CheckedVolumes check_result(const Extract& result, const TetMesh& input, const SurfaceTags& tags, bool conforming);
+
+}  // namespace hexpipe

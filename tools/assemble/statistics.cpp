@@ -1,0 +1,124 @@
+#include "tools/assemble/statistics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/mesh/quality.hpp"
+
+namespace hexpipe {
+namespace {
+
+template <class Visit>
+void for_each_block(auto& mesh, Visit&& visit) {
+  visit(CellKind::hex, mesh.hexes);
+  visit(CellKind::prism, mesh.prisms);
+  visit(CellKind::pyramid, mesh.pyramids);
+  visit(CellKind::tet, mesh.tets);
+}
+
+double share(double part, double whole) {
+  return whole > 0 ? part / whole : 0;
+}
+
+double total_volume(const AssembleStatistics& statistics) {
+  double sum = 0;
+  for (const auto& kind : statistics.kinds) sum += kind.volume;
+  return sum;
+}
+
+}  // namespace
+
+std::int64_t AssembleStatistics::cells() const {
+  std::int64_t sum = 0;
+  for (const auto& kind : kinds) sum += kind.count;
+  return sum;
+}
+
+void compute_quality(MixedMesh& mesh) {
+  for_each_block(mesh, [&](CellKind kind, auto& block) {
+    block.quality.clear();
+    for (const auto& cell : block.cells) {
+      const auto at = corner_points(mesh.points, cell);
+      block.quality.push_back(least_corner_scaled_jacobian(kind, std::span<const Vec3>(at).first(cell.size())));
+    }
+  });
+}
+
+std::array<KindStatistics, all_kinds.size()> kind_statistics(const MixedMesh& mesh) {
+  std::array<KindStatistics, all_kinds.size()> result;
+  for_each_block(mesh, [&](CellKind kind, const auto& block) {
+    auto& statistics = result[std::find(all_kinds.begin(), all_kinds.end(), kind) - all_kinds.begin()];
+    statistics.count = static_cast<std::int64_t>(block.size());
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const auto at = corner_points(mesh.points, block.cells[i]);
+      const double quality = block.quality[i];
+      statistics.volume += cell_volume(kind, std::span<const Vec3>(at).first(block.cells[i].size()));
+      statistics.least = i == 0 ? quality : std::min(statistics.least, quality);
+      statistics.mean += quality;
+      ++statistics.histogram[static_cast<std::size_t>(std::clamp(std::floor(10 * quality), 0.0, 9.0))];
+    }
+    if (statistics.count > 0) statistics.mean /= static_cast<double>(statistics.count);
+  });
+  return result;
+}
+
+nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
+  nlohmann::ordered_json json;
+  const double volume = total_volume(statistics), cells = static_cast<double>(statistics.cells());
+  for (std::size_t i = 0; i < all_kinds.size(); ++i) {
+    const auto& kind = statistics.kinds[i];
+    json["cells"][name_of(all_kinds[i])] = {
+        {"count", kind.count},
+        {"share_of_number", share(static_cast<double>(kind.count), cells)},
+        {"volume", kind.volume},
+        {"share_of_volume", share(kind.volume, volume)},
+        {"scaled_jacobian", {{"least", kind.least}, {"mean", kind.mean}, {"histogram", kind.histogram}}}};
+  }
+  json["points"] = statistics.points;
+  json["triangles"] = statistics.triangles;
+  json["quads"] = statistics.quads;
+  const auto& volumes = statistics.volumes;
+  json["volume"] = {{"input", volumes.input},
+                    {"cells", volumes.parts},
+                    {"bulge_of_boundary_quads", volumes.bulge},
+                    {"bulge_of_nonconforming_quads", volumes.open_bulge}};
+  json["nonconforming_quads"] = volumes.nonconforming_quads;
+  const auto& counts = statistics.conformity;
+  nlohmann::ordered_json given_back;
+  for (GivenBack reason : all_reasons)
+    given_back[name_of(reason)] = counts.given_back[static_cast<std::size_t>(reason)];
+  json["conformity"] = {{"quads_against_tets", counts.open_quads}, {"pyramids_merged", counts.merged},
+                        {"vertices_added", counts.split},          {"slivers_absorbed", counts.absorbed},
+                        {"cells_given_back", given_back},          {"hex_volume_given_back", counts.volume_given_back}};
+  return json;
+}
+
+std::vector<std::string> summary_lines(const AssembleStatistics& statistics) {
+  std::vector<std::string> lines;
+  const double volume = total_volume(statistics), cells = static_cast<double>(statistics.cells());
+  lines.push_back(fmt::format("{:>8} {:>10} {:>9} {:>9} {:>9} {:>9}", "cells", "number", "number %", "volume %",
+                              "least SJ", "mean SJ"));
+  for (std::size_t i = 0; i < all_kinds.size(); ++i) {
+    const auto& kind = statistics.kinds[i];
+    if (kind.count == 0) continue;
+    lines.push_back(fmt::format("{:>8} {:>10} {:>9.2f} {:>9.2f} {:>9.4f} {:>9.4f}", name_of(all_kinds[i]), kind.count,
+                                100 * share(static_cast<double>(kind.count), cells), 100 * share(kind.volume, volume),
+                                kind.least, kind.mean));
+  }
+  const auto& counts = statistics.conformity;
+  std::int64_t given_back = 0;
+  for (std::int64_t count : counts.given_back) given_back += count;
+  lines.push_back(
+      fmt::format("{} points, boundary and interfaces of {} quads and {} triangles, {} quads non-conforming",
+                  statistics.points, statistics.quads, statistics.triangles, statistics.volumes.nonconforming_quads));
+  if (counts.open_quads > 0)
+    lines.push_back(fmt::format(
+        "{} quads faced tets: {} pyramids merged, {} vertices added, {} cells given back "
+        "({:.2f} % of the volume in hexes)",
+        counts.open_quads, counts.merged, counts.split, given_back, 100 * share(counts.volume_given_back, volume)));
+  return lines;
+}
+
+}  // namespace hexpipe
