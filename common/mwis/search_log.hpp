@@ -1,0 +1,31 @@
+#pragma once
+// The anytime curve of a search: a file of JSON objects, one a line, for --log.
+
+#include <cstdint>
+#include <fstream>
+#include <string>
+
+#include "common/run/deadline.hpp"
+
+namespace hexpipe {
+
+class SearchLog {
+ public:
+  // An empty path: nothing is written. Throws DataError when the file cannot be written.
+  explicit SearchLog(const std::string& path);
+
+  // {"seconds":...,"iteration":...,"weight":...}, at most fifty times a second: the first thousands of improvements
+  // come faster than anyone can plot.
+  void record(double seconds, std::int64_t iteration, std::int64_t weight);
+  // The last point, whenever it comes. Throws DataError when the disk is full.
+  void finish(double seconds, std::int64_t iteration, std::int64_t weight);
+
+ private:
+  void write(double seconds, std::int64_t iteration, std::int64_t weight);
+
+  std::string path_;
+  std::ofstream file_;
+  double next_ = 0;
+};
+
+}  // namespace hexpipe

@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <map>
+
+#include "common/mwis/search_log.hpp"
+#include "common/run/error.hpp"
+#include "common/run/progress.hpp"
+#include "common/run/tool_main.hpp"
+#include "formats/stage.hpp"
+#include "tools/initsol/initsol.hpp"
+
+using namespace hexpipe;
+
+namespace {
+
+const std::map<std::string, GreedyOrder> orders{
+    {"weight", GreedyOrder::weight}, {"weight-degree", GreedyOrder::weight_degree}, {"quality", GreedyOrder::quality}};
+const std::map<std::string, Escape> escapes{
+    {"restart", Escape::restart}, {"rebuild", Escape::rebuild}, {"best", Escape::best}};
+
+std::vector<double> quality_for(const StageData& data) {
+  if (!data.candidates)
+    throw DataError("--greedy quality needs candidates: found none in the bundle, give --candidates");
+  if (data.candidates->size() != data.graph->weights.size())
+    throw DataError(fmt::format("expected as many candidates as vertices of the graph, {}, found {}",
+                                data.graph->vertex_count(), data.candidates->size()));
+  return data.candidates->quality;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const ToolInfo info{.name = "initsol",
+                      .summary = "Choose a first set of candidates without conflicts: greedy, then tabu search.",
+                      .example = "initsol part.graph --time-limit 5 -o part.sol",
+                      .reads = {Role::graph, Role::candidates},
+                      .product = Role::solution,
+                      .random = true,
+                      .searches = true,
+                      .default_time_limit = 10};
+  InitsolOptions options;
+  std::string order = "weight-degree", escape = "best";
+  const auto declare = [&](CLI::App& app) {
+    app.add_option("--greedy", order, "What comes first: high weight, weight / (degree + 1), or quality")
+        ->check(CLI::IsMember(orders));
+    app.add_option("--escape", escape,
+                   "The way out of local optima: restart at random, rebuild from what moved least, go back to the best")
+        ->check(CLI::IsMember(escapes));
+    app.add_option("--tenure", options.tabu.tenure, "Moves, or up to twice as many, that a vertex pushed out stays out")
+        ->check(CLI::Range(0, 1000000000).description(""));
+    app.add_option("--patience", options.tabu.patience, "Moves without a better solution before the way out")
+        ->check(CLI::Range(1, 1000000000).description(""));
+    app.add_option("--starts", options.starts, "Searches from different starts, of which the best is kept")
+        ->check(CLI::Range(1, 1000).description(""));
+  };
+  const auto run = [&](RunContext& context) {
+    options.order = orders.at(order);
+    options.tabu.escape = escapes.at(escape);
+    options.seed = context.common.seed;
+    options.iterations = context.common.iterations.value_or(options.iterations);
+    Stage stage(context);
+    SearchLog log(context.common.log_file);
+    const bool by_quality = options.order == GreedyOrder::quality;
+    const StageData data = stage.read({Role::graph}, by_quality ? std::vector{Role::candidates} : std::vector<Role>{});
+    const std::vector<double> quality = by_quality ? quality_for(data) : std::vector<double>{};
+
+    const Deadline deadline = context.deadline();
+    Progress progress("initsol", context.common.quiet);
+    const InitsolResult result =
+        find_initial_solution(*data.graph, quality, options, deadline, [&](const InitsolProgress& now) {
+          log.record(deadline.elapsed(), now.iteration, now.weight);
+          if (progress.due()) progress.show(fmt::format("weight {}", now.weight));
+        });
+    log.finish(deadline.elapsed(), result.iterations, result.weight);
+    context.statistics["greedy_weight"] = result.greedy_weight;
+    context.statistics["weight"] = result.weight;
+    context.statistics["chosen"] = result.solution.size();
+    context.statistics["iterations"] = result.iterations;
+    context.note(fmt::format("{} chosen, weight {} (greedy {}), {} moves", result.solution.size(), result.weight,
+                             result.greedy_weight, result.iterations));
+    stage.write(result.solution, {{"weight", result.weight}, {"iterations", result.iterations}});
+  };
+  return tool_main(argc, argv, info, declare, run);
+}
