@@ -6,7 +6,7 @@
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/run/error.hpp"
-#include "tools/assemble/facet_table.hpp"
+#include "tools/assemble/cell_facets.hpp"
 
 namespace hexpipe {
 namespace {
@@ -28,9 +28,9 @@ void check_cells_valid(const MixedMesh& mesh) {
 }
 
 template <int Corners>
-void mark_tagged(const CellBlock<Corners>& block, FacetTable& table) {
+void mark_tagged(const CellBlock<Corners>& block, CellFacets& table) {
   for (const auto& facet : block.cells) {
-    FacetTable::Entry* entry = table.find(FacetForm::of(facet));
+    CellFacets::Entry* entry = table.find(FacetForm::of(facet));
     if (entry == nullptr) fail("expected tagged facets of cells, found one at vertex {} of none", facet[0]);
     if (entry->tagged) fail("expected tagged facets once, found one at vertex {} twice", facet[0]);
     entry->tagged = true;
@@ -38,7 +38,7 @@ void mark_tagged(const CellBlock<Corners>& block, FacetTable& table) {
 }
 
 // The quad with the orientation in which the entry's first cell goes around it.
-Quad quad_of(const FacetTable::Entry& entry) {
+Quad quad_of(const CellFacets::Entry& entry) {
   const auto& [least, opposite, low, high] = entry.vertices;
   return entry.forward ? Quad{least, low, opposite, high} : Quad{least, high, opposite, low};
 }
@@ -50,11 +50,11 @@ double bulge_of(std::span<const Vec3> points, const Quad& quad, int diagonal) {
 }
 
 // The diagonal along which two facets of one cell each, marked as used, lie under the quad.
-std::optional<int> open_diagonal(const Quad& quad, FacetTable& table) {
+std::optional<int> open_diagonal(const Quad& quad, CellFacets& table) {
   for (int diagonal = 0; diagonal < 2; ++diagonal) {
     const auto halves = triangles_of(quad, diagonal);
-    FacetTable::Entry* first = table.find(FacetForm::of(halves[0]));
-    FacetTable::Entry* second = table.find(FacetForm::of(halves[1]));
+    CellFacets::Entry* first = table.find(FacetForm::of(halves[0]));
+    CellFacets::Entry* second = table.find(FacetForm::of(halves[1]));
     if (first == nullptr || second == nullptr || first->uses != 1 || second->uses != 1) continue;
     first->tagged = second->tagged = true;
     return diagonal;
@@ -75,7 +75,7 @@ double volume_over(std::span<const Vec3> points, const Vec3& origin, const Quad&
 }
 
 // Enclosed by the facets of one cell.
-double skin_volume(const MixedMesh& mesh, FacetTable& table) {
+double skin_volume(const MixedMesh& mesh, CellFacets& table) {
   double sum = 0;
   for (const auto& entry : table.entries()) {
     if (entry.uses != 1) continue;
@@ -89,7 +89,7 @@ double skin_volume(const MixedMesh& mesh, FacetTable& table) {
 }
 
 // Judges every facet and sums the bulges.
-void check_facets(const Extract& result, const SurfaceTags& tags, bool conforming, FacetTable& table,
+void check_facets(const Extract& result, const SurfaceTags& tags, bool conforming, CellFacets& table,
                   CheckedVolumes& volumes) {
   const MixedMesh& mesh = result.mesh;
   mark_tagged(mesh.triangles, table);
@@ -143,7 +143,7 @@ CheckedVolumes check_result(const Extract& result, const TetMesh& input, const S
   CheckedVolumes volumes;
   check_cells_valid(mesh);
   check_points_used(mesh);
-  FacetTable table(mesh);
+  CellFacets table(mesh);
   check_facets(result, tags, conforming, table, volumes);
   volumes.skin = skin_volume(mesh, table);
   for_each_cell(mesh, [&](CellKind kind, std::span<const Vertex> corners, std::int32_t) {

@@ -1,4 +1,4 @@
-#include "tools/assemble/facet_table.hpp"
+#include "tools/assemble/cell_facets.hpp"
 
 #include <algorithm>
 
@@ -29,7 +29,7 @@ void for_each_facet(const MixedMesh& mesh, Visit&& visit) {
 
 }  // namespace
 
-FacetTable::FacetTable(const MixedMesh& mesh) : offsets_(mesh.points.size() + 1, 0) {
+CellFacets::CellFacets(const MixedMesh& mesh) : offsets_(mesh.points.size() + 1, 0) {
   // Counting sort by least vertex, then small sorts.
   for_each_facet(mesh, [&](const FacetForm& facet, std::int32_t) { ++offsets_[facet.vertices[0] + 1]; });
   for (std::size_t v = 1; v < offsets_.size(); ++v) offsets_[v] += offsets_[v - 1];
@@ -61,7 +61,7 @@ FacetTable::FacetTable(const MixedMesh& mesh) : offsets_(mesh.points.size() + 1,
   offsets_.back() = static_cast<std::int64_t>(entries_.size());
 }
 
-FacetTable::Entry* FacetTable::find(const FacetForm& facet) {
+CellFacets::Entry* CellFacets::find(const FacetForm& facet) {
   const Vertex v = facet.vertices[0];
   const auto begin = entries_.begin() + offsets_[v], end = entries_.begin() + offsets_[v + 1];
   const auto found = std::lower_bound(begin, end, facet.vertices,

@@ -20,7 +20,7 @@ struct FacetForm {
   bool is_quad() const { return vertices[3] >= 0; }
 };
 
-class FacetTable {
+class CellFacets {
  public:
   struct Entry {
     std::array<Vertex, 4> vertices;  // as in FacetForm
@@ -32,7 +32,7 @@ class FacetTable {
     bool is_quad() const { return vertices[3] >= 0; }
   };
 
-  explicit FacetTable(const MixedMesh& mesh);
+  explicit CellFacets(const MixedMesh& mesh);
 
   std::span<Entry> entries() { return entries_; }
   // nullptr when no cell has the facet.
