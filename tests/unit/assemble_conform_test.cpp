@@ -10,7 +10,7 @@ using testing::jitter;
 using testing::make_lattice;
 using testing::random_choice;
 
-constexpr AssembleOptions conforming{.conformity = AssembleOptions::Conformity::pyramids};
+constexpr AssembleOptions conforming{.conformity = AssembleOptions::Conformity::pyramids, .smooth = 0};
 
 // assemble() checks every result itself (self_check_test shows that the check can fail), so that these have to look at
 // what it does, not whether it is valid.

@@ -14,7 +14,7 @@ using testing::Lattice;
 using testing::make_lattice;
 using testing::random_choice;
 
-constexpr AssembleOptions plain{.conformity = AssembleOptions::Conformity::none};
+constexpr AssembleOptions plain{.conformity = AssembleOptions::Conformity::none, .smooth = 0};
 
 std::string error_of(const Lattice& lattice, const Candidates& candidates, const IndependentSet& chosen) {
   try {
@@ -115,7 +115,7 @@ TEST(Selection, RegionsAndSurfaceTagsAreCarried) {
     }
   ASSERT_EQ(lattice.mesh.triangles.size(), 8u);
   for (const auto conformity : {AssembleOptions::Conformity::none, AssembleOptions::Conformity::pyramids}) {
-    const auto mesh = assemble(lattice.mesh, lattice.cubes, {0, 7}, {.conformity = conformity}).mesh;
+    const auto mesh = assemble(lattice.mesh, lattice.cubes, {0, 7}, {.conformity = conformity, .smooth = 0}).mesh;
     EXPECT_EQ(mesh.hexes.tags, (std::vector<std::int32_t>{7, 9}));
     EXPECT_EQ(std::count(mesh.quads.tags.begin(), mesh.quads.tags.end(), 5), 2);
     EXPECT_EQ(std::count(mesh.triangles.tags.begin(), mesh.triangles.tags.end(), 5), 4);

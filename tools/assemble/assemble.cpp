@@ -7,6 +7,7 @@
 #include "tools/assemble/extract.hpp"
 #include "tools/assemble/selection.hpp"
 #include "tools/assemble/self_check.hpp"
+#include "tools/assemble/smooth.hpp"
 #include "tools/assemble/surface_tags.hpp"
 
 namespace hexpipe {
@@ -73,7 +74,12 @@ AssembleResult assemble(const TetMesh& mesh, const Candidates& candidates, const
   AssembleResult result;
   if (conforming) result.statistics.conformity = make_conforming(hybrid, tags, candidates);
   Extract extracted = extract(hybrid, input, tags);
-  result.statistics.volumes = check_result(extracted, input, tags, conforming);
+  if (options.smooth > 0) {
+    compute_quality(extracted.mesh);
+    result.statistics.before_smoothing = kind_statistics(extracted.mesh);
+    result.statistics.smoothing = smooth(extracted.mesh, options.smooth);
+  }
+  result.statistics.volumes = check_result(extracted, input, tags, conforming, options.smooth > 0);
   compute_quality(extracted.mesh);
   result.mesh = std::move(extracted.mesh);
   result.statistics.kinds = kind_statistics(result.mesh);

@@ -12,6 +12,7 @@ namespace hexpipe {
 struct AssembleOptions {
   enum class Conformity { pyramids, none };
   Conformity conformity = Conformity::pyramids;
+  int smooth = 5;  // rounds over all vertices
 };
 
 struct AssembleResult {

@@ -101,6 +101,17 @@ void Cavity::build_star() {
   }
 }
 
+// The planes on whose inner sides all new elements are positive.
+std::vector<Plane> Cavity::planes() const {
+  auto at = [&](Vertex v) { return mesh_.points[v]; };
+  std::vector<Plane> result;
+  for (int diagonal = 0; diagonal < 2; ++diagonal)
+    for (const auto& [a, b, c] : triangles_of(quad_, diagonal)) result.push_back(Plane::through(at(a), at(b), at(c)));
+  for (const auto& [triangle, tet] : skin_)
+    result.push_back(Plane::through(at(triangle[0]), at(triangle[2]), at(triangle[1])));
+  return result;
+}
+
 // From the best of a few places between the middle of the quad and the middle of the rest.
 Placement Cavity::search(int steps) {
   Vec3 base{}, rest{};
@@ -115,11 +126,12 @@ Placement Cavity::search(int steps) {
   if (count == 0) return {base, -1};
   rest *= 1 / count;
   Placement best{base, -2};
-  for (double fraction : {0.5, 0.25, 0.1}) {
-    const Vec3 at = base + (rest - base) * fraction;
+  auto consider = [&](const Vec3& at) {
     const double worst = star_.worst(at);
     if (worst > best.worst) best = {at, worst};
-  }
+  };
+  for (double fraction : {0.5, 0.25, 0.1}) consider(base + (rest - base) * fraction);
+  if (best.worst <= 0) consider(deepest_point(planes(), best.at));
   return raise_worst(star_, best.at, steps);
 }
 

@@ -39,6 +39,7 @@ class Cavity {
   bool collect_skin();
   bool is_sphere() const;
   void build_star();
+  std::vector<Plane> planes() const;
   Placement search(int steps);
   std::vector<std::pair<double, Facet>> worst_facets(const Vec3& at) const;
   bool take_in(const Facet& facet);

@@ -17,15 +17,20 @@ int main(int argc, char** argv) {
       .product = Role::result,
   };
   std::string conformity = "pyramids";
+  int smooth = AssembleOptions{}.smooth;
   auto declare = [&](CLI::App& app) {
     app.add_option("--conformity", conformity,
                    "pyramids: every quad gets a cell on its other side; none: quads may face two triangles")
         ->check(CLI::IsMember(conformities))
         ->capture_default_str();
+    app.add_option("--smooth", smooth, "rounds of moving vertices to make the worst cells better; 0: none")
+        ->check(CLI::Range(0, 1000))
+        ->capture_default_str();
   };
   auto run = [&](RunContext& context) {
-    const AssembleOptions options{.conformity = conformities.at(conformity)};
+    const AssembleOptions options{.conformity = conformities.at(conformity), .smooth = smooth};
     context.options["conformity"] = conformity;
+    context.options["smooth"] = smooth;
     Stage stage(context);
     const StageData data = stage.read({Role::mesh, Role::candidates, Role::solution}, {Role::graph});
     const AssembleResult result = assemble(*data.mesh, *data.candidates, *data.solution, options);

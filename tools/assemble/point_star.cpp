@@ -199,6 +199,42 @@ Placement raise_worst(const PointStar& star, const Vec3& start, int steps, const
   return best;
 }
 
+Plane Plane::through(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 normal = cross(b - a, c - a);
+  const double length = norm(normal);
+  const Vec3 unit = length > 0 ? normal * (1 / length) : Vec3{};
+  return {unit, dot(unit, a)};
+}
+
+Vec3 deepest_point(std::span<const Plane> planes, const Vec3& start) {
+  constexpr int most_steps = 30;
+  Vec3 at = start;
+  std::vector<Vec3> active;
+  for (int step = 0; step < most_steps; ++step) {
+    double least = std::numeric_limits<double>::infinity(), greatest = -least;
+    for (const auto& plane : planes) {
+      least = std::min(least, plane.distance(at));
+      greatest = std::max(greatest, plane.distance(at));
+    }
+    const double band = 1e-2 * (greatest - least);
+    active.clear();
+    for (const auto& plane : planes)
+      if (plane.distance(at) <= least + band) active.push_back(plane.normal);
+    const Vec3 direction = shortest_in_hull(active);
+    const double rise = norm_squared(direction);
+    // Nearly opposite normals: this is the deepest point, or the kernel has no inside.
+    if (rise < 1e-6) break;
+    double reach = std::numeric_limits<double>::infinity();
+    for (const auto& plane : planes) {
+      const double slope = dot(plane.normal, direction);
+      if (slope < 0.5 * rise) reach = std::min(reach, std::max(plane.distance(at) - least, band) / (rise - slope));
+    }
+    if (reach == std::numeric_limits<double>::infinity()) break;
+    at += direction * reach;
+  }
+  return at;
+}
+
 Placement raise_mean(const PointStar& star, const Vec3& start, int steps, double floor, const Freedom& freedom) {
   Placement best{start, star.worst(start)};
   double mean = star.mean(start);

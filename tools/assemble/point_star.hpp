@@ -63,6 +63,19 @@ Placement raise_worst(const PointStar& star, const Vec3& start, int steps, const
 // Takes at most `steps` steps that raise the mean without bringing the least below `floor`.
 Placement raise_mean(const PointStar& star, const Vec3& start, int steps, double floor, const Freedom& freedom = {});
 
+// A plane with its unit normal; points on the normal's side have positive distance.
+struct Plane {
+  Vec3 normal;
+  double offset;
+
+  static Plane through(const Vec3& a, const Vec3& b, const Vec3& c);
+  double distance(const Vec3& at) const { return dot(normal, at) - offset; }
+};
+
+// Climbs from `start` towards the point whose least distance from the planes is greatest: inside their kernel when they
+// have one.
+Vec3 deepest_point(std::span<const Plane> planes, const Vec3& start);
+
 // The point of the convex hull of `vectors` (not empty) nearest to the origin, nearly.
 Vec3 shortest_in_hull(std::span<const Vec3> vectors);
 

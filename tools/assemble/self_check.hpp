@@ -15,12 +15,15 @@ struct CheckedVolumes {
   double skin = 0;        // enclosed by the facets that one cell has; equals `parts` in a conforming mesh
   double bulge = 0;       // of boundary quads over the two triangles that they replace: skin = input + bulge
   double open_bulge = 0;  // of non-conforming quads over the tets that they face: parts = input + bulge + open_bulge
+  double drift = 0;       // parts - input - bulge - open_bulge: rounding, and what smoothing did within its planes
   std::int64_t nonconforming_quads = 0;
 };
 
 // Throws DataError when a cell is not valid everywhere, a facet has more than two cells or two on the same side, a
 // facet of one cell or between two regions is not tagged, a tagged facet is none of a cell, a vertex is unused, or
 // volumes do not add up; and, for a conforming result, when a quad faces two triangles.
-CheckedVolumes check_result(const Extract& result, const TetMesh& input, const SurfaceTags& tags, bool conforming);
+// `smoothed`: vertices have moved in planes that are planes but for the precision of surface files.
+CheckedVolumes check_result(const Extract& result, const TetMesh& input, const SurfaceTags& tags, bool conforming,
+                            bool smoothed);
 
 }  // namespace hexpipe

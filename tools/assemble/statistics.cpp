@@ -64,17 +64,43 @@ std::array<KindStatistics, all_kinds.size()> kind_statistics(const MixedMesh& me
   return result;
 }
 
+namespace {
+
+nlohmann::ordered_json scaled_jacobian_of(const KindStatistics& kind) {
+  return {{"least", kind.least}, {"mean", kind.mean}, {"histogram", kind.histogram}};
+}
+
+// "hex before: 0 0 3 10 ...", cells by tenths of the scaled Jacobian.
+std::string histogram_line(CellKind kind, const char* when, const KindStatistics& statistics) {
+  std::string line = fmt::format("{:>8} {:>6}:", name_of(kind), when);
+  for (std::int64_t count : statistics.histogram) line += fmt::format(" {:>7}", count);
+  return line;
+}
+
+void append_histograms(const AssembleStatistics& statistics, std::vector<std::string>& lines) {
+  lines.push_back(fmt::format("smoothing: {} rounds, {} moves; cells by scaled Jacobian, 0 to 1 in tenths",
+                              statistics.smoothing.rounds, statistics.smoothing.moves));
+  for (std::size_t i = 0; i < all_kinds.size(); ++i) {
+    if (statistics.kinds[i].count == 0) continue;
+    lines.push_back(histogram_line(all_kinds[i], "before", statistics.before_smoothing[i]));
+    lines.push_back(histogram_line(all_kinds[i], "after", statistics.kinds[i]));
+  }
+}
+
+}  // namespace
+
 nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
   nlohmann::ordered_json json;
   const double volume = total_volume(statistics), cells = static_cast<double>(statistics.cells());
   for (std::size_t i = 0; i < all_kinds.size(); ++i) {
     const auto& kind = statistics.kinds[i];
-    json["cells"][name_of(all_kinds[i])] = {
-        {"count", kind.count},
-        {"share_of_number", share(static_cast<double>(kind.count), cells)},
-        {"volume", kind.volume},
-        {"share_of_volume", share(kind.volume, volume)},
-        {"scaled_jacobian", {{"least", kind.least}, {"mean", kind.mean}, {"histogram", kind.histogram}}}};
+    json["cells"][name_of(all_kinds[i])] = {{"count", kind.count},
+                                            {"share_of_number", share(static_cast<double>(kind.count), cells)},
+                                            {"volume", kind.volume},
+                                            {"share_of_volume", share(kind.volume, volume)},
+                                            {"scaled_jacobian", scaled_jacobian_of(kind)}};
+    if (statistics.smoothing.rounds > 0)
+      json["cells"][name_of(all_kinds[i])]["before_smoothing"] = scaled_jacobian_of(statistics.before_smoothing[i]);
   }
   json["points"] = statistics.points;
   json["triangles"] = statistics.triangles;
@@ -83,7 +109,9 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
   json["volume"] = {{"input", volumes.input},
                     {"cells", volumes.parts},
                     {"bulge_of_boundary_quads", volumes.bulge},
-                    {"bulge_of_nonconforming_quads", volumes.open_bulge}};
+                    {"bulge_of_nonconforming_quads", volumes.open_bulge},
+                    {"drift", volumes.drift}};
+  json["smoothing"] = {{"rounds", statistics.smoothing.rounds}, {"moves", statistics.smoothing.moves}};
   json["nonconforming_quads"] = volumes.nonconforming_quads;
   const auto& counts = statistics.conformity;
   nlohmann::ordered_json given_back;
@@ -118,6 +146,7 @@ std::vector<std::string> summary_lines(const AssembleStatistics& statistics) {
         "{} quads faced tets: {} pyramids merged, {} vertices added, {} cells given back "
         "({:.2f} % of the volume in hexes)",
         counts.open_quads, counts.merged, counts.split, given_back, 100 * share(counts.volume_given_back, volume)));
+  if (statistics.smoothing.rounds > 0) append_histograms(statistics, lines);
   return lines;
 }
 

@@ -10,6 +10,7 @@
 #include "common/mesh/mixed_mesh.hpp"
 #include "tools/assemble/conform.hpp"
 #include "tools/assemble/self_check.hpp"
+#include "tools/assemble/smooth.hpp"
 
 namespace hexpipe {
 
@@ -27,6 +28,8 @@ struct AssembleStatistics {
   std::int64_t points = 0, triangles = 0, quads = 0;
   CheckedVolumes volumes;
   ConformityCounts conformity;
+  SmoothCounts smoothing;
+  std::array<KindStatistics, all_kinds.size()> before_smoothing;  // when there was smoothing
 
   std::int64_t cells() const;
 };

@@ -1,0 +1,157 @@
+#include <gtest/gtest.h>
+
+#include "assemble_lattice.hpp"
+#include "common/mesh/quality.hpp"
+#include "tools/assemble/assemble.hpp"
+#include "tools/assemble/freedom.hpp"
+#include "tools/assemble/point_star.hpp"
+
+namespace hexpipe {
+namespace {
+
+using testing::jitter;
+using testing::make_lattice;
+using testing::random_choice;
+
+Vec3 random_point(Random& random) {
+  return {random.uniform(), random.uniform(), random.uniform()};
+}
+
+TEST(PointStar, GradientsAreThoseOfTheValues) {
+  Random random(3);
+  for (CellKind kind : all_kinds)
+    for (int moving = 0; moving < corner_count(kind); ++moving) {
+      std::vector<Vec3> corners;
+      for (int i = 0; i < corner_count(kind); ++i) corners.push_back(random_point(random));
+      PointStar star;
+      star.add(kind, corners, moving);
+      ASSERT_GT(star.size(), 0u);
+      for (std::size_t i = 0; i < star.size(); ++i) {
+        const Vec3 at = corners[moving], gradient = star.gradient(i, at);
+        constexpr double h = 1e-6;
+        auto slope = [&](const Vec3& d) { return (star.value(i, at + d * h) - star.value(i, at - d * h)) / (2 * h); };
+        EXPECT_NEAR(gradient.x, slope({1, 0, 0}), 1e-6);
+        EXPECT_NEAR(gradient.y, slope({0, 1, 0}), 1e-6);
+        EXPECT_NEAR(gradient.z, slope({0, 0, 1}), 1e-6);
+      }
+    }
+}
+
+TEST(PointStar, AgreesWithTheQualityOfCells) {
+  Random random(4);
+  for (CellKind kind : {CellKind::hex, CellKind::prism, CellKind::pyramid}) {
+    std::vector<Vec3> corners;
+    for (int i = 0; i < corner_count(kind); ++i) corners.push_back(random_point(random));
+    // Over all moving corners every corner of the cell takes part.
+    double least = 1;
+    for (int moving = 0; moving < corner_count(kind); ++moving) {
+      PointStar star;
+      star.add(kind, corners, moving);
+      least = std::min(least, star.worst(corners[moving]));
+    }
+    EXPECT_NEAR(least, least_corner_scaled_jacobian(kind, corners), 1e-12);
+  }
+}
+
+TEST(PointStar, ShortestVectorOfAHull) {
+  const std::vector<Vec3> around{{1, 0, 0}, {-1, 0, 0}, {0, 1, 1}};
+  EXPECT_NEAR(norm(shortest_in_hull(around)), 0, 1e-9);
+  const std::vector<Vec3> ahead{{1, 1, 0}, {1, -1, 0}, {3, 0, 5}};
+  const Vec3 shortest = shortest_in_hull(ahead);
+  EXPECT_NEAR(shortest.x, 1, 1e-2);
+  EXPECT_NEAR(shortest.y, 0, 1e-2);
+}
+
+TEST(PointStar, TheDeepestPointIsInTheKernel) {
+  Random random(5);
+  for (int trial = 0; trial < 200; ++trial) {
+    // Planes around a random point, at random distances from it; the start is anywhere.
+    const Vec3 inside = random_point(random);
+    std::vector<Plane> planes;
+    double room = 1;
+    for (int i = 0; i < 12; ++i) {
+      const Vec3 direction = random_point(random) - random_point(random);
+      const Vec3 normal = direction * (1 / norm(direction));
+      const double distance = random.uniform(0.01, 1);
+      planes.push_back({normal, dot(normal, inside) - distance});
+      room = std::min(room, distance);
+    }
+    const Vec3 start = 3 * random_point(random);
+    const Vec3 found = deepest_point(planes, start);
+    double least = 1;
+    for (const auto& plane : planes) least = std::min(least, plane.distance(found));
+    EXPECT_GT(least, 0.9 * room) << "trial " << trial;
+  }
+}
+
+// Eight tets around the origin of an octahedron: the middle is best, by symmetry.
+TEST(PointStar, TheBestPlaceInAnOctahedronIsItsMiddle) {
+  const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  PointStar star;
+  for (int sx : {-1, 1})
+    for (int sy : {-1, 1})
+      for (int sz : {-1, 1}) {
+        std::array<Vec3, 4> tet{sx * x, sy * y, sz * z, Vec3{}};
+        if (det(tet[1] - tet[0], tet[2] - tet[0], tet[3] - tet[0]) < 0) std::swap(tet[0], tet[1]);
+        star.add(CellKind::tet, tet, 3);
+      }
+  const Placement best = raise_worst(star, {0.4, -0.3, 0.45}, 100);
+  EXPECT_NEAR(norm(best.at), 0, 0.02);
+  // Held in the plane z = 0.2, and on a line in it.
+  const Placement held = raise_worst(star, {0.4, -0.3, 0.2}, 100, {Freedom::Kind::plane, {0, 0, 1}});
+  EXPECT_EQ(held.at.z, 0.2);
+  EXPECT_NEAR(held.at.x, 0, 0.05);
+  const Placement on_line = raise_worst(star, {0.4, -0.3, 0.2}, 100, {Freedom::Kind::line, {1, 0, 0}});
+  EXPECT_EQ(on_line.at.y, -0.3);
+  EXPECT_EQ(raise_worst(star, {0.4, -0.3, 0.2}, 100, {Freedom::Kind::none, {}}).at, (Vec3{0.4, -0.3, 0.2}));
+}
+
+TEST(Freedom, SidesEdgesAndCornersOfABox) {
+  const auto lattice = make_lattice(2);
+  const auto mesh = assemble(lattice.mesh, lattice.cubes, {0, 1, 2}, {}).mesh;
+  const auto freedoms = vertex_freedoms(mesh);
+  std::array<int, 4> found{};
+  for (std::size_t v = 0; v < 27; ++v) ++found[static_cast<int>(freedoms[v].kind)];
+  EXPECT_EQ(found, (std::array{1, 6, 12, 8}));
+}
+
+TEST(Freedom, BordersOfTagsHold) {
+  const auto lattice = make_lattice(2);
+  auto mesh = assemble(lattice.mesh, lattice.cubes, {0, 1, 2, 3, 4, 5, 6, 7}, {}).mesh;
+  const auto side = static_cast<std::size_t>(testing::lattice_vertex(2, 0, 1, 1));
+  EXPECT_EQ(vertex_freedoms(mesh)[side].kind, Freedom::Kind::plane);
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i)
+    if (mesh.quads.cells[i][0] == static_cast<Vertex>(side)) mesh.quads.tags[i] = 3;
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i) mesh.quads.tags[i] = static_cast<std::int32_t>(i);
+  EXPECT_EQ(vertex_freedoms(mesh)[side].kind, Freedom::Kind::none);
+}
+
+TEST(Smooth, TheWorstCellsBecomeBetterAndTheBoxStays) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    auto lattice = make_lattice(5);
+    jitter(lattice, 0.2, random);
+    const auto chosen = random_choice(lattice, 0.7, random);
+    const auto rough = assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = 0});
+    const auto smoothed = assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = 5});
+    ASSERT_EQ(rough.mesh.tets.cells, smoothed.mesh.tets.cells);
+    double before = 1, after = 1;
+    for (std::size_t k = 0; k < all_kinds.size(); ++k) {
+      EXPECT_EQ(smoothed.statistics.before_smoothing[k].least, rough.statistics.kinds[k].least);
+      if (rough.statistics.kinds[k].count == 0) continue;
+      before = std::min(before, rough.statistics.kinds[k].least);
+      after = std::min(after, smoothed.statistics.kinds[k].least);
+    }
+    EXPECT_GT(after, before);
+    EXPECT_NEAR(smoothed.statistics.volumes.parts, 125, 1e-9);
+    for (std::size_t v = 0; v < rough.mesh.points.size(); ++v)
+      for (int axis = 0; axis < 3; ++axis)
+        if (rough.mesh.points[v][axis] == 0) {
+          EXPECT_EQ(smoothed.mesh.points[v][axis], 0);
+        }
+  }
+}
+
+}  // namespace
+}  // namespace hexpipe

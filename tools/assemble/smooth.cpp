@@ -1,0 +1,150 @@
+// One vertex after the other goes where the worst cell around it is best, or, where that one is good enough, to where
+// the cells around it are better on average and the worst not worse. L. A. Freitag, C. Ollivier-Gooch, "Tetrahedral
+// mesh improvement using swapping and smoothing" (1997), sections 3 and 5: optimization where a smart average does not
+// suffice. The average here is ascended by its gradient, because the centre of the neighbours means little to a hex.
+
+#include "tools/assemble/smooth.hpp"
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "common/mesh/quality.hpp"
+#include "common/mesh/validity.hpp"
+#include "tools/assemble/freedom.hpp"
+#include "tools/assemble/point_star.hpp"
+
+namespace hexpipe {
+namespace {
+
+// Where the worst cell is better than this, the average counts.
+constexpr double good_enough = 0.4;
+// A vertex whose cells are like this is left alone.
+constexpr double excellent_worst = 0.9;
+constexpr int steps_for_worst = 8;
+constexpr int steps_for_mean = 2;
+// Moves that gain less are not worth the neighbours' new look.
+constexpr double least_gain = 1e-3;
+// A move that leaves a hex invalid is halved this often.
+constexpr int retreats = 4;
+
+// Cells at each vertex, in flat arrays.
+class Cells {
+ public:
+  explicit Cells(const MixedMesh& mesh) : offsets_(mesh.points.size() + 1, 0) {
+    auto each = [&](CellKind kind, const auto& block) {
+      for (const auto& cell : block.cells) {
+        kinds_.push_back(kind);
+        first_.push_back(static_cast<std::int64_t>(corners_.size()));
+        corners_.insert(corners_.end(), cell.begin(), cell.end());
+      }
+    };
+    each(CellKind::hex, mesh.hexes), each(CellKind::prism, mesh.prisms);
+    each(CellKind::pyramid, mesh.pyramids), each(CellKind::tet, mesh.tets);
+    for (Vertex v : corners_) ++offsets_[v + 1];
+    for (std::size_t v = 1; v < offsets_.size(); ++v) offsets_[v] += offsets_[v - 1];
+    cells_at_.resize(corners_.size());
+    std::vector<std::int64_t> fill(offsets_.begin(), offsets_.end() - 1);
+    for (std::int32_t c = 0; c < static_cast<std::int32_t>(kinds_.size()); ++c)
+      for (Vertex v : corners_of(c)) cells_at_[fill[v]++] = c;
+  }
+
+  CellKind kind(std::int32_t c) const { return kinds_[c]; }
+  std::span<const Vertex> corners_of(std::int32_t c) const {
+    return std::span(corners_).subspan(first_[c], corner_count(kinds_[c]));
+  }
+  std::span<const std::int32_t> at(Vertex v) const {
+    return std::span(cells_at_).subspan(offsets_[v], offsets_[v + 1] - offsets_[v]);
+  }
+
+ private:
+  std::vector<CellKind> kinds_;
+  std::vector<std::int64_t> first_;
+  std::vector<Vertex> corners_;
+  std::vector<std::int64_t> offsets_;
+  std::vector<std::int32_t> cells_at_;
+};
+
+class Smoother {
+ public:
+  explicit Smoother(MixedMesh& mesh)
+      : points_(mesh.points), cells_(mesh), freedoms_(vertex_freedoms(mesh)), due_(mesh.points.size(), 1) {}
+
+  // Returns the number of vertices that moved.
+  std::int64_t round() {
+    std::int64_t moves = 0;
+    for (Vertex v = 0; v < static_cast<Vertex>(points_.size()); ++v) {
+      if (!due_[v] || freedoms_[v].kind == Freedom::Kind::none) continue;
+      due_[v] = 0;
+      if (!improve(v)) continue;
+      ++moves;
+      for (std::int32_t c : cells_.at(v))
+        for (Vertex neighbour : cells_.corners_of(c)) due_[neighbour] = 1;
+    }
+    return moves;
+  }
+
+ private:
+  bool improve(Vertex v);
+  void look_around(Vertex v);
+  bool all_valid(Vertex v) const;
+
+  std::vector<Vec3>& points_;
+  Cells cells_;
+  std::vector<Freedom> freedoms_;
+  std::vector<std::uint8_t> due_;  // something around has moved since it was looked at
+  PointStar star_;
+};
+
+void Smoother::look_around(Vertex v) {
+  star_.clear();
+  for (std::int32_t c : cells_.at(v)) {
+    const auto corners = cells_.corners_of(c);
+    const auto at = corner_points(points_, corners);
+    const auto moving = static_cast<int>(std::find(corners.begin(), corners.end(), v) - corners.begin());
+    star_.add(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()), moving);
+  }
+}
+
+bool Smoother::all_valid(Vertex v) const {
+  return std::ranges::all_of(cells_.at(v), [&](std::int32_t c) {
+    const auto corners = cells_.corners_of(c);
+    const auto at = corner_points(points_, corners);
+    return is_valid(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()));
+  });
+}
+
+bool Smoother::improve(Vertex v) {
+  look_around(v);
+  const Vec3 before = points_[v];
+  const double worst = star_.worst(before);
+  if (worst > excellent_worst) return false;
+  const bool poor = worst < good_enough;
+  const Placement goal = poor ? raise_worst(star_, before, steps_for_worst, freedoms_[v])
+                              : raise_mean(star_, before, steps_for_mean, worst, freedoms_[v]);
+  Vec3 step = goal.at - before;
+  for (int i = 0; i <= retreats; ++i, step *= 0.5) {
+    const Vec3 at = before + step;
+    const bool better = poor ? star_.worst(at) > worst + least_gain
+                             : star_.worst(at) >= worst && star_.mean(at) > star_.mean(before) + least_gain;
+    if (!better) return false;
+    points_[v] = at;
+    if (all_valid(v)) return true;
+    points_[v] = before;
+  }
+  return false;
+}
+
+}  // namespace
+
+SmoothCounts smooth(MixedMesh& mesh, int rounds) {
+  Smoother smoother(mesh);
+  SmoothCounts counts;
+  for (std::int64_t moves = 1; moves > 0 && counts.rounds < rounds; ++counts.rounds) {
+    moves = smoother.round();
+    counts.moves += moves;
+  }
+  return counts;
+}
+
+}  // namespace hexpipe
