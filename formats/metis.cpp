@@ -59,6 +59,7 @@ class MetisParser {
     vertex_weights_ = word.size() >= 2 && word[word.size() - 2] == '1';
     edge_weights_ = word.back() == '1';
     at_ += word.size();
+    skip_blanks();
   }
 
   void read_vertex(std::int32_t v) {

@@ -27,6 +27,7 @@ void DenseReductions::reduce(DenseGraph& graph) {
 
 // Tries every rule at v, the cheap ones first; true when one of them changed the graph.
 bool DenseReductions::decide(std::uint32_t v) {
+  if (graph_->weight(v) == 0) return drop(v), true;
   const bits::Word* const row = graph_->row(v);
   for (std::size_t w = 0; w < words_; ++w) around_[w] = row[w] & alive_[w];
   std::int64_t neighbour_sum = 0;

@@ -15,7 +15,7 @@ namespace hexpipe {
 
 struct InitsolOptions {
   GreedyOrder order = GreedyOrder::weight_degree;
-  TabuOptions tabu;
+  TabuOptions tabu{};
   int starts = 1;
   std::uint64_t seed = 1;
   std::int64_t iterations = std::numeric_limits<std::int64_t>::max();  // moves of each start

@@ -24,8 +24,8 @@ enum class Escape {
 struct TabuOptions {
   Escape escape = Escape::best;
   // Moves for which what was pushed out stays out, drawn from [tenure, 2 tenure).
-  // Of 10, 30, 100, 150, 200, 300 and 1000, on graphs of 28,000 to 56,000 vertices in 3 s: 10 stays in one corner of the
-  // graph (0.6 to 9 % worse than the best of them), 1000 tears more open than it closes.
+  // Of 10, 30, 100, 150, 200, 300 and 1000, on graphs of 28,000 to 56,000 vertices in 3 s: 10 stays in one corner of
+  // the graph (0.6 to 9 % worse than the best of them), 1000 tears more open than it closes.
   std::int64_t tenure = 200;
   // Moves without a new best before the way out is taken.
   std::int64_t patience = 100000;

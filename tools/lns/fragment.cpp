@@ -29,12 +29,13 @@ void FragmentGrower::grow(std::int32_t seed, std::size_t target, std::size_t lim
   fragment.stamp = ++stamp_;
   partly_freed_.clear();
   next_partly_freed_ = 0;
+  next_vertex_ = 0;
   left_out_ = false;
 
   queue(seed, fragment);
   std::size_t next = 0;
   while (fragment.vertices.size() < target) {
-    if (next == fragment.frontier.size() && !queue_beyond_shared(fragment)) {
+    if (next == fragment.frontier.size() && !queue_beyond(fragment)) {
       fragment.whole_component = !left_out_;
       break;
     }
@@ -95,13 +96,18 @@ void FragmentGrower::queue(std::int32_t v, Fragment& fragment) {
     fragment.frontier.push_back(v);
 }
 
-// Queues the chosen neighbours of the vertices that still have two or more of them; false when there are no such
-// vertices.
-bool FragmentGrower::queue_beyond_shared(Fragment& fragment) {
+// For when no vertex waits for a single one any more: queues what is chosen beside vertices that wait for several, then
+// what is chosen two edges away from the fragment. False when there is nothing, and the component is complete.
+bool FragmentGrower::queue_beyond(Fragment& fragment) {
   const std::size_t before = fragment.frontier.size();
+  const auto queue_chosen_at = [&](std::int32_t v) {
+    state_.for_each_chosen_neighbour(v, [&](std::int32_t chosen) { queue(chosen, fragment); });
+  };
   while (next_partly_freed_ < partly_freed_.size() && fragment.frontier.size() == before)
-    state_.for_each_chosen_neighbour(partly_freed_[next_partly_freed_++],
-                                     [&](std::int32_t chosen) { queue(chosen, fragment); });
+    queue_chosen_at(partly_freed_[next_partly_freed_++]);
+  while (next_vertex_ < fragment.vertices.size() && fragment.frontier.size() == before)
+    for (const std::int32_t u : state_.graph().neighbours_of(fragment.vertices[next_vertex_++]))
+      if (marks_[u].touched != fragment.stamp && !state_.contains(u)) queue_chosen_at(u);
   return fragment.frontier.size() > before;
 }
 

@@ -54,12 +54,13 @@ class FragmentGrower {
   void touch(std::int32_t v, std::int32_t released, std::size_t limit, Fragment& fragment);
   void include(std::int32_t v, Fragment& fragment);
   void queue(std::int32_t v, Fragment& fragment);
-  bool queue_beyond_shared(Fragment& fragment);
+  bool queue_beyond(Fragment& fragment);
 
   const SolutionState& state_;
   std::vector<Mark> marks_;
   std::vector<std::int32_t> partly_freed_;  // touched vertices that were not freed at once
   std::size_t next_partly_freed_ = 0;
+  std::size_t next_vertex_ = 0;  // of the fragment, whose neighbours were not looked at for want of anything nearer
   std::uint32_t stamp_ = 0, round_begin_ = 1;
   bool left_out_ = false;  // a vertex was not freed because of another fragment or the limit
 };

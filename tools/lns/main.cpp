@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "common/mwis/search_log.hpp"
+#include "common/run/error.hpp"
 #include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/stage.hpp"
@@ -34,7 +35,8 @@ int main(int argc, char** argv) {
     options.iterations = context.common.iterations.value_or(options.iterations);
     Stage stage(context);
     SearchLog log(context.common.log_file);
-    const StageData data = stage.read({Role::graph, Role::solution});
+    const StageData data = stage.read({Role::graph}, {Role::solution});
+    if (!data.solution) throw DataError("expected a solution to improve, found none: initsol makes one");
 
     const Deadline deadline = context.deadline();
     Progress progress("lns", context.common.quiet);

@@ -1,0 +1,153 @@
+#include <gtest/gtest.h>
+
+#include "common/run/parallel.hpp"
+#include "random_graphs.hpp"
+#include "tools/initsol/initsol.hpp"
+
+namespace hexpipe {
+namespace {
+
+using hexpipe::testing::make_graph;
+
+const Deadline no_deadline;
+
+TEST(Greedy, FollowsItsOrder) {
+  // A star: the centre is the heaviest, the leaves bring more together.
+  const ConflictGraph star = make_graph({9, 4, 4, 4}, {{0, 1}, {0, 2}, {0, 3}});
+  EXPECT_EQ(greedy(star, merits(star, GreedyOrder::weight, {})), (IndependentSet{0}));
+  EXPECT_EQ(greedy(star, merits(star, GreedyOrder::weight_degree, {})), (IndependentSet{0}));
+  const ConflictGraph light_star = make_graph({5, 4, 4, 4}, {{0, 1}, {0, 2}, {0, 3}});
+  EXPECT_EQ(greedy(light_star, merits(light_star, GreedyOrder::weight, {})), (IndependentSet{0}));
+  EXPECT_EQ(greedy(light_star, merits(light_star, GreedyOrder::weight_degree, {})), (IndependentSet{1, 2, 3}));
+  const std::vector<double> quality{0.1, 0.2, 0.05, 0.05};
+  EXPECT_EQ(greedy(star, merits(star, GreedyOrder::quality, quality)), (IndependentSet{1, 2, 3}));
+}
+
+TEST(Greedy, IsMaximalAndBreaksTiesByNumber) {
+  const ConflictGraph path = make_graph({0, 0, 0, 0}, {{0, 1}, {1, 2}, {2, 3}});
+  EXPECT_EQ(greedy(path, merits(path, GreedyOrder::weight, {})), (IndependentSet{0, 2}));
+}
+
+TEST(IndexedHeap, AgreesWithALinearSearch) {
+  Random random(1);
+  IndexedHeap heap(50);
+  std::vector<std::int64_t> keys(50, -1);  // -1: absent
+  for (int step = 0; step < 5000; ++step) {
+    const auto v = static_cast<std::int32_t>(random.below(50));
+    const auto key = static_cast<std::int64_t>(random.below(20));
+    if (keys[v] < 0)
+      heap.insert(v, key), keys[v] = key;
+    else if (random.below(2) == 0)
+      heap.update(v, key), keys[v] = key;
+    else
+      heap.erase(v), keys[v] = -1;
+    ASSERT_TRUE(heap.check());
+    const auto best = std::ranges::max_element(keys);
+    ASSERT_EQ(heap.empty(), *best < 0);
+    if (heap.empty()) continue;
+    EXPECT_EQ(heap.top_key(), *best);
+    EXPECT_EQ(heap.top(), best - keys.begin());
+  }
+}
+
+TEST(TabuSearch, StaysConsistentWithEveryWayOut) {
+  Random random(2);
+  for (const Escape escape : {Escape::restart, Escape::rebuild, Escape::best})
+    for (int i = 0; i < 30; ++i) {
+      const ConflictGraph graph = hexpipe::testing::random_graph(40, 0.2, 50, random);
+      TabuSearch search(graph, {}, {.escape = escape, .tenure = 3, .patience = 20}, Random(i));
+      std::int64_t best = search.best_weight();
+      for (int round = 0; round < 20; ++round) {
+        search.run(17, no_deadline);
+        ASSERT_TRUE(search.check());
+        const IndependentSet set = search.best();
+        ASSERT_NO_THROW(validate(set, graph, "best"));
+        EXPECT_EQ(total_weight(set, graph), search.best_weight());
+        EXPECT_GE(search.best_weight(), best);
+        best = search.best_weight();
+      }
+    }
+}
+
+TEST(TabuSearch, FindsTheOptimumOfSmallGraphs) {
+  Random random(3);
+  for (const Escape escape : {Escape::restart, Escape::rebuild, Escape::best}) {
+    int optimal = 0;
+    for (int i = 0; i < 100; ++i) {
+      const ConflictGraph graph = hexpipe::testing::random_graph(22, 0.25, 50, random);
+      TabuSearch search(graph, {}, {.escape = escape, .tenure = 3, .patience = 100}, Random(i));
+      search.run(3000, no_deadline);
+      optimal += search.best_weight() == hexpipe::testing::brute_force_weight(graph);
+    }
+    EXPECT_GE(optimal, 98) << "of 100";
+  }
+}
+
+TEST(TabuSearch, EndsWhereNothingCanMove) {
+  for (const ConflictGraph& graph : {ConflictGraph{}, make_graph({3}, {}), make_graph({3, 4}, {})}) {
+    TabuSearch search(graph, {}, {}, Random(1));
+    search.run(1000, no_deadline);
+    EXPECT_EQ(search.moves(), 0);
+    EXPECT_EQ(search.best().size(), graph.weights.size());
+  }
+}
+
+TEST(TabuSearch, MovesInACompleteGraph) {
+  Random random(4);
+  const ConflictGraph graph = hexpipe::testing::random_graph(20, 1.0, 1000, random);
+  TabuSearch search(graph, {}, {.tenure = 100}, Random(1));
+  search.run(200, no_deadline);
+  EXPECT_EQ(search.best_weight(), std::ranges::max(graph.weights));
+  EXPECT_TRUE(search.check());
+}
+
+TEST(Initsol, NeverLosesWhatGreedyFound) {
+  Random random(5);
+  const ConflictGraph graph = hexpipe::testing::random_clique_graph(400, 120, 1000, random);
+  const std::vector<double> quality(graph.weights.begin(), graph.weights.end());
+  for (const GreedyOrder order : {GreedyOrder::weight, GreedyOrder::weight_degree, GreedyOrder::quality}) {
+    const InitsolResult none = find_initial_solution(graph, quality, {.order = order, .iterations = 0}, no_deadline);
+    EXPECT_EQ(none.weight, none.greedy_weight);
+    EXPECT_EQ(none.iterations, 0);
+    const InitsolResult some = find_initial_solution(graph, quality, {.order = order, .iterations = 5000}, no_deadline);
+    EXPECT_GT(some.weight, none.weight);
+    EXPECT_EQ(total_weight(some.solution, graph), some.weight);
+    EXPECT_NO_THROW(validate(some.solution, graph, "solution"));
+  }
+}
+
+TEST(Initsol, DoesNotDependOnThreads) {
+  Random random(6);
+  const ConflictGraph graph = hexpipe::testing::random_clique_graph(400, 120, 1000, random);
+  const InitsolOptions options{.starts = 4, .iterations = 2500};
+  const auto with_threads = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return find_initial_solution(graph, {}, options, no_deadline).solution;
+  };
+  EXPECT_EQ(with_threads(1), with_threads(2));
+}
+
+TEST(Initsol, MoreStartsAreNotWorse) {
+  Random random(7);
+  const ConflictGraph graph = hexpipe::testing::random_graph(200, 0.1, 1000, random);
+  std::int64_t last = 0;
+  for (const int starts : {1, 8}) {
+    const auto result = find_initial_solution(graph, {}, {.starts = starts, .iterations = 300}, no_deadline);
+    EXPECT_GE(result.weight, last);
+    EXPECT_EQ(result.iterations, 300 * starts);
+    last = result.weight;
+  }
+}
+
+TEST(Initsol, StopsAtItsDeadline) {
+  Random random(8);
+  const ConflictGraph graph = hexpipe::testing::random_graph(300, 0.1, 1000, random);
+  const Stopwatch watch;
+  const Deadline deadline(0.1);
+  find_initial_solution(graph, {}, {}, deadline);
+  EXPECT_GE(watch.seconds(), 0.1);
+  EXPECT_LT(watch.seconds(), 1.0);  // a machine under load
+}
+
+}  // namespace
+}  // namespace hexpipe

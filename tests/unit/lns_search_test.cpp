@@ -1,0 +1,254 @@
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "common/run/parallel.hpp"
+#include "random_graphs.hpp"
+#include "tools/lns/fragment.hpp"
+#include "tools/lns/lns.hpp"
+#include "tools/lns/schedule.hpp"
+
+namespace hexpipe {
+namespace {
+
+using hexpipe::testing::brute_force_weight;
+using hexpipe::testing::make_graph;
+
+const Deadline no_deadline;
+
+// What the definition says is free once `released` are no longer chosen.
+std::set<std::int32_t> free_vertices(const SolutionState& state, const std::vector<std::int32_t>& released) {
+  const std::set<std::int32_t> gone(released.begin(), released.end());
+  std::set<std::int32_t> free;
+  for (std::int32_t v = 0; v < state.graph().vertex_count(); ++v) {
+    bool blocked = state.contains(v) ? !gone.contains(v) : state.tightness(v) == 0;
+    state.for_each_chosen_neighbour(v, [&](std::int32_t u) { blocked = blocked || !gone.contains(u); });
+    if (!blocked) free.insert(v);
+  }
+  return free;
+}
+
+std::size_t component_size(const ConflictGraph& graph, std::int32_t seed) {
+  std::set<std::int32_t> reached{seed};
+  for (std::vector<std::int32_t> queue{seed}; !queue.empty();) {
+    const std::int32_t v = queue.back();
+    queue.pop_back();
+    for (const std::int32_t u : graph.neighbours_of(v))
+      if (reached.insert(u).second) queue.push_back(u);
+  }
+  return reached.size();
+}
+
+TEST(FragmentGrower, FreesWhatTheReleasedBlocked) {
+  Random random(1);
+  for (int i = 0; i < 100; ++i) {
+    const ConflictGraph graph = hexpipe::testing::random_clique_graph(120, 100, 20, random);
+    SolutionState state(graph);
+    state.make_maximal();
+    FragmentGrower grower(state);
+    Fragment fragment;
+    for (const std::int32_t seed : state.to_set()) {
+      const std::size_t target = 1 + random.below(60);
+      grower.begin_round();
+      grower.grow(seed, target, 1000, fragment);
+      EXPECT_EQ(fragment.released.front(), seed);
+      EXPECT_EQ(std::set(fragment.vertices.begin(), fragment.vertices.end()), free_vertices(state, fragment.released));
+      EXPECT_TRUE(fragment.vertices.size() >= target || fragment.whole_component);
+      EXPECT_TRUE(!fragment.whole_component || fragment.vertices.size() == component_size(graph, seed));
+    }
+  }
+}
+
+TEST(FragmentGrower, FragmentsOfARoundDoNotTouch) {
+  Random random(2);
+  for (int i = 0; i < 100; ++i) {
+    const ConflictGraph graph = hexpipe::testing::random_clique_graph(200, 150, 20, random);
+    SolutionState state(graph);
+    state.make_maximal();
+    FragmentGrower grower(state);
+    grower.begin_round();
+    std::vector<Fragment> fragments;
+    for (const std::int32_t seed : state.to_set()) {
+      if (!grower.is_free(seed)) continue;
+      grower.grow(seed, 20, 25, fragments.emplace_back());
+      EXPECT_LE(fragments.back().vertices.size(), 25u + 1);
+    }
+    std::vector<int> owner(200, -1);
+    for (std::size_t f = 0; f < fragments.size(); ++f)
+      for (const std::int32_t v : fragments[f].vertices) {
+        EXPECT_EQ(owner[v], -1);
+        owner[v] = static_cast<int>(f);
+      }
+    for (std::int32_t v = 0; v < 200; ++v)
+      for (const std::int32_t u : graph.neighbours_of(v))
+        EXPECT_TRUE(owner[u] < 0 || owner[v] < 0 || owner[u] == owner[v]) << "graph " << i;
+  }
+}
+
+TEST(FragmentGrower, KnowsWhenItHasAWholeComponent) {
+  const ConflictGraph two_paths = make_graph({1, 2, 1, 1, 2, 1}, {{0, 1}, {1, 2}, {3, 4}, {4, 5}});
+  const SolutionState state(two_paths, {1, 3, 5});
+  FragmentGrower grower(state);
+  Fragment fragment;
+  grower.begin_round();
+  grower.grow(3, 100, 1000, fragment);
+  EXPECT_TRUE(fragment.whole_component);
+  EXPECT_EQ(fragment.vertices.size(), 3u);
+  grower.begin_round();
+  grower.grow(3, 1, 1000, fragment);
+  EXPECT_FALSE(fragment.whole_component);
+  EXPECT_EQ(fragment.frontier, (std::vector<std::int32_t>{5}));
+  grower.begin_round();
+  grower.grow(1, 100, 2, fragment);
+  EXPECT_FALSE(fragment.whole_component) << "the limit left a vertex out";
+  EXPECT_EQ(fragment.vertices.size(), 2u);
+}
+
+TEST(FragmentGrower, ExtractsTheGraphOfItsVertices) {
+  const ConflictGraph path = make_graph({1, 2, 3, 4}, {{0, 1}, {1, 2}, {2, 3}});
+  const SolutionState state(path, {1, 3});
+  FragmentGrower grower(state);
+  Fragment fragment;
+  grower.begin_round();
+  grower.grow(1, 2, 1000, fragment);
+  DenseGraph dense;
+  std::vector<bits::Word> chosen;
+  grower.extract(fragment, dense, chosen);
+  ASSERT_EQ(fragment.vertices, (std::vector<std::int32_t>{1, 0}));
+  EXPECT_TRUE(dense.has_edge(0, 1));
+  EXPECT_EQ(dense.weight(0), 2);
+  EXPECT_EQ(dense.weight(1), 1);
+  EXPECT_EQ(chosen[0], 1u);
+}
+
+TEST(Schedule, GivesTheLeastTriedFirst) {
+  Schedule schedule(4, 10, 100, Random(1));
+  EXPECT_FALSE(schedule.take());
+  for (const std::int32_t v : {0, 1, 2}) schedule.renew(v);
+  std::set<std::int32_t> first;
+  for (int i = 0; i < 3; ++i) {
+    const auto v = schedule.take();
+    ASSERT_TRUE(v);
+    first.insert(*v);
+    schedule.retire(*v);
+  }
+  EXPECT_EQ(first, (std::set<std::int32_t>{0, 1, 2}));
+  schedule.renew(3);
+  EXPECT_EQ(schedule.take(), 3);
+  schedule.close(0);
+  schedule.retire(1);
+  EXPECT_EQ(schedule.take(), 2) << "tried once, before 1, tried twice; 0 is closed";
+  EXPECT_EQ(schedule.take(), 1);
+  EXPECT_FALSE(schedule.take());
+}
+
+TEST(Schedule, AdaptsSizesWithinLimits) {
+  Schedule schedule(1, 50, 100, Random(1));
+  EXPECT_EQ(schedule.size_at(0), 50u);
+  schedule.enlarge(0);
+  EXPECT_GT(schedule.size_at(0), 50u);
+  for (int i = 0; i < 20; ++i) schedule.enlarge(0);
+  EXPECT_EQ(schedule.size_at(0), 100u);
+  for (int i = 0; i < 50; ++i) schedule.shrink(0);
+  EXPECT_GE(schedule.size_at(0), 1u);
+  EXPECT_LE(schedule.size_at(0), 20u);
+}
+
+TEST(Lns, FindsTheOptimumOfSmallGraphs) {
+  Random random(3);
+  for (int i = 0; i < 300; ++i) {
+    const ConflictGraph graph = i % 2 == 0 ? hexpipe::testing::random_graph(20, 0.2, 50, random)
+                                           : hexpipe::testing::random_clique_graph(20, 40, 50, random);
+    const LnsResult result = improve_by_lns(graph, {}, {.iterations = 100}, no_deadline);
+    ASSERT_NO_THROW(validate(result.solution, graph, "solution"));
+    EXPECT_EQ(result.weight, brute_force_weight(graph)) << "graph " << i;
+    EXPECT_EQ(result.weight, total_weight(result.solution, graph));
+    EXPECT_TRUE(result.complete) << "graph " << i;
+  }
+}
+
+TEST(Lns, IsNeverWorseThanItsStart) {
+  Random random(4);
+  for (int i = 0; i < 50; ++i) {
+    const ConflictGraph graph = hexpipe::testing::random_clique_graph(300, 200, 1000, random);
+    SolutionState start(graph);
+    start.make_maximal();
+    std::int64_t weight = start.weight();
+    for (const std::int64_t iterations : {0, 1, 10, 100}) {
+      const LnsResult result = improve_by_lns(
+          graph, start.to_set(), {.iterations = iterations, .fragment_size = 30, .node_limit = 3}, no_deadline);
+      EXPECT_GE(result.weight, weight);
+      EXPECT_LE(result.iterations, iterations);
+      ASSERT_NO_THROW(validate(result.solution, graph, "solution"));
+      weight = result.weight;
+    }
+  }
+}
+
+TEST(Lns, KeepsZeroWeightsAndHugeOnes) {
+  const std::int64_t huge = std::int64_t{1} << 60;
+  const ConflictGraph graph = make_graph({0, huge, huge + 1, huge, 0}, {{1, 2}, {2, 3}});
+  const LnsResult result = improve_by_lns(graph, {2}, {}, no_deadline);
+  EXPECT_EQ(result.solution, (IndependentSet{0, 1, 3, 4})) << "maximal with the zeros";
+  EXPECT_EQ(result.weight, 2 * huge);
+  EXPECT_TRUE(result.complete);
+}
+
+TEST(Lns, TakesTheExtremes) {
+  EXPECT_TRUE(improve_by_lns({}, {}, {}, no_deadline).complete);
+  EXPECT_EQ(improve_by_lns(make_graph({0}, {}), {}, {}, no_deadline).solution, (IndependentSet{0}));
+  Random random(5);
+  const ConflictGraph complete = hexpipe::testing::random_graph(300, 1.0, 100000, random);
+  const LnsResult result = improve_by_lns(complete, {0}, {.fragment_size = 10}, no_deadline);
+  EXPECT_EQ(result.weight, std::ranges::max(complete.weights));
+  // A star whose centre frees more than any fragment may hold.
+  std::vector<std::pair<std::int32_t, std::int32_t>> spokes;
+  std::vector<std::int64_t> weights{5000};
+  for (std::int32_t v = 1; v <= 6000; ++v) spokes.emplace_back(0, v), weights.push_back(1);
+  const ConflictGraph star = make_graph(weights, spokes);
+  EXPECT_EQ(improve_by_lns(star, {0}, {.iterations = 20}, no_deadline).weight, 5000);
+}
+
+TEST(Lns, DoesNotDependOnThreads) {
+  Random random(6);
+  const ConflictGraph graph = hexpipe::testing::random_clique_graph(2000, 1500, 1000, random);
+  const LnsOptions options{.iterations = 200, .fragment_size = 40};
+  const auto with_threads = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return improve_by_lns(graph, {}, options, no_deadline).solution;
+  };
+  const IndependentSet one = with_threads(1);
+  EXPECT_EQ(one, with_threads(2));
+  EXPECT_EQ(one, with_threads(1));
+}
+
+TEST(Lns, ReportsRisingWeights) {
+  Random random(7);
+  const ConflictGraph graph = hexpipe::testing::random_clique_graph(500, 300, 1000, random);
+  std::int64_t last = 0, count = 0;
+  const LnsResult result =
+      improve_by_lns(graph, {}, {.iterations = 100, .fragment_size = 20}, no_deadline, [&](const LnsProgress& now) {
+        EXPECT_GT(now.weight, last);
+        EXPECT_LE(now.iteration, 100);
+        last = now.weight;
+        ++count;
+      });
+  EXPECT_EQ(last, result.weight);
+  EXPECT_EQ(count, result.improvements);
+  EXPECT_GT(count, 0);
+}
+
+TEST(Lns, StopsAtItsDeadline) {
+  Random random(8);
+  // Too hard to be solved in this time.
+  const ConflictGraph graph = hexpipe::testing::random_graph(1000, 0.05, 1000, random);
+  const Stopwatch watch;
+  const Deadline deadline(0.2);
+  const LnsResult result = improve_by_lns(graph, {}, {.fragment_size = 1000, .node_limit = 1000000000}, deadline);
+  EXPECT_FALSE(result.complete);
+  EXPECT_GE(watch.seconds(), 0.2);
+  EXPECT_LT(watch.seconds(), 1.0);  // a machine under load
+}
+
+}  // namespace
+}  // namespace hexpipe

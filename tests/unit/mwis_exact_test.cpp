@@ -1,0 +1,146 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "common/mwis/branch_and_bound.hpp"
+#include "common/mwis/dense_reductions.hpp"
+#include "common/mwis/exact_solver.hpp"
+#include "random_graphs.hpp"
+
+namespace hexpipe {
+namespace {
+
+using hexpipe::testing::brute_force_weight;
+using hexpipe::testing::to_dense;
+
+// Calls test(graph, index) for graphs of many densities, sizes and ties, and of cliques in a ring.
+void for_random_graphs(int count, const std::function<void(const ConflictGraph&, int)>& test) {
+  Random random(7);
+  for (int i = 0; i < count; ++i) {
+    const auto vertices = static_cast<std::int32_t>(random.below(22));
+    const std::int64_t heaviest = i % 3 == 0 ? 3 : 1000;
+    test(i % 2 == 0 ? hexpipe::testing::random_graph(vertices, random.uniform(), heaviest, random)
+                    : hexpipe::testing::random_clique_graph(vertices, 30, heaviest, random),
+         i);
+  }
+}
+
+std::int64_t checked_weight(const ConflictGraph& graph, const std::vector<bits::Word>& chosen) {
+  IndependentSet set;
+  bits::for_each(chosen.data(), chosen.size(), [&](std::size_t v) { set.push_back(static_cast<std::int32_t>(v)); });
+  EXPECT_NO_THROW(validate(set, graph, "chosen"));
+  return total_weight(set, graph);
+}
+
+TEST(BranchAndBound, AgreesWithBruteForce) {
+  BranchAndBound solver;
+  for_random_graphs(1000, [&](const ConflictGraph& graph, int index) {
+    SearchBudget budget;
+    const std::int64_t expected = brute_force_weight(graph);
+    ASSERT_TRUE(solver.solve(to_dense(graph), -1, budget)) << "graph " << index;
+    EXPECT_EQ(solver.best_weight(), expected) << "graph " << index;
+    std::vector<bits::Word> chosen(bits::words_for(graph.weights.size()));
+    for (const std::uint32_t v : solver.best()) bits::insert(chosen.data(), v);
+    EXPECT_EQ(checked_weight(graph, chosen), expected) << "graph " << index;
+    EXPECT_FALSE(solver.solve(to_dense(graph), expected, budget)) << "nothing is heavier, graph " << index;
+    EXPECT_TRUE(solver.solve(to_dense(graph), expected - 1, budget)) << "graph " << index;
+  });
+}
+
+TEST(BranchAndBound, StopsAtItsBudget) {
+  Random random(3);
+  const DenseGraph graph = to_dense(hexpipe::testing::random_graph(150, 0.1, 1000, random));
+  BranchAndBound solver;
+  SearchBudget budget(100);
+  solver.solve(graph, -1, budget);
+  EXPECT_TRUE(budget.exhausted());
+  EXPECT_EQ(budget.spent(), 100);
+  const Deadline passed(0.0);
+  SearchBudget no_time(1000000, &passed);
+  solver.solve(graph, -1, no_time);
+  EXPECT_TRUE(no_time.out_of_time());
+  EXPECT_TRUE(no_time.exhausted());
+}
+
+TEST(DenseReductions, KeepTheOptimum) {
+  DenseReductions reductions;
+  int decided = 0, vertices = 0;
+  for_random_graphs(1000, [&](const ConflictGraph& graph, int index) {
+    DenseGraph dense = to_dense(graph);
+    reductions.reduce(dense);
+    // The kernel by brute force, on a graph of its own.
+    std::vector<std::int32_t> left;
+    bits::for_each(reductions.left(), dense.words(),
+                   [&](std::size_t v) { left.push_back(static_cast<std::int32_t>(v)); });
+    std::vector<std::int64_t> weights;
+    std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+    for (std::size_t a = 0; a < left.size(); ++a) {
+      weights.push_back(dense.weight(left[a]));
+      EXPECT_GT(weights.back(), 0);
+      for (std::size_t b = 0; b < a; ++b)
+        if (dense.has_edge(left[a], left[b])) edges.emplace_back(a, b);
+    }
+    const ConflictGraph kernel = hexpipe::testing::make_graph(weights, edges);
+    EXPECT_EQ(brute_force_weight(kernel) + reductions.offset(), brute_force_weight(graph)) << "graph " << index;
+    decided += graph.vertex_count() - kernel.vertex_count();
+    vertices += graph.vertex_count();
+  });
+  EXPECT_GT(decided, vertices / 2);
+}
+
+TEST(ExactSolver, AgreesWithBruteForceFromAnyStart) {
+  ExactSolver solver;
+  Random random(5);
+  for_random_graphs(1500, [&](const ConflictGraph& graph, int index) {
+    // An arbitrary start, which need not be maximal.
+    std::vector<bits::Word> chosen(bits::words_for(graph.weights.size()));
+    for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
+      const auto in_set = [&](std::int32_t u) { return bits::test(chosen.data(), u); };
+      if (random.below(2) == 0 && std::ranges::none_of(graph.neighbours_of(v), in_set)) bits::insert(chosen.data(), v);
+    }
+    DenseGraph dense = to_dense(graph);
+    SearchBudget budget;
+    ASSERT_TRUE(solver.solve(dense, chosen, budget));
+    EXPECT_EQ(checked_weight(graph, chosen), brute_force_weight(graph)) << "graph " << index;
+  });
+}
+
+TEST(ExactSolver, NeverReturnsLessThanItGot) {
+  ExactSolver solver;
+  Random random(6);
+  for (int i = 0; i < 200; ++i) {
+    const ConflictGraph graph = hexpipe::testing::random_graph(60, 0.15, 1000, random);
+    std::vector<bits::Word> chosen(bits::words_for(graph.weights.size()));
+    std::int64_t weight = 0;
+    for (const std::int64_t nodes : {0, 1, 2, 5, 20, 100000}) {
+      DenseGraph dense = to_dense(graph);
+      SearchBudget budget(nodes);
+      const bool complete = solver.solve(dense, chosen, budget);
+      const std::int64_t now = checked_weight(graph, chosen);
+      EXPECT_GE(now, weight) << "graph " << i;
+      EXPECT_FALSE(complete && nodes == 0);
+      weight = now;
+    }
+  }
+}
+
+TEST(ExactSolver, SolvesTheExtremes) {
+  ExactSolver solver;
+  const auto solve = [&](const ConflictGraph& graph) {
+    std::vector<bits::Word> chosen(bits::words_for(graph.weights.size()));
+    DenseGraph dense = to_dense(graph);
+    SearchBudget budget;
+    EXPECT_TRUE(solver.solve(dense, chosen, budget));
+    return checked_weight(graph, chosen);
+  };
+  EXPECT_EQ(solve(ConflictGraph{}), 0);
+  EXPECT_EQ(solve(hexpipe::testing::make_graph({7}, {})), 7);
+  EXPECT_EQ(solve(hexpipe::testing::make_graph({0, 0}, {{0, 1}})), 0);
+  Random random(8);
+  EXPECT_EQ(solve(hexpipe::testing::random_graph(100, 1.0, 0, random)), 0);
+  std::vector<std::int64_t> huge(65, (std::int64_t{1} << 62) / 65);
+  EXPECT_EQ(solve(hexpipe::testing::make_graph(huge, {})), 65 * huge[0]);
+}
+
+}  // namespace
+}  // namespace hexpipe

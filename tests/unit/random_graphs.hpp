@@ -1,0 +1,84 @@
+#pragma once
+// Small conflict graphs for tests, and their heaviest independent sets by trying everything.
+
+#include <algorithm>
+#include <cstdint>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "common/graph/conflict_graph.hpp"
+#include "common/mwis/dense_graph.hpp"
+#include "common/run/random.hpp"
+
+namespace hexpipe::testing {
+
+inline ConflictGraph make_graph(std::vector<std::int64_t> weights,
+                                const std::vector<std::pair<std::int32_t, std::int32_t>>& edges) {
+  std::vector<std::set<std::int32_t>> lists(weights.size());
+  for (const auto& [a, b] : edges) lists[a].insert(b), lists[b].insert(a);
+  ConflictGraph graph;
+  graph.weights = std::move(weights);
+  for (const auto& list : lists) {
+    graph.neighbours.insert(graph.neighbours.end(), list.begin(), list.end());
+    graph.offsets.push_back(static_cast<std::int64_t>(graph.neighbours.size()));
+  }
+  return graph;
+}
+
+inline std::vector<std::int64_t> random_weights(std::int32_t vertices, std::int64_t heaviest, Random& random) {
+  std::vector<std::int64_t> weights(vertices);
+  for (auto& weight : weights) weight = static_cast<std::int64_t>(random.below(heaviest + 1));
+  return weights;
+}
+
+// Every edge with the same probability; weights from 0 to `heaviest`, a small one for many ties.
+inline ConflictGraph random_graph(std::int32_t vertices, double density, std::int64_t heaviest, Random& random) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+  for (std::int32_t a = 0; a < vertices; ++a)
+    for (std::int32_t b = a + 1; b < vertices; ++b)
+      if (random.uniform() < density) edges.emplace_back(a, b);
+  return make_graph(random_weights(vertices, heaviest, random), edges);
+}
+
+// Vertices are sets of 2 to 4 neighbouring cells on a ring of `cells`, in conflict where they share one: cliques as in
+// conflict graphs of meshes, long enough for neighbourhoods to be local.
+inline ConflictGraph random_clique_graph(std::int32_t vertices, std::int32_t cells, std::int64_t heaviest,
+                                         Random& random) {
+  std::vector<std::set<std::uint64_t>> parts(vertices);
+  for (auto& part : parts) {
+    const std::uint64_t place = random.below(cells);
+    for (std::uint64_t left = 2 + random.below(3); left > 0; --left) part.insert((place + random.below(6)) % cells);
+  }
+  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+  for (std::int32_t a = 0; a < vertices; ++a)
+    for (std::int32_t b = a + 1; b < vertices; ++b)
+      if (std::ranges::any_of(parts[a], [&](std::uint64_t cell) { return parts[b].contains(cell); }))
+        edges.emplace_back(a, b);
+  return make_graph(random_weights(vertices, heaviest, random), edges);
+}
+
+inline std::int64_t brute_force_weight(const ConflictGraph& graph, std::int32_t from, std::uint64_t excluded) {
+  for (; from < graph.vertex_count() && (excluded >> from & 1) != 0; ++from) {
+  }
+  if (from == graph.vertex_count()) return 0;
+  const std::int64_t without = brute_force_weight(graph, from + 1, excluded);
+  for (const std::int32_t u : graph.neighbours_of(from)) excluded |= std::uint64_t{1} << u;
+  return std::max(without, graph.weights[from] + brute_force_weight(graph, from + 1, excluded));
+}
+
+// For up to 64 vertices; quick up to some 25.
+inline std::int64_t brute_force_weight(const ConflictGraph& graph) {
+  return brute_force_weight(graph, 0, 0);
+}
+
+inline DenseGraph to_dense(const ConflictGraph& graph) {
+  DenseGraph dense(graph.weights.size());
+  for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
+    dense.set_weight(v, graph.weights[v]);
+    for (const std::int32_t u : graph.neighbours_of(v)) dense.add_edge(v, u);
+  }
+  return dense;
+}
+
+}  // namespace hexpipe::testing
