@@ -1,0 +1,22 @@
+#pragma once
+// From TetGen's tets to the mesh: judges them against the surface, gives them their regions, empties the holes.
+
+#include <span>
+
+#include "common/mesh/tet_mesh.hpp"
+#include "tools/tetmesh/run_tetgen.hpp"
+#include "tools/tetmesh/shells.hpp"
+
+namespace hexpipe {
+
+struct BuiltMesh {
+  TetMesh mesh;  // points: the surface's first, in their order; triangles: the surface's, in their order
+  std::size_t added_points = 0;    // by TetGen, off the surface
+  std::size_t dropped_points = 0;  // of the interior points
+};
+
+// Throws DataError when TetGen failed, moved a point or lost a triangle of the surface, left a tet without volume, or
+// when the tets' volumes do not add up to that of a region.
+BuiltMesh build_mesh(const Surface& surface, std::span<const Vec3> interior_points, TetGenResult tetgen);
+
+}  // namespace hexpipe

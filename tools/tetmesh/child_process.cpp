@@ -1,0 +1,147 @@
+#include "tools/tetmesh/child_process.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <pthread.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <exception>
+
+#include "common/run/deadline.hpp"
+#include "common/run/error.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr std::size_t kept_output = 4096;
+
+[[noreturn]] void fail(const char* what) {
+  throw DataError(fmt::format("cannot {}: {}", what, std::strerror(errno)));
+}
+
+// With no handler on the stack std::terminate is called where the exception is thrown, before any destructor runs.
+[[noreturn]] void exit_with_exception() {
+  try {
+    std::rethrow_exception(std::current_exception());
+  } catch (const int code) {
+    _exit(code);
+  } catch (...) {
+    _exit(uncaught_exception);
+  }
+}
+
+void* run_work(void* work) {
+  (*static_cast<const std::function<void()>*>(work))();
+  return nullptr;
+}
+
+[[noreturn]] void be_the_child(const std::function<void()>& work, pid_t parent, int output) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) signal(number, SIG_DFL);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(0);  // it died before the line above
+  const int nothing = open("/dev/null", O_RDONLY);
+  dup2(nothing, STDIN_FILENO);
+  dup2(output, STDOUT_FILENO);
+  dup2(output, STDERR_FILENO);
+  std::set_terminate(exit_with_exception);
+  pthread_t thread;
+  // A thread has no callers, and so no try blocks above it; main() and the test frameworks have.
+  if (pthread_create(&thread, nullptr, run_work, const_cast<std::function<void()>*>(&work)) != 0)
+    _exit(uncaught_exception);
+  pthread_join(thread, nullptr);
+  _exit(0);
+}
+
+// Keeps the last of what comes until the other end closes. False when the time is over first.
+bool listen(int descriptor, const Deadline& deadline, std::string& heard) {
+  char buffer[4096];
+  for (;;) {
+    const double milliseconds = std::min(std::ceil(1000 * deadline.remaining()), 60'000.0);
+    if (milliseconds <= 0) return false;
+    pollfd event{descriptor, POLLIN, 0};
+    const int ready = poll(&event, 1, static_cast<int>(milliseconds));
+    if (ready < 0 && errno != EINTR) fail("wait for a child process");
+    if (ready <= 0) continue;
+    const ssize_t count = read(descriptor, buffer, sizeof buffer);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return true;
+    heard.append(buffer, static_cast<std::size_t>(count));
+    if (heard.size() > 2 * kept_output) heard.erase(0, heard.size() - kept_output);
+  }
+}
+
+int wait_for(pid_t child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) fail("wait for a child process");
+  return status;
+}
+
+}  // namespace
+
+SharedResult::SharedResult() : descriptor_(memfd_create("result", MFD_CLOEXEC)) {
+  if (descriptor_ < 0) fail("share memory with a child process");
+}
+
+SharedResult::~SharedResult() {
+  close(descriptor_);
+}
+
+void SharedResult::append(const void* data, std::size_t bytes) {
+  const char* next = static_cast<const char*>(data);
+  while (bytes > 0) {
+    const ssize_t count = write(descriptor_, next, bytes);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) _exit(write_failed);
+    next += count;
+    bytes -= static_cast<std::size_t>(count);
+  }
+}
+
+void SharedResult::take(void* data, std::size_t bytes) {
+  char* next = static_cast<char*>(data);
+  while (bytes > 0) {
+    const ssize_t count = pread(descriptor_, next, bytes, static_cast<off_t>(taken_));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) throw DataError("a child process left only a part of its result");
+    next += count;
+    bytes -= static_cast<std::size_t>(count);
+    taken_ += static_cast<std::uint64_t>(count);
+  }
+}
+
+ChildEnd run_in_child(const std::function<void()>& work, double timeout) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) fail("open a pipe");
+  const Deadline deadline(timeout);
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  if (child < 0) fail("start a child process");
+  if (child == 0) be_the_child(work, parent, ends[1]);
+  close(ends[1]);
+
+  ChildEnd end;
+  const bool in_time = listen(ends[0], deadline, end.said);
+  close(ends[0]);
+  if (!in_time) kill(child, SIGKILL);
+  const int status = wait_for(child);
+  if (!in_time) {
+    end.kind = ChildEnd::Kind::timed_out;
+  } else if (WIFSIGNALED(status)) {
+    end.kind = ChildEnd::Kind::killed;
+    end.code = WTERMSIG(status);
+  } else {
+    end.code = WEXITSTATUS(status);
+  }
+  return end;
+}
+
+}  // namespace hexpipe

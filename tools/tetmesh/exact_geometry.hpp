@@ -1,0 +1,32 @@
+#pragma once
+// Exact answers about points given in doubles.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/mesh/tet_mesh.hpp"
+
+namespace hexpipe {
+
+// The sign of the area of (a, b, c) projected along z: positive when counter-clockwise seen from +z.
+int orientation_along_z(const Vec3& a, const Vec3& b, const Vec3& c);
+
+// The sign of det(b - a, c - a, d - a).
+int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+bool are_collinear(const Vec3& a, const Vec3& b, const Vec3& c);
+
+struct IntersectionReport {
+  std::vector<std::array<std::int32_t, 2>> pairs;  // ascending within and among pairs
+  bool complete = true;                            // false: there are more pairs than the limit
+};
+
+// Pairs of triangles that have more in common than the vertices that both name: that cross, touch, or overlap in a
+// plane. No triangle may be degenerate.
+IntersectionReport find_intersections(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                                      std::size_t limit);
+
+}  // namespace hexpipe

@@ -1,0 +1,40 @@
+#pragma once
+// Which triangles of a soup meet at each edge. Half-edge 3 t + i leads from corner i of triangle t to corner i + 1.
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "common/mesh/tet_mesh.hpp"
+
+namespace hexpipe {
+
+using HalfEdge = std::int32_t;
+
+inline std::int32_t triangle_of(HalfEdge h) {
+  return h / 3;
+}
+inline HalfEdge next_in_triangle(HalfEdge h) {
+  return h % 3 == 2 ? h - 2 : h + 1;
+}
+inline HalfEdge previous_in_triangle(HalfEdge h) {
+  return h % 3 == 0 ? h + 2 : h - 1;
+}
+
+inline Vertex start_of(std::span<const Triangle> triangles, HalfEdge h) {
+  return triangles[h / 3][h % 3];
+}
+inline Vertex end_of(std::span<const Triangle> triangles, HalfEdge h) {
+  return start_of(triangles, next_in_triangle(h));
+}
+
+// Calls visit once for every edge with its half-edges, of either direction, ascending; edges come by their lower, then
+// their higher vertex. Triangles must not repeat a vertex.
+void for_each_edge(std::size_t vertex_count, std::span<const Triangle> triangles,
+                   const std::function<void(std::span<const HalfEdge>)>& visit);
+
+// The other half-edge of each edge; every edge must have two.
+std::vector<HalfEdge> find_twins(std::size_t vertex_count, std::span<const Triangle> triangles);
+
+}  // namespace hexpipe

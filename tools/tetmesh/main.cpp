@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <map>
+
+#include "common/run/error.hpp"
+#include "common/run/tool_main.hpp"
+#include "formats/stage.hpp"
+#include "formats/surface_files.hpp"
+#include "tools/tetmesh/tetmesh.hpp"
+
+using namespace hexpipe;
+
+namespace {
+
+const std::map<std::string, PointKind> point_kinds{{"lattice", PointKind::lattice}, {"none", PointKind::none}};
+const std::map<std::string, ShellRule> shell_rules{
+    {"oriented", ShellRule::oriented}, {"regions", ShellRule::regions}, {"holes", ShellRule::holes}};
+
+Input open_surface(const std::string& path) {
+  if (path == "-" && isatty(STDIN_FILENO))
+    throw UsageError("nothing to read: name a surface, or pipe one to standard input (see tetmesh --help)");
+  return Input::open(path);
+}
+
+std::string summary(const TetmeshStatistics& s) {
+  return fmt::format(
+      "{} points ({} of the surface, {} inside), {} tets, volume {:.6g}, size {:.4g}, dihedral angles {:.3g} to {:.4g} "
+      "degrees",
+      s.points, s.surface_points, s.points - s.surface_points, s.tets, s.volume, s.size, s.least_dihedral,
+      s.greatest_dihedral);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const ToolInfo info{
+      .name = "tetmesh",
+      .summary = "Fill a closed surface (STL, OBJ, PLY, OFF) with tetrahedra that merge well into hexes.",
+      .example = "tetmesh bracket.stl --size 3 | findhex | buildgraph | initsol | assemble -o bracket.vtu",
+      .reads = {},
+      .product = Role::mesh,
+      .random = true};
+  TetmeshOptions options;
+  std::string path = "-", size, points = "lattice", shells = "oriented";
+  const auto declare = [&](CLI::App& app) {
+    app.add_option("surface", path, "A surface in any format; '-' or nothing: standard input")->type_name("FILE");
+    app.add_option(
+           "--size", size,
+           "Distance of points inside, in the surface's units or, with %, in percent of the bounding box's diagonal "
+           "[the surface's own]")
+        ->type_name("LENGTH");
+    app.add_option("--points", points, "Points inside: on a lattice along the axes, or none")
+        ->check(CLI::IsMember(point_kinds));
+    app.add_option("--clearance", options.clearance, "Least distance of lattice points from the surface, in sizes")
+        ->check(CLI::Range(0.1, 10.0).description(""));
+    app.add_option("--jitter", options.jitter, "How far lattice points are moved at random along each axis, in sizes")
+        ->check(CLI::Range(0.0, 1.0).description(""));
+    app.add_option("--shells", shells,
+                   "Shells in shells: holes where oriented inward and regions else; all regions; or alternately holes")
+        ->check(CLI::IsMember(shell_rules));
+    app.add_option("--tetgen-timeout", options.tetgen_timeout, "Seconds after which TetGen is given up")
+        ->check(CLI::Range(0.001, 1e9).description(""));
+  };
+  const auto run = [&](RunContext& context) {
+    if (!size.empty()) options.size = parse_length(size);
+    options.points = point_kinds.at(points);
+    options.shells = shell_rules.at(shells);
+    options.seed = context.common.seed;
+    Stage stage(context);
+    Input input = open_surface(path);
+    const TetmeshResult result = tetmesh(read_surface(input), options);
+    if (result.warning) context.warn(*result.warning);
+    context.note(summary(result.statistics));
+    context.statistics.update(to_json(result.statistics));
+    context.statistics["seconds_by_step"] = times_of(result.statistics);
+    stage.begin();
+    stage.write(result.mesh, to_json(result.statistics));
+  };
+  return tool_main(argc, argv, info, declare, run);
+}

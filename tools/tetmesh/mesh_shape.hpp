@@ -1,0 +1,15 @@
+#pragma once
+// How large the tets of a mesh are together, and how flat they get.
+
+#include "common/mesh/tet_mesh.hpp"
+
+namespace hexpipe {
+
+struct MeshShape {
+  double volume = 0;
+  double least_dihedral = 180, greatest_dihedral = 0;  // degrees, over all tets
+};
+
+MeshShape shape_of(const TetMesh& mesh);
+
+}  // namespace hexpipe

@@ -1,0 +1,31 @@
+#pragma once
+// TetGen behind one function: a surface that is kept and points inside it become tetrahedra.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/mesh/tet_mesh.hpp"
+
+namespace hexpipe {
+
+struct TetGenInput {
+  std::span<const Vec3> surface_points;
+  std::span<const Triangle> triangles;  // of one or more closed surfaces
+  std::span<const Vec3> interior_points;
+};
+
+struct TetGenResult {
+  // The points of the surface, then those that TetGen added or took from interior_points. Holes are filled.
+  std::vector<Vec3> points;
+  std::vector<Tet> tets;
+  // Where it failed: what went wrong, in a sentence, and the triangles that TetGen names as intersecting.
+  std::string failure;
+  std::vector<Triangle> intersecting;
+};
+
+// Runs TetGen in a child process: it ends processes, throws through frames that free twice, and prints. `timeout` is in
+// seconds. Throws DataError only when no child process can be run.
+TetGenResult run_tetgen(const TetGenInput& input, double timeout);
+
+}  // namespace hexpipe

@@ -1,0 +1,42 @@
+#pragma once
+// The size of elements: what the user asks for, what the part suggests, and how well the surface goes with it.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "tools/tetmesh/shells.hpp"
+
+namespace hexpipe {
+
+struct Length {
+  double value = 0;
+  bool percent_of_diagonal = false;
+};
+
+// "2.5" or "3%". Throws UsageError unless it is positive and finite.
+Length parse_length(std::string_view text);
+
+// Of the box around the points, along the axes.
+double bounding_box_diagonal(const Surface& surface);
+
+// In the units of the surface. Without a length, the spacing of the surface's vertices (the side of a square for each
+// of them), which is the size that goes with triangles that stay as they are; but, since a CAD tessellation has few
+// vertices and a scan has many, at most 5 % of the diagonal, at most half of the mean wall thickness (2 volume / area),
+// and at least 1 % of the cube root of the volume.
+double element_size(const Surface& surface, const std::optional<Length>& length);
+
+// How far the surface's triangles are from the size of the elements behind them.
+struct SizeFit {
+  double median_edge = 0;
+  // The part of the area in triangles with an edge longer than 2.5 times the size, or shorter than 0.4 times. The
+  // diagonal of a square is 1.4 sizes long.
+  double coarse_share = 0, fine_share = 0;
+
+  // A sentence when more than a quarter of the area is off.
+  std::optional<std::string> complaint(double size) const;
+};
+
+SizeFit fit_to_size(const Surface& surface, double size);
+
+}  // namespace hexpipe

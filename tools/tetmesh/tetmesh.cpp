@@ -1,0 +1,102 @@
+#include "tools/tetmesh/tetmesh.hpp"
+
+#include <algorithm>
+
+#include "common/run/deadline.hpp"
+#include "common/run/error.hpp"
+#include "tools/tetmesh/build_mesh.hpp"
+#include "tools/tetmesh/mesh_shape.hpp"
+#include "tools/tetmesh/run_tetgen.hpp"
+#include "tools/tetmesh/surface_check.hpp"
+
+namespace hexpipe {
+namespace {
+
+void check_options(const TetmeshOptions& options) {
+  // Each coordinate moves by the jitter, a point by up to sqrt(3) times that; it must not reach the surface.
+  if (options.points == PointKind::lattice && options.jitter >= options.clearance / 2)
+    throw UsageError(fmt::format("expected --jitter below half of --clearance, {:g}, found {:g}", options.clearance / 2,
+                                 options.jitter));
+}
+
+std::vector<Vec3> place_points(const Surface& surface, const TetmeshOptions& options, double size) {
+  if (options.points == PointKind::none) return {};
+  return lattice_points(surface, {size, options.clearance, options.jitter, options.seed});
+}
+
+void describe(const Surface& surface, TetmeshStatistics& statistics) {
+  statistics.surface_points = surface.points.size();
+  statistics.surface_triangles = surface.triangles.size();
+  statistics.shells = surface.shells.size();
+  statistics.regions = static_cast<std::size_t>(surface.region_count);
+}
+
+void describe(const BuiltMesh& built, TetmeshStatistics& statistics) {
+  const MeshShape shape = shape_of(built.mesh);
+  statistics.points = built.mesh.points.size();
+  statistics.tets = built.mesh.tets.size();
+  statistics.added_points = built.added_points;
+  statistics.dropped_points = built.dropped_points;
+  statistics.volume = shape.volume;
+  statistics.least_dihedral = shape.least_dihedral;
+  statistics.greatest_dihedral = shape.greatest_dihedral;
+}
+
+}  // namespace
+
+TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
+  check_options(options);
+  TetmeshResult result;
+  TetmeshStatistics& statistics = result.statistics;
+  Stopwatch watch;
+  auto lap = [&watch](double& seconds) {
+    seconds = watch.seconds();
+    watch = Stopwatch();
+  };
+
+  check_surface(soup);
+  const Surface surface = find_shells(std::move(soup), options.shells);
+  describe(surface, statistics);
+  lap(statistics.seconds_checking);
+
+  statistics.size = element_size(surface, options.size);
+  if (options.points != PointKind::none)
+    result.warning = fit_to_size(surface, statistics.size).complaint(statistics.size);
+  const std::vector<Vec3> points = place_points(surface, options, statistics.size);
+  statistics.interior_points = points.size();
+  lap(statistics.seconds_placing);
+
+  TetGenResult tetgen = run_tetgen({surface.points, surface.triangles, points}, options.tetgen_timeout);
+  lap(statistics.seconds_tetgen);
+
+  BuiltMesh built = build_mesh(surface, points, std::move(tetgen));
+  describe(built, statistics);
+  result.mesh = std::move(built.mesh);
+  lap(statistics.seconds_building);
+  return result;
+}
+
+nlohmann::ordered_json to_json(const TetmeshStatistics& s) {
+  return {{"size", s.size},
+          {"surface_points", s.surface_points},
+          {"surface_triangles", s.surface_triangles},
+          {"shells", s.shells},
+          {"regions", s.regions},
+          {"interior_points", s.interior_points},
+          {"added_points", s.added_points},
+          {"dropped_points", s.dropped_points},
+          {"points", s.points},
+          {"tets", s.tets},
+          {"volume", s.volume},
+          {"least_dihedral", s.least_dihedral},
+          {"greatest_dihedral", s.greatest_dihedral}};
+}
+
+nlohmann::ordered_json times_of(const TetmeshStatistics& s) {
+  return {{"checking", s.seconds_checking},
+          {"placing", s.seconds_placing},
+          {"tetgen", s.seconds_tetgen},
+          {"building", s.seconds_building}};
+}
+
+}  // namespace hexpipe

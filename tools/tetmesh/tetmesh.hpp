@@ -1,0 +1,55 @@
+#pragma once
+// From a surface to tetrahedra: checks it, finds its shells, places points inside, calls TetGen, judges what it made.
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "common/mesh/tet_mesh.hpp"
+#include "formats/surface_files.hpp"
+#include "tools/tetmesh/lattice.hpp"
+#include "tools/tetmesh/shells.hpp"
+#include "tools/tetmesh/sizing.hpp"
+
+namespace hexpipe {
+
+enum class PointKind { lattice, none };
+
+struct TetmeshOptions {
+  std::optional<Length> size;  // nothing: see element_size()
+  PointKind points = PointKind::lattice;
+  double clearance = LatticeOptions{}.clearance;
+  double jitter = LatticeOptions{}.jitter;
+  ShellRule shells = ShellRule::oriented;
+  std::uint64_t seed = 1;
+  double tetgen_timeout = 3600;  // seconds
+};
+
+struct TetmeshStatistics {
+  double size = 0;
+  std::size_t surface_points = 0, surface_triangles = 0;
+  std::size_t shells = 0, regions = 0;
+  std::size_t interior_points = 0;  // asked for
+  std::size_t added_points = 0, dropped_points = 0;
+  std::size_t points = 0, tets = 0;
+  double volume = 0;
+  double least_dihedral = 0, greatest_dihedral = 0;  // degrees
+  double seconds_checking = 0, seconds_placing = 0, seconds_tetgen = 0, seconds_building = 0;
+};
+
+struct TetmeshResult {
+  TetMesh mesh;
+  TetmeshStatistics statistics;
+  std::optional<std::string> warning;
+};
+
+// Throws DataError for a surface that is not the boundary of a solid, and where TetGen fails; UsageError for options
+// that contradict each other.
+TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options);
+
+// Everything but the times, which differ from run to run; and these, in seconds by step.
+nlohmann::ordered_json to_json(const TetmeshStatistics& statistics);
+nlohmann::ordered_json times_of(const TetmeshStatistics& statistics);
+
+}  // namespace hexpipe
