@@ -163,6 +163,14 @@ struct Linearization {
   }
 };
 
+// Where gradients cancel, what is left is rounding, and a long step along it would leave the plane that holds the
+// vertex.
+bool is_direction(const Vec3& sum, std::span<const Vec3> gradients) {
+  double longest = 0;
+  for (const auto& g : gradients) longest = std::max(longest, norm_squared(g));
+  return norm_squared(sum) > 1e-6 * longest;
+}
+
 }  // namespace
 
 Placement raise_worst(const PointStar& star, const Vec3& start, int steps, const Freedom& freedom) {
@@ -176,9 +184,9 @@ Placement raise_worst(const PointStar& star, const Vec3& start, int steps, const
     active.clear();
     for (std::size_t i = 0; i < here.values.size(); ++i)
       if (here.values[i] <= here.worst + band) active.push_back(here.gradients[i]);
-    const Vec3 direction = shortest_in_hull(active);
+    const Vec3 direction = freedom.allowed(shortest_in_hull(active));
     double gain = 0;
-    if (norm_squared(direction) > 0) {
+    if (is_direction(direction, active)) {
       double length = here.reach(direction);
       for (int i = 0; i <= halvings; ++i, length /= 2) {
         const Vec3 at = best.at + direction * length;
@@ -238,12 +246,17 @@ Vec3 deepest_point(std::span<const Plane> planes, const Vec3& start) {
 Placement raise_mean(const PointStar& star, const Vec3& start, int steps, double floor, const Freedom& freedom) {
   Placement best{start, star.worst(start)};
   double mean = star.mean(start);
+  std::vector<Vec3> gradients;
   for (int step = 0; step < steps; ++step) {
-    Vec3 direction{};
-    for (std::size_t i = 0; i < star.size(); ++i) direction += star.gradient(i, best.at);
-    direction = freedom.allowed(direction * (1.0 / static_cast<double>(star.size())));
+    gradients.clear();
+    Vec3 sum{};
+    for (std::size_t i = 0; i < star.size(); ++i) {
+      gradients.push_back(star.gradient(i, best.at));
+      sum += gradients.back();
+    }
+    const Vec3 direction = freedom.allowed(freedom.allowed(sum * (1.0 / static_cast<double>(star.size()))));
     const double slope = norm_squared(direction);
-    if (!(slope > 0)) break;
+    if (!is_direction(direction, gradients)) break;
     // Full step: where the linear model of the mean would reach 1.
     double length = (1 - mean) / slope;
     bool moved = false;
