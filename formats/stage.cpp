@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 
+#include "common/mesh/orientation.hpp"
 #include "common/run/error.hpp"
 #include "common/run/version.hpp"
 #include "formats/bundle.hpp"
@@ -64,6 +65,12 @@ std::string choose_format(const StreamOptions& streams, Role product) {
 
 bool is_text_format(std::string_view format) {
   return !is_bundle_format(format) && !format.ends_with("-binary") && format != "vtu";
+}
+
+// The tool whose product it is.
+const char* maker_of(Role role) {
+  constexpr const char* tools[] = {"tetmesh", "findhex", "buildgraph", "initsol", "assemble"};
+  return tools[static_cast<int>(role)];
 }
 
 std::string list_of(const std::set<Role>& roles) {
@@ -171,6 +178,7 @@ struct Stage::State {
 
   void read_bundle(Input& input, const std::set<Role>& taken, StageData& data);
   void read_files(std::map<Role, Input>& files, StageData& data);
+  void orient(TetMesh& mesh, const std::string& name) const;
   void check(const StageData& data) const;
   std::string source_of(Role role) const;
   void write_history(const nlohmann::ordered_json& details);
@@ -239,8 +247,8 @@ StageData Stage::read(const std::vector<Role>& needs, const std::vector<Role>& w
   state.read_files(files, data);
   for (const Role role : needs)
     if (!holds(data, role))
-      throw DataError::at(input ? input->name() : std::string("the files"), "expected {} for {}, found {}",
-                          name_of(role), state.context.info.name, list_of(state.seen));
+      throw DataError::at(input ? input->name() : std::string("the files"), "expected {} for {}, found {}; {} makes it",
+                          name_of(role), state.context.info.name, list_of(state.seen), maker_of(role));
   fill_defaults(data);
   state.check(data);
   return data;
@@ -271,6 +279,12 @@ void Stage::State::read_bundle(Input& input, const std::set<Role>& taken, StageD
   }
 }
 
+// Files of other programs list tets in any sense; bundles hold them positively oriented.
+void Stage::State::orient(TetMesh& mesh, const std::string& name) const {
+  validate(mesh, name.c_str());
+  if (const auto warning = turned_tets_warning(orient_tets(mesh, name.c_str()))) context.warn(name + ": " + *warning);
+}
+
 // In the order of the pipeline: a solution needs to know its graph.
 void Stage::State::read_files(std::map<Role, Input>& files, StageData& data) {
   for (auto& [role, input] : files) {
@@ -291,6 +305,7 @@ void Stage::State::read_files(std::map<Role, Input>& files, StageData& data) {
       if (only.result) data.result = std::move(only.result);
     } else {
       read_role_file(role, input, data);
+      if (role == Role::mesh) orient(*data.mesh, input.name());
     }
     if (bundle && role < product()) write_role(role, data, *bundle);
   }

@@ -1,0 +1,108 @@
+#include "common/mesh/orientation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+#include "common/mesh/adjacency.hpp"
+#include "common/mesh/cell_topology.hpp"
+#include "common/mesh/validity.hpp"
+#include "common/run/parallel.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr std::int64_t tets_a_block = 4096;
+
+std::vector<std::int8_t> signs_of(const TetMesh& mesh) {
+  std::vector<std::int8_t> signs(mesh.tets.size());
+  parallel_for(static_cast<std::int64_t>(signs.size()), tets_a_block, [&](std::int64_t t) {
+    const auto& [a, b, c, d] = mesh.tets[t];
+    signs[t] = static_cast<std::int8_t>(orientation(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]));
+  });
+  return signs;
+}
+
+// The facet opposite corner i of a tet, as three vertices from the lowest on, in the sense of TetTopology::triangles.
+Triangle facet_from_lowest(const Tet& tet, int facet) {
+  const LocalTriangle& c = TetTopology::triangles[facet];
+  Triangle triangle{tet[c[0]], tet[c[1]], tet[c[2]]};
+  std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+  return triangle;
+}
+
+// Two tets at a facet are listed in the same sense when one lists the facet the other way round.
+bool listed_alike(const Tet& tet, int facet, const Tet& other) {
+  const Triangle triangle = facet_from_lowest(tet, facet);
+  for (int i = 0; i < 4; ++i) {
+    if (std::find(triangle.begin(), triangle.end(), other[i]) == triangle.end())
+      return facet_from_lowest(other, i) != triangle;
+  }
+  return true;
+}
+
+enum class Turn : std::int8_t { unknown, keep, turn };
+
+// Decides for the tets that hang together with `start`; appends them to `part`.
+void spread(const TetMesh& mesh, const TetAdjacency& adjacency, std::int32_t start, std::vector<Turn>& turns,
+            std::vector<std::int32_t>& part) {
+  turns[start] = Turn::keep;
+  part.assign(1, start);
+  for (std::size_t next = 0; next < part.size(); ++next) {
+    const std::int32_t tet = part[next];
+    for (int facet = 0; facet < 4; ++facet) {
+      const std::int32_t beyond = adjacency.tet_beyond(tet, facet);
+      if (beyond == TetAdjacency::none || turns[beyond] != Turn::unknown) continue;
+      const bool alike = listed_alike(mesh.tets[tet], facet, mesh.tets[beyond]);
+      turns[beyond] = alike == (turns[tet] == Turn::keep) ? Turn::keep : Turn::turn;
+      part.push_back(beyond);
+    }
+  }
+}
+
+// The sense in which more tets of the part are positive.
+void prefer_positive(std::span<const std::int32_t> part, const std::vector<std::int8_t>& signs,
+                     std::vector<Turn>& turns) {
+  std::int64_t balance = 0;
+  for (const std::int32_t t : part) balance += turns[t] == Turn::keep ? signs[t] : -signs[t];
+  if (balance >= 0) return;
+  for (const std::int32_t t : part) turns[t] = turns[t] == Turn::keep ? Turn::turn : Turn::keep;
+}
+
+void turn_tets(TetMesh& mesh, const char* source, TetOrientation& result) {
+  const TetAdjacency adjacency(mesh, source);
+  std::vector<Turn> turns(mesh.tets.size(), Turn::unknown);
+  std::vector<std::int32_t> part;
+  for (std::size_t start = 0; start < mesh.tets.size(); ++start) {
+    if (turns[start] != Turn::unknown) continue;
+    spread(mesh, adjacency, static_cast<std::int32_t>(start), turns, part);
+    prefer_positive(part, result.signs, turns);
+  }
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    if (turns[t] != Turn::turn) continue;
+    std::swap(mesh.tets[t][2], mesh.tets[t][3]);
+    result.signs[t] = static_cast<std::int8_t>(-result.signs[t]);
+    ++result.turned;
+  }
+}
+
+}  // namespace
+
+TetOrientation orient_tets(TetMesh& mesh, const char* source) {
+  TetOrientation result;
+  result.signs = signs_of(mesh);
+  if (std::find(result.signs.begin(), result.signs.end(), -1) != result.signs.end()) turn_tets(mesh, source, result);
+  result.inverted = std::count(result.signs.begin(), result.signs.end(), -1);
+  result.flat = std::count(result.signs.begin(), result.signs.end(), 0);
+  return result;
+}
+
+std::optional<std::string> turned_tets_warning(const TetOrientation& orientation) {
+  constexpr std::int64_t one_in = 4;
+  const auto count = static_cast<std::int64_t>(orientation.signs.size());
+  if (orientation.turned == 0 || one_in * orientation.turned > count) return std::nullopt;
+  return fmt::format("{} of {} tets listed inside out, unlike their neighbours: turned", orientation.turned, count);
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,32 @@
+#pragma once
+// Which tets of a mesh are inverted. The order in which a file lists a tet's corners says nothing by itself: some
+// programs list them all in the negative sense, some in no order at all. A tet is inverted when it lies on the wrong
+// side of the facets that it shares.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/mesh/tet_mesh.hpp"
+
+namespace hexpipe {
+
+struct TetOrientation {
+  std::vector<std::int8_t>
+      signs;                // of each tet's volume after it was turned: 1, 0 for a flat tet, -1 for an inverted one
+  std::int64_t turned = 0;  // tets whose last two corners were swapped
+  std::int64_t inverted = 0;
+  std::int64_t flat = 0;
+};
+
+// Turns tets so that in each part of the mesh that hangs together by facets all are listed in one sense, and as many as
+// possible are positive. A mesh of positive tets stays as it is. Throws DataError naming `source` when a facet belongs
+// to more than two tets.
+TetOrientation orient_tets(TetMesh& mesh, const char* source);
+
+// What to tell a user of the tets that were turned: something where they are few among many, which hints at a fault;
+// nothing where the file lists its tets in another sense, or in no order.
+std::optional<std::string> turned_tets_warning(const TetOrientation& orientation);
+
+}  // namespace hexpipe
