@@ -1,0 +1,50 @@
+#pragma once
+// All hexes, prisms and pyramids that could be built by merging tets of a mesh: ALGORITHMS.md 1.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "common/mesh/candidates.hpp"
+#include "common/mesh/tet_mesh.hpp"
+#include "tools/findhex/cell_tets.hpp"
+#include "tools/findhex/mesh_tables.hpp"
+
+namespace hexpipe {
+
+enum class CandidateQuality { corner, element };
+
+struct FindhexOptions {
+  std::vector<CellKind> kinds{CellKind::hex};  // found one kind after the other, in this order
+  double min_quality = 0.3;                    // of the least corner, to be exceeded
+  CandidateQuality quality = CandidateQuality::element;
+  CellTetRules tet_rules{};
+};
+
+// How many cells of a kind got how far.
+struct CellCounts {
+  std::int64_t complete = 0;                 // rules 1 to 3 hold
+  std::int64_t invalid = 0;                  // rule 4
+  std::array<std::int64_t, 8> by_verdict{};  // rules 5 to 8, by TetVerdict
+
+  std::int64_t accepted() const { return by_verdict[static_cast<int>(TetVerdict::accepted)]; }
+  CellCounts& operator+=(const CellCounts& other);
+};
+
+struct KindCounts {
+  CellKind kind;
+  CellCounts counts;
+};
+
+struct FindhexResult {
+  // Of each kind by the vertex at corner 0, ascending; the same for any number of threads.
+  Candidates candidates;
+  std::vector<KindCounts> counts;
+  MeshFindings findings;
+  std::int64_t triangulated_quads = 0;
+};
+
+// Throws DataError naming `source` when a facet of the mesh belongs to more than two tets.
+FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* source);
+
+}  // namespace hexpipe

@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <map>
+
+#include "common/run/tool_main.hpp"
+#include "formats/stage.hpp"
+#include "tools/findhex/findhex.hpp"
+#include "tools/findhex/report.hpp"
+
+using namespace hexpipe;
+
+int main(int argc, char** argv) {
+  const std::map<std::string, CellKind> kinds{
+      {"hex", CellKind::hex}, {"prism", CellKind::prism}, {"pyramid", CellKind::pyramid}};
+  const std::map<std::string, CandidateQuality> qualities{{"corner", CandidateQuality::corner},
+                                                          {"element", CandidateQuality::element}};
+  const ToolInfo info{
+      .name = "findhex",
+      .summary = "Find every way to merge tets into hexes (prisms, pyramids): the candidates.",
+      .example = "findhex --mesh engine.msh --cells hex,prism | buildgraph -o engine.tar",
+      .reads = {Role::mesh},
+      .product = Role::candidates,
+  };
+  FindhexOptions options;
+  std::vector<std::string> cells{"hex"};
+  std::string quality = "element", inner_vertices = "allow", folded_quads = "drop";
+  const auto declare = [&](CLI::App& app) {
+    app.add_option("--cells", cells, "What to find: hex, prism, pyramid, several separated by commas")
+        ->check(CLI::IsMember(kinds))
+        ->delimiter(',');
+    app.add_option("--min-quality", options.min_quality, "The scaled Jacobian that every corner has to exceed")
+        ->check(CLI::Range(0.0, 1.0).description(""));
+    app.add_option("--quality", quality, "What is stored: the least scaled Jacobian of the corners or of the element")
+        ->check(CLI::IsMember(qualities));
+    app.add_option("--inner-vertices", inner_vertices, "allow or forbid: vertices of the mesh strictly inside a cell")
+        ->check(CLI::IsMember({"allow", "forbid"}));
+    app.add_option("--folded-quads", folded_quads,
+                   "drop or keep: quads whose two triangles in the mesh are folded over")
+        ->check(CLI::IsMember({"drop", "keep"}));
+    app.add_option("--max-boundary-tets", options.tet_rules.max_boundary_tets,
+                   "Slivers that a cell may have on its quads")
+        ->check(CLI::Range(0, 6).description(""));
+  };
+  const auto run = [&](RunContext& context) {
+    options.kinds.clear();
+    for (const auto& [name, kind] : kinds)
+      if (std::find(cells.begin(), cells.end(), name) != cells.end()) options.kinds.push_back(kind);
+    options.quality = qualities.at(quality);
+    options.tet_rules.inner_vertices = inner_vertices == "allow";
+    options.tet_rules.drop_folded = folded_quads == "drop";
+
+    Stage stage(context);
+    StageData data = stage.read({Role::mesh});
+    const FindhexResult result = findhex(std::move(*data.mesh), options, "mesh");
+    for (const auto& warning : warnings_about(result.findings)) context.warn(warning);
+    for (const auto& line : summary_lines(result)) context.note(line);
+    context.statistics.update(statistics_of(result));
+    stage.write(result.candidates, {{"candidates", candidate_counts(result)}});
+  };
+  return tool_main(argc, argv, info, declare, run);
+}

@@ -1,0 +1,49 @@
+#pragma once
+// What the search asks about a mesh, prepared once: which tets may be used, its facets, and the surface tags on them.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/mesh/adjacency.hpp"
+#include "common/mesh/orientation.hpp"
+#include "common/mesh/tet_mesh.hpp"
+#include "tools/findhex/facet_table.hpp"
+
+namespace hexpipe {
+
+// What the mesh needed before it could be searched.
+struct MeshFindings {
+  TetOrientation orientation;  // inverted and flat tets are unusable
+  std::int64_t derived_triangles = 0;
+};
+
+class MeshTables {
+ public:
+  // Throws DataError naming `source` when a facet belongs to more than two tets.
+  MeshTables(TetMesh mesh, const char* source);
+
+  const TetMesh& mesh() const { return mesh_; }
+  const TetAdjacency& adjacency() const { return adjacency_; }
+  const FacetTable& facets() const { return facets_; }
+  const MeshFindings& findings() const { return findings_; }
+  bool usable(std::int32_t tet) const { return usable_[tet]; }
+
+  // 0 where a facet lies inside a region and has no surface tag; else a number that two facets share when they have the
+  // same tag and are both on the boundary of the mesh or both inside it.
+  std::int32_t facet_label(std::int32_t tet, int facet) const {
+    return facet_labels_[4 * static_cast<std::size_t>(tet) + facet];
+  }
+
+ private:
+  std::vector<bool> judge_tets(const char* source);
+  std::vector<std::int32_t> label_facets();
+
+  TetMesh mesh_;
+  MeshFindings findings_;
+  std::vector<bool> usable_;
+  TetAdjacency adjacency_;
+  FacetTable facets_;
+  std::vector<std::int32_t> facet_labels_;  // 4 a tet
+};
+
+}  // namespace hexpipe

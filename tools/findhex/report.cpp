@@ -1,0 +1,81 @@
+#include "tools/findhex/report.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace hexpipe {
+namespace {
+
+constexpr std::pair<TetVerdict, const char*> rejections[] = {
+    {TetVerdict::no_interior, "rule 5, no tets between the facets"},
+    {TetVerdict::tet_count, "rule 6, too few or too many tets"},
+    {TetVerdict::boundary_tets, "too many boundary tets"},
+    {TetVerdict::crosses_mesh, "rules 6 and 7, a boundary, region or unusable tet within"},
+    {TetVerdict::half_on_surface, "rule 7, a quad half on a surface"},
+    {TetVerdict::inner_vertex, "an inner vertex"},
+    {TetVerdict::folded, "rule 8, a folded quad"},
+};
+
+std::int64_t count_of(const CellCounts& counts, TetVerdict verdict) {
+  return counts.by_verdict[static_cast<std::size_t>(verdict)];
+}
+
+std::string plural(CellKind kind) {
+  return std::string(name_of(kind)) + (kind == CellKind::hex ? "es" : "s");
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_about(const MeshFindings& findings) {
+  std::vector<std::string> warnings;
+  const TetOrientation& orientation = findings.orientation;
+  if (const auto turned = turned_tets_warning(orientation)) warnings.push_back(*turned);
+  if (orientation.inverted + orientation.flat > 0)
+    warnings.push_back(fmt::format("{} inverted and {} flat of {} tets: no candidate uses them", orientation.inverted,
+                                   orientation.flat, orientation.signs.size()));
+  return warnings;
+}
+
+nlohmann::ordered_json candidate_counts(const FindhexResult& result) {
+  auto json = nlohmann::ordered_json::object();
+  for (const KindCounts& kind : result.counts) json[plural(kind.kind)] = kind.counts.accepted();
+  return json;
+}
+
+nlohmann::ordered_json statistics_of(const FindhexResult& result) {
+  auto json = nlohmann::ordered_json::object();
+  json["tets"] = result.findings.orientation.signs.size();
+  json["turned_tets"] = result.findings.orientation.turned;
+  json["inverted_tets"] = result.findings.orientation.inverted;
+  json["flat_tets"] = result.findings.orientation.flat;
+  json["derived_triangles"] = result.findings.derived_triangles;
+  json["triangulated_quads"] = result.triangulated_quads;
+  json["candidates"] = result.candidates.size();
+  for (const KindCounts& kind : result.counts) {
+    auto& of_kind = json[plural(kind.kind)];
+    of_kind["candidates"] = kind.counts.accepted();
+    of_kind["complete"] = kind.counts.complete;
+    of_kind["rejected"]["rule 4, not valid"] = kind.counts.invalid;
+    for (const auto& [verdict, why] : rejections) of_kind["rejected"][why] = count_of(kind.counts, verdict);
+  }
+  return json;
+}
+
+std::vector<std::string> summary_lines(const FindhexResult& result) {
+  std::vector<std::string> lines{fmt::format("{} tets, {} triangulated quads", result.findings.orientation.signs.size(),
+                                             result.triangulated_quads)};
+  if (result.findings.derived_triangles > 0)
+    lines.push_back(fmt::format("{} surface triangles derived, with tag 0", result.findings.derived_triangles));
+  for (const KindCounts& kind : result.counts) {
+    lines.push_back(fmt::format("{} {} of {} with all facets and good corners", kind.counts.accepted(),
+                                plural(kind.kind), kind.counts.complete));
+    if (kind.counts.invalid > 0) lines.push_back(fmt::format("  {} rejected: rule 4, not valid", kind.counts.invalid));
+    for (const auto& [verdict, why] : rejections)
+      if (count_of(kind.counts, verdict) > 0)
+        lines.push_back(fmt::format("  {} rejected: {}", count_of(kind.counts, verdict), why));
+  }
+  return lines;
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,21 @@
+#pragma once
+// What findhex says of its work: warnings, lines for -v, and JSON for --stats.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/findhex/findhex.hpp"
+
+namespace hexpipe {
+
+std::vector<std::string> warnings_about(const MeshFindings& findings);
+
+// The number of candidates of each kind, by its name.
+nlohmann::ordered_json candidate_counts(const FindhexResult& result);
+
+nlohmann::ordered_json statistics_of(const FindhexResult& result);
+
+std::vector<std::string> summary_lines(const FindhexResult& result);
+
+}  // namespace hexpipe

@@ -1,0 +1,121 @@
+#pragma once
+// The search for cells as a plan: in which order corners are placed, where each new corner is looked for, and what can
+// be tested as soon as it stands. All of it follows from the topology table of a cell and the order.
+//
+// J. Pellerin, A. Johnen, K. Verhetsel, J.-F. Remacle: Identifying combinations of tetrahedra into hexahedra: a vertex
+// based strategy (IMR 2017). There a corner comes from the intersection of its neighbours' neighbourhoods and its quads
+// are tested afterwards; here the triangulated quads are known beforehand, and a corner comes from the quads that it
+// closes.
+
+#include <array>
+#include <cstdint>
+
+#include "common/mesh/cell_topology.hpp"
+#include "tools/findhex/rotations.hpp"
+
+namespace hexpipe {
+
+// A list with room for what a step of any cell may have.
+template <class T, std::size_t Most>
+struct ShortList {
+  std::array<T, Most> items{};
+  std::size_t count = 0;
+
+  constexpr void add(const T& item) { items[count++] = item; }
+  constexpr std::size_t size() const { return count; }
+  constexpr const T& operator[](std::size_t i) const { return items[i]; }
+};
+
+// A quad with one corner to come: the one opposite `corner`, between the sides.
+struct OpenQuad {
+  std::uint8_t corner, side, other_side;
+};
+
+// What there is to do with one corner; all others that it names are placed already.
+struct SearchStep {
+  std::uint8_t corner = 0;
+  std::uint8_t neighbour = 0;           // some placed corner that an edge joins it to
+  ShortList<std::uint8_t, 8> greater;   // its vertex has to be greater than theirs: one labelling of each cell is found
+  ShortList<OpenQuad, 3> closed_quads;  // it is the fourth corner of these
+  ShortList<OpenQuad, 3> opened_quads;  // it is the third corner of these
+  ShortList<LocalTriangle, 4> triangles;
+  ShortList<LocalCorner, 4> corners;  // whose determinants are known now
+};
+
+// Corners in the order in which they are placed.
+template <class Topology>
+inline constexpr std::array<std::uint8_t, Topology::corner_count> placement_order{};
+template <>
+inline constexpr std::array<std::uint8_t, 8> placement_order<HexTopology>{0, 1, 3, 4, 2, 5, 7, 6};
+template <>
+inline constexpr std::array<std::uint8_t, 6> placement_order<PrismTopology>{0, 1, 2, 3, 4, 5};
+template <>
+inline constexpr std::array<std::uint8_t, 5> placement_order<PyramidTopology>{0, 1, 3, 4, 2};
+
+namespace plan_details {
+
+template <class Topology>
+using Placed = std::array<bool, Topology::corner_count>;
+
+// All corners of a facet or of a LocalCorner are placed, `corner` among them.
+template <class Topology, class Corners>
+constexpr bool completed_by(const Corners& corners, std::uint8_t corner, const Placed<Topology>& placed) {
+  bool among = false;
+  for (const std::uint8_t c : corners) {
+    if (!placed[c]) return false;
+    among = among || c == corner;
+  }
+  return among;
+}
+
+// The labelling found is the least in placement order: each corner's vertex is the least of those that rotations put in
+// its place while the corners before it stay.
+template <class Topology>
+constexpr void order_against_rotations(std::array<SearchStep, Topology::corner_count>& plan) {
+  constexpr auto& order = placement_order<Topology>;
+  for (const auto& rotation : rotations_of<Topology>()) {
+    std::size_t first = 0;
+    while (first < order.size() && rotation[order[first]] == order[first]) ++first;
+    if (first == order.size()) continue;
+    for (auto& step : plan) {
+      if (step.corner != rotation[order[first]]) continue;
+      bool known = false;
+      for (std::size_t i = 0; i < step.greater.size(); ++i) known = known || step.greater[i] == order[first];
+      if (!known) step.greater.add(order[first]);
+    }
+  }
+}
+
+}  // namespace plan_details
+
+template <class Topology>
+constexpr auto make_search_plan() {
+  std::array<SearchStep, Topology::corner_count> plan;
+  plan_details::Placed<Topology> placed{};
+  for (std::size_t s = 0; s < plan.size(); ++s) {
+    SearchStep& step = plan[s];
+    const std::uint8_t corner = step.corner = placement_order<Topology>[s];
+    placed[corner] = true;
+
+    for (const LocalEdge& e : Topology::edges)
+      if (plan_details::completed_by<Topology>(e, corner, placed)) step.neighbour = e[0] == corner ? e[1] : e[0];
+    for (const LocalTriangle& t : Topology::triangles)
+      if (plan_details::completed_by<Topology>(t, corner, placed)) step.triangles.add(t);
+    for (const LocalCorner& c : Topology::corners)
+      if (plan_details::completed_by<Topology>(c, corner, placed)) step.corners.add(c);
+    for (const LocalQuad& q : Topology::quads)
+      for (std::size_t i = 0; i < 4; ++i) {
+        const OpenQuad quad{q[(i + 2) % 4], q[(i + 1) % 4], q[(i + 3) % 4]};
+        const std::array<std::uint8_t, 3> three{quad.corner, quad.side, quad.other_side};
+        if (q[i] == corner && placed[three[0]] && placed[three[1]] && placed[three[2]]) step.closed_quads.add(quad);
+        if (!placed[q[i]] && plan_details::completed_by<Topology>(three, corner, placed)) step.opened_quads.add(quad);
+      }
+  }
+  plan_details::order_against_rotations<Topology>(plan);
+  return plan;
+}
+
+template <class Topology>
+inline constexpr auto search_plan = make_search_plan<Topology>();
+
+}  // namespace hexpipe
