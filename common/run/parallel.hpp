@@ -3,6 +3,7 @@
 // what blocks produce is put together in block order.
 
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 
@@ -28,6 +29,18 @@ class ThreadLimit {
 
 // The number of threads that parallel loops use now.
 int thread_count();
+
+// Scratch memory: a copy of `model` for each thread that asks for one. What bodies produce must not depend on what
+// others left in it.
+template <class T>
+class PerThread {
+ public:
+  explicit PerThread(const T& model) : copies_(model) {}
+  T& local() { return copies_.local(); }
+
+ private:
+  tbb::enumerable_thread_specific<T> copies_;
+};
 
 // body(i) for i in [0, count), in any order; bodies write to places of their own.
 template <class Body>

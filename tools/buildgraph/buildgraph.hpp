@@ -1,0 +1,19 @@
+#pragma once
+// The conflict graph of candidates: ALGORITHMS.md 2.
+
+#include "common/graph/conflict_graph.hpp"
+#include "common/mesh/candidates.hpp"
+#include "tools/buildgraph/weights.hpp"
+
+namespace hexpipe {
+
+struct BuildgraphOptions {
+  WeightKind weight = WeightKind::quality;
+  double weight_scale = 1e6;
+};
+
+// Vertex i is candidate i. Throws DataError naming `source` when weights do not fit (see weights_of) or there are 2^31
+// candidates or more.
+ConflictGraph buildgraph(const Candidates& candidates, const BuildgraphOptions& options, const char* source);
+
+}  // namespace hexpipe

@@ -1,0 +1,13 @@
+#pragma once
+// When two candidates cannot both be chosen: the table of ALGORITHMS.md 2.
+
+#include <cstddef>
+
+#include "common/mesh/candidates.hpp"
+
+namespace hexpipe {
+
+// Decides for one pair, from its tets and vertices alone.
+bool in_conflict(const Candidates& candidates, std::size_t i, std::size_t j);
+
+}  // namespace hexpipe

@@ -1,0 +1,54 @@
+#pragma once
+// Which candidates have something in common: a tet, two vertices, a quad. Things are filed in buckets and told apart
+// within one by a key of 32 bits.
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "common/run/parallel.hpp"
+
+namespace hexpipe {
+
+class SharingIndex {
+ public:
+  // A key above, a candidate below.
+  using Entry = std::uint64_t;
+  static std::int32_t candidate_of(Entry entry) { return static_cast<std::int32_t>(entry); }
+
+  // things_of(candidate, visit) calls visit(bucket, key) for each thing of a candidate, the same ones each time.
+  template <class ThingsOf>
+  SharingIndex(std::size_t bucket_count, std::size_t candidate_count, ThingsOf&& things_of)
+      : offsets_(bucket_count + 1, 0) {
+    for (std::size_t i = 0; i < candidate_count; ++i)
+      things_of(i, [&](std::size_t bucket, std::uint32_t) { ++offsets_[bucket + 1]; });
+    std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
+    entries_.resize(offsets_.back());
+    std::vector<std::int64_t> next(offsets_.begin(), offsets_.end() - 1);
+    for (std::size_t i = 0; i < candidate_count; ++i)
+      things_of(i, [&](std::size_t bucket, std::uint32_t key) {
+        entries_[next[bucket]++] = static_cast<Entry>(key) << 32 | static_cast<Entry>(i);
+      });
+    parallel_for(static_cast<std::int64_t>(bucket_count), buckets_a_block, [&](std::int64_t bucket) {
+      std::sort(entries_.begin() + offsets_[bucket], entries_.begin() + offsets_[bucket + 1]);
+    });
+  }
+
+  // The candidates that have a thing with this key, ascending.
+  std::span<const Entry> with_key(std::size_t bucket, std::uint32_t key) const {
+    const auto end = entries_.begin() + offsets_[bucket + 1];
+    const auto first = std::lower_bound(entries_.begin() + offsets_[bucket], end, static_cast<Entry>(key) << 32);
+    auto last = first;
+    while (last != end && *last >> 32 == key) ++last;
+    return {first, last};
+  }
+
+ private:
+  static constexpr std::int64_t buckets_a_block = 256;
+  std::vector<std::int64_t> offsets_;  // buckets + 1
+  std::vector<Entry> entries_;         // ascending in a bucket
+};
+
+}  // namespace hexpipe
