@@ -9,7 +9,7 @@ cd "$(dirname "$0")"
 build_packages=(
   cmake ninja-build make g++ ca-certificates
   libcli11-dev libfmt-dev nlohmann-json3-dev robin-map-dev libtbb-dev libboost-dev
-  libarchive-dev libzstd-dev zlib1g-dev
+  libarchive-dev libzstd-dev libpugixml-dev zlib1g-dev
   libopenmesh-dev libtet1.5-dev libcgal-dev libeigen3-dev libgmp-dev libmpfr-dev
 )
 test_packages=(

@@ -73,6 +73,12 @@ std::string_view TextScanner::raw(std::size_t bytes, std::string_view what) {
   return taken;
 }
 
+void TextScanner::skip_past(std::string_view word) {
+  const std::size_t found = text_.find(word, at_);
+  if (found == std::string_view::npos) fail_expected(word, "");
+  raw(found + word.size() - at_, word);
+}
+
 std::size_t TextScanner::count(std::string_view what, std::size_t bytes_each) {
   const auto announced = number<std::uint64_t>(what);
   // The last item needs no separator behind it.

@@ -44,6 +44,8 @@ class TextScanner {
   std::string_view rest_of_line();
   // Takes `bytes` raw bytes from here; an error when fewer are left.
   std::string_view raw(std::size_t bytes, std::string_view what);
+  // Goes behind the next place where `word` stands; an error when it stands nowhere.
+  void skip_past(std::string_view word);
   std::size_t bytes_left() const { return text_.size() - at_; }
 
   // A count announced by the text, checked against what the rest of the text can hold at `bytes_each` or more an item,

@@ -107,6 +107,15 @@ TEST(TextScanner, TakesRawBytes) {
               ThrowsMessage<FormatError>(HasSubstr("expected 2 bytes of data, found 1")));
 }
 
+TEST(TextScanner, SkipsPastAWord) {
+  TextScanner scanner("a\n\n$End b", "f");
+  scanner.skip_past("$End");
+  EXPECT_EQ(scanner.line(), 3);
+  EXPECT_EQ(scanner.word("a word"), "b");
+  EXPECT_THAT([&] { scanner.skip_past("$End"); },
+              ThrowsMessage<FormatError>(HasSubstr("f:3: expected $End, found end of file")));
+}
+
 TEST(TextScanner, ChecksCountsAgainstWhatIsLeft) {
   TextScanner enough("3 1 2 3", "f");
   EXPECT_EQ(enough.count("the number of items", 2), 3u);

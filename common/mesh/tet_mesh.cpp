@@ -1,0 +1,13 @@
+#include "common/mesh/tet_mesh.hpp"
+
+#include "common/mesh/check_cells.hpp"
+
+namespace hexpipe {
+
+void validate(const TetMesh& mesh, const char* source) {
+  check_points(mesh.points, source);
+  check_cells(mesh.tets, mesh.tet_tags, mesh.points.size(), "tets", source);
+  check_cells(mesh.triangles, mesh.triangle_tags, mesh.points.size(), "triangles", source);
+}
+
+}  // namespace hexpipe

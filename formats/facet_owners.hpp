@@ -1,0 +1,25 @@
+#pragma once
+// Which cell each boundary or interface facet of a mixed mesh belongs to: formats that name surfaces by cell and facet
+// number need it, and pictures give a facet the region and the quality of its cell.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/mesh/mixed_mesh.hpp"
+
+namespace hexpipe {
+
+struct FacetOwner {
+  std::int64_t cell = -1;  // within the block of its kind; -1: the facet is none of a cell
+  CellKind kind = CellKind::tet;
+  std::int8_t facet = 0;  // in the topology's list of triangles or of quads
+};
+
+struct FacetOwners {
+  std::vector<FacetOwner> triangles, quads;  // one for each of the mesh
+};
+
+// The owner of a facet is the first cell that it points out of, or else the first that has it.
+FacetOwners find_facet_owners(const MixedMesh& mesh);
+
+}  // namespace hexpipe

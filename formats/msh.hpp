@@ -1,0 +1,23 @@
+#pragma once
+// Gmsh's .msh, versions 2.2 and 4.1, ASCII and binary. See formats/README.md.
+
+#include <string_view>
+
+#include "common/mesh/mixed_mesh.hpp"
+#include "formats/output.hpp"
+
+namespace hexpipe {
+
+enum class MshVersion { v2_2, v4_1 };
+enum class MshCoding { ascii, binary };
+
+bool looks_like_msh(std::string_view text);
+
+// Physical groups become tags; where a dimension has none, its elementary entities do. Elements come in the order of
+// their numbers, nodes in that of the file. Throws FormatError or DataError.
+MixedMesh read_msh(std::string_view text, std::string_view file);
+
+// Regions and surfaces are physical groups; the quality is a post-processing view.
+void write_msh(const MixedMesh& mesh, MshVersion version, MshCoding coding, Output& output);
+
+}  // namespace hexpipe

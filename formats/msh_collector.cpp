@@ -1,0 +1,121 @@
+#include "formats/msh_collector.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+
+namespace hexpipe {
+namespace {
+
+template <class T>
+void permute(std::vector<T>& items, const std::vector<std::size_t>& order) {
+  std::vector<T> sorted;
+  sorted.reserve(items.size());
+  for (const std::size_t i : order) sorted.push_back(items[i]);
+  items = std::move(sorted);
+}
+
+}  // namespace
+
+const char* msh_group_word(int dimension) {
+  return dimension == 3 ? "region" : "surface";
+}
+
+std::optional<std::int32_t> tag_in_group_name(std::string_view name, int dimension) {
+  const std::string_view word = msh_group_word(dimension);
+  if (!name.starts_with(word) || name.size() <= word.size() || name[word.size()] != ' ') return std::nullopt;
+  const char* const end = name.data() + name.size();
+  std::int32_t tag = 0;
+  const auto [stop, error] = std::from_chars(name.data() + word.size() + 1, end, tag);
+  if (error != std::errc{} || stop != end || tag > 0) return std::nullopt;
+  return tag;
+}
+
+void MshCollector::reserve_nodes(std::size_t count) {
+  mesh_.points.reserve(count);
+  node_numbers_.reserve(count);
+}
+
+void MshCollector::add_node(std::int64_t number, const Vec3& point) {
+  mesh_.points.push_back(point);
+  node_numbers_.push_back(number);
+}
+
+std::optional<std::int64_t> MshCollector::number_nodes() {
+  nodes_ = NumberMap(node_numbers_);
+  node_numbers_ = {};
+  return nodes_.repeated();
+}
+
+void MshCollector::name_group(int dimension, std::int32_t number, std::string_view name) {
+  if (const auto tag = tag_in_group_name(name, dimension)) tags_in_names_[{dimension, number}] = *tag;
+}
+
+MixedMesh MshCollector::take_mesh() {
+  sort_elements();
+  set_tags();
+  set_qualities();
+  return std::move(mesh_);
+}
+
+void MshCollector::sort_elements() {
+  std::size_t index = 0;
+  for_each_block(mesh_, [&](const ElementNames&, auto& block) {
+    auto& numbers = numbers_[index++];
+    if (std::ranges::is_sorted(numbers, {}, &MshElementNumbers::element)) return;
+    std::vector<std::size_t> order(numbers.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return numbers[i].element; });
+    permute(block.cells, order);
+    permute(numbers, order);
+  });
+}
+
+void MshCollector::set_tags() {
+  for (const int dimension : {2, 3}) {
+    bool has_groups = false;
+    std::size_t index = 0;
+    for_each_block(mesh_, [&](const ElementNames& names, const auto&) {
+      const auto& numbers = numbers_[index++];
+      if (names.dimension == dimension && !has_groups)
+        has_groups = std::ranges::any_of(numbers, [](const auto& element) { return element.physical != 0; });
+    });
+    index = 0;
+    for_each_block(mesh_, [&](const ElementNames& names, auto& block) {
+      const auto& numbers = numbers_[index++];
+      if (names.dimension != dimension) return;
+      block.tags.reserve(numbers.size());
+      for (const MshElementNumbers& element : numbers)
+        block.tags.push_back(has_groups ? tag_of_group(dimension, element.physical) : element.elementary);
+    });
+  }
+}
+
+// Gmsh gives a surface that a group holds in reverse the group's negative number.
+std::int32_t MshCollector::tag_of_group(int dimension, std::int32_t physical) const {
+  const std::int32_t group =
+      physical < 0 && physical != std::numeric_limits<std::int32_t>::min() ? -physical : physical;
+  if (tags_in_names_.empty()) return group;
+  const auto named = tags_in_names_.find({dimension, group});
+  return named == tags_in_names_.end() ? group : named->second;
+}
+
+void MshCollector::set_qualities() {
+  if (quality_.empty()) return;
+  std::ranges::stable_sort(quality_, {}, &std::pair<std::int64_t, double>::first);
+  std::size_t index = 0;
+  for_each_block(mesh_, [&](const ElementNames& names, auto& block) {
+    const auto& numbers = numbers_[index++];
+    if (names.dimension != 3) return;
+    block.quality.reserve(numbers.size());
+    for (const MshElementNumbers& element : numbers) {
+      const auto found =
+          std::ranges::lower_bound(quality_, element.element, {}, &std::pair<std::int64_t, double>::first);
+      if (found == quality_.end() || found->first != element.element) break;
+      block.quality.push_back(found->second);
+    }
+    if (block.quality.size() != block.size()) block.quality.clear();
+  });
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,33 @@
+#pragma once
+// What the two VTK formats share: an unstructured grid as arrays, with the cell data that carry tags and
+// qualities.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/mesh/mixed_mesh.hpp"
+
+namespace hexpipe {
+
+// Cells of all kinds in one list, as the files hold them.
+struct VtkGrid {
+  std::vector<Vec3> points;
+  std::vector<std::uint8_t> types;
+  std::vector<std::int64_t> ends;  // for each cell, where its corners end in `connectivity`
+  std::vector<Vertex> connectivity;
+  std::map<std::string, std::vector<std::int32_t>, std::less<>> tags;  // cell data by name, see is_vtk_tag_name
+  std::vector<double> quality;                                         // the cell data of this name, or empty
+};
+
+// True for the names of cell data that a reader puts into VtkGrid::tags.
+bool is_vtk_tag_name(std::string_view name);
+
+// Sorts the cells by kind. Points and lines are dropped, pixels and voxels become quads and hexes. Regions are taken
+// from the cell data `region`, surface tags from `surface`, else either from the first that is there of the names that
+// other programs use. Throws DataError naming `file` on other cells, or when the arrays contradict each other.
+MixedMesh to_mixed_mesh(VtkGrid grid, std::string_view file);
+
+}  // namespace hexpipe

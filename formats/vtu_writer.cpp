@@ -1,0 +1,106 @@
+#include <bit>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "formats/cell_data.hpp"
+#include "formats/mesh_blocks.hpp"
+#include "formats/number_writer.hpp"
+#include "formats/vtu.hpp"
+
+namespace hexpipe {
+namespace {
+
+struct DataArray {
+  std::string_view name, type;
+  int components;
+  std::uint64_t bytes;
+  std::function<void(Output&)> write;
+};
+
+struct Section {
+  std::string_view name;
+  std::vector<DataArray> arrays;
+};
+
+template <class T>
+DataArray array_of(std::string_view name, std::string_view type, const std::vector<T>& numbers) {
+  return {name, type, 1, numbers.size() * sizeof(T),
+          [&numbers](Output& output) { write_array_bytes(output, numbers); }};
+}
+
+Section points_of(const MixedMesh& mesh) {
+  DataArray points = array_of("Points", "Float64", mesh.points);
+  points.components = 3;
+  return {"Points", {points}};
+}
+
+Section cells_of(const MixedMesh& mesh) {
+  const std::uint64_t count = element_count(mesh);
+  std::uint64_t corners = 0;
+  for_each_block(mesh, [&](const ElementNames&, const auto& block) {
+    corners += block.size() * corners_of_block<std::remove_cvref_t<decltype(block)>>;
+  });
+  const auto write_connectivity = [&mesh](Output& output) {
+    for_each_block(mesh, [&](const ElementNames&, const auto& block) { write_array_bytes(output, block.cells); });
+  };
+  const auto write_offsets = [&mesh](Output& output) {
+    std::int64_t end = 0;
+    for_each_block(mesh, [&](const ElementNames&, const auto& block) {
+      for (const auto& cell : block.cells) write_bytes(output, end += static_cast<std::int64_t>(cell.size()));
+    });
+  };
+  const auto write_types = [&mesh](Output& output) {
+    for_each_block(mesh, [&](const ElementNames& names, const auto& block) {
+      for (std::size_t i = 0; i < block.size(); ++i) write_bytes(output, names.vtk);
+    });
+  };
+  return {"Cells",
+          {{"connectivity", "Int32", 1, corners * sizeof(Vertex), write_connectivity},
+           {"offsets", "Int64", 1, count * sizeof(std::int64_t), write_offsets},
+           {"types", "UInt8", 1, count, write_types}}};
+}
+
+Section cell_data_of(const CellData& data) {
+  Section section{"CellData",
+                  {array_of("region", "Int32", data.region), array_of("surface", "Int32", data.surface),
+                   array_of("kind", "UInt8", data.kind)}};
+  if (!data.quality.empty()) section.arrays.push_back(array_of(quality_name, "Float64", data.quality));
+  return section;
+}
+
+// Every array lies behind its length in the appended data; `offset` counts from the mark '_'.
+void write_section(const Section& section, std::uint64_t& offset, Output& output) {
+  output.print("      <{}>\n", section.name);
+  for (const DataArray& array : section.arrays) {
+    output.print(
+        "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
+        array.type, array.name, array.components, offset);
+    offset += sizeof array.bytes + array.bytes;
+  }
+  output.print("      </{}>\n", section.name);
+}
+
+}  // namespace
+
+void write_vtu(const MixedMesh& mesh, Output& output) {
+  const CellData data = cell_data(mesh);
+  const Section sections[] = {points_of(mesh), cells_of(mesh), cell_data_of(data)};
+  output.print(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\">\n"
+      "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+      std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian", mesh.points.size(),
+      element_count(mesh));
+  std::uint64_t offset = 0;
+  for (const Section& section : sections) write_section(section, offset, output);
+  output.print("    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_");
+  for (const Section& section : sections)
+    for (const DataArray& array : section.arrays) {
+      write_bytes(output, array.bytes);
+      array.write(output);
+    }
+  output.print("\n  </AppendedData>\n</VTKFile>\n");
+}
+
+}  // namespace hexpipe
