@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include "common/mwis/search_log.hpp"
-#include "common/run/error.hpp"
 #include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/stage.hpp"
@@ -35,8 +34,7 @@ int main(int argc, char** argv) {
     options.iterations = context.common.iterations.value_or(options.iterations);
     Stage stage(context);
     SearchLog log(context.common.log_file);
-    const StageData data = stage.read({Role::graph}, {Role::solution});
-    if (!data.solution) throw DataError("expected a solution to improve, found none: initsol makes one");
+    const StageData data = stage.read({Role::graph, Role::solution});
 
     const Deadline deadline = context.deadline();
     Progress progress("lns", context.common.quiet);

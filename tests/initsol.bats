@@ -1,0 +1,175 @@
+# initsol: METIS graphs in, a maximal independent set out.
+
+load helpers
+
+setup_file() {
+  load helpers
+  "$PYTHON" "$DATA/ring_graph.py" 3000 2000 1 >"$BATS_FILE_TMPDIR/ring.graph"
+  printf '4 4 10\n11 2 3\n12 1 3\n13 1 2 4\n14 3\n' >"$BATS_FILE_TMPDIR/small.graph"
+}
+
+setup() {
+  cd "$BATS_TEST_TMPDIR" || return 1
+  cp "$BATS_FILE_TMPDIR"/*.graph .
+}
+
+# weight_of SOLUTION: by the independent checker, which fails when the set is not independent or not maximal.
+weight_of() {
+  "$CHECKERS/solution_check.py" ring.graph "$1" | sed 's/.*weight //'
+}
+
+@test "the solution is independent and maximal, and its weight is the one in --stats" {
+  run "$CHECKERS/graph_check.py" ring.graph
+  assert_success
+  initsol ring.graph --iterations 3000 -o out.sol --stats stats.json
+  run "$CHECKERS/solution_check.py" ring.graph out.sol
+  assert_success
+  "$PYTHON" - "$output" <<'PYTHON'
+import json, sys
+stats = json.load(open("stats.json"))
+assert sys.argv[1] == f"{stats['chosen']} chosen, weight {stats['weight']}", (sys.argv[1], stats)
+assert stats["iterations"] == 3000 and stats["weight"] > stats["greedy_weight"]
+PYTHON
+}
+
+@test "--iterations 0 and --time-limit 0 give the greedy solution" {
+  initsol ring.graph --iterations 0 -o none.sol
+  initsol ring.graph --time-limit 0 -o no_time.sol
+  assert_same_bytes none.sol no_time.sol
+  initsol ring.graph --iterations 3000 -o some.sol
+  assert [ "$(weight_of some.sol)" -gt "$(weight_of none.sol)" ]
+}
+
+@test "--greedy weight and weight-degree differ" {
+  initsol ring.graph --iterations 0 --greedy weight -o weight.sol
+  initsol ring.graph --iterations 0 --greedy weight-degree -o degree.sol
+  initsol ring.graph --iterations 0 -o default.sol
+  assert_different_bytes weight.sol degree.sol
+  assert_same_bytes degree.sol default.sol
+}
+
+@test "--greedy quality needs candidates" {
+  assert_fails_with 1 "initsol: .*needs candidates" initsol ring.graph --greedy quality --iterations 0 -o out.sol
+  assert [ ! -e out.sol ]
+}
+
+@test "--seed, --tenure, --patience, --escape, --starts change the search" {
+  initsol ring.graph --iterations 4000 --patience 50 -o base.sol
+  initsol ring.graph --iterations 4000 --patience 50 --seed 2 -o seed.sol
+  initsol ring.graph --iterations 4000 --patience 50 --tenure 5 -o tenure.sol
+  initsol ring.graph --iterations 4000 --patience 100000 -o patience.sol
+  initsol ring.graph --iterations 4000 --patience 50 --escape restart -o restart.sol
+  initsol ring.graph --iterations 4000 --patience 50 --escape rebuild -o rebuild.sol
+  initsol ring.graph --iterations 4000 --patience 50 --starts 3 -o starts.sol
+  for other in seed tenure patience restart rebuild starts; do
+    assert_different_bytes base.sol $other.sol
+    weight_of $other.sol >/dev/null
+  done
+  assert [ "$(weight_of starts.sol)" -ge "$(weight_of base.sol)" ]
+}
+
+@test "bad values of options end with 2" {
+  assert_fails_with 2 "initsol: .*--greedy" initsol ring.graph --greedy luck
+  assert_fails_with 2 "initsol: .*--escape" initsol ring.graph --escape luck
+  assert_fails_with 2 "initsol: .*--starts" initsol ring.graph --starts 0
+  assert_fails_with 2 "initsol: .*--tenure" initsol ring.graph --tenure -1
+  assert_fails_with 2 "initsol: .*--patience" initsol ring.graph --patience 0
+  assert_fails_with 2 "initsol: .*--time-limit" initsol ring.graph --time-limit -1
+  assert_fails_with 2 "initsol: .*--iterations" initsol ring.graph --iterations 1.5
+}
+
+@test "--starts gives the same bytes on 1 and 2 threads" {
+  initsol ring.graph --iterations 3000 --starts 4 --threads 1 -o one.sol
+  initsol ring.graph --iterations 3000 --starts 4 --threads 2 -o two.sol
+  assert_same_bytes one.sol two.sol
+}
+
+@test "--time-limit is kept, and --log ends with the weight of the solution" {
+  local begin end
+  begin=$(date +%s%N)
+  initsol ring.graph --time-limit 0.5 -o out.sol --log log.jsonl
+  end=$(date +%s%N)
+  assert [ $(((end - begin) / 1000000)) -ge 500 ]
+  sanitized || assert [ $(((end - begin) / 1000000)) -le 1500 ]  # a machine under load
+  "$PYTHON" - "$(weight_of out.sol)" <<'PYTHON'
+import json, sys
+points = [json.loads(line) for line in open("log.jsonl")]
+assert points[-1]["weight"] == int(sys.argv[1])
+for key in ("seconds", "iteration", "weight"):
+    values = [point[key] for point in points]
+    assert values == sorted(values), key
+assert 0.5 <= points[-1]["seconds"] < 1.5
+PYTHON
+}
+
+@test "a signal writes the best so far and ends with 0" {
+  for signal in INT TERM; do
+    initsol ring.graph --time-limit 60 -o out.sol --log log.jsonl 3>&- &
+    local pid=$!
+    for _ in $(seq 400); do [ -s log.jsonl ] || sleep 0.05; done
+    kill -s $signal $pid
+    wait $pid
+    weight_of out.sol >/dev/null
+    rm out.sol log.jsonl
+  done
+}
+
+@test "extreme graphs" {
+  printf '0 0 10\n' >empty.graph
+  initsol empty.graph -o empty.sol
+  assert [ -e empty.sol ]
+  assert [ ! -s empty.sol ]
+  printf '1 0 10\n0\n' >one.graph
+  initsol one.graph -o one.sol
+  assert_equal "$(cat one.sol)" 1
+  printf '3 3 10\n5 2 3\n7 1 3\n6 1 2\n' >complete.graph
+  initsol complete.graph --iterations 100 -o complete.sol
+  assert_equal "$(cat complete.sol)" 2
+  printf '3 0 10\n4611686018427387904\n4611686018427387903\n0\n' >huge.graph
+  initsol huge.graph --iterations 100 -o huge.sol
+  assert_equal "$(tr '\n' ' ' <huge.sol)" "1 2 3 "
+  printf '3 2\n2\n1 3\n2\n' >unweighted.graph
+  initsol unweighted.graph --iterations 100 -o unweighted.sol
+  assert_equal "$(tr '\n' ' ' <unweighted.sol)" "1 3 "
+}
+
+@test "a malformed line is named by its number" {
+  # malform LINE TEXT MESSAGE: the small graph with one line replaced.
+  malform() {
+    sed "$1s/.*/$2/" small.graph >bad.graph
+    assert_fails_with 1 "^initsol: bad.graph:$3" initsol bad.graph --iterations 1 -o out.sol
+  }
+  malform 1 "4 x 10" "1: expected the number of edges, found 'x'"
+  malform 1 "4 4 200" "1: expected a format"
+  malform 1 "5 4 10" "6: expected the lines of 5 vertices, found 4"
+  malform 1 "3 4 10" "5: expected nothing after the lines of 3 vertices|4: expected a neighbour from 1 to 3, found '4'"
+  malform 1 "4 5 10" " expected 5 edges"
+  malform 1 "4 3 10" "[45]: expected 3 edges"
+  malform 2 "" "2: expected the vertex weight, found the end of the line"
+  malform 2 "eleven 2 3" "2: expected the vertex weight, found 'eleven'"
+  malform 2 "-11 2 3" "2: expected the vertex weight, found '-11'"
+  malform 3 "12 1 1" "3: expected each neighbour once"
+  malform 3 "12 1 2" "3: expected no loops"
+  malform 3 "12 1 0" "3: expected a neighbour from 1 to 4, found '0'"
+  malform 3 "12 1 5" "3: expected a neighbour from 1 to 4, found '5'"
+  malform 3 "12 1 4" "3: expected every edge at both ends, found 4 beside 2"
+  malform 5 "9223372036854775807 3" "5: expected weights whose sum fits 64 bits"
+  assert [ ! -e out.sol ]
+}
+
+@test "every truncated prefix of a graph is refused" {
+  local size prefix
+  size=$(stat -c %s small.graph)
+  for ((prefix = 0; prefix < size - 1; ++prefix)); do
+    head -c $prefix small.graph >cut.graph
+    assert_fails_with 1 "^initsol: cut.graph" initsol cut.graph --iterations 1 -o out.sol
+  done
+  head -c $((size - 1)) small.graph >cut.graph
+  initsol cut.graph --iterations 1 -o whole.sol  # only the end of the last line is missing
+}
+
+@test "a full disk is noticed" {
+  assert_fails_with 1 "initsol: .*No space left" shell "initsol ring.graph --iterations 1 --format sol >/dev/full"
+  assert_fails_with 1 "initsol: /dev/full: .*No space left" initsol ring.graph --iterations 1 -o out.sol --log /dev/full
+  assert [ ! -e out.sol ]
+}

@@ -1,0 +1,216 @@
+# lns: a graph and a solution in, a solution that is not worse out.
+
+load helpers
+
+setup_file() {
+  load helpers
+  cd "$BATS_FILE_TMPDIR"
+  "$PYTHON" "$DATA/ring_graph.py" 6000 3000 1 >ring.graph
+  initsol ring.graph --iterations 0 --greedy weight -o start.sol
+  # A path of five whose optimum is its odd vertices, and a solution to begin with.
+  printf '5 4 10\n10 2\n11 1 3\n10 2 4\n11 3 5\n10 4\n' >path.graph
+  printf '2\n4\n' >path.sol
+}
+
+setup() {
+  cd "$BATS_TEST_TMPDIR" || return 1
+  cp "$BATS_FILE_TMPDIR"/*.graph "$BATS_FILE_TMPDIR"/*.sol .
+}
+
+ring() {
+  lns --graph ring.graph --solution start.sol "$@"
+}
+
+weight_of() {
+  "$CHECKERS/solution_check.py" ring.graph "$1" | sed 's/.*weight //'
+}
+
+@test "the result is independent, maximal and heavier; --stats tells its weight" {
+  ring --iterations 300 -o out.sol --stats stats.json
+  run "$CHECKERS/solution_check.py" ring.graph out.sol
+  assert_success
+  assert [ "$(weight_of out.sol)" -gt "$(weight_of start.sol)" ]
+  "$PYTHON" - "$output" <<'PYTHON'
+import json, sys
+stats = json.load(open("stats.json"))
+assert sys.argv[1] == f"{stats['chosen']} chosen, weight {stats['weight']}", (sys.argv[1], stats)
+assert stats["iterations"] <= 300 and stats["improvements"] > 0
+PYTHON
+}
+
+@test "the optimum of small graphs is found and known to be one" {
+  for seed in 1 2 3 4 5; do
+    "$PYTHON" "$DATA/ring_graph.py" 24 30 $seed >tiny.graph
+    initsol tiny.graph --iterations 0 -o tiny.sol
+    lns --graph tiny.graph --solution tiny.sol -o best.sol --stats stats.json
+    run "$CHECKERS/solution_check.py" --optimum tiny.graph best.sol
+    assert_success
+    assert_output --regexp "weight ([0-9]+), optimum \1$"
+    grep -q '"complete": true' stats.json
+  done
+}
+
+@test "zero iterations and zero seconds give the start" {
+  ring --iterations 0 -o none.sol
+  ring --time-limit 0 -o no_time.sol
+  assert_same_bytes start.sol none.sol
+  assert_same_bytes start.sol no_time.sol
+}
+
+@test "a start that is not maximal is taken" {
+  printf '4\n' >path.sol
+  lns --graph path.graph --solution path.sol --iterations 0 -o out.sol
+  assert_equal "$(tr '\n' ' ' <out.sol)" "2 4 "
+  lns --graph path.graph --solution path.sol -o out.sol
+  assert_equal "$(tr '\n' ' ' <out.sol)" "1 3 5 "
+}
+
+@test "every option changes the search" {
+  ring --iterations 40 -o base.sol
+  ring --iterations 40 --seed 2 -o seed.sol
+  ring --iterations 40 --fragment-size 50 -o size.sol
+  ring --iterations 40 --fragment-size 50 --largest-fragment 20 -o largest.sol
+  ring --iterations 40 --batch 3 -o batch.sol
+  ring --iterations 40 --fragment-size 600 -o large.sol
+  ring --iterations 40 --fragment-size 600 --node-limit 1 -o nodes.sol
+  for other in seed size batch; do assert_different_bytes base.sol $other.sol; done
+  assert_different_bytes size.sol largest.sol
+  assert_different_bytes large.sol nodes.sol
+}
+
+@test "bad values of options end with 2" {
+  assert_fails_with 2 "lns: .*--fragment-size" ring --fragment-size 0
+  assert_fails_with 2 "lns: .*--largest-fragment" ring --largest-fragment 100000
+  assert_fails_with 2 "lns: .*--node-limit" ring --node-limit 0
+  assert_fails_with 2 "lns: .*--batch" ring --batch -1
+  assert_fails_with 2 "lns: .*--seed" ring --seed x
+}
+
+@test "the same bytes for 1 and 2 threads" {
+  ring --iterations 200 --threads 1 -o one.sol
+  ring --iterations 200 --threads 2 -o two.sol
+  assert_same_bytes one.sol two.sol
+}
+
+@test "graph and solution from pipes" {
+  ring --iterations 20 -o file.sol
+  lns --graph <(cat ring.graph) --solution <(cat start.sol) --iterations 20 -o pipe.sol
+  lns --graph - --solution start.sol --iterations 20 -o stdin.sol <ring.graph
+  lns --graph ring.graph --solution - --iterations 20 --format sol <start.sol >stdout.sol
+  for other in pipe stdin stdout; do assert_same_bytes file.sol $other.sol; done
+}
+
+@test "a line for each vertex is read too" {
+  "$PYTHON" - <<'PYTHON'
+chosen = {int(line) for line in open("start.sol")}
+with open("flags.sol", "w") as file:
+    for v in range(1, 6001):
+        print(int(v in chosen), file=file)
+PYTHON
+  ring --iterations 20 -o numbers.sol
+  lns --graph ring.graph --solution flags.sol --iterations 20 -o flags_out.sol
+  assert_same_bytes numbers.sol flags_out.sol
+}
+
+@test "--time-limit is kept, and --log ends with the weight of the solution" {
+  local begin end
+  begin=$(date +%s%N)
+  ring --time-limit 0.5 --node-limit 1000000000 -o out.sol --log log.jsonl --stats stats.json
+  end=$(date +%s%N)
+  sanitized || assert [ $(((end - begin) / 1000000)) -le 1500 ]  # a machine under load
+  "$PYTHON" - "$(weight_of out.sol)" <<'PYTHON'
+import json, sys
+points = [json.loads(line) for line in open("log.jsonl")]
+assert points[-1]["weight"] == int(sys.argv[1])
+for key in ("seconds", "iteration", "weight"):
+    values = [point[key] for point in points]
+    assert values == sorted(values), key
+complete = json.load(open("stats.json"))["complete"]
+assert complete or 0.5 <= points[-1]["seconds"] < 1.5
+PYTHON
+}
+
+@test "a signal writes the best so far and ends with 0" {
+  # Dense and without structure, so that the search does not end by itself.
+  "$PYTHON" - >hard.graph <<'PYTHON'
+import random
+rng = random.Random(1)
+n = 1500
+rows = [[] for _ in range(n)]
+for a in range(n):
+    for b in range(a + 1, n):
+        if rng.random() < 0.02:
+            rows[a].append(b + 1), rows[b].append(a + 1)
+print(n, sum(map(len, rows)) // 2, 10)
+for row in rows:
+    print(rng.randint(1, 1000), *row)
+PYTHON
+  initsol hard.graph --iterations 0 -o hard.sol
+  for signal in INT TERM; do
+    lns --graph hard.graph --solution hard.sol --time-limit 60 -o out.sol --log log.jsonl 3>&- &
+    local pid=$!
+    for _ in $(seq 400); do [ -s log.jsonl ] || sleep 0.05; done
+    kill -s $signal $pid
+    wait $pid
+    run "$CHECKERS/solution_check.py" hard.graph out.sol
+    assert_success
+    rm out.sol log.jsonl
+  done
+}
+
+@test "a missing solution is an error that names initsol" {
+  assert_fails_with 1 "lns: .*solution.*initsol" lns ring.graph -o out.sol
+  assert_fails_with 1 "lns: missing.sol: .*No such file" lns --graph ring.graph --solution missing.sol -o out.sol
+}
+
+@test "solutions that are none are named" {
+  # refuse TEXT MESSAGE
+  refuse() {
+    printf "$1" >bad.sol
+    assert_fails_with 1 "^lns: bad.sol$2" lns --graph path.graph --solution bad.sol --iterations 1 -o out.sol
+  }
+  refuse '' ': expected a solution, found no numbers'
+  refuse '1\n2\n' ': .*neighbours'
+  refuse '1\n0\n1\n1\n0\n' ': .*neighbours'
+  refuse '1\n6\n' ':2: expected a vertex from 1 to 5'
+  refuse '3\n0\n' ':2: expected a vertex from 1 to 5'
+  refuse '1\n1\n' ':2: expected each vertex once'
+  refuse '1\nx\n' ":2: expected one number, found 'x'"
+  refuse '1 3\n' ":1: expected one number, found '1 3'"
+  refuse '1\n\n3\n' ':2: expected a number, found an empty line'
+  assert_fails_with 1 "^lns: start.sol:[0-9]+: expected a vertex" \
+    lns --graph path.graph --solution start.sol --iterations 1 -o out.sol
+  assert [ ! -e out.sol ]
+}
+
+@test "every truncated prefix of a solution is refused or a solution itself" {
+  printf '0\n1\n0\n1\n0\n' >flags.sol
+  local size prefix
+  size=$(stat -c %s flags.sol)
+  for ((prefix = 0; prefix < size - 1; ++prefix)); do
+    head -c $prefix flags.sol >cut.sol
+    assert_fails_with 1 "^lns: cut.sol" lns --graph path.graph --solution cut.sol --iterations 1 -o out.sol
+  done
+}
+
+@test "extreme graphs" {
+  printf '0 0 10\n' >empty.graph
+  : >empty.sol
+  lns --graph empty.graph --solution empty.sol -o out.sol
+  assert [ -e out.sol ]
+  assert [ ! -s out.sol ]
+  printf '1 0 10\n0\n' >one.graph
+  printf '1\n' >one.sol
+  lns --graph one.graph --solution one.sol -o out.sol
+  assert_equal "$(cat out.sol)" 1
+  printf '3 3 10\n5 2 3\n7 1 3\n6 1 2\n' >complete.graph
+  lns --graph complete.graph --solution one.sol -o out.sol --fragment-size 1
+  assert_equal "$(cat out.sol)" 2
+}
+
+@test "a full disk is noticed" {
+  assert_fails_with 1 "lns: .*No space left" \
+    shell "lns --graph path.graph --solution path.sol --iterations 1 --format sol >/dev/full"
+  assert_fails_with 1 "lns: /dev/full: .*No space left" ring --iterations 1 -o out.sol --log /dev/full
+  assert [ ! -e out.sol ]
+}
