@@ -22,7 +22,7 @@ constexpr double good_pyramid = 0.25;
 // Below this a cavity is grown.
 constexpr double good_cavity = 0.15;
 // The worst scaled Jacobian that new elements may have, before smoothing.
-constexpr double least_accepted = 0.02;
+constexpr double least_accepted = 0.0001;
 
 class Conformer {
  public:

@@ -31,16 +31,17 @@ double product_of_norms(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 }  // namespace
 
-void PointStar::add(CellKind kind, std::span<const Vec3> corners, int moving) {
-  const double scale = kind == CellKind::tet ? tet_scale : 1.0;
+void PointStar::add(CellKind kind, std::span<const Vec3> corners, int moving, double weight) {
+  const double scale = kind == CellKind::tet ? weight * tet_scale : weight;
   with_topology(kind, [&](auto topology) {
-    for (const auto& corner : decltype(topology)::corners) add_corner(corners, corner, moving, scale);
+    for (const auto& corner : decltype(topology)::corners) add_corner(corners, corner, moving, scale, weight);
   });
 }
 
-void PointStar::add_corner(std::span<const Vec3> corners, const LocalCorner& corner, int moving, double scale) {
+void PointStar::add_corner(std::span<const Vec3> corners, const LocalCorner& corner, int moving, double scale,
+                           double weight) {
   if (corner[0] == moving) {
-    terms_.push_back({{corners[corner[1]], corners[corner[2]], corners[corner[3]]}, {}, scale, true});
+    terms_.push_back({{corners[corner[1]], corners[corner[2]], corners[corner[3]]}, {}, scale, weight, true});
     return;
   }
   for (int i = 1; i < 4; ++i) {
@@ -48,7 +49,7 @@ void PointStar::add_corner(std::span<const Vec3> corners, const LocalCorner& cor
     const Vec3 o = corners[corner[0]];
     const Vec3 b = corners[corner[i % 3 + 1]] - o, c = corners[corner[(i + 1) % 3 + 1]] - o;
     const double lengths = std::sqrt(norm_squared(b) * norm_squared(c));
-    terms_.push_back({{o, {}, {}}, cross(b, c) * (lengths > 0 ? 1 / lengths : 0), scale, false});
+    terms_.push_back({{o, {}, {}}, cross(b, c) * (lengths > 0 ? 1 / lengths : 0), scale, weight, false});
   }
 }
 
@@ -88,9 +89,15 @@ double PointStar::worst(const Vec3& at) const {
   return least;
 }
 
+double PointStar::worst_unweighted(const Vec3& at) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < terms_.size(); ++i) least = std::min(least, value(i, at) / weight(i));
+  return least;
+}
+
 double PointStar::mean(const Vec3& at) const {
   double sum = 0;
-  for (std::size_t i = 0; i < terms_.size(); ++i) sum += value(i, at);
+  for (std::size_t i = 0; i < terms_.size(); ++i) sum += value(i, at) / weight(i);
   return terms_.empty() ? 0 : sum / static_cast<double>(terms_.size());
 }
 
@@ -243,15 +250,16 @@ Vec3 deepest_point(std::span<const Plane> planes, const Vec3& start) {
   return at;
 }
 
-Placement raise_mean(const PointStar& star, const Vec3& start, int steps, double floor, const Freedom& freedom) {
+Placement raise_mean(const PointStar& star, const Vec3& start, int steps, const Freedom& freedom) {
   Placement best{start, star.worst(start)};
+  const double floor = best.worst, unweighted_floor = star.worst_unweighted(start);
   double mean = star.mean(start);
   std::vector<Vec3> gradients;
   for (int step = 0; step < steps; ++step) {
     gradients.clear();
     Vec3 sum{};
     for (std::size_t i = 0; i < star.size(); ++i) {
-      gradients.push_back(star.gradient(i, best.at));
+      gradients.push_back(star.gradient(i, best.at) * (1 / star.weight(i)));
       sum += gradients.back();
     }
     const Vec3 direction = freedom.allowed(freedom.allowed(sum * (1.0 / static_cast<double>(star.size()))));
@@ -265,7 +273,7 @@ Placement raise_mean(const PointStar& star, const Vec3& start, int steps, double
       const double there = star.mean(at);
       if (!(there > mean + least_gain)) continue;
       const double worst = star.worst(at);
-      if (worst < floor) continue;
+      if (worst < floor || star.worst_unweighted(at) < unweighted_floor) continue;
       best = {at, worst};
       mean = there;
       moved = true;

@@ -16,14 +16,18 @@ class PointStar {
  public:
   void clear() { terms_.clear(); }
   bool empty() const { return terms_.empty(); }
-  // The corners of an element that involve its corner `moving`; the position given for it is not used.
-  void add(CellKind kind, std::span<const Vec3> corners, int moving);
+  // The corners of an element that involve its corner `moving`; the position given for it is not used. Values are
+  // multiplied by `weight`, so that a weight below 1 makes the element give way to others sooner.
+  void add(CellKind kind, std::span<const Vec3> corners, int moving, double weight = 1);
 
   std::size_t size() const { return terms_.size(); }
   double value(std::size_t term, const Vec3& at) const;
   Vec3 gradient(std::size_t term, const Vec3& at) const;
-  // Least and mean over all corners.
+  double weight(std::size_t term) const { return terms_[term].weight; }
+  // Least over all corners, weighted and not.
   double worst(const Vec3& at) const;
+  double worst_unweighted(const Vec3& at) const;
+  // Mean over all corners, not weighted.
   double mean(const Vec3& at) const;
   // True when worst(at) > bound; stops at the first corner that is not.
   bool exceeds(const Vec3& at, double bound) const;
@@ -34,10 +38,11 @@ class PointStar {
   struct Term {
     std::array<Vec3, 3> fixed;
     Vec3 normal;
-    double scale;
+    double scale;  // the weight, and for a tet the square root of 2
+    double weight;
     bool is_corner;
   };
-  void add_corner(std::span<const Vec3> corners, const LocalCorner& corner, int moving, double scale);
+  void add_corner(std::span<const Vec3> corners, const LocalCorner& corner, int moving, double scale, double weight);
 
   std::vector<Term> terms_;
 };
@@ -60,8 +65,8 @@ struct Placement {
 // (locally) greatest. Elements may be inverted at the start.
 Placement raise_worst(const PointStar& star, const Vec3& start, int steps, const Freedom& freedom = {});
 
-// Takes at most `steps` steps that raise the mean without bringing the least below `floor`.
-Placement raise_mean(const PointStar& star, const Vec3& start, int steps, double floor, const Freedom& freedom = {});
+// Takes at most `steps` steps that raise the mean without lowering the least, weighted or not.
+Placement raise_mean(const PointStar& star, const Vec3& start, int steps, const Freedom& freedom = {});
 
 // A plane with its unit normal; points on the normal's side have positive distance.
 struct Plane {
