@@ -13,8 +13,9 @@ CHECKERS="$HEXPIPE_SOURCE/tests/checkers"
 PYTHON=/usr/bin/python3
 export PATH="$HEXPIPE_BIN:$PATH"
 
+# An empty directory: Bats keeps files of its own in BATS_TEST_TMPDIR.
 setup() {
-  cd "$BATS_TEST_TMPDIR" || return 1
+  mkdir "$BATS_TEST_TMPDIR/work" && cd "$BATS_TEST_TMPDIR/work" || return 1
 }
 
 # stdout and stderr apart: $output and $stderr.

@@ -7,9 +7,11 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <new>
 
 #include "common/run/error.hpp"
+#include "common/run/help_formatter.hpp"
 #include "common/run/parallel.hpp"
 #include "common/run/version.hpp"
 
@@ -134,6 +136,7 @@ int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<v
   RunContext context;
   context.info = info;
   CLI::App app(info.summary, info.name);
+  app.formatter(std::make_shared<HelpFormatter>());
   app.set_version_flag("--version", fmt::format("{} (hexpipe) {}", info.name, version()));
   app.footer(footer(info));
   app.option_defaults()->always_capture_default();

@@ -1,0 +1,36 @@
+#include "common/run/help_formatter.hpp"
+
+#include <sstream>
+
+namespace hexpipe {
+namespace {
+
+constexpr std::size_t option_column = 28;
+constexpr std::size_t page_width = 100;
+
+}  // namespace
+
+std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positional) const {
+  std::string text = "  " + make_option_name(option, is_positional) + make_option_opts(option);
+  const std::string indent = "\n" + std::string(option_column, ' ');
+  if (text.size() + 1 > option_column) text += indent;
+  else text.resize(option_column, ' ');
+
+  std::istringstream words(make_option_desc(option));
+  std::size_t column = option_column;
+  for (std::string word; words >> word;) {
+    const bool first_in_line = column == option_column;
+    if (!first_in_line && column + 1 + word.size() > page_width) {
+      text += indent;
+      column = option_column;
+    } else if (!first_in_line) {
+      text += ' ';
+      ++column;
+    }
+    text += word;
+    column += word.size();
+  }
+  return text + "\n";
+}
+
+}  // namespace hexpipe

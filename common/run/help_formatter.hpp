@@ -1,0 +1,14 @@
+#pragma once
+// --help as people read it: descriptions wrapped beside their options, in the width of a page.
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace hexpipe {
+
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option(const CLI::Option* option, bool is_positional) const override;
+};
+
+}  // namespace hexpipe
