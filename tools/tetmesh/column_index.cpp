@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/mesh/validity.hpp"
 #include "tools/tetmesh/exact_geometry.hpp"
 
 namespace hexpipe {

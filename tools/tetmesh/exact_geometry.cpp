@@ -95,10 +95,6 @@ int orientation_along_z(const Vec3& a, const Vec3& b, const Vec3& c) {
   return CGAL::orientation(Kernel::Point_2(a.x, a.y), Kernel::Point_2(b.x, b.y), Kernel::Point_2(c.x, c.y));
 }
 
-int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  return CGAL::orientation(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d));
-}
-
 bool are_collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
   return CGAL::collinear(to_cgal(a), to_cgal(b), to_cgal(c));
 }

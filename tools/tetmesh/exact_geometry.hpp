@@ -1,5 +1,5 @@
 #pragma once
-// Exact answers about points given in doubles.
+// Exact answers about points given in doubles, beside those of common/mesh/validity.hpp.
 
 #include <array>
 #include <cstddef>
@@ -13,9 +13,6 @@ namespace hexpipe {
 
 // The sign of the area of (a, b, c) projected along z: positive when counter-clockwise seen from +z.
 int orientation_along_z(const Vec3& a, const Vec3& b, const Vec3& c);
-
-// The sign of det(b - a, c - a, d - a).
-int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 bool are_collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 

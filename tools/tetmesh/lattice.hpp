@@ -2,7 +2,7 @@
 // Points inside a surface on a slightly jittered lattice along the coordinate axes, kept clear of the surface.
 //
 // Lattice points next to each other make hexes when their tets are merged; an exact lattice is cospherical, which
-// multiplies the candidates by 3 to 5, and a jitter of 2 % of the size prevents it (ALGORITHMS.md 5). A lattice point
+// multiplies the candidates by 3 to 5, and a jitter of 2 % of the size prevents it. A lattice point
 // too near the surface would make slivers with its triangles.
 
 #include <cstdint>

@@ -189,11 +189,10 @@ void check_vertices(const SurfaceSoup& soup, std::span<const HalfEdge> twins) {
 void check_no_intersections(const SurfaceSoup& soup) {
   const IntersectionReport report = find_intersections(soup.points, soup.triangles, most_intersections);
   if (report.pairs.empty()) return;
-  const auto [a, b] = report.pairs.front();
-  throw DataError::at(soup.place_of(a), "expected triangles that do not intersect, found {}{} that do; {}{} {}",
-                      report.complete ? "" : "more than ", count_of(report.pairs.size(), "pair"),
-                      report.pairs.size() == 1 ? "" : "the first is ", list_of(soup, report.pairs.front()),
-                      report.pairs.size() == 1 ? "intersect" : "");
+  throw DataError::at(
+      soup.place_of(report.pairs.front()[0]),
+      "expected a surface that does not intersect itself, found {}{} of triangles that do; the first: {}",
+      report.complete ? "" : "more than ", count_of(report.pairs.size(), "pair"), list_of(soup, report.pairs.front()));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace hexpipe {
 enum class PointKind { lattice, none };
 
 struct TetmeshOptions {
-  std::optional<Length> size;  // nothing: see element_size()
+  std::optional<Length> size = {};  // nothing: see element_size()
   PointKind points = PointKind::lattice;
   double clearance = LatticeOptions{}.clearance;
   double jitter = LatticeOptions{}.jitter;

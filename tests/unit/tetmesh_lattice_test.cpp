@@ -1,0 +1,135 @@
+#include "tools/tetmesh/lattice.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "common/run/error.hpp"
+#include "surface_samples.hpp"
+#include "tools/tetmesh/column_index.hpp"
+#include "tools/tetmesh/triangle_distance.hpp"
+
+namespace hexpipe {
+namespace {
+
+using testing::box;
+using testing::cube;
+using testing::Facets;
+using testing::inverted;
+using testing::joined;
+using testing::soup_of;
+using testing::sphere;
+
+Surface surface_of(const Facets& facets) {
+  return find_shells(soup_of(facets), ShellRule::oriented);
+}
+
+double distance_to(const Surface& surface, const Vec3& p) {
+  double least = std::numeric_limits<double>::max();
+  for (const auto& [a, b, c] : surface.triangles)
+    least = std::min(least, TriangleDistance(surface.points[a], surface.points[b], surface.points[c]).squared(p));
+  return std::sqrt(least);
+}
+
+bool in_material(const Surface& surface, const Vec3& p) {
+  bool odd = false;
+  ColumnIndex(surface.points, surface.triangles).for_each_crossing(p, [&](std::int32_t t) {
+    if (surface.shells[surface.shell_of[t]].in_front == outside_region) odd = !odd;
+  });
+  return odd;
+}
+
+// What lattice_points does, one point at a time: no rasterizing, no flooding.
+std::size_t count_naively(const Surface& surface, const LatticeOptions& options) {
+  Vec3 low = surface.points[0], high = low;
+  for (const Vec3& p : surface.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  auto steps = [&](int axis) { return std::max(1.0, std::round((high[axis] - low[axis]) / options.size)); };
+  std::size_t count = 0;
+  for (double k = 1; k < steps(2); ++k)
+    for (double j = 1; j < steps(1); ++j)
+      for (double i = 1; i < steps(0); ++i) {
+        const Vec3 p{low.x + i * ((high.x - low.x) / steps(0)), low.y + j * ((high.y - low.y) / steps(1)),
+                     low.z + k * ((high.z - low.z) / steps(2))};
+        count += distance_to(surface, p) >= options.clearance * options.size && in_material(surface, p);
+      }
+  return count;
+}
+
+TEST(TriangleDistance, IsThatToTheNearestPoint) {
+  const TriangleDistance triangle({0, 0, 0}, {4, 0, 0}, {0, 3, 0});
+  EXPECT_DOUBLE_EQ(triangle.squared({1, 1, 2}), 4);  // inside
+  EXPECT_DOUBLE_EQ(triangle.squared({1, 1, 0}), 0);
+  EXPECT_DOUBLE_EQ(triangle.squared({2, -3, 4}), 25);   // an edge
+  EXPECT_DOUBLE_EQ(triangle.squared({-3, -4, 0}), 25);  // a corner
+  EXPECT_DOUBLE_EQ(triangle.squared({7, 0, 4}), 25);
+  EXPECT_NEAR(triangle.squared({2 + 3, 1.5 + 4, 0}), 25, 1e-12);  // the slanted edge, along its normal
+}
+
+TEST(Lattice, FitsAWholeNumberOfStepsToTheBox) {
+  const auto points =
+      lattice_points(surface_of(box({0, 0, 0}, {1, 2, 4})), {.size = 0.26, .clearance = 0.6, .jitter = 0});
+  EXPECT_EQ(points.size(), 3u * 7 * 14);
+  EXPECT_EQ(points.front(), Vec3(0.25, 0.25, 4.0 / 15));
+  EXPECT_TRUE(std::ranges::is_sorted(points, [](const Vec3& a, const Vec3& b) { return a.z < b.z; }));
+}
+
+TEST(Lattice, IsWhatTheDefinitionSays) {
+  const Facets hollow = joined(sphere({0, 0, 0}, 3, 14), inverted(sphere({0.4, 0.3, 0.2}, 1.6, 9)));
+  const Facets thin = joined(box({-3, -3, 0.05}, {3, 3, 1.1}), cube(0.3, 0.5));
+  for (const Facets& facets : {hollow, thin, sphere({1, 2, 3}, 2.5, 20)})
+    for (const double clearance : {0.15, 0.4, 0.6, 1.3}) {
+      const Surface surface = surface_of(facets);
+      const LatticeOptions options{.size = 0.37, .clearance = clearance, .jitter = 0};
+      EXPECT_EQ(lattice_points(surface, options).size(), count_naively(surface, options)) << clearance;
+    }
+}
+
+TEST(Lattice, KeepsClearOfTheSurface) {
+  const Surface surface = surface_of(joined(sphere({0, 0, 0}, 3, 14), sphere({0.4, 0.3, 0.2}, 1.6, 9)));
+  const LatticeOptions options{.size = 0.3, .clearance = 0.7, .jitter = 0.1};
+  const auto points = lattice_points(surface, options);
+  EXPECT_GT(points.size(), 1000u);
+  for (const Vec3& p : points) {
+    EXPECT_TRUE(in_material(surface, p));
+    EXPECT_GE(distance_to(surface, p), (0.7 - 0.1 * std::sqrt(3)) * 0.3);
+  }
+}
+
+TEST(Lattice, JitterMovesPointsWithinItsReachBySeed) {
+  const Surface surface = surface_of(cube());
+  auto points_with = [&](double jitter, std::uint64_t seed) {
+    return lattice_points(surface, {.size = 0.1, .clearance = 0.6, .jitter = jitter, .seed = seed});
+  };
+  const auto exact = points_with(0, 1), jittered = points_with(0.02, 1), other = points_with(0.02, 2);
+  ASSERT_EQ(exact.size(), jittered.size());
+  double furthest = 0, mean = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) furthest = std::max(furthest, std::abs(exact[i][axis] - jittered[i][axis]));
+    mean += (jittered[i] - exact[i]).x / static_cast<double>(exact.size());
+  }
+  EXPECT_LE(furthest, 0.002 * (1 + 1e-9));
+  EXPECT_GT(furthest, 0.0019);
+  EXPECT_NEAR(mean, 0, 2e-4);
+  EXPECT_EQ(jittered, points_with(0.02, 1));
+  EXPECT_NE(jittered, other);
+}
+
+TEST(Lattice, NoPointsWhereTheBoxIsThin) {
+  EXPECT_TRUE(lattice_points(surface_of(box({0, 0, 0}, {10, 10, 1})), {.size = 1}).empty());
+  EXPECT_TRUE(lattice_points(surface_of(cube()), {.size = 100}).empty());
+}
+
+TEST(Lattice, RefusesMorePointsThanMemoryHolds) {
+  const Surface surface = surface_of(cube());
+  for (const double size : {1e-4, 1e-300})
+    EXPECT_THAT([&] { lattice_points(surface, {.size = size}); },
+                ::testing::ThrowsMessage<DataError>(::testing::HasSubstr("part: expected a size")));
+}
+
+}  // namespace
+}  // namespace hexpipe

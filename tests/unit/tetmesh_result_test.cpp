@@ -1,0 +1,102 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "common/mesh/adjacency.hpp"
+#include "common/mesh/cell_topology.hpp"
+#include "common/run/error.hpp"
+#include "surface_samples.hpp"
+#include "tools/tetmesh/tetmesh.hpp"
+
+namespace hexpipe {
+namespace {
+
+using testing::box;
+using testing::cube;
+using testing::Facets;
+using testing::inverted;
+using testing::joined;
+using testing::soup_of;
+using testing::sphere;
+
+TetmeshResult run(const Facets& facets, const TetmeshOptions& options) {
+  return tetmesh(soup_of(facets), options);
+}
+
+// Every facet between two regions or a region and nothing is a triangle of the mesh, outward from the lower region, and
+// the other way round.
+void expect_triangles_bound_the_tets(const TetMesh& mesh) {
+  const TetAdjacency adjacency(mesh, "mesh");
+  std::vector<Triangle> bounding;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    EXPECT_GT(tet_determinant(mesh.points, mesh.tets[t]), 0);
+    for (std::size_t facet = 0; facet < 4; ++facet) {
+      const std::int32_t beyond = adjacency.tet_beyond(static_cast<std::int32_t>(t), static_cast<int>(facet));
+      if (beyond != TetAdjacency::none && mesh.tet_tags[beyond] == mesh.tet_tags[t]) continue;
+      Triangle triangle;
+      for (std::size_t i = 0; i < 3; ++i) triangle[i] = mesh.tets[t][TetTopology::triangles[facet][i]];
+      std::ranges::rotate(triangle, std::ranges::min_element(triangle));
+      bounding.push_back(triangle);
+    }
+  }
+  std::ranges::sort(bounding);
+  for (Triangle triangle : mesh.triangles) {
+    std::ranges::rotate(triangle, std::ranges::min_element(triangle));
+    EXPECT_TRUE(std::ranges::binary_search(bounding, triangle));
+  }
+  EXPECT_GE(bounding.size(), mesh.triangles.size());
+  EXPECT_LE(bounding.size(), 2 * mesh.triangles.size());
+}
+
+TEST(Tetmesh, FillsWhatTheShellsEnclose) {
+  const Facets hollow = joined(sphere({0, 0, 0}, 3, 12), inverted(sphere({0.4, 0.3, 0.2}, 1.6, 9)));
+  const Facets nested = joined(cube(0, 3, 6), sphere({1.5, 1.5, 1.5}, 1, 8));
+  const Facets apart = joined(cube(0, 1, 3), cube(2, 1, 4));
+  for (const Facets& facets : {hollow, nested, apart}) {
+    const Surface surface = find_shells(soup_of(facets), ShellRule::oriented);
+    for (const PointKind points : {PointKind::lattice, PointKind::none}) {
+      const TetmeshResult result = run(facets, {.size = Length{0.3, false}, .points = points});
+      const auto volumes = surface.region_volumes();
+      EXPECT_NEAR(result.statistics.volume, std::accumulate(volumes.begin(), volumes.end(), 0.0), 1e-9);
+      EXPECT_EQ(result.statistics.dropped_points, 0u);
+      EXPECT_EQ(result.statistics.interior_points > 0, points == PointKind::lattice);
+      EXPECT_EQ(std::ranges::max(result.mesh.tet_tags), surface.region_count);
+      expect_triangles_bound_the_tets(result.mesh);
+    }
+  }
+}
+
+TEST(Tetmesh, TagsComeFromTheFileOrFromTheShells) {
+  SurfaceSoup soup = soup_of(joined(cube(0, 1), cube(2, 1)));
+  const TetmeshOptions options{.size = Length{0.5, false}};
+  const auto by_shell = tetmesh(soup, options).mesh.triangle_tags;
+  EXPECT_EQ(by_shell.front(), 1);
+  EXPECT_EQ(by_shell.back(), 2);
+  for (std::size_t i = 0; i < soup.tags.size(); ++i) soup.tags[i] = static_cast<std::int32_t>(i % 5);
+  EXPECT_EQ(tetmesh(soup, options).mesh.triangle_tags, soup.tags);
+}
+
+TEST(Tetmesh, RefusesAJitterThatReachesTheSurface) {
+  EXPECT_THROW(run(cube(), {.clearance = 0.5, .jitter = 0.25}), UsageError);
+  EXPECT_NO_THROW(run(cube(), {.size = Length{0.2, false}, .clearance = 0.5, .jitter = 0.24}));
+  EXPECT_NO_THROW(run(cube(), {.points = PointKind::none, .clearance = 0.5, .jitter = 0.25}));
+}
+
+TEST(Tetmesh, WarnsOfASurfaceFarFromTheSize) {
+  EXPECT_TRUE(run(cube(), {.size = Length{0.2, false}}).warning);
+  EXPECT_FALSE(run(cube(0, 1, 5), {.size = Length{0.2, false}}).warning);
+  EXPECT_FALSE(run(cube(), {.size = Length{0.2, false}, .points = PointKind::none}).warning);
+}
+
+TEST(Tetmesh, MeasuresDihedralAngles) {
+  // One tet with three right angles; the others are arccos(1 / sqrt(3)).
+  const Vec3 o{0, 0, 0}, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  const TetmeshResult result = run({{o, y, x}, {o, x, z}, {o, z, y}, {x, y, z}}, {.points = PointKind::none});
+  EXPECT_EQ(result.statistics.tets, 1u);
+  EXPECT_NEAR(result.statistics.greatest_dihedral, 90, 1e-9);
+  EXPECT_NEAR(result.statistics.least_dihedral, 54.735610317, 1e-8);
+}
+
+}  // namespace
+}  // namespace hexpipe

@@ -1,0 +1,69 @@
+#include "tools/tetmesh/sizing.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/run/error.hpp"
+#include "surface_samples.hpp"
+
+namespace hexpipe {
+namespace {
+
+using testing::box;
+using testing::cube;
+using testing::Facets;
+using testing::soup_of;
+using testing::sphere;
+
+Surface surface_of(const Facets& facets) {
+  return find_shells(soup_of(facets), ShellRule::oriented);
+}
+
+TEST(Sizing, ParsesLengths) {
+  EXPECT_EQ(parse_length("2.5").value, 2.5);
+  EXPECT_FALSE(parse_length("2.5").percent_of_diagonal);
+  EXPECT_EQ(parse_length("3%").value, 3);
+  EXPECT_TRUE(parse_length("3%").percent_of_diagonal);
+  for (const char* bad : {"", "%", "0", "-1", "nan", "inf", "1mm", "3%%", "1e999", " 1"})
+    EXPECT_THROW(parse_length(bad), UsageError) << bad;
+}
+
+TEST(Sizing, TakesTheLengthAsItIsOrOfTheDiagonal) {
+  const Surface surface = surface_of(box({0, 0, 0}, {2, 3, 6}));
+  EXPECT_DOUBLE_EQ(bounding_box_diagonal(surface), 7);
+  EXPECT_DOUBLE_EQ(element_size(surface, Length{0.3, false}), 0.3);
+  EXPECT_DOUBLE_EQ(element_size(surface, Length{2, true}), 0.14);
+}
+
+TEST(Sizing, DefaultsToTheSpacingOfTheSurface) {
+  EXPECT_NEAR(element_size(surface_of(cube(0, 10, 30)), {}), 1.0 / 3, 0.001);
+}
+
+TEST(Sizing, DefaultsAreBounded) {
+  // A tessellation of 8 vertices: 5 % of the diagonal.
+  EXPECT_NEAR(element_size(surface_of(cube()), {}), 0.05 * std::sqrt(3), 1e-12);
+  // A plate: half of its thickness.
+  EXPECT_NEAR(element_size(surface_of(box({0, 0, 0}, {100, 100, 1})), {}), 0.5, 0.01);
+  // Finer than a million points inside: 1 % of the cube root of the volume.
+  const Surface fine = surface_of(cube(0, 1, 128));
+  EXPECT_NEAR(element_size(fine, {}), 0.01, 1e-12);
+}
+
+TEST(Sizing, ComplainsOfTrianglesFarFromTheSize) {
+  const Surface surface = surface_of(cube(0, 1, 10));  // right-angled triangles, sides of 0.1 and 0.14
+  EXPECT_NEAR(fit_to_size(surface, 0.1).median_edge, 0.1, 1e-12);
+  EXPECT_FALSE(fit_to_size(surface, 0.1).complaint(0.1));
+  EXPECT_FALSE(fit_to_size(surface, 0.06).complaint(0.06));
+  EXPECT_FALSE(fit_to_size(surface, 0.24).complaint(0.24));
+  const SizeFit coarse = fit_to_size(surface, 0.05), fine = fit_to_size(surface, 0.3);
+  EXPECT_NEAR(coarse.coarse_share, 1, 1e-12);
+  EXPECT_NEAR(fine.fine_share, 1, 1e-12);
+  EXPECT_THAT(
+      coarse.complaint(0.05).value(),
+      ::testing::HasSubstr(
+          "100 % of the surface lies in triangles with edges much longer than the size 0.05 (the median edge is 0.1)"));
+  EXPECT_THAT(fine.complaint(0.3).value(), ::testing::HasSubstr("much shorter than the size 0.3"));
+}
+
+}  // namespace
+}  // namespace hexpipe
