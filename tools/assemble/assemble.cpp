@@ -1,10 +1,16 @@
 #include "tools/assemble/assemble.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
 #include "common/mesh/adjacency.hpp"
+#include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/run/error.hpp"
 #include "tools/assemble/conform.hpp"
 #include "tools/assemble/extract.hpp"
+#include "tools/assemble/repair.hpp"
 #include "tools/assemble/selection.hpp"
 #include "tools/assemble/self_check.hpp"
 #include "tools/assemble/smooth.hpp"
@@ -59,6 +65,127 @@ TetMesh with_complete_surface(const TetMesh& mesh) {
   return result;
 }
 
+// New elements may be this inverted before smoothing: beyond it untangling has been seen to fail.
+constexpr double most_inverted = -0.3;
+// Without smoothing, new elements only have to be valid, with room for rounding.
+constexpr double barely_valid = 1e-4;
+constexpr int untangling_rounds = 20;
+// Rounds of conforming, untangling and giving back what stays poor. Two nearly always do; the last one takes no risks.
+constexpr int most_attempts = 4;
+// Tets that smoothing leaves below this get a vertex beside them.
+constexpr double worth_a_vertex = 0.05;
+
+void move_points(const Extract& from, HybridMesh& to) {
+  for (std::size_t i = 0; i < from.origin.size(); ++i) to.points[from.origin[i]] = from.mesh.points[i];
+}
+
+// The candidates to which poor pyramids and tets made for conformity belong.
+std::vector<std::int32_t> owners_of_poor_elements(const HybridMesh& mesh, std::size_t input_points) {
+  auto is_poor = [&](CellKind kind, std::span<const Vertex> corners) {
+    const auto at = corner_points(mesh.points, corners);
+    const double scale = kind == CellKind::tet ? std::sqrt(2.0) : 1;
+    return scale * least_corner_scaled_jacobian(kind, std::span<const Vec3>(at).first(corners.size())) < poor_quality;
+  };
+  std::vector<std::int32_t> owners;
+  std::vector<std::int32_t> owner_of_point(mesh.points.size(), HybridCell::none);
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
+    const HybridCell& cell = mesh.cell(c);
+    if (!cell.alive || cell.candidate != HybridCell::none) continue;
+    const std::int32_t owner = mesh.cell(mesh.partner_at(cell.quad(0), c)).candidate;
+    owner_of_point[cell.corners[4]] = owner;
+    if (is_poor(cell.kind, std::span(cell.corners).first(5))) owners.push_back(owner);
+  }
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tet_count()); ++t) {
+    if (!mesh.is_alive(t)) continue;
+    // The vertex added last made the tet.
+    const Vertex newest = *std::ranges::max_element(mesh.tet(t));
+    if (static_cast<std::size_t>(newest) < input_points || owner_of_point[newest] == HybridCell::none) continue;
+    if (is_poor(CellKind::tet, mesh.tet(t))) owners.push_back(owner_of_point[newest]);
+  }
+  std::sort(owners.begin(), owners.end());
+  owners.erase(std::unique(owners.begin(), owners.end()), owners.end());
+  return owners;
+}
+
+class Assembler {
+ public:
+  Assembler(TetMesh input, const Candidates& candidates, const IndependentSet& chosen, const AssembleOptions& options)
+      : input_(std::move(input)), tags_(input_), candidates_(candidates), kept_(chosen), options_(options) {}
+
+  AssembleResult run();
+
+ private:
+  bool is_conforming() const { return options_.conformity == AssembleOptions::Conformity::pyramids; }
+  HybridMesh conform();
+  void give_back(const std::vector<std::int32_t>& owners);
+  Extract smooth_and_repair(HybridMesh& hybrid);
+
+  const TetMesh input_;
+  SurfaceTags tags_;
+  const Candidates& candidates_;
+  IndependentSet kept_;
+  const AssembleOptions& options_;
+  AssembleStatistics statistics_;
+  std::int64_t poor_ = 0;
+  double poor_volume_ = 0;
+};
+
+// Conforms with inverted elements where there is no better, untangles them, and starts anew without the cells for which
+// that does not succeed.
+HybridMesh Assembler::conform() {
+  for (int attempt = 1;; ++attempt) {
+    const bool last = attempt == most_attempts || options_.smooth == 0;
+    HybridMesh hybrid = build_selection(input_, tags_, candidates_, kept_);
+    statistics_.conformity = make_conforming(hybrid, tags_, candidates_, last ? barely_valid : most_inverted);
+    if (last) return hybrid;
+    Extract extracted = extract(hybrid, input_, tags_);
+    untangle(extracted.mesh, untangling_rounds);
+    move_points(extracted, hybrid);
+    const auto owners = owners_of_poor_elements(hybrid, input_.points.size());
+    if (owners.empty()) return hybrid;
+    give_back(owners);
+  }
+}
+
+void Assembler::give_back(const std::vector<std::int32_t>& owners) {
+  IndependentSet rest;
+  std::ranges::set_difference(kept_, owners, std::back_inserter(rest));
+  kept_ = std::move(rest);
+  poor_ += static_cast<std::int64_t>(owners.size());
+  for (std::int32_t owner : owners)
+    if (candidates_.kind[owner] == CellKind::hex) poor_volume_ += candidates_.volume[owner];
+}
+
+Extract Assembler::smooth_and_repair(HybridMesh& hybrid) {
+  Extract extracted = extract(hybrid, input_, tags_);
+  if (options_.smooth == 0) return extracted;
+  compute_quality(extracted.mesh);
+  statistics_.before_smoothing = kind_statistics(extracted.mesh);
+  statistics_.smoothing = smooth(extracted.mesh, options_.smooth);
+  move_points(extracted, hybrid);
+  statistics_.repaired = repair_flat_tets(hybrid, tags_, worth_a_vertex);
+  if (statistics_.repaired == 0) return extracted;
+  extracted = extract(hybrid, input_, tags_);
+  const SmoothCounts again = smooth(extracted.mesh, options_.smooth);
+  statistics_.smoothing.rounds += again.rounds;
+  statistics_.smoothing.moves += again.moves;
+  return extracted;
+}
+
+AssembleResult Assembler::run() {
+  HybridMesh hybrid = is_conforming() ? conform() : build_selection(input_, tags_, candidates_, kept_);
+  statistics_.conformity.given_back[static_cast<std::size_t>(GivenBack::poor_elements)] = poor_;
+  statistics_.conformity.volume_given_back += poor_volume_;
+  Extract extracted = smooth_and_repair(hybrid);
+  statistics_.volumes = check_result(extracted, input_, tags_, is_conforming(), options_.smooth > 0);
+  compute_quality(extracted.mesh);
+  statistics_.kinds = kind_statistics(extracted.mesh);
+  statistics_.points = static_cast<std::int64_t>(extracted.mesh.points.size());
+  statistics_.triangles = static_cast<std::int64_t>(extracted.mesh.triangles.size());
+  statistics_.quads = static_cast<std::int64_t>(extracted.mesh.quads.size());
+  return {std::move(extracted.mesh), statistics_};
+}
+
 }  // namespace
 
 AssembleResult assemble(const TetMesh& mesh, const Candidates& candidates, const IndependentSet& chosen,
@@ -66,27 +193,7 @@ AssembleResult assemble(const TetMesh& mesh, const Candidates& candidates, const
   validate_against(candidates, mesh, "candidates");
   check_chosen(chosen, candidates);
   check_orientation(mesh);
-  const TetMesh input = with_complete_surface(mesh);
-  const SurfaceTags tags(input);
-  HybridMesh hybrid = build_selection(input, tags, candidates, chosen);
-  const bool conforming = options.conformity == AssembleOptions::Conformity::pyramids;
-
-  AssembleResult result;
-  if (conforming) result.statistics.conformity = make_conforming(hybrid, tags, candidates);
-  Extract extracted = extract(hybrid, input, tags);
-  if (options.smooth > 0) {
-    compute_quality(extracted.mesh);
-    result.statistics.before_smoothing = kind_statistics(extracted.mesh);
-    result.statistics.smoothing = smooth(extracted.mesh, options.smooth);
-  }
-  result.statistics.volumes = check_result(extracted, input, tags, conforming, options.smooth > 0);
-  compute_quality(extracted.mesh);
-  result.mesh = std::move(extracted.mesh);
-  result.statistics.kinds = kind_statistics(result.mesh);
-  result.statistics.points = static_cast<std::int64_t>(result.mesh.points.size());
-  result.statistics.triangles = static_cast<std::int64_t>(result.mesh.triangles.size());
-  result.statistics.quads = static_cast<std::int64_t>(result.mesh.quads.size());
-  return result;
+  return Assembler(with_complete_surface(mesh), candidates, chosen, options).run();
 }
 
 }  // namespace hexpipe

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "common/mesh/quality.hpp"
+
 namespace hexpipe {
 namespace {
 
@@ -38,6 +40,11 @@ Cavity::Cavity(const HybridMesh& mesh, const SurfaceTags& tags, const Quad& quad
   if (obstacle_ == Obstacle::none && !is_sphere()) obstacle_ = Obstacle::cells;
 }
 
+Cavity::Cavity(const HybridMesh& mesh, const SurfaceTags& tags, std::int32_t tet)
+    : mesh_(mesh), tags_(tags), region_(mesh.region_of(tet)), tets_{tet} {
+  collect_skin();
+}
+
 // False when a tagged triangle lies inside, or another region.
 bool Cavity::collect_skin() {
   skin_.clear();
@@ -59,7 +66,8 @@ bool Cavity::collect_skin() {
       keys.erase(twin);
       skin_.erase(skin_.begin() + place);
     }
-  for (const auto& half : triangles_of(quad_, diagonal_)) {
+  if (!quad_) return !crossed;
+  for (const auto& half : triangles_of(*quad_, diagonal_)) {
     const auto key = key_of(half);
     const auto found = std::find(keys.begin(), keys.end(), key);
     if (found == keys.end()) return false;
@@ -72,8 +80,11 @@ bool Cavity::collect_skin() {
 // True when skin and quad are a closed surface of genus 0: every edge has two facets, and Euler's formula holds.
 bool Cavity::is_sphere() const {
   std::vector<VertexKey<2>> edges;
-  std::vector<Vertex> vertices(quad_.begin(), quad_.end());
-  for (int i = 0; i < 4; ++i) edges.push_back(edge_key(quad_[i], quad_[(i + 1) % 4]));
+  std::vector<Vertex> vertices;
+  for (std::size_t i = 0; quad_ && i < 4; ++i) {
+    edges.push_back(edge_key((*quad_)[i], (*quad_)[(i + 1) % 4]));
+    vertices.push_back((*quad_)[i]);
+  }
   for (const auto& facet : skin_)
     for (int i = 0; i < 3; ++i) {
       edges.push_back(edge_key(facet.triangle[i], facet.triangle[(i + 1) % 3]));
@@ -86,15 +97,17 @@ bool Cavity::is_sphere() const {
     if (i + 1 == edges.size() || edges[i] != edges[i + 1] || (i + 2 < edges.size() && edges[i] == edges[i + 2]))
       return false;
   const auto edge_count = static_cast<std::ptrdiff_t>(edges.size() / 2);
-  const auto facet_count = static_cast<std::ptrdiff_t>(skin_.size() + 1);
+  const auto facet_count = static_cast<std::ptrdiff_t>(skin_.size() + (quad_ ? 1 : 0));
   return vertex_count - edge_count + facet_count == 2;
 }
 
 void Cavity::build_star() {
   star_.clear();
   auto at = [&](Vertex v) { return mesh_.points[v]; };
-  const std::array<Vec3, 5> pyramid{at(quad_[0]), at(quad_[1]), at(quad_[2]), at(quad_[3]), {}};
-  star_.add(CellKind::pyramid, pyramid, 4);
+  if (quad_) {
+    const auto& [a, b, c, d] = *quad_;
+    star_.add(CellKind::pyramid, std::array<Vec3, 5>{at(a), at(b), at(c), at(d), {}}, 4);
+  }
   for (const auto& [triangle, tet] : skin_) {
     const std::array<Vec3, 4> corners{at(triangle[0]), at(triangle[2]), at(triangle[1]), {}};
     star_.add(CellKind::tet, corners, 3);
@@ -105,26 +118,31 @@ void Cavity::build_star() {
 std::vector<Plane> Cavity::planes() const {
   auto at = [&](Vertex v) { return mesh_.points[v]; };
   std::vector<Plane> result;
-  for (int diagonal = 0; diagonal < 2; ++diagonal)
-    for (const auto& [a, b, c] : triangles_of(quad_, diagonal)) result.push_back(Plane::through(at(a), at(b), at(c)));
+  for (int diagonal = 0; quad_ && diagonal < 2; ++diagonal)
+    for (const auto& [a, b, c] : triangles_of(*quad_, diagonal)) result.push_back(Plane::through(at(a), at(b), at(c)));
   for (const auto& [triangle, tet] : skin_)
     result.push_back(Plane::through(at(triangle[0]), at(triangle[2]), at(triangle[1])));
   return result;
 }
 
-// From the best of a few places between the middle of the quad and the middle of the rest.
-Placement Cavity::search(int steps) {
+// From the best of a few places: between the middle of the quad and the middle of the rest, or at the middle.
+Placement Cavity::search(int steps) const {
   Vec3 base{}, rest{};
-  for (Vertex v : quad_) base += mesh_.points[v] * 0.25;
   double count = 0;
   for (const auto& facet : skin_)
     for (Vertex v : facet.triangle) {
-      if (std::find(quad_.begin(), quad_.end(), v) != quad_.end()) continue;
+      if (quad_ && std::find(quad_->begin(), quad_->end(), v) != quad_->end()) continue;
       rest += mesh_.points[v];
       ++count;
     }
-  if (count == 0) return {base, -1};
-  rest *= 1 / count;
+  if (count > 0) rest *= 1 / count;
+  base = rest;
+  if (quad_) {
+    base = {};
+    for (Vertex v : *quad_) base += mesh_.points[v] * 0.25;
+    // A ring without other vertices is one sliver.
+    if (count == 0) return {base, -1};
+  }
   Placement best{base, -2};
   auto consider = [&](const Vec3& at) {
     const double worst = star_.worst(at);
@@ -191,16 +209,30 @@ double Cavity::place_vertex(double enough) {
   return best.worst;
 }
 
-std::int32_t Cavity::fill(HybridMesh& mesh) const {
+double Cavity::worst_tet() const {
+  double worst = 1;
+  PointStar one;
+  for (std::int32_t t : tets_) {
+    one.clear();
+    const auto at = corner_points(mesh_.points, mesh_.tet(t));
+    one.add(CellKind::tet, std::span<const Vec3>(at).first(4), 3);
+    worst = std::min(worst, one.worst(at[3]));
+  }
+  return worst;
+}
+
+void Cavity::fill(HybridMesh& mesh) const {
   assert(&mesh == &mesh_);
   const Vertex apex = mesh.add_point(at_);
   for (std::int32_t t : tets_) mesh.remove_tet(t);
+  for (const auto& [triangle, tet] : skin_) mesh.add_tet({triangle[0], triangle[2], triangle[1], apex}, region_);
+  if (!quad_) return;
+  const auto& [a, b, c, d] = *quad_;
   HybridCell pyramid;
   pyramid.kind = CellKind::pyramid;
-  pyramid.corners = {quad_[0], quad_[1], quad_[2], quad_[3], apex, -1, -1, -1};
+  pyramid.corners = {a, b, c, d, apex, -1, -1, -1};
   pyramid.region = region_;
-  for (const auto& [triangle, tet] : skin_) mesh.add_tet({triangle[0], triangle[2], triangle[1], apex}, region_);
-  return mesh.add_cell(pyramid);
+  mesh.add_cell(pyramid);
 }
 
 }  // namespace hexpipe

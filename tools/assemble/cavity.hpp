@@ -1,6 +1,6 @@
 #pragma once
-// A cavity: tets around the diagonal of an open quad, to be replaced by a pyramid on the quad and tets on the rest of
-// the cavity's skin, all joined to one new vertex.
+// A cavity: tets to be replaced by tets on the facets of the cavity's skin, all joined to one new vertex; around the
+// diagonal of an open quad also by a pyramid on the quad.
 
 #include <cstdint>
 #include <optional>
@@ -19,6 +19,9 @@ class Cavity {
   // The ring of tets around diagonal `diagonal` of `quad`, whose normal points into the ring.
   Cavity(const HybridMesh& mesh, const SurfaceTags& tags, const Quad& quad, int diagonal);
 
+  // One tet, to be improved; it grows in place_vertex.
+  Cavity(const HybridMesh& mesh, const SurfaceTags& tags, std::int32_t tet);
+
   // What keeps the ring from being a ball that shows the whole quad: the diagonal lies on a tagged surface, or other
   // cells use it.
   Obstacle obstacle() const { return obstacle_; }
@@ -27,8 +30,11 @@ class Cavity {
   // behind the worst facets. Returns the quality of the worst new element; not positive when no place is valid.
   double place_vertex(double enough);
 
-  // Replaces the tets by the new elements; returns the new pyramid.
-  std::int32_t fill(HybridMesh& mesh) const;
+  // The quality of the worst tet that fill() would remove.
+  double worst_tet() const;
+
+  // Replaces the tets by the new elements.
+  void fill(HybridMesh& mesh) const;
 
  private:
   struct Facet {
@@ -40,14 +46,14 @@ class Cavity {
   bool is_sphere() const;
   void build_star();
   std::vector<Plane> planes() const;
-  Placement search(int steps);
+  Placement search(int steps) const;
   std::vector<std::pair<double, Facet>> worst_facets(const Vec3& at) const;
   bool take_in(const Facet& facet);
 
   const HybridMesh& mesh_;
   const SurfaceTags& tags_;
-  Quad quad_;
-  int diagonal_;
+  std::optional<Quad> quad_;
+  int diagonal_ = 0;
   std::int32_t region_ = 0;
   Obstacle obstacle_ = Obstacle::none;
   std::vector<std::int32_t> tets_;

@@ -21,13 +21,13 @@ namespace {
 constexpr double good_pyramid = 0.25;
 // Below this a cavity is grown.
 constexpr double good_cavity = 0.15;
-// The worst scaled Jacobian that new elements may have, before smoothing.
-constexpr double least_accepted = 0.0001;
+// What a quad has to reach at its first turn. The rest wait until all others have taken their tets.
+constexpr double accepted_at_once = 0.02;
 
 class Conformer {
  public:
-  Conformer(HybridMesh& mesh, const SurfaceTags& tags, const Candidates& candidates)
-      : mesh_(mesh), tags_(tags), candidates_(candidates) {}
+  Conformer(HybridMesh& mesh, const SurfaceTags& tags, const Candidates& candidates, double least_quality)
+      : mesh_(mesh), tags_(tags), candidates_(candidates), least_quality_(least_quality) {}
 
   ConformityCounts run() {
     std::vector<OpenQuad> open = open_quads(mesh_);
@@ -49,13 +49,14 @@ class Conformer {
   std::optional<HybridCell> merged_pyramid(const OpenQuad& at) const;
   double quality_of(const HybridCell& pyramid) const;
   void merge(const OpenQuad& at, const HybridCell& pyramid);
-  std::optional<GivenBack> resolve(const OpenQuad& at);
+  std::optional<GivenBack> resolve(const OpenQuad& at, double least);
   void give_back(std::int32_t cell, std::vector<OpenQuad>& open);
   void free_quad(const HybridCell& cell, int i, std::int32_t partner, std::vector<OpenQuad>& open);
 
   HybridMesh& mesh_;
   const SurfaceTags& tags_;
   const Candidates& candidates_;
+  double least_quality_;
   // The diagonals of open quads: no pyramid may have one as its edge.
   KeySet<2> diagonals_;
   ConformityCounts counts_;
@@ -127,7 +128,7 @@ void Conformer::merge(const OpenQuad& at, const HybridCell& pyramid) {
 }
 
 // The better of merging and splitting; the reason when neither is acceptable.
-std::optional<GivenBack> Conformer::resolve(const OpenQuad& at) {
+std::optional<GivenBack> Conformer::resolve(const OpenQuad& at, double least) {
   const HybridCell& cell = mesh_.cell(at.cell);
   const auto pyramid = merged_pyramid(at);
   const double merged_quality = pyramid ? quality_of(*pyramid) : -1;
@@ -138,7 +139,7 @@ std::optional<GivenBack> Conformer::resolve(const OpenQuad& at) {
   Cavity cavity(mesh_, tags_, cell.quad(at.quad), cell.outer_diagonal(at.quad));
   const bool ball = cavity.obstacle() == Cavity::Obstacle::none;
   const double split_quality = ball ? cavity.place_vertex(good_cavity) : -1;
-  if (std::max(merged_quality, split_quality) < least_accepted) {
+  if (std::max(merged_quality, split_quality) < least) {
     if (ball) return GivenBack::no_valid_position;
     return cavity.obstacle() == Cavity::Obstacle::surface ? GivenBack::diagonal_on_surface : GivenBack::diagonal_in_use;
   }
@@ -202,9 +203,10 @@ std::vector<OpenQuad> Conformer::round(std::vector<OpenQuad>& open) {
     merge(at, *pyramid);
     return true;
   });
+  std::erase_if(open, [&](const OpenQuad& at) { return !resolve(at, std::max(accepted_at_once, least_quality_)); });
   std::vector<Failure> failures;
   for (const auto& at : open)
-    if (const auto reason = resolve(at)) failures.push_back({at, *reason});
+    if (const auto reason = resolve(at, least_quality_)) failures.push_back({at, *reason});
   std::vector<OpenQuad> next;
   for (const auto& [at, reason] : failures) {
     if (!mesh_.cell(at.cell).alive) continue;
@@ -216,8 +218,9 @@ std::vector<OpenQuad> Conformer::round(std::vector<OpenQuad>& open) {
 
 }  // namespace
 
-ConformityCounts make_conforming(HybridMesh& mesh, const SurfaceTags& tags, const Candidates& candidates) {
-  return Conformer(mesh, tags, candidates).run();
+ConformityCounts make_conforming(HybridMesh& mesh, const SurfaceTags& tags, const Candidates& candidates,
+                                 double least_quality) {
+  return Conformer(mesh, tags, candidates, least_quality).run();
 }
 
 }  // namespace hexpipe

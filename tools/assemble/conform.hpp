@@ -15,11 +15,12 @@ enum class GivenBack : std::uint8_t {
   diagonal_on_surface,  // the diagonal of a quad lies on the boundary or an interface, though the quad does not
   diagonal_in_use,      // cells around leave no ball of tets at the quad
   no_valid_position,    // no place for a new vertex gives elements that are good enough
+  poor_elements,        // the new elements stayed poor or inverted when vertices around were moved
 };
 inline constexpr std::array all_reasons{GivenBack::diagonal_on_surface, GivenBack::diagonal_in_use,
-                                        GivenBack::no_valid_position};
+                                        GivenBack::no_valid_position, GivenBack::poor_elements};
 constexpr const char* name_of(GivenBack reason) {
-  constexpr const char* names[] = {"diagonal_on_surface", "diagonal_in_use", "no_valid_position"};
+  constexpr const char* names[] = {"diagonal_on_surface", "diagonal_in_use", "no_valid_position", "poor_elements"};
   return names[static_cast<int>(reason)];
 }
 
@@ -32,6 +33,8 @@ struct ConformityCounts {
   double volume_given_back = 0;                               // of hexes
 };
 
-ConformityCounts make_conforming(HybridMesh& mesh, const SurfaceTags& tags, const Candidates& candidates);
+// `least_quality`: the worst scaled Jacobian that a new element may have; below 0 to leave inverted ones to smoothing.
+ConformityCounts make_conforming(HybridMesh& mesh, const SurfaceTags& tags, const Candidates& candidates,
+                                 double least_quality);
 
 }  // namespace hexpipe

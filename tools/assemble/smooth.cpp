@@ -74,13 +74,13 @@ class Smoother {
   explicit Smoother(MixedMesh& mesh)
       : points_(mesh.points), cells_(mesh), freedoms_(vertex_freedoms(mesh)), due_(mesh.points.size(), 1) {}
 
-  // Returns the number of vertices that moved.
-  std::int64_t round() {
+  // Returns the number of vertices that moved. Only those are looked at whose worst cell is below `only_below`.
+  std::int64_t round(double only_below) {
     std::int64_t moves = 0;
     for (Vertex v = 0; v < static_cast<Vertex>(points_.size()); ++v) {
       if (!due_[v] || freedoms_[v].kind == Freedom::Kind::none) continue;
       due_[v] = 0;
-      if (!improve(v)) continue;
+      if (!improve(v, only_below)) continue;
       ++moves;
       for (std::int32_t c : cells_.at(v))
         for (Vertex neighbour : cells_.corners_of(c)) due_[neighbour] = 1;
@@ -89,9 +89,9 @@ class Smoother {
   }
 
  private:
-  bool improve(Vertex v);
+  bool improve(Vertex v, double only_below);
   void look_around(Vertex v);
-  bool all_valid(Vertex v) const;
+  bool is_valid_cell(std::int32_t c) const;
 
   std::vector<Vec3>& points_;
   Cells cells_;
@@ -111,24 +111,26 @@ void Smoother::look_around(Vertex v) {
   }
 }
 
-bool Smoother::all_valid(Vertex v) const {
-  return std::ranges::all_of(cells_.at(v), [&](std::int32_t c) {
-    const auto corners = cells_.corners_of(c);
-    const auto at = corner_points(points_, corners);
-    return is_valid(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()));
-  });
+bool Smoother::is_valid_cell(std::int32_t c) const {
+  const auto corners = cells_.corners_of(c);
+  const auto at = corner_points(points_, corners);
+  return is_valid(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()));
 }
 
-bool Smoother::improve(Vertex v) {
+bool Smoother::improve(Vertex v, double only_below) {
   look_around(v);
   const Vec3 before = points_[v];
   const double worst = star_.worst(before);
   const double worst_unweighted = star_.worst_unweighted(before);
-  if (worst_unweighted > excellent) return false;
+  if (worst_unweighted > only_below) return false;
   const double mean = star_.mean(before);
   const bool poor = worst < good_enough;
   const Placement goal = poor ? raise_worst(star_, before, steps_for_worst, freedoms_[v])
                               : raise_mean(star_, before, steps_for_mean, freedoms_[v]);
+  if (goal.at == before) return false;
+  std::vector<std::int32_t> valid_before(cells_.at(v).begin(), cells_.at(v).end());
+  // Only untangle() meets invalid cells.
+  if (worst <= 0) std::erase_if(valid_before, [&](std::int32_t c) { return !is_valid_cell(c); });
   Vec3 step = goal.at - before;
   for (int i = 0; i <= retreats; ++i, step *= 0.5) {
     const Vec3 at = before + step;
@@ -137,7 +139,7 @@ bool Smoother::improve(Vertex v) {
         poor ? star_.worst(at) > worst + least_gain : star_.worst(at) >= worst && star_.mean(at) > mean + least_gain;
     if (!better) continue;
     points_[v] = at;
-    if (all_valid(v)) return true;
+    if (std::ranges::all_of(valid_before, [&](std::int32_t c) { return is_valid_cell(c); })) return true;
     points_[v] = before;
   }
   return false;
@@ -145,11 +147,18 @@ bool Smoother::improve(Vertex v) {
 
 }  // namespace
 
+void untangle(MixedMesh& mesh, int rounds) {
+  // A little more than poor, so that rounding and the neighbours' moves do not undo it.
+  constexpr double enough = 2 * poor_quality;
+  Smoother smoother(mesh);
+  for (int round = 0; round < rounds && smoother.round(enough) > 0; ++round) continue;
+}
+
 SmoothCounts smooth(MixedMesh& mesh, int rounds) {
   Smoother smoother(mesh);
   SmoothCounts counts;
   for (std::int64_t moves = 1; moves > 0 && counts.rounds < rounds; ++counts.rounds) {
-    moves = smoother.round();
+    moves = smoother.round(excellent);
     counts.moves += moves;
   }
   return counts;

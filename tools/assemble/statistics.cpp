@@ -78,8 +78,10 @@ std::string histogram_line(CellKind kind, const char* when, const KindStatistics
 }
 
 void append_histograms(const AssembleStatistics& statistics, std::vector<std::string>& lines) {
-  lines.push_back(fmt::format("smoothing: {} rounds, {} moves; cells by scaled Jacobian, 0 to 1 in tenths",
-                              statistics.smoothing.rounds, statistics.smoothing.moves));
+  lines.push_back(
+      fmt::format("smoothing: {} rounds, {} moves, {} vertices added at flat tets; cells by scaled "
+                  "Jacobian, 0 to 1 in tenths",
+                  statistics.smoothing.rounds, statistics.smoothing.moves, statistics.repaired));
   for (std::size_t i = 0; i < all_kinds.size(); ++i) {
     if (statistics.kinds[i].count == 0) continue;
     lines.push_back(histogram_line(all_kinds[i], "before", statistics.before_smoothing[i]));
@@ -111,7 +113,9 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
                     {"bulge_of_boundary_quads", volumes.bulge},
                     {"bulge_of_nonconforming_quads", volumes.open_bulge},
                     {"drift", volumes.drift}};
-  json["smoothing"] = {{"rounds", statistics.smoothing.rounds}, {"moves", statistics.smoothing.moves}};
+  json["smoothing"] = {{"rounds", statistics.smoothing.rounds},
+                       {"moves", statistics.smoothing.moves},
+                       {"vertices_added_at_flat_tets", statistics.repaired}};
   json["nonconforming_quads"] = volumes.nonconforming_quads;
   const auto& counts = statistics.conformity;
   nlohmann::ordered_json given_back;

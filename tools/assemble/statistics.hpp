@@ -29,6 +29,7 @@ struct AssembleStatistics {
   CheckedVolumes volumes;
   ConformityCounts conformity;
   SmoothCounts smoothing;
+  std::int64_t repaired = 0;                                      // vertices put beside flat tets
   std::array<KindStatistics, all_kinds.size()> before_smoothing;  // when there was smoothing
 
   std::int64_t cells() const;
