@@ -17,7 +17,8 @@ bool looks_like_msh(std::string_view text);
 // their numbers, nodes in that of the file. Throws FormatError or DataError.
 MixedMesh read_msh(std::string_view text, std::string_view file);
 
-// Regions and surfaces are physical groups; the quality is a post-processing view.
+// Regions and surfaces are physical groups. The quality is a post-processing view; version 2.2 goes without, for meshio
+// cannot open mixed meshes with one.
 void write_msh(const MixedMesh& mesh, MshVersion version, MshCoding coding, Output& output);
 
 }  // namespace hexpipe

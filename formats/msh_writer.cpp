@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
@@ -104,9 +103,7 @@ class MshSink {
 class MshWriter {
  public:
   MshWriter(const MixedMesh& mesh, MshVersion version, MshCoding coding, Output& output)
-      : mesh_(mesh), version_(version), output_(output), sink_(output, coding), surfaces_(mesh, 2), regions_(mesh, 3) {
-    element_order_.reserve(element_count(mesh));
-  }
+      : mesh_(mesh), version_(version), output_(output), sink_(output, coding), surfaces_(mesh, 2), regions_(mesh, 3) {}
 
   void write() {
     write_format();
@@ -115,11 +112,11 @@ class MshWriter {
       write_entities();
       write_nodes_4();
       write_elements_4();
+      if (has_quality(mesh_)) write_quality();
     } else {
       write_nodes_2();
       write_elements_2();
     }
-    if (has_quality(mesh_)) write_quality();
   }
 
  private:
@@ -201,63 +198,49 @@ class MshWriter {
     output_.print("$EndNodes\n");
   }
 
-  // Elements are numbered through the blocks of the mesh, and stand in a block of the file for each kind and tag.
+  // A block of the file is a run of elements of one kind with one tag, so that the order of the mesh is kept, and the
+  // numbers of the elements are in sequence, which meshio relies on for data in binary.
   void write_elements_4() {
-    std::uint64_t blocks = 0;
-    for_each_block(mesh_, [&](const ElementNames& names, const auto& block) {
-      const auto sizes = sizes_by_group(names, block);
-      blocks += static_cast<std::uint64_t>(std::ranges::count_if(sizes, [](std::size_t size) { return size > 0; }));
+    std::uint64_t runs = 0;
+    for_each_block(mesh_, [&](const ElementNames&, const auto& block) {
+      for (std::size_t i = 0; i < block.size(); i = end_of_run(block.tags, i)) ++runs;
     });
     const std::uint64_t count = element_count(mesh_);
     output_.print("$Elements\n");
-    for (const std::uint64_t number : {blocks, count, std::uint64_t{count > 0}, count}) sink_.size(number);
+    for (const std::uint64_t number : {runs, count, std::uint64_t{count > 0}, count}) sink_.size(number);
     sink_.end_line();
-    std::uint64_t first = 1;
+    std::uint64_t element = 0;
     for_each_block(mesh_, [&](const ElementNames& names, const auto& block) {
-      write_block_4(names, block, first);
-      first += block.size();
+      for (std::size_t i = 0; i < block.size(); i = end_of_run(block.tags, i))
+        write_run_4(names, block, i, end_of_run(block.tags, i), element);
     });
     sink_.end_section();
     output_.print("$EndElements\n");
   }
 
-  template <class Block>
-  std::vector<std::size_t> sizes_by_group(const ElementNames& names, const Block& block) const {
-    const Groups& all = groups(names.dimension);
-    std::vector<std::size_t> sizes(all.list().size());
-    for (const std::int32_t tag : block.tags) ++sizes[all.index_of(tag)];
-    return sizes;
+  static std::size_t end_of_run(const std::vector<std::int32_t>& tags, std::size_t begin) {
+    std::size_t end = begin;
+    while (end < tags.size() && tags[end] == tags[begin]) ++end;
+    return end;
   }
 
   template <class Block>
-  void write_block_4(const ElementNames& names, const Block& block, std::uint64_t first) {
-    const auto sizes = sizes_by_group(names, block);
-    const std::vector<std::size_t> order = order_by_group(names, block, sizes);
-    std::size_t at = 0;
-    for (std::size_t g = 0; g < sizes.size(); ++g) {
-      if (sizes[g] == 0) continue;
-      for (const std::int32_t number : {names.dimension, groups(names.dimension).list()[g].number, int{names.gmsh}})
-        sink_.integer(number);
-      sink_.size(sizes[g]);
+  void write_run_4(const ElementNames& names, const Block& block, std::size_t begin, std::size_t end,
+                   std::uint64_t& element) {
+    const std::int32_t entity = group_of(names.dimension, block.tags[begin]);
+    for (const std::int32_t number : {names.dimension, entity, int{names.gmsh}}) sink_.integer(number);
+    sink_.size(end - begin);
+    sink_.end_line();
+    for (std::size_t i = begin; i < end; ++i) {
+      sink_.size(++element);
+      for (const Vertex v : block.cells[i]) sink_.size(static_cast<std::uint64_t>(v) + 1);
       sink_.end_line();
-      for (const std::size_t end = at + sizes[g]; at < end; ++at) {
-        sink_.size(first + order[at]);
-        for (const Vertex v : block.cells[order[at]]) sink_.size(static_cast<std::uint64_t>(v) + 1);
-        sink_.end_line();
-        element_order_.push_back(first + order[at]);
-      }
     }
   }
 
-  // The elements of a block sorted by their group, else as they are.
-  template <class Block>
-  std::vector<std::size_t> order_by_group(const ElementNames& names, const Block& block,
-                                          const std::vector<std::size_t>& sizes) const {
-    std::vector<std::size_t> next(sizes.size());
-    std::exclusive_scan(sizes.begin(), sizes.end(), next.begin(), std::size_t{0});
-    std::vector<std::size_t> order(block.size());
-    for (std::size_t i = 0; i < block.size(); ++i) order[next[groups(names.dimension).index_of(block.tags[i])]++] = i;
-    return order;
+  std::int32_t group_of(int dimension, std::int32_t tag) const {
+    const Groups& all = groups(dimension);
+    return all.list()[all.index_of(tag)].number;
   }
 
   void write_elements_2() {
@@ -266,10 +249,8 @@ class MshWriter {
     for_each_block(mesh_, [&](const ElementNames& names, const auto& block) {
       write_run_head_2(names, block.size());
       for (std::size_t i = 0; i < block.size(); ++i) {
-        const Groups& all = groups(names.dimension);
-        const std::int32_t group = all.list()[all.index_of(block.tags[i])].number;
-        element_order_.push_back(static_cast<std::uint64_t>(++element));
-        sink_.integer(element);
+        const std::int32_t group = group_of(names.dimension, block.tags[i]);
+        sink_.integer(++element);
         if (!sink_.is_binary())
           for (const std::int32_t number : {int{names.gmsh}, 2}) sink_.integer(number);
         // Physical group and elementary entity.
@@ -288,13 +269,13 @@ class MshWriter {
     for (const std::int32_t number : {int{names.gmsh}, static_cast<std::int32_t>(count), 2}) sink_.integer(number);
   }
 
-  // In the order of the elements of the file, which meshio relies on.
   void write_quality() {
     const std::vector<double> quality = cell_data(mesh_).quality;
     output_.print("$ElementData\n1\n\"{}\"\n1\n0\n3\n0\n1\n{}\n", quality_name, quality.size());
-    for (const std::uint64_t element : element_order_) {
-      sink_.integer(static_cast<std::int32_t>(element));
-      sink_.real(quality[element - 1]);
+    std::int32_t element = 0;
+    for (const double value : quality) {
+      sink_.integer(++element);
+      sink_.real(value);
       sink_.end_line();
     }
     sink_.end_section();
@@ -306,7 +287,6 @@ class MshWriter {
   Output& output_;
   MshSink sink_;
   Groups surfaces_, regions_;
-  std::vector<std::uint64_t> element_order_;  // numbers of elements as they stand in the file
 };
 
 }  // namespace

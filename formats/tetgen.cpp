@@ -32,6 +32,13 @@ Head read_head(TextScanner& scanner, std::string_view what, std::size_t bytes_ea
   return head;
 }
 
+// A number that must stand on the line where the scanner is.
+template <class T>
+T number_in_line(TextScanner& scanner, std::string_view what) {
+  if (scanner.at_line_end()) scanner.fail(fmt::format("expected {}, found the end of the line", what));
+  return scanner.number<T>(what);
+}
+
 void check_end(TextScanner& scanner, std::string_view items) {
   if (!scanner.at_end()) scanner.fail_expected(fmt::format("nothing after the {}", items), scanner.peek_word());
 }
@@ -50,9 +57,9 @@ class TetgenReader {
       if (i == 0 && (number == 0 || number == 1)) first_ = number;
       const auto expected = first_ + static_cast<std::int64_t>(i);
       if (number != expected) scanner.fail_expected(fmt::format("point {}", expected), std::to_string(number));
-      const auto x = scanner.number<double>("a coordinate");
-      const auto y = scanner.number<double>("a coordinate");
-      const auto z = scanner.number<double>("a coordinate");
+      const auto x = number_in_line<double>(scanner, "a coordinate");
+      const auto y = number_in_line<double>(scanner, "a coordinate");
+      const auto z = number_in_line<double>(scanner, "a coordinate");
       mesh_.points.push_back({x, y, z});
       scanner.rest_of_line();
     }
@@ -77,7 +84,7 @@ class TetgenReader {
     const bool has_marker = head.numbers[0] > 0;
     CellBlock<3> faces;
     read_lines(scanner, head.items, faces,
-               [&] { return has_marker ? scanner.number<std::int32_t>("the marker of a face") : 0; });
+               [&] { return has_marker ? number_in_line<std::int32_t>(scanner, "the marker of a face") : 0; });
     check_end(scanner, "faces");
     for (std::size_t i = 0; i < faces.size(); ++i) {
       if (has_marker && faces.tags[i] == 0) continue;
@@ -103,7 +110,7 @@ class TetgenReader {
   }
 
   Vertex read_corner(TextScanner& scanner) const {
-    const auto number = scanner.number<std::int64_t>(range_);
+    const auto number = number_in_line<std::int64_t>(scanner, range_);
     if (number < first_ || number >= first_ + static_cast<std::int64_t>(mesh_.points.size()))
       scanner.fail_expected(range_, std::to_string(number));
     return static_cast<Vertex>(number - first_);
@@ -111,7 +118,7 @@ class TetgenReader {
 
   // Attributes are real numbers; a region's is a whole one.
   static std::int32_t region(TextScanner& scanner) {
-    const auto attribute = scanner.number<double>("the region of a tet");
+    const auto attribute = number_in_line<double>(scanner, "the region of a tet");
     if (!converts_exactly<std::int32_t>(attribute))
       scanner.fail_expected("the region of a tet as a whole number", fmt::format("{}", attribute));
     return static_cast<std::int32_t>(attribute);

@@ -125,6 +125,7 @@ struct GridReader {
       if (v < 0 || static_cast<std::size_t>(v) >= grid.points.size())
         fail(cell, fmt::format("expected points from 0 to below {}, found {}", grid.points.size(), v));
     std::ranges::copy(found, corners.begin());
+    corners = swap_vtk_order(corners);
   }
 };
 

@@ -2,10 +2,13 @@
 // What the two VTK formats share: an unstructured grid as arrays, with the cell data that carry tags and
 // qualities.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/mesh/mixed_mesh.hpp"
@@ -21,6 +24,18 @@ struct VtkGrid {
   std::map<std::string, std::vector<std::int32_t>, std::less<>> tags;  // cell data by name, see is_vtk_tag_name
   std::vector<double> quality;                                         // the cell data of this name, or empty
 };
+
+// The corners of an element in VTK's order, or from it to ours. They differ in the wedge, whose first triangle VTK
+// lists with its normal pointing out; up to version 9.6 VTK computes faces and volumes so, and Gmsh and meshio write
+// it.
+template <std::size_t Corners>
+constexpr std::array<Vertex, Corners> swap_vtk_order(std::array<Vertex, Corners> corners) {
+  if constexpr (Corners == 6) {
+    std::swap(corners[1], corners[2]);
+    std::swap(corners[4], corners[5]);
+  }
+  return corners;
+}
 
 // True for the names of cell data that a reader puts into VtkGrid::tags.
 bool is_vtk_tag_name(std::string_view name);

@@ -237,9 +237,9 @@ class VtkLegacyReader {
   void take_array(std::string_view name, std::string_view type, std::size_t components, std::size_t tuples) {
     const bool of_cells = data_size_ && data_of_cells_ && components == 1;
     if (of_cells && is_vtk_tag_name(name))
-      grid_.tags[std::string(name)] = read_numbers<std::int32_t>(tuples, type, name);
+      grid_.tags[std::string(name)] = read_numbers<std::int32_t>(tuples, type, fmt::format("a tag of {}", name));
     else if (of_cells && name == quality_name)
-      grid_.quality = read_numbers<double>(tuples, type, name);
+      grid_.quality = read_numbers<double>(tuples, type, "a quality");
     else
       skip_numbers(product(tuples, components), type);
   }
@@ -299,7 +299,7 @@ class VtkLegacyReader {
   template <class T>
   T read_whole(std::string_view what) {
     const auto number = scanner_.number<double>(what);
-    if (!converts_exactly<T>(number)) scanner_.fail_expected("an integer", fmt::format("{}", number));
+    if (!converts_exactly<T>(number)) scanner_.fail_expected(what, fmt::format("{}", number));
     return static_cast<T>(number);
   }
 

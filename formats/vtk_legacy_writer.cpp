@@ -1,6 +1,7 @@
 #include "formats/cell_data.hpp"
 #include "formats/mesh_blocks.hpp"
 #include "formats/number_writer.hpp"
+#include "formats/vtk_grid.hpp"
 #include "formats/vtk_legacy.hpp"
 
 namespace hexpipe {
@@ -16,7 +17,7 @@ void write_cells(const MixedMesh& mesh, Output& output) {
   for_each_block(mesh, [&](const ElementNames&, const auto& block) {
     for (const auto& cell : block.cells) {
       line << cell.size();
-      for (const Vertex v : cell) line << v;
+      for (const Vertex v : swap_vtk_order(cell)) line << v;
       line.end_line();
     }
   });

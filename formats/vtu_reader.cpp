@@ -63,7 +63,7 @@ class VtuReader {
     if (end == std::string::npos || end < mark)
       throw DataError::at(file_, "expected </AppendedData>, found end of file");
     TextScanner rest(std::string_view(text_).substr(end), file_);
-    rest.expect("</AppendedData>");
+    rest.skip_past("</AppendedData>");
     rest.expect("</VTKFile>");
     if (!rest.at_end()) throw DataError::at(file_, "expected nothing after </VTKFile>");
     appended_ = std::string_view(text_).substr(mark + 1, end - mark - 1);
@@ -219,6 +219,7 @@ class VtuReader {
   }
 
   std::size_t count_attribute(const pugi::xml_node& node, const char* name) const {
+    if (!node.attribute(name)) fail(node, fmt::format("expected an attribute {}, found none", name));
     TextScanner scanner(node.attribute(name).value(), file_, '\0', line_of(node));
     const auto count = scanner.number<std::size_t>(fmt::format("a number as attribute {}", name));
     // No number of items may pass what three bytes for each would take: products of it do not overflow then.

@@ -1,11 +1,13 @@
 #include <bit>
 #include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "formats/cell_data.hpp"
 #include "formats/mesh_blocks.hpp"
 #include "formats/number_writer.hpp"
+#include "formats/vtk_grid.hpp"
 #include "formats/vtu.hpp"
 
 namespace hexpipe {
@@ -42,7 +44,9 @@ Section cells_of(const MixedMesh& mesh) {
     corners += block.size() * corners_of_block<std::remove_cvref_t<decltype(block)>>;
   });
   const auto write_connectivity = [&mesh](Output& output) {
-    for_each_block(mesh, [&](const ElementNames&, const auto& block) { write_array_bytes(output, block.cells); });
+    for_each_block(mesh, [&](const ElementNames&, const auto& block) {
+      for (const auto& cell : block.cells) write_bytes(output, swap_vtk_order(cell));
+    });
   };
   const auto write_offsets = [&mesh](Output& output) {
     std::int64_t end = 0;
@@ -73,9 +77,11 @@ Section cell_data_of(const CellData& data) {
 void write_section(const Section& section, std::uint64_t& offset, Output& output) {
   output.print("      <{}>\n", section.name);
   for (const DataArray& array : section.arrays) {
-    output.print(
-        "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
-        array.type, array.name, array.components, offset);
+    // Without a number of components an array has one: meshio makes a column of one that says so.
+    const std::string components =
+        array.components == 1 ? "" : fmt::format("NumberOfComponents=\"{}\" ", array.components);
+    output.print("        <DataArray type=\"{}\" Name=\"{}\" {}format=\"appended\" offset=\"{}\"/>\n", array.type,
+                 array.name, components, offset);
     offset += sizeof array.bytes + array.bytes;
   }
   output.print("      </{}>\n", section.name);
