@@ -16,26 +16,25 @@
 namespace hexpipe {
 namespace {
 
-// Parts get smaller than any feature of a cell; the gap between the bounds shrinks with the square of their size.
-constexpr int max_cuts = 12;
+// Parts get smaller than any feature of a cell; the gap that a cut leaves shrinks with the square of their size.
+constexpr int max_cuts = 36;
 
 template <class Topology>
 using Corners = std::array<Vec3, Topology::corner_count>;
 
-// The least scaled Jacobian of a part is at least `lower` (where the Jacobian is positive); `upper` is attained at one
-// of its corners.
+// The Jacobian of a part, and an upper bound of the product of its tangents' lengths, as Bezier coefficients. At
+// `corners` the two are those of a corner.
+template <std::size_t Count, std::size_t CornerCount>
 struct Bounds {
-  double lower = std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
+  std::array<double, Count> jacobian, lengths;
+  std::array<int, CornerCount> corners;
 };
 
-double ratio(double jacobian, double lengths) {
-  return lengths > 0 ? jacobian / lengths : 0;
-}
+// The mean over the ways to split an index of a product of two linear functions.
+constexpr double ways[3] = {1, 0.5, 1};
 
-Bounds bounds_of(const Corners<HexTopology>& p) {
+Bounds<27, 8> bounds_of(const Corners<HexTopology>& p) {
   const HexTangents<Vec3> t(p);
-  const HexJacobian<Vec3> jacobian(t);
   double length_i[2][2], length_j[2][2], length_k[2][2];
   for (int a = 0; a < 2; ++a)
     for (int b = 0; b < 2; ++b) {
@@ -44,31 +43,24 @@ Bounds bounds_of(const Corners<HexTopology>& p) {
       length_k[a][b] = norm(t.along_k[a][b]);
     }
 
-  // Two of the three factors depend on each parameter, so that a coefficient is a mean over the ways to split its
-  // index.
-  double lengths[27] = {};
-  constexpr double ways[3] = {1, 0.5, 1};
-  for (int bits = 0; bits < 64; ++bits) {
-    const int i1 = bits & 1, i2 = bits >> 1 & 1, j1 = bits >> 2 & 1, j2 = bits >> 3 & 1, k1 = bits >> 4 & 1,
-              k2 = bits >> 5;
-    lengths[9 * (i1 + i2) + 3 * (j1 + j2) + k1 + k2] +=
-        ways[i1 + i2] * ways[j1 + j2] * ways[k1 + k2] * (length_i[j1][k1] * length_j[i1][k2] * length_k[i2][j2]);
+  Bounds<27, 8> bounds{HexJacobian<Vec3>(t).bezier(), {}, {0, 2, 6, 8, 18, 20, 24, 26}};
+  for (double& jacobian : bounds.jacobian) jacobian /= 8;
+  // Each parameter is in two of the three factors. First the product of those with i, then that with the third.
+  for (int jk = 0; jk < 4; ++jk) {
+    const int j2 = jk & 1, k2 = jk >> 1;
+    double product[3] = {};
+    for (int i = 0; i < 4; ++i) product[(i & 1) + (i >> 1)] += length_j[i & 1][k2] * length_k[i >> 1][j2];
+    for (int j1k1 = 0; j1k1 < 4; ++j1k1) {
+      const int j = (j1k1 & 1) + j2, k = (j1k1 >> 1) + k2;
+      const double factor = ways[j] * ways[k] * length_i[j1k1 & 1][j1k1 >> 1];
+      for (int i = 0; i < 3; ++i) bounds.lengths[9 * i + 3 * j + k] += ways[i] * factor * product[i];
+    }
   }
-
-  Bounds bounds;
-  const auto coefficients = jacobian.bezier();
-  for (int c = 0; c < 27; ++c) bounds.lower = std::min(bounds.lower, ratio(coefficients[c] / 8, lengths[c]));
-  for (int a = 0; a < 3; a += 2)
-    for (int b = 0; b < 3; b += 2)
-      for (int c = 0; c < 3; c += 2) {
-        const int corner = 9 * a + 3 * b + c;
-        bounds.upper = std::min(bounds.upper, ratio(coefficients[corner] / 8, lengths[corner]));
-      }
   return bounds;
 }
 
 // The Jacobian is the same for each two sides of the triangle; the lengths are not.
-Bounds bounds_of(const Corners<PrismTopology>& p) {
+Bounds<27, 18> bounds_of(const Corners<PrismTopology>& p) {
   double side[3][2], up[3];
   for (int i = 0; i < 3; ++i) {
     side[i][0] = norm(p[(i + 1) % 3] - p[i]);
@@ -76,15 +68,17 @@ Bounds bounds_of(const Corners<PrismTopology>& p) {
     up[i] = norm(p[3 + i] - p[i]);
   }
   const auto jacobian = prism_bezier<Vec3>(p);
-  Bounds bounds;
+  Bounds<27, 18> bounds{};
+  std::size_t next_corner = 0;
   for (int s = 0; s < 3; ++s) {
     const double *a = side[s], *b = side[(s + 1) % 3];
     const double area[3] = {a[0] * b[0], (a[0] * b[1] + a[1] * b[0]) / 2, a[1] * b[1]};
     for (int i = 0; i < 3; ++i)
       for (int level = 0; level < 3; ++level) {
-        const double value = ratio(jacobian[i][level] / 2, area[level] * up[i]);
-        bounds.lower = std::min(bounds.lower, value);
-        if (level != 1) bounds.upper = std::min(bounds.upper, value);
+        const int index = 9 * s + 3 * i + level;
+        bounds.jacobian[index] = jacobian[i][level] / 2;
+        bounds.lengths[index] = area[level] * up[i];
+        if (level != 1) bounds.corners[next_corner++] = index;
       }
   }
   return bounds;
@@ -92,7 +86,7 @@ Bounds bounds_of(const Corners<PrismTopology>& p) {
 
 // At every height the tangents of the base and the direction to the apex are the base's, up to their lengths: what is
 // left is a function of the place in the base, with a bilinear Jacobian.
-Bounds bounds_of(const Corners<PyramidTopology>& p) {
+Bounds<9, 4> bounds_of(const Corners<PyramidTopology>& p) {
   constexpr int corner_at[2][2] = {{0, 3}, {1, 2}};
   double jacobian[2][2], length_p[2][2], length_i[2], length_j[2];
   for (const LocalCorner& c : PyramidTopology::corners) {
@@ -106,33 +100,75 @@ Bounds bounds_of(const Corners<PyramidTopology>& p) {
     length_j[a] = norm(p[corner_at[a][1]] - p[corner_at[a][0]]);
   }
 
-  double jacobians[9] = {}, lengths[9] = {};
-  constexpr double ways[3] = {1, 0.5, 1};
+  Bounds<9, 4> bounds{{}, {}, {0, 2, 6, 8}};
   for (int bits = 0; bits < 16; ++bits) {
     const int i1 = bits & 1, i2 = bits >> 1 & 1, j1 = bits >> 2 & 1, j2 = bits >> 3;
     const int index = 3 * (i1 + i2) + j1 + j2;
     const double way = ways[i1 + i2] * ways[j1 + j2];
-    jacobians[index] += way * jacobian[i2][j2];
-    lengths[index] += way * (length_i[j1] * length_j[i1] * length_p[i2][j2]);
+    bounds.jacobian[index] += way * jacobian[i2][j2];
+    bounds.lengths[index] += way * (length_i[j1] * length_j[i1] * length_p[i2][j2]);
   }
-
-  Bounds bounds;
-  for (int c = 0; c < 9; ++c) bounds.lower = std::min(bounds.lower, ratio(jacobians[c], lengths[c]));
-  for (const int corner : {0, 2, 6, 8})
-    bounds.upper = std::min(bounds.upper, ratio(jacobians[corner], lengths[corner]));
   return bounds;
 }
 
-void refine(const auto& part, double lower, int cuts, double& least) {
-  if (lower >= least - quality_tolerance || least <= 0 || cuts == max_cuts) return;
-  const auto parts = split(part);
-  std::array<double, parts.size()> lowers;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const Bounds bounds = bounds_of(parts[i]);
-    lowers[i] = bounds.lower;
-    least = std::min(least, bounds.upper);
+// Lowers `least` to what corners of a part attain. Returns whether it may attain less within, by more than the
+// tolerance.
+bool may_attain_less(const auto& part, double& least) {
+  const auto bounds = bounds_of(part);
+  for (const int corner : bounds.corners)
+    if (bounds.jacobian[corner] < least * bounds.lengths[corner])
+      least = bounds.jacobian[corner] / bounds.lengths[corner];
+  for (std::size_t c = 0; c < bounds.jacobian.size(); ++c)
+    if (bounds.jacobian[c] < (least - quality_tolerance) * bounds.lengths[c]) return true;
+  return false;
+}
+
+// The parameter along which the tangents change most for their lengths: what the bound loses there falls to a quarter
+// when it is halved. Many hexes are nearly swept, and need no cut along one or two parameters.
+int most_bent_parameter(const Corners<HexTopology>& p) {
+  const HexTangents<Vec3> t(p);
+  auto bend = [](const Vec3& from, const Vec3& to) {
+    return norm_squared(to - from) / std::max(std::min(norm_squared(from), norm_squared(to)), 1e-300);
+  };
+  double bends[3] = {};
+  for (int a = 0; a < 2; ++a) {
+    bends[0] += bend(t.along_j[0][a], t.along_j[1][a]) + bend(t.along_k[0][a], t.along_k[1][a]);
+    bends[1] += bend(t.along_i[0][a], t.along_i[1][a]) + bend(t.along_k[a][0], t.along_k[a][1]);
+    bends[2] += bend(t.along_i[a][0], t.along_i[a][1]) + bend(t.along_j[a][0], t.along_j[a][1]);
   }
-  for (std::size_t i = 0; i < parts.size(); ++i) refine(parts[i], lowers[i], cuts + 1, least);
+  return static_cast<int>(std::max_element(bends, bends + 3) - bends);
+}
+
+std::array<Corners<HexTopology>, 2> parts_of(const Corners<HexTopology>& p) {
+  const int parameter = most_bent_parameter(p);
+  std::array<Corners<HexTopology>, 2> halves{p, p};
+  for (int c = 0; c < 4; ++c) {
+    const int a = c & 1, b = c >> 1;
+    const int low = parameter == 0   ? hex_corner_at[0][a][b]
+                    : parameter == 1 ? hex_corner_at[a][0][b]
+                                     : hex_corner_at[a][b][0];
+    const int high = parameter == 0   ? hex_corner_at[1][a][b]
+                     : parameter == 1 ? hex_corner_at[a][1][b]
+                                      : hex_corner_at[a][b][1];
+    halves[0][high] = halves[1][low] = 0.5 * (p[low] + p[high]);
+  }
+  return halves;
+}
+auto parts_of(const Corners<PrismTopology>& p) {
+  return split(p);
+}
+auto parts_of(const Corners<PyramidTopology>& p) {
+  return split(p);
+}
+
+void cut(const auto& part, int cuts, double& least) {
+  // A cell that is not valid is not looked at any closer.
+  if (least <= 0 || cuts == max_cuts) return;
+  const auto parts = parts_of(part);
+  std::array<bool, parts.size()> open;
+  for (std::size_t i = 0; i < parts.size(); ++i) open[i] = may_attain_less(parts[i], least);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (open[i]) cut(parts[i], cuts + 1, least);
 }
 
 template <class Topology>
@@ -160,9 +196,7 @@ double least_scaled_jacobian(CellKind kind, std::span<const Vec3> corners) {
     double least = least_corner_scaled_jacobian(kind, corners);
     if constexpr (Topology::kind != CellKind::tet) {
       const auto whole = corners_of<Topology>(corners);
-      const Bounds bounds = bounds_of(whole);
-      least = std::min(least, bounds.upper);
-      refine(whole, bounds.lower, 0, least);
+      if (may_attain_less(whole, least)) cut(whole, 0, least);
     }
     return least;
   });

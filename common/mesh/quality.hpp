@@ -36,7 +36,7 @@ double least_corner_scaled_jacobian(CellKind kind, std::span<const Vec3> corners
 // The least scaled Jacobian over the whole cell: attained, and at most `quality_tolerance` above the true minimum. Of a
 // cell that is not valid, some value <= 0, or close to it. On the triangles of a prism each two of the three sides
 // count as a corner's, so that the value is the same from all corners. Never above the least over the corners.
-inline constexpr double quality_tolerance = 1e-4;
+inline constexpr double quality_tolerance = 1e-3;
 double least_scaled_jacobian(CellKind kind, std::span<const Vec3> corners);
 
 // The signed volume, exact but for rounding; quads are bilinear.

@@ -73,8 +73,10 @@ enum class Answer { no, yes, unsure };
 // included).
 class ErrorBound {
  public:
-  ErrorBound(const Vec3& extent, double determinants)
-      : bound_(determinants * 6 * 16 * epsilon * extent.x * extent.y * extent.z) {
+  static constexpr double roundings = 16;
+
+  ErrorBound(const Vec3& extent, double determinants, double roundings_of_each = roundings)
+      : bound_(determinants * 6 * roundings_of_each * epsilon * extent.x * extent.y * extent.z) {
     for (int axis = 0; axis < 3; ++axis)
       if (!(extent[axis] > smallest && extent[axis] < largest)) bound_ = std::numeric_limits<double>::infinity();
   }
@@ -127,12 +129,25 @@ bool is_valid_exactly(const HexPoints& points, int subdivisions = 0) {
                              [&](const HexPoints& part) { return is_valid_exactly(part, subdivisions + 1); });
 }
 
-Answer judge_in_doubles(std::span<const Vec3> corners) {
-  const HexTangents<Vec3> tangents(corners);
+// A hex, or a part of one, given relative to a corner of the whole.
+using RelativeHex = std::array<Vec3, 8>;
+
+// A coordinate is off by a rounding of the greatest one, and cutting, which adds up 8 points and multiplies coordinates
+// by 8, makes that 8 more each time; each of the three vectors of a determinant is off by twice as much.
+double roundings_of(const RelativeHex& hex, const Vec3& extent, int subdivisions) {
+  Vec3 reach;
+  for (const Vec3& p : hex) extend(reach, p);
+  const double ratio = std::max({reach.x / extent.x, reach.y / extent.y, reach.z / extent.z});
+  return ErrorBound::roundings + 2 * 3 * 2 * (1 + 8 * subdivisions) * ratio;
+}
+
+Answer judge_in_doubles(const RelativeHex& hex, int subdivisions = 0) {
+  const HexTangents<Vec3> tangents(hex);
   const Vec3 extent = extent_of(tangents);
+  const double roundings = roundings_of(hex, extent, subdivisions);
   const HexJacobian<Vec3> jacobian(tangents);
   // The largest determinant is one of an edge: two of its vectors are sums of two.
-  const ErrorBound determinant_bound(extent, 4);
+  const ErrorBound determinant_bound(extent, 4, roundings);
   Answer answer = Answer::yes;
   jacobian.all_determinants([&](double value) {
     const Answer one = determinant_bound.positive(value);
@@ -140,14 +155,24 @@ Answer judge_in_doubles(std::span<const Vec3> corners) {
     return one != Answer::no;
   });
   if (answer != Answer::yes) return answer;
+
   // The coefficient at the centre sums 12 determinants at edges and 5 times 8 at corners, with up to 24 additions.
-  const ErrorBound coefficient_bound(extent, 4 * (12 * 4 + 5 * 8));
+  const ErrorBound coefficient_bound(extent, 4 * (12 * 4 + 5 * 8), roundings);
   auto surely_positive = [&](double value) { return coefficient_bound.positive(value) == Answer::yes; };
-  return std::ranges::all_of(jacobian.bezier(), surely_positive) ? Answer::yes : Answer::unsure;
+  if (std::ranges::all_of(jacobian.bezier(), surely_positive)) return Answer::yes;
+  if (subdivisions == max_subdivisions) return Answer::unsure;
+  for (const RelativeHex& part : split(hex)) {
+    const Answer one = judge_in_doubles(part, subdivisions + 1);
+    if (one == Answer::no) return one;
+    if (one == Answer::unsure) answer = one;
+  }
+  return answer;
 }
 
 bool is_valid_hex(std::span<const Vec3> corners) {
-  const Answer answer = judge_in_doubles(corners);
+  RelativeHex hex;
+  std::transform(corners.begin(), corners.end(), hex.begin(), [&](const Vec3& p) { return p - corners[0]; });
+  const Answer answer = judge_in_doubles(hex);
   return answer == Answer::unsure ? is_valid_exactly(to_integers<8>(corners)) : answer == Answer::yes;
 }
 

@@ -101,12 +101,8 @@ std::array<unsigned, 4> CellTets<Topology>::corner_bits(std::int32_t tet) const 
 template <class Topology>
 TetVerdict CellTets<Topology>::find_from(std::int32_t start) {
   TetVerdict verdict = flood_from(start);
-  for (std::size_t facet = 0; facet < facet_count && verdict == TetVerdict::accepted; ++facet) {
-    if (facet < quad_count)
-      verdict = judge_quad(facet);
-    else if (outer_[facet].size() != 1)
-      verdict = TetVerdict::no_interior;
-  }
+  if (verdict == TetVerdict::accepted) verdict = find_outer_facets();
+  for (std::size_t quad = 0; quad < quad_count && verdict == TetVerdict::accepted; ++quad) verdict = judge_quad(quad);
   if (verdict != TetVerdict::accepted) return verdict;
   if (interior_.size() < least_interior_tets<Topology> || interior_.size() + boundary_.size() > most_tets<Topology>)
     return TetVerdict::tet_count;
@@ -124,7 +120,7 @@ template <class Topology>
 TetVerdict CellTets<Topology>::flood_from(std::int32_t start) {
   interior_.clear();
   boundary_.clear();
-  for (auto& facets : outer_) facets.clear();
+  walls_.clear();
   has_inner_vertex_ = false;
   interior_.push_back(start);
   TetVerdict verdict = TetVerdict::accepted;
@@ -142,10 +138,9 @@ TetVerdict CellTets<Topology>::leave(std::int32_t tet) {
   const auto beyond = tables_.adjacency().tets_beyond(tet);
   for (int facet = 0; facet < 4; ++facet) {
     const unsigned corners = all & ~b[facet];
-    const int outer = facet_of_corners<Topology>[corners];
-    if (outer >= 0) {
-      if (outer_[outer].is_full()) return TetVerdict::no_interior;
-      outer_[outer].push_back({tet, facet, corners});
+    const int of_cell = facet_of_corners<Topology>[corners];
+    if (of_cell >= 0) {
+      walls_.push_back({tet, facet, of_cell, corners});
       continue;
     }
     const std::int32_t next = beyond[facet];
@@ -158,16 +153,36 @@ TetVerdict CellTets<Topology>::leave(std::int32_t tet) {
   return TetVerdict::accepted;
 }
 
+// The flood may have come to both sides of a wall, where a triangle with three corners of a quad lies inside. The
+// others are outside: one on each triangle of the cell, and two on each quad, at one of its diagonals.
+template <class Topology>
+TetVerdict CellTets<Topology>::find_outer_facets() {
+  for (auto& facets : outer_) facets.clear();
+  for (const WallFacet& wall : walls_) {
+    if (interior_.contains(tables_.adjacency().tet_beyond(wall.tet, wall.facet))) {
+      if (tables_.facet_label(wall.tet, wall.facet) != 0) return TetVerdict::crosses_mesh;
+      continue;
+    }
+    if (outer_[wall.of_cell].is_full()) return TetVerdict::no_interior;
+    outer_[wall.of_cell].push_back(wall);
+  }
+  for (std::size_t quad = 0; quad < quad_count; ++quad) {
+    const LocalQuad& q = Topology::quads[quad];
+    if (outer_[quad].size() != 2) return TetVerdict::no_interior;
+    const unsigned shared = outer_[quad][0].corners & outer_[quad][1].corners;
+    if (shared != (bit(q[0]) | bit(q[2])) && shared != (bit(q[1]) | bit(q[3]))) return TetVerdict::no_interior;
+  }
+  for (std::size_t triangle = quad_count; triangle < facet_count; ++triangle)
+    if (outer_[triangle].size() != 1) return TetVerdict::no_interior;
+  return TetVerdict::accepted;
+}
+
 // The two triangles that the interior tets have on a quad, the boundary tet on it if there is one, and rule 7 for what
 // is outermost.
 template <class Topology>
 TetVerdict CellTets<Topology>::judge_quad(std::size_t quad) {
   const LocalQuad& q = Topology::quads[quad];
   const auto& facets = outer_[quad];
-  if (facets.size() != 2) return TetVerdict::no_interior;
-  const unsigned shared = facets[0].corners & facets[1].corners;
-  if (shared != (bit(q[0]) | bit(q[2])) && shared != (bit(q[1]) | bit(q[3]))) return TetVerdict::no_interior;
-
   const std::int32_t label = tables_.facet_label(facets[0].tet, facets[0].facet);
   if (label != tables_.facet_label(facets[1].tet, facets[1].facet)) return TetVerdict::half_on_surface;
   const std::int32_t beyond = tables_.adjacency().tet_beyond(facets[0].tet, facets[0].facet);
@@ -177,6 +192,7 @@ TetVerdict CellTets<Topology>::judge_quad(std::size_t quad) {
 
   if (label != 0) return TetVerdict::crosses_mesh;
   boundary_.push_back(beyond);
+  const unsigned shared = facets[0].corners & facets[1].corners;
   // Its two facets at the corners of the diagonal that the interior tets have lie against those; the others are
   // outside.
   std::int32_t outermost = -1;

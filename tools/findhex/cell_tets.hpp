@@ -87,11 +87,12 @@ class CellTets {
   static constexpr std::size_t quad_count = Topology::quads.size();
   static constexpr std::size_t facet_count = quad_count + Topology::triangles.size();
 
-  // A facet of an interior tet that lies on a facet of the cell; corners of the cell as bits.
-  struct OuterFacet {
+  // A facet of an interior tet whose vertices lie on one facet of the cell, so that the flood did not cross it.
+  struct WallFacet {
     std::int32_t tet;
     int facet;
-    unsigned corners;
+    int of_cell;       // the facet of the cell: quads, then triangles
+    unsigned corners;  // of the cell, as bits
   };
   using Starts = FixedVector<std::int32_t, 4 * quad_count>;
 
@@ -100,6 +101,7 @@ class CellTets {
   TetVerdict find_from(std::int32_t start);
   TetVerdict flood_from(std::int32_t start);
   TetVerdict leave(std::int32_t tet);
+  TetVerdict find_outer_facets();
   TetVerdict judge_quad(std::size_t quad);
   bool is_folded_at(std::size_t quad) const;
 
@@ -108,7 +110,8 @@ class CellTets {
   CellCorners corners_{};
   FixedVector<std::int32_t, most_tets<Topology>> interior_;
   FixedVector<std::int32_t, quad_count> boundary_;
-  std::array<FixedVector<OuterFacet, 2>, facet_count> outer_;  // quads, then triangles
+  FixedVector<WallFacet, 4 * most_tets<Topology>> walls_;
+  std::array<FixedVector<WallFacet, 2>, facet_count> outer_;  // walls with no interior tet beyond, by facet of the cell
   bool has_inner_vertex_ = false;
 };
 
