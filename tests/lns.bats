@@ -71,9 +71,10 @@ PYTHON
   ring --iterations 40 --fragment-size 50 -o size.sol
   ring --iterations 40 --fragment-size 50 --largest-fragment 20 -o largest.sol
   ring --iterations 40 --batch 3 -o batch.sol
+  ring --iterations 40 --no-reductions -o whole.sol
   ring --iterations 40 --fragment-size 600 -o large.sol
   ring --iterations 40 --fragment-size 600 --node-limit 1 -o nodes.sol
-  for other in seed size batch; do assert_different_bytes base.sol $other.sol; done
+  for other in seed size batch whole; do assert_different_bytes base.sol $other.sol; done
   assert_different_bytes size.sol largest.sol
   assert_different_bytes large.sol nodes.sol
 }

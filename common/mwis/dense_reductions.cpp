@@ -10,7 +10,7 @@ void DenseReductions::reduce(DenseGraph& graph) {
   words_ = graph.words();
   offset_ = 0;
   decisions_.clear();
-  for (auto* set : {&alive_, &touched_, &around_, &scratch_, &clique_}) set->assign(words_, 0);
+  for (auto* set : {&alive_, &touched_, &around_, &scratch_}) set->assign(words_, 0);
   if (graph.size() == 0) return;
   bits::fill(alive_.data(), graph.size());
   bits::fill(touched_.data(), graph.size());
@@ -44,7 +44,7 @@ bool DenseReductions::outweighs_neighbourhood(std::uint32_t v, std::int64_t neig
   const std::int64_t weight = graph_->weight(v);
   if (neighbour_sum <= weight) return true;
   std::copy_n(around_.data(), words_, scratch_.data());
-  return bound_at_most(scratch_.data(), weight);
+  return bound_.at_most(*graph_, scratch_.data(), weight);
 }
 
 bool DenseReductions::neighbourhood_is_clique() const {
@@ -88,7 +88,7 @@ bool DenseReductions::some_neighbour_replaces(std::uint32_t v) {
     const bits::Word* const row = graph_->row(u);
     for (std::size_t w = 0; w < words_; ++w) scratch_[w] = row[w] & alive_[w] & ~own[w];
     bits::erase(scratch_.data(), v);
-    return !bound_at_most(scratch_.data(), allowance);
+    return !bound_.at_most(*graph_, scratch_.data(), allowance);
   });
 }
 
@@ -108,30 +108,6 @@ bool DenseReductions::drop_common_neighbours(std::uint32_t v, std::int64_t neigh
   });
   if (changed) bits::insert(touched_.data(), v);
   return changed;
-}
-
-// True when a greedy clique cover proves that no independent set within `set` is heavier than `limit`. Empties `set`.
-bool DenseReductions::bound_at_most(bits::Word* set, std::int64_t limit) {
-  for (std::size_t w = 0; w < words_; ++w)
-    while (set[w] != 0) {
-      const std::size_t first = 64 * w + static_cast<std::size_t>(std::countr_zero(set[w]));
-      bits::erase(set, first);
-      std::int64_t heaviest = graph_->weight(first);
-      if (heaviest > limit) return false;
-      const bits::Word* const row = graph_->row(first);
-      for (std::size_t i = w; i < words_; ++i) clique_[i] = set[i] & row[i];
-      for (std::size_t i = w; i < words_; ++i)
-        while (clique_[i] != 0) {
-          const std::size_t next = 64 * i + static_cast<std::size_t>(std::countr_zero(clique_[i]));
-          bits::erase(set, next);
-          heaviest = std::max(heaviest, graph_->weight(next));
-          if (heaviest > limit) return false;
-          const bits::Word* const other = graph_->row(next);
-          for (std::size_t j = i; j < words_; ++j) clique_[j] &= other[j];
-        }
-      limit -= heaviest;
-    }
-  return true;
 }
 
 void DenseReductions::take(std::uint32_t v) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "common/mwis/clique_cover_bound.hpp"
 #include "common/mwis/dense_graph.hpp"
 
 namespace hexpipe {
@@ -37,7 +38,6 @@ class DenseReductions {
   void transfer_weight(std::uint32_t v);
   bool some_neighbour_replaces(std::uint32_t v);
   bool drop_common_neighbours(std::uint32_t v, std::int64_t neighbour_sum);
-  bool bound_at_most(bits::Word* set, std::int64_t limit);
 
   void take(std::uint32_t v);
   void drop(std::uint32_t v);
@@ -48,7 +48,8 @@ class DenseReductions {
   std::int64_t offset_ = 0;
   std::vector<bits::Word> alive_, touched_;
   std::vector<bits::Word> around_;  // the undecided neighbours of the vertex that is looked at
-  std::vector<bits::Word> scratch_, clique_;
+  std::vector<bits::Word> scratch_;
+  CliqueCoverBound bound_;
   std::vector<Decision> decisions_;
 };
 

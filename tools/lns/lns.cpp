@@ -1,10 +1,11 @@
 #include "tools/lns/lns.hpp"
 
 #include <algorithm>
-#include <memory>
+#include <cmath>
 #include <vector>
 
 #include "common/mwis/exact_solver.hpp"
+#include "common/mwis/kernel.hpp"
 #include "common/run/parallel.hpp"
 #include "tools/lns/fragment.hpp"
 #include "tools/lns/schedule.hpp"
@@ -141,11 +142,42 @@ class Lns {
   std::int32_t closed_ = 0;  // vertices of components that are solved to the end
 };
 
+// Of a time limit, reductions get a tenth.
+Deadline share_for_reductions(const Deadline& deadline) {
+  return std::isfinite(deadline.remaining()) ? Deadline(0.1 * deadline.remaining()) : Deadline();
+}
+
+LnsResult search_kernel(const ConflictGraph& graph, const IndependentSet& start, const LnsOptions& options,
+                        const Deadline& deadline, const std::function<void(const LnsProgress&)>& report) {
+  const Kernel kernel(graph, share_for_reductions(deadline));
+  // The start loses where reductions decided otherwise, until the search has caught up.
+  std::int64_t best = total_weight(start, graph);
+  const auto report_whole = [&](const LnsProgress& now) {
+    if (!report || now.weight + kernel.offset() <= best) return;
+    best = now.weight + kernel.offset();
+    report({now.iteration, best});
+  };
+  LnsResult result = Lns(kernel.graph(), kernel.project(start), options, deadline, report_whole).run();
+  result.solution = kernel.lift(result.solution);
+  result.weight = total_weight(result.solution, graph);
+  return result;
+}
+
 }  // namespace
 
 LnsResult improve_by_lns(const ConflictGraph& graph, const IndependentSet& initial, const LnsOptions& options,
                          const Deadline& deadline, const std::function<void(const LnsProgress&)>& report) {
-  return Lns(graph, initial, options, deadline, report).run();
+  SolutionState state(graph, initial);
+  state.make_maximal();
+  const IndependentSet start = state.to_set();
+  const bool idle = options.iterations == 0 || deadline.passed();
+  LnsResult result = options.reduce && !idle ? search_kernel(graph, start, options, deadline, report)
+                                             : Lns(graph, start, options, deadline, report).run();
+  if (result.weight < state.weight()) {
+    result.solution = start;
+    result.weight = state.weight();
+  }
+  return result;
 }
 
 }  // namespace hexpipe

@@ -2,7 +2,7 @@
 // Large neighbourhood search (Verhetsel 2017, 3.4 and 4.3): frees a fragment of the graph, solves it exactly while the
 // rest stays, and keeps what is not lighter. Deviates from algorithms 13 to 16 in working in rounds of fragments that
 // do not touch each other, solved in parallel and applied in order, so that the result does not depend on the number of
-// threads.
+// threads, and in searching the kernel that exact reductions leave.
 
 #include <cstdint>
 #include <functional>
@@ -20,6 +20,7 @@ struct LnsOptions {
   std::size_t largest_fragment = 1000;
   std::int64_t node_limit = 3000;  // of branch and bound, a fragment
   int batch = 16;                  // fragments in a round
+  bool reduce = true;              // search the kernel that exact reductions leave
 };
 
 struct LnsProgress {

@@ -28,6 +28,8 @@ int main(int argc, char** argv) {
     app.add_option("--batch", options.batch,
                    "Fragments in a round, which are solved in parallel and put together in order")
         ->check(CLI::Range(1, 10000).description(""));
+    app.add_flag("!--no-reductions", options.reduce,
+                 "Search the whole graph, not the kernel that exact reductions leave");
   };
   const auto run = [&](RunContext& context) {
     options.seed = context.common.seed;

@@ -1,0 +1,90 @@
+#include "common/mwis/kernel.hpp"
+
+#include <gtest/gtest.h>
+
+#include "random_graphs.hpp"
+
+namespace hexpipe {
+namespace {
+
+using hexpipe::testing::brute_force_weight;
+
+// Every maximal set is worth lifting, the best by brute force most of all.
+IndependentSet best_set(const ConflictGraph& graph, std::int64_t weight) {
+  for (std::uint64_t subset = 0; subset < std::uint64_t{1} << graph.vertex_count(); ++subset) {
+    IndependentSet set;
+    bool independent = true;
+    for (std::int32_t v = 0; v < graph.vertex_count() && independent; ++v) {
+      if ((subset >> v & 1) == 0) continue;
+      for (const std::int32_t u : graph.neighbours_of(v))
+        independent = independent && (u > v || (subset >> u & 1) == 0);
+      set.push_back(v);
+    }
+    if (independent && total_weight(set, graph) == weight) return set;
+  }
+  return {};
+}
+
+TEST(Kernel, KeepsTheOptimumAndLiftsIt) {
+  Random random(1);
+  int decided = 0, vertices = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const auto count = static_cast<std::int32_t>(random.below(24));
+    const std::int64_t heaviest = i % 3 == 0 ? 3 : 1000;
+    const ConflictGraph graph = i % 2 == 0 ? hexpipe::testing::random_graph(count, random.uniform(), heaviest, random)
+                                           : hexpipe::testing::random_clique_graph(count, 20, heaviest, random);
+    const Kernel kernel(graph, Deadline());
+    ASSERT_NO_THROW(validate(kernel.graph(), "kernel")) << "graph " << i;
+    const std::int64_t optimum = brute_force_weight(graph);
+    const std::int64_t of_kernel = brute_force_weight(kernel.graph());
+    ASSERT_EQ(of_kernel + kernel.offset(), optimum) << "graph " << i;
+    decided += graph.vertex_count() - kernel.graph().vertex_count();
+    vertices += graph.vertex_count();
+    if (kernel.graph().vertex_count() > 14) continue;
+    const IndependentSet lifted = kernel.lift(best_set(kernel.graph(), of_kernel));
+    ASSERT_NO_THROW(validate(lifted, graph, "lifted")) << "graph " << i;
+    EXPECT_EQ(total_weight(lifted, graph), optimum) << "graph " << i;
+  }
+  EXPECT_GT(decided, vertices / 2);
+}
+
+TEST(Kernel, LiftsAnySetToAMaximalOneAndProjectsBack) {
+  Random random(2);
+  for (int i = 0; i < 200; ++i) {
+    const ConflictGraph graph = hexpipe::testing::random_graph(80, 0.1, 100, random);
+    const Kernel kernel(graph, Deadline());
+    for (const IndependentSet& set :
+         {IndependentSet{}, kernel.graph().vertex_count() > 0 ? IndependentSet{0} : IndependentSet{}}) {
+      const IndependentSet lifted = kernel.lift(set);
+      ASSERT_NO_THROW(validate(lifted, graph, "lifted"));
+      EXPECT_GE(total_weight(lifted, graph), total_weight(set, kernel.graph()) + kernel.offset());
+      const IndependentSet projected = kernel.project(lifted);
+      ASSERT_NO_THROW(validate(projected, kernel.graph(), "projected"));
+      EXPECT_TRUE(std::ranges::includes(projected, set));
+    }
+  }
+}
+
+TEST(Kernel, DecidesTreesAndIntervalsAlone) {
+  // Every tree and every interval graph has a simplicial vertex, as long as anything is left.
+  Random random(3);
+  for (int i = 0; i < 100; ++i) {
+    std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+    for (std::int32_t v = 1; v < 500; ++v) edges.emplace_back(v, static_cast<std::int32_t>(random.below(v)));
+    const ConflictGraph tree = hexpipe::testing::make_graph(hexpipe::testing::random_weights(500, 1000, random), edges);
+    const Kernel kernel(tree, Deadline());
+    EXPECT_EQ(kernel.graph().vertex_count(), 0);
+    EXPECT_EQ(total_weight(kernel.lift({}), tree), kernel.offset());
+  }
+}
+
+TEST(Kernel, StopsAtItsDeadline) {
+  Random random(4);
+  const ConflictGraph graph = hexpipe::testing::random_clique_graph(2000, 3000, 1000, random);
+  const Kernel none(graph, Deadline(0));
+  EXPECT_GT(none.graph().vertex_count(), 1000);
+  EXPECT_NO_THROW(validate(none.lift({}), graph, "lifted"));
+}
+
+}  // namespace
+}  // namespace hexpipe
