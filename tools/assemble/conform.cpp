@@ -11,8 +11,10 @@
 #include <optional>
 #include <vector>
 
+#include "common/mesh/quality.hpp"
 #include "tools/assemble/cavity.hpp"
 #include "tools/assemble/selection.hpp"
+#include "tools/assemble/smooth.hpp"
 
 namespace hexpipe {
 namespace {
@@ -46,7 +48,9 @@ class Conformer {
   void absorb_sliver(const OpenQuad& at);
   bool is_done(const OpenQuad& at) const { return !is_open(mesh_, at.cell, at.quad); }
   VertexKey<2> diagonal_of(const OpenQuad& at) const;
+  std::optional<Vertex> common_apex(const OpenQuad& at) const;
   std::optional<HybridCell> merged_pyramid(const OpenQuad& at) const;
+  bool has_flat_corner(const OpenQuad& at) const;
   double quality_of(const HybridCell& pyramid) const;
   void merge(const OpenQuad& at, const HybridCell& pyramid);
   std::optional<GivenBack> resolve(const OpenQuad& at, double least);
@@ -87,7 +91,8 @@ void Conformer::absorb_sliver(const OpenQuad& at) {
   ++counts_.absorbed;
 }
 
-std::optional<HybridCell> Conformer::merged_pyramid(const OpenQuad& at) const {
+// The vertex that both tets at an open quad have besides the quad's, unless the facet between them is tagged.
+std::optional<Vertex> Conformer::common_apex(const OpenQuad& at) const {
   const HybridCell& cell = mesh_.cell(at.cell);
   const Quad quad = cell.quad(at.quad);
   const auto halves = triangles_of(quad, cell.outer_diagonal(at.quad));
@@ -101,12 +106,38 @@ std::optional<HybridCell> Conformer::merged_pyramid(const OpenQuad& at) const {
   if (apex != apex_of(second) || mesh_.region_of(first) != mesh_.region_of(second)) return std::nullopt;
   const auto diagonal = diagonal_of(at);
   if (tags_.contains({diagonal[0], diagonal[1], apex})) return std::nullopt;
+  return apex;
+}
+
+// Two edges of the quad and the common apex's edge between them lie in a flat part of the surface: whatever stands on
+// the quad has no volume there.
+bool Conformer::has_flat_corner(const OpenQuad& at) const {
+  const auto apex = common_apex(at);
+  if (!apex) return false;
+  const HybridCell& cell = mesh_.cell(at.cell);
+  const Quad quad = cell.quad(at.quad);
+  for (int corner = cell.outer_diagonal(at.quad); corner < 4; corner += 2) {
+    const Vertex o = quad[corner], next = quad[(corner + 1) % 4], last = quad[(corner + 3) % 4];
+    if (!tags_.contains({o, next, *apex}) || !tags_.contains({o, last, *apex})) continue;
+    const Vec3 origin = mesh_.points[o];
+    if (scaled_jacobian(mesh_.points[next] - origin, mesh_.points[last] - origin, mesh_.points[*apex] - origin) <
+        poor_quality)
+      return true;
+  }
+  return false;
+}
+
+std::optional<HybridCell> Conformer::merged_pyramid(const OpenQuad& at) const {
+  const auto common = common_apex(at);
+  if (!common) return std::nullopt;
+  const Quad quad = mesh_.cell(at.cell).quad(at.quad);
+  const Vertex apex = *common;
   for (Vertex v : quad)
     if (diagonals_.contains(edge_key(v, apex))) return std::nullopt;
   HybridCell pyramid;
   pyramid.kind = CellKind::pyramid;
   pyramid.corners = {quad[0], quad[1], quad[2], quad[3], apex, -1, -1, -1};
-  pyramid.region = mesh_.region_of(first);
+  pyramid.region = mesh_.region_of(mesh_.tet_at(triangles_of(quad, mesh_.cell(at.cell).outer_diagonal(at.quad))[0]));
   return pyramid;
 }
 
@@ -206,7 +237,8 @@ std::vector<OpenQuad> Conformer::round(std::vector<OpenQuad>& open) {
   std::erase_if(open, [&](const OpenQuad& at) { return !resolve(at, std::max(accepted_at_once, least_quality_)); });
   std::vector<Failure> failures;
   for (const auto& at : open)
-    if (const auto reason = resolve(at, least_quality_)) failures.push_back({at, *reason});
+    if (const auto reason = has_flat_corner(at) ? std::optional(GivenBack::flat_corner) : resolve(at, least_quality_))
+      failures.push_back({at, *reason});
   std::vector<OpenQuad> next;
   for (const auto& [at, reason] : failures) {
     if (!mesh_.cell(at.cell).alive) continue;

@@ -13,14 +13,17 @@ namespace hexpipe {
 // Why a cell went back to its tets.
 enum class GivenBack : std::uint8_t {
   diagonal_on_surface,  // the diagonal of a quad lies on the boundary or an interface, though the quad does not
-  diagonal_in_use,      // cells around leave no ball of tets at the quad
-  no_valid_position,    // no place for a new vertex gives elements that are good enough
-  poor_elements,        // the new elements stayed poor or inverted when vertices around were moved
+  flat_corner,        // at a corner, two boundary triangles leave no angle above the quad: no cell can ever stand there
+  diagonal_in_use,    // cells around leave no ball of tets at the quad
+  no_valid_position,  // no place for a new vertex gives elements that are good enough
+  poor_elements,      // the new elements stayed poor or inverted when vertices around were moved
 };
-inline constexpr std::array all_reasons{GivenBack::diagonal_on_surface, GivenBack::diagonal_in_use,
-                                        GivenBack::no_valid_position, GivenBack::poor_elements};
+inline constexpr std::array all_reasons{GivenBack::diagonal_on_surface, GivenBack::flat_corner,
+                                        GivenBack::diagonal_in_use, GivenBack::no_valid_position,
+                                        GivenBack::poor_elements};
 constexpr const char* name_of(GivenBack reason) {
-  constexpr const char* names[] = {"diagonal_on_surface", "diagonal_in_use", "no_valid_position", "poor_elements"};
+  constexpr const char* names[] = {"diagonal_on_surface", "flat_corner", "diagonal_in_use", "no_valid_position",
+                                   "poor_elements"};
   return names[static_cast<int>(reason)];
 }
 
