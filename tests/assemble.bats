@@ -1,0 +1,167 @@
+# assemble: the mesh from the chosen cells. What all tools do alike is in behaviour.bats.
+
+load helpers
+
+# $WORK: a lattice with moved vertices and two regions, its candidates, graph and a solution that leaves tets, as files and
+# as the bundle stages.tar.
+setup_file() {
+  load helpers
+  export WORK="$BATS_FILE_TMPDIR"
+  cd "$WORK"
+  $PYTHON - >moved.mesh <<PYTHON
+import random, subprocess
+random.seed(5)
+n, region = 4, {}
+lines = subprocess.run(["$PYTHON", "$DATA/lattices/lattice.py", "kuhn", str(n)], capture_output=True, text=True).stdout.split("\n")
+start = lines.index("Vertices") + 2
+points = [[float(x) for x in line.split()[:3]] for line in lines[start : start + (n + 1) ** 3]]
+for i, p in enumerate(points):
+    if all(0 < x < n for x in p) and p[0] != 2:
+        points[i] = [x + random.uniform(-0.17, 0.17) for x in p]
+    lines[start + i] = "%r %r %r 0" % tuple(points[i])
+first = lines.index("Tetrahedra") + 2
+for i in range(first, lines.index("End")):
+    tet = [int(x) for x in lines[i].split()[:4]]
+    lines[i] = "%d %d %d %d " % tuple(tet) + ("7" if sum(points[v - 1][0] for v in tet) < 8 else "9")
+print("\n".join(lines), end="")
+PYTHON
+  findhex --mesh moved.mesh --cells hex,prism -o moved.cand
+  findhex --mesh moved.mesh --cells hex,prism | buildgraph >graph.tar
+  buildgraph graph.tar -o moved.graph
+  initsol --iterations 0 graph.tar -o full.sol
+  # Half of the cells, so that there is something to make conforming.
+  awk 'NR % 2' full.sol >moved.sol
+  FILES="--mesh $WORK/moved.mesh --candidates $WORK/moved.cand --solution $WORK/moved.sol"
+  export FILES
+}
+
+stats_of() {
+  $PYTHON "$CHECKERS/meshstats.py" --json --exact "$1"
+}
+
+# expect FILE EXPRESSION: a Python expression over the checker's findings s.
+expect() {
+  $PYTHON -c "
+import json, sys
+s = json.loads(sys.argv[1])
+assert eval(sys.argv[2]), (sys.argv[2], s)" "$(stats_of "$1")" "$2"
+}
+
+@test "the mesh is conforming and valid, as another program sees it" {
+  assemble $FILES -o mesh.vtu
+  expect mesh.vtu 's["conforming"] and s["nonconf_quads"] == 0 and s["hexbad"] == s["inv"] == s["orphan_nodes"] == 0'
+  expect mesh.vtu 's["hex"] > 10 and s["pyr"] > 10 and s["tet"] > 10'
+  expect mesh.vtu 'abs(s["volgap"]) < 1e-12 and abs(s["vol"] - 64) < 1e-9'
+}
+
+@test "--conformity none leaves quads against triangles, and says how many" {
+  assemble $FILES --conformity none -v -o mesh.vtu 2>summary
+  expect mesh.vtu 's["nonconf_quads"] > 10 and s["f>2"] == s["perm"] == s["bedge_odd"] == s["hexbad"] == s["inv"] == 0'
+  expect mesh.vtu 's["pyr"] == 0'
+  found=$(stats_of mesh.vtu | $PYTHON -c 'import json, sys; print(json.load(sys.stdin)["nonconf_quads"])')
+  grep -q " $found quads non-conforming" summary
+}
+
+@test "--smooth moves vertices, more rounds more" {
+  for rounds in 0 1 5; do assemble $FILES --smooth $rounds -o $rounds.vtu; done
+  assert_different_bytes 0.vtu 1.vtu
+  assert_different_bytes 1.vtu 5.vtu
+  expect 0.vtu 's["conforming"]'
+  least() { stats_of $1 | $PYTHON -c 'import json, sys; print(json.load(sys.stdin)["tetSJmin"])'; }
+  $PYTHON -c "assert $(least 5.vtu) > $(least 0.vtu)"
+  assemble $FILES -o default.vtu
+  assert_same_bytes default.vtu 5.vtu
+}
+
+@test "-v sums up on standard error; without it there is none" {
+  run_apart assemble $FILES -o mesh.vtu
+  assert_success
+  assert_equal "$stderr" ""
+  run_apart assemble $FILES -v -o mesh.vtu
+  for word in hex prism pyramid tet "number %" "volume %" "least SJ" "0 quads non-conforming" before after; do
+    assert grep -q -- "$word" <<<"$stderr"
+  done
+}
+
+@test "--stats agrees with what the checker counts" {
+  assemble $FILES --stats stats.json -o mesh.vtu
+  $PYTHON - "$(stats_of mesh.vtu)" <<'PYTHON'
+import json, sys
+found = json.loads(sys.argv[1])
+stats = json.load(open("stats.json"))
+cells = stats["cells"]
+for kind, name in dict(hex="hex", prism="prism", pyramid="pyr", tet="tet").items():
+    assert cells[kind]["count"] == found[name], kind
+    assert abs(100 * cells[kind]["share_of_volume"] - found[name + "vol%"]) < 0.006, kind
+    assert sum(cells[kind]["scaled_jacobian"]["histogram"]) == cells[kind]["count"]
+assert abs(sum(c["share_of_number"] for c in cells.values()) - 1) < 1e-12
+assert abs(cells["hex"]["scaled_jacobian"]["least"] - found["SJmin"]) < 1e-4
+assert stats["points"] == found["nv"]
+assert stats["nonconforming_quads"] == 0
+volume = stats["volume"]
+assert abs(volume["cells"] - volume["input"] - volume["bulge_of_boundary_quads"]) < 1e-9
+assert stats["conformity"]["quads_against_tets"] > 0
+assert set(stats["conformity"]["cells_given_back"]) >= {"flat_corner", "no_valid_position", "poor_elements"}
+PYTHON
+}
+
+@test "regions and the interface between them come through" {
+  for conformity in pyramids none; do
+    assemble $FILES --conformity $conformity -o mesh.vtk
+    $PYTHON - <<'PYTHON'
+import meshio, numpy as np
+mesh = meshio.read("mesh.vtk")
+names = [name for name in mesh.cell_data if set(np.concatenate(mesh.cell_data[name])) >= {7, 9}]
+assert names, list(mesh.cell_data)
+area = 0.0
+for block, tags in zip(mesh.cells, mesh.cell_data[names[0]]):
+    at = mesh.points[block.data]
+    if block.type in ("hexahedron", "wedge", "pyramid", "tetra"):
+        middle = at[:, :, 0].mean(axis=1)
+        assert set(tags) <= {7, 9} and ((tags == 7) == (middle < 2)).all(), block.type
+    elif block.type in ("triangle", "quad"):
+        inside = (abs(at[:, :, 0] - 2) < 1e-12).all(axis=1)
+        d = at[:, 2:] - at[:, :1]
+        first = np.cross(at[:, 1] - at[:, 0], at[:, 2] - at[:, 0])
+        second = np.cross(at[:, 2] - at[:, 0], at[:, 3] - at[:, 0]) if block.type == "quad" else 0 * first
+        area += (np.linalg.norm(first, axis=1) + np.linalg.norm(second, axis=1))[inside].sum() / 2
+assert abs(area - 16) < 1e-9, area
+PYTHON
+  done
+}
+
+@test "same bytes for 1 and 2 threads, and from files, bundle and pipe" {
+  assemble $FILES --threads 1 -o 1.vtu
+  assemble $FILES --threads 2 -o 2.vtu
+  assert_same_bytes 1.vtu 2.vtu
+  initsol --iterations 0 "$WORK/graph.tar" -o stages.tar
+  assemble stages.tar -o bundle.vtu
+  shell "cat stages.tar | assemble -o pipe.vtu"
+  assert_same_bytes bundle.vtu pipe.vtu
+  assemble <(cat stages.tar) -o fifo.vtu
+  assert_same_bytes bundle.vtu fifo.vtu
+}
+
+@test "cells that cannot stand together are an error of one line" {
+  assert_fails_with 1 "assemble: solution: .*(share a tet|cross)" \
+    assemble --mesh "$WORK/moved.mesh" --candidates "$WORK/moved.cand" --solution <(printf '1\n2\n3\n4\n5\n6\n7\n8\n')
+}
+
+@test "another mesh's candidates are an error of one line" {
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 2 >small.mesh
+  $PYTHON "$DATA/lattices/lattice.py" five 4 >other.mesh
+  assert_fails_with 1 "candidates: expected vertices below 27" \
+    assemble --mesh small.mesh --candidates "$WORK/moved.cand" --solution "$WORK/moved.sol"
+  assert_fails_with 1 "assemble: candidates: expected candidates of this mesh" \
+    assemble --mesh other.mesh --candidates "$WORK/moved.cand" --solution "$WORK/moved.sol"
+}
+
+@test "a solution beyond the candidates is an error of one line" {
+  assert_fails_with 1 "assemble: .*9999" \
+    assemble --mesh "$WORK/moved.mesh" --candidates "$WORK/moved.cand" --solution <(echo 9999999)
+}
+
+@test "a command line that makes no sense ends with 2" {
+  assert_fails_with 2 "assemble: .*conformity" assemble $FILES --conformity maybe -o x.vtu
+  assert_fails_with 2 "assemble: .*smooth" assemble $FILES --smooth -1 -o x.vtu
+}
