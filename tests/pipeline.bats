@@ -59,7 +59,7 @@ assert reader.GetErrorCode() == 0"
 @test "files and pipes give the same result" {
   tetmesh "$DATA/bracket.stl" --size 8 -q -o b.mesh
   findhex --mesh b.mesh -o b.cand
-  buildgraph --mesh b.mesh --candidates b.cand -o b.graph
+  buildgraph --candidates b.cand -o b.graph
   initsol --graph b.graph --iterations 500 -o b.start.sol
   lns --graph b.graph --solution b.start.sol --iterations 50 -o b.sol
   assemble --mesh b.mesh --candidates b.cand --solution b.sol -o files.vtu
@@ -93,7 +93,7 @@ assert reader.GetErrorCode() == 0"
 @test "coinor-cbc stands in for initsol and lns, and finds the optimum" {
   tetmesh "$DATA/bracket.stl" --size 12 -q -o b.mesh
   findhex --mesh b.mesh -o b.cand
-  buildgraph --mesh b.mesh --candidates b.cand -o b.graph
+  buildgraph --candidates b.cand -o b.graph
   $PYTHON "$CHECKERS/solve_with_cbc.py" b.graph b.cbc.sol
   $PYTHON "$CHECKERS/solution_check.py" b.graph b.cbc.sol
   assemble --mesh b.mesh --candidates b.cand --solution b.cbc.sol -o b.vtu
