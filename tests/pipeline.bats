@@ -91,7 +91,8 @@ assert reader.GetErrorCode() == 0"
 }
 
 @test "coinor-cbc stands in for initsol and lns, and finds the optimum" {
-  tetmesh "$DATA/bracket.stl" --size 12 -q -o b.mesh
+  $PYTHON "$DATA/box.py" 7 >box.off
+  tetmesh box.off --size 1 --jitter 0.1 -q -o b.mesh
   findhex --mesh b.mesh -o b.cand
   buildgraph --candidates b.cand -o b.graph
   $PYTHON "$CHECKERS/solve_with_cbc.py" b.graph b.cbc.sol
