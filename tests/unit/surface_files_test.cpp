@@ -205,6 +205,18 @@ TEST(SurfaceFiles, RejectsEveryTruncatedPrefix) {
   expect_every_prefix_rejected(coff(), 1);
 }
 
+// OBJ announces no counts: a cut between two faces leaves a surface that is merely open.
+TEST(SurfaceFiles, ATruncatedObjHasFewerTriangles) {
+  const std::string text = obj();
+  for (std::size_t length = 0; length + 3 < text.size(); ++length) {  // "/1" says nothing to us
+    Input input = Input::from_memory(text.substr(0, length), "part");
+    try {
+      EXPECT_LT(read_surface(input).triangles.size(), 4u) << length << " of " << text.size() << " bytes";
+    } catch (const DataError&) {
+    }
+  }
+}
+
 TEST(SurfaceFiles, RejectsWhatFollowsTheEnd) {
   EXPECT_THAT(error_of(binary_stl() + "x"),
               HasSubstr("part: expected 284 bytes of binary STL for 4 facets, found 285"));

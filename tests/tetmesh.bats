@@ -1,0 +1,365 @@
+# tetmesh: surfaces as they come, good and bad, and every option.
+
+load helpers
+
+# Small surfaces for all tests: $FILES/<name>.
+setup_file() {
+  load helpers
+  export FILES="$BATS_FILE_TMPDIR"
+  cd "$FILES"
+  $PYTHON - <<'PYTHON'
+import struct
+
+CORNERS = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+SIDES = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
+
+def cube(origin=(0, 0, 0), size=1, n=1, inward=False):
+    """Triangles of a cube, its sides cut into n x n squares."""
+    triangles = []
+    for side in SIDES:
+        a, b, c, d = (CORNERS[i] for i in side)
+        def at(i, j):
+            return tuple(origin[k] + size * (a[k] + (b[k] - a[k]) * i / n + (d[k] - a[k]) * j / n) for k in range(3))
+        for i in range(n):
+            for j in range(n):
+                p, q, r, s = at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)
+                triangles += [(p, q, r), (p, r, s)]
+    return [(t[0], t[2], t[1]) for t in triangles] if inward else triangles
+
+def stl(name, triangles, header=b"", attributes=None):
+    with open(name, "wb") as file:
+        file.write(header.ljust(80, b"\0") + struct.pack("<I", len(triangles)))
+        for i, t in enumerate(triangles):
+            file.write(struct.pack("<12fH", 0, 0, 0, *t[0], *t[1], *t[2], attributes[i] if attributes else 0))
+
+def ascii_stl(name, *solids):
+    with open(name, "w") as file:
+        for number, triangles in enumerate(solids):
+            file.write(f"solid s{number}\n")
+            for t in triangles:
+                file.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %r %r %r\n" % p for p in t) + "endloop\nendfacet\n")
+            file.write(f"endsolid s{number}\n")
+
+def indexed(triangles):
+    points = sorted({p for t in triangles for p in t})
+    return points, [[points.index(p) for p in t] for t in triangles]
+
+def obj(name, triangles):
+    points, corners = indexed(triangles)
+    with open(name, "w") as file:
+        file.write("".join("v %r %r %r\n" % p for p in points))
+        file.write("".join("f %d %d %d\n" % tuple(c + 1 for c in t) for t in corners))
+
+def off(name, triangles):
+    points, corners = indexed(triangles)
+    with open(name, "w") as file:
+        file.write(f"OFF\n{len(points)} {len(corners)} 0\n")
+        file.write("".join("%r %r %r\n" % p for p in points) + "".join("3 %d %d %d\n" % tuple(t) for t in corners))
+
+def ply(name, triangles, form):
+    points, corners = indexed(triangles)
+    order = {"ascii": None, "binary_little_endian": "<", "binary_big_endian": ">"}[form]
+    with open(name, "wb") as file:
+        file.write((f"ply\nformat {form} 1.0\nelement vertex {len(points)}\nproperty double x\nproperty double y\n"
+                    f"property double z\nelement face {len(corners)}\nproperty list uchar int vertex_indices\nend_header\n").encode())
+        for p in points:
+            file.write(struct.pack(order + "3d", *p) if order else b"%r %r %r\n" % p)
+        for t in corners:
+            file.write(struct.pack(order + "B3i", 3, *t) if order else b"3 %d %d %d\n" % tuple(t))
+
+one = cube()
+stl("cube.stl", one)
+stl("solid.stl", one, b"solid but binary")
+ascii_stl("cube.ascii.stl", one)
+obj("cube.obj", one)
+off("cube.off", one)
+for form in ("ascii", "binary_little_endian", "binary_big_endian"):
+    ply(f"cube.{form}.ply", one, form)
+stl("fine.stl", cube(n=5))
+
+stl("hole.stl", one[:2] + one[3:])
+stl("flipped.stl", one[:6] + [(one[6][0], one[6][2], one[6][1])] + one[7:])
+stl("duplicated.stl", one + [one[4]])
+stl("intersecting.stl", one + cube((.5, .5, .5)))
+obj("intersecting.obj", one + cube((.5, .5, .5)))
+stl("flat.stl", [((i, 0, 0), (i + 1, 0, 0), (i, i + 1, 0)) for i in range(20)])
+stl("degenerate.stl", one + [((0, 0, 0), (1, 1, 1), (2, 2, 2))])
+nan = float("nan")
+stl("nan.stl", one[:3] + [((nan, 0, 0), *one[3][1:])] + one[4:])
+stl("inward.stl", cube(inward=True))
+stl("edge.stl", one + cube((1, 1, 0)))
+stl("corner.stl", one + cube((1, 1, 1)))
+
+stl("apart.stl", one + cube((3, 0, 0), 2))
+stl("hollow.stl", cube(size=3) + cube((1, 1, 1), inward=True))
+stl("nested.stl", cube(size=3) + cube((1, 1, 1)))
+ascii_stl("solids.stl", one[:2], one[2:])
+stl("attributes.stl", one, attributes=[5 if i < 4 else 9 for i in range(12)])
+PYTHON
+  cat >zero.obj <<'OBJ'
+v 0 0 0
+v 1 0 0
+v 0 1 0
+f 0 1 2
+OBJ
+  $PYTHON - <<'PYTHON'
+# A cube whose sides are named, as quads.
+side = lambda name, corners: f"g {name}\nf {corners}\n"
+with open("groups.obj", "w") as file:
+    file.write("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n")
+    file.write(side("bottom", "1 4 3 2") + side("top", "5 6 7 8") + side("side", "1 2 6 5"))
+    file.write("f -7 -6 -2 -3\nf 3 4 8 7\nf 4/1/1 1/1/1 5//1 8\n")
+PYTHON
+}
+
+# stats KEY: of the last run with --stats stats.json.
+stats() {
+  $PYTHON -c "import json; print(json.load(open('stats.json'))['$1'])"
+}
+
+# array BUNDLE MEMBER EXPRESSION: of the array a.
+array() {
+  $PYTHON -c "
+import io, sys, tarfile
+import numpy as np
+a = np.load(io.BytesIO(tarfile.open(sys.argv[1]).extractfile(sys.argv[2]).read()))
+print($3)" "$1" "$2"
+}
+
+# regions BUNDLE: the tags and the volume of each region.
+regions() {
+  $PYTHON - "$1" <<'PYTHON'
+import io, sys, tarfile
+import numpy as np
+bundle = tarfile.open(sys.argv[1])
+points, tets, tags = (np.load(io.BytesIO(bundle.extractfile(f"mesh/{n}.npy").read())) for n in ("points", "tets", "tet_tags"))
+edges = points[tets[:, 1:]] - points[tets[:, :1]]
+volumes = np.linalg.det(edges) / 6
+assert volumes.min() > 0
+print(" ".join(f"{tag}:{volumes[tags == tag].sum():.9g}" for tag in np.unique(tags)))
+PYTHON
+}
+
+@test "the same surface from every format is the same mesh" {
+  tetmesh "$FILES/cube.off" --points none -o off.tar
+  for file in cube.obj cube.ascii.ply cube.binary_little_endian.ply cube.binary_big_endian.ply; do
+    tetmesh "$FILES/$file" --points none -o other.tar
+    assert_same_bytes off.tar other.tar
+  done
+  # STL tells points in another order.
+  for file in cube.stl solid.stl cube.ascii.stl; do
+    tetmesh "$FILES/$file" --points none --stats stats.json -o stl.tar
+    assert_equal "$(regions stl.tar)" 1:1
+    assert_equal "$(stats surface_points)" 8
+  done
+}
+
+@test "file, redirection, pipe and process substitution give the same bytes" {
+  for file in cube.stl cube.ascii.stl cube.obj cube.off cube.ascii.ply cube.binary_big_endian.ply; do
+    local surface="$FILES/$file"
+    tetmesh -q --size 0.3 "$surface" -o file.tar
+    tetmesh -q --size 0.3 <"$surface" >redirected.tar
+    cat "$surface" | tetmesh -q --size 0.3 | cat >piped.tar
+    tetmesh -q --size 0.3 <(cat "$surface") >substituted.tar
+    tetmesh -q --size 0.3 - <"$surface" >dashed.tar
+    for other in redirected piped substituted dashed; do assert_same_bytes file.tar $other.tar; done
+  done
+}
+
+@test "1 and 2 threads, and two runs, give the same bytes" {
+  tetmesh "$DATA/bracket.stl" --size 6 --threads 1 -o one.tar
+  tetmesh "$DATA/bracket.stl" --size 6 --threads 2 -o two.tar
+  tetmesh "$DATA/bracket.stl" --size 6 --threads 2 -o again.tar
+  assert_same_bytes one.tar two.tar
+  assert_same_bytes two.tar again.tar
+}
+
+@test "a real part: surface kept, volume right, conforming by the independent checker" {
+  run_apart tetmesh "$DATA/bracket.stl" --size 5 -o part.msh --stats stats.json
+  assert_success
+  assert_equal "$output$stderr" ""
+  assert_equal "$(stats dropped_points)" 0
+  assert_equal "$(stats surface_triangles)" 6370
+  $PYTHON - <<'PYTHON'
+import json
+stats = json.load(open("stats.json"))
+assert abs(stats["volume"] - 286808.4132332) < 1e-4, stats
+assert stats["points"] == stats["surface_points"] + stats["interior_points"] + stats["added_points"], stats
+assert 0 < stats["least_dihedral"] < 60 and stats["greatest_dihedral"] < 180, stats
+PYTHON
+  run $PYTHON "$CHECKERS/meshstats.py" --json --exact part.msh
+  assert_success
+  $PYTHON - "$output" <<'PYTHON'
+import json, sys
+stats = json.loads(sys.argv[1])
+for key in ("f>2", "perm", "ncq", "inv", "bedge_odd", "dupcells", "orphan_nodes", "negvol"):
+    assert stats.get(key, 0) == 0, (key, stats)
+PYTHON
+}
+
+@test "a raw CAD tessellation with slivers" {
+  tetmesh -q "$DATA/plate-holes.stl" --size 3% -o plate.tar --stats stats.json
+  assert_equal "$(stats surface_points)" 618
+  assert_equal "$(regions plate.tar | cut -c 1-8)" 1:767362
+}
+
+@test "surfaces that bound nothing are named by triangle, with how many there are" {
+  cd "$FILES"
+  assert_fails_with 1 "^tetmesh: hole.stl: triangle [0-9]+: expected a closed surface, found 3 edges" tetmesh hole.stl
+  assert_fails_with 1 "^tetmesh: flipped.stl: triangle 7: .* found 1 triangle flipped" tetmesh flipped.stl
+  assert_fails_with 1 "^tetmesh: duplicated.stl: triangle 13: .* found 1 with the corners of another; the first repeats triangle 5" tetmesh duplicated.stl
+  assert_fails_with 1 "^tetmesh: intersecting.stl: triangle 3: .* found [0-9]+ pairs .* triangles 3 and" tetmesh intersecting.stl
+  assert_fails_with 1 "^tetmesh: intersecting.obj:[0-9]+: .* lines [0-9]+ and [0-9]+" tetmesh intersecting.obj
+  assert_fails_with 1 "^tetmesh: flat.stl: triangle 1: expected a closed surface, found" tetmesh flat.stl
+  assert_fails_with 1 "^tetmesh: degenerate.stl: triangle 13: expected triangles with an area" tetmesh degenerate.stl
+  assert_fails_with 1 "^tetmesh: nan.stl: triangle 4: expected finite coordinates, found nan" tetmesh nan.stl
+  assert_fails_with 1 "^tetmesh: inward.stl: triangle 1: expected a shell that points outward, found 12" tetmesh inward.stl
+  assert_fails_with 1 "^tetmesh: edge.stl: .* found 1 edge with more; .* belongs to triangles" tetmesh edge.stl
+  assert_fails_with 1 "^tetmesh: corner.stl: .* found 1 vertex where several touch; the first is \(1, 1, 1\)" tetmesh corner.stl
+  assert_fails_with 1 "^tetmesh: zero.obj:4: expected a vertex index, counted from 1 .*, found '0'" tetmesh zero.obj
+}
+
+@test "missing, empty and other input" {
+  : >empty
+  assert_fails_with 1 "^tetmesh: missing.stl: .*No such file" tetmesh missing.stl
+  assert_fails_with 1 "^tetmesh: empty: expected a surface .*empty" tetmesh empty
+  assert_fails_with 1 "^tetmesh: stdin: expected a surface .*empty" shell ": | tetmesh"
+  assert_fails_with 1 "^tetmesh: \.: .*directory" tetmesh .
+  tetmesh -q "$FILES/cube.stl" -o bundle.tar
+  assert_fails_with 1 "^tetmesh: bundle.tar: expected" tetmesh bundle.tar
+}
+
+# The unit tests of the readers try every length.
+@test "a surface cut anywhere is an error and leaves nothing" {
+  local cuts=40
+  if sanitized; then cuts=12; fi
+  for file in cube.stl solid.stl cube.ascii.stl cube.obj cube.off cube.ascii.ply cube.binary_little_endian.ply cube.binary_big_endian.ply; do
+    local size length
+    size=$(stat -c %s "$FILES/$file")
+    # What a text may lose: its last line end; ASCII STL also the name behind endsolid.
+    case $file in
+      *.ascii.stl) size=$((size - 4)) ;;
+      *.obj | *.off | *.ascii.ply) size=$((size - 1)) ;;
+    esac
+    for ((length = 0; length < size; length += 1 + size / cuts)); do
+      if head -c $length "$FILES/$file" | tetmesh -q --points none -o out.mesh 2>message; then
+        fail "$file: took $length of $size bytes"
+      fi
+      assert_equal "$(wc -l <message)" 1
+    done
+    # The last that is missing.
+    if head -c $((size - 1)) "$FILES/$file" | tetmesh -q --points none -o out.mesh 2>message; then
+      fail "$file: took $((size - 1)) of $size bytes"
+    fi
+  done
+  assert_equal "$(ls)" message
+}
+
+@test "bad options end with 2" {
+  local cube="$FILES/cube.stl"
+  for size in 0 -1 abc 3mm nan; do assert_fails_with 2 "^tetmesh: .*$size" tetmesh "$cube" --size $size; done
+  assert_fails_with 2 "^tetmesh: .*points" tetmesh "$cube" --points frame
+  assert_fails_with 2 "^tetmesh: .*clearance" tetmesh "$cube" --clearance 0
+  assert_fails_with 2 "^tetmesh: .*jitter" tetmesh "$cube" --jitter -1
+  assert_fails_with 2 "^tetmesh: expected --jitter below half of --clearance" tetmesh "$cube" --jitter 0.3
+  assert_fails_with 2 "^tetmesh: .*shells" tetmesh "$cube" --shells some
+  assert_fails_with 2 "^tetmesh: .*tetgen-timeout" tetmesh "$cube" --tetgen-timeout 0
+  assert_fails_with 2 "^tetmesh: .*seed" tetmesh "$cube" --seed x
+}
+
+@test "a size of which the box holds too many points is an error, at once" {
+  assert_fails_with 1 "^tetmesh: .*cube.stl: expected a size .*1e-06" timeout 20 tetmesh "$FILES/cube.stl" --size 1e-6
+}
+
+@test "every option changes something" {
+  local fine="$FILES/fine.stl"
+  tetmesh "$fine" --size 0.2 -o base.mesh
+  tetmesh "$fine" --size 0.15 -o size.mesh
+  tetmesh "$fine" --size 0.2 --seed 2 -o seed.mesh
+  tetmesh "$fine" --size 0.2 --jitter 0.1 -o jitter.mesh
+  tetmesh "$fine" --size 0.2 --clearance 1.1 -o clearance.mesh
+  tetmesh "$fine" --size 0.2 --points none -o points.mesh
+  for option in size seed jitter clearance points; do assert_different_bytes base.mesh $option.mesh; done
+  # The same size as a percentage of the diagonal, and the default, which is the surface's own spacing.
+  tetmesh "$fine" --size 11.547005383792515% -o percent.mesh --stats stats.json
+  $PYTHON -c "assert abs($(stats size) - 0.2) < 1e-9"
+  tetmesh "$fine" -o default.mesh --stats stats.json
+  $PYTHON -c "assert 0.07 < $(stats size) < 0.1, '5 % of the diagonal'"
+  assert_fails_with 1 "TetGen failed: it took longer than 0.001 seconds" tetmesh "$fine" --size 0.02 --tetgen-timeout 0.001 -q
+}
+
+@test "a surface far from the size is told, unless -q" {
+  run_apart tetmesh "$FILES/cube.stl" --size 0.2 -o out.tar
+  assert_success
+  assert_equal "$output" ""
+  assert_equal "$(wc -l <<<"$stderr")" 1
+  grep -q "^tetmesh: warning: 100 % of the surface .* longer than the size 0.2" <<<"$stderr"
+  run_apart tetmesh "$FILES/cube.stl" --size 0.2 -o out.tar -q
+  assert_equal "$stderr" ""
+  run_apart tetmesh "$FILES/fine.stl" --size 0.2 -o out.tar
+  assert_equal "$stderr" ""
+}
+
+@test "-v sums up; nothing that TetGen prints comes through" {
+  run_apart tetmesh "$FILES/fine.stl" --size 0.2 -v -o out.tar
+  assert_success
+  assert_equal "$output" ""
+  assert_equal "$(wc -l <<<"$stderr")" 1
+  grep -Eq "^tetmesh: [0-9]+ points \([0-9]+ of the surface, 64 inside\), [0-9]+ tets, volume 1, size 0.2" <<<"$stderr"
+}
+
+@test "shells: apart, holes by orientation, regions in regions, and the rules" {
+  tetmesh -q "$FILES/apart.stl" -o out.tar
+  assert_equal "$(regions out.tar)" "1:1 2:8"
+  tetmesh -q "$FILES/hollow.stl" -o out.tar
+  assert_equal "$(regions out.tar)" 1:26
+  tetmesh -q "$FILES/nested.stl" -o out.tar
+  assert_equal "$(regions out.tar)" "1:26 2:1"
+  tetmesh -q "$FILES/hollow.stl" --shells regions -o out.tar
+  assert_equal "$(regions out.tar)" "1:26 2:1"
+  tetmesh -q "$FILES/nested.stl" --shells holes -o out.tar
+  assert_equal "$(regions out.tar)" 1:26
+  tetmesh -q "$FILES/inward.stl" --shells holes -o out.tar
+  assert_equal "$(regions out.tar)" 1:1
+}
+
+@test "surface tags: solids, attributes, groups, else shells" {
+  tetmesh -q "$FILES/solids.stl" -o out.tar
+  assert_equal "$(array out.tar mesh/triangle_tags.npy 'a.tolist()')" "[1, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2]"
+  tetmesh -q "$FILES/attributes.stl" -o out.tar
+  assert_equal "$(array out.tar mesh/triangle_tags.npy 'a.tolist()')" "[5, 5, 5, 5, 9, 9, 9, 9, 9, 9, 9, 9]"
+  tetmesh -q "$FILES/groups.obj" -o out.tar
+  assert_equal "$(array out.tar mesh/triangle_tags.npy 'a.tolist()')" "[1, 1, 2, 2, 3, 3, 3, 3, 3, 3, 3, 3]"
+  tetmesh -q "$FILES/nested.stl" -o out.tar
+  assert_equal "$(array out.tar mesh/triangle_tags.npy '[int((a == k).sum()) for k in (1, 2)]')" "[12, 12]"
+}
+
+@test "history says what was asked for and what came out" {
+  tetmesh -q "$FILES/cube.stl" --size 0.3 --seed 7 -o out.tar
+  run $PYTHON -c "
+import json, tarfile
+entry = json.load(tarfile.open('out.tar').extractfile('history/01-tetmesh.json'))
+assert entry['tool'] == 'tetmesh' and entry['options']['size'] == '0.3' and entry['options']['seed'] == '7', entry
+assert entry['tets'] > 0 and entry['surface_triangles'] == 12, entry
+assert not any('second' in key for key in entry), entry"
+  assert_success
+}
+
+@test "TetGen's process goes when tetmesh is killed" {
+  tetmesh -q "$FILES/cube.stl" --size 0.01 -o out.tar &
+  local parent=$! child=""
+  for _ in $(seq 200); do
+    child=$(pgrep -P $parent || true)
+    if [[ -n "$child" ]]; then break; fi
+    sleep 0.02
+  done
+  assert [ -n "$child" ]
+  kill -KILL $parent
+  wait $parent || true
+  for _ in $(seq 100); do
+    if ! grep -qs '^State:[[:space:]]*[^Z]' /proc/$child/status; then break; fi
+    sleep 0.05
+  done
+  if grep -qs '^State:[[:space:]]*[^Z]' /proc/$child/status; then fail "process $child lives on"; fi
+  assert [ ! -e out.tar ]
+}
