@@ -4,35 +4,37 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "common/run/error.hpp"
 
 namespace hexpipe {
 
-SearchLog::SearchLog(const std::string& path) : path_(path) {
+SearchLog::SearchLog(const std::string& path, std::string value_name)
+    : path_(path), value_name_(std::move(value_name)) {
   if (path_.empty()) return;
   errno = 0;
   file_.open(path_);
   if (!file_) throw DataError::at(path_, "cannot write: {}", std::strerror(errno));
 }
 
-void SearchLog::record(double seconds, std::int64_t iteration, std::int64_t weight) {
+void SearchLog::record(double seconds, std::int64_t iteration, std::int64_t value) {
   if (path_.empty() || seconds < next_) return;
   next_ = seconds + 0.02;
-  write(seconds, iteration, weight);
+  write(seconds, iteration, value);
 }
 
-void SearchLog::finish(double seconds, std::int64_t iteration, std::int64_t weight) {
+void SearchLog::finish(double seconds, std::int64_t iteration, std::int64_t value) {
   if (path_.empty()) return;
   errno = 0;
-  write(seconds, iteration, weight);
+  write(seconds, iteration, value);
   file_.close();
   if (!file_) throw DataError::at(path_, "cannot write: {}", std::strerror(errno));
 }
 
-void SearchLog::write(double seconds, std::int64_t iteration, std::int64_t weight) {
+void SearchLog::write(double seconds, std::int64_t iteration, std::int64_t value) {
   // Flushed, so that a plot can follow the search.
-  file_ << fmt::format("{{\"seconds\":{:.3f},\"iteration\":{},\"weight\":{}}}\n", seconds, iteration, weight)
+  file_ << fmt::format("{{\"seconds\":{:.3f},\"iteration\":{},\"{}\":{}}}\n", seconds, iteration, value_name_, value)
         << std::flush;
 }
 

@@ -12,18 +12,18 @@ namespace hexpipe {
 class SearchLog {
  public:
   // An empty path: nothing is written. Throws DataError when the file cannot be written.
-  explicit SearchLog(const std::string& path);
+  explicit SearchLog(const std::string& path, std::string value_name = "weight");
 
-  // {"seconds":...,"iteration":...,"weight":...}, at most fifty times a second: the first thousands of improvements
-  // come faster than anyone can plot.
-  void record(double seconds, std::int64_t iteration, std::int64_t weight);
+  // {"seconds":...,"iteration":...,"weight":...} or another value's name, at most fifty times a second: the first
+  // thousands of improvements come faster than anyone can plot.
+  void record(double seconds, std::int64_t iteration, std::int64_t value);
   // The last point, whenever it comes. Throws DataError when the disk is full.
-  void finish(double seconds, std::int64_t iteration, std::int64_t weight);
+  void finish(double seconds, std::int64_t iteration, std::int64_t value);
 
  private:
-  void write(double seconds, std::int64_t iteration, std::int64_t weight);
+  void write(double seconds, std::int64_t iteration, std::int64_t value);
 
-  std::string path_;
+  std::string path_, value_name_;
   std::ofstream file_;
   double next_ = 0;
 };

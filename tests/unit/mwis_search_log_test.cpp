@@ -28,6 +28,16 @@ TEST(SearchLog, ThinsOutAndEndsWithTheLastPoint) {
                                              R"({"seconds":0.100,"iteration":4,"weight":13})"}));
 }
 
+TEST(SearchLog, NamesItsValue) {
+  const std::string path = ::testing::TempDir() + "search_log_bound_test.jsonl";
+  SearchLog(path, "bound").finish(1, 2, 3);
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  std::remove(path.c_str());
+  EXPECT_EQ(line, R"({"seconds":1.000,"iteration":2,"bound":3})");
+}
+
 TEST(SearchLog, NoticesWhatCannotBeWritten) {
   EXPECT_THROW(SearchLog("/no/such/directory/log"), DataError);
   SearchLog full("/dev/full");

@@ -1,0 +1,113 @@
+# certify: a graph and a solution in, a bound and a gap out.
+
+load helpers
+
+setup_file() {
+  load helpers
+  cd "$BATS_FILE_TMPDIR"
+  "$PYTHON" "$DATA/ring_graph.py" 3000 2000 1 >ring.graph
+  initsol ring.graph --iterations 0 -o greedy.sol
+  lns --graph ring.graph --solution greedy.sol --iterations 300 -o good.sol
+}
+
+setup() {
+  cd "$BATS_TEST_TMPDIR" || return 1
+  cp "$BATS_FILE_TMPDIR"/*.graph "$BATS_FILE_TMPDIR"/*.sol .
+}
+
+# number KEY FILE: of --stats.
+number() {
+  "$PYTHON" -c "import json; print(json.load(open('$2'))['$1'])"
+}
+
+@test "the certificate proves the bound in the eyes of an independent checker" {
+  certify --graph ring.graph --solution good.sol --iterations 50 --certificate proof --stats stats.json -o out.sol
+  run "$CHECKERS/bound_check.py" ring.graph proof
+  assert_success
+  assert_output --regexp "^bound $(number bound stats.json) by "
+  assert_same_bytes good.sol out.sol
+  # A proof that somebody touched is none.
+  sed '2s/^[0-9]*/0/' proof >less
+  run "$CHECKERS/bound_check.py" ring.graph less
+  assert_failure
+  sed '2s/$/ 3000/' proof >no_clique
+  run "$CHECKERS/bound_check.py" ring.graph no_clique
+  assert_failure
+}
+
+@test "weight, bound and gap belong together, and lns is nearer to the bound than greedy" {
+  for name in greedy good; do
+    certify --graph ring.graph --solution $name.sol --iterations 100 --stats $name.json -o out.sol
+    run "$CHECKERS/solution_check.py" ring.graph $name.sol
+    assert_output --regexp "weight $(number weight $name.json)$"
+  done
+  "$PYTHON" - <<'PYTHON'
+import json
+greedy, good = (json.load(open(f"{name}.json")) for name in ("greedy", "good"))
+assert greedy["bound"] == good["bound"]
+for stats in greedy, good:
+    assert abs(stats["gap"] - (1 - stats["weight"] / stats["bound"])) < 1e-9
+    assert stats["maximal"]
+assert 0 <= good["gap"] < 0.02 < greedy["gap"]
+assert good["fixed_out"] > greedy["fixed_out"]
+PYTHON
+}
+
+@test "more iterations give a better bound, and the same bytes twice" {
+  for count in 0 10 200; do
+    certify --graph ring.graph --solution good.sol --iterations $count --certificate proof$count --stats $count.json -o out.sol
+  done
+  assert [ "$(number bound 200.json)" -lt "$(number bound 10.json)" ]
+  assert [ "$(number bound 10.json)" -lt "$(number bound 0.json)" ]
+  certify --graph ring.graph --solution good.sol --iterations 10 --certificate again --threads 1 -o out.sol
+  assert_same_bytes proof10 again
+}
+
+@test "the time limit is kept, and --log ends with the bound" {
+  certify --graph ring.graph --solution greedy.sol --time-limit 0.3 --iterations 1000000000 --log log.jsonl \
+    --stats stats.json -o out.sol
+  "$PYTHON" - <<'PYTHON'
+import json
+points = [json.loads(line) for line in open("log.jsonl")]
+assert points[-1]["bound"] == json.load(open("stats.json"))["bound"]
+bounds = [point["bound"] for point in points]
+assert bounds == sorted(bounds, reverse=True)
+assert 0.3 <= points[-1]["seconds"] < 1.5  # a machine under load
+PYTHON
+}
+
+@test "bound and gap are in the history of the bundle" {
+  certify --graph ring.graph --solution good.sol --iterations 10 >out.tar
+  tar xf out.tar
+  grep -q '"bound"' history/*certify.json
+  grep -q '"gap"' history/*certify.json
+  [ -f solution/chosen.npy ]
+}
+
+@test "what is no solution is refused" {
+  seq 3000 >all.sol
+  assert_fails_with 1 "certify: all.sol: .*neighbours" certify --graph ring.graph --solution all.sol -o out.sol
+  assert_fails_with 1 "certify: .*solution.*initsol" certify ring.graph -o out.sol
+  assert_fails_with 1 "certify: .*No such file" certify --graph ring.graph --solution good.sol --iterations 1 \
+    --certificate no/such/place -o out.sol
+  assert [ ! -e out.sol ]
+}
+
+@test "a solution that is not maximal is told" {
+  head -1 good.sol >one.sol
+  run_apart certify --graph ring.graph --solution one.sol --iterations 1 -v -o out.sol
+  assert_success
+  assert_equal "$(grep -c 'not maximal' <<<"$stderr")" 1
+}
+
+@test "extreme graphs" {
+  printf '0 0 10\n' >empty.graph
+  : >empty.sol
+  certify --graph empty.graph --solution empty.sol --stats stats.json -o out.sol
+  assert_equal "$(number complete stats.json)" True
+  printf '3 3 10\n5 2 3\n7 1 3\n6 1 2\n' >complete.graph
+  printf '2\n' >complete.sol
+  certify --graph complete.graph --solution complete.sol --stats stats.json -o out.sol
+  assert_equal "$(number bound stats.json)" 7
+  assert_equal "$(number complete stats.json)" True
+}

@@ -1,0 +1,154 @@
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "random_graphs.hpp"
+#include "tools/certify/certify.hpp"
+
+namespace hexpipe {
+namespace {
+
+using hexpipe::testing::brute_force_weight;
+using hexpipe::testing::make_graph;
+
+const Deadline no_deadline;
+
+ConflictGraph nth_graph(int i, Random& random) {
+  const auto vertices = static_cast<std::int32_t>(random.below(22));
+  return i % 2 == 0 ? hexpipe::testing::random_graph(vertices, random.uniform(), 1000, random)
+                    : hexpipe::testing::random_clique_graph(vertices, 30, 1000, random);
+}
+
+TEST(CliqueCover, HasCliquesOnlyAndEveryEdge) {
+  Random random(1);
+  for (int i = 0; i < 500; ++i) {
+    const ConflictGraph graph = nth_graph(i, random);
+    const CliqueCover cover = greedy_edge_clique_cover(graph);
+    std::vector<std::vector<char>> together(graph.weights.size(), std::vector<char>(graph.weights.size(), 0));
+    for (std::int64_t c = 0; c < cover.size(); ++c)
+      for (const std::int32_t v : cover.clique(c))
+        for (const std::int32_t u : cover.clique(c)) {
+          EXPECT_TRUE(u == v || graph.has_edge(u, v)) << "graph " << i;
+          together[u][v] = 1;
+        }
+    for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
+      EXPECT_TRUE(together[v][v]) << "every vertex is in a clique, graph " << i;
+      for (const std::int32_t u : graph.neighbours_of(v)) EXPECT_TRUE(together[u][v]) << "graph " << i;
+    }
+  }
+}
+
+TEST(CliqueCover, IsOneCliqueWhereTheGraphIs) {
+  Random random(2);
+  EXPECT_EQ(greedy_edge_clique_cover(hexpipe::testing::random_graph(20, 1.0, 5, random)).size(), 1);
+  EXPECT_EQ(greedy_edge_clique_cover(make_graph({1, 2, 3}, {})).size(), 3);
+  EXPECT_EQ(greedy_edge_clique_cover({}).size(), 0);
+}
+
+TEST(CliqueDual, AnyPricesProveABound) {
+  Random random(3);
+  for (int i = 0; i < 300; ++i) {
+    const ConflictGraph graph = nth_graph(i, random);
+    const CliqueCover cover = greedy_edge_clique_cover(graph);
+    std::vector<std::int64_t> prices(cover.size());
+    for (auto& price : prices) price = static_cast<std::int64_t>(random.below(1000));
+    EXPECT_GE(bound_of_prices(graph, cover, prices), brute_force_weight(graph)) << "graph " << i;
+  }
+}
+
+TEST(CliqueDual, BoundsTheOptimumClosely) {
+  Random random(4);
+  std::int64_t bounds = 0, optima = 0;
+  for (int i = 0; i < 300; ++i) {
+    const ConflictGraph graph = nth_graph(i, random);
+    const CliqueCover cover = greedy_edge_clique_cover(graph);
+    const CliqueDual dual = solve_clique_dual(graph, cover, {.passes = 200}, no_deadline);
+    const std::int64_t optimum = brute_force_weight(graph);
+    EXPECT_GE(dual.bound, optimum) << "graph " << i;
+    EXPECT_EQ(dual.bound, bound_of_prices(graph, cover, dual.prices)) << "graph " << i;
+    EXPECT_TRUE(std::ranges::all_of(dual.prices, [](std::int64_t price) { return price >= 0; }));
+    bounds += dual.bound;
+    optima += optimum;
+  }
+  EXPECT_LT(bounds, optima + optima / 50);
+}
+
+// Where the graph is perfect and the cliques are maximal, the relaxation is the optimum.
+TEST(CliqueDual, IsNearlyTightOnTrees) {
+  Random random(5);
+  for (int i = 0; i < 20; ++i) {
+    std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+    for (std::int32_t v = 1; v < 22; ++v) edges.emplace_back(v, static_cast<std::int32_t>(random.below(v)));
+    const ConflictGraph tree = make_graph(hexpipe::testing::random_weights(22, 1000000, random), edges);
+    const std::int64_t optimum = brute_force_weight(tree);
+    const CliqueDual dual = solve_clique_dual(tree, greedy_edge_clique_cover(tree), {.passes = 1000}, no_deadline);
+    EXPECT_GE(dual.bound, optimum);
+    EXPECT_LT(static_cast<double>(dual.bound), 1.01 * static_cast<double>(optimum));
+  }
+}
+
+TEST(CliqueDual, MorePassesAndMoreTimeHelp) {
+  Random random(6);
+  const ConflictGraph graph = hexpipe::testing::random_clique_graph(500, 300, 100000, random);
+  const CliqueCover cover = greedy_edge_clique_cover(graph);
+  const auto bound = [&](std::int64_t passes) {
+    return solve_clique_dual(graph, cover, {.passes = passes}, no_deadline).bound;
+  };
+  EXPECT_EQ(bound(0), std::reduce(graph.weights.begin(), graph.weights.end(), std::int64_t{0}));
+  EXPECT_LT(bound(10), bound(0));
+  EXPECT_LT(bound(300), bound(10));
+  const CliqueDual none = solve_clique_dual(graph, cover, {}, Deadline(0));
+  EXPECT_EQ(none.passes, 0);
+}
+
+TEST(Certify, ProvesOptimalityAndFixes) {
+  // A clique and a vertex apart: the relaxation is exact.
+  const ConflictGraph graph = make_graph({500, 700, 900, 4}, {{0, 1}, {1, 2}, {0, 2}});
+  const CertifyResult best = certify(graph, {2, 3}, {}, no_deadline);
+  EXPECT_EQ(best.weight, 904);
+  EXPECT_TRUE(best.maximal);
+  EXPECT_EQ(best.dual.bound, 904);
+  EXPECT_TRUE(best.complete);
+  EXPECT_EQ(best.gap, 0);
+  const CertifyResult worse = certify(graph, {1}, {}, no_deadline);
+  EXPECT_FALSE(worse.maximal);
+  EXPECT_FALSE(worse.complete);
+  EXPECT_NEAR(worse.gap, 204.0 / 904.0, 0.01);
+  EXPECT_GE(best.fixed_out, worse.fixed_out);
+  EXPECT_GT(best.fixed_out, 0);
+}
+
+TEST(Certify, FixesOnlyWhatNoBetterSolutionHas) {
+  Random random(7);
+  std::int64_t fixed = 0;
+  for (int i = 0; i < 200; ++i) {
+    const ConflictGraph graph = nth_graph(i, random);
+    const CliqueCover cover = greedy_edge_clique_cover(graph);
+    const CliqueDual dual = solve_clique_dual(graph, cover, {.passes = 100}, no_deadline);
+    const std::int64_t optimum = brute_force_weight(graph);
+    const auto costs = reduced_costs(graph, cover, dual.prices);
+    for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
+      if (-costs[v] <= dual.bound - optimum) continue;
+      ++fixed;
+      // With v alone and its neighbours gone, nothing reaches the optimum.
+      ConflictGraph with = graph;
+      for (const std::int32_t u : graph.neighbours_of(v)) with.weights[u] = 0;
+      EXPECT_LT(brute_force_weight(with), optimum) << "graph " << i;
+    }
+  }
+  EXPECT_GT(fixed, 100);
+}
+
+TEST(Certify, TakesTheExtremes) {
+  const CertifyResult empty = certify({}, {}, {}, no_deadline);
+  EXPECT_TRUE(empty.complete && empty.maximal);
+  EXPECT_EQ(empty.gap, 0);
+  const CertifyResult zero = certify(make_graph({0}, {}), {0}, {}, no_deadline);
+  EXPECT_TRUE(zero.complete);
+  const std::int64_t huge = std::int64_t{1} << 61;
+  const CertifyResult large = certify(make_graph({huge, huge}, {{0, 1}}), {0}, {}, no_deadline);
+  EXPECT_GE(large.dual.bound, huge);
+}
+
+}  // namespace
+}  // namespace hexpipe

@@ -1,0 +1,15 @@
+#include "tools/certify/certificate.hpp"
+
+namespace hexpipe {
+
+void write_certificate(const CliqueCover& cover, const CliqueDual& dual, Output& output) {
+  output.print("bound {}\n", dual.bound);
+  for (std::int64_t c = 0; c < cover.size(); ++c) {
+    if (dual.prices[c] == 0) continue;
+    output.print("{}", dual.prices[c]);
+    for (const std::int32_t v : cover.clique(c)) output.print(" {}", v + 1);
+    output.print("\n");
+  }
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,14 @@
+#pragma once
+// The proof of a bound as a text that others can check: a line `bound B`, then a line for each clique with a price, the
+// price and the vertices counted from 1. Whoever adds up the prices, and what each vertex weighs beyond the prices of
+// its cliques, gets the bound.
+
+#include "common/graph/clique_cover.hpp"
+#include "formats/output.hpp"
+#include "tools/certify/clique_dual.hpp"
+
+namespace hexpipe {
+
+void write_certificate(const CliqueCover& cover, const CliqueDual& dual, Output& output);
+
+}  // namespace hexpipe

@@ -1,0 +1,32 @@
+#pragma once
+// What a solution is worth: its weight against a proven upper bound, and the vertices that the difference decides.
+
+#include <cstdint>
+
+#include "common/graph/conflict_graph.hpp"
+#include "common/run/deadline.hpp"
+#include "tools/certify/clique_dual.hpp"
+
+namespace hexpipe {
+
+struct CertifyOptions {
+  CliqueDualOptions dual;
+};
+
+struct CertifyResult {
+  CliqueCover cover;
+  CliqueDual dual;
+  std::int64_t weight = 0;
+  bool maximal = false;
+  // Of the bound; 0 when the solution is optimal, which `complete` says.
+  double gap = 0;
+  bool complete = false;
+  // By reduced cost: vertices that no better solution has, and those that every better one has.
+  std::int64_t fixed_out = 0, fixed_in = 0;
+};
+
+// `solution` is independent.
+CertifyResult certify(const ConflictGraph& graph, const IndependentSet& solution, const CertifyOptions& options,
+                      const Deadline& deadline, const std::function<void(const CliqueDual&)>& report = {});
+
+}  // namespace hexpipe

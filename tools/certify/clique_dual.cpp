@@ -1,0 +1,101 @@
+#include "tools/certify/clique_dual.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hexpipe {
+namespace {
+
+class SmoothedDual {
+ public:
+  SmoothedDual(const ConflictGraph& graph, const CliqueCover& cover)
+      : cover_(cover),
+        prices_(static_cast<std::size_t>(cover.size()), 0.0),
+        costs_(graph.weights.begin(), graph.weights.end()) {}
+
+  // Minimizes sum(prices) + T sum(exp(cost / T)) in one price after the other, forth and back: the step that makes the
+  // members of the clique sum to one where exp(cost / T) is how much of a vertex is chosen.
+  void pass(double temperature) {
+    for (std::int64_t c = 0; c < cover_.size(); ++c) step(c, temperature);
+    for (std::int64_t c = cover_.size(); c-- > 0;) step(c, temperature);
+  }
+
+  std::vector<std::int64_t> whole_prices() const {
+    std::vector<std::int64_t> whole(prices_.size());
+    std::ranges::transform(prices_, whole.begin(), [](double price) { return std::llround(price); });
+    return whole;
+  }
+
+ private:
+  void step(std::int64_t c, double temperature) {
+    const auto members = cover_.clique(c);
+    double highest = costs_[members.front()];
+    for (const std::int32_t v : members) highest = std::max(highest, costs_[v]);
+    double sum = 0;
+    for (const std::int32_t v : members) sum += std::exp((costs_[v] - highest) / temperature);
+    const double wanted = highest + temperature * std::log(sum);
+    const double change = std::max(wanted, -prices_[c]);
+    prices_[c] += change;
+    for (const std::int32_t v : members) costs_[v] -= change;
+  }
+
+  const CliqueCover& cover_;
+  std::vector<double> prices_, costs_;
+};
+
+// The part of the passes or of the time that is over, whichever is more.
+double progress(std::int64_t passes, const CliqueDualOptions& options, const Deadline& deadline) {
+  const double of_passes = static_cast<double>(passes) / static_cast<double>(options.passes);
+  const double of_time = deadline.elapsed() / (deadline.elapsed() + std::max(deadline.remaining(), 0.0));
+  return std::max(of_passes, of_time);
+}
+
+// In heaviest weights: from `first`, where all prices move at once, geometrically to `last`, where few still do.
+double temperature_at(double progress) {
+  // 300 passes from 0.05, 0.2, 0.5 and 1 end 0.37, 0.20, 0.19 and 0.21 % above the optimum of block-28k. What is good
+  // there is not best everywhere: on random-33k 0.2 to 0.001 ends 0.5 % lower than 0.5 to 0.002.
+  constexpr double first = 0.3, last = 0.0015;
+  return first * std::pow(last / first, progress);
+}
+
+}  // namespace
+
+std::vector<std::int64_t> reduced_costs(const ConflictGraph& graph, const CliqueCover& cover,
+                                        const std::vector<std::int64_t>& prices) {
+  std::vector<std::int64_t> costs = graph.weights;
+  for (std::int64_t c = 0; c < cover.size(); ++c)
+    for (const std::int32_t v : cover.clique(c)) costs[v] -= prices[c];
+  return costs;
+}
+
+std::int64_t bound_of_prices(const ConflictGraph& graph, const CliqueCover& cover,
+                             const std::vector<std::int64_t>& prices) {
+  std::int64_t bound = 0;
+  for (const std::int64_t price : prices) bound += price;
+  for (const std::int64_t cost : reduced_costs(graph, cover, prices)) bound += std::max<std::int64_t>(0, cost);
+  return bound;
+}
+
+CliqueDual solve_clique_dual(const ConflictGraph& graph, const CliqueCover& cover, const CliqueDualOptions& options,
+                             const Deadline& deadline, const std::function<void(const CliqueDual&)>& report) {
+  CliqueDual best;
+  best.prices.assign(static_cast<std::size_t>(cover.size()), 0);
+  best.bound = bound_of_prices(graph, cover, best.prices);
+  if (graph.vertex_count() == 0) return best;
+
+  const auto heaviest = static_cast<double>(std::max<std::int64_t>(std::ranges::max(graph.weights), 1));
+  SmoothedDual dual(graph, cover);
+  while (best.passes < options.passes && best.bound > options.target && !deadline.passed()) {
+    dual.pass(heaviest * temperature_at(progress(best.passes, options, deadline)));
+    ++best.passes;
+    std::vector<std::int64_t> prices = dual.whole_prices();
+    const std::int64_t bound = bound_of_prices(graph, cover, prices);
+    if (bound >= best.bound) continue;
+    best.bound = bound;
+    best.prices = std::move(prices);
+    if (report) report(best);
+  }
+  return best;
+}
+
+}  // namespace hexpipe

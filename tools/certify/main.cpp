@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include "common/mwis/search_log.hpp"
+#include "common/run/tool_main.hpp"
+#include "formats/stage.hpp"
+#include "tools/certify/certificate.hpp"
+#include "tools/certify/certify.hpp"
+
+using namespace hexpipe;
+
+int main(int argc, char** argv) {
+  const ToolInfo info{
+      .name = "certify",
+      .summary = "Prove an upper bound on any choice of candidates, and tell how far from it this one is.",
+      .example = "certify --graph part.graph --solution part.sol -v -o part.sol",
+      .reads = {Role::graph, Role::solution},
+      .product = Role::solution,
+      .searches = true};
+  CertifyOptions options;
+  std::string certificate;
+  const auto declare = [&](CLI::App& app) {
+    app.add_option("--certificate", certificate, "Write the proof of the bound to a file: prices of cliques")
+        ->type_name("FILE");
+  };
+  const auto run = [&](RunContext& context) {
+    options.dual.passes = context.common.iterations.value_or(options.dual.passes);
+    Stage stage(context);
+    SearchLog log(context.common.log_file, "bound");
+    const StageData data = stage.read({Role::graph, Role::solution});
+    const Deadline deadline = context.deadline();
+    const CertifyResult result = certify(*data.graph, *data.solution, options, deadline, [&](const CliqueDual& now) {
+      log.record(deadline.elapsed(), now.passes, now.bound);
+    });
+    log.finish(deadline.elapsed(), result.dual.passes, result.dual.bound);
+    if (!certificate.empty()) {
+      Output output(certificate);
+      write_certificate(result.cover, result.dual, output);
+      output.commit();
+    }
+    context.statistics["weight"] = result.weight;
+    context.statistics["bound"] = result.dual.bound;
+    context.statistics["gap"] = result.gap;
+    context.statistics["complete"] = result.complete;
+    context.statistics["maximal"] = result.maximal;
+    context.statistics["cliques"] = result.cover.size();
+    context.statistics["iterations"] = result.dual.passes;
+    context.statistics["fixed_out"] = result.fixed_out;
+    context.statistics["fixed_in"] = result.fixed_in;
+    context.note(fmt::format("weight {}, at most {} is possible: gap {:.4f} %{}{}", result.weight, result.dual.bound,
+                             100 * result.gap, result.complete ? ", optimal" : "",
+                             result.maximal ? "" : ", not maximal"));
+    stage.write(*data.solution, {{"weight", result.weight}, {"bound", result.dual.bound}, {"gap", result.gap}});
+  };
+  return tool_main(argc, argv, info, declare, run);
+}
