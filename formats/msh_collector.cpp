@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <numeric>
 
 namespace hexpipe {
@@ -73,25 +74,33 @@ void MshCollector::sort_elements() {
 
 void MshCollector::set_tags() {
   for (const int dimension : {2, 3}) {
-    bool has_groups = false;
+    const bool from_groups = has_groups(dimension);
     std::size_t index = 0;
-    for_each_block(mesh_, [&](const ElementNames& names, const auto&) {
-      const auto& numbers = numbers_[index++];
-      if (names.dimension == dimension && !has_groups)
-        has_groups = std::ranges::any_of(numbers, [](const auto& element) { return element.physical != 0; });
-    });
-    index = 0;
     for_each_block(mesh_, [&](const ElementNames& names, auto& block) {
       const auto& numbers = numbers_[index++];
       if (names.dimension != dimension) return;
       block.tags.reserve(numbers.size());
-      for (const MshElementNumbers& element : numbers)
-        block.tags.push_back(has_groups ? tag_of_group(dimension, element.physical) : element.elementary);
+      for (std::size_t i = 0; i < numbers.size(); ++i) {
+        block.tags.push_back(from_groups ? tag_of_group(dimension, numbers[i].physical) : numbers[i].elementary);
+        // A facet's group may hold it turned round; a cell has no other side.
+        if (dimension == 2 && numbers[i].physical < 0) std::reverse(block.cells[i].begin() + 1, block.cells[i].end());
+      }
     });
   }
 }
 
-// Gmsh gives a surface that a group holds in reverse the group's negative number.
+bool MshCollector::has_groups(int dimension) {
+  bool found = false;
+  std::size_t index = 0;
+  for_each_block(mesh_, [&](const ElementNames& names, const auto&) {
+    const auto& numbers = numbers_[index++];
+    if (names.dimension == dimension && !found)
+      found = std::ranges::any_of(numbers, [](const auto& element) { return element.physical != 0; });
+  });
+  return found;
+}
+
+// The number of a group that holds an element turned round is negative.
 std::int32_t MshCollector::tag_of_group(int dimension, std::int32_t physical) const {
   const std::int32_t group =
       physical < 0 && physical != std::numeric_limits<std::int32_t>::min() ? -physical : physical;

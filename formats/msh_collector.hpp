@@ -52,6 +52,7 @@ class MshCollector {
   static constexpr std::size_t block_count = 6;
 
   void set_tags();
+  bool has_groups(int dimension);
   void sort_elements();
   void set_qualities();
   std::int32_t tag_of_group(int dimension, std::int32_t physical) const;

@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <limits>
 #include <utility>
+#include <vector>
 
+#include "formats/facet_owners.hpp"
 #include "formats/input.hpp"
 #include "formats/scalar_bytes.hpp"
 #include "formats/text_scanner.hpp"
@@ -76,21 +78,14 @@ class TetgenReader {
     check_end(scanner, "tets");
   }
 
-  // TetGen gives every face of the boundary a marker that is not 0; the others are inner faces, which it lists when
-  // asked for all faces.
   void read_faces(std::string_view text, std::string_view file) {
     TextScanner scanner = scanner_of(text, file);
     const Head head = read_head(scanner, "the number of faces", 8);
     const bool has_marker = head.numbers[0] > 0;
-    CellBlock<3> faces;
-    read_lines(scanner, head.items, faces,
+    read_lines(scanner, head.items, mesh_.triangles,
                [&] { return has_marker ? number_in_line<std::int32_t>(scanner, "the marker of a face") : 0; });
     check_end(scanner, "faces");
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-      if (has_marker && faces.tags[i] == 0) continue;
-      mesh_.triangles.cells.push_back(faces.cells[i]);
-      mesh_.triangles.tags.push_back(faces.tags[i]);
-    }
+    drop_inner_faces();
   }
 
   MixedMesh take_mesh() { return std::move(mesh_); }
@@ -114,6 +109,32 @@ class TetgenReader {
     if (number < first_ || number >= first_ + static_cast<std::int64_t>(mesh_.points.size()))
       scanner.fail_expected(range_, std::to_string(number));
     return static_cast<Vertex>(number - first_);
+  }
+
+  // When asked for all faces, TetGen also lists those inside a region, with marker 0: they are no surface.
+  void drop_inner_faces() {
+    const std::vector<FacetOwner> in_front = owners_of(false), behind = owners_of(true);
+    CellBlock<3> kept;
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const bool inside_region =
+          in_front[i].cell != behind[i].cell && mesh_.tets.tags[static_cast<std::size_t>(in_front[i].cell)] ==
+                                                    mesh_.tets.tags[static_cast<std::size_t>(behind[i].cell)];
+      if (inside_region && mesh_.triangles.tags[i] == 0) continue;
+      kept.cells.push_back(mesh_.triangles.cells[i]);
+      kept.tags.push_back(mesh_.triangles.tags[i]);
+    }
+    mesh_.triangles = std::move(kept);
+  }
+
+  // The tet of each triangle; of two, the one on the side that the triangle shows as it is listed, or turned round.
+  std::vector<FacetOwner> owners_of(bool turned) {
+    const auto turn = [&] {
+      for (Triangle& t : mesh_.triangles.cells) std::swap(t[1], t[2]);
+    };
+    if (turned) turn();
+    std::vector<FacetOwner> owners = find_facet_owners(mesh_).triangles;
+    if (turned) turn();
+    return owners;
   }
 
   // Attributes are real numbers; a region's is a whole one.

@@ -28,10 +28,16 @@ constexpr std::pair<std::string_view, ScalarType> type_names[] = {
     {"long", ScalarType::int64},
     {"unsigned_long", ScalarType::uint64},
     {"vtkIdType", ScalarType::int32},
-    {"vtktypeint64", ScalarType::int64},
-    {"vtktypeuint64", ScalarType::uint64},
     {"float", ScalarType::float32},
     {"double", ScalarType::float64},
+    {"vtktypeint8", ScalarType::int8},
+    {"vtktypeuint8", ScalarType::uint8},
+    {"vtktypeint16", ScalarType::int16},
+    {"vtktypeuint16", ScalarType::uint16},
+    {"vtktypeint32", ScalarType::int32},
+    {"vtktypeuint32", ScalarType::uint32},
+    {"vtktypeint64", ScalarType::int64},
+    {"vtktypeuint64", ScalarType::uint64},
 };
 
 // Data sets with one array of a fixed number of components, which are all skipped.

@@ -93,6 +93,7 @@ TEST(Msh, ReadsVersion4WithEntitiesAndParametricNodes) {
   EXPECT_THAT(mesh.tets.tags, ElementsAre(5, 6));
   // The first of two groups; a negative number means that the surface is turned round.
   EXPECT_THAT(mesh.triangles.tags, ElementsAre(30));
+  EXPECT_THAT(mesh.triangles.cells, ElementsAre(Triangle{1, 3, 2}));
 }
 
 TEST(Msh, EntitiesAreTagsWhereADimensionHasNoGroups) {

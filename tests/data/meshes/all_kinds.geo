@@ -1,0 +1,28 @@
+// A block of hexes beside a block of prisms, and on the hexes tets that meet them in pyramids.
+Point(1) = {0, 0, 0, 0.5};
+Point(2) = {1, 0, 0, 0.5};
+Point(3) = {1, 1, 0, 0.5};
+Point(4) = {0, 1, 0, 0.5};
+Point(5) = {2, 0, 0, 0.5};
+Point(6) = {2, 1, 0, 0.5};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Line(5) = {2, 5};
+Line(6) = {5, 6};
+Line(7) = {6, 3};
+Curve Loop(1) = {1, 2, 3, 4};
+Curve Loop(2) = {5, 6, 7, -2};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+Recombine Surface{1};
+hexes[] = Extrude {0, 0, 1} { Surface{1}; Layers{2}; Recombine; };
+prisms[] = Extrude {0, 0, 1} { Surface{2}; Layers{2}; Recombine; };
+tets[] = Extrude {0, 0, 1} { Surface{hexes[0]}; };
+Physical Volume("hexes", 11) = {hexes[1]};
+Physical Volume("prisms", 12) = {prisms[1]};
+Physical Volume("tets", 13) = {tets[1]};
+Physical Surface("bottom", 21) = {1, 2};
+Physical Surface("between", 22) = {-hexes[0]};
+Physical Surface("top", 23) = {tets[0], prisms[0]};
