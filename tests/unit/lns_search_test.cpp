@@ -45,7 +45,7 @@ TEST(FragmentGrower, FreesWhatTheReleasedBlocked) {
     const ConflictGraph graph = hexpipe::testing::random_clique_graph(120, 100, 20, random);
     SolutionState state(graph);
     state.make_maximal();
-    FragmentGrower grower(state);
+    FragmentGrower grower(state, Random(9));
     Fragment fragment;
     for (const std::int32_t seed : state.to_set()) {
       const std::size_t target = 1 + random.below(60);
@@ -65,7 +65,7 @@ TEST(FragmentGrower, FragmentsOfARoundDoNotTouch) {
     const ConflictGraph graph = hexpipe::testing::random_clique_graph(200, 150, 20, random);
     SolutionState state(graph);
     state.make_maximal();
-    FragmentGrower grower(state);
+    FragmentGrower grower(state, Random(9));
     grower.begin_round();
     std::vector<Fragment> fragments;
     for (const std::int32_t seed : state.to_set()) {
@@ -88,7 +88,7 @@ TEST(FragmentGrower, FragmentsOfARoundDoNotTouch) {
 TEST(FragmentGrower, KnowsWhenItHasAWholeComponent) {
   const ConflictGraph two_paths = make_graph({1, 2, 1, 1, 2, 1}, {{0, 1}, {1, 2}, {3, 4}, {4, 5}});
   const SolutionState state(two_paths, {1, 3, 5});
-  FragmentGrower grower(state);
+  FragmentGrower grower(state, Random(9));
   Fragment fragment;
   grower.begin_round();
   grower.grow(3, 100, 1000, fragment);
@@ -107,7 +107,7 @@ TEST(FragmentGrower, KnowsWhenItHasAWholeComponent) {
 TEST(FragmentGrower, ExtractsTheGraphOfItsVertices) {
   const ConflictGraph path = make_graph({1, 2, 3, 4}, {{0, 1}, {1, 2}, {2, 3}});
   const SolutionState state(path, {1, 3});
-  FragmentGrower grower(state);
+  FragmentGrower grower(state, Random(9));
   Fragment fragment;
   grower.begin_round();
   grower.grow(1, 2, 1000, fragment);

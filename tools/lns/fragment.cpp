@@ -12,8 +12,8 @@ void Fragment::clear() {
   whole_component = false;
 }
 
-FragmentGrower::FragmentGrower(const SolutionState& state)
-    : state_(state), marks_(static_cast<std::size_t>(state.graph().vertex_count())) {}
+FragmentGrower::FragmentGrower(const SolutionState& state, Random random)
+    : state_(state), random_(random), marks_(static_cast<std::size_t>(state.graph().vertex_count())) {}
 
 void FragmentGrower::begin_round() {
   // Stamps are never used twice; before they run out (after 4 billion fragments) all marks are taken back.
@@ -39,6 +39,7 @@ void FragmentGrower::grow(std::int32_t seed, std::size_t target, std::size_t lim
       fragment.whole_component = !left_out_;
       break;
     }
+    vary(next, fragment);
     release(fragment.frontier[next++], limit, fragment);
   }
   fragment.frontier.erase(fragment.frontier.begin(), fragment.frontier.begin() + static_cast<std::ptrdiff_t>(next));
@@ -94,6 +95,14 @@ void FragmentGrower::queue(std::int32_t v, Fragment& fragment) {
     left_out_ = true;
   else
     fragment.frontier.push_back(v);
+}
+
+// Breadth first, but not the same fragment twice from one seed: one of the next few comes first. The one for which most
+// vertices wait, which makes compact fragments, was worse: by 0.8 % on random-33k and 0.003 % on block-28k after 6 s.
+void FragmentGrower::vary(std::size_t next, Fragment& fragment) {
+  constexpr std::size_t few = 8;
+  const std::size_t choices = std::min(few, fragment.frontier.size() - next);
+  std::swap(fragment.frontier[next], fragment.frontier[next + random_.below(choices)]);
 }
 
 // For when no vertex waits for a single one any more: queues what is chosen beside vertices that wait for several, then

@@ -7,6 +7,7 @@
 
 #include "common/mwis/dense_graph.hpp"
 #include "common/mwis/solution_state.hpp"
+#include "common/run/random.hpp"
 
 namespace hexpipe {
 
@@ -25,7 +26,7 @@ struct Fragment {
 // memory has grown. Fragments of one round do not touch each other, so that they can be solved at the same time.
 class FragmentGrower {
  public:
-  explicit FragmentGrower(const SolutionState& state);
+  FragmentGrower(const SolutionState& state, Random random);
 
   // Forgets the fragments of the last round; the state may have changed.
   void begin_round();
@@ -54,9 +55,11 @@ class FragmentGrower {
   void touch(std::int32_t v, std::int32_t released, std::size_t limit, Fragment& fragment);
   void include(std::int32_t v, Fragment& fragment);
   void queue(std::int32_t v, Fragment& fragment);
+  void vary(std::size_t next, Fragment& fragment);
   bool queue_beyond(Fragment& fragment);
 
   const SolutionState& state_;
+  Random random_;
   std::vector<Mark> marks_;
   std::vector<std::int32_t> partly_freed_;  // touched vertices that were not freed at once
   std::size_t next_partly_freed_ = 0;

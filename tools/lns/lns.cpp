@@ -21,8 +21,8 @@ class Lns {
         deadline_(deadline),
         report_(report),
         state_(graph, initial),
-        grower_(state_),
-        schedule_(graph.weights.size(), options.fragment_size, options.largest_fragment, Random(options.seed)),
+        grower_(state_, Random(options.seed, 1)),
+        schedule_(graph.weights.size(), options.fragment_size, options.largest_fragment, Random(options.seed, 0)),
         tasks_(static_cast<std::size_t>(options.batch)) {
     state_.make_maximal();
     for (std::int32_t v = 0; v < graph.vertex_count(); ++v)

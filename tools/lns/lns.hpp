@@ -16,9 +16,9 @@ namespace hexpipe {
 struct LnsOptions {
   std::uint64_t seed = 1;
   std::int64_t iterations = std::numeric_limits<std::int64_t>::max();  // fragments solved
-  std::size_t fragment_size = 200;                                     // free vertices of the first fragments
+  std::size_t fragment_size = 100;                                     // free vertices of the first fragments
   std::size_t largest_fragment = 1000;
-  std::int64_t node_limit = 3000;  // of branch and bound, a fragment
+  std::int64_t node_limit = 1000;  // of branch and bound, a fragment
   int batch = 16;                  // fragments in a round
   bool reduce = true;              // search the kernel that exact reductions leave
 };
