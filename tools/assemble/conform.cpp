@@ -22,7 +22,7 @@ namespace {
 // A merged pyramid that is this good is taken at once: it adds no vertex, and a split seldom does better.
 constexpr double good_pyramid = 0.25;
 // Below this a cavity is grown.
-constexpr double good_cavity = 0.15;
+constexpr double good_cavity = 0.06;
 // What a quad has to reach at its first turn. The rest wait until all others have taken their tets.
 constexpr double accepted_at_once = 0.02;
 

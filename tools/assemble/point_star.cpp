@@ -122,9 +122,9 @@ Vec3 Freedom::allowed(const Vec3& direction) const {
 }
 
 Vec3 shortest_in_hull(std::span<const Vec3> vectors) {
-  // Gilbert: towards the vector that is furthest back, to the nearest point of the segment. A few dozen rounds give two
-  // digits, which a line search cannot tell from more.
-  constexpr int rounds = 30;
+  // Gilbert: towards the vector that is furthest back, to the nearest point of the segment. A dozen rounds give one
+  // digit or two, which a line search cannot tell from more.
+  constexpr int rounds = 12;
   Vec3 at = vectors[0];
   for (int round = 0; round < rounds; ++round) {
     const Vec3* back = &vectors[0];
