@@ -1,0 +1,145 @@
+#!/usr/bin/python3
+"""assemble.py [--models DIR] [--seeds N] [--million] [MODEL...] - is what assemble makes valid, how good, and how fast.
+
+Three parts, each checked by tests/checkers/meshstats.py --exact:
+  models    the surfaces of ../shared/models (or --models DIR, or the files named): share of the volume in hexes before and
+            after conformity, cells given back by reason, least scaled Jacobians, seconds. Skipped where they are not.
+  random    N meshes of uniform points: nothing may ever break an invariant.
+  million   a lattice of a million tets with 6 of 7 cubes chosen: seconds without smoothing; the goal is 10.
+The tools are taken from build/bin, or from HEXPIPE_BIN. Ends with 1 when an invariant is broken or a goal is missed.
+"""
+import argparse
+import json
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+from scipy.spatial import Delaunay
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+BIN = os.environ.get("HEXPIPE_BIN", os.path.join(ROOT, "build", "bin"))
+sys.path.insert(0, os.path.join(ROOT, "tests", "checkers"))
+import meshstats  # noqa: E402
+import surfcheck  # noqa: E402
+
+# Coarse edge lengths, as in the models' README; else 1/16 of the longest side of the bounding box.
+SIZES = {"mambo-s1.stl": 5.2, "mambo-s22.stl": 5.2, "mambo-s27.stl": 3.2, "mambo-m1.stl": 5.1, "mambo-m6.stl": 3.2}
+NEVER = ("f>2", "perm", "ncq", "nonconf_quads", "inv", "hexbad", "bedge_odd", "dupcells", "orphan_nodes", "negvol")
+# Scaled Jacobians after smoothing, and points of volume lost to conformity.
+LEAST_HEX, LEAST_OTHER, MOST_LOST = 0.1, 0.02, 0.5
+
+
+def tool(name, *arguments, **options):
+    return subprocess.run([os.path.join(BIN, name), *map(str, arguments)], check=True, **options)
+
+
+def assemble(source, *arguments):
+    """Statistics, the checker's findings, and user seconds."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    tool("assemble", *source, "--threads", 1, "--stats", "stats.json", "--format", "msh22", "-o",
+         "result.msh", *arguments)
+    seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+    with open("stats.json") as file:
+        return json.load(file), meshstats.stats("result.msh", exact=True), seconds
+
+
+def broken(found):
+    faults = [key for key in NEVER if found.get(key, 0)]
+    return faults + (["volgap"] if abs(found["volgap"]) > 1e-9 else [])
+
+
+def bench_model(path):
+    name = os.path.basename(path)
+    points, _ = surfcheck.read(path)
+    size = SIZES.get(name, float((points.max(axis=0) - points.min(axis=0)).max()) / 16)
+    tool("tetmesh", path, "--size", size, "-q", "-o", "mesh.tar")
+    tool("findhex", "mesh.tar", "-o", "candidates.tar", "--format", "tar")
+    tool("buildgraph", "candidates.tar", "-o", "graph.tar", "--format", "tar")
+    tool("initsol", "graph.tar", "--iterations", 20000, "-o", "solution.tar", "--format", "tar")
+    plain, _, _ = assemble(["solution.tar"], "--conformity", "none", "--smooth", 0)
+    stats, found, seconds = assemble(["solution.tar"])
+    share = [100 * s["cells"]["hex"]["share_of_volume"] for s in (plain, stats)]
+    least = {kind: cell["scaled_jacobian"]["least"] for kind, cell in stats["cells"].items() if cell["count"]}
+    lost = 100 * stats["conformity"]["hex_volume_given_back"] / stats["volume"]["input"]
+    missed = broken(found)
+    missed += [f"hex {least['hex']:.3f}"] if least.get("hex", 1) < LEAST_HEX else []
+    missed += [f"{kind} {value:.4f}" for kind, value in least.items() if kind != "hex" and value < LEAST_OTHER]
+    missed += [f"lost {lost:.2f}"] if lost > MOST_LOST else []
+    reasons = {k: v for k, v in stats["conformity"]["cells_given_back"].items() if v}
+    print(f"{name:16} {size:7.3g} {found['hex']:7} {share[0]:6.2f} {share[1]:6.2f} {lost:5.2f} "
+          f"{least.get('hex', 0):6.3f} {least.get('pyramid', 0):6.3f} {least.get('tet', 0):7.4f} {seconds:6.1f}  "
+          f"{reasons or ''} {'MISSED: ' + ', '.join(missed) if missed else ''}", flush=True)
+    return missed
+
+
+def bench_random(seed):
+    random = np.random.default_rng(seed)
+    corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
+    points = np.concatenate([corners, random.uniform(0.02, 0.98, (20 + seed % 150, 3))])
+    tets = Delaunay(points).simplices
+    edges = points[tets[:, 1:]] - points[tets[:, :1]]
+    volume = np.linalg.det(edges)
+    tets = np.where((volume < 0)[:, None], tets[:, [0, 2, 1, 3]], tets)
+    with open("random.mesh", "w") as file:
+        print("MeshVersionFormatted 2\nDimension 3\nVertices\n%d" % len(points), file=file)
+        np.savetxt(file, np.c_[points, np.zeros(len(points))], fmt="%.17g %.17g %.17g %d")
+        print("Tetrahedra\n%d" % len(tets), file=file)
+        np.savetxt(file, np.c_[tets + 1, np.ones(len(tets), int)], fmt="%d")
+        print("End", file=file)
+    kinds = ("hex,prism,pyramid", "hex")[seed % 2]
+    tool("findhex", "--mesh", "random.mesh", "--cells", kinds, "--min-quality", 0.1, "-o", "c.tar", "--format", "tar")
+    tool("buildgraph", "c.tar", "-o", "g.tar", "--format", "tar")
+    tool("initsol", "g.tar", "--iterations", 0, "-o", "s.tar", "--format", "tar")
+    _, found, _ = assemble(["s.tar"], "--smooth", seed % 4)
+    if broken(found):
+        print(f"random seed {seed}: {', '.join(broken(found))}", flush=True)
+    return broken(found)
+
+
+def bench_million():
+    with open("lattice.mesh", "w") as file:
+        subprocess.run([sys.executable, os.path.join(ROOT, "tests", "data", "lattices", "lattice.py"), "kuhn", "55"],
+                       check=True, stdout=file)
+    tool("findhex", "--mesh", "lattice.mesh", "--min-quality", 0.9, "-o", "lattice.cand")
+    count = 55 ** 3
+    with open("lattice.sol", "w") as file:
+        file.writelines(f"{i + 1}\n" for i in range(count) if i * 7919 % 7)
+    source = ["--mesh", "lattice.mesh", "--candidates", "lattice.cand", "--solution", "lattice.sol"]
+    stats, found, seconds = assemble(source, "--smooth", 0)
+    missed = broken(found) + (["10 s"] if seconds > 10 else [])
+    print(f"million tets: {seconds:.1f} user seconds with reading and writing, {stats['conformity']['quads_against_tets']} "
+          f"quads made conforming {'MISSED: ' + ', '.join(missed) if missed else ''}", flush=True)
+    return missed
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--models", default=os.path.join(ROOT, "..", "shared", "models"))
+    parser.add_argument("--seeds", type=int, default=200)
+    parser.add_argument("--million", action="store_true")
+    parser.add_argument("files", nargs="*", metavar="MODEL")
+    arguments = parser.parse_args()
+    files = [os.path.abspath(f) for f in arguments.files]
+    if not files and os.path.isdir(arguments.models):
+        folder = os.path.abspath(arguments.models)
+        files = sorted(os.path.join(folder, f) for f in os.listdir(folder) if f.endswith((".stl", ".obj", ".off")))
+    if not files:
+        print(f"models: skipped, {arguments.models} is not there")
+    missed = 0
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        if files:
+            print("model               size   hexes  hex %  after  lost hex SJ pyr SJ  tet SJ seconds")
+        missed += sum(bool(bench_model(file)) for file in files)
+        bad = sum(bool(bench_random(seed)) for seed in range(arguments.seeds))
+        print(f"random: {arguments.seeds} meshes, {bad} with a broken invariant")
+        missed += bad + (bool(bench_million()) if arguments.million else 0)
+        os.chdir("/")
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
