@@ -27,7 +27,7 @@ std::optional<CellKind> kind_named(std::string_view name) {
 
 class CandParser {
  public:
-  CandParser(std::string_view text, std::string_view file) : scanner_(text, file) {}
+  CandParser(std::string_view text, std::string_view file) : scanner_(text, file), ends_(text.ends_with('\n')) {}
 
   Candidates parse() {
     read_header();
@@ -35,6 +35,8 @@ class CandParser {
       next_line();
       read_candidate();
     }
+    // Cut off within its last number, a file would pass for another one.
+    if (!ends_) scanner_.fail_expected("the end of the line", "");
     if (!scanner_.at_end()) scanner_.fail_expected("nothing after the last candidate", scanner_.peek_word());
     check_total("interior tets", tet_count_, candidates_.tets.size());
     check_total("boundary tets", boundary_tet_count_, candidates_.boundary_tets.size());
@@ -122,6 +124,7 @@ class CandParser {
   }
 
   TextScanner scanner_;
+  bool ends_;
   Candidates candidates_;
   std::size_t count_ = 0, tet_count_ = 0, boundary_tet_count_ = 0;
 };

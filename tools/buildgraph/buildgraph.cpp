@@ -2,10 +2,12 @@
 
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
 #include "tools/buildgraph/conflicts.hpp"
+#include "tools/buildgraph/dense_ids.hpp"
 #include "tools/buildgraph/sorted_set.hpp"
 
 namespace hexpipe {
@@ -23,7 +25,8 @@ ConflictGraph buildgraph(const Candidates& candidates, const BuildgraphOptions& 
   ConflictGraph graph;
   graph.weights = weights_of(candidates, options.weight, options.weight_scale, source);
 
-  const ConflictFinder finder(candidates);
+  const std::optional<Candidates> dense = with_dense_ids(candidates);
+  const ConflictFinder finder(dense ? *dense : candidates);
   PerThread<SortedSet> sets(SortedSet{count});
   auto for_each_conflict = [&](std::int64_t i, auto&& visit) {
     SortedSet& found = sets.local();

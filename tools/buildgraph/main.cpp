@@ -1,6 +1,7 @@
 
 #include <map>
 
+#include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/stage.hpp"
 #include "tools/buildgraph/buildgraph.hpp"
@@ -26,7 +27,7 @@ int main(int argc, char** argv) {
     app.add_option("--weight", weight, "What a candidate is worth: quality, volume, count (1 each) or quality*volume")
         ->check(CLI::IsMember(weights));
     app.add_option("--weight-scale", options.weight_scale, "Weights are rounded after multiplication with this")
-        ->check(CLI::PositiveNumber.description(""));
+        ->check(number_between(1e-100, 1e100));
   };
   const auto run = [&](RunContext& context) {
     options.weight = weights.at(weight);

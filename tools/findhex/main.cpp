@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/stage.hpp"
 #include "tools/findhex/findhex.hpp"
@@ -28,7 +29,7 @@ int main(int argc, char** argv) {
         ->check(CLI::IsMember(kinds))
         ->delimiter(',');
     app.add_option("--min-quality", options.min_quality, "The scaled Jacobian that every corner has to exceed")
-        ->check(CLI::Range(0.0, 1.0).description(""));
+        ->check(number_between(0, 1));
     app.add_option("--quality", quality, "What is stored: the least scaled Jacobian of the corners or of the element")
         ->check(CLI::IsMember(qualities));
     app.add_option("--inner-vertices", inner_vertices, "allow or forbid: vertices of the mesh strictly inside a cell")

@@ -1,0 +1,237 @@
+# findhex: the candidates are those of the definitions, and each option means what it says. What all tools do alike is in
+# behaviour.bats.
+
+load helpers
+
+ALL_KINDS="--cells hex,prism,pyramid"
+
+# column N FILE: of the lines after the header
+column() { tail -n +2 "$2" | cut -d ' ' -f "$1"; }
+
+count() { tail -n +2 "$1" | wc -l; }
+
+lattice() { $PYTHON "$DATA/lattices/lattice.py" "$@"; }
+
+# agrees MESH OPTIONS...: the same candidates as by the independent checker.
+agrees() {
+  local mesh=$1
+  shift
+  findhex -q --mesh "$mesh" "$@" -o found.cand
+  run "$CHECKERS/candidates_check.py" "$mesh" found.cand "$@"
+  assert_success
+  assert_output --partial " 0 missing, 0 extra, 0 with other tets"
+}
+
+# two_regions MESH: every other tet by its first vertex, and boundary triangles of two tags.
+two_regions() {
+  awk '/^Tetrahedra/ { print; getline; print; tets = 1; next }
+       /^End/ { tets = 0 }
+       tets { $5 = 1 + ($1 > 32) }
+       { print }' "$1"
+}
+
+@test "the lattices have the published numbers of candidates, conflicts and conflicts at a candidate" {
+  local rows=0
+  while IFS=, read -r name n _ _ quality candidates edges degree _; do
+    if ((n > 10)) || [[ -z "$edges" ]] || { sanitized && ((n > 4)); }; then continue; fi
+    lattice "$name" "$n" >l.mesh
+    findhex -q --mesh l.mesh --min-quality "$quality" --folded-quads keep --max-boundary-tets 5 --quality corner |
+      buildgraph --stats stats.json -o l.graph
+    run $PYTHON -c "
+import json
+s = json.load(open('stats.json'))
+print(s['vertices'], s['edges'], s['max_degree'])"
+    assert_output "$candidates $edges $degree"
+    rows=$((rows + 1))
+  done < <(grep -E '^(kuhn|five),' "$DATA/lattices/counts.csv")
+  assert [ $rows -ge 10 ]
+}
+
+@test "large lattices have the published numbers of candidates" {
+  if sanitized; then skip "takes minutes with sanitizers"; fi
+  lattice kuhn 20 >k.mesh
+  findhex -q --mesh k.mesh --folded-quads keep --max-boundary-tets 5 --quality corner -o k.cand
+  assert_equal "$(count k.cand)" 321740
+  lattice five 20 >f.mesh
+  findhex -q --mesh f.mesh --folded-quads keep --max-boundary-tets 5 --quality corner -o f.cand
+  assert_equal "$(count f.cand)" 62864
+}
+
+@test "hexes, prisms and pyramids of Delaunay meshes are those of an independent search" {
+  for mesh in random_points jittered_lattice; do
+    agrees "$DATA/$mesh.mesh" $ALL_KINDS --min-quality 0.1 --folded-quads keep --quality corner
+    agrees "$DATA/$mesh.mesh" $ALL_KINDS --min-quality 0 --inner-vertices forbid --max-boundary-tets 2
+  done
+}
+
+@test "so are those of meshes with regions and surface tags" {
+  for mesh in random_points jittered_lattice; do
+    two_regions "$DATA/$mesh.mesh" >regions.mesh
+    agrees regions.mesh $ALL_KINDS
+    findhex -q --mesh "$DATA/$mesh.mesh" $ALL_KINDS -o whole.cand
+    assert [ "$(count found.cand)" -lt "$(count whole.cand)" ]
+    # Tags on the boundary, every other triangle.
+    $PYTHON - regions.mesh >tagged.mesh <<'PYTHON'
+import itertools, sys
+words = open(sys.argv[1]).read().split()
+at = words.index("Tetrahedra")
+n = int(words[at + 1])
+tets = [words[at + 2 + 5 * i:at + 6 + 5 * i] for i in range(n)]
+count = {}
+for tet in tets:
+    for facet in itertools.combinations(sorted(tet), 3):
+        count[facet] = count.get(facet, 0) + 1
+skin = sorted(f for f, c in count.items() if c == 1)
+text = open(sys.argv[1]).read().replace("End\n", "")
+print(text + "Triangles\n%d" % len(skin))
+for i, facet in enumerate(skin):
+    print(*facet, 5 + (int(facet[0]) > 20))
+print("End")
+PYTHON
+    agrees tagged.mesh $ALL_KINDS
+  done
+}
+
+# The published program starts its flood from any tet that joins four corners, and loses three of these.
+@test "hexes are found where a tet outside joins four of their corners" {
+  findhex -q --mesh "$DATA/random_points.mesh" --folded-quads keep --max-boundary-tets 5 -o found.cand
+  assert_equal "$(count found.cand)" 170
+}
+
+@test "candidates come by kind, then by their first vertex; each once" {
+  findhex -q --mesh "$DATA/random_points.mesh" $ALL_KINDS -o all.cand
+  assert_equal "$(column 1 all.cand | uniq | tr '\n' ' ')" "hex prism pyramid "
+  for kind in hex prism pyramid; do
+    grep "^$kind " all.cand | cut -d ' ' -f 6 | sort -nc
+    findhex -q --mesh "$DATA/random_points.mesh" --cells $kind -o $kind.cand
+    diff <(grep "^$kind " all.cand) <(tail -n +2 $kind.cand)
+  done
+  # In whatever order they are asked for.
+  findhex -q --mesh "$DATA/random_points.mesh" --cells pyramid,hex,prism,hex -o other.cand
+  assert_same_bytes all.cand other.cand
+}
+
+@test "every option changes something" {
+  local mesh="$DATA/random_points.mesh"
+  findhex -q --mesh "$mesh" -o plain.cand
+  while read -r options; do
+    findhex -q --mesh "$mesh" $options -o changed.cand
+    assert_different_bytes plain.cand changed.cand
+  done <<'OPTIONS'
+--cells prism
+--min-quality 0.5
+--quality corner
+--folded-quads keep
+--max-boundary-tets 0
+OPTIONS
+  # Twelve tets around the centre of a cube.
+  printf '%s\n' 'MeshVersionFormatted 2' 'Dimension 3' 'Vertices' 9 '0 0 0 0' '2 0 0 0' '2 2 0 0' '0 2 0 0' '0 0 2 0' \
+    '2 0 2 0' '2 2 2 0' '0 2 2 0' '1 1 1 0' 'Tetrahedra' 12 '9 1 4 3 1' '9 1 3 2 1' '9 5 6 7 1' '9 5 7 8 1' \
+    '9 1 2 6 1' '9 1 6 5 1' '9 2 3 7 1' '9 2 7 6 1' '9 3 4 8 1' '9 3 8 7 1' '9 4 1 5 1' '9 4 5 8 1' End >centre.mesh
+  findhex -q --mesh centre.mesh -o with.cand
+  findhex -q --mesh centre.mesh --inner-vertices forbid -o without.cand
+  assert_equal "$(count with.cand) $(count without.cand)" "1 0"
+}
+
+@test "--quality says what is stored, not what is found" {
+  findhex -q --mesh "$DATA/random_points.mesh" --quality corner -o corner.cand
+  findhex -q --mesh "$DATA/random_points.mesh" --quality element -o element.cand
+  findhex -q --mesh "$DATA/random_points.mesh" -o default.cand
+  assert_same_bytes element.cand default.cand
+  diff <(cut -d ' ' -f 1,3- corner.cand) <(cut -d ' ' -f 1,3- element.cand)
+  paste -d ' ' <(column 2 corner.cand) <(column 2 element.cand) |
+    awk '$1 <= 0.3 || $2 > $1 { exit 1 } $2 < $1 { less = 1 } END { if (!less) exit 1 }'
+}
+
+@test "bad options end with 2" {
+  local mesh="$DATA/random_points.mesh"
+  assert_fails_with 2 "findhex: .*--cells" findhex --mesh "$mesh" --cells tet -o out.cand
+  assert_fails_with 2 "findhex: .*--cells" findhex --mesh "$mesh" --cells hex,cube -o out.cand
+  assert_fails_with 2 "findhex: .*--min-quality" findhex --mesh "$mesh" --min-quality 1.5 -o out.cand
+  assert_fails_with 2 "findhex: .*--min-quality" findhex --mesh "$mesh" --min-quality -0.1 -o out.cand
+  assert_fails_with 2 "findhex: .*--min-quality" findhex --mesh "$mesh" --min-quality nan -o out.cand
+  assert_fails_with 2 "findhex: .*--quality" findhex --mesh "$mesh" --quality best -o out.cand
+  assert_fails_with 2 "findhex: .*--inner-vertices" findhex --mesh "$mesh" --inner-vertices maybe -o out.cand
+  assert_fails_with 2 "findhex: .*--folded-quads" findhex --mesh "$mesh" --folded-quads no -o out.cand
+  assert_fails_with 2 "findhex: .*--max-boundary-tets" findhex --mesh "$mesh" --max-boundary-tets 7 -o out.cand
+  assert_fails_with 2 "findhex: .*--max-boundary-tets" findhex --mesh "$mesh" --max-boundary-tets 2.5 -o out.cand
+  assert [ ! -e out.cand ]
+}
+
+@test "inverted and flat tets are counted in a warning and not used" {
+  # Vertex 22 of the lattice goes through its neighbourhood.
+  lattice kuhn 3 | awk '$1 == 1 && $2 == 1 && $3 == 1 && NF == 4 { $1 = 2.2; $3 = 0.7 } { print }' >inverted.mesh
+  run_apart findhex --mesh inverted.mesh -o out.cand
+  assert_success
+  assert_equal "$(wc -l <<<"$stderr")" 1
+  [[ "$stderr" =~ ^findhex:\ warning:\ ([0-9]+)\ inverted\ and\ ([0-9]+)\ flat\ of\ 162\ tets ]]
+  assert [ "${BASH_REMATCH[1]}" -gt 0 ]
+  assert [ "$(count out.cand)" -gt 0 ]
+  run_apart findhex --mesh inverted.mesh -q -o quiet.cand
+  assert_equal "$stderr" ""
+  assert_same_bytes out.cand quiet.cand
+}
+
+@test "a tet listed inside out among others is turned, with a warning" {
+  lattice kuhn 2 >lattice.mesh
+  findhex --mesh lattice.mesh -o lattice.tar
+  findhex --mesh lattice.mesh -o lattice.cand
+  $PYTHON - <<'PYTHON'
+import io, tarfile
+import numpy as np
+with tarfile.open("lattice.tar") as old, tarfile.open("odd.tar", "w", format=tarfile.PAX_FORMAT) as new:
+    for member in old:
+        data = old.extractfile(member).read()
+        if member.name == "mesh/tets.npy":
+            tets = np.load(io.BytesIO(data))
+            tets[7] = tets[7][[1, 0, 2, 3]]
+            buffer = io.BytesIO()
+            np.save(buffer, tets)
+            data = buffer.getvalue()
+            member.size = len(data)
+        if member.name.startswith("mesh/"):
+            new.addfile(member, io.BytesIO(data))
+PYTHON
+  run_apart findhex odd.tar -o odd.cand
+  assert_success
+  assert_equal "$stderr" "findhex: warning: 1 of 48 tets listed inside out, unlike their neighbours: turned"
+  assert_same_bytes lattice.cand odd.cand
+}
+
+@test "an isolated vertex does no harm; a facet of three tets is an error" {
+  lattice kuhn 2 >lattice.mesh
+  findhex --mesh lattice.mesh -o plain.cand
+  sed -e 's/^27$/28/' -e 's/^Tetrahedra/9 9 9 0\nTetrahedra/' lattice.mesh >isolated.mesh
+  findhex --mesh isolated.mesh -o isolated.cand
+  assert_same_bytes plain.cand isolated.cand
+  sed -e 's/^48$/49/' -e 's/^End/1 10 14 28 1\nEnd/' isolated.mesh >three.mesh
+  assert_fails_with 1 "^findhex: .*at most two tets at each facet" findhex --mesh three.mesh -o out.cand
+}
+
+@test "surface triangles are derived where there are none" {
+  lattice kuhn 2 >lattice.mesh
+  run_apart findhex --mesh lattice.mesh -v -o derived.cand
+  assert_success
+  grep -q "48 surface triangles derived, with tag 0" <<<"$stderr"
+}
+
+@test "a mesh of other cells is an error" {
+  printf 'MeshVersionFormatted 2\nDimension 3\nVertices\n8\n' >hex.mesh
+  for p in '0 0 0' '1 0 0' '1 1 0' '0 1 0' '0 0 1' '1 0 1' '1 1 1' '0 1 1'; do echo "$p 0"; done >>hex.mesh
+  printf 'Hexahedra\n1\n1 2 3 4 5 6 7 8 1\nEnd\n' >>hex.mesh
+  assert_fails_with 1 "^findhex: .*expected tets and triangles only, found 1 hexes" findhex --mesh hex.mesh -o out.cand
+}
+
+@test "-v and --stats tell what was rejected, and why" {
+  run_apart findhex --mesh "$DATA/random_points.mesh" -v --stats stats.json -o out.cand
+  assert_success
+  grep -Eq "[0-9]+ tets, [0-9]+ triangulated quads" <<<"$stderr"
+  grep -q "rejected: rule 7, a quad half on a surface" <<<"$stderr"
+  run $PYTHON -c "
+import json
+stats = json.load(open('stats.json'))
+hexes = stats['hexes']
+assert stats['candidates'] == hexes['candidates'] == $(count out.cand), stats
+assert hexes['complete'] == hexes['candidates'] + sum(hexes['rejected'].values()), stats"
+  assert_success
+}

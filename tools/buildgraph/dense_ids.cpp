@@ -1,0 +1,45 @@
+#include "tools/buildgraph/dense_ids.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace hexpipe {
+namespace {
+
+// A mesh has a few tets a candidate, or some more where candidates are few; a single candidate may name any number.
+constexpr std::size_t ids_a_candidate = 64, ids_in_any_case = 1 << 20;
+
+std::vector<std::int32_t> sorted_distinct(std::vector<std::int32_t> ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+void renumber(std::int32_t& id, const std::vector<std::int32_t>& distinct) {
+  id = static_cast<std::int32_t>(std::lower_bound(distinct.begin(), distinct.end(), id) - distinct.begin());
+}
+
+}  // namespace
+
+std::optional<Candidates> with_dense_ids(const Candidates& candidates) {
+  std::int32_t highest = -1;
+  for (const auto& row : candidates.vertices) highest = std::max(highest, *std::max_element(row.begin(), row.end()));
+  for (const std::int32_t tet : candidates.tets) highest = std::max(highest, tet);
+  if (highest < static_cast<std::int64_t>(ids_in_any_case + ids_a_candidate * candidates.size())) return std::nullopt;
+
+  Candidates dense = candidates;
+  std::vector<std::int32_t> vertices;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const auto corners = candidates.corners_of(i);
+    vertices.insert(vertices.end(), corners.begin(), corners.end());
+  }
+  vertices = sorted_distinct(std::move(vertices));
+  const std::vector<std::int32_t> tets = sorted_distinct(candidates.tets);
+  for (auto& row : dense.vertices)
+    for (Vertex& v : row)
+      if (v >= 0) renumber(v, vertices);
+  for (std::int32_t& tet : dense.tets) renumber(tet, tets);
+  return dense;
+}
+
+}  // namespace hexpipe
