@@ -12,7 +12,7 @@ namespace hexpipe {
 struct FacetOwner {
   std::int64_t cell = -1;  // within the block of its kind; -1: the facet is none of a cell
   CellKind kind = CellKind::tet;
-  std::int8_t facet = 0;  // in the topology's list of triangles or of quads
+  std::uint8_t facet = 0;  // in the topology's list of triangles or of quads
 };
 
 struct FacetOwners {

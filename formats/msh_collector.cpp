@@ -16,6 +16,40 @@ void permute(std::vector<T>& items, const std::vector<std::size_t>& order) {
   items = std::move(sorted);
 }
 
+// True when elements of one entity name different groups.
+bool has_entity_in_two_groups(const std::vector<MshElementNumbers>& numbers) {
+  std::map<std::int32_t, std::int32_t> group_of_entity;
+  std::int32_t last_entity = 0, last_group = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const auto& [element, group, entity] = numbers[i];
+    if (i > 0 && entity == last_entity && group == last_group) continue;
+    if (group_of_entity.emplace(entity, group).first->second != group) return true;
+    last_entity = entity;
+    last_group = group;
+  }
+  return false;
+}
+
+// For each element, whether an earlier one has the same corners and entity.
+template <class Cell>
+std::vector<bool> find_repeated(const std::vector<Cell>& cells, const std::vector<MshElementNumbers>& numbers) {
+  std::vector<std::size_t> order(cells.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key = [&](std::size_t i) { return std::pair(cells[i], numbers[i].elementary); };
+  std::ranges::stable_sort(order, {}, key);
+  std::vector<bool> repeated(cells.size());
+  for (std::size_t k = 1; k < order.size(); ++k) repeated[order[k]] = key(order[k]) == key(order[k - 1]);
+  return repeated;
+}
+
+template <class T>
+void erase_marked(std::vector<T>& items, const std::vector<bool>& marked) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (!marked[i]) items[kept++] = items[i];
+  items.resize(kept);
+}
+
 }  // namespace
 
 const char* msh_group_word(int dimension) {
@@ -54,6 +88,7 @@ void MshCollector::name_group(int dimension, std::int32_t number, std::string_vi
 
 MixedMesh MshCollector::take_mesh() {
   sort_elements();
+  drop_repeated_elements();
   set_tags();
   set_qualities();
   return std::move(mesh_);
@@ -69,6 +104,18 @@ void MshCollector::sort_elements() {
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return numbers[i].element; });
     permute(block.cells, order);
     permute(numbers, order);
+  });
+}
+
+// Gmsh writes an element of version 2 once for each group that its entity is in; the first counts.
+void MshCollector::drop_repeated_elements() {
+  std::size_t index = 0;
+  for_each_block(mesh_, [&](const ElementNames&, auto& block) {
+    auto& numbers = numbers_[index++];
+    if (!has_entity_in_two_groups(numbers)) return;
+    const std::vector<bool> repeated = find_repeated(block.cells, numbers);
+    erase_marked(block.cells, repeated);
+    erase_marked(numbers, repeated);
   });
 }
 
@@ -111,7 +158,8 @@ std::int32_t MshCollector::tag_of_group(int dimension, std::int32_t physical) co
 
 void MshCollector::set_qualities() {
   if (quality_.empty()) return;
-  std::ranges::stable_sort(quality_, {}, &std::pair<std::int64_t, double>::first);
+  if (!std::ranges::is_sorted(quality_, {}, &std::pair<std::int64_t, double>::first))
+    std::ranges::stable_sort(quality_, {}, &std::pair<std::int64_t, double>::first);
   std::size_t index = 0;
   for_each_block(mesh_, [&](const ElementNames& names, auto& block) {
     const auto& numbers = numbers_[index++];

@@ -54,6 +54,7 @@ class MshCollector {
   void set_tags();
   bool has_groups(int dimension);
   void sort_elements();
+  void drop_repeated_elements();
   void set_qualities();
   std::int32_t tag_of_group(int dimension, std::int32_t physical) const;
 

@@ -89,7 +89,7 @@ std::vector<To> convert_scalars(std::string_view bytes, ScalarType type, std::en
       if (swapped) number = swap_bytes(number);
       if (!converts_exactly<To>(number))
         throw DataError::at(where, "expected integers of {} bits, found {}", 8 * sizeof(To), +number);
-      numbers[i] = static_cast<To>(number);
+      numbers[i] = static_cast<To>(+number);
     }
     return numbers;
   });

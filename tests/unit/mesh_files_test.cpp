@@ -48,6 +48,15 @@ TEST(MeshFiles, ReadsBackMeshesWithoutCells) {
   }
 }
 
+TEST(MeshFiles, TakesLineEndsOfAnySystem) {
+  const MixedMesh mesh = one_cell_of_each_kind();
+  for (const std::string_view format : {"mesh", "msh", "msh22", "vtk"}) {
+    std::string text;
+    for (const char c : written(mesh, format)) text += c == '\n' ? "\r\n" : std::string(1, c);
+    EXPECT_TRUE(parsed(text) == as_carried_by(format, mesh)) << format;
+  }
+}
+
 // A prefix that is read must be the whole mesh, but for a list that the format allows to be absent.
 TEST(MeshFiles, RejectsEveryTruncatedPrefix) {
   const MixedMesh mesh = one_cell_of_each_kind();

@@ -106,6 +106,17 @@ TEST(Msh, EntitiesAreTagsWhereADimensionHasNoGroups) {
   EXPECT_THAT(parsed(changed(two_regions_4, "1 1 6 1 -9", "1 0 1 -9")).tets.tags, ElementsAre(5, 0));
 }
 
+// As Gmsh writes a volume that two groups hold.
+TEST(Msh, AnElementOfTwoGroupsCountsOnce) {
+  const std::string text = changed(changed(two_tets_2, "$Elements\n4", "$Elements\n6"), "4 2 3 6 2 0",
+                                   "5 4 2 8 1 10 7 3000000 8\n6 4 2 8 1 9 7 3000000 8\n4 2 3 6 2 0");
+  const MixedMesh mesh = parsed(text);
+  EXPECT_THAT(mesh.tets.cells, ElementsAre(Tet{0, 1, 2, 3}, Tet{4, 1, 2, 3}));
+  EXPECT_THAT(mesh.tets.tags, ElementsAre(5, 8));
+  // The same cell in two entities is not the writer's doing, and stays for the user to see.
+  EXPECT_EQ(parsed(changed(text, "5 4 2 8 1", "5 4 2 8 2")).tets.size(), 3u);
+}
+
 TEST(Msh, ReadsElementsWithoutTagsAndWithoutEntities) {
   EXPECT_THAT(parsed(changed(two_tets_2, "3 4 2 5 1", "3 4 0")).tets.tags, ElementsAre(0));
   std::string text(two_regions_4);
@@ -215,7 +226,7 @@ TEST(Msh, NamesTheLineOfADefectInVersion2) {
   expect("10 7 3000000 8", "10 7 3000000 11", "test:16: expected the number of a node, found '11'");
   expect("10 7 3000000 8", "10 7 3000000 0", "test:16: expected the number of a node, found '0'");
   expect("3 4 2 5 1 10 7 3000000 8", "3 11 2 5 1 10 7 3000000 8 1 2 3 4 5 6",
-         "test:16: expected elements of first order (types 1 to 7 and 15), found type 11");
+         "test:16: expected elements of first order, types 1 to 7 and 15, found type 11");
   expect("3 4 2 5 1", "3 4 -2 5 1", "test:16: expected a number of tags, found '-2'");
   expect("\n4\n", "\n5\n", "test:18: expected the number of an element, found '$EndElements'");
   expect("\n4\n", "\n3\n", "test:17: expected $EndElements, found '4'");
