@@ -96,12 +96,31 @@ for kind, name in dict(hex="hex", prism="prism", pyramid="pyr", tet="tet").items
     assert sum(cells[kind]["scaled_jacobian"]["histogram"]) == cells[kind]["count"]
 assert abs(sum(c["share_of_number"] for c in cells.values()) - 1) < 1e-12
 assert abs(cells["hex"]["scaled_jacobian"]["least"] - found["SJmin"]) < 1e-4
+assert all(0 < c["scaled_jacobian"]["least_inside"] <= c["scaled_jacobian"]["least"] + 1e-12 for c in cells.values())
+assert stats["poor_cells"] == []
 assert stats["points"] == found["nv"]
 assert stats["nonconforming_quads"] == 0
 volume = stats["volume"]
 assert abs(volume["cells"] - volume["input"] - volume["bulge_of_boundary_quads"]) < 1e-9
 assert stats["conformity"]["quads_against_tets"] > 0
 assert set(stats["conformity"]["cells_given_back"]) >= {"flat_corner", "no_valid_position", "poor_elements"}
+PYTHON
+}
+
+@test "--stats lists the poor cells that are left, one by one" {
+  # Cubes pressed to plates: their tets are flat, and no vertex may leave the corners and edges of a box.
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 2 | awk 'NF == 4 && !tets { $3 *= 0.01 } /Tetrahedra/ { tets = 1 } { print }' >flat.mesh
+  findhex --mesh flat.mesh --min-quality 0.9 -o flat.cand
+  echo 1 >flat.sol
+  assemble --mesh flat.mesh --candidates flat.cand --solution flat.sol -v --stats stats.json -o mesh.vtu 2>summary
+  $PYTHON - <<'PYTHON'
+import json
+stats = json.load(open("stats.json"))
+poor = stats["poor_cells"]
+assert poor and all(p["scaled_jacobian"] < (0.1 if p["kind"] == "hex" else 0.02) for p in poor)
+assert min(p["scaled_jacobian"] for p in poor) == min(c["scaled_jacobian"]["least"] for c in stats["cells"].values() if c["count"])
+assert all(0 <= x <= 2 for p in poor for x in p["middle"])
+assert "%d poor cells" % len(poor) in open("summary").read()
 PYTHON
 }
 

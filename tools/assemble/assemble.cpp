@@ -180,6 +180,9 @@ AssembleResult Assembler::run() {
   statistics_.volumes = check_result(extracted, input_, tags_, is_conforming(), options_.smooth > 0);
   compute_quality(extracted.mesh);
   statistics_.kinds = kind_statistics(extracted.mesh);
+  const auto inside = least_inside(extracted.mesh);
+  for (std::size_t i = 0; i < inside.size(); ++i) statistics_.kinds[i].least_inside = inside[i];
+  statistics_.poor = poor_cells(extracted.mesh);
   statistics_.points = static_cast<std::int64_t>(extracted.mesh.points.size());
   statistics_.triangles = static_cast<std::int64_t>(extracted.mesh.triangles.size());
   statistics_.quads = static_cast<std::int64_t>(extracted.mesh.quads.size());

@@ -18,6 +18,10 @@ void for_each_block(auto& mesh, Visit&& visit) {
   visit(CellKind::tet, mesh.tets);
 }
 
+std::size_t index_of(CellKind kind) {
+  return static_cast<std::size_t>(std::find(all_kinds.begin(), all_kinds.end(), kind) - all_kinds.begin());
+}
+
 double share(double part, double whole) {
   return whole > 0 ? part / whole : 0;
 }
@@ -49,7 +53,7 @@ void compute_quality(MixedMesh& mesh) {
 std::array<KindStatistics, all_kinds.size()> kind_statistics(const MixedMesh& mesh) {
   std::array<KindStatistics, all_kinds.size()> result;
   for_each_block(mesh, [&](CellKind kind, const auto& block) {
-    auto& statistics = result[std::find(all_kinds.begin(), all_kinds.end(), kind) - all_kinds.begin()];
+    auto& statistics = result[index_of(kind)];
     statistics.count = static_cast<std::int64_t>(block.size());
     for (std::size_t i = 0; i < block.size(); ++i) {
       const auto at = corner_points(mesh.points, block.cells[i]);
@@ -60,6 +64,35 @@ std::array<KindStatistics, all_kinds.size()> kind_statistics(const MixedMesh& me
       ++statistics.histogram[static_cast<std::size_t>(std::clamp(std::floor(10 * quality), 0.0, 9.0))];
     }
     if (statistics.count > 0) statistics.mean /= static_cast<double>(statistics.count);
+  });
+  return result;
+}
+
+std::array<double, all_kinds.size()> least_inside(const MixedMesh& mesh) {
+  std::array<double, all_kinds.size()> result{};
+  for_each_block(mesh, [&](CellKind kind, const auto& block) {
+    double least = block.size() == 0 ? 0 : 1;
+    for (const auto& cell : block.cells) {
+      const auto at = corner_points(mesh.points, cell);
+      least = std::min(least, least_scaled_jacobian(kind, std::span<const Vec3>(at).first(cell.size())));
+    }
+    result[index_of(kind)] = least;
+  });
+  return result;
+}
+
+std::vector<PoorCell> poor_cells(const MixedMesh& mesh) {
+  constexpr double least_hex = 0.1;
+  std::vector<PoorCell> result;
+  for_each_block(mesh, [&](CellKind kind, const auto& block) {
+    const double limit = kind == CellKind::hex ? least_hex : poor_quality;
+    const double scale = kind == CellKind::tet ? std::sqrt(2.0) : 1;
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      if (scale * block.quality[i] >= limit) continue;
+      Vec3 middle{};
+      for (Vertex v : block.cells[i]) middle += mesh.points[v] * (1.0 / static_cast<double>(block.cells[i].size()));
+      result.push_back({kind, static_cast<std::int64_t>(i), block.quality[i], middle});
+    }
   });
   return result;
 }
@@ -101,6 +134,7 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
                                             {"volume", kind.volume},
                                             {"share_of_volume", share(kind.volume, volume)},
                                             {"scaled_jacobian", scaled_jacobian_of(kind)}};
+    json["cells"][name_of(all_kinds[i])]["scaled_jacobian"]["least_inside"] = kind.least_inside;
     if (statistics.smoothing.rounds > 0)
       json["cells"][name_of(all_kinds[i])]["before_smoothing"] = scaled_jacobian_of(statistics.before_smoothing[i]);
   }
@@ -124,6 +158,12 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
   json["conformity"] = {{"quads_against_tets", counts.open_quads}, {"pyramids_merged", counts.merged},
                         {"vertices_added", counts.split},          {"slivers_absorbed", counts.absorbed},
                         {"cells_given_back", given_back},          {"hex_volume_given_back", counts.volume_given_back}};
+  json["poor_cells"] = nlohmann::ordered_json::array();
+  for (const auto& cell : statistics.poor)
+    json["poor_cells"].push_back({{"kind", name_of(cell.kind)},
+                                  {"index", cell.index},
+                                  {"scaled_jacobian", cell.quality},
+                                  {"middle", {cell.middle.x, cell.middle.y, cell.middle.z}}});
   return json;
 }
 
@@ -150,6 +190,9 @@ std::vector<std::string> summary_lines(const AssembleStatistics& statistics) {
         "{} quads faced tets: {} pyramids merged, {} vertices added, {} cells given back "
         "({:.2f} % of the volume in hexes)",
         counts.open_quads, counts.merged, counts.split, given_back, 100 * share(counts.volume_given_back, volume)));
+  if (!statistics.poor.empty())
+    lines.push_back(fmt::format("{} poor cells are left (hexes below 0.1, others below 0.02); --stats lists them",
+                                statistics.poor.size()));
   if (statistics.smoothing.rounds > 0) append_histograms(statistics, lines);
   return lines;
 }

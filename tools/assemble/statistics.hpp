@@ -19,8 +19,17 @@ inline constexpr std::array all_kinds{CellKind::hex, CellKind::prism, CellKind::
 struct KindStatistics {
   std::int64_t count = 0;
   double volume = 0;
+  double least_inside = 0;     // of the scaled Jacobian anywhere in the cells
   double least = 0, mean = 0;  // of the cells' least scaled Jacobian over corners; 0 when there are no cells
   std::array<std::int64_t, 10> histogram{};  // of the same, by tenths; below 0.1 (and below 0) first
+};
+
+// A cell that is worse than meshes should have: a hex below 0.1, another below 0.02 (a tet times the square root of 2).
+struct PoorCell {
+  CellKind kind;
+  std::int64_t index;  // among its kind, from 0
+  double quality;
+  Vec3 middle;
 };
 
 struct AssembleStatistics {
@@ -29,6 +38,7 @@ struct AssembleStatistics {
   CheckedVolumes volumes;
   ConformityCounts conformity;
   SmoothCounts smoothing;
+  std::vector<PoorCell> poor;                                     // all that are left
   std::int64_t repaired = 0;                                      // vertices put beside flat tets
   std::array<KindStatistics, all_kinds.size()> before_smoothing;  // when there was smoothing
 
@@ -40,6 +50,12 @@ void compute_quality(MixedMesh& mesh);
 
 // By kind; `mesh` has quality.
 std::array<KindStatistics, all_kinds.size()> kind_statistics(const MixedMesh& mesh);
+
+// The least scaled Jacobian anywhere in a cell, by kind (quality.hpp: to 1e-4).
+std::array<double, all_kinds.size()> least_inside(const MixedMesh& mesh);
+
+// By kind and index; `mesh` has quality.
+std::vector<PoorCell> poor_cells(const MixedMesh& mesh);
 
 nlohmann::ordered_json to_json(const AssembleStatistics& statistics);
 std::vector<std::string> summary_lines(const AssembleStatistics& statistics);
