@@ -96,9 +96,12 @@ double PointStar::worst_unweighted(const Vec3& at) const {
 }
 
 double PointStar::mean(const Vec3& at) const {
-  double sum = 0;
-  for (std::size_t i = 0; i < terms_.size(); ++i) sum += value(i, at) / weight(i);
-  return terms_.empty() ? 0 : sum / static_cast<double>(terms_.size());
+  double sum = 0, shares = 0;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    sum += mean_share(i) * value(i, at) / weight(i);
+    shares += mean_share(i);
+  }
+  return terms_.empty() ? 0 : sum / shares;
 }
 
 bool PointStar::exceeds(const Vec3& at, double bound) const {
@@ -258,11 +261,13 @@ Placement raise_mean(const PointStar& star, const Vec3& start, int steps, const 
   for (int step = 0; step < steps; ++step) {
     gradients.clear();
     Vec3 sum{};
+    double shares = 0;
     for (std::size_t i = 0; i < star.size(); ++i) {
-      gradients.push_back(star.gradient(i, best.at) * (1 / star.weight(i)));
+      gradients.push_back(star.gradient(i, best.at) * (star.mean_share(i) / star.weight(i)));
       sum += gradients.back();
+      shares += star.mean_share(i);
     }
-    const Vec3 direction = freedom.allowed(freedom.allowed(sum * (1.0 / static_cast<double>(star.size()))));
+    const Vec3 direction = freedom.allowed(freedom.allowed(sum * (1 / shares)));
     const double slope = norm_squared(direction);
     if (!is_direction(direction, gradients)) break;
     // Full step: where the linear model of the mean would reach 1.

@@ -24,10 +24,12 @@ class PointStar {
   double value(std::size_t term, const Vec3& at) const;
   Vec3 gradient(std::size_t term, const Vec3& at) const;
   double weight(std::size_t term) const { return terms_[term].weight; }
+  // What a corner counts in the mean: the more, the sooner it has to give way as the worst.
+  double mean_share(std::size_t term) const { return 1 / (weight(term) * weight(term)); }
   // Least over all corners, weighted and not.
   double worst(const Vec3& at) const;
   double worst_unweighted(const Vec3& at) const;
-  // Mean over all corners, not weighted.
+  // Of the unweighted values, by share.
   double mean(const Vec3& at) const;
   // True when worst(at) > bound; stops at the first corner that is not.
   bool exceeds(const Vec3& at, double bound) const;
