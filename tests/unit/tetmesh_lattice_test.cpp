@@ -79,12 +79,12 @@ TEST(Lattice, FitsAWholeNumberOfStepsToTheBox) {
 }
 
 TEST(Lattice, IsWhatTheDefinitionSays) {
-  const Facets hollow = joined(sphere({0, 0, 0}, 3, 14), inverted(sphere({0.4, 0.3, 0.2}, 1.6, 9)));
+  const Facets hollow = joined(sphere({0, 0, 0}, 3, 10), inverted(sphere({0.4, 0.3, 0.2}, 1.6, 7)));
   const Facets thin = joined(box({-3, -3, 0.05}, {3, 3, 1.1}), cube(0.3, 0.5));
-  for (const Facets& facets : {hollow, thin, sphere({1, 2, 3}, 2.5, 20)})
+  for (const Facets& facets : {hollow, thin, sphere({1, 2, 3}, 2.5, 14)})
     for (const double clearance : {0.15, 0.4, 0.6, 1.3}) {
       const Surface surface = surface_of(facets);
-      const LatticeOptions options{.size = 0.37, .clearance = clearance, .jitter = 0};
+      const LatticeOptions options{.size = 0.55, .clearance = clearance, .jitter = 0};
       EXPECT_EQ(lattice_points(surface, options).size(), count_naively(surface, options)) << clearance;
     }
 }

@@ -49,17 +49,11 @@ void check_orientation(const Surface& surface, const TetMesh& mesh) {
     throw DataError::at(surface.name, "TetGen failed: {} of its {} tets have no volume", flat, mesh.tets.size());
 }
 
-std::size_t count_common(std::span<const Vec3> a, std::span<const Vec3> b) {
-  auto sorted_rows = [](std::span<const Vec3> points) {
-    std::vector<std::array<double, 3>> rows;
-    rows.reserve(points.size());
-    for (const Vec3& p : points) rows.push_back({p.x, p.y, p.z});
-    std::ranges::sort(rows);
-    return rows;
-  };
-  std::vector<std::array<double, 3>> common;
-  std::ranges::set_intersection(sorted_rows(a), sorted_rows(b), std::back_inserter(common));
-  return common.size();
+// How many of `wanted` are in `found`, in the same order; what TetGen adds comes last.
+std::size_t count_kept(std::span<const Vec3> wanted, std::span<const Vec3> found) {
+  std::size_t kept = 0;
+  for (const Vec3& p : wanted) kept += kept < found.size() && found[kept] == p;
+  return kept;
 }
 
 // Finds the region of every tet: those at a surface triangle are on a known side of it, the others are reached from
@@ -199,7 +193,7 @@ BuiltMesh build_mesh(const Surface& surface, std::span<const Vec3> interior_poin
   mesh.triangle_tags = surface.tags;
 
   const std::span off_surface = std::span<const Vec3>(mesh.points).subspan(surface.points.size());
-  const std::size_t kept = count_common(off_surface, interior_points);
+  const std::size_t kept = count_kept(interior_points, off_surface);
   built.added_points = off_surface.size() - kept;
   built.dropped_points = interior_points.size() - kept;
   return built;

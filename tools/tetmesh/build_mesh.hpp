@@ -10,7 +10,7 @@
 namespace hexpipe {
 
 struct BuiltMesh {
-  TetMesh mesh;  // points: the surface's first, in their order; triangles: the surface's, in their order
+  TetMesh mesh;  // points: the surface's, those inside, those that TetGen added; triangles: the surface's
   std::size_t added_points = 0;    // by TetGen, off the surface
   std::size_t dropped_points = 0;  // of the interior points
 };

@@ -16,7 +16,7 @@ struct TetGenInput {
 };
 
 struct TetGenResult {
-  // The points of the surface, then those that TetGen added or took from interior_points. Holes are filled.
+  // The points of the surface, then those inside, then those that TetGen added. Holes are filled.
   std::vector<Vec3> points;
   std::vector<Tet> tets;
   // Where it failed: what went wrong, in a sentence, and the triangles that TetGen names as intersecting.
