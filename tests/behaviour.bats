@@ -168,6 +168,19 @@ product_ending() {
   done
 }
 
+@test "names of files, threads and times stay out of the history" {
+  for tool in $TOOLS; do
+    local log=() certificate=()
+    case $tool in initsol | lns | certify) log=(--log secret.log) ;; esac
+    case $tool in certify) certificate=(--certificate secret.cert) ;; esac
+    $tool $(limited $tool) -q "$STAGES/$tool.in" -o secret.tar --threads 2 --stats secret.json "${log[@]}" "${certificate[@]}"
+    run tar xOf secret.tar "$(tar tf secret.tar | grep "history/.*-$tool.json")"
+    assert_success
+    assert_output --partial "\"tool\": \"$tool\""
+    refute_output --regexp "secret|$STAGES|thread|seconds|timeout"
+  done
+}
+
 @test "every output is a bundle that the independent checker accepts" {
   for tool in $TOOLS; do
     $tool $(limited $tool) "$STAGES/$tool.in" -o out.tar -q

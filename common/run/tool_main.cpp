@@ -24,8 +24,9 @@ constexpr int exit_usage = 2;
 // Options that say where things are or how to run, but not what comes out: they stay out of the history, so that the
 // same input and options give the same bytes.
 bool decides_result(const CLI::Option& option) {
-  static const std::vector<std::string> outside{"help",    "version", "config", "threads", "stats",   "log",
-                                                "verbose", "quiet",   "output", "format",  "compress"};
+  static const std::vector<std::string> outside{"help",     "version",     "config",        "threads", "stats",
+                                                "log",      "verbose",     "quiet",         "output",  "format",
+                                                "compress", "certificate", "tetgen-timeout"};
   if (option.get_lnames().empty()) return false;
   const std::string& long_name = option.get_lnames().front();
   for (const Role role : all_roles)
