@@ -76,6 +76,19 @@ product_ending() {
   done
 }
 
+@test "a seed that is negative or too large for 64 bits, and a time limit of NaN, end with 2" {
+  for tool in tetmesh initsol lns; do
+    for seed in -1 18446744073709551616 1.5 ""; do
+      assert_fails_with 2 "^$tool: --seed: expected a whole number" $tool "$STAGES/$tool.in" --seed "$seed"
+    done
+    run_apart $tool $(limited $tool) -q "$STAGES/$tool.in" --seed 18446744073709551615 -o out.tar
+    assert_success
+  done
+  for tool in initsol lns certify; do
+    assert_fails_with 2 "^$tool: --time-limit: expected a number" timeout 20 $tool "$STAGES/$tool.in" --time-limit nan
+  done
+}
+
 @test "two inputs from standard input are refused" {
   assert_fails_with 2 "at most one" lns --graph - --solution -
 }

@@ -267,6 +267,14 @@ PYTHON
   assert_fails_with 2 "^tetmesh: .*seed" tetmesh "$cube" --seed x
 }
 
+@test "an option of NaN and an empty size end with 2" {
+  local cube="$FILES/cube.stl"
+  for option in clearance jitter tetgen-timeout; do
+    assert_fails_with 2 "^tetmesh: .*--$option: expected a number .*nan" timeout 20 tetmesh "$cube" --$option nan
+  done
+  assert_fails_with 2 "^tetmesh: expected a positive length .*''" tetmesh "$cube" --size ""
+}
+
 @test "a size of which the box holds too many points is an error, at once" {
   assert_fails_with 1 "^tetmesh: .*cube.stl: expected a size .*1e-06" timeout 20 tetmesh "$FILES/cube.stl" --size 1e-6
 }

@@ -12,6 +12,7 @@
 
 #include "common/run/error.hpp"
 #include "common/run/help_formatter.hpp"
+#include "common/run/option_checks.hpp"
 #include "common/run/parallel.hpp"
 #include "common/run/version.hpp"
 
@@ -76,14 +77,17 @@ void declare_common(CLI::App& app, RunContext& context) {
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
   if (info.random)
-    app.add_option("--seed", common.seed, "Seed of the random numbers")->type_name("N")->capture_default_str();
+    app.add_option("--seed", common.seed, "Seed of the random numbers")
+        ->type_name("N")
+        ->check(whole_number_of_64_bits())
+        ->capture_default_str();
   if (info.searches) {
     const std::string note = info.default_time_limit
                                  ? fmt::format(" [{:g} unless --iterations is given]", *info.default_time_limit)
                                  : std::string();
     app.add_option("--time-limit", common.time_limit, "Stop after this many seconds" + note)
         ->type_name("SECONDS")
-        ->check(CLI::Range(0.0, 1e9).description(""));
+        ->check(number_between(0, 1e9));
     app.add_option("--iterations", common.iterations, "Stop after this many iterations")
         ->type_name("N")
         ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 62).description(""));

@@ -2,8 +2,10 @@
 #include <unistd.h>
 
 #include <map>
+#include <optional>
 
 #include "common/run/error.hpp"
+#include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/stage.hpp"
 #include "formats/surface_files.hpp"
@@ -42,7 +44,8 @@ int main(int argc, char** argv) {
       .product = Role::mesh,
       .random = true};
   TetmeshOptions options;
-  std::string path = "-", size, points = "lattice", shells = "oriented";
+  std::optional<std::string> size;
+  std::string path = "-", points = "lattice", shells = "oriented";
   const auto declare = [&](CLI::App& app) {
     app.add_option("surface", path, "A surface in any format; '-' or nothing: standard input")->type_name("FILE");
     app.add_option(
@@ -53,17 +56,17 @@ int main(int argc, char** argv) {
     app.add_option("--points", points, "Points inside: on a lattice along the axes, or none")
         ->check(CLI::IsMember(point_kinds));
     app.add_option("--clearance", options.clearance, "Least distance of lattice points from the surface, in sizes")
-        ->check(CLI::Range(0.1, 10.0).description(""));
+        ->check(number_between(0.1, 10));
     app.add_option("--jitter", options.jitter, "How far lattice points are moved at random along each axis, in sizes")
-        ->check(CLI::Range(0.0, 1.0).description(""));
+        ->check(number_between(0, 1));
     app.add_option("--shells", shells,
                    "Shells in shells: holes where oriented inward and regions else; all regions; or alternately holes")
         ->check(CLI::IsMember(shell_rules));
     app.add_option("--tetgen-timeout", options.tetgen_timeout, "Seconds after which TetGen is given up")
-        ->check(CLI::Range(0.001, 1e9).description(""));
+        ->check(number_between(0.001, 1e9));
   };
   const auto run = [&](RunContext& context) {
-    if (!size.empty()) options.size = parse_length(size);
+    if (size) options.size = parse_length(*size);
     options.points = point_kinds.at(points);
     options.shells = shell_rules.at(shells);
     options.seed = context.common.seed;
