@@ -275,6 +275,11 @@ PYTHON
   assert_fails_with 2 "^tetmesh: expected a positive length .*''" tetmesh "$cube" --size ""
 }
 
+@test "an output that cannot be written is told before TetGen starts" {
+  assert_fails_with 1 "^tetmesh: nowhere/x.mesh: cannot write: No such file" \
+    tetmesh "$FILES/fine.stl" --size 0.02 --tetgen-timeout 0.001 -o nowhere/x.mesh
+}
+
 @test "a size of which the box holds too many points is an error, at once" {
   assert_fails_with 1 "^tetmesh: .*cube.stl: expected a size .*1e-06" timeout 20 tetmesh "$FILES/cube.stl" --size 1e-6
 }

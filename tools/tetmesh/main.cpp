@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
@@ -72,12 +73,13 @@ int main(int argc, char** argv) {
     options.seed = context.common.seed;
     Stage stage(context);
     Input input = open_surface(path);
-    const TetmeshResult result = tetmesh(read_surface(input), options);
+    SurfaceSoup surface = read_surface(input);
+    stage.begin();
+    const TetmeshResult result = tetmesh(std::move(surface), options);
     if (result.warning) context.warn(*result.warning);
     context.note(summary(result.statistics));
     context.statistics.update(to_json(result.statistics));
     context.statistics["seconds_by_step"] = times_of(result.statistics);
-    stage.begin();
     stage.write(result.mesh, to_json(result.statistics));
   };
   return tool_main(argc, argv, info, declare, run);
