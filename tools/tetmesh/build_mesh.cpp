@@ -100,7 +100,7 @@ void RegionFinder::place_beside(std::size_t triangle) {
       Triangle outward;
       for (std::size_t i = 0; i < 3; ++i) outward[i] = tet[TetTopology::triangles[facet][i]];
       if (sorted(outward) != sorted(corners)) continue;
-      std::ranges::rotate(outward, std::ranges::find(outward, corners[0]));
+      std::rotate(outward.begin(), std::ranges::find(outward, corners[0]), outward.end());
       const bool is_behind = outward == corners;
       (is_behind ? found_behind : found_in_front) = true;
       on_surface_[t][facet] = true;

@@ -31,6 +31,7 @@ std::string text_of(const Vec3& p) {
 template <class Triangles>
 std::string list_of(const SurfaceSoup& soup, const Triangles& triangles) {
   std::vector<std::int64_t> places;
+  places.reserve(std::size(triangles));
   for (const auto t : triangles) places.push_back(soup.places[t]);
   std::ranges::sort(places);
   const std::size_t listed = std::min(places.size(), most_listed);
