@@ -1,5 +1,6 @@
 #include <bit>
 #include <functional>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -73,16 +74,18 @@ Section cell_data_of(const CellData& data) {
   return section;
 }
 
-// Every array lies behind its length in the appended data; `offset` counts from the mark '_'.
+// Every array lies behind its length in the appended data, the last one of the document first: meshio rewrites offsets
+// while it looks arrays up by them, and in this order it cannot take one for another. `offset` counts from the mark
+// '_'; on the way in it is where this section's data ends, on the way out where it begins.
 void write_section(const Section& section, std::uint64_t& offset, Output& output) {
   output.print("      <{}>\n", section.name);
   for (const DataArray& array : section.arrays) {
+    offset -= sizeof array.bytes + array.bytes;
     // Without a number of components an array has one: meshio makes a column of one that says so.
     const std::string components =
         array.components == 1 ? "" : fmt::format("NumberOfComponents=\"{}\" ", array.components);
     output.print("        <DataArray type=\"{}\" Name=\"{}\" {}format=\"appended\" offset=\"{}\"/>\n", array.type,
                  array.name, components, offset);
-    offset += sizeof array.bytes + array.bytes;
   }
   output.print("      </{}>\n", section.name);
 }
@@ -99,10 +102,12 @@ void write_vtu(const MixedMesh& mesh, Output& output) {
       std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian", mesh.points.size(),
       element_count(mesh));
   std::uint64_t offset = 0;
+  for (const Section& section : sections)
+    for (const DataArray& array : section.arrays) offset += sizeof array.bytes + array.bytes;
   for (const Section& section : sections) write_section(section, offset, output);
   output.print("    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_");
-  for (const Section& section : sections)
-    for (const DataArray& array : section.arrays) {
+  for (const Section& section : std::views::reverse(sections))
+    for (const DataArray& array : std::views::reverse(section.arrays)) {
       write_bytes(output, array.bytes);
       array.write(output);
     }

@@ -222,3 +222,18 @@ print(points[1], *cells, *(arrays[name] for name in ("types", "region", "surface
     assert_fails_with 1 'cannot write: No space left' mesh_convert "$MESH" "$format" /dev/full
   done
 }
+
+@test "meshio reads a VTU whose arrays it would mix up in the order of the document" {
+  # 8 points, 6 tets and 12 triangles: meshio's rewritten offset of one array is the offset of a later one.
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 1 >cube.mesh
+  $PYTHON - <<'PYTHON'
+import itertools
+text = open("cube.mesh").read()
+tets = [line.split()[:4] for line in text.split("Tetrahedra\n6\n")[1].splitlines()[:6]]
+facets = sorted({tuple(sorted(f)) for tet in tets for f in itertools.combinations(tet, 3)})[:12]
+triangles = "".join(" ".join(f) + " 1\n" for f in facets)
+open("cube.mesh", "w").write(text.replace("End", f"Triangles\n12\n{triangles}End"))
+PYTHON
+  mesh_convert cube.mesh vtu cube.vtu
+  contents meshio cube.mesh | diff - <(contents meshio cube.vtu)
+}
