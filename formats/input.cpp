@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 
 namespace hexpipe {
@@ -32,6 +33,7 @@ Input Input::open(const std::string& path) {
     throw DataError::at(input.name_, "expected a file, found a directory");
   // A larger pipe means fewer switches between the stages; where it is refused, the default serves.
   if (S_ISFIFO(status.st_mode)) fcntl(input.descriptor_, F_SETPIPE_SZ, buffer_size);
+  if (S_ISFIFO(status.st_mode) && path == "-") leave_interrupt_upstream(true);
   input.buffer_.resize(buffer_size);
   return input;
 }
@@ -61,7 +63,9 @@ Input& Input::operator=(Input&& other) noexcept {
 }
 
 Input::~Input() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  if (path_.empty()) leave_interrupt_upstream(false);
 }
 
 // Adds bytes behind those at hand, at least one unless the end is reached. The buffer must have room.

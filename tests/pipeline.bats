@@ -134,6 +134,37 @@ PYTHON
   done
 }
 
+@test "Ctrl-C over a whole pipe stops the searches, and the mesh of what they found is written" {
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 3 >lattice.mesh
+  findhex --mesh lattice.mesh | buildgraph -o graph.tar
+  # A process group of its own, as a terminal gives to each pipeline.
+  setsid bash -o pipefail -c 'echo $$ >group; initsol graph.tar --time-limit 60 | lns | assemble -o out.vtk' 2>message &
+  local pipeline=$!
+  sleep 1
+  SECONDS=0
+  kill -INT -- "-$(cat group)"
+  wait $pipeline || true
+  assert [ "$SECONDS" -lt 30 ]
+  assert_equal "$(cat message)" ""
+  mesh_is_valid out.vtk
+}
+
+@test "Ctrl-C ends a tool that waits for a pipe the second time" {
+  mkfifo pipe
+  sleep 30 >pipe &
+  local writer=$!
+  findhex <pipe >out.tar 2>/dev/null &
+  local reader=$!
+  sleep 0.3
+  kill -INT $reader
+  sleep 0.3
+  kill -0 $reader
+  kill -INT $reader
+  run wait $reader
+  kill $writer
+  run ! kill -0 $reader
+}
+
 @test "a cut pipe anywhere in the chain is an error at its end" {
   for bytes in 0 1000 20000; do
     assert_fails_with 1 "findhex: stdin: " bash -c "set -o pipefail; tetmesh '$DATA/bracket.stl' --size 8 -q 2>/dev/null | head -c $bytes | findhex -o out.tar"

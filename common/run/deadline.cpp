@@ -13,11 +13,17 @@ namespace {
 // Only lock-free atomics and plain memory: signal handlers touch them.
 std::atomic<bool> stop_flag{false};
 std::atomic<bool> first_signal_stops_searches{false};
+std::atomic<bool> upstream_may_answer{false};
+std::atomic<bool> interrupted{false};
 std::atomic<bool> file_registered{false};
 char registered_file[4096];
 
 void on_signal(int signal_number) {
-  if (first_signal_stops_searches.load() && !stop_flag.exchange(true)) return;
+  if (first_signal_stops_searches.load()) {
+    if (!stop_flag.exchange(true)) return;
+  } else if (signal_number == SIGINT && upstream_may_answer.load() && !interrupted.exchange(true)) {
+    return;
+  }
   if (file_registered.load()) unlink(registered_file);
   signal(signal_number, SIG_DFL);
   raise(signal_number);
@@ -39,6 +45,10 @@ void stop_searches_on_signal() {
 
 bool stop_requested() {
   return stop_flag.load(std::memory_order_relaxed);
+}
+
+void leave_interrupt_upstream(bool on) {
+  upstream_may_answer = on;
 }
 
 void remove_on_signal(const char* path) {

@@ -38,6 +38,11 @@ class Deadline {
 void stop_searches_on_signal();
 bool stop_requested();
 
+// While on, a tool that does not search leaves the first SIGINT to the stages upstream, for Ctrl-C reaches all
+// processes of a pipeline at once, and the best solution of the search that it stops is still to come down the pipe.
+// The second ends the process.
+void leave_interrupt_upstream(bool on);
+
 // Registers a file to be removed when a signal ends the process; an empty path takes the registration back.
 // One file at a time: a tool writes one output.
 void remove_on_signal(const char* path);
