@@ -269,6 +269,24 @@ def region_within(mesh, walls, start):
     return region
 
 
+def diagonals(mesh, cell):
+    """For each quad, the pairs of triangles that the mesh has there."""
+    choices = []
+    for q in QUADS[len(cell)]:
+        a, b, c, d = (cell[i] for i in q)
+        options = (((a, b, c), (a, c, d)), ((a, b, d), (b, c, d)))
+        choices.append([pair for pair in options if all(frozenset(t) in mesh.facets for t in pair)])
+    return choices
+
+
+def is_folded(mesh, pairs):
+    """Rule 8: for no diagonal do the normals of both triangles agree."""
+    def normal(a, b, c):
+        return cross(minus(mesh.points[b], mesh.points[a]), minus(mesh.points[c], mesh.points[a]))
+
+    return not any(dot(normal(*one), normal(*other)) > 0 for one, other in pairs)
+
+
 def interior_tets(mesh, cell):
     """Rule 5: the tets enclosed by the cell's triangles and one diagonal of each quad; with those diagonals."""
     quads = [tuple(cell[c] for c in q) for q in QUADS[len(cell)]]
@@ -277,11 +295,7 @@ def interior_tets(mesh, cell):
     for q in quads:
         every_wall |= {frozenset(t) for t in itertools.combinations(q, 3)}
     corners_of_quads = {frozenset(q) for q in quads}
-    choices = []
-    for a, b, c, d in quads:
-        options = (((a, b, c), (a, c, d)), ((a, b, d), (b, c, d)))
-        choices.append([pair for pair in options if all(frozenset(t) in mesh.facets for t in pair)])
-    for pairs in itertools.product(*choices):
+    for pairs in itertools.product(*diagonals(mesh, cell)):
         surface = triangles + [t for pair in pairs for t in pair]
         behind = [mesh.inside(*t) for t in surface]
         if None in behind:
@@ -307,7 +321,7 @@ def interior_tets(mesh, cell):
 def tets_of(mesh, cell, options):
     """Rules 5 to 8: (interior tets, boundary tets), or None."""
     found = interior_tets(mesh, cell)
-    if found is None:
+    if found is None or options.folded_quads == "drop" and any(is_folded(mesh, pairs) for pairs in diagonals(mesh, cell)):
         return None
     region, pairs = found
     boundary = set()
@@ -324,11 +338,6 @@ def tets_of(mesh, cell, options):
             outer = [f for f in map(frozenset, itertools.combinations(corners, 3)) if f not in outer]
         if mesh.label(outer[0]) != mesh.label(outer[1]):
             return None
-        if options.folded_quads == "drop":
-            normals = [cross(minus(mesh.points[b], mesh.points[a]), minus(mesh.points[c], mesh.points[a]))
-                       for a, b, c in pair]
-            if dot(*normals) <= 0:
-                return None
     n = len(cell)
     if len(region) < LEAST_INTERIOR[n] or len(region) + len(boundary) > MOST[n]:
         return None

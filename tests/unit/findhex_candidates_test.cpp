@@ -82,7 +82,7 @@ TEST(Findhex, CountsOfLatticesArePublishedOnes) {
     FindhexOptions options;
     options.min_quality = std::stod(row[4]);
     options.quality = CandidateQuality::corner;
-    options.tet_rules.drop_folded = false;
+    options.drop_folded_quads = false;
     options.tet_rules.max_boundary_tets = 5;
     EXPECT_EQ(find(kuhn_lattice(std::stoi(row[1])), options).size(), std::stoul(row[5])) << line;
     ++compared;
@@ -194,9 +194,23 @@ TEST(Findhex, FoldedQuadsAreDroppedOrKept) {
   points[5].z = points[7].z = 2;
   const TetMesh mesh = mesh_of(points, six_tets());
   EXPECT_EQ(find(mesh).size(), 0u);
-  EXPECT_EQ(find(mesh, with([](FindhexOptions& o) { o.tet_rules.drop_folded = false; })).size(), 1u);
+  EXPECT_EQ(find(mesh, with([](FindhexOptions& o) { o.drop_folded_quads = false; })).size(), 1u);
   points[5].z = points[7].z = 1.5;
   EXPECT_EQ(find(mesh_of(points, six_tets())).size(), 1u);
+}
+
+// The quad on top is folded at 46, but a tet on it has triangles at 57 as well, which are not.
+TEST(Findhex, AQuadIsNotFoldedWhereOneOfItsDiagonalsIsNot) {
+  auto points = cube_points();
+  points[5] = {0.7, 0.3, 1.5};
+  points[7] = {0.3, 0.7, 1.5};
+  auto tets = six_tets();
+  const FindhexOptions low = with([](FindhexOptions& o) { o.min_quality = 0.1; });
+  EXPECT_EQ(find(mesh_of(points, tets), low).size(), 0u);
+  tets.push_back({4, 5, 6, 7});
+  const Candidates found = find(mesh_of(points, tets), low);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found.boundary_tets_of(0), ElementsAre(6));
 }
 
 // Good corners are not enough.
@@ -204,7 +218,7 @@ TEST(Findhex, OnlyValidHexesAreCandidates) {
   const TetMesh mesh = kuhn_lattice(3);
   FindhexOptions options;
   options.min_quality = 0.0001;
-  options.tet_rules.drop_folded = false;
+  options.drop_folded_quads = false;
   Random random(1);
   std::int64_t invalid = 0;
   for (int n = 0; n < 10; ++n) {

@@ -8,8 +8,6 @@
 
 #include <bit>
 
-#include "tools/findhex/quad_table.hpp"
-
 namespace hexpipe {
 namespace {
 
@@ -108,8 +106,6 @@ TetVerdict CellTets<Topology>::find_from(std::int32_t start) {
     return TetVerdict::tet_count;
   if (boundary_.size() > rules_.max_boundary_tets) return TetVerdict::boundary_tets;
   if (has_inner_vertex_ && !rules_.inner_vertices) return TetVerdict::inner_vertex;
-  for (std::size_t quad = 0; rules_.drop_folded && quad < quad_count; ++quad)
-    if (is_folded_at(quad)) return TetVerdict::folded;
   std::sort(interior_.begin(), interior_.end());
   std::sort(boundary_.begin(), boundary_.end());
   return TetVerdict::accepted;
@@ -203,15 +199,6 @@ TetVerdict CellTets<Topology>::judge_quad(std::size_t quad) {
     outermost = found;
   }
   return TetVerdict::accepted;
-}
-
-template <class Topology>
-bool CellTets<Topology>::is_folded_at(std::size_t quad) const {
-  const LocalQuad& q = Topology::quads[quad];
-  const unsigned shared = outer_[quad][0].corners & outer_[quad][1].corners;
-  const std::size_t first = shared == (bit(q[0]) | bit(q[2])) ? 0 : 1;
-  auto point = [&](std::size_t i) { return tables_.mesh().points[corners_[q[(first + i) % 4]]]; };
-  return is_folded(point(0), point(1), point(2), point(3));
 }
 
 template class CellTets<HexTopology>;

@@ -1,5 +1,5 @@
 #pragma once
-// The tets of a candidate: rules 5 to 8 of ALGORITHMS.md 1.
+// The tets of a candidate: rules 5 to 7 of ALGORITHMS.md 1.
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,6 @@ inline constexpr std::size_t most_tets<PyramidTopology> = 3;
 
 struct CellTetRules {
   bool inner_vertices = true;  // allow them
-  bool drop_folded = true;     // rule 8
   std::size_t max_boundary_tets = 6;
 };
 
@@ -45,7 +44,6 @@ enum class TetVerdict {
   boundary_tets,    // 6: more than the option allows
   crosses_mesh,     // 6, 7: a boundary, a tagged surface, another region or an unusable tet lies within
   half_on_surface,  // 7: the two outer triangles of a quad differ
-  folded,           // 8
   inner_vertex,     // the option forbids them
 };
 
@@ -103,7 +101,6 @@ class CellTets {
   TetVerdict leave(std::int32_t tet);
   TetVerdict find_outer_facets();
   TetVerdict judge_quad(std::size_t quad);
-  bool is_folded_at(std::size_t quad) const;
 
   const MeshTables& tables_;
   const CellTetRules rules_;

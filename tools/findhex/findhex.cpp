@@ -46,7 +46,7 @@ void append(Candidates& to, const Candidates& from) {
   append_offsets(to.boundary_tet_offsets, from.boundary_tet_offsets);
 }
 
-// Rules 4 to 8 for cells that the search has completed; keeps those that hold them all.
+// Rules 4 to 7 for cells that the search has completed; keeps those that hold them all.
 template <class Topology>
 class CandidateCollector {
  public:
@@ -121,7 +121,7 @@ CellCounts& CellCounts::operator+=(const CellCounts& other) {
 FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* source) {
   const MeshTables tables(std::move(mesh), source);
   const QuadTable quads(tables.mesh(), tables.adjacency(), tables.facets(),
-                        {options.min_quality, options.tet_rules.drop_folded});
+                        {options.min_quality, options.drop_folded_quads});
   FindhexResult result;
   result.findings = tables.findings();
   result.triangulated_quads = static_cast<std::int64_t>(quads.size());

@@ -18,14 +18,15 @@ struct FindhexOptions {
   std::vector<CellKind> kinds{CellKind::hex};  // found one kind after the other, in this order
   double min_quality = 0.3;                    // of the least corner, to be exceeded
   CandidateQuality quality = CandidateQuality::element;
+  bool drop_folded_quads = true;  // rule 8
   CellTetRules tet_rules{};
 };
 
 // How many cells of a kind got how far.
 struct CellCounts {
-  std::int64_t complete = 0;                 // rules 1 to 3 hold
+  std::int64_t complete = 0;                 // rules 1 to 3 and 8 hold
   std::int64_t invalid = 0;                  // rule 4
-  std::array<std::int64_t, 8> by_verdict{};  // rules 5 to 8, by TetVerdict
+  std::array<std::int64_t, 7> by_verdict{};  // rules 5 to 7, by TetVerdict
 
   std::int64_t accepted() const { return by_verdict[static_cast<int>(TetVerdict::accepted)]; }
   CellCounts& operator+=(const CellCounts& other);

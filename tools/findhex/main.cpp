@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
       if (std::find(cells.begin(), cells.end(), name) != cells.end()) options.kinds.push_back(kind);
     options.quality = qualities.at(quality);
     options.tet_rules.inner_vertices = inner_vertices == "allow";
-    options.tet_rules.drop_folded = folded_quads == "drop";
+    options.drop_folded_quads = folded_quads == "drop";
 
     Stage stage(context);
     StageData data = stage.read({Role::mesh});

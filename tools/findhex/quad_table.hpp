@@ -1,6 +1,6 @@
 #pragma once
-// The triangulated quads of a mesh (ALGORITHMS.md 1, rule 2), found once: four vertices in a cycle such that for one
-// diagonal at least both triangles are facets.
+// The triangulated quads of a mesh (ALGORITHMS.md 1, rules 2 and 8), found once: four vertices in a cycle such that for
+// one diagonal at least both triangles are facets and not folded over.
 
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace hexpipe {
 
-// Rule 8, for the quad abcd with diagonal ac: the normals of abc and acd do not agree.
+// Rule 8 is broken by the quad abcd with diagonal ac: the normals of abc and acd do not agree.
 inline bool is_folded(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 diagonal = c - a;
   return !(dot(cross(b - a, diagonal), cross(diagonal, d - a)) > 0);
@@ -22,7 +22,7 @@ inline bool is_folded(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
 // Which quads can be part of a candidate.
 struct QuadFilter {
   double min_quality;  // the sine of no angle may be below: it bounds the scaled Jacobian there
-  bool drop_folded;    // rule 8 holds for one of the diagonals that the mesh has, at least
+  bool drop_folded;    // rule 8; where the mesh has both diagonals, one of them has to hold it
 };
 
 class QuadTable {
