@@ -232,7 +232,7 @@ StageData Stage::read(const std::vector<Role>& needs, const std::vector<Role>& w
   }
   if (input && !looks_like_bundle(*input)) {
     if (input->peek(1).empty())
-      throw DataError::at(input->name(), "expected a bundle or a {}, found nothing: it is empty",
+      throw DataError::at(input->name(), "expected a bundle or the {}, found nothing: it is empty",
                           name_of(needs.front()));
     const Role primary = state.context.info.reads.front();
     if (files.contains(primary))

@@ -102,7 +102,9 @@ void validate(const IndependentSet& set, const ConflictGraph& graph, const char*
   }
   for (const std::int32_t v : set)
     for (const std::int32_t u : graph.neighbours_of(v))
-      if (chosen[u]) throw DataError::at(source, "expected an independent set, found the neighbours {} and {}", v, u);
+      if (chosen[u])
+        throw DataError::at(source, "expected an independent set, found the neighbours {} and {} (counted from 0)", v,
+                            u);
 }
 
 std::int64_t total_weight(const IndependentSet& set, const ConflictGraph& graph) {

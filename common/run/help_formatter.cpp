@@ -8,10 +8,16 @@ namespace {
 constexpr std::size_t option_column = 28;
 constexpr std::size_t page_width = 100;
 
+// CLI11 shows what a flag sets, as in --no-reductions{false}, which is not to be typed.
+std::string plain_name(std::string name) {
+  const std::size_t brace = name.find('{');
+  return brace == std::string::npos ? name : name.substr(0, brace);
+}
+
 }  // namespace
 
 std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positional) const {
-  std::string text = "  " + make_option_name(option, is_positional) + make_option_opts(option);
+  std::string text = "  " + plain_name(make_option_name(option, is_positional)) + make_option_opts(option);
   const std::string indent = "\n" + std::string(option_column, ' ');
   if (text.size() + 1 > option_column) text += indent;
   else text.resize(option_column, ' ');

@@ -52,7 +52,7 @@ void declare_streams(CLI::App& app, RunContext& context) {
   if (!reads.empty()) {
     app.add_option(
            "input", streams.operand,
-           fmt::format("A bundle, or a {} in any format; '-' or nothing: standard input", name_of(reads.front())))
+           fmt::format("A bundle, or the {} in any format; '-' or nothing: standard input", name_of(reads.front())))
         ->type_name("FILE");
     for (const Role role : reads)
       app.add_option(fmt::format("--{}", name_of(role)), streams.files[role],

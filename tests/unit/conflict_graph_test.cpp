@@ -111,7 +111,7 @@ TEST(IndependentSet, RejectsWhatIsNone) {
   const auto rejects = [&](const IndependentSet& set, const char* message) {
     EXPECT_THAT([&] { validate(set, graph, "test"); }, ThrowsMessage<DataError>(HasSubstr(message)));
   };
-  rejects({0, 1}, "found the neighbours 0 and 1");
+  rejects({0, 1}, "found the neighbours 0 and 1 (counted from 0)");
   rejects({3}, "vertices below 3");
   rejects({-1}, "vertices below 3");
   rejects({2, 0}, "ascending");
