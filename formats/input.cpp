@@ -76,6 +76,7 @@ bool Input::fill() {
   while (got < 0 && errno == EINTR);
   if (got < 0) throw DataError::at(name_, "cannot read: {}", std::strerror(errno));
   at_end_ = got == 0;
+  if (at_end_ && path_.empty()) leave_interrupt_upstream(false);
   end_ += static_cast<std::size_t>(got);
   return got > 0;
 }

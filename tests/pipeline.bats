@@ -165,6 +165,15 @@ PYTHON
   run ! kill -0 $reader
 }
 
+@test "Ctrl-C ends tetmesh once its pipe is read, and leaves no file" {
+  cat "$DATA/cube.stl" | { tetmesh -q --size 0.02 -o out.tar & echo $! >tool; wait $! || echo $? >code; } &
+  sleep 0.5
+  kill -INT "$(cat tool)"
+  wait
+  assert_equal "$(cat code)" 130
+  assert_equal "$(ls | tr '\n' ' ')" "code tool "
+}
+
 @test "a cut pipe anywhere in the chain is an error at its end" {
   for bytes in 0 1000 20000; do
     assert_fails_with 1 "findhex: stdin: " bash -c "set -o pipefail; tetmesh '$DATA/bracket.stl' --size 8 -q 2>/dev/null | head -c $bytes | findhex -o out.tar"
