@@ -88,12 +88,6 @@ bool convert_numbers(NpyType from, const char* data, NpyType to, void* destinati
   return convert_to(from, data, static_cast<std::uint8_t*>(destination), count);
 }
 
-// A writer that has not been closed would write the end of the archive now, and a failed one must not look complete.
-int free_writer(archive* handle) {
-  archive_write_fail(handle);
-  return archive_write_free(handle);
-}
-
 }  // namespace
 
 bool looks_like_bundle(Input& input) {
@@ -104,30 +98,37 @@ bool looks_like_bundle(Input& input) {
 // ---- writing
 
 BundleWriter::BundleWriter(Output& output, bool compress)
-    : output_(output), archive_(archive_write_new(), &free_writer) {
+    : output_(output), archive_(archive_write_new(), &archive_write_free) {
   archive_write_set_format_pax_restricted(archive_.get());
   if (compress) archive_write_add_filter_zstd(archive_.get());
   // Output has a buffer; none here, so that arrays go through without a copy.
   archive_write_set_bytes_per_block(archive_.get(), 0);
   archive_write_set_bytes_in_last_block(archive_.get(), 1);
-  if (archive_write_open(archive_.get(), this, nullptr, &BundleWriter::on_write, nullptr) != ARCHIVE_OK) fail();
+  check(archive_write_open(archive_.get(), this, nullptr, &BundleWriter::on_write, nullptr) == ARCHIVE_OK);
 }
 
-long BundleWriter::on_write(archive* handle, void* self, const void* data, std::size_t bytes) {
+// libarchive closes a writer that it frees, which would write the end of the archive: a failed one must not look
+// complete.
+BundleWriter::~BundleWriter() {
+  abandoned_ = true;
+}
+
+// Never fails as far as libarchive can see: no exception may cross it, and it does not free a writer that has failed.
+long BundleWriter::on_write(archive*, void* self, const void* data, std::size_t bytes) {
   auto* const writer = static_cast<BundleWriter*>(self);
+  if (writer->abandoned_ || writer->output_error_) return static_cast<long>(bytes);
   try {
     writer->output_.write({static_cast<const char*>(data), bytes});
-    return static_cast<long>(bytes);
   } catch (...) {
     writer->output_error_ = std::current_exception();
-    archive_set_error(handle, EIO, "output failed");
-    return ARCHIVE_FATAL;
   }
+  return static_cast<long>(bytes);
 }
 
-void BundleWriter::fail() const {
+void BundleWriter::check(bool succeeded) const {
   if (output_error_) std::rethrow_exception(output_error_);
-  throw DataError::at(output_.name(), "cannot write the bundle: {}", archive_error_string(archive_.get()));
+  if (!succeeded)
+    throw DataError::at(output_.name(), "cannot write the bundle: {}", archive_error_string(archive_.get()));
 }
 
 void BundleWriter::begin_member(const std::string& name, std::uint64_t bytes) {
@@ -137,11 +138,11 @@ void BundleWriter::begin_member(const std::string& name, std::uint64_t bytes) {
   archive_entry_set_filetype(entry.get(), AE_IFREG);
   archive_entry_set_perm(entry.get(), 0644);
   archive_entry_set_mtime(entry.get(), 0, 0);
-  if (archive_write_header(archive_.get(), entry.get()) != ARCHIVE_OK) fail();
+  check(archive_write_header(archive_.get(), entry.get()) == ARCHIVE_OK);
 }
 
 void BundleWriter::write(const void* data, std::size_t bytes) {
-  if (bytes > 0 && archive_write_data(archive_.get(), data, bytes) != static_cast<la_ssize_t>(bytes)) fail();
+  if (bytes > 0) check(archive_write_data(archive_.get(), data, bytes) == static_cast<la_ssize_t>(bytes));
 }
 
 void BundleWriter::add_text(const std::string& name, std::string_view text) {
@@ -157,7 +158,7 @@ void BundleWriter::add_array(const std::string& name, const NpyHeader& header, c
 }
 
 void BundleWriter::close() {
-  if (archive_write_close(archive_.get()) != ARCHIVE_OK) fail();
+  check(archive_write_close(archive_.get()) == ARCHIVE_OK);
 }
 
 // ---- reading

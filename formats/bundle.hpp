@@ -30,6 +30,7 @@ class BundleWriter {
   BundleWriter(Output& output, bool compress);
   BundleWriter(const BundleWriter&) = delete;  // libarchive holds its address
   BundleWriter& operator=(const BundleWriter&) = delete;
+  ~BundleWriter();
 
   void begin_member(const std::string& name, std::uint64_t bytes);
   void write(const void* data, std::size_t bytes);
@@ -49,12 +50,15 @@ class BundleWriter {
  private:
   static long on_write(archive*, void* self, const void* data, std::size_t bytes);
   void add_array(const std::string& name, const NpyHeader& header, const void* data, std::size_t bytes);
-  [[noreturn]] void fail() const;
+  // Throws what the output threw, or what libarchive says when a call did not succeed.
+  void check(bool succeeded) const;
 
   Output& output_;
-  ArchiveHandle archive_;
-  // What Output threw inside libarchive's callback, which no exception may cross.
+  // What Output threw inside libarchive's callback.
   std::exception_ptr output_error_;
+  bool abandoned_ = false;
+  // Freed first: it calls back.
+  ArchiveHandle archive_;
 };
 
 class BundleReader {
