@@ -56,7 +56,7 @@ template <class Produce, class Consume>
 void parallel_in_order(std::int64_t count, std::int64_t block, Produce&& produce, Consume&& consume) {
   using Product = decltype(produce(std::int64_t{}, std::int64_t{}));
   std::int64_t next = 0;
-  tbb::parallel_pipeline(static_cast<std::size_t>(4 * thread_count()),
+  tbb::parallel_pipeline(4 * static_cast<std::size_t>(thread_count()),
                          tbb::make_filter<void, std::int64_t>(tbb::filter_mode::serial_in_order,
                                                               [&](tbb::flow_control& control) {
                                                                 const std::int64_t begin = next;

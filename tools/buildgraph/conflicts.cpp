@@ -78,9 +78,10 @@ std::size_t bound_of(const Range& numbers) {
 }
 
 std::size_t vertex_bound(const Candidates& candidates) {
-  Vertex highest = -1;
+  if (candidates.vertices.empty()) return 0;
+  Vertex highest = 0;
   for (const auto& row : candidates.vertices) highest = std::max(highest, *std::max_element(row.begin(), row.end()));
-  return static_cast<std::size_t>(highest + 1);
+  return static_cast<std::size_t>(highest) + 1;
 }
 
 }  // namespace

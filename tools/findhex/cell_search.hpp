@@ -83,17 +83,15 @@ class CellSearch {
   // One labelling of each cell, and no vertex twice.
   template <std::size_t step>
   bool may_stand(Vertex v) const {
-    constexpr const SearchStep& now = plan<step>;
-    return all_of_indices<now.greater.size()>([&](auto i) { return v > corners_[now.greater[i]]; }) &&
+    return all_of_indices<plan<step>.greater.size()>([&](auto i) { return v > corners_[plan<step>.greater[i]]; }) &&
            all_of_indices<step>([&](auto i) { return v != corners_[plan<i>.corner]; });
   }
 
   // Rule 3.
   template <std::size_t step>
   bool corners_suffice() const {
-    constexpr const SearchStep& now = plan<step>;
-    return all_of_indices<now.corners.size()>([&](auto i) {
-      constexpr LocalCorner c = now.corners[i];
+    return all_of_indices<plan<step>.corners.size()>([&](auto i) {
+      constexpr LocalCorner c = plan<step>.corners[i];
       const Vec3& o = points_[c[0]];
       return scaled_jacobian_exceeds(points_[c[1]] - o, points_[c[2]] - o, points_[c[3]] - o, min_quality_);
     });
@@ -102,18 +100,18 @@ class CellSearch {
   // Rule 2, the triangles of prisms and pyramids, and a look ahead: there is a fourth corner for each quad with three.
   template <std::size_t step>
   bool facets_exist() const {
-    constexpr const SearchStep& now = plan<step>;
-    const Vertex v = corners_[now.corner];
-    return all_of_indices<now.triangles.size()>([&](auto i) {
-             constexpr LocalTriangle t = now.triangles[i];
+    const Vertex v = corners_[plan<step>.corner];
+    return all_of_indices<plan<step>.triangles.size()>([&](auto i) {
+             constexpr LocalTriangle t = plan<step>.triangles[i];
              return tables_.facets().has(corners_[t[0]], corners_[t[1]], corners_[t[2]]);
            }) &&
-           all_of_indices<now.closed_quads.size()>([&](auto i) {
+           all_of_indices<plan<step>.closed_quads.size()>([&](auto i) {
              if constexpr (i == 0) return true;  // v comes from there
-             const auto fourths = opposites(now.closed_quads[i]);
+             const auto fourths = opposites(plan<step>.closed_quads[i]);
              return std::find(fourths.begin(), fourths.end(), v) != fourths.end();
            }) &&
-           all_of_indices<now.opened_quads.size()>([&](auto i) { return !opposites(now.opened_quads[i]).empty(); });
+           all_of_indices<plan<step>.opened_quads.size()>(
+               [&](auto i) { return !opposites(plan<step>.opened_quads[i]).empty(); });
   }
 
   const MeshTables& tables_;

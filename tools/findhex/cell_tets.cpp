@@ -26,9 +26,9 @@ constexpr unsigned bits(const std::array<std::uint8_t, Size>& corners) {
 // none.
 template <class Topology>
 constexpr auto make_facet_of_corners() {
-  std::array<std::int8_t, 1u << Topology::corner_count> facet_of{};
+  std::array<std::int16_t, 1u << Topology::corner_count> facet_of{};
   facet_of.fill(-1);
-  std::int8_t facet = 0;
+  std::int16_t facet = 0;
   for (const LocalQuad& q : Topology::quads) {
     for (const int left_out : q) facet_of[bits(q) & ~bit(left_out)] = facet;
     ++facet;

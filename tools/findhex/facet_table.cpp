@@ -100,10 +100,4 @@ std::int32_t FacetTable::tet_inside(Vertex a, Vertex b, Vertex c) const {
   return facet ? facet->tets[sorted(a, b, c).even ? 0 : 1] : none;
 }
 
-std::span<const std::int32_t> FacetTable::tets_of(Vertex a, Vertex b, Vertex c) const {
-  const Facet* const facet = find(a, b, c);
-  if (!facet) return {};
-  return facet->tets;
-}
-
 }  // namespace hexpipe

@@ -2,7 +2,6 @@
 // The facets of the tets that candidates may be made of, filed under their lowest vertex.
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "common/mesh/adjacency.hpp"
@@ -28,8 +27,6 @@ class FacetTable {
   bool has(Vertex a, Vertex b, Vertex c) const { return find(a, b, c) != nullptr; }
   // The tet of which (a, b, c) is a facet, counter-clockwise seen from outside, or none.
   std::int32_t tet_inside(Vertex a, Vertex b, Vertex c) const;
-  // Both, in no particular order; none where there is none.
-  std::span<const std::int32_t> tets_of(Vertex a, Vertex b, Vertex c) const;
 
  private:
   const Facet* find(Vertex a, Vertex b, Vertex c) const;

@@ -140,9 +140,4 @@ std::span<const Vertex> QuadTable::opposites(Vertex corner, Vertex side, Vertex 
   return std::span(opposite_).subspan(first - sides_.begin(), last - first);
 }
 
-bool QuadTable::has(Vertex corner, Vertex side, Vertex other_side, Vertex opposite) const {
-  const auto all = opposites(corner, side, other_side);
-  return std::find(all.begin(), all.end(), opposite) != all.end();
-}
-
 }  // namespace hexpipe

@@ -31,7 +31,6 @@ class QuadTable {
 
   // The vertices opposite `corner` in the quads where it lies between these two, ascending.
   std::span<const Vertex> opposites(Vertex corner, Vertex side, Vertex other_side) const;
-  bool has(Vertex corner, Vertex side, Vertex other_side, Vertex opposite) const;
   std::size_t size() const { return opposite_.size() / 4; }
 
  private:

@@ -10,7 +10,7 @@ namespace hexpipe {
 
 // rotation[c] is the corner that takes the place of corner c.
 template <class Topology>
-using Rotation = std::array<std::int8_t, Topology::corner_count>;
+using Rotation = std::array<int, Topology::corner_count>;
 
 template <class Topology, std::size_t Most>
 struct RotationGroup {
@@ -35,7 +35,7 @@ constexpr bool lay_on(const std::array<std::uint8_t, Size>& from, const std::arr
     if (map[from[i]] == image)
       ++known;
     else if (map[from[i]] == -1)
-      filled[from[i]] = static_cast<std::int8_t>(image);
+      filled[from[i]] = image;
     else
       return false;
   }
@@ -68,8 +68,8 @@ constexpr auto rotations_of() {
     for (std::size_t shift = 0; shift < 3; ++shift) {
       Rotation<Topology> map{};
       map.fill(-1);
-      map[first[0]] = static_cast<std::int8_t>(corner[0]);
-      for (std::size_t i = 0; i < 3; ++i) map[first[1 + i]] = static_cast<std::int8_t>(corner[1 + (i + shift) % 3]);
+      map[first[0]] = corner[0];
+      for (std::size_t i = 0; i < 3; ++i) map[first[1 + i]] = corner[1 + (i + shift) % 3];
       // The first round may meet a quad before its corners are known; the second is complete.
       rotation_details::lay_all(Topology::quads, map);
       if (rotation_details::lay_all(Topology::quads, map) && rotation_details::lay_all(Topology::triangles, map))
