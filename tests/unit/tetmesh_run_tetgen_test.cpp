@@ -27,7 +27,7 @@ Surface surface_of(const Facets& facets) {
 }
 
 TetGenResult run(const SurfaceSoup& soup, std::span<const Vec3> points = {}, double seconds = timeout) {
-  return run_tetgen({soup.points, soup.triangles, points}, seconds);
+  return run_tetgen({soup.points, soup.triangles, points, 0}, seconds);
 }
 
 std::string error_of(const Surface& surface, TetGenResult result, std::span<const Vec3> points = {}) {
@@ -60,6 +60,20 @@ TEST(RunTetgen, KeepsSurfaceAndPointsInTheirOrder) {
   EXPECT_EQ(built.dropped_points, 0u);
   EXPECT_EQ(built.mesh.triangles, surface.triangles);
   EXPECT_NEAR(volume_of(built.mesh, 1), 64, 1e-9);
+}
+
+TEST(RunTetgen, AShuffledOrderChangesTetsOnly) {
+  const Surface surface = surface_of(sphere({0, 0, 0}, 4, 12));
+  const std::vector<Vec3> points{{2.1, 2, 2}, {1, 1, 1.2}, {-1, 0.5, 1}, {1, -2, -1}};
+  std::vector<std::vector<Tet>> tets;
+  for (const std::uint64_t order : {0, 1, 2}) {
+    const TetGenResult result = run_tetgen({surface.points, surface.triangles, points, order}, timeout);
+    EXPECT_EQ(error_of(surface, result, points), "no error");
+    EXPECT_TRUE(std::equal(points.begin(), points.end(), result.points.begin() + surface.points.size()));
+    tets.push_back(result.tets);
+  }
+  EXPECT_NE(tets[0], tets[1]);
+  EXPECT_NE(tets[1], tets[2]);
 }
 
 TEST(RunTetgen, EmptiesHolesAndSeparatesRegions) {
@@ -96,7 +110,7 @@ TEST(RunTetgen, SurvivesSurfacesThatMakeTetgenAbort) {
 
 TEST(RunTetgen, GivesUpInTime) {
   const Surface surface = surface_of(sphere({0, 0, 0}, 1, 100));
-  EXPECT_THAT(run(surface, {}, 0.001).failure, HasSubstr("longer than 0.001 seconds"));
+  EXPECT_THAT(run(surface, {}, 0.001).failure, HasSubstr("longer than --tetgen-timeout"));
 }
 
 TEST(BuildMesh, NoticesWhatTetgenMightDoWrong) {

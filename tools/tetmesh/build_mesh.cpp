@@ -23,30 +23,33 @@ std::array<Vertex, 3> sorted(std::array<Vertex, 3> triangle) {
   return triangle;
 }
 
+template <class... Args>
+TetGenFailure failure_at(const std::string& place, fmt::format_string<Args...> text, Args&&... args) {
+  return TetGenFailure(fmt::format("{}: TetGen failed: {}", place, fmt::format(text, std::forward<Args>(args)...)));
+}
+
 // What TetGen says of its failure, with places in the file where it names triangles.
 [[noreturn]] void fail(const Surface& surface, const TetGenResult& tetgen) {
-  if (tetgen.intersecting.empty()) throw DataError::at(surface.name, "TetGen failed: {}", tetgen.failure);
+  if (tetgen.intersecting.empty()) throw failure_at(surface.name, "{}", tetgen.failure);
   std::vector<std::array<Vertex, 3>> named;
   for (const Triangle& t : tetgen.intersecting) named.push_back(sorted(t));
   std::ranges::sort(named);
   for (std::size_t i = 0; i < surface.triangles.size(); ++i)
     if (std::ranges::binary_search(named, sorted(surface.triangles[i])))
-      throw DataError::at(surface.place_of(i), "TetGen failed: it found {} triangles that intersect; the first is here",
-                          named.size());
-  throw DataError::at(surface.name, "TetGen failed: {}", tetgen.failure);
+      throw failure_at(surface.place_of(i), "it found {} triangles that intersect; the first is here", named.size());
+  throw failure_at(surface.name, "{}", tetgen.failure);
 }
 
 void check_points(const Surface& surface, const std::vector<Vec3>& points) {
   if (points.size() < surface.points.size() ||
       !std::equal(surface.points.begin(), surface.points.end(), points.begin()))
-    throw DataError::at(surface.name, "TetGen failed: it moved or merged points of the surface");
+    throw failure_at(surface.name, "it moved or merged points of the surface");
 }
 
 void check_orientation(const Surface& surface, const TetMesh& mesh) {
   const auto flat = static_cast<std::size_t>(
       std::ranges::count_if(mesh.tets, [&](const Tet& t) { return tet_determinant(mesh.points, t) <= 0; }));
-  if (flat > 0)
-    throw DataError::at(surface.name, "TetGen failed: {} of its {} tets have no volume", flat, mesh.tets.size());
+  if (flat > 0) throw failure_at(surface.name, "{} of its {} tets have no volume", flat, mesh.tets.size());
 }
 
 // How many of `wanted` are in `found`, in the same order; what TetGen adds comes last.
@@ -70,8 +73,7 @@ class RegionFinder {
   std::vector<std::int32_t> find() {
     for (std::size_t i = 0; i < surface_.triangles.size(); ++i) place_beside(i);
     if (lost_ > 0)
-      throw DataError::at(surface_.place_of(first_lost_),
-                          "TetGen failed: it lost {} triangles of the surface; the first is here", lost_);
+      throw failure_at(surface_.place_of(first_lost_), "it lost {} triangles of the surface; the first is here", lost_);
     spread();
     return std::move(regions_);
   }
@@ -115,7 +117,7 @@ void RegionFinder::place_beside(std::size_t triangle) {
 void RegionFinder::place(std::int32_t tet, std::int32_t region) {
   if (regions_[tet] == region) return;
   if (regions_[tet] != unknown_region)
-    throw DataError::at(surface_.name, "TetGen failed: its tets join regions that the surface keeps apart");
+    throw failure_at(surface_.name, "its tets join regions that the surface keeps apart");
   regions_[tet] = region;
   queue_.push_back(tet);
 }
@@ -130,7 +132,7 @@ void RegionFinder::spread() {
       if (beyond != TetAdjacency::none) {
         place(beyond, regions_[t]);
       } else if (regions_[t] != outside_region) {
-        throw DataError::at(surface_.name, "TetGen failed: its tets leave a gap behind the surface");
+        throw failure_at(surface_.name, "its tets leave a gap behind the surface");
       }
     }
   }
@@ -171,8 +173,8 @@ void check_volumes(const Surface& surface, const TetMesh& mesh) {
   for (const Shell& shell : surface.shells) scale += shell.volume;
   for (std::size_t region = 1; region < wanted.size(); ++region)
     if (std::abs(found[region] - wanted[region]) > volume_tolerance * scale)
-      throw DataError::at(surface.name, "TetGen failed: region {} has volume {:.12g}, its tets {:.12g}", region,
-                          wanted[region], found[region]);
+      throw failure_at(surface.name, "region {} has volume {:.12g}, its tets {:.12g}", region, wanted[region],
+                       found[region]);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "common/mesh/tet_mesh.hpp"
+#include "common/run/error.hpp"
 #include "tools/tetmesh/run_tetgen.hpp"
 #include "tools/tetmesh/shells.hpp"
 
@@ -15,8 +16,14 @@ struct BuiltMesh {
   std::size_t dropped_points = 0;  // of the interior points
 };
 
-// Throws DataError when TetGen failed, moved a point or lost a triangle of the surface, left a tet without volume, or
-// when the tets' volumes do not add up to that of a region.
+// TetGen failed, or did not do what was asked of it.
+class TetGenFailure : public DataError {
+ public:
+  using DataError::DataError;
+};
+
+// Throws TetGenFailure when TetGen failed, moved a point or lost a triangle of the surface, left a tet without volume,
+// or when the tets' volumes do not add up to that of a region.
 BuiltMesh build_mesh(const Surface& surface, std::span<const Vec3> interior_points, TetGenResult tetgen);
 
 }  // namespace hexpipe

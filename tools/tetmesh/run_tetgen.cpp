@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 
+#include "common/run/random.hpp"
 #include "tools/tetmesh/child_process.hpp"
 
 namespace hexpipe {
@@ -43,6 +45,51 @@ const char* reason_of(int code) {
   }
 }
 
+// Points and triangles in the order in which TetGen is given them.
+struct ShuffledInput {
+  std::vector<Vec3> points;
+  std::vector<Triangle> triangles;
+  std::vector<Vertex> original;  // of each point, its number in the input
+};
+
+std::vector<std::int32_t> shuffled_order(std::size_t count, Random* random) {
+  std::vector<std::int32_t> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  if (random) random->shuffle(std::span(order));
+  return order;
+}
+
+ShuffledInput shuffle(const TetGenInput& input) {
+  Random random(input.shuffle);
+  Random* const source = input.shuffle == 0 ? nullptr : &random;
+  const std::size_t surface_count = input.surface_points.size();
+  ShuffledInput shuffled;
+  shuffled.original = shuffled_order(surface_count + input.interior_points.size(), source);
+  std::vector<Vertex> new_number(shuffled.original.size());
+  for (const Vertex v : shuffled.original) {
+    new_number[v] = static_cast<Vertex>(shuffled.points.size());
+    const auto i = static_cast<std::size_t>(v);
+    shuffled.points.push_back(i < surface_count ? input.surface_points[i] : input.interior_points[i - surface_count]);
+  }
+  for (const std::int32_t t : shuffled_order(input.triangles.size(), source)) {
+    const auto [a, b, c] = input.triangles[t];
+    shuffled.triangles.push_back({new_number[a], new_number[b], new_number[c]});
+  }
+  return shuffled;
+}
+
+// Points that TetGen added keep their numbers. One that it dropped leaves the numbers of others wrong, which build_mesh
+// notices: then points are not where they were.
+void undo_shuffle(std::span<const Vertex> original, TetGenResult& result) {
+  if (result.points.size() < original.size()) return;
+  std::vector<Vec3> points = result.points;
+  for (std::size_t i = 0; i < original.size(); ++i) points[original[i]] = result.points[i];
+  result.points = std::move(points);
+  for (Tet& tet : result.tets)
+    for (Vertex& v : tet)
+      if (static_cast<std::size_t>(v) < original.size()) v = original[v];
+}
+
 void set_facet(tetgenio::facet& facet, const Triangle& triangle) {
   tetgenio::init(&facet);
   facet.numberofpolygons = 1;
@@ -52,14 +99,11 @@ void set_facet(tetgenio::facet& facet, const Triangle& triangle) {
   polygon.vertexlist = new int[3]{triangle[0], triangle[1], triangle[2]};
 }
 
-void set_points(tetgenio& complex, std::span<const Vec3> surface, std::span<const Vec3> interior) {
-  complex.numberofpoints = static_cast<int>(surface.size() + interior.size());
-  complex.pointlist = new double[3 * (surface.size() + interior.size())];  // tetgenio frees it
-  std::memcpy(complex.pointlist, surface.data(), surface.size_bytes());
-  if (!interior.empty()) std::memcpy(complex.pointlist + 3 * surface.size(), interior.data(), interior.size_bytes());
-}
-
-void set_triangles(tetgenio& complex, std::span<const Triangle> triangles) {
+// tetgenio frees what it is given.
+void set_complex(tetgenio& complex, std::span<const Vec3> points, std::span<const Triangle> triangles) {
+  complex.numberofpoints = static_cast<int>(points.size());
+  complex.pointlist = new double[3 * points.size()];
+  std::memcpy(complex.pointlist, points.data(), points.size_bytes());
   complex.numberoffacets = static_cast<int>(triangles.size());
   complex.facetlist = new tetgenio::facet[triangles.size()];
   for (std::size_t i = 0; i < triangles.size(); ++i) set_facet(complex.facetlist[i], triangles[i]);
@@ -86,10 +130,9 @@ std::vector<Row> take_rows(SharedResult& result) {
   return rows;
 }
 
-void mesh_in_child(const TetGenInput& input, SharedResult& result) {
+void mesh_in_child(const ShuffledInput& input, SharedResult& result) {
   tetgenio complex, out;
-  set_points(complex, input.surface_points, input.interior_points);
-  set_triangles(complex, input.triangles);
+  set_complex(complex, input.points, input.triangles);
   call_tetgen(mesh_switches, complex, out);
   append_rows<Vec3>(result, out.pointlist, out.numberofpoints);
   append_rows<Tet>(result, out.tetrahedronlist, out.numberoftetrahedra);
@@ -97,8 +140,7 @@ void mesh_in_child(const TetGenInput& input, SharedResult& result) {
 
 void diagnose_in_child(const TetGenInput& input, SharedResult& result) {
   tetgenio complex, out;
-  set_points(complex, input.surface_points, {});
-  set_triangles(complex, input.triangles);
+  set_complex(complex, input.surface_points, input.triangles);
   call_tetgen(diagnosis_switches, complex, out);
   append_rows<Triangle>(result, out.trifacelist, out.numberoftrifaces);
 }
@@ -110,10 +152,10 @@ std::vector<Triangle> find_intersecting(const TetGenInput& input, double timeout
   return take_rows<Triangle>(shared);
 }
 
-std::string failure_of(const ChildEnd& end, double timeout) {
+std::string failure_of(const ChildEnd& end) {
   switch (end.kind) {
     case ChildEnd::Kind::timed_out:
-      return fmt::format("it took longer than {:g} seconds (--tetgen-timeout)", timeout);
+      return "it took longer than --tetgen-timeout allows";
     case ChildEnd::Kind::killed:
       return fmt::format("it was ended by signal {} ({})", end.code, strsignal(end.code));
     case ChildEnd::Kind::exited:
@@ -127,11 +169,13 @@ std::string failure_of(const ChildEnd& end, double timeout) {
 TetGenResult run_tetgen(const TetGenInput& input, double timeout) {
   TetGenResult result;
   SharedResult shared;
-  const ChildEnd end = run_in_child([&] { mesh_in_child(input, shared); }, timeout);
-  result.failure = failure_of(end, timeout);
+  const ShuffledInput shuffled = shuffle(input);
+  const ChildEnd end = run_in_child([&] { mesh_in_child(shuffled, shared); }, timeout);
+  result.failure = failure_of(end);
   if (result.failure.empty()) {
     result.points = take_rows<Vec3>(shared);
     result.tets = take_rows<Tet>(shared);
+    undo_shuffle(shuffled.original, result);
   } else if (end.kind == ChildEnd::Kind::exited && end.code == self_intersection) {
     result.intersecting = find_intersecting(input, timeout);
   }

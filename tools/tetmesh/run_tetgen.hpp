@@ -1,6 +1,7 @@
 #pragma once
 // TetGen behind one function: a surface that is kept and points inside it become tetrahedra.
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@ struct TetGenInput {
   std::span<const Vec3> surface_points;
   std::span<const Triangle> triangles;  // of one or more closed surfaces
   std::span<const Vec3> interior_points;
+  // Other than 0: TetGen is given points and triangles in a shuffled order, this one. Where it fails on triangles that
+  // are nearly in one plane, it usually succeeds in another order. The result is in the order above all the same.
+  std::uint64_t shuffle = 0;
 };
 
 struct TetGenResult {

@@ -32,6 +32,7 @@ struct TetmeshStatistics {
   std::size_t shells = 0, regions = 0;
   std::size_t interior_points = 0;  // asked for
   std::size_t added_points = 0, dropped_points = 0;
+  int tetgen_runs = 0;  // more than one: the others failed
   std::size_t points = 0, tets = 0;
   double volume = 0;
   double least_dihedral = 0, greatest_dihedral = 0;  // degrees
