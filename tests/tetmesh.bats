@@ -154,6 +154,22 @@ PYTHON
   done
 }
 
+@test "the surfaces in formats/README.md are the tet that they say" {
+  $PYTHON - "$HEXPIPE_SOURCE/formats/README.md" <<'PYTHON'
+import re, sys
+for name, text in re.findall(r"<!-- surface (\S+) -->\n```\n(.*?)```", open(sys.argv[1]).read(), re.S):
+    open(name, "w").write(text)
+PYTHON
+  assert_equal "$(ls | tr '\n' ' ')" "tet.obj tet.off tet.ply tet.stl "
+  for format in stl obj ply off; do
+    tetmesh -q --points none tet.$format -o tet.tar
+    assert_equal "$(regions tet.tar)" 1:0.166666667
+    local tags="[1, 1, 1, 1]"
+    if [[ $format == stl || $format == obj ]]; then tags="[1, 2, 2, 2]"; fi
+    assert_equal "$(array tet.tar mesh/triangle_tags.npy 'a.tolist()')" "$tags"
+  done
+}
+
 @test "file, redirection, pipe and process substitution give the same bytes" {
   for file in cube.stl cube.ascii.stl cube.obj cube.off cube.ascii.ply cube.binary_big_endian.ply; do
     local surface="$FILES/$file"
