@@ -393,3 +393,13 @@ PYTHON
     for tool in $READERS; do assert_fails_with 1 "$file.tar: " $tool $file.tar; done
   done
 }
+
+@test "standard error that cannot be written changes nothing" {
+  for tool in $TOOLS; do
+    $tool $(limited $tool) "$STAGES/$tool.in" -v -o out.tar 2>/dev/full
+    $tool $(limited $tool) "$STAGES/$tool.in" -v -o other.tar 2>&-
+    assert_same_bytes out.tar other.tar
+    run -1 shell "$tool missing -o out.tar 2>/dev/full"
+    assert_fails_with 1 "$tool: stdout: cannot write" shell "$tool $(limited $tool) -q '$STAGES/$tool.in' >&-"
+  done
+}

@@ -235,3 +235,8 @@ assert stats['candidates'] == hexes['candidates'] == $(count out.cand), stats
 assert hexes['complete'] == hexes['candidates'] + sum(hexes['rejected'].values()), stats"
   assert_success
 }
+
+@test "a mesh without tets is an error" {
+  printf 'MeshVersionFormatted 2\nDimension 3\nVertices\n3\n0 0 0 0\n1 0 0 0\n0 1 0 0\nTriangles\n1\n1 2 3 1\nEnd\n' >surface.mesh
+  assert_fails_with 1 "findhex: mesh: expected tets, found none" findhex surface.mesh -o out.tar
+}

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include "common/run/messages.hpp"
 
 namespace hexpipe {
 
@@ -13,11 +13,11 @@ Deadline RunContext::deadline() const {
 }
 
 void RunContext::note(const std::string& text) const {
-  if (common.verbose) fmt::print(stderr, "{}: {}\n", info.name, text);
+  if (common.verbose) print_message(fmt::format("{}: {}\n", info.name, text));
 }
 
 void RunContext::warn(const std::string& text) const {
-  if (!common.quiet) fmt::print(stderr, "{}: warning: {}\n", info.name, text);
+  if (!common.quiet) print_message(fmt::format("{}: warning: {}\n", info.name, text));
 }
 
 }  // namespace hexpipe

@@ -1,6 +1,8 @@
 #include "common/run/tool_main.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -12,6 +14,7 @@
 
 #include "common/run/error.hpp"
 #include "common/run/help_formatter.hpp"
+#include "common/run/messages.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/parallel.hpp"
 #include "common/run/version.hpp"
@@ -119,8 +122,15 @@ void write_statistics(const RunContext& context, double seconds) {
   if (!file) throw DataError::at(context.common.stats_file, "cannot write: {}", std::strerror(errno));
 }
 
+// A standard stream that the caller closed would be the next file opened, and messages would land in the data. In its
+// place stands one that only gives errors.
+void keep_standard_streams_apart() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 int report(const std::string& tool, std::string_view message, int code) {
-  fmt::print(stderr, "{}: {}\n", tool, message);
+  print_message(fmt::format("{}: {}\n", tool, message));
   return code;
 }
 
@@ -135,6 +145,7 @@ std::string one_line(std::string text) {
 
 int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<void(CLI::App&)>& declare,
               const std::function<void(RunContext&)>& run) {
+  keep_standard_streams_apart();
   install_signal_handlers();
   if (info.searches) stop_searches_on_signal();
 

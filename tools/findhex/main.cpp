@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/stage.hpp"
@@ -51,6 +52,7 @@ int main(int argc, char** argv) {
 
     Stage stage(context);
     StageData data = stage.read({Role::mesh});
+    if (data.mesh->tets.empty()) throw DataError("mesh: expected tets, found none (tetmesh makes them from a surface)");
     const FindhexResult result = findhex(std::move(*data.mesh), options, "mesh");
     for (const auto& warning : warnings_about(result.findings)) context.warn(warning);
     for (const auto& line : summary_lines(result)) context.note(line);
