@@ -15,6 +15,7 @@ build_packages=(
 test_packages=(
   bats bats-assert bats-support libgtest-dev libgmock-dev libbenchmark-dev
   python3 python3-numpy python3-meshio python3-vtk9 gmsh coinor-cbc zstd procps
+  python3-getfem calculix-ccx python3-scipy
 )
 
 install_packages() {
