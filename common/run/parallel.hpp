@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace hexpipe {
@@ -55,23 +57,32 @@ void parallel_for(std::int64_t count, std::int64_t grain, Body&& body) {
 template <class Produce, class Consume>
 void parallel_in_order(std::int64_t count, std::int64_t block, Produce&& produce, Consume&& consume) {
   using Product = decltype(produce(std::int64_t{}, std::int64_t{}));
+  const std::size_t tokens = 4 * static_cast<std::size_t>(thread_count());
+  // A block's product waits in the slot of its number modulo the tokens: blocks leave in order, so the slot is free
+  // again. What flows through the pipeline is a plain number, because oneTBB leaks what is under way when a block
+  // throws.
+  std::vector<std::optional<Product>> slots(tokens);
+  const auto slot = [&](std::int64_t begin) -> std::optional<Product>& {
+    return slots[static_cast<std::size_t>(begin / block) % tokens];
+  };
   std::int64_t next = 0;
-  tbb::parallel_pipeline(4 * static_cast<std::size_t>(thread_count()),
-                         tbb::make_filter<void, std::int64_t>(tbb::filter_mode::serial_in_order,
-                                                              [&](tbb::flow_control& control) {
-                                                                const std::int64_t begin = next;
-                                                                if (begin >= count) control.stop();
-                                                                next = begin + block;
-                                                                return begin;
-                                                              }) &
-                             tbb::make_filter<std::int64_t, std::shared_ptr<Product>>(
-                                 tbb::filter_mode::parallel,
-                                 [&](std::int64_t begin) {
-                                   return std::make_shared<Product>(produce(begin, std::min(begin + block, count)));
-                                 }) &
-                             tbb::make_filter<std::shared_ptr<Product>, void>(
-                                 tbb::filter_mode::serial_in_order,
-                                 [&](const std::shared_ptr<Product>& product) { consume(std::move(*product)); }));
+  const auto take = [&](tbb::flow_control& control) {
+    const std::int64_t begin = next;
+    if (begin >= count) control.stop();
+    next = begin + block;
+    return begin;
+  };
+  const auto make = [&](std::int64_t begin) {
+    slot(begin).emplace(produce(begin, std::min(begin + block, count)));
+    return begin;
+  };
+  const auto give = [&](std::int64_t begin) {
+    consume(std::move(*slot(begin)));
+    slot(begin).reset();
+  };
+  tbb::parallel_pipeline(tokens, tbb::make_filter<void, std::int64_t>(tbb::filter_mode::serial_in_order, take) &
+                                     tbb::make_filter<std::int64_t, std::int64_t>(tbb::filter_mode::parallel, make) &
+                                     tbb::make_filter<std::int64_t, void>(tbb::filter_mode::serial_in_order, give));
 }
 
 }  // namespace hexpipe
