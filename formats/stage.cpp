@@ -291,18 +291,12 @@ void Stage::State::read_files(std::map<Role, Input>& files, StageData& data) {
     seen.insert(role);
     sources[role] = input.name();
     if (looks_like_bundle(input)) {
-      StageData only;
       BundleReader reader(input);
       while (reader.next())
-        if (role_of_member(reader.name()) == role) read_member(reader, only, nullptr);
-      if (!holds(only, role))
+        if (role_of_member(reader.name()) == role) read_member(reader, data, nullptr);
+      if (!holds(data, role))
         throw DataError::at(input.name(), "expected {} in this bundle, found none", name_of(role));
-      fill_defaults(only);
-      if (only.mesh) data.mesh = std::move(only.mesh);
-      if (only.candidates) data.candidates = std::move(only.candidates);
-      if (only.graph) data.graph = std::move(only.graph);
-      if (only.solution) data.solution = std::move(only.solution);
-      if (only.result) data.result = std::move(only.result);
+      fill_defaults(data);
     } else {
       read_role_file(role, input, data);
       if (role == Role::mesh) orient(*data.mesh, input.name());

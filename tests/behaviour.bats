@@ -195,6 +195,20 @@ product_ending() {
   done
 }
 
+@test "statistics that cannot be written are an error before the work, not after it" {
+  for tool in $TOOLS; do
+    assert_fails_with 1 "$tool: nowhere/statistics.json: cannot write: No such file or directory" \
+      $tool $(limited $tool) -q "$STAGES/$tool.in" -o out.tar --stats nowhere/statistics.json
+    assert [ ! -e out.tar ]
+  done
+}
+
+@test "a default of several values stands in the history as it would be typed" {
+  findhex -q "$STAGES/findhex.in" -o out.tar
+  run tar xOf out.tar "$(tar tf out.tar | grep 'history/.*-findhex.json')"
+  assert_output --partial '"cells": "hex"'
+}
+
 @test "every output is a bundle that the independent checker accepts" {
   for tool in $TOOLS; do
     $tool $(limited $tool) "$STAGES/$tool.in" -o out.tar -q

@@ -160,9 +160,10 @@ PYTHON
   sleep 0.3
   kill -0 $reader
   kill -INT $reader
-  run wait $reader
+  local code=0
+  wait $reader || code=$?
   kill $writer
-  run ! kill -0 $reader
+  assert_equal "$code" 130
 }
 
 @test "Ctrl-C ends tetmesh once its pipe is read, and leaves no file" {

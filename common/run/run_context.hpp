@@ -21,6 +21,8 @@ struct ToolInfo {
   bool random = false;          // has --seed
   bool searches = false;        // has --time-limit, --iterations and --log, and stops gracefully on signals
   std::optional<double> default_time_limit{};  // of a search that is given neither limit, seconds
+  // Options of its own that do not decide what comes out, and so stay out of the history.
+  std::vector<std::string> outside_history{};
 };
 
 struct CommonOptions {

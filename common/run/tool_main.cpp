@@ -27,23 +27,33 @@ constexpr int exit_usage = 2;
 
 // Options that say where things are or how to run, but not what comes out: they stay out of the history, so that the
 // same input and options give the same bytes.
-bool decides_result(const CLI::Option& option) {
-  static const std::vector<std::string> outside{"help",     "version",     "config",        "threads", "stats",
-                                                "log",      "verbose",     "quiet",         "output",  "format",
-                                                "compress", "certificate", "tetgen-timeout"};
+bool decides_result(const CLI::Option& option, const ToolInfo& info) {
+  static const std::vector<std::string> common_ones{"help",    "version", "config", "threads", "stats",   "log",
+                                                    "verbose", "quiet",   "output", "format",  "compress"};
   if (option.get_lnames().empty()) return false;
   const std::string& long_name = option.get_lnames().front();
   for (const Role role : all_roles)
     if (long_name == name_of(role)) return false;
-  return std::find(outside.begin(), outside.end(), long_name) == outside.end();
+  const auto lists = [&](const std::vector<std::string>& names) {
+    return std::find(names.begin(), names.end(), long_name) != names.end();
+  };
+  return !lists(common_ones) && !lists(info.outside_history);
 }
 
-nlohmann::ordered_json options_for_history(const CLI::App& app) {
+// CLI11 writes the default of an option with several values as "[a,b]", given values as "a,b".
+std::string default_value(const CLI::Option& option) {
+  std::string text = option.get_default_str();
+  if (option.get_items_expected_max() > 1 && text.starts_with('[') && text.ends_with(']'))
+    text = text.substr(1, text.size() - 2);
+  return text;
+}
+
+nlohmann::ordered_json options_for_history(const CLI::App& app, const ToolInfo& info) {
   nlohmann::ordered_json options = nlohmann::ordered_json::object();
   for (const CLI::Option* option : app.get_options()) {
-    if (!decides_result(*option)) continue;
+    if (!decides_result(*option, info)) continue;
     const std::string value =
-        option->count() > 0 ? CLI::detail::join(option->results(), ",") : option->get_default_str();
+        option->count() > 0 ? CLI::detail::join(option->results(), ",") : default_value(*option);
     if (!value.empty()) options[option->get_lnames().front()] = value;
   }
   return options;
@@ -110,6 +120,16 @@ std::string footer(const ToolInfo& info) {
       info.example);
 }
 
+// Before the run, so that hours of work do not end in an error. What is there stays as it is.
+void check_writable(const std::string& path) {
+  if (path.empty()) return;
+  const bool is_new = access(path.c_str(), F_OK) != 0;
+  const std::size_t slash = path.rfind('/');
+  const std::string directory = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+  if (access(is_new ? directory.c_str() : path.c_str(), W_OK) != 0)
+    throw DataError::at(path, "cannot write: {}", std::strerror(errno));
+}
+
 void write_statistics(const RunContext& context, double seconds) {
   if (context.common.stats_file.empty()) return;
   nlohmann::ordered_json statistics{{"tool", context.info.name}};
@@ -168,10 +188,11 @@ int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<v
     return report(info.name, one_line(error.what()) + fmt::format(" (see {} --help)", info.name), exit_usage);
   }
   std::erase_if(context.streams.files, [](const auto& file) { return file.second.empty(); });
-  context.options = options_for_history(app);
+  context.options = options_for_history(app, info);
 
   try {
     const ThreadLimit limit(context.common.threads);
+    check_writable(context.common.stats_file);
     const Stopwatch watch;
     run(context);
     write_statistics(context, watch.seconds());

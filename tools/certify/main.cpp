@@ -15,7 +15,8 @@ int main(int argc, char** argv) {
       .example = "certify --graph part.graph --solution part.sol -v -o part.sol",
       .reads = {Role::graph, Role::solution},
       .product = Role::solution,
-      .searches = true};
+      .searches = true,
+      .outside_history = {"certificate"}};
   CertifyOptions options;
   std::string certificate;
   const auto declare = [&](CLI::App& app) {

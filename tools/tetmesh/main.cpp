@@ -43,7 +43,8 @@ int main(int argc, char** argv) {
       .example = "tetmesh bracket.stl --size 3 | findhex | buildgraph | initsol | assemble -o bracket.vtu",
       .reads = {},
       .product = Role::mesh,
-      .random = true};
+      .random = true,
+      .outside_history = {"tetgen-timeout"}};
   TetmeshOptions options;
   std::optional<std::string> size;
   std::string path = "-", points = "lattice", shells = "oriented";
