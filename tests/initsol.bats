@@ -53,14 +53,33 @@ PYTHON
   assert [ ! -e out.sol ]
 }
 
-@test "--seed, --tenure, --patience, --escape, --starts change the search" {
-  initsol ring.graph --iterations 4000 --patience 50 -o base.sol
-  initsol ring.graph --iterations 4000 --patience 50 --seed 2 -o seed.sol
-  initsol ring.graph --iterations 4000 --patience 50 --tenure 5 -o tenure.sol
-  initsol ring.graph --iterations 4000 --patience 100000 -o patience.sol
-  initsol ring.graph --iterations 4000 --patience 50 --escape restart -o restart.sol
-  initsol ring.graph --iterations 4000 --patience 50 --escape rebuild -o rebuild.sol
-  initsol ring.graph --iterations 4000 --patience 50 --starts 3 -o starts.sol
+@test "--method, --seed, --hot, --cold, --starts change the search" {
+  initsol ring.graph --iterations 4000 -o base.sol
+  initsol ring.graph --iterations 4000 --method anneal --hot 0.3 --cold 0.03 -o same.sol
+  assert_same_bytes base.sol same.sol
+  initsol ring.graph --iterations 4000 --method tabu -o tabu.sol
+  initsol ring.graph --iterations 4000 --seed 2 -o seed.sol
+  initsol ring.graph --iterations 4000 --hot 1 -o hot.sol
+  initsol ring.graph --iterations 4000 --cold 0.2 -o cold.sol
+  initsol ring.graph --iterations 4000 --starts 3 -o starts.sol
+  for other in tabu seed hot cold starts; do
+    assert_different_bytes base.sol $other.sol
+    weight_of $other.sol >/dev/null
+  done
+  assert [ "$(weight_of starts.sol)" -ge "$(weight_of base.sol)" ]
+}
+
+@test "--seed, --tenure, --patience, --escape, --starts change tabu search" {
+  tabu() {
+    initsol ring.graph --method tabu --iterations 4000 --patience 50 "$@"
+  }
+  tabu -o base.sol
+  tabu --seed 2 -o seed.sol
+  tabu --tenure 5 -o tenure.sol
+  initsol ring.graph --method tabu --iterations 4000 -o patience.sol
+  tabu --escape restart -o restart.sol
+  tabu --escape rebuild -o rebuild.sol
+  tabu --starts 3 -o starts.sol
   for other in seed tenure patience restart rebuild starts; do
     assert_different_bytes base.sol $other.sol
     weight_of $other.sol >/dev/null
@@ -70,6 +89,11 @@ PYTHON
 
 @test "bad values of options end with 2" {
   assert_fails_with 2 "initsol: .*--greedy" initsol ring.graph --greedy luck
+  assert_fails_with 2 "initsol: .*--method" initsol ring.graph --method luck
+  assert_fails_with 2 "initsol: .*--hot" initsol ring.graph --hot 0
+  assert_fails_with 2 "initsol: .*--cold" initsol ring.graph --cold nan
+  assert_fails_with 2 "initsol: --tenure is no option of --method anneal" initsol ring.graph --tenure 5 -o out.sol
+  assert_fails_with 2 "initsol: --hot is no option of --method tabu" initsol ring.graph --method tabu --hot 1 -o out.sol
   assert_fails_with 2 "initsol: .*--escape" initsol ring.graph --escape luck
   assert_fails_with 2 "initsol: .*--starts" initsol ring.graph --starts 0
   assert_fails_with 2 "initsol: .*--tenure" initsol ring.graph --tenure -1
@@ -79,9 +103,11 @@ PYTHON
 }
 
 @test "--starts gives the same bytes on 1 and 2 threads" {
-  initsol ring.graph --iterations 3000 --starts 4 --threads 1 -o one.sol
-  initsol ring.graph --iterations 3000 --starts 4 --threads 2 -o two.sol
-  assert_same_bytes one.sol two.sol
+  for method in anneal tabu; do
+    initsol ring.graph --method $method --iterations 3000 --starts 4 --threads 1 -o one.sol
+    initsol ring.graph --method $method --iterations 3000 --starts 4 --threads 2 -o two.sol
+    assert_same_bytes one.sol two.sol
+  done
 }
 
 @test "--time-limit is kept, and --log ends with the weight of the solution" {

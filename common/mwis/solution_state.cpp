@@ -6,7 +6,9 @@
 namespace hexpipe {
 
 SolutionState::SolutionState(const ConflictGraph& graph)
-    : graph_(&graph), around_(graph.weights.size()), chosen_(graph.weights.size(), 0) {}
+    : graph_(&graph), around_(graph.weights.size()), chosen_(graph.weights.size(), 0) {
+  for (std::int32_t v = 0; v < graph.vertex_count(); ++v) around_[v].push_gain = graph.weights[v];
+}
 
 SolutionState::SolutionState(const ConflictGraph& graph, const IndependentSet& solution) : SolutionState(graph) {
   for (const std::int32_t v : solution) add(v);
@@ -19,22 +21,9 @@ void SolutionState::add(std::int32_t v) {
   weight_ += weight;
   for (const std::int32_t u : graph_->neighbours_of(v)) {
     Around& around = around_[u];
-    around.weight += weight;
+    around.push_gain -= weight;
     ++around.tightness;
     around.number_sum += static_cast<std::uint32_t>(v);
-  }
-}
-
-void SolutionState::remove(std::int32_t v) {
-  assert(contains(v));
-  const std::int64_t weight = graph_->weights[v];
-  chosen_[v] = 0;
-  weight_ -= weight;
-  for (const std::int32_t u : graph_->neighbours_of(v)) {
-    Around& around = around_[u];
-    around.weight -= weight;
-    --around.tightness;
-    around.number_sum -= static_cast<std::uint32_t>(v);
   }
 }
 

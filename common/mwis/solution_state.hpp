@@ -2,6 +2,7 @@
 // An independent set under change, with what every search asks of it: how many chosen neighbours a vertex has
 // (tightness), what they weigh, and, when there is one, which it is.
 
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -19,17 +20,21 @@ class SolutionState {
   bool contains(std::int32_t v) const { return chosen_[v] != 0; }
   std::int32_t tightness(std::int32_t v) const { return around_[v].tightness; }
   // The weight of the chosen neighbours.
-  std::int64_t adjacent_weight(std::int32_t v) const { return around_[v].weight; }
+  std::int64_t adjacent_weight(std::int32_t v) const { return graph_->weights[v] - around_[v].push_gain; }
   // The sum of the numbers of the chosen neighbours, modulo 2^32: names the last one when all others are known.
   std::uint32_t neighbour_sum(std::int32_t v) const { return around_[v].number_sum; }
   // What Push(v) would gain: v in, its chosen neighbours out.
-  std::int64_t push_gain(std::int32_t v) const { return graph_->weights[v] - around_[v].weight; }
+  std::int64_t push_gain(std::int32_t v) const { return around_[v].push_gain; }
   std::int64_t weight() const { return weight_; }
 
   // v is neither chosen nor has a chosen neighbour.
   void add(std::int32_t v);
-  // v is chosen.
-  void remove(std::int32_t v);
+  // v is chosen. Calls touched(u) for each neighbour when what is kept of it is right again.
+  template <class Touched>
+  void remove(std::int32_t v, Touched&& touched);
+  void remove(std::int32_t v) {
+    remove(v, [](std::int32_t) {});
+  }
 
   // Calls visit(u) for the chosen neighbours of v, ascending; the state must not change meanwhile.
   template <class Visit>
@@ -54,7 +59,7 @@ class SolutionState {
 
  private:
   struct Around {
-    std::int64_t weight = 0;
+    std::int64_t push_gain = 0;
     std::int32_t tightness = 0;
     std::uint32_t number_sum = 0;
     bool operator==(const Around&) const = default;
@@ -65,5 +70,20 @@ class SolutionState {
   std::vector<std::uint8_t> chosen_;
   std::int64_t weight_ = 0;
 };
+
+template <class Touched>
+void SolutionState::remove(std::int32_t v, Touched&& touched) {
+  assert(contains(v));
+  const std::int64_t weight = graph_->weights[v];
+  chosen_[v] = 0;
+  weight_ -= weight;
+  for (const std::int32_t u : graph_->neighbours_of(v)) {
+    Around& around = around_[u];
+    around.push_gain += weight;
+    --around.tightness;
+    around.number_sum -= static_cast<std::uint32_t>(v);
+    touched(u);
+  }
+}
 
 }  // namespace hexpipe

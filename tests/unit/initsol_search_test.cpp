@@ -105,14 +105,29 @@ TEST(Initsol, NeverLosesWhatGreedyFound) {
   Random random(5);
   const ConflictGraph graph = hexpipe::testing::random_clique_graph(400, 120, 1000, random);
   const std::vector<double> quality(graph.weights.begin(), graph.weights.end());
-  for (const GreedyOrder order : {GreedyOrder::weight, GreedyOrder::weight_degree, GreedyOrder::quality}) {
-    const InitsolResult none = find_initial_solution(graph, quality, {.order = order, .iterations = 0}, no_deadline);
-    EXPECT_EQ(none.weight, none.greedy_weight);
-    EXPECT_EQ(none.iterations, 0);
-    const InitsolResult some = find_initial_solution(graph, quality, {.order = order, .iterations = 5000}, no_deadline);
-    EXPECT_GT(some.weight, none.weight);
-    EXPECT_EQ(total_weight(some.solution, graph), some.weight);
-    EXPECT_NO_THROW(validate(some.solution, graph, "solution"));
+  for (const Method method : {Method::anneal, Method::tabu})
+    for (const GreedyOrder order : {GreedyOrder::weight, GreedyOrder::weight_degree, GreedyOrder::quality}) {
+      const InitsolResult none =
+          find_initial_solution(graph, quality, {.order = order, .method = method, .iterations = 0}, no_deadline);
+      EXPECT_EQ(none.weight, none.greedy_weight);
+      EXPECT_EQ(none.iterations, 0);
+      const InitsolResult some =
+          find_initial_solution(graph, quality, {.order = order, .method = method, .iterations = 5000}, no_deadline);
+      EXPECT_GT(some.weight, none.weight);
+      EXPECT_EQ(total_weight(some.solution, graph), some.weight);
+      EXPECT_NO_THROW(validate(some.solution, graph, "solution"));
+    }
+}
+
+TEST(Initsol, AnnealsBetterTheSlowerItCools) {
+  Random random(9);
+  const ConflictGraph graph = hexpipe::testing::random_clique_graph(3000, 900, 1000, random);
+  std::int64_t last = 0;
+  for (const std::int64_t kicks : {500, 5000, 50000}) {
+    const InitsolResult result = find_initial_solution(graph, {}, {.iterations = kicks}, no_deadline);
+    EXPECT_EQ(result.iterations, kicks);
+    EXPECT_GT(result.weight, last);
+    last = result.weight;
   }
 }
 

@@ -1,6 +1,7 @@
 #include "tools/initsol/initsol.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -10,15 +11,70 @@ namespace hexpipe {
 namespace {
 
 // Moves between two looks at which start is ahead; some milliseconds.
-constexpr std::int64_t moves_a_round = 1000;
+constexpr std::int64_t most_moves_a_round = 1000;
+// Few iterations cool down in as many steps.
+constexpr std::int64_t least_rounds = 100;
 
 IndependentSet start_solution(const ConflictGraph& graph, std::vector<double> merits, const InitsolOptions& options,
-                              int index) {
+                              std::int64_t index) {
   if (index > 0) {
     Random random(options.seed, static_cast<std::uint64_t>(index));
     for (double& merit : merits) merit *= random.uniform(0.8, 1.2);
   }
   return greedy(graph, merits);
+}
+
+class Search {
+ public:
+  virtual ~Search() = default;
+  // `progress` from 0 to 1 is what was used of the iterations or of the time.
+  virtual void run(std::int64_t moves, double progress, const Deadline& deadline) = 0;
+  virtual std::int64_t moves() const = 0;
+  virtual std::int64_t best_weight() const = 0;
+  virtual IndependentSet best() const = 0;
+};
+
+class TabuStart : public Search {
+ public:
+  TabuStart(const ConflictGraph& graph, const IndependentSet& start, const InitsolOptions& options, Random random)
+      : search_(graph, start, options.tabu, random) {}
+  void run(std::int64_t moves, double, const Deadline& deadline) override { search_.run(moves, deadline); }
+  std::int64_t moves() const override { return search_.moves(); }
+  std::int64_t best_weight() const override { return search_.best_weight(); }
+  IndependentSet best() const override { return search_.best(); }
+
+ private:
+  TabuSearch search_;
+};
+
+class AnnealedStart : public Search {
+ public:
+  AnnealedStart(const ConflictGraph& graph, const IndependentSet& start, const InitsolOptions& options, Random random)
+      : cooling_(options.cooling), search_(graph, start, random), unit_(search_.mean_weight()) {}
+  void run(std::int64_t moves, double progress, const Deadline& deadline) override {
+    search_.run(moves, unit_ * cooling_.at(progress), deadline);
+  }
+  std::int64_t moves() const override { return search_.kicks(); }
+  std::int64_t best_weight() const override { return search_.best_weight(); }
+  IndependentSet best() const override { return search_.best(); }
+
+ private:
+  Cooling cooling_;
+  Annealing search_;
+  double unit_;
+};
+
+std::unique_ptr<Search> make_search(const ConflictGraph& graph, const IndependentSet& start,
+                                    const InitsolOptions& options, Random random) {
+  if (options.method == Method::tabu) return std::make_unique<TabuStart>(graph, start, options, random);
+  return std::make_unique<AnnealedStart>(graph, start, options, random);
+}
+
+double progress_of(std::int64_t done, const InitsolOptions& options, const Deadline& deadline) {
+  const double by_iterations = static_cast<double>(done) / static_cast<double>(options.iterations);
+  const double left = deadline.remaining();
+  const double by_time = std::isfinite(left) ? deadline.elapsed() / (deadline.elapsed() + std::max(left, 0.0)) : 0;
+  return std::min(1.0, std::max(by_iterations, by_time));
 }
 
 }  // namespace
@@ -27,22 +83,28 @@ InitsolResult find_initial_solution(const ConflictGraph& graph, std::span<const 
                                     const InitsolOptions& options, const Deadline& deadline,
                                     const std::function<void(const InitsolProgress&)>& report) {
   const std::vector<double> vertex_merits = merits(graph, options.order, quality);
-  std::vector<std::unique_ptr<TabuSearch>> searches(static_cast<std::size_t>(options.starts));
-  parallel_for(options.starts, 1, [&](std::int64_t i) {
-    const IndependentSet start = start_solution(graph, vertex_merits, options, static_cast<int>(i));
-    // Streams 0, 1, ... of the seed make the starts, the ones after them search.
-    searches[i] = std::make_unique<TabuSearch>(graph, start, options.tabu,
-                                               Random(options.seed, static_cast<std::uint64_t>(options.starts + i)));
-  });
-
   InitsolResult result;
-  result.greedy_weight = searches.front()->best_weight();
+  const IndependentSet first = greedy(graph, vertex_merits);
+  result.greedy_weight = result.weight = total_weight(first, graph);
+  if (options.iterations == 0 || deadline.passed() || graph.edge_count() == 0) {
+    result.solution = first;
+    return result;
+  }
+
+  std::vector<std::unique_ptr<Search>> searches(static_cast<std::size_t>(options.starts));
+  parallel_for(options.starts, 1, [&](std::int64_t i) {
+    // Streams 0, 1, ... of the seed make the starts, the ones after them search.
+    const Random random(options.seed, static_cast<std::uint64_t>(options.starts + i));
+    searches[i] = make_search(graph, start_solution(graph, vertex_merits, options, i), options, random);
+  });
   const auto leader = [&] {
     return std::ranges::max_element(searches, {}, [](const auto& search) { return search->best_weight(); })->get();
   };
+  const std::int64_t round = std::clamp<std::int64_t>(options.iterations / least_rounds, 1, most_moves_a_round);
   for (std::int64_t done = 0; done < options.iterations && !deadline.passed();) {
-    const std::int64_t moves = std::min(moves_a_round, options.iterations - done);
-    parallel_for(options.starts, 1, [&](std::int64_t i) { searches[i]->run(moves, deadline); });
+    const std::int64_t moves = std::min(round, options.iterations - done);
+    const double progress = progress_of(done, options, deadline);
+    parallel_for(options.starts, 1, [&](std::int64_t i) { searches[i]->run(moves, progress, deadline); });
     done += moves;
     if (report && leader()->best_weight() > result.weight) {
       result.weight = leader()->best_weight();
@@ -51,8 +113,10 @@ InitsolResult find_initial_solution(const ConflictGraph& graph, std::span<const 
     if (std::ranges::all_of(searches, [&](const auto& search) { return search->moves() < done; })) break;
   }
   for (const auto& search : searches) result.iterations += search->moves();
-  result.solution = leader()->best();
-  result.weight = leader()->best_weight();
+  SolutionState best(graph, leader()->best());
+  best.make_maximal();  // with vertices of weight 0
+  result.solution = best.to_set();
+  result.weight = best.weight();
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include "common/mwis/search_log.hpp"
 #include "common/run/error.hpp"
+#include "common/run/option_checks.hpp"
 #include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/stage.hpp"
@@ -15,6 +16,7 @@ namespace {
 
 const std::map<std::string, GreedyOrder> orders{
     {"weight", GreedyOrder::weight}, {"weight-degree", GreedyOrder::weight_degree}, {"quality", GreedyOrder::quality}};
+const std::map<std::string, Method> methods{{"anneal", Method::anneal}, {"tabu", Method::tabu}};
 const std::map<std::string, Escape> escapes{
     {"restart", Escape::restart}, {"rebuild", Escape::rebuild}, {"best", Escape::best}};
 
@@ -27,34 +29,56 @@ std::vector<double> quality_for(const StageData& data) {
   return data.candidates->quality;
 }
 
+// Options of the other method would do nothing.
+void refuse_options(const std::vector<CLI::Option*>& others, const std::string& method) {
+  for (const CLI::Option* option : others)
+    if (option->count() > 0)
+      throw UsageError(fmt::format("{} is no option of --method {}", option->get_name(), method));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const ToolInfo info{.name = "initsol",
-                      .summary = "Choose a first set of candidates without conflicts: greedy, then tabu search.",
-                      .example = "initsol part.graph --time-limit 5 -o part.sol",
-                      .reads = {Role::graph, Role::candidates},
-                      .product = Role::solution,
-                      .random = true,
-                      .searches = true,
-                      .default_time_limit = 10};
+  const ToolInfo info{
+      .name = "initsol",
+      .summary = "Choose a first set of candidates without conflicts: greedy, then annealing or tabu search.",
+      .example = "initsol part.graph --time-limit 5 -o part.sol",
+      .reads = {Role::graph, Role::candidates},
+      .product = Role::solution,
+      .random = true,
+      .searches = true,
+      .default_time_limit = 10};
   InitsolOptions options;
-  std::string order = "weight-degree", escape = "best";
+  std::string order = "weight-degree", method = "anneal", escape = "best";
+  std::vector<CLI::Option*> of_annealing, of_tabu;
   const auto declare = [&](CLI::App& app) {
     app.add_option("--greedy", order, "What comes first: high weight, weight / (degree + 1), or quality")
         ->check(CLI::IsMember(orders));
-    app.add_option("--escape", escape,
-                   "The way out of local optima: restart at random, rebuild from what moved least, go back to the best")
-        ->check(CLI::IsMember(escapes));
-    app.add_option("--tenure", options.tabu.tenure, "Moves, or up to twice as many, that a vertex pushed out stays out")
-        ->check(CLI::Range(0, 1000000000).description(""));
-    app.add_option("--patience", options.tabu.patience, "Moves without a better solution before the way out")
-        ->check(CLI::Range(1, 1000000000).description(""));
+    app.add_option("--method", method, "What follows greedy: simulated annealing over local optima, or tabu search")
+        ->check(CLI::IsMember(methods));
+    of_annealing = {app.add_option("--hot", options.cooling.hot,
+                                   "Annealing: the first temperature, in mean weights of a chosen vertex")
+                        ->check(number_between(1e-6, 1e6)),
+                    app.add_option("--cold", options.cooling.cold, "Annealing: the last temperature, likewise")
+                        ->check(number_between(1e-6, 1e6))};
+    of_tabu = {
+        app.add_option("--escape", escape,
+                       "Tabu search: the way out of local optima: restart at random, rebuild from what moved least, go "
+                       "back to the best")
+            ->check(CLI::IsMember(escapes)),
+        app.add_option("--tenure", options.tabu.tenure,
+                       "Tabu search: moves, or up to twice as many, that a vertex pushed out stays out")
+            ->check(CLI::Range(0, 1000000000).description("")),
+        app.add_option("--patience", options.tabu.patience,
+                       "Tabu search: moves without a better solution before the way out")
+            ->check(CLI::Range(1, 1000000000).description(""))};
     app.add_option("--starts", options.starts, "Searches from different starts, of which the best is kept")
         ->check(CLI::Range(1, 1000).description(""));
   };
   const auto run = [&](RunContext& context) {
     options.order = orders.at(order);
+    options.method = methods.at(method);
+    refuse_options(options.method == Method::tabu ? of_annealing : of_tabu, method);
     options.tabu.escape = escapes.at(escape);
     options.seed = context.common.seed;
     options.iterations = context.common.iterations.value_or(options.iterations);
