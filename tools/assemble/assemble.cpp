@@ -10,6 +10,7 @@
 #include "common/run/error.hpp"
 #include "tools/assemble/conform.hpp"
 #include "tools/assemble/extract.hpp"
+#include "tools/assemble/reconnect.hpp"
 #include "tools/assemble/repair.hpp"
 #include "tools/assemble/selection.hpp"
 #include "tools/assemble/self_check.hpp"
@@ -72,7 +73,9 @@ constexpr double barely_valid = 1e-4;
 constexpr int untangling_rounds = 20;
 // Rounds of conforming, untangling and giving back what stays poor. Two nearly always do; the last one takes no risks.
 constexpr int most_attempts = 4;
-// Tets that smoothing leaves below this get a vertex beside them.
+// Tets that smoothing leaves below the first are exchanged for others on the same vertices; those that this leaves
+// below the second get a vertex beside them.
+constexpr double worth_an_exchange = 0.15;
 constexpr double worth_a_vertex = 0.05;
 
 void move_points(const Extract& from, HybridMesh& to) {
@@ -163,8 +166,9 @@ Extract Assembler::smooth_and_repair(HybridMesh& hybrid) {
   statistics_.before_smoothing = kind_statistics(extracted.mesh);
   statistics_.smoothing = smooth(extracted.mesh, options_.smooth);
   move_points(extracted, hybrid);
+  statistics_.exchanges = reconnect_poor_tets(hybrid, tags_, worth_an_exchange);
   statistics_.repaired = repair_flat_tets(hybrid, tags_, worth_a_vertex);
-  if (statistics_.repaired == 0) return extracted;
+  if (statistics_.exchanges + statistics_.repaired == 0) return extracted;
   extracted = extract(hybrid, input_, tags_);
   const SmoothCounts again = smooth(extracted.mesh, options_.smooth);
   statistics_.smoothing.rounds += again.rounds;

@@ -31,17 +31,22 @@ double product_of_norms(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 }  // namespace
 
-void PointStar::add(CellKind kind, std::span<const Vec3> corners, int moving, double weight) {
-  const double scale = kind == CellKind::tet ? weight * tet_scale : weight;
+void PointStar::add(CellKind kind, std::span<const Vec3> corners, int moving, double weight, double enough) {
+  Term term{};
+  term.scale = kind == CellKind::tet ? weight * tet_scale : weight;
+  term.weight = weight;
+  term.enough = enough;
   with_topology(kind, [&](auto topology) {
-    for (const auto& corner : decltype(topology)::corners) add_corner(corners, corner, moving, scale, weight);
+    for (const auto& corner : decltype(topology)::corners) add_corner(corners, corner, moving, term);
   });
 }
 
-void PointStar::add_corner(std::span<const Vec3> corners, const LocalCorner& corner, int moving, double scale,
-                           double weight) {
+void PointStar::add_corner(std::span<const Vec3> corners, const LocalCorner& corner, int moving, const Term& model) {
+  Term term = model;
   if (corner[0] == moving) {
-    terms_.push_back({{corners[corner[1]], corners[corner[2]], corners[corner[3]]}, {}, scale, weight, true});
+    term.fixed = {corners[corner[1]], corners[corner[2]], corners[corner[3]]};
+    term.is_corner = true;
+    terms_.push_back(term);
     return;
   }
   for (int i = 1; i < 4; ++i) {
@@ -49,7 +54,9 @@ void PointStar::add_corner(std::span<const Vec3> corners, const LocalCorner& cor
     const Vec3 o = corners[corner[0]];
     const Vec3 b = corners[corner[i % 3 + 1]] - o, c = corners[corner[(i + 1) % 3 + 1]] - o;
     const double lengths = std::sqrt(norm_squared(b) * norm_squared(c));
-    terms_.push_back({{o, {}, {}}, cross(b, c) * (lengths > 0 ? 1 / lengths : 0), scale, weight, false});
+    term.fixed[0] = o;
+    term.normal = cross(b, c) * (lengths > 0 ? 1 / lengths : 0);
+    terms_.push_back(term);
   }
 }
 
@@ -98,7 +105,7 @@ double PointStar::worst_unweighted(const Vec3& at) const {
 double PointStar::mean(const Vec3& at) const {
   double sum = 0, shares = 0;
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    sum += mean_share(i) * value(i, at) / weight(i);
+    sum += mean_share(i) * std::min(value(i, at) / weight(i), terms_[i].enough);
     shares += mean_share(i);
   }
   return terms_.empty() ? 0 : sum / shares;
@@ -263,9 +270,10 @@ Placement raise_mean(const PointStar& star, const Vec3& start, int steps, const 
     Vec3 sum{};
     double shares = 0;
     for (std::size_t i = 0; i < star.size(); ++i) {
+      shares += star.mean_share(i);
+      if (star.is_enough(i, best.at)) continue;
       gradients.push_back(star.gradient(i, best.at) * (star.mean_share(i) / star.weight(i)));
       sum += gradients.back();
-      shares += star.mean_share(i);
     }
     const Vec3 direction = freedom.allowed(freedom.allowed(sum * (1 / shares)));
     const double slope = norm_squared(direction);

@@ -18,7 +18,8 @@ class PointStar {
   bool empty() const { return terms_.empty(); }
   // The corners of an element that involve its corner `moving`; the position given for it is not used. Values are
   // multiplied by `weight`, so that a weight below 1 makes the element give way to others sooner.
-  void add(CellKind kind, std::span<const Vec3> corners, int moving, double weight = 1);
+  // The mean counts no value above `enough`.
+  void add(CellKind kind, std::span<const Vec3> corners, int moving, double weight = 1, double enough = 1);
 
   std::size_t size() const { return terms_.size(); }
   double value(std::size_t term, const Vec3& at) const;
@@ -26,6 +27,10 @@ class PointStar {
   double weight(std::size_t term) const { return terms_[term].weight; }
   // What a corner counts in the mean: the more, the sooner it has to give way as the worst.
   double mean_share(std::size_t term) const { return 1 / (weight(term) * weight(term)); }
+  // True when the mean counts no more of the value.
+  bool is_enough(std::size_t term, const Vec3& at) const {
+    return value(term, at) / weight(term) >= terms_[term].enough;
+  }
   // Least over all corners, weighted and not.
   double worst(const Vec3& at) const;
   double worst_unweighted(const Vec3& at) const;
@@ -42,9 +47,10 @@ class PointStar {
     Vec3 normal;
     double scale;  // the weight, and for a tet the square root of 2
     double weight;
+    double enough;
     bool is_corner;
   };
-  void add_corner(std::span<const Vec3> corners, const LocalCorner& corner, int moving, double scale, double weight);
+  void add_corner(std::span<const Vec3> corners, const LocalCorner& corner, int moving, const Term& model);
 
   std::vector<Term> terms_;
 };

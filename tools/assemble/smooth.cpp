@@ -21,6 +21,8 @@ namespace {
 // 0.25. Without it the flat pyramids at the border of a hex block, which cannot become much better, pull the hexes next
 // to them down to their own quality (a mean of 0.92 in place of 0.96 on a block with a notch).
 constexpr double hex_weight = 0.5;
+// Better than this, cells other than hexes gain nothing in the mean: pyramids would grow tall and press hexes flat.
+constexpr double good_beside_hexes = 0.5;
 // Where the worst cell, so weighted, is better than this, the average counts.
 constexpr double good_enough = 0.12;
 // A vertex whose cells are all like this is left alone.
@@ -107,7 +109,8 @@ void Smoother::look_around(Vertex v) {
     const auto at = corner_points(points_, corners);
     const auto moving = static_cast<int>(std::find(corners.begin(), corners.end(), v) - corners.begin());
     const double weight = cells_.kind(c) == CellKind::hex ? hex_weight : 1;
-    star_.add(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()), moving, weight);
+    const double enough = cells_.kind(c) == CellKind::hex ? 1 : good_beside_hexes;
+    star_.add(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()), moving, weight, enough);
   }
 }
 

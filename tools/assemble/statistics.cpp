@@ -112,9 +112,9 @@ std::string histogram_line(CellKind kind, const char* when, const KindStatistics
 
 void append_histograms(const AssembleStatistics& statistics, std::vector<std::string>& lines) {
   lines.push_back(
-      fmt::format("smoothing: {} rounds, {} moves, {} vertices added at flat tets; cells by scaled "
-                  "Jacobian, 0 to 1 in tenths",
-                  statistics.smoothing.rounds, statistics.smoothing.moves, statistics.repaired));
+      fmt::format("smoothing: {} rounds, {} moves, {} exchanges of tets, {} vertices added at flat tets; cells by "
+                  "scaled Jacobian, 0 to 1 in tenths",
+                  statistics.smoothing.rounds, statistics.smoothing.moves, statistics.exchanges, statistics.repaired));
   for (std::size_t i = 0; i < all_kinds.size(); ++i) {
     if (statistics.kinds[i].count == 0) continue;
     lines.push_back(histogram_line(all_kinds[i], "before", statistics.before_smoothing[i]));
@@ -149,6 +149,7 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
                     {"drift", volumes.drift}};
   json["smoothing"] = {{"rounds", statistics.smoothing.rounds},
                        {"moves", statistics.smoothing.moves},
+                       {"exchanges_of_tets", statistics.exchanges},
                        {"vertices_added_at_flat_tets", statistics.repaired}};
   json["nonconforming_quads"] = volumes.nonconforming_quads;
   const auto& counts = statistics.conformity;

@@ -39,6 +39,7 @@ struct AssembleStatistics {
   ConformityCounts conformity;
   SmoothCounts smoothing;
   std::vector<PoorCell> poor;                                     // all that are left
+  std::int64_t exchanges = 0;                                     // of poor tets for others on the same vertices
   std::int64_t repaired = 0;                                      // vertices put beside flat tets
   std::array<KindStatistics, all_kinds.size()> before_smoothing;  // when there was smoothing
 
