@@ -34,6 +34,9 @@ class TetAdjacency {
   std::span<const Vertex> neighbours_of(Vertex v) const {
     return std::span(neighbours_).subspan(neighbour_offsets_[v], neighbour_offsets_[v + 1] - neighbour_offsets_[v]);
   }
+  // Where the neighbours of v begin in a list of those of all vertices, and how long it is.
+  std::int64_t first_neighbour_of(Vertex v) const { return neighbour_offsets_[v]; }
+  std::size_t neighbour_count() const { return neighbours_.size(); }
   bool has_edge(Vertex a, Vertex b) const;
 
  private:

@@ -61,7 +61,41 @@ void check_against_mesh(const std::vector<std::int64_t>& offsets, const std::vec
     throw DataError::at(source, "expected tets below {} in candidate {}, found {}", mesh.tets.size(), i, last);
 }
 
+// Room for the whole, by what is there of it, and a little more.
+template <class T>
+void make_room(std::vector<T>& items, std::size_t added, double share_of_all) {
+  const std::size_t wanted = items.size() + added;
+  if (wanted <= items.capacity()) return;
+  constexpr double margin = 1.05;
+  // No estimate makes more than an eightfold growth.
+  const double whole = std::min(share_of_all < 1 ? margin / share_of_all : 1.0, 8.0) * static_cast<double>(wanted);
+  items.reserve(std::max(wanted, static_cast<std::size_t>(whole)));
+}
+
+template <class T>
+void append_items(std::vector<T>& to, const std::vector<T>& from, double share_of_all) {
+  make_room(to, from.size(), share_of_all);
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+void append_offsets(std::vector<std::int64_t>& to, const std::vector<std::int64_t>& from, double share_of_all) {
+  make_room(to, from.size() - 1, share_of_all);
+  const std::int64_t base = to.back();
+  for (std::size_t i = 1; i < from.size(); ++i) to.push_back(base + from[i]);
+}
+
 }  // namespace
+
+void append(Candidates& to, const Candidates& from, double share_of_all) {
+  append_items(to.vertices, from.vertices, share_of_all);
+  append_items(to.kind, from.kind, share_of_all);
+  append_items(to.quality, from.quality, share_of_all);
+  append_items(to.volume, from.volume, share_of_all);
+  append_items(to.tets, from.tets, share_of_all);
+  append_offsets(to.tet_offsets, from.tet_offsets, share_of_all);
+  append_items(to.boundary_tets, from.boundary_tets, share_of_all);
+  append_offsets(to.boundary_tet_offsets, from.boundary_tet_offsets, share_of_all);
+}
 
 void validate(const Candidates& candidates, const char* source) {
   const std::size_t count = candidates.kind.size();

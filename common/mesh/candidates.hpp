@@ -35,6 +35,10 @@ struct Candidates {
   bool operator==(const Candidates&) const = default;
 };
 
+// Puts candidates behind others. Where `to` will go on growing, `share_of_all` tells how much of the whole will then be
+// there: memory for the rest is set aside, so that it need not move again and again.
+void append(Candidates& to, const Candidates& from, double share_of_all = 1);
+
 // Throws DataError naming `source` when arrays disagree in length, a kind is unknown, the padding is wrong, offsets do
 // not ascend, or a number is not finite.
 void validate(const Candidates& candidates, const char* source);

@@ -16,11 +16,13 @@ inline double scaled_jacobian(const Vec3& u, const Vec3& v, const Vec3& w) {
   return lengths > 0 ? det(u, v, w) / lengths : 0;
 }
 
-// Whether scaled_jacobian(u, v, w) > threshold >= 0, compared by squares: on lattices, where corners of exactly 0.5 are
-// common, no rounding of square roots decides.
+// Whether scaled_jacobian(u, v, w) > threshold >= 0, from the determinant and the product of the squared lengths;
+// compared by squares: on lattices, where corners of exactly 0.5 are common, no rounding of square roots decides.
+inline bool scaled_jacobian_exceeds(double determinant, double squared_lengths, double threshold) {
+  return determinant > 0 && determinant * determinant > threshold * threshold * squared_lengths;
+}
 inline bool scaled_jacobian_exceeds(const Vec3& u, const Vec3& v, const Vec3& w, double threshold) {
-  const double d = det(u, v, w);
-  return d > 0 && d * d > threshold * threshold * (norm_squared(u) * norm_squared(v) * norm_squared(w));
+  return scaled_jacobian_exceeds(det(u, v, w), norm_squared(u) * norm_squared(v) * norm_squared(w), threshold);
 }
 
 // The points of a cell's corners, the rest of the array left at the origin.

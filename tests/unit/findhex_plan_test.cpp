@@ -67,18 +67,22 @@ TYPED_TEST(Plan, VisitsOneLabellingOfEachCell) {
 }
 
 TYPED_TEST(Plan, TestsEverythingOnce) {
-  std::size_t quads = 0, triangles = 0, corners = 0;
+  std::size_t edges = 0, opened = 0, quads = 0, triangles = 0, corners = 0;
   std::set<int> placed;
   for (const SearchStep& step : search_plan<TypeParam>) {
+    edges += step.edges.size();
+    opened += step.opened_quads.size();
     quads += step.closed_quads.size();
     triangles += step.triangles.size();
     corners += step.corners.size();
     if (!placed.empty()) {
-      EXPECT_TRUE(placed.count(step.neighbour));
+      EXPECT_TRUE(step.closed_quads.size() > 0 || step.is_beside_first);
     }
     placed.insert(step.corner);
   }
   EXPECT_EQ(placed.size(), std::size_t{TypeParam::corner_count});
+  EXPECT_EQ(edges, TypeParam::edges.size());
+  EXPECT_EQ(opened, TypeParam::quads.size());
   EXPECT_EQ(quads, TypeParam::quads.size());
   EXPECT_EQ(triangles, TypeParam::triangles.size());
   EXPECT_EQ(corners, TypeParam::corners.size());

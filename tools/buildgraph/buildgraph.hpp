@@ -1,5 +1,5 @@
 #pragma once
-// The conflict graph of candidates: ALGORITHMS.md 2.
+// The conflict graph of candidates: docs/definitions.md 2.
 
 #include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"

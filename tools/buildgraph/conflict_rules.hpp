@@ -1,5 +1,5 @@
 #pragma once
-// When two candidates cannot both be chosen: the table of ALGORITHMS.md 2.
+// When two candidates cannot both be chosen: the table of docs/definitions.md 2.
 
 #include <cstddef>
 

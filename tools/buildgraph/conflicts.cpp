@@ -1,4 +1,4 @@
-// The conflicts of ALGORITHMS.md 2 by sharing. Two cells without a common interior tet, all of whose shared corners are
+// The conflicts of docs/definitions.md 2 by sharing. Two cells without a common interior tet, all of whose shared corners are
 // joined by edges in both, are never in conflict: their shared corners are one, an edge or a triangle of both, for no
 // four corners of a hex, prism or pyramid are all joined, and no three of a hex. Two cells that share an interior tet,
 // or two corners that are no edge in one of them, are in conflict unless they meet at a quad of both. So the candidates

@@ -58,11 +58,11 @@ TetVerdict CellTets<Topology>::find(const CellCorners& corners) {
 // of a quad's four corners is on either side of none.
 template <class Topology>
 auto CellTets<Topology>::starts() const -> Starts {
-  auto inside = [&](int a, int b, int c) { return tables_.facets().tet_inside(corners_[a], corners_[b], corners_[c]); };
-  auto has = [&](int a, int b, int c) { return tables_.facets().has(corners_[a], corners_[b], corners_[c]); };
+  auto inside = [&](int a, int b, int c) { return tables_.tet_inside(corners_[a], corners_[b], corners_[c]); };
+  auto has = [&](int a, int b, int c) { return tables_.links().is_facet(corners_[a], corners_[b], corners_[c]); };
   Starts all;
   auto add = [&](std::int32_t tet) {
-    if (tet != FacetTable::none && !all.contains(tet)) all.push_back(tet);
+    if (tet != TetAdjacency::none && !all.contains(tet)) all.push_back(tet);
   };
   if constexpr (Topology::triangles.size() > 0) {
     const LocalTriangle& t = Topology::triangles[0];
@@ -79,7 +79,7 @@ auto CellTets<Topology>::starts() const -> Starts {
     }
     for (const std::int32_t tet :
          {inside(q[0], q[1], q[2]), inside(q[0], q[2], q[3]), inside(q[0], q[1], q[3]), inside(q[1], q[2], q[3])}) {
-      if (tet == FacetTable::none) continue;
+      if (tet == TetAdjacency::none) continue;
       const auto b = corner_bits(tet);
       if ((b[0] | b[1] | b[2] | b[3]) != bits(q)) add(tet);
     }
@@ -90,9 +90,10 @@ auto CellTets<Topology>::starts() const -> Starts {
 template <class Topology>
 std::array<unsigned, 4> CellTets<Topology>::corner_bits(std::int32_t tet) const {
   std::array<unsigned, 4> result{};
-  for (std::size_t i = 0; i < 4; ++i)
-    for (int c = 0; c < Topology::corner_count; ++c)
-      if (tables_.mesh().tets[tet][i] == corners_[c]) result[i] = bit(c);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vertex v = tables_.mesh().tets[tet][i];
+    for (int c = 0; c < Topology::corner_count; ++c) result[i] |= v == corners_[c] ? bit(c) : 0u;
+  }
   return result;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The tets of a candidate: rules 5 to 7 of ALGORITHMS.md 1.
+// The tets of a candidate: rules 5 to 7 of docs/definitions.md 1.
 
 #include <algorithm>
 #include <array>

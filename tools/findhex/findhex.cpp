@@ -1,13 +1,13 @@
 #include "tools/findhex/findhex.hpp"
 
 #include <algorithm>
-#include <iterator>
+#include <memory>
 
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/run/parallel.hpp"
 #include "tools/findhex/cell_search.hpp"
-#include "tools/findhex/quad_table.hpp"
+#include "tools/findhex/quads.hpp"
 
 namespace hexpipe {
 namespace {
@@ -23,27 +23,6 @@ void append_tets(std::span<const std::int32_t> added, std::vector<std::int32_t>&
                  std::vector<std::int64_t>& offsets) {
   tets.insert(tets.end(), added.begin(), added.end());
   offsets.push_back(static_cast<std::int64_t>(tets.size()));
-}
-
-template <class T>
-void append(std::vector<T>& to, const std::vector<T>& from) {
-  to.insert(to.end(), from.begin(), from.end());
-}
-
-void append_offsets(std::vector<std::int64_t>& to, const std::vector<std::int64_t>& from) {
-  const std::int64_t base = to.back();
-  std::transform(from.begin() + 1, from.end(), std::back_inserter(to), [base](std::int64_t at) { return base + at; });
-}
-
-void append(Candidates& to, const Candidates& from) {
-  append(to.vertices, from.vertices);
-  append(to.kind, from.kind);
-  append(to.quality, from.quality);
-  append(to.volume, from.volume);
-  append(to.tets, from.tets);
-  append_offsets(to.tet_offsets, from.tet_offsets);
-  append(to.boundary_tets, from.boundary_tets);
-  append_offsets(to.boundary_tet_offsets, from.boundary_tet_offsets);
 }
 
 // Rules 4 to 7 for cells that the search has completed; keeps those that hold them all.
@@ -85,28 +64,56 @@ class CandidateCollector {
   Found found_;
 };
 
-template <class Topology>
-Found find_cells_at(std::int64_t begin, std::int64_t end, const MeshTables& tables, const QuadTable& quads,
-                    const FindhexOptions& options) {
-  CandidateCollector<Topology> collector(tables, options);
-  auto judge = [&](const auto& corners, const auto& points) { collector.judge(corners, points); };
-  CellSearch<Topology, decltype(judge)> search(tables, quads, options.min_quality, judge);
-  for (std::int64_t v = begin; v < end; ++v) search.visit_cells_at(static_cast<Vertex>(v));
-  return collector.take();
-}
+// The search for one kind of cell at one vertex after another.
+class KindSearch {
+ public:
+  virtual ~KindSearch() = default;
+  virtual void search_at(Vertex corner_0, const QuadFan& fan) = 0;
+  virtual Found take() = 0;
+};
 
 template <class Topology>
-CellCounts find_all(const MeshTables& tables, const QuadTable& quads, const FindhexOptions& options,
-                    Candidates& candidates) {
-  CellCounts counts;
-  parallel_in_order(
-      static_cast<std::int64_t>(tables.mesh().points.size()), vertices_a_block,
-      [&](std::int64_t begin, std::int64_t end) { return find_cells_at<Topology>(begin, end, tables, quads, options); },
-      [&](Found&& found) {
-        append(candidates, found.candidates);
-        counts += found.counts;
-      });
-  return counts;
+class KindSearchOf final : public KindSearch {
+ public:
+  KindSearchOf(const MeshTables& tables, const QuadFilter& filter, const FindhexOptions& options)
+      : collector_(tables, options), search_(tables, filter, Judge{collector_}) {}
+
+  void search_at(Vertex corner_0, const QuadFan& fan) override { search_.visit_cells_at(corner_0, fan); }
+  Found take() override { return collector_.take(); }
+
+ private:
+  struct Judge {
+    CandidateCollector<Topology>& collector;
+    void operator()(const auto& corners, const auto& points) { collector.judge(corners, points); }
+  };
+  CandidateCollector<Topology> collector_;
+  CellSearch<Topology, Judge> search_;
+};
+
+struct FoundInBlock {
+  std::int64_t quads = 0;
+  std::vector<Found> by_kind;  // in the order of FindhexOptions::kinds
+};
+
+// All kinds together, so that the quads of a vertex are found once.
+FoundInBlock find_cells_at(std::int64_t begin, std::int64_t end, const MeshTables& tables,
+                           const FindhexOptions& options) {
+  const QuadFilter filter{options.min_quality, options.drop_folded_quads};
+  std::vector<std::unique_ptr<KindSearch>> searches;
+  for (const CellKind kind : options.kinds)
+    with_topology(kind, [&]<class Topology>(Topology) {
+      if constexpr (Topology::kind != CellKind::tet)
+        searches.push_back(std::make_unique<KindSearchOf<Topology>>(tables, filter, options));
+    });
+  FoundInBlock found;
+  QuadFan fan(tables.mesh(), tables.links(), filter);
+  for (std::int64_t v = begin; v < end; ++v) {
+    fan.find(static_cast<Vertex>(v));
+    found.quads += static_cast<std::int64_t>(fan.size());
+    for (const auto& search : searches) search->search_at(static_cast<Vertex>(v), fan);
+  }
+  for (const auto& search : searches) found.by_kind.push_back(search->take());
+  return found;
 }
 
 }  // namespace
@@ -120,16 +127,30 @@ CellCounts& CellCounts::operator+=(const CellCounts& other) {
 
 FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* source) {
   const MeshTables tables(std::move(mesh), source);
-  const QuadTable quads(tables.mesh(), tables.adjacency(), tables.facets(),
-                        {options.min_quality, options.drop_folded_quads});
   FindhexResult result;
   result.findings = tables.findings();
-  result.triangulated_quads = static_cast<std::int64_t>(quads.size());
-  for (const CellKind kind : options.kinds)
-    with_topology(kind, [&]<class Topology>(Topology) {
-      if constexpr (Topology::kind != CellKind::tet)
-        result.counts.push_back({kind, find_all<Topology>(tables, quads, options, result.candidates)});
-    });
+  for (const CellKind kind : options.kinds) result.counts.push_back({kind, {}});
+  const auto vertex_count = static_cast<std::int64_t>(tables.mesh().points.size());
+  std::vector<Candidates> by_kind(options.kinds.size());
+  std::int64_t vertices_done = 0;
+  parallel_in_order(
+      vertex_count, vertices_a_block,
+      [&](std::int64_t begin, std::int64_t end) { return find_cells_at(begin, end, tables, options); },
+      [&](FoundInBlock&& found) {
+        vertices_done = std::min(vertices_done + vertices_a_block, vertex_count);
+        const double share_done = static_cast<double>(vertices_done) / static_cast<double>(vertex_count);
+        result.triangulated_quads += found.quads;
+        for (std::size_t kind = 0; kind < by_kind.size(); ++kind) {
+          append(by_kind[kind], found.by_kind[kind].candidates, share_done);
+          result.counts[kind].counts += found.by_kind[kind].counts;
+        }
+      });
+  for (Candidates& candidates : by_kind) {
+    if (result.candidates.size() == 0)
+      result.candidates = std::move(candidates);
+    else
+      append(result.candidates, std::exchange(candidates, {}));
+  }
   return result;
 }
 

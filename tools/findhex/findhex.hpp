@@ -1,5 +1,5 @@
 #pragma once
-// All hexes, prisms and pyramids that could be built by merging tets of a mesh: ALGORITHMS.md 1.
+// All hexes, prisms and pyramids that could be built by merging tets of a mesh: docs/definitions.md 1.
 
 #include <array>
 #include <cstdint>

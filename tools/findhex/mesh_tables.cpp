@@ -5,44 +5,25 @@
 
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/orientation.hpp"
-#include "common/run/parallel.hpp"
 
 namespace hexpipe {
 namespace {
 
-constexpr std::int64_t tets_a_block = 4096;
 constexpr std::int32_t derived_tag = 0;
 
-Triangle sorted(Triangle t) {
-  std::sort(t.begin(), t.end());
-  return t;
-}
-
-// Surface triangles by their vertices, with their tags in a list of the distinct ones.
-class TagFinder {
- public:
-  explicit TagFinder(const TetMesh& mesh) : tags_(mesh.triangle_tags) {
-    std::sort(tags_.begin(), tags_.end());
-    tags_.erase(std::unique(tags_.begin(), tags_.end()), tags_.end());
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-      entries_.push_back({sorted(mesh.triangles[i]), mesh.triangle_tags[i]});
-    std::sort(entries_.begin(), entries_.end());
-  }
-
-  // 0 where no triangle is, else 1 or greater.
-  std::int32_t number_of_tag(const Triangle& triangle) const {
-    const Triangle key = sorted(triangle);
-    const auto at = std::lower_bound(entries_.begin(), entries_.end(), key,
-                                     [](const Entry& entry, const Triangle& wanted) { return entry.first < wanted; });
-    if (at == entries_.end() || at->first != key) return 0;
-    return static_cast<std::int32_t>(std::lower_bound(tags_.begin(), tags_.end(), at->second) - tags_.begin()) + 1;
-  }
-
- private:
-  using Entry = std::pair<Triangle, std::int32_t>;
-  std::vector<std::int32_t> tags_;
-  std::vector<Entry> entries_;
+// Which facet of a tet these three of its vertices are, and whether in the sense of TetTopology::triangles.
+struct FoundFacet {
+  int facet;
+  bool from_outside;
 };
+FoundFacet facet_of(const Tet& tet, const Triangle& triangle) {
+  const auto corner_of = [&](Vertex v) { return static_cast<int>(std::find(tet.begin(), tet.end(), v) - tet.begin()); };
+  const int a = corner_of(triangle[0]), b = corner_of(triangle[1]), c = corner_of(triangle[2]);
+  const int facet = 0 + 1 + 2 + 3 - a - b - c;
+  const LocalTriangle& listed = TetTopology::triangles[facet];
+  const auto at = std::find(listed.begin(), listed.end(), a) - listed.begin();
+  return {facet, listed[(at + 1) % 3] == b};
+}
 
 }  // namespace
 
@@ -50,7 +31,7 @@ MeshTables::MeshTables(TetMesh mesh, const char* source)
     : mesh_(std::move(mesh)),
       usable_(judge_tets(source)),
       adjacency_(mesh_, source),
-      facets_(mesh_, adjacency_, usable_),
+      links_(mesh_, adjacency_, usable_),
       facet_labels_(label_facets()) {}
 
 std::vector<bool> MeshTables::judge_tets(const char* source) {
@@ -61,20 +42,42 @@ std::vector<bool> MeshTables::judge_tets(const char* source) {
   return usable;
 }
 
+template <class Visit>
+void MeshTables::for_each_tet_at(const Triangle& facet, Visit&& visit) const {
+  auto tets = adjacency_.tets_at(facet[0]);
+  for (const Vertex v : facet)
+    if (const auto others = adjacency_.tets_at(v); others.size() < tets.size()) tets = others;
+  for (const std::int32_t t : tets) {
+    int shared = 0;
+    for (const Vertex v : mesh_.tets[t]) shared += static_cast<int>(v == facet[0]) + (v == facet[1]) + (v == facet[2]);
+    if (shared == 3) visit(t, facet_of(mesh_.tets[t], facet));
+  }
+}
+
+std::int32_t MeshTables::tet_inside(Vertex a, Vertex b, Vertex c) const {
+  std::int32_t inside = TetAdjacency::none;
+  for_each_tet_at({a, b, c}, [&](std::int32_t t, const FoundFacet& found) {
+    if (usable_[t] && found.from_outside) inside = t;
+  });
+  return inside;
+}
+
 std::vector<std::int32_t> MeshTables::label_facets() {
   findings_.derived_triangles =
       static_cast<std::int64_t>(add_missing_boundary_triangles(mesh_, adjacency_, derived_tag));
-  const TagFinder finder(mesh_);
-  std::vector<std::int32_t> labels(4 * mesh_.tets.size());
-  parallel_for(static_cast<std::int64_t>(mesh_.tets.size()), tets_a_block, [&](std::int64_t t) {
-    const Tet& tet = mesh_.tets[t];
-    for (int facet = 0; facet < 4; ++facet) {
-      const LocalTriangle& c = TetTopology::triangles[facet];
-      const bool inside = adjacency_.tet_beyond(static_cast<std::int32_t>(t), facet) != TetAdjacency::none;
-      const std::int32_t tag = finder.number_of_tag({tet[c[0]], tet[c[1]], tet[c[2]]});
-      labels[4 * t + facet] = tag == 0 ? 0 : 2 * tag + (inside ? 1 : 0);
-    }
-  });
+  std::vector<std::int32_t> tags = mesh_.triangle_tags;
+  std::sort(tags.begin(), tags.end());
+  tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
+  std::vector<std::int32_t> labels(4 * mesh_.tets.size(), 0);
+  // The first of several triangles at one place counts.
+  for (std::size_t i = mesh_.triangles.size(); i-- > 0;) {
+    const auto tag =
+        static_cast<std::int32_t>(std::lower_bound(tags.begin(), tags.end(), mesh_.triangle_tags[i]) - tags.begin());
+    for_each_tet_at(mesh_.triangles[i], [&](std::int32_t t, const FoundFacet& found) {
+      const bool is_inside = adjacency_.tet_beyond(t, found.facet) != TetAdjacency::none;
+      labels[4 * static_cast<std::size_t>(t) + found.facet] = 2 * (tag + 1) + (is_inside ? 1 : 0);
+    });
+  }
   return labels;
 }
 

@@ -7,7 +7,7 @@
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/orientation.hpp"
 #include "common/mesh/tet_mesh.hpp"
-#include "tools/findhex/facet_table.hpp"
+#include "tools/findhex/vertex_links.hpp"
 
 namespace hexpipe {
 
@@ -24,9 +24,11 @@ class MeshTables {
 
   const TetMesh& mesh() const { return mesh_; }
   const TetAdjacency& adjacency() const { return adjacency_; }
-  const FacetTable& facets() const { return facets_; }
+  const VertexLinks& links() const { return links_; }
   const MeshFindings& findings() const { return findings_; }
   bool usable(std::int32_t tet) const { return usable_[tet]; }
+  // The usable tet of which (a, b, c) is a facet, counter-clockwise seen from outside, or none.
+  std::int32_t tet_inside(Vertex a, Vertex b, Vertex c) const;
 
   // 0 where a facet lies inside a region and has no surface tag; else a number that two facets share when they have the
   // same tag and are both on the boundary of the mesh or both inside it.
@@ -37,12 +39,15 @@ class MeshTables {
  private:
   std::vector<bool> judge_tets(const char* source);
   std::vector<std::int32_t> label_facets();
+  // visit(tet, FoundFacet) of the tets, one or two, that have this facet.
+  template <class Visit>
+  void for_each_tet_at(const Triangle& facet, Visit&& visit) const;
 
   TetMesh mesh_;
   MeshFindings findings_;
   std::vector<bool> usable_;
   TetAdjacency adjacency_;
-  FacetTable facets_;
+  VertexLinks links_;
   std::vector<std::int32_t> facet_labels_;  // 4 a tet
 };
 

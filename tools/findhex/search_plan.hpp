@@ -4,8 +4,8 @@
 //
 // J. Pellerin, A. Johnen, K. Verhetsel, J.-F. Remacle: Identifying combinations of tetrahedra into hexahedra: a vertex
 // based strategy (IMR 2017). There a corner comes from the intersection of its neighbours' neighbourhoods and its quads
-// are tested afterwards; here the triangulated quads are known beforehand, and a corner comes from the quads that it
-// closes.
+// are tested afterwards; here a corner comes from the quads that it closes, and what can close a quad is found once,
+// when its third corner stands.
 
 #include <array>
 #include <cstdint>
@@ -28,16 +28,18 @@ struct ShortList {
 
 // A quad with one corner to come: the one opposite `corner`, between the sides.
 struct OpenQuad {
+  std::uint8_t quad;  // of the topology
   std::uint8_t corner, side, other_side;
 };
 
 // What there is to do with one corner; all others that it names are placed already.
 struct SearchStep {
   std::uint8_t corner = 0;
-  std::uint8_t neighbour = 0;           // some placed corner that an edge joins it to
+  bool is_beside_first = false;         // an edge joins it to the first corner
+  ShortList<std::uint8_t, 4> edges;     // of the topology, to corners placed before
   ShortList<std::uint8_t, 8> greater;   // its vertex has to be greater than theirs: one labelling of each cell is found
-  ShortList<OpenQuad, 3> closed_quads;  // it is the fourth corner of these
   ShortList<OpenQuad, 3> opened_quads;  // it is the third corner of these
+  ShortList<OpenQuad, 3> closed_quads;  // it is the fourth corner of these
   ShortList<LocalTriangle, 4> triangles;
   ShortList<LocalCorner, 4> corners;  // whose determinants are known now
 };
@@ -51,6 +53,25 @@ template <>
 inline constexpr std::array<std::uint8_t, 6> placement_order<PrismTopology>{0, 1, 2, 3, 4, 5};
 template <>
 inline constexpr std::array<std::uint8_t, 5> placement_order<PyramidTopology>{0, 1, 3, 4, 2};
+
+// The edges at a corner as the topology lists them, and whether that turns their determinant's sign.
+struct CornerEdges {
+  std::array<std::uint8_t, 3> edges{};
+  bool is_turned = false;
+};
+
+template <class Topology>
+constexpr CornerEdges corner_edges(const LocalCorner& corner) {
+  CornerEdges result;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::uint8_t number = 0; number < Topology::edges.size(); ++number) {
+      const auto& [from, to] = Topology::edges[number];
+      if ((from != corner[0] || to != corner[1 + i]) && (to != corner[0] || from != corner[1 + i])) continue;
+      result.edges[i] = number;
+      result.is_turned = result.is_turned != (to == corner[0]);
+    }
+  return result;
+}
 
 namespace plan_details {
 
@@ -97,15 +118,20 @@ constexpr auto make_search_plan() {
     const std::uint8_t corner = step.corner = placement_order<Topology>[s];
     placed[corner] = true;
 
-    for (const LocalEdge& e : Topology::edges)
-      if (plan_details::completed_by<Topology>(e, corner, placed)) step.neighbour = e[0] == corner ? e[1] : e[0];
+    for (std::uint8_t number = 0; number < Topology::edges.size(); ++number) {
+      const LocalEdge& e = Topology::edges[number];
+      if (!plan_details::completed_by<Topology>(e, corner, placed)) continue;
+      step.edges.add(number);
+      step.is_beside_first = step.is_beside_first || e[0] == plan[0].corner || e[1] == plan[0].corner;
+    }
     for (const LocalTriangle& t : Topology::triangles)
       if (plan_details::completed_by<Topology>(t, corner, placed)) step.triangles.add(t);
     for (const LocalCorner& c : Topology::corners)
       if (plan_details::completed_by<Topology>(c, corner, placed)) step.corners.add(c);
-    for (const LocalQuad& q : Topology::quads)
+    for (std::uint8_t number = 0; number < Topology::quads.size(); ++number)
       for (std::size_t i = 0; i < 4; ++i) {
-        const OpenQuad quad{q[(i + 2) % 4], q[(i + 1) % 4], q[(i + 3) % 4]};
+        const LocalQuad& q = Topology::quads[number];
+        const OpenQuad quad{number, q[(i + 2) % 4], q[(i + 1) % 4], q[(i + 3) % 4]};
         const std::array<std::uint8_t, 3> three{quad.corner, quad.side, quad.other_side};
         if (q[i] == corner && placed[three[0]] && placed[three[1]] && placed[three[2]]) step.closed_quads.add(quad);
         if (!placed[q[i]] && plan_details::completed_by<Topology>(three, corner, placed)) step.opened_quads.add(quad);

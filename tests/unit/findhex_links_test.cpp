@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "common/mesh/cell_topology.hpp"
+#include "findhex_meshes.hpp"
+#include "tools/findhex/quads.hpp"
+#include "tools/findhex/vertex_links.hpp"
+
+namespace hexpipe {
+namespace {
+
+using testing::kuhn_lattice;
+using testing::mesh_of;
+
+// Tets around the edge 01: these two vertices have count + 1 neighbours.
+TetMesh spindle(int count) {
+  std::vector<Vec3> points{{0, 0, -1}, {0, 0, 1}};
+  std::vector<Tet> tets;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * M_PI * i / count;
+    points.push_back({std::cos(angle), std::sin(angle), 0});
+    tets.push_back({0, 1, 2 + i, 2 + (i + 1) % count});
+  }
+  return mesh_of(points, tets);
+}
+
+std::set<Triangle> facets_of(const TetMesh& mesh, const std::vector<bool>& usable) {
+  std::set<Triangle> facets;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    for (const LocalTriangle& c : TetTopology::triangles) {
+      Triangle facet{mesh.tets[t][c[0]], mesh.tets[t][c[1]], mesh.tets[t][c[2]]};
+      std::sort(facet.begin(), facet.end());
+      if (usable[t]) facets.insert(facet);
+    }
+  return facets;
+}
+
+std::vector<bool> all_but_two(std::size_t count) {
+  std::vector<bool> usable(count, true);
+  usable[3] = usable[4] = false;
+  return usable;
+}
+
+class Links : public ::testing::TestWithParam<int> {
+ protected:
+  Links()
+      : mesh(GetParam() < 8 ? kuhn_lattice(GetParam()) : spindle(GetParam())),
+        adjacency(mesh, "mesh"),
+        usable(all_but_two(mesh.tets.size())),
+        facets(facets_of(mesh, usable)),
+        links(mesh, adjacency, usable) {}
+  bool linked(Vertex a, Vertex b, Vertex c) const {
+    Triangle facet{a, b, c};
+    std::sort(facet.begin(), facet.end());
+    return facets.contains(facet);
+  }
+
+  const TetMesh mesh;
+  const TetAdjacency adjacency;
+  const std::vector<bool> usable;
+  const std::set<Triangle> facets;
+  const VertexLinks links;
+};
+
+TEST_P(Links, AreTheFacetsOfUsableTets) {
+  for (Vertex v = 0; v < static_cast<Vertex>(mesh.points.size()); ++v) {
+    const auto neighbours = links.neighbours_of(v);
+    for (int i = 0; i < static_cast<int>(neighbours.size()); ++i) {
+      EXPECT_EQ(links.place_of(neighbours[i], v), i);
+      std::vector<int> expected, found;
+      for (int j = 0; j < static_cast<int>(neighbours.size()); ++j) {
+        const bool is_facet = i != j && linked(v, neighbours[i], neighbours[j]);
+        ASSERT_EQ(links.are_linked(v, i, j), is_facet) << v << ' ' << i << ' ' << j;
+        EXPECT_EQ(i != j && links.is_facet(v, neighbours[i], neighbours[j]), is_facet);
+        if (is_facet) expected.push_back(j);
+      }
+      links.for_each_linked(v, i, [&](int place) { found.push_back(place); });
+      EXPECT_EQ(found, expected);
+      EXPECT_EQ(links.link_count_exceeds_one(v, i), expected.size() > 1);
+    }
+    EXPECT_EQ(links.place_of(v, v), VertexLinks::none);
+  }
+}
+
+TEST_P(Links, OfTwoAndWithinTwo) {
+  for (Vertex v = 0; v < std::min<Vertex>(40, static_cast<Vertex>(mesh.points.size())); ++v) {
+    const int count = static_cast<int>(links.neighbours_of(v).size());
+    const int first = count / 3;
+    for (int i = 0; i < count; ++i) {
+      std::set<int> within;
+      for (int j = 0; j < count; ++j) {
+        std::vector<int> expected, found;
+        for (int k = 0; k < count; ++k)
+          if (links.are_linked(v, i, k) && links.are_linked(v, j, k)) expected.push_back(k);
+        links.for_each_linked_to_both(v, i, j, [&](int place) { found.push_back(place); });
+        ASSERT_EQ(found, expected);
+        EXPECT_EQ(links.have_common_link(v, i, j), !expected.empty());
+        const bool through = std::ranges::any_of(expected, [&](int k) { return k >= first; });
+        if (j > i && (links.are_linked(v, i, j) || through)) within.insert(j);
+      }
+      std::vector<int> found;
+      links.for_each_within_two_links(v, i, first, [&](int place) { found.push_back(place); });
+      EXPECT_EQ(found, std::vector<int>(within.begin(), within.end())) << v << ' ' << i;
+    }
+  }
+}
+
+// Four vertices are a quad where both triangles at one of its diagonals are facets.
+TEST_P(Links, OppositesAreThoseOfAllVertices) {
+  const auto vertices = std::min<Vertex>(30, static_cast<Vertex>(mesh.points.size()));
+  for (Vertex v = 0; v < vertices; ++v) {
+    const auto neighbours = links.neighbours_of(v);
+    for (int i = 0; i < static_cast<int>(neighbours.size()); ++i)
+      for (int j = i + 1; j < static_cast<int>(std::min<std::size_t>(neighbours.size(), i + 9)); ++j) {
+        const Vertex a = neighbours[i], b = neighbours[j];
+        std::vector<Vertex> expected, found;
+        for (Vertex w = 0; w < static_cast<Vertex>(mesh.points.size()); ++w)
+          if (w != v && w != a && w != b &&
+              ((linked(v, a, w) && linked(v, b, w)) || (linked(a, b, v) && linked(a, b, w))))
+            expected.push_back(w);
+        const QuadAngle angle(links, v, i, j);
+        angle.find_opposites(links, found);
+        ASSERT_EQ(found, expected) << v << ' ' << a << ' ' << b;
+        EXPECT_EQ(angle.has_opposite(links), !expected.empty());
+        for (Vertex w = 0; w < static_cast<Vertex>(mesh.points.size()); ++w)
+          if (w != v && w != a && w != b) {
+            EXPECT_EQ(angle.has_opposite(links, w), std::ranges::binary_search(expected, w));
+          }
+      }
+  }
+}
+
+// Lattices of n cubes along each side; spindles with that many tets. 63 leaves 64 neighbours, 64 one more.
+INSTANTIATE_TEST_SUITE_P(Meshes, Links, ::testing::Values(2, 3, 20, 63, 64, 130));
+
+}  // namespace
+}  // namespace hexpipe

@@ -1,0 +1,119 @@
+#pragma once
+// Which facets there are, as seen from each vertex: its neighbours are numbered by their places in its sorted list, and
+// two of them are linked where the three vertices are a facet. The links of a vertex with up to 64 neighbours are a
+// word of bits for each of them, so that what is linked to two neighbours is one operation. Few vertices have more:
+// their links are lists.
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/mesh/adjacency.hpp"
+#include "common/mesh/tet_mesh.hpp"
+
+namespace hexpipe {
+
+class VertexLinks {
+ public:
+  static constexpr int none = -1;
+
+  // Of the facets of tets with usable[t]. `adjacency` is that of the mesh, and stays.
+  VertexLinks(const TetMesh& mesh, const TetAdjacency& adjacency, const std::vector<bool>& usable);
+
+  std::span<const Vertex> neighbours_of(Vertex v) const { return adjacency_.neighbours_of(v); }
+  // The place of w among the neighbours of v, or none.
+  int place_of(Vertex w, Vertex v) const {
+    const auto neighbours = neighbours_of(v);
+    if (!is_narrow(v)) return place_among_many(w, neighbours);
+    const std::int64_t begin = slot_offsets_[v], mask = slot_offsets_[v + 1] - begin - 1;
+    for (std::int64_t slot = first_slot(w) & mask;; slot = (slot + 1) & mask) {
+      const std::uint8_t place = slots_[begin + slot];
+      if (place == no_place) return none;
+      if (neighbours[place] == w) return place;
+    }
+  }
+
+  // v and its neighbours at places i and j are a facet.
+  bool are_linked(Vertex v, int i, int j) const {
+    return is_narrow(v) ? (row(v, i) >> j & 1) != 0 : are_linked_among_many(v, i, j);
+  }
+  bool is_facet(Vertex a, Vertex b, Vertex c) const;
+
+  // Some neighbour of v is linked to both i and j.
+  bool have_common_link(Vertex v, int i, int j) const {
+    if (is_narrow(v)) return (row(v, i) & row(v, j)) != 0;
+    bool found = false;
+    for_each_linked_to_both(v, i, j, [&](int) { found = true; });
+    return found;
+  }
+  // More than one neighbour of v is linked to i.
+  bool link_count_exceeds_one(Vertex v, int i) const {
+    return is_narrow(v) ? (row(v, i) & (row(v, i) - 1)) != 0 : wide_row(v, i).size() > 1;
+  }
+
+  // visit(place), ascending: of the neighbours of v that are linked to i.
+  template <class Visit>
+  void for_each_linked(Vertex v, int i, Visit&& visit) const {
+    if (is_narrow(v))
+      for_each_bit(row(v, i), visit);
+    else
+      for (const std::int32_t place : wide_row(v, i)) visit(place);
+  }
+
+  // visit(place), ascending: of the neighbours of v that are linked to both i and j.
+  template <class Visit>
+  void for_each_linked_to_both(Vertex v, int i, int j, Visit&& visit) const {
+    if (is_narrow(v))
+      for_each_bit(row(v, i) & row(v, j), visit);
+    else
+      for (const std::int32_t place : wide_row(v, i))
+        if (are_linked(v, j, place)) visit(place);
+  }
+
+  // visit(place), ascending: of the neighbours j > i of v that are linked to i, or to some neighbour beyond
+  // `first` - 1 that is linked to i.
+  template <class Visit>
+  void for_each_within_two_links(Vertex v, int i, int first, Visit&& visit) const {
+    if (is_narrow(v)) {
+      const std::uint64_t linked = row(v, i);
+      std::uint64_t reached = linked;
+      for_each_bit(linked & ~std::uint64_t{0} << first, [&](int k) { reached |= row(v, k); });
+      for_each_bit(i == 63 ? 0 : reached & ~std::uint64_t{0} << (i + 1), visit);
+    } else {
+      for (const std::int32_t place : wide_within_two_links(v, i, first)) visit(place);
+    }
+  }
+
+ private:
+  static constexpr std::size_t most_narrow = 64;
+  static constexpr std::uint8_t no_place = 255;
+
+  template <class Visit>
+  static void for_each_bit(std::uint64_t bits, Visit&& visit) {
+    for (; bits != 0; bits &= bits - 1) visit(std::countr_zero(bits));
+  }
+
+  bool is_narrow(Vertex v) const { return neighbours_of(v).size() <= most_narrow; }
+  std::uint64_t row(Vertex v, int i) const { return rows_[adjacency_.first_neighbour_of(v) + i]; }
+  static std::int64_t first_slot(Vertex w) { return static_cast<std::uint32_t>(w) * std::uint32_t{0x9e3779b9} >> 16; }
+  static int place_among_many(Vertex w, std::span<const Vertex> neighbours);
+  bool are_linked_among_many(Vertex v, int i, int j) const;
+  std::span<const std::int32_t> wide_row(Vertex v, int i) const;
+  std::vector<std::int32_t> wide_within_two_links(Vertex v, int i, int first) const;
+
+  void file_places(Vertex v);
+  void link_narrow(const TetMesh& mesh, const std::vector<bool>& usable, Vertex v);
+  void link_wide(const TetMesh& mesh, const std::vector<bool>& usable, Vertex v);
+
+  const TetAdjacency& adjacency_;
+  // For vertices with bits, a hash table of the places of their neighbours, at least twice as long as these.
+  std::vector<std::int64_t> slot_offsets_;  // vertices + 1
+  std::vector<std::uint8_t> slots_;
+  // By vertex and place of a neighbour: bits, by place; for vertices with more neighbours, which row of wide_ it is.
+  std::vector<std::uint64_t> rows_;
+  std::vector<std::int64_t> wide_offsets_{0};
+  std::vector<std::int32_t> wide_places_;  // ascending in a row
+};
+
+}  // namespace hexpipe
