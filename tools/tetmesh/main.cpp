@@ -16,6 +16,7 @@ using namespace hexpipe;
 
 namespace {
 
+const std::map<std::string, SurfaceKind> surface_kinds{{"remesh", SurfaceKind::remesh}, {"keep", SurfaceKind::keep}};
 const std::map<std::string, PointKind> point_kinds{{"lattice", PointKind::lattice}, {"none", PointKind::none}};
 const std::map<std::string, ShellRule> shell_rules{
     {"oriented", ShellRule::oriented}, {"regions", ShellRule::regions}, {"holes", ShellRule::holes}};
@@ -47,7 +48,7 @@ int main(int argc, char** argv) {
       .outside_history = {"tetgen-timeout"}};
   TetmeshOptions options;
   std::optional<std::string> size;
-  std::string path = "-", points = "lattice", shells = "oriented";
+  std::string path = "-", surface_kind = "keep", points = "lattice", shells = "oriented";
   const auto declare = [&](CLI::App& app) {
     app.add_option("surface", path, "A surface in any format; '-' or nothing: standard input")->type_name("FILE");
     app.add_option(
@@ -55,6 +56,13 @@ int main(int argc, char** argv) {
            "Distance of points inside, in the surface's units or, with %, in percent of the bounding box's diagonal "
            "[the surface's own]")
         ->type_name("LENGTH");
+    app.add_option("--surface", surface_kind, "The surface's triangles: made anew to suit hexes, or kept")
+        ->check(CLI::IsMember(surface_kinds));
+    app.add_option("--feature-angle", options.feature_angle,
+                   "Edges where the surface turns by more are kept, and corners where they turn, in degrees")
+        ->check(number_between(1, 180));
+    app.add_option("--deviation", options.deviation, "How far the new surface may be from the old one, in sizes")
+        ->check(number_between(1e-6, 1));
     app.add_option("--points", points, "Points inside: on a lattice along the axes, or none")
         ->check(CLI::IsMember(point_kinds));
     app.add_option("--clearance", options.clearance, "Least distance of lattice points from the surface, in sizes")
@@ -69,6 +77,7 @@ int main(int argc, char** argv) {
   };
   const auto run = [&](RunContext& context) {
     if (size) options.size = parse_length(*size);
+    options.surface = surface_kinds.at(surface_kind);
     options.points = point_kinds.at(points);
     options.shells = shell_rules.at(shells);
     options.seed = context.common.seed;

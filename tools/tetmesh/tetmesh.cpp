@@ -31,6 +31,21 @@ void describe(const Surface& surface, TetmeshStatistics& statistics) {
   statistics.regions = static_cast<std::size_t>(surface.region_count);
 }
 
+// Where no new surface can be made, the old one stays, and the result says so.
+void remesh(Surface& surface, const TetmeshOptions& options, TetmeshResult& result) {
+  TetmeshStatistics& statistics = result.statistics;
+  RemeshResult remeshed = remesh_surface(surface, {statistics.size, options.feature_angle, options.deviation});
+  statistics.remeshed = remeshed.failure.empty();
+  if (!statistics.remeshed) {
+    result.warning = fmt::format("the surface is kept as it is: {}", remeshed.failure);
+    return;
+  }
+  statistics.distance_to_input = remeshed.to_input;
+  statistics.distance_from_input = remeshed.from_input;
+  statistics.extra_points = remeshed.extra_points;
+  surface = find_shells(std::move(remeshed.soup), options.shells);
+}
+
 void describe(const BuiltMesh& built, TetmeshStatistics& statistics) {
   const MeshShape shape = shape_of(built.mesh);
   statistics.points = built.mesh.points.size();
@@ -88,12 +103,16 @@ TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
   TetmeshStatistics& statistics = result.statistics;
   StepWatch watch;
   check_surface(soup);
-  const Surface surface = find_shells(std::move(soup), options.shells);
-  describe(surface, statistics);
+  Surface surface = find_shells(std::move(soup), options.shells);
   watch.add_to(statistics.seconds_checking);
 
   statistics.size = element_size(surface, options.size);
-  if (options.points != PointKind::none)
+  if (options.surface == SurfaceKind::remesh) {
+    remesh(surface, options, result);
+    watch.add_to(statistics.seconds_remeshing);
+  }
+  describe(surface, statistics);
+  if (options.points != PointKind::none && !statistics.remeshed && !result.warning)
     result.warning = fit_to_size(surface, statistics.size).complaint(statistics.size);
   const std::vector<Vec3> points = place_points(surface, options, statistics.size);
   statistics.interior_points = points.size();
@@ -110,6 +129,10 @@ nlohmann::ordered_json to_json(const TetmeshStatistics& s) {
   return {{"size", s.size},
           {"surface_points", s.surface_points},
           {"surface_triangles", s.surface_triangles},
+          {"surface_remeshed", s.remeshed},
+          {"distance_to_input", s.distance_to_input},
+          {"distance_from_input", s.distance_from_input},
+          {"extra_points", s.extra_points},
           {"shells", s.shells},
           {"regions", s.regions},
           {"interior_points", s.interior_points},
@@ -125,6 +148,7 @@ nlohmann::ordered_json to_json(const TetmeshStatistics& s) {
 
 nlohmann::ordered_json times_of(const TetmeshStatistics& s) {
   return {{"checking", s.seconds_checking},
+          {"remeshing", s.seconds_remeshing},
           {"placing", s.seconds_placing},
           {"tetgen", s.seconds_tetgen},
           {"building", s.seconds_building}};

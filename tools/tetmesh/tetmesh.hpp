@@ -11,13 +11,20 @@
 #include "tools/tetmesh/lattice.hpp"
 #include "tools/tetmesh/shells.hpp"
 #include "tools/tetmesh/sizing.hpp"
+#include "tools/tetmesh/surface/surface_remesh.hpp"
 
 namespace hexpipe {
+
+// What becomes of the surface's triangles.
+enum class SurfaceKind { remesh, keep };
 
 enum class PointKind { lattice, none };
 
 struct TetmeshOptions {
   std::optional<Length> size = {};  // nothing: see element_size()
+  SurfaceKind surface = SurfaceKind::keep;
+  double feature_angle = RemeshOptions{}.feature_angle;  // degrees
+  double deviation = RemeshOptions{}.deviation;          // in sizes
   PointKind points = PointKind::lattice;
   double clearance = LatticeOptions{}.clearance;
   double jitter = LatticeOptions{}.jitter;
@@ -29,6 +36,9 @@ struct TetmeshOptions {
 struct TetmeshStatistics {
   double size = 0;
   std::size_t surface_points = 0, surface_triangles = 0;
+  bool remeshed = false;
+  double distance_to_input = 0, distance_from_input = 0;  // Hausdorff, of the new surface and of the old one
+  std::size_t extra_points = 0;                           // of the input, that remeshing could not remove
   std::size_t shells = 0, regions = 0;
   std::size_t interior_points = 0;  // asked for
   std::size_t added_points = 0, dropped_points = 0;
@@ -36,7 +46,7 @@ struct TetmeshStatistics {
   std::size_t points = 0, tets = 0;
   double volume = 0;
   double least_dihedral = 0, greatest_dihedral = 0;  // degrees
-  double seconds_checking = 0, seconds_placing = 0, seconds_tetgen = 0, seconds_building = 0;
+  double seconds_checking = 0, seconds_remeshing = 0, seconds_placing = 0, seconds_tetgen = 0, seconds_building = 0;
 };
 
 struct TetmeshResult {

@@ -1,0 +1,143 @@
+// The field is a complex number u = exp(4 i angle) per triangle, in the frame of that triangle; the energy is the sum
+// over the edges that are no features of w |u_i r_ij - u_j|², r_ij being the turn from one triangle's frame to the next
+// as they lie unfolded (Knöppel, Crane, Pinkall, Schröder 2013, in its discretization by triangles, for which
+// constraints along edges are exact; Bommes, Zimmer, Kobbelt 2009 use the same). Feature edges pull their triangles'
+// u to their own direction, curvature pulls weakly everywhere (Cohen-Steiner and Morvan's tensor), so that the linear
+// system is definite and has a direction to follow on surfaces without features. Lengths of u are dropped.
+
+#include "tools/tetmesh/surface/cross_field.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <complex>
+
+namespace hexpipe {
+namespace {
+
+using Complex = std::complex<double>;
+
+// Pull of a feature edge, against smoothness of about 1 per edge: as good as fixed.
+constexpr double feature_weight = 100;
+// Pull of curvature that turns the normal by a radian over the size, over an area of the size squared.
+constexpr double curvature_weight = 1;
+// Keeps the system definite on flat surfaces without features, which do not exist in one piece.
+constexpr double least_weight = 1e-6;
+// Averages of the curvature with the neighbours': a tessellation's own edges are noise.
+constexpr int curvature_rounds = 4;
+
+// exp(i angle) of a direction in a triangle's frame.
+Complex angle_of(const TangentFrame& frame, const Vec3& direction) {
+  const Complex z(dot(direction, frame.x), dot(direction, frame.y));
+  return z / std::max(std::abs(z), 1e-300);
+}
+
+Complex fourth_power(Complex z) {
+  const Complex square = z * z;
+  return square * square;
+}
+
+class FieldSolver {
+ public:
+  FieldSolver(const FieldSurface& surface, double size) : surface_(surface), size_(size) {
+    const auto count = static_cast<std::int32_t>(surface.triangles.size());
+    frames_.reserve(surface.triangles.size());
+    for (std::int32_t f = 0; f < count; ++f) frames_.emplace_back(surface, f);
+    edges_.reserve(3 * surface.triangles.size());
+    for (HalfEdge h = 0; h < 3 * count; ++h)
+      edges_.push_back(angle_of(frames_[triangle_of(h)], surface.edge_vector(h)));
+  }
+
+  CrossField solve() {
+    const std::vector<Complex> u = solve_system();
+    CrossField field;
+    for (std::size_t f = 0; f < frames_.size(); ++f) {
+      const double angle = std::arg(u[f]) / 4;
+      field.directions.push_back(std::cos(angle) * frames_[f].x + std::sin(angle) * frames_[f].y);
+    }
+    return field;
+  }
+
+ private:
+  std::vector<Complex> curvature() const;
+  std::vector<Complex> solve_system() const;
+
+  // exp(i angle) by which a direction of h's triangle has to be multiplied to be one of its neighbour's. The edge runs
+  // the other way there.
+  Complex turn(HalfEdge h) const { return -edges_[surface_.twins[h]] / edges_[h]; }
+
+  const FieldSurface& surface_;
+  double size_;
+  std::vector<TangentFrame> frames_;
+  std::vector<Complex> edges_;  // exp(i angle) of each half-edge in its triangle's frame
+};
+
+// Of each triangle, the difference of the principal curvatures times exp(2 i angle) of the first one's direction.
+std::vector<Complex> FieldSolver::curvature() const {
+  std::vector<Complex> bend(frames_.size());
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(edges_.size()); ++h) {
+    if (surface_.feature[h]) continue;
+    const Vec3 edge = surface_.edge_vector(h);
+    const Vec3 &n = surface_.normals[triangle_of(h)], &m = surface_.normals[triangle_of(surface_.twins[h])];
+    const double angle = std::atan2(dot(cross(n, m), edge) / norm(edge), dot(n, m));
+    bend[triangle_of(h)] += angle / 2 * norm(edge) * edges_[h] * edges_[h];
+  }
+  std::vector<double> areas = surface_.areas;
+  for (int round = 0; round < curvature_rounds; ++round) {
+    std::vector<Complex> sum = bend;
+    std::vector<double> area = areas;
+    for (HalfEdge h = 0; h < static_cast<HalfEdge>(edges_.size()); ++h) {
+      if (surface_.feature[h]) continue;
+      const std::int32_t f = triangle_of(h), g = triangle_of(surface_.twins[h]);
+      sum[g] += bend[f] * turn(h) * turn(h);
+      area[g] += areas[f];
+    }
+    bend = std::move(sum);
+    areas = std::move(area);
+  }
+  for (std::size_t f = 0; f < bend.size(); ++f) bend[f] /= areas[f];
+  return bend;
+}
+
+std::vector<Complex> FieldSolver::solve_system() const {
+  const auto count = static_cast<Eigen::Index>(frames_.size());
+  std::vector<double> diagonal(frames_.size());
+  Eigen::VectorXcd right = Eigen::VectorXcd::Zero(count);
+  std::vector<Eigen::Triplet<Complex, int>> entries;
+  entries.reserve(4 * frames_.size());
+  auto pull = [&](std::int32_t f, double weight, Complex target) {
+    diagonal[f] += weight;
+    right[f] += weight * target;
+  };
+  const std::vector<Complex> bend = curvature();
+  for (std::int32_t f = 0; f < count; ++f) {
+    const double strength = std::abs(bend[f]), turned = std::min(1.0, strength * size_);
+    const Complex direction = strength > 0 ? bend[f] / strength : Complex(1);
+    const double weight = curvature_weight * surface_.areas[f] / (size_ * size_) * turned * turned;
+    pull(f, weight + least_weight, direction * direction);
+  }
+  for (HalfEdge h = 0; h < 3 * count; ++h) {
+    const std::int32_t f = triangle_of(h), g = triangle_of(surface_.twins[h]);
+    const double squared_length = norm_squared(surface_.edge_vector(h));
+    if (surface_.feature[h]) {
+      pull(f, feature_weight * std::sqrt(squared_length) / size_, fourth_power(edges_[h]));
+      continue;
+    }
+    const double weight = 1.5 * squared_length / (surface_.areas[f] + surface_.areas[g]);
+    diagonal[f] += weight;
+    if (f < g) entries.emplace_back(g, f, -weight * fourth_power(turn(h)));  // the lower triangle suffices
+  }
+  for (std::int32_t f = 0; f < count; ++f) entries.emplace_back(f, f, diagonal[f]);
+  Eigen::SparseMatrix<Complex> matrix(count, count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<Complex>> factors(matrix);
+  const Eigen::VectorXcd solution = factors.solve(right);
+  return {solution.begin(), solution.end()};
+}
+
+}  // namespace
+
+CrossField cross_field(const FieldSurface& surface, double size) {
+  return FieldSolver(surface, size).solve();
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,17 @@
+#pragma once
+// A 4-fold cross field on a surface: four directions at right angles in every triangle, along the feature curves and,
+// where the surface bends, along its principal curvatures, as smooth as that allows.
+
+#include "tools/tetmesh/surface/field_surface.hpp"
+
+namespace hexpipe {
+
+struct CrossField {
+  // Of each triangle, one of its four directions: of length 1, in its plane.
+  std::vector<Vec3> directions;
+};
+
+// `size` is the distance over which a full bend counts as much as smoothness.
+CrossField cross_field(const FieldSurface& surface, double size);
+
+}  // namespace hexpipe

@@ -1,0 +1,71 @@
+#pragma once
+// Lawson's flips on a half-edge mesh: towards triangles whose opposite angles add up to at most 180 degrees.
+
+#include <vector>
+
+#include "tools/tetmesh/surface/feature_mesh.hpp"
+
+namespace hexpipe {
+
+// The four vertices around an edge: its ends, and the corners across it, left and right of the way from end 0 to 1.
+struct EdgeDiamond {
+  std::array<OpenMesh::VertexHandle, 2> ends, across;
+  std::array<Vec3, 2> end_points, across_points;
+
+  EdgeDiamond(const FeatureMesh& mesh, OpenMesh::EdgeHandle e);
+
+  // How far the triangles' opposite angles add up over 180 degrees, as a sine-like measure: positive wants a flip.
+  double excess() const;
+  // The height of the tet of the four points over the larger of the two pairs of triangles: how far a flip moves the
+  // surface, at the most.
+  double height() const;
+  // Least cosine between the normals after a flip and the sum of the normals before it.
+  double least_cosine_after_flip() const;
+};
+
+// A queue of edges, each there once.
+class EdgeQueue {
+ public:
+  void push(OpenMesh::EdgeHandle e) {
+    if (waiting_.size() <= static_cast<std::size_t>(e.idx()))
+      waiting_.resize(2 * static_cast<std::size_t>(e.idx()) + 1);
+    if (waiting_[e.idx()]) return;
+    waiting_[e.idx()] = true;
+    edges_.push_back(e);
+  }
+  bool empty() const { return edges_.empty(); }
+  OpenMesh::EdgeHandle pop() {
+    const OpenMesh::EdgeHandle e = edges_.back();
+    edges_.pop_back();
+    waiting_[e.idx()] = false;
+    return e;
+  }
+
+ private:
+  std::vector<OpenMesh::EdgeHandle> edges_;
+  std::vector<bool> waiting_;
+};
+
+// Flips what is in the queue, and what that makes worth flipping, as long as allow(edge, diamond) agrees; it is asked
+// only about flips that are possible and do not fold the surface. done(edge) is told of each.
+template <class Allow, class Done>
+void flip_towards_delaunay(FeatureMesh& mesh, EdgeQueue& queue, Allow&& allow, Done&& done) {
+  // Rounding must not flip the diagonal of a square back and forth, and folds are refused with some reserve.
+  constexpr double least_excess = 1e-9, least_cosine = 0.2;
+  while (!queue.empty()) {
+    const OpenMesh::EdgeHandle e = queue.pop();
+    if (mesh.status(e).deleted() || mesh.is_feature(e)) continue;
+    const EdgeDiamond diamond(mesh, e);
+    if (diamond.excess() <= least_excess || !mesh.is_flip_ok(e)) continue;
+    if (diamond.least_cosine_after_flip() < least_cosine || !allow(e, diamond)) continue;
+    mesh.flip(e);
+    done(e);
+    for (const int side : {0, 1}) {
+      const auto h = mesh.halfedge_handle(e, static_cast<unsigned>(side));
+      queue.push(mesh.edge_handle(mesh.next_halfedge_handle(h)));
+      queue.push(mesh.edge_handle(mesh.prev_halfedge_handle(h)));
+    }
+  }
+}
+
+}  // namespace hexpipe

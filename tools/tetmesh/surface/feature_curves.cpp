@@ -1,0 +1,184 @@
+#include "tools/tetmesh/surface/feature_curves.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hexpipe {
+namespace {
+
+using Vertex = OpenMesh::VertexHandle;
+
+// Step ends nearer to a vertex of the curve than this part of a step are moved there.
+constexpr double snapping = 1e-3;
+// Steps are added for the deviation up to this many times the steps of the size.
+constexpr int most_refinement = 16;
+
+class CurveFinder {
+ public:
+  explicit CurveFinder(const FeatureMesh& mesh) : mesh_(mesh), seen_(mesh.n_edges()) {}
+
+  std::vector<FeatureCurve> find() {
+    for (const bool from_corners : {true, false})
+      for (const Vertex v : mesh_.vertices()) {
+        if (!mesh_.is_on_feature(v) || (from_corners && !mesh_.is_kept(v))) continue;
+        for (const auto h : mesh_.voh_range(v))
+          if (is_unseen(h)) follow(h);
+      }
+    return std::move(curves_);
+  }
+
+ private:
+  bool is_unseen(OpenMesh::HalfedgeHandle h) const {
+    const auto e = mesh_.edge_handle(h);
+    return mesh_.is_feature(e) && !seen_[e.idx()];
+  }
+
+  void follow(OpenMesh::HalfedgeHandle h) {
+    FeatureCurve curve;
+    const Vertex start = mesh_.from_vertex_handle(h);
+    curve.vertices.push_back(start);
+    while (h.is_valid()) {
+      seen_[mesh_.edge_handle(h).idx()] = true;
+      curve.vertices.push_back(mesh_.to_vertex_handle(h));
+      h = continuation(mesh_.to_vertex_handle(h));
+    }
+    curve.closed = curve.vertices.back() == start && !mesh_.is_kept(start);
+    curves_.push_back(std::move(curve));
+  }
+
+  OpenMesh::HalfedgeHandle continuation(Vertex v) const {
+    if (!mesh_.is_kept(v))
+      for (const auto h : mesh_.voh_range(v))
+        if (is_unseen(h)) return h;
+    return OpenMesh::HalfedgeHandle();
+  }
+
+  const FeatureMesh& mesh_;
+  std::vector<bool> seen_;
+  std::vector<FeatureCurve> curves_;
+};
+
+// A curve by arc length.
+class ArcLength {
+ public:
+  explicit ArcLength(std::vector<Vec3> points) : points_(std::move(points)), lengths_(1, 0.0) {
+    for (std::size_t i = 1; i < points_.size(); ++i)
+      lengths_.push_back(lengths_.back() + norm(points_[i] - points_[i - 1]));
+  }
+
+  double length() const { return lengths_.back(); }
+  std::size_t segments() const { return points_.size() - 1; }
+  double start_of(std::size_t segment) const { return lengths_[segment]; }
+
+  Vec3 at(double s) const {
+    const auto after = std::upper_bound(lengths_.begin() + 1, lengths_.end() - 1, s) - lengths_.begin();
+    const auto i = static_cast<std::size_t>(after);
+    const double t = (s - lengths_[i - 1]) / (lengths_[i] - lengths_[i - 1]);
+    return points_[i - 1] + t * (points_[i] - points_[i - 1]);
+  }
+
+  // The greatest distance of the curve from `count` chords of even length along it, from `start` on.
+  double bend(int count) const {
+    const double step = length() / count;
+    double most = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const double k = std::min(std::floor(lengths_[i] / step), count - 1.0);
+      const Vec3 from = at(k * step), along = at((k + 1) * step) - from, p = points_[i] - from;
+      const double t = std::clamp(dot(p, along) / std::max(norm_squared(along), 1e-300), 0.0, 1.0);
+      most = std::max(most, norm_squared(p - t * along));
+    }
+    return std::sqrt(most);
+  }
+
+ private:
+  std::vector<Vec3> points_;
+  std::vector<double> lengths_;
+};
+
+// Where loops that are copies of each other, like the rims of a hole, start at the same angle, and where their four
+// quarters lie along the axes: in the direction, from the loop's centre, of the axis that lies most in its plane.
+Vec3 start_direction(const std::vector<Vec3>& loop) {
+  Vec3 area;
+  for (std::size_t i = 1; i < loop.size(); ++i) area += cross(loop[i - 1] - loop[0], loop[i] - loop[0]);
+  const Vec3 size{std::abs(area.x), std::abs(area.y), std::abs(area.z)};
+  const Vec3 axis = size.x <= size.y && size.x <= size.z ? Vec3{1, 0, 0}
+                    : size.y <= size.z                   ? Vec3{0, 1, 0}
+                                                         : Vec3{0, 0, 1};
+  return axis - (dot(axis, area) / std::max(norm_squared(area), 1e-300)) * area;
+}
+
+class CurveSampler {
+ public:
+  CurveSampler(FeatureMesh& mesh, double size, double deviation) : mesh_(mesh), size_(size), deviation_(deviation) {}
+
+  void sample(FeatureCurve curve) {
+    if (curve.closed) turn_to_start(curve);
+    const ArcLength arc(positions(curve));
+    const int count = step_count(arc, curve.closed);
+    if (curve.closed) mesh_.keep(curve.vertices.front());
+    const double step = arc.length() / count;
+    int next = 1;
+    for (std::size_t i = 0; i < arc.segments() && next < count; ++i) {
+      Vertex from = curve.vertices[i];
+      const Vertex to = curve.vertices[i + 1];
+      const double end = arc.start_of(i + 1);
+      for (; next < count && next * step < end + snapping * step; ++next) {
+        if (std::abs(next * step - end) <= snapping * step)
+          mesh_.keep(to);
+        else
+          from = place(from, to, arc.at(next * step));
+      }
+    }
+  }
+
+ private:
+  std::vector<Vec3> positions(const FeatureCurve& curve) const {
+    std::vector<Vec3> points;
+    for (const Vertex v : curve.vertices) points.push_back(mesh_.position(v));
+    return points;
+  }
+
+  Vertex place(Vertex from, Vertex to, const Vec3& p) {
+    const Vertex v = mesh_.split_edge_at(mesh_.edge_handle(mesh_.find_halfedge(from, to)), p);
+    mesh_.keep(v);
+    return v;
+  }
+
+  int step_count(const ArcLength& arc, bool closed) const {
+    const int least = closed ? 4 : 1;
+    const double wanted = std::round(arc.length() / size_);
+    int count = std::max(least, static_cast<int>(wanted));
+    if (closed && count > 4) count = 2 * static_cast<int>(std::round(arc.length() / size_ / 2));
+    const int most = most_refinement * count;
+    while (count < most && arc.bend(count) > deviation_) count += closed ? 2 : 1;
+    return count;
+  }
+
+  // Cuts the loop at its start and turns it so that it begins there.
+  void turn_to_start(FeatureCurve& curve) {
+    const std::vector<Vec3> loop = positions(curve);
+    const Vec3 direction = start_direction(loop);
+    std::size_t first = 0;
+    for (std::size_t i = 0; i + 1 < loop.size(); ++i)
+      if (dot(loop[i], direction) > dot(loop[first], direction)) first = i;
+    curve.vertices.pop_back();
+    std::ranges::rotate(curve.vertices, curve.vertices.begin() + static_cast<std::ptrdiff_t>(first));
+    curve.vertices.push_back(curve.vertices.front());
+  }
+
+  FeatureMesh& mesh_;
+  double size_, deviation_;
+};
+
+}  // namespace
+
+std::vector<FeatureCurve> feature_curves(const FeatureMesh& mesh) {
+  return CurveFinder(mesh).find();
+}
+
+void sample_feature_curves(FeatureMesh& mesh, double size, double deviation) {
+  CurveSampler sampler(mesh, size, deviation);
+  for (FeatureCurve& curve : feature_curves(mesh)) sampler.sample(std::move(curve));
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,21 @@
+#pragma once
+// Feature curves, and vertices set evenly along them: the segments between corners, and closed loops, get a whole
+// number of steps of about the size.
+
+#include "tools/tetmesh/surface/feature_mesh.hpp"
+
+namespace hexpipe {
+
+struct FeatureCurve {
+  std::vector<OpenMesh::VertexHandle> vertices;  // a closed one ends with its first
+  bool closed = false;
+};
+
+// From corner to corner, then the loops without one; in the order of their first vertices.
+std::vector<FeatureCurve> feature_curves(const FeatureMesh& mesh);
+
+// Splits feature edges where a step ends and keeps these vertices. A curve bends away from its chords by at most
+// `deviation`, for which it gets more steps where needed.
+void sample_feature_curves(FeatureMesh& mesh, double size, double deviation);
+
+}  // namespace hexpipe

@@ -1,0 +1,70 @@
+#pragma once
+// The surface as a half-edge mesh that can be split, flipped and collapsed, with what must survive that: feature edges,
+// corners, and the triangle of the input that each face lies on.
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <cstdint>
+#include <vector>
+
+#include "tools/tetmesh/shells.hpp"
+
+namespace hexpipe {
+
+struct HalfEdgeTraits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;
+  using Normal = OpenMesh::Vec3d;
+  VertexAttributes(OpenMesh::Attributes::Status);
+  EdgeAttributes(OpenMesh::Attributes::Status);
+  FaceAttributes(OpenMesh::Attributes::Status);
+};
+
+enum class VertexRole : std::uint8_t {
+  removable,  // of the input, or added to refine it
+  kept        // a vertex of the result
+};
+
+class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
+ public:
+  // Feature edges: where normals of neighbours differ by more than the angle (degrees), and where tags meet. Corners,
+  // which are kept, are the vertices where other than two feature edges meet or where a curve turns by more than it.
+  FeatureMesh(const Surface& surface, double feature_angle);
+
+  Vec3 position(VertexHandle v) const {
+    const Point& p = point(v);
+    return {p[0], p[1], p[2]};
+  }
+  // Twice the area long.
+  Vec3 area_normal(FaceHandle f) const;
+  std::array<VertexHandle, 3> corners(FaceHandle f) const;
+
+  bool is_feature(EdgeHandle e) const { return feature_[e.idx()] != 0; }
+  bool is_on_feature(VertexHandle v) const { return on_feature_[v.idx()] != 0; }
+  bool is_kept(VertexHandle v) const { return role_[v.idx()] == VertexRole::kept; }
+  void keep(VertexHandle v) { role_[v.idx()] = VertexRole::kept; }
+  // The triangle of the input surface that a face lies on, or was before its corners were moved.
+  std::int32_t source(FaceHandle f) const { return source_[f.idx()]; }
+
+  // Split at a point of the edge or face, which becomes a removable vertex.
+  VertexHandle split_edge_at(EdgeHandle e, const Vec3& p);
+  VertexHandle split_face_at(FaceHandle f, const Vec3& p);
+  // Moves the start of a half-edge to its end. Check is_collapse_ok() first.
+  void collapse_edge(HalfedgeHandle h);
+
+ private:
+  VertexHandle add_removable(const Vec3& p, bool on_feature);
+  void mark_features(const Surface& surface, double feature_angle);
+  void mark_corners(double feature_angle);
+  bool is_corner(VertexHandle v, double cosine) const;
+  void resize_attributes();
+
+  std::vector<std::uint8_t> feature_;     // of edges
+  std::vector<std::uint8_t> on_feature_;  // of vertices
+  std::vector<VertexRole> role_;
+  std::vector<std::int32_t> source_;  // of faces
+};
+
+inline OpenMesh::Vec3d to_open_mesh(const Vec3& p) {
+  return {p.x, p.y, p.z};
+}
+
+}  // namespace hexpipe

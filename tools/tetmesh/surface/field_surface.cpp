@@ -1,0 +1,30 @@
+#include "tools/tetmesh/surface/field_surface.hpp"
+
+namespace hexpipe {
+
+FieldSurface::FieldSurface(const FeatureMesh& mesh) {
+  points.reserve(mesh.n_vertices());
+  for (const auto v : mesh.vertices()) points.push_back(mesh.position(v));
+  triangles.reserve(mesh.n_faces());
+  feature.reserve(3 * mesh.n_faces());
+  for (const auto f : mesh.faces()) {
+    const auto [a, b, c] = mesh.corners(f);
+    triangles.push_back({a.idx(), b.idx(), c.idx()});
+    auto h = mesh.halfedge_handle(f);
+    for (int i = 0; i < 3; ++i, h = mesh.next_halfedge_handle(h))
+      feature.push_back(mesh.is_feature(mesh.edge_handle(h)));
+    const Vec3 normal = mesh.area_normal(f);
+    const double length = norm(normal);
+    normals.push_back(normal * (1 / length));
+    areas.push_back(length / 2);
+  }
+  twins = find_twins(points.size(), triangles);
+}
+
+TangentFrame::TangentFrame(const FieldSurface& surface, std::int32_t triangle) {
+  const Vec3 side = surface.edge_vector(3 * triangle);
+  x = side * (1 / norm(side));
+  y = cross(surface.normals[triangle], x);
+}
+
+}  // namespace hexpipe

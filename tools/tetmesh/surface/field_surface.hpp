@@ -1,0 +1,37 @@
+#pragma once
+// A refined surface as plain arrays, for the cross field and for walks along it.
+
+#include <vector>
+
+#include "tools/tetmesh/half_edges.hpp"
+#include "tools/tetmesh/surface/feature_mesh.hpp"
+
+namespace hexpipe {
+
+struct FieldSurface {
+  // Faces and vertices have the numbers that they have in the mesh, which must have nothing deleted.
+  explicit FieldSurface(const FeatureMesh& mesh);
+
+  std::vector<Vec3> points;
+  std::vector<Triangle> triangles;
+  std::vector<HalfEdge> twins;
+  std::vector<bool> feature;  // of each half-edge
+  std::vector<Vec3> normals;  // of length 1
+  std::vector<double> areas;
+
+  Vec3 edge_vector(HalfEdge h) const { return points[end_of(triangles, h)] - points[start_of(triangles, h)]; }
+  // In the plane of its triangle, of length 1, pointing into it.
+  Vec3 inward(HalfEdge h) const {
+    const Vec3 n = cross(normals[triangle_of(h)], edge_vector(h));
+    return n * (1 / norm(n));
+  }
+};
+
+// A frame of a triangle's plane: its first side, and that turned by 90 degrees.
+struct TangentFrame {
+  Vec3 x, y;
+
+  TangentFrame(const FieldSurface& surface, std::int32_t triangle);
+};
+
+}  // namespace hexpipe

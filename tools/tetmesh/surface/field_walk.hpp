@@ -1,0 +1,42 @@
+#pragma once
+// Walks on a surface along its cross field.
+
+#include "tools/tetmesh/surface/cross_field.hpp"
+
+namespace hexpipe {
+
+struct SurfacePoint {
+  Vec3 position;
+  std::int32_t triangle = 0;
+};
+
+struct WalkEnd {
+  SurfacePoint point;
+  double length = 0;        // walked
+  bool at_feature = false;  // stopped by a feature edge
+};
+
+class FieldWalker {
+ public:
+  FieldWalker(const FieldSurface& surface, const CrossField& field) : surface_(surface), field_(field) {}
+
+  // The direction of the field in a triangle that is nearest to the given one.
+  Vec3 nearest_direction(std::int32_t triangle, const Vec3& direction) const;
+
+  // Walks straight in each triangle, from one to the next with the direction of the field that continues the last,
+  // until `length` is walked or a feature edge met.
+  WalkEnd walk(const SurfacePoint& start, const Vec3& direction, double length) const;
+
+ private:
+  struct Exit {
+    HalfEdge edge = 0;
+    double length = 0;
+  };
+  Exit exit_of(const SurfacePoint& point, const Vec3& direction) const;
+  Vec3 direction_beyond(HalfEdge edge, const Vec3& direction) const;
+
+  const FieldSurface& surface_;
+  const CrossField& field_;
+};
+
+}  // namespace hexpipe

@@ -1,0 +1,113 @@
+#include "tools/tetmesh/surface/point_insertion.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace hexpipe {
+namespace {
+
+class PointInserter {
+ public:
+  PointInserter(FeatureMesh& mesh, double snap) : mesh_(mesh), snap_(snap), cut_from_(mesh.n_faces()) {
+    for (std::size_t f = 0; f < cut_from_.size(); ++f) cut_from_[f] = static_cast<std::int32_t>(f);
+  }
+
+  void insert(const SurfacePoint& point) {
+    const Vec3& p = point.position;
+    const auto face = part_around(point);
+    for (const auto v : mesh_.corners(face))
+      if (norm(mesh_.position(v) - p) < snap_) return mesh_.keep(v);
+    const auto nearest = nearest_edge(face, p);
+    const auto from = mesh_.position(mesh_.from_vertex_handle(nearest)),
+               to = mesh_.position(mesh_.to_vertex_handle(nearest));
+    const double t = dot(p - from, to - from) / norm_squared(to - from);
+    const Vec3 foot = from + t * (to - from);
+    if (norm(foot - p) >= snap_) {
+      const auto v = mesh_.split_face_at(face, p);
+      mesh_.keep(v);
+      inherit(v, cut_from_[face.idx()]);
+    } else if (!mesh_.is_feature(mesh_.edge_handle(nearest)) && t > 0 && t < 1) {
+      split_edge(nearest, foot);
+    }
+  }
+
+ private:
+  using Face = OpenMesh::FaceHandle;
+  using HalfEdgeHandle = OpenMesh::HalfedgeHandle;
+
+  // Signed distance from an edge's line, positive inside the face.
+  double inside(HalfEdgeHandle h, const Vec3& normal, const Vec3& p) const {
+    const Vec3 from = mesh_.position(mesh_.from_vertex_handle(h)),
+               along = mesh_.position(mesh_.to_vertex_handle(h)) - from;
+    return det(normal, along, p - from) / norm(along);
+  }
+
+  HalfEdgeHandle nearest_edge(Face f, const Vec3& p) const {
+    const Vec3 area = mesh_.area_normal(f), normal = area * (1 / norm(area));
+    HalfEdgeHandle nearest;
+    double least = std::numeric_limits<double>::max();
+    for (const auto h : mesh_.fh_range(f))
+      if (const double distance = inside(h, normal, p); distance < least) {
+        least = distance;
+        nearest = h;
+      }
+    return nearest;
+  }
+
+  double depth(Face f, const Vec3& p) const {
+    const Vec3 area = mesh_.area_normal(f), normal = area * (1 / std::max(norm(area), 1e-300));
+    double least = std::numeric_limits<double>::max();
+    for (const auto h : mesh_.fh_range(f)) least = std::min(least, inside(h, normal, p));
+    return least;
+  }
+
+  // Of the parts of the point's face, the one in which it lies deepest.
+  Face part_around(const SurfacePoint& point) {
+    parts_.assign(1, mesh_.face_handle(static_cast<unsigned>(point.triangle)));
+    Face best = parts_[0];
+    double most = depth(best, point.position);
+    for (std::size_t i = 0; i < parts_.size() && most < 0; ++i)
+      for (const Face g : mesh_.ff_range(parts_[i])) {
+        if (cut_from_[g.idx()] != point.triangle || std::ranges::find(parts_, g) != parts_.end()) continue;
+        parts_.push_back(g);
+        if (const double d = depth(g, point.position); d > most) {
+          most = d;
+          best = g;
+        }
+      }
+    return best;
+  }
+
+  void split_edge(HalfEdgeHandle h, const Vec3& p) {
+    const std::int32_t here = cut_from_[mesh_.face_handle(h).idx()];
+    const std::int32_t there = cut_from_[mesh_.face_handle(mesh_.opposite_halfedge_handle(h)).idx()];
+    const auto across = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h));
+    const auto v = mesh_.split_edge_at(mesh_.edge_handle(h), p);
+    mesh_.keep(v);
+    cut_from_.resize(mesh_.n_faces());
+    for (const auto out : mesh_.voh_range(v)) {
+      const bool is_here =
+          mesh_.to_vertex_handle(out) == across || mesh_.to_vertex_handle(mesh_.next_halfedge_handle(out)) == across;
+      cut_from_[mesh_.face_handle(out).idx()] = is_here ? here : there;
+    }
+  }
+
+  void inherit(OpenMesh::VertexHandle v, std::int32_t face) {
+    cut_from_.resize(mesh_.n_faces());
+    for (const Face f : mesh_.vf_range(v)) cut_from_[f.idx()] = face;
+  }
+
+  FeatureMesh& mesh_;
+  double snap_;
+  std::vector<std::int32_t> cut_from_;  // of each face, the one that it is part of, as it was at the start
+  std::vector<Face> parts_;
+};
+
+}  // namespace
+
+void insert_points(FeatureMesh& mesh, std::span<const SurfacePoint> points, double snap) {
+  PointInserter inserter(mesh, snap);
+  for (const SurfacePoint& point : points) inserter.insert(point);
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,137 @@
+#include "tools/tetmesh/surface/surface_distance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/run/parallel.hpp"
+#include "tools/tetmesh/triangle_distance.hpp"
+
+namespace hexpipe {
+namespace {
+
+// Cells along each axis, so that a small width does not fill the memory.
+constexpr double most_cells = 256;
+constexpr int most_samples_along_edge = 64;
+constexpr std::int64_t triangles_per_block = 256;
+
+// A triangle's samples: the vertices of its division into similar ones.
+template <class Visit>
+void for_each_sample(const Vec3& a, const Vec3& b, const Vec3& c, double spacing, Visit&& visit) {
+  const double longest = std::sqrt(std::max({norm_squared(b - a), norm_squared(c - b), norm_squared(a - c)}));
+  const int n = std::clamp(static_cast<int>(std::ceil(longest / spacing)), 1, most_samples_along_edge);
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; i + j <= n; ++j)
+      visit(a + (static_cast<double>(i) / n) * (b - a) + (static_cast<double>(j) / n) * (c - a));
+}
+
+}  // namespace
+
+DistanceIndex::DistanceIndex(std::span<const Vec3> points, std::span<const Triangle> triangles)
+    : points_(points), triangles_(triangles), low_(points[0]) {
+  Vec3 high = low_;
+  for (const Vec3& p : points) {
+    low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const Vec3 extent = high - low_;
+  double area = 0;
+  for (const auto& [a, b, c] : triangles) area += norm(cross(points[b] - points[a], points[c] - points[a]));
+  const double edge = std::sqrt(area / static_cast<double>(triangles.size()));
+  width_ = std::max(edge, std::max({extent.x, extent.y, extent.z}) / most_cells);
+  auto count = [&](double length) { return static_cast<std::int64_t>(length / width_) + 1; };
+  counts_ = {count(extent.x), count(extent.y), count(extent.z)};
+  offsets_.resize(static_cast<std::size_t>(counts_.x * counts_.y * counts_.z) + 1);
+  for (const Triangle& t : triangles) for_each_cell(t, [&](std::int64_t cell) { ++offsets_[cell + 1]; });
+  for (std::size_t i = 1; i < offsets_.size(); ++i) offsets_[i] += offsets_[i - 1];
+  members_.resize(offsets_.back());
+  std::vector<std::int64_t> next(offsets_.begin(), offsets_.end() - 1);
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for_each_cell(triangles[i], [&](std::int64_t cell) { members_[next[cell]++] = static_cast<std::int32_t>(i); });
+}
+
+// Clamped to the grid.
+DistanceIndex::Cell DistanceIndex::cell_of(const Vec3& p) const {
+  auto number = [&](double x, double low, std::int64_t count) {
+    return static_cast<std::int64_t>(std::clamp(std::floor((x - low) / width_), 0.0, static_cast<double>(count - 1)));
+  };
+  return {number(p.x, low_.x, counts_.x), number(p.y, low_.y, counts_.y), number(p.z, low_.z, counts_.z)};
+}
+
+template <class Visit>
+void DistanceIndex::for_each_cell(const Triangle& t, Visit&& visit) const {
+  const Vec3 &a = points_[t[0]], &b = points_[t[1]], &c = points_[t[2]];
+  const Cell low = cell_of({std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})});
+  const Cell high = cell_of({std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})});
+  for (std::int64_t z = low.z; z <= high.z; ++z)
+    for (std::int64_t y = low.y; y <= high.y; ++y)
+      for (std::int64_t x = low.x; x <= high.x; ++x) visit(number_of({x, y, z}));
+}
+
+double DistanceIndex::distance(const Vec3& p) const {
+  const Cell centre = cell_of(p);
+  const std::int64_t rings = std::max({counts_.x, counts_.y, counts_.z});
+  double best = std::numeric_limits<double>::max();
+  for (std::int64_t ring = 0; ring < rings; ++ring) {
+    best = squared_in_shell(p, centre, ring, best);
+    // Whatever lies in a later ring is at least that many widths away; the cells of the next one are looked at singly.
+    const double reach = static_cast<double>(ring) * width_;
+    if (best <= reach * reach) break;
+  }
+  return std::sqrt(best);
+}
+
+double DistanceIndex::squared_in_shell(const Vec3& p, const Cell& centre, std::int64_t ring, double best) const {
+  for (std::int64_t z = std::max<std::int64_t>(centre.z - ring, 0); z <= std::min(centre.z + ring, counts_.z - 1); ++z)
+    for (std::int64_t y = std::max<std::int64_t>(centre.y - ring, 0); y <= std::min(centre.y + ring, counts_.y - 1);
+         ++y) {
+      const bool on_side = std::max(std::abs(z - centre.z), std::abs(y - centre.y)) == ring;
+      const std::int64_t step = on_side || ring == 0 ? 1 : 2 * ring;
+      for (std::int64_t x = centre.x - ring; x <= centre.x + ring; x += step)
+        if (x >= 0 && x < counts_.x && squared_to_box(p, {x, y, z}) < best) best = squared_in_cell(p, {x, y, z}, best);
+    }
+  return best;
+}
+
+double DistanceIndex::squared_to_box(const Vec3& p, const Cell& cell) const {
+  auto outside = [&](double x, double low, std::int64_t number) {
+    const double from_low = x - (low + static_cast<double>(number) * width_);
+    return std::max({0.0, -from_low, from_low - width_});
+  };
+  return norm_squared(Vec3{outside(p.x, low_.x, cell.x), outside(p.y, low_.y, cell.y), outside(p.z, low_.z, cell.z)});
+}
+
+double DistanceIndex::squared_in_cell(const Vec3& p, const Cell& cell, double best) const {
+  const std::int64_t number = number_of(cell);
+  for (std::int64_t i = offsets_[number]; i < offsets_[number + 1]; ++i) {
+    const auto [a, b, c] = triangles_[members_[i]];
+    best = std::min(best, TriangleDistance(points_[a], points_[b], points_[c]).squared(p));
+  }
+  return best;
+}
+
+SurfaceDistance one_sided_distance(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                                   const DistanceIndex& other, double spacing, double limit) {
+  SurfaceDistance result;
+  parallel_in_order(
+      static_cast<std::int64_t>(triangles.size()), triangles_per_block,
+      [&](std::int64_t begin, std::int64_t end) {
+        SurfaceDistance part;
+        for (std::int64_t i = begin; i < end; ++i) {
+          const auto [a, b, c] = triangles[i];
+          for_each_sample(points[a], points[b], points[c], spacing, [&](const Vec3& p) {
+            const double distance = other.distance(p);
+            part.greatest = std::max(part.greatest, distance);
+            if (distance > limit) part.beyond.push_back(p);
+          });
+        }
+        return part;
+      },
+      [&](SurfaceDistance&& part) {
+        result.greatest = std::max(result.greatest, part.greatest);
+        result.beyond.insert(result.beyond.end(), part.beyond.begin(), part.beyond.end());
+      });
+  return result;
+}
+
+}  // namespace hexpipe

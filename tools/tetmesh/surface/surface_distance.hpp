@@ -1,0 +1,49 @@
+#pragma once
+// How far two surfaces are from each other, measured both ways.
+
+#include <span>
+#include <vector>
+
+#include "common/mesh/tet_mesh.hpp"
+
+namespace hexpipe {
+
+// Finds distances from a fixed set of triangles.
+class DistanceIndex {
+ public:
+  // The arrays must outlive the index.
+  DistanceIndex(std::span<const Vec3> points, std::span<const Triangle> triangles);
+
+  double distance(const Vec3& p) const;
+
+ private:
+  struct Cell {
+    std::int64_t x, y, z;
+  };
+  Cell cell_of(const Vec3& p) const;
+  std::int64_t number_of(const Cell& c) const { return (c.z * counts_.y + c.y) * counts_.x + c.x; }
+  double squared_in_shell(const Vec3& p, const Cell& centre, std::int64_t ring, double best) const;
+  double squared_in_cell(const Vec3& p, const Cell& cell, double best) const;
+  double squared_to_box(const Vec3& p, const Cell& cell) const;
+  template <class Visit>
+  void for_each_cell(const Triangle& t, Visit&& visit) const;
+
+  std::span<const Vec3> points_;
+  std::span<const Triangle> triangles_;
+  Vec3 low_;
+  double width_;
+  Cell counts_{};
+  std::vector<std::int64_t> offsets_;
+  std::vector<std::int32_t> members_;
+};
+
+struct SurfaceDistance {
+  double greatest = 0;       // over samples at most `spacing` apart
+  std::vector<Vec3> beyond;  // samples further away than the limit
+};
+
+// Distances of samples of one surface, its vertices among them, from another.
+SurfaceDistance one_sided_distance(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                                   const DistanceIndex& other, double spacing, double limit);
+
+}  // namespace hexpipe

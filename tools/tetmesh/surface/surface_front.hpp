@@ -1,0 +1,16 @@
+#pragma once
+// Points on a surface in the directions of its cross field, a size apart, by a front that starts from the feature
+// curves.
+
+#include <span>
+
+#include "tools/tetmesh/surface/cross_field.hpp"
+#include "tools/tetmesh/surface/field_walk.hpp"
+
+namespace hexpipe {
+
+// `kept` are the vertices of the surface that are points already: those of its feature curves.
+std::vector<SurfacePoint> surface_front(const FieldSurface& surface, const CrossField& field,
+                                        std::span<const Vertex> kept, double size);
+
+}  // namespace hexpipe

@@ -1,0 +1,12 @@
+#pragma once
+// Makes a surface's triangles fit to carry a field, without moving it: flips edges that are flat, halves long ones.
+
+#include "tools/tetmesh/surface/feature_mesh.hpp"
+
+namespace hexpipe {
+
+// Flips edges towards Delaunay where the surface bends by less than `flatness` there, then halves edges, longest first,
+// until none is longer than `longest`. New vertices are removable.
+void refine_surface(FeatureMesh& mesh, double longest, double flatness);
+
+}  // namespace hexpipe

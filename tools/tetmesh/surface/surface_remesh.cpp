@@ -1,0 +1,172 @@
+// Features are sampled first, the field's triangles made from what is there, a front puts points on them, these are
+// inserted, and the rest of the vertices taken out. What comes out is judged as a whole; around a fault the input's own
+// vertices stay the next time.
+
+#include "tools/tetmesh/surface/surface_remesh.hpp"
+
+#include <algorithm>
+
+#include "tools/tetmesh/exact_geometry.hpp"
+#include "tools/tetmesh/surface/feature_curves.hpp"
+#include "tools/tetmesh/surface/point_insertion.hpp"
+#include "tools/tetmesh/surface/surface_distance.hpp"
+#include "tools/tetmesh/surface/surface_front.hpp"
+#include "tools/tetmesh/surface/surface_point_grid.hpp"
+#include "tools/tetmesh/surface/surface_refine.hpp"
+#include "tools/tetmesh/surface/vertex_removal.hpp"
+
+namespace hexpipe {
+namespace {
+
+// The field's triangles are at most that long, in sizes.
+constexpr double field_edge = 1;
+// Flips that move the surface by less than that, in sizes, do not count as moving it.
+constexpr double flatness = 1e-5;
+// Points nearer than that, in sizes, to a vertex or an edge of the field's triangles are moved there.
+constexpr double snap = 0.02;
+// Distances are measured at points so far apart, in sizes.
+constexpr double sample_spacing = 0.34;
+// The part of the deviation that removing vertices may use, by the distances that it knows: those of vertices.
+constexpr double removal_share = 0.85;
+// Vertices nearer to a fault than that, in sizes, stay; and the double of it the next time.
+constexpr double repair_reach = 0.25;
+constexpr int most_attempts = 5;
+constexpr std::size_t most_intersections = 1000;
+
+class SurfaceRemesher {
+ public:
+  SurfaceRemesher(const Surface& surface, const RemeshOptions& options)
+      : surface_(surface),
+        size_(options.size),
+        deviation_(options.deviation * options.size),
+        prepared_(surface, options.feature_angle),
+        input_(surface.points, surface.triangles) {}
+
+  RemeshResult run() {
+    prepare();
+    double reach = repair_reach * size_;
+    for (; result_.attempts < most_attempts; reach *= 2) {
+      ++result_.attempts;
+      remove_vertices_of_input();
+      const std::vector<Vec3> faults = find_faults();
+      if (faults.empty()) return std::move(result_);
+      keep_around(faults, reach);
+    }
+    result_.soup = {};
+    return std::move(result_);
+  }
+
+ private:
+  void prepare();
+  void remove_vertices_of_input();
+  std::vector<Vec3> find_faults();
+  void keep_around(const std::vector<Vec3>& places, double reach);
+  std::vector<Vertex> kept_vertices() const;
+  void set_soup(const FeatureMesh& mesh);
+  Vec3 centre_of(std::size_t triangle) const;
+
+  const Surface& surface_;
+  double size_, deviation_;
+  FeatureMesh prepared_;  // with all points inserted, and the vertices of the input
+  DistanceIndex input_;
+  RemeshResult result_;
+};
+
+void SurfaceRemesher::prepare() {
+  sample_feature_curves(prepared_, size_, deviation_);
+  refine_surface(prepared_, field_edge * size_, flatness * size_);
+  const std::vector<Vertex> kept = kept_vertices();
+  const FieldSurface field_surface(prepared_);
+  const CrossField field = cross_field(field_surface, size_);
+  const std::vector<SurfacePoint> points = surface_front(field_surface, field, kept, size_);
+  insert_points(prepared_, points, snap * size_);
+  result_.feature_points = kept.size();
+  result_.front_points = points.size();
+}
+
+std::vector<Vertex> SurfaceRemesher::kept_vertices() const {
+  std::vector<Vertex> kept;
+  for (const auto v : prepared_.vertices())
+    if (prepared_.is_kept(v)) kept.push_back(v.idx());
+  return kept;
+}
+
+void SurfaceRemesher::remove_vertices_of_input() {
+  FeatureMesh mesh = prepared_;
+  remove_vertices(mesh, removal_share * deviation_);
+  set_soup(mesh);
+  result_.extra_points = result_.soup.points.size() - result_.feature_points - result_.front_points;
+}
+
+void SurfaceRemesher::set_soup(const FeatureMesh& mesh) {
+  SurfaceSoup soup;
+  soup.text = surface_.text;
+  soup.name = surface_.name;
+  std::vector<Vertex> number(mesh.n_vertices());
+  for (const auto v : mesh.vertices()) {
+    number[v.idx()] = static_cast<Vertex>(soup.points.size());
+    soup.points.push_back(mesh.position(v));
+  }
+  // In the order of the shells, whose numbers depend on it.
+  std::vector<OpenMesh::FaceHandle> faces(mesh.faces().begin(), mesh.faces().end());
+  std::ranges::stable_sort(faces, {}, [&](auto f) { return surface_.shell_of[mesh.source(f)]; });
+  for (const auto f : faces) {
+    const auto [a, b, c] = mesh.corners(f);
+    soup.triangles.push_back({number[a.idx()], number[b.idx()], number[c.idx()]});
+    soup.tags.push_back(surface_.tags[mesh.source(f)]);
+    soup.places.push_back(surface_.places[mesh.source(f)]);
+  }
+  result_.soup = std::move(soup);
+}
+
+Vec3 SurfaceRemesher::centre_of(std::size_t triangle) const {
+  const auto [a, b, c] = result_.soup.triangles[triangle];
+  const auto& points = result_.soup.points;
+  return (points[a] + points[b] + points[c]) * (1.0 / 3);
+}
+
+// Places where the new surface is not what was promised. Its edges and vertices are manifold and its orientation is
+// right by construction.
+std::vector<Vec3> SurfaceRemesher::find_faults() {
+  const SurfaceSoup& soup = result_.soup;
+  std::vector<Vec3> faults;
+  for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
+    const auto [a, b, c] = soup.triangles[i];
+    if (are_collinear(soup.points[a], soup.points[b], soup.points[c])) faults.push_back(centre_of(i));
+  }
+  result_.failure = "the new surface has triangles without an area";
+  if (!faults.empty()) return faults;
+  for (const auto& pair : find_intersections(soup.points, soup.triangles, most_intersections).pairs)
+    for (const std::int32_t i : pair) faults.push_back(centre_of(static_cast<std::size_t>(i)));
+  result_.failure = "the new surface intersects itself";
+  if (!faults.empty()) return faults;
+
+  const double spacing = sample_spacing * size_, limit = deviation_ * (1 + 1e-9);
+  const DistanceIndex output(soup.points, soup.triangles);
+  SurfaceDistance there = one_sided_distance(soup.points, soup.triangles, input_, spacing, limit);
+  const SurfaceDistance back = one_sided_distance(surface_.points, surface_.triangles, output, spacing, limit);
+  result_.to_input = there.greatest;
+  result_.from_input = back.greatest;
+  faults = std::move(there.beyond);
+  faults.insert(faults.end(), back.beyond.begin(), back.beyond.end());
+  result_.failure = faults.empty() ? "" : "the new surface is too far from the old one";
+  return faults;
+}
+
+void SurfaceRemesher::keep_around(const std::vector<Vec3>& places, double reach) {
+  SurfacePointGrid grid(reach);
+  for (const Vec3& p : places) grid.add(p);
+  for (const auto v : prepared_.vertices()) {
+    const Vec3 p = prepared_.position(v);
+    if (!grid.none_near(p, [&](std::int32_t, const Vec3& place) { return norm_squared(p - place) <= reach * reach; }))
+      prepared_.keep(v);
+  }
+}
+
+}  // namespace
+
+RemeshResult remesh_surface(const Surface& surface, const RemeshOptions& options) {
+  return SurfaceRemesher(surface, options).run();
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,220 @@
+// Half-edge collapses in rounds, each followed by Lawson's flips around it. Faces carry the removed vertices that lie
+// nearest to them, and points on edges, so that the distance from the original surface is known at each step (Klein,
+// Liebich, Straßer 1996).
+
+#include "tools/tetmesh/surface/vertex_removal.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "tools/tetmesh/surface/delaunay_flips.hpp"
+#include "tools/tetmesh/triangle_distance.hpp"
+
+namespace hexpipe {
+namespace {
+
+using Edge = OpenMesh::EdgeHandle;
+using Face = OpenMesh::FaceHandle;
+using HalfEdgeH = OpenMesh::HalfedgeHandle;
+using VertexH = OpenMesh::VertexHandle;
+
+// A collapse may turn a face's normal by an angle of this cosine, and make triangles of this shape: 1 is equilateral.
+constexpr double least_cosine = 0.3, least_shape = 1e-3;
+// Edges that bend by less than this part of the deviation are flat.
+constexpr double least_bend = 0.05;
+// Removing some vertices makes others removable; more rounds found nothing.
+constexpr int most_rounds = 20;
+
+using Corners = std::array<Vec3, 3>;
+
+Vec3 area_normal(const Corners& c) {
+  return cross(c[1] - c[0], c[2] - c[0]);
+}
+
+double shape_of(const Corners& c) {
+  const double sides = norm_squared(c[1] - c[0]) + norm_squared(c[2] - c[1]) + norm_squared(c[0] - c[2]);
+  return 2 * std::sqrt(3.0) * norm(area_normal(c)) / std::max(sides, 1e-300);
+}
+
+// A change of the mesh: faces that go or change, what they become, and where their removed vertices would go.
+struct Change {
+  std::vector<Face> faces;
+  std::vector<Corners> corners;
+  std::vector<Vec3> strays;         // removed vertices of all faces concerned
+  std::vector<std::size_t> target;  // of each, the index of its new face
+};
+
+class VertexRemover {
+ public:
+  VertexRemover(FeatureMesh& mesh, double deviation)
+      : mesh_(mesh), most_(deviation * deviation), strays_(mesh.n_faces()) {
+    for (const Edge e : mesh.edges()) add_middle(e);
+  }
+
+  std::size_t run() {
+    std::vector<VertexH> waiting, left;
+    for (const bool on_feature : {true, false})
+      for (const VertexH v : mesh_.vertices())
+        if (!mesh_.is_kept(v) && mesh_.is_on_feature(v) == on_feature) waiting.push_back(v);
+    for (int round = 0; round < most_rounds && !waiting.empty(); ++round) {
+      left.clear();
+      for (const VertexH v : waiting)
+        if (!remove(v)) left.push_back(v);
+      const bool stuck = left.size() == waiting.size();
+      std::swap(waiting, left);
+      if (stuck) break;
+    }
+    return waiting.size();
+  }
+
+  void flip_all() {
+    for (const Edge e : mesh_.edges()) queue_.push(e);
+    flip_queued();
+  }
+
+ private:
+  void add_middle(Edge e);
+  struct Choice {
+    double shape;
+    HalfEdgeH collapse;
+  };
+
+  bool remove(VertexH v);
+  double shape_after(HalfEdgeH collapse);
+  void describe_collapse(HalfEdgeH collapse);
+  bool strays_fit();
+  void settle_strays();
+  void flip_queued();
+  bool allow_flip(Edge e, const EdgeDiamond& diamond);
+
+  FeatureMesh& mesh_;
+  double most_;                            // squared distance
+  std::vector<std::vector<Vec3>> strays_;  // of each face
+  std::vector<Choice> choices_;
+  Change change_;
+  EdgeQueue queue_;
+};
+
+// Across an edge where the surface bends, a new one can leave it without a vertex nearby that would tell.
+void VertexRemover::add_middle(Edge e) {
+  const EdgeDiamond diamond(mesh_, e);
+  const double height = diamond.height(), length = norm(diamond.end_points[1] - diamond.end_points[0]);
+  if (height * height < least_bend * least_bend * most_ || length * length < most_) return;
+  const Face f = mesh_.face_handle(mesh_.halfedge_handle(e, 0));
+  strays_[f.idx()].push_back(0.5 * (diamond.end_points[0] + diamond.end_points[1]));
+}
+
+bool VertexRemover::remove(VertexH v) {
+  choices_.clear();
+  const bool on_feature = mesh_.is_on_feature(v);
+  for (const HalfEdgeH h : mesh_.voh_range(v)) {
+    if (on_feature && !mesh_.is_feature(mesh_.edge_handle(h))) continue;
+    if (!mesh_.is_collapse_ok(h)) continue;
+    if (const double shape = shape_after(h); shape > least_shape) choices_.push_back({shape, h});
+  }
+  std::ranges::stable_sort(choices_, std::ranges::greater(), &Choice::shape);
+  for (const Choice& choice : choices_) {
+    describe_collapse(choice.collapse);
+    if (!strays_fit()) continue;
+    const VertexH target = mesh_.to_vertex_handle(choice.collapse);
+    mesh_.collapse_edge(choice.collapse);
+    settle_strays();
+    for (const Edge e : mesh_.ve_range(target)) queue_.push(e);
+    for (const Face f : mesh_.vf_range(target))
+      for (const Edge e : mesh_.fe_range(f)) queue_.push(e);
+    flip_queued();
+    return true;
+  }
+  return false;
+}
+
+// The least shape of the faces that move; negative where one turns too far.
+double VertexRemover::shape_after(HalfEdgeH collapse) {
+  const VertexH v = mesh_.from_vertex_handle(collapse), to = mesh_.to_vertex_handle(collapse);
+  double least = std::numeric_limits<double>::max();
+  for (const Face f : mesh_.vf_range(v)) {
+    const auto handles = mesh_.corners(f);
+    if (std::ranges::find(handles, to) != handles.end()) continue;
+    Corners before, after;
+    for (std::size_t i = 0; i < 3; ++i) {
+      before[i] = mesh_.position(handles[i]);
+      after[i] = handles[i] == v ? mesh_.position(to) : before[i];
+    }
+    const Vec3 n = area_normal(before), m = area_normal(after);
+    if (dot(n, m) < least_cosine * norm(n) * norm(m)) return -1;
+    least = std::min(least, shape_of(after));
+  }
+  return least;
+}
+
+void VertexRemover::describe_collapse(HalfEdgeH collapse) {
+  const VertexH v = mesh_.from_vertex_handle(collapse), to = mesh_.to_vertex_handle(collapse);
+  change_.faces.clear();
+  change_.corners.clear();
+  change_.strays.assign(1, mesh_.position(v));
+  for (const Face f : mesh_.vf_range(v)) {
+    const auto& of_face = strays_[f.idx()];
+    change_.strays.insert(change_.strays.end(), of_face.begin(), of_face.end());
+    const auto handles = mesh_.corners(f);
+    if (std::ranges::find(handles, to) != handles.end()) continue;
+    Corners after;
+    for (std::size_t i = 0; i < 3; ++i) after[i] = mesh_.position(handles[i] == v ? to : handles[i]);
+    change_.faces.push_back(f);
+    change_.corners.push_back(after);
+  }
+}
+
+// Finds the nearest of the new faces for each stray.
+bool VertexRemover::strays_fit() {
+  change_.target.clear();
+  std::vector<TriangleDistance> distances;
+  for (const Corners& c : change_.corners) distances.emplace_back(c[0], c[1], c[2]);
+  for (const Vec3& p : change_.strays) {
+    double least = std::numeric_limits<double>::max();
+    std::size_t nearest = 0;
+    for (std::size_t i = 0; i < distances.size(); ++i)
+      if (const double d = distances[i].squared(p); d < least) {
+        least = d;
+        nearest = i;
+      }
+    if (!(least <= most_)) return false;
+    change_.target.push_back(nearest);
+  }
+  return true;
+}
+
+void VertexRemover::settle_strays() {
+  for (const Face f : change_.faces) strays_[f.idx()].clear();
+  for (std::size_t i = 0; i < change_.strays.size(); ++i)
+    strays_[change_.faces[change_.target[i]].idx()].push_back(change_.strays[i]);
+}
+
+void VertexRemover::flip_queued() {
+  flip_towards_delaunay(
+      mesh_, queue_, [&](Edge e, const EdgeDiamond& diamond) { return allow_flip(e, diamond); },
+      [&](Edge) { settle_strays(); });
+}
+
+bool VertexRemover::allow_flip(Edge e, const EdgeDiamond& diamond) {
+  if (const double height = diamond.height(); height * height > most_) return false;
+  const Face left = mesh_.face_handle(mesh_.halfedge_handle(e, 0)),
+             right = mesh_.face_handle(mesh_.halfedge_handle(e, 1));
+  change_.strays = strays_[left.idx()];
+  change_.strays.insert(change_.strays.end(), strays_[right.idx()].begin(), strays_[right.idx()].end());
+  const auto [a, b] = diamond.end_points;
+  const auto [l, r] = diamond.across_points;
+  change_.faces.assign({left, right});
+  change_.corners.assign({Corners{a, r, l}, Corners{b, l, r}});
+  return strays_fit();
+}
+
+}  // namespace
+
+std::size_t remove_vertices(FeatureMesh& mesh, double deviation) {
+  VertexRemover remover(mesh, deviation);
+  const std::size_t left = remover.run();
+  remover.flip_all();
+  return left;
+}
+
+}  // namespace hexpipe
