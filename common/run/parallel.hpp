@@ -39,6 +39,11 @@ class PerThread {
  public:
   explicit PerThread(const T& model) : copies_(model) {}
   T& local() { return copies_.local(); }
+  // In no order: what is made of them must not depend on it.
+  template <class Visit>
+  void for_each(Visit&& visit) {
+    for (T& copy : copies_) visit(copy);
+  }
 
  private:
   tbb::enumerable_thread_specific<T> copies_;

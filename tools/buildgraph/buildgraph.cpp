@@ -1,13 +1,17 @@
 #include "tools/buildgraph/buildgraph.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
 #include "tools/buildgraph/conflicts.hpp"
 #include "tools/buildgraph/dense_ids.hpp"
+#include "tools/buildgraph/packed_lists.hpp"
 #include "tools/buildgraph/sorted_set.hpp"
 
 namespace hexpipe {
@@ -15,9 +19,52 @@ namespace {
 
 constexpr std::int64_t candidates_a_block = 256;
 
+// The conflicts of each candidate with lower ones, packed, and how many conflicts each one has in all.
+struct LowerConflicts {
+  std::vector<PackedLists> blocks;  // of candidates_a_block lists each
+  std::vector<std::int64_t> degrees;
+};
+
+LowerConflicts find_lower_conflicts(const Candidates& candidates) {
+  const std::size_t count = candidates.size();
+  const std::optional<Candidates> dense = with_dense_ids(candidates);
+  const ConflictFinder finder(dense ? *dense : candidates);
+  struct Scratch {
+    SortedSet found;
+    std::vector<std::int32_t> degrees;
+  };
+  PerThread<Scratch> scratches(Scratch{SortedSet{count}, std::vector<std::int32_t>(count, 0)});
+  LowerConflicts conflicts;
+  parallel_in_order(
+      static_cast<std::int64_t>(count), candidates_a_block,
+      [&](std::int64_t begin, std::int64_t end) {
+        Scratch& scratch = scratches.local();
+        PackedLists lists;
+        for (std::int64_t i = begin; i < end; ++i) {
+          finder.collect_lower(static_cast<std::size_t>(i), scratch.found);
+          scratch.found.drain([&](std::int32_t j) {
+            lists.add(j);
+            ++scratch.degrees[i];
+            ++scratch.degrees[j];
+          });
+          lists.end_list();
+        }
+        lists.shrink_to_fit();
+        return lists;
+      },
+      [&](PackedLists&& lists) { conflicts.blocks.push_back(std::move(lists)); });
+  conflicts.degrees.assign(count, 0);
+  scratches.for_each([&](const Scratch& scratch) {
+    for (std::size_t i = 0; i < count; ++i) conflicts.degrees[i] += scratch.degrees[i];
+  });
+  return conflicts;
+}
+
 }  // namespace
 
-// Two passes, count and fill: the neighbours are stored once, in memory of just their size.
+// Conflicts are found once, from their higher end. They are packed until all are counted, and what they were found by
+// is gone before the graph takes its memory. Then they are written at both ends: as higher ends come in ascending
+// order, so do all lists.
 ConflictGraph buildgraph(const Candidates& candidates, const BuildgraphOptions& options, const char* source) {
   const std::size_t count = candidates.size();
   if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
@@ -25,26 +72,21 @@ ConflictGraph buildgraph(const Candidates& candidates, const BuildgraphOptions& 
   ConflictGraph graph;
   graph.weights = weights_of(candidates, options.weight, options.weight_scale, source);
 
-  const std::optional<Candidates> dense = with_dense_ids(candidates);
-  const ConflictFinder finder(dense ? *dense : candidates);
-  PerThread<SortedSet> sets(SortedSet{count});
-  auto for_each_conflict = [&](std::int64_t i, auto&& visit) {
-    SortedSet& found = sets.local();
-    finder.collect(static_cast<std::size_t>(i), found);
-    found.drain(visit);
-  };
+  LowerConflicts conflicts = find_lower_conflicts(candidates);
   graph.offsets.assign(count + 1, 0);
-  parallel_for(static_cast<std::int64_t>(count), candidates_a_block, [&](std::int64_t i) {
-    std::int64_t degree = 0;
-    for_each_conflict(i, [&](std::int32_t) { ++degree; });
-    graph.offsets[i + 1] = degree;
-  });
-  std::partial_sum(graph.offsets.begin(), graph.offsets.end(), graph.offsets.begin());
+  std::partial_sum(conflicts.degrees.begin(), conflicts.degrees.end(), graph.offsets.begin() + 1);
   graph.neighbours.resize(graph.offsets.back());
-  parallel_for(static_cast<std::int64_t>(count), candidates_a_block, [&](std::int64_t i) {
-    auto next = graph.neighbours.begin() + graph.offsets[i];
-    for_each_conflict(i, [&](std::int32_t j) { *next++ = j; });
-  });
+  std::vector<std::int64_t>& next = conflicts.degrees;
+  std::copy(graph.offsets.begin(), graph.offsets.end() - 1, next.begin());
+  std::int64_t first = 0;
+  for (PackedLists& lists : conflicts.blocks) {
+    lists.for_each(first, [&](std::int64_t i, std::int32_t j) {
+      graph.neighbours[next[i]++] = j;
+      graph.neighbours[next[j]++] = static_cast<std::int32_t>(i);
+    });
+    first += candidates_a_block;
+    lists = {};
+  }
   return graph;
 }
 

@@ -1,9 +1,9 @@
-// The conflicts of docs/definitions.md 2 by sharing. Two cells without a common interior tet, all of whose shared corners are
-// joined by edges in both, are never in conflict: their shared corners are one, an edge or a triangle of both, for no
-// four corners of a hex, prism or pyramid are all joined, and no three of a hex. Two cells that share an interior tet,
-// or two corners that are no edge in one of them, are in conflict unless they meet at a quad of both. So the candidates
-// found at a tet or at such a pair are those in conflict, but for some of those at a common quad, which are compared in
-// full.
+// The conflicts of docs/definitions.md 2 by sharing. Two cells without a common interior tet, all of whose shared
+// corners are joined by edges in both, are never in conflict: their shared corners are one, an edge or a triangle of
+// both, for no four corners of a hex, prism or pyramid are all joined, and no three of a hex. Two cells that share an
+// interior tet, or two corners that are no edge in one of them, are in conflict unless they meet at a quad of both. So
+// the candidates found at a tet or at such a pair are those in conflict, but for some of those at a common quad, which
+// are compared in full.
 
 #include "tools/buildgraph/conflicts.hpp"
 
@@ -16,48 +16,12 @@
 namespace hexpipe {
 namespace {
 
-struct CornerPair {
-  std::uint8_t a, b;
-  bool is_edge;
-};
-
-template <class Topology>
-constexpr auto make_corner_pairs() {
-  constexpr std::size_t n = Topology::corner_count;
-  std::array<CornerPair, n*(n - 1) / 2> pairs{};
-  std::size_t next = 0;
-  for (std::uint8_t a = 0; a < n; ++a)
-    for (std::uint8_t b = a + 1; b < n; ++b) {
-      bool is_edge = false;
-      for (const LocalEdge& e : Topology::edges)
-        is_edge = is_edge || (e[0] == a && e[1] == b) || (e[0] == b && e[1] == a);
-      pairs[next++] = {a, b, is_edge};
-    }
-  return pairs;
-}
-template <class Topology>
-constexpr auto corner_pairs = make_corner_pairs<Topology>();
-
-// Pairs are filed under their lower vertex; the key tells edges from others.
-std::uint32_t pair_key(Vertex higher, bool is_edge) {
-  return static_cast<std::uint32_t>(higher) << 1 | (is_edge ? 0 : 1);
-}
-
 // Quads are filed under their lowest vertex. The key is a hash: two quads under one key cost a comparison, no more.
 std::uint32_t quad_key(Vertex opposite, Vertex side, Vertex other_side) {
   std::uint64_t hash = static_cast<std::uint64_t>(opposite);
   hash = hash * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(std::min(side, other_side));
   hash = hash * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(std::max(side, other_side));
   return static_cast<std::uint32_t>(hash * 0x9e3779b97f4a7c15u >> 32);
-}
-
-// visit(lower vertex, higher vertex, whether they are an edge)
-template <class Topology, class Visit>
-void for_each_pair(const std::array<Vertex, 8>& corners, Visit&& visit) {
-  for (const CornerPair& pair : corner_pairs<Topology>) {
-    const auto [low, high] = std::minmax(corners[pair.a], corners[pair.b]);
-    visit(low, high, pair.is_edge);
-  }
 }
 
 // visit(lowest vertex, key)
@@ -88,14 +52,7 @@ std::size_t vertex_bound(const Candidates& candidates) {
 
 ConflictFinder::ConflictFinder(const Candidates& candidates)
     : candidates_(candidates),
-      pairs_(vertex_bound(candidates), candidates.size(),
-             [&](std::size_t i, auto&& file) {
-               with_topology(candidates.kind[i], [&]<class Topology>(Topology) {
-                 for_each_pair<Topology>(candidates.vertices[i], [&](Vertex low, Vertex high, bool is_edge) {
-                   file(low, pair_key(high, is_edge));
-                 });
-               });
-             }),
+      segments_(candidates, vertex_bound(candidates)),
       quads_(vertex_bound(candidates), candidates.size(),
              [&](std::size_t i, auto&& file) {
                with_topology(candidates.kind[i],
@@ -105,27 +62,39 @@ ConflictFinder::ConflictFinder(const Candidates& candidates)
         for (const std::int32_t tet : candidates.interior_tets_of(i)) file(tet, 0);
       }) {}
 
-void ConflictFinder::collect(std::size_t i, SortedSet& found) const {
-  with_topology(candidates_.kind[i], [&]<class Topology>(Topology) { collect_of_kind<Topology>(i, found); });
+void ConflictFinder::collect_lower(std::size_t i, SortedSet& found) const {
+  with_topology(candidates_.kind[i], [&]<class Topology>(Topology) { collect_lower_of_kind<Topology>(i, found); });
 }
 
 template <class Topology>
-void ConflictFinder::collect_of_kind(std::size_t i, SortedSet& found) const {
-  auto insert = [&](std::span<const SharingIndex::Entry> entries) {
-    for (const auto entry : entries) found.insert(SharingIndex::candidate_of(entry));
+void ConflictFinder::collect_lower_of_kind(std::size_t i, SortedSet& found) const {
+  const auto self = static_cast<std::int32_t>(i);
+  for (const std::int32_t tet : candidates_.interior_tets_of(i))
+    for (const auto entry : tets_.with_key(tet, 0)) {
+      const std::int32_t j = SharingIndex::candidate_of(entry);
+      if (j >= self) break;
+      found.insert(j);
+    }
+  const auto insert_lower = [&](std::span<const std::int32_t> ascending) {
+    for (const std::int32_t j : ascending) {
+      if (j >= self) break;
+      found.insert(j);
+    }
   };
-  for (const std::int32_t tet : candidates_.interior_tets_of(i)) insert(tets_.with_key(tet, 0));
-  for_each_pair<Topology>(candidates_.vertices[i], [&](Vertex low, Vertex high, bool is_edge) {
-    insert(pairs_.with_key(low, pair_key(high, false)));
-    if (!is_edge) insert(pairs_.with_key(low, pair_key(high, true)));
-  });
-  for_each_quad<Topology>(candidates_.vertices[i], [&](Vertex low, std::uint32_t key) {
+  const auto& corners = candidates_.vertices[i];
+  for (std::size_t pair = 0; pair < corner_pairs<Topology>.size(); ++pair) {
+    const CornerPair& p = corner_pairs<Topology>[pair];
+    const auto segment = segments_.segment_of(i, pair, std::min(corners[p.a], corners[p.b]));
+    insert_lower(segment.not_as_edge);
+    if (!p.is_edge) insert_lower(segment.as_edge);
+  }
+  for_each_quad<Topology>(corners, [&](Vertex low, std::uint32_t key) {
     for (const auto entry : quads_.with_key(low, key)) {
       const std::int32_t j = SharingIndex::candidate_of(entry);
+      if (j >= self) break;
       if (!in_conflict(candidates_, i, static_cast<std::size_t>(j))) found.erase(j);
     }
   });
-  found.erase(static_cast<std::int32_t>(i));
 }
 
 }  // namespace hexpipe

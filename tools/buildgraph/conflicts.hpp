@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "common/mesh/candidates.hpp"
+#include "tools/buildgraph/segment_index.hpp"
 #include "tools/buildgraph/sharing_index.hpp"
 #include "tools/buildgraph/sorted_set.hpp"
 
@@ -13,15 +14,15 @@ class ConflictFinder {
  public:
   explicit ConflictFinder(const Candidates& candidates);
 
-  // Inserts the candidates that conflict with candidate i into an empty set with room for all.
-  void collect(std::size_t i, SortedSet& found) const;
+  // Inserts the candidates below i that conflict with candidate i into an empty set with room for all.
+  void collect_lower(std::size_t i, SortedSet& found) const;
 
  private:
   template <class Topology>
-  void collect_of_kind(std::size_t i, SortedSet& found) const;
+  void collect_lower_of_kind(std::size_t i, SortedSet& found) const;
 
   const Candidates& candidates_;
-  SharingIndex pairs_;  // by two corners
+  SegmentIndex segments_;
   SharingIndex quads_;
   SharingIndex tets_;
 };

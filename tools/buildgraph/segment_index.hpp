@@ -1,0 +1,68 @@
+#pragma once
+// Which candidates share two vertices, and for which of them the two are an edge. Every pair of corners of a candidate
+// knows its place here, so that nothing is searched for afterwards.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/mesh/candidates.hpp"
+
+namespace hexpipe {
+
+// Two corners of a cell.
+struct CornerPair {
+  std::uint8_t a, b;
+  bool is_edge;
+};
+
+template <class Topology>
+constexpr auto make_corner_pairs() {
+  constexpr std::size_t n = Topology::corner_count;
+  std::array<CornerPair, n*(n - 1) / 2> pairs{};
+  std::size_t next = 0;
+  for (std::uint8_t a = 0; a < n; ++a)
+    for (std::uint8_t b = a + 1; b < n; ++b) {
+      bool is_edge = false;
+      for (const LocalEdge& e : Topology::edges)
+        is_edge = is_edge || (e[0] == a && e[1] == b) || (e[0] == b && e[1] == a);
+      pairs[next++] = {a, b, is_edge};
+    }
+  return pairs;
+}
+template <class Topology>
+inline constexpr auto corner_pairs = make_corner_pairs<Topology>();
+
+class SegmentIndex {
+ public:
+  // The candidates that have two vertices, ascending.
+  struct Segment {
+    std::span<const std::int32_t> as_edge, not_as_edge;
+  };
+
+  SegmentIndex(const Candidates& candidates, std::size_t vertex_count);
+
+  // Of two corners of a candidate: `pair` counts those of its kind, in the order of corner_pairs.
+  Segment segment_of(std::size_t candidate, std::size_t pair, Vertex lower_vertex) const {
+    const std::int32_t* const at = entries_.data() + offsets_[lower_vertex] + places_[stride_ * candidate + pair];
+    const auto edges = static_cast<std::size_t>(at[0]), others = static_cast<std::size_t>(at[1]);
+    return {{at + 2, edges}, {at + 2 + edges, others}};
+  }
+
+ private:
+  // The pairs of candidates of which a vertex is the lower one, as stride_ * candidate + pair; ascending.
+  struct Filed {
+    std::vector<std::int64_t> offsets;  // vertices + 1
+    std::vector<std::int64_t> pairs;
+  };
+  Filed file(const Candidates& candidates, std::size_t vertex_count) const;
+  void make_segments(const Candidates& candidates, std::size_t vertex_count);
+
+  std::size_t stride_;                 // pairs of the kind that has most
+  std::vector<std::uint32_t> places_;  // by candidate and pair: of the segment, from the lower vertex's first
+  std::vector<std::int64_t> offsets_;  // vertices + 1
+  std::vector<std::int32_t> entries_;  // a segment: how many have it as edge, how many not; these candidates; those
+};
+
+}  // namespace hexpipe
