@@ -124,6 +124,31 @@ assert "%d poor cells" % len(poor) in open("summary").read()
 PYTHON
 }
 
+@test "on a curved surface vertices slide where cells are poor, and --stats tells how far the boundary deviates" {
+  $PYTHON - >curved.mesh <<PYTHON
+import math
+lines = open("$WORK/moved.mesh").read().split("\n")
+start, count = lines.index("Vertices") + 2, int(lines[lines.index("Vertices") + 1])
+for i in range(start, start + count):  # a bent block, and a slice that is nearly as thin as paper
+    x, y, z = (float(w) for w in lines[i].split()[:3])
+    x = 1.95 + 0.1 * (x - 1) if 0.5 < x < 1.5 else x
+    lines[i] = "%r %r %r 0" % ((8 + z) * math.cos(x / 4), (8 + z) * math.sin(x / 4), y)
+print("\n".join(lines), end="")
+PYTHON
+  findhex --mesh curved.mesh -o curved.cand
+  echo 1 >one.sol
+  assemble --mesh curved.mesh --candidates curved.cand --solution one.sol --smooth 0 --stats held.json -o held.msh
+  assemble --mesh curved.mesh --candidates curved.cand --solution one.sol --stats slid.json -o slid.msh
+  $PYTHON -c '
+import json
+held, slid = (json.load(open(name)) for name in ("held.json", "slid.json"))
+assert held["boundary"]["vertices_moved"] == 0 and held["boundary"]["greatest_deviation"] < 1e-9, held["boundary"]
+assert slid["boundary"]["vertices_moved"] > 0
+assert 0 < slid["boundary"]["greatest_deviation"] < 0.03, slid["boundary"]
+assert slid["cells"]["tet"]["scaled_jacobian"]["least"] > held["cells"]["tet"]["scaled_jacobian"]["least"]'
+  expect slid.msh 's["conforming"] and s["hexbad"] == s["inv"] == 0'
+}
+
 @test "regions and the interface between them come through" {
   for conformity in pyramids none; do
     assemble $FILES --conformity $conformity -o mesh.vtk

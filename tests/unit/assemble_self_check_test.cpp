@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "assemble_lattice.hpp"
@@ -26,7 +27,7 @@ class SelfCheck : public ::testing::Test {
   }
   std::string error(bool conforming = true) const {
     try {
-      check_result(result_, lattice_.mesh, SurfaceTags(lattice_.mesh), conforming, false);
+      check_result(result_, lattice_.mesh, SurfaceTags(lattice_.mesh), InputSurface(lattice_.mesh), conforming);
     } catch (const DataError& error) {
       return error.what();
     }
@@ -87,11 +88,37 @@ TEST_F(SelfCheck, FindsAnUnusedPoint) {
   EXPECT_THAT(error(), HasSubstr("at every vertex"));
 }
 
-TEST_F(SelfCheck, FindsAChangedVolume) {
+TEST_F(SelfCheck, FindsAVertexOffTheSurface) {
   // A boundary vertex pushed out: all cells stay valid.
   for (auto& p : result_.mesh.points)
     if (p == Vec3{3, 3, 3}) p = {3.1, 3.1, 3.1};
-  EXPECT_THAT(error(), HasSubstr("volume"));
+  EXPECT_THAT(error(), HasSubstr("surface"));
+}
+
+TEST_F(SelfCheck, FindsAVertexOnTheBoundaryThatIsNotTheInputs) {
+  result_.origin[0] = static_cast<Vertex>(lattice_.mesh.points.size());
+  EXPECT_THAT(error(), HasSubstr("input's vertices"));
+}
+
+// A tet is gone, and its facets are tagged as a boundary: all that is left is the volume.
+TEST_F(SelfCheck, FindsAChangedVolume) {
+  auto& mesh = result_.mesh;
+  const Tet tet = mesh.tets.cells.front();
+  mesh.tets.cells.erase(mesh.tets.cells.begin());
+  mesh.tets.tags.erase(mesh.tets.tags.begin());
+  for (const auto& f : TetTopology::triangles) {
+    const Triangle triangle{tet[f[0]], tet[f[1]], tet[f[2]]};
+    const auto same = std::find_if(mesh.triangles.cells.begin(), mesh.triangles.cells.end(),
+                                   [&](const auto& other) { return key_of(other) == key_of(triangle); });
+    if (same != mesh.triangles.cells.end()) {
+      mesh.triangles.tags.erase(mesh.triangles.tags.begin() + (same - mesh.triangles.cells.begin()));
+      mesh.triangles.cells.erase(same);
+    } else {
+      mesh.triangles.cells.push_back(triangle);
+      mesh.triangles.tags.push_back(0);
+    }
+  }
+  EXPECT_THAT(error(), HasSubstr("expected a volume of"));
 }
 
 TEST_F(SelfCheck, FindsAQuadAgainstTwoTriangles) {

@@ -10,6 +10,7 @@
 #include "common/run/error.hpp"
 #include "tools/assemble/conform.hpp"
 #include "tools/assemble/extract.hpp"
+#include "tools/assemble/input_surface.hpp"
 #include "tools/assemble/reconnect.hpp"
 #include "tools/assemble/repair.hpp"
 #include "tools/assemble/selection.hpp"
@@ -73,6 +74,8 @@ constexpr double barely_valid = 1e-4;
 constexpr int untangling_rounds = 20;
 // Rounds of conforming, untangling and giving back what stays poor. Two nearly always do; the last one takes no risks.
 constexpr int most_attempts = 4;
+// Rounds of what does more than moving vertices.
+constexpr int most_repairs = 4;
 // Tets that smoothing leaves below the first are exchanged for others on the same vertices; those that this leaves
 // below the second get a vertex beside them.
 constexpr double worth_an_exchange = 0.15;
@@ -82,13 +85,14 @@ void move_points(const Extract& from, HybridMesh& to) {
   for (std::size_t i = 0; i < from.origin.size(); ++i) to.points[from.origin[i]] = from.mesh.points[i];
 }
 
+bool is_worse(const HybridMesh& mesh, CellKind kind, std::span<const Vertex> corners, double limit) {
+  const auto at = corner_points(mesh.points, corners);
+  const double scale = kind == CellKind::tet ? std::sqrt(2.0) : 1;
+  return scale * least_corner_scaled_jacobian(kind, std::span<const Vec3>(at).first(corners.size())) < limit;
+}
+
 // The candidates to which poor pyramids and tets made for conformity belong.
 std::vector<std::int32_t> owners_of_poor_elements(const HybridMesh& mesh, std::size_t input_points) {
-  auto is_poor = [&](CellKind kind, std::span<const Vertex> corners) {
-    const auto at = corner_points(mesh.points, corners);
-    const double scale = kind == CellKind::tet ? std::sqrt(2.0) : 1;
-    return scale * least_corner_scaled_jacobian(kind, std::span<const Vec3>(at).first(corners.size())) < poor_quality;
-  };
   std::vector<std::int32_t> owners;
   std::vector<std::int32_t> owner_of_point(mesh.points.size(), HybridCell::none);
   for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
@@ -96,14 +100,14 @@ std::vector<std::int32_t> owners_of_poor_elements(const HybridMesh& mesh, std::s
     if (!cell.alive || cell.candidate != HybridCell::none) continue;
     const std::int32_t owner = mesh.cell(mesh.partner_at(cell.quad(0), c)).candidate;
     owner_of_point[cell.corners[4]] = owner;
-    if (is_poor(cell.kind, std::span(cell.corners).first(5))) owners.push_back(owner);
+    if (is_worse(mesh, cell.kind, std::span(cell.corners).first(5), poor_quality)) owners.push_back(owner);
   }
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tet_count()); ++t) {
     if (!mesh.is_alive(t)) continue;
     // The vertex added last made the tet.
     const Vertex newest = *std::ranges::max_element(mesh.tet(t));
     if (static_cast<std::size_t>(newest) < input_points || owner_of_point[newest] == HybridCell::none) continue;
-    if (is_poor(CellKind::tet, mesh.tet(t))) owners.push_back(owner_of_point[newest]);
+    if (is_worse(mesh, CellKind::tet, mesh.tet(t), poor_quality)) owners.push_back(owner_of_point[newest]);
   }
   std::sort(owners.begin(), owners.end());
   owners.erase(std::unique(owners.begin(), owners.end()), owners.end());
@@ -113,18 +117,27 @@ std::vector<std::int32_t> owners_of_poor_elements(const HybridMesh& mesh, std::s
 class Assembler {
  public:
   Assembler(TetMesh input, const Candidates& candidates, const IndependentSet& chosen, const AssembleOptions& options)
-      : input_(std::move(input)), tags_(input_), candidates_(candidates), kept_(chosen), options_(options) {}
+      : input_(std::move(input)),
+        tags_(input_),
+        surface_(input_),
+        candidates_(candidates),
+        kept_(chosen),
+        options_(options) {}
 
   AssembleResult run();
 
  private:
   bool is_conforming() const { return options_.conformity == AssembleOptions::Conformity::pyramids; }
+  Extract build();
   HybridMesh conform();
+  std::vector<std::int32_t> poor_hexes(const HybridMesh& hybrid) const;
   void give_back(const std::vector<std::int32_t>& owners);
   Extract smooth_and_repair(HybridMesh& hybrid);
+  void improve(Extract& extracted);
 
   const TetMesh input_;
   SurfaceTags tags_;
+  InputSurface surface_;
   const Candidates& candidates_;
   IndependentSet kept_;
   const AssembleOptions& options_;
@@ -142,7 +155,8 @@ HybridMesh Assembler::conform() {
     statistics_.conformity = make_conforming(hybrid, tags_, candidates_, last ? barely_valid : most_inverted);
     if (last) return hybrid;
     Extract extracted = extract(hybrid, input_, tags_);
-    untangle(extracted.mesh, untangling_rounds);
+    const SlidingSurface sliding{surface_, input_.points, extracted.origin};
+    untangle(extracted.mesh, untangling_rounds, &sliding);
     move_points(extracted, hybrid);
     const auto owners = owners_of_poor_elements(hybrid, input_.points.size());
     if (owners.empty()) return hybrid;
@@ -159,29 +173,67 @@ void Assembler::give_back(const std::vector<std::int32_t>& owners) {
     if (candidates_.kind[owner] == CellKind::hex) poor_volume_ += candidates_.volume[owner];
 }
 
+// Moves vertices, then exchanges tets and adds vertices where that was not enough; again while poor cells are left.
 Extract Assembler::smooth_and_repair(HybridMesh& hybrid) {
   Extract extracted = extract(hybrid, input_, tags_);
   if (options_.smooth == 0) return extracted;
   compute_quality(extracted.mesh);
   statistics_.before_smoothing = kind_statistics(extracted.mesh);
-  statistics_.smoothing = smooth(extracted.mesh, options_.smooth);
-  move_points(extracted, hybrid);
-  statistics_.exchanges = reconnect_poor_tets(hybrid, tags_, worth_an_exchange);
-  statistics_.repaired = repair_flat_tets(hybrid, tags_, worth_a_vertex);
-  if (statistics_.exchanges + statistics_.repaired == 0) return extracted;
-  extracted = extract(hybrid, input_, tags_);
-  const SmoothCounts again = smooth(extracted.mesh, options_.smooth);
-  statistics_.smoothing.rounds += again.rounds;
-  statistics_.smoothing.moves += again.moves;
+  improve(extracted);
+  for (int pass = 0; pass < most_repairs; ++pass) {
+    move_points(extracted, hybrid);
+    const std::int64_t exchanges = reconnect_poor_tets(hybrid, tags_, worth_an_exchange);
+    const std::int64_t repaired = repair_flat_tets(hybrid, tags_, worth_a_vertex);
+    if (exchanges + repaired == 0) break;
+    statistics_.exchanges += exchanges;
+    statistics_.repaired += repaired;
+    extracted = extract(hybrid, input_, tags_);
+    improve(extracted);
+    compute_quality(extracted.mesh);
+    if (poor_cells(extracted.mesh).empty()) break;
+  }
   return extracted;
 }
 
+void Assembler::improve(Extract& extracted) {
+  const SlidingSurface sliding{surface_, input_.points, extracted.origin};
+  const SmoothCounts counts = smooth(extracted.mesh, options_.smooth, &sliding);
+  statistics_.smoothing.rounds += counts.rounds;
+  statistics_.smoothing.moves += counts.moves;
+  untangle(extracted.mesh, untangling_rounds, &sliding);
+}
+
+// Candidates that are poor hexes after all.
+std::vector<std::int32_t> Assembler::poor_hexes(const HybridMesh& hybrid) const {
+  std::vector<std::int32_t> result;
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(hybrid.cell_count()); ++c) {
+    const HybridCell& cell = hybrid.cell(c);
+    if (cell.alive && cell.kind == CellKind::hex && is_worse(hybrid, cell.kind, cell.corners, poor_hex))
+      result.push_back(cell.candidate);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+// All of it, anew without the hexes that stay poor.
+Extract Assembler::build() {
+  for (int attempt = 1;; ++attempt) {
+    statistics_.smoothing = {};
+    statistics_.exchanges = statistics_.repaired = 0;
+    HybridMesh hybrid = is_conforming() ? conform() : build_selection(input_, tags_, candidates_, kept_);
+    Extract extracted = smooth_and_repair(hybrid);
+    move_points(extracted, hybrid);
+    const auto poor = poor_hexes(hybrid);
+    if (!is_conforming() || options_.smooth == 0 || poor.empty() || attempt == most_attempts) return extracted;
+    give_back(poor);
+  }
+}
+
 AssembleResult Assembler::run() {
-  HybridMesh hybrid = is_conforming() ? conform() : build_selection(input_, tags_, candidates_, kept_);
+  Extract extracted = build();
   statistics_.conformity.given_back[static_cast<std::size_t>(GivenBack::poor_elements)] = poor_;
   statistics_.conformity.volume_given_back += poor_volume_;
-  Extract extracted = smooth_and_repair(hybrid);
-  statistics_.volumes = check_result(extracted, input_, tags_, is_conforming(), options_.smooth > 0);
+  statistics_.volumes = check_result(extracted, input_, tags_, surface_, is_conforming());
   compute_quality(extracted.mesh);
   statistics_.kinds = kind_statistics(extracted.mesh);
   const auto inside = least_inside(extracted.mesh);

@@ -5,25 +5,29 @@
 
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/assemble/extract.hpp"
+#include "tools/assemble/input_surface.hpp"
 #include "tools/assemble/surface_tags.hpp"
 
 namespace hexpipe {
 
 struct CheckedVolumes {
-  double input = 0;       // of the tets
-  double parts = 0;       // of the cells, with bilinear sides
-  double skin = 0;        // enclosed by the facets that one cell has; equals `parts` in a conforming mesh
-  double bulge = 0;       // of boundary quads over the two triangles that they replace: skin = input + bulge
-  double open_bulge = 0;  // of non-conforming quads over the tets that they face: parts = input + bulge + open_bulge
-  double drift = 0;       // parts - input - bulge - open_bulge: rounding, and what smoothing did within its planes
+  double input = 0;        // of the tets
+  double parts = 0;        // of the cells, with bilinear sides
+  double skin = 0;         // enclosed by the facets that one cell has; equals `parts` in a conforming mesh
+  double bulge = 0;        // of boundary quads over the two triangles that they replace: skin = input + bulge
+  double open_bulge = 0;   // of non-conforming quads over the tets that they face: parts = input + bulge + open_bulge
+  double slide = 0;        // what the input's triangles enclose more since vertices slid on its surface
+  double drift = 0;        // parts - input - bulge - open_bulge - slide: rounding
+  double deviation = 0;    // greatest distance of the boundary from the input's surface (boundary_deviation.hpp)
+  std::int64_t moved = 0;  // vertices on the boundary and on interfaces
   std::int64_t nonconforming_quads = 0;
 };
 
 // Throws DataError when a cell is not valid everywhere, a facet has more than two cells or two on the same side, a
 // facet of one cell or between two regions is not tagged, a tagged facet is none of a cell, a vertex is unused, or
-// volumes do not add up; and, for a conforming result, when a quad faces two triangles.
-// `smoothed`: vertices have moved in planes that are planes but for the precision of surface files.
-CheckedVolumes check_result(const Extract& result, const TetMesh& input, const SurfaceTags& tags, bool conforming,
-                            bool smoothed);
+// a vertex of the boundary is not on the input's surface, volumes do not add up; and, for a conforming result, when a
+// quad faces two triangles.
+CheckedVolumes check_result(const Extract& result, const TetMesh& input, const SurfaceTags& tags,
+                            const InputSurface& surface, bool conforming);
 
 }  // namespace hexpipe

@@ -2,15 +2,20 @@
 // the cells around it are better on average and the worst not worse. L. A. Freitag, C. Ollivier-Gooch, "Tetrahedral
 // mesh improvement using swapping and smoothing" (1997), sections 3 and 5: optimization where a smart average does not
 // suffice. The average here is ascended by its gradient, because the centre of the neighbours means little to a hex.
+// Vertices on curved surfaces step in the tangent plane and return to the nearest point of the input's surface; facets
+// between them leave it, so they move only for poor cells and within a bound.
 
 #include "tools/assemble/smooth.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
+#include "tools/assemble/boundary_deviation.hpp"
 #include "tools/assemble/freedom.hpp"
 #include "tools/assemble/point_star.hpp"
 
@@ -21,16 +26,23 @@ namespace {
 // 0.25. Without it the flat pyramids at the border of a hex block, which cannot become much better, pull the hexes next
 // to them down to their own quality (a mean of 0.92 in place of 0.96 on a block with a notch).
 constexpr double hex_weight = 0.5;
+// While there are poor cells a hex of 0.1 counts as another of 0.025: about what both should reach.
+constexpr double hex_weight_of_poor = 0.25;
 // Better than this, cells other than hexes gain nothing in the mean: pyramids would grow tall and press hexes flat.
 constexpr double good_beside_hexes = 0.5;
 // Where the worst cell, so weighted, is better than this, the average counts.
 constexpr double good_enough = 0.12;
+// Where the worst cell, so weighted, is worse than this, vertices slide on curved surfaces.
+constexpr double slides_below = 0.06;
 // A vertex whose cells are all like this is left alone.
 constexpr double excellent = 0.9;
 constexpr int steps_for_worst = 8;
 constexpr int steps_for_mean = 2;
 // Moves that gain less are not worth the neighbours' new look.
 constexpr double least_gain = 1e-3;
+// How far facets may come to lie from the input's surface, in edge lengths there, where vertices slide on it. Circles
+// of 25 edges and more deviate less between their own vertices.
+constexpr double most_deviation = 0.03;
 // A move that leaves a hex invalid is halved this often.
 constexpr int retreats = 4;
 
@@ -73,16 +85,25 @@ class Cells {
 
 class Smoother {
  public:
-  explicit Smoother(MixedMesh& mesh)
-      : points_(mesh.points), cells_(mesh), freedoms_(vertex_freedoms(mesh)), due_(mesh.points.size(), 1) {}
+  Smoother(MixedMesh& mesh, const SlidingSurface* sliding, double weight_of_hexes)
+      : weight_of_hexes_(weight_of_hexes),
+        points_(mesh.points),
+        cells_(mesh),
+        freedoms_(vertex_freedoms(mesh)),
+        due_(mesh.points.size(), 1) {
+    if (sliding == nullptr) return;
+    sliding_ = sliding;
+    deviation_.emplace(mesh, sliding->surface, sliding->input_points, sliding->origin);
+  }
 
-  // Returns the number of vertices that moved. Only those are looked at whose worst cell is below `only_below`.
-  std::int64_t round(double only_below) {
+  // Returns the number of vertices that moved. Only those are looked at whose worst cell is below `only_below`,
+  // weighted or not.
+  std::int64_t round(double only_below, bool weighted) {
     std::int64_t moves = 0;
     for (Vertex v = 0; v < static_cast<Vertex>(points_.size()); ++v) {
-      if (!due_[v] || freedoms_[v].kind == Freedom::Kind::none) continue;
+      if (!due_[v] || (freedoms_[v].kind == Freedom::Kind::none && !slides(v))) continue;
       due_[v] = 0;
-      if (!improve(v, only_below)) continue;
+      if (!improve(v, only_below, weighted)) continue;
       ++moves;
       for (std::int32_t c : cells_.at(v))
         for (Vertex neighbour : cells_.corners_of(c)) due_[neighbour] = 1;
@@ -91,13 +112,19 @@ class Smoother {
   }
 
  private:
-  bool improve(Vertex v, double only_below);
+  bool slides(Vertex v) const;
+  Freedom freedom(Vertex v) const;
+  bool stays_close(Vertex v, const Vec3& at);
+  bool improve(Vertex v, double only_below, bool weighted);
   void look_around(Vertex v);
   bool is_valid_cell(std::int32_t c) const;
 
+  double weight_of_hexes_;
   std::vector<Vec3>& points_;
   Cells cells_;
   std::vector<Freedom> freedoms_;
+  const SlidingSurface* sliding_ = nullptr;
+  std::optional<BoundaryDeviation> deviation_;
   std::vector<std::uint8_t> due_;  // something around has moved since it was looked at
   PointStar star_;
 };
@@ -108,7 +135,7 @@ void Smoother::look_around(Vertex v) {
     const auto corners = cells_.corners_of(c);
     const auto at = corner_points(points_, corners);
     const auto moving = static_cast<int>(std::find(corners.begin(), corners.end(), v) - corners.begin());
-    const double weight = cells_.kind(c) == CellKind::hex ? hex_weight : 1;
+    const double weight = cells_.kind(c) == CellKind::hex ? weight_of_hexes_ : 1;
     const double enough = cells_.kind(c) == CellKind::hex ? 1 : good_beside_hexes;
     star_.add(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()), moving, weight, enough);
   }
@@ -120,15 +147,39 @@ bool Smoother::is_valid_cell(std::int32_t c) const {
   return is_valid(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()));
 }
 
-bool Smoother::improve(Vertex v, double only_below) {
+// On a curved surface or curve: there is no plane or line for it.
+bool Smoother::slides(Vertex v) const {
+  if (sliding_ == nullptr || freedoms_[v].kind != Freedom::Kind::none) return false;
+  const auto place = sliding_->surface.place(sliding_->origin[v]);
+  return place == InputSurface::Place::face || place == InputSurface::Place::curve;
+}
+
+Freedom Smoother::freedom(Vertex v) const {
+  if (!slides(v)) return freedoms_[v];
+  const Vertex input = sliding_->origin[v];
+  const bool on_face = sliding_->surface.place(input) == InputSurface::Place::face;
+  return {on_face ? Freedom::Kind::plane : Freedom::Kind::line, sliding_->surface.foot(input, points_[v]).axis};
+}
+
+// Whether v, moved to `at`, leaves the boundary as near to the input's surface as it has to be.
+bool Smoother::stays_close(Vertex v, const Vec3& at) {
+  const double most = most_deviation * sliding_->surface.edge_length(sliding_->origin[v]);
+  const Vec3 before = std::exchange(points_[v], at);
+  const double deviation = deviation_->around(v, most, most);
+  points_[v] = before;
+  return deviation <= most;
+}
+
+bool Smoother::improve(Vertex v, double only_below, bool weighted) {
   look_around(v);
   const Vec3 before = points_[v];
   const double worst = star_.worst(before);
   const double worst_unweighted = star_.worst_unweighted(before);
-  if (worst_unweighted > only_below) return false;
+  if ((weighted ? worst : worst_unweighted) > only_below) return false;
   const double mean = star_.mean(before);
-  const bool poor = worst < good_enough;
-  const Placement goal = poor ? raise_worst(star_, before, steps_for_worst, freedoms_[v])
+  const bool poor = worst < good_enough, slide = slides(v);
+  if (slide && worst > slides_below) return false;
+  const Placement goal = poor ? raise_worst(star_, before, steps_for_worst, freedom(v))
                               : raise_mean(star_, before, steps_for_mean, freedoms_[v]);
   if (goal.at == before) return false;
   std::vector<std::int32_t> valid_before(cells_.at(v).begin(), cells_.at(v).end());
@@ -136,11 +187,12 @@ bool Smoother::improve(Vertex v, double only_below) {
   if (worst <= 0) std::erase_if(valid_before, [&](std::int32_t c) { return !is_valid_cell(c); });
   Vec3 step = goal.at - before;
   for (int i = 0; i <= retreats; ++i, step *= 0.5) {
-    const Vec3 at = before + step;
+    const Vec3 there = before + step;
+    const Vec3 at = slide ? sliding_->surface.foot(sliding_->origin[v], there).at : there;
     if (star_.worst_unweighted(at) < worst_unweighted) continue;
     const bool better =
         poor ? star_.worst(at) > worst + least_gain : star_.worst(at) >= worst && star_.mean(at) > mean + least_gain;
-    if (!better) continue;
+    if (!better || (slide && !stays_close(v, at))) continue;
     points_[v] = at;
     if (std::ranges::all_of(valid_before, [&](std::int32_t c) { return is_valid_cell(c); })) return true;
     points_[v] = before;
@@ -150,18 +202,18 @@ bool Smoother::improve(Vertex v, double only_below) {
 
 }  // namespace
 
-void untangle(MixedMesh& mesh, int rounds) {
-  // A little more than poor, so that rounding and the neighbours' moves do not undo it.
-  constexpr double enough = 2 * poor_quality;
-  Smoother smoother(mesh);
-  for (int round = 0; round < rounds && smoother.round(enough) > 0; ++round) continue;
+void untangle(MixedMesh& mesh, int rounds, const SlidingSurface* sliding) {
+  // Hexes below 0.16 and others below 0.04: more than poor, so that the neighbours' moves do not undo it.
+  constexpr double enough = 0.04;
+  Smoother smoother(mesh, sliding, hex_weight_of_poor);
+  for (int round = 0; round < rounds && smoother.round(enough, true) > 0; ++round) continue;
 }
 
-SmoothCounts smooth(MixedMesh& mesh, int rounds) {
-  Smoother smoother(mesh);
+SmoothCounts smooth(MixedMesh& mesh, int rounds, const SlidingSurface* sliding) {
+  Smoother smoother(mesh, sliding, hex_weight);
   SmoothCounts counts;
   for (std::int64_t moves = 1; moves > 0 && counts.rounds < rounds; ++counts.rounds) {
-    moves = smoother.round(excellent);
+    moves = smoother.round(excellent, false);
     counts.moves += moves;
   }
   return counts;

@@ -1,7 +1,10 @@
 #pragma once
 // Moves vertices so that the worst cells become better first, the average after.
 
+#include <span>
+
 #include "common/mesh/mixed_mesh.hpp"
+#include "tools/assemble/input_surface.hpp"
 
 namespace hexpipe {
 
@@ -10,15 +13,24 @@ struct SmoothCounts {
   std::int64_t moves = 0;
 };
 
+// What lets vertices on curved parts of the boundary slide on the input's surface. `origin` as in Extract.
+struct SlidingSurface {
+  const InputSurface& surface;
+  std::span<const Vec3> input_points;
+  std::span<const Vertex> origin;
+};
+
 // What counts as poor: the least scaled Jacobian (of a tet times the square root of 2) that cells should have.
 inline constexpr double poor_quality = 0.02;
+inline constexpr double poor_hex = 0.1;
 
 // Makes cells that are poor or inverted better, at most `rounds` times over their vertices, at the cost of those around
 // them; cells that are valid stay so.
-void untangle(MixedMesh& mesh, int rounds);
+void untangle(MixedMesh& mesh, int rounds, const SlidingSurface* sliding = nullptr);
 
 // At most `rounds` times over all vertices. No vertex leaves its plane or line (freedom.hpp), no move makes the worst
-// cell around it worse, every cell stays valid everywhere.
-SmoothCounts smooth(MixedMesh& mesh, int rounds);
+// cell around it worse, every cell stays valid everywhere. With `sliding`, vertices on curved surfaces and curves slide
+// on them where the worst cell is poor, within a small part of an edge length of the input's surface.
+SmoothCounts smooth(MixedMesh& mesh, int rounds, const SlidingSurface* sliding = nullptr);
 
 }  // namespace hexpipe

@@ -82,10 +82,9 @@ std::array<double, all_kinds.size()> least_inside(const MixedMesh& mesh) {
 }
 
 std::vector<PoorCell> poor_cells(const MixedMesh& mesh) {
-  constexpr double least_hex = 0.1;
   std::vector<PoorCell> result;
   for_each_block(mesh, [&](CellKind kind, const auto& block) {
-    const double limit = kind == CellKind::hex ? least_hex : poor_quality;
+    const double limit = kind == CellKind::hex ? poor_hex : poor_quality;
     const double scale = kind == CellKind::tet ? std::sqrt(2.0) : 1;
     for (std::size_t i = 0; i < block.size(); ++i) {
       if (scale * block.quality[i] >= limit) continue;
@@ -146,7 +145,9 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
                     {"cells", volumes.parts},
                     {"bulge_of_boundary_quads", volumes.bulge},
                     {"bulge_of_nonconforming_quads", volumes.open_bulge},
+                    {"moved_on_the_surface", volumes.slide},
                     {"drift", volumes.drift}};
+  json["boundary"] = {{"vertices_moved", volumes.moved}, {"greatest_deviation", volumes.deviation}};
   json["smoothing"] = {{"rounds", statistics.smoothing.rounds},
                        {"moves", statistics.smoothing.moves},
                        {"exchanges_of_tets", statistics.exchanges},
@@ -194,6 +195,9 @@ std::vector<std::string> summary_lines(const AssembleStatistics& statistics) {
   if (!statistics.poor.empty())
     lines.push_back(fmt::format("{} poor cells are left (hexes below 0.1, others below 0.02); --stats lists them",
                                 statistics.poor.size()));
+  if (statistics.volumes.deviation > 0)
+    lines.push_back(
+        fmt::format("the boundary lies within {:.3g} of the input's surface", statistics.volumes.deviation));
   if (statistics.smoothing.rounds > 0) append_histograms(statistics, lines);
   return lines;
 }

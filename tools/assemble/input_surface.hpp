@@ -1,0 +1,73 @@
+#pragma once
+// The input's tagged triangles as a surface that vertices may slide on, and from which results may deviate.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/mesh/tet_mesh.hpp"
+
+namespace hexpipe {
+
+// The nearest point of a triangle, which may be degenerate.
+Vec3 nearest_on_triangle(const std::array<Vec3, 3>& triangle, const Vec3& to);
+
+class InputSurface {
+ public:
+  // Where a vertex lies: on no tagged triangle; within a smooth part of the surface; on a feature curve between two
+  // parts; or where curves meet, end or turn. An edge is a feature unless it has two triangles of one tag at less than
+  // `feature_angle` to each other.
+  enum class Place : std::uint8_t { inside, face, curve, corner };
+
+  // `mesh` must outlive this, with every facet of its boundary and interfaces among its triangles.
+  explicit InputSurface(const TetMesh& mesh);
+
+  Place place(Vertex v) const { return places_[v]; }
+
+  // The point nearest to `to` on the smooth part or the curve on which v lies, found from v downhill, with the unit
+  // normal or tangent there; for a corner v itself.
+  struct Foot {
+    Vec3 at;
+    Vec3 axis;
+  };
+  Foot foot(Vertex v, const Vec3& to) const;
+
+  // From `to` to the surface around v, across features too. Where the way downhill ends early it is too long.
+  double distance(Vertex v, const Vec3& to) const;
+  // To all of the surface: looks at every triangle.
+  double distance(const Vec3& to) const;
+
+  // The mean length of the edges of the triangles at v.
+  double edge_length(Vertex v) const;
+
+  double diagonal() const { return diagonal_; }  // of the bounding box
+
+ private:
+  struct Nearest {
+    std::int32_t triangle;
+    Vec3 at;
+    double distance_squared;
+  };
+  std::span<const std::int32_t> triangles_at(Vertex v) const {
+    return std::span(triangles_at_).subspan(offsets_[v], offsets_[v + 1] - offsets_[v]);
+  }
+  void list_triangles();
+  void find_features();
+  Place place_of(Vertex v) const;
+  bool is_one_fan(Vertex v) const;
+  Nearest descend(Vertex v, const Vec3& to, bool within_part) const;
+  Foot foot_on_curve(Vertex v, const Vec3& to) const;
+
+  const TetMesh& mesh_;
+  double diagonal_ = 0;
+  std::vector<std::int64_t> offsets_;
+  std::vector<std::int32_t> triangles_at_;
+  std::vector<std::int32_t> part_;  // by triangle: one number for what is joined without crossing a feature
+  // The far ends of the feature edges at each vertex.
+  std::vector<std::int64_t> feature_offsets_;
+  std::vector<Vertex> feature_ends_;
+  std::vector<Place> places_;
+};
+
+}  // namespace hexpipe
