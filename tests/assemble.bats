@@ -144,7 +144,7 @@ import json
 held, slid = (json.load(open(name)) for name in ("held.json", "slid.json"))
 assert held["boundary"]["vertices_moved"] == 0 and held["boundary"]["greatest_deviation"] < 1e-9, held["boundary"]
 assert slid["boundary"]["vertices_moved"] > 0
-assert 0 < slid["boundary"]["greatest_deviation"] < 0.03, slid["boundary"]
+assert 0 < slid["boundary"]["greatest_deviation"] < 0.07, slid["boundary"]
 assert slid["cells"]["tet"]["scaled_jacobian"]["least"] > held["cells"]["tet"]["scaled_jacobian"]["least"]'
   expect slid.msh 's["conforming"] and s["hexbad"] == s["inv"] == 0'
 }
