@@ -298,7 +298,7 @@ PYTHON
 @test "bad options end with 2" {
   local cube="$FILES/cube.stl"
   for size in 0 -1 abc 3mm nan; do assert_fails_with 2 "^tetmesh: .*$size" tetmesh "$cube" --size $size; done
-  assert_fails_with 2 "^tetmesh: .*points" tetmesh "$cube" --points frame
+  assert_fails_with 2 "^tetmesh: .*points" tetmesh "$cube" --points some
   assert_fails_with 2 "^tetmesh: .*clearance" tetmesh "$cube" --clearance 0
   assert_fails_with 2 "^tetmesh: .*jitter" tetmesh "$cube" --jitter -1
   assert_fails_with 2 "^tetmesh: expected --jitter below half of --clearance" tetmesh "$cube" --jitter 0.3

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "common/run/error.hpp"
-#include "common/run/random.hpp"
 #include "tools/tetmesh/column_index.hpp"
 #include "tools/tetmesh/triangle_distance.hpp"
+#include "tools/tetmesh/volume/jitter.hpp"
 
 namespace hexpipe {
 namespace {
@@ -39,7 +39,6 @@ class Lattice {
   void mark_distances();
   void mark_around(const Triangle& triangle);
   void find_inside();
-  bool is_inside(const ColumnIndex& columns, const Vec3& p) const;
   void flood(std::int64_t start, Place place);
   std::vector<Vec3> collect() const;
 
@@ -143,19 +142,10 @@ void Lattice::find_inside() {
   for (std::size_t n = 0; n < places_.size(); ++n) {
     if (places_[n] != Place::far && places_[n] != Place::near) continue;
     const auto number = static_cast<std::int64_t>(n);
-    const Place place = is_inside(columns, node(index_of(number))) ? Place::inside : Place::outside;
+    const Place place = is_in_material(surface_, columns, node(index_of(number))) ? Place::inside : Place::outside;
     if (places_[n] == Place::far) flood(number, place);
     places_[n] = place;
   }
-}
-
-// In material: inside an odd number of the shells between material and nothing.
-bool Lattice::is_inside(const ColumnIndex& columns, const Vec3& p) const {
-  bool inside = false;
-  columns.for_each_crossing(p, [&](std::int32_t t) {
-    if (surface_.shells[surface_.shell_of[t]].in_front == outside_region) inside = !inside;
-  });
-  return inside;
 }
 
 // Gives `place` to all far points that are connected to one by far neighbours.
@@ -184,12 +174,7 @@ std::vector<Vec3> Lattice::collect() const {
   const double reach = options_.jitter * options_.size;
   for (std::size_t n = 0; n < places_.size(); ++n) {
     if (places_[n] != Place::inside) continue;
-    Random random(options_.seed, n);
-    Vec3 jitter;
-    jitter.x = random.uniform(-reach, reach);
-    jitter.y = random.uniform(-reach, reach);
-    jitter.z = random.uniform(-reach, reach);
-    points.push_back(node(index_of(static_cast<std::int64_t>(n))) + jitter);
+    points.push_back(node(index_of(static_cast<std::int64_t>(n))) + jitter_of(n, reach, options_.seed));
   }
   return points;
 }

@@ -17,7 +17,8 @@ using namespace hexpipe;
 namespace {
 
 const std::map<std::string, SurfaceKind> surface_kinds{{"remesh", SurfaceKind::remesh}, {"keep", SurfaceKind::keep}};
-const std::map<std::string, PointKind> point_kinds{{"lattice", PointKind::lattice}, {"none", PointKind::none}};
+const std::map<std::string, PointKind> point_kinds{
+    {"frame", PointKind::frame}, {"lattice", PointKind::lattice}, {"none", PointKind::none}};
 const std::map<std::string, ShellRule> shell_rules{
     {"oriented", ShellRule::oriented}, {"regions", ShellRule::regions}, {"holes", ShellRule::holes}};
 
@@ -63,11 +64,12 @@ int main(int argc, char** argv) {
         ->check(number_between(1, 180));
     app.add_option("--deviation", options.deviation, "How far the new surface may be from the old one, in sizes")
         ->check(number_between(1e-6, 1));
-    app.add_option("--points", points, "Points inside: on a lattice along the axes, or none")
+    app.add_option("--points", points,
+                   "Points inside: along a frame field that follows the surface, on a lattice along the axes, or none")
         ->check(CLI::IsMember(point_kinds));
-    app.add_option("--clearance", options.clearance, "Least distance of lattice points from the surface, in sizes")
+    app.add_option("--clearance", options.clearance, "Least distance of points inside from the surface, in sizes")
         ->check(number_between(0.1, 10));
-    app.add_option("--jitter", options.jitter, "How far lattice points are moved at random along each axis, in sizes")
+    app.add_option("--jitter", options.jitter, "How far points inside are moved at random along each axis, in sizes")
         ->check(number_between(0, 1));
     app.add_option("--shells", shells,
                    "Shells in shells: holes where oriented inward and regions else; all regions; or alternately holes")

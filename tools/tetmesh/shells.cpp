@@ -188,6 +188,14 @@ std::vector<double> Surface::region_volumes() const {
   return volumes;
 }
 
+bool is_in_material(const Surface& surface, const ColumnIndex& columns, const Vec3& p) {
+  bool inside = false;
+  columns.for_each_crossing(p, [&](std::int32_t t) {
+    if (surface.shells[surface.shell_of[t]].in_front == outside_region) inside = !inside;
+  });
+  return inside;
+}
+
 Surface find_shells(SurfaceSoup soup, ShellRule rule) {
   return ShellFinder(std::move(soup), rule).find();
 }

@@ -38,6 +38,11 @@ struct Surface : SurfaceSoup {
   std::vector<double> region_volumes() const;
 };
 
+class ColumnIndex;
+
+// Inside an odd number of the shells between material and nothing. The index is that of the surface.
+bool is_in_material(const Surface& surface, const ColumnIndex& columns, const Vec3& p);
+
 // Finds the shells of a checked surface and their regions. Throws DataError naming the first triangle of a shell that
 // encloses nothing where ShellRule::oriented wants material.
 Surface find_shells(SurfaceSoup soup, ShellRule rule);

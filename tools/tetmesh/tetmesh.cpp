@@ -8,13 +8,14 @@
 #include "tools/tetmesh/mesh_shape.hpp"
 #include "tools/tetmesh/run_tetgen.hpp"
 #include "tools/tetmesh/surface_check.hpp"
+#include "tools/tetmesh/volume/frame_points.hpp"
 
 namespace hexpipe {
 namespace {
 
 void check_options(const TetmeshOptions& options) {
   // Each coordinate moves by the jitter, a point by up to sqrt(3) times that; it must not reach the surface.
-  if (options.points == PointKind::lattice && options.jitter >= options.clearance / 2)
+  if (options.points != PointKind::none && options.jitter >= options.clearance / 2)
     throw UsageError(fmt::format("expected --jitter below half of --clearance, {:g}, found {:g}", options.clearance / 2,
                                  options.jitter));
 }
@@ -119,6 +120,14 @@ TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
   watch.add_to(statistics.seconds_placing);
 
   BuiltMesh built = tetrahedralize(surface, points, options.tetgen_timeout, watch, statistics);
+  if (options.points == PointKind::frame) {
+    const std::vector<Vec3> along_frames = frame_points(
+        surface, built.mesh,
+        {.size = statistics.size, .clearance = options.clearance, .jitter = options.jitter, .seed = options.seed});
+    statistics.interior_points = along_frames.size();
+    watch.add_to(statistics.seconds_placing);
+    built = tetrahedralize(surface, along_frames, options.tetgen_timeout, watch, statistics);
+  }
   describe(built, statistics);
   result.mesh = std::move(built.mesh);
   watch.add_to(statistics.seconds_building);

@@ -18,7 +18,7 @@ namespace hexpipe {
 // What becomes of the surface's triangles.
 enum class SurfaceKind { remesh, keep };
 
-enum class PointKind { lattice, none };
+enum class PointKind { frame, lattice, none };
 
 struct TetmeshOptions {
   std::optional<Length> size = {};  // nothing: see element_size()

@@ -1,0 +1,146 @@
+#include "tools/tetmesh/volume/field_nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/mesh/adjacency.hpp"
+#include "tools/tetmesh/half_edges.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr double feature_cosine = 0.7660444431189780;  // of 40 degrees between the normals at an edge
+constexpr double aligned_cosine = 0.9396926207859084;  // of 20 degrees between a normal and the nearest axis
+// Squared ratio from which the longest side of a triangle is taken for the diagonal of a square, not for a side.
+constexpr double diagonal_ratio = 1.21;
+
+Vec3 normalized(const Vec3& v) {
+  const double length = norm(v);
+  return length > 0 ? v * (1 / length) : Vec3{0, 0, 1};
+}
+
+class SurfaceReader {
+ public:
+  explicit SurfaceReader(const Surface& surface)
+      : surface_(surface), nodes_(surface.points.size()), legs_(nodes_.size()), creased_(nodes_.size()) {}
+
+  std::vector<SurfaceNode> read() {
+    add_normals();
+    for (SurfaceNode& node : nodes_) node.normal = normalized(node.normal);
+    for_each_edge(surface_.points.size(), surface_.triangles, [&](std::span<const HalfEdge> edge) { add_edge(edge); });
+    for (std::size_t v = 0; v < nodes_.size(); ++v) creased_[v] ? finish_creased(nodes_[v]) : finish_smooth(v);
+    find_vague();
+    return std::move(nodes_);
+  }
+
+ private:
+  // The crosses of a vertex's edges, diagonals left out.
+  struct Legs {
+    Harmonics sum = Harmonics::Zero();
+    double weight = 0;
+  };
+
+  const Vec3& start(HalfEdge h) const { return surface_.points[start_of(surface_.triangles, h)]; }
+  const Vec3& end(HalfEdge h) const { return surface_.points[end_of(surface_.triangles, h)]; }
+  void add_normals();
+  void add_edge(std::span<const HalfEdge> edge);
+  bool is_diagonal(HalfEdge h) const;
+  void add_leg(Vertex v, const Vec3& along, double weight);
+  void finish_smooth(std::size_t v);
+  void finish_creased(SurfaceNode& node) const;
+  void find_vague();
+
+  const Surface& surface_;
+  std::vector<SurfaceNode> nodes_;
+  std::vector<Vec3> normals_;  // of triangles
+  std::vector<Legs> legs_;
+  std::vector<bool> creased_;
+};
+
+// Weighted by the triangles' angles at the vertex.
+void SurfaceReader::add_normals() {
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(surface_.triangles.size()); ++t) {
+    const Vec3 normal = normalized(cross(end(3 * t) - start(3 * t), end(3 * t + 1) - start(3 * t)));
+    const Harmonics harmonics = harmonics_of_axis(normal);
+    normals_.push_back(normal);
+    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+      const Vec3 to_next = end(h) - start(h), to_previous = start(previous_in_triangle(h)) - start(h);
+      const double angle = std::atan2(norm(cross(to_next, to_previous)), dot(to_next, to_previous));
+      SurfaceNode& node = nodes_[start_of(surface_.triangles, h)];
+      node.normal += angle * normal;
+      node.suggested += angle * harmonics;
+    }
+  }
+}
+
+bool SurfaceReader::is_diagonal(HalfEdge h) const {
+  const auto squared = [&](HalfEdge e) { return norm_squared(end(e) - start(e)); };
+  return squared(h) > diagonal_ratio * std::max(squared(next_in_triangle(h)), squared(previous_in_triangle(h)));
+}
+
+void SurfaceReader::add_edge(std::span<const HalfEdge> edge) {
+  const HalfEdge h = edge[0], twin = edge[1];
+  const Vec3 along = normalized(end(h) - start(h));
+  const bool is_crease = dot(normals_[triangle_of(h)], normals_[triangle_of(twin)]) < feature_cosine;
+  const double weight = 1 - 0.5 * is_diagonal(h) - 0.5 * is_diagonal(twin);
+  for (const Vertex v : {start_of(surface_.triangles, h), end_of(surface_.triangles, h)}) {
+    if (is_crease) {
+      creased_[v] = true;
+      nodes_[v].suggested += std::numbers::pi * harmonics_of_axis(along);
+    } else if (weight > 0) {
+      add_leg(v, along, weight);
+    }
+  }
+}
+
+void SurfaceReader::add_leg(Vertex v, const Vec3& along, double weight) {
+  constexpr double steepest = 0.5;  // an edge that points out of the tangent plane more says little about it
+  const Vec3& normal = nodes_[v].normal;
+  const Vec3 in_plane = along - dot(along, normal) * normal;
+  if (norm(in_plane) < steepest) return;
+  legs_[v].sum += weight * harmonics_of_cross(normal, normalized(in_plane));
+  legs_[v].weight += weight;
+}
+
+void SurfaceReader::finish_smooth(std::size_t v) {
+  const Legs& legs = legs_[v];
+  nodes_[v].suggested = legs.weight > 0 ? Harmonics(legs.sum / legs.weight) : Harmonics(Harmonics::Zero());
+}
+
+void SurfaceReader::finish_creased(SurfaceNode& node) const {
+  node.kind = SurfaceNode::Kind::fixed;
+  node.frame = nearest_frame(node.suggested);
+  node.suggested *= std::sqrt(frame_norm_squared / node.suggested.squaredNorm());
+}
+
+void SurfaceReader::find_vague() {
+  for (std::size_t t = 0; t < surface_.triangles.size(); ++t)
+    for (const Vertex v : surface_.triangles[t]) {
+      SurfaceNode& node = nodes_[v];
+      const auto is_along = [&](const Vec3& axis) { return std::abs(dot(axis, normals_[t])) > aligned_cosine; };
+      if (node.kind == SurfaceNode::Kind::fixed && std::ranges::none_of(node.frame, is_along))
+        node.kind = SurfaceNode::Kind::vague;
+    }
+}
+
+}  // namespace
+
+FieldNodes make_field_nodes(const Surface& surface, const TetMesh& mesh, double size) {
+  constexpr double nearest = 0.25;  // squared; keeps a single link from ruling
+  FieldNodes nodes;
+  nodes.points = mesh.points;
+  nodes.surface = SurfaceReader(surface).read();
+  const TetAdjacency adjacency(mesh, surface.name.c_str());
+  nodes.offsets.assign(1, 0);
+  for (std::size_t v = 0; v < nodes.points.size(); ++v) {
+    for (const Vertex u : adjacency.neighbours_of(static_cast<Vertex>(v))) {
+      const double squared = norm_squared(nodes.points[u] - nodes.points[v]) / (size * size);
+      nodes.links.push_back({u, static_cast<float>(1 / std::max(squared, nearest))});
+    }
+    nodes.offsets.push_back(static_cast<std::int64_t>(nodes.links.size()));
+  }
+  return nodes;
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,49 @@
+#pragma once
+// The vertices of a tet mesh as the nodes on which fields are solved: who is joined to whom, and what the surface says
+// about directions at its vertices.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/mesh/tet_mesh.hpp"
+#include "tools/tetmesh/shells.hpp"
+#include "tools/tetmesh/volume/octahedral.hpp"
+
+namespace hexpipe {
+
+struct FieldLink {
+  std::int32_t node;
+  float weight;
+};
+
+// What is known at a vertex of the surface.
+struct SurfaceNode {
+  enum class Kind : std::uint8_t {
+    smooth,  // one axis is the normal; the triangles' legs may suggest the others
+    fixed,   // on features whose normals and edges lie along the axes of one frame
+    vague    // on other features: no frame fits, one is suggested
+  };
+  Kind kind = Kind::smooth;
+  Vec3 normal;
+  Frame frame{};                            // of a fixed one
+  Harmonics suggested = Harmonics::Zero();  // smooth: a cross, of norm 0 (no suggestion) to cross_norm; vague: a frame
+};
+
+struct FieldNodes {
+  std::vector<Vec3> points;  // the surface's first
+  std::vector<SurfaceNode> surface;
+  std::vector<std::int64_t> offsets;  // points + 1
+  std::vector<FieldLink> links;       // both ways
+
+  std::size_t size() const { return points.size(); }
+  bool is_on_surface(std::size_t node) const { return node < surface.size(); }
+  std::span<const FieldLink> links_of(std::size_t node) const {
+    return std::span(links).subspan(offsets[node], offsets[node + 1] - offsets[node]);
+  }
+};
+
+// Of a mesh whose first vertices are the surface's. Weights fall with the square of the distance in sizes.
+FieldNodes make_field_nodes(const Surface& surface, const TetMesh& mesh, double size);
+
+}  // namespace hexpipe

@@ -1,0 +1,29 @@
+#pragma once
+// Points inside a surface along a frame field, on a lattice that bends with it and passes through the surface's points.
+//
+// T.-C. Baudouin, J.-F. Remacle, E. Marchandise, F. Henrotte, C. Geuzaine: A frontal approach to hex-dominant mesh
+// generation (2014) step from the surface along a frame field and keep a point when none is near in the frame's maximum
+// norm. Here the steps are those of a lattice that was fitted to the frames and to the surface's points as a whole
+// (lattice_field.hpp), so that fronts from opposite walls meet where that is possible; points that many nodes see come
+// first.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/mesh/tet_mesh.hpp"
+#include "tools/tetmesh/shells.hpp"
+
+namespace hexpipe {
+
+struct FramePointsOptions {
+  double size = 1;
+  double clearance = 0.5;  // least distance from the surface before points are jittered, in sizes
+  double jitter = 0.02;    // each coordinate moves by at most that, in sizes
+  std::uint64_t seed = 1;
+};
+
+// `background`: a mesh of the surface with points inside at about the same distance; its first vertices are the
+// surface's. In the order in which they were accepted.
+std::vector<Vec3> frame_points(const Surface& surface, const TetMesh& background, const FramePointsOptions& options);
+
+}  // namespace hexpipe

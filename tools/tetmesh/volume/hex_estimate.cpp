@@ -1,0 +1,184 @@
+#include "tools/tetmesh/volume/hex_estimate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <numeric>
+#include <vector>
+
+#include "common/mesh/cell_topology.hpp"
+#include "common/mesh/quality.hpp"
+#include "common/run/parallel.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr double least_quality = 0.3;    // scaled Jacobian, findhex's default
+constexpr double greatest_cosine = 0.6;  // between edges of a corner
+constexpr double furthest = 0.5;  // of a corner from where a parallelepiped has it, in lengths of the longest edge
+constexpr double volume_tolerance = 0.9;  // of the tets against the hex
+constexpr Vertex none = -1;
+
+constexpr std::array<unsigned, 6> quad_masks = [] {
+  std::array<unsigned, 6> masks{};
+  for (std::size_t q = 0; q < 6; ++q)
+    for (const std::uint8_t corner : HexTopology::quads[q]) masks[q] |= 1u << corner;
+  return masks;
+}();
+
+struct RoughHex {
+  double quality;
+  double volume;
+  std::array<Vertex, 8> corners;
+  std::vector<std::int32_t> tets;  // interior
+};
+
+class HexSearch {
+ public:
+  HexSearch(const TetMesh& mesh, const TetAdjacency& adjacency) : mesh_(mesh), adjacency_(adjacency) {}
+
+  // The hexes of which `lowest` is the lowest vertex.
+  void find(Vertex lowest, std::vector<RoughHex>& found);
+
+ private:
+  // The corner opposite the vertex in the quad of two of its edges, if there is one.
+  struct Side {
+    std::size_t first, second;  // in edges_
+    Vertex opposite;
+  };
+
+  const Vec3& point(Vertex v) const { return mesh_.points[v]; }
+  void collect_sides(Vertex lowest);
+  bool is_square(const Vec3& a, const Vec3& b) const;
+  Vertex nearest_common(std::span<const Vertex> joined, Vertex lowest, const Vec3& place, double reach) const;
+  void complete(Vertex lowest, const Side& ab, const Side& ac, const Side& bc, std::vector<RoughHex>& found);
+  void collect_tets(RoughHex& hex) const;
+
+  const TetMesh& mesh_;
+  const TetAdjacency& adjacency_;
+  std::vector<Vertex> edges_;
+  std::vector<Side> sides_;
+};
+
+bool HexSearch::is_square(const Vec3& a, const Vec3& b) const {
+  const double product = dot(a, b);
+  return product * product < greatest_cosine * greatest_cosine * norm_squared(a) * norm_squared(b);
+}
+
+// The neighbour of all in `joined`, greater than `lowest`, that is nearest to the place.
+Vertex HexSearch::nearest_common(std::span<const Vertex> joined, Vertex lowest, const Vec3& place, double reach) const {
+  Vertex nearest = none;
+  double least = reach * reach;
+  for (const Vertex v : adjacency_.neighbours_of(joined[0])) {
+    if (v <= lowest || norm_squared(point(v) - place) >= least) continue;
+    const bool is_common = std::ranges::all_of(
+        joined.subspan(1), [&](Vertex other) { return v != other && adjacency_.has_edge(v, other); });
+    if (!is_common) continue;
+    least = norm_squared(point(v) - place);
+    nearest = v;
+  }
+  return nearest;
+}
+
+void HexSearch::collect_sides(Vertex lowest) {
+  edges_.clear();
+  for (const Vertex v : adjacency_.neighbours_of(lowest))
+    if (v > lowest) edges_.push_back(v);
+  sides_.clear();
+  const Vec3& origin = point(lowest);
+  for (std::size_t i = 0; i < edges_.size(); ++i)
+    for (std::size_t j = i + 1; j < edges_.size(); ++j) {
+      const Vec3 a = point(edges_[i]) - origin, b = point(edges_[j]) - origin;
+      if (!is_square(a, b)) continue;
+      const double reach = furthest * std::sqrt(std::max(norm_squared(a), norm_squared(b)));
+      const Vertex opposite = nearest_common(std::array{edges_[i], edges_[j]}, lowest, origin + a + b, reach);
+      if (opposite != none) sides_.push_back({i, j, opposite});
+    }
+}
+
+void HexSearch::find(Vertex lowest, std::vector<RoughHex>& found) {
+  collect_sides(lowest);
+  // By edge: the sides that begin with it stand together, ascending.
+  for (std::size_t i = 0; i < sides_.size(); ++i)
+    for (std::size_t j = i + 1; j < sides_.size() && sides_[j].first == sides_[i].first; ++j) {
+      const auto third = std::ranges::find_if(
+          sides_, [&](const Side& s) { return s.first == sides_[i].second && s.second == sides_[j].second; });
+      if (third != sides_.end()) complete(lowest, sides_[i], sides_[j], *third, found);
+    }
+}
+
+void HexSearch::complete(Vertex lowest, const Side& ab, const Side& ac, const Side& bc, std::vector<RoughHex>& found) {
+  Vertex a = edges_[ab.first], b = edges_[ab.second], to_a = bc.opposite, to_b = ac.opposite;
+  const Vertex c = edges_[ac.second], to_c = ab.opposite;
+  if (to_a == to_b || to_b == to_c || to_a == to_c) return;
+  const Vec3 along_a = point(a) - point(lowest), along_b = point(b) - point(lowest), along_c = point(c) - point(lowest);
+  const double reach =
+      furthest * std::sqrt(std::max({norm_squared(along_a), norm_squared(along_b), norm_squared(along_c)}));
+  const Vec3 place = point(to_a) + point(to_b) + point(to_c) - point(a) - point(b) - point(c) + point(lowest);
+  const Vertex far = nearest_common(std::array{to_a, to_b, to_c}, lowest, place, reach);
+  if (far == none || far == a || far == b || far == c) return;
+  if (det(along_a, along_b, along_c) < 0) std::swap(a, b), std::swap(to_a, to_b);
+  RoughHex hex{0, 0, {lowest, a, to_c, b, c, to_b, far, to_a}, {}};
+  const std::array<Vec3, 8> corners = corner_points(mesh_.points, hex.corners);
+  hex.quality = least_corner_scaled_jacobian(CellKind::hex, corners);
+  if (hex.quality <= least_quality) return;
+  collect_tets(hex);
+  const double wanted = cell_volume(CellKind::hex, corners);
+  if (hex.volume < volume_tolerance * wanted || wanted < volume_tolerance * hex.volume) return;
+  found.push_back(std::move(hex));
+}
+
+// Those that join four of its corners, unless all four are of one quad: such a sliver lies on the hex, not in it.
+void HexSearch::collect_tets(RoughHex& hex) const {
+  const auto corner_of = [&](Vertex v) { return std::ranges::find(hex.corners, v) - hex.corners.begin(); };
+  for (const Vertex corner : hex.corners)
+    for (const std::int32_t t : adjacency_.tets_at(corner)) {
+      const Tet& tet = mesh_.tets[t];
+      unsigned corners = 0;
+      bool is_inside = std::ranges::min(tet, {}, corner_of) == corner;  // once
+      for (const Vertex v : tet) {
+        is_inside = is_inside && corner_of(v) < 8;
+        if (is_inside) corners |= 1u << corner_of(v);
+      }
+      if (!is_inside || std::ranges::find(quad_masks, corners) != quad_masks.end()) continue;
+      hex.tets.push_back(t);
+      hex.volume += tet_determinant(mesh_.points, tet) / 6;
+    }
+}
+
+// The best first.
+double volume_of_greedy_choice(const TetMesh& mesh, std::span<const RoughHex> hexes) {
+  std::vector<std::int32_t> order(hexes.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, std::greater(), [&](std::int32_t i) { return hexes[i].quality; });
+  std::vector<bool> taken(mesh.tets.size());
+  double volume = 0;
+  for (const std::int32_t i : order) {
+    if (std::ranges::any_of(hexes[i].tets, [&](std::int32_t t) { return taken[t]; })) continue;
+    for (const std::int32_t t : hexes[i].tets) taken[t] = true;
+    volume += hexes[i].volume;
+  }
+  return volume;
+}
+
+}  // namespace
+
+double estimate_hex_share(const TetMesh& mesh, const TetAdjacency& adjacency) {
+  std::vector<RoughHex> hexes;
+  parallel_in_order(
+      static_cast<std::int64_t>(mesh.points.size()), 256,
+      [&](std::int64_t begin, std::int64_t end) {
+        std::vector<RoughHex> found;
+        HexSearch search(mesh, adjacency);
+        for (std::int64_t v = begin; v < end; ++v) search.find(static_cast<Vertex>(v), found);
+        return found;
+      },
+      [&](std::vector<RoughHex>&& found) { std::ranges::move(found, std::back_inserter(hexes)); });
+  double volume = 0;
+  for (const Tet& tet : mesh.tets) volume += tet_determinant(mesh.points, tet) / 6;
+  return volume_of_greedy_choice(mesh, hexes) / volume;
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,28 @@
+#pragma once
+// Where the points of a lattice lie that follows a frame field: at every node its own place in the cell of the lattice
+// that is around it. The lattice passes through the points of the surface and bends between them.
+//
+// This is the periodic parametrization of N. Ray, W. C. Li, B. Lévy, A. Sheffer, P. Alliez (2006), in space as in
+// D. Sokolov, N. Ray, L. Untereiner, B. Lévy: Hexahedral-Dominant Meshing (2016): a complex number of modulus 1 an
+// axis, whose argument is the coordinate in the lattice times 2 pi. Seen from a neighbour it turns by the distance
+// along the axis. The linear problem comes first, without the modulus; then each number is set to the mean of its
+// neighbours' views of it, over and over. Deviates in that the surface's points are known and attract the lattice.
+
+#include <array>
+#include <vector>
+
+#include "tools/tetmesh/volume/field_nodes.hpp"
+
+namespace hexpipe {
+
+struct LatticeField {
+  // Of each node, along each axis of its frame: from -1/2 to 1/2 cells from a point of the lattice.
+  std::vector<std::array<double, 3>> coordinates;
+  // How far the neighbours agree with that, from 0 to 1, on the axis where they do least.
+  std::vector<double> agreement;
+};
+
+// `size`: the width of the lattice's cells.
+LatticeField solve_lattice_field(const FieldNodes& nodes, const std::vector<Frame>& frames, double size);
+
+}  // namespace hexpipe
