@@ -35,7 +35,7 @@ two_regions() {
   while IFS=, read -r name n _ _ quality candidates edges degree _; do
     if ((n > 10)) || [[ -z "$edges" ]] || { sanitized && ((n > 4)); }; then continue; fi
     lattice "$name" "$n" >l.mesh
-    findhex -q --mesh l.mesh --min-quality "$quality" --folded-quads keep --max-boundary-tets 5 --quality corner |
+    findhex -q --mesh l.mesh --min-quality "$quality" --folded-quads keep --flat-corners keep --max-boundary-tets 5 --quality corner |
       buildgraph --stats stats.json -o l.graph
     run $PYTHON -c "
 import json
@@ -50,10 +50,10 @@ print(s['vertices'], s['edges'], s['max_degree'])"
 @test "large lattices have the published numbers of candidates" {
   if sanitized; then skip "takes minutes with sanitizers"; fi
   lattice kuhn 20 >k.mesh
-  findhex -q --mesh k.mesh --folded-quads keep --max-boundary-tets 5 --quality corner -o k.cand
+  findhex -q --mesh k.mesh --folded-quads keep --flat-corners keep --max-boundary-tets 5 --quality corner -o k.cand
   assert_equal "$(count k.cand)" 321740
   lattice five 20 >f.mesh
-  findhex -q --mesh f.mesh --folded-quads keep --max-boundary-tets 5 --quality corner -o f.cand
+  findhex -q --mesh f.mesh --folded-quads keep --flat-corners keep --max-boundary-tets 5 --quality corner -o f.cand
   assert_equal "$(count f.cand)" 62864
 }
 
@@ -94,7 +94,7 @@ PYTHON
 
 # The published program starts its flood from any tet that joins four corners, and loses three of these.
 @test "hexes are found where a tet outside joins four of their corners" {
-  findhex -q --mesh "$DATA/random_points.mesh" --folded-quads keep --max-boundary-tets 5 -o found.cand
+  findhex -q --mesh "$DATA/random_points.mesh" --folded-quads keep --flat-corners keep --max-boundary-tets 5 -o found.cand
   assert_equal "$(count found.cand)" 170
 }
 
@@ -133,6 +133,18 @@ OPTIONS
   assert_equal "$(count with.cand) $(count without.cand)" "1 0"
 }
 
+@test "cells that leave a flat corner at the surface are rejected, and no others" {
+  local mesh="$DATA/jittered_lattice.mesh"
+  findhex -q --mesh "$mesh" $ALL_KINDS --flat-corners keep -o kept.cand
+  findhex -q --mesh "$mesh" $ALL_KINDS --flat-corners reject --stats stats.json -o rejected.cand
+  findhex -q --mesh "$mesh" $ALL_KINDS -o default.cand
+  assert_same_bytes rejected.cand default.cand
+  assert [ "$(count rejected.cand)" -lt "$(count kept.cand)" ]
+  run comm -13 <(tail -n +2 kept.cand | sort) <(tail -n +2 rejected.cand | sort)
+  assert_output ""
+  agrees "$mesh" $ALL_KINDS --flat-corners keep
+}
+
 @test "--quality says what is stored, not what is found" {
   findhex -q --mesh "$DATA/random_points.mesh" --quality corner -o corner.cand
   findhex -q --mesh "$DATA/random_points.mesh" --quality element -o element.cand
@@ -153,6 +165,7 @@ OPTIONS
   assert_fails_with 2 "findhex: .*--quality" findhex --mesh "$mesh" --quality best -o out.cand
   assert_fails_with 2 "findhex: .*--inner-vertices" findhex --mesh "$mesh" --inner-vertices maybe -o out.cand
   assert_fails_with 2 "findhex: .*--folded-quads" findhex --mesh "$mesh" --folded-quads no -o out.cand
+  assert_fails_with 2 "findhex: .*--flat-corners" findhex --mesh "$mesh" --flat-corners drop -o out.cand
   assert_fails_with 2 "findhex: .*--max-boundary-tets" findhex --mesh "$mesh" --max-boundary-tets 7 -o out.cand
   assert_fails_with 2 "findhex: .*--max-boundary-tets" findhex --mesh "$mesh" --max-boundary-tets 2.5 -o out.cand
   assert [ ! -e out.cand ]

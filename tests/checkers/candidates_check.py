@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""candidates_check.py - all candidates of a small mesh by the definitions (ALGORITHMS.md 1), compared with a .cand file.
+"""candidates_check.py - all candidates of a small mesh by the definitions (docs/definitions.md 1), compared with a .cand file.
 
 usage: candidates_check.py MESH.mesh FILE.cand [--cells hex,prism,pyramid] [--min-quality Q] [--quality corner|element]
-           [--inner-vertices allow|forbid] [--folded-quads drop|keep] [--max-boundary-tets N]
+           [--inner-vertices allow|forbid] [--folded-quads drop|keep] [--flat-corners reject|keep] [--max-boundary-tets N]
 
 Finds cells another way than findhex does: hexes from a quad and the side quads at two opposite sides of it, prisms from a
 triangle and its side quads, pyramids from a quad and a vertex; the interior tets from the surface made of one diagonal a
@@ -318,8 +318,32 @@ def interior_tets(mesh, cell):
     return None
 
 
+def leaves_flat_corner(mesh, outer, within):
+    """Rule 9, of a quad with these outermost triangles on tets `within`."""
+    if outer[0] in mesh.tags:
+        return False
+    beyond = [next((t for t in mesh.tets_of[f] if t not in within), None) for f in outer]
+    if None in beyond or any(t in mesh.flat for t in beyond):
+        return False
+    apexes = set().union(*(set(mesh.tets[t]) - f for t, f in zip(beyond, outer)))
+    if len(apexes) > 1:
+        return False
+    apex, = apexes
+    diagonal = outer[0] & outer[1]
+    side, other_side = outer[0] ^ outer[1]
+    for corner in diagonal:
+        if frozenset((corner, side, apex)) in mesh.tags and frozenset((corner, other_side, apex)) in mesh.tags:
+            u, v, w = (minus(mesh.points[x], mesh.points[corner]) for x in (side, other_side, apex))
+            # Positive where the apex lies on the same side as seen from the diagonal's other end: the tets are positive.
+            opposite = minus(mesh.points[next(iter(diagonal - {corner}))], mesh.points[corner])
+            d = det(u, v, w) * (1 if det(u, opposite, w) > 0 else -1)
+            if d <= 0 or 10**12 * d * d <= dot(u, u) * dot(v, v) * dot(w, w):
+                return True
+    return False
+
+
 def tets_of(mesh, cell, options):
-    """Rules 5 to 8: (interior tets, boundary tets), or None."""
+    """Rules 5 to 9: (interior tets, boundary tets), or None."""
     found = interior_tets(mesh, cell)
     if found is None or options.folded_quads == "drop" and any(is_folded(mesh, pairs) for pairs in diagonals(mesh, cell)):
         return None
@@ -337,6 +361,8 @@ def tets_of(mesh, cell, options):
             boundary.add(t)
             outer = [f for f in map(frozenset, itertools.combinations(corners, 3)) if f not in outer]
         if mesh.label(outer[0]) != mesh.label(outer[1]):
+            return None
+        if options.flat_corners == "reject" and leaves_flat_corner(mesh, outer, region | on_quad):
             return None
     n = len(cell)
     if len(region) < LEAST_INTERIOR[n] or len(region) + len(boundary) > MOST[n]:
@@ -427,6 +453,7 @@ def main():
     parser.add_argument("--quality", default="element")
     parser.add_argument("--inner-vertices", default="allow")
     parser.add_argument("--folded-quads", default="drop")
+    parser.add_argument("--flat-corners", default="reject")
     parser.add_argument("--max-boundary-tets", type=int, default=6)
     options = parser.parse_args()
     mesh = Mesh(options.mesh)

@@ -6,7 +6,10 @@
 
 #include "tools/findhex/cell_tets.hpp"
 
+#include <algorithm>
 #include <bit>
+
+#include "common/mesh/quality.hpp"
 
 namespace hexpipe {
 namespace {
@@ -36,6 +39,9 @@ constexpr auto make_facet_of_corners() {
   for (const LocalTriangle& t : Topology::triangles) facet_of[bits(t)] = facet++;
   return facet_of;
 }
+
+// Rule 9: a scaled Jacobian that differs from that of three edges in one plane by no more than coordinates are rounded.
+constexpr double flat = 1e-6;
 
 template <class Topology>
 constexpr auto facet_of_corners = make_facet_of_corners<Topology>();
@@ -174,32 +180,66 @@ TetVerdict CellTets<Topology>::find_outer_facets() {
   return TetVerdict::accepted;
 }
 
-// The two triangles that the interior tets have on a quad, the boundary tet on it if there is one, and rule 7 for what
-// is outermost.
+// The two triangles that the interior tets have on a quad, the boundary tet on it if there is one, and rules 7 and 9
+// for what is outermost.
 template <class Topology>
 TetVerdict CellTets<Topology>::judge_quad(std::size_t quad) {
   const LocalQuad& q = Topology::quads[quad];
-  const auto& facets = outer_[quad];
-  const std::int32_t label = tables_.facet_label(facets[0].tet, facets[0].facet);
-  if (label != tables_.facet_label(facets[1].tet, facets[1].facet)) return TetVerdict::half_on_surface;
-  const std::int32_t beyond = tables_.adjacency().tet_beyond(facets[0].tet, facets[0].facet);
+  unsigned diagonal = outer_[quad][0].corners & outer_[quad][1].corners;
+  std::array<TetFacet, 2> outermost{TetFacet{outer_[quad][0].tet, outer_[quad][0].facet},
+                                    TetFacet{outer_[quad][1].tet, outer_[quad][1].facet}};
+  const auto label = [&](const TetFacet& at) { return tables_.facet_label(at.tet, at.facet); };
+  if (label(outermost[0]) != label(outermost[1])) return TetVerdict::half_on_surface;
+  const std::int32_t beyond = tables_.adjacency().tet_beyond(outermost[0].tet, outermost[0].facet);
   if (beyond == TetAdjacency::none || !tables_.usable(beyond)) return TetVerdict::accepted;
   const auto b = corner_bits(beyond);
-  if ((b[0] | b[1] | b[2] | b[3]) != bits(q)) return TetVerdict::accepted;
-
-  if (label != 0) return TetVerdict::crosses_mesh;
-  boundary_.push_back(beyond);
-  const unsigned shared = facets[0].corners & facets[1].corners;
-  // Its two facets at the corners of the diagonal that the interior tets have lie against those; the others are
-  // outside.
-  std::int32_t outermost = -1;
-  for (int facet = 0; facet < 4; ++facet) {
-    if ((b[facet] & shared) == 0) continue;
-    const std::int32_t found = tables_.facet_label(beyond, facet);
-    if (outermost >= 0 && found != outermost) return TetVerdict::half_on_surface;
-    outermost = found;
+  if ((b[0] | b[1] | b[2] | b[3]) == bits(q)) {
+    if (label(outermost[0]) != 0) return TetVerdict::crosses_mesh;
+    boundary_.push_back(beyond);
+    // Its two facets opposite the corners of the diagonal that the interior tets have are outside, at the other one.
+    std::size_t next = 0;
+    for (int facet = 0; facet < 4; ++facet)
+      if ((b[facet] & diagonal) != 0) outermost[next++] = {beyond, facet};
+    diagonal = bits(q) & ~diagonal;
+    if (label(outermost[0]) != label(outermost[1])) return TetVerdict::half_on_surface;
   }
+  if (!rules_.flat_corners && label(outermost[0]) == 0 && has_flat_corner(q, diagonal, outermost))
+    return TetVerdict::flat_corner;
   return TetVerdict::accepted;
+}
+
+// Rule 9 for a quad inside the mesh, of which the outermost triangles meet at this diagonal.
+template <class Topology>
+bool CellTets<Topology>::has_flat_corner(const LocalQuad& quad, unsigned diagonal,
+                                         const std::array<TetFacet, 2>& outermost) const {
+  std::array<std::int32_t, 2> beyond{};
+  std::array<Vertex, 2> apex{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    beyond[i] = tables_.adjacency().tet_beyond(outermost[i].tet, outermost[i].facet);
+    if (beyond[i] == TetAdjacency::none || !tables_.usable(beyond[i])) return false;
+    const auto b = corner_bits(beyond[i]);
+    const auto beside = std::find_if(b.begin(), b.end(), [&](unsigned bits_of) { return (bits_of & bits(quad)) == 0; });
+    if (beside == b.end()) return false;
+    apex[i] = tables_.mesh().tets[beyond[i]][beside - b.begin()];
+  }
+  if (apex[0] != apex[1]) return false;
+
+  const auto& points = tables_.mesh().points;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if ((bit(quad[i]) & diagonal) == 0) continue;
+    // In both tets the facet opposite the other end of the diagonal is one at this corner and the apex.
+    const Vertex other_end = corners_[quad[(i + 2) % 4]];
+    const bool on_surface = std::ranges::all_of(beyond, [&](std::int32_t t) {
+      const Tet& tet = tables_.mesh().tets[t];
+      return tables_.facet_label(t, static_cast<int>(std::find(tet.begin(), tet.end(), other_end) - tet.begin())) != 0;
+    });
+    if (!on_surface) continue;
+    const Vec3& at = points[corners_[quad[i]]];
+    if (!scaled_jacobian_exceeds(points[corners_[quad[(i + 1) % 4]]] - at, points[corners_[quad[(i + 3) % 4]]] - at,
+                                 points[apex[0]] - at, flat))
+      return true;
+  }
+  return false;
 }
 
 template class CellTets<HexTopology>;

@@ -1,5 +1,5 @@
 #pragma once
-// The tets of a candidate: rules 5 to 7 of docs/definitions.md 1.
+// The tets of a candidate: rules 5 to 7 and 9 of docs/definitions.md 1.
 
 #include <algorithm>
 #include <array>
@@ -34,6 +34,7 @@ inline constexpr std::size_t most_tets<PyramidTopology> = 3;
 struct CellTetRules {
   bool inner_vertices = true;  // allow them
   std::size_t max_boundary_tets = 6;
+  bool flat_corners = false;  // allow them: rule 9
 };
 
 // Why a cell with all its facets in the mesh is no candidate, by the rule that it breaks.
@@ -45,6 +46,7 @@ enum class TetVerdict {
   crosses_mesh,     // 6, 7: a boundary, a tagged surface, another region or an unusable tet lies within
   half_on_surface,  // 7: the two outer triangles of a quad differ
   inner_vertex,     // the option forbids them
+  flat_corner,      // 9
 };
 
 template <class T, std::size_t Most>
@@ -92,6 +94,10 @@ class CellTets {
     int of_cell;       // the facet of the cell: quads, then triangles
     unsigned corners;  // of the cell, as bits
   };
+  struct TetFacet {
+    std::int32_t tet;
+    int facet;
+  };
   using Starts = FixedVector<std::int32_t, 4 * quad_count>;
 
   Starts starts() const;
@@ -101,6 +107,7 @@ class CellTets {
   TetVerdict leave(std::int32_t tet);
   TetVerdict find_outer_facets();
   TetVerdict judge_quad(std::size_t quad);
+  bool has_flat_corner(const LocalQuad& quad, unsigned diagonal, const std::array<TetFacet, 2>& outermost) const;
 
   const MeshTables& tables_;
   const CellTetRules rules_;

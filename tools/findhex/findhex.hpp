@@ -26,7 +26,7 @@ struct FindhexOptions {
 struct CellCounts {
   std::int64_t complete = 0;                 // rules 1 to 3 and 8 hold
   std::int64_t invalid = 0;                  // rule 4
-  std::array<std::int64_t, 7> by_verdict{};  // rules 5 to 7, by TetVerdict
+  std::array<std::int64_t, 8> by_verdict{};  // rules 5 to 7 and 9, by TetVerdict
 
   std::int64_t accepted() const { return by_verdict[static_cast<int>(TetVerdict::accepted)]; }
   CellCounts& operator+=(const CellCounts& other);

@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
   };
   FindhexOptions options;
   std::vector<std::string> cells{"hex"};
-  std::string quality = "element", inner_vertices = "allow", folded_quads = "drop";
+  std::string quality = "element", inner_vertices = "allow", folded_quads = "drop", flat_corners = "reject";
   const auto declare = [&](CLI::App& app) {
     app.add_option("--cells", cells, "What to find: hex, prism, pyramid, several separated by commas")
         ->check(CLI::IsMember(kinds))
@@ -38,6 +38,9 @@ int main(int argc, char** argv) {
     app.add_option("--folded-quads", folded_quads,
                    "drop or keep: quads whose two triangles in the mesh are folded over")
         ->check(CLI::IsMember({"drop", "keep"}));
+    app.add_option("--flat-corners", flat_corners,
+                   "reject or keep: cells beside the surface that would leave a pyramid flat there")
+        ->check(CLI::IsMember({"reject", "keep"}));
     app.add_option("--max-boundary-tets", options.tet_rules.max_boundary_tets,
                    "Slivers that a cell may have on its quads")
         ->check(CLI::Range(0, 6).description(""));
@@ -48,6 +51,7 @@ int main(int argc, char** argv) {
       if (std::find(cells.begin(), cells.end(), name) != cells.end()) options.kinds.push_back(kind);
     options.quality = qualities.at(quality);
     options.tet_rules.inner_vertices = inner_vertices == "allow";
+    options.tet_rules.flat_corners = flat_corners == "keep";
     options.drop_folded_quads = folded_quads == "drop";
 
     Stage stage(context);

@@ -14,6 +14,7 @@ constexpr std::pair<TetVerdict, const char*> rejections[] = {
     {TetVerdict::crosses_mesh, "rules 6 and 7, a boundary, region or unusable tet within"},
     {TetVerdict::half_on_surface, "rule 7, a quad half on a surface"},
     {TetVerdict::inner_vertex, "an inner vertex"},
+    {TetVerdict::flat_corner, "rule 9, a flat corner left at the surface"},
 };
 
 std::int64_t count_of(const CellCounts& counts, TetVerdict verdict) {
