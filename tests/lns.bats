@@ -76,15 +76,48 @@ PYTHON
   whole --batch 3 -o batch.sol
   whole --fragment-size 600 -o large.sol
   whole --fragment-size 600 --node-limit 1 -o nodes.sol
-  for other in kernel seed size batch large; do assert_different_bytes base.sol $other.sol; done
+  whole --annealed-fragment 0 -o exact.sol
+  whole --annealed-fragment 300 -o annealed.sol
+  assert_different_bytes exact.sol annealed.sol
+  for other in kernel seed size batch large exact annealed; do assert_different_bytes base.sol $other.sol; done
   assert_different_bytes size.sol largest.sol
   assert_different_bytes large.sol nodes.sol
+}
+
+@test "--target-gap ends the search at a bound that is given or that certify proved" {
+  initsol ring.graph --iterations 0 --greedy weight | certify -o proven.tar --stats bound.json
+  lns proven.tar --no-reductions --target-gap 0.08 --time-limit 100 --stats stats.json -o bundle.sol
+  lns --graph ring.graph --solution start.sol --no-reductions --target-gap 0.08 --time-limit 100 -o given.sol \
+    --bound "$("$PYTHON" -c 'import json; print(json.load(open("bound.json"))["bound"])')"
+  assert_same_bytes bundle.sol given.sol
+  "$PYTHON" - "$(weight_of start.sol)" "$(weight_of bundle.sol)" <<'PYTHON'
+import json, sys
+bound, (start, weight) = json.load(open("bound.json"))["bound"], map(int, sys.argv[1:])
+assert start < 0.92 * bound <= weight, (start, bound, weight)
+stats = json.load(open("stats.json"))
+assert stats["seconds"] < 50 and not stats["complete"]
+PYTHON
+  assert_fails_with 1 "lns: --target-gap needs a bound: .*certify" ring --target-gap 0.1 -o out.sol
+  assert_fails_with 2 "lns: .*--target-gap" ring --target-gap 1.5 -o out.sol
+  assert_fails_with 2 "lns: .*--bound" ring --bound -1 -o out.sol
+}
+
+@test "--free-running improves too, and says that its result depends on the timing" {
+  ring --free-running --iterations 300 --threads 2 -o free.sol
+  assert [ "$(weight_of free.sol)" -gt "$(weight_of start.sol)" ]
+  ring --free-running --iterations 20 | tar xO --wildcards 'history/*-lns.json' >history.json
+  grep -q '"depends_on_timing": *true' history.json
+  ring --iterations 20 | tar xO --wildcards 'history/*-lns.json' >history.json
+  refute grep -q depends_on_timing history.json
+  run lns --help
+  assert_output --regexp "--free-running +Threads do not wait"
 }
 
 @test "bad values of options end with 2" {
   assert_fails_with 2 "lns: .*--fragment-size" ring --fragment-size 0
   assert_fails_with 2 "lns: .*--largest-fragment" ring --largest-fragment 100000
   assert_fails_with 2 "lns: .*--node-limit" ring --node-limit 0
+  assert_fails_with 2 "lns: .*--annealed-fragment" ring --annealed-fragment -1
   assert_fails_with 2 "lns: .*--batch" ring --batch -1
   assert_fails_with 2 "lns: .*--seed" ring --seed x
 }

@@ -20,10 +20,11 @@ Annealing::Annealing(const ConflictGraph& graph, const IndependentSet& start, Ra
   best_weight_ = state_.weight();
 }
 
-void Annealing::run(std::int64_t kicks, double temperature, const Deadline& deadline) {
+void Annealing::run(std::int64_t kicks, double temperature, const Deadline& deadline, std::int64_t most_touched) {
   const auto vertices = static_cast<std::uint64_t>(state_.graph().vertex_count());
   if (vertices == 0) return;
-  for (std::int64_t i = 0; i < kicks; ++i) {
+  const std::int64_t touched_before = touched_;
+  for (std::int64_t i = 0; i < kicks && touched_ - touched_before < most_touched; ++i) {
     if (i % 64 == 0 && deadline.passed()) return;
     ++kicks_;
     const std::int64_t before = state_.weight();
@@ -101,12 +102,14 @@ bool Annealing::swap_for_two(std::int32_t v) {
 }
 
 void Annealing::add(std::int32_t v) {
+  count(v);
   state_.add(v);
   step_.push_back(v);
   wait(v);
 }
 
 void Annealing::remove(std::int32_t v) {
+  count(v);
   state_.remove(v, [&](std::int32_t u) {
     if (state_.push_gain(u) > 0)
       wait(u);
@@ -126,6 +129,7 @@ void Annealing::wait(std::int32_t v) {
 void Annealing::take_back() {
   for (std::size_t i = step_.size(); i-- > 0;) {
     const std::int32_t v = step_[i];
+    count(v);
     if (state_.contains(v))
       state_.remove(v);
     else

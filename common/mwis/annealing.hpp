@@ -7,6 +7,7 @@
 // same time.
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "common/mwis/solution_state.hpp"
@@ -31,10 +32,14 @@ class Annealing {
   // `start` is independent; it is made maximal and locally optimal.
   Annealing(const ConflictGraph& graph, const IndependentSet& start, Random random);
 
-  // Makes `kicks` more kicks at this temperature, in units of weight, fewer when the deadline passes.
-  void run(std::int64_t kicks, double temperature, const Deadline& deadline);
+  // Makes `kicks` more kicks at this temperature, in units of weight, fewer when the deadline passes or `most_touched`
+  // neighbours are touched: a kick beside a hub moves thousands of vertices.
+  void run(std::int64_t kicks, double temperature, const Deadline& deadline,
+           std::int64_t most_touched = std::numeric_limits<std::int64_t>::max());
 
   std::int64_t kicks() const { return kicks_; }
+  // Neighbours of the vertices that went in or out, in all: what the time is proportional to.
+  std::int64_t touched() const { return touched_; }
   std::int64_t best_weight() const { return best_weight_; }
   IndependentSet best() const;
   // Of a vertex of the present solution; 1 where nothing is chosen.
@@ -53,6 +58,7 @@ class Annealing {
   void wait(std::int32_t v);
   void take_back();
   void keep();
+  void count(std::int32_t v) { touched_ += state_.graph().degree(v); }
   IndependentSet present_without(const std::vector<std::int32_t>& toggles) const;
 
   Random random_;
@@ -64,7 +70,7 @@ class Annealing {
   std::vector<std::uint32_t> marks_;  // stamp of the last vertex whose neighbour this is
   std::uint32_t stamp_ = 0;
 
-  std::int64_t kicks_ = 0;
+  std::int64_t kicks_ = 0, touched_ = 0;
   std::int64_t best_weight_ = 0;
   std::vector<std::int32_t> step_;  // vertices that went in or out since the kick
   // The best solution is the present one with these taken back; or best_, once they were too many.

@@ -6,6 +6,7 @@
 #include "random_graphs.hpp"
 #include "tools/lns/fragment.hpp"
 #include "tools/lns/lns.hpp"
+#include "tools/lns/repair.hpp"
 #include "tools/lns/schedule.hpp"
 
 namespace hexpipe {
@@ -49,7 +50,7 @@ TEST(FragmentGrower, FreesWhatTheReleasedBlocked) {
     Fragment fragment;
     for (const std::int32_t seed : state.to_set()) {
       const std::size_t target = 1 + random.below(60);
-      grower.begin_round();
+      grower.let_go();
       grower.grow(seed, target, 1000, fragment);
       EXPECT_EQ(fragment.released.front(), seed);
       EXPECT_EQ(std::set(fragment.vertices.begin(), fragment.vertices.end()), free_vertices(state, fragment.released));
@@ -66,7 +67,7 @@ TEST(FragmentGrower, FragmentsOfARoundDoNotTouch) {
     SolutionState state(graph);
     state.make_maximal();
     FragmentGrower grower(state, Random(9));
-    grower.begin_round();
+    grower.let_go();
     std::vector<Fragment> fragments;
     for (const std::int32_t seed : state.to_set()) {
       if (!grower.is_free(seed)) continue;
@@ -90,15 +91,15 @@ TEST(FragmentGrower, KnowsWhenItHasAWholeComponent) {
   const SolutionState state(two_paths, {1, 3, 5});
   FragmentGrower grower(state, Random(9));
   Fragment fragment;
-  grower.begin_round();
+  grower.let_go();
   grower.grow(3, 100, 1000, fragment);
   EXPECT_TRUE(fragment.whole_component);
   EXPECT_EQ(fragment.vertices.size(), 3u);
-  grower.begin_round();
+  grower.let_go();
   grower.grow(3, 1, 1000, fragment);
   EXPECT_FALSE(fragment.whole_component);
   EXPECT_EQ(fragment.frontier, (std::vector<std::int32_t>{5}));
-  grower.begin_round();
+  grower.let_go();
   grower.grow(1, 100, 2, fragment);
   EXPECT_FALSE(fragment.whole_component) << "the limit left a vertex out";
   EXPECT_EQ(fragment.vertices.size(), 2u);
@@ -109,7 +110,7 @@ TEST(FragmentGrower, ExtractsTheGraphOfItsVertices) {
   const SolutionState state(path, {1, 3});
   FragmentGrower grower(state, Random(9));
   Fragment fragment;
-  grower.begin_round();
+  grower.let_go();
   grower.grow(1, 2, 1000, fragment);
   DenseGraph dense;
   std::vector<bits::Word> chosen;
@@ -152,6 +153,76 @@ TEST(Schedule, AdaptsSizesWithinLimits) {
   for (int i = 0; i < 50; ++i) schedule.shrink(0);
   EXPECT_GE(schedule.size_at(0), 1u);
   EXPECT_LE(schedule.size_at(0), 20u);
+}
+
+TEST(FragmentGrower, LetsGoOfFragmentsInAnyOrder) {
+  const ConflictGraph paths = make_graph({1, 2, 1, 1, 2, 1, 1}, {{0, 1}, {1, 2}, {3, 4}, {4, 5}});
+  const SolutionState state(paths, {1, 4, 6});
+  FragmentGrower grower(state, Random(9));
+  Fragment first, second, third;
+  grower.grow(1, 3, 1000, first);
+  grower.grow(4, 3, 1000, second);
+  EXPECT_FALSE(grower.is_free(0));
+  EXPECT_FALSE(grower.is_free(4));
+  EXPECT_TRUE(grower.is_free(6));
+  grower.let_go(second);
+  EXPECT_FALSE(grower.is_free(0));
+  EXPECT_TRUE(grower.is_free(4));
+  grower.grow(6, 1, 1000, third);
+  grower.let_go(first);
+  EXPECT_TRUE(grower.is_free(0));
+  EXPECT_FALSE(grower.is_free(6));
+  grower.let_go();
+  EXPECT_TRUE(grower.is_free(6));
+}
+
+TEST(Effort, FollowsTheYield) {
+  constexpr double work = 1e8;
+  Effort effort(0.2);
+  EXPECT_EQ(effort.share_of(Way::exact), 0.5);
+  const auto share_done = [&](double exact_gain, double anneal_gain) {
+    int exact = 0;
+    for (int i = 0; i < 100; ++i) {
+      const Way way = effort.next();
+      exact += way == Way::exact;
+      effort.record(way, work, way == Way::exact ? exact_gain : anneal_gain);
+    }
+    return exact;
+  };
+  EXPECT_NEAR(share_done(0, 0), 50, 1) << "nothing is gained";
+  EXPECT_NEAR(share_done(100, 1), 80, 5);
+  EXPECT_NEAR(share_done(1, 100), 20, 10);
+}
+
+TEST(Repair, NeverLosesInEitherWay) {
+  Random random(11);
+  for (int i = 0; i < 40; ++i) {
+    const ConflictGraph graph = hexpipe::testing::random_clique_graph(200, 150, 1000, random);
+    SolutionState state(graph);
+    state.make_maximal();
+    FragmentGrower grower(state, Random(9));
+    const std::int32_t seed = state.to_set()[random.below(state.to_set().size())];
+    for (const Way way : all_ways) {
+      grower.let_go();
+      Repair repair;
+      repair.begin(way);
+      grower.grow(seed, 60, 120, repair.fragment());
+      repair.extract(grower);
+      repair.solve(way == Way::exact ? 1000 : 20, Random(i), no_deadline);
+      std::int64_t before = 0, after = 0;
+      IndependentSet chosen;
+      const auto& vertices = repair.fragment().vertices;
+      for (std::size_t place = 0; place < vertices.size(); ++place) {
+        if (state.contains(vertices[place])) before += graph.weights[vertices[place]];
+        if (repair.chooses(place)) chosen.push_back(vertices[place]);
+      }
+      std::ranges::sort(chosen);
+      ASSERT_NO_THROW(validate(chosen, graph, "repair"));
+      after = total_weight(chosen, graph);
+      EXPECT_GE(after, before);
+      EXPECT_GT(repair.work(), 0);
+    }
+  }
 }
 
 TEST(Lns, FindsTheOptimumOfSmallGraphs) {
@@ -223,6 +294,37 @@ TEST(Lns, DoesNotDependOnThreads) {
   EXPECT_EQ(one, with_threads(1));
 }
 
+TEST(Lns, RunsFreely) {
+  Random random(10);
+  const ConflictGraph graph = hexpipe::testing::random_clique_graph(2000, 1500, 1000, random);
+  for (const int threads : {1, 4}) {
+    const ThreadLimit limit(threads);
+    const LnsOptions options{.iterations = 300, .fragment_size = 40, .free_running = true};
+    const LnsResult none = improve_by_lns(graph, {}, {.iterations = 0}, no_deadline);
+    const LnsResult result = improve_by_lns(graph, none.solution, options, no_deadline);
+    ASSERT_NO_THROW(validate(result.solution, graph, "solution"));
+    EXPECT_EQ(result.weight, total_weight(result.solution, graph));
+    EXPECT_GT(result.weight, none.weight);
+    EXPECT_LE(result.iterations, 300);
+  }
+}
+
+TEST(Lns, EndsAtItsTarget) {
+  Random random(12);
+  const ConflictGraph graph = hexpipe::testing::random_clique_graph(2000, 1500, 1000, random);
+  const LnsResult start = improve_by_lns(graph, {}, {.iterations = 0}, no_deadline);
+  for (const bool reduce : {false, true}) {
+    const LnsOptions options{.iterations = 2000, .fragment_size = 40, .reduce = reduce};
+    const LnsResult whole = improve_by_lns(graph, start.solution, options, no_deadline);
+    LnsOptions halfway = options;
+    halfway.target = (start.weight + whole.weight) / 2;
+    const LnsResult half = improve_by_lns(graph, start.solution, halfway, no_deadline);
+    EXPECT_GE(half.weight, halfway.target);
+    EXPECT_LT(half.iterations, whole.iterations);
+    EXPECT_EQ(improve_by_lns(graph, half.solution, halfway, no_deadline).iterations, 0);
+  }
+}
+
 TEST(Lns, ReportsRisingWeights) {
   Random random(7);
   const ConflictGraph graph = hexpipe::testing::random_clique_graph(500, 300, 1000, random);
@@ -248,7 +350,7 @@ TEST(Lns, StopsAtItsDeadline) {
   const LnsResult result = improve_by_lns(graph, {}, {.fragment_size = 1000, .node_limit = 1000000000}, deadline);
   EXPECT_FALSE(result.complete);
   EXPECT_GE(watch.seconds(), 0.15);  // it keeps back what putting the result together takes
-  EXPECT_LT(watch.seconds(), 1.0);  // a machine under load
+  EXPECT_LT(watch.seconds(), 1.0);   // a machine under load
 }
 
 }  // namespace

@@ -15,18 +15,25 @@ void Fragment::clear() {
 FragmentGrower::FragmentGrower(const SolutionState& state, Random random)
     : state_(state), random_(random), marks_(static_cast<std::size_t>(state.graph().vertex_count())) {}
 
-void FragmentGrower::begin_round() {
-  // Stamps are never used twice; before they run out (after 4 billion fragments) all marks are taken back.
+void FragmentGrower::let_go() {
+  // Stamps are never used twice; before they run out (after 2 billion fragments) all marks are taken back.
   if (stamp_ > std::numeric_limits<std::uint32_t>::max() / 2) {
     std::ranges::fill(marks_, Mark{});
     stamp_ = 0;
   }
-  round_begin_ = stamp_ + 1;
+  held_.clear();
+  oldest_held_ = stamp_ + 1;
+}
+
+void FragmentGrower::let_go(const Fragment& fragment) {
+  held_[fragment.stamp - oldest_held_] = 0;
+  for (; !held_.empty() && held_.front() == 0; ++oldest_held_) held_.pop_front();
 }
 
 void FragmentGrower::grow(std::int32_t seed, std::size_t target, std::size_t limit, Fragment& fragment) {
   fragment.clear();
   fragment.stamp = ++stamp_;
+  held_.push_back(1);
   partly_freed_.clear();
   next_partly_freed_ = 0;
   next_vertex_ = 0;
@@ -64,7 +71,7 @@ void FragmentGrower::touch(std::int32_t u, std::int32_t released, std::size_t li
 
   const std::int32_t left = state_.tightness(u) - mark.released_neighbours;
   if (left == 0) {
-    const bool claimed = mark.claim >= round_begin_ && mark.claim != fragment.stamp;
+    const bool claimed = mark.claim != fragment.stamp && is_held(mark.claim);
     if (claimed || fragment.vertices.size() >= limit)
       left_out_ = true;
     else
@@ -83,14 +90,14 @@ void FragmentGrower::include(std::int32_t v, Fragment& fragment) {
   mark.index = static_cast<std::int32_t>(fragment.vertices.size());
   fragment.vertices.push_back(v);
   for (const std::int32_t u : state_.graph().neighbours_of(v))
-    if (marks_[u].claim < round_begin_) marks_[u].claim = fragment.stamp;
+    if (!is_held(marks_[u].claim)) marks_[u].claim = fragment.stamp;
 }
 
 void FragmentGrower::queue(std::int32_t v, Fragment& fragment) {
   Mark& mark = marks_[v];
   if (mark.queued == fragment.stamp) return;
   mark.queued = fragment.stamp;
-  const bool released_by_another = mark.member >= round_begin_;
+  const bool released_by_another = mark.member != fragment.stamp && is_held(mark.member);
   if (released_by_another)
     left_out_ = true;
   else
@@ -131,6 +138,25 @@ void FragmentGrower::extract(const Fragment& fragment, DenseGraph& graph, std::v
     for (const std::int32_t u : state_.graph().neighbours_of(v))
       if (marks_[u].member == fragment.stamp) bits::insert(row, static_cast<std::size_t>(marks_[u].index));
   }
+}
+
+void FragmentGrower::extract(const Fragment& fragment, ConflictGraph& graph, IndependentSet& chosen) const {
+  graph = {};
+  chosen.clear();
+  for (std::size_t i = 0; i < fragment.vertices.size(); ++i) {
+    const std::int32_t v = fragment.vertices[i];
+    if (state_.contains(v)) chosen.push_back(static_cast<std::int32_t>(i));
+    graph.weights.push_back(state_.graph().weights[v]);
+    for (const std::int32_t u : state_.graph().neighbours_of(v))
+      if (marks_[u].member == fragment.stamp) graph.neighbours.push_back(marks_[u].index);
+    graph.offsets.push_back(static_cast<std::int64_t>(graph.neighbours.size()));
+  }
+}
+
+void FragmentGrower::sort(Fragment& fragment) {
+  std::ranges::sort(fragment.vertices);
+  for (std::size_t i = 0; i < fragment.vertices.size(); ++i)
+    marks_[fragment.vertices[i]].index = static_cast<std::int32_t>(i);
 }
 
 }  // namespace hexpipe

@@ -2,6 +2,7 @@
 // Fragments: connected parts of the conflict graph that are freed and solved anew while everything else stays.
 
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -23,22 +24,28 @@ struct Fragment {
 };
 
 // Grows fragments from seeds, each at a cost of O(sum of the degrees of its vertices), without allocation once its
-// memory has grown. Fragments of one round do not touch each other, so that they can be solved at the same time.
+// memory has grown. Fragments do not touch those that are held, so that they can be solved at the same time.
 class FragmentGrower {
  public:
   FragmentGrower(const SolutionState& state, Random random);
 
-  // Forgets the fragments of the last round; the state may have changed.
-  void begin_round();
-  // False when a fragment of this round has the vertex or a neighbour of it.
-  bool is_free(std::int32_t v) const { return marks_[v].claim < round_begin_; }
+  // Lets go of all fragments; the state may have changed.
+  void let_go();
+  // Lets go of one; the state may have changed in it.
+  void let_go(const Fragment& fragment);
+  // False when a held fragment has the vertex or a neighbour of it.
+  bool is_free(std::int32_t v) const { return !is_held(marks_[v].claim); }
   // Releases chosen vertices around `seed`, itself free and chosen, until at least `target` vertices are free or the
-  // component is. No more than `limit` become free, which matters at vertices of high degree.
+  // component is. No more than `limit` become free, which matters at vertices of high degree. The fragment is held.
   void grow(std::int32_t seed, std::size_t target, std::size_t limit, Fragment& fragment);
 
   // The graph of the fragment's vertices; `chosen` gets the released ones. Safe to call at the same time for several
-  // fragments of this round.
+  // fragments that are held.
   void extract(const Fragment& fragment, DenseGraph& graph, std::vector<bits::Word>& chosen) const;
+  // Likewise for fragments that are too large for a matrix; the fragment's vertices have to ascend.
+  void extract(const Fragment& fragment, ConflictGraph& graph, IndependentSet& chosen) const;
+  // Brings the fragment's vertices into ascending order.
+  void sort(Fragment& fragment);
 
  private:
   struct Mark {
@@ -57,6 +64,7 @@ class FragmentGrower {
   void queue(std::int32_t v, Fragment& fragment);
   void vary(std::size_t next, Fragment& fragment);
   bool queue_beyond(Fragment& fragment);
+  bool is_held(std::uint32_t stamp) const { return stamp >= oldest_held_ && held_[stamp - oldest_held_] != 0; }
 
   const SolutionState& state_;
   Random random_;
@@ -64,7 +72,9 @@ class FragmentGrower {
   std::vector<std::int32_t> partly_freed_;  // touched vertices that were not freed at once
   std::size_t next_partly_freed_ = 0;
   std::size_t next_vertex_ = 0;  // of the fragment, whose neighbours were not looked at for want of anything nearer
-  std::uint32_t stamp_ = 0, round_begin_ = 1;
+  std::uint32_t stamp_ = 0;
+  std::uint32_t oldest_held_ = 1;
+  std::deque<char> held_;  // by stamp, from the oldest that is held on
   bool left_out_ = false;  // a vertex was not freed because of another fragment or the limit
 };
 

@@ -2,16 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <condition_variable>
+#include <mutex>
 #include <vector>
 
-#include "common/mwis/exact_solver.hpp"
 #include "common/mwis/kernel.hpp"
 #include "common/run/parallel.hpp"
+#include "tools/lns/effort.hpp"
 #include "tools/lns/fragment.hpp"
+#include "tools/lns/repair.hpp"
 #include "tools/lns/schedule.hpp"
 
 namespace hexpipe {
 namespace {
+
+// Of annealing a fragment for the first time. Of 20 and 60, on random-33k after 8 s: 20, by far.
+constexpr std::int64_t kicks_a_vertex = 20;
 
 class Lns {
  public:
@@ -22,109 +28,191 @@ class Lns {
         report_(report),
         state_(graph, initial),
         grower_(state_, Random(options.seed, 1)),
-        schedule_(graph.weights.size(), options.fragment_size, options.largest_fragment, Random(options.seed, 0)),
-        tasks_(static_cast<std::size_t>(options.batch)) {
+        exact_(graph.weights.size(), options.fragment_size, options.largest_fragment, Random(options.seed, 0)),
+        annealed_(graph.weights.size(), options.annealed_fragment, options.annealed_fragment, Random(options.seed, 2)) {
     state_.make_maximal();
-    for (std::int32_t v = 0; v < graph.vertex_count(); ++v)
-      if (state_.contains(v)) schedule_.renew(v);
+    for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
+      if (!state_.contains(v)) continue;
+      exact_.renew(v);
+      annealed_.renew(v);
+    }
   }
 
   LnsResult run() {
-    while (iterations_ < options_.iterations && !deadline_.passed() && grow_round()) {
-      parallel_for(round_size_, 1, [&](std::int64_t i) { solve(tasks_[i]); });
-      for (int i = 0; i < round_size_; ++i) apply(tasks_[i]);
-    }
+    if (options_.free_running)
+      run_free();
+    else
+      run_rounds();
     state_.make_maximal();
-    const bool complete = closed_ == state_.graph().vertex_count();
-    return {state_.to_set(), state_.weight(), iterations_, improvements_, complete};
+    return {state_.to_set(), state_.weight(), iterations_, improvements_, is_complete()};
   }
 
  private:
-  struct Task {
-    Fragment fragment;
-    DenseGraph graph;
-    std::vector<bits::Word> chosen;
-    ExactSolver solver;
-    bool complete = false;
-  };
+  bool is_complete() const { return closed_ == state_.graph().vertex_count(); }
+  bool goes_on() const {
+    return begun_ < options_.iterations && state_.weight() < options_.target && !is_complete() && !deadline_.passed();
+  }
+  Way next_way() const { return options_.annealed_fragment > 0 ? effort_.next() : Way::exact; }
+  Schedule& schedule_of(Way way) { return way == Way::exact ? exact_ : annealed_; }
 
-  // Fills the round with fragments that do not touch each other; false when no seed is left.
-  bool grow_round() {
-    grower_.begin_round();
-    round_size_ = 0;
+  void run_rounds() {
+    std::vector<Repair> repairs(static_cast<std::size_t>(options_.batch));
+    while (goes_on()) {
+      const std::int64_t first = begun_;
+      const std::int64_t size = grow_round(repairs);
+      if (size == 0) return;
+      parallel_for(size, 1, [&](std::int64_t i) {
+        repairs[i].extract(grower_);
+        solve(repairs[i], first + i);
+      });
+      grower_.let_go();
+      for (std::int64_t i = 0; i < size; ++i) apply(repairs[i]);
+    }
+  }
+
+  // Fills the round with fragments that do not touch each other.
+  std::int64_t grow_round(std::vector<Repair>& repairs) {
+    const Way way = next_way();
+    const auto batch = static_cast<std::int64_t>(way == Way::exact ? options_.batch : (options_.batch + 3) / 4);
+    const std::int64_t wanted = std::min(batch, options_.iterations - begun_);
+    std::int64_t size = 0;
+    while (size < wanted && grow(way, repairs[size], batch)) ++size;
+    return size;
+  }
+
+  // Each thread takes a fragment, solves it beside the others, and puts it back, on its own.
+  void run_free() {
+    std::mutex mutex;
+    std::condition_variable put_back;
+    parallel_for(thread_count(), 1, [&](std::int64_t) {
+      Repair repair;
+      std::unique_lock lock(mutex);
+      while (goes_on()) {
+        if (!grow(next_way(), repair, options_.batch)) {
+          if (begun_ == iterations_) return;
+          put_back.wait(lock);
+          continue;
+        }
+        repair.extract(grower_);
+        const std::int64_t index = begun_ - 1;
+        const std::int64_t effort = effort_for(repair);
+        lock.unlock();
+        repair.solve(effort, random_for(index), deadline_);
+        lock.lock();
+        grower_.let_go(repair.fragment());
+        apply(repair);
+        put_back.notify_all();
+      }
+      put_back.notify_all();
+    });
+  }
+
+  // Grows a fragment from the next seed that is free; false when there is none among so many.
+  bool grow(Way way, Repair& repair, std::int64_t most_postponed) {
+    Schedule& schedule = schedule_of(way);
     postponed_.clear();
-    const auto wanted = static_cast<int>(std::min<std::int64_t>(options_.batch, options_.iterations - iterations_));
-    while (round_size_ < wanted && std::ssize(postponed_) < options_.batch) {
-      const auto seed = schedule_.take();
+    bool grown = false;
+    while (!grown && std::ssize(postponed_) < most_postponed) {
+      const auto seed = schedule.take();
       if (!seed) break;
       if (!state_.contains(*seed)) continue;
       if (!grower_.is_free(*seed)) {
         postponed_.push_back(*seed);
         continue;
       }
-      const std::size_t size = schedule_.size_at(*seed);
-      grower_.grow(*seed, size, std::min(options_.largest_fragment, 2 * size), tasks_[round_size_++].fragment);
+      const std::size_t size = schedule.size_at(*seed);
+      const std::size_t largest = way == Way::exact ? options_.largest_fragment : 2 * size;
+      repair.begin(way);
+      grower_.grow(*seed, size, std::min(largest, 2 * size), repair.fragment());
+      ++begun_;
+      grown = true;
     }
-    for (const std::int32_t v : postponed_) schedule_.wait(v);
-    return round_size_ > 0;
+    for (const std::int32_t v : postponed_) schedule.wait(v);
+    return grown;
   }
 
-  void solve(Task& task) const {
-    grower_.extract(task.fragment, task.graph, task.chosen);
-    SearchBudget budget(options_.node_limit, &deadline_);
-    task.complete = task.solver.solve(task.graph, task.chosen, budget);
+  Random random_for(std::int64_t index) const { return {options_.seed, static_cast<std::uint64_t>(3 + index)}; }
+
+  // Where annealing did not help, the next one is slower.
+  std::int64_t effort_for(const Repair& repair) const {
+    if (repair.way() == Way::exact) return options_.node_limit;
+    return kicks_a_vertex * (1 + std::min<std::int64_t>(annealed_.tries_at(repair.fragment().released.front()), 15));
   }
 
-  void apply(const Task& task) {
+  void solve(Repair& repair, std::int64_t index) const {
+    repair.solve(effort_for(repair), random_for(index), deadline_);
+  }
+
+  void apply(const Repair& repair) {
     ++iterations_;
     const std::int64_t before = state_.weight();
-    exchange(task);
-    if (state_.weight() > before) {
+    if (exchange(repair) && state_.weight() > before) {
       ++improvements_;
       if (report_) report_({iterations_, state_.weight()});
-      renew_around(task);
+      renew_around(repair);
     } else {
-      retire_around(task);
+      retire_around(repair);
     }
-    if (task.complete && task.fragment.whole_component) {
-      closed_ += static_cast<std::int32_t>(task.fragment.vertices.size());
-      for (const std::int32_t v : task.fragment.vertices) schedule_.close(v);
-    }
+    effort_.record(repair.way(), repair.work(), static_cast<double>(state_.weight() - before));
+    if (repair.complete() && repair.fragment().whole_component) close(repair.fragment());
   }
 
-  void exchange(const Task& task) {
-    const auto& vertices = task.fragment.vertices;
+  // False when nothing was changed: what free-running threads applied meanwhile, next to the fragment, is in conflict.
+  bool exchange(const Repair& repair) {
+    const auto& vertices = repair.fragment().vertices;
+    removed_.clear();
     for (std::size_t i = 0; i < vertices.size(); ++i)
-      if (state_.contains(vertices[i]) && !bits::test(task.chosen.data(), i)) state_.remove(vertices[i]);
+      if (state_.contains(vertices[i]) && !repair.chooses(i)) removed_.push_back(vertices[i]);
+    for (const std::int32_t v : removed_) state_.remove(v);
     for (std::size_t i = 0; i < vertices.size(); ++i)
-      if (!state_.contains(vertices[i]) && bits::test(task.chosen.data(), i)) state_.add(vertices[i]);
-    // What branch and bound found before its limit need not be maximal.
+      if (repair.chooses(i) && state_.tightness(vertices[i]) != 0) {
+        for (const std::int32_t v : removed_) state_.add(v);
+        return false;
+      }
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      if (repair.chooses(i) && !state_.contains(vertices[i])) state_.add(vertices[i]);
+    // What a search found before its limit need not be maximal.
     for (const std::int32_t v : vertices)
       if (!state_.contains(v) && state_.tightness(v) == 0) state_.add(v);
+    return true;
   }
 
   // Everything that could be better now, because it is in the fragment or could share one with it.
-  void renew_around(const Task& task) {
-    const std::size_t size = schedule_.size_at(task.fragment.released.front());
-    for (const std::int32_t v : task.fragment.vertices) {
+  void renew_around(const Repair& repair) {
+    const Fragment& fragment = repair.fragment();
+    const std::size_t size = exact_.size_at(fragment.released.front());
+    const auto renew = [&](std::int32_t v) {
+      exact_.renew(v);
+      annealed_.renew(v);
+    };
+    for (const std::int32_t v : fragment.vertices) {
       if (!state_.contains(v)) continue;
-      schedule_.set_size(v, size);
-      schedule_.renew(v);
+      exact_.set_size(v, size);
+      renew(v);
     }
-    for (const std::int32_t v : task.fragment.frontier) schedule_.renew(v);
+    for (const std::int32_t v : fragment.frontier) renew(v);
   }
 
   // The inner half of the fragment has its surroundings solved too.
-  void retire_around(const Task& task) {
-    const auto& released = task.fragment.released;
+  void retire_around(const Repair& repair) {
+    const auto& released = repair.fragment().released;
     const std::size_t inner = (released.size() + 1) / 2;
+    Schedule& schedule = schedule_of(repair.way());
     for (std::size_t i = 0; i < inner; ++i) {
       if (!state_.contains(released[i])) continue;
-      if (task.complete)
-        schedule_.enlarge(released[i]);
-      else
-        schedule_.shrink(released[i]);
-      schedule_.retire(released[i]);
+      if (repair.way() == Way::exact && repair.complete())
+        schedule.enlarge(released[i]);
+      else if (repair.way() == Way::exact)
+        schedule.shrink(released[i]);
+      schedule.retire(released[i]);
+    }
+  }
+
+  void close(const Fragment& fragment) {
+    closed_ += static_cast<std::int32_t>(fragment.vertices.size());
+    for (const std::int32_t v : fragment.vertices) {
+      exact_.close(v);
+      annealed_.close(v);
     }
   }
 
@@ -133,11 +221,10 @@ class Lns {
   const std::function<void(const LnsProgress&)>& report_;
   SolutionState state_;
   FragmentGrower grower_;
-  Schedule schedule_;
-  std::vector<Task> tasks_;
-  std::vector<std::int32_t> postponed_;
-  int round_size_ = 0;
-  std::int64_t iterations_ = 0;
+  Schedule exact_, annealed_;
+  Effort effort_;
+  std::vector<std::int32_t> postponed_, removed_;
+  std::int64_t begun_ = 0, iterations_ = 0;  // fragments grown, and put back
   std::int64_t improvements_ = 0;
   std::int32_t closed_ = 0;  // vertices of components that are solved to the end
 };
@@ -161,7 +248,9 @@ LnsResult search_kernel(const ConflictGraph& graph, const IndependentSet& start,
     best = now.weight + kernel.offset();
     report({now.iteration, best});
   };
-  LnsResult result = Lns(kernel.graph(), kernel.project(start), options, deadline, report_whole).run();
+  LnsOptions kernel_options = options;
+  kernel_options.target -= kernel.offset();
+  LnsResult result = Lns(kernel.graph(), kernel.project(start), kernel_options, deadline, report_whole).run();
   result.solution = kernel.lift(result.solution);
   result.weight = total_weight(result.solution, graph);
   return result;
@@ -177,7 +266,7 @@ LnsResult improve_by_lns(const ConflictGraph& graph, const IndependentSet& initi
   const IndependentSet start = state.to_set();
   // The lift at the end costs as much as this: a quarter of a second at 33 million edges.
   const Deadline search_deadline = earlier(deadline, watch.seconds());
-  const bool idle = options.iterations == 0 || deadline.passed();
+  const bool idle = options.iterations == 0 || state.weight() >= options.target || deadline.passed();
   LnsResult result = options.reduce && !idle ? search_kernel(graph, start, options, search_deadline, report)
                                              : Lns(graph, start, options, search_deadline, report).run();
   if (result.weight < state.weight()) {

@@ -1,8 +1,9 @@
 #pragma once
-// Large neighbourhood search (Verhetsel 2017, 3.4 and 4.3): frees a fragment of the graph, solves it exactly while the
-// rest stays, and keeps what is not lighter. Deviates from algorithms 13 to 16 in working in rounds of fragments that
-// do not touch each other, solved in parallel and applied in order, so that the result does not depend on the number of
-// threads, and in searching the kernel that exact reductions leave.
+// Large neighbourhood search (Verhetsel 2017, 3.4 and 4.3): frees a fragment of the graph, solves it while the rest
+// stays, and keeps what is not lighter. Deviates from algorithms 13 to 16 in working in rounds of fragments that do not
+// touch each other, solved in parallel and applied in order, so that the result does not depend on the number of
+// threads; in annealing larger fragments beside solving smaller ones exactly; and in searching the kernel that exact
+// reductions leave.
 
 #include <cstdint>
 #include <functional>
@@ -18,9 +19,13 @@ struct LnsOptions {
   std::int64_t iterations = std::numeric_limits<std::int64_t>::max();  // fragments solved
   std::size_t fragment_size = 100;                                     // free vertices of the first fragments
   std::size_t largest_fragment = 1000;
-  std::int64_t node_limit = 1000;  // of branch and bound, a fragment
-  int batch = 16;                  // fragments in a round
-  bool reduce = true;              // search the kernel that exact reductions leave
+  std::int64_t node_limit = 1000;        // of branch and bound, a fragment
+  std::size_t annealed_fragment = 2000;  // free vertices of fragments that are annealed; 0: none are
+  int batch = 16;                        // fragments in a round, a quarter of them in one that anneals
+  bool reduce = true;                    // search the kernel that exact reductions leave
+  // Every thread goes on to the next fragment when it has done one. Faster, but the result depends on the timing.
+  bool free_running = false;
+  std::int64_t target = std::numeric_limits<std::int64_t>::max();  // ends the search at this weight
 };
 
 struct LnsProgress {
