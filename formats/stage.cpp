@@ -176,6 +176,7 @@ struct Stage::State {
     return std::find(roles.begin(), roles.end(), role) != roles.end();
   }
 
+  void choose_output();
   void read_bundle(Input& input, const std::set<Role>& taken, StageData& data);
   void read_files(std::map<Role, Input>& files, StageData& data);
   void orient(TetMesh& mesh, const std::string& name) const;
@@ -189,21 +190,27 @@ struct Stage::State {
 Stage::Stage(const RunContext& context) : state_(std::make_unique<State>()) {
   state_->context = context;
   const StreamOptions& streams = context.streams;
-  state_->format = choose_format(streams, state_->product());
-  const bool to_stdout = streams.output.empty() || streams.output == "-";
-  if (to_stdout && !is_text_format(state_->format) && isatty(STDOUT_FILENO))
-    throw UsageError(
-        fmt::format("standard output is a terminal: pipe it to the next tool, or write a file with -o, or text "
-                    "with --format {}",
-                    product_formats(state_->product()).front()));
+  if (context.info.product) state_->choose_output();
   int from_stdin = streams.operand == "-" ? 1 : 0;
   for (const auto& [role, path] : streams.files) from_stdin += path == "-" ? 1 : 0;
   if (from_stdin > 1) throw UsageError("expected at most one input from standard input ('-'), found several");
 }
 
+void Stage::State::choose_output() {
+  const StreamOptions& streams = context.streams;
+  format = choose_format(streams, product());
+  const bool to_stdout = streams.output.empty() || streams.output == "-";
+  if (to_stdout && !is_text_format(format) && isatty(STDOUT_FILENO))
+    throw UsageError(
+        fmt::format("standard output is a terminal: pipe it to the next tool, or write a file with -o, or text "
+                    "with --format {}",
+                    product_formats(product()).front()));
+}
+
 Stage::~Stage() = default;
 
 void Stage::begin() {
+  if (!state_->context.info.product) return;
   state_->output.emplace(state_->context.streams.output);
   if (is_bundle_format(state_->format))
     state_->bundle.emplace(*state_->output,
@@ -220,7 +227,7 @@ StageData Stage::read(const std::vector<Role>& needs, const std::vector<Role>& w
   for (const auto& [role, path] : streams.files) files.emplace(role, Input::open(path));
 
   // Files may cover all that is needed; otherwise there must be an operand or a stream.
-  const bool covered = std::all_of(needs.begin(), needs.end(), [&](Role role) { return files.contains(role); });
+  const bool covered = !files.empty() && std::all_of(needs.begin(), needs.end(), [&](Role role) { return files.contains(role); });
   std::optional<Input> input;
   if (streams.operand) {
     input = Input::open(*streams.operand);
@@ -233,7 +240,7 @@ StageData Stage::read(const std::vector<Role>& needs, const std::vector<Role>& w
   if (input && !looks_like_bundle(*input)) {
     if (input->peek(1).empty())
       throw DataError::at(input->name(), "expected a bundle or the {}, found nothing: it is empty",
-                          name_of(needs.front()));
+                          name_of(state.context.info.reads.front()));
     const Role primary = state.context.info.reads.front();
     if (files.contains(primary))
       throw DataError::at(input->name(), "expected a bundle beside --{}, found another file", name_of(primary));
@@ -308,6 +315,10 @@ void Stage::State::read_files(std::map<Role, Input>& files, StageData& data) {
 std::string Stage::State::source_of(Role role) const {
   const auto found = sources.find(role);
   return found == sources.end() ? std::string(name_of(role)) : fmt::format("{}: {}", found->second, name_of(role));
+}
+
+std::string Stage::source_of(Role role) const {
+  return state_->source_of(role);
 }
 
 void Stage::State::check(const StageData& data) const {

@@ -35,8 +35,11 @@ class Stage {
 
   // Reads the roles in `needs` (an error when one is missing) and those in `wants` (taken when there), each validated,
   // and the solution against the graph. When the output is a bundle every other member passes through, except the
-  // tool's own product and what depends on it.
+  // tool's own product and what depends on it. A tool without a product only reads.
   StageData read(const std::vector<Role>& needs, const std::vector<Role>& wants = {});
+
+  // The file (or stream) that a role was read from, for messages about it.
+  std::string source_of(Role role) const;
 
   // For a tool without StageData input (tetmesh): nothing is read, the bundle starts empty.
   void begin();

@@ -251,5 +251,46 @@ assert hexes['complete'] == hexes['candidates'] + sum(hexes['rejected'].values()
 
 @test "a mesh without tets is an error" {
   printf 'MeshVersionFormatted 2\nDimension 3\nVertices\n3\n0 0 0 0\n1 0 0 0\n0 1 0 0\nTriangles\n1\n1 2 3 1\nEnd\n' >surface.mesh
-  assert_fails_with 1 "findhex: mesh: expected tets, found none" findhex surface.mesh -o out.tar
+  assert_fails_with 1 "^findhex: surface.mesh: mesh: expected tets, found none" findhex surface.mesh -o out.tar
+}
+
+@test "indices out of range are errors that name the file" {
+  lattice kuhn 2 | sed 's/^1 10 14 13 1$/1 10 14 28 1/;s/^1 2 5 14 1$/1 2 5 28 1/' >range.mesh
+  assert_different_bytes <(lattice kuhn 2) range.mesh
+  assert_fails_with 1 "^findhex: range.mesh:.*28" findhex --mesh range.mesh -o out.cand
+  assert [ ! -e out.cand ]
+}
+
+@test "tets that overlap without a common facet are searched as they are; flat ones are warned of" {
+  # Two lattices, one through the other.
+  lattice kuhn 2 >one.mesh
+  $PYTHON - one.mesh >two.mesh <<'PYTHON'
+import sys
+lines = open(sys.argv[1]).read().splitlines()
+v, t = lines.index("Vertices"), lines.index("Tetrahedra")
+n, m = int(lines[v + 1]), int(lines[t + 1])
+points, tets = lines[v + 2:v + 2 + n], lines[t + 2:t + 2 + m]
+moved = [" ".join([str(float(x) + 0.3) for x in p.split()[:3]] + ["0"]) for p in points]
+again = [" ".join([str(int(i) + n) for i in q.split()[:4]] + ["1"]) for q in tets]
+print("MeshVersionFormatted 2\nDimension 3\nVertices\n%d" % (2 * n), *points, *moved, "Tetrahedra\n%d" % (2 * m), *tets,
+      *again, "End", sep="\n")
+PYTHON
+  findhex --mesh one.mesh -o one.cand
+  run_apart findhex --mesh two.mesh -o two.cand
+  assert_success
+  assert_equal "$(count two.cand)" $((2 * $(count one.cand)))
+  # A tet of four points in a plane, beside the others.
+  sed -e 's/^48$/49/' -e 's/^End/1 4 7 2 1\nEnd/' one.mesh >flat.mesh
+  run_apart findhex --mesh flat.mesh -o flat.cand
+  assert_success
+  assert_equal "$stderr" "findhex: warning: 0 inverted and 1 flat of 49 tets: no candidate uses them"
+}
+
+@test "two regions that share a facet are searched each for itself" {
+  lattice kuhn 3 >one.mesh
+  two_regions one.mesh >two.mesh
+  findhex --mesh one.mesh -o one.cand
+  findhex --mesh two.mesh -o two.cand
+  assert [ "$(count two.cand)" -gt 0 ]
+  assert [ "$(count two.cand)" -lt "$(count one.cand)" ]
 }

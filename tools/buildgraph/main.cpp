@@ -1,6 +1,6 @@
-
 #include <map>
 
+#include "common/run/cpu_phases.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/stage.hpp"
@@ -31,14 +31,19 @@ int main(int argc, char** argv) {
   };
   const auto run = [&](RunContext& context) {
     options.weight = weights.at(weight);
+    CpuPhases phases;
     Stage stage(context);
     const StageData data = stage.read({Role::candidates});
-    const ConflictGraph graph = buildgraph(*data.candidates, options, "candidates");
+    phases.end("read");
+    const ConflictGraph graph = buildgraph(*data.candidates, options, stage.source_of(Role::candidates).c_str());
+    phases.end("build");
     const GraphSummary summary = summarize(graph);
     for (const auto& warning : warnings_about(summary)) context.warn(warning);
     context.note(summary_line(summary));
     context.statistics.update(to_json(summary));
     stage.write(graph, {{"vertices", summary.vertices}, {"edges", summary.edges}});
+    phases.end("write");
+    context.statistics["cpu_seconds"] = phases.seconds();
   };
   return tool_main(argc, argv, info, declare, run);
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include "common/run/cpu_phases.hpp"
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
@@ -54,14 +55,21 @@ int main(int argc, char** argv) {
     options.tet_rules.flat_corners = flat_corners == "keep";
     options.drop_folded_quads = folded_quads == "drop";
 
+    CpuPhases phases;
     Stage stage(context);
     StageData data = stage.read({Role::mesh});
-    if (data.mesh->tets.empty()) throw DataError("mesh: expected tets, found none (tetmesh makes them from a surface)");
-    const FindhexResult result = findhex(std::move(*data.mesh), options, "mesh");
+    const std::string source = stage.source_of(Role::mesh);
+    phases.end("read");
+    if (data.mesh->tets.empty())
+      throw DataError::at(source, "expected tets, found none (tetmesh makes them from a surface)");
+    const FindhexResult result = findhex(std::move(*data.mesh), options, source.c_str());
+    phases.end("find");
     for (const auto& warning : warnings_about(result.findings)) context.warn(warning);
     for (const auto& line : summary_lines(result)) context.note(line);
     context.statistics.update(statistics_of(result));
     stage.write(result.candidates, {{"candidates", candidate_counts(result)}});
+    phases.end("write");
+    context.statistics["cpu_seconds"] = phases.seconds();
   };
   return tool_main(argc, argv, info, declare, run);
 }
