@@ -3,22 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cstring>
 #include <limits>
 #include <string_view>
 
 #include "common/run/error.hpp"
+#include "formats/number_lines.hpp"
 
 namespace hexpipe {
 namespace {
 
-// The parser goes over the text once, byte by byte: these files have hundreds of megabytes of short numbers, for which
-// finding words first and reading them afterwards takes several times as long.
-class MetisParser {
+class MetisParser : NumberLines {
  public:
-  MetisParser(std::string_view text, std::string_view file)
-      : at_(text.data()), begin_(text.data()), end_(text.data() + text.size()), file_(file) {}
+  MetisParser(std::string_view text, std::string_view file) : NumberLines(text, file, '%') {}
 
   ConflictGraph parse() {
     read_header();
@@ -31,7 +27,7 @@ class MetisParser {
 
  private:
   void read_header() {
-    if (!begin_line()) throw DataError::at(file_, "expected a METIS graph, found an empty file");
+    if (!begin_line()) throw DataError::at(file(), "expected a METIS graph, found an empty file");
     const std::uint64_t vertices = number("the number of vertices");
     const std::uint64_t edges = number("the number of edges");
     if (!at_line_end()) read_format();
@@ -39,11 +35,10 @@ class MetisParser {
       fail("expected one weight a vertex, found another number of them");
     end_line("the end of the header");
 
-    const auto bytes_left = static_cast<std::uint64_t>(end_ - at_);
     if (vertices > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max()))
       fail(fmt::format("expected fewer than 2^31 vertices, found {}", vertices));
-    if (vertices > bytes_left + 1) fail(fmt::format("expected a line for each of {} vertices, found less", vertices));
-    if (edges > bytes_left / 4 + 1) fail(fmt::format("expected both ends of {} edges, found less", edges));
+    if (vertices > bytes_left() + 1) fail(fmt::format("expected a line for each of {} vertices, found less", vertices));
+    if (edges > bytes_left() / 4 + 1) fail(fmt::format("expected both ends of {} edges, found less", edges));
     vertex_count_ = static_cast<std::int32_t>(vertices);
     directed_count_ = 2 * edges;
     graph_.offsets.reserve(vertices + 1);
@@ -58,8 +53,7 @@ class MetisParser {
     if (word.size() == 3 && word[0] == '1') fail_expected("a format without vertex sizes, 0, 1, 10 or 11");
     vertex_weights_ = word.size() >= 2 && word[word.size() - 2] == '1';
     edge_weights_ = word.back() == '1';
-    at_ += word.size();
-    skip_blanks();
+    take_word();
   }
 
   void read_vertex(std::int32_t v) {
@@ -84,13 +78,7 @@ class MetisParser {
   }
 
   std::int32_t neighbour(std::int32_t v) {
-    const char* const word = at_;
-    const std::uint64_t number_from_one = number("a neighbour");
-    if (number_from_one == 0 || number_from_one > static_cast<std::uint64_t>(vertex_count_)) {
-      at_ = word;
-      fail_expected(fmt::format("a neighbour from 1 to {}", vertex_count_));
-    }
-    const auto u = static_cast<std::int32_t>(number_from_one - 1);
+    const std::int32_t u = vertex_number("a neighbour", vertex_count_);
     if (u == v) fail(fmt::format("expected no loops, found vertex {} beside itself", v + 1));
     if (graph_.neighbours.size() == directed_count_)
       fail(fmt::format("expected {} edges as the header says, found more", directed_count_ / 2));
@@ -113,99 +101,28 @@ class MetisParser {
 
   void check_edge_count() {
     if (graph_.neighbours.size() != directed_count_)
-      throw DataError::at(file_, "expected {} edges ({} neighbours) as the header says, found {} neighbours",
+      throw DataError::at(file(), "expected {} edges ({} neighbours) as the header says, found {} neighbours",
                           directed_count_ / 2, directed_count_, graph_.neighbours.size());
   }
 
   void check_both_ends() {
     const auto edge = find_one_sided_edge(graph_);
     if (!edge) return;
-    throw FormatError(file_, line_of_vertex(edge->from),
+    throw FormatError(file(), line_of_vertex(edge->from),
                       fmt::format("expected every edge at both ends, found {} beside {} but not {} beside {}",
                                   edge->to + 1, edge->from + 1, edge->from + 1, edge->to + 1));
   }
 
   long line_of_vertex(std::int32_t v) {
-    at_ = begin_;
-    line_ = 0;
+    go_back_to_begin();
     for (std::int32_t i = -1; i <= v; ++i) begin_line(), skip_line();
-    return line_;
+    return line();
   }
 
-  // Goes over comments to the next line; false at the end of the text. skip_line or end_line ends a line.
-  bool begin_line() {
-    while (at_ != end_ && *at_ == '%') ++line_, skip_line();
-    if (at_ == end_) return false;
-    ++line_;
-    skip_blanks();
-    return true;
-  }
-  void skip_line() {
-    const auto* const newline = static_cast<const char*>(std::memchr(at_, '\n', end_ - at_));
-    at_ = newline == nullptr ? end_ : newline + 1;
-  }
-  void end_line(std::string_view what) {
-    if (!at_line_end()) fail_expected(what);
-    if (at_ != end_) ++at_;
-  }
-  bool at_line_end() const { return at_ == end_ || *at_ == '\n'; }
-  void skip_blanks() {
-    while (at_ != end_ && (*at_ == ' ' || *at_ == '\t' || *at_ == '\r')) ++at_;
-  }
-
-  std::uint64_t number(std::string_view what) {
-    // 18 digits cannot overflow; longer numbers take the careful way.
-    const char* const word = at_;
-    const char* const fast_end = end_ - at_ > 18 ? at_ + 18 : end_;
-    std::uint64_t value = 0;
-    while (at_ != fast_end && is_digit(*at_)) value = 10 * value + static_cast<std::uint64_t>(*at_++ - '0');
-    if (at_ != end_ && is_digit(*at_)) {
-      at_ = word;
-      const auto [rest, error] = std::from_chars(at_, end_, value);
-      if (error != std::errc{}) fail_expected(fmt::format("{} that fits 64 bits", what));
-      at_ = rest;
-    }
-    if (at_ == word || !(at_line_end() || *at_ == ' ' || *at_ == '\t' || *at_ == '\r')) {
-      at_ = word;
-      fail_expected(what);
-    }
-    skip_blanks();
-    return value;
-  }
-  std::int64_t weight_number(std::string_view what) {
-    const char* const word = at_;
-    const std::uint64_t value = number(what);
-    if (value <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
-      return static_cast<std::int64_t>(value);
-    at_ = word;
-    fail_expected(fmt::format("{} that fits 64 bits", what));
-  }
-  static bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-  std::string_view peek_word() const {
-    const char* word_end = at_;
-    while (word_end != end_ && !std::strchr(" \t\r\n", *word_end)) ++word_end;
-    return {at_, static_cast<std::size_t>(word_end - at_)};
-  }
-
-  [[noreturn]] void fail(std::string_view message) const { throw FormatError(file_, line_, message); }
-  [[noreturn]] void fail_expected(std::string_view what) const {
-    const std::string_view word = peek_word();
-    const std::string found = !word.empty() ? fmt::format("'{}'", word.substr(0, 30))
-                              : at_ == end_ ? "the end of the file"
-                                            : "the end of the line";
-    fail(fmt::format("expected {}, found {}", what, found));
-  }
   [[noreturn]] void fail_missing_lines(std::int32_t found) const {
-    throw FormatError(file_, line_ + 1,
+    throw FormatError(file(), line() + 1,
                       fmt::format("expected the lines of {} vertices, found {}", vertex_count_, found));
   }
-
-  const char* at_;
-  const char* const begin_;
-  const char* const end_;
-  std::string_view file_;
-  long line_ = 0;
 
   std::int32_t vertex_count_ = 0;
   std::uint64_t directed_count_ = 0;

@@ -12,6 +12,7 @@
 #include "common/run/version.hpp"
 #include "formats/bundle.hpp"
 #include "formats/cand.hpp"
+#include "formats/dimacs.hpp"
 #include "formats/members.hpp"
 #include "formats/mesh_files.hpp"
 #include "formats/metis.hpp"
@@ -111,7 +112,7 @@ void read_role_file(Role role, Input& input, StageData& data) {
       data.candidates = read_cand(input);
       break;
     case Role::graph:
-      data.graph = read_metis(input);
+      data.graph = looks_like_dimacs(input) ? read_dimacs(input) : read_metis(input);
       break;
     case Role::solution:
       data.solution = read_solution(input, vertex_count_for_solution(data, input.name()));
@@ -227,7 +228,8 @@ StageData Stage::read(const std::vector<Role>& needs, const std::vector<Role>& w
   for (const auto& [role, path] : streams.files) files.emplace(role, Input::open(path));
 
   // Files may cover all that is needed; otherwise there must be an operand or a stream.
-  const bool covered = !files.empty() && std::all_of(needs.begin(), needs.end(), [&](Role role) { return files.contains(role); });
+  const bool covered =
+      !files.empty() && std::all_of(needs.begin(), needs.end(), [&](Role role) { return files.contains(role); });
   std::optional<Input> input;
   if (streams.operand) {
     input = Input::open(*streams.operand);

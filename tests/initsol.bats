@@ -183,6 +183,26 @@ PYTHON
   assert [ ! -e out.sol ]
 }
 
+@test "a DIMACS graph gives what the METIS graph does" {
+  "$PYTHON" - >ring.col <<'PYTHON'
+header, *rows = open("ring.graph").read().splitlines()
+print("c a ring\np edge", *header.split()[:2])
+for v, row in enumerate(rows, 1):
+    weight, *neighbours = map(int, row.split())
+    print("n", v, weight)
+    for u in neighbours:
+        if u < v:
+            print("e", u, v)
+PYTHON
+  initsol ring.graph --iterations 1000 -o metis.sol
+  initsol ring.col --iterations 1000 -o dimacs.sol
+  initsol --iterations 1000 --format sol <ring.col >pipe.sol
+  assert_same_bytes metis.sol dimacs.sol
+  assert_same_bytes metis.sol pipe.sol
+  sed 's/^e 1 .*/e 1 1/' ring.col >loop.col
+  assert_fails_with 1 "^initsol: loop.col:[0-9]+: expected no loops" initsol loop.col --iterations 1 -o out.sol
+}
+
 @test "every truncated prefix of a graph is refused" {
   local size prefix
   size=$(stat -c %s small.graph)
