@@ -341,6 +341,24 @@ PYTHON
   assert_fails_with 1 "TetGen failed: it took longer than --tetgen-timeout" tetmesh "$fine" --size 0.02 --tetgen-timeout 0.001 -q
 }
 
+@test "best keeps the points of which more is estimated to become hexes" {
+  local part="$DATA/bracket.stl"
+  for points in best frame lattice; do tetmesh -q "$part" --size 8 --points $points -o $points.mesh --stats $points.json; done
+  assert_different_bytes frame.mesh lattice.mesh
+  $PYTHON - <<'PYTHON'
+import filecmp, json
+best = json.load(open("best.json"))
+share = best["estimated_hex_share"]
+assert 0 < share["lattice"] < 1 and 0 < share["frame"] < 1, share
+better = max(share, key=share.get)
+assert best["points_kept"] == better, best
+assert filecmp.cmp("best.mesh", better + ".mesh", shallow=False)
+for kind in ("frame", "lattice"):
+    stats = json.load(open(kind + ".json"))
+    assert stats["points_kept"] == kind and "estimated_hex_share" not in stats, stats
+PYTHON
+}
+
 @test "a surface far from the size is told, unless -q" {
   run_apart tetmesh "$FILES/cube.stl" --size 0.2 -o out.tar
   assert_success

@@ -18,7 +18,7 @@ namespace {
 
 const std::map<std::string, SurfaceKind> surface_kinds{{"remesh", SurfaceKind::remesh}, {"keep", SurfaceKind::keep}};
 const std::map<std::string, PointKind> point_kinds{
-    {"frame", PointKind::frame}, {"lattice", PointKind::lattice}, {"none", PointKind::none}};
+    {"best", PointKind::best}, {"frame", PointKind::frame}, {"lattice", PointKind::lattice}, {"none", PointKind::none}};
 const std::map<std::string, ShellRule> shell_rules{
     {"oriented", ShellRule::oriented}, {"regions", ShellRule::regions}, {"holes", ShellRule::holes}};
 
@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
       .outside_history = {"tetgen-timeout"}};
   TetmeshOptions options;
   std::optional<std::string> size;
-  std::string path = "-", surface_kind = "keep", points = "lattice", shells = "oriented";
+  std::string path = "-", surface_kind = "keep", points = "best", shells = "oriented";
   const auto declare = [&](CLI::App& app) {
     app.add_option("surface", path, "A surface in any format; '-' or nothing: standard input")->type_name("FILE");
     app.add_option(
@@ -65,7 +65,9 @@ int main(int argc, char** argv) {
     app.add_option("--deviation", options.deviation, "How far the new surface may be from the old one, in sizes")
         ->check(number_between(1e-6, 1));
     app.add_option("--points", points,
-                   "Points inside: along a frame field that follows the surface, on a lattice along the axes, or none")
+                   "Points inside: along a frame field that follows the surface, on a lattice along the axes, none, or "
+                   "the best "
+                   "of the first two")
         ->check(CLI::IsMember(point_kinds));
     app.add_option("--clearance", options.clearance, "Least distance of points inside from the surface, in sizes")
         ->check(number_between(0.1, 10));

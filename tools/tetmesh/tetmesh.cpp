@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/mesh/adjacency.hpp"
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "tools/tetmesh/build_mesh.hpp"
@@ -9,6 +10,7 @@
 #include "tools/tetmesh/run_tetgen.hpp"
 #include "tools/tetmesh/surface_check.hpp"
 #include "tools/tetmesh/volume/frame_points.hpp"
+#include "tools/tetmesh/volume/hex_estimate.hpp"
 
 namespace hexpipe {
 namespace {
@@ -96,6 +98,43 @@ BuiltMesh tetrahedralize(const Surface& surface, std::span<const Vec3> points, d
   }
 }
 
+double hex_share_of(const TetMesh& mesh, const Surface& surface) {
+  return estimate_hex_share(mesh, TetAdjacency(mesh, surface.name.c_str()));
+}
+
+// From the mesh with the lattice's points, which stays where it is the better one.
+void try_frame_points(const Surface& surface, const TetmeshOptions& options, StepWatch& watch, BuiltMesh& built,
+                      TetmeshStatistics& statistics) {
+  const std::vector<Vec3> points = frame_points(
+      surface, built.mesh,
+      {.size = statistics.size, .clearance = options.clearance, .jitter = options.jitter, .seed = options.seed});
+  watch.add_to(statistics.seconds_placing);
+  BuiltMesh bent = tetrahedralize(surface, points, options.tetgen_timeout, watch, statistics);
+  if (options.points == PointKind::best) {
+    statistics.lattice_hex_share = hex_share_of(built.mesh, surface);
+    statistics.frame_hex_share = hex_share_of(bent.mesh, surface);
+    watch.add_to(statistics.seconds_comparing);
+    if (*statistics.lattice_hex_share >= *statistics.frame_hex_share) return;
+  }
+  built = std::move(bent);
+  statistics.interior_points = points.size();
+  statistics.points_kept = PointKind::frame;
+}
+
+const char* name_of(PointKind kind) {
+  switch (kind) {
+    case PointKind::best:
+      return "best";
+    case PointKind::frame:
+      return "frame";
+    case PointKind::lattice:
+      return "lattice";
+    case PointKind::none:
+      break;
+  }
+  return "none";
+}
+
 }  // namespace
 
 TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
@@ -120,13 +159,13 @@ TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
   watch.add_to(statistics.seconds_placing);
 
   BuiltMesh built = tetrahedralize(surface, points, options.tetgen_timeout, watch, statistics);
-  if (options.points == PointKind::frame) {
-    const std::vector<Vec3> along_frames = frame_points(
-        surface, built.mesh,
-        {.size = statistics.size, .clearance = options.clearance, .jitter = options.jitter, .seed = options.seed});
-    statistics.interior_points = along_frames.size();
-    watch.add_to(statistics.seconds_placing);
-    built = tetrahedralize(surface, along_frames, options.tetgen_timeout, watch, statistics);
+  statistics.points_kept = options.points == PointKind::none ? PointKind::none : PointKind::lattice;
+  if (options.points == PointKind::frame || options.points == PointKind::best) {
+    try {
+      try_frame_points(surface, options, watch, built, statistics);
+    } catch (const TetGenFailure&) {
+      if (options.points == PointKind::frame) throw;
+    }
   }
   describe(built, statistics);
   result.mesh = std::move(built.mesh);
@@ -135,32 +174,33 @@ TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
 }
 
 nlohmann::ordered_json to_json(const TetmeshStatistics& s) {
-  return {{"size", s.size},
-          {"surface_points", s.surface_points},
-          {"surface_triangles", s.surface_triangles},
-          {"surface_remeshed", s.remeshed},
-          {"distance_to_input", s.distance_to_input},
-          {"distance_from_input", s.distance_from_input},
-          {"extra_points", s.extra_points},
-          {"shells", s.shells},
-          {"regions", s.regions},
-          {"interior_points", s.interior_points},
-          {"added_points", s.added_points},
-          {"dropped_points", s.dropped_points},
-          {"tetgen_runs", s.tetgen_runs},
-          {"points", s.points},
-          {"tets", s.tets},
-          {"volume", s.volume},
-          {"least_dihedral", s.least_dihedral},
-          {"greatest_dihedral", s.greatest_dihedral}};
+  nlohmann::ordered_json json{{"size", s.size},
+                              {"surface_points", s.surface_points},
+                              {"surface_triangles", s.surface_triangles},
+                              {"surface_remeshed", s.remeshed},
+                              {"distance_to_input", s.distance_to_input},
+                              {"distance_from_input", s.distance_from_input},
+                              {"extra_points", s.extra_points},
+                              {"shells", s.shells},
+                              {"regions", s.regions},
+                              {"points_kept", name_of(s.points_kept)},
+                              {"interior_points", s.interior_points},
+                              {"added_points", s.added_points},
+                              {"dropped_points", s.dropped_points},
+                              {"tetgen_runs", s.tetgen_runs},
+                              {"points", s.points},
+                              {"tets", s.tets},
+                              {"volume", s.volume},
+                              {"least_dihedral", s.least_dihedral},
+                              {"greatest_dihedral", s.greatest_dihedral}};
+  if (s.lattice_hex_share)
+    json["estimated_hex_share"] = {{"lattice", *s.lattice_hex_share}, {"frame", *s.frame_hex_share}};
+  return json;
 }
 
 nlohmann::ordered_json times_of(const TetmeshStatistics& s) {
-  return {{"checking", s.seconds_checking},
-          {"remeshing", s.seconds_remeshing},
-          {"placing", s.seconds_placing},
-          {"tetgen", s.seconds_tetgen},
-          {"building", s.seconds_building}};
+  return {{"checking", s.seconds_checking}, {"remeshing", s.seconds_remeshing}, {"placing", s.seconds_placing},
+          {"tetgen", s.seconds_tetgen},     {"building", s.seconds_building},   {"comparing", s.seconds_comparing}};
 }
 
 }  // namespace hexpipe

@@ -18,14 +18,19 @@ namespace hexpipe {
 // What becomes of the surface's triangles.
 enum class SurfaceKind { remesh, keep };
 
-enum class PointKind { frame, lattice, none };
+enum class PointKind {
+  best,     // of lattice and frame, the one whose mesh is estimated to merge into more hexes
+  frame,    // along a frame field: frame_points.hpp
+  lattice,  // along the coordinate axes: lattice.hpp
+  none
+};
 
 struct TetmeshOptions {
   std::optional<Length> size = {};  // nothing: see element_size()
   SurfaceKind surface = SurfaceKind::keep;
   double feature_angle = RemeshOptions{}.feature_angle;  // degrees
   double deviation = RemeshOptions{}.deviation;          // in sizes
-  PointKind points = PointKind::lattice;
+  PointKind points = PointKind::best;
   double clearance = LatticeOptions{}.clearance;
   double jitter = LatticeOptions{}.jitter;
   ShellRule shells = ShellRule::oriented;
@@ -41,12 +46,16 @@ struct TetmeshStatistics {
   std::size_t extra_points = 0;                           // of the input, that remeshing could not remove
   std::size_t shells = 0, regions = 0;
   std::size_t interior_points = 0;  // asked for
+  PointKind points_kept = PointKind::none;
+  // Of the volume, by a rough greedy choice; where several kinds of points were tried.
+  std::optional<double> lattice_hex_share, frame_hex_share;
   std::size_t added_points = 0, dropped_points = 0;
-  int tetgen_runs = 0;  // more than one: the others failed
+  int tetgen_runs = 0;  // those that failed among them
   std::size_t points = 0, tets = 0;
   double volume = 0;
   double least_dihedral = 0, greatest_dihedral = 0;  // degrees
   double seconds_checking = 0, seconds_remeshing = 0, seconds_placing = 0, seconds_tetgen = 0, seconds_building = 0;
+  double seconds_comparing = 0;
 };
 
 struct TetmeshResult {

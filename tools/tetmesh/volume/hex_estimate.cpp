@@ -1,5 +1,7 @@
 #include "tools/tetmesh/volume/hex_estimate.hpp"
 
+#include <tsl/robin_map.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,13 +13,14 @@
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/run/parallel.hpp"
+#include "tools/tetmesh/volume/cell_key.hpp"
 
 namespace hexpipe {
 namespace {
 
 constexpr double least_quality = 0.3;    // scaled Jacobian, findhex's default
-constexpr double greatest_cosine = 0.6;  // between edges of a corner
-constexpr double furthest = 0.5;  // of a corner from where a parallelepiped has it, in lengths of the longest edge
+constexpr double greatest_cosine = 0.7;  // between edges of a corner
+constexpr double furthest = 0.7;  // of a corner from where a parallelepiped has it, in lengths of the longest edge
 constexpr double volume_tolerance = 0.9;  // of the tets against the hex
 constexpr Vertex none = -1;
 
@@ -148,17 +151,53 @@ void HexSearch::collect_tets(RoughHex& hex) const {
     }
 }
 
+// Which pairs of vertices the chosen hexes hold, and as what. Two hexes with a pair in common fit together when it is
+// an edge of both, or the diagonal of one and the same quad.
+class ChosenPairs {
+ public:
+  // Adds the pairs of a hex, unless one contradicts.
+  bool add(const RoughHex& hex) {
+    std::array<std::pair<std::uint64_t, std::uint64_t>, 28> pairs;
+    std::size_t count = 0;
+    for (const LocalEdge& edge : HexTopology::edges) pairs[count++] = {key(hex, edge[0], edge[1]), edge_role};
+    for (const LocalQuad& quad : HexTopology::quads)
+      for (const std::size_t i : {0, 1})
+        pairs[count++] = {key(hex, quad[i], quad[i + 2]), key(hex, quad[1 - i], quad[3 - i])};
+    for (const LocalEdge& diagonal : {LocalEdge{0, 6}, {1, 7}, {2, 4}, {3, 5}})
+      pairs[count++] = {key(hex, diagonal[0], diagonal[1]), inside_role};
+    for (const auto& [pair, role] : pairs) {
+      const auto found = roles_.find(pair);
+      if (found != roles_.end() && (found->second != role || role == inside_role)) return false;
+    }
+    roles_.insert(pairs.begin(), pairs.end());
+    return true;
+  }
+
+ private:
+  // Of a quad's diagonal the role is the other diagonal.
+  static constexpr std::uint64_t edge_role = ~std::uint64_t{0}, inside_role = edge_role - 1;
+
+  static std::uint64_t key(const RoughHex& hex, std::size_t i, std::size_t j) {
+    const auto [low, high] = std::minmax(hex.corners[i], hex.corners[j]);
+    return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high);
+  }
+
+  tsl::robin_map<std::uint64_t, std::uint64_t, CellKeyHash> roles_;
+};
+
 // The best first.
 double volume_of_greedy_choice(const TetMesh& mesh, std::span<const RoughHex> hexes) {
   std::vector<std::int32_t> order(hexes.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, std::greater(), [&](std::int32_t i) { return hexes[i].quality; });
   std::vector<bool> taken(mesh.tets.size());
+  ChosenPairs pairs;
   double volume = 0;
   for (const std::int32_t i : order) {
-    if (std::ranges::any_of(hexes[i].tets, [&](std::int32_t t) { return taken[t]; })) continue;
-    for (const std::int32_t t : hexes[i].tets) taken[t] = true;
-    volume += hexes[i].volume;
+    const RoughHex& hex = hexes[i];
+    if (std::ranges::any_of(hex.tets, [&](std::int32_t t) { return taken[t]; }) || !pairs.add(hex)) continue;
+    for (const std::int32_t t : hex.tets) taken[t] = true;
+    volume += hex.volume;
   }
   return volume;
 }
