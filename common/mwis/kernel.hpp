@@ -1,13 +1,13 @@
 #pragma once
-// Exact reductions of a whole conflict graph: what can be decided without search is decided, and a solution of the
-// kernel that is left is lifted to one of the graph, an optimal one to an optimal one. The rules are those of Lamm et
-// al. 2019 and Gu et al. 2021, read from the centre of a neighbourhood; where these add up weights, we bound by a
-// clique cover, because the conflicts of cells come in cliques.
+// What exact reductions leave of a whole conflict graph: what can be decided without search is decided, and a solution
+// of the kernel is lifted to one of the graph, an optimal one to an optimal one.
 
 #include <cstdint>
 #include <vector>
 
 #include "common/graph/conflict_graph.hpp"
+#include "common/mwis/reducer.hpp"
+#include "common/mwis/reduction_log.hpp"
 #include "common/run/deadline.hpp"
 
 namespace hexpipe {
@@ -15,7 +15,7 @@ namespace hexpipe {
 class Kernel {
  public:
   // Stops at the deadline, with less reduced.
-  Kernel(const ConflictGraph& graph, const Deadline& deadline);
+  Kernel(const ConflictGraph& graph, const Deadline& deadline, ReductionEffort effort = ReductionEffort::quick);
 
   const ConflictGraph& graph() const { return kernel_; }
   // How much heavier a solution of the kernel becomes by lift, at least; an optimal one exactly.
@@ -27,17 +27,11 @@ class Kernel {
   IndependentSet project(const IndependentSet& of_graph) const;
 
  private:
-  friend class Reducer;
-  enum class Step : std::uint8_t { take, take_if_free };
-  struct Decision {
-    Step step;
-    std::int32_t vertex;
-  };
-
   const ConflictGraph& original_;
   ConflictGraph kernel_;
-  std::vector<std::int32_t> vertices_;  // of the graph, by vertex of the kernel
-  std::vector<Decision> decisions_;
+  std::vector<std::int32_t> vertices_;  // by vertex of the kernel: of the graph, or created by reductions
+  std::size_t choices_ = 0;             // vertices of the graph and created ones
+  ReductionLog log_;
   std::int64_t offset_ = 0;
 };
 

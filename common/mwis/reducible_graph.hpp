@@ -1,0 +1,58 @@
+#pragma once
+// A conflict graph that reductions change: vertices go, and new ones come for what is decided together.
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "common/graph/conflict_graph.hpp"
+
+namespace hexpipe {
+
+class ReducibleGraph {
+ public:
+  explicit ReducibleGraph(const ConflictGraph& graph);
+
+  // Vertices that are or were there; numbers are not used again.
+  std::int32_t vertex_count() const { return static_cast<std::int32_t>(weights_.size()); }
+  std::int32_t alive_count() const { return alive_count_; }
+  bool alive(std::int32_t v) const { return alive_[v] != 0; }
+  std::int64_t weight(std::int32_t v) const { return weights_[v]; }
+  // Ascending, of a vertex that is there. Valid until a vertex is added.
+  std::span<const std::int32_t> neighbours_of(std::int32_t v);
+
+  void remove(std::int32_t v);
+  // `neighbours` ascend; none is named twice.
+  std::int32_t add(std::int64_t weight, std::span<const std::int32_t> neighbours);
+
+  // From mark() on, everything can be taken back at once by rollback(), until the next mark().
+  void mark();
+  void rollback();
+
+  // What is there, numbered in ascending order of the vertices, which `vertices` gets.
+  ConflictGraph compress(std::vector<std::int32_t>& vertices);
+
+ private:
+  struct List {
+    std::int64_t begin, size, capacity;  // in pool_
+  };
+  void append(std::int32_t v, std::int32_t neighbour);
+  void move_to_end(std::int32_t v, std::int64_t capacity);
+  void pack();
+
+  std::vector<std::int64_t> weights_;
+  std::vector<List> lists_;
+  std::vector<std::int32_t> pool_;
+  std::vector<char> alive_, stale_;  // a stale list names vertices that are gone
+  std::int32_t alive_count_;
+
+  // Since mark(), lists change only behind marked_end_, where they are copied before.
+  std::int64_t marked_end_ = 0;
+  std::int32_t marked_vertices_ = 0, marked_alive_ = 0;
+  std::vector<std::int32_t> removed_;
+  std::vector<std::pair<std::int32_t, List>> moved_;
+  std::size_t packed_size_;  // of the pool, when it had no holes
+};
+
+}  // namespace hexpipe
