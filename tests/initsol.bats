@@ -58,11 +58,13 @@ PYTHON
   initsol ring.graph --iterations 4000 --method anneal --hot 0.3 --cold 0.03 -o same.sol
   assert_same_bytes base.sol same.sol
   initsol ring.graph --iterations 4000 --method tabu -o tabu.sol
+  initsol ring.graph --method descend -o descend.sol
+  assert [ "$(weight_of descend.sol)" -lt "$(weight_of base.sol)" ]
   initsol ring.graph --iterations 4000 --seed 2 -o seed.sol
   initsol ring.graph --iterations 4000 --hot 1 -o hot.sol
   initsol ring.graph --iterations 4000 --cold 0.2 -o cold.sol
   initsol ring.graph --iterations 4000 --starts 3 -o starts.sol
-  for other in tabu seed hot cold starts; do
+  for other in tabu descend seed hot cold starts; do
     assert_different_bytes base.sol $other.sol
     weight_of $other.sol >/dev/null
   done

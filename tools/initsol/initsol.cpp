@@ -101,8 +101,9 @@ InitsolResult find_initial_solution(const ConflictGraph& graph, std::span<const 
     return std::ranges::max_element(searches, {}, [](const auto& search) { return search->best_weight(); })->get();
   };
   const std::int64_t round = std::clamp<std::int64_t>(options.iterations / least_rounds, 1, most_moves_a_round);
-  for (std::int64_t done = 0; done < options.iterations && !deadline.passed();) {
-    const std::int64_t moves = std::min(round, options.iterations - done);
+  const std::int64_t iterations = options.method == Method::descend ? 0 : options.iterations;
+  for (std::int64_t done = 0; done < iterations && !deadline.passed();) {
+    const std::int64_t moves = std::min(round, iterations - done);
     const double progress = progress_of(done, options, deadline);
     parallel_for(options.starts, 1, [&](std::int64_t i) { searches[i]->run(moves, progress, deadline); });
     done += moves;

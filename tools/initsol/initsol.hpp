@@ -15,8 +15,9 @@
 namespace hexpipe {
 
 enum class Method {
-  anneal,  // simulated annealing over local optima; the slower it cools, the better it gets
-  tabu,    // the dissertation's
+  anneal,   // simulated annealing over local optima; the slower it cools, the better it gets
+  tabu,     // the dissertation's
+  descend,  // Push and (1,2)-swaps while they gain
 };
 
 struct InitsolOptions {

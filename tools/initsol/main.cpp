@@ -16,7 +16,8 @@ namespace {
 
 const std::map<std::string, GreedyOrder> orders{
     {"weight", GreedyOrder::weight}, {"weight-degree", GreedyOrder::weight_degree}, {"quality", GreedyOrder::quality}};
-const std::map<std::string, Method> methods{{"anneal", Method::anneal}, {"tabu", Method::tabu}};
+const std::map<std::string, Method> methods{
+    {"anneal", Method::anneal}, {"tabu", Method::tabu}, {"descend", Method::descend}};
 const std::map<std::string, Escape> escapes{
     {"restart", Escape::restart}, {"rebuild", Escape::rebuild}, {"best", Escape::best}};
 
@@ -29,7 +30,7 @@ std::vector<double> quality_for(const StageData& data) {
   return data.candidates->quality;
 }
 
-// Options of the other method would do nothing.
+// Options of other methods would do nothing.
 void refuse_options(const std::vector<CLI::Option*>& others, const std::string& method) {
   for (const CLI::Option* option : others)
     if (option->count() > 0)
@@ -54,7 +55,9 @@ int main(int argc, char** argv) {
   const auto declare = [&](CLI::App& app) {
     app.add_option("--greedy", order, "What comes first: high weight, weight / (degree + 1), or quality")
         ->check(CLI::IsMember(orders));
-    app.add_option("--method", method, "What follows greedy: simulated annealing over local optima, or tabu search")
+    app.add_option(
+           "--method", method,
+           "What follows greedy: simulated annealing over local optima, tabu search, or just a descent to the next one")
         ->check(CLI::IsMember(methods));
     of_annealing = {app.add_option("--hot", options.cooling.hot,
                                    "Annealing: the first temperature, in mean weights of a chosen vertex")
@@ -78,7 +81,8 @@ int main(int argc, char** argv) {
   const auto run = [&](RunContext& context) {
     options.order = orders.at(order);
     options.method = methods.at(method);
-    refuse_options(options.method == Method::tabu ? of_annealing : of_tabu, method);
+    if (options.method != Method::anneal) refuse_options(of_annealing, method);
+    if (options.method != Method::tabu) refuse_options(of_tabu, method);
     options.tabu.escape = escapes.at(escape);
     options.seed = context.common.seed;
     options.iterations = context.common.iterations.value_or(options.iterations);

@@ -1,26 +1,123 @@
 #!/usr/bin/python3
-"""run.py [--seconds S] [--threads N] [--seeds N] [--bin DIR] GRAPH... - weights, bounds and curves of our solvers.
+"""run.py [--seconds S] [--threads N] [--seeds N] [--chils FILE] [--learn-and-reduce FILE] GRAPH... - hexpipe and its peers.
 
-Solves every METIS graph (plain or .zst) by `initsol | lns` and bounds it by `certify`, with the same options for all, and
-prints a table: the greedy weight, the weight at tenths of the time, the last one, the bound and the gap. Every solution
-is checked by tests/checkers/solution_check.py where the graph is small enough to be read by it. With several seeds the
-worst and the best last weight are printed. Without graphs it takes those of ../shared/graphs beside the repository.
+Every solver gets the same METIS graph (plain or .zst), the same threads and the same CPU seconds for each of them: their
+clocks are those of cpu_clock.c, preloaded, so that the figures do not depend on what else the machine does. A table for
+each graph: weights after a tenth, half and all of the time, how far the last one is from the best in the table and from
+the bound that `certify` proves, CPU seconds and memory in all. Our solutions are checked by
+tests/checkers/solution_check.py where the graph is small enough. With several seeds the last weight is the mean, and the
+worst and the best stand in brackets.
+
+Ours is `initsol` for two fifths of the time, then `lns`. Peers are programs that are built elsewhere; each is left out
+with a word when it is not there:
+  CHILS                    --chils FILE, or CHILS in the environment; https://github.com/KarlsruheMIS/CHILS
+  LearnAndReduce + CHILS   --learn-and-reduce FILE (its reduce_and_chils), or LEARN_AND_REDUCE in the environment;
+                           https://github.com/KarlsruheMIS/LearnAndReduce; half of the time is for reductions
+Published figures for the graphs of ../shared/graphs (40 CPU s, one thread, one seed; its README.md) stand below them.
+Without graphs it takes these three.
 """
 import argparse
+import dataclasses
 import json
+import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[2]
 CHECKED_UP_TO = 100_000_000  # bytes of graph
-CURVE = (0.05, 0.1, 0.2, 0.5)
+START_SHARE = 0.4  # of the time for initsol
+PARTS = (0.1, 0.5)
+PUBLISHED = {
+    "block-28k": {"LearnAndReduce + CHILS": 33_031_419, "GNN-VC": 33_028_596, "DynWVC2": 33_028_385,
+                  "Bregman-Sinkhorn": 33_023_247, "CHILS -p 4": 33_005_878, "HILS": 32_966_136},
+    "sphere-56k": {"CHILS -p 4": 68_962_670, "GNN-VC": 68_960_371, "DynWVC2": 68_955_718, "Bregman-Sinkhorn": 68_950_600},
+    "random-33k": {"GNN-VC": 10_074_721, "CHILS -p 4": 10_062_724, "DynWVC2": 10_007_809, "Bregman-Sinkhorn": 9_849_615},
+}
 
 
-def weight_at(log, seconds):
-    weights = [json.loads(line)["weight"] for line in open(log) if json.loads(line)["seconds"] <= seconds]
-    return weights[-1] if weights else None
+@dataclasses.dataclass
+class Run:
+    parts: list  # weights after the parts of the time, None where unknown
+    weight: int
+    cpu: float = 0
+    mebibytes: float = 0
+    note: str = ""
+
+
+class Bench:
+    def __init__(self, options, folder):
+        self.options, self.folder = options, folder
+        self.clock = folder / "cpu_clock.so"
+        subprocess.run(["cc", "-O2", "-shared", "-fPIC", HERE / "cpu_clock.c", "-o", self.clock], check=True)
+
+    def call(self, command):
+        """Runs a solver on the CPU clock; its standard output, CPU seconds and largest memory."""
+        threads = self.options.threads
+        environment = dict(os.environ, CPU_CLOCK_THREADS=str(threads), OMP_NUM_THREADS=str(threads))
+        usage = self.folder / "usage"
+        done = subprocess.run(["/usr/bin/time", "-f", "%U %S %M", "-o", usage, "env", f"LD_PRELOAD={self.clock}",
+                               *map(str, command)], stdout=subprocess.PIPE, text=True, env=environment, check=True)
+        user, system, kibibytes = usage.read_text().split()[-3:]
+        return done.stdout, float(user) + float(system), int(kibibytes) / 1024
+
+    def ours(self, graph, seed, *extra):
+        start, best = self.folder / "start.sol", self.folder / "best.sol"
+        seconds = self.options.seconds
+        cpu = memory = 0
+        curve = []
+        for tool, begin, end, arguments in (
+                ("initsol", 0, START_SHARE * seconds, ["-o", start, "--starts", self.options.threads]),
+                ("lns", START_SHARE * seconds, seconds, ["--solution", start, "-o", best, *extra])):
+            log, stats = self.folder / "log.jsonl", self.folder / "stats.json"
+            _, used, mebibytes = self.call(
+                [self.options.bin / tool, "--graph", graph, "--threads", self.options.threads, "--seed", seed,
+                 "--time-limit", end - begin, "--log", log, "--stats", stats, *arguments])
+            cpu, memory = cpu + used, max(memory, mebibytes)
+            points = [json.loads(line) for line in open(log)]
+            curve += [(begin + point["seconds"], point["weight"]) for point in points]
+        result = json.load(open(stats))
+        self.check(graph, best, result["weight"])
+        parts = [max((w for t, w in curve if t <= part * seconds), default=None) for part in PARTS]
+        return Run(parts, result["weight"], cpu, memory, "optimal" if result["complete"] else "")
+
+    def check(self, graph, solution, weight):
+        if graph.stat().st_size > CHECKED_UP_TO:
+            return
+        checked = subprocess.run([ROOT / "tests/checkers/solution_check.py", graph, solution], capture_output=True, text=True)
+        if not checked.stdout.rstrip().endswith(f"weight {weight}"):
+            sys.exit(f"{graph}: {checked.stdout}")
+
+    def chils(self, graph, seed, *extra):
+        out, cpu, memory = self.call([self.options.chils, "-g", graph, "-t", self.options.seconds, "-r", seed, "-b",
+                                      "-c", self.options.threads, *extra])
+        tenth, half, last = map(int, out.strip().split(",")[3:6])
+        return Run([tenth, half], last, cpu, memory)
+
+    def learn_and_reduce(self, graph, seed):
+        half = self.options.seconds / 2
+        out, cpu, memory = self.call([self.options.learn_and_reduce, graph, f"--time_limit={half}", f"--seed={seed}",
+                                      f"--chils_time_limit={half}", "--chils_n_solutions=4"])
+        return Run([None, None], int(out.strip().splitlines()[-1].split(",")[-2]), cpu, memory)
+
+    def bound(self, graph):
+        stats = self.folder / "certify.json"
+        self.call([self.options.bin / "certify", "--graph", graph, "--solution", self.folder / "best.sol", "--stats", stats,
+                   "--time-limit", self.options.seconds, "-o", self.folder / "certified.sol"])
+        return json.load(open(stats))["bound"]
+
+    def solvers(self):
+        options = self.options
+        yield "hexpipe", self.ours
+        if options.threads > 1:
+            yield "hexpipe, free-running", lambda graph, seed: self.ours(graph, seed, "--free-running")
+        if options.chils:
+            yield "CHILS -p 1", lambda graph, seed: self.chils(graph, seed, "-p", 1)
+            yield "CHILS -p 4 -s 1", lambda graph, seed: self.chils(graph, seed, "-p", 4, "-s", 1)
+        if options.learn_and_reduce:
+            yield "LearnAndReduce + CHILS", self.learn_and_reduce
 
 
 def plain_file(graph, folder):
@@ -32,53 +129,68 @@ def plain_file(graph, folder):
     return plain
 
 
-def solve(tool, graph, folder, options, seed):
-    start, best, log, stats = (folder / name for name in ("start.sol", "best.sol", "lns.jsonl", "stats.json"))
-    common = ["--graph", graph, "--threads", str(options.threads), "--stats", stats]
-    subprocess.run([tool("initsol"), *common, "--iterations", "0", "-o", start], check=True)
-    greedy = json.load(open(stats))["weight"]
-    subprocess.run([tool("lns"), *common, "--solution", start, "--time-limit", str(options.seconds), "--seed", str(seed),
-                    "--log", log, "-o", best], check=True)
-    result = json.load(open(stats))
-    if graph.stat().st_size <= CHECKED_UP_TO:
-        checked = subprocess.run([ROOT / "tests/checkers/solution_check.py", graph, best], capture_output=True, text=True)
-        if not checked.stdout.rstrip().endswith(f"weight {result['weight']}"):
-            sys.exit(f"{graph}: {checked.stdout}")
-    return greedy, [weight_at(log, part * options.seconds) for part in CURVE], result, best
+def mean(runs):
+    weights = [run.weight for run in runs]
+    parts = [None if None in column else sum(column) // len(column) for column in zip(*(run.parts for run in runs))]
+    note = f"{min(weights):,} … {max(weights):,}" if len(runs) > 1 else runs[0].note
+    return Run(parts, sum(weights) // len(weights), sum(run.cpu for run in runs) / len(runs),
+               max(run.mebibytes for run in runs), note)
+
+
+def percent_below(weight, other):
+    return f"{100 * (1 - weight / other):.3f} %"
+
+
+def print_table(name, rows, bound, seconds):
+    published = PUBLISHED.get(name, {})
+    best = max([run.weight for run in rows.values()] + list(published.values()))
+    print(f"\n{name}: proven bound {bound:,}\n")
+    print("| solver | " + " | ".join(f"{part * seconds:g} s" for part in (*PARTS, 1)) +
+          " | below the best | below the bound | CPU s | MiB |")
+    print("|" + " --- |" * (len(PARTS) + 6))
+    for solver, run in rows.items():
+        last = f"{run.weight:,}" + (f" ({run.note})" if run.note else "")
+        print("| " + " | ".join([solver, *(f"{w:,}" if w else "–" for w in run.parts), last,
+                                 percent_below(run.weight, best), percent_below(run.weight, bound), f"{run.cpu:.1f}",
+                                 f"{run.mebibytes:.0f}"]) + " |")
+    for solver, weight in published.items():
+        print(f"| {solver}, published, 40 s | – | – | {weight:,} | {percent_below(weight, best)} | "
+              f"{percent_below(weight, bound)} | 40 | – |")
+    sys.stdout.flush()
+
+
+def parse_options():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("graphs", nargs="*", type=pathlib.Path)
+    parser.add_argument("--seconds", type=float, default=10)
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--seeds", type=int, default=1)
+    parser.add_argument("--bin", type=pathlib.Path, default=os.environ.get("HEXPIPE_BIN", ROOT / "build/bin"))
+    parser.add_argument("--chils", type=pathlib.Path, default=os.environ.get("CHILS"))
+    parser.add_argument("--learn-and-reduce", type=pathlib.Path, default=os.environ.get("LEARN_AND_REDUCE"))
+    options = parser.parse_args()
+    options.bin = pathlib.Path(options.bin).resolve()
+    for peer in ("chils", "learn_and_reduce"):
+        path = getattr(options, peer)
+        if path is None or not pathlib.Path(path).is_file():
+            print(f"skipped: {peer.replace('_', '-')}: " + (f"no file {path}" if path else "not given"))
+            setattr(options, peer, None)
+    return options
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("graphs", nargs="*", type=pathlib.Path)
-    parser.add_argument("--seconds", type=float, default=20)
-    parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--seeds", type=int, default=1)
-    parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/bin")
-    options = parser.parse_args()
+    options = parse_options()
     graphs = options.graphs or sorted((ROOT.parent / "shared/graphs").glob("*.graph.zst"))
     if not graphs:
         sys.exit("skipped: no graphs given, and none in ../shared/graphs")
-
-    times = [f"{part * options.seconds:g} s" for part in CURVE] + [f"{options.seconds:g} s"]
-    print("| graph | greedy | " + " | ".join(times) + " | bound | gap |")
-    print("|" + " --- |" * (len(times) + 4))
     for graph in graphs:
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
+            bench = Bench(options, folder)
             plain = plain_file(graph, folder)
-            runs = [solve(lambda tool: options.bin / tool, plain, folder, options, seed)
-                    for seed in range(1, options.seeds + 1)]
-            greedy, curve, result, best = max(runs, key=lambda run: run[2]["weight"])
-            subprocess.run([options.bin / "certify", "--graph", plain, "--solution", best, "--stats", folder / "c.json",
-                            "--time-limit", str(options.seconds), "-o", folder / "out.sol"], check=True)
-            proof = json.load(open(folder / "c.json"))
-            weights = sorted(run[2]["weight"] for run in runs)
-            last = f"{weights[-1]:,}" if len(weights) == 1 else f"{weights[0]:,} … {weights[-1]:,}"
-            if result["complete"]:
-                last += " (optimal)"
-            cells = [plain.stem, f"{greedy:,}", *(f"{w:,}" if w else "–" for w in curve), last, f"{proof['bound']:,}",
-                     f"{100 * (1 - weights[-1] / proof['bound']):.3f} %"]
-            print("| " + " | ".join(cells) + " |", flush=True)
+            rows = {solver: mean([solve(plain, seed) for seed in range(1, options.seeds + 1)])
+                    for solver, solve in bench.solvers()}
+            print_table(plain.stem, rows, bench.bound(plain), options.seconds)
 
 
 if __name__ == "__main__":
