@@ -131,6 +131,7 @@ class Assembler {
   Extract build();
   HybridMesh conform();
   std::vector<std::int32_t> poor_hexes(const HybridMesh& hybrid) const;
+  void untangle_in_place(HybridMesh& hybrid) const;
   void give_back(const std::vector<std::int32_t>& owners);
   Extract smooth_and_repair(HybridMesh& hybrid);
   void improve(Extract& extracted);
@@ -154,14 +155,21 @@ HybridMesh Assembler::conform() {
     HybridMesh hybrid = build_selection(input_, tags_, candidates_, kept_);
     statistics_.conformity = make_conforming(hybrid, tags_, candidates_, last ? barely_valid : most_inverted);
     if (last) return hybrid;
-    Extract extracted = extract(hybrid, input_, tags_);
-    const SlidingSurface sliding{surface_, input_.points, extracted.origin};
-    untangle(extracted.mesh, untangling_rounds, &sliding);
-    move_points(extracted, hybrid);
+    untangle_in_place(hybrid);
+    if (!owners_of_poor_elements(hybrid, input_.points.size()).empty() &&
+        reconnect_poor_tets(hybrid, tags_, worth_a_vertex) > 0)
+      untangle_in_place(hybrid);
     const auto owners = owners_of_poor_elements(hybrid, input_.points.size());
     if (owners.empty()) return hybrid;
     give_back(owners);
   }
+}
+
+void Assembler::untangle_in_place(HybridMesh& hybrid) const {
+  Extract extracted = extract(hybrid, input_, tags_);
+  const SlidingSurface sliding{surface_, input_.points, extracted.origin};
+  untangle(extracted.mesh, untangling_rounds, &sliding);
+  move_points(extracted, hybrid);
 }
 
 void Assembler::give_back(const std::vector<std::int32_t>& owners) {

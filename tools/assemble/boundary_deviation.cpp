@@ -44,7 +44,7 @@ double BoundaryDeviation::from_facet(std::int32_t f, double enough) const {
   auto distance = [&](const Vec3& point) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < count && least > enough; ++i)
-      least = std::min(least, surface_.distance(origin_[corners[i]], point));
+      least = std::min(least, surface_.distance(origin_[corners[i]], point, enough));
     return least;
   };
   Vec3 middle{};

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,10 @@ constexpr double good_pyramid = 0.25;
 constexpr double good_cavity = 0.06;
 // What a quad has to reach at its first turn. The rest wait until all others have taken their tets.
 constexpr double accepted_at_once = 0.02;
+
+// The scaled Jacobian of a corner between planes that are one, but for the precision of surface files. On curved
+// surfaces corners of 0.01, and even inverted ones, have been opened by sliding vertices.
+constexpr double flat_corner = 1e-3;
 
 class Conformer {
  public:
@@ -120,9 +125,9 @@ bool Conformer::has_flat_corner(const OpenQuad& at) const {
     const Vertex o = quad[corner], next = quad[(corner + 1) % 4], last = quad[(corner + 3) % 4];
     if (!tags_.contains({o, next, *apex}) || !tags_.contains({o, last, *apex})) continue;
     const Vec3 origin = mesh_.points[o];
-    if (scaled_jacobian(mesh_.points[next] - origin, mesh_.points[last] - origin, mesh_.points[*apex] - origin) <
-        poor_quality)
-      return true;
+    const double quality =
+        scaled_jacobian(mesh_.points[next] - origin, mesh_.points[last] - origin, mesh_.points[*apex] - origin);
+    if (std::abs(quality) < flat_corner) return true;
   }
   return false;
 }

@@ -157,7 +157,7 @@ InputSurface::Place InputSurface::place_of(Vertex v) const {
   return dot(one, two) < -cos_feature_angle ? Place::curve : Place::corner;
 }
 
-InputSurface::Nearest InputSurface::descend(Vertex v, const Vec3& to, bool within_part) const {
+InputSurface::Nearest InputSurface::descend(Vertex v, const Vec3& to, bool within_part, double enough) const {
   const std::int32_t start = triangles_at(v)[0];
   Nearest best{start, {}, std::numeric_limits<double>::infinity()};
   // True when a triangle at `w` is nearer.
@@ -176,7 +176,8 @@ InputSurface::Nearest InputSurface::descend(Vertex v, const Vec3& to, bool withi
   };
   look_at(v);
   bool nearer = true;
-  for (int step = 0; nearer && step < longest_walk; ++step) {
+  const double near_enough = enough * enough;
+  for (int step = 0; nearer && best.distance_squared > near_enough && step < longest_walk; ++step) {
     nearer = false;
     const Triangle around = mesh_.triangles[best.triangle];
     for (Vertex w : around) nearer = look_at(w) || nearer;
@@ -209,14 +210,14 @@ InputSurface::Foot InputSurface::foot_on_curve(Vertex v, const Vec3& to) const {
 InputSurface::Foot InputSurface::foot(Vertex v, const Vec3& to) const {
   if (places_[v] == Place::curve) return foot_on_curve(v, to);
   if (places_[v] != Place::face) return {mesh_.points[v], {}};
-  const Nearest nearest = descend(v, to, true);
+  const Nearest nearest = descend(v, to, true, 0);
   const auto& [a, b, c] = mesh_.triangles[nearest.triangle];
   const auto& p = mesh_.points;
   return {nearest.at, unit(cross(p[b] - p[a], p[c] - p[a]))};
 }
 
-double InputSurface::distance(Vertex v, const Vec3& to) const {
-  return std::sqrt(descend(v, to, false).distance_squared);
+double InputSurface::distance(Vertex v, const Vec3& to, double enough) const {
+  return std::sqrt(descend(v, to, false, enough).distance_squared);
 }
 
 double InputSurface::distance(const Vec3& to) const {

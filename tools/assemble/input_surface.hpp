@@ -33,8 +33,9 @@ class InputSurface {
   };
   Foot foot(Vertex v, const Vec3& to) const;
 
-  // From `to` to the surface around v, across features too. Where the way downhill ends early it is too long.
-  double distance(Vertex v, const Vec3& to) const;
+  // From `to` to the surface around v, across features too; only as exact as it takes to tell it from `enough`. Where
+  // the way downhill ends early it is too long.
+  double distance(Vertex v, const Vec3& to, double enough = 0) const;
   // To all of the surface: looks at every triangle.
   double distance(const Vec3& to) const;
 
@@ -56,7 +57,7 @@ class InputSurface {
   void find_features();
   Place place_of(Vertex v) const;
   bool is_one_fan(Vertex v) const;
-  Nearest descend(Vertex v, const Vec3& to, bool within_part) const;
+  Nearest descend(Vertex v, const Vec3& to, bool within_part, double enough) const;
   Foot foot_on_curve(Vertex v, const Vec3& to) const;
 
   const TetMesh& mesh_;

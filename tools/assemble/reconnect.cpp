@@ -168,8 +168,10 @@ std::optional<Exchange> Reconnector::best_exchange(std::int32_t t) {
   const Tet tet = mesh_.tet(t);
   const double own = quality(tet);
   auto consider = [&](std::optional<Exchange>&& other) {
-    if (other && other->worst > worst_of(other->out) + least_gain && (!best || other->worst > best->worst))
-      best = std::move(other);
+    if (!other || (best && other->worst <= best->worst)) return;
+    const double before = worst_of(other->out);
+    // Inverted tets lie upon each other: what is around them is no ball.
+    if (before > 0 && other->worst > before + least_gain) best = std::move(other);
   };
   for (const auto& e : TetTopology::edges) consider(without_edge(tet[e[0]], tet[e[1]], best ? best->worst : own));
   for (int facet = 0; facet < 4; ++facet) consider(without_facet(t, facet, best ? best->worst : own));
