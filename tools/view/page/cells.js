@@ -1,0 +1,37 @@
+// What a cell of the scene is and where.
+
+export function kindOf(scene, cell) {
+  let k = 3;
+  while (scene.kindBegin[k] > cell) --k;
+  return k;
+}
+
+export function cornersOf(scene, cell) {
+  const k = kindOf(scene, cell), count = scene.kinds[k].corners, begin = (cell - scene.kindBegin[k]) * count;
+  return scene.corners[k].subarray(begin, begin + count);
+}
+
+// The mean of each cell's corners, three numbers a cell.
+export function middlesOf(scene) {
+  const result = new Float64Array(3 * scene.cellCount);
+  for (let k = 0; k < 4; ++k) {
+    const count = scene.kinds[k].corners, corners = scene.corners[k];
+    for (let i = 0; i < corners.length; ++i) {
+      const cell = scene.kindBegin[k] + Math.floor(i / count);
+      for (let axis = 0; axis < 3; ++axis) result[3 * cell + axis] += scene.points[3 * corners[i] + axis] / count;
+    }
+  }
+  return result;
+}
+
+// How far the cells' corners reach along a direction: [least, greatest].
+export function extent(scene, [x, y, z]) {
+  let low = Infinity, high = -Infinity;
+  for (const corners of scene.corners)
+    for (const v of corners) {
+      const along = x * scene.points[3 * v] + y * scene.points[3 * v + 1] + z * scene.points[3 * v + 2];
+      if (along < low) low = along;
+      if (along > high) high = along;
+    }
+  return [low, high];
+}

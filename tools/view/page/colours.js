@@ -1,0 +1,34 @@
+// What colour a cell has, as skin.cpp says it.
+
+import colours from "./colours.json";
+import {kindOf} from "./cells.js";
+
+export {colours};
+export const picked = [236, 64, 140];
+
+export function rgb(text) {
+  const value = parseInt(text.slice(1), 16);
+  return [value >> 16, (value >> 8) & 255, value & 255];
+}
+
+const quality = colours.quality.map(rgb), plain = rgb(colours.plain), invalid = rgb(colours.invalid);
+const kinds = Object.values(colours.kinds).map(rgb), regions = colours.regions.map(rgb);
+
+export function qualityColour(value) {
+  if (!(value > 0)) return invalid;
+  const place = Math.min(value, 1) * (quality.length - 1), below = Math.min(Math.floor(place), quality.length - 2);
+  return quality[below].map((from, i) => Math.round(from * (1 - place + below) + quality[below + 1][i] * (place - below)));
+}
+
+export const regionsOf = scene => [...new Set(scene.region)].sort((a, b) => a - b);
+
+// cell -> [r, g, b]
+export function painter(scene, mode) {
+  if (mode === "kind") return cell => kinds[kindOf(scene, cell)];
+  if (mode === "region") {
+    const place = new Map(regionsOf(scene).map((region, i) => [region, regions[i % regions.length]]));
+    return cell => place.get(scene.region[cell]);
+  }
+  if (mode === "hexes") return cell => cell < scene.kindBegin[1] ? qualityColour(scene.quality[cell]) : plain;
+  return cell => qualityColour(scene.quality[cell]);
+}

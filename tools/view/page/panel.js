@@ -1,0 +1,188 @@
+// The card with the controls: what they show follows the state, and what they change is told by changed().
+
+import {cornersOf, kindOf} from "./cells.js";
+import {colours, regionsOf} from "./colours.js";
+import {Histogram} from "./histogram.js";
+import {axes, directionName} from "./state.js";
+
+const byId = id => document.getElementById(id);
+const grouped = new Intl.NumberFormat("en").format;
+const plurals = {hex: "hexes", prism: "prisms", pyramid: "pyramids", tet: "tets"};
+
+function element(tag, text, properties = {}) {
+  const result = Object.assign(document.createElement(tag), properties);
+  if (text !== undefined) result.textContent = text;
+  return result;
+}
+
+function swatch(colour) {
+  const box = element("b");
+  box.style.background = colour;
+  return box;
+}
+
+export class Panel {
+  // actions: changed(), viewDirection() -> a unit vector, link(), png(), reset()
+  constructor(scene, state, actions) {
+    this.scene = scene;
+    this.state = state;
+    this.actions = actions;
+    this.histogram = new Histogram(scene, state, actions.changed);
+    this.makeCounts();
+    this.makeHistory();
+    this.connectChoices();
+    this.connectSliders();
+    for (const name of ["link", "png", "reset"]) byId(name).addEventListener("click", actions[name]);
+    byId("theme").addEventListener("click", () => {
+      state.theme = state.theme === "dark" ? "light" : "dark";
+      actions.changed();
+    });
+    byId("fold").addEventListener("click", () => {
+      byId("fold").textContent = byId("panel").classList.toggle("folded") ? "+" : "–";
+    });
+    byId("panel").hidden = false;
+  }
+
+  makeCounts() {
+    const {scene, state} = this;
+    this.kindButtons = scene.kinds.map(({name}, k) => {
+      const total = scene.kindBegin[k + 1] - scene.kindBegin[k];
+      const button = element("button", undefined, {title: `Show or hide ${plurals[name]}`, hidden: total === 0});
+      button.dataset.kind = name;
+      button.append(swatch(colours.kinds[name]), element("span", plurals[name]), element("span", grouped(total)),
+        element("span", `${(100 * total / scene.cellCount).toFixed(1)} %`));
+      button.style.display = total === 0 ? "none" : "";
+      button.addEventListener("click", () => {
+        state.kinds[k] = !state.kinds[k];
+        this.actions.changed();
+      });
+      return button;
+    });
+    byId("counts").append(...this.kindButtons, element("div", "", {className: "total"}));
+  }
+
+  makeHistory() {
+    const {history} = this.scene, list = byId("history").querySelector("ol");
+    byId("history").hidden = history.length === 0;
+    const value = entry => typeof entry === "object" ? JSON.stringify(entry).replace(/["{}]/g, "").replace(/,/g, ", ")
+      : typeof entry === "number" && !Number.isInteger(entry) ? String(Number(entry.toPrecision(4))) : String(entry);
+    for (const {tool, version, options, ...rest} of history) {
+      const item = element("li");
+      item.append(element("b", tool), element("div", Object.entries(rest).map(([k, v]) => `${k} ${value(v)}`).join(" · ")));
+      item.append(element("div", Object.entries(options ?? {}).map(([k, v]) => `--${k} ${value(v)}`).join("  ")));
+      item.title = `${tool} ${version ?? ""}`;
+      list.append(item);
+    }
+  }
+
+  connectChoices() {
+    const {state, actions} = this;
+    byId("colour").addEventListener("click", ({target}) => {
+      if (!target.value) return;
+      state.colour = target.value;
+      actions.changed();
+    });
+    byId("clip-axis").addEventListener("click", ({target}) => {
+      if (!target.value) return;
+      const fraction = state.clip?.fraction ?? 0.5;
+      if (target.value === "none") state.clip = null;
+      else if (target.value === "view") state.clip = {normal: actions.viewDirection(), fraction};
+      else if (target.value === "flip")
+        state.clip = state.clip && {normal: state.clip.normal.map(n => n === 0 ? 0 : -n), fraction: 1 - fraction};
+      else state.clip = {normal: this.towardsCamera(axes[target.value]), fraction};
+      actions.changed();
+    });
+    byId("edges").addEventListener("change", ({target}) => {
+      state.edges = target.checked;
+      actions.changed();
+    });
+  }
+
+  // What is taken away is what would hide the cut.
+  towardsCamera(axis) {
+    const view = this.actions.viewDirection();
+    return axis.reduce((sum, n, i) => sum + n * view[i], 0) < 0 ? axis.map(n => n === 0 ? 0 : -n) : axis;
+  }
+
+  connectSliders() {
+    const {scene, state, actions} = this;
+    let deepest = 1;
+    for (const layer of scene.layer) if (layer < 255) deepest = Math.max(deepest, layer);
+    byId("peel").max = deepest - 1;
+    byId("fragments").hidden = scene.fragments.length === 0;
+    byId("fragment").max = scene.fragments.length;
+    byId("clip").addEventListener("input", ({target}) => {
+      state.clip = {normal: state.clip?.normal ?? this.towardsCamera(axes.x), fraction: target.valueAsNumber};
+      actions.changed();
+    });
+    for (const name of ["peel", "fragment"])
+      byId(name).addEventListener("input", ({target}) => {
+        state[name] = target.valueAsNumber;
+        actions.changed();
+      });
+  }
+
+  // `counts`: cells shown of each kind.
+  show(counts) {
+    const {scene, state} = this;
+    document.documentElement.dataset.theme = state.theme;
+    const press = (button, on) => button.setAttribute("aria-pressed", on);
+    this.kindButtons.forEach((button, k) => press(button, state.kinds[k]));
+    for (const button of byId("colour").children) press(button, button.value === state.colour);
+    const axis = state.clip ? (directionName(state.clip.normal) ?? "view").replace("-", "") : "none";
+    for (const button of byId("clip-axis").children) press(button, button.value === axis);
+    byId("clip").value = state.clip?.fraction ?? 1;
+    byId("clip-value").textContent = state.clip ? `${Math.round(100 * state.clip.fraction)} %` : "";
+    byId("peel").value = state.peel;
+    byId("peel-value").textContent = state.peel ? `${state.peel} ${state.peel === 1 ? "layer" : "layers"}` : "";
+    byId("fragment").value = state.fragment;
+    byId("fragment-value").textContent = state.fragment ? `${state.fragment} of ${scene.fragments.length}` : "all";
+    byId("edges").checked = state.edges;
+    const shown = counts.reduce((a, b) => a + b, 0);
+    byId("counts").querySelector(".total").textContent = shown === scene.cellCount
+      ? `${grouped(shown)} cells` : `${grouped(shown)} of ${grouped(scene.cellCount)} cells shown`;
+    this.showLegend();
+    this.histogram.show();
+  }
+
+  showLegend() {
+    const {scene, state} = this, legend = byId("legend");
+    legend.replaceChildren();
+    const key = (colour, text) => {
+      const item = element("span", undefined, {className: "key"});
+      item.append(swatch(colour), text);
+      legend.append(item);
+    };
+    if (state.colour === "kind")
+      scene.kinds.forEach(({name}, k) => scene.kindBegin[k] < scene.kindBegin[k + 1] && key(colours.kinds[name], name));
+    else if (state.colour === "region")
+      regionsOf(scene).slice(0, 30).forEach((region, i) => key(colours.regions[i % colours.regions.length], region));
+    else {
+      const scale = element("div", undefined, {className: "scale"});
+      scale.style.background = `linear-gradient(to right, ${colours.quality.join()})`;
+      const ticks = element("div", undefined, {className: "ticks"});
+      ticks.append(...["0", "0.25", "0.5", "0.75", "1"].map(text => element("span", text)));
+      legend.append(scale, ticks);
+      if (state.colour === "hexes") key(colours.plain, "other cells");
+      if (scene.quality.some(quality => !(quality > 0))) key(colours.invalid, "not positive");
+    }
+  }
+
+  // -1: none.
+  showCell(cell) {
+    const {scene} = this, table = byId("picked").querySelector("table");
+    byId("picked").hidden = cell < 0;
+    table.replaceChildren();
+    if (cell < 0) return;
+    const row = (name, value) => table.insertRow().append(element("td", name), element("td", value));
+    const corners = cornersOf(scene, cell), middle = [0, 0, 0];
+    for (const v of corners)
+      for (let axis = 0; axis < 3; ++axis) middle[axis] += scene.points[3 * v + axis] / corners.length;
+    row(scene.content === "candidates" ? "candidate" : scene.kinds[kindOf(scene, cell)].name, `number ${scene.number[cell]}`);
+    row("scaled Jacobian", scene.quality[cell].toFixed(4));
+    row("region", scene.region[cell]);
+    row("layer", scene.layer[cell]);
+    row("vertices", [...corners].join(" "));
+    row("middle", middle.map((m, i) => Number((scene.centre[i] + scene.unit * m).toPrecision(5))).join(", "));
+  }
+}
