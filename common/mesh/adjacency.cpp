@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <tuple>
+#include <utility>
 
 #include "common/mesh/cell_topology.hpp"
 #include "common/run/error.hpp"
@@ -12,9 +12,9 @@
 namespace hexpipe {
 namespace {
 
-// A facet filed under its lowest vertex: the two others ascending, and 4 * tet + facet.
+// A facet filed under its lowest vertex: the two others, the middle one above the highest, and 4 * tet + facet.
 struct FiledFacet {
-  Vertex middle, high;
+  std::uint64_t others;
   std::int64_t code;
 };
 
@@ -43,22 +43,23 @@ std::vector<std::int32_t> match_facets(const TetMesh& mesh, const char* source) 
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
     for (int facet = 0; facet < 4; ++facet) {
       const auto v = sorted_facet(mesh.tets[t], facet);
-      filed[next[v[0]]++] = {v[1], v[2], static_cast<std::int64_t>(4 * t) + facet};
+      filed[next[v[0]]++] = {static_cast<std::uint64_t>(v[1]) << 32 | static_cast<std::uint32_t>(v[2]),
+                             static_cast<std::int64_t>(4 * t) + facet};
     }
 
   std::vector<std::int32_t> across(4 * mesh.tets.size(), TetAdjacency::none);
   parallel_for(static_cast<std::int64_t>(mesh.points.size()), 1024, [&](std::int64_t v) {
     const auto begin = filed.begin() + offsets[v], end = filed.begin() + offsets[v + 1];
     std::sort(begin, end, [](const FiledFacet& a, const FiledFacet& b) {
-      return std::tie(a.middle, a.high, a.code) < std::tie(b.middle, b.high, b.code);
+      return a.others < b.others || (a.others == b.others && a.code < b.code);
     });
-    auto same = [](const FiledFacet& a, const FiledFacet& b) { return a.middle == b.middle && a.high == b.high; };
+    auto same = [](const FiledFacet& a, const FiledFacet& b) { return a.others == b.others; };
     for (auto i = begin; i != end && i + 1 != end; ++i) {
       if (!same(*i, *(i + 1))) continue;
       if (i + 2 != end && same(*i, *(i + 2)))
-        throw DataError::at(source,
-                            "expected at most two tets at each facet, found tets {}, {} and {} at vertices {} {} {}",
-                            i->code / 4, (i + 1)->code / 4, (i + 2)->code / 4, v, i->middle, i->high);
+        throw DataError::at(
+            source, "expected at most two tets at each facet, found tets {}, {} and {} at vertices {} {} {}",
+            i->code / 4, (i + 1)->code / 4, (i + 2)->code / 4, v, i->others >> 32, i->others & 0xffffffff);
       across[i->code] = static_cast<std::int32_t>((i + 1)->code / 4);
       across[(i + 1)->code] = static_cast<std::int32_t>(i->code / 4);
       ++i;
@@ -82,20 +83,20 @@ TetAdjacency::TetAdjacency(const TetMesh& mesh, const char* source) : across_(ma
     for (const Vertex v : mesh.tets[t]) tets_at_vertex_[next[v]++] = static_cast<std::int32_t>(t);
 
   neighbour_offsets_.assign(vertex_count + 1, 0);
+  PerThread<std::vector<Vertex>> seen_from(std::vector<Vertex>(vertex_count, none));  // by vertex, the last one
   parallel_in_order(
       static_cast<std::int64_t>(vertex_count), 4096,
       [&](std::int64_t begin, std::int64_t end) {
         std::pair<std::vector<std::int64_t>, std::vector<Vertex>> block;
-        std::vector<Vertex> around;
+        std::vector<Vertex>& last_seen_from = seen_from.local();
         for (std::int64_t v = begin; v < end; ++v) {
-          around.clear();
+          const auto before = static_cast<std::ptrdiff_t>(block.second.size());
+          last_seen_from[v] = static_cast<Vertex>(v);
           for (const std::int32_t t : tets_at(static_cast<Vertex>(v)))
             for (const Vertex w : mesh.tets[t])
-              if (w != v) around.push_back(w);
-          std::sort(around.begin(), around.end());
-          around.erase(std::unique(around.begin(), around.end()), around.end());
-          block.first.push_back(static_cast<std::int64_t>(around.size()));
-          block.second.insert(block.second.end(), around.begin(), around.end());
+              if (std::exchange(last_seen_from[w], static_cast<Vertex>(v)) != v) block.second.push_back(w);
+          std::sort(block.second.begin() + before, block.second.end());
+          block.first.push_back(static_cast<std::int64_t>(block.second.size()) - before);
         }
         return block;
       },

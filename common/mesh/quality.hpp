@@ -2,6 +2,7 @@
 // How good a cell is, and how large. Corners are given in the numbering of cell_topology.hpp, as many as the kind has.
 
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "common/mesh/cell_topology.hpp"
@@ -19,7 +20,7 @@ inline double scaled_jacobian(const Vec3& u, const Vec3& v, const Vec3& w) {
 // Whether scaled_jacobian(u, v, w) > threshold >= 0, from the determinant and the product of the squared lengths;
 // compared by squares: on lattices, where corners of exactly 0.5 are common, no rounding of square roots decides.
 inline bool scaled_jacobian_exceeds(double determinant, double squared_lengths, double threshold) {
-  return determinant > 0 && determinant * determinant > threshold * threshold * squared_lengths;
+  return determinant * std::abs(determinant) > threshold * threshold * squared_lengths;
 }
 inline bool scaled_jacobian_exceeds(const Vec3& u, const Vec3& v, const Vec3& w, double threshold) {
   return scaled_jacobian_exceeds(det(u, v, w), norm_squared(u) * norm_squared(v) * norm_squared(w), threshold);

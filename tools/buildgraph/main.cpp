@@ -1,7 +1,7 @@
 #include <map>
 
-#include "common/run/cpu_phases.hpp"
 #include "common/run/option_checks.hpp"
+#include "common/run/phases.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/stage.hpp"
 #include "tools/buildgraph/buildgraph.hpp"
@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
   };
   const auto run = [&](RunContext& context) {
     options.weight = weights.at(weight);
-    CpuPhases phases;
+    Phases phases;
     Stage stage(context);
     const StageData data = stage.read({Role::candidates});
     phases.end("read");
@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
     context.statistics.update(to_json(summary));
     stage.write(graph, {{"vertices", summary.vertices}, {"edges", summary.edges}});
     phases.end("write");
-    context.statistics["cpu_seconds"] = phases.seconds();
+    context.statistics.update(phases.seconds());
   };
   return tool_main(argc, argv, info, declare, run);
 }

@@ -107,11 +107,19 @@ class CellSearch {
     return plan<step>.opened_quads.size() > 0 && plan<step>.opened_quads[0].corner == first;
   }
 
-  // One labelling of each cell, and no vertex twice.
+  // One labelling of each cell, and no vertex twice. All is compared: a branch for each would cost more.
   template <std::size_t step>
   bool may_stand(Vertex v) const {
-    return all_of_indices<plan<step>.greater.size()>([&](auto i) { return v > corners_[plan<step>.greater[i]]; }) &&
-           all_of_indices<step>([&](auto i) { return v != corners_[plan<i>.corner]; });
+    bool may = true;
+    all_of_indices<plan<step>.greater.size()>([&](auto i) {
+      may &= v > corners_[plan<step>.greater[i]];
+      return true;
+    });
+    all_of_indices<step>([&](auto i) {
+      may &= v != corners_[plan<i>.corner];
+      return true;
+    });
+    return may;
   }
 
   // Rule 3.

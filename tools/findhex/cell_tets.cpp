@@ -7,7 +7,6 @@
 #include "tools/findhex/cell_tets.hpp"
 
 #include <algorithm>
-#include <bit>
 
 #include "common/mesh/quality.hpp"
 
@@ -51,6 +50,7 @@ constexpr auto facet_of_corners = make_facet_of_corners<Topology>();
 template <class Topology>
 TetVerdict CellTets<Topology>::find(const CellCorners& corners) {
   corners_ = corners;
+  star_.move_to(corners[0]);
   TetVerdict verdict = TetVerdict::no_interior;
   for (const std::int32_t start : starts()) {
     verdict = find_from(start);
@@ -64,7 +64,7 @@ TetVerdict CellTets<Topology>::find(const CellCorners& corners) {
 // of a quad's four corners is on either side of none.
 template <class Topology>
 auto CellTets<Topology>::starts() const -> Starts {
-  auto inside = [&](int a, int b, int c) { return tables_.tet_inside(corners_[a], corners_[b], corners_[c]); };
+  auto inside = [&](int a, int b, int c) { return star_.tet_inside(corners_[a], corners_[b], corners_[c]); };
   auto has = [&](int a, int b, int c) { return tables_.links().is_facet(corners_[a], corners_[b], corners_[c]); };
   Starts all;
   auto add = [&](std::int32_t tet) {
@@ -137,7 +137,7 @@ template <class Topology>
 TetVerdict CellTets<Topology>::leave(std::int32_t tet) {
   const auto b = corner_bits(tet);
   const unsigned all = b[0] | b[1] | b[2] | b[3];
-  if (std::popcount(all) < 4) has_inner_vertex_ = true;
+  if (std::ranges::count(b, 0u) > 0) has_inner_vertex_ = true;
   const auto beyond = tables_.adjacency().tets_beyond(tet);
   for (int facet = 0; facet < 4; ++facet) {
     const unsigned corners = all & ~b[facet];

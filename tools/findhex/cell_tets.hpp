@@ -9,6 +9,7 @@
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/findhex/mesh_tables.hpp"
+#include "tools/findhex/tet_star.hpp"
 
 namespace hexpipe {
 
@@ -74,7 +75,7 @@ class CellTets {
  public:
   using CellCorners = std::array<Vertex, Topology::corner_count>;
 
-  CellTets(const MeshTables& tables, const CellTetRules& rules) : tables_(tables), rules_(rules) {}
+  CellTets(const MeshTables& tables, const CellTetRules& rules) : tables_(tables), rules_(rules), star_(tables) {}
 
   // Of a cell whose quads are triangulated quads of the mesh and whose triangles are facets.
   TetVerdict find(const CellCorners& corners);
@@ -111,6 +112,7 @@ class CellTets {
 
   const MeshTables& tables_;
   const CellTetRules rules_;
+  TetStar star_;
   CellCorners corners_{};
   FixedVector<std::int32_t, most_tets<Topology>> interior_;
   FixedVector<std::int32_t, quad_count> boundary_;

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <map>
 
-#include "common/run/cpu_phases.hpp"
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
+#include "common/run/phases.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/stage.hpp"
 #include "tools/findhex/findhex.hpp"
@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
     options.tet_rules.flat_corners = flat_corners == "keep";
     options.drop_folded_quads = folded_quads == "drop";
 
-    CpuPhases phases;
+    Phases phases;
     Stage stage(context);
     StageData data = stage.read({Role::mesh});
     const std::string source = stage.source_of(Role::mesh);
@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
     context.statistics.update(statistics_of(result));
     stage.write(result.candidates, {{"candidates", candidate_counts(result)}});
     phases.end("write");
-    context.statistics["cpu_seconds"] = phases.seconds();
+    context.statistics.update(phases.seconds());
   };
   return tool_main(argc, argv, info, declare, run);
 }
