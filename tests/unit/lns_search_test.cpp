@@ -272,13 +272,15 @@ TEST(Lns, TakesTheExtremes) {
   const ConflictGraph complete = hexpipe::testing::random_graph(300, 1.0, 100000, random);
   const LnsResult result = improve_by_lns(complete, {0}, {.fragment_size = 10}, no_deadline);
   EXPECT_EQ(result.weight, std::ranges::max(complete.weights));
-  // A star whose centre frees more than any fragment may hold.
+  // A star whose centre frees more than branch and bound may be given.
   std::vector<std::pair<std::int32_t, std::int32_t>> spokes;
   std::vector<std::int64_t> weights{5000};
   for (std::int32_t v = 1; v <= 6000; ++v) spokes.emplace_back(0, v), weights.push_back(1);
   const ConflictGraph star = make_graph(weights, spokes);
-  EXPECT_EQ(improve_by_lns(star, {0}, {.iterations = 20, .reduce = false}, no_deadline).weight, 5000);
-  EXPECT_EQ(improve_by_lns(star, {0}, {.iterations = 20}, no_deadline).weight, 6000);
+  EXPECT_EQ(improve_by_lns(star, {0}, {.iterations = 20, .annealed_fragment = 0, .reduce = false}, no_deadline).weight,
+            5000);
+  for (const bool reduce : {false, true})
+    EXPECT_EQ(improve_by_lns(star, {0}, {.iterations = 40, .reduce = reduce}, no_deadline).weight, 6000);
 }
 
 TEST(Lns, DoesNotDependOnThreads) {

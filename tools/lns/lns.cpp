@@ -18,6 +18,9 @@ namespace {
 
 // Of annealing a fragment for the first time. Of 20 and 60, on random-33k after 8 s: 20, by far.
 constexpr std::int64_t kicks_a_vertex = 20;
+// Annealed fragments may be so many times as large as wanted, which only hubs make them: these can be exchanged for all
+// of their neighbours in no other way.
+constexpr std::size_t hub_factor = 16;
 
 class Lns {
  public:
@@ -121,9 +124,9 @@ class Lns {
         continue;
       }
       const std::size_t size = schedule.size_at(*seed);
-      const std::size_t largest = way == Way::exact ? options_.largest_fragment : 2 * size;
+      const std::size_t limit = way == Way::exact ? std::min(options_.largest_fragment, 2 * size) : hub_factor * size;
       repair.begin(way);
-      grower_.grow(*seed, size, std::min(largest, 2 * size), repair.fragment());
+      grower_.grow(*seed, size, limit, repair.fragment());
       ++begun_;
       grown = true;
     }
