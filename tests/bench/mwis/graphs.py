@@ -14,18 +14,22 @@ import sys
 import numpy as np
 
 
+# Looked up, because making the text of a number anew takes several times as long.
+def line(weight, neighbours, names):
+    return f"{weight} {' '.join([names[number] for number in neighbours])}\n"
+
+
 def copies(path, count):
     text = subprocess.run(["zstd", "-dqcf", path], stdout=subprocess.PIPE, check=True, text=True).stdout
     header, *rows = text.splitlines()
     vertices, edges, form = header.split()
     if form != "10":
         sys.exit(f"{path}: expected vertex weights, format 10, found {form}")
-    weights, neighbours = zip(*(row.partition(" ")[::2] for row in rows))
-    neighbours = [np.fromstring(row, dtype=np.int64, sep=" ") for row in neighbours]
+    rows = [[int(number) for number in row.split()] for row in rows]
     print(count * int(vertices), count * int(edges), form)
     for copy in range(count):
-        for weight, row in zip(weights, neighbours):
-            print(weight, *(row + copy * int(vertices)).tolist())
+        names = [str(copy * int(vertices) + number) for number in range(int(vertices) + 1)]
+        sys.stdout.writelines(line(weight, neighbours, names) for weight, *neighbours in rows)
 
 
 def cliques(vertices, size, seed=1):
@@ -42,8 +46,9 @@ def cliques(vertices, size, seed=1):
         row = np.unique(np.concatenate([members[clique] for clique in memberships[v]]))
         rows.append(row[row != v] + np.int32(1))
     print(vertices, sum(map(len, rows)) // 2, 10)
-    for weight, row in zip(rng.integers(1, 1001, vertices).tolist(), rows):
-        print(weight, *row.tolist())
+    names = [str(number) for number in range(vertices + 1)]
+    weights = rng.integers(1, 1001, vertices).tolist()
+    sys.stdout.writelines(line(weight, row.tolist(), names) for weight, row in zip(weights, rows))
 
 
 def main(arguments):
