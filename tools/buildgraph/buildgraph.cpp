@@ -65,7 +65,7 @@ LowerConflicts find_lower_conflicts(const Candidates& candidates) {
 // Conflicts are found once, from their higher end. They are packed until all are counted, and what they were found by
 // is gone before the graph takes its memory. Then they are written at both ends: as higher ends come in ascending
 // order, so do all lists.
-ConflictGraph buildgraph(const Candidates& candidates, const BuildgraphOptions& options, const char* source) {
+ConflictGraph buildgraph(Candidates candidates, const BuildgraphOptions& options, const char* source) {
   const std::size_t count = candidates.size();
   if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw DataError::at(source, "expected fewer than 2^31 candidates, found {}", count);
@@ -73,6 +73,7 @@ ConflictGraph buildgraph(const Candidates& candidates, const BuildgraphOptions& 
   graph.weights = weights_of(candidates, options.weight, options.weight_scale, source);
 
   LowerConflicts conflicts = find_lower_conflicts(candidates);
+  candidates = {};
   graph.offsets.assign(count + 1, 0);
   std::partial_sum(conflicts.degrees.begin(), conflicts.degrees.end(), graph.offsets.begin() + 1);
   graph.neighbours.resize(graph.offsets.back());

@@ -13,7 +13,7 @@ struct BuildgraphOptions {
 };
 
 // Vertex i is candidate i. Throws DataError naming `source` when weights do not fit (see weights_of) or there are 2^31
-// candidates or more.
-ConflictGraph buildgraph(const Candidates& candidates, const BuildgraphOptions& options, const char* source);
+// candidates or more. Candidates that are moved in are gone before the graph takes its memory.
+ConflictGraph buildgraph(Candidates candidates, const BuildgraphOptions& options, const char* source);
 
 }  // namespace hexpipe

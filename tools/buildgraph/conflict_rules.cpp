@@ -24,6 +24,14 @@ SharedCorners shared_corners(std::span<const Vertex> i, std::span<const Vertex> 
   return shared;
 }
 
+// All are compared, without a branch.
+int shared_corner_count(std::span<const Vertex> i, std::span<const Vertex> j) {
+  int count = 0;
+  for (const Vertex v : i)
+    for (const Vertex w : j) count += v == w ? 1 : 0;
+  return count;
+}
+
 bool share_interior_tet(std::span<const std::int32_t> i, std::span<const std::int32_t> j) {
   std::size_t a = 0, b = 0;
   while (a < i.size() && b < j.size()) {
@@ -76,6 +84,8 @@ bool are_same_quad(CellKind kind_i, CellKind kind_j, const SharedCorners& shared
 }  // namespace
 
 bool in_conflict(const Candidates& candidates, std::size_t i, std::size_t j) {
+  constexpr int most_compatible = 4;
+  if (shared_corner_count(candidates.corners_of(i), candidates.corners_of(j)) > most_compatible) return true;
   if (share_interior_tet(candidates.interior_tets_of(i), candidates.interior_tets_of(j))) return true;
   const SharedCorners shared = shared_corners(candidates.corners_of(i), candidates.corners_of(j));
   const CellKind kind_i = candidates.kind[i], kind_j = candidates.kind[j];

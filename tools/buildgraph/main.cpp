@@ -33,9 +33,10 @@ int main(int argc, char** argv) {
     options.weight = weights.at(weight);
     Phases phases;
     Stage stage(context);
-    const StageData data = stage.read({Role::candidates});
+    StageData data = stage.read({Role::candidates});
     phases.end("read");
-    const ConflictGraph graph = buildgraph(*data.candidates, options, stage.source_of(Role::candidates).c_str());
+    const ConflictGraph graph =
+        buildgraph(std::move(*data.candidates), options, stage.source_of(Role::candidates).c_str());
     phases.end("build");
     const GraphSummary summary = summarize(graph);
     for (const auto& warning : warnings_about(summary)) context.warn(warning);
