@@ -11,13 +11,13 @@ build_packages=(
   libcli11-dev libfmt-dev nlohmann-json3-dev robin-map-dev libtbb-dev libboost-dev
   libarchive-dev libzstd-dev libpugixml-dev zlib1g-dev
   libopenmesh-dev libtet1.5-dev libcgal-dev libeigen3-dev libgmp-dev libmpfr-dev
-  esbuild libjs-three libosmesa6-dev libpng-dev
+  esbuild libjs-three libosmesa6-dev libpng-dev help2man
 )
 test_packages=(
   bats bats-assert bats-support libgtest-dev libgmock-dev libbenchmark-dev
   python3 python3-numpy python3-meshio python3-vtk9 gmsh coinor-cbc zstd procps
   python3-getfem calculix-ccx python3-scipy
-  chromium chromium-driver python3-selenium gnuplot-nox
+  chromium chromium-driver python3-selenium gnuplot-nox man-db
 )
 
 install_packages() {

@@ -1,0 +1,33 @@
+# Man pages (help2man, from --help and docs/man/<tool>.h2m) and completion for bash and zsh (from --help), made with the
+# tools and installed beside them. Without help2man there are no man pages of the tools.
+find_program(HELP2MAN help2man)
+option(HEXPIPE_MANUAL "Make man pages and shell completion by running the tools" ON)
+
+# hexpipe_manual(TOOL COMPONENT)
+function(hexpipe_manual tool component)
+  if(NOT HEXPIPE_MANUAL OR CMAKE_CROSSCOMPILING)
+    return()
+  endif()
+  set(folder "${CMAKE_BINARY_DIR}/manual")
+  set(outputs "${folder}/bash/${tool}" "${folder}/zsh/_${tool}")
+  add_custom_command(OUTPUT ${outputs}
+    COMMAND ${CMAKE_COMMAND} "-DTOOL=$<TARGET_FILE:${tool}>" "-DBASH=${folder}/bash/${tool}" "-DZSH=${folder}/zsh/_${tool}"
+      -P "${PROJECT_SOURCE_DIR}/cmake/Completion.cmake"
+    DEPENDS ${tool} "${PROJECT_SOURCE_DIR}/cmake/Completion.cmake" VERBATIM)
+  install(FILES "${folder}/bash/${tool}" DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+    COMPONENT ${component})
+  install(FILES "${folder}/zsh/_${tool}" DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT ${component})
+  if(HELP2MAN)
+    set(page "${folder}/man/${tool}.1")
+    set(extra "${PROJECT_SOURCE_DIR}/docs/man/${tool}.h2m")
+    # The date would differ from build to build.
+    add_custom_command(OUTPUT "${page}"
+      COMMAND ${CMAKE_COMMAND} -E make_directory "${folder}/man"
+      COMMAND ${CMAKE_COMMAND} -E env SOURCE_DATE_EPOCH=0 ${HELP2MAN} --no-info --no-discard-stderr --section=1
+        "--source=hexpipe ${PROJECT_VERSION}" "--include=${extra}" "--output=${page}" $<TARGET_FILE:${tool}>
+      DEPENDS ${tool} "${extra}" VERBATIM)
+    list(APPEND outputs "${page}")
+    install(FILES "${page}" DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${component})
+  endif()
+  add_custom_target(${tool}_manual ALL DEPENDS ${outputs})
+endfunction()

@@ -1,0 +1,81 @@
+# Man pages and completion, as the build makes them beside the tools.
+
+load helpers
+
+TOOLS="findhex buildgraph initsol lns certify assemble"
+for optional in tetmesh view; do
+  if [[ -x "$HEXPIPE_BIN/$optional" ]]; then TOOLS="$TOOLS $optional"; fi
+done
+MANUAL="$HEXPIPE_BIN/../manual"
+
+# options TOOL: the long ones of its --help.
+options() {
+  $1 --help | sed -nE 's/^  (-.,)?(--[a-z0-9-]+).*/\2/p'
+}
+
+# completions TOOL WORDS...: what bash offers for the last word.
+completions() {
+  bash -c 'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); "_hexpipe_$1"; printf "%s\n" "${COMPREPLY[@]}"' \
+    - "$MANUAL/bash/$1" "$@"
+}
+
+@test "bash completes every option of every tool" {
+  for tool in $TOOLS; do
+    assert_equal "$(completions $tool --)" "$(options $tool)"
+  done
+}
+
+@test "bash completes values and files" {
+  assert_equal "$(completions findhex --cells p | tr '\n' ' ')" "prism pyramid "
+  touch part.mesh
+  assert_equal "$(completions findhex --mesh pa)" part.mesh
+  assert_equal "$(completions findhex pa)" part.mesh
+  assert_equal "$(completions lns --seed '')" ""
+}
+
+@test "zsh's completion names every option" {
+  for tool in $TOOLS; do
+    assert_equal "$(head -1 "$MANUAL/zsh/_$tool")" "#compdef $tool"
+    for option in $(options $tool); do
+      grep -qE -- "('|,)$option(\[|\})" "$MANUAL/zsh/_$tool"
+    done
+    # Every quote is closed: bash reads such words as zsh does.
+    bash -n "$MANUAL/zsh/_$tool"
+  done
+}
+
+@test "every tool has a man page with its options and examples" {
+  if ! command -v help2man >/dev/null; then skip "help2man is not there"; fi
+  for tool in $TOOLS; do
+    run_apart env MANWIDTH=100 man --warnings -l "$MANUAL/man/$tool.1"
+    assert_success
+    assert_equal "$stderr" ""
+    assert_output --regexp "$tool - [a-z]"
+    assert_output --partial "EXAMPLES"
+    assert_output --partial "hexpipe-formats(5)"
+    # As it is written, for lines are broken within options.
+    for option in $(options $tool); do tr -d '\\' <"$MANUAL/man/$tool.1" | grep -q -- "$option"; done
+  done
+}
+
+@test "the examples of the man pages are command lines that the tools take" {
+  for page in "$HEXPIPE_SOURCE"/docs/man/*.h2m; do
+    while read -r line; do
+      IFS='|' read -ra stages <<<"$line"
+      for stage in "${stages[@]}"; do
+        read -r tool _ <<<"$stage"
+        if [[ ! " $TOOLS " == *" $tool "* ]]; then continue; fi
+        # Options are judged before inputs: those that do not exist end with 2.
+        eval "run timeout 20 $stage </dev/null"
+        assert [ "$status" -ne 2 ]
+      done
+    done < <(sed -n '/^\.RS/,/^\.RE/{/^\.R/d;p}' "$page")
+  done
+}
+
+@test "the page of the formats is well formed" {
+  run_apart env MANWIDTH=100 man --warnings -l "$HEXPIPE_SOURCE/docs/man/hexpipe-formats.5"
+  assert_success
+  assert_equal "$stderr" ""
+  for ending in mesh msh vtk vtu node inp tar cand graph sol stl; do assert_output --partial ".$ending"; done
+}
