@@ -187,7 +187,7 @@ PYTHON
 }
 
 @test "cells that cannot stand together are an error of one line" {
-  assert_fails_with 1 "assemble: solution: .*(share a tet|cross)" \
+  assert_fails_with 1 "assemble: /dev/fd/[0-9]+: solution: .*(share a tet|cross)" \
     assemble --mesh "$WORK/moved.mesh" --candidates "$WORK/moved.cand" --solution <(printf '1\n2\n3\n4\n5\n6\n7\n8\n')
 }
 
@@ -196,8 +196,15 @@ PYTHON
   $PYTHON "$DATA/lattices/lattice.py" five 4 >other.mesh
   assert_fails_with 1 "candidates: expected vertices below 27" \
     assemble --mesh small.mesh --candidates "$WORK/moved.cand" --solution "$WORK/moved.sol"
-  assert_fails_with 1 "candidates: expected" \
+  assert_fails_with 1 "moved.cand: candidates: expected" \
     assemble --mesh other.mesh --candidates "$WORK/moved.cand" --solution "$WORK/moved.sol"
+}
+
+@test "regions that candidates do not respect are an error that names the file" {
+  # Every tet of another region.
+  awk '/^Tetrahedra/ {tets = 1} tets && NF == 5 {$5 = NR} {print}' "$WORK/moved.mesh" >regions.mesh
+  assert_fails_with 1 "moved.cand: candidates: expected candidates of this mesh, found candidate" \
+    assemble --mesh regions.mesh --candidates "$WORK/moved.cand" --solution "$WORK/moved.sol"
 }
 
 @test "a solution beyond the candidates is an error of one line" {

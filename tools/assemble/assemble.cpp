@@ -24,20 +24,21 @@ namespace {
 // Boundary facets that no triangle of the input names get this tag, as in findhex.
 constexpr std::int32_t untagged = 0;
 
-void check_orientation(const TetMesh& mesh) {
+void check_orientation(const TetMesh& mesh, const InputNames& names) {
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const auto& [a, b, c, d] = mesh.tets[t];
     if (orientation(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) <= 0)
-      throw DataError::at("mesh", "expected positively oriented tets, found tet {} flat or inverted", t + 1);
+      throw DataError::at(names.mesh, "expected positively oriented tets, found tet {} flat or inverted", t + 1);
   }
 }
 
-void check_chosen(const IndependentSet& chosen, const Candidates& candidates) {
+void check_chosen(const IndependentSet& chosen, const Candidates& candidates, const InputNames& names) {
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     if (chosen[i] < 0 || static_cast<std::size_t>(chosen[i]) >= candidates.size())
-      throw DataError::at("solution", "expected candidates from 1 to {}, found {}", candidates.size(), chosen[i] + 1);
+      throw DataError::at(names.solution, "expected candidates from 1 to {}, found {}", candidates.size(),
+                          chosen[i] + 1);
     if (i > 0 && chosen[i] <= chosen[i - 1])
-      throw DataError::at("solution", "expected ascending candidates, found {} after {}", chosen[i] + 1,
+      throw DataError::at(names.solution, "expected ascending candidates, found {} after {}", chosen[i] + 1,
                           chosen[i - 1] + 1);
   }
 }
@@ -52,9 +53,9 @@ bool is_facet_of_a_tet(const Triangle& triangle, const TetMesh& mesh, const TetA
 }
 
 // The input with all boundary and interface facets among its triangles, and no others than facets of tets.
-TetMesh with_complete_surface(const TetMesh& mesh) {
+TetMesh with_complete_surface(const TetMesh& mesh, const InputNames& names) {
   TetMesh result = mesh;
-  const TetAdjacency adjacency(mesh, "mesh");
+  const TetAdjacency adjacency(mesh, names.mesh.c_str());
   std::size_t kept = 0;
   for (std::size_t i = 0; i < result.triangles.size(); ++i) {
     if (!is_facet_of_a_tet(result.triangles[i], mesh, adjacency)) continue;
@@ -116,13 +117,15 @@ std::vector<std::int32_t> owners_of_poor_elements(const HybridMesh& mesh, std::s
 
 class Assembler {
  public:
-  Assembler(TetMesh input, const Candidates& candidates, const IndependentSet& chosen, const AssembleOptions& options)
+  Assembler(TetMesh input, const Candidates& candidates, const IndependentSet& chosen, const AssembleOptions& options,
+            const InputNames& names)
       : input_(std::move(input)),
         tags_(input_),
         surface_(input_),
         candidates_(candidates),
         kept_(chosen),
-        options_(options) {}
+        options_(options),
+        names_(names) {}
 
   AssembleResult run();
 
@@ -142,6 +145,7 @@ class Assembler {
   const Candidates& candidates_;
   IndependentSet kept_;
   const AssembleOptions& options_;
+  const InputNames& names_;
   AssembleStatistics statistics_;
   std::int64_t poor_ = 0;
   double poor_volume_ = 0;
@@ -152,7 +156,7 @@ class Assembler {
 HybridMesh Assembler::conform() {
   for (int attempt = 1;; ++attempt) {
     const bool last = attempt == most_attempts || options_.smooth == 0;
-    HybridMesh hybrid = build_selection(input_, tags_, candidates_, kept_);
+    HybridMesh hybrid = build_selection(input_, tags_, candidates_, kept_, names_);
     statistics_.conformity = make_conforming(hybrid, tags_, candidates_, last ? barely_valid : most_inverted);
     if (last) return hybrid;
     untangle_in_place(hybrid);
@@ -228,7 +232,7 @@ Extract Assembler::build() {
   for (int attempt = 1;; ++attempt) {
     statistics_.smoothing = {};
     statistics_.exchanges = statistics_.repaired = 0;
-    HybridMesh hybrid = is_conforming() ? conform() : build_selection(input_, tags_, candidates_, kept_);
+    HybridMesh hybrid = is_conforming() ? conform() : build_selection(input_, tags_, candidates_, kept_, names_);
     Extract extracted = smooth_and_repair(hybrid);
     move_points(extracted, hybrid);
     const auto poor = poor_hexes(hybrid);
@@ -256,11 +260,11 @@ AssembleResult Assembler::run() {
 }  // namespace
 
 AssembleResult assemble(const TetMesh& mesh, const Candidates& candidates, const IndependentSet& chosen,
-                        const AssembleOptions& options) {
-  validate_against(candidates, mesh, "candidates");
-  check_chosen(chosen, candidates);
-  check_orientation(mesh);
-  return Assembler(with_complete_surface(mesh), candidates, chosen, options).run();
+                        const AssembleOptions& options, const InputNames& names) {
+  validate_against(candidates, mesh, names.candidates.c_str());
+  check_chosen(chosen, candidates, names);
+  check_orientation(mesh, names);
+  return Assembler(with_complete_surface(mesh, names), candidates, chosen, options, names).run();
 }
 
 }  // namespace hexpipe

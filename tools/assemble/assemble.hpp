@@ -5,6 +5,7 @@
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/mixed_mesh.hpp"
 #include "common/mesh/tet_mesh.hpp"
+#include "tools/assemble/selection.hpp"
 #include "tools/assemble/statistics.hpp"
 
 namespace hexpipe {
@@ -23,9 +24,9 @@ struct AssembleResult {
 // The chosen cells and the tets that remain, with the input's regions and tagged facets; with Conformity::pyramids
 // conforming. The result is checked (self_check.hpp) before it is returned.
 //
-// Throws DataError when a tet is not positively oriented, the candidates are not of this mesh, or the chosen ones
-// cannot stand together.
+// Throws DataError, with the name of the input, when a tet is not positively oriented, the candidates are not of this
+// mesh, or the chosen ones cannot stand together.
 AssembleResult assemble(const TetMesh& mesh, const Candidates& candidates, const IndependentSet& chosen,
-                        const AssembleOptions& options);
+                        const AssembleOptions& options, const InputNames& names = {});
 
 }  // namespace hexpipe

@@ -34,7 +34,10 @@ int main(int argc, char** argv) {
     context.options["smooth"] = smooth;
     Stage stage(context);
     const StageData data = stage.read({Role::mesh, Role::candidates, Role::solution}, {Role::graph});
-    const AssembleResult result = assemble(*data.mesh, *data.candidates, *data.solution, options);
+    const AssembleResult result = assemble(*data.mesh, *data.candidates, *data.solution, options,
+                                           {.mesh = stage.source_of(Role::mesh),
+                                            .candidates = stage.source_of(Role::candidates),
+                                            .solution = stage.source_of(Role::solution)});
     context.statistics = to_json(result.statistics);
     for (const auto& line : summary_lines(result.statistics)) context.note(line);
     stage.write(result.mesh, {{"counts", to_json(result.statistics)["cells"]}});

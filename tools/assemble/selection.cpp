@@ -13,18 +13,19 @@ struct Claims {
   std::vector<std::uint8_t> absorbed;
 };
 
-[[noreturn]] void fail_misfit(std::int32_t candidate) {
-  throw DataError::at("candidates", "expected candidates of this mesh, found candidate {} whose tets do not form it",
-                      candidate + 1);
+[[noreturn]] void fail_misfit(const InputNames& names, std::int32_t candidate) {
+  throw DataError::at(names.candidates,
+                      "expected candidates of this mesh, found candidate {} whose tets do not form it", candidate + 1);
 }
 
-[[noreturn]] void fail_conflict(std::int32_t a, std::int32_t b, const char* how) {
-  throw DataError::at("solution", "expected candidates that fit together, found {} and {} which {}", a + 1, b + 1, how);
+[[noreturn]] void fail_conflict(const InputNames& names, std::int32_t a, std::int32_t b, const char* how) {
+  throw DataError::at(names.solution, "expected candidates that fit together, found {} and {} which {}", a + 1, b + 1,
+                      how);
 }
 
-void claim_interior(const Candidates& candidates, std::int32_t candidate, Claims& claims) {
+void claim_interior(const InputNames& names, const Candidates& candidates, std::int32_t candidate, Claims& claims) {
   for (std::int32_t t : candidates.interior_tets_of(candidate)) {
-    if (claims.owner[t] != HybridCell::none) fail_conflict(claims.owner[t], candidate, "share a tet");
+    if (claims.owner[t] != HybridCell::none) fail_conflict(names, claims.owner[t], candidate, "share a tet");
     claims.owner[t] = candidate;
   }
 }
@@ -74,22 +75,24 @@ int quad_with_vertices(const HybridCell& cell, const VertexKey<4>& key) {
   return -1;
 }
 
-HybridCell make_cell(const TetMesh& mesh, const Candidates& candidates, std::int32_t candidate) {
+HybridCell make_cell(const InputNames& names, const TetMesh& mesh, const Candidates& candidates,
+                     std::int32_t candidate) {
   const auto interior = candidates.interior_tets_of(candidate);
-  if (interior.empty() || candidates.kind[candidate] == CellKind::tet) fail_misfit(candidate);
+  if (interior.empty() || candidates.kind[candidate] == CellKind::tet) fail_misfit(names, candidate);
   HybridCell cell;
   cell.kind = candidates.kind[candidate];
   cell.corners = candidates.vertices[candidate];
   cell.candidate = candidate;
   cell.region = mesh.tet_tags[interior.front()];
   for (std::int32_t t : interior)
-    if (mesh.tet_tags[t] != cell.region) fail_misfit(candidate);
+    if (mesh.tet_tags[t] != cell.region) fail_misfit(names, candidate);
   const auto skin = skin_of(mesh, interior);
   if (!with_topology(cell.kind, [&](auto topology) { return match_skin<decltype(topology)>(skin, cell); }))
-    fail_misfit(candidate);
+    fail_misfit(names, candidate);
   for (std::int32_t t : candidates.boundary_tets_of(candidate)) {
     const int quad = quad_with_vertices(cell, key_of(mesh.tets[t]));
-    if (quad < 0 || cell.sliver[quad] != HybridCell::none) fail_misfit(candidate);
+    if (quad < 0 || cell.sliver[quad] != HybridCell::none || mesh.tet_tags[t] != cell.region)
+      fail_misfit(names, candidate);
     cell.sliver[quad] = t;
   }
   return cell;
@@ -102,7 +105,7 @@ struct QuadOwner {
   std::int32_t partner = HybridCell::none;
 };
 
-void pair_quads(const std::vector<HybridCell>& cells, KeyMap<4, QuadOwner>& owners) {
+void pair_quads(const InputNames& names, const std::vector<HybridCell>& cells, KeyMap<4, QuadOwner>& owners) {
   for (std::int32_t c = 0; c < static_cast<std::int32_t>(cells.size()); ++c)
     for (int i = 0; i < cells[c].quad_count(); ++i) {
       const Quad quad = cells[c].quad(i);
@@ -110,18 +113,19 @@ void pair_quads(const std::vector<HybridCell>& cells, KeyMap<4, QuadOwner>& owne
       if (added) continue;
       QuadOwner& owner = entry.value();
       if (owner.partner != HybridCell::none || !same_diagonals(owner.quad, quad))
-        fail_conflict(cells[owner.cell].candidate, cells[c].candidate, "cross at a quad");
+        fail_conflict(names, cells[owner.cell].candidate, cells[c].candidate, "cross at a quad");
       owner.partner = c;
     }
 }
 
-void absorb_slivers(const SurfaceTags& tags, const KeyMap<4, QuadOwner>& owners, std::vector<HybridCell>& cells,
-                    Claims& claims) {
+void absorb_slivers(const InputNames& names, const SurfaceTags& tags, const KeyMap<4, QuadOwner>& owners,
+                    std::vector<HybridCell>& cells, Claims& claims) {
   for (auto& cell : cells)
     for (int i = 0; i < cell.quad_count(); ++i) {
       std::int32_t& sliver = cell.sliver[i];
       if (sliver == HybridCell::none) continue;
-      if (claims.owner[sliver] != HybridCell::none) fail_conflict(claims.owner[sliver], cell.candidate, "share a tet");
+      if (claims.owner[sliver] != HybridCell::none)
+        fail_conflict(names, claims.owner[sliver], cell.candidate, "share a tet");
       const bool alone = owners.at(key_of(cell.quad(i))).partner == HybridCell::none;
       if (alone && tags.covers_partly(cell.quad(i), cell.outer_diagonal(i)))
         sliver = HybridCell::none;
@@ -132,15 +136,18 @@ void absorb_slivers(const SurfaceTags& tags, const KeyMap<4, QuadOwner>& owners,
 
 // Each half of a quad without a partner has to face a tet or lie on the boundary; else another cell stands across it.
 // Likewise no other cell may use its diagonal, which conformity is going to split.
-void check_open_sides(const HybridMesh& mesh, const SurfaceTags& tags) {
+void check_open_sides(const InputNames& names, const HybridMesh& mesh, const SurfaceTags& tags) {
   KeyMap<2, std::int32_t> diagonals;
   for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c)
     for (int i = 0; i < mesh.cell(c).quad_count(); ++i) {
       const Quad quad = mesh.cell(c).quad(i);
       const auto inner = triangles_of(quad, mesh.cell(c).inner_diagonal[i]);
       if (const std::int32_t partner = mesh.partner_at(quad, c); partner != HybridMesh::none) {
+        if (mesh.cell(partner).region != mesh.cell(c).region && !tags.cover_of(quad))
+          fail_conflict(names, mesh.cell(c).candidate, mesh.cell(partner).candidate,
+                        "stand in two regions without an interface between them");
         if (mesh.tet_at(inner[0]) == HybridMesh::none) continue;
-        fail_conflict(mesh.cell(c).candidate, mesh.cell(partner).candidate, "have a tet between them");
+        fail_conflict(names, mesh.cell(c).candidate, mesh.cell(partner).candidate, "have a tet between them");
       }
       const int diagonal = mesh.cell(c).outer_diagonal(i);
       int tets = 0;
@@ -148,18 +155,18 @@ void check_open_sides(const HybridMesh& mesh, const SurfaceTags& tags) {
       if (tets == 0 && tags.cover_of(quad, diagonal)) continue;
       const auto candidate = mesh.cell(c).candidate;
       if (tets != 2)
-        throw DataError::at("solution",
+        throw DataError::at(names.solution,
                             "expected candidates that fit together, found {} with a quad that another crosses",
                             candidate + 1);
       const auto [other, added] = diagonals.try_emplace(edge_key(quad[diagonal], quad[diagonal + 2]), candidate);
-      if (!added) fail_conflict(other->second, candidate, "cross at an edge");
+      if (!added) fail_conflict(names, other->second, candidate, "cross at an edge");
     }
   for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c)
     with_topology(mesh.cell(c).kind, [&](auto topology) {
       const auto& corners = mesh.cell(c).corners;
       for (const auto& e : decltype(topology)::edges) {
         const auto found = diagonals.find(edge_key(corners[e[0]], corners[e[1]]));
-        if (found != diagonals.end()) fail_conflict(found->second, mesh.cell(c).candidate, "cross at an edge");
+        if (found != diagonals.end()) fail_conflict(names, found->second, mesh.cell(c).candidate, "cross at an edge");
       }
     });
 }
@@ -167,26 +174,26 @@ void check_open_sides(const HybridMesh& mesh, const SurfaceTags& tags) {
 }  // namespace
 
 HybridMesh build_selection(const TetMesh& mesh, const SurfaceTags& tags, const Candidates& candidates,
-                           const IndependentSet& chosen) {
+                           const IndependentSet& chosen, const InputNames& names) {
   Claims claims{std::vector<std::int32_t>(mesh.tets.size(), HybridCell::none),
                 std::vector<std::uint8_t>(mesh.tets.size(), 0)};
   std::vector<HybridCell> cells;
   cells.reserve(chosen.size());
   for (std::int32_t candidate : chosen) {
-    claim_interior(candidates, candidate, claims);
-    cells.push_back(make_cell(mesh, candidates, candidate));
+    claim_interior(names, candidates, candidate, claims);
+    cells.push_back(make_cell(names, mesh, candidates, candidate));
   }
   KeyMap<4, QuadOwner> owners;
   owners.reserve(4 * cells.size());
-  pair_quads(cells, owners);
-  absorb_slivers(tags, owners, cells, claims);
+  pair_quads(names, cells, owners);
+  absorb_slivers(names, tags, owners, cells, claims);
 
   std::vector<bool> removed(mesh.tets.size());
   for (std::size_t t = 0; t < removed.size(); ++t)
     removed[t] = claims.owner[t] != HybridCell::none || claims.absorbed[t];
   HybridMesh result(mesh, removed);
   for (const auto& cell : cells) result.add_cell(cell);
-  check_open_sides(result, tags);
+  check_open_sides(names, result, tags);
   return result;
 }
 

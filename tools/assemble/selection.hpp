@@ -1,6 +1,8 @@
 #pragma once
 // From the chosen candidates to a mesh of cells and remaining tets, not conforming yet.
 
+#include <string>
+
 #include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/tet_mesh.hpp"
@@ -9,13 +11,19 @@
 
 namespace hexpipe {
 
+// Where inputs came from, for messages.
+struct InputNames {
+  std::string mesh = "mesh", candidates = "candidates", solution = "solution";
+};
+
 // The chosen cells in place of their interior tets and of the boundary tets on their quads. A boundary tet stays where
 // taking it would leave a quad half on a tagged surface.
 //
 // Throws DataError when a chosen candidate is not what its tets form (a candidate of another mesh) or two chosen ones
-// cannot stand together: they share an interior tet, their facets cross, or a diagonal of one is an edge of the other.
+// cannot stand together: they share an interior tet, their facets cross, a diagonal of one is an edge of the other, or
+// they lie in two regions without an interface between them.
 HybridMesh build_selection(const TetMesh& mesh, const SurfaceTags& tags, const Candidates& candidates,
-                           const IndependentSet& chosen);
+                           const IndependentSet& chosen, const InputNames& names = {});
 
 // A quad of a cell that faces two tets, each with a triangle of it.
 struct OpenQuad {
