@@ -281,3 +281,80 @@ for number, x, y, z in moved:
     assert abs(x - 0.001 * place[int(number)]) < 1e-9 and abs(y) < 1e-9 and abs(z) < 1e-9, (number, x, y, z)
 PYTHON
 }
+
+@test "CalculiX pulls at a block of hexes and prisms by its surface tag" {
+  command -v ccx >/dev/null || skip "calculix-ccx is not installed"
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 3 >untagged.mesh
+  $PYTHON - <<'PYTHON'
+# The six sides get the tags 1 to 6: x = 0, x = 3, y = 0, ...
+lines = open("untagged.mesh").read().split("\n")
+start = lines.index("Vertices") + 2
+points = [[float(x) for x in line.split()[:3]] for line in lines[start : start + 64]]
+first = lines.index("Tetrahedra") + 2
+tets = [[int(x) for x in line.split()[:4]] for line in lines[first : first + int(lines[first - 1])]]
+sides = []
+for a, b, c, d in tets:
+    for facet in ((b, c, d), (a, d, c), (a, b, d), (a, c, b)):
+        for axis in range(3):
+            for end in (0, 3):
+                if all(points[v - 1][axis] == end for v in facet):
+                    sides.append("%d %d %d %d" % (*facet, 1 + 2 * axis + (end > 0)))
+lines[lines.index("End"):] = ["Triangles", str(len(sides)), *sides, "End", ""]
+open("tagged.mesh", "w").write("\n".join(lines))
+PYTHON
+  findhex --mesh tagged.mesh --min-quality 0.4 --cells hex,prism -o block.cand
+  $PYTHON - <<'PYTHON'
+# Columns of hexes and columns of two prisms each, whose triangles look up and down, in turns.
+lines = open("tagged.mesh").read().split("\n")
+start = lines.index("Vertices") + 2
+points = [[float(x) for x in line.split()[:3]] for line in lines[start : start + 64]]
+chosen = []
+for number, line in enumerate(open("block.cand")):
+    words = line.split()
+    count = {"hex": 8, "prism": 6}.get(words[0], 0)
+    at = [points[int(v) - 1] for v in words[5 : 5 + count]]
+    low, high = ([f(p[axis] for p in at) for axis in range(3)] if at else [] for f in (min, max))
+    if not at or any(h - l != 1 for l, h in zip(low, high)):
+        continue
+    upright = words[0] == "hex" or at[0][2] == at[1][2] == at[2][2]
+    if upright and (words[0] == "hex") == ((low[0] + low[1]) % 2 == 0):
+        chosen.append(number)
+open("block.sol", "w").write("".join("%d\n" % number for number in chosen))
+PYTHON
+  assemble --mesh tagged.mesh --candidates block.cand --solution block.sol --smooth 0 --stats block.json -o block.inp
+  $PYTHON - <<'PYTHON'
+import json
+cells = json.load(open("block.json"))["cells"]
+assert cells["hex"]["count"] == 15 and cells["prism"]["count"] == 24, cells
+assert cells["pyramid"]["count"] == cells["tet"]["count"] == 0, cells
+nodes, reading = {}, False
+for line in open("block.inp"):
+    if line.startswith("*"):
+        reading = line.upper().startswith("*NODE")
+    elif reading:
+        number, *at = line.split(",")
+        nodes[int(number)] = [float(c) for c in at]
+with open("case.inp", "w") as case:
+    print("*INCLUDE, INPUT=block.inp\n*MATERIAL, NAME=STEEL\n*ELASTIC\n210000, 0.3", file=case)
+    print("*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL\n*STEP\n*STATIC\n*BOUNDARY", file=case)
+    for number, at in nodes.items():
+        for axis in range(3):
+            if at[axis] == 0:
+                print("%d, %d, %d, 0" % (number, axis + 1, axis + 1), file=case)
+    print("*DSLOAD\nSURFACE_2, P, -210", file=case)
+    print("*NODE PRINT, NSET=NALL\nU\n*END STEP", file=case)
+json.dump(nodes, open("nodes.json", "w"))
+PYTHON
+  run timeout 60 ccx case
+  assert_success
+  $PYTHON - <<'PYTHON'
+import json
+nodes = json.load(open("nodes.json"))
+moved = [line.split() for line in open("case.dat") if len(line.split()) == 4]
+assert len(moved) == 64
+for number, *by in moved:
+    x, y, z = nodes[number]
+    for found, exact in zip(map(float, by), (0.001 * x, -0.0003 * y, -0.0003 * z)):
+        assert abs(found - exact) < 1e-9, (number, by, exact)
+PYTHON
+}

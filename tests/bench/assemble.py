@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""assemble.py [--models DIR] [--seeds N] [--million] [MODEL...] - is what assemble makes valid, how good, and how fast.
+"""assemble.py [--models DIR] [--size coarse|middle|fine] [--seeds N [--first SEED]] [--million] [MODEL...] - is what assemble makes valid, how good, and how fast.
 
 Three parts, each checked by tests/checkers/meshstats.py --exact:
   models    the surfaces of ../shared/models (or --models DIR, or the files named): share of the volume in hexes before and
             after conformity, cells given back by reason, least scaled Jacobians, seconds. Skipped where they are not.
-  random    N meshes of uniform points: nothing may ever break an invariant.
+  random    N meshes of uniform points, seeds from SEED on: nothing may ever break an invariant.
   million   a lattice of a million tets with 6 of 7 cubes chosen: seconds without smoothing; the goal is 10.
 The tools are taken from build/bin, or from HEXPIPE_BIN. Ends with 1 when an invariant is broken or a goal is missed.
 """
@@ -25,8 +25,11 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "checkers"))
 import meshstats  # noqa: E402
 import surfcheck  # noqa: E402
 
-# Coarse edge lengths, as in the models' README; else 1/16 of the longest side of the bounding box.
-SIZES = {"mambo-s1.stl": 5.2, "mambo-s22.stl": 5.2, "mambo-s27.stl": 3.2, "mambo-m1.stl": 5.1, "mambo-m6.stl": 3.2}
+# Edge lengths as in the models' README: for the MAMBO models, else parts of the longest side of the bounding box.
+SIZES = {"mambo-s1.stl": (5.2, 3.3, 2.3), "mambo-s22.stl": (5.2, 3.3, 2.3), "mambo-s27.stl": (3.2, 2.05, 1.42),
+         "mambo-m1.stl": (5.1, 3.2, 2.2), "mambo-m6.stl": (3.2, 2.1, 1.45)}
+PARTS = (16, 28, 40)
+LEVELS = ("coarse", "middle", "fine")
 NEVER = ("f>2", "perm", "ncq", "nonconf_quads", "inv", "hexbad", "bedge_odd", "dupcells", "orphan_nodes", "negvol")
 # Scaled Jacobians after smoothing, and points of volume lost to conformity.
 LEAST_HEX, LEAST_OTHER, MOST_LOST = 0.1, 0.02, 0.5
@@ -51,10 +54,11 @@ def broken(found):
     return faults + (["volgap"] if abs(found["volgap"]) > 1e-9 else [])
 
 
-def bench_model(path):
+def bench_model(path, level):
     name = os.path.basename(path)
     points, _ = surfcheck.read(path)
-    size = SIZES.get(name, float((points.max(axis=0) - points.min(axis=0)).max()) / 16)
+    longest = float((points.max(axis=0) - points.min(axis=0)).max())
+    size = SIZES.get(name, [longest / part for part in PARTS])[level]
     tool("tetmesh", path, "--size", size, "-q", "-o", "mesh.tar")
     tool("findhex", "mesh.tar", "-o", "candidates.tar", "--format", "tar")
     tool("buildgraph", "candidates.tar", "-o", "graph.tar", "--format", "tar")
@@ -119,7 +123,9 @@ def bench_million():
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--models", default=os.path.join(ROOT, "..", "shared", "models"))
+    parser.add_argument("--size", choices=LEVELS, default="coarse")
     parser.add_argument("--seeds", type=int, default=200)
+    parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--million", action="store_true")
     parser.add_argument("files", nargs="*", metavar="MODEL")
     arguments = parser.parse_args()
@@ -134,8 +140,8 @@ def main():
         os.chdir(folder)
         if files:
             print("model               size   hexes  hex %  after  lost hex SJ pyr SJ  tet SJ seconds")
-        missed += sum(bool(bench_model(file)) for file in files)
-        bad = sum(bool(bench_random(seed)) for seed in range(arguments.seeds))
+        missed += sum(bool(bench_model(file, LEVELS.index(arguments.size))) for file in files)
+        bad = sum(bool(bench_random(arguments.first + i)) for i in range(arguments.seeds))
         print(f"random: {arguments.seeds} meshes, {bad} with a broken invariant")
         missed += bad + (bool(bench_million()) if arguments.million else 0)
         os.chdir("/")
