@@ -141,14 +141,14 @@ PYTHON
 }
 
 @test "the same surface from every format is the same mesh" {
-  tetmesh "$FILES/cube.off" --points none -o off.tar
+  tetmesh "$FILES/cube.off" --surface keep --points none -o off.tar
   for file in cube.obj cube.ascii.ply cube.binary_little_endian.ply cube.binary_big_endian.ply; do
-    tetmesh "$FILES/$file" --points none -o other.tar
+    tetmesh "$FILES/$file" --surface keep --points none -o other.tar
     assert_same_bytes off.tar other.tar
   done
   # STL tells points in another order.
   for file in cube.stl solid.stl cube.ascii.stl; do
-    tetmesh "$FILES/$file" --points none --stats stats.json -o stl.tar
+    tetmesh "$FILES/$file" --surface keep --points none --stats stats.json -o stl.tar
     assert_equal "$(regions stl.tar)" 1:1
     assert_equal "$(stats surface_points)" 8
   done
@@ -162,7 +162,7 @@ for name, text in re.findall(r"<!-- surface (\S+) -->\n```\n(.*?)```", open(sys.
 PYTHON
   assert_equal "$(ls | tr '\n' ' ')" "tet.obj tet.off tet.ply tet.stl "
   for format in stl obj ply off; do
-    tetmesh -q --points none tet.$format -o tet.tar
+    tetmesh -q --surface keep --points none tet.$format -o tet.tar
     assert_equal "$(regions tet.tar)" 1:0.166666667
     local tags="[1, 1, 1, 1]"
     if [[ $format == stl || $format == obj ]]; then tags="[1, 2, 2, 2]"; fi
@@ -191,7 +191,7 @@ PYTHON
 }
 
 @test "a real part: surface kept, volume right, conforming by the independent checker" {
-  run_apart tetmesh "$DATA/bracket.stl" --size 5 -o part.msh --stats stats.json
+  run_apart tetmesh "$DATA/bracket.stl" --surface keep --size 5 -o part.msh --stats stats.json
   assert_success
   assert_equal "$output$stderr" ""
   assert_equal "$(stats dropped_points)" 0
@@ -214,7 +214,7 @@ PYTHON
 }
 
 @test "a raw CAD tessellation with slivers" {
-  tetmesh -q "$DATA/plate-holes.stl" --size 3% -o plate.tar --stats stats.json
+  tetmesh -q "$DATA/plate-holes.stl" --surface keep --size 3% -o plate.tar --stats stats.json
   assert_equal "$(stats surface_points)" 618
   assert_equal "$(regions plate.tar | cut -c 1-8)" 1:767362
 }
@@ -235,7 +235,7 @@ np.savetxt(sys.stdout, points.astype(float) @ axes, "v %.17g %.17g %.17g")
 np.savetxt(sys.stdout, index.reshape(-1, 3) + 1, "f %d %d %d")
 PYTHON
     for points in none lattice; do
-      tetmesh -q turned.obj --points $points -o turned.tar --stats stats.json
+      tetmesh -q turned.obj --surface keep --points $points -o turned.tar --stats stats.json
       assert_equal "$(regions turned.tar | cut -c 1-8)" 1:767362
       stats tetgen_runs >>runs
     done
@@ -332,13 +332,49 @@ PYTHON
   tetmesh "$fine" --size 0.2 --jitter 0.1 -o jitter.mesh
   tetmesh "$fine" --size 0.2 --clearance 1.1 -o clearance.mesh
   tetmesh "$fine" --size 0.2 --points none -o points.mesh
-  for option in size seed jitter clearance points; do assert_different_bytes base.mesh $option.mesh; done
+  tetmesh "$fine" --size 0.2 --surface keep -o surface.mesh
+  for option in size seed jitter clearance points surface; do assert_different_bytes base.mesh $option.mesh; done
   # The same size as a percentage of the diagonal, and the default, which is the surface's own spacing.
   tetmesh "$fine" --size 11.547005383792515% -o percent.mesh --stats stats.json
   $PYTHON -c "assert abs($(stats size) - 0.2) < 1e-9"
   tetmesh "$fine" -o default.mesh --stats stats.json
   $PYTHON -c "assert 0.07 < $(stats size) < 0.1, '5 % of the diagonal'"
   assert_fails_with 1 "TetGen failed: it took longer than --tetgen-timeout" tetmesh "$fine" --size 0.02 --tetgen-timeout 0.001 -q
+}
+
+@test "--feature-angle and --deviation say what of a surface stays" {
+  local part="$DATA/bracket.stl"
+  tetmesh -q "$part" --size 8 --points none -o base.mesh --stats stats.json
+  local points=$(stats surface_points)
+  tetmesh -q "$part" --size 8 --points none --feature-angle 100 -o angle.mesh
+  assert_different_bytes base.mesh angle.mesh
+  for deviation in 0.15 0.02; do
+    tetmesh -q "$part" --size 8 --points none --deviation $deviation -o near.mesh --stats stats.json
+    assert_equal "$(stats surface_remeshed)" True
+    $PYTHON -c "assert 0 < $(stats distance_to_input) <= 8 * $deviation * 1.001"
+    $PYTHON -c "assert 0 < $(stats distance_from_input) <= 8 * $deviation * 1.001"
+  done
+  assert [ "$(stats surface_points)" -gt $points ]
+  assert_fails_with 2 "^tetmesh: .*feature-angle" tetmesh "$part" --feature-angle 0
+  assert_fails_with 2 "^tetmesh: .*deviation" tetmesh "$part" --deviation 2
+  assert_fails_with 2 "^tetmesh: .*surface" tetmesh "$part" --surface new
+}
+
+@test "a surface is made anew: coarse, fine, of slivers, with its tags, and by the independent checker" {
+  for part in bracket.stl plate-holes.stl notch.stl; do
+    tetmesh -q "$DATA/$part" --size 5% --points none -o part.mesh --stats stats.json
+    assert_equal "$(stats surface_remeshed)" True
+    run $PYTHON "$CHECKERS/meshstats.py" --json --exact part.mesh
+    assert_success
+    $PYTHON - "$output" <<'PYTHON'
+import json, sys
+stats = json.loads(sys.argv[1])
+for key in ("f>2", "perm", "ncq", "inv", "bedge_odd", "dupcells", "orphan_nodes", "negvol"):
+    assert stats.get(key, 0) == 0, (key, stats)
+PYTHON
+  done
+  tetmesh -q "$FILES/attributes.stl" --size 0.25 -o out.tar
+  assert_equal "$(array out.tar mesh/triangle_tags.npy '[int((a == k).sum()) for k in (5, 9)]')" "[64, 128]"
 }
 
 @test "best keeps the points of which more is estimated to become hexes" {
@@ -360,14 +396,14 @@ PYTHON
 }
 
 @test "a surface far from the size is told, unless -q" {
-  run_apart tetmesh "$FILES/cube.stl" --size 0.2 -o out.tar
+  run_apart tetmesh "$FILES/cube.stl" --surface keep --size 0.2 -o out.tar
   assert_success
   assert_equal "$output" ""
   assert_equal "$(wc -l <<<"$stderr")" 1
   grep -q "^tetmesh: warning: 100 % of the surface .* longer than the size 0.2" <<<"$stderr"
-  run_apart tetmesh "$FILES/cube.stl" --size 0.2 -o out.tar -q
+  run_apart tetmesh "$FILES/cube.stl" --surface keep --size 0.2 -o out.tar -q
   assert_equal "$stderr" ""
-  run_apart tetmesh "$FILES/fine.stl" --size 0.2 -o out.tar
+  run_apart tetmesh "$FILES/fine.stl" --surface keep --size 0.2 -o out.tar
   assert_equal "$stderr" ""
 }
 
@@ -395,18 +431,18 @@ PYTHON
 }
 
 @test "surface tags: solids, attributes, groups, else shells" {
-  tetmesh -q "$FILES/solids.stl" -o out.tar
+  tetmesh -q --surface keep "$FILES/solids.stl" -o out.tar
   assert_equal "$(array out.tar mesh/triangle_tags.npy 'a.tolist()')" "[1, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2]"
-  tetmesh -q "$FILES/attributes.stl" -o out.tar
+  tetmesh -q --surface keep "$FILES/attributes.stl" -o out.tar
   assert_equal "$(array out.tar mesh/triangle_tags.npy 'a.tolist()')" "[5, 5, 5, 5, 9, 9, 9, 9, 9, 9, 9, 9]"
-  tetmesh -q "$FILES/groups.obj" -o out.tar
+  tetmesh -q --surface keep "$FILES/groups.obj" -o out.tar
   assert_equal "$(array out.tar mesh/triangle_tags.npy 'a.tolist()')" "[1, 1, 2, 2, 3, 3, 3, 3, 3, 3, 3, 3]"
-  tetmesh -q "$FILES/nested.stl" -o out.tar
+  tetmesh -q --surface keep "$FILES/nested.stl" -o out.tar
   assert_equal "$(array out.tar mesh/triangle_tags.npy '[int((a == k).sum()) for k in (1, 2)]')" "[12, 12]"
 }
 
 @test "history says what was asked for and what came out" {
-  tetmesh -q "$FILES/cube.stl" --size 0.3 --seed 7 -o out.tar
+  tetmesh -q "$FILES/cube.stl" --surface keep --size 0.3 --seed 7 -o out.tar
   run $PYTHON -c "
 import json, tarfile
 entry = json.load(tarfile.open('out.tar').extractfile('history/01-tetmesh.json'))
@@ -417,7 +453,7 @@ assert not any('second' in key for key in entry), entry"
 }
 
 @test "TetGen's process goes when tetmesh is killed" {
-  tetmesh -q "$FILES/cube.stl" --size 0.01 -o out.tar &
+  tetmesh -q "$FILES/cube.stl" --surface keep --points lattice --size 0.01 -o out.tar &
   local parent=$! child=""
   for _ in $(seq 200); do
     child=$(pgrep -P $parent || true)

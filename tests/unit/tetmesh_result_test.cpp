@@ -56,7 +56,7 @@ TEST(Tetmesh, FillsWhatTheShellsEnclose) {
   for (const Facets& facets : {hollow, nested, apart}) {
     const Surface surface = find_shells(soup_of(facets), ShellRule::oriented);
     for (const PointKind points : {PointKind::lattice, PointKind::none}) {
-      const TetmeshResult result = run(facets, {.size = Length{0.3, false}, .points = points});
+      const TetmeshResult result = run(facets, {.size = Length{0.3, false}, .surface = SurfaceKind::keep, .points = points});
       const auto volumes = surface.region_volumes();
       EXPECT_NEAR(result.statistics.volume, std::accumulate(volumes.begin(), volumes.end(), 0.0), 1e-9);
       EXPECT_EQ(result.statistics.dropped_points, 0u);
@@ -69,7 +69,7 @@ TEST(Tetmesh, FillsWhatTheShellsEnclose) {
 
 TEST(Tetmesh, TagsComeFromTheFileOrFromTheShells) {
   SurfaceSoup soup = soup_of(joined(cube(0, 1), cube(2, 1)));
-  const TetmeshOptions options{.size = Length{0.5, false}};
+  const TetmeshOptions options{.size = Length{0.5, false}, .surface = SurfaceKind::keep};
   const auto by_shell = tetmesh(soup, options).mesh.triangle_tags;
   EXPECT_EQ(by_shell.front(), 1);
   EXPECT_EQ(by_shell.back(), 2);
@@ -84,15 +84,17 @@ TEST(Tetmesh, RefusesAJitterThatReachesTheSurface) {
 }
 
 TEST(Tetmesh, WarnsOfASurfaceFarFromTheSize) {
-  EXPECT_TRUE(run(cube(), {.size = Length{0.2, false}}).warning);
-  EXPECT_FALSE(run(cube(0, 1, 5), {.size = Length{0.2, false}}).warning);
-  EXPECT_FALSE(run(cube(), {.size = Length{0.2, false}, .points = PointKind::none}).warning);
+  EXPECT_TRUE(run(cube(), {.size = Length{0.2, false}, .surface = SurfaceKind::keep}).warning);
+  EXPECT_FALSE(run(cube(), {.size = Length{0.2, false}}).warning);
+  EXPECT_FALSE(run(cube(0, 1, 5), {.size = Length{0.2, false}, .surface = SurfaceKind::keep}).warning);
+  EXPECT_FALSE(
+      run(cube(), {.size = Length{0.2, false}, .surface = SurfaceKind::keep, .points = PointKind::none}).warning);
 }
 
 TEST(Tetmesh, MeasuresDihedralAngles) {
   // One tet with three right angles; the others are arccos(1 / sqrt(3)).
   const Vec3 o{0, 0, 0}, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-  const TetmeshResult result = run({{o, y, x}, {o, x, z}, {o, z, y}, {x, y, z}}, {.points = PointKind::none});
+  const TetmeshResult result = run({{o, y, x}, {o, x, z}, {o, z, y}, {x, y, z}}, {.surface = SurfaceKind::keep, .points = PointKind::none});
   EXPECT_EQ(result.statistics.tets, 1u);
   EXPECT_NEAR(result.statistics.greatest_dihedral, 90, 1e-9);
   EXPECT_NEAR(result.statistics.least_dihedral, 54.735610317, 1e-8);

@@ -49,13 +49,13 @@ int main(int argc, char** argv) {
       .outside_history = {"tetgen-timeout"}};
   TetmeshOptions options;
   std::optional<std::string> size;
-  std::string path = "-", surface_kind = "keep", points = "best", shells = "oriented";
+  std::string path = "-", surface_kind = "remesh", points = "best", shells = "oriented";
   const auto declare = [&](CLI::App& app) {
     app.add_option("surface", path, "A surface in any format; '-' or nothing: standard input")->type_name("FILE");
     app.add_option(
            "--size", size,
            "Distance of points inside, in the surface's units or, with %, in percent of the bounding box's diagonal "
-           "[the surface's own]")
+           "[what suits the part]")
         ->type_name("LENGTH");
     app.add_option("--surface", surface_kind, "The surface's triangles: made anew to suit hexes, or kept")
         ->check(CLI::IsMember(surface_kinds));

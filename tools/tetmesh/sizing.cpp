@@ -46,15 +46,15 @@ double bounding_box_diagonal(const Surface& surface) {
   return norm(high - low);
 }
 
-double element_size(const Surface& surface, const std::optional<Length>& length) {
+double element_size(const Surface& surface, const std::optional<Length>& length, bool triangles_stay) {
   if (length) return length->percent_of_diagonal ? length->value / 100 * bounding_box_diagonal(surface) : length->value;
   double area = 0, volume = 0;
   for (const Triangle& t : surface.triangles) area += area_of(surface, t);
   for (const double region : surface.region_volumes()) volume += region;
   const double spacing = std::sqrt(area / static_cast<double>(surface.points.size()));
   const double thickness = 2 * volume / area;
-  return std::max(std::min({spacing, longest_default * bounding_box_diagonal(surface), layers_default * thickness}),
-                  shortest_default * std::cbrt(volume));
+  const double longest = std::min(longest_default * bounding_box_diagonal(surface), layers_default * thickness);
+  return std::max(triangles_stay ? std::min(spacing, longest) : longest, shortest_default * std::cbrt(volume));
 }
 
 SizeFit fit_to_size(const Surface& surface, double size) {

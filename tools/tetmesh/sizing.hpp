@@ -20,11 +20,10 @@ Length parse_length(std::string_view text);
 // Of the box around the points, along the axes.
 double bounding_box_diagonal(const Surface& surface);
 
-// In the units of the surface. Without a length, the spacing of the surface's vertices (the side of a square for each
-// of them), which is the size that goes with triangles that stay as they are; but, since a CAD tessellation has few
-// vertices and a scan has many, at most 5 % of the diagonal, at most half of the mean wall thickness (2 volume / area),
-// and at least 1 % of the cube root of the volume.
-double element_size(const Surface& surface, const std::optional<Length>& length);
+// In the units of the surface. Without a length, 5 % of the diagonal, but at most half of the mean wall thickness (2
+// volume / area), and at least 1 % of the cube root of the volume. Where the surface's triangles stay as they are, also
+// at most the spacing of its vertices (the side of a square for each of them), which is the size that goes with them.
+double element_size(const Surface& surface, const std::optional<Length>& length, bool triangles_stay = true);
 
 // How far the surface's triangles are from the size of the elements behind them.
 struct SizeFit {

@@ -19,7 +19,7 @@ constexpr double least_distance = 0.7;
 // Normals of points that may be in each other's way have at least this cosine: those of the two sides of a wall do not.
 constexpr double least_normal_cosine = 0.3;
 // How far, in sizes, a front looks ahead for the feature curve to fit its steps to.
-constexpr double look_ahead = 12;
+constexpr double look_ahead = 30;
 
 class SurfaceFront {
  public:

@@ -31,6 +31,8 @@ constexpr double removal_share = 0.85;
 // Vertices nearer to a fault than that, in sizes, stay; and the double of it the next time.
 constexpr double repair_reach = 0.25;
 constexpr int most_attempts = 5;
+// On the new surface, about 2 KB each while it is made.
+constexpr double most_points = 2e7;
 constexpr std::size_t most_intersections = 1000;
 
 class SurfaceRemesher {
@@ -43,6 +45,10 @@ class SurfaceRemesher {
         input_(surface.points, surface.triangles) {}
 
   RemeshResult run() {
+    if (points_wanted() > most_points) {
+      result_.failure = "its size asks for more points than memory holds";
+      return std::move(result_);
+    }
     prepare();
     double reach = repair_reach * size_;
     for (; result_.attempts < most_attempts; reach *= 2) {
@@ -57,6 +63,7 @@ class SurfaceRemesher {
   }
 
  private:
+  double points_wanted() const;
   void prepare();
   void remove_vertices_of_input();
   std::vector<Vec3> find_faults();
@@ -71,6 +78,13 @@ class SurfaceRemesher {
   DistanceIndex input_;
   RemeshResult result_;
 };
+
+double SurfaceRemesher::points_wanted() const {
+  double area = 0;
+  for (const auto& [a, b, c] : surface_.triangles)
+    area += norm(cross(surface_.points[b] - surface_.points[a], surface_.points[c] - surface_.points[a])) / 2;
+  return area / (size_ * size_);
+}
 
 void SurfaceRemesher::prepare() {
   sample_feature_curves(prepared_, size_, deviation_);

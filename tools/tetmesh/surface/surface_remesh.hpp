@@ -11,7 +11,7 @@ namespace hexpipe {
 struct RemeshOptions {
   double size = 1;            // distance of the points
   double feature_angle = 40;  // degrees
-  double deviation = 0.1;     // of either surface from the other, at the most, in sizes
+  double deviation = 0.15;    // of either surface from the other, at the most, in sizes
 };
 
 struct RemeshResult {

@@ -22,6 +22,8 @@ using VertexH = OpenMesh::VertexHandle;
 constexpr double least_cosine = 0.3, least_shape = 1e-3;
 // Edges that bend by less than this part of the deviation are flat.
 constexpr double least_bend = 0.05;
+// On the others, points are watched at most so many deviations apart.
+constexpr double sample_spacing = 3;
 // Removing some vertices makes others removable; more rounds found nothing.
 constexpr int most_rounds = 20;
 
@@ -48,7 +50,7 @@ class VertexRemover {
  public:
   VertexRemover(FeatureMesh& mesh, double deviation)
       : mesh_(mesh), most_(deviation * deviation), strays_(mesh.n_faces()) {
-    for (const Edge e : mesh.edges()) add_middle(e);
+    for (const Edge e : mesh.edges()) add_samples(e);
   }
 
   std::size_t run() {
@@ -73,7 +75,7 @@ class VertexRemover {
   }
 
  private:
-  void add_middle(Edge e);
+  void add_samples(Edge e);
   struct Choice {
     double shape;
     HalfEdgeH collapse;
@@ -96,12 +98,15 @@ class VertexRemover {
 };
 
 // Across an edge where the surface bends, a new one can leave it without a vertex nearby that would tell.
-void VertexRemover::add_middle(Edge e) {
+void VertexRemover::add_samples(Edge e) {
   const EdgeDiamond diamond(mesh_, e);
   const double height = diamond.height(), length = norm(diamond.end_points[1] - diamond.end_points[0]);
-  if (height * height < least_bend * least_bend * most_ || length * length < most_) return;
+  const double deviation = std::sqrt(most_);
+  if (height < least_bend * deviation) return;
   const Face f = mesh_.face_handle(mesh_.halfedge_handle(e, 0));
-  strays_[f.idx()].push_back(0.5 * (diamond.end_points[0] + diamond.end_points[1]));
+  const double parts = std::ceil(length / (sample_spacing * deviation));
+  for (double i = 1; i < parts; ++i)
+    strays_[f.idx()].push_back(diamond.end_points[0] + i / parts * (diamond.end_points[1] - diamond.end_points[0]));
 }
 
 bool VertexRemover::remove(VertexH v) {

@@ -1,0 +1,154 @@
+#include "tools/tetmesh/surface/cross_field.hpp"
+
+#include <gtest/gtest.h>
+
+#include "surface_samples.hpp"
+#include "tools/tetmesh/surface/feature_curves.hpp"
+#include "tools/tetmesh/surface/field_walk.hpp"
+#include "tools/tetmesh/surface/surface_refine.hpp"
+
+namespace hexpipe {
+namespace {
+
+using testing::box;
+using testing::Facets;
+using testing::soup_of;
+using testing::sphere;
+
+Surface surface_of(const Facets& facets) {
+  return find_shells(soup_of(facets), ShellRule::oriented);
+}
+
+FeatureMesh refined(const Facets& facets, double longest) {
+  FeatureMesh mesh(surface_of(facets), 40);
+  refine_surface(mesh, longest, 1e-6);
+  return mesh;
+}
+
+// A tube's outside without ends would be open: a long prism of `n` sides, closed by two fans.
+Facets prism(int n, double radius, double length) {
+  Facets facets;
+  auto rim = [&](int i, double z) {
+    const double angle = 2 * std::numbers::pi * (i % n) / n;
+    return Vec3{radius * std::cos(angle), radius * std::sin(angle), z};
+  };
+  for (int i = 0; i < n; ++i) {
+    const Vec3 a = rim(i, 0), b = rim(i + 1, 0), c = rim(i + 1, length), d = rim(i, length);
+    for (const testing::Facet& facet : {testing::Facet{a, b, c}, testing::Facet{a, c, d},
+                                        testing::Facet{Vec3{0, 0, 0}, b, a}, testing::Facet{Vec3{0, 0, length}, d, c}})
+      facets.push_back(facet);
+  }
+  return facets;
+}
+
+// Least over the triangles of |cos| to one of the cross's arms, 1 / sqrt(2) being the worst.
+double worst_alignment(const FieldSurface& surface, const CrossField& field, auto wanted) {
+  double worst = 1;
+  for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
+    const std::optional<Vec3> direction = wanted(surface, f);
+    if (!direction) continue;
+    const Vec3 x = field.directions[f], y = cross(surface.normals[f], x);
+    worst = std::min(worst, std::max(std::abs(dot(*direction, x)), std::abs(dot(*direction, y))));
+  }
+  return worst;
+}
+
+TEST(CrossField, IsUnitAndTangent) {
+  const FieldSurface surface(refined(sphere({1, 2, 3}, 2, 12), 0.5));
+  const CrossField field = cross_field(surface, 0.5);
+  ASSERT_EQ(field.directions.size(), surface.triangles.size());
+  for (std::size_t f = 0; f < field.directions.size(); ++f) {
+    EXPECT_NEAR(norm(field.directions[f]), 1, 1e-12);
+    EXPECT_NEAR(dot(field.directions[f], surface.normals[f]), 0, 1e-12);
+  }
+}
+
+TEST(CrossField, RunsAlongTheEdgesOfABox) {
+  const FieldSurface surface(refined(box({0, 0, 0}, {3, 2, 1}), 0.3));
+  const CrossField field = cross_field(surface, 0.3);
+  const double worst = worst_alignment(surface, field, [](const FieldSurface& s, std::size_t f) -> std::optional<Vec3> {
+    return std::abs(s.normals[f].z) > 0.5 ? Vec3{1, 0, 0} : Vec3{0, 0, 1};
+  });
+  EXPECT_GT(worst, 1 - 1e-6);
+}
+
+TEST(CrossField, FollowsTheBendOfATube) {
+  // No triangle of the sides is as wide as the size: the curvature has to be found over several.
+  const FieldSurface surface(refined(prism(40, 1, 8), 0.3));
+  const CrossField field = cross_field(surface, 0.3);
+  const double worst = worst_alignment(surface, field, [](const FieldSurface& s, std::size_t f) -> std::optional<Vec3> {
+    if (std::abs(s.normals[f].z) > 0.5) return std::nullopt;
+    return Vec3{0, 0, 1};
+  });
+  EXPECT_GT(worst, 0.999);
+}
+
+TEST(FieldWalk, GoesStraightToTheEdgeOfABox) {
+  const FieldSurface surface(refined(box({0, 0, 0}, {3, 2, 1}), 0.3));
+  const CrossField field = cross_field(surface, 0.3);
+  const FieldWalker walker(surface, field);
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(surface.triangles.size()); ++f) {
+    if (surface.normals[f].z < 0.5) continue;
+    const auto [a, b, c] = surface.triangles[f];
+    const SurfacePoint start{(surface.points[a] + surface.points[b] + surface.points[c]) * (1.0 / 3), f};
+    const WalkEnd edge = walker.walk(start, walker.nearest_direction(f, {1, 0, 0}), 100);
+    EXPECT_TRUE(edge.at_feature);
+    EXPECT_NEAR(edge.point.position.x, 3, 1e-6);
+    EXPECT_NEAR(edge.length, 3 - start.position.x, 1e-6);
+    const double part = 0.4 * edge.length;
+    const WalkEnd inside = walker.walk(start, walker.nearest_direction(f, {1, 0, 0}), part);
+    EXPECT_FALSE(inside.at_feature);
+    EXPECT_NEAR(norm(inside.point.position - start.position), part, 1e-6);
+  }
+}
+
+TEST(FeatureCurves, OfABoxAreItsEdgesInWholeSteps) {
+  FeatureMesh mesh(surface_of(box({0, 0, 0}, {3, 2, 1}, 2)), 40);
+  const auto curves = feature_curves(mesh);
+  EXPECT_EQ(curves.size(), 12u);
+  for (const FeatureCurve& curve : curves) EXPECT_FALSE(curve.closed);
+  sample_feature_curves(mesh, 0.3, 0.01);
+  std::size_t kept = 0;
+  for (const auto v : mesh.vertices()) kept += mesh.is_kept(v);
+  EXPECT_EQ(kept, 8u + 4 * (9 + 6 + 2));  // 10, 7 and 3 steps
+}
+
+TEST(FeatureCurves, RimsOfATubeStartAtOneAngle) {
+  FeatureMesh mesh(surface_of(prism(60, 1, 5)), 40);
+  const auto curves = feature_curves(mesh);
+  ASSERT_EQ(curves.size(), 2u);
+  EXPECT_TRUE(curves[0].closed && curves[1].closed);
+  sample_feature_curves(mesh, 0.37, 0.2);
+  std::vector<Vec3> rims[2];
+  for (const auto v : mesh.vertices())
+    if (mesh.is_kept(v)) rims[mesh.position(v).z > 2].push_back(mesh.position(v));
+  EXPECT_EQ(rims[0].size(), 16u);  // 17 steps, made even
+  ASSERT_EQ(rims[1].size(), rims[0].size());
+  for (const Vec3& p : rims[0])
+    EXPECT_EQ(std::ranges::count_if(rims[1], [&](const Vec3& q) { return norm(q - p - Vec3{0, 0, 5}) < 1e-9; }), 1);
+}
+
+TEST(FeatureCurves, BendByTheDeviationAtMost) {
+  for (const double deviation : {0.2, 0.01}) {
+    FeatureMesh mesh(surface_of(prism(100, 1, 5)), 40);
+    sample_feature_curves(mesh, 1, deviation);
+    std::size_t kept = 0;
+    for (const auto v : mesh.vertices()) kept += mesh.is_kept(v);
+    EXPECT_EQ(kept / 2, deviation == 0.2 ? 6u : 24u) << deviation;  // 1 - cos(pi / n) is the sagitta
+  }
+}
+
+TEST(FeatureCurves, TagsMakeThem) {
+  SurfaceSoup soup = soup_of(box({0, 0, 0}, {1, 1, 1}, 4));
+  for (std::size_t i = 0; i < soup.triangles.size(); ++i)
+    soup.tags[i] = soup.points[soup.triangles[i][0]].x + soup.points[soup.triangles[i][1]].x +
+                       soup.points[soup.triangles[i][2]].x <
+                   1.5;
+  const FeatureMesh mesh(find_shells(soup, ShellRule::oriented), 100);
+  const auto curves = feature_curves(mesh);
+  ASSERT_EQ(curves.size(), 1u);  // around the middle; at 100 degrees the box's own edges are none
+  for (const auto v : curves[0].vertices) EXPECT_NEAR(mesh.position(v).x, 0.5, 1e-12);
+}
+
+}  // namespace
+}  // namespace hexpipe

@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "common/run/random.hpp"
+#include "surface_samples.hpp"
+#include "tools/tetmesh/surface/surface_distance.hpp"
+#include "tools/tetmesh/surface/surface_remesh.hpp"
+#include "tools/tetmesh/surface_check.hpp"
+#include "tools/tetmesh/triangle_distance.hpp"
+
+namespace hexpipe {
+namespace {
+
+using testing::box;
+using testing::cube;
+using testing::Facets;
+using testing::inverted;
+using testing::joined;
+using testing::soup_of;
+using testing::sphere;
+
+Surface surface_of(const Facets& facets) {
+  return find_shells(soup_of(facets), ShellRule::oriented);
+}
+
+double naive_distance(const SurfaceSoup& surface, const Vec3& p) {
+  double least = std::numeric_limits<double>::max();
+  for (const auto& [a, b, c] : surface.triangles)
+    least = std::min(least, TriangleDistance(surface.points[a], surface.points[b], surface.points[c]).squared(p));
+  return std::sqrt(least);
+}
+
+TEST(DistanceIndex, AgreesWithLookingAtEveryTriangle) {
+  const Surface surface = surface_of(joined(sphere({0, 0, 0}, 3, 9), box({5, -1, -1}, {9, 0.2, 0.1})));
+  const DistanceIndex index(surface.points, surface.triangles);
+  Random random(3);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 p{random.uniform(-5, 11), random.uniform(-5, 5), random.uniform(-5, 5)};
+    EXPECT_NEAR(index.distance(p), naive_distance(surface, p), 1e-12);
+  }
+}
+
+TEST(Remesh, BoxesBecomeGrids) {
+  const Surface surface = surface_of(box({0, 0, 0}, {3, 2, 1}));
+  const RemeshResult result = remesh_surface(surface, {.size = 0.25});
+  EXPECT_EQ(result.failure, "");
+  EXPECT_EQ(result.extra_points, 0u);
+  EXPECT_LT(result.from_input, 1e-9);
+  EXPECT_LT(result.to_input, 1e-9);
+  EXPECT_EQ(result.soup.points.size(), 2 * (12 * 8 + 8 * 4 + 4 * 12) + 2u);
+  for (const Vec3& p : result.soup.points)
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(p[axis] / 0.25, std::round(p[axis] / 0.25), 1e-6);
+}
+
+TEST(Remesh, StepsFitWhatIsThere) {
+  // 2.9 / 0.25 = 11.6, 12 steps; likewise 9 and 4.
+  const RemeshResult result = remesh_surface(surface_of(box({0, 0, 0}, {2.9, 2.2, 1.1})), {.size = 0.25});
+  EXPECT_EQ(result.soup.points.size(), 2 * (12 * 9 + 9 * 4 + 4 * 12) + 2u);
+}
+
+TEST(Remesh, ResultIsASurfaceThatKeepsItsDistance) {
+  const Facets hollow = joined(sphere({0, 0, 0}, 3, 16), inverted(sphere({0.4, 0.3, 0.2}, 1.6, 11)));
+  const Facets nested = joined(cube(0, 4, 3), sphere({2, 2, 2}, 1.2, 13));
+  for (const Facets& facets : {hollow, nested})
+    for (const double deviation : {0.2, 0.03}) {
+      const Surface surface = surface_of(facets);
+      const RemeshResult result = remesh_surface(surface, {.size = 0.4, .deviation = deviation});
+      ASSERT_EQ(result.failure, "");
+      EXPECT_NO_THROW(check_surface(result.soup));
+      EXPECT_LE(result.from_input, deviation * 0.4 * 1.001);
+      EXPECT_LE(result.to_input, deviation * 0.4 * 1.001);
+      const DistanceIndex input(surface.points, surface.triangles), output(result.soup.points, result.soup.triangles);
+      for (const Vec3& p : result.soup.points) EXPECT_LT(input.distance(p), 1e-9);
+      for (const Vec3& p : surface.points) EXPECT_LE(output.distance(p), deviation * 0.4 * 1.001);
+      const Surface found = find_shells(result.soup, ShellRule::oriented);
+      ASSERT_EQ(found.shells.size(), 2u);
+      EXPECT_EQ(found.region_count, surface.region_count);
+      for (std::size_t s = 0; s < 2; ++s) EXPECT_NEAR(found.shells[s].volume / surface.shells[s].volume, 1, 0.06);
+    }
+}
+
+TEST(Remesh, KeepsTagsAndTheAreaOfEach) {
+  SurfaceSoup soup = soup_of(box({0, 0, 0}, {2, 1, 1}, 4));
+  for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
+    const auto [a, b, c] = soup.triangles[i];
+    soup.tags[i] = 7 + ((soup.points[a] + soup.points[b] + soup.points[c]).x < 3);
+  }
+  const RemeshResult result = remesh_surface(find_shells(soup, ShellRule::oriented), {.size = 0.2});
+  ASSERT_EQ(result.failure, "");
+  std::map<std::int32_t, double> area;
+  for (std::size_t i = 0; i < result.soup.triangles.size(); ++i) {
+    const auto [a, b, c] = result.soup.triangles[i];
+    const auto& points = result.soup.points;
+    area[result.soup.tags[i]] += norm(cross(points[b] - points[a], points[c] - points[a])) / 2;
+  }
+  ASSERT_EQ(area.size(), 2u);
+  EXPECT_NEAR(area[7], 5, 1e-9);
+  EXPECT_NEAR(area[8], 5, 1e-9);
+}
+
+TEST(Remesh, SameInputGivesTheSamePoints) {
+  const Surface surface = surface_of(sphere({0, 0, 0}, 1, 14));
+  const auto first = remesh_surface(surface, {.size = 0.2}), second = remesh_surface(surface, {.size = 0.2});
+  EXPECT_EQ(first.soup.points, second.soup.points);
+  EXPECT_EQ(first.soup.triangles, second.soup.triangles);
+}
+
+TEST(Remesh, KeepsThinWallsApart) {
+  // Two layers of 0.02 with a gap of 0.02: at a size of 0.3, a chord of the curved ones may cross the next.
+  Facets shells;
+  for (const double radius : {1.0, 1.04}) {
+    shells = joined(shells, sphere({0, 0, 0}, radius, 14));
+    shells = joined(shells, inverted(sphere({0, 0, 0}, radius - 0.02, 14)));
+  }
+  const RemeshResult result = remesh_surface(surface_of(shells), {.size = 0.3, .deviation = 0.5});
+  if (result.failure.empty()) {
+    EXPECT_NO_THROW(check_surface(result.soup));
+  }
+}
+
+TEST(Remesh, GivesUpBeforeMemoryDoes) {
+  const RemeshResult result = remesh_surface(surface_of(cube()), {.size = 1e-6});
+  EXPECT_NE(result.failure, "");
+  EXPECT_TRUE(result.soup.points.empty());
+}
+
+TEST(Remesh, LeavesAPartFarSmallerThanTheSizeItsShape) {
+  const RemeshResult result = remesh_surface(surface_of(cube(0, 1, 3)), {.size = 50});
+  ASSERT_EQ(result.failure, "");
+  EXPECT_EQ(result.soup.points.size(), 8u);
+  EXPECT_EQ(result.soup.triangles.size(), 12u);
+}
+
+}  // namespace
+}  // namespace hexpipe
