@@ -294,3 +294,27 @@ PYTHON
   assert [ "$(count two.cand)" -gt 0 ]
   assert [ "$(count two.cand)" -lt "$(count one.cand)" ]
 }
+
+@test "parts put together by Makefile.examples are one run, byte for byte" {
+  cp "$DATA/random_points.mesh" p.mesh
+  findhex -q --mesh p.mesh -o whole.cand
+  for shares in 1 3 7; do
+    rm -f p.part*
+    make -s -f "$BATS_TEST_DIRNAME/../Makefile.examples" BIN="$HEXPIPE_BIN" SHARES=$shares -j2 p.parts.cand
+    assert_same_bytes whole.cand p.parts.cand
+    make -s -f "$BATS_TEST_DIRNAME/../Makefile.examples" BIN="$HEXPIPE_BIN" SHARES=$shares p.parts.graph
+    buildgraph -q whole.cand -o whole.graph
+    assert_same_bytes whole.graph p.parts.graph
+  done
+  assert [ "$(count p.part4.cand)" -lt "$(count whole.cand)" ]
+  # Kinds do not mix.
+  findhex -q --mesh p.mesh $ALL_KINDS -o kinds.cand
+  for i in 1 2; do findhex -q --mesh p.mesh $ALL_KINDS --part $i/2 -o kinds.part$i.cand; done
+  touch kinds.mesh -d yesterday
+  make -s -f "$BATS_TEST_DIRNAME/../Makefile.examples" BIN="$HEXPIPE_BIN" SHARES=2 kinds.parts.cand
+  assert_same_bytes kinds.cand kinds.parts.cand
+  for part in 0/2 3/2 1 1/ /2 a/b 1/2/3 -1/2 1/0 1.5/2; do
+    assert_fails_with 2 "findhex: .*--part" findhex --mesh p.mesh --part "$part" -o out.cand
+    assert_fails_with 2 "buildgraph: .*--part" buildgraph whole.cand --part "$part" -o out.graph
+  done
+}

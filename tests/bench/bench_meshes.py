@@ -1,8 +1,11 @@
 """Tet meshes of any size for the benchmarks: lattices, and Delaunay tetrahedra of lattice points that were moved."""
 import io
+import json
 import os
 import subprocess
+import sys
 import tarfile
+import tempfile
 
 import numpy as np
 from scipy.spatial import Delaunay
@@ -102,13 +105,25 @@ def write_medit(path, mesh):
         print("End", file=file)
 
 
+# The peak of a process counts what it was before it became the command: so a small one starts it.
+STARTER = """
+import json, os, sys
+process = os.spawnvp(os.P_NOWAIT, sys.argv[2], sys.argv[2:])
+_, status, usage = os.wait4(process, 0)
+with open(sys.argv[1], "w") as file:
+    json.dump([status, usage.ru_utime + usage.ru_stime, usage.ru_maxrss * 1024], file)
+"""
+
+
 def run(command, **options):
     """Processor seconds, user and system, and peak memory in bytes of a command that has to succeed."""
-    process = subprocess.Popen(list(map(str, command)), **options)
-    _, status, usage = os.wait4(process.pid, 0)
+    command = list(map(str, command))
+    with tempfile.NamedTemporaryFile() as report:
+        subprocess.run([sys.executable, "-S", "-c", STARTER, report.name, *command], check=True, **options)
+        status, seconds, peak = json.load(open(report.name))
     if status != 0:
-        raise SystemExit(f"{' '.join(map(str, command))}: status {status}")
-    return usage.ru_utime + usage.ru_stime, usage.ru_maxrss * 1024
+        raise SystemExit(f"{' '.join(command)}: status {status}")
+    return seconds, peak
 
 
 def tool(name):

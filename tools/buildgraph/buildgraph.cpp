@@ -21,11 +21,12 @@ constexpr std::int64_t candidates_a_block = 256;
 
 // The conflicts of each candidate with lower ones, packed, and how many conflicts each one has in all.
 struct LowerConflicts {
+  std::int64_t first = 0;           // the candidate of the first list
   std::vector<PackedLists> blocks;  // of candidates_a_block lists each
   std::vector<std::int64_t> degrees;
 };
 
-LowerConflicts find_lower_conflicts(const Candidates& candidates) {
+LowerConflicts find_lower_conflicts(const Candidates& candidates, const Part& part) {
   const std::size_t count = candidates.size();
   const std::optional<Candidates> dense = with_dense_ids(candidates);
   const ConflictFinder finder(dense ? *dense : candidates);
@@ -35,12 +36,13 @@ LowerConflicts find_lower_conflicts(const Candidates& candidates) {
   };
   PerThread<Scratch> scratches(Scratch{SortedSet{count}, std::vector<std::int32_t>(count, 0)});
   LowerConflicts conflicts;
+  conflicts.first = part.begin(static_cast<std::int64_t>(count));
   parallel_in_order(
-      static_cast<std::int64_t>(count), candidates_a_block,
+      part.end(static_cast<std::int64_t>(count)) - conflicts.first, candidates_a_block,
       [&](std::int64_t begin, std::int64_t end) {
         Scratch& scratch = scratches.local();
         PackedLists lists;
-        for (std::int64_t i = begin; i < end; ++i) {
+        for (std::int64_t i = conflicts.first + begin; i < conflicts.first + end; ++i) {
           finder.collect_lower(static_cast<std::size_t>(i), scratch.found);
           scratch.found.drain([&](std::int32_t j) {
             lists.add(j);
@@ -72,14 +74,14 @@ ConflictGraph buildgraph(Candidates candidates, const BuildgraphOptions& options
   ConflictGraph graph;
   graph.weights = weights_of(candidates, options.weight, options.weight_scale, source);
 
-  LowerConflicts conflicts = find_lower_conflicts(candidates);
+  LowerConflicts conflicts = find_lower_conflicts(candidates, options.part);
   candidates = {};
   graph.offsets.assign(count + 1, 0);
   std::partial_sum(conflicts.degrees.begin(), conflicts.degrees.end(), graph.offsets.begin() + 1);
   graph.neighbours.resize(graph.offsets.back());
   std::vector<std::int64_t>& next = conflicts.degrees;
   std::copy(graph.offsets.begin(), graph.offsets.end() - 1, next.begin());
-  std::int64_t first = 0;
+  std::int64_t first = conflicts.first;
   for (PackedLists& lists : conflicts.blocks) {
     lists.for_each(first, [&](std::int64_t i, std::int32_t j) {
       graph.neighbours[next[i]++] = j;

@@ -3,6 +3,7 @@
 
 #include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
+#include "common/run/part.hpp"
 #include "tools/buildgraph/weights.hpp"
 
 namespace hexpipe {
@@ -10,6 +11,7 @@ namespace hexpipe {
 struct BuildgraphOptions {
   WeightKind weight = WeightKind::quality;
   double weight_scale = 1e6;
+  Part part{};  // only conflicts whose higher end is in this part of the candidates
 };
 
 // Vertex i is candidate i. Throws DataError naming `source` when weights do not fit (see weights_of) or there are 2^31

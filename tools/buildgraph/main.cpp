@@ -22,15 +22,18 @@ int main(int argc, char** argv) {
       .product = Role::graph,
   };
   BuildgraphOptions options;
-  std::string weight = "quality";
+  std::string weight = "quality", part = "1/1";
   const auto declare = [&](CLI::App& app) {
     app.add_option("--weight", weight, "What a candidate is worth: quality, volume, count (1 each) or quality*volume")
         ->check(CLI::IsMember(weights));
     app.add_option("--weight-scale", options.weight_scale, "Weights are rounded after multiplication with this")
         ->check(number_between(1e-100, 1e100));
+    app.add_option("--part", part,
+                   "i/k: only conflicts whose higher candidate is in part i of k; see Makefile.examples");
   };
   const auto run = [&](RunContext& context) {
     options.weight = weights.at(weight);
+    options.part = parse_part(part);
     Phases phases;
     Stage stage(context);
     StageData data = stage.read({Role::candidates});

@@ -131,14 +131,15 @@ FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* s
   result.findings = tables.findings();
   for (const CellKind kind : options.kinds) result.counts.push_back({kind, {}});
   const auto vertex_count = static_cast<std::int64_t>(tables.mesh().points.size());
+  const std::int64_t first = options.part.begin(vertex_count), count = options.part.end(vertex_count) - first;
   std::vector<Candidates> by_kind(options.kinds.size());
   std::int64_t vertices_done = 0;
   parallel_in_order(
-      vertex_count, vertices_a_block,
-      [&](std::int64_t begin, std::int64_t end) { return find_cells_at(begin, end, tables, options); },
+      count, vertices_a_block,
+      [&](std::int64_t begin, std::int64_t end) { return find_cells_at(first + begin, first + end, tables, options); },
       [&](FoundInBlock&& found) {
-        vertices_done = std::min(vertices_done + vertices_a_block, vertex_count);
-        const double share_done = static_cast<double>(vertices_done) / static_cast<double>(vertex_count);
+        vertices_done = std::min(vertices_done + vertices_a_block, count);
+        const double share_done = static_cast<double>(vertices_done) / static_cast<double>(count);
         result.triangulated_quads += found.quads;
         for (std::size_t kind = 0; kind < by_kind.size(); ++kind) {
           append(by_kind[kind], found.by_kind[kind].candidates, share_done);

@@ -7,6 +7,7 @@
 
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/tet_mesh.hpp"
+#include "common/run/part.hpp"
 #include "tools/findhex/cell_tets.hpp"
 #include "tools/findhex/mesh_tables.hpp"
 
@@ -20,6 +21,7 @@ struct FindhexOptions {
   CandidateQuality quality = CandidateQuality::element;
   bool drop_folded_quads = true;  // rule 8
   CellTetRules tet_rules{};
+  Part part{};  // only cells whose corner 0 is in this part of the vertices
 };
 
 // How many cells of a kind got how far.

@@ -25,7 +25,8 @@ int main(int argc, char** argv) {
   };
   FindhexOptions options;
   std::vector<std::string> cells{"hex"};
-  std::string quality = "element", inner_vertices = "allow", folded_quads = "drop", flat_corners = "reject";
+  std::string quality = "element", inner_vertices = "allow", folded_quads = "drop", flat_corners = "reject",
+              part = "1/1";
   const auto declare = [&](CLI::App& app) {
     app.add_option("--cells", cells, "What to find: hex, prism, pyramid, several separated by commas")
         ->check(CLI::IsMember(kinds))
@@ -42,11 +43,13 @@ int main(int argc, char** argv) {
     app.add_option("--flat-corners", flat_corners,
                    "reject or keep: cells beside the surface that would leave a pyramid flat there")
         ->check(CLI::IsMember({"reject", "keep"}));
+    app.add_option("--part", part, "i/k: only cells that begin in part i of k of the vertices; see Makefile.examples");
     app.add_option("--max-boundary-tets", options.tet_rules.max_boundary_tets,
                    "Slivers that a cell may have on its quads")
         ->check(CLI::Range(0, 6).description(""));
   };
   const auto run = [&](RunContext& context) {
+    options.part = parse_part(part);
     options.kinds.clear();
     for (const auto& [name, kind] : kinds)
       if (std::find(cells.begin(), cells.end(), name) != cells.end()) options.kinds.push_back(kind);

@@ -1,0 +1,26 @@
+#pragma once
+// A share of a tool's work, so that a cluster's scheduler or make -j can spread it.
+
+#include <cstdint>
+#include <string>
+
+namespace hexpipe {
+
+// Part `number` of `count`, counted from 1.
+struct Part {
+  std::int64_t number = 1, count = 1;
+
+  // The range of items, of so many, that are this part's. Parts follow each other and differ by one item at most.
+  std::int64_t begin(std::int64_t items) const { return bound(items, number - 1); }
+  std::int64_t end(std::int64_t items) const { return bound(items, number); }
+
+ private:
+  std::int64_t bound(std::int64_t items, std::int64_t parts) const {
+    return items / count * parts + items % count * parts / count;
+  }
+};
+
+// Of "i/k" with 1 <= i <= k < 10^6. Throws UsageError.
+Part parse_part(const std::string& text);
+
+}  // namespace hexpipe
