@@ -18,9 +18,15 @@ bool has_zero_byte_in_header(std::string_view bytes) {
   return bytes.substr(0, 84).find('\0') != std::string_view::npos;
 }
 
+bool is_archive(std::string_view bytes) {
+  return bytes.starts_with("\x28\xb5\x2f\xfd") || (bytes.size() > 262 && bytes.substr(257, 5) == "ustar");
+}
+
 SurfaceSoup read_by_content(std::string_view bytes, const std::string& name) {
   if (bytes.empty())
     throw DataError::at(name, "expected a surface in STL, OBJ, PLY or OFF, found nothing: it is empty");
+  if (is_archive(bytes))
+    throw DataError::at(name, "expected a surface in STL, OBJ, PLY or OFF, found a bundle or another archive");
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return merge_equal_points(read_ply(bytes, name));
   if (is_binary_stl(bytes)) return read_binary_stl(bytes, name);
   const std::string_view first = TextScanner(bytes, name, '#').peek_word();

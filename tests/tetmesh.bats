@@ -266,7 +266,9 @@ PYTHON
   assert_fails_with 1 "^tetmesh: stdin: expected a surface .*empty" shell ": | tetmesh"
   assert_fails_with 1 "^tetmesh: \.: .*directory" tetmesh .
   tetmesh -q "$FILES/cube.stl" -o bundle.tar
-  assert_fails_with 1 "^tetmesh: bundle.tar: expected" tetmesh bundle.tar
+  assert_fails_with 1 "^tetmesh: bundle.tar: expected a surface .*, found a bundle" tetmesh bundle.tar
+  tetmesh -q "$FILES/cube.stl" -o bundle.tar.zst
+  assert_fails_with 1 "^tetmesh: bundle.tar.zst: expected a surface .*, found a bundle" tetmesh bundle.tar.zst
 }
 
 # The unit tests of the readers try every length.
@@ -375,6 +377,42 @@ PYTHON
   done
   tetmesh -q "$FILES/attributes.stl" --size 0.25 -o out.tar
   assert_equal "$(array out.tar mesh/triangle_tags.npy '[int((a == k).sum()) for k in (5, 9)]')" "[64, 128]"
+}
+
+@test "coordinates beyond what products of them hold are told by their size" {
+  for scale in 1e200 1e-200; do
+    awk -v scale=$scale '$1 == "v" { print "v", $2 * scale, $3 * scale, $4 * scale; next } { print }' "$FILES/cube.obj" >scaled.obj
+    assert_fails_with 1 "^tetmesh: scaled.obj: expected .*1e[+-]200; scale the surface" tetmesh scaled.obj
+  done
+}
+
+@test "more points than --most-points are an error before memory is used" {
+  assert_fails_with 1 "expected a size .* at most 100 points inside \(see --most-points\), found 0.1, which makes about 1e\+03" \
+    tetmesh "$FILES/fine.stl" --size 0.1 --most-points 100
+  assert_fails_with 1 "see --most-points.*1e-90.*1e\+270" timeout 20 tetmesh "$FILES/cube.stl" --size 1e-90
+  tetmesh -q "$FILES/fine.stl" --size 0.1 --most-points 2000 -o out.tar
+}
+
+@test "--repair mends what is an error without it, and says so" {
+  cd "$FILES"
+  for file in hole flipped duplicated degenerate inward; do
+    run tetmesh $file.stl -o "$BATS_TEST_TMPDIR/out.tar"
+    assert_failure 1
+    run_apart tetmesh $file.stl --repair -o "$BATS_TEST_TMPDIR/out.tar" --stats "$BATS_TEST_TMPDIR/stats.json"
+    assert_success
+    assert_equal "$(regions "$BATS_TEST_TMPDIR/out.tar")" 1:1
+    echo "$stderr" >>"$BATS_TEST_TMPDIR/said"
+  done
+  assert_equal "$(grep -c "^tetmesh: warning: .*.stl: repaired: 1*[0-9] .*" "$BATS_TEST_TMPDIR/said")" 5
+  grep -q "hole.stl: repaired: 1 hole filled by 1 triangle$" "$BATS_TEST_TMPDIR/said"
+  cd "$BATS_TEST_TMPDIR"
+  $PYTHON -c "import json; assert json.load(open('stats.json'))['repair']['turned_triangles'] == 12"
+  assert_fails_with 1 "hole.stl: triangle .* closed surface" tetmesh "$FILES/hole.stl" --repair --largest-hole 2
+  # Corners that miss each other by 1e-5.
+  awk '$1 == "vertex" && $2 == 1 && n++ % 2 { $2 = 1.00001 } { print }' "$FILES/cube.ascii.stl" >loose.stl
+  assert_fails_with 1 "loose.stl:.* closed surface" tetmesh loose.stl
+  assert_fails_with 1 "loose.stl:" tetmesh loose.stl --repair -q
+  tetmesh loose.stl --repair --weld 0.01% -q -o out.tar
 }
 
 @test "best keeps the points of which more is estimated to become hexes" {

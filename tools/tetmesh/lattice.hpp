@@ -2,7 +2,7 @@
 // Points inside a surface on a slightly jittered lattice along the coordinate axes, kept clear of the surface.
 //
 // Lattice points next to each other make hexes when their tets are merged; an exact lattice is cospherical, which
-// multiplies the candidates by 3 to 5, and a jitter of 2 % of the size prevents it. A lattice point
+// multiplies the candidates by 3 to 5, and a jitter of 1 % of the size prevents it. A lattice point
 // too near the surface would make slivers with its triangles.
 
 #include <cstdint>
@@ -20,8 +20,10 @@ struct LatticeOptions {
   // Least distance of lattice points from the surface before they are jittered, in sizes. The share of the volume in
   // hexes is flat from 0.4 to 0.55 and falls beyond (84.5 % at 0.5, 83 % at 0.65, 80 % at 0.8 for a bracket).
   double clearance = 0.5;
-  // Each coordinate moves by at most that, in sizes; below half of the clearance.
-  double jitter = 0.02;
+  // Each coordinate moves by at most that, in sizes; below half of the clearance. Candidates a vertex, and the share of
+  // the volume in hexes, over three parts: 17.8 and 86.6 % at 0, 5.1 and 87.4 at 0.005, 4.9 and 87.3 at 0.01, 4.8 and
+  // 87.0 at 0.02 and 0.04.
+  double jitter = 0.01;
   std::uint64_t seed = 1;
 };
 

@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
       .outside_history = {"tetgen-timeout"}};
   TetmeshOptions options;
   std::optional<std::string> size;
-  std::string path = "-", surface_kind = "remesh", points = "best", shells = "oriented";
+  std::string path = "-", surface_kind = "keep", points = "best", shells = "oriented", weld = "0.0001%";
   const auto declare = [&](CLI::App& app) {
     app.add_option("surface", path, "A surface in any format; '-' or nothing: standard input")->type_name("FILE");
     app.add_option(
@@ -71,8 +71,18 @@ int main(int argc, char** argv) {
         ->check(CLI::IsMember(point_kinds));
     app.add_option("--clearance", options.clearance, "Least distance of points inside from the surface, in sizes")
         ->check(number_between(0.1, 10));
-    app.add_option("--jitter", options.jitter, "How far points inside are moved at random along each axis, in sizes")
+    app.add_option("--jitter", options.jitter,
+                   "How far points inside are moved at random along each axis, in sizes [0.04; on a lattice 0.01]")
         ->check(number_between(0, 1));
+    app.add_option("--most-points", options.most_points, "Points inside that are allowed, lest memory runs out")
+        ->check(number_between(1, 1e9));
+    app.add_flag("--repair", options.repair,
+                 "Weld points, remove triangles that are flat or repeated, turn them to agree, fill small holes");
+    app.add_option("--weld", weld, "With --repair: points this near become one; a length, or with % of the diagonal")
+        ->type_name("LENGTH")
+        ->capture_default_str();
+    app.add_option("--largest-hole", options.largest_hole, "With --repair: edges of a hole that is filled, at most")
+        ->check(CLI::Range(0, 1000));
     app.add_option("--shells", shells,
                    "Shells in shells: holes where oriented inward and regions else; all regions; or alternately holes")
         ->check(CLI::IsMember(shell_rules));
@@ -85,11 +95,14 @@ int main(int argc, char** argv) {
     options.points = point_kinds.at(points);
     options.shells = shell_rules.at(shells);
     options.seed = context.common.seed;
+    options.weld = parse_length(weld);
     Stage stage(context);
     Input input = open_surface(path);
     SurfaceSoup surface = read_surface(input);
     stage.begin();
     const TetmeshResult result = tetmesh(std::move(surface), options);
+    if (const auto& repair = result.statistics.repair; repair && repair->anything())
+      context.warn(fmt::format("{}: repaired: {}", input.name(), repair->sentence()));
     if (result.warning) context.warn(*result.warning);
     context.note(summary(result.statistics));
     context.statistics.update(to_json(result.statistics));

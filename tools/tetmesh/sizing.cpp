@@ -37,7 +37,7 @@ Length parse_length(std::string_view text) {
   return length;
 }
 
-double bounding_box_diagonal(const Surface& surface) {
+double bounding_box_diagonal(const SurfaceSoup& surface) {
   Vec3 low = surface.points.front(), high = low;
   for (const Vec3& p : surface.points) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
@@ -55,6 +55,12 @@ double element_size(const Surface& surface, const std::optional<Length>& length,
   const double thickness = 2 * volume / area;
   const double longest = std::min(longest_default * bounding_box_diagonal(surface), layers_default * thickness);
   return std::max(triangles_stay ? std::min(spacing, longest) : longest, shortest_default * std::cbrt(volume));
+}
+
+double points_expected(const Surface& surface, double size) {
+  double volume = 0;
+  for (const double region : surface.region_volumes()) volume += region;
+  return volume / size / size / size;
 }
 
 SizeFit fit_to_size(const Surface& surface, double size) {

@@ -18,12 +18,15 @@ struct Length {
 Length parse_length(std::string_view text);
 
 // Of the box around the points, along the axes.
-double bounding_box_diagonal(const Surface& surface);
+double bounding_box_diagonal(const SurfaceSoup& surface);
 
 // In the units of the surface. Without a length, 5 % of the diagonal, but at most half of the mean wall thickness (2
 // volume / area), and at least 1 % of the cube root of the volume. Where the surface's triangles stay as they are, also
 // at most the spacing of its vertices (the side of a square for each of them), which is the size that goes with them.
 double element_size(const Surface& surface, const std::optional<Length>& length, bool triangles_stay = true);
+
+// About how many points fill the material at that distance: its volume in cubes of the size.
+double points_expected(const Surface& surface, double size);
 
 // How far the surface's triangles are from the size of the elements behind them.
 struct SizeFit {

@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <optional>
+#include <ranges>
 
 #include "common/run/error.hpp"
 #include "tools/tetmesh/exact_geometry.hpp"
@@ -39,6 +41,26 @@ std::string list_of(const SurfaceSoup& soup, const Triangles& triangles) {
       fmt::format("{}s {}", soup.place_unit(), fmt::join(places.begin(), places.begin() + listed - 1, ", "));
   return text + (listed < places.size() ? fmt::format(", {}, ...", places[listed - 1])
                                         : fmt::format(" and {}", places[listed - 1]));
+}
+
+// Volumes are products of three lengths, and predicates of six: beyond this they are infinite or vanish.
+constexpr double least_extent = 1e-50, greatest_coordinate = 1e50;
+
+void check_magnitude(const SurfaceSoup& soup) {
+  double least = std::numeric_limits<double>::max(), greatest = std::numeric_limits<double>::lowest(), extent = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low, high] =
+        std::ranges::minmax(soup.points | std::views::transform([&](const Vec3& p) { return p[axis]; }));
+    least = std::min(least, low);
+    greatest = std::max(greatest, high);
+    extent = std::max(extent, high - low);
+  }
+  if (std::max(-least, greatest) > greatest_coordinate)
+    throw DataError::at(soup.name, "expected coordinates up to {:g}, found {:g}; scale the surface",
+                        greatest_coordinate, -least > greatest ? least : greatest);
+  if (extent < least_extent)
+    throw DataError::at(soup.name, "expected a surface at least {:g} long, found one of {:g}; scale the surface",
+                        least_extent, extent);
 }
 
 void check_no_degenerate_triangles(const SurfaceSoup& soup) {
@@ -199,6 +221,7 @@ void check_no_intersections(const SurfaceSoup& soup) {
 }  // namespace
 
 void check_surface(const SurfaceSoup& soup) {
+  check_magnitude(soup);
   check_no_degenerate_triangles(soup);
   check_no_repeated_triangles(soup);
   check_edges(soup);

@@ -6,6 +6,7 @@
 namespace hexpipe {
 
 // Throws DataError, which names the first triangles or the first edge at fault and says how many there are, unless
+// - coordinates are not so large or small that volumes overflow or vanish,
 // - no triangle is degenerate and no two have the same corners,
 // - each edge belongs to two triangles (closed), and each vertex to one fan of them (2-manifold),
 // - neighbours agree in orientation, so that each shell is consistently oriented, outward or inward,

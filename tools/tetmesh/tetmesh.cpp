@@ -17,14 +17,32 @@ namespace {
 
 void check_options(const TetmeshOptions& options) {
   // Each coordinate moves by the jitter, a point by up to sqrt(3) times that; it must not reach the surface.
-  if (options.points != PointKind::none && options.jitter >= options.clearance / 2)
-    throw UsageError(fmt::format("expected --jitter below half of --clearance, {:g}, found {:g}", options.clearance / 2,
-                                 options.jitter));
+  if (options.points == PointKind::none) return;
+  const double jitter = options.jitter.value_or(FramePointsOptions{}.jitter);
+  if (jitter >= options.clearance / 2)
+    throw UsageError(
+        fmt::format("expected --jitter below half of --clearance, {:g}, found {:g}", options.clearance / 2, jitter));
+}
+
+// Before any memory is used for them.
+void check_number_of_points(const Surface& surface, const TetmeshOptions& options, double size) {
+  const double expected = points_expected(surface, size);
+  if (options.points != PointKind::none && expected > options.most_points)
+    throw DataError::at(surface.name,
+                        "expected a size that makes at most {:g} points inside (see --most-points), found {:g}, which "
+                        "makes about {:.3g}",
+                        options.most_points, size, expected);
+}
+
+RepairReport repair(SurfaceSoup& soup, const TetmeshOptions& options) {
+  const double unit = options.weld.percent_of_diagonal ? bounding_box_diagonal(soup) / 100 : 1;
+  return repair(soup, {options.weld.value * unit, options.largest_hole});
 }
 
 std::vector<Vec3> place_points(const Surface& surface, const TetmeshOptions& options, double size) {
   if (options.points == PointKind::none) return {};
-  return lattice_points(surface, {size, options.clearance, options.jitter, options.seed});
+  return lattice_points(surface,
+                        {size, options.clearance, options.jitter.value_or(LatticeOptions{}.jitter), options.seed});
 }
 
 void describe(const Surface& surface, TetmeshStatistics& statistics) {
@@ -105,9 +123,11 @@ double hex_share_of(const TetMesh& mesh, const Surface& surface) {
 // From the mesh with the lattice's points, which stays where it is the better one.
 void try_frame_points(const Surface& surface, const TetmeshOptions& options, StepWatch& watch, BuiltMesh& built,
                       TetmeshStatistics& statistics) {
-  const std::vector<Vec3> points = frame_points(
-      surface, built.mesh,
-      {.size = statistics.size, .clearance = options.clearance, .jitter = options.jitter, .seed = options.seed});
+  const std::vector<Vec3> points = frame_points(surface, built.mesh,
+                                                {.size = statistics.size,
+                                                 .clearance = options.clearance,
+                                                 .jitter = options.jitter.value_or(FramePointsOptions{}.jitter),
+                                                 .seed = options.seed});
   watch.add_to(statistics.seconds_placing);
   BuiltMesh bent = tetrahedralize(surface, points, options.tetgen_timeout, watch, statistics);
   if (options.points == PointKind::best) {
@@ -142,11 +162,13 @@ TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
   TetmeshResult result;
   TetmeshStatistics& statistics = result.statistics;
   StepWatch watch;
+  if (options.repair) statistics.repair = repair(soup, options);
   check_surface(soup);
   Surface surface = find_shells(std::move(soup), options.shells);
   watch.add_to(statistics.seconds_checking);
 
-  statistics.size = element_size(surface, options.size, options.surface == SurfaceKind::keep);
+  statistics.size = element_size(surface, options.size);
+  check_number_of_points(surface, options, statistics.size);
   if (options.surface == SurfaceKind::remesh) {
     remesh(surface, options, result);
     watch.add_to(statistics.seconds_remeshing);
@@ -193,6 +215,7 @@ nlohmann::ordered_json to_json(const TetmeshStatistics& s) {
                               {"volume", s.volume},
                               {"least_dihedral", s.least_dihedral},
                               {"greatest_dihedral", s.greatest_dihedral}};
+  if (s.repair) json["repair"] = to_json(*s.repair);
   if (s.lattice_hex_share)
     json["estimated_hex_share"] = {{"lattice", *s.lattice_hex_share}, {"frame", *s.frame_hex_share}};
   return json;

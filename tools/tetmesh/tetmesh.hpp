@@ -9,6 +9,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "formats/surface_files.hpp"
 #include "tools/tetmesh/lattice.hpp"
+#include "tools/tetmesh/repair.hpp"
 #include "tools/tetmesh/shells.hpp"
 #include "tools/tetmesh/sizing.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
@@ -27,14 +28,18 @@ enum class PointKind {
 
 struct TetmeshOptions {
   std::optional<Length> size = {};  // nothing: see element_size()
-  SurfaceKind surface = SurfaceKind::remesh;
+  SurfaceKind surface = SurfaceKind::keep;
   double feature_angle = RemeshOptions{}.feature_angle;  // degrees
   double deviation = RemeshOptions{}.deviation;          // in sizes
   PointKind points = PointKind::best;
   double clearance = LatticeOptions{}.clearance;
-  double jitter = LatticeOptions{}.jitter;
+  std::optional<double> jitter = {};  // nothing: that of the kind of points
   ShellRule shells = ShellRule::oriented;
   std::uint64_t seed = 1;
+  double most_points = 2e7;  // inside
+  bool repair = false;
+  Length weld = {1e-4, true};
+  std::size_t largest_hole = RepairOptions{}.largest_hole;
   double tetgen_timeout = 3600;  // seconds
 };
 
@@ -46,6 +51,7 @@ struct TetmeshStatistics {
   std::size_t extra_points = 0;                           // of the input, that remeshing could not remove
   std::size_t shells = 0, regions = 0;
   std::size_t interior_points = 0;  // asked for
+  std::optional<RepairReport> repair;
   PointKind points_kept = PointKind::none;
   // Of the volume, by a rough greedy choice; where several kinds of points were tried.
   std::optional<double> lattice_hex_share, frame_hex_share;

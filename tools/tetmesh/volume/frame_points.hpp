@@ -18,7 +18,9 @@ namespace hexpipe {
 struct FramePointsOptions {
   double size = 1;
   double clearance = 0.5;  // least distance from the surface before points are jittered, in sizes
-  double jitter = 0.02;    // each coordinate moves by at most that, in sizes
+  // Each coordinate moves by at most that, in sizes. Candidates a vertex, and the share of the volume in hexes, over three
+  // parts: 11.3 and 87.2 % at 0, 8.4 and 87.6 at 0.01, 7.4 and 87.7 at 0.02, 6.2 and 87.6 at 0.04.
+  double jitter = 0.04;
   std::uint64_t seed = 1;
 };
 

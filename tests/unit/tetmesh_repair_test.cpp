@@ -1,0 +1,130 @@
+#include "tools/tetmesh/repair.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/run/random.hpp"
+#include "surface_samples.hpp"
+#include "tools/tetmesh/hole_filling.hpp"
+#include "tools/tetmesh/shells.hpp"
+#include "tools/tetmesh/surface_check.hpp"
+
+namespace hexpipe {
+namespace {
+
+using testing::cube;
+using testing::Facets;
+using testing::inverted;
+using testing::joined;
+using testing::soup_of;
+using testing::sphere;
+
+double volume_of(const SurfaceSoup& soup) {
+  double volume = 0;
+  for (const auto& [a, b, c] : soup.triangles) volume += det(soup.points[a], soup.points[b], soup.points[c]) / 6;
+  return volume;
+}
+
+// Repairs, and expects the boundary of a solid.
+RepairReport repaired(SurfaceSoup& soup, const RepairOptions& options = {}) {
+  EXPECT_THROW(check_surface(soup), DataError);
+  const RepairReport report = repair(soup, options);
+  EXPECT_NO_THROW(check_surface(soup));
+  EXPECT_EQ(soup.tags.size(), soup.triangles.size());
+  EXPECT_EQ(soup.places.size(), soup.triangles.size());
+  return report;
+}
+
+TEST(Repair, LeavesAGoodSurfaceAsItIs) {
+  SurfaceSoup soup = soup_of(joined(cube(0, 3, 3), inverted(cube(1, 1, 2))));
+  const SurfaceSoup before = soup;
+  EXPECT_FALSE(repair(soup, {.tolerance = 1e-6}).anything());
+  EXPECT_EQ(soup.points, before.points);
+  EXPECT_EQ(soup.triangles, before.triangles);
+}
+
+TEST(Repair, WeldsPointsWithinTheTolerance) {
+  Facets facets = sphere({0, 0, 0}, 1, 8);
+  Random random(1);
+  for (auto& facet : facets)
+    for (Vec3& p : facet) p += {random.uniform(-1e-5, 1e-5), random.uniform(-1e-5, 1e-5), random.uniform(-1e-5, 1e-5)};
+  SurfaceSoup soup = soup_of(facets);
+  const std::size_t loose = soup.points.size();
+  const RepairReport report = repaired(soup, {.tolerance = 1e-4});
+  EXPECT_EQ(soup.points.size(), 2u + 7 * 16);
+  EXPECT_EQ(report.welded_points, loose - soup.points.size());
+}
+
+TEST(Repair, RemovesRepeatedTriangles) {
+  Facets facets = cube(0, 1, 2);
+  facets.push_back(facets[3]);
+  facets.push_back(inverted({facets[5]})[0]);
+  SurfaceSoup soup = soup_of(facets);
+  EXPECT_EQ(repaired(soup).duplicate_triangles, 2u);
+  EXPECT_EQ(soup.triangles.size(), 48u);
+}
+
+TEST(Repair, CutsTheNeighbourOfAFlatTriangle) {
+  // The first square's diagonal is halved on one side only, and a flat triangle fills the gap.
+  Facets facets = cube();
+  const auto [a, b, c] = facets[0];
+  const Vec3 middle = 0.5 * (a + c);
+  facets[0] = {a, b, middle};
+  facets.push_back({middle, b, c});
+  facets.push_back({a, middle, c});
+  SurfaceSoup soup = soup_of(facets);
+  EXPECT_EQ(repaired(soup).degenerate_triangles, 1u);
+  EXPECT_NEAR(volume_of(soup), 1, 1e-12);
+}
+
+TEST(Repair, TurnsTrianglesAndWholePieces) {
+  Facets facets = joined(cube(0, 1, 3), inverted(cube(5, 1, 2)));
+  std::swap(facets[7][1], facets[7][2]);
+  SurfaceSoup soup = soup_of(facets);
+  EXPECT_EQ(repaired(soup).turned_triangles, 1u + 48);
+  EXPECT_NEAR(volume_of(soup), 2, 1e-12);
+}
+
+TEST(Repair, KeepsHolesThatLieInMaterial) {
+  Facets facets = joined(cube(0, 3, 1), inverted(cube(1, 1, 1)));
+  facets.push_back(facets[0]);
+  SurfaceSoup soup = soup_of(facets);
+  EXPECT_EQ(repaired(soup).turned_triangles, 0u);
+  EXPECT_NEAR(volume_of(soup), 26, 1e-12);
+}
+
+TEST(Repair, FillsHolesUpToTheirLimit) {
+  Facets facets = cube(0, 1, 4);
+  facets.erase(facets.begin() + 3, facets.begin() + 5);
+  facets.pop_back();
+  const SurfaceSoup torn = soup_of(facets);
+  SurfaceSoup soup = torn;
+  const RepairReport report = repaired(soup);
+  EXPECT_GE(report.filled_holes, 2u);
+  EXPECT_EQ(report.hole_triangles, 3u);
+  EXPECT_NEAR(volume_of(soup), 1, 1e-12);
+  soup = torn;
+  EXPECT_EQ(repair(soup, {.largest_hole = 2}).filled_holes, 0u);
+  EXPECT_THROW(check_surface(soup), DataError);
+}
+
+TEST(HoleFilling, HasTheLeastArea) {
+  // An arrow: the other diagonal lies outside it.
+  const std::vector<Vec3> points{{0, 0, 0}, {2, 1, 0}, {4, 0, 0}, {2, 4, 0}};
+  const auto triangles = triangulate_polygon(points, std::vector<Vertex>{0, 1, 2, 3});
+  ASSERT_EQ(triangles.size(), 2u);
+  double area = 0;
+  for (const auto& [a, b, c] : triangles) area += cross(points[b] - points[a], points[c] - points[a]).z / 2;
+  EXPECT_DOUBLE_EQ(area, 6);
+}
+
+TEST(Repair, SaysWhatItDid) {
+  RepairReport report;
+  EXPECT_EQ(report.sentence(), "");
+  report.welded_points = 1;
+  report.filled_holes = 2;
+  report.hole_triangles = 5;
+  EXPECT_EQ(report.sentence(), "1 point welded, 2 holes filled by 5 triangles");
+}
+
+}  // namespace
+}  // namespace hexpipe
