@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
       .outside_history = {"tetgen-timeout"}};
   TetmeshOptions options;
   std::optional<std::string> size;
-  std::string path = "-", surface_kind = "keep", points = "best", shells = "oriented", weld = "0.0001%";
+  std::string path = "-", surface_kind = "remesh", points = "best", shells = "oriented", weld = "0.0001%";
   const auto declare = [&](CLI::App& app) {
     app.add_option("surface", path, "A surface in any format; '-' or nothing: standard input")->type_name("FILE");
     app.add_option(

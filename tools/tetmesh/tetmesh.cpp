@@ -167,7 +167,7 @@ TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
   Surface surface = find_shells(std::move(soup), options.shells);
   watch.add_to(statistics.seconds_checking);
 
-  statistics.size = element_size(surface, options.size);
+  statistics.size = element_size(surface, options.size, options.surface == SurfaceKind::keep);
   check_number_of_points(surface, options, statistics.size);
   if (options.surface == SurfaceKind::remesh) {
     remesh(surface, options, result);

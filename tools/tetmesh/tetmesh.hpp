@@ -28,7 +28,7 @@ enum class PointKind {
 
 struct TetmeshOptions {
   std::optional<Length> size = {};  // nothing: see element_size()
-  SurfaceKind surface = SurfaceKind::keep;
+  SurfaceKind surface = SurfaceKind::remesh;
   double feature_angle = RemeshOptions{}.feature_angle;  // degrees
   double deviation = RemeshOptions{}.deviation;          // in sizes
   PointKind points = PointKind::best;
