@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""scale.py [--most N] - time and memory of findhex and buildgraph against the number of tets: 10^5, 10^6, up to N (10^7).
+"""scale.py [--most N] [--only lattice|boxes] - time and memory of findhex and buildgraph against the number of tets: 10^5, 10^6, up to N (10^7).
 
 Lattices of five tets a cube, and boxes of Delaunay tets of points moved by 30 % set one beside the other. Printed are processor
 seconds and peak memory of both stages for each size, by tet, candidate and stored edge, and how far time and memory a tet
@@ -35,13 +35,10 @@ def measure(mesh):
     os.remove("mesh.tar")
     with tarfile.open("candidates.tar") as tar:
         candidates = tar.getmember("candidates/kind.npy").size - 128
-    process = os.popen(f"{meshes.tool('buildgraph')} -q candidates.tar --stats build.json | wc -c")
-    streamed = int(process.read())
-    if process.close() is not None:
-        sys.exit("buildgraph failed")
-    with open("build.json") as file:
-        edges = 2 * json.load(file)["edges"]
-    build = meshes.run([meshes.tool("buildgraph"), "-q", "candidates.tar", "--format", "tar", "-o", os.devnull])
+    command = f"{meshes.tool('buildgraph')} -q candidates.tar --stats build.json | wc -c >streamed"
+    build = meshes.run(["bash", "-o", "pipefail", "-c", command])
+    with open("build.json") as stats, open("streamed") as count:
+        edges, streamed = 2 * json.load(stats)["edges"], int(count.read())
     os.remove("candidates.tar")
     return find, build, candidates, edges, streamed
 
@@ -49,11 +46,14 @@ def measure(mesh):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--most", type=float, default=1e7)
+    parser.add_argument("--only", choices=("lattice", "boxes"))
     options = parser.parse_args()
     missed = False
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         for name, make in (("lattice", lattice), ("boxes", boxes)):
+            if options.only not in (None, name):
+                continue
             base = None
             for step in (s for s in STEPS if s <= options.most):
                 mesh = make(step)
