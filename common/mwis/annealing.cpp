@@ -6,6 +6,16 @@
 #include <span>
 
 namespace hexpipe {
+namespace {
+
+// In graphs that no cache holds, kicks go to random vertices of a window that moves on over all of them: neighbours
+// mostly have numbers near each other. A million vertices take a third of the time then; random-33k, which needs no
+// window, loses 0.4 % by one.
+constexpr std::int64_t least_for_windows = 1 << 18;
+constexpr std::int64_t window = 4096;
+constexpr std::int64_t kicks_a_window = 512;
+
+}  // namespace
 
 double Cooling::at(double progress) const {
   return hot * std::pow(cold / hot, progress);
@@ -21,15 +31,14 @@ Annealing::Annealing(const ConflictGraph& graph, const IndependentSet& start, Ra
 }
 
 void Annealing::run(std::int64_t kicks, double temperature, const Deadline& deadline, std::int64_t most_touched) {
-  const auto vertices = static_cast<std::uint64_t>(state_.graph().vertex_count());
-  if (vertices == 0) return;
+  if (state_.graph().vertex_count() == 0) return;
   const std::int64_t touched_before = touched_;
   for (std::int64_t i = 0; i < kicks && touched_ - touched_before < most_touched; ++i) {
     if (i % 64 == 0 && deadline.passed()) return;
     ++kicks_;
     const std::int64_t before = state_.weight();
     step_.clear();
-    kick(static_cast<std::int32_t>(random_.below(vertices)));
+    kick(next_to_kick());
     settle();
     const auto change = static_cast<double>(state_.weight() - before);
     if (change >= 0 || change > temperature * std::log(random_.uniform()))
@@ -37,6 +46,15 @@ void Annealing::run(std::int64_t kicks, double temperature, const Deadline& dead
     else
       take_back();
   }
+}
+
+std::int32_t Annealing::next_to_kick() {
+  const std::int64_t vertices = state_.graph().vertex_count();
+  if (vertices < least_for_windows)
+    return static_cast<std::int32_t>(random_.below(static_cast<std::uint64_t>(vertices)));
+  if (kicks_ % kicks_a_window == 0) window_begin_ = (window_begin_ + window) % vertices;
+  const auto place = static_cast<std::int64_t>(random_.below(window));
+  return static_cast<std::int32_t>((window_begin_ + place) % vertices);
 }
 
 void Annealing::kick(std::int32_t v) {

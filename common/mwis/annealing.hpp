@@ -49,6 +49,7 @@ class Annealing {
   bool check() const;
 
  private:
+  std::int32_t next_to_kick();
   void kick(std::int32_t v);
   void settle();
   void push(std::int32_t v);
@@ -71,6 +72,7 @@ class Annealing {
   std::uint32_t stamp_ = 0;
 
   std::int64_t kicks_ = 0, touched_ = 0;
+  std::int64_t window_begin_ = 0;
   std::int64_t best_weight_ = 0;
   std::vector<std::int32_t> step_;  // vertices that went in or out since the kick
   // The best solution is the present one with these taken back; or best_, once they were too many.

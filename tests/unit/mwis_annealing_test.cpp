@@ -43,6 +43,27 @@ TEST(Annealing, FindsTheOptimumOfSmallGraphs) {
   }
 }
 
+TEST(Annealing, ReachesEveryPartOfALargeGraph) {
+  // Paths of five with the second and the fourth chosen: no move gains before one of the others was kicked in.
+  constexpr std::int32_t paths = 53000;
+  ConflictGraph graph;
+  IndependentSet start;
+  for (std::int32_t first = 0; first < 5 * paths; first += 5) {
+    for (std::int32_t i = 0; i < 5; ++i) {
+      if (i > 0) graph.neighbours.push_back(first + i - 1);
+      if (i < 4) graph.neighbours.push_back(first + i + 1);
+      graph.offsets.push_back(static_cast<std::int64_t>(graph.neighbours.size()));
+      graph.weights.push_back(i % 2 == 0 ? 4 : 5);
+    }
+    start.insert(start.end(), {first + 1, first + 3});
+  }
+  Annealing search(graph, start, Random(1));
+  EXPECT_EQ(search.best_weight(), 10 * paths);
+  search.run(10 * paths, 1e-9, no_deadline);
+  EXPECT_GT(search.best_weight(), std::int64_t{12} * paths * 99 / 100);
+  EXPECT_TRUE(search.check());
+}
+
 TEST(Annealing, SwapsOneForTwo) {
   // No single vertex gains beside the middle one, the two ends together do.
   const ConflictGraph path = make_graph({3, 4, 3}, {{0, 1}, {1, 2}});
