@@ -1,0 +1,118 @@
+#!/usr/bin/python3
+"""make_corpus.py BIN - write the seeds of the fuzzers to corpus/ beside this file, with the tools in BIN.
+
+A seed is a small whole file that its reader takes. What fuzzing found is in findings/ and is not touched.
+"""
+import io
+import pathlib
+import re
+import struct
+import subprocess
+import sys
+import tarfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+DATA = ROOT / "tests/data"
+BIN = pathlib.Path(sys.argv[1]).resolve()
+
+
+def run(*command, stdin=None):
+    return subprocess.run(command, input=stdin, check=True, stdout=subprocess.PIPE).stdout
+
+
+def tool(name, *options, stdin=None):
+    return run(BIN / name, *options, "-q", stdin=stdin)
+
+
+def seed(reader, name, data):
+    folder = HERE / "corpus" / reader
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / name).write_bytes(data if isinstance(data, bytes) else data.encode())
+
+
+def only(bundle, *folders):
+    """The members of these folders as a bundle of their own."""
+    out = io.BytesIO()
+    with tarfile.open(fileobj=io.BytesIO(bundle)) as whole, tarfile.open(
+        fileobj=out, mode="w", format=tarfile.PAX_FORMAT
+    ) as part:
+        for member in whole:
+            if member.name.split("/")[0] in folders:
+                part.addfile(member, whole.extractfile(member))
+    # Python fills up to 20 blocks; two of zeros behind the last full one are the end.
+    used = len(out.getvalue().rstrip(b"\0"))
+    return out.getvalue()[: (used + 511) // 512 * 512].ljust((used + 511) // 512 * 512 + 1024, b"\0")
+
+
+def meshes():
+    endings = {"mesh": "medit", "msh22": "msh22", "msh22-binary": "msh22-binary", "msh": "msh", "msh-binary": "msh-binary",
+               "vtk": "vtk", "vtu": "vtu"}
+    for kind, source in (("all_kinds", DATA / "meshes/one_of_each.msh"), ("tets", DATA / "meshes/cube.1.node")):
+        for form, reader in endings.items():
+            seed(reader, kind, run(BIN / "mesh_convert", source, form, "/dev/stdout"))
+    parts = [(DATA / "meshes" / f"cube.1.{part}").read_text() for part in ("node", "ele", "face")]
+    seed("tetgen", "cube", "=====\n".join(parts))
+    seed("tetgen", "without_faces", "=====\n".join(parts[:2]))
+
+
+def examples():
+    """What formats/README.md shows, so that every form that it tells of is among the seeds."""
+    text = (ROOT / "formats/README.md").read_text()
+    readers = {"mesh": "medit", "msh": "msh", "vtk": "vtk", "vtu": "vtu", "stl": "stl", "obj": "obj", "ply": "ply", "off": "off"}
+    for name, content in re.findall(r"<!-- (?:example|surface) (\S+) -->\n```\n(.*?)```", text, re.DOTALL):
+        reader = readers.get(name.split(".")[-1])
+        if reader:
+            seed(reader, "readme-" + name.split(".")[0], content)
+
+
+def stages():
+    mesh = run("/usr/bin/python3", DATA / "lattices/lattice.py", "kuhn", "1")
+    found = tool("findhex", "--cells", "hex,prism,pyramid", stdin=mesh)
+    graph = tool("buildgraph", stdin=found)
+    solution = tool("initsol", "--iterations", "1", stdin=graph)
+    result = tool("assemble", stdin=solution)
+    for folder in ("mesh", "candidates", "graph", "result", "history"):
+        seed("members", folder, only(result if folder == "result" else solution, folder))
+    seed("members", "graph_and_solution", only(solution, "graph", "solution"))
+    seed("bundle", "mesh.tar", only(solution, "mesh"))
+    seed("bundle", "solution.tar.zst", run("zstd", "-19", "-c", stdin=solution))
+    with tarfile.open(fileobj=io.BytesIO(solution)) as bundle:
+        for member in bundle:
+            if member.name in ("mesh/points.npy", "graph/offsets.npy", "candidates/kind.npy"):
+                seed("npy", member.name.split("/")[1], bundle.extractfile(member).read()[:128])
+    seed("cand", "lattice", tool("findhex", "--cells", "hex,prism,pyramid", "--format", "cand", stdin=mesh))
+    seed("metis", "lattice", tool("buildgraph", "--format", "graph", stdin=found))
+    seed("metis", "edge_weights", "% a path\n3 2 11\n5 2 1\n7 1 1 3 1\n5 2 1\n")
+    seed("metis", "unweighted", "4 2\n2\n1\n4\n3\n")
+    seed("dimacs", "weights", "c a path\np edge 3 2\nn 2 7\ne 1 2\ne 2 3\n")
+    seed("dimacs", "vertex_cover", "c twice\np td 4 3\n1 2\n2 3\n3 4\n")
+    seed("dimacs", "colouring", "p col 3 4\nv 1 5\ne 1 2\ne 2 1\ne 2 3\ne 3 2\n")
+    # The first byte is the number of vertices.
+    seed("sol", "numbers", b"\x05" + b"1\n3\n")
+    seed("sol", "flags", b"\x03" + b"1\n0\n1\n")
+
+
+def surfaces():
+    binary = bytearray(80) + (4).to_bytes(4, "little")
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    faces = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+    for face in faces:
+        binary += struct.pack("<12fH", 0, 0, 0, *(x for c in face for x in corners[c]), 7)
+    seed("stl", "binary", bytes(binary))
+    for order, mark in (("little", "<"), ("big", ">")):
+        head = f"ply\nformat binary_{order}_endian 1.0\nelement vertex 4\nproperty float x\nproperty double y\nproperty short z\n" \
+               "element face 4\nproperty uchar flag\nproperty list uchar int vertex_indices\nend_header\n"
+        body = b"".join(struct.pack(mark + "fdh", *c) for c in corners)
+        body += b"".join(struct.pack(mark + "BB3i", 1, 3, *f) for f in faces)
+        seed("ply", f"{order}_endian", head.encode() + body)
+    seed("off", "polygons", "COFF 5 5 8\n" + "\n".join(f"{x} {y} {z} 1 0 0 1" for x, y, z in
+         ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (.5, .5, 1))) + "\n4 3 2 1 0\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n")
+    seed("obj", "continued", "o part\nv 0 0 0\nv 1 0 0\nv 0 1 0 1.0\nv 0 0 1\nvn 0 0 1\nf 1//1 \\\n 3//1 2//1\nf 1 2 4 \n"
+         "usemtl steel\nf -3 -2 -1\nf 1 4 3\n")
+
+
+meshes()
+examples()
+stages()
+surfaces()

@@ -1,0 +1,198 @@
+#include "tests/fuzz/readers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "common/run/error.hpp"
+#include "common/run/run_context.hpp"
+#include "formats/bundle.hpp"
+#include "formats/cand.hpp"
+#include "formats/dimacs.hpp"
+#include "formats/mesh_files.hpp"
+#include "formats/metis.hpp"
+#include "formats/npy.hpp"
+#include "formats/solution_file.hpp"
+#include "formats/stage.hpp"
+#include "formats/surface_files.hpp"
+#include "tests/fuzz/scratch_files.hpp"
+#include "tests/fuzz/tar_members.hpp"
+
+namespace hexpipe {
+namespace {
+
+const ScratchFiles& scratch() {
+  static const ScratchFiles files;
+  return files;
+}
+
+void promise(bool kept, const char* what) {
+  if (kept) return;
+  std::fprintf(stderr, "broken promise: %s\n", what);
+  std::abort();
+}
+
+Input memory(std::string_view bytes) {
+  return Input::from_memory(std::string(bytes), "fuzzed");
+}
+
+// What `write` makes, as a file that is open again.
+template <class Write>
+Input written(const char* name, Write&& write) {
+  const std::string path = scratch().path(name);
+  Output output(path);
+  write(output);
+  output.commit();
+  return Input::open(path);
+}
+
+// The parts of a mesh that every one of our mesh formats keeps.
+bool same_mesh(const MixedMesh& a, const MixedMesh& b) {
+  const auto same = [](const auto& x, const auto& y) { return x.cells == y.cells && x.tags == y.tags; };
+  return a.points == b.points && same(a.hexes, b.hexes) && same(a.prisms, b.prisms) && same(a.pyramids, b.pyramids) &&
+         same(a.tets, b.tets) && same(a.triangles, b.triangles) && same(a.quads, b.quads);
+}
+
+// Written and read again a mesh is the same mesh; writing it in the other formats ends well too.
+void check_round_trip(const MixedMesh& mesh, const char* format) {
+  Input again = written("round_trip", [&](Output& output) { write_mixed_mesh(mesh, format, output); });
+  promise(same_mesh(read_mixed_mesh(again), mesh), "a mesh that is written is read as the same mesh");
+}
+
+// The first bytes decide what is read, as in a tool: a mutated beginning leads to another reader or to none.
+void read_mesh(std::string_view bytes, const char* format) {
+  Input input = memory(bytes);
+  check_round_trip(read_mixed_mesh(input), format);
+}
+
+// The three files behind each other with a line between; the last may be missing.
+void read_tetgen_files(std::string_view bytes) {
+  constexpr std::string_view separator = "=====\n";
+  scratch().remove("mesh.face");
+  for (const char* const name : {"mesh.node", "mesh.ele", "mesh.face"}) {
+    const std::size_t end = bytes.find(separator);
+    scratch().write(name, bytes.substr(0, end));
+    if (end == std::string_view::npos) break;
+    bytes.remove_prefix(end + separator.size());
+  }
+  for (const char* const name : {"mesh.node", "mesh.ele"}) {
+    Input input = Input::open(scratch().path(name));
+    read_mixed_mesh(input);
+  }
+}
+
+void read_candidates(std::string_view bytes) {
+  Input input = memory(bytes);
+  const Candidates candidates = read_cand(input);
+  validate(candidates, "fuzzed");
+  Input again = written("again.cand", [&](Output& output) { write_cand(candidates, output); });
+  promise(read_cand(again) == candidates, "candidates that are written are read as the same candidates");
+}
+
+void read_graph(std::string_view bytes) {
+  Input input = memory(bytes);
+  const ConflictGraph graph = looks_like_dimacs(input) ? read_dimacs(input) : read_metis(input);
+  validate(graph, "fuzzed");
+  metis_weight_warning(graph);
+  Input again = written("again.graph", [&](Output& output) { write_metis(graph, output); });
+  promise(read_metis(again) == graph, "a graph that is written is read as the same graph");
+}
+
+// The first byte is the number of vertices.
+void read_solution_of_few(std::string_view bytes) {
+  if (bytes.empty()) return;
+  Input input = memory(bytes.substr(1));
+  const std::int64_t vertices = static_cast<unsigned char>(bytes.front());
+  const IndependentSet solution = read_solution(input, vertices);
+  promise(std::ranges::adjacent_find(solution, std::ranges::greater_equal{}) == solution.end(),
+          "a solution is ascending");
+  for (const std::int32_t v : solution) promise(v >= 0 && v < vertices, "a solution names vertices of the graph");
+}
+
+void read_soup(std::string_view bytes) {
+  Input input = memory(bytes);
+  const SurfaceSoup soup = read_surface(input);
+  promise(soup.tags.size() == soup.triangles.size() && soup.places.size() == soup.triangles.size(),
+          "each triangle has a tag and a place");
+  for (const Vec3& point : soup.points) promise(is_finite(point), "coordinates are finite");
+  for (const Triangle& triangle : soup.triangles)
+    for (const Vertex v : triangle)
+      promise(v >= 0 && static_cast<std::size_t>(v) < soup.points.size(), "corners are points");
+  soup.place_of(soup.triangles.size() - 1);
+}
+
+void read_npy(std::string_view bytes) {
+  const std::size_t size = npy_header_size(bytes.substr(0, 10));
+  if (size == 0 || size > bytes.size()) return;
+  const NpyHeader header = parse_npy_header(bytes.substr(0, size), "fuzzed");
+  const std::string again = npy_header(header);
+  promise(parse_npy_header(again, "again").shape == header.shape, "a header that is written is read as the same");
+}
+
+// As a tool that only reads: every role is taken where it is there, and validated.
+void read_as_stage(std::string_view bytes) {
+  RunContext context;
+  context.info.name = "fuzzed";
+  context.info.reads = {Role::mesh, Role::candidates, Role::graph, Role::solution, Role::result};
+  context.common.quiet = true;
+  context.streams.operand = scratch().write("stage.tar", bytes);
+  Stage(context).read({}, context.info.reads);
+}
+
+void read_bundle(std::string_view bytes) {
+  Input input = memory(bytes);
+  if (looks_like_bundle(input)) read_as_stage(bytes);
+}
+
+void read_members(std::string_view bytes) {
+  read_bundle(with_right_checksums(bytes));
+}
+
+constexpr std::array readers{
+    FuzzedReader{"bundle", read_bundle},
+    FuzzedReader{"members", read_members},
+    FuzzedReader{"npy", read_npy},
+    FuzzedReader{"medit", [](std::string_view bytes) { read_mesh(bytes, "mesh"); }},
+    FuzzedReader{"msh22", [](std::string_view bytes) { read_mesh(bytes, "msh22"); }},
+    FuzzedReader{"msh22-binary", [](std::string_view bytes) { read_mesh(bytes, "msh22-binary"); }},
+    FuzzedReader{"msh", [](std::string_view bytes) { read_mesh(bytes, "msh"); }},
+    FuzzedReader{"msh-binary", [](std::string_view bytes) { read_mesh(bytes, "msh-binary"); }},
+    FuzzedReader{"vtk", [](std::string_view bytes) { read_mesh(bytes, "vtk"); }},
+    FuzzedReader{"vtu", [](std::string_view bytes) { read_mesh(bytes, "vtu"); }},
+    FuzzedReader{"tetgen", read_tetgen_files},
+    FuzzedReader{"metis", read_graph},
+    FuzzedReader{"dimacs", read_graph},
+    FuzzedReader{"cand", read_candidates},
+    FuzzedReader{"sol", read_solution_of_few},
+    FuzzedReader{"stl", read_soup},
+    FuzzedReader{"obj", read_soup},
+    FuzzedReader{"ply", read_soup},
+    FuzzedReader{"off", read_soup},
+};
+
+}  // namespace
+
+std::span<const FuzzedReader> fuzzed_readers() {
+  return readers;
+}
+
+const FuzzedReader* find_fuzzed_reader(std::string_view name) {
+  const auto* const found = std::ranges::find(readers, name, &FuzzedReader::name);
+  return found == readers.end() ? nullptr : &*found;
+}
+
+bool accepts(const FuzzedReader& reader, std::string_view bytes) {
+  try {
+    reader.read(bytes);
+    return true;
+  } catch (const DataError&) {
+    return false;
+  }
+}
+
+}  // namespace hexpipe
