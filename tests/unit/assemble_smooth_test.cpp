@@ -171,6 +171,30 @@ TEST(Smooth, UntangleTurnsInvertedCellsRight) {
   EXPECT_GT(kind_statistics(mesh)[0].least, 0.02);
 }
 
+// Scaled Jacobians are the same however short an edge is.
+TEST(Smooth, EdgesStayLong) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    auto lattice = make_lattice(4);
+    jitter(lattice, 0.2, random);
+    const auto mesh = assemble(lattice.mesh, lattice.cubes, random_choice(lattice, 0.7, random), {.smooth = 20}).mesh;
+    double shortest = 1, longest = 0;
+    auto measure = [&](const auto& cells, const auto& edges) {
+      for (const auto& cell : cells)
+        for (const auto& e : edges) {
+          const double length = norm(mesh.points[cell[e[1]]] - mesh.points[cell[e[0]]]);
+          shortest = std::min(shortest, length);
+          longest = std::max(longest, length);
+        }
+    };
+    measure(mesh.hexes.cells, HexTopology::edges);
+    measure(mesh.pyramids.cells, PyramidTopology::edges);
+    measure(mesh.tets.cells, TetTopology::edges);
+    EXPECT_GT(shortest, 0.05 * longest);
+  }
+}
+
 // The option goes all the way: more rounds, other places; statistics tell of both states.
 TEST(Smooth, RoundsChangeTheResult) {
   Random random(1);

@@ -8,6 +8,7 @@
 #include "tools/assemble/smooth.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -43,6 +44,9 @@ constexpr double least_gain = 1e-3;
 // How far facets may come to lie from the input's surface, in edge lengths there, where vertices slide on it. Circles
 // of 25 edges and more deviate less between their own vertices.
 constexpr double most_deviation = 0.03;
+// Scaled Jacobians do not mind edges of any length: none may become shorter than this part of the longest at its
+// vertex.
+constexpr double shortest_edge = 0.1;
 // A move that leaves a hex invalid is halved this often.
 constexpr int retreats = 4;
 
@@ -115,6 +119,7 @@ class Smoother {
   bool slides(Vertex v) const;
   Freedom freedom(Vertex v) const;
   bool stays_close(Vertex v, const Vec3& at);
+  bool keeps_edges_long(Vertex v, const Vec3& at) const;
   bool improve(Vertex v, double only_below, bool weighted);
   void look_around(Vertex v);
   bool is_valid_cell(std::int32_t c) const;
@@ -170,6 +175,24 @@ bool Smoother::stays_close(Vertex v, const Vec3& at) {
   return deviation <= most;
 }
 
+// False where an edge at v would become shorter than the shortest is now, and short beside the longest.
+bool Smoother::keeps_edges_long(Vertex v, const Vec3& at) const {
+  double now = std::numeric_limits<double>::infinity(), shortest = now, longest = 0;
+  for (std::int32_t c : cells_.at(v)) {
+    const auto corners = cells_.corners_of(c);
+    with_topology(cells_.kind(c), [&](auto topology) {
+      for (const auto& e : decltype(topology)::edges) {
+        if (corners[e[0]] != v && corners[e[1]] != v) continue;
+        const Vec3 other = points_[corners[e[0]] == v ? corners[e[1]] : corners[e[0]]];
+        now = std::min(now, norm_squared(other - points_[v]));
+        shortest = std::min(shortest, norm_squared(other - at));
+        longest = std::max(longest, norm_squared(other - at));
+      }
+    });
+  }
+  return shortest >= std::min(now, shortest_edge * shortest_edge * longest);
+}
+
 bool Smoother::improve(Vertex v, double only_below, bool weighted) {
   look_around(v);
   const Vec3 before = points_[v];
@@ -192,7 +215,7 @@ bool Smoother::improve(Vertex v, double only_below, bool weighted) {
     if (star_.worst_unweighted(at) < worst_unweighted) continue;
     const bool better =
         poor ? star_.worst(at) > worst + least_gain : star_.worst(at) >= worst && star_.mean(at) > mean + least_gain;
-    if (!better || (slide && !stays_close(v, at))) continue;
+    if (!better || (worst > 0 && !keeps_edges_long(v, at)) || (slide && !stays_close(v, at))) continue;
     points_[v] = at;
     if (std::ranges::all_of(valid_before, [&](std::int32_t c) { return is_valid_cell(c); })) return true;
     points_[v] = before;
