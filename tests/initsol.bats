@@ -205,6 +205,13 @@ PYTHON
   assert_fails_with 1 "^initsol: loop.col:[0-9]+: expected no loops" initsol loop.col --iterations 1 -o out.sol
 }
 
+@test "the DIMACS example of formats/README.md is the path beside it" {
+  sed -n '/<!-- dimacs path.col -->/,/^```$/p' "$HEXPIPE_SOURCE/formats/README.md" | sed '1,2d;$d' >path.col
+  initsol path.col --iterations 10 -o path.sol --stats path.json
+  assert_equal "$(tr '\n' ' ' <path.sol)" "1 3 "
+  grep -q '"weight": 10' path.json
+}
+
 @test "every truncated prefix of a graph is refused" {
   local size prefix
   size=$(stat -c %s small.graph)
