@@ -58,7 +58,7 @@ TEST_P(KernelTest, KeepsTheOptimumAndLiftsIt) {
 
 TEST_P(KernelTest, LiftsAnySetToAMaximalOneAndProjectsBack) {
   Random random(2);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 12; ++i) {
     const ConflictGraph graph = hexpipe::testing::random_graph(80, 0.1, 100, random);
     const Kernel kernel(graph, Deadline(), GetParam());
     for (const IndependentSet& set :
@@ -86,7 +86,7 @@ TEST(Kernel, IsExactOnLargerGraphsToo) {
     return total_weight(best, graph);
   };
   std::int32_t quick_left = 0, left = 0;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 16; ++i) {
     const auto vertices = 50 + static_cast<std::int32_t>(random.below(150));
     const ConflictGraph graph = i % 2 == 0 ? hexpipe::testing::random_clique_graph(vertices, 100, 1000, random)
                                            : hexpipe::testing::random_graph(vertices, 0.05, 1000, random);
