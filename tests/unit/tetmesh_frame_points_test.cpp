@@ -166,13 +166,16 @@ TEST(FramePoints, DoNotDependOnTheNumberOfThreads) {
 
 TEST(FramePoints, JitterComesBySeed) {
   const Surface surface = surface_of(box({0, 0, 0}, {1, 1, 1}, 4));
-  const auto exact = points_of(surface, {.size = 0.25, .jitter = 0}), jittered = points_of(surface, {.size = 0.25});
+  const auto points_with = [&](double jitter, std::uint64_t seed) {
+    return points_of(surface, {.size = 0.25, .jitter = jitter, .seed = seed});
+  };
+  const auto exact = points_with(0, 1), jittered = points_with(0.02, 1);
   ASSERT_EQ(exact.size(), jittered.size());
   for (std::size_t i = 0; i < exact.size(); ++i) {
     EXPECT_LE(norm(jittered[i] - exact[i]), 0.02 * 0.25 * std::sqrt(3.0));
     EXPECT_NE(jittered[i], exact[i]);
   }
-  EXPECT_NE(points_of(surface, {.size = 0.25, .seed = 2}), jittered);
+  EXPECT_NE(points_with(0.02, 2), jittered);
 }
 
 TEST(SurfaceClearance, IsTheDistanceToTheNearestTriangle) {
