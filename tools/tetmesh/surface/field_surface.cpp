@@ -19,6 +19,11 @@ FieldSurface::FieldSurface(const FeatureMesh& mesh) {
     areas.push_back(length / 2);
   }
   twins = find_twins(points.size(), triangles);
+  inwards.reserve(twins.size());
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(twins.size()); ++h) {
+    const Vec3 direction = cross(normals[triangle_of(h)], edge_vector(h));
+    inwards.push_back(direction * (1 / norm(direction)));
+  }
 }
 
 TangentFrame::TangentFrame(const FieldSurface& surface, std::int32_t triangle) {

@@ -18,13 +18,11 @@ struct FieldSurface {
   std::vector<bool> feature;  // of each half-edge
   std::vector<Vec3> normals;  // of length 1
   std::vector<double> areas;
+  std::vector<Vec3> inwards;  // of each half-edge, see inward()
 
   Vec3 edge_vector(HalfEdge h) const { return points[end_of(triangles, h)] - points[start_of(triangles, h)]; }
-  // In the plane of its triangle, of length 1, pointing into it.
-  Vec3 inward(HalfEdge h) const {
-    const Vec3 n = cross(normals[triangle_of(h)], edge_vector(h));
-    return n * (1 / norm(n));
-  }
+  // At right angles to a half-edge in the plane of its triangle, of length 1, pointing into it.
+  const Vec3& inward(HalfEdge h) const { return inwards[h]; }
 };
 
 // A frame of a triangle's plane: its first side, and that turned by 90 degrees.

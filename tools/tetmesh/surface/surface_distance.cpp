@@ -36,7 +36,13 @@ DistanceIndex::DistanceIndex(std::span<const Vec3> points, std::span<const Trian
   }
   const Vec3 extent = high - low_;
   double area = 0;
-  for (const auto& [a, b, c] : triangles) area += norm(cross(points[b] - points[a], points[c] - points[a]));
+  normals_.reserve(triangles.size());
+  for (const auto& [a, b, c] : triangles) {
+    const Vec3 normal = cross(points[b] - points[a], points[c] - points[a]);
+    const double length = norm(normal);
+    area += length;
+    normals_.push_back(normal * (1 / length));
+  }
   const double edge = std::sqrt(area / static_cast<double>(triangles.size()));
   width_ = std::max(edge, std::max({extent.x, extent.y, extent.z}) / most_cells);
   auto count = [&](double length) { return static_cast<std::int64_t>(length / width_) + 1; };
@@ -105,6 +111,8 @@ double DistanceIndex::squared_in_cell(const Vec3& p, const Cell& cell, double be
   const std::int64_t number = number_of(cell);
   for (std::int64_t i = offsets_[number]; i < offsets_[number + 1]; ++i) {
     const auto [a, b, c] = triangles_[members_[i]];
+    const double height = dot(p - points_[a], normals_[members_[i]]);
+    if (height * height >= best) continue;
     best = std::min(best, TriangleDistance(points_[a], points_[b], points_[c]).squared(p));
   }
   return best;

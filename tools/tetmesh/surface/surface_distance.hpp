@@ -30,6 +30,7 @@ class DistanceIndex {
 
   std::span<const Vec3> points_;
   std::span<const Triangle> triangles_;
+  std::vector<Vec3> normals_;  // of length 1
   Vec3 low_;
   double width_;
   Cell counts_{};

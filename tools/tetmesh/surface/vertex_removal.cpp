@@ -114,11 +114,11 @@ bool VertexRemover::remove(VertexH v) {
   const bool on_feature = mesh_.is_on_feature(v);
   for (const HalfEdgeH h : mesh_.voh_range(v)) {
     if (on_feature && !mesh_.is_feature(mesh_.edge_handle(h))) continue;
-    if (!mesh_.is_collapse_ok(h)) continue;
     if (const double shape = shape_after(h); shape > least_shape) choices_.push_back({shape, h});
   }
   std::ranges::stable_sort(choices_, std::ranges::greater(), &Choice::shape);
   for (const Choice& choice : choices_) {
+    if (!mesh_.is_collapse_ok(choice.collapse)) continue;
     describe_collapse(choice.collapse);
     if (!strays_fit()) continue;
     const VertexH target = mesh_.to_vertex_handle(choice.collapse);
