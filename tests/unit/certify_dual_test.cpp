@@ -45,6 +45,45 @@ TEST(CliqueCover, IsOneCliqueWhereTheGraphIs) {
   EXPECT_EQ(greedy_edge_clique_cover({}).size(), 0);
 }
 
+TEST(CliqueCover, GetsTheCliquesThatASolutionViolates) {
+  Random random(8);
+  const ConflictGraph complete = hexpipe::testing::random_graph(5, 1.0, 5, random);
+  CliqueCover edges;
+  for (std::int32_t a = 0; a < 5; ++a)
+    for (std::int32_t b = a + 1; b < 5; ++b) edges.add({a, b});
+  EXPECT_EQ(add_violated_cliques(complete, std::vector<double>(5, 0.2), edges), 0);
+  EXPECT_GE(add_violated_cliques(complete, std::vector<double>(5, 0.5), edges), 1);
+  EXPECT_EQ(edges.clique(10).size(), 5);
+  for (int i = 0; i < 200; ++i) {
+    const ConflictGraph graph = nth_graph(i, random);
+    std::vector<double> fractions(graph.weights.size());
+    for (double& fraction : fractions) fraction = random.uniform();
+    CliqueCover cover;
+    add_violated_cliques(graph, fractions, cover);
+    for (std::int64_t c = 0; c < cover.size(); ++c) {
+      double sum = 0;
+      for (const std::int32_t v : cover.clique(c)) {
+        sum += fractions[v];
+        for (const std::int32_t u : cover.clique(c)) EXPECT_TRUE(u == v || graph.has_edge(u, v)) << "graph " << i;
+      }
+      EXPECT_GT(sum, 1) << "graph " << i;
+    }
+  }
+}
+
+// The relaxation of a graph of cliques that share no more than edges is looser without the cliques that were left out.
+TEST(CliqueDual, AddsCliquesThatTheCoverMisses) {
+  Random random(9);
+  const ConflictGraph graph = hexpipe::testing::random_graph(12, 1.0, 1000, random);
+  CliqueCover edges;
+  for (std::int32_t a = 0; a < 12; ++a)
+    for (std::int32_t b = a + 1; b < 12; ++b) edges.add({a, b});
+  const std::int64_t heaviest = std::ranges::max(graph.weights);
+  const CliqueDual dual = solve_clique_dual(graph, edges, {.passes = 300}, no_deadline);
+  EXPECT_LT(static_cast<double>(dual.bound), 1.05 * static_cast<double>(heaviest));
+  EXPECT_EQ(dual.bound, bound_of_prices(graph, edges, dual.prices));
+}
+
 TEST(CliqueDual, AnyPricesProveABound) {
   Random random(3);
   for (int i = 0; i < 300; ++i) {
@@ -61,7 +100,7 @@ TEST(CliqueDual, BoundsTheOptimumClosely) {
   std::int64_t bounds = 0, optima = 0;
   for (int i = 0; i < 300; ++i) {
     const ConflictGraph graph = nth_graph(i, random);
-    const CliqueCover cover = greedy_edge_clique_cover(graph);
+    CliqueCover cover = greedy_edge_clique_cover(graph);
     const CliqueDual dual = solve_clique_dual(graph, cover, {.passes = 200}, no_deadline);
     const std::int64_t optimum = brute_force_weight(graph);
     EXPECT_GE(dual.bound, optimum) << "graph " << i;
@@ -81,7 +120,8 @@ TEST(CliqueDual, IsNearlyTightOnTrees) {
     for (std::int32_t v = 1; v < 22; ++v) edges.emplace_back(v, static_cast<std::int32_t>(random.below(v)));
     const ConflictGraph tree = make_graph(hexpipe::testing::random_weights(22, 1000000, random), edges);
     const std::int64_t optimum = brute_force_weight(tree);
-    const CliqueDual dual = solve_clique_dual(tree, greedy_edge_clique_cover(tree), {.passes = 1000}, no_deadline);
+    CliqueCover cover = greedy_edge_clique_cover(tree);
+    const CliqueDual dual = solve_clique_dual(tree, cover, {.passes = 1000}, no_deadline);
     EXPECT_GE(dual.bound, optimum);
     EXPECT_LT(static_cast<double>(dual.bound), 1.01 * static_cast<double>(optimum));
   }
@@ -90,13 +130,14 @@ TEST(CliqueDual, IsNearlyTightOnTrees) {
 TEST(CliqueDual, MorePassesAndMoreTimeHelp) {
   Random random(6);
   const ConflictGraph graph = hexpipe::testing::random_clique_graph(500, 300, 100000, random);
-  const CliqueCover cover = greedy_edge_clique_cover(graph);
   const auto bound = [&](std::int64_t passes) {
+    CliqueCover cover = greedy_edge_clique_cover(graph);
     return solve_clique_dual(graph, cover, {.passes = passes}, no_deadline).bound;
   };
   EXPECT_EQ(bound(0), std::reduce(graph.weights.begin(), graph.weights.end(), std::int64_t{0}));
   EXPECT_LT(bound(10), bound(0));
   EXPECT_LT(bound(300), bound(10));
+  CliqueCover cover;
   const CliqueDual none = solve_clique_dual(graph, cover, {}, Deadline(0));
   EXPECT_EQ(none.passes, 0);
 }
@@ -123,7 +164,7 @@ TEST(Certify, FixesOnlyWhatNoBetterSolutionHas) {
   std::int64_t fixed = 0;
   for (int i = 0; i < 200; ++i) {
     const ConflictGraph graph = nth_graph(i, random);
-    const CliqueCover cover = greedy_edge_clique_cover(graph);
+    CliqueCover cover = greedy_edge_clique_cover(graph);
     const CliqueDual dual = solve_clique_dual(graph, cover, {.passes = 100}, no_deadline);
     const std::int64_t optimum = brute_force_weight(graph);
     const auto costs = reduced_costs(graph, cover, dual.prices);

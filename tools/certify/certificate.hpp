@@ -5,7 +5,7 @@
 
 #include "common/graph/clique_cover.hpp"
 #include "formats/output.hpp"
-#include "tools/certify/clique_dual.hpp"
+#include "common/mwis/clique_dual.hpp"
 
 namespace hexpipe {
 

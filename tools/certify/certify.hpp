@@ -5,7 +5,7 @@
 
 #include "common/graph/conflict_graph.hpp"
 #include "common/run/deadline.hpp"
-#include "tools/certify/clique_dual.hpp"
+#include "common/mwis/clique_dual.hpp"
 
 namespace hexpipe {
 

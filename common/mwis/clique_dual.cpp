@@ -1,4 +1,4 @@
-#include "tools/certify/clique_dual.hpp"
+#include "common/mwis/clique_dual.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +18,15 @@ class SmoothedDual {
   void pass(double temperature) {
     for (std::int64_t c = 0; c < cover_.size(); ++c) step(c, temperature);
     for (std::int64_t c = cover_.size(); c-- > 0;) step(c, temperature);
+  }
+
+  // Adds cliques that the relaxed solution of the last pass violates, at a price of 0.
+  void add_cliques(const ConflictGraph& graph, CliqueCover& cover, double temperature) {
+    std::vector<double> fractions(costs_.size());
+    std::ranges::transform(costs_, fractions.begin(),
+                           [&](double cost) { return std::min(1.0, std::exp(cost / temperature)); });
+    add_violated_cliques(graph, fractions, cover);
+    prices_.resize(static_cast<std::size_t>(cover.size()), 0.0);
   }
 
   std::vector<std::int64_t> whole_prices() const {
@@ -43,19 +52,25 @@ class SmoothedDual {
   std::vector<double> prices_, costs_;
 };
 
-// The part of the passes or of the time that is over, whichever is more.
+// Temperatures are in heaviest weights. A third of the effort goes into the cliques there are, from `hottest`, where
+// all prices move at once, geometrically to `coldest`, where few still do; then cliques are added and all prices warmed
+// up again, ten times.
+constexpr double hottest = 0.3, warmed_up = 0.02, coldest = 0.0015;
+constexpr int rounds = 10;
+constexpr double first_share = 1.0 / 3;
+
+// How far the search is, in rounds of adding cliques: below 0 before the first. Goes by the passes or by the time,
+// whichever is further.
 double progress(std::int64_t passes, const CliqueDualOptions& options, const Deadline& deadline) {
   const double of_passes = static_cast<double>(passes) / static_cast<double>(options.passes);
   const double of_time = deadline.elapsed() / (deadline.elapsed() + std::max(deadline.remaining(), 0.0));
-  return std::max(of_passes, of_time);
+  const double over = std::max(of_passes, of_time) - first_share;
+  return over < 0 ? over / first_share : over / (1 - first_share) * rounds;
 }
 
-// In heaviest weights: from `first`, where all prices move at once, geometrically to `last`, where few still do.
 double temperature_at(double progress) {
-  // 300 passes from 0.05, 0.2, 0.5 and 1 end 0.37, 0.20, 0.19 and 0.21 % above the optimum of block-28k. What is good
-  // there is not best everywhere: on random-33k 0.2 to 0.001 ends 0.5 % lower than 0.5 to 0.002.
-  constexpr double first = 0.3, last = 0.0015;
-  return first * std::pow(last / first, progress);
+  const double first = progress < 0 ? hottest : warmed_up;
+  return first * std::pow(coldest / first, progress - std::floor(progress));
 }
 
 }  // namespace
@@ -76,7 +91,7 @@ std::int64_t bound_of_prices(const ConflictGraph& graph, const CliqueCover& cove
   return bound;
 }
 
-CliqueDual solve_clique_dual(const ConflictGraph& graph, const CliqueCover& cover, const CliqueDualOptions& options,
+CliqueDual solve_clique_dual(const ConflictGraph& graph, CliqueCover& cover, const CliqueDualOptions& options,
                              const Deadline& deadline, const std::function<void(const CliqueDual&)>& report) {
   CliqueDual best;
   best.prices.assign(static_cast<std::size_t>(cover.size()), 0);
@@ -85,8 +100,12 @@ CliqueDual solve_clique_dual(const ConflictGraph& graph, const CliqueCover& cove
 
   const auto heaviest = static_cast<double>(std::max<std::int64_t>(std::ranges::max(graph.weights), 1));
   SmoothedDual dual(graph, cover);
+  double round = -1;
   while (best.passes < options.passes && best.bound > options.target && !deadline.passed()) {
-    dual.pass(heaviest * temperature_at(progress(best.passes, options, deadline)));
+    const double now = progress(best.passes, options, deadline);
+    if (std::floor(now) > round && best.passes > 0) dual.add_cliques(graph, cover, heaviest * coldest);
+    round = std::floor(now);
+    dual.pass(heaviest * temperature_at(now));
     ++best.passes;
     std::vector<std::int64_t> prices = dual.whole_prices();
     const std::int64_t bound = bound_of_prices(graph, cover, prices);
@@ -95,6 +114,7 @@ CliqueDual solve_clique_dual(const ConflictGraph& graph, const CliqueCover& cove
     best.prices = std::move(prices);
     if (report) report(best);
   }
+  best.prices.resize(static_cast<std::size_t>(cover.size()), 0);
   return best;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 // An upper bound by LP-Clique (Verhetsel 2017, 3.2): the linear relaxation with one row a clique, solved from its dual
 // by entropy-smoothed coordinate steps (Haller and Savchynskyy 2024). Deviates from the dissertation's subgradient,
-// which needs step lengths and stands further from the optimum after the same time.
+// which needs step lengths and stands further from the optimum after the same time, and in adding cliques that the
+// relaxed solution violates.
 
 #include <cstdint>
 #include <functional>
@@ -36,8 +37,8 @@ struct CliqueDualOptions {
   std::int64_t target = 0;
 };
 
-// `report` is called for every better bound.
-CliqueDual solve_clique_dual(const ConflictGraph& graph, const CliqueCover& cover, const CliqueDualOptions& options,
+// Adds cliques to `cover`. `report` is called for every better bound.
+CliqueDual solve_clique_dual(const ConflictGraph& graph, CliqueCover& cover, const CliqueDualOptions& options,
                              const Deadline& deadline, const std::function<void(const CliqueDual&)>& report = {});
 
 }  // namespace hexpipe
