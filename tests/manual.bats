@@ -51,7 +51,7 @@ completions() {
     run_apart env MANWIDTH=100 man --warnings -l "$MANUAL/man/$tool.1"
     assert_success
     assert_equal "$stderr" ""
-    assert_output --regexp "$tool - [a-z]"
+    assert_output --regexp "$tool +- +[a-z]"
     assert_output --partial "EXAMPLES"
     # As it is written, for lines are broken within words.
     for option in $(options $tool) "hexpipe-formats"; do tr -d '\\' <"$MANUAL/man/$tool.1" | grep -q -- "$option"; done
