@@ -1,0 +1,117 @@
+#!/usr/bin/python3
+"""run.py [--level coarse|middle|fine] [--kind KIND...] [--time-limit S] [MODEL...] - how much of a part its points let become hexes.
+
+Runs the pipeline on models of ../shared/models (or on the files named) once for every kind of points, and prints, worst first
+within each kind, the share of the volume in hexes after a greedy choice and after lns, candidates per vertex, the least scaled
+Jacobian, and the time of tetmesh per 100,000 tets and against TetGen's own in the same run. The rows of Gmsh stand beside.
+The kinds are surface+points: keep+lattice is the reference that every other has to beat. Tools are taken from build/bin, or from
+HEXPIPE_BIN; results are checked by tests/checkers/meshstats.py.
+"""
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+sys.path.insert(0, os.path.join(ROOT, "tests", "checkers"))
+MODELS = os.path.join(ROOT, "..", "shared", "models")
+BIN = os.environ.get("HEXPIPE_BIN", os.path.join(ROOT, "build", "bin"))
+
+LEVELS = ("coarse", "middle", "fine")
+# Edge lengths by level; for other models a part of the longest side of the bounding box.
+SIZES = {"mambo-s1": (5.2, 3.3, 2.3), "mambo-s27": (3.2, 2.05, 1.42), "mambo-m1": (5.1, 3.2, 2.2), "mambo-m6": (3.2, 2.1, 1.45)}
+FRACTIONS = (1 / 16, 1 / 28, 1 / 40)
+# Gmsh 4.13.1 from the CAD originals, its frame-field points: percent of the volume in hexes.
+GMSH = {"mambo-s1": (77.8, 89.9, 92.7), "mambo-s27": (71.8, 84.8, 86.5), "mambo-m1": (74.7, 79.9, 85.5), "mambo-m6": (None, None, 94.5)}
+FILES = ("simp.stl", "plate-holes.stl", "blub.off", "spot.obj", "bridge.stl", "notch.stl", "mambo-s1.stl", "mambo-s22.stl",
+         "mambo-s27.stl", "mambo-m1.stl", "mambo-m6.stl")
+KINDS = ("keep+lattice", "remesh+lattice", "remesh+frame", "remesh+best")
+
+
+def size_of(path, level):
+    name = os.path.basename(path).rsplit(".", 1)[0]
+    if name in SIZES:
+        return SIZES[name][level]
+    import surfcheck
+    points, _ = surfcheck.read(path)
+    return float((points.max(axis=0) - points.min(axis=0)).max()) * FRACTIONS[level]
+
+
+def tool(name, folder, *arguments):
+    """Runs a tool that has to succeed and returns its statistics."""
+    stats = os.path.join(folder, "stats.json")
+    subprocess.run([os.path.join(BIN, name), "-q", "--stats", stats, *arguments], check=True)
+    return json.load(open(stats))
+
+
+def share(folder, solution):
+    """Percent of the volume in hexes, and the least scaled Jacobian of them; the mesh has to be whole and conforming."""
+    mesh = os.path.join(folder, "mesh.vtu")
+    stats = tool("assemble", folder, solution, "-o", mesh)
+    check = subprocess.run([os.path.join(ROOT, "tests", "checkers", "meshstats.py"), "--json", mesh], check=True,
+                           capture_output=True, text=True)
+    check = json.loads(check.stdout)
+    if check["inv"] or check["nonconf_quads"]:
+        sys.exit(f"{solution}: {check['inv']} inverted cells, {check['nonconf_quads']} quads against triangles")
+    hexes = stats["cells"]["hex"]
+    return 100 * hexes["share_of_volume"], hexes["scaled_jacobian"]["least"]
+
+
+def measure(path, level, kind, options):
+    surface, points = kind.split("+")
+    name = os.path.basename(path).rsplit(".", 1)[0]
+    with tempfile.TemporaryDirectory() as folder:
+        files = {stage: os.path.join(folder, stage + ".tar") for stage in ("mesh", "candidates", "graph", "greedy", "start", "best")}
+        mesh = tool("tetmesh", folder, path, "--surface", surface, "--points", points, "--size", repr(size_of(path, level)),
+                    "--threads", "1", "-o", files["mesh"])
+        candidates = tool("findhex", folder, files["mesh"], "-o", files["candidates"])
+        tool("buildgraph", folder, files["candidates"], "-o", files["graph"])
+        tool("initsol", folder, files["graph"], "--iterations", "0", "-o", files["greedy"])
+        tool("initsol", folder, files["graph"], "--time-limit", "1", "-o", files["start"])
+        tool("lns", folder, files["start"], "--time-limit", str(options.time_limit), "-o", files["best"])
+        greedy, _ = share(folder, files["greedy"])
+        best, least = share(folder, files["best"])
+    seconds = mesh["seconds_by_step"]
+    return {"model": name, "kind": kind, "size": mesh["size"], "points": mesh["points"], "tets": mesh["tets"], "greedy": greedy,
+            "lns": best, "gmsh": GMSH.get(name, (None,) * 3)[level], "candidates": candidates["candidates"] / mesh["points"],
+            "least": least, "per_tets": 1e5 * sum(seconds.values()) / mesh["tets"],
+            "ratio": sum(seconds.values()) / seconds["tetgen"], "away": mesh["distance_to_input"] / mesh["size"],
+            "extra": mesh["extra_points"], "remeshed": mesh["surface_remeshed"] or surface == "keep"}
+
+
+def row(r, first):
+    against = f"{r['lns'] - first[r['model']]:+.1f}" if r["model"] in first else "-"
+    return (f"| {r['model']} | {r['size']:.4g} | {r['kind']}{'' if r['remeshed'] else ' (kept: remeshing failed)'} | {r['points']} | "
+            f"{r['tets']} | {r['greedy']:.1f} | {r['lns']:.1f} | {against} | {r['gmsh'] or '-'} | {r['candidates']:.1f} | "
+            f"{r['least']:.2f} | {r['extra']} | {r['away']:.3f} | {r['per_tets']:.2f} | {r['ratio']:.1f} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("models", nargs="*")
+    parser.add_argument("--level", choices=LEVELS, action="append")
+    parser.add_argument("--kind", action="append", help="surface+points, as the options of tetmesh name them")
+    parser.add_argument("--time-limit", type=float, default=5, help="seconds of lns")
+    options = parser.parse_args()
+    models = options.models or [os.path.join(MODELS, name) for name in FILES]
+    missing = [path for path in models if not os.path.exists(path)]
+    if missing:
+        print(f"skipped: {missing[0]} is not there")
+        return
+    print("| model | size | surface+points | points | tets | hex volume %, greedy | after lns | against keep+lattice | Gmsh | candidates / "
+          "vertex | least scaled Jacobian | extra points | distance / size | tetmesh s / 100k tets | tetmesh / TetGen |")
+    print("|---" * 15 + "|")
+    for level in options.level or ("middle", "fine"):
+        first = {}
+        for kind in options.kind or KINDS:
+            rows = [measure(path, LEVELS.index(level), kind, options) for path in models]
+            rows.sort(key=lambda r: r["lns"])
+            for r in rows:
+                print(row(r, first), flush=True)
+            if kind == "keep+lattice":
+                first = {r["model"]: r["lns"] for r in rows}
+
+
+main()
