@@ -100,6 +100,7 @@ PYTHON
   assert_fails_with 1 "lns: --target-gap needs a bound: .*certify" ring --target-gap 0.1 -o out.sol
   assert_fails_with 2 "lns: .*--target-gap" ring --target-gap 1.5 -o out.sol
   assert_fails_with 2 "lns: .*--bound" ring --bound -1 -o out.sol
+  assert_fails_with 2 "lns: --bound does nothing without --target-gap" ring --bound 5 -o out.sol
 }
 
 @test "--free-running improves too, and says that its result depends on the timing" {

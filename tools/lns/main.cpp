@@ -21,7 +21,8 @@ namespace {
 std::optional<std::int64_t> bound_in(const std::vector<nlohmann::ordered_json>& history) {
   std::optional<std::int64_t> lowest;
   for (const auto& entry : history) {
-    const std::string tool = entry.value("tool", "");
+    if (!entry.is_object() || !entry.contains("tool")) continue;
+    const auto& tool = entry["tool"];
     if (tool == "tetmesh" || tool == "findhex" || tool == "buildgraph") lowest.reset();
     const auto bound = entry.find("bound");
     if (tool != "certify" || bound == entry.end() || !bound->is_number_integer()) continue;
@@ -78,6 +79,7 @@ int main(int argc, char** argv) {
                  "Threads do not wait for each other: faster, but the result depends on the timing");
   };
   const auto run = [&](RunContext& context) {
+    if (known_bound && !target_gap) throw UsageError("--bound does nothing without --target-gap");
     options.seed = context.common.seed;
     options.iterations = context.common.iterations.value_or(options.iterations);
     Stage stage(context);
