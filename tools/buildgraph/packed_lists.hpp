@@ -11,8 +11,8 @@ class PackedLists {
  public:
   // Items ascend within a list, and are 0 or greater.
   void add(std::int32_t item) {
-    put(static_cast<std::uint32_t>(item - last_));
-    last_ = item;
+    put(static_cast<std::uint32_t>(item) - last_);
+    last_ = static_cast<std::uint32_t>(item);
   }
   void end_list() {
     put(0);
@@ -23,7 +23,7 @@ class PackedLists {
   template <class Visit>
   void for_each(std::int64_t first_list, Visit&& visit_item) const {
     std::int64_t list = first_list;
-    std::int32_t last = before_first;
+    std::uint32_t last = before_first;
     for (const std::uint8_t* at = bytes_.data(); at != bytes_.data() + bytes_.size();) {
       std::uint32_t difference = *at & 127u;
       for (int shift = 7; (*at++ & 128u) != 0; shift += 7) difference |= (*at & 127u) << shift;
@@ -31,8 +31,8 @@ class PackedLists {
         ++list;
         last = before_first;
       } else {
-        last += static_cast<std::int32_t>(difference);
-        visit_item(list, last);
+        last += difference;
+        visit_item(list, static_cast<std::int32_t>(last));
       }
     }
   }
@@ -40,7 +40,7 @@ class PackedLists {
   void shrink_to_fit() { bytes_.shrink_to_fit(); }
 
  private:
-  static constexpr std::int32_t before_first = -1;
+  static constexpr std::uint32_t before_first = ~std::uint32_t{0};  // -1: unsigned numbers wrap around
 
   // Seven bits a byte, lowest first; the eighth says that more follow. No difference is 0: that ends a list.
   void put(std::uint32_t difference) {
@@ -49,7 +49,7 @@ class PackedLists {
   }
 
   std::vector<std::uint8_t> bytes_;
-  std::int32_t last_ = before_first;
+  std::uint32_t last_ = before_first;
 };
 
 }  // namespace hexpipe
