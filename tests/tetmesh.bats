@@ -415,6 +415,36 @@ PYTHON
   tetmesh loose.stl --repair --weld 0.01% -q -o out.tar
 }
 
+@test "points of the user's own, in every format, kept to the last bit" {
+  $PYTHON - <<'PYTHON'
+import numpy as np
+points = np.random.RandomState(1).uniform(0.1, 0.9, (50, 3))
+np.save("points.npy", points)
+np.savetxt("points.xyz", points, "%.17g", header="x y z")
+np.savetxt("points.node", np.column_stack([np.arange(1, 51), points]), "%d %.17g %.17g %.17g", header="50 3 0 0", comments="")
+head = "ply\nformat ascii 1.0\nelement vertex 50\nproperty double x\nproperty double y\nproperty double z\nend_header"
+np.savetxt("points.ply", points, "%.17g", header=head, comments="")
+np.savetxt("outside.xyz", [(.5, .5, .5), (2, 0, 0), (.5, .5, .5), (.5, .5, 0)], "%g")
+open("bad.xyz", "w").write("0.5 0.5 0.5\n0.5 0.5 x\n")
+open("short.node", "w").write("3 3 0 0\n1 .5 .5 .5\n2 .4 .4 .4\n")
+np.save("flat.npy", points[:, :2])
+PYTHON
+  local cube="$FILES/cube.stl"
+  for format in npy xyz node ply; do
+    tetmesh "$cube" --surface keep --size 0.3 --points points.$format -o $format.tar -q --stats stats.json
+    assert_equal "$(stats points_kept) $(stats interior_points) $(stats dropped_points)" "given 50 0"
+    assert_equal "$(array $format.tar mesh/points.npy '(a[8:58] == np.load("points.npy")).all()')" True
+  done
+  run_apart tetmesh "$cube" --surface keep --size 0.3 --points outside.xyz -o out.tar
+  assert_success
+  assert_equal "$(wc -l <<<"$stderr")" 1
+  grep -q "^tetmesh: warning: outside.xyz:2: 3 of 4 points are outside" <<<"$stderr"
+  assert_fails_with 1 "^tetmesh: bad.xyz:2: expected a finite coordinate, found 'x'" tetmesh "$cube" --points bad.xyz
+  assert_fails_with 1 "^tetmesh: short.node:" tetmesh "$cube" --points short.node
+  assert_fails_with 1 "^tetmesh: flat.npy: expected an array of floats with three columns" tetmesh "$cube" --points flat.npy
+  assert_fails_with 2 "^tetmesh: expected --points .* or a file, found 'nowhere.xyz'" tetmesh "$cube" --points nowhere.xyz
+}
+
 @test "best keeps the points of which more is estimated to become hexes" {
   local part="$DATA/bracket.stl"
   for points in best frame lattice; do tetmesh -q "$part" --size 8 --points $points -o $points.mesh --stats $points.json; done

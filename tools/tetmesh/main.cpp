@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
+#include "formats/point_files.hpp"
 #include "formats/stage.hpp"
 #include "formats/surface_files.hpp"
 #include "tools/tetmesh/tetmesh.hpp"
@@ -26,6 +28,16 @@ Input open_surface(const std::string& path) {
   if (path == "-" && isatty(STDIN_FILENO))
     throw UsageError("nothing to read: name a surface, or pipe one to standard input (see tetmesh --help)");
   return Input::open(path);
+}
+
+void choose_points(const std::string& points, TetmeshOptions& options) {
+  const auto kind = point_kinds.find(points);
+  options.points = kind == point_kinds.end() ? PointKind::given : kind->second;
+  if (options.points != PointKind::given) return;
+  if (!std::filesystem::exists(points))
+    throw UsageError(fmt::format("expected --points best, frame, lattice, none or a file, found '{}'", points));
+  Input input = Input::open(points);
+  options.given_points = read_points(input);
 }
 
 std::string summary(const TetmeshStatistics& s) {
@@ -65,10 +77,9 @@ int main(int argc, char** argv) {
     app.add_option("--deviation", options.deviation, "How far the new surface may be from the old one, in sizes")
         ->check(number_between(1e-6, 1));
     app.add_option("--points", points,
-                   "Points inside: along a frame field that follows the surface, on a lattice along the axes, none, or "
-                   "the best "
-                   "of the first two")
-        ->check(CLI::IsMember(point_kinds));
+                   "Points inside: best, frame (along a frame field that follows the surface), lattice (along the "
+                   "axes), none, or a file of your own (.xyz, .node, .npy, .ply)")
+        ->type_name("KIND|FILE");
     app.add_option("--clearance", options.clearance, "Least distance of points inside from the surface, in sizes")
         ->check(number_between(0.1, 10));
     app.add_option("--jitter", options.jitter,
@@ -92,7 +103,7 @@ int main(int argc, char** argv) {
   const auto run = [&](RunContext& context) {
     if (size) options.size = parse_length(*size);
     options.surface = surface_kinds.at(surface_kind);
-    options.points = point_kinds.at(points);
+    choose_points(points, options);
     options.shells = shell_rules.at(shells);
     options.seed = context.common.seed;
     options.weld = parse_length(weld);

@@ -10,6 +10,7 @@
 #include "tools/tetmesh/run_tetgen.hpp"
 #include "tools/tetmesh/surface_check.hpp"
 #include "tools/tetmesh/volume/frame_points.hpp"
+#include "tools/tetmesh/volume/given_points.hpp"
 #include "tools/tetmesh/volume/hex_estimate.hpp"
 
 namespace hexpipe {
@@ -17,7 +18,7 @@ namespace {
 
 void check_options(const TetmeshOptions& options) {
   // Each coordinate moves by the jitter, a point by up to sqrt(3) times that; it must not reach the surface.
-  if (options.points == PointKind::none) return;
+  if (options.points == PointKind::none || options.points == PointKind::given) return;
   const double jitter = options.jitter.value_or(FramePointsOptions{}.jitter);
   if (jitter >= options.clearance / 2)
     throw UsageError(
@@ -27,7 +28,7 @@ void check_options(const TetmeshOptions& options) {
 // Before any memory is used for them.
 void check_number_of_points(const Surface& surface, const TetmeshOptions& options, double size) {
   const double expected = points_expected(surface, size);
-  if (options.points != PointKind::none && expected > options.most_points)
+  if (options.points != PointKind::none && options.points != PointKind::given && expected > options.most_points)
     throw DataError::at(surface.name,
                         "expected a size that makes at most {:g} points inside (see --most-points), found {:g}, which "
                         "makes about {:.3g}",
@@ -39,8 +40,17 @@ RepairReport repair(SurfaceSoup& soup, const TetmeshOptions& options) {
   return repair(soup, {options.weld.value * unit, options.largest_hole});
 }
 
-std::vector<Vec3> place_points(const Surface& surface, const TetmeshOptions& options, double size) {
+// A point given by the user may come as near to the surface as TetGen can bear.
+constexpr double clearance_of_given = 1e-3;  // in sizes
+
+std::vector<Vec3> place_points(const Surface& surface, const TetmeshOptions& options, TetmeshResult& result) {
+  const double size = result.statistics.size;
   if (options.points == PointKind::none) return {};
+  if (options.points == PointKind::given) {
+    GivenPoints given = usable_points(surface, options.given_points, clearance_of_given * size);
+    if (given.complaint) result.warning = given.complaint;
+    return given.points;
+  }
   return lattice_points(surface,
                         {size, options.clearance, options.jitter.value_or(LatticeOptions{}.jitter), options.seed});
 }
@@ -149,6 +159,8 @@ const char* name_of(PointKind kind) {
       return "frame";
     case PointKind::lattice:
       return "lattice";
+    case PointKind::given:
+      return "given";
     case PointKind::none:
       break;
   }
@@ -176,12 +188,13 @@ TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
   describe(surface, statistics);
   if (options.points != PointKind::none && !statistics.remeshed && !result.warning)
     result.warning = fit_to_size(surface, statistics.size).complaint(statistics.size);
-  const std::vector<Vec3> points = place_points(surface, options, statistics.size);
+  const std::vector<Vec3> points = place_points(surface, options, result);
   statistics.interior_points = points.size();
   watch.add_to(statistics.seconds_placing);
 
   BuiltMesh built = tetrahedralize(surface, points, options.tetgen_timeout, watch, statistics);
-  statistics.points_kept = options.points == PointKind::none ? PointKind::none : PointKind::lattice;
+  const bool is_lattice = options.points != PointKind::none && options.points != PointKind::given;
+  statistics.points_kept = is_lattice ? PointKind::lattice : options.points;
   if (options.points == PointKind::frame || options.points == PointKind::best) {
     try {
       try_frame_points(surface, options, watch, built, statistics);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/mesh/tet_mesh.hpp"
+#include "formats/point_files.hpp"
 #include "formats/surface_files.hpp"
 #include "tools/tetmesh/lattice.hpp"
 #include "tools/tetmesh/repair.hpp"
@@ -23,6 +24,7 @@ enum class PointKind {
   best,     // of lattice and frame, the one whose mesh is estimated to merge into more hexes
   frame,    // along a frame field: frame_points.hpp
   lattice,  // along the coordinate axes: lattice.hpp
+  given,    // by the user
   none
 };
 
@@ -32,6 +34,7 @@ struct TetmeshOptions {
   double feature_angle = RemeshOptions{}.feature_angle;  // degrees
   double deviation = RemeshOptions{}.deviation;          // in sizes
   PointKind points = PointKind::best;
+  PointList given_points = {};  // for PointKind::given
   double clearance = LatticeOptions{}.clearance;
   std::optional<double> jitter = {};  // nothing: that of the kind of points
   ShellRule shells = ShellRule::oriented;

@@ -7,9 +7,22 @@
 
 namespace hexpipe {
 
+namespace {
+
+// A square for each triangle would have this side.
+double mean_spacing(const Surface& surface) {
+  double area = 0;
+  for (const auto& [a, b, c] : surface.triangles)
+    area += norm(cross(surface.points[b] - surface.points[a], surface.points[c] - surface.points[a])) / 2;
+  return std::sqrt(area / static_cast<double>(surface.triangles.size()));
+}
+
+}  // namespace
+
 SurfaceClearance::SurfaceClearance(const Surface& surface, double clearance)
     : surface_(surface),
       clearance_(clearance),
+      width_(std::max(clearance, mean_spacing(surface))),
       low_(surface.points.front()),
       columns_(surface.points, surface.triangles) {
   for (const Vec3& p : surface.points) low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
@@ -19,9 +32,7 @@ SurfaceClearance::SurfaceClearance(const Surface& surface, double clearance)
 }
 
 GridCell SurfaceClearance::cell_of(const Vec3& p) const {
-  const auto index = [&](int axis) {
-    return static_cast<std::int64_t>(std::floor((p[axis] - low_[axis]) / clearance_));
-  };
+  const auto index = [&](int axis) { return static_cast<std::int64_t>(std::floor((p[axis] - low_[axis]) / width_)); };
   return {index(0), index(1), index(2)};
 }
 
@@ -35,14 +46,14 @@ void SurfaceClearance::file(std::int32_t triangle) {
       cell_of(Vec3{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})} - reach);
   const GridCell high =
       cell_of(Vec3{std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})} + reach);
-  const double half_cell = clearance_ * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z)) / 2;
+  const double half_cell = width_ * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z)) / 2;
   GridCell i;
   for (i[2] = low[2]; i[2] <= high[2]; ++i[2])
     for (i[1] = low[1]; i[1] <= high[1]; ++i[1])
       for (i[0] = low[0]; i[0] <= high[0]; ++i[0]) {
         const Vec3 in_cells{static_cast<double>(i[0]) + 0.5, static_cast<double>(i[1]) + 0.5,
                             static_cast<double>(i[2]) + 0.5};
-        const double height = std::abs(dot(normal, low_ + clearance_ * in_cells - a));
+        const double height = std::abs(dot(normal, low_ + width_ * in_cells - a));
         if (height <= clearance_ + half_cell) entries_.emplace_back(cell_key(i), triangle);
       }
 }

@@ -31,6 +31,7 @@ class SurfaceClearance {
 
   const Surface& surface_;
   double clearance_;
+  double width_;  // of the grid's cells
   Vec3 low_;
   ColumnIndex columns_;
   std::vector<Entry> entries_;                                     // ascending

@@ -1,0 +1,21 @@
+#pragma once
+// The user's own points inside a surface.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/point_files.hpp"
+#include "tools/tetmesh/shells.hpp"
+
+namespace hexpipe {
+
+struct GivenPoints {
+  std::vector<Vec3> points;              // those that can be used, in their order
+  std::optional<std::string> complaint;  // about those that cannot, with the first one's place
+};
+
+// Leaves out points that are not in material, nearer to the surface than `clearance` (a length), or repeated.
+GivenPoints usable_points(const Surface& surface, const PointList& list, double clearance);
+
+}  // namespace hexpipe
