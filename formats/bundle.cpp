@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <limits>
+#include <new>
 #include <type_traits>
 #include <utility>
 
@@ -19,6 +20,10 @@ namespace {
 
 constexpr std::size_t tar_block = 512;
 constexpr std::size_t rows_chunk_bytes = 4 << 20;
+// More than any pipeline makes, far less than what fills a disk.
+constexpr std::int64_t most_members = 10'000;
+// Zeros compressed by zstd swell by 32768. Bundles, which hold coordinates, do so by less than 20.
+constexpr std::int64_t most_swelling = 1000, swelling_judged_from = 64 << 20;
 constexpr std::string_view zstd_magic = "\x28\xb5\x2f\xfd";
 
 struct EntryDeleter {
@@ -99,6 +104,7 @@ bool looks_like_bundle(Input& input) {
 
 BundleWriter::BundleWriter(Output& output, bool compress)
     : output_(output), archive_(archive_write_new(), &archive_write_free) {
+  if (!archive_) throw std::bad_alloc();
   archive_write_set_format_pax_restricted(archive_.get());
   if (compress) archive_write_add_filter_zstd(archive_.get());
   // Output has a buffer; none here, so that arrays go through without a copy.
@@ -133,6 +139,7 @@ void BundleWriter::check(bool succeeded) const {
 
 void BundleWriter::begin_member(const std::string& name, std::uint64_t bytes) {
   const std::unique_ptr<archive_entry, EntryDeleter> entry(archive_entry_new());
+  if (!entry) throw std::bad_alloc();
   archive_entry_set_pathname(entry.get(), name.c_str());
   archive_entry_set_size(entry.get(), static_cast<la_int64_t>(bytes));
   archive_entry_set_filetype(entry.get(), AE_IFREG);
@@ -164,6 +171,7 @@ void BundleWriter::close() {
 // ---- reading
 
 BundleReader::BundleReader(Input& input) : input_(input), archive_(archive_read_new(), &archive_read_free) {
+  if (!archive_) throw std::bad_alloc();
   archive_read_support_format_tar(archive_.get());
   archive_read_support_filter_zstd(archive_.get());
   if (archive_read_open(archive_.get(), this, nullptr, &BundleReader::on_read, nullptr) != ARCHIVE_OK)
@@ -216,6 +224,11 @@ bool BundleReader::next() {
     throw DataError::at(input_.name(), "expected a relative member name without '..', found '{}'", name_);
   if (archive_entry_filetype(entry) != AE_IFREG || archive_entry_hardlink(entry) || !archive_entry_size_is_set(entry))
     throw DataError::at(where(), "expected a plain file in the bundle, found a link, directory or device");
+  // Its holes would be read as zeros without end.
+  if (archive_entry_sparse_count(entry) > 0)
+    throw DataError::at(where(), "expected a plain file in the bundle, found one with holes");
+  if (++members_ > most_members)
+    throw DataError::at(input_.name(), "expected a bundle of at most {} members, found more", most_members);
   size_ = left_ = static_cast<std::uint64_t>(archive_entry_size(entry));
   return true;
 }
@@ -225,10 +238,18 @@ void BundleReader::read_bytes(void* data, std::size_t bytes) {
   while (bytes > 0) {
     const la_ssize_t got = archive_read_data(archive_.get(), at, bytes);
     if (got <= 0) fail("expected the rest of the member");
+    check_swelling();
     at += got;
     bytes -= static_cast<std::size_t>(got);
     left_ -= static_cast<std::uint64_t>(got);
   }
+}
+
+void BundleReader::check_swelling() const {
+  const la_int64_t whole = archive_filter_bytes(archive_.get(), 0), packed = archive_filter_bytes(archive_.get(), -1);
+  if (whole > swelling_judged_from && whole / most_swelling > packed)
+    throw DataError::at(where(), "expected a bundle that is compressed by less than {} to 1, found {} bytes out of {}",
+                        most_swelling, whole, packed);
 }
 
 NpyHeader BundleReader::begin_array(std::uint64_t columns) {

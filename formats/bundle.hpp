@@ -68,7 +68,7 @@ class BundleReader {
   BundleReader& operator=(const BundleReader&) = delete;
 
   // Goes to the next member; false at the end. Throws DataError when the archive is cut off or damaged, a member is no
-  // plain file, its name is absolute or has "..", or its size is missing.
+  // plain file, its name is absolute or has "..", its size is missing, or there are more members than a bundle has.
   bool next();
   const std::string& name() const { return name_; }
   // Input's name and member's name, for messages.
@@ -100,6 +100,8 @@ class BundleReader {
   static long on_read(archive*, void* self, const void** data);
   // Exactly this many bytes of the current member.
   void read_bytes(void* data, std::size_t bytes);
+  // Refuses an archive that is made to fill memory or disk out of few bytes.
+  void check_swelling() const;
   // The array's header, its shape checked against the columns wanted (0: one dimension) and the member's size.
   NpyHeader begin_array(std::uint64_t columns);
   // Reads all rows, growing the destination by `resize` (new row count -> first byte) as data arrives, so that an array
@@ -114,6 +116,7 @@ class BundleReader {
   std::string name_;
   std::uint64_t size_ = 0;
   std::uint64_t left_ = 0;
+  std::int64_t members_ = 0;
 };
 
 }  // namespace hexpipe

@@ -21,6 +21,7 @@
 namespace hexpipe {
 namespace {
 
+constexpr std::size_t longest_history_entry = 1 << 20;
 constexpr std::string_view bundle_format = "tar";
 constexpr std::string_view compressed_bundle_format = "tar.zst";
 
@@ -276,9 +277,10 @@ void Stage::State::read_bundle(Input& input, const std::set<Role>& taken, StageD
       if (taken.contains(*role) && read_member(reader, data, passes ? &*bundle : nullptr)) continue;
     }
     if (reader.name().starts_with("history/")) {
-      const std::string text = reader.read_text();
+      const std::string text = reader.read_text(longest_history_entry);
       auto entry = nlohmann::ordered_json::parse(text, nullptr, false);
-      if (entry.is_discarded()) throw DataError::at(reader.where(), "expected JSON, found something else");
+      if (!entry.is_object() || (entry.contains("tool") && !entry["tool"].is_string()))
+        throw DataError::at(reader.where(), "expected a JSON object with the name of a tool, found something else");
       data.history.push_back(std::move(entry));
       ++history_count;
       if (passes) bundle->add_text(reader.name(), text);

@@ -1,0 +1,108 @@
+# Files that were made to do harm: archives that lead out, that swell, that never end. SECURITY.md tells what they try.
+
+load helpers
+
+# bundle FILE EXPRESSION: a bundle with the members that a list of (name, bytes) in Python says.
+bundle() {
+  $PYTHON - "$1" "$2" <<'PYTHON'
+import io, sys, tarfile
+with tarfile.open(sys.argv[1], "w", format=tarfile.PAX_FORMAT) as archive:
+    for name, data in eval(sys.argv[2]):
+        member = tarfile.TarInfo(name)
+        member.size = len(data)
+        archive.addfile(member, io.BytesIO(data))
+PYTHON
+}
+
+# refused PATTERN FILE: by a tool that reads bundles, with little memory and in a short time, and nothing is left.
+refused() {
+  echo old >out.tar
+  assert_fails_with 1 "$1" timeout 60 findhex "$2" -o out.tar
+  assert_equal "$(cat out.tar)" old
+}
+
+@test "names that lead out of the archive are refused" {
+  for name in ../x /etc/passwd mesh/../../x ..; do
+    bundle out.in.tar "[('$name', b'')]"
+    refused "expected a relative member name without '..'" out.in.tar
+  done
+}
+
+@test "directories, FIFOs and devices are refused" {
+  for kind in DIRTYPE FIFOTYPE CHRTYPE BLKTYPE LNKTYPE SYMTYPE; do
+    $PYTHON -c "
+import tarfile
+with tarfile.open('$kind.tar', 'w', format=tarfile.PAX_FORMAT) as archive:
+    member = tarfile.TarInfo('mesh/points.npy')
+    member.type, member.linkname = tarfile.$kind, '/etc/passwd'
+    archive.addfile(member)"
+    refused "mesh/points.npy/?: expected a plain file" $kind.tar
+  done
+}
+
+@test "a file with holes is refused: it could be of any size" {
+  mkdir mesh
+  truncate -s 1G mesh/points.npy
+  for format in gnu posix; do
+    tar --format=$format -cSf holes.in.tar mesh/points.npy
+    refused "expected a plain file in the bundle, found one with holes" holes.in.tar
+  done
+}
+
+@test "a compressed bundle that swells beyond reason is refused before it fills anything" {
+  bundle swelling.tar "[('notes/zeros', bytes(300 << 20))]"
+  zstd -q -19 swelling.tar
+  rm swelling.tar
+  refused "expected a bundle that is compressed by less than 1000 to 1" swelling.tar.zst
+}
+
+@test "zeros that a pipeline may hold are none of that" {
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 2 | findhex -o part.tar.zst
+  $PYTHON - <<'PYTHON'
+import io, numpy, subprocess, tarfile
+with tarfile.open("zeros.tar", "w", format=tarfile.PAX_FORMAT) as archive:
+    for name, data in (("notes/random", numpy.random.default_rng(1).bytes(1 << 20)), ("notes/zeros", bytes(300 << 20))):
+        member = tarfile.TarInfo(name)
+        member.size = len(data)
+        archive.addfile(member, io.BytesIO(data))
+    whole = tarfile.open(fileobj=io.BytesIO(subprocess.run(["zstd", "-dc", "part.tar.zst"], stdout=subprocess.PIPE).stdout))
+    for member in whole:
+        archive.addfile(member, whole.extractfile(member))
+PYTHON
+  zstd -q zeros.tar
+  buildgraph zeros.tar.zst -o part.graph
+}
+
+@test "more members than a bundle has are refused" {
+  bundle many.tar "[('notes/%d' % i, b'') for i in range(10001)]"
+  refused "expected a bundle of at most 10000 members, found more" many.tar
+}
+
+@test "history that is no object, too long or too deep is refused" {
+  bundle list.tar "[('history/01-x.json', b'[1]')]"
+  refused "history/01-x.json: expected a JSON object" list.tar
+  bundle number.tar "[('history/01-x.json', b'{\"tool\": 1}')]"
+  refused "history/01-x.json: expected a JSON object" number.tar
+  bundle long.tar "[('history/01-x.json', b'[' * (2 << 20))]"
+  refused "history/01-x.json: expected at most 1048576 bytes" long.tar
+  bundle deep.tar "[('history/01-x.json', b'[' * 1000000 + b']' * 1000)]"
+  refused "history/01-x.json: expected a JSON object" deep.tar
+}
+
+@test "counts that no file of this length can hold are refused without memory for them" {
+  sanitized && skip "the sanitizers reserve more"
+  local limit='ulimit -v 1500000; exec timeout 20 "$@"'
+  printf 'MeshVersionFormatted 2\nDimension 3\nVertices\n4000000000\n0 0 0 0\n' >many.mesh
+  printf '# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4000000000 double\n0 0 0\n' >many.vtk
+  printf '$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4000000000\n1 0 0 0\n' >many.msh
+  printf '4000000000 3 0 0\n1 0 0 0\n' >many.node
+  for file in many.mesh many.vtk many.msh many.node; do
+    assert_fails_with 1 "$file(:[0-9]+)?: expected" bash -c "$limit" limit findhex --mesh $file -o out.tar
+  done
+  echo 'hexpipe-candidates 1 4000000000 1 1' >many.cand
+  assert_fails_with 1 "many.cand:1: expected" bash -c "$limit" limit buildgraph --candidates many.cand -o out.tar
+  echo '4000000000 1 10' >many.graph
+  assert_fails_with 1 "many.graph:1: expected" bash -c "$limit" limit initsol --graph many.graph -o out.tar
+  echo '2147483648 0' >beyond.graph
+  assert_fails_with 1 "beyond.graph:1: expected fewer than 2\^31 vertices" bash -c "$limit" limit initsol --graph beyond.graph -o out.tar
+}
