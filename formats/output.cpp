@@ -13,6 +13,8 @@
 namespace hexpipe {
 namespace {
 
+constexpr int most_names_tried = 100;
+
 bool is_regular_or_new(const std::string& path) {
   struct stat status {};
   return stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode);
@@ -29,6 +31,16 @@ std::string behind_links(std::string path) {
     path = next.front() == '/' || slash == std::string::npos ? next : path.substr(0, slash + 1) + next;
   }
   return path;
+}
+
+std::string directory_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "." : path.substr(0, slash + 1);
+}
+
+// Where the kernel shows an open file, so that it can be given a name.
+std::string link_of(int descriptor) {
+  return fmt::format("/proc/self/fd/{}", descriptor);
 }
 
 // The permissions that the finished file gets: those of the file it replaces, else what the umask leaves.
@@ -52,18 +64,30 @@ Output::Output(const std::string& path) {
   name_ = path;
   if (!is_regular_or_new(path)) {
     descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (descriptor_ < 0) throw DataError::at(name_, "cannot write: {}", std::strerror(errno));
+    if (descriptor_ < 0) fail();
     return;
   }
   path_ = behind_links(path);
+  open_beside();
+  fchmod(descriptor_, mode_for(path_));
+}
+
+// Without a name where the file system can do that.
+void Output::open_beside() {
+  descriptor_ = ::open(directory_of(path_).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  if (descriptor_ >= 0 && access(link_of(descriptor_).c_str(), F_OK) == 0) return;
+  if (descriptor_ >= 0) ::close(descriptor_);
   temporary_ = path_ + ".XXXXXX";
   descriptor_ = mkostemp(temporary_.data(), O_CLOEXEC);
   if (descriptor_ < 0) {
     temporary_.clear();
-    throw DataError::at(name_, "cannot write: {}", std::strerror(errno));
+    fail();
   }
   remove_on_signal(temporary_.c_str());
-  fchmod(descriptor_, mode_for(path_));
+}
+
+void Output::fail() const {
+  throw DataError::at(name_, "cannot write: {}", std::strerror(errno));
 }
 
 Output::~Output() {
@@ -92,21 +116,38 @@ void Output::write_through(std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) throw DataError::at(name_, "cannot write: {}", std::strerror(errno));
+    if (written < 0) fail();
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
 }
 
+// A link cannot replace a file, a rename can: for a moment the new file stands beside the old one.
+void Output::put_in_place(int descriptor) {
+  const std::string unnamed = link_of(descriptor);
+  for (int attempt = 0; temporary_.empty(); ++attempt) {
+    const std::string name = fmt::format("{}.{}-{}", path_, getpid(), attempt);
+    if (linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+      temporary_ = name;
+      remove_on_signal(temporary_.c_str());
+    } else if (errno != EEXIST || attempt == most_names_tried) {
+      fail();
+    }
+  }
+  if (rename(temporary_.c_str(), path_.c_str()) != 0) fail();
+}
+
 void Output::commit() {
   flush();
+  // Some file systems tell of a full disk only at the end: of a copy, so that the file can still be named.
+  const int copy = path_.empty() ? -1 : dup(descriptor_);
+  if (copy >= 0 && ::close(copy) != 0) fail();
+  if (!path_.empty()) put_in_place(descriptor_);
   const int descriptor = descriptor_;
   descriptor_ = -1;
-  // Some file systems tell of a full disk only here.
-  if (::close(descriptor) != 0) throw DataError::at(name_, "cannot write: {}", std::strerror(errno));
-  if (!temporary_.empty() && rename(temporary_.c_str(), path_.c_str()) != 0)
-    throw DataError::at(name_, "cannot write: {}", std::strerror(errno));
+  const bool closed = ::close(descriptor) == 0;
   committed_ = true;
   remove_on_signal("");
+  if (!closed && path_.empty()) fail();
 }
 
 }  // namespace hexpipe

@@ -1,6 +1,6 @@
 #pragma once
-// Bytes to a file or to standard output. A file is written beside its place and renamed when it is whole, so that a
-// failure leaves the old file as it was.
+// Bytes to a file or to standard output. A file is written without a name and put in place when it is whole, so that a
+// failure leaves the old file as it was, and even a kill leaves nothing else.
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ class Output {
   // Empty or "-" is standard output. A path to something that is no regular file (/dev/full, a FIFO) is written
   // directly.
   explicit Output(const std::string& path);
-  // Without commit(), the destructor removes what was written beside the file.
+  // Without commit(), nothing is left of what was written.
   ~Output();
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -35,10 +35,14 @@ class Output {
 
  private:
   static constexpr std::size_t buffer_limit = 1 << 20;
+  void open_beside();
+  void put_in_place(int descriptor);
+  [[noreturn]] void fail() const;
   void flush();
   void write_through(std::string_view bytes);
 
-  std::string name_, path_, temporary_;
+  std::string name_, path_;
+  std::string temporary_;  // the file beside path_ while it has a name
   int descriptor_ = -1;
   std::string buffer_;
   bool committed_ = false;

@@ -24,7 +24,7 @@ void on_signal(int signal_number) {
   } else if (signal_number == SIGINT && upstream_may_answer.load() && !interrupted.exchange(true)) {
     return;
   }
-  if (file_registered.load()) unlink(registered_file);
+  remove_registered_file();
   signal(signal_number, SIG_DFL);
   raise(signal_number);
 }
@@ -56,6 +56,10 @@ void remove_on_signal(const char* path) {
   if (*path == '\0' || std::strlen(path) >= sizeof registered_file) return;
   std::strcpy(registered_file, path);
   file_registered = true;
+}
+
+void remove_registered_file() {
+  if (file_registered.load()) unlink(registered_file);
 }
 
 void install_signal_handlers() {

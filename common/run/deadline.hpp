@@ -46,6 +46,8 @@ void leave_interrupt_upstream(bool on);
 // Registers a file to be removed when a signal ends the process; an empty path takes the registration back.
 // One file at a time: a tool writes one output.
 void remove_on_signal(const char* path);
+// For other ends that destructors do not see.
+void remove_registered_file();
 
 // Makes SIGINT, SIGTERM and SIGHUP remove the registered file before they end the process, and SIGPIPE ignored, so that
 // a closed pipe is an error of write(2).

@@ -7,11 +7,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <fstream>
 #include <memory>
 #include <new>
 
+#include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "common/run/help_formatter.hpp"
 #include "common/run/messages.hpp"
@@ -52,8 +55,7 @@ nlohmann::ordered_json options_for_history(const CLI::App& app, const ToolInfo& 
   nlohmann::ordered_json options = nlohmann::ordered_json::object();
   for (const CLI::Option* option : app.get_options()) {
     if (!decides_result(*option, info)) continue;
-    const std::string value =
-        option->count() > 0 ? CLI::detail::join(option->results(), ",") : default_value(*option);
+    const std::string value = option->count() > 0 ? CLI::detail::join(option->results(), ",") : default_value(*option);
     if (!value.empty()) options[option->get_lnames().front()] = value;
   }
   return options;
@@ -152,6 +154,25 @@ void keep_standard_streams_apart() {
 int report(const std::string& tool, std::string_view message, int code) {
   print_message(fmt::format("{}: {}\n", tool, message));
   return code;
+}
+
+[[noreturn]] void end_without_memory();
+
+// From before main() on; the usual handler stays in charge of everything but missing memory.
+const std::terminate_handler usual_end = std::set_terminate(end_without_memory);
+
+// Memory may also be missing where no exception can pass: in a destructor, or before tool_main.
+void end_without_memory() {
+  try {
+    if (const std::exception_ptr current = std::current_exception()) std::rethrow_exception(current);
+  } catch (const std::bad_alloc&) {
+    dprintf(STDERR_FILENO, "%s: not enough memory\n", program_invocation_short_name);
+    remove_registered_file();
+    _exit(exit_data);
+  } catch (...) {
+    usual_end();
+  }
+  std::abort();
 }
 
 // CLI11's messages may run over several lines; ours are one.

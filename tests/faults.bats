@@ -1,0 +1,30 @@
+# Each call of the system fails once, the disk is full, the tool is killed: tests/faults/README.md. A quick share of it.
+
+load helpers
+
+setup() {
+  mkdir "$BATS_TEST_TMPDIR/work" && cd "$BATS_TEST_TMPDIR/work" || return 1
+  if sanitized; then skip "the sanitizers interpose the same calls"; fi
+}
+
+for_tools() {
+  HEXPIPE_BIN="$HEXPIPE_BIN" timeout 300 "$PYTHON" "$HEXPIPE_SOURCE/tests/faults/inject.py" \
+    --per-kind 6 --disk 5 --kills 5 --pipes 3 "$@" || fail "see above"
+}
+
+@test "faults leave the old output or the whole new one: findhex, buildgraph" {
+  for_tools findhex buildgraph
+}
+
+@test "faults leave the old output or the whole new one: initsol, lns, certify" {
+  for_tools initsol lns certify
+}
+
+@test "faults leave the old output or the whole new one: assemble" {
+  for_tools assemble
+}
+
+@test "faults leave the old output or the whole new one: tetmesh" {
+  [[ -x $HEXPIPE_BIN/tetmesh ]] || skip "built without TetGen"
+  for_tools tetmesh
+}

@@ -1,0 +1,232 @@
+#!/usr/bin/python3
+"""inject.py [--library FILE] [--per-kind N] [--disk N] [--kills N] [--pipes N] [TOOL...]
+
+Runs the tools with one fault each, by the library fail_calls.cpp: every call of the system that a run makes fails once,
+the disk is full at every byte of the output, the tool is killed at every call and at random moments, whoever reads its
+output goes away. --per-kind, --disk, --kills and --pipes spread so many cases over all there are (0: every one).
+
+After each case the old output is there, or the new one as a run without fault writes it; there is no other file beside
+it; the exit code is 0 with the new output and 1 with the old one, then with one line on standard error that names the
+tool; a stop of a search leaves a valid solution. Prints a line for each case that breaks this, then a table.
+"""
+import argparse
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+BIN = pathlib.Path(os.environ.get("HEXPIPE_BIN", ROOT / "build/bin"))
+OLD = b"the old output\n"
+STAGES = {  # options, ending of the product
+    "tetmesh": (["--size", "0.7"], "mesh"),
+    "findhex": (["--cells", "hex,prism,pyramid"], "cand"),
+    "buildgraph": ([], "graph"),
+    "initsol": (["--iterations", "50"], "sol"),
+    "lns": (["--iterations", "5"], "sol"),
+    "certify": (["--iterations", "5"], "sol"),
+    "assemble": ([], "vtu"),
+}
+KINDS = ["open", "read", "write", "close", "link", "rename", "fork", "thread", "pipe", "memory"]
+
+
+class Report:
+    def __init__(self):
+        self.counts, self.broken = {}, 0
+
+    def case(self, tool, kind, what, complaint):
+        self.counts[(tool, kind)] = self.counts.get((tool, kind), 0) + 1
+        if complaint:
+            self.broken += 1
+            print(f"{tool} {what}: {complaint}", flush=True)
+
+    def table(self, tools):
+        kinds = sorted({kind for _, kind in self.counts}, key=lambda k: (k not in KINDS, KINDS.index(k) if k in KINDS else k))
+        print("cases".ljust(12) + "".join(k.rjust(9) for k in kinds))
+        for tool in tools:
+            print(tool.ljust(12) + "".join(str(self.counts.get((tool, k), 0)).rjust(9) for k in kinds))
+        print("total".ljust(12) + "".join(str(sum(self.counts.get((t, k), 0) for t in tools)).rjust(9) for k in kinds))
+        print(f"{sum(self.counts.values())} cases, {self.broken} broken")
+
+
+def spread(total, wanted):
+    """`wanted` numbers of 1..total, evenly and with both ends; all of them for 0."""
+    if wanted == 0 or wanted >= total:
+        return range(1, total + 1)
+    return sorted({1 + round(i * (total - 1) / max(wanted - 1, 1)) for i in range(wanted)})
+
+
+class Bench:
+    """One tool with its input, in a directory of its own."""
+
+    def __init__(self, tool, source, library, directory):
+        self.tool, self.library, self.directory = tool, library, directory
+        options, self.ending = STAGES[tool]
+        self.command = [BIN / tool, *options, "-q", "--threads", "2", source]
+        self.expected = {}
+        for name in ("out.tar", "out." + self.ending):
+            self.run(name, "")
+            self.expected[name] = (directory / name).read_bytes()
+            (directory / name).unlink()
+
+    def environment(self, fault):
+        return {**os.environ, "LD_PRELOAD": str(self.library), "HEXPIPE_FAULT": fault}
+
+    def start(self, name, fault, **streams):
+        streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **streams}
+        return subprocess.Popen(self.command + ["-o", self.directory / name] if name else self.command,
+                                env=self.environment(fault), stdin=subprocess.DEVNULL, **streams)
+
+    def run(self, name, fault):
+        process = self.start(name, fault)
+        try:
+            _, errors = process.communicate(timeout=60)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.communicate()
+            return "hangs", b""
+        return process.returncode, errors
+
+    def counts(self):
+        self.run("out.tar", f"count:{self.directory}/count")
+        lines = (self.directory / "count").read_text().splitlines()
+        (self.directory / "count").unlink()
+        return {kind: int(number) for kind, number in (line.split() for line in lines)}
+
+    def complaint(self, name, code, errors, killed=False, may_differ=False):
+        """What is wrong after a run into the file `name`, which held OLD; None when all is well."""
+        left = sorted(p.name for p in self.directory.iterdir())
+        if code == -signal.SIGKILL and len(left) == 2 and left[0] == name:
+            # Between a link and a rename the new file stands beside the old one, whole: no system can do it in one step.
+            if (self.directory / left[1]).read_bytes() == self.expected[name]:
+                (self.directory / left.pop()).unlink()
+        found = (self.directory / name).read_bytes() if name in left else None
+        for other in left:
+            (self.directory / other).unlink()
+        if left != [name]:
+            return f"files left: {left}"
+        if found == OLD:
+            if killed and code < 0:
+                return None
+            if code != 1:
+                return f"exit code {code} with the old output: {errors[-300:]!r}"
+            lines = errors.decode(errors="replace").splitlines()
+            # libarchive speaks for itself when it has no memory.
+            if len(lines) != 1 or not lines[0].startswith((self.tool + ": ", "Fatal Internal Error in libarchive: Out of memory")):
+                return f"expected one line of standard error, found {errors[-300:]!r}"
+            return None
+        if found != self.expected[name] and not may_differ:
+            return f"exit code {code}, another output of {len(found)} bytes"
+        # Memory may be missing when all is done.
+        if b"not enough memory" in errors and code == 1:
+            return None
+        return None if code == 0 or (killed and code < 0) else f"exit code {code} with the new output: {errors!r}"
+
+    def case(self, name, fault, killed=False):
+        (self.directory / name).write_bytes(OLD)
+        code, errors = self.run(name, fault)
+        return "hangs" if code == "hangs" else self.complaint(name, code, errors, killed)
+
+
+def fail_every_call(bench, report, per_kind):
+    counts = bench.counts()
+    for kind in KINDS:
+        for number in spread(counts[kind], per_kind) if counts[kind] else []:
+            fault = f"{kind}:{number}"
+            report.case(bench.tool, kind, fault, bench.case("out.tar", fault))
+    for number in spread(counts["kill"], per_kind):
+        report.case(bench.tool, "kill", f"kill:{number}", bench.case("out.tar", f"kill:{number}", killed=True))
+    report.case(bench.tool, "short", "short:1", bench.case("out.tar", "short:1"))
+
+
+def fill_the_disk(bench, report, wanted):
+    name = "out." + bench.ending
+    size = len(bench.expected[name])
+    for room in spread(size, wanted):
+        complaint = bench.case(name, f"disk:{room - 1}")
+        report.case(bench.tool, "disk", f"disk:{room - 1}", complaint)
+
+
+def kill_at_random(bench, report, kills, seed):
+    random_numbers = random.Random(seed)
+    begun = time.monotonic()
+    bench.run("out.tar", "")
+    longest = time.monotonic() - begun
+    (bench.directory / "out.tar").unlink()
+    for i in range(kills):
+        number = random_numbers.choice([signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGKILL])
+        (bench.directory / "out.tar").write_bytes(OLD)
+        process = bench.start("out.tar", "")
+        time.sleep(random_numbers.uniform(0, longest))
+        process.send_signal(number)
+        _, errors = process.communicate(timeout=60)
+        searches = bench.tool in ("initsol", "lns", "certify")
+        complaint = bench.complaint("out.tar", process.returncode, errors, killed=True, may_differ=searches)
+        report.case(bench.tool, "signal", f"signal {number} (case {i} of seed {seed})", complaint)
+
+
+def leave_the_pipe(bench, report, wanted):
+    """The reader of standard output takes some bytes and goes; standard input is no matter here."""
+    size = len(bench.expected["out.tar"])
+    for taken in spread(size, wanted):
+        ends = os.pipe()
+        process = bench.start(None, "", stdout=ends[1])
+        os.close(ends[1])
+        if taken > 1:
+            os.read(ends[0], taken - 1)
+        os.close(ends[0])
+        _, errors = process.communicate(timeout=60)
+        fine = process.returncode == 0 or (process.returncode == 1 and b"stdout: cannot write" in errors)
+        report.case(bench.tool, "pipe-end", f"reader left after {taken - 1} bytes",
+                    None if fine else f"exit code {process.returncode}, {errors!r}")
+
+
+def stage_inputs(directory):
+    """The input of each tool, as a file."""
+    inputs = {"tetmesh": ROOT / "tests/data/cube.stl"}
+    mesh = directory / "lattice.mesh"
+    lattice = ROOT / "tests/data/lattices/lattice.py"
+    mesh.write_bytes(subprocess.run(["/usr/bin/python3", lattice, "kuhn", "1"], check=True, stdout=subprocess.PIPE).stdout)
+    inputs["findhex"] = mesh
+    order = ["findhex", "buildgraph", "initsol", "lns", "assemble"]
+    for tool, following in zip(order, order[1:]):
+        inputs[following] = directory / (following + ".in.tar")
+        options = STAGES[tool][0]
+        subprocess.run([BIN / tool, *options, "-q", inputs[tool], "-o", inputs[following]], check=True)
+    inputs["certify"] = inputs["assemble"]
+    return inputs
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--library", default=BIN.parent / "lib/libfail_calls.so")
+    parser.add_argument("--per-kind", type=int, default=0)
+    parser.add_argument("--disk", type=int, default=0)
+    parser.add_argument("--kills", type=int, default=100)
+    parser.add_argument("--pipes", type=int, default=20)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("tools", nargs="*")
+    options = parser.parse_args()
+    tools = options.tools or [tool for tool in STAGES if (BIN / tool).exists()]
+    report = Report()
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = pathlib.Path(scratch)
+        inputs = stage_inputs(scratch)
+        for tool in tools:
+            directory = scratch / tool
+            directory.mkdir()
+            bench = Bench(tool, inputs[tool], pathlib.Path(options.library).resolve(), directory)
+            fail_every_call(bench, report, options.per_kind)
+            fill_the_disk(bench, report, options.disk)
+            kill_at_random(bench, report, options.kills, options.seed)
+            leave_the_pipe(bench, report, options.pipes)
+    report.table(tools)
+    sys.exit(report.broken > 0)
+
+
+main()
