@@ -92,7 +92,14 @@ bool is_worse(const HybridMesh& mesh, CellKind kind, std::span<const Vertex> cor
   return scale * least_corner_scaled_jacobian(kind, std::span<const Vec3>(at).first(corners.size())) < limit;
 }
 
-// The candidates to which poor pyramids and tets made for conformity belong.
+// Candidates whose cells went back to their tets.
+void append_given_back(const HybridMesh& mesh, std::vector<std::int32_t>& out) {
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c)
+    if (!mesh.cell(c).alive && mesh.cell(c).candidate != HybridCell::none) out.push_back(mesh.cell(c).candidate);
+}
+
+// The candidates to which poor pyramids and tets made for conformity belong. An inverted tet at a vertex without a
+// pyramid was made for a cell that has gone back since: then all of these, so that they are left out from the start.
 std::vector<std::int32_t> owners_of_poor_elements(const HybridMesh& mesh, std::size_t input_points) {
   std::vector<std::int32_t> owners;
   std::vector<std::int32_t> owner_of_point(mesh.points.size(), HybridCell::none);
@@ -107,8 +114,13 @@ std::vector<std::int32_t> owners_of_poor_elements(const HybridMesh& mesh, std::s
     if (!mesh.is_alive(t)) continue;
     // The vertex added last made the tet.
     const Vertex newest = *std::ranges::max_element(mesh.tet(t));
-    if (static_cast<std::size_t>(newest) < input_points || owner_of_point[newest] == HybridCell::none) continue;
-    if (is_worse(mesh, CellKind::tet, mesh.tet(t), poor_quality)) owners.push_back(owner_of_point[newest]);
+    if (static_cast<std::size_t>(newest) < input_points) continue;
+    const bool has_owner = owner_of_point[newest] != HybridCell::none;
+    if (!is_worse(mesh, CellKind::tet, mesh.tet(t), has_owner ? poor_quality : barely_valid)) continue;
+    if (has_owner)
+      owners.push_back(owner_of_point[newest]);
+    else
+      append_given_back(mesh, owners);
   }
   std::sort(owners.begin(), owners.end());
   owners.erase(std::unique(owners.begin(), owners.end()), owners.end());

@@ -44,6 +44,8 @@ constexpr double least_gain = 1e-3;
 // How far facets may come to lie from the input's surface, in edge lengths there, where vertices slide on it. Circles
 // of 25 edges and more deviate less between their own vertices.
 constexpr double most_deviation = 0.03;
+// How far a plane of a surface file may be from even, in diagonals of the bounding box: such files hold floats.
+constexpr double most_uneven = 5e-7;
 // Scaled Jacobians do not mind edges of any length: none may become shorter than this part of the longest at its
 // vertex.
 constexpr double shortest_edge = 0.1;
@@ -120,6 +122,7 @@ class Smoother {
   Freedom freedom(Vertex v) const;
   bool stays_close(Vertex v, const Vec3& at);
   bool keeps_edges_long(Vertex v, const Vec3& at) const;
+  bool leaves_surface(Vertex v, const Vec3& at) const;
   bool improve(Vertex v, double only_below, bool weighted);
   void look_around(Vertex v);
   bool is_valid_cell(std::int32_t c) const;
@@ -175,6 +178,14 @@ bool Smoother::stays_close(Vertex v, const Vec3& at) {
   return deviation <= most;
 }
 
+// Vertices that have slid to one side of a polygon see a plane or line that ends before them: what is around v now does
+// not tell how far the input goes on.
+bool Smoother::leaves_surface(Vertex v, const Vec3& at) const {
+  if (sliding_ == nullptr || freedoms_[v].kind == Freedom::Kind::space) return false;
+  const Vec3 foot = sliding_->surface.foot(sliding_->origin[v], at).at;
+  return norm(foot - at) > most_uneven * sliding_->surface.diagonal();
+}
+
 // False where an edge at v would become shorter than the shortest is now, and short beside the longest.
 bool Smoother::keeps_edges_long(Vertex v, const Vec3& at) const {
   double now = std::numeric_limits<double>::infinity(), shortest = now, longest = 0;
@@ -215,7 +226,8 @@ bool Smoother::improve(Vertex v, double only_below, bool weighted) {
     if (star_.worst_unweighted(at) < worst_unweighted) continue;
     const bool better =
         poor ? star_.worst(at) > worst + least_gain : star_.worst(at) >= worst && star_.mean(at) > mean + least_gain;
-    if (!better || (worst > 0 && !keeps_edges_long(v, at)) || (slide && !stays_close(v, at))) continue;
+    if (!better || leaves_surface(v, at) || (worst > 0 && !keeps_edges_long(v, at)) || (slide && !stays_close(v, at)))
+      continue;
     points_[v] = at;
     if (std::ranges::all_of(valid_before, [&](std::int32_t c) { return is_valid_cell(c); })) return true;
     points_[v] = before;
