@@ -58,11 +58,15 @@ product_ending() {
   done
 }
 
-@test "--version names tool and version" {
+@test "--version names tool, version and licence" {
   for tool in $TOOLS; do
+    local licence=MIT
+    if [[ $tool == tetmesh ]]; then licence="AGPL-3.0, for it links TetGen"; fi
     run_apart $tool --version
     assert_success
-    assert_output --regexp "^$tool \(hexpipe\) [0-9]+\.[0-9]+\.[0-9]+$"
+    assert_line --index 0 --regexp "^$tool \(hexpipe\) [0-9]+\.[0-9]+\.[0-9]+$"
+    assert_line --index 1 "Licence: $licence"
+    assert_equal "${#lines[@]}" 2
   done
 }
 

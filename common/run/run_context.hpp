@@ -23,6 +23,7 @@ struct ToolInfo {
   std::optional<double> default_time_limit{};  // of a search that is given neither limit, seconds
   // Options of its own that do not decide what comes out, and so stay out of the history.
   std::vector<std::string> outside_history{};
+  std::string licence{"MIT"};  // of the executable as a whole, for --version
 };
 
 struct CommonOptions {

@@ -194,7 +194,7 @@ int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<v
   context.info = info;
   CLI::App app(info.summary, info.name);
   app.formatter(std::make_shared<HelpFormatter>());
-  app.set_version_flag("--version", fmt::format("{} (hexpipe) {}", info.name, version()));
+  app.set_version_flag("--version", fmt::format("{} (hexpipe) {}\nLicence: {}", info.name, version(), info.licence));
   app.footer(footer(info));
   app.option_defaults()->always_capture_default();
   declare(app);

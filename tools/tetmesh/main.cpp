@@ -58,7 +58,8 @@ int main(int argc, char** argv) {
       .reads = {},
       .product = Role::mesh,
       .random = true,
-      .outside_history = {"tetgen-timeout"}};
+      .outside_history = {"tetgen-timeout"},
+      .licence = "AGPL-3.0, for it links TetGen"};
   TetmeshOptions options;
   std::optional<std::string> size;
   std::string path = "-", surface_kind = "remesh", points = "best", shells = "oriented", weld = "0.0001%";

@@ -1,0 +1,36 @@
+# `cpack` in the build directory makes Debian packages: hexpipe (MIT), and hexpipe-tetmesh (AGPL) apart, which the other
+# only suggests. Included last, when every component is known. What they depend on is found from the executables.
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME hexpipe)
+set(CPACK_PACKAGE_VENDOR "The hexpipe developers")
+set(CPACK_PACKAGE_CONTACT "The hexpipe developers <hexpipe@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL hexpipe)
+set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_HEXPIPE_PACKAGE_NAME hexpipe)
+set(CPACK_COMPONENT_HEXPIPE_DESCRIPTION
+"Conforming hex-dominant meshes out of tetrahedra
+ A pipeline of small tools that finds every way to merge tetrahedra into
+ hexahedra, chooses the best set of them that fit together as a maximum weight
+ independent set, and builds a conforming mesh for finite elements.")
+set(CPACK_DEBIAN_HEXPIPE_PACKAGE_SUGGESTS hexpipe-tetmesh)
+
+if(WITH_TETGEN)
+  list(APPEND CPACK_COMPONENTS_ALL hexpipe-tetmesh)
+  set(CPACK_DEBIAN_HEXPIPE-TETMESH_PACKAGE_NAME hexpipe-tetmesh)
+  set(CPACK_COMPONENT_HEXPIPE-TETMESH_DESCRIPTION
+"Tetrahedra for hexpipe out of a closed surface
+ Fills a surface (STL, OBJ, PLY, OFF) with tetrahedra whose vertices lie so that
+ they merge into hexahedra. It links TetGen and so is under the AGPL, version 3.")
+  set(CPACK_DEBIAN_HEXPIPE-TETMESH_PACKAGE_RECOMMENDS hexpipe)
+endif()
+include(CPack)
