@@ -1,0 +1,11 @@
+# Random meshes and graphs through whole pipelines, by the checkers: a few cases here, thousands by hand
+# (tests/random/random_pipelines.py --cases 2000 --seed new).
+
+load helpers
+
+@test "random meshes and graphs of every kind pass the independent checkers" {
+  run "$PYTHON" "$HEXPIPE_SOURCE/tests/random/random_pipelines.py" --cases 7 \
+    general flat coplanar lattice regions holes graph
+  assert_success
+  assert_output --partial "0 failed"
+}

@@ -1,0 +1,375 @@
+#!/usr/bin/python3
+"""random_pipelines.py [--cases N] [--seed S] [--keep DIRECTORY] [KIND...]
+
+Random tet meshes, graphs and surfaces through whole pipelines, judged by the independent checkers. Case i has the seed
+S + i; --seed new takes one from the clock. A case that fails is printed with its seed and kind; a mesh or a graph is made
+smaller as long as it fails, and lies in the directory of --keep. Ends with 1 then.
+"""
+import argparse
+import itertools
+import json
+import math
+import os
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+import time
+
+import numpy as np
+from scipy.spatial import ConvexHull, Delaunay
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+BIN = pathlib.Path(os.environ.get("HEXPIPE_BIN", ROOT / "build/bin"))
+CHECKERS = ROOT / "tests/checkers"
+
+
+class Failure(Exception):
+    pass
+
+
+def run(directory, *command, timeout=120):
+    try:
+        done = subprocess.run([str(c) for c in command], cwd=directory, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, timeout=timeout)
+    except subprocess.TimeoutExpired:
+        raise Failure(f"{command} takes over {timeout} s") from None
+    if done.returncode != 0:
+        said = (done.stdout + done.stderr).decode(errors="replace")[-500:]
+        raise Failure(f"{' '.join(map(str, command))}: exit code {done.returncode}: {said}")
+    return done.stdout.decode()
+
+
+def tool(directory, name, *options):
+    return run(directory, BIN / name, "-q", *options)
+
+
+def check(directory, name, *arguments):
+    return run(directory, "/usr/bin/python3", CHECKERS / name, *arguments)
+
+
+def require(condition, message):
+    if not condition:
+        raise Failure(message)
+
+
+# ---- meshes: whole coordinates, so that the checker of the candidates decides exactly
+
+
+def determinant(points, tet):
+    a, b, c, d = (points[v] for v in tet)
+    return round(np.linalg.det(np.array([b - a, c - a, d - a], dtype=float)))
+
+
+def delaunay(points, random_numbers):
+    """Tets of positive volume and their regions."""
+    points = np.unique(points, axis=0)
+    tets = []
+    for tet in Delaunay(points).simplices.tolist():
+        volume = determinant(points, tet)
+        if volume < 0:
+            tet[2], tet[3] = tet[3], tet[2]
+        if volume != 0:
+            tets.append(tet)
+    random_numbers.shuffle(tets)
+    return points, tets, [1] * len(tets)
+
+
+def points_in_general(rng, n, size=60):
+    return np.array([[rng.randrange(size) for _ in range(3)] for _ in range(n)])
+
+
+def general(rng):
+    return delaunay(points_in_general(rng, rng.randrange(5, 28)), rng)
+
+
+def flat(rng):
+    points = points_in_general(rng, rng.randrange(8, 24))
+    points[:, 2] = points[:, 2] % 3
+    return delaunay(points, rng)
+
+
+def coplanar(rng):
+    points = points_in_general(rng, rng.randrange(10, 26))
+    points[:, rng.randrange(3)] //= 20
+    return delaunay(points, rng)
+
+
+def lattice(rng):
+    """Cubes cut in six or five tets each, moved a little or not, but never so far that a tet turns over."""
+    size = [rng.randrange(1, 4) for _ in range(3)]
+    kind = rng.choice(["kuhn", "five"])
+    number = lambda p: (p[0] * (size[1] + 1) + p[1]) * (size[2] + 1) + p[2]
+    shake = rng.choice([0, 0, 1, 3])
+    points = np.array([[10 * c + rng.randint(-shake, shake) for c in (i, j, k)] for i in range(size[0] + 1)
+                       for j in range(size[1] + 1) for k in range(size[2] + 1)])
+    tets = []
+    for i in range(size[0]):
+        for j in range(size[1]):
+            for k in range(size[2]):
+                for local in cube_tets(kind, (i + j + k) % 2):
+                    tets.append([number((i + a, j + b, k + c)) for a, b, c in local])
+    straight = np.array([[10 * c for c in p] for p in itertools.product(*(range(n + 1) for n in size))])
+    for tet in tets:
+        if determinant(straight, tet) < 0:
+            tet[2], tet[3] = tet[3], tet[2]
+    turned = any(determinant(points, tet) <= 0 for tet in tets)
+    return straight if turned else points, tets, [1] * len(tets)
+
+
+def cube_tets(kind, odd):
+    if kind == "kuhn":
+        for order in itertools.permutations(range(3)):
+            at, tet = [0, 0, 0], [(0, 0, 0)]
+            for axis in order:
+                at[axis] = 1
+                tet.append(tuple(at))
+            yield tet
+        return
+    even = [(0, 0, 0), (1, 1, 0), (1, 0, 1), (0, 1, 1)]
+    uneven = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1)]
+    cut_off, centre = (uneven, even) if odd else (even, uneven)
+    yield centre
+    for corner in cut_off:
+        yield [corner] + [tuple(x ^ (axis == i) for i, x in enumerate(corner)) for axis in range(3)]
+
+
+def regions(rng):
+    points, tets, _ = rng.choice([general, lattice])(rng)
+    plane = np.array([rng.uniform(-1, 1) for _ in range(3)])
+    heights = [float(points[tet].mean(axis=0) @ plane) for tet in tets]
+    cut = sorted(heights)[len(heights) // 2]
+    return points, tets, [1 if h < cut else 2 for h in heights]
+
+
+def with_holes(rng):
+    """Not convex, perhaps in several parts or touching itself in edges and vertices."""
+    points, tets, tags = rng.choice([general, lattice])(rng)
+    kept = [tet for tet in tets if rng.random() < 0.8] or tets
+    return points, kept, tags[: len(kept)]
+
+
+MESHES = {"general": general, "flat": flat, "coplanar": coplanar, "lattice": lattice, "regions": regions, "holes": with_holes}
+
+
+def write_mesh(path, mesh):
+    points, tets, tags = mesh
+    with open(path, "w") as file:
+        print("MeshVersionFormatted 2\nDimension 3\nVertices\n%d" % len(points), file=file)
+        for p in points:
+            print(*p, 0, file=file)
+        print("Tetrahedra\n%d" % len(tets), file=file)
+        for tet, tag in zip(tets, tags):
+            print(*(v + 1 for v in tet), tag, file=file)
+        print("End", file=file)
+
+
+def judge_mesh(directory, mesh, seed):
+    rng = random.Random(seed)
+    write_mesh(directory / "part.mesh", mesh)
+    choice = ["--cells", "hex,prism,pyramid"] if rng.random() < 0.5 else []
+    if rng.random() < 0.3:
+        choice += ["--min-quality", "0.2"]
+    tool(directory, "findhex", "--mesh", "part.mesh", *choice, "-o", "part.cand")
+    report = check(directory, "candidates_check.py", "part.mesh", "part.cand", *choice)
+    require(" 0 missing, 0 extra, 0 with other tets" in report, report)
+    tool(directory, "buildgraph", "--candidates", "part.cand", "-o", "part.graph")
+    check(directory, "graph_check.py", "part.graph")
+    check(directory, "graph_from_candidates.py", "part.cand", "part.graph")
+    judge_choice(directory, seed)
+    tool(directory, "assemble", "--mesh", "part.mesh", "--candidates", "part.cand", "--solution", "part.sol", "--smooth",
+         rng.choice(["0", "5"]), "-o", "part.vtk")
+    stats = json.loads(check(directory, "meshstats.py", "--json", "--exact", "part.vtk"))
+    require("error" not in stats, stats)
+    for key in ("nonconf_quads", "perm", "inv", "hexbad", "negvol", "dupcells"):
+        require(stats.get(key, 0) == 0, f"{key}: {stats}")
+    points, tets, _ = mesh
+    volume = sum(determinant(points, tet) for tet in tets) / 6
+    # A warped quad of the surface is not where the two triangles were.
+    require(math.isclose(stats["vol"], volume, rel_tol=0.3), f"volume {stats['vol']}, expected about {volume}")
+
+
+# ---- graphs
+
+
+def random_graph(rng):
+    n = rng.choice([1, 2, 5, 20, 60, 200])
+    weights = [rng.choice([0, 1, rng.randrange(1, 100), 10**12]) if rng.random() < 0.2 else rng.randrange(1, 50)
+               for _ in range(n)]
+    edges = set()
+    form = rng.choice(["sparse", "dense", "cliques", "star", "none"])
+    if form in ("sparse", "dense"):
+        share = min(1, 3 / n) if form == "sparse" else 0.5
+        edges = {(a, b) for a in range(n) for b in range(a) if rng.random() < share}
+    elif form == "cliques":
+        for _ in range(n):
+            members = rng.sample(range(n), min(n, rng.randrange(2, 7)))
+            edges |= {(max(a, b), min(a, b)) for a in members for b in members if a != b}
+    elif form == "star":
+        edges = {(a, 0) for a in range(1, n)}
+    return weights, sorted(edges)
+
+
+def write_graph(path, graph):
+    weights, edges = graph
+    lists = [[] for _ in weights]
+    for a, b in edges:
+        lists[a].append(b + 1)
+        lists[b].append(a + 1)
+    with open(path, "w") as file:
+        print(len(weights), len(edges), 10, file=file)
+        for weight, row in zip(weights, lists):
+            print(weight, *sorted(row), file=file)
+
+
+def weight_of(report):
+    return int(report.split("weight ")[1].split(",")[0].split()[0])
+
+
+def judge_choice(directory, seed):
+    """part.graph to part.sol: each stage valid and no worse, and a bound that an optimum cannot pass."""
+    rng = random.Random(seed)
+    method = rng.choice(["anneal", "tabu"])
+    tool(directory, "initsol", "--graph", "part.graph", "--iterations", rng.choice([0, 300]), "--method", method, "--seed",
+         seed, "-o", "start.sol")
+    first = weight_of(check(directory, "solution_check.py", "part.graph", "start.sol"))
+    for threads in (1, 2):
+        tool(directory, "lns", "--graph", "part.graph", "--solution", "start.sol", "--iterations", 20, "--seed", seed,
+             "--threads", threads, "-o", f"part{threads}.sol")
+    require((directory / "part1.sol").read_bytes() == (directory / "part2.sol").read_bytes(), "1 and 2 threads differ")
+    (directory / "part1.sol").rename(directory / "part.sol")
+    second = weight_of(check(directory, "solution_check.py", "part.graph", "part.sol"))
+    require(second >= first, f"lns made {second} out of {first}")
+    tool(directory, "certify", "--graph", "part.graph", "--solution", "part.sol", "--iterations", 20, "--certificate",
+         "proof", "-o", "same.sol")
+    bound = int(check(directory, "bound_check.py", "part.graph", "proof").split()[1])
+    require(bound >= second, f"a bound of {bound} under a weight of {second}")
+
+
+# ---- surfaces
+
+
+def random_surface(rng):
+    """A convex polyhedron, or a box with a box on one side, with whole corners."""
+    if rng.random() < 0.5:
+        points = points_in_general(rng, rng.randrange(6, 20), 40)
+        hull = ConvexHull(points)
+        middle = points[hull.vertices].mean(axis=0)
+        faces = []
+        for a, b, c in hull.simplices.tolist():
+            outward = np.dot(np.cross(points[b] - points[a], points[c] - points[a]), points[a] - middle) > 0
+            faces.append((a, b, c) if outward else (a, c, b))
+        return points.tolist(), faces
+    x, y, z = (rng.randrange(2, 12) for _ in range(3))
+    corners = [[i * x, j * y, k * z] for i in (0, 1) for j in (0, 1) for k in (0, 1)]
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return corners, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+
+
+def judge_surface(directory, surface, seed):
+    rng = random.Random(seed)
+    points, faces = surface
+    with open(directory / "part.off", "w") as file:
+        print("OFF\n%d %d 0" % (len(points), len(faces)), file=file)
+        for p in points:
+            print(*p, file=file)
+        for face in faces:
+            print(3, *face, file=file)
+    require("OK" in check(directory, "surfcheck.py", "part.off"), "the surface itself is bad")
+    volume = sum(float(np.linalg.det(np.array([points[v] for v in face], dtype=float))) for face in faces) / 6
+    tool(directory, "tetmesh", "part.off", "--size", rng.choice(["15%", "25%"]), "--seed", seed, "-o", "part.mesh")
+    tool(directory, "findhex", "--mesh", "part.mesh", "-o", "part.cand")
+    tool(directory, "buildgraph", "--candidates", "part.cand", "-o", "part.graph")
+    judge_choice(directory, seed)
+    tool(directory, "assemble", "--mesh", "part.mesh", "--candidates", "part.cand", "--solution", "part.sol", "-o", "part.vtk")
+    stats = json.loads(check(directory, "meshstats.py", "--json", "--exact", "part.vtk"))
+    for key in ("f>2", "nonconf_quads", "perm", "bedge_odd", "inv", "hexbad", "negvol", "dupcells", "orphan_nodes"):
+        require(stats.get(key, 0) == 0, f"{key}: {stats}")
+    require(math.isclose(stats["vol"], volume, rel_tol=0.1), f"volume {stats['vol']}, expected about {volume}")
+
+
+# ---- cases
+
+
+def judge(kind, case, seed):
+    """None, or what is wrong."""
+    with tempfile.TemporaryDirectory() as directory:
+        directory = pathlib.Path(directory)
+        try:
+            if kind in MESHES:
+                judge_mesh(directory, case, seed)
+            elif kind == "graph":
+                write_graph(directory / "part.graph", case)
+                judge_choice(directory, seed)
+            else:
+                judge_surface(directory, case, seed)
+        except Failure as failure:
+            return str(failure)
+    return None
+
+
+def smaller(kind, case):
+    """Parts of the case, the small ones first."""
+    if kind in MESHES:
+        points, tets, tags = case
+        for size in (len(tets) // 2, len(tets) // 4, len(tets) // 8, 1):
+            for start in range(0, len(tets), max(size, 1)):
+                rest = [i for i in range(len(tets)) if not start <= i < start + size]
+                if size and rest:
+                    yield points, [tets[i] for i in rest], [tags[i] for i in rest]
+    elif kind == "graph":
+        weights, edges = case
+        for gone in range(len(weights)):
+            place = lambda v: v - (v > gone)
+            yield weights[:gone] + weights[gone + 1 :], [(place(a), place(b)) for a, b in edges if gone not in (a, b)]
+
+
+def shrink(kind, case, seed, seconds=60):
+    end = time.monotonic() + seconds
+    found = True
+    while found and time.monotonic() < end:
+        found = False
+        for part in smaller(kind, case):
+            if time.monotonic() > end:
+                break
+            if judge(kind, part, seed):
+                case, found = part, True
+                break
+    return case
+
+
+def keep(directory, kind, case, seed):
+    directory.mkdir(parents=True, exist_ok=True)
+    if kind in MESHES:
+        write_mesh(directory / f"{kind}-{seed}.mesh", case)
+    elif kind == "graph":
+        write_graph(directory / f"{kind}-{seed}.graph", case)
+
+
+def main():
+    kinds = {**MESHES, "graph": random_graph, "surface": random_surface}
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--cases", type=int, default=100)
+    parser.add_argument("--seed", default="1")
+    parser.add_argument("--keep", type=pathlib.Path, default="failed-cases")
+    parser.add_argument("kinds", nargs="*", choices=[[], *kinds])
+    options = parser.parse_args()
+    first = time.time_ns() % 10**9 if options.seed == "new" else int(options.seed)
+    chosen = options.kinds or [kind for kind in kinds if kind != "surface" or (BIN / "tetmesh").exists()]
+    counts, failures = {}, 0
+    for seed in range(first, first + options.cases):
+        kind = chosen[seed % len(chosen)]
+        case = kinds[kind](random.Random(seed))
+        counts[kind] = counts.get(kind, 0) + 1
+        wrong = judge(kind, case, seed)
+        if wrong is None:
+            continue
+        failures += 1
+        print(f"{kind}, seed {seed}: {wrong}", flush=True)
+        keep(options.keep, kind, shrink(kind, case, seed), seed)
+    print(", ".join(f"{count} {kind}" for kind, count in counts.items()), f"from seed {first}: {failures} failed")
+    sys.exit(failures > 0)
+
+
+main()
