@@ -89,6 +89,16 @@ TEST(Lattice, IsWhatTheDefinitionSays) {
     }
 }
 
+// The walls of the hole lie halfway between points, which rounding moves away from them in some of the sizes.
+TEST(Lattice, WallsHalfwayBetweenPointsHoldTheFlood) {
+  for (int i = 0; i < 40; ++i) {
+    const double step = 0.3 + 0.01 * i;
+    const Surface surface = surface_of(joined(cube(0, 10 * step), inverted(cube(3.5 * step, 3 * step))));
+    const LatticeOptions options{.size = 0.97 * step, .clearance = 0.5, .jitter = 0};
+    EXPECT_EQ(lattice_points(surface, options).size(), count_naively(surface, options)) << step;
+  }
+}
+
 TEST(Lattice, KeepsClearOfTheSurface) {
   const Surface surface = surface_of(joined(sphere({0, 0, 0}, 3, 14), sphere({0.4, 0.3, 0.2}, 1.6, 9)));
   const LatticeOptions options{.size = 0.3, .clearance = 0.7, .jitter = 0.1};

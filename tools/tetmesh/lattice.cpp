@@ -76,7 +76,8 @@ void Lattice::fit() {
   for (int axis = 0; axis < 3; ++axis) counts_[axis] = static_cast<std::int64_t>(counts[axis]);
   places_.assign(static_cast<std::size_t>(nodes), Place::far);
   clearance_ = options_.clearance * options_.size;
-  far_distance_ = std::max({steps_[0], steps_[1], steps_[2]}) / 2;
+  // Rounding must not let the flood through a wall that lies just halfway between two points.
+  far_distance_ = (1 + 1e-9) * std::max({steps_[0], steps_[1], steps_[2]}) / 2;
 }
 
 Vec3 Lattice::node(const Index& i) const {
