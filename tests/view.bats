@@ -194,7 +194,7 @@ PYTHON
   assert_output --regexp "Example:.*view "
   assert [ "$(wc -L <<<"$output")" -le 100 ]
   run view --version
-  assert_output --regexp "^view \(hexpipe\) [0-9.]+$"
+  assert_line --regexp "^view \(hexpipe\) [0-9.]+$"
   view result.vtu -o page.html --stats stats.json
   run "$PYTHON" -c "import json; s = json.load(open('stats.json')); assert s['hex'] > 0 and s['tool'] == 'view', s"
   assert_success
