@@ -116,7 +116,7 @@ TEST(BoundaryDeviation, SeesWhatMoved) {
 TEST(Smooth, VerticesSlideOnACurvedSurface) {
   auto lattice = make_column(6);
   auto& close = lattice.mesh.points[static_cast<std::size_t>(lattice_vertex(6, 0, 3, 3))];
-  const double turn = 0.28;
+  const double turn = 0.21;
   close = {close.x * std::cos(turn) - close.y * std::sin(turn), close.x * std::sin(turn) + close.y * std::cos(turn),
            close.z};
   const InputSurface surface(lattice.mesh);
@@ -132,9 +132,9 @@ TEST(Smooth, VerticesSlideOnACurvedSurface) {
   };
   BoundaryDeviation::Summary held, slid;
   const double without = worst_after(false, held), with = worst_after(true, slid);
+  EXPECT_GT(without, 0);
   EXPECT_GT(with, without);
   EXPECT_LT(held.greatest, 1e-9);
-  EXPECT_GT(slid.moved, held.moved);
   EXPECT_GT(slid.greatest, 0);
   EXPECT_LT(slid.greatest, 0.03 * 0.6) << "0.6 is more than an edge";
 }
