@@ -112,7 +112,7 @@ PYTHON
 
 @test "every part of --view changes the picture, and the page opens with it" {
   view result.vtu --size 320,200 --png plain.png
-  for part in clip=x:0.5 clip=-x:0.5 clip=1,1,0:0.5 quality=0,0.4 peel=1 kinds=hex,tet colour=quality colour=kind \
+  for part in clip=x:0.5 clip=-x:0.5 clip=1,1,0:0.5 quality=0,0.15 peel=1 kinds=hex,tet colour=quality colour=kind \
     colour=region edges=off theme=dark camera=10,20,1,0,0,0 camera=-52,28,2,0,0,0 camera=-52,28,1,0.3,0,0; do
     view result.vtu --size 320,200 --view "$part" --png part.png -o part.html
     assert_different_bytes plain.png part.png
@@ -207,4 +207,15 @@ PYTHON
   assert_success
   assert_output "the page works"
   assert [ "$(ls screenshots | wc -l)" -ge 6 ]
+}
+
+@test "--fragments shows parts of the graph one by one" {
+  printf '1 2 3\n4 5\n' >parts
+  view graph.tar --fragments parts --size 320,200 --png all.png -o page.html
+  for fragment in 1 2; do view graph.tar --fragments parts --size 320,200 --view "fragment=$fragment" --png $fragment.png; done
+  assert_different_bytes all.png 1.png
+  assert_different_bytes 1.png 2.png
+  assert_fails_with 2 "--fragments: expected candidates or a solution" view result.vtu --fragments parts -o no.html
+  echo "1 x" >>parts
+  assert_fails_with 1 "^view: parts:3: expected the number of a candidate, found 'x'" view graph.tar --fragments parts -o no.html
 }

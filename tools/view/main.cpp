@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
                                                        {"candidates", Scene::Content::candidates},
                                                        {"mesh", Scene::Content::mesh}};
   Outputs outputs;
-  std::string show, view, title;
+  std::string show, view, title, fragments;
   const auto declare = [&](CLI::App& app) {
     app.add_option("-o,--output", outputs.page, "Write the page to a file; without it and --png: to standard output")
         ->type_name("FILE");
@@ -61,6 +61,9 @@ int main(int argc, char** argv) {
                    "How the page opens and the picture is taken, as links of the page say it behind the #, for example "
                    "'clip=y:0.5&colour=quality&theme=dark'")
         ->type_name("STATE");
+    app.add_option("--fragments", fragments,
+                   "Fragments to go through one by one: a line each, the numbers of its candidates, from 1")
+        ->type_name("FILE");
     app.add_option("--title", title, "The page's title")->type_name("TEXT");
   };
   const auto run = [&](RunContext& context) {
@@ -73,7 +76,13 @@ int main(int argc, char** argv) {
                                    ? context.streams.files.empty() ? "stdin" : "the files"
                                    : *context.streams.operand;
     const Scene::Content content = show.empty() ? last_content(data, source) : contents.at(show);
-    const Scene scene = make_scene(std::move(data), content, source);
+    Scene scene = make_scene(std::move(data), content, source);
+    if (!fragments.empty()) {
+      if (content != Scene::Content::candidates && content != Scene::Content::solution)
+        throw UsageError("--fragments: expected candidates or a solution to show them in (see --show)");
+      Input input = Input::open(fragments);
+      read_fragments(scene, input);
+    }
     for (std::size_t k = 0; k < scene_kinds.size(); ++k)
       context.statistics[name_of(scene_kinds[k])] = scene.kind_begin[k + 1] - scene.kind_begin[k];
     context.note(fmt::format("{}: {} cells", name_of(content), scene.cell_count()));

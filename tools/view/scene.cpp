@@ -1,7 +1,10 @@
 #include "tools/view/scene.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
+#include <sstream>
+#include <unordered_map>
 
 #include "common/mesh/quality.hpp"
 #include "common/run/error.hpp"
@@ -191,6 +194,29 @@ Scene make_scene(StageData data, Scene::Content content, const std::string& sour
   fill(scene, cells, data.mesh->points, source);
   scene.layer = layers_from_surface(scene, surface_points(tets_of(*data.mesh)));
   return scene;
+}
+
+void read_fragments(Scene& scene, Input& input) {
+  // Tets, which come last, are no candidates.
+  std::unordered_map<std::int32_t, std::int32_t> cell_of;
+  for (std::int32_t cell = 0; cell < scene.kind_begin[3]; ++cell) cell_of[scene.number[cell]] = cell;
+  std::istringstream lines(input.read_all());
+  long line_number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++line_number;
+    std::vector<std::int32_t>& fragment = scene.fragments.emplace_back();
+    std::istringstream words(line);
+    for (std::string word; words >> word;) {
+      std::int32_t number = 0;
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+      if (error != std::errc() || end != word.data() + word.size() || number < 1)
+        throw FormatError(input.name(), line_number,
+                          fmt::format("expected the number of a candidate, found '{}'", word));
+      // A solution shows only those that were chosen.
+      if (const auto found = cell_of.find(number - 1); found != cell_of.end()) fragment.push_back(found->second);
+    }
+    std::sort(fragment.begin(), fragment.end());
+  }
 }
 
 }  // namespace hexpipe

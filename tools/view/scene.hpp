@@ -10,6 +10,7 @@
 
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/vec3.hpp"
+#include "formats/input.hpp"
 #include "formats/stage.hpp"
 
 namespace hexpipe {
@@ -34,7 +35,7 @@ struct Scene {
   std::vector<std::int32_t> region;  // of candidates: that of their first tet
   std::vector<std::uint8_t> layer;   // 1: touches the surface; 2: touches those; ...
   std::vector<std::int32_t> number;  // in its block of the file, or as a candidate, from 0
-  // What lns freed, if asked for: cells of each fragment, ascending.
+  // Parts of the graph that a search freed, if asked for: cells of each fragment, ascending.
   std::vector<std::vector<std::int32_t>> fragments;
   std::vector<nlohmann::ordered_json> history;
 
@@ -53,5 +54,9 @@ const char* name_of(Scene::Content content);
 // there are no cells, or candidates come without the mesh that has their points; `source` is named in the message.
 Scene::Content last_content(const StageData& data, const std::string& source);
 Scene make_scene(StageData data, Scene::Content content, const std::string& source);
+
+// Gives the scene the fragments that a text lists, the candidates of one a line, counted from 1; tells them by
+// Scene::number, of hexes, prisms and pyramids. Throws FormatError at what is no candidate.
+void read_fragments(Scene& scene, Input& input);
 
 }  // namespace hexpipe
