@@ -100,6 +100,22 @@ PYTHON
   assert_equal "$(grep -c 'not maximal' <<<"$stderr")" 1
 }
 
+@test "--exact proves the optimum, which cbc finds too, and writes it" {
+  "$PYTHON" "$DATA/ring_graph.py" 200 200 2 >small.graph
+  printf "1\n" >one.sol
+  certify --graph small.graph --solution one.sol --exact --stats stats.json -o best.sol
+  assert_equal "$(number complete stats.json)" True
+  assert_equal "$(number bound stats.json)" "$(number weight stats.json)"
+  assert_equal "$(number gap stats.json)" 0.0
+  "$CHECKERS/solve_with_cbc.py" small.graph cbc.sol
+  run "$CHECKERS/solution_check.py" small.graph cbc.sol
+  assert_output --regexp "weight $(number weight stats.json)$"
+  run "$CHECKERS/solution_check.py" small.graph best.sol
+  assert_output --regexp "weight $(number weight stats.json)$"
+  certify --graph small.graph --solution one.sol --stats bound.json -o out.sol
+  assert_equal "$(number complete bound.json)" False
+}
+
 @test "extreme graphs" {
   printf '0 0 10\n' >empty.graph
   : >empty.sol

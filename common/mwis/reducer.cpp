@@ -55,7 +55,7 @@ std::int64_t Reducer::run(ReductionEffort effort, const Deadline& deadline) {
     skim(deadline);
   } else {
     settle(deadline, 0);
-    blow_up(deadline);
+    if (effort == ReductionEffort::thorough) blow_up(deadline);
   }
   return offset_;
 }

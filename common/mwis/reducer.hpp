@@ -26,6 +26,7 @@ namespace hexpipe {
 
 enum class ReductionEffort {
   quick,     // what clique covers prove, while it decides something often enough: a fraction of a second
+  full,      // all rules that leave fewer vertices at once
   thorough,  // all rules, and folds that add vertices where other rules then remove more: seconds to minutes
 };
 

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "common/mwis/branch_and_bound.hpp"
+#include "common/mwis/branch_and_reduce.hpp"
 #include "common/mwis/dense_reductions.hpp"
 #include "common/mwis/exact_solver.hpp"
 #include "random_graphs.hpp"
@@ -122,6 +123,42 @@ TEST(ExactSolver, NeverReturnsLessThanItGot) {
       weight = now;
     }
   }
+}
+
+TEST(BranchAndReduce, AgreesWithBruteForceFromAnyBound) {
+  const Deadline never;
+  for_random_graphs(1000, [&](const ConflictGraph& graph, int index) {
+    const std::int64_t expected = brute_force_weight(graph);
+    for (const std::int32_t small : {0, 6, 100}) {
+      BranchAndReduce solver(never, small);
+      const auto found = solver.solve(graph, expected - 1);
+      ASSERT_TRUE(found) << "graph " << index;
+      EXPECT_NO_THROW(validate(*found, graph, "found"));
+      EXPECT_EQ(total_weight(*found, graph), expected) << "graph " << index;
+      EXPECT_GE(solver.bound(), expected);
+      EXPECT_FALSE(solver.solve(graph, expected)) << "nothing is heavier, graph " << index;
+      EXPECT_TRUE(solver.complete());
+    }
+  });
+}
+
+TEST(BranchAndReduce, BranchesWhereReductionsEnd) {
+  Random random(9);
+  const Deadline never;
+  std::int64_t nodes = 0;
+  for (int i = 0; i < 4; ++i) {
+    const ConflictGraph graph = hexpipe::testing::random_graph(60, 0.1, 1000, random);
+    BranchAndReduce small(never, 100), branching(never, 20);
+    const auto expected = small.solve(graph, 0), found = branching.solve(graph, 0);
+    ASSERT_TRUE(expected && found) << "graph " << i;
+    EXPECT_EQ(total_weight(*found, graph), total_weight(*expected, graph)) << "graph " << i;
+    nodes += branching.nodes();
+  }
+  EXPECT_GT(nodes, 4);
+  const Deadline passed(0.0);
+  BranchAndReduce stopped(passed);
+  EXPECT_FALSE(stopped.solve(hexpipe::testing::random_graph(70, 0.1, 1000, random), 0));
+  EXPECT_FALSE(stopped.complete());
 }
 
 TEST(ExactSolver, SolvesTheExtremes) {

@@ -4,19 +4,23 @@
 #include <cstdint>
 
 #include "common/graph/conflict_graph.hpp"
-#include "common/run/deadline.hpp"
 #include "common/mwis/clique_dual.hpp"
+#include "common/run/deadline.hpp"
 
 namespace hexpipe {
 
 struct CertifyOptions {
   CliqueDualOptions dual;
+  bool exact = false;  // go on to a proof of optimality
 };
 
 struct CertifyResult {
   CliqueCover cover;
   CliqueDual dual;
+  IndependentSet solution;  // the given one, or a better one that the proof came upon
   std::int64_t weight = 0;
+  // That of the dual, or a lower one that the proof brought, which has no certificate.
+  std::int64_t bound = 0;
   bool maximal = false;
   // Of the bound; 0 when the solution is optimal, which `complete` says.
   double gap = 0;

@@ -22,6 +22,8 @@ int main(int argc, char** argv) {
   const auto declare = [&](CLI::App& app) {
     app.add_option("--certificate", certificate, "Write the proof of the bound to a file: prices of cliques")
         ->type_name("FILE");
+    app.add_flag("--exact", options.exact,
+                 "Go on to a proof of optimality by branch and reduce; its bound has no certificate");
   };
   const auto run = [&](RunContext& context) {
     options.dual.passes = context.common.iterations.value_or(options.dual.passes);
@@ -32,14 +34,14 @@ int main(int argc, char** argv) {
     const CertifyResult result = certify(*data.graph, *data.solution, options, deadline, [&](const CliqueDual& now) {
       log.record(deadline.elapsed(), now.passes, now.bound);
     });
-    log.finish(deadline.elapsed(), result.dual.passes, result.dual.bound);
+    log.finish(deadline.elapsed(), result.dual.passes, result.bound);
     if (!certificate.empty()) {
       Output output(certificate);
       write_certificate(result.cover, result.dual, output);
       output.commit();
     }
     context.statistics["weight"] = result.weight;
-    context.statistics["bound"] = result.dual.bound;
+    context.statistics["bound"] = result.bound;
     context.statistics["gap"] = result.gap;
     context.statistics["complete"] = result.complete;
     context.statistics["maximal"] = result.maximal;
@@ -47,10 +49,12 @@ int main(int argc, char** argv) {
     context.statistics["iterations"] = result.dual.passes;
     context.statistics["fixed_out"] = result.fixed_out;
     context.statistics["fixed_in"] = result.fixed_in;
-    context.note(fmt::format("weight {}, at most {} is possible: gap {:.4f} %{}{}", result.weight, result.dual.bound,
+    context.note(fmt::format("weight {}, at most {} is possible: gap {:.4f} %{}{}", result.weight, result.bound,
                              100 * result.gap, result.complete ? ", optimal" : "",
                              result.maximal ? "" : ", not maximal"));
-    stage.write(*data.solution, {{"weight", result.weight}, {"bound", result.dual.bound}, {"gap", result.gap}});
+    stage.write(
+        result.solution,
+        {{"weight", result.weight}, {"bound", result.bound}, {"gap", result.gap}, {"complete", result.complete}});
   };
   return tool_main(argc, argv, info, declare, run);
 }

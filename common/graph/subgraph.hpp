@@ -1,0 +1,18 @@
+#pragma once
+// Parts of a conflict graph as graphs of their own.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/graph/conflict_graph.hpp"
+
+namespace hexpipe {
+
+// The part that `vertices`, ascending, induce; they are numbered in their order.
+ConflictGraph induced_subgraph(const ConflictGraph& graph, std::span<const std::int32_t> vertices);
+
+// The vertices of each connected component, ascending; the smallest component first.
+std::vector<std::vector<std::int32_t>> connected_components(const ConflictGraph& graph);
+
+}  // namespace hexpipe
