@@ -52,7 +52,7 @@ bool convert(const char* from, To* to, std::size_t count) {
     std::memcpy(&value, from + i * sizeof(From), sizeof(From));
     if constexpr (std::is_integral_v<From> && std::is_integral_v<To>)
       if (!std::in_range<To>(value)) return false;
-    to[i] = static_cast<To>(value);
+    to[i] = static_cast<To>(value);  // NOLINT(bugprone-signed-char-misuse): a number, not a character
   }
   return true;
 }

@@ -103,8 +103,8 @@ class DimacsParser : NumberLines {
       const auto list = std::span(lists).subspan(begin, places[v] - begin);
       begin = places[v];
       std::ranges::sort(list);
-      const auto repeated = std::ranges::unique(list);
-      kept = std::copy(list.begin(), repeated.begin(), lists.begin() + kept) - lists.begin();
+      const auto repeated = std::unique(list.begin(), list.end());
+      kept = std::copy(list.begin(), repeated, lists.begin() + kept) - lists.begin();
       graph_.offsets.push_back(kept);
     }
     lists.resize(kept);

@@ -33,8 +33,11 @@ class FacetTable {
     if (facets_.empty()) return;
     const std::span<std::int32_t> candidates = bucket(lowest(facet));
     if (candidates.empty()) return;
-    for (const std::int32_t member : std::ranges::equal_range(candidates, key(facet), {}, key_of_member())) {
-      const auto i = static_cast<std::size_t>(member);
+    const Facet wanted = key(facet);
+    const auto key_of = key_of_member();
+    for (auto member = std::ranges::lower_bound(candidates, wanted, {}, key_of);
+         member != candidates.end() && key_of(*member) == wanted; ++member) {
+      const auto i = static_cast<std::size_t>(*member);
       if (outward_[i]) continue;
       outward_[i] = same_cycle(facets_[i], facet);
       if (outward_[i] || owners_[i].cell < 0) owners_[i] = cell;
@@ -60,7 +63,7 @@ class FacetTable {
   static bool same_cycle(const Facet& a, Facet b) {
     for (std::size_t turn = 0; turn < Corners; ++turn) {
       if (a == b) return true;
-      std::ranges::rotate(b, b.begin() + 1);
+      std::rotate(b.begin(), b.begin() + 1, b.end());
     }
     return false;
   }

@@ -28,7 +28,8 @@ std::string behind_links(std::string path) {
     if (length < 0) break;
     const std::string next(target, static_cast<std::size_t>(length));
     const std::size_t slash = path.rfind('/');
-    path = next.front() == '/' || slash == std::string::npos ? next : path.substr(0, slash + 1) + next;
+    path.erase(next.front() == '/' || slash == std::string::npos ? 0 : slash + 1);
+    path += next;
   }
   return path;
 }

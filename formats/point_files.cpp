@@ -23,7 +23,7 @@ PointList read_npy_points(std::string_view bytes, const std::string& name) {
   if (header.shape.size() != 2 || header.shape[1] != 3 || header.type.kind != 'f' || header.type.bytes < 4)
     throw DataError::at(name, "expected an array of floats with three columns, found another shape or type");
   const std::string_view body = bytes.substr(header_size);
-  const auto row_bytes = static_cast<std::uint64_t>(3 * header.type.bytes);
+  const auto row_bytes = 3 * static_cast<std::uint64_t>(header.type.bytes);
   if (body.size() % row_bytes != 0 || body.size() / row_bytes != header.shape[0])
     throw DataError::at(name, "expected {} points of {} bytes, found {} bytes", header.shape[0], row_bytes,
                         body.size());

@@ -77,6 +77,7 @@ const char* maker_of(Role role) {
 
 std::string list_of(const std::set<Role>& roles) {
   std::vector<std::string_view> names;
+  names.reserve(roles.size());
   for (const Role role : roles) names.emplace_back(name_of(role));
   return names.empty() ? "nothing that the pipeline makes" : fmt::format("{}", fmt::join(names, ", "));
 }

@@ -1,6 +1,5 @@
 #include <bit>
 #include <functional>
-#include <ranges>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -106,10 +105,10 @@ void write_vtu(const MixedMesh& mesh, Output& output) {
     for (const DataArray& array : section.arrays) offset += sizeof array.bytes + array.bytes;
   for (const Section& section : sections) write_section(section, offset, output);
   output.print("    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_");
-  for (const Section& section : std::views::reverse(sections))
-    for (const DataArray& array : std::views::reverse(section.arrays)) {
-      write_bytes(output, array.bytes);
-      array.write(output);
+  for (auto section = sections.rbegin(); section != sections.rend(); ++section)
+    for (auto array = section->arrays.rbegin(); array != section->arrays.rend(); ++array) {
+      write_bytes(output, array->bytes);
+      array->write(output);
     }
   output.print("\n  </AppendedData>\n</VTKFile>\n");
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <ranges>
 
 namespace hexpipe {
 namespace {
@@ -117,7 +116,8 @@ void Reducer::take_back(std::size_t decided, std::int64_t offset) {
   const auto count = static_cast<std::size_t>(graph_.vertex_count());
   places_.resize(count);
   growth_.resize(count);
-  for (const auto& [growth, v] : std::views::reverse(growth_before_)) {
+  for (auto before = growth_before_.rbegin(); before != growth_before_.rend(); ++before) {
+    const auto& [growth, v] = *before;
     if (v >= graph_.vertex_count()) continue;
     growth_[v] = growth;
     if (growth != unknown) growths_.emplace(growth, v);

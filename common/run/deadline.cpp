@@ -53,8 +53,9 @@ void leave_interrupt_upstream(bool on) {
 
 void remove_on_signal(const char* path) {
   file_registered = false;
-  if (*path == '\0' || std::strlen(path) >= sizeof registered_file) return;
-  std::strcpy(registered_file, path);
+  const std::size_t length = std::strlen(path);
+  if (length == 0 || length >= sizeof registered_file) return;
+  std::memcpy(registered_file, path, length + 1);
   file_registered = true;
 }
 

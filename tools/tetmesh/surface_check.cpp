@@ -7,7 +7,6 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <ranges>
 
 #include "common/run/error.hpp"
 #include "tools/tetmesh/exact_geometry.hpp"
@@ -49,8 +48,9 @@ constexpr double least_extent = 1e-50, greatest_coordinate = 1e50;
 void check_magnitude(const SurfaceSoup& soup) {
   double least = std::numeric_limits<double>::max(), greatest = std::numeric_limits<double>::lowest(), extent = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto [low, high] =
-        std::ranges::minmax(soup.points | std::views::transform([&](const Vec3& p) { return p[axis]; }));
+    const auto along_axis = [&](const Vec3& p) { return p[axis]; };
+    const auto [lowest, highest] = std::ranges::minmax_element(soup.points, {}, along_axis);
+    const double low = along_axis(*lowest), high = along_axis(*highest);
     least = std::min(least, low);
     greatest = std::max(greatest, high);
     extent = std::max(extent, high - low);

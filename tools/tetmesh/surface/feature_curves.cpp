@@ -162,7 +162,8 @@ class CurveSampler {
     for (std::size_t i = 0; i + 1 < loop.size(); ++i)
       if (dot(loop[i], direction) > dot(loop[first], direction)) first = i;
     curve.vertices.pop_back();
-    std::ranges::rotate(curve.vertices, curve.vertices.begin() + static_cast<std::ptrdiff_t>(first));
+    std::rotate(curve.vertices.begin(), curve.vertices.begin() + static_cast<std::ptrdiff_t>(first),
+                curve.vertices.end());
     curve.vertices.push_back(curve.vertices.front());
   }
 
