@@ -105,7 +105,7 @@ void write_vtu(const MixedMesh& mesh, Output& output) {
     for (const DataArray& array : section.arrays) offset += sizeof array.bytes + array.bytes;
   for (const Section& section : sections) write_section(section, offset, output);
   output.print("    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_");
-  for (auto section = sections.rbegin(); section != sections.rend(); ++section)
+  for (auto section = std::rbegin(sections); section != std::rend(sections); ++section)
     for (auto array = section->arrays.rbegin(); array != section->arrays.rend(); ++array) {
       write_bytes(output, array->bytes);
       array->write(output);

@@ -17,7 +17,9 @@ const kinds = Object.values(colours.kinds).map(rgb), regions = colours.regions.m
 export function qualityColour(value) {
   if (!(value > 0)) return invalid;
   const place = Math.min(value, 1) * (quality.length - 1), below = Math.min(Math.floor(place), quality.length - 2);
-  return quality[below].map((from, i) => Math.round(from * (1 - place + below) + quality[below + 1][i] * (place - below)));
+  const part = place - below, from = quality[below], to = quality[below + 1];
+  const mix = i => Math.round(from[i] * (1 - part) + to[i] * part);
+  return [mix(0), mix(1), mix(2)];
 }
 
 export const regionsOf = scene => [...new Set(scene.region)].sort((a, b) => a - b);

@@ -1,6 +1,9 @@
 // The facets of all cells, found once, and the triangles that are drawn: facets with visible cells on one side only.
 
-import {cornersOf, extent, kindOf, middlesOf} from "./cells.js";
+import {extent, kindOf, middlesOf} from "./cells.js";
+
+// A quad's corners 0 1 2 and 2 3 0; of these a triangle has the first three.
+const cornersOfTriangles = [0, 1, 2, 2, 3, 0];
 
 // Opposite senses of the same facet differ in this: whether, begun at the least vertex, the next is less than the last.
 function senseOf(vertices, count) {
@@ -33,13 +36,14 @@ class FacetNumbers {
 
   numberOf(vertices, count) {
     this.sortIntoKey(vertices, count);
-    const {key, keys, table} = this, [a, b, c, d] = key;
+    const {key, keys, table} = this, a = key[0], b = key[1], c = key[2], d = key[3];
     let hash = Math.imul(a, 0x9e3779b1) ^ Math.imul(b, 0x85ebca6b) ^ Math.imul(c, 0xc2b2ae35) ^ Math.imul(d, 0x27d4eb2f);
     hash ^= hash >>> 15;
     for (let slot = hash & (table.length - 1);; slot = (slot + 1) & (table.length - 1)) {
       const number = table[slot], at = 4 * number;
       if (number < 0) {
-        keys.set(key, 4 * this.count);
+        const place = 4 * this.count;
+        keys[place] = a, keys[place + 1] = b, keys[place + 2] = c, keys[place + 3] = d;
         return table[slot] = this.count++;
       }
       if (keys[at] === a && keys[at + 1] === b && keys[at + 2] === c && keys[at + 3] === d) return number;
@@ -79,6 +83,7 @@ export class Skin {
     this.middles = middlesOf(scene);
     this.visible = new Uint8Array(scene.cellCount);
     this.shown = new Int32Array(this.facets.begin.length - 1);
+    this.at = new Int32Array(4);
   }
 
   // Cells that the state shows; returns how many of each kind.
@@ -147,28 +152,33 @@ export class Skin {
   }
 
   addFacet(item, colourOf, out) {
-    const cell = item >> 4, facet = this.facetOf(item), corners = cornersOf(this.scene, cell), points = this.scene.points;
-    const at = (i, axis) => points[3 * corners[facet[i]] + axis];
-    const [p, q] = facet.length === 3 ? [[0, 1], [0, 2]] : [[0, 2], [1, 3]];
-    const u = [0, 1, 2].map(axis => at(p[1], axis) - at(p[0], axis));
-    const v = [0, 1, 2].map(axis => at(q[1], axis) - at(q[0], axis));
-    const normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-    const scale = 127 / (Math.hypot(...normal) || 1), colour = colourOf(cell);
+    const cell = item >> 4, facet = this.facetOf(item), quad = facet.length === 4, {points} = this.scene;
+    const k = kindOf(this.scene, cell), corners = this.scene.corners[k];
+    const base = (cell - this.scene.kindBegin[k]) * this.scene.kinds[k].corners;
+    const at = this.at;
+    for (let i = 0; i < facet.length; ++i) at[i] = 3 * corners[base + facet[i]];
+    // Across the diagonals of a quad, along two sides of a triangle.
+    const u0 = at[0], u1 = quad ? at[2] : at[1], v0 = quad ? at[1] : at[0], v1 = quad ? at[3] : at[2];
+    const ux = points[u1] - points[u0], uy = points[u1 + 1] - points[u0 + 1], uz = points[u1 + 2] - points[u0 + 2];
+    const vx = points[v1] - points[v0], vy = points[v1 + 1] - points[v0 + 1], vz = points[v1 + 2] - points[v0 + 2];
+    const nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+    const scale = 127 / (Math.sqrt(nx * nx + ny * ny + nz * nz) || 1), colour = colourOf(cell);
     // The two triangles of a quad hide the side opposite their corner 1, its diagonal.
-    const hidden = facet.length === 4 ? 2 : 0;
-    for (const triangle of facet.length === 4 ? [[0, 1, 2], [2, 3, 0]] : [[0, 1, 2]]) {
-      const base = out.done++;
-      out.cell[base] = cell;
-      for (let corner = 0; corner < 3; ++corner) {
-        const place = 9 * base + 3 * corner, place4 = 12 * base + 4 * corner;
-        for (let axis = 0; axis < 3; ++axis) {
-          out.position[place + axis] = at(triangle[corner], axis);
-          out.normal[place4 + axis] = Math.round(scale * normal[axis]);
-          out.colour[place4 + axis] = colour[axis];
-        }
-        out.colour[place4 + 3] = corner + 4 * hidden;
-      }
+    for (let corner = 0; corner < (quad ? 6 : 3); ++corner) {
+      const vertex = 3 * out.done + corner, from = at[cornersOfTriangles[corner]];
+      out.position[3 * vertex] = points[from];
+      out.position[3 * vertex + 1] = points[from + 1];
+      out.position[3 * vertex + 2] = points[from + 2];
+      out.normal[4 * vertex] = Math.round(scale * nx);
+      out.normal[4 * vertex + 1] = Math.round(scale * ny);
+      out.normal[4 * vertex + 2] = Math.round(scale * nz);
+      out.colour[4 * vertex] = colour[0];
+      out.colour[4 * vertex + 1] = colour[1];
+      out.colour[4 * vertex + 2] = colour[2];
+      out.colour[4 * vertex + 3] = corner % 3 + (quad ? 8 : 0);
     }
+    out.cell[out.done++] = cell;
+    if (quad) out.cell[out.done++] = cell;
   }
 }
 
