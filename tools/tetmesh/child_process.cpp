@@ -17,6 +17,7 @@
 
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
+#include "common/run/worker_threads.hpp"
 
 namespace hexpipe {
 namespace {
@@ -123,6 +124,7 @@ ChildEnd run_in_child(const std::function<void()>& work, double timeout) {
   if (pipe2(ends, O_CLOEXEC) != 0) fail("open a pipe");
   const Deadline deadline(timeout);
   const pid_t parent = getpid();
+  end_worker_threads();
   const pid_t child = fork();
   if (child < 0) fail("start a child process");
   if (child == 0) be_the_child(work, parent, ends[1]);
