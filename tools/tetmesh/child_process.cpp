@@ -23,6 +23,7 @@ namespace hexpipe {
 namespace {
 
 constexpr std::size_t kept_output = 4096;
+constexpr int no_thread = 117;  // the exit code of a child that could not start
 
 [[noreturn]] void fail(const char* what) {
   throw DataError(fmt::format("cannot {}: {}", what, std::strerror(errno)));
@@ -55,8 +56,7 @@ void* run_work(void* work) {
   std::set_terminate(exit_with_exception);
   pthread_t thread;
   // A thread has no callers, and so no try blocks above it; main() and the test frameworks have.
-  if (pthread_create(&thread, nullptr, run_work, const_cast<std::function<void()>*>(&work)) != 0)
-    _exit(uncaught_exception);
+  if (pthread_create(&thread, nullptr, run_work, const_cast<std::function<void()>*>(&work)) != 0) _exit(no_thread);
   pthread_join(thread, nullptr);
   _exit(0);
 }
@@ -142,6 +142,7 @@ ChildEnd run_in_child(const std::function<void()>& work, double timeout) {
     end.code = WTERMSIG(status);
   } else {
     end.code = WEXITSTATUS(status);
+    if (end.code == no_thread) throw DataError("cannot start a thread in a child process");
   }
   return end;
 }

@@ -40,6 +40,7 @@ struct ChildEnd {
 // no standard input, its outputs are caught; it dies with this process, by a signal or otherwise. It is killed after
 // `timeout` seconds (infinity for none). glibc makes fork() safe for malloc and stdio in the child even where other
 // threads run here; the work must not use other threads of this process.
+// Throws DataError when the system gives no process, pipe or thread.
 ChildEnd run_in_child(const std::function<void()>& work, double timeout);
 
 constexpr int uncaught_exception = 118;
