@@ -64,6 +64,7 @@ template <class Topology>
 constexpr CornerEdges corner_edges(const LocalCorner& corner) {
   CornerEdges result;
   for (std::size_t i = 0; i < 3; ++i)
+    // NOLINTNEXTLINE(bugprone-too-small-loop-variable): a dozen at most
     for (std::uint8_t number = 0; number < Topology::edges.size(); ++number) {
       const auto& [from, to] = Topology::edges[number];
       if ((from != corner[0] || to != corner[1 + i]) && (to != corner[0] || from != corner[1 + i])) continue;
@@ -118,6 +119,7 @@ constexpr auto make_search_plan() {
     const std::uint8_t corner = step.corner = placement_order<Topology>[s];
     placed[corner] = true;
 
+    // NOLINTNEXTLINE(bugprone-too-small-loop-variable): a dozen at most
     for (std::uint8_t number = 0; number < Topology::edges.size(); ++number) {
       const LocalEdge& e = Topology::edges[number];
       if (!plan_details::completed_by<Topology>(e, corner, placed)) continue;
@@ -128,6 +130,7 @@ constexpr auto make_search_plan() {
       if (plan_details::completed_by<Topology>(t, corner, placed)) step.triangles.add(t);
     for (const LocalCorner& c : Topology::corners)
       if (plan_details::completed_by<Topology>(c, corner, placed)) step.corners.add(c);
+    // NOLINTNEXTLINE(bugprone-too-small-loop-variable): a dozen at most
     for (std::uint8_t number = 0; number < Topology::quads.size(); ++number)
       for (std::size_t i = 0; i < 4; ++i) {
         const LocalQuad& q = Topology::quads[number];

@@ -142,7 +142,8 @@ HalfEdge Repairer::longest_side(std::int32_t triangle) const {
   const auto squared = [&](HalfEdge h) {
     return norm_squared(soup_.points[end_of(soup_.triangles, h)] - soup_.points[start_of(soup_.triangles, h)]);
   };
-  return std::ranges::max({3 * triangle, 3 * triangle + 1, 3 * triangle + 2}, {}, squared);
+  const auto is_shorter = [&](HalfEdge a, HalfEdge b) { return squared(a) < squared(b); };
+  return std::max({3 * triangle, 3 * triangle + 1, 3 * triangle + 2}, is_shorter);
 }
 
 void Repairer::cut_neighbour(HalfEdge longest, std::vector<bool>& touched) {

@@ -129,6 +129,7 @@ void upload(const std::vector<Vertex>& vertices) {
 void set_attribute(GLuint index, GLint size, GLenum type, bool normalized, std::size_t stride, std::size_t offset) {
   glEnableVertexAttribArray(index);
   glVertexAttribPointer(index, size, type, normalized ? GL_TRUE : GL_FALSE, static_cast<GLsizei>(stride),
+                        // NOLINTNEXTLINE(performance-no-int-to-ptr): as OpenGL has its offsets
                         reinterpret_cast<const void*>(offset));
 }
 

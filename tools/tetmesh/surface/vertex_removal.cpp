@@ -105,6 +105,7 @@ void VertexRemover::add_samples(Edge e) {
   if (height < least_bend * deviation) return;
   const Face f = mesh_.face_handle(mesh_.halfedge_handle(e, 0));
   const double parts = std::ceil(length / (sample_spacing * deviation));
+  // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter): small whole numbers
   for (double i = 1; i < parts; ++i)
     strays_[f.idx()].push_back(diamond.end_points[0] + i / parts * (diamond.end_points[1] - diamond.end_points[0]));
 }

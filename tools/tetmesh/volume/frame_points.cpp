@@ -72,6 +72,7 @@ void PointPlacer::propose(std::size_t i, const std::array<double, 3>& coordinate
   const auto node = static_cast<std::int32_t>(i);
   const Frame& frame = frames_[i];
   for (int cell = 0; cell < 27; ++cell) {
+    // NOLINTNEXTLINE(bugprone-integer-division): the digits of a number to base 3
     const Vec3 steps{cell % 3 - 1 - coordinates[0], cell / 3 % 3 - 1 - coordinates[1], cell / 9 - 1 - coordinates[2]};
     const double distance = std::max({std::abs(steps.x), std::abs(steps.y), std::abs(steps.z)});
     if (distance > furthest) continue;
