@@ -12,13 +12,14 @@
 
 #include "common/mesh/vec3.hpp"
 #include "common/run/error.hpp"
+#include "tests/unit/temporary_path.hpp"
 
 namespace hexpipe {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 std::string read_file(const std::string& path) {
   std::ostringstream bytes;
@@ -29,13 +30,15 @@ std::string read_file(const std::string& path) {
 // A bundle with whatever `fill` adds, as bytes.
 template <class Fill>
 std::string bundle_bytes(Fill&& fill, bool compress = false) {
-  const std::string path = testing::TempDir() + "bundle_test.tar";
+  const std::string path = hexpipe::testing::temporary_path("bundle_test.tar");
   Output output(path);
   BundleWriter writer(output, compress);
   fill(writer);
   writer.close();
   output.commit();
-  return read_file(path);
+  std::string bytes = read_file(path);
+  std::remove(path.c_str());
+  return bytes;
 }
 
 const std::vector<std::array<std::int32_t, 4>> tets{{0, 1, 2, 3}, {4, 5, 6, 7}, {-1, 2, 3, 4}};
@@ -185,7 +188,7 @@ TEST(Npy, RefusesOtherByteOrdersAndFortranOrder) {
 }
 
 TEST(Output, LeavesTheOldFileWhenItIsNotCommitted) {
-  const std::string path = testing::TempDir() + "output_test.txt";
+  const std::string path = hexpipe::testing::temporary_path("output_test.txt");
   {
     Output output(path);
     output.write("old");
@@ -205,7 +208,7 @@ TEST(Output, AFullDiskIsAnError) {
 }
 
 TEST(Input, PeeksWithoutTakingAcrossItsBuffer) {
-  const std::string path = testing::TempDir() + "input_test.bin";
+  const std::string path = hexpipe::testing::temporary_path("input_test.bin");
   std::string bytes(3 << 20, 'x');
   bytes[5] = 'y';
   std::ofstream(path, std::ios::binary) << bytes;

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "common/run/error.hpp"
+#include "tests/unit/temporary_path.hpp"
 
 namespace hexpipe {
 namespace {
@@ -29,7 +30,7 @@ Candidates read(const std::string& text) {
 }
 
 std::string written(const Candidates& candidates) {
-  const std::string path = ::testing::TempDir() + "cand_test.cand";
+  const std::string path = hexpipe::testing::temporary_path("cand_test.cand");
   Output output(path);
   write_cand(candidates, output);
   output.commit();

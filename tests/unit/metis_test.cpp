@@ -9,6 +9,7 @@
 
 #include "common/run/error.hpp"
 #include "random_graphs.hpp"
+#include "tests/unit/temporary_path.hpp"
 
 namespace hexpipe {
 namespace {
@@ -29,7 +30,7 @@ void expect_rejected(const std::string& text, const std::string& message) {
 }
 
 std::string written(const ConflictGraph& graph) {
-  const std::string path = ::testing::TempDir() + "metis_test.graph";
+  const std::string path = hexpipe::testing::temporary_path("metis_test.graph");
   {
     Output output(path);
     write_metis(graph, output);

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "common/run/error.hpp"
+#include "tests/unit/temporary_path.hpp"
 
 namespace hexpipe {
 namespace {
@@ -65,7 +66,7 @@ TEST(SolutionFile, RejectsTruncatedLinesForEachVertex) {
 }
 
 TEST(SolutionFile, WritesNumbersFromOne) {
-  const std::string path = ::testing::TempDir() + "solution_file_test.sol";
+  const std::string path = hexpipe::testing::temporary_path("solution_file_test.sol");
   {
     Output output(path);
     write_solution({1, 4}, output);
