@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "surface_samples.hpp"
+#include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/surface/feature_curves.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
 #include "tools/tetmesh/surface/surface_refine.hpp"
@@ -14,10 +14,7 @@ using testing::box;
 using testing::Facets;
 using testing::soup_of;
 using testing::sphere;
-
-Surface surface_of(const Facets& facets) {
-  return find_shells(soup_of(facets), ShellRule::oriented);
-}
+using testing::surface_of;
 
 FeatureMesh refined(const Facets& facets, double longest) {
   FeatureMesh mesh(surface_of(facets), 40);

@@ -7,9 +7,8 @@
 #include <limits>
 
 #include "common/run/error.hpp"
-#include "surface_samples.hpp"
+#include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/column_index.hpp"
-#include "tools/tetmesh/triangle_distance.hpp"
 
 namespace hexpipe {
 namespace {
@@ -19,19 +18,9 @@ using testing::cube;
 using testing::Facets;
 using testing::inverted;
 using testing::joined;
-using testing::soup_of;
+using testing::naive_distance;
 using testing::sphere;
-
-Surface surface_of(const Facets& facets) {
-  return find_shells(soup_of(facets), ShellRule::oriented);
-}
-
-double distance_to(const Surface& surface, const Vec3& p) {
-  double least = std::numeric_limits<double>::max();
-  for (const auto& [a, b, c] : surface.triangles)
-    least = std::min(least, TriangleDistance(surface.points[a], surface.points[b], surface.points[c]).squared(p));
-  return std::sqrt(least);
-}
+using testing::surface_of;
 
 bool in_material(const Surface& surface, const Vec3& p) {
   bool odd = false;
@@ -55,7 +44,7 @@ std::size_t count_naively(const Surface& surface, const LatticeOptions& options)
       for (double i = 1; i < steps(0); ++i) {
         const Vec3 p{low.x + i * ((high.x - low.x) / steps(0)), low.y + j * ((high.y - low.y) / steps(1)),
                      low.z + k * ((high.z - low.z) / steps(2))};
-        count += distance_to(surface, p) >= options.clearance * options.size && in_material(surface, p);
+        count += naive_distance(surface, p) >= options.clearance * options.size && in_material(surface, p);
       }
   return count;
 }
@@ -106,7 +95,7 @@ TEST(Lattice, KeepsClearOfTheSurface) {
   EXPECT_GT(points.size(), 1000u);
   for (const Vec3& p : points) {
     EXPECT_TRUE(in_material(surface, p));
-    EXPECT_GE(distance_to(surface, p), (0.7 - 0.1 * std::sqrt(3)) * 0.3);
+    EXPECT_GE(naive_distance(surface, p), (0.7 - 0.1 * std::sqrt(3)) * 0.3);
   }
 }
 

@@ -4,11 +4,10 @@
 #include <set>
 
 #include "common/run/random.hpp"
-#include "surface_samples.hpp"
+#include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 #include "tools/tetmesh/surface_check.hpp"
-#include "tools/tetmesh/triangle_distance.hpp"
 
 namespace hexpipe {
 namespace {
@@ -18,19 +17,10 @@ using testing::cube;
 using testing::Facets;
 using testing::inverted;
 using testing::joined;
+using testing::naive_distance;
 using testing::soup_of;
 using testing::sphere;
-
-Surface surface_of(const Facets& facets) {
-  return find_shells(soup_of(facets), ShellRule::oriented);
-}
-
-double naive_distance(const SurfaceSoup& surface, const Vec3& p) {
-  double least = std::numeric_limits<double>::max();
-  for (const auto& [a, b, c] : surface.triangles)
-    least = std::min(least, TriangleDistance(surface.points[a], surface.points[b], surface.points[c]).squared(p));
-  return std::sqrt(least);
-}
+using testing::surface_of;
 
 TEST(DistanceIndex, AgreesWithLookingAtEveryTriangle) {
   const Surface surface = surface_of(joined(sphere({0, 0, 0}, 3, 9), box({5, -1, -1}, {9, 0.2, 0.1})));

@@ -4,20 +4,15 @@
 #include <gtest/gtest.h>
 
 #include "common/run/error.hpp"
-#include "surface_samples.hpp"
+#include "tetmesh_surfaces.hpp"
 
 namespace hexpipe {
 namespace {
 
 using testing::box;
 using testing::cube;
-using testing::Facets;
-using testing::soup_of;
 using testing::sphere;
-
-Surface surface_of(const Facets& facets) {
-  return find_shells(soup_of(facets), ShellRule::oriented);
-}
+using testing::surface_of;
 
 TEST(Sizing, ParsesLengths) {
   EXPECT_EQ(parse_length("2.5").value, 2.5);
