@@ -240,6 +240,7 @@ void Repairer::fill_holes() {
 
 void Repairer::fill(const std::vector<HalfEdge>& border) {
   std::vector<Vertex> corners;
+  corners.reserve(border.size());
   for (const HalfEdge h : border) corners.push_back(end_of(soup_.triangles, h));
   const std::int32_t beside = triangle_of(border.front());
   const std::vector<Triangle> triangles = triangulate_polygon(soup_.points, corners);
