@@ -9,7 +9,7 @@ constexpr std::size_t option_column = 28;
 constexpr std::size_t page_width = 100;
 
 // CLI11 shows what a flag sets, as in --no-reductions{false}, which is not to be typed.
-std::string plain_name(std::string name) {
+std::string plain_name(const std::string& name) {
   const std::size_t brace = name.find('{');
   return brace == std::string::npos ? name : name.substr(0, brace);
 }
