@@ -167,6 +167,24 @@ assert complete or 0.5 <= points[-1]["seconds"] < 1.5
 PYTHON
 }
 
+@test "--fragments writes what was improved, a line each" {
+  ring --iterations 300 --no-reductions -o out.sol --fragments parts --stats stats.json
+  "$PYTHON" - <<'PYTHON'
+import json
+parts = [[int(word) for word in line.split()] for line in open("parts")]
+assert len(parts) == json.load(open("stats.json"))["improvements"] > 0
+assert all(part and len(set(part)) == len(part) and 1 <= min(part) and max(part) <= 6000 for part in parts)
+start, end = ({int(line) for line in open(name)} for name in ("start.sol", "out.sol"))
+assert start != end and start ^ end <= set().union(*parts), "what changed lies in no fragment"
+PYTHON
+  ring --iterations 300 -o reduced.sol --fragments reduced_parts
+  "$PYTHON" - <<'PYTHON'
+numbers = [int(word) for line in open("reduced_parts") for word in line.split()]
+assert numbers and 1 <= min(numbers) and max(numbers) <= 6000
+PYTHON
+  assert_fails_with 1 "lns: /dev/full: .*No space left" ring --iterations 300 -o none.sol --fragments /dev/full
+}
+
 @test "a signal writes the best so far and ends with 0" {
   # Dense and without structure, so that the search does not end by itself.
   "$PYTHON" - >hard.graph <<'PYTHON'

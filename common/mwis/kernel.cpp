@@ -22,6 +22,14 @@ IndependentSet Kernel::lift(const IndependentSet& of_kernel) const {
   return state.to_set();
 }
 
+std::vector<std::int32_t> Kernel::originals(std::span<const std::int32_t> of_kernel) const {
+  std::vector<std::int32_t> result;
+  result.reserve(of_kernel.size());
+  for (const std::int32_t v : of_kernel)
+    if (vertices_[v] < original_.vertex_count()) result.push_back(vertices_[v]);
+  return result;
+}
+
 IndependentSet Kernel::project(const IndependentSet& of_graph) const {
   std::vector<std::uint8_t> chosen(choices_, 0);
   for (const std::int32_t v : of_graph) chosen[v] = 1;

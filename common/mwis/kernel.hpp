@@ -3,6 +3,7 @@
 // of the kernel is lifted to one of the graph, an optimal one to an optimal one.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/graph/conflict_graph.hpp"
@@ -23,6 +24,8 @@ class Kernel {
 
   // A maximal independent set of the graph from one of the kernel.
   IndependentSet lift(const IndependentSet& of_kernel) const;
+  // The graph's numbers of these, without those that reductions made of several vertices.
+  std::vector<std::int32_t> originals(std::span<const std::int32_t> of_kernel) const;
   // What a set of the graph chooses in the kernel; not maximal in general.
   IndependentSet project(const IndependentSet& of_graph) const;
 

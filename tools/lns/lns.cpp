@@ -151,7 +151,7 @@ class Lns {
     const std::int64_t before = state_.weight();
     if (exchange(repair) && state_.weight() > before) {
       ++improvements_;
-      if (report_) report_({iterations_, state_.weight()});
+      if (report_) report_({iterations_, state_.weight(), repair.fragment().vertices});
       renew_around(repair);
     } else {
       retire_around(repair);
@@ -249,7 +249,7 @@ LnsResult search_kernel(const ConflictGraph& graph, const IndependentSet& start,
   const auto report_whole = [&](const LnsProgress& now) {
     if (!report || now.weight + kernel.offset() <= best) return;
     best = now.weight + kernel.offset();
-    report({now.iteration, best});
+    report({now.iteration, best, kernel.originals(now.fragment)});
   };
   LnsOptions kernel_options = options;
   kernel_options.target -= kernel.offset();

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <span>
 
 #include "common/graph/conflict_graph.hpp"
 #include "common/run/deadline.hpp"
@@ -31,6 +32,8 @@ struct LnsOptions {
 struct LnsProgress {
   std::int64_t iteration;
   std::int64_t weight;
+  // What was improved; without the vertices that reductions made of several.
+  std::span<const std::int32_t> fragment;
 };
 
 struct LnsResult {

@@ -4,12 +4,15 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
+#include <string>
 
 #include "common/mwis/search_log.hpp"
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
+#include "formats/output.hpp"
 #include "formats/stage.hpp"
 #include "tools/lns/lns.hpp"
 
@@ -37,6 +40,16 @@ std::int64_t target_weight(double gap, std::optional<std::int64_t> bound) {
   return *bound - static_cast<std::int64_t>(std::floor(static_cast<long double>(*bound) * gap));
 }
 
+// A line each, the numbers of its candidates from 1, as view reads them.
+void write_fragment(Output& output, std::span<const std::int32_t> fragment) {
+  const char* separator = "";
+  for (const std::int32_t v : fragment) {
+    output.print("{}{}", separator, v + 1);
+    separator = " ";
+  }
+  output.print("\n");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -52,6 +65,7 @@ int main(int argc, char** argv) {
   LnsOptions options;
   std::optional<double> target_gap;
   std::optional<std::int64_t> known_bound;
+  std::string fragments_file;
   const auto declare = [&](CLI::App& app) {
     app.add_option("--fragment-size", options.fragment_size, "Vertices of the first fragments; the size adapts")
         ->check(CLI::Range(1, 4096).description(""));
@@ -75,6 +89,9 @@ int main(int argc, char** argv) {
     app.add_option("--bound", known_bound, "An upper bound that is known, for --target-gap")
         ->type_name("WEIGHT")
         ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()).description(""));
+    app.add_option("--fragments", fragments_file,
+                   "Write the fragments that were improved to a file, a line each, to look at with view --fragments")
+        ->type_name("FILE");
     app.add_flag("--free-running", options.free_running,
                  "Threads do not wait for each other: faster, but the result depends on the timing");
   };
@@ -90,14 +107,18 @@ int main(int argc, char** argv) {
       options.target =
           target_weight(*target_gap, known_bound || !graph_of_bundle ? known_bound : bound_in(data.history));
 
+    std::optional<Output> fragments;
+    if (!fragments_file.empty()) fragments.emplace(fragments_file);
     const Deadline deadline = context.deadline();
     Progress progress("lns", context.common.quiet);
     const LnsResult result =
         improve_by_lns(*data.graph, *data.solution, options, deadline, [&](const LnsProgress& now) {
           log.record(deadline.elapsed(), now.iteration, now.weight);
+          if (fragments) write_fragment(*fragments, now.fragment);
           if (progress.due()) progress.show(fmt::format("weight {} after {} fragments", now.weight, now.iteration));
         });
     log.finish(deadline.elapsed(), result.iterations, result.weight);
+    if (fragments) fragments->commit();
     context.statistics["weight"] = result.weight;
     context.statistics["chosen"] = result.solution.size();
     context.statistics["iterations"] = result.iterations;
