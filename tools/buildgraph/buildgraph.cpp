@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/run/error.hpp"
+#include "common/run/freed_memory.hpp"
 #include "common/run/parallel.hpp"
 #include "tools/buildgraph/conflicts.hpp"
 #include "tools/buildgraph/dense_ids.hpp"
@@ -66,7 +67,7 @@ LowerConflicts find_lower_conflicts(const Candidates& candidates, const Part& pa
 
 // Conflicts are found once, from their higher end. They are packed until all are counted, and what they were found by
 // is gone before the graph takes its memory. Then they are written at both ends: as higher ends come in ascending
-// order, so do all lists.
+// order, so do all lists, and none goes further than the higher ends so far. So the graph grows as the lists are freed.
 ConflictGraph buildgraph(Candidates candidates, const BuildgraphOptions& options, const char* source) {
   const std::size_t count = candidates.size();
   if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
@@ -78,18 +79,23 @@ ConflictGraph buildgraph(Candidates candidates, const BuildgraphOptions& options
   candidates = {};
   graph.offsets.assign(count + 1, 0);
   std::partial_sum(conflicts.degrees.begin(), conflicts.degrees.end(), graph.offsets.begin() + 1);
-  graph.neighbours.resize(graph.offsets.back());
+  graph.neighbours.reserve(graph.offsets.back());
   std::vector<std::int64_t>& next = conflicts.degrees;
   std::copy(graph.offsets.begin(), graph.offsets.end() - 1, next.begin());
   std::int64_t first = conflicts.first;
+  FreedMemory freed;
   for (PackedLists& lists : conflicts.blocks) {
+    const std::int64_t end = std::min(first + candidates_a_block, static_cast<std::int64_t>(count));
+    graph.neighbours.resize(graph.offsets[end]);
     lists.for_each(first, [&](std::int64_t i, std::int32_t j) {
       graph.neighbours[next[i]++] = j;
       graph.neighbours[next[j]++] = static_cast<std::int32_t>(i);
     });
-    first += candidates_a_block;
+    first = end;
+    freed.add(lists.bytes());
     lists = {};
   }
+  graph.neighbours.resize(graph.offsets.back());
   return graph;
 }
 

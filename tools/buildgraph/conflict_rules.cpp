@@ -1,15 +1,48 @@
 #include "tools/buildgraph/conflict_rules.hpp"
 
-#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <span>
 
 namespace hexpipe {
 namespace {
 
+// Corners of a cell, as bits.
+using CornerSet = std::uint8_t;
+
+template <class Corners>
+constexpr CornerSet set_of(const Corners& corners) {
+  unsigned set = 0;
+  for (const auto corner : corners) set |= 1u << corner;
+  return static_cast<CornerSet>(set);
+}
+
+// What the corners of each set make together.
+struct CellParts {
+  std::array<bool, 256> edge_or_triangle{};
+  std::array<CornerSet, 256> diagonal{};  // one of the quad that they are; empty where they are none
+};
+
+template <class Topology>
+constexpr CellParts find_parts() {
+  CellParts parts;
+  for (const LocalEdge& e : Topology::edges) parts.edge_or_triangle[set_of(e)] = true;
+  for (const LocalTriangle& t : Topology::triangles) parts.edge_or_triangle[set_of(t)] = true;
+  for (const LocalQuad& q : Topology::quads) parts.diagonal[set_of(q)] = set_of(std::array{q[0], q[2]});
+  return parts;
+}
+template <class Topology>
+constexpr CellParts parts_of_kind = find_parts<Topology>();
+
+const CellParts& parts_of(CellKind kind) {
+  return with_topology(kind, []<class Topology>(Topology) -> const CellParts& { return parts_of_kind<Topology>; });
+}
+
 // The corners that two cells share, as local numbers in each.
 struct SharedCorners {
-  std::array<int, 8> of_i, of_j;
-  int count = 0;
+  std::array<std::uint8_t, 8> of_i, of_j;
+  std::size_t count = 0;
+  CornerSet set_i = 0, set_j = 0;
 };
 
 SharedCorners shared_corners(std::span<const Vertex> i, std::span<const Vertex> j) {
@@ -17,10 +50,12 @@ SharedCorners shared_corners(std::span<const Vertex> i, std::span<const Vertex> 
   for (std::size_t a = 0; a < i.size(); ++a)
     for (std::size_t b = 0; b < j.size(); ++b)
       if (i[a] == j[b]) {
-        shared.of_i[shared.count] = static_cast<int>(a);
-        shared.of_j[shared.count] = static_cast<int>(b);
+        shared.of_i[shared.count] = static_cast<std::uint8_t>(a);
+        shared.of_j[shared.count] = static_cast<std::uint8_t>(b);
         ++shared.count;
       }
+  shared.set_i = set_of(std::span(shared.of_i).first(shared.count));
+  shared.set_j = set_of(std::span(shared.of_j).first(shared.count));
   return shared;
 }
 
@@ -41,44 +76,13 @@ bool share_interior_tet(std::span<const std::int32_t> i, std::span<const std::in
   return false;
 }
 
-// Where corner c stands in an edge or facet of a cell, or -1.
-template <class Corners>
-int place_in(const Corners& corners, int c) {
-  const auto at = std::find(corners.begin(), corners.end(), c);
-  return at == corners.end() ? -1 : static_cast<int>(at - corners.begin());
-}
-
-// The edge or facet of a cell that has just these corners; null where there is none.
-template <class List>
-const typename List::value_type* with_corners(const List& list, const std::array<int, 8>& corners) {
-  for (const auto& item : list)
-    if (std::all_of(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(item.size()),
-                    [&](int c) { return place_in(item, c) >= 0; }))
-      return &item;
-  return nullptr;
-}
-
-bool is_edge(CellKind kind, const std::array<int, 8>& corners) {
-  return with_topology(kind, [&]<class T>(T) { return with_corners(T::edges, corners) != nullptr; });
-}
-
-bool is_triangle(CellKind kind, const std::array<int, 8>& corners) {
-  return with_topology(kind, [&]<class T>(T) { return with_corners(T::triangles, corners) != nullptr; });
-}
-
-// The corner of the four that lies opposite the first of them in their quad; -1 where they are no quad.
-int opposite_to_first(CellKind kind, const std::array<int, 8>& corners) {
-  return with_topology(kind, [&]<class T>(T) {
-    const auto* const quad = with_corners(T::quads, corners);
-    return quad == nullptr ? -1 : static_cast<int>((*quad)[(place_in(*quad, corners[0]) + 2) % 4]);
-  });
-}
-
-// A quad's cyclic order is known by who lies opposite whom.
-bool are_same_quad(CellKind kind_i, CellKind kind_j, const SharedCorners& shared) {
-  const int opposite_i = opposite_to_first(kind_i, shared.of_i), opposite_j = opposite_to_first(kind_j, shared.of_j);
-  if (opposite_i < 0 || opposite_j < 0) return false;
-  return place_in(shared.of_i, opposite_i) == place_in(shared.of_j, opposite_j);
+// A quad's cyclic order is known by who lies opposite whom: its diagonals are those of the other.
+bool are_same_quad(CornerSet diagonal_i, CornerSet diagonal_j, const SharedCorners& shared) {
+  if (diagonal_i == 0 || diagonal_j == 0) return false;
+  int on_both_or_none = 0;
+  for (std::size_t c = 0; c < 4; ++c)
+    on_both_or_none += (diagonal_i >> shared.of_i[c] & 1) == (diagonal_j >> shared.of_j[c] & 1) ? 1 : 0;
+  return on_both_or_none % 4 == 0;
 }
 
 }  // namespace
@@ -88,17 +92,16 @@ bool in_conflict(const Candidates& candidates, std::size_t i, std::size_t j) {
   if (shared_corner_count(candidates.corners_of(i), candidates.corners_of(j)) > most_compatible) return true;
   if (share_interior_tet(candidates.interior_tets_of(i), candidates.interior_tets_of(j))) return true;
   const SharedCorners shared = shared_corners(candidates.corners_of(i), candidates.corners_of(j));
-  const CellKind kind_i = candidates.kind[i], kind_j = candidates.kind[j];
+  const CellParts &parts_i = parts_of(candidates.kind[i]), &parts_j = parts_of(candidates.kind[j]);
   switch (shared.count) {
     case 0:
     case 1:
       return false;
     case 2:
-      return !(is_edge(kind_i, shared.of_i) && is_edge(kind_j, shared.of_j));
     case 3:
-      return !(is_triangle(kind_i, shared.of_i) && is_triangle(kind_j, shared.of_j));
+      return !(parts_i.edge_or_triangle[shared.set_i] && parts_j.edge_or_triangle[shared.set_j]);
     case 4:
-      return !are_same_quad(kind_i, kind_j, shared);
+      return !are_same_quad(parts_i.diagonal[shared.set_i], parts_j.diagonal[shared.set_j], shared);
     default:
       return true;
   }

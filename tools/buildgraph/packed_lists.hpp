@@ -38,6 +38,7 @@ class PackedLists {
   }
 
   void shrink_to_fit() { bytes_.shrink_to_fit(); }
+  std::size_t bytes() const { return bytes_.size(); }
 
  private:
   static constexpr std::uint32_t before_first = ~std::uint32_t{0};  // -1: unsigned numbers wrap around
