@@ -183,7 +183,13 @@ std::vector<Vec3> Lattice::collect() const {
 }  // namespace
 
 std::vector<Vec3> lattice_points(const Surface& surface, const LatticeOptions& options) {
-  return Lattice(surface, options).points_inside();
+  if (options.axes == LatticeOptions{}.axes) return Lattice(surface, options).points_inside();
+  const auto& [x, y, z] = options.axes;
+  Surface turned = surface;
+  for (Vec3& p : turned.points) p = {dot(p, x), dot(p, y), dot(p, z)};
+  std::vector<Vec3> points = Lattice(turned, options).points_inside();
+  for (Vec3& p : points) p = p.x * x + p.y * y + p.z * z;
+  return points;
 }
 
 }  // namespace hexpipe

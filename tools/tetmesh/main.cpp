@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
         ->check(number_between(1e-6, 1));
     app.add_option("--points", points,
                    "Points inside: best, frame (along a frame field that follows the surface), lattice (along the "
-                   "axes), none, or a file of your own (.xyz, .node, .npy, .ply)")
+                   "part's own axes), none, or a file of your own (.xyz, .node, .npy, .ply)")
         ->type_name("KIND|FILE");
     app.add_option("--clearance", options.clearance, "Least distance of points inside from the surface, in sizes")
         ->check(number_between(0.1, 10));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -17,10 +18,21 @@ constexpr double layers_default = 0.5;     // of the mean wall thickness: two la
 constexpr double shortest_default = 0.01;  // of the cube root of the volume
 constexpr double coarse_edge = 2.5, fine_edge = 0.4;
 constexpr double tolerated_share = 0.25;
+// Over a part of a triangle this long, in sizes, the size is taken to be that of its centre.
+constexpr double longest_part = 2;
 
 double area_of(const Surface& surface, const Triangle& t) {
   const Vec3& origin = surface.points[t[0]];
   return norm(cross(surface.points[t[1]] - origin, surface.points[t[2]] - origin)) / 2;
+}
+
+// Which side of a triangle is the longest.
+std::size_t longest_side(const std::array<Vec3, 3>& corners) {
+  std::size_t longest = 0;
+  for (std::size_t i = 1; i < 3; ++i)
+    if (norm_squared(corners[(i + 1) % 3] - corners[i]) > norm_squared(corners[(longest + 1) % 3] - corners[longest]))
+      longest = i;
+  return longest;
 }
 
 }  // namespace
@@ -55,6 +67,29 @@ double element_size(const Surface& surface, const std::optional<Length>& length,
   const double thickness = 2 * volume / area;
   const double longest = std::min(longest_default * bounding_box_diagonal(surface), layers_default * thickness);
   return std::max(triangles_stay ? std::min(spacing, longest) : longest, shortest_default * std::cbrt(volume));
+}
+
+double points_on_surface(const Surface& surface, const SizeField& size, double enough) {
+  double sum = 0;
+  std::vector<std::array<Vec3, 3>> parts;
+  for (const auto& [a, b, c] : surface.triangles) {
+    parts.assign(1, {surface.points[a], surface.points[b], surface.points[c]});
+    while (!parts.empty() && sum <= enough) {
+      const std::array<Vec3, 3> part = parts.back();
+      parts.pop_back();
+      const double here = size.at((part[0] + part[1] + part[2]) * (1.0 / 3));
+      const std::size_t i = longest_side(part);
+      const Vec3 &from = part[i], &to = part[(i + 1) % 3], &across = part[(i + 2) % 3];
+      if (size.is_uniform() || norm(to - from) <= longest_part * here) {
+        sum += norm(cross(to - from, across - from)) / 2 / here / here;
+        continue;
+      }
+      const Vec3 middle = 0.5 * (from + to);
+      parts.push_back({from, middle, across});
+      parts.push_back({middle, to, across});
+    }
+  }
+  return sum;
 }
 
 double points_expected(const Surface& surface, double size) {

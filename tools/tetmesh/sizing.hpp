@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "tools/tetmesh/shells.hpp"
+#include "tools/tetmesh/size_field.hpp"
 
 namespace hexpipe {
 
@@ -24,6 +25,10 @@ double bounding_box_diagonal(const SurfaceSoup& surface);
 // volume / area), and at least 1 % of the cube root of the volume. Where the surface's triangles stay as they are, also
 // at most the spacing of its vertices (the side of a square for each of them), which is the size that goes with them.
 double element_size(const Surface& surface, const std::optional<Length>& length, bool triangles_stay = true);
+
+// About how many points cover the surface at the distances of the field: its area in squares of the size there. Stops
+// where they come to more than `enough`.
+double points_on_surface(const Surface& surface, const SizeField& size, double enough);
 
 // About how many points fill the material at that distance: its volume in cubes of the size.
 double points_expected(const Surface& surface, double size);

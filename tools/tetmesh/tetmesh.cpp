@@ -7,6 +7,7 @@
 #include "common/run/error.hpp"
 #include "tools/tetmesh/build_mesh.hpp"
 #include "tools/tetmesh/mesh_shape.hpp"
+#include "tools/tetmesh/part_axes.hpp"
 #include "tools/tetmesh/run_tetgen.hpp"
 #include "tools/tetmesh/surface_check.hpp"
 #include "tools/tetmesh/volume/frame_points.hpp"
@@ -51,8 +52,11 @@ std::vector<Vec3> place_points(const Surface& surface, const TetmeshOptions& opt
     if (given.complaint) result.warning = given.complaint;
     return given.points;
   }
-  return lattice_points(surface,
-                        {size, options.clearance, options.jitter.value_or(LatticeOptions{}.jitter), options.seed});
+  return lattice_points(surface, {.size = size,
+                                  .clearance = options.clearance,
+                                  .jitter = options.jitter.value_or(LatticeOptions{}.jitter),
+                                  .seed = options.seed,
+                                  .axes = axes_of_part(surface)});
 }
 
 void describe(const Surface& surface, TetmeshStatistics& statistics) {

@@ -38,10 +38,13 @@ Complex fourth_power(Complex z) {
 
 class FieldSolver {
  public:
-  FieldSolver(const FieldSurface& surface, double size) : surface_(surface), size_(size) {
+  FieldSolver(const FieldSurface& surface, const SizeField& size) : surface_(surface) {
     const auto count = static_cast<std::int32_t>(surface.triangles.size());
     frames_.reserve(surface.triangles.size());
     for (std::int32_t f = 0; f < count; ++f) frames_.emplace_back(surface, f);
+    sizes_.reserve(surface.triangles.size());
+    for (const auto& [a, b, c] : surface.triangles)
+      sizes_.push_back(size.at((surface.points[a] + surface.points[b] + surface.points[c]) * (1.0 / 3)));
     edges_.reserve(3 * surface.triangles.size());
     for (HalfEdge h = 0; h < 3 * count; ++h)
       edges_.push_back(angle_of(frames_[triangle_of(h)], surface.edge_vector(h)));
@@ -66,7 +69,7 @@ class FieldSolver {
   Complex turn(HalfEdge h) const { return -edges_[surface_.twins[h]] / edges_[h]; }
 
   const FieldSurface& surface_;
-  double size_;
+  std::vector<double> sizes_;  // of triangles
   std::vector<TangentFrame> frames_;
   std::vector<Complex> edges_;  // exp(i angle) of each half-edge in its triangle's frame
 };
@@ -110,16 +113,16 @@ std::vector<Complex> FieldSolver::solve_system() const {
   };
   const std::vector<Complex> bend = curvature();
   for (std::int32_t f = 0; f < count; ++f) {
-    const double strength = std::abs(bend[f]), turned = std::min(1.0, strength * size_);
+    const double strength = std::abs(bend[f]), turned = std::min(1.0, strength * sizes_[f]);
     const Complex direction = strength > 0 ? bend[f] / strength : Complex(1);
-    const double weight = curvature_weight * surface_.areas[f] / (size_ * size_) * turned * turned;
+    const double weight = curvature_weight * surface_.areas[f] / (sizes_[f] * sizes_[f]) * turned * turned;
     pull(f, weight + least_weight, direction * direction);
   }
   for (HalfEdge h = 0; h < 3 * count; ++h) {
     const std::int32_t f = triangle_of(h), g = triangle_of(surface_.twins[h]);
     const double squared_length = norm_squared(surface_.edge_vector(h));
     if (surface_.feature[h]) {
-      pull(f, feature_weight * std::sqrt(squared_length) / size_, fourth_power(edges_[h]));
+      pull(f, feature_weight * std::sqrt(squared_length) / sizes_[f], fourth_power(edges_[h]));
       continue;
     }
     const double weight = 1.5 * squared_length / (surface_.areas[f] + surface_.areas[g]);
@@ -136,7 +139,7 @@ std::vector<Complex> FieldSolver::solve_system() const {
 
 }  // namespace
 
-CrossField cross_field(const FieldSurface& surface, double size) {
+CrossField cross_field(const FieldSurface& surface, const SizeField& size) {
   return FieldSolver(surface, size).solve();
 }
 

@@ -2,6 +2,7 @@
 // A 4-fold cross field on a surface: four directions at right angles in every triangle, along the feature curves and,
 // where the surface bends, along its principal curvatures, as smooth as that allows.
 
+#include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/surface/field_surface.hpp"
 
 namespace hexpipe {
@@ -12,6 +13,6 @@ struct CrossField {
 };
 
 // `size` is the distance over which a full bend counts as much as smoothness.
-CrossField cross_field(const FieldSurface& surface, double size);
+CrossField cross_field(const FieldSurface& surface, const SizeField& size);
 
 }  // namespace hexpipe

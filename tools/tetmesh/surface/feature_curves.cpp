@@ -12,6 +12,8 @@ using Vertex = OpenMesh::VertexHandle;
 constexpr double snapping = 1e-3;
 // Steps are added for the deviation up to this many times the steps of the size.
 constexpr int most_refinement = 16;
+// Where sizes differ, lengths are measured in so many parts a size.
+constexpr double parts_a_size = 4, most_parts = 1e5;
 
 class CurveFinder {
  public:
@@ -58,17 +60,20 @@ class CurveFinder {
   std::vector<FeatureCurve> curves_;
 };
 
-// A curve by arc length.
-class ArcLength {
+// A curve by its length in sizes.
+class CurveLength {
  public:
-  explicit ArcLength(std::vector<Vec3> points) : points_(std::move(points)), lengths_(1, 0.0) {
-    for (std::size_t i = 1; i < points_.size(); ++i)
-      lengths_.push_back(lengths_.back() + norm(points_[i] - points_[i - 1]));
+  CurveLength(const std::vector<Vec3>& curve, const SizeField& size)
+      : points_(1, curve.front()), lengths_(1, 0.0), vertices_(1, 0) {
+    for (std::size_t i = 1; i < curve.size(); ++i) {
+      add_segment(curve[i - 1], curve[i], size);
+      vertices_.push_back(points_.size() - 1);
+    }
   }
 
   double length() const { return lengths_.back(); }
-  std::size_t segments() const { return points_.size() - 1; }
-  double start_of(std::size_t segment) const { return lengths_[segment]; }
+  std::size_t segments() const { return vertices_.size() - 1; }
+  double start_of(std::size_t segment) const { return lengths_[vertices_[segment]]; }
 
   Vec3 at(double s) const {
     const auto after = std::upper_bound(lengths_.begin() + 1, lengths_.end() - 1, s) - lengths_.begin();
@@ -77,22 +82,36 @@ class ArcLength {
     return points_[i - 1] + t * (points_[i] - points_[i - 1]);
   }
 
-  // The greatest distance of the curve from `count` chords of even length along it, from `start` on.
-  double bend(int count) const {
+  // Whether `count` chords of even length leave the curve by more than the deviation.
+  bool is_bent(int count, const SizeField& deviation) const {
     const double step = length() / count;
-    double most = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const double k = std::min(std::floor(lengths_[i] / step), count - 1.0);
       const Vec3 from = at(k * step), along = at((k + 1) * step) - from, p = points_[i] - from;
       const double t = std::clamp(dot(p, along) / std::max(norm_squared(along), 1e-300), 0.0, 1.0);
-      most = std::max(most, norm_squared(p - t * along));
+      const double most = deviation.at(points_[i]);
+      if (norm_squared(p - t * along) > most * most) return true;
     }
-    return std::sqrt(most);
+    return false;
   }
 
  private:
+  // In parts over which the size hardly changes.
+  void add_segment(const Vec3& from, const Vec3& to, const SizeField& size) {
+    const double length = norm(to - from);
+    const int parts =
+        size.least() < size.greatest() ? parts_of(length / size.least_near(0.5 * (from + to), length)) : 1;
+    for (int i = 1; i <= parts; ++i) {
+      const Vec3 start = points_.back();
+      points_.push_back(i == parts ? to : from + (static_cast<double>(i) / parts) * (to - from));
+      lengths_.push_back(lengths_.back() + norm(points_.back() - start) / size.at(0.5 * (start + points_.back())));
+    }
+  }
+  static int parts_of(double sizes) { return static_cast<int>(std::clamp(parts_a_size * sizes, 1.0, most_parts)); }
+
   std::vector<Vec3> points_;
-  std::vector<double> lengths_;
+  std::vector<double> lengths_;        // up to each point
+  std::vector<std::size_t> vertices_;  // those of the points that are vertices of the curve
 };
 
 // Where loops that are copies of each other, like the rims of a hole, start at the same angle, and where their four
@@ -109,11 +128,12 @@ Vec3 start_direction(const std::vector<Vec3>& loop) {
 
 class CurveSampler {
  public:
-  CurveSampler(FeatureMesh& mesh, double size, double deviation) : mesh_(mesh), size_(size), deviation_(deviation) {}
+  CurveSampler(FeatureMesh& mesh, const SizeField& size, const SizeField& deviation)
+      : mesh_(mesh), size_(size), deviation_(deviation) {}
 
   void sample(FeatureCurve curve) {
     if (curve.closed) turn_to_start(curve);
-    const ArcLength arc(positions(curve));
+    const CurveLength arc(positions(curve), size_);
     const int count = step_count(arc, curve.closed);
     if (curve.closed) mesh_.keep(curve.vertices.front());
     const double step = arc.length() / count;
@@ -144,13 +164,13 @@ class CurveSampler {
     return v;
   }
 
-  int step_count(const ArcLength& arc, bool closed) const {
+  int step_count(const CurveLength& arc, bool closed) const {
     const int least = closed ? 4 : 1;
-    const double wanted = std::round(arc.length() / size_);
+    const double wanted = std::round(arc.length());
     int count = std::max(least, static_cast<int>(wanted));
-    if (closed && count > 4) count = 2 * static_cast<int>(std::round(arc.length() / size_ / 2));
+    if (closed && count > 4) count = 2 * static_cast<int>(std::round(arc.length() / 2));
     const int most = most_refinement * count;
-    while (count < most && arc.bend(count) > deviation_) count += closed ? 2 : 1;
+    while (count < most && arc.is_bent(count, deviation_)) count += closed ? 2 : 1;
     return count;
   }
 
@@ -168,7 +188,7 @@ class CurveSampler {
   }
 
   FeatureMesh& mesh_;
-  double size_, deviation_;
+  const SizeField &size_, &deviation_;
 };
 
 }  // namespace
@@ -177,7 +197,7 @@ std::vector<FeatureCurve> feature_curves(const FeatureMesh& mesh) {
   return CurveFinder(mesh).find();
 }
 
-void sample_feature_curves(FeatureMesh& mesh, double size, double deviation) {
+void sample_feature_curves(FeatureMesh& mesh, const SizeField& size, const SizeField& deviation) {
   CurveSampler sampler(mesh, size, deviation);
   for (FeatureCurve& curve : feature_curves(mesh)) sampler.sample(std::move(curve));
 }

@@ -2,6 +2,7 @@
 // Feature curves, and vertices set evenly along them: the segments between corners, and closed loops, get a whole
 // number of steps of about the size.
 
+#include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 
 namespace hexpipe {
@@ -16,6 +17,6 @@ std::vector<FeatureCurve> feature_curves(const FeatureMesh& mesh);
 
 // Splits feature edges where a step ends and keeps these vertices. A curve bends away from its chords by at most
 // `deviation`, for which it gets more steps where needed.
-void sample_feature_curves(FeatureMesh& mesh, double size, double deviation);
+void sample_feature_curves(FeatureMesh& mesh, const SizeField& size, const SizeField& deviation);
 
 }  // namespace hexpipe

@@ -8,21 +8,22 @@ namespace {
 
 class PointInserter {
  public:
-  PointInserter(FeatureMesh& mesh, double snap) : mesh_(mesh), snap_(snap), cut_from_(mesh.n_faces()) {
+  PointInserter(FeatureMesh& mesh, const SizeField& snap) : mesh_(mesh), snap_(snap), cut_from_(mesh.n_faces()) {
     for (std::size_t f = 0; f < cut_from_.size(); ++f) cut_from_[f] = static_cast<std::int32_t>(f);
   }
 
   void insert(const SurfacePoint& point) {
     const Vec3& p = point.position;
+    const double snap = snap_.at(p);
     const auto face = part_around(point);
     for (const auto v : mesh_.corners(face))
-      if (norm(mesh_.position(v) - p) < snap_) return mesh_.keep(v);
+      if (norm(mesh_.position(v) - p) < snap) return mesh_.keep(v);
     const auto nearest = nearest_edge(face, p);
     const auto from = mesh_.position(mesh_.from_vertex_handle(nearest)),
                to = mesh_.position(mesh_.to_vertex_handle(nearest));
     const double t = dot(p - from, to - from) / norm_squared(to - from);
     const Vec3 foot = from + t * (to - from);
-    if (norm(foot - p) >= snap_) {
+    if (norm(foot - p) >= snap) {
       const auto v = mesh_.split_face_at(face, p);
       mesh_.keep(v);
       inherit(v, cut_from_[face.idx()]);
@@ -98,14 +99,14 @@ class PointInserter {
   }
 
   FeatureMesh& mesh_;
-  double snap_;
+  const SizeField& snap_;
   std::vector<std::int32_t> cut_from_;  // of each face, the one that it is part of, as it was at the start
   std::vector<Face> parts_;
 };
 
 }  // namespace
 
-void insert_points(FeatureMesh& mesh, std::span<const SurfacePoint> points, double snap) {
+void insert_points(FeatureMesh& mesh, std::span<const SurfacePoint> points, const SizeField& snap) {
   PointInserter inserter(mesh, snap);
   for (const SurfacePoint& point : points) inserter.insert(point);
 }

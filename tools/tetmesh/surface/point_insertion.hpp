@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
 
@@ -10,6 +11,6 @@ namespace hexpipe {
 
 // Points name the faces of the mesh as it is now. Each becomes a kept vertex; one nearer than `snap` to a vertex or an
 // edge is moved there.
-void insert_points(FeatureMesh& mesh, std::span<const SurfacePoint> points, double snap);
+void insert_points(FeatureMesh& mesh, std::span<const SurfacePoint> points, const SizeField& snap);
 
 }  // namespace hexpipe

@@ -1,12 +1,13 @@
 #pragma once
 // Makes a surface's triangles fit to carry a field, without moving it: flips edges that are flat, halves long ones.
 
+#include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 
 namespace hexpipe {
 
 // Flips edges towards Delaunay where the surface bends by less than `flatness` there, then halves edges, longest first,
 // until none is longer than `longest`. New vertices are removable.
-void refine_surface(FeatureMesh& mesh, double longest, double flatness);
+void refine_surface(FeatureMesh& mesh, const SizeField& longest, const SizeField& flatness);
 
 }  // namespace hexpipe

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "tools/tetmesh/exact_geometry.hpp"
+#include "tools/tetmesh/sizing.hpp"
 #include "tools/tetmesh/surface/feature_curves.hpp"
 #include "tools/tetmesh/surface/point_insertion.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
@@ -45,13 +46,13 @@ class SurfaceRemesher {
         input_(surface.points, surface.triangles) {}
 
   RemeshResult run() {
-    if (points_wanted() > most_points) {
+    if (points_on_surface(surface_, size_, most_points) > most_points) {
       result_.failure = "its size asks for more points than memory holds";
       return std::move(result_);
     }
     prepare();
-    double reach = repair_reach * size_;
-    for (; result_.attempts < most_attempts; reach *= 2) {
+    SizeField reach = repair_reach * size_;
+    for (; result_.attempts < most_attempts; reach = 2 * reach) {
       ++result_.attempts;
       remove_vertices_of_input();
       const std::vector<Vec3> faults = find_faults();
@@ -63,28 +64,20 @@ class SurfaceRemesher {
   }
 
  private:
-  double points_wanted() const;
   void prepare();
   void remove_vertices_of_input();
   std::vector<Vec3> find_faults();
-  void keep_around(const std::vector<Vec3>& places, double reach);
+  void keep_around(const std::vector<Vec3>& places, const SizeField& reach);
   std::vector<Vertex> kept_vertices() const;
   void set_soup(const FeatureMesh& mesh);
   Vec3 centre_of(std::size_t triangle) const;
 
   const Surface& surface_;
-  double size_, deviation_;
+  SizeField size_, deviation_;
   FeatureMesh prepared_;  // with all points inserted, and the vertices of the input
   DistanceIndex input_;
   RemeshResult result_;
 };
-
-double SurfaceRemesher::points_wanted() const {
-  double area = 0;
-  for (const auto& [a, b, c] : surface_.triangles)
-    area += norm(cross(surface_.points[b] - surface_.points[a], surface_.points[c] - surface_.points[a])) / 2;
-  return area / (size_ * size_);
-}
 
 void SurfaceRemesher::prepare() {
   sample_feature_curves(prepared_, size_, deviation_);
@@ -92,7 +85,7 @@ void SurfaceRemesher::prepare() {
   const std::vector<Vertex> kept = kept_vertices();
   const FieldSurface field_surface(prepared_);
   const CrossField field = cross_field(field_surface, size_);
-  const std::vector<SurfacePoint> points = surface_front(field_surface, field, kept, size_);
+  const std::vector<SurfacePoint> points = surface_front(field_surface, field, kept, size_.greatest());
   insert_points(prepared_, points, snap * size_);
   result_.feature_points = kept.size();
   result_.front_points = points.size();
@@ -155,7 +148,7 @@ std::vector<Vec3> SurfaceRemesher::find_faults() {
   result_.failure = "the new surface intersects itself";
   if (!faults.empty()) return faults;
 
-  const double spacing = sample_spacing * size_, limit = deviation_ * (1 + 1e-9);
+  const double spacing = sample_spacing * size_.greatest(), limit = deviation_.greatest() * (1 + 1e-9);
   const DistanceIndex output(soup.points, soup.triangles);
   SurfaceDistance there = one_sided_distance(soup.points, soup.triangles, input_, spacing, limit);
   const SurfaceDistance back = one_sided_distance(surface_.points, surface_.triangles, output, spacing, limit);
@@ -167,12 +160,13 @@ std::vector<Vec3> SurfaceRemesher::find_faults() {
   return faults;
 }
 
-void SurfaceRemesher::keep_around(const std::vector<Vec3>& places, double reach) {
-  SurfacePointGrid grid(reach);
+void SurfaceRemesher::keep_around(const std::vector<Vec3>& places, const SizeField& reach) {
+  SurfacePointGrid grid(reach.greatest());
   for (const Vec3& p : places) grid.add(p);
   for (const auto v : prepared_.vertices()) {
     const Vec3 p = prepared_.position(v);
-    if (!grid.none_near(p, [&](std::int32_t, const Vec3& place) { return norm_squared(p - place) <= reach * reach; }))
+    const double here = reach.at(p);
+    if (!grid.none_near(p, [&](std::int32_t, const Vec3& place) { return norm_squared(p - place) <= here * here; }))
       prepared_.keep(v);
   }
 }

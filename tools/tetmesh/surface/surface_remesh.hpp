@@ -5,11 +5,12 @@
 #include <string>
 
 #include "tools/tetmesh/shells.hpp"
+#include "tools/tetmesh/size_field.hpp"
 
 namespace hexpipe {
 
 struct RemeshOptions {
-  double size = 1;            // distance of the points
+  SizeField size = 1;         // distance of the points
   double feature_angle = 40;  // degrees
   double deviation = 0.15;    // of either surface from the other, at the most, in sizes
 };

@@ -48,8 +48,8 @@ struct Change {
 
 class VertexRemover {
  public:
-  VertexRemover(FeatureMesh& mesh, double deviation)
-      : mesh_(mesh), most_(deviation * deviation), strays_(mesh.n_faces()) {
+  VertexRemover(FeatureMesh& mesh, const SizeField& deviation)
+      : mesh_(mesh), deviation_(deviation), strays_(mesh.n_faces()) {
     for (const Edge e : mesh.edges()) add_samples(e);
   }
 
@@ -90,7 +90,7 @@ class VertexRemover {
   bool allow_flip(Edge e, const EdgeDiamond& diamond);
 
   FeatureMesh& mesh_;
-  double most_;                            // squared distance
+  const SizeField& deviation_;
   std::vector<std::vector<Vec3>> strays_;  // of each face
   std::vector<Choice> choices_;
   Change change_;
@@ -101,7 +101,7 @@ class VertexRemover {
 void VertexRemover::add_samples(Edge e) {
   const EdgeDiamond diamond(mesh_, e);
   const double height = diamond.height(), length = norm(diamond.end_points[1] - diamond.end_points[0]);
-  const double deviation = std::sqrt(most_);
+  const double deviation = deviation_.at(diamond.end_points[0]);
   if (height < least_bend * deviation) return;
   const Face f = mesh_.face_handle(mesh_.halfedge_handle(e, 0));
   const double parts = std::ceil(length / (sample_spacing * deviation));
@@ -183,7 +183,8 @@ bool VertexRemover::strays_fit() {
         least = d;
         nearest = i;
       }
-    if (!(least <= most_)) return false;
+    const double most = deviation_.at(p);
+    if (!(least <= most * most)) return false;
     change_.target.push_back(nearest);
   }
   return true;
@@ -202,7 +203,7 @@ void VertexRemover::flip_queued() {
 }
 
 bool VertexRemover::allow_flip(Edge e, const EdgeDiamond& diamond) {
-  if (const double height = diamond.height(); height * height > most_) return false;
+  if (diamond.height() > deviation_.at(diamond.end_points[0])) return false;
   const Face left = mesh_.face_handle(mesh_.halfedge_handle(e, 0)),
              right = mesh_.face_handle(mesh_.halfedge_handle(e, 1));
   change_.strays = strays_[left.idx()];
@@ -216,7 +217,7 @@ bool VertexRemover::allow_flip(Edge e, const EdgeDiamond& diamond) {
 
 }  // namespace
 
-std::size_t remove_vertices(FeatureMesh& mesh, double deviation) {
+std::size_t remove_vertices(FeatureMesh& mesh, const SizeField& deviation) {
   VertexRemover remover(mesh, deviation);
   const std::size_t left = remover.run();
   remover.flip_all();

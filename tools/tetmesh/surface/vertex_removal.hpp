@@ -1,6 +1,7 @@
 #pragma once
 // Takes the removable vertices out of a surface mesh, by collapses and flips that keep it near to where it was.
 
+#include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 
 namespace hexpipe {
@@ -8,6 +9,6 @@ namespace hexpipe {
 // Feature curves stay where they are but for their removed vertices, no face turns over, and every removed vertex stays
 // within `deviation` of the faces that took its place. What cannot be removed so stays. Returns how many stayed. The
 // mesh's deleted elements are left in it.
-std::size_t remove_vertices(FeatureMesh& mesh, double deviation);
+std::size_t remove_vertices(FeatureMesh& mesh, const SizeField& deviation);
 
 }  // namespace hexpipe

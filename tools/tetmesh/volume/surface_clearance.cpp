@@ -19,10 +19,10 @@ double mean_spacing(const Surface& surface) {
 
 }  // namespace
 
-SurfaceClearance::SurfaceClearance(const Surface& surface, double clearance)
+SurfaceClearance::SurfaceClearance(const Surface& surface, const SizeField& clearance)
     : surface_(surface),
       clearance_(clearance),
-      width_(std::max(clearance, mean_spacing(surface))),
+      width_(std::max(clearance.greatest(), mean_spacing(surface))),
       low_(surface.points.front()),
       columns_(surface.points, surface.triangles) {
   for (const Vec3& p : surface.points) low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
@@ -41,7 +41,8 @@ void SurfaceClearance::file(std::int32_t triangle) {
   const Triangle& t = surface_.triangles[triangle];
   const Vec3 &a = surface_.points[t[0]], &b = surface_.points[t[1]], &c = surface_.points[t[2]];
   const Vec3 area = cross(b - a, c - a), normal = area * (1 / norm(area));
-  const Vec3 reach{clearance_, clearance_, clearance_};
+  const double greatest = clearance_.greatest();
+  const Vec3 reach{greatest, greatest, greatest};
   const GridCell low =
       cell_of(Vec3{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})} - reach);
   const GridCell high =
@@ -54,7 +55,7 @@ void SurfaceClearance::file(std::int32_t triangle) {
         const Vec3 in_cells{static_cast<double>(i[0]) + 0.5, static_cast<double>(i[1]) + 0.5,
                             static_cast<double>(i[2]) + 0.5};
         const double height = std::abs(dot(normal, low_ + width_ * in_cells - a));
-        if (height <= clearance_ + half_cell) entries_.emplace_back(cell_key(i), triangle);
+        if (height <= greatest + half_cell) entries_.emplace_back(cell_key(i), triangle);
       }
 }
 
@@ -62,10 +63,11 @@ bool SurfaceClearance::is_clear(const Vec3& p) const {
   const std::uint64_t key = cell_key(cell_of(p));
   const auto found = first_.find(key);
   if (found == first_.end()) return true;
+  const double least = clearance_.at(p);
   for (std::size_t e = found->second; e < entries_.size() && entries_[e].first == key; ++e) {
     const Triangle& t = surface_.triangles[entries_[e].second];
     const TriangleDistance distance(surface_.points[t[0]], surface_.points[t[1]], surface_.points[t[2]]);
-    if (distance.squared(p) < clearance_ * clearance_) return false;
+    if (distance.squared(p) < least * least) return false;
   }
   return true;
 }

@@ -9,6 +9,7 @@
 
 #include "tools/tetmesh/column_index.hpp"
 #include "tools/tetmesh/shells.hpp"
+#include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/volume/cell_key.hpp"
 
 namespace hexpipe {
@@ -16,7 +17,7 @@ namespace hexpipe {
 class SurfaceClearance {
  public:
   // The surface must outlive it.
-  SurfaceClearance(const Surface& surface, double clearance);
+  SurfaceClearance(const Surface& surface, const SizeField& clearance);
 
   // No triangle is nearer than the clearance.
   bool is_clear(const Vec3& p) const;
@@ -30,7 +31,7 @@ class SurfaceClearance {
   void file(std::int32_t triangle);
 
   const Surface& surface_;
-  double clearance_;
+  SizeField clearance_;
   double width_;  // of the grid's cells
   Vec3 low_;
   ColumnIndex columns_;

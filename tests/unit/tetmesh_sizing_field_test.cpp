@@ -1,0 +1,167 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/run/random.hpp"
+#include "tetmesh_surfaces.hpp"
+#include "tools/tetmesh/box_tree.hpp"
+#include "tools/tetmesh/size_field.hpp"
+#include "tools/tetmesh/sized_point_grid.hpp"
+#include "tools/tetmesh/sizing.hpp"
+
+namespace hexpipe {
+namespace {
+
+using testing::cube;
+using testing::surface_of;
+
+Vec3 random_point(Random& random, double reach = 1) {
+  const double x = random.uniform(-reach, reach), y = random.uniform(-reach, reach);
+  return {x, y, random.uniform(-reach, reach)};
+}
+
+// Simplices of 1 to 4 corners with sizes from 0.1 to 1.
+SizeSources random_sources(std::uint64_t seed, int count) {
+  Random random(seed);
+  SizeSources sources;
+  for (int i = 0; i < count; ++i) {
+    std::array<Vertex, 4> simplex{SizeSources::none, SizeSources::none, SizeSources::none, SizeSources::none};
+    const Vec3 place = random_point(random, 4);
+    for (int k = 0; k <= i % 4; ++k) {
+      simplex[static_cast<std::size_t>(k)] = static_cast<Vertex>(sources.points.size());
+      sources.points.push_back(place + random_point(random));
+      sources.sizes.push_back(random.uniform(0.1, 1));
+    }
+    sources.simplices.push_back(simplex);
+  }
+  return sources;
+}
+
+// By samples of every simplex; too large by what lies between the samples.
+double sampled(const SizeSources& sources, const Vec3& p, double greatest, double grading) {
+  constexpr int n = 12;
+  double least = greatest;
+  for (const auto& simplex : sources.simplices)
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; i + j <= n; ++j)
+        for (int k = 0; i + j + k <= n; ++k) {
+          const std::array<int, 4> weights{n - i - j - k, i, j, k};
+          Vec3 y;
+          double size = 0;
+          bool is_there = true;
+          for (std::size_t c = 0; c < 4; ++c) {
+            if (weights[c] == 0) continue;
+            is_there = is_there && simplex[c] != SizeSources::none;
+            if (!is_there) break;
+            y += (1.0 / n * weights[c]) * sources.points[simplex[c]];
+            size += 1.0 / n * weights[c] * sources.sizes[simplex[c]];
+          }
+          if (is_there) least = std::min(least, size + grading * norm(p - y));
+        }
+  return least;
+}
+
+TEST(SizeField, IsALengthWhereNothingElseIsKnown) {
+  const SizeField field = 0.25;
+  EXPECT_TRUE(field.is_uniform());
+  EXPECT_EQ(field.at({1, 2, 3}), 0.25);
+  EXPECT_EQ((4 * field).at({1, 2, 3}), 1);
+  EXPECT_EQ((4 * field).least_near({1, 2, 3}, 9), 1);
+  EXPECT_TRUE(SizeField(random_sources(1, 8), 0.05, 0.3).is_uniform());
+}
+
+TEST(SizeField, IsTheGreatestThatGrowsNoFaster) {
+  for (const double grading : {0.1, 0.4, 2.0}) {
+    const SizeSources sources = random_sources(7, 24);
+    const SizeField field(sources, 0.9, grading);
+    Random random(3);
+    for (int i = 0; i < 60; ++i) {
+      const Vec3 p = random_point(random, 5);
+      const double expected = sampled(sources, p, 0.9, grading);
+      EXPECT_LE(field.at(p), expected + 1e-12);
+      EXPECT_GE(field.at(p), expected - (grading + 1) * 0.15);
+      const Vec3 q = p + random_point(random, 0.3);
+      EXPECT_LE(std::abs(field.at(p) - field.at(q)), grading * norm(p - q) + 1e-12);
+      EXPECT_GE(field.at(q), field.least_near(p, norm(p - q)) - 1e-12);
+    }
+  }
+}
+
+TEST(SizeField, IsLinearWhereSizesChangeSlowly) {
+  SizeSources sources;
+  sources.points = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
+  sources.sizes = {1, 1.2, 1.4, 1.1};
+  sources.simplices = {{0, 1, 2, 3}};
+  const SizeField field(sources, 10, 0.5);
+  EXPECT_NEAR(field.at({0.4, 0.5, 0.6}), 1 + 0.1 * 0.4 + 0.2 * 0.5 + 0.05 * 0.6, 1e-12);
+  EXPECT_NEAR(field.at({-1, -1, -1}), 1 + 0.5 * std::sqrt(3), 1e-12);  // from a corner
+  EXPECT_EQ(field.at({100, 0, 0}), 10);
+  EXPECT_EQ(field.least(), 1);
+  EXPECT_EQ((2 * field).greatest(), 20);
+}
+
+TEST(SizeField, TakesFlatSimplicesForTheirCorners) {
+  SizeSources sources;
+  sources.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 0, 0}};
+  sources.sizes = {1, 1, 1, 0.5};
+  sources.simplices = {{0, 1, 2, 3}};
+  const SizeField field(sources, 10, 1);
+  EXPECT_NEAR(field.at({1, 0, 0}), 0.5, 1e-12);
+  EXPECT_NEAR(field.at({1, 3, 0}), 3.5, 1e-12);
+}
+
+TEST(BoxTree, FindsTheFirstHitOfARay) {
+  Random random(5);
+  std::vector<Box> boxes;
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 low = random_point(random, 5);
+    boxes.push_back({low, low + Vec3{0.3, 0.4, 0.5}});
+  }
+  const BoxTree tree(boxes, std::vector<double>(boxes.size(), 0.0));
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 from = random_point(random, 5), direction = i % 3 == 0 ? Vec3{0, 1, 0} : random_point(random);
+    const Vec3 inverse{1 / direction.x, 1 / direction.y, 1 / direction.z};
+    const auto entry = [&](std::size_t k) { return boxes[k].entry(from, inverse); };
+    double least = 100;
+    for (std::size_t k = 0; k < boxes.size(); ++k) least = std::min(least, entry(k));
+    EXPECT_EQ(tree.first_hit(from, direction, 100, [&](std::int32_t k) { return entry(static_cast<std::size_t>(k)); }),
+              least);
+  }
+}
+
+TEST(SizedPointGrid, FindsAllNear) {
+  Random random(11);
+  SizedPointGrid grid({-5, -5, -5});
+  std::vector<double> lengths;
+  for (int i = 0; i < 500; ++i) {
+    lengths.push_back(std::exp(random.uniform(-4, 0)));
+    EXPECT_EQ(grid.add(random_point(random, 2), lengths.back()), i);
+  }
+  for (int i = 0; i < 50; ++i) {
+    const Vec3 p = random_point(random, 2);
+    const double reach = random.uniform(0.05, 0.6);
+    std::vector<bool> seen(500);
+    grid.for_each_near(p, reach, 0.1, [&](std::int32_t k) { return seen[static_cast<std::size_t>(k)] = true; });
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      const Vec3 d = grid.points()[k] - p;
+      const bool is_near = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= reach;
+      EXPECT_TRUE(seen[k] || !is_near || lengths[k] < 0.1);
+    }
+  }
+}
+
+TEST(Sizing, CountsPointsOnASurfaceOfManySizes) {
+  const Surface surface = surface_of(cube(0, 4));
+  EXPECT_NEAR(points_on_surface(surface, 0.1, 1e9), 6 * 1600, 1e-6);
+  SizeSources sources;
+  sources.points = {{0, 0, 0}};
+  sources.sizes = {0.02};
+  sources.simplices = {{0, SizeSources::none, SizeSources::none, SizeSources::none}};
+  const double many = points_on_surface(surface, SizeField(sources, 1, 0.2), 1e9);
+  // Around the corner, three quarter circles: of r dr over (0.02 + 0.2 r) squared, and the rest of the size of 0.82 and
+  // more.
+  EXPECT_NEAR(many, 3 * std::numbers::pi / 2 * (std::log(1 + 0.2 * 4 / 0.02) - 1 + 0.02 / 0.82) / 0.04, 0.2 * many);
+  EXPECT_LT(points_on_surface(surface, 1e-3, 100), 1e9);
+}
+
+}  // namespace
+}  // namespace hexpipe

@@ -1,0 +1,99 @@
+#pragma once
+// Things in a tree of boxes, to find the one with the least of what grows with the distance from it.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "common/mesh/vec3.hpp"
+
+namespace hexpipe {
+
+struct Box {
+  Vec3 low, high;
+
+  static Box around(std::span<const Vec3> points) {
+    Box box{points.front(), points.front()};
+    for (const Vec3& p : points) box.add({p, p});
+    return box;
+  }
+  void add(const Box& other) {
+    low = {std::min(low.x, other.low.x), std::min(low.y, other.low.y), std::min(low.z, other.low.z)};
+    high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y), std::max(high.z, other.high.z)};
+  }
+  Vec3 centre() const { return 0.5 * (low + high); }
+  double distance(const Vec3& p) const {
+    const auto outside = [](double x, double from, double to) { return std::max({from - x, x - to, 0.0}); };
+    return norm(Vec3{outside(p.x, low.x, high.x), outside(p.y, low.y, high.y), outside(p.z, low.z, high.z)});
+  }
+  // Where a ray enters the box, in lengths of its direction, of which `inverse` has the inverse numbers; infinite where
+  // it misses it.
+  double entry(const Vec3& from, const Vec3& inverse) const;
+};
+
+class BoxTree {
+ public:
+  // A thing's number is that of its box. `values`, one each, are lower bounds of what least() looks for.
+  BoxTree(std::span<const Box> boxes, std::span<const double> values);
+
+  // The least of value_of(thing) over the things, or `most` if none is below. It must not be less than the thing's
+  // value plus `slope` times the distance of p from its box.
+  template <class ValueOf>
+  double least(const Vec3& p, double slope, double most, ValueOf&& value_of) const {
+    return search(most, value_of, [&](const Node& node) { return node.value + slope * node.box.distance(p); });
+  }
+
+  // The least of length_to(thing) over the things whose boxes the ray meets, or `most` if none is below.
+  template <class LengthTo>
+  double first_hit(const Vec3& from, const Vec3& direction, double most, LengthTo&& length_to) const {
+    const Vec3 inverse{1 / direction.x, 1 / direction.y, 1 / direction.z};
+    return search(most, length_to, [&](const Node& node) { return node.box.entry(from, inverse); });
+  }
+
+ private:
+  struct Node {
+    Box box;
+    double value;
+    // Of a leaf, where its things begin and how many there are; else 0 and where its second child is. The first one
+    // follows it.
+    std::int32_t count, first;
+  };
+  struct Pending {
+    double bound;
+    std::int32_t node;
+  };
+  static constexpr std::int32_t most_in_leaf = 4;
+  static constexpr std::size_t most_pending = 128;  // halves of 2^31 things, twice
+
+  std::int32_t build(std::span<const Box> boxes, std::span<const double> values, std::span<std::int32_t> things);
+
+  template <class ValueOf, class Bound>
+  double search(double best, ValueOf&& value_of, Bound&& bound) const {
+    std::array<Pending, most_pending> stack;
+    std::size_t depth = 0;
+    if (!nodes_.empty()) stack[depth++] = {bound(nodes_[0]), 0};
+    while (depth > 0) {
+      const Pending next = stack[--depth];
+      if (!(next.bound < best)) continue;
+      const Node& node = nodes_[next.node];
+      if (node.count > 0) {
+        for (std::int32_t i = node.first; i < node.first + node.count; ++i) best = std::min(best, value_of(things_[i]));
+        continue;
+      }
+      Pending near{bound(nodes_[next.node + 1]), next.node + 1}, far{bound(nodes_[node.first]), node.first};
+      if (far.bound < near.bound) std::swap(near, far);
+      stack[depth++] = far;
+      stack[depth++] = near;
+    }
+    return best;
+  }
+
+  std::vector<Node> nodes_;
+  std::vector<std::int32_t> things_;  // by leaf
+};
+
+}  // namespace hexpipe

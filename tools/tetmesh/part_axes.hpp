@@ -1,0 +1,15 @@
+#pragma once
+// Three axes at right angles along which most of a part's flat faces lie.
+
+#include <array>
+
+#include "tools/tetmesh/shells.hpp"
+
+namespace hexpipe {
+
+// Orthonormal, right-handed; each the nearest to its coordinate axis that the part allows. The coordinate axes
+// themselves where no others have more of the surface at right angles to them: on parts that are along these, and on
+// those without flat faces.
+std::array<Vec3, 3> axes_of_part(const Surface& surface);
+
+}  // namespace hexpipe

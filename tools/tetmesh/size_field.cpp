@@ -1,0 +1,176 @@
+#include "tools/tetmesh/size_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "tools/tetmesh/box_tree.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr std::size_t most_corners = 4;
+
+// Sizes at the corners of a simplex.
+struct SizeSimplex {
+  std::array<Vec3, most_corners> corners;
+  std::array<double, most_corners> sizes;
+  std::size_t count = 0;
+
+  void add(const Vec3& corner, double size) {
+    corners[count] = corner;
+    sizes[count++] = size;
+  }
+  SizeSimplex without(std::size_t corner) const {
+    SizeSimplex facet;
+    for (std::size_t i = 0; i < count; ++i)
+      if (i != corner) facet.add(corners[i], sizes[i]);
+    return facet;
+  }
+};
+
+// Solves a positive definite system of up to three unknowns for two right-hand sides; false where it is singular.
+class SmallSystem {
+ public:
+  static constexpr std::size_t most = most_corners - 1;
+  using Column = std::array<double, most>;
+
+  explicit SmallSystem(std::span<const Vec3> edges) : count_(edges.size()) {
+    for (std::size_t i = 0; i < count_; ++i)
+      for (std::size_t j = 0; j <= i; ++j) {
+        double sum = dot(edges[i], edges[j]);
+        for (std::size_t k = 0; k < j; ++k) sum -= lower_[i][k] * lower_[j][k];
+        if (i > j)
+          lower_[i][j] = sum / lower_[j][j];
+        else if (sum > least_pivot * norm_squared(edges[i]))
+          lower_[i][i] = std::sqrt(sum);
+        else
+          regular_ = false, lower_[i][i] = 1;
+      }
+  }
+
+  bool is_regular() const { return regular_; }
+
+  Column solve(const Column& right) const {
+    Column x = right;
+    for (std::size_t i = 0; i < count_; ++i) {
+      for (std::size_t k = 0; k < i; ++k) x[i] -= lower_[i][k] * x[k];
+      x[i] /= lower_[i][i];
+    }
+    for (std::size_t i = count_; i-- > 0;) {
+      for (std::size_t k = i + 1; k < count_; ++k) x[i] -= lower_[k][i] * x[k];
+      x[i] /= lower_[i][i];
+    }
+    return x;
+  }
+
+ private:
+  static constexpr double least_pivot = 1e-12;
+
+  std::size_t count_;
+  bool regular_ = true;
+  std::array<Column, most> lower_{};  // Cholesky's factor
+};
+
+// The least of size(y) + grading |p - y| over y in the simplex. The function is convex: in the plane of the simplex its
+// least value is where the direction to p makes the angle with the plane that the sizes' gradient asks for, and when
+// that is outside, the least value in the simplex is on its boundary.
+double least_over(const SizeSimplex& simplex, const Vec3& p, double grading) {
+  const Vec3 to_p = p - simplex.corners[0];
+  if (simplex.count == 1) return simplex.sizes[0] + grading * norm(to_p);
+  const std::size_t count = simplex.count - 1;
+  std::array<Vec3, SmallSystem::most> edges;
+  SmallSystem::Column rise{}, along{};
+  for (std::size_t i = 0; i < count; ++i) {
+    edges[i] = simplex.corners[i + 1] - simplex.corners[0];
+    rise[i] = simplex.sizes[i + 1] - simplex.sizes[0];
+    along[i] = dot(edges[i], to_p);
+  }
+  const SmallSystem system{std::span<const Vec3>(edges).first(count)};
+  const SmallSystem::Column foot = system.solve(along), gradient = system.solve(rise);
+  double slope_squared = 0, height_squared = count == 3 ? 0 : norm_squared(to_p), size = simplex.sizes[0];
+  for (std::size_t i = 0; i < count; ++i) {
+    slope_squared += rise[i] * gradient[i];
+    if (count < 3) height_squared -= along[i] * foot[i];
+    size += rise[i] * foot[i];
+  }
+  const double steepness = std::sqrt(std::max(0.0, grading * grading - slope_squared));
+  if (system.is_regular() && steepness > 0) {
+    const double height = std::sqrt(std::max(0.0, height_squared));
+    double rest = 1;
+    bool inside = true;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double weight = foot[i] - gradient[i] * height / steepness;
+      inside = inside && weight >= 0;
+      rest -= weight;
+    }
+    if (inside && rest >= 0) return size + height * steepness;
+  }
+  double least = least_over(simplex.without(0), p, grading);
+  for (std::size_t i = 1; i < simplex.count; ++i) least = std::min(least, least_over(simplex.without(i), p, grading));
+  return least;
+}
+
+}  // namespace
+
+void SizeSources::add(const SizeSources& other) {
+  const auto offset = static_cast<Vertex>(points.size());
+  points.insert(points.end(), other.points.begin(), other.points.end());
+  sizes.insert(sizes.end(), other.sizes.begin(), other.sizes.end());
+  for (std::array<Vertex, 4> simplex : other.simplices) {
+    for (Vertex& v : simplex)
+      if (v != none) v += offset;
+    simplices.push_back(simplex);
+  }
+}
+
+struct SizeField::Known {
+  Known(SizeSources known_sources, double limit)
+      : sources(std::move(known_sources)), grading(limit), tree(tree_of(sources)) {}
+
+  SizeSimplex simplex(std::size_t number) const { return simplex_of(sources, number); }
+
+  static SizeSimplex simplex_of(const SizeSources& sources, std::size_t number) {
+    SizeSimplex simplex;
+    for (const Vertex v : sources.simplices[number])
+      if (v != SizeSources::none) simplex.add(sources.points[v], sources.sizes[v]);
+    return simplex;
+  }
+
+  static BoxTree tree_of(const SizeSources& sources) {
+    std::vector<Box> boxes;
+    std::vector<double> values;
+    boxes.reserve(sources.simplices.size());
+    values.reserve(sources.simplices.size());
+    for (std::size_t i = 0; i < sources.simplices.size(); ++i) {
+      const SizeSimplex simplex = simplex_of(sources, i);
+      boxes.push_back(Box::around(std::span(simplex.corners).first(simplex.count)));
+      values.push_back(std::ranges::min(std::span(simplex.sizes).first(simplex.count)));
+    }
+    return {boxes, values};
+  }
+
+  SizeSources sources;
+  double grading;
+  BoxTree tree;
+};
+
+SizeField::SizeField(SizeSources sources, double greatest, double grading) : greatest_(greatest), least_(greatest) {
+  for (const auto& simplex : sources.simplices)
+    for (const Vertex v : simplex)
+      if (v != SizeSources::none) least_ = std::min(least_, sources.sizes[v]);
+  if (least_ < greatest_) known_ = std::make_shared<const Known>(std::move(sources), grading);
+}
+
+double SizeField::limited_at(const Vec3& p) const {
+  return known_->tree.least(p, known_->grading, greatest_, [&](std::int32_t number) {
+    return least_over(known_->simplex(static_cast<std::size_t>(number)), p, known_->grading);
+  });
+}
+
+double SizeField::least_near(const Vec3& p, double reach) const {
+  if (!known_) return greatest();
+  return factor_ * std::max(least_, limited_at(p) - known_->grading * reach);
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,58 @@
+#pragma once
+// A length at every place: how long edges are to be there, or what is measured in such lengths.
+//
+// Sizes are known at some places, and may grow away from them, with the distance times a factor: the field is the
+// greatest function that has at most the known sizes where they are known, at most a greatest one elsewhere, and
+// differs by at most `grading` times their distance between any two places. That is min over y of h(y) + grading |x -
+// y| (P.-O. Persson: Mesh size functions for implicit geometries and PDE-based gradient limiting, 2006, section 3),
+// here computed exactly for sizes that are linear on points, segments, triangles and tets.
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "common/mesh/tet_mesh.hpp"
+
+namespace hexpipe {
+
+// Where sizes are known.
+struct SizeSources {
+  static constexpr Vertex none = -1;
+
+  std::vector<Vec3> points;
+  std::vector<double> sizes;  // at the points
+  // Of one to four points each, the rest `none`; sizes are linear in between.
+  std::vector<std::array<Vertex, 4>> simplices;
+
+  bool empty() const { return simplices.empty(); }
+  void add(const SizeSources& other);
+};
+
+class SizeField {
+ public:
+  // The same everywhere. Implicit, so that a length can stand where a field is asked for.
+  SizeField(double uniform) : greatest_(uniform), least_(uniform) {}
+  SizeField(SizeSources sources, double greatest, double grading);
+
+  double at(const Vec3& p) const { return known_ ? factor_ * limited_at(p) : factor_ * greatest_; }
+  double greatest() const { return factor_ * greatest_; }
+  // Lower bounds, everywhere and within `reach` of a place.
+  double least() const { return factor_ * least_; }
+  double least_near(const Vec3& p, double reach) const;
+  bool is_uniform() const { return known_ == nullptr; }
+
+  friend SizeField operator*(double factor, SizeField field) {
+    field.factor_ *= factor;
+    return field;
+  }
+
+ private:
+  struct Known;
+
+  double limited_at(const Vec3& p) const;
+
+  double greatest_, least_, factor_ = 1;
+  std::shared_ptr<const Known> known_;  // null: the same everywhere
+};
+
+}  // namespace hexpipe
