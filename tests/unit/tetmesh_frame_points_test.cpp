@@ -108,7 +108,8 @@ std::vector<Vec3> points_of(const Surface& surface, const FramePointsOptions& op
   const std::vector<Vec3> lattice = lattice_points(surface, {.size = options.size});
   TetGenResult tetgen =
       run_tetgen({.surface_points = surface.points, .triangles = surface.triangles, .interior_points = lattice}, 60);
-  return frame_points(surface, build_mesh(surface, lattice, std::move(tetgen)).mesh, options);
+  const BuiltMesh background = build_mesh(surface, lattice, std::move(tetgen));
+  return frame_points(surface, background.mesh, background.adjacency, options);
 }
 
 // Turns by a rotation matrix without any special angle.

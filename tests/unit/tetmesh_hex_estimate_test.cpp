@@ -23,8 +23,8 @@ double share_of_box(int n, double moved) {
             {i + moved * random.uniform(-1, 1), j + moved * random.uniform(-1, 1), k + moved * random.uniform(-1, 1)});
   TetGenResult tetgen =
       run_tetgen({.surface_points = surface.points, .triangles = surface.triangles, .interior_points = inside}, 60);
-  const TetMesh mesh = build_mesh(surface, inside, std::move(tetgen)).mesh;
-  return estimate_hex_share(mesh, TetAdjacency(mesh, "box"));
+  const BuiltMesh built = build_mesh(surface, inside, std::move(tetgen));
+  return estimate_hex_share(built.mesh, built.adjacency);
 }
 
 TEST(HexEstimate, IsAllOfALattice) {

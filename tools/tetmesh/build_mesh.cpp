@@ -63,10 +63,10 @@ std::size_t count_kept(std::span<const Vec3> wanted, std::span<const Vec3> found
 // them without crossing the surface.
 class RegionFinder {
  public:
-  RegionFinder(const Surface& surface, const TetMesh& mesh)
+  RegionFinder(const Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency)
       : surface_(surface),
         mesh_(mesh),
-        adjacency_(mesh, surface.name.c_str()),
+        adjacency_(adjacency),
         regions_(mesh.tets.size(), unknown_region),
         on_surface_(mesh.tets.size()) {}
 
@@ -85,7 +85,7 @@ class RegionFinder {
 
   const Surface& surface_;
   const TetMesh& mesh_;
-  TetAdjacency adjacency_;
+  const TetAdjacency& adjacency_;
   std::vector<std::int32_t> regions_;
   std::vector<std::array<bool, 4>> on_surface_;  // of each tet's facets
   std::vector<std::int32_t> queue_;
@@ -181,14 +181,17 @@ void check_volumes(const Surface& surface, const TetMesh& mesh) {
 
 BuiltMesh build_mesh(const Surface& surface, std::span<const Vec3> interior_points, TetGenResult tetgen) {
   if (!tetgen.failure.empty()) fail(surface, tetgen);
-  BuiltMesh built;
-  TetMesh& mesh = built.mesh;
+  TetMesh mesh;
   mesh.points = std::move(tetgen.points);
   mesh.tets = std::move(tetgen.tets);
   check_points(surface, mesh.points);
   check_orientation(surface, mesh);
-  mesh.tet_tags = RegionFinder(surface, mesh).find();
-  empty_holes(mesh);
+  TetAdjacency adjacency(mesh, surface.name.c_str());
+  mesh.tet_tags = RegionFinder(surface, mesh, adjacency).find();
+  if (std::ranges::find(mesh.tet_tags, outside_region) != mesh.tet_tags.end()) {
+    empty_holes(mesh);
+    adjacency = TetAdjacency(mesh, surface.name.c_str());
+  }
   check_points(surface, mesh.points);
   check_volumes(surface, mesh);
   mesh.triangles = surface.triangles;
@@ -196,9 +199,8 @@ BuiltMesh build_mesh(const Surface& surface, std::span<const Vec3> interior_poin
 
   const std::span off_surface = std::span<const Vec3>(mesh.points).subspan(surface.points.size());
   const std::size_t kept = count_kept(interior_points, off_surface);
-  built.added_points = off_surface.size() - kept;
-  built.dropped_points = interior_points.size() - kept;
-  return built;
+  const std::size_t added = off_surface.size() - kept, dropped = interior_points.size() - kept;
+  return {std::move(mesh), std::move(adjacency), added, dropped};
 }
 
 }  // namespace hexpipe

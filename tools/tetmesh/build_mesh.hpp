@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "common/mesh/adjacency.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "common/run/error.hpp"
 #include "tools/tetmesh/run_tetgen.hpp"
@@ -12,6 +13,7 @@ namespace hexpipe {
 
 struct BuiltMesh {
   TetMesh mesh;  // points: the surface's, those inside, those that TetGen added; triangles: the surface's
+  TetAdjacency adjacency;
   std::size_t added_points = 0;    // by TetGen, off the surface
   std::size_t dropped_points = 0;  // of the interior points
 };

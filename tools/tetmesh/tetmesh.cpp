@@ -130,14 +130,10 @@ BuiltMesh tetrahedralize(const Surface& surface, std::span<const Vec3> points, d
   }
 }
 
-double hex_share_of(const TetMesh& mesh, const Surface& surface) {
-  return estimate_hex_share(mesh, TetAdjacency(mesh, surface.name.c_str()));
-}
-
 // From the mesh with the lattice's points, which stays where it is the better one.
 void try_frame_points(const Surface& surface, const TetmeshOptions& options, StepWatch& watch, BuiltMesh& built,
                       TetmeshStatistics& statistics) {
-  const std::vector<Vec3> points = frame_points(surface, built.mesh,
+  const std::vector<Vec3> points = frame_points(surface, built.mesh, built.adjacency,
                                                 {.size = statistics.size,
                                                  .clearance = options.clearance,
                                                  .jitter = options.jitter.value_or(FramePointsOptions{}.jitter),
@@ -145,8 +141,8 @@ void try_frame_points(const Surface& surface, const TetmeshOptions& options, Ste
   watch.add_to(statistics.seconds_placing);
   BuiltMesh bent = tetrahedralize(surface, points, options.tetgen_timeout, watch, statistics);
   if (options.points == PointKind::best) {
-    statistics.lattice_hex_share = hex_share_of(built.mesh, surface);
-    statistics.frame_hex_share = hex_share_of(bent.mesh, surface);
+    statistics.lattice_hex_share = estimate_hex_share(built.mesh, built.adjacency);
+    statistics.frame_hex_share = estimate_hex_share(bent.mesh, bent.adjacency);
     watch.add_to(statistics.seconds_comparing);
     if (*statistics.lattice_hex_share >= *statistics.frame_hex_share) return;
   }

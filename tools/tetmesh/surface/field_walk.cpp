@@ -44,8 +44,8 @@ Vec3 FieldWalker::direction_beyond(HalfEdge edge, const Vec3& direction) const {
 }
 
 WalkEnd FieldWalker::walk(const SurfacePoint& start, const Vec3& direction, double length) const {
-  WalkEnd end{start};
-  Vec3 heading = direction;
+  WalkEnd end{start, direction};
+  Vec3& heading = end.heading;
   for (int i = 0; i < most_triangles; ++i) {
     const Exit exit = exit_of(end.point, heading);
     const double step = std::min(exit.length, length - end.length);

@@ -12,6 +12,7 @@ struct SurfacePoint {
 
 struct WalkEnd {
   SurfacePoint point;
+  Vec3 heading;             // at the end
   double length = 0;        // walked
   bool at_feature = false;  // stopped by a feature edge
 };

@@ -15,15 +15,46 @@ constexpr double most_cells = 256;
 constexpr int most_samples_along_edge = 64;
 constexpr std::int64_t triangles_per_block = 256;
 
-// A triangle's samples: the vertices of its division into similar ones.
-template <class Visit>
-void for_each_sample(const Vec3& a, const Vec3& b, const Vec3& c, double spacing, Visit&& visit) {
-  const double longest = std::sqrt(std::max({norm_squared(b - a), norm_squared(c - b), norm_squared(a - c)}));
-  const int n = std::clamp(static_cast<int>(std::ceil(longest / spacing)), 1, most_samples_along_edge);
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; i + j <= n; ++j)
-      visit(a + (static_cast<double>(i) / n) * (b - a) + (static_cast<double>(j) / n) * (c - a));
+int parts_of(double length, double spacing) {
+  return std::clamp(static_cast<int>(std::ceil(length / spacing)), 1, most_samples_along_edge);
 }
+
+// Vertices are samples of the first triangle that has them, points of an edge of the one that runs along it upwards.
+class SurfaceSampler {
+ public:
+  SurfaceSampler(std::span<const Vec3> points, std::span<const Triangle> triangles, double spacing)
+      : points_(points), triangles_(triangles), spacing_(spacing), owner_(points.size(), -1) {
+    for (std::size_t t = triangles.size(); t-- > 0;)
+      for (const Vertex v : triangles[t]) owner_[v] = static_cast<std::int32_t>(t);
+  }
+
+  template <class Visit>
+  void for_each_sample(std::int64_t triangle, Visit&& visit) const {
+    const Triangle& t = triangles_[triangle];
+    double longest = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vertex from = t[i], to = t[(i + 1) % 3];
+      const Vec3 start = points_[from], along = points_[to] - start;
+      const double length = norm(along);
+      longest = std::max(longest, length);
+      if (owner_[from] == triangle) visit(start);
+      if (from > to) continue;
+      const int parts = parts_of(length, spacing_);
+      for (int part = 1; part < parts; ++part) visit(start + (static_cast<double>(part) / parts) * along);
+    }
+    const int n = parts_of(longest, spacing_);
+    const Vec3 &a = points_[t[0]], &b = points_[t[1]], &c = points_[t[2]];
+    for (int i = 1; i < n; ++i)
+      for (int j = 1; i + j < n; ++j)
+        visit(a + (static_cast<double>(i) / n) * (b - a) + (static_cast<double>(j) / n) * (c - a));
+  }
+
+ private:
+  std::span<const Vec3> points_;
+  std::span<const Triangle> triangles_;
+  double spacing_;
+  std::vector<std::int32_t> owner_;  // of each vertex, a triangle
+};
 
 }  // namespace
 
@@ -74,29 +105,43 @@ void DistanceIndex::for_each_cell(const Triangle& t, Visit&& visit) const {
       for (std::int64_t x = low.x; x <= high.x; ++x) visit(number_of({x, y, z}));
 }
 
-double DistanceIndex::distance(const Vec3& p) const {
+double DistanceIndex::distance(const Vec3& p, std::int32_t& nearest) const {
   const Cell centre = cell_of(p);
   const std::int64_t rings = std::max({counts_.x, counts_.y, counts_.z});
   double best = std::numeric_limits<double>::max();
+  if (nearest >= 0) {
+    const auto [a, b, c] = triangles_[nearest];
+    best = TriangleDistance(points_[a], points_[b], points_[c]).squared(p);
+  }
+  const double margin = margin_in(centre, p);
   for (std::int64_t ring = 0; ring < rings; ++ring) {
-    best = squared_in_shell(p, centre, ring, best);
-    // Whatever lies in a later ring is at least that many widths away; the cells of the next one are looked at singly.
-    const double reach = static_cast<double>(ring) * width_;
+    look_in_shell(p, centre, ring, best, nearest);
+    // Whatever lies in a later ring is at least that far away; the cells of the next one are looked at singly.
+    const double reach = static_cast<double>(ring) * width_ + margin;
     if (best <= reach * reach) break;
   }
   return std::sqrt(best);
 }
 
-double DistanceIndex::squared_in_shell(const Vec3& p, const Cell& centre, std::int64_t ring, double best) const {
+// How far a point is from the sides of its cell; 0 outside.
+double DistanceIndex::margin_in(const Cell& cell, const Vec3& p) const {
+  auto along = [&](double x, double low, std::int64_t number) {
+    const double from_low = x - (low + static_cast<double>(number) * width_);
+    return std::min(from_low, width_ - from_low);
+  };
+  return std::max(0.0, std::min({along(p.x, low_.x, cell.x), along(p.y, low_.y, cell.y), along(p.z, low_.z, cell.z)}));
+}
+
+void DistanceIndex::look_in_shell(const Vec3& p, const Cell& centre, std::int64_t ring, double& best,
+                                  std::int32_t& nearest) const {
   for (std::int64_t z = std::max<std::int64_t>(centre.z - ring, 0); z <= std::min(centre.z + ring, counts_.z - 1); ++z)
     for (std::int64_t y = std::max<std::int64_t>(centre.y - ring, 0); y <= std::min(centre.y + ring, counts_.y - 1);
          ++y) {
       const bool on_side = std::max(std::abs(z - centre.z), std::abs(y - centre.y)) == ring;
       const std::int64_t step = on_side || ring == 0 ? 1 : 2 * ring;
       for (std::int64_t x = centre.x - ring; x <= centre.x + ring; x += step)
-        if (x >= 0 && x < counts_.x && squared_to_box(p, {x, y, z}) < best) best = squared_in_cell(p, {x, y, z}, best);
+        if (x >= 0 && x < counts_.x && squared_to_box(p, {x, y, z}) < best) look_in_cell(p, {x, y, z}, best, nearest);
     }
-  return best;
 }
 
 double DistanceIndex::squared_to_box(const Vec3& p, const Cell& cell) const {
@@ -107,28 +152,31 @@ double DistanceIndex::squared_to_box(const Vec3& p, const Cell& cell) const {
   return norm_squared(Vec3{outside(p.x, low_.x, cell.x), outside(p.y, low_.y, cell.y), outside(p.z, low_.z, cell.z)});
 }
 
-double DistanceIndex::squared_in_cell(const Vec3& p, const Cell& cell, double best) const {
+void DistanceIndex::look_in_cell(const Vec3& p, const Cell& cell, double& best, std::int32_t& nearest) const {
   const std::int64_t number = number_of(cell);
   for (std::int64_t i = offsets_[number]; i < offsets_[number + 1]; ++i) {
     const auto [a, b, c] = triangles_[members_[i]];
     const double height = dot(p - points_[a], normals_[members_[i]]);
     if (height * height >= best) continue;
-    best = std::min(best, TriangleDistance(points_[a], points_[b], points_[c]).squared(p));
+    const double squared = TriangleDistance(points_[a], points_[b], points_[c]).squared(p);
+    if (squared >= best) continue;
+    best = squared;
+    nearest = members_[i];
   }
-  return best;
 }
 
 SurfaceDistance one_sided_distance(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                    const DistanceIndex& other, double spacing, double limit) {
   SurfaceDistance result;
+  const SurfaceSampler sampler(points, triangles, spacing);
   parallel_in_order(
       static_cast<std::int64_t>(triangles.size()), triangles_per_block,
       [&](std::int64_t begin, std::int64_t end) {
         SurfaceDistance part;
+        std::int32_t nearest = -1;  // of the last sample, next to which the next one lies
         for (std::int64_t i = begin; i < end; ++i) {
-          const auto [a, b, c] = triangles[i];
-          for_each_sample(points[a], points[b], points[c], spacing, [&](const Vec3& p) {
-            const double distance = other.distance(p);
+          sampler.for_each_sample(i, [&](const Vec3& p) {
+            const double distance = other.distance(p, nearest);
             part.greatest = std::max(part.greatest, distance);
             if (distance > limit) part.beyond.push_back(p);
           });

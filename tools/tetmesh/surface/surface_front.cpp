@@ -18,8 +18,26 @@ namespace {
 constexpr double least_distance = 0.7;
 // Normals of points that may be in each other's way have at least this cosine: those of the two sides of a wall do not.
 constexpr double least_normal_cosine = 0.3;
-// How far, in sizes, a front looks ahead for the feature curve to fit its steps to.
-constexpr double look_ahead = 30;
+// How far, in sizes, a front looks ahead for the feature curve to fit its steps to, and with how much of that still
+// ahead it goes on without looking again.
+constexpr double look_ahead = 30, least_ahead = 15;
+// Cosine from which a direction is the one in which a point was reached.
+constexpr double same_way = 0.999;
+
+// What is known of the way ahead.
+struct Outlook {
+  Vec3 heading;
+  double step = 0;   // to walk
+  double steps = 0;  // until a feature is met; 0: none is in sight
+  double clear = 0;  // how far none is, then
+
+  bool holds_for(const Vec3& direction, double least) const {
+    return (steps > 0 || clear > least) && dot(heading, direction) > same_way;
+  }
+  Outlook after_step(const Vec3& new_heading) const {
+    return {new_heading, step, std::max(0.0, steps - 1), clear - step};
+  }
+};
 
 class SurfaceFront {
  public:
@@ -40,16 +58,18 @@ class SurfaceFront {
   void start_from_corner(HalfEdge h);
   void spread();
   void fill_gaps();
-  void offer_step(const SurfacePoint& from, const Vec3& direction);
+  void offer_step(const SurfacePoint& from, const Vec3& direction, const Outlook& known);
+  Outlook look(const SurfacePoint& from, const Vec3& direction) const;
   // Whether no point is nearer than `distance` sizes.
   bool is_free(const SurfacePoint& point, double distance) const;
-  void take(const SurfacePoint& point);
+  void take(const SurfacePoint& point, const Outlook& outlook);
 
   const FieldSurface& surface_;
   const CrossField& field_;
   FieldWalker walker_;
   double size_;
   std::vector<SurfacePoint> points_;
+  std::vector<Outlook> outlooks_;           // of the points, along the way on which they were reached
   std::size_t next_ = 0;                    // of the points, the first that has not yet offered its neighbours
   SurfacePointGrid grid_;                   // the kept vertices, then the points
   std::vector<std::vector<Vec3>> normals_;  // of the points in the grid, of each face around them that differs
@@ -85,14 +105,15 @@ void SurfaceFront::start_from_corner(HalfEdge h) {
   const SurfacePoint corner{surface_.points[start_of(surface_.triangles, h)], f};
   const Vec3 x = field_.directions[f], y = cross(surface_.normals[f], x);
   for (const Vec3& direction : {x, y, -x, -y})
-    if (dot(direction, left) >= 0 && dot(direction, right) > 0) offer_step(corner, direction);
+    if (dot(direction, left) >= 0 && dot(direction, right) > 0) offer_step(corner, direction, {});
 }
 
 void SurfaceFront::spread() {
   for (; next_ < points_.size(); ++next_) {
     const SurfacePoint from = points_[next_];
+    const Outlook outlook = outlooks_[next_];
     const Vec3 x = field_.directions[from.triangle], y = cross(surface_.normals[from.triangle], x);
-    for (const Vec3& direction : {x, y, -x, -y}) offer_step(from, direction);
+    for (const Vec3& direction : {x, y, -x, -y}) offer_step(from, direction, outlook);
   }
 }
 
@@ -101,22 +122,28 @@ void SurfaceFront::fill_gaps() {
     const auto [a, b, c] = surface_.triangles[f];
     const SurfacePoint centre{(surface_.points[a] + surface_.points[b] + surface_.points[c]) * (1.0 / 3), f};
     if (!is_free(centre, least_distance)) continue;
-    take(centre);
+    take(centre, {});
     spread();
   }
 }
 
-void SurfaceFront::offer_step(const SurfacePoint& from, const Vec3& direction) {
+void SurfaceFront::offer_step(const SurfacePoint& from, const Vec3& direction, const Outlook& known) {
   WalkEnd end = walker_.walk(from, direction, size_);
   // Fitting moves the end of a step that is taken by at most a quarter of the size.
   if (!end.at_feature && !is_free(end.point, least_distance - 0.25)) return;
-  const WalkEnd far = walker_.walk(from, direction, look_ahead * size_);
-  if (far.at_feature) {
-    const double steps = std::round(far.length / size_);
-    if (steps < 2) return;
-    end = walker_.walk(from, direction, far.length / steps);
+  const Outlook outlook = known.holds_for(direction, least_ahead * size_) ? known : look(from, direction);
+  if (outlook.steps > 0) {
+    if (outlook.steps < 2) return;
+    end = walker_.walk(from, direction, outlook.step);
   }
-  if (!end.at_feature && is_free(end.point, least_distance)) take(end.point);
+  if (!end.at_feature && is_free(end.point, least_distance)) take(end.point, outlook.after_step(end.heading));
+}
+
+Outlook SurfaceFront::look(const SurfacePoint& from, const Vec3& direction) const {
+  const WalkEnd far = walker_.walk(from, direction, look_ahead * size_);
+  if (!far.at_feature) return {direction, size_, 0, far.length};
+  const double steps = std::max(1.0, std::round(far.length / size_));
+  return {direction, far.length / steps, steps, 0};
 }
 
 bool SurfaceFront::is_free(const SurfacePoint& point, double distance) const {
@@ -130,8 +157,9 @@ bool SurfaceFront::is_free(const SurfacePoint& point, double distance) const {
   });
 }
 
-void SurfaceFront::take(const SurfacePoint& point) {
+void SurfaceFront::take(const SurfacePoint& point, const Outlook& outlook) {
   grid_.add(point.position);
+  outlooks_.push_back(outlook);
   normals_.push_back({surface_.normals[point.triangle]});
   points_.push_back(point);
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/mesh/adjacency.hpp"
 #include "tools/tetmesh/half_edges.hpp"
 
 namespace hexpipe {
@@ -126,12 +125,11 @@ void SurfaceReader::find_vague() {
 
 }  // namespace
 
-FieldNodes make_field_nodes(const Surface& surface, const TetMesh& mesh, double size) {
+FieldNodes make_field_nodes(const Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency, double size) {
   constexpr double nearest = 0.25;  // squared; keeps a single link from ruling
   FieldNodes nodes;
   nodes.points = mesh.points;
   nodes.surface = SurfaceReader(surface).read();
-  const TetAdjacency adjacency(mesh, surface.name.c_str());
   nodes.offsets.assign(1, 0);
   for (std::size_t v = 0; v < nodes.points.size(); ++v) {
     for (const Vertex u : adjacency.neighbours_of(static_cast<Vertex>(v))) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "common/mesh/adjacency.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/tetmesh/shells.hpp"
 #include "tools/tetmesh/volume/octahedral.hpp"
@@ -44,6 +45,6 @@ struct FieldNodes {
 };
 
 // Of a mesh whose first vertices are the surface's. Weights fall with the square of the distance in sizes.
-FieldNodes make_field_nodes(const Surface& surface, const TetMesh& mesh, double size);
+FieldNodes make_field_nodes(const Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency, double size);
 
 }  // namespace hexpipe

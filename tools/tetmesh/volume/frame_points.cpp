@@ -36,10 +36,11 @@ double maximum_norm(const Frame& frame, const Vec3& v) {
 
 class PointPlacer {
  public:
-  PointPlacer(const Surface& surface, const TetMesh& background, const FramePointsOptions& options)
+  PointPlacer(const Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
+              const FramePointsOptions& options)
       : surface_(surface),
         options_(options),
-        nodes_(make_field_nodes(surface, background, options.size)),
+        nodes_(make_field_nodes(surface, background, adjacency, options.size)),
         frames_(solve_frame_field(nodes_)) {}
 
   std::vector<Vec3> place() {
@@ -84,7 +85,7 @@ void PointPlacer::propose(std::size_t i, const std::array<double, 3>& coordinate
 
 // Moves every proposal to the mean of those that see the same point, and trusts it as much as all of them.
 void PointPlacer::agree() {
-  PointGrid grid(surface_.points.front(), same_point * options_.size);
+  PointGrid grid(surface_.points.front(), 2 * same_point * options_.size);
   for (const Proposal& p : proposals_) grid.add(p.point);
   std::vector<Proposal> result(proposals_.size());
   parallel_for(static_cast<std::int64_t>(result.size()), 256,
@@ -112,7 +113,7 @@ std::vector<Vec3> PointPlacer::accept() const {
   std::ranges::stable_sort(order, std::greater(), [&](std::int32_t i) { return proposals_[i].trust; });
 
   const SurfaceClearance clearance(surface_, options_.clearance * options_.size);
-  PointGrid taken(surface_.points.front(), least_spacing * options_.size);
+  PointGrid taken(surface_.points.front(), 2 * least_spacing * options_.size);
   for (const Vec3& p : surface_.points) taken.add(p);
   for (const std::int32_t i : order) {
     const Proposal& p = proposals_[i];
@@ -123,19 +124,21 @@ std::vector<Vec3> PointPlacer::accept() const {
 
 bool PointPlacer::is_free(const PointGrid& taken, const Proposal& proposal) const {
   const double spacing = least_spacing * options_.size;
-  // A cube of the frame reaches up to sqrt(3) times as far along the coordinate axes as its half side.
-  const double reach = spacing * std::sqrt(3.0);
+  const Frame& frame = frames_[proposal.node];
+  Vec3 reach;  // of a cube of the frame, along the coordinate axes
+  for (const Vec3& axis : frame) reach += spacing * Vec3{std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)};
   bool free = true;
   taken.for_each_near(proposal.point, reach, [&](std::int32_t i) {
-    free = free && maximum_norm(frames_[proposal.node], taken.points()[i] - proposal.point) >= spacing;
+    free = free && maximum_norm(frame, taken.points()[i] - proposal.point) >= spacing;
   });
   return free;
 }
 
 }  // namespace
 
-std::vector<Vec3> frame_points(const Surface& surface, const TetMesh& background, const FramePointsOptions& options) {
-  std::vector<Vec3> points = PointPlacer(surface, background, options).place();
+std::vector<Vec3> frame_points(const Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
+                               const FramePointsOptions& options) {
+  std::vector<Vec3> points = PointPlacer(surface, background, adjacency, options).place();
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i] += jitter_of(i, options.jitter * options.size, options.seed);
   return points;

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/mesh/adjacency.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/tetmesh/shells.hpp"
 
@@ -18,14 +19,15 @@ namespace hexpipe {
 struct FramePointsOptions {
   double size = 1;
   double clearance = 0.5;  // least distance from the surface before points are jittered, in sizes
-  // Each coordinate moves by at most that, in sizes. Candidates a vertex, and the share of the volume in hexes, over three
-  // parts: 11.3 and 87.2 % at 0, 8.4 and 87.6 at 0.01, 7.4 and 87.7 at 0.02, 6.2 and 87.6 at 0.04.
+  // Each coordinate moves by at most that, in sizes. Candidates a vertex, and the share of the volume in hexes, over
+  // three parts: 11.3 and 87.2 % at 0, 8.4 and 87.6 at 0.01, 7.4 and 87.7 at 0.02, 6.2 and 87.6 at 0.04.
   double jitter = 0.04;
   std::uint64_t seed = 1;
 };
 
 // `background`: a mesh of the surface with points inside at about the same distance; its first vertices are the
 // surface's. In the order in which they were accepted.
-std::vector<Vec3> frame_points(const Surface& surface, const TetMesh& background, const FramePointsOptions& options);
+std::vector<Vec3> frame_points(const Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
+                               const FramePointsOptions& options);
 
 }  // namespace hexpipe

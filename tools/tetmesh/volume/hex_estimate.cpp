@@ -57,12 +57,13 @@ class HexSearch {
   bool is_square(const Vec3& a, const Vec3& b) const;
   Vertex nearest_common(std::span<const Vertex> joined, Vertex lowest, const Vec3& place, double reach) const;
   void complete(Vertex lowest, const Side& ab, const Side& ac, const Side& bc, std::vector<RoughHex>& found);
-  void collect_tets(RoughHex& hex) const;
+  void collect_tets(RoughHex& hex);
 
   const TetMesh& mesh_;
   const TetAdjacency& adjacency_;
   std::vector<Vertex> edges_;
   std::vector<Side> sides_;
+  std::vector<std::int32_t> tets_;
 };
 
 bool HexSearch::is_square(const Vec3& a, const Vec3& b) const {
@@ -74,8 +75,10 @@ bool HexSearch::is_square(const Vec3& a, const Vec3& b) const {
 Vertex HexSearch::nearest_common(std::span<const Vertex> joined, Vertex lowest, const Vec3& place, double reach) const {
   Vertex nearest = none;
   double least = reach * reach;
-  for (const Vertex v : adjacency_.neighbours_of(joined[0])) {
-    if (v <= lowest || norm_squared(point(v) - place) >= least) continue;
+  const auto neighbours = adjacency_.neighbours_of(joined[0]);
+  for (auto i = std::ranges::upper_bound(neighbours, lowest); i != neighbours.end(); ++i) {
+    const Vertex v = *i;
+    if (norm_squared(point(v) - place) >= least) continue;
     const bool is_common = std::ranges::all_of(
         joined.subspan(1), [&](Vertex other) { return v != other && adjacency_.has_edge(v, other); });
     if (!is_common) continue;
@@ -130,25 +133,33 @@ void HexSearch::complete(Vertex lowest, const Side& ab, const Side& ac, const Si
   collect_tets(hex);
   const double wanted = cell_volume(CellKind::hex, corners);
   if (hex.volume < volume_tolerance * wanted || wanted < volume_tolerance * hex.volume) return;
+  hex.tets = tets_;
   found.push_back(std::move(hex));
 }
 
-// Those that join four of its corners, unless all four are of one quad: such a sliver lies on the hex, not in it.
-void HexSearch::collect_tets(RoughHex& hex) const {
-  const auto corner_of = [&](Vertex v) { return std::ranges::find(hex.corners, v) - hex.corners.begin(); };
-  for (const Vertex corner : hex.corners)
-    for (const std::int32_t t : adjacency_.tets_at(corner)) {
-      const Tet& tet = mesh_.tets[t];
-      unsigned corners = 0;
-      bool is_inside = std::ranges::min(tet, {}, corner_of) == corner;  // once
-      for (const Vertex v : tet) {
-        is_inside = is_inside && corner_of(v) < 8;
-        if (is_inside) corners |= 1u << corner_of(v);
-      }
-      if (!is_inside || std::ranges::find(quad_masks, corners) != quad_masks.end()) continue;
-      hex.tets.push_back(t);
-      hex.volume += tet_determinant(mesh_.points, tet) / 6;
+// Those that join four of its corners, unless all four are of one quad: such a sliver lies on the hex, not in it. They
+// hang together by their facets.
+void HexSearch::collect_tets(RoughHex& hex) {
+  std::uint64_t sieve = 0;  // most vertices that are no corners are told by their last bits
+  for (const Vertex v : hex.corners) sieve |= std::uint64_t{1} << (v % 64);
+  const auto is_inside = [&](std::int32_t t) {
+    unsigned corners = 0;
+    for (const Vertex v : mesh_.tets[t]) {
+      if ((sieve >> (v % 64) & 1) == 0) return false;
+      const auto corner = std::ranges::find(hex.corners, v) - hex.corners.begin();
+      if (corner == 8) return false;
+      corners |= 1u << corner;
     }
+    return std::ranges::find(quad_masks, corners) == quad_masks.end();
+  };
+  tets_.clear();
+  const auto around = adjacency_.tets_at(hex.corners[0]);
+  if (const auto first = std::ranges::find_if(around, is_inside); first != around.end()) tets_.push_back(*first);
+  for (std::size_t i = 0; i < tets_.size(); ++i) {
+    hex.volume += tet_determinant(mesh_.points, mesh_.tets[tets_[i]]) / 6;
+    for (const std::int32_t beyond : adjacency_.tets_beyond(tets_[i]))
+      if (beyond >= 0 && std::ranges::find(tets_, beyond) == tets_.end() && is_inside(beyond)) tets_.push_back(beyond);
+  }
 }
 
 // Which pairs of vertices the chosen hexes hold, and as what. Two hexes with a pair in common fit together when it is

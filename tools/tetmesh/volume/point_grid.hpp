@@ -30,9 +30,8 @@ class PointGrid {
 
   // Calls visit(number of the point) for the points in all cells that come within `reach` of `place` along the axes.
   template <class Visit>
-  void for_each_near(const Vec3& place, double reach, Visit&& visit) const {
-    const Vec3 offset{reach, reach, reach};
-    const GridCell low = cell_of(place - offset), high = cell_of(place + offset);
+  void for_each_near(const Vec3& place, const Vec3& reach, Visit&& visit) const {
+    const GridCell low = cell_of(place - reach), high = cell_of(place + reach);
     GridCell cell;
     for (cell[2] = low[2]; cell[2] <= high[2]; ++cell[2])
       for (cell[1] = low[1]; cell[1] <= high[1]; ++cell[1])
@@ -41,6 +40,10 @@ class PointGrid {
           if (head == heads_.end()) continue;
           for (std::int32_t i = head->second; i != none; i = next_[i]) visit(i);
         }
+  }
+  template <class Visit>
+  void for_each_near(const Vec3& place, double reach, Visit&& visit) const {
+    for_each_near(place, Vec3{reach, reach, reach}, visit);
   }
 
  private:
