@@ -47,6 +47,7 @@ SurfaceSoup read_off(std::string_view text, const std::string& name) {
   read_header(scanner);
   // The shortest vertex is "0 0 0" with its line end, the shortest face "3 0 0 0".
   const std::size_t vertex_count = scanner.count("the number of vertices", 6);
+  check_point_count(vertex_count, name);
   const std::size_t face_count = scanner.count("the number of faces", 7);
   scanner.rest_of_line();  // number of edges
 

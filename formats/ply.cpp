@@ -225,12 +225,14 @@ class BodyReader {
   BodyReader(const Header& header, const std::string& name, Body body)
       : header_(header), name_(name), body_(std::move(body)) {
     soup_.text = header.encoding == Encoding::ascii;
+    const auto vertices = std::ranges::find(header.elements, std::string_view("vertex"), &Element::name);
+    if (vertices != header.elements.end()) vertex_count_ = vertices->count;
+    check_point_count(vertex_count_, name);
   }
 
   SurfaceSoup read();
 
  private:
-  std::uint64_t vertex_count() const;
   void check_count(const Element& element) const;
   void read_vertices(const Element& element);
   void read_faces(const Element& element);
@@ -241,6 +243,7 @@ class BodyReader {
   const Header& header_;
   const std::string& name_;
   Body body_;
+  std::uint64_t vertex_count_ = 0;  // of the header; the faces may come before the vertices
   SurfaceSoup soup_;
   std::vector<Vertex> corners_;
 };
@@ -261,13 +264,6 @@ SurfaceSoup BodyReader<Body>::read() {
   }
   body_.expect_end();
   return std::move(soup_);
-}
-
-template <class Body>
-std::uint64_t BodyReader<Body>::vertex_count() const {
-  for (const Element& element : header_.elements)
-    if (element.name == "vertex") return element.count;
-  return 0;
 }
 
 // Before anything is allocated: what is left must be able to hold that many.
@@ -318,7 +314,6 @@ void BodyReader<Body>::read_faces(const Element& element) {
 
 template <class Body>
 void BodyReader<Body>::read_face(const Element& element, const Property& indices, std::uint64_t index) {
-  const std::uint64_t vertices = vertex_count();
   const std::int64_t place = body_.place(index);
   for (const Property& property : element.properties) {
     if (&property != &indices) {
@@ -331,8 +326,9 @@ void BodyReader<Body>::read_face(const Element& element, const Property& indices
     corners_.clear();
     for (std::uint64_t i = 0; i < corner_count; ++i) {
       const std::int64_t vertex = body_.integer(property.type);
-      if (vertex < 0 || static_cast<std::uint64_t>(vertex) >= vertices)
-        body_.fail(element.name, index, fmt::format("expected a vertex index below {}, found {}", vertices, vertex));
+      if (vertex < 0 || static_cast<std::uint64_t>(vertex) >= vertex_count_)
+        body_.fail(element.name, index,
+                   fmt::format("expected a vertex index below {}, found {}", vertex_count_, vertex));
       corners_.push_back(static_cast<Vertex>(vertex));
     }
     append_polygon(soup_, corners_, 0, place);

@@ -26,6 +26,11 @@ Vertex PointMerger::index_of(const Vec3& point) {
   return entry->second;
 }
 
+void check_point_count(std::uint64_t count, std::string_view name) {
+  if (count > static_cast<std::uint64_t>(std::numeric_limits<Vertex>::max()))
+    throw DataError::at(name, "expected fewer than 2^31 points, found {}", count);
+}
+
 SurfaceSoup merge_equal_points(SurfaceSoup soup) {
   constexpr Vertex unknown = -1;
   std::vector<Vec3> merged;

@@ -4,6 +4,7 @@
 #include <tsl/robin_map.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string_view>
 
@@ -28,6 +29,9 @@ class PointMerger {
 
 // The soup with one point for those that are equal, in the order of first use, and none that no triangle uses.
 SurfaceSoup merge_equal_points(SurfaceSoup soup);
+
+// Throws DataError where there are more points than can be numbered.
+void check_point_count(std::uint64_t count, std::string_view name);
 
 // Corner numbers must be valid already; at least three.
 void append_polygon(SurfaceSoup& soup, std::span<const Vertex> corners, std::int32_t tag, std::int64_t place);

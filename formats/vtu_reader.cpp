@@ -166,6 +166,7 @@ class VtuReader {
                                               : throw DataError::at(where, "expected format ascii, binary or appended");
     std::string storage;
     const std::string_view data = read_vtk_xml_data(bytes, encoding_, where, storage);
+    if (format == "appended") count_appended(data.size(), where);
     auto numbers = convert_scalars<T>(data, scalar_type(array), encoding_.order, where);
     if (numbers.size() != count) throw DataError::at(where, "expected {} numbers, found {}", count, numbers.size());
     return numbers;
@@ -176,6 +177,14 @@ class VtuReader {
     if (offset > appended_.size())
       throw DataError::at(where, "expected an offset up to {}, found {}", appended_.size(), offset);
     return {appended_.substr(offset), appended_base64_, where};
+  }
+
+  // Arrays that share their data would let a small file take any memory.
+  void count_appended(std::size_t bytes, const std::string& where) {
+    constexpr std::size_t most_compressed = 1032;  // times, by zlib
+    taken_ += bytes;
+    if (taken_ / (encoding_.compressed ? most_compressed : 1) > appended_.size())
+      throw DataError::at(where, "expected data of its own, found the data of other arrays");
   }
 
   template <class T>
@@ -243,6 +252,7 @@ class VtuReader {
   pugi::xml_document document_;
   VtkXmlEncoding encoding_;
   std::string_view appended_;
+  std::size_t taken_ = 0;  // bytes of appended data, uncompressed
   bool appended_base64_ = false;
   VtkGrid grid_;
 };

@@ -257,9 +257,12 @@ TEST(SurfaceFiles, RejectsCountsThatTheFileCannotHold) {
   EXPECT_THAT(error_of("OFF\n1000000000000 1 0\n0 0 0\n"), HasSubstr("part:2: expected the number of vertices"));
   EXPECT_THAT(error_of("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4000000000 0 1 2\n"), HasSubstr("part:6:"));
   const std::string vertex = "property float x\nproperty float y\nproperty float z\n";
-  EXPECT_THAT(
-      error_of("ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\n" + vertex + "end_header\n"),
-      HasSubstr("part: expected at most 0 elements 'vertex' in the rest of the file"));
+  const std::string binary = "ply\nformat binary_little_endian 1.0\n";
+  EXPECT_THAT(error_of(binary + "element vertex 2147483647\n" + vertex + "end_header\n"),
+              HasSubstr("part: expected at most 0 elements 'vertex' in the rest of the file"));
+  for (const char* count : {"2147483648", "18446744073709551615"})
+    EXPECT_THAT(error_of(binary + "element vertex " + count + "\n" + vertex + "end_header\n"),
+                HasSubstr(std::string("part: expected fewer than 2^31 points, found ") + count));
   EXPECT_THAT(error_of("ply\nformat ascii 1.0\nelement vertex 3\n" + vertex +
                        "element face 1\nproperty list int int vertex_index\nend_header\n"
                        "0 0 0\n1 0 0\n0 1 0\n1000000000 0 1 2\n"),

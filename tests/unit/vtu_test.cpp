@@ -188,6 +188,13 @@ TEST(Vtu, JoinsPieces) {
               HasSubstr("expected points from 0 to below 5, found 5"));
 }
 
+TEST(Vtu, RefusesPiecesThatShareTheirData) {
+  std::string text = LaidOut({true, false, true, false, false}).text();
+  const std::size_t begin = text.find("<Piece"), end = text.find("</UnstructuredGrid>");
+  text.insert(end, text.substr(begin, end - begin));
+  EXPECT_THAT(message_of_reading(text), HasSubstr("expected data of its own, found the data of other arrays"));
+}
+
 TEST(Vtu, NamesTheDefect) {
   const auto expect = [](std::string_view from, std::string_view to, const std::string& message) {
     EXPECT_EQ(message_of_reading(changed(from, to)), message);
