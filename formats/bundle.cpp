@@ -133,8 +133,9 @@ long BundleWriter::on_write(archive*, void* self, const void* data, std::size_t 
 
 void BundleWriter::check(bool succeeded) const {
   if (output_error_) std::rethrow_exception(output_error_);
-  if (!succeeded)
-    throw DataError::at(output_.name(), "cannot write the bundle: {}", archive_error_string(archive_.get()));
+  if (succeeded) return;
+  const char* const reason = archive_error_string(archive_.get());
+  throw DataError::at(output_.name(), "cannot write the bundle: {}", reason ? reason : "part of it is missing");
 }
 
 void BundleWriter::begin_member(const std::string& name, std::uint64_t bytes) {
@@ -149,7 +150,14 @@ void BundleWriter::begin_member(const std::string& name, std::uint64_t bytes) {
 }
 
 void BundleWriter::write(const void* data, std::size_t bytes) {
-  if (bytes > 0) check(archive_write_data(archive_.get(), data, bytes) == static_cast<la_ssize_t>(bytes));
+  // libarchive takes less than 2 GiB at once.
+  constexpr std::size_t most_at_once = 1 << 30;
+  for (const char* at = static_cast<const char*>(data); bytes > 0;) {
+    const std::size_t now = std::min(bytes, most_at_once);
+    check(archive_write_data(archive_.get(), at, now) == static_cast<la_ssize_t>(now));
+    at += now;
+    bytes -= now;
+  }
 }
 
 void BundleWriter::add_text(const std::string& name, std::string_view text) {

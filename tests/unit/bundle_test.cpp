@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include <array>
 #include <cstdio>
@@ -216,6 +217,19 @@ TEST(Input, PeeksWithoutTakingAcrossItsBuffer) {
   EXPECT_EQ(input.peek(10), "xxxxxyxxxx");
   EXPECT_EQ(input.peek(2 << 20).size(), std::size_t{2 << 20});
   EXPECT_EQ(input.read_all(), bytes);
+}
+
+TEST(BundleWriter, TakesMoreThanTwoGigabytesAtOnce) {
+  // Never touched, so that no memory is behind them.
+  const std::size_t bytes = (std::size_t{2} << 30) + 100;
+  void* const zeros = mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  ASSERT_NE(zeros, MAP_FAILED);
+  Output output("/dev/null");
+  BundleWriter writer(output, false);
+  writer.begin_member("zeros", bytes);
+  EXPECT_NO_THROW(writer.write(zeros, bytes));
+  EXPECT_NO_THROW(writer.close());
+  munmap(zeros, bytes);
 }
 
 }  // namespace
