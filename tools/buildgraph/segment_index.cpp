@@ -10,20 +10,31 @@ namespace {
 
 constexpr std::int64_t vertices_a_block = 256;
 
-// visit(pair, lower vertex, higher vertex, whether they are an edge)
+// Where corner_pairs has a pair of corners.
+template <class Topology>
+constexpr auto make_pair_numbers() {
+  std::array<std::array<std::uint8_t, Topology::corner_count>, Topology::corner_count> numbers{};
+  for (std::uint8_t pair = 0; pair < corner_pairs<Topology>.size(); ++pair) {
+    const CornerPair& corners = corner_pairs<Topology>[pair];
+    numbers[corners.a][corners.b] = numbers[corners.b][corners.a] = pair;
+  }
+  return numbers;
+}
+template <class Topology>
+constexpr auto pair_numbers = make_pair_numbers<Topology>();
+
+// visit(pair, higher vertex, whether they are an edge) for the pairs of which `low` is the lower vertex.
 template <class Visit>
-void for_each_pair(const Candidates& candidates, std::size_t i, Visit&& visit) {
+void for_each_pair_above(const Candidates& candidates, std::size_t i, Vertex low, Visit&& visit) {
   with_topology(candidates.kind[i], [&]<class Topology>(Topology) {
-    for (std::size_t pair = 0; pair < corner_pairs<Topology>.size(); ++pair) {
-      const CornerPair& corners = corner_pairs<Topology>[pair];
-      const auto [low, high] = std::minmax(candidates.vertices[i][corners.a], candidates.vertices[i][corners.b]);
-      visit(pair, low, high, corners.is_edge);
+    const auto& corners = candidates.vertices[i];
+    const auto own = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), low) - corners.begin());
+    for (std::size_t other = 0; other < Topology::corner_count; ++other) {
+      if (corners[other] <= low) continue;
+      const std::size_t pair = pair_numbers<Topology>[own][other];
+      visit(pair, corners[other], corner_pairs<Topology>[pair].is_edge);
     }
   });
-}
-
-CornerPair corners_of(CellKind kind, std::size_t pair) {
-  return with_topology(kind, [&]<class Topology>(Topology) { return corner_pairs<Topology>[pair]; });
 }
 
 std::size_t most_pairs(const Candidates& candidates) {
@@ -74,56 +85,50 @@ SegmentIndex::SegmentIndex(const Candidates& candidates, std::size_t vertex_coun
   make_segments(candidates, vertex_count);
 }
 
-SegmentIndex::Filed SegmentIndex::file(const Candidates& candidates, std::size_t vertex_count) const {
+SegmentIndex::Filed SegmentIndex::file(const Candidates& candidates, std::size_t vertex_count) {
   Filed filed;
   filed.offsets.assign(vertex_count + 1, 0);
   for (std::size_t i = 0; i < candidates.size(); ++i)
-    for_each_pair(candidates, i, [&](std::size_t, Vertex low, Vertex, bool) { ++filed.offsets[low + 1]; });
+    for (const Vertex v : candidates.corners_of(i)) ++filed.offsets[v + 1];
   std::partial_sum(filed.offsets.begin(), filed.offsets.end(), filed.offsets.begin());
-  filed.pairs.resize(filed.offsets.back());
+  filed.candidates.resize(filed.offsets.back());
   std::vector<std::int64_t> next(filed.offsets.begin(), filed.offsets.end() - 1);
   for (std::size_t i = 0; i < candidates.size(); ++i)
-    for_each_pair(candidates, i, [&](std::size_t pair, Vertex low, Vertex, bool) {
-      filed.pairs[next[low]++] = static_cast<std::int64_t>(stride_ * i + pair);
-    });
+    for (const Vertex v : candidates.corners_of(i)) filed.candidates[next[v]++] = static_cast<std::int32_t>(i);
   return filed;
 }
 
-// A vertex has at most one segment for each pair filed under it, so that there is room for all before they are counted.
 void SegmentIndex::make_segments(const Candidates& candidates, std::size_t vertex_count) {
   const Filed filed = file(candidates, vertex_count);
-  const auto pairs_of = [&](std::int64_t v) {
-    return std::span(filed.pairs).subspan(filed.offsets[v], filed.offsets[v + 1] - filed.offsets[v]);
-  };
-  struct Place {
-    std::size_t candidate, pair;
-    CornerPair corners;
-    Vertex high;
-  };
-  const auto place_of = [&](std::int64_t filed_pair) {
-    const auto at = static_cast<std::size_t>(filed_pair);
-    const std::size_t candidate = at / stride_, pair = at % stride_;
-    const CornerPair corners = corners_of(candidates.kind[candidate], pair);
-    const auto& row = candidates.vertices[candidate];
-    return Place{candidate, pair, corners, std::max(row[corners.a], row[corners.b])};
+  // visit(candidate, pair, higher vertex, whether they are an edge)
+  const auto for_each_pair_at = [&](std::int64_t v, auto&& visit) {
+    for (std::int64_t at = filed.offsets[v]; at < filed.offsets[v + 1]; ++at) {
+      const auto i = static_cast<std::size_t>(filed.candidates[at]);
+      for_each_pair_above(candidates, i, static_cast<Vertex>(v), [&](std::size_t pair, Vertex high, bool is_edge) {
+        visit(filed.candidates[at], stride_ * i + pair, high, is_edge ? 0 : 1);
+      });
+    }
   };
 
   offsets_.assign(vertex_count + 1, 0);
   PerThread<SegmentMaker> makers(SegmentMaker{vertex_count});
   parallel_for(static_cast<std::int64_t>(vertex_count), vertices_a_block, [&](std::int64_t v) {
     SegmentMaker& maker = makers.local();
-    for (const std::int64_t pair : pairs_of(v)) maker.number(place_of(pair).high);
-    offsets_[v + 1] = static_cast<std::int64_t>(header * maker.segments().size() + pairs_of(v).size());
+    std::int64_t pairs = 0;
+    for_each_pair_at(v, [&](std::int32_t, std::size_t, Vertex high, int) {
+      maker.number(high);
+      ++pairs;
+    });
+    offsets_[v + 1] = static_cast<std::int64_t>(header * maker.segments().size()) + pairs;
     maker.clear();
   });
   std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
   entries_.resize(offsets_.back());
   parallel_for(static_cast<std::int64_t>(vertex_count), vertices_a_block, [&](std::int64_t v) {
     SegmentMaker& maker = makers.local();
-    for (const std::int64_t pair : pairs_of(v)) {
-      const Place place = place_of(pair);
-      ++maker.segments()[maker.number(place.high)].counts[place.corners.is_edge ? 0 : 1];
-    }
+    for_each_pair_at(v, [&](std::int32_t, std::size_t, Vertex high, int way) {
+      ++maker.segments()[maker.number(high)].counts[way];
+    });
     std::int32_t* const entries = entries_.data() + offsets_[v];
     std::uint32_t begin = 0;
     for (auto& segment : maker.segments()) {
@@ -134,13 +139,11 @@ void SegmentIndex::make_segments(const Candidates& candidates, std::size_t verte
       segment.counts = {static_cast<std::int32_t>(header), static_cast<std::int32_t>(header) + edges};
       begin += static_cast<std::uint32_t>(header) + static_cast<std::uint32_t>(edges + others);
     }
-    for (const std::int64_t pair : pairs_of(v)) {
-      const Place place = place_of(pair);
-      auto& segment = maker.segments()[maker.number(place.high)];
-      entries[segment.begin + static_cast<std::uint32_t>(segment.counts[place.corners.is_edge ? 0 : 1]++)] =
-          static_cast<std::int32_t>(place.candidate);
-      places_[stride_ * place.candidate + place.pair] = segment.begin;
-    }
+    for_each_pair_at(v, [&](std::int32_t candidate, std::size_t place, Vertex high, int way) {
+      auto& segment = maker.segments()[maker.number(high)];
+      entries[segment.begin + static_cast<std::uint32_t>(segment.counts[way]++)] = candidate;
+      places_[place] = segment.begin;
+    });
     maker.clear();
   });
 }

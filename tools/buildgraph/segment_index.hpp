@@ -51,12 +51,12 @@ class SegmentIndex {
   }
 
  private:
-  // The pairs of candidates of which a vertex is the lower one, as stride_ * candidate + pair; ascending.
+  // The candidates at each vertex, ascending.
   struct Filed {
     std::vector<std::int64_t> offsets;  // vertices + 1
-    std::vector<std::int64_t> pairs;
+    std::vector<std::int32_t> candidates;
   };
-  Filed file(const Candidates& candidates, std::size_t vertex_count) const;
+  static Filed file(const Candidates& candidates, std::size_t vertex_count);
   void make_segments(const Candidates& candidates, std::size_t vertex_count);
 
   std::size_t stride_;                 // pairs of the kind that has most
