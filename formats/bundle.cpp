@@ -4,7 +4,6 @@
 #include <archive_entry.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -14,6 +13,7 @@
 #include <utility>
 
 #include "common/run/error.hpp"
+#include "common/run/memory.hpp"
 
 namespace hexpipe {
 namespace {
@@ -38,10 +38,6 @@ bool is_safe_name(std::string_view name) {
     if (slash == std::string_view::npos) return true;
     name.remove_prefix(slash + 1);
   }
-}
-
-std::uint64_t physical_memory() {
-  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
 }
 
 // Numbers of one type into numbers of another where every one fits; false at the first that does not.
@@ -287,8 +283,7 @@ void BundleReader::read_rows(const NpyHeader& header, NpyType wanted, std::size_
     throw DataError::at(where(), "expected numbers of type {}{}, found {}{}", wanted.kind, wanted.bytes,
                         header.type.kind, header.type.bytes);
   const std::size_t count = header.shape[0];
-  if (count > physical_memory() / row_bytes)
-    throw DataError::at(where(), "expected an array that fits into memory, found {} rows", count);
+  expect_memory(count, row_bytes, where());
   reserve(count);
 
   const std::size_t numbers_a_row = row_bytes / static_cast<std::size_t>(wanted.bytes);

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "common/run/memory.hpp"
 #include "formats/number_lines.hpp"
 
 namespace hexpipe {
@@ -48,6 +49,7 @@ class DimacsParser : NumberLines {
     graph_.weights.assign(vertices, 1);
     has_weight_.assign(vertices, 0);
     weight_sum_ = static_cast<std::int64_t>(vertices);
+    expect_memory(edge_count_, 4 * sizeof(std::int32_t), file());  // both ends twice: the lists, and the graph of them
     ends_.reserve(2 * edge_count_);
   }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "common/run/error.hpp"
+#include "common/run/memory.hpp"
 #include "formats/number_lines.hpp"
 
 namespace hexpipe {
@@ -41,6 +42,7 @@ class MetisParser : NumberLines {
     if (edges > bytes_left() / 4 + 1) fail(fmt::format("expected both ends of {} edges, found less", edges));
     vertex_count_ = static_cast<std::int32_t>(vertices);
     directed_count_ = 2 * edges;
+    expect_memory(directed_count_, sizeof(std::int32_t), file());
     graph_.offsets.reserve(vertices + 1);
     graph_.weights.reserve(vertices);
     graph_.neighbours.reserve(directed_count_);

@@ -199,6 +199,29 @@ product_ending() {
   done
 }
 
+@test "--memory is an error before too much is taken, and stays out of the history" {
+  if sanitized; then skip "the address sanitizer takes terabytes of addresses"; fi
+  for tool in $TOOLS; do
+    assert_fails_with 2 "$tool: --memory: " $tool "$STAGES/$tool.in" --memory lots
+    assert_fails_with 2 "$tool: --memory: " $tool "$STAGES/$tool.in" --memory=-1
+    assert_fails_with 1 "$tool: .*memory" $tool $(limited $tool) -q "$STAGES/$tool.in" -o out.tar --memory 1M
+    assert [ ! -e out.tar ]
+    $tool $(limited $tool) -q "$STAGES/$tool.in" -o limited.tar --memory 2G
+    $tool $(limited $tool) -q "$STAGES/$tool.in" -o free.tar
+    assert_same_bytes limited.tar free.tar
+  done
+  "$PYTHON" "$DATA/ring_graph.py" 20000 2000 1 >ring.graph
+  # Enough to read the file, and not for the graph; how much that is depends on the system's libraries.
+  local mebibytes foreseen=
+  for mebibytes in $(seq 4 2 40); do
+    if initsol ring.graph --iterations 0 -o ring.sol --memory "${mebibytes}M" 2>message; then break; fi
+    assert [ ! -e ring.sol ]
+    if grep -Eqx "initsol: ring.graph: expected [0-9]+ MiB of memory, found [0-9]+ MiB left" message; then foreseen=yes; fi
+  done
+  assert [ -s ring.sol ]
+  assert_equal "$foreseen" yes
+}
+
 @test "statistics that cannot be written are an error before the work, not after it" {
   for tool in $TOOLS; do
     assert_fails_with 1 "$tool: nowhere/statistics.json: cannot write: No such file or directory" \

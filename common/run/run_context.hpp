@@ -31,6 +31,7 @@ struct CommonOptions {
   std::uint64_t seed = 1;
   std::optional<double> time_limit;  // seconds
   std::optional<std::int64_t> iterations;
+  std::optional<std::uint64_t> memory;  // bytes
   std::string stats_file;
   std::string log_file;
   bool verbose = false;

@@ -17,6 +17,7 @@
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "common/run/help_formatter.hpp"
+#include "common/run/memory.hpp"
 #include "common/run/messages.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/parallel.hpp"
@@ -31,8 +32,8 @@ constexpr int exit_usage = 2;
 // Options that say where things are or how to run, but not what comes out: they stay out of the history, so that the
 // same input and options give the same bytes.
 bool decides_result(const CLI::Option& option, const ToolInfo& info) {
-  static const std::vector<std::string> common_ones{"help",    "version", "config", "threads", "stats",   "log",
-                                                    "verbose", "quiet",   "output", "format",  "compress"};
+  static const std::vector<std::string> common_ones{"help", "version", "config", "threads", "memory", "stats",
+                                                    "log",  "verbose", "quiet",  "output",  "format", "compress"};
   if (option.get_lnames().empty()) return false;
   const std::string& long_name = option.get_lnames().front();
   for (const Role role : all_roles)
@@ -91,6 +92,10 @@ void declare_common(CLI::App& app, RunContext& context) {
   app.add_option("--threads", common.threads, "Threads to use; 0: as many as the machine has")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
+  app.add_option("--memory", common.memory, "Take no more memory than this, as 8G; else: what the machine has left")
+      ->type_name("BYTES")
+      ->transform(CLI::AsSizeValue(false).description(""))
+      ->check(CLI::Range(std::uint64_t{1} << 20, std::uint64_t{1} << 62).description(""));
   if (info.random)
     app.add_option("--seed", common.seed, "Seed of the random numbers")
         ->type_name("N")
@@ -212,6 +217,7 @@ int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<v
   context.options = options_for_history(app, info);
 
   try {
+    if (context.common.memory) limit_memory(*context.common.memory);
     const ThreadLimit limit(context.common.threads);
     check_writable(context.common.stats_file);
     const Stopwatch watch;

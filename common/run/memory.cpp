@@ -1,0 +1,83 @@
+#include "common/run/memory.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "common/run/error.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
+
+// The number behind `name` in a file of lines "name: number kB", in bytes; 0 where there is none.
+std::uint64_t bytes_in(const char* file, std::string_view name) {
+  std::ifstream lines(file);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with(name) && line.size() > name.size() && line[name.size()] == ':')
+      return 1024 * std::strtoull(line.c_str() + name.size() + 1, nullptr, 10);
+  return 0;
+}
+
+// A file of one number; `unlimited` where there is none ("max").
+std::uint64_t number_in(const char* file) {
+  std::ifstream stream(file);
+  std::uint64_t number = 0;
+  return stream >> number ? number : unlimited;
+}
+
+std::uint64_t difference(std::uint64_t limit, std::uint64_t used) {
+  return limit == unlimited ? unlimited : limit - std::min(limit, used);
+}
+
+std::uint64_t left_on_machine() {
+  const std::uint64_t available = bytes_in("/proc/meminfo", "MemAvailable");
+  return available == 0 ? unlimited : available + bytes_in("/proc/meminfo", "SwapFree");
+}
+
+// Of version 2, where a container sees its own group at the root.
+std::uint64_t left_in_control_group() {
+  return difference(number_in("/sys/fs/cgroup/memory.max"), number_in("/sys/fs/cgroup/memory.current"));
+}
+
+std::uint64_t left_under_limit() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_DATA, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
+  return difference(limit.rlim_cur, bytes_in("/proc/self/status", "VmData"));
+}
+
+std::string readable(double bytes) {
+  constexpr double mebibyte = 1 << 20;
+  const double size = bytes / mebibyte;
+  return size < 1024 ? fmt::format("{:.0f} MiB", size) : fmt::format("{:.1f} GiB", size / 1024);
+}
+
+}  // namespace
+
+void limit_memory(std::uint64_t bytes) {
+  rlimit limit{};
+  getrlimit(RLIMIT_DATA, &limit);
+  limit.rlim_cur = std::min<rlim_t>(bytes, limit.rlim_max);
+  if (setrlimit(RLIMIT_DATA, &limit) != 0)
+    throw DataError(fmt::format("cannot limit memory: {}", std::strerror(errno)));
+}
+
+std::uint64_t memory_left() {
+  return std::min({left_under_limit(), left_in_control_group(), left_on_machine()});
+}
+
+void expect_memory(std::uint64_t count, std::uint64_t bytes_each, std::string_view where) {
+  const std::uint64_t left = memory_left();
+  if (count <= left / bytes_each) return;
+  throw DataError::at(where, "expected {} of memory, found {} left",
+                      readable(static_cast<double>(count) * static_cast<double>(bytes_each)),
+                      readable(static_cast<double>(left)));
+}
+
+}  // namespace hexpipe

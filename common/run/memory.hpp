@@ -1,0 +1,19 @@
+#pragma once
+// How much memory a tool may take: what is too large is refused before it is begun, where its size is known by then.
+
+#include <cstdint>
+#include <string_view>
+
+namespace hexpipe {
+
+// Makes every allocation beyond so many bytes fail, in this process and those it starts. Throws DataError when the
+// system refuses that.
+void limit_memory(std::uint64_t bytes);
+
+// Bytes that may still be allocated, under the limit, in the control group and on the machine with its swap space.
+std::uint64_t memory_left();
+
+// Throws DataError when no memory is left for so many items; `where` begins its message.
+void expect_memory(std::uint64_t count, std::uint64_t bytes_each, std::string_view where);
+
+}  // namespace hexpipe
