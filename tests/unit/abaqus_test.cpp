@@ -6,7 +6,7 @@
 namespace hexpipe {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 // Small enough to be read; the faces are those of the Abaqus manual for each element.
 TEST(Abaqus, WritesElementsSetsAndSurfaces) {
@@ -116,7 +116,7 @@ TEST(Abaqus, RefusesFacetsOfNoCell) {
   MixedMesh mesh = one_cell_of_each_kind();
   mesh.triangles.cells[1] = {0, 1, 2};
   EXPECT_THAT([&] { written(mesh, "inp"); },
-              testing::ThrowsMessage<DataError>(HasSubstr("cannot write triangles[1]: Abaqus surfaces consist of")));
+              ::testing::ThrowsMessage<DataError>(HasSubstr("cannot write triangles[1]: Abaqus surfaces consist of")));
 }
 
 }  // namespace

@@ -7,13 +7,12 @@
 #include <array>
 #include <cstdio>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "common/mesh/vec3.hpp"
 #include "common/run/error.hpp"
-#include "tests/unit/temporary_path.hpp"
+#include "tests/unit/written_bytes.hpp"
 
 namespace hexpipe {
 namespace {
@@ -22,24 +21,14 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-std::string read_file(const std::string& path) {
-  std::ostringstream bytes;
-  bytes << std::ifstream(path, std::ios::binary).rdbuf();
-  return bytes.str();
-}
-
 // A bundle with whatever `fill` adds, as bytes.
 template <class Fill>
 std::string bundle_bytes(Fill&& fill, bool compress = false) {
-  const std::string path = hexpipe::testing::temporary_path("bundle_test.tar");
-  Output output(path);
-  BundleWriter writer(output, compress);
-  fill(writer);
-  writer.close();
-  output.commit();
-  std::string bytes = read_file(path);
-  std::remove(path.c_str());
-  return bytes;
+  return hexpipe::testing::written_bytes([&](Output& output) {
+    BundleWriter writer(output, compress);
+    fill(writer);
+    writer.close();
+  });
 }
 
 const std::vector<std::array<std::int32_t, 4>> tets{{0, 1, 2, 3}, {4, 5, 6, 7}, {-1, 2, 3, 4}};
@@ -199,7 +188,8 @@ TEST(Output, LeavesTheOldFileWhenItIsNotCommitted) {
     Output output(path);
     output.write("new");
   }
-  EXPECT_EQ(read_file(path), "old");
+  EXPECT_EQ(hexpipe::testing::read_file(path), "old");
+  std::remove(path.c_str());
 }
 
 TEST(Output, AFullDiskIsAnError) {
@@ -217,6 +207,7 @@ TEST(Input, PeeksWithoutTakingAcrossItsBuffer) {
   EXPECT_EQ(input.peek(10), "xxxxxyxxxx");
   EXPECT_EQ(input.peek(2 << 20).size(), std::size_t{2 << 20});
   EXPECT_EQ(input.read_all(), bytes);
+  std::remove(path.c_str());
 }
 
 TEST(BundleWriter, TakesMoreThanTwoGigabytesAtOnce) {

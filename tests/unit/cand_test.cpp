@@ -3,12 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <fstream>
-#include <sstream>
-
 #include "common/run/error.hpp"
-#include "tests/unit/temporary_path.hpp"
+#include "tests/unit/written_bytes.hpp"
 
 namespace hexpipe {
 namespace {
@@ -30,15 +26,7 @@ Candidates read(const std::string& text) {
 }
 
 std::string written(const Candidates& candidates) {
-  const std::string path = hexpipe::testing::temporary_path("cand_test.cand");
-  Output output(path);
-  write_cand(candidates, output);
-  output.commit();
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  std::remove(path.c_str());
-  return text.str();
+  return hexpipe::testing::written_bytes([&](Output& output) { write_cand(candidates, output); });
 }
 
 void expect_rejected(const std::string& text, const std::string& message) {

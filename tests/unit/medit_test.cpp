@@ -6,7 +6,7 @@
 namespace hexpipe {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr std::string_view one_tet = R"(MeshVersionFormatted 2
 Dimension 3

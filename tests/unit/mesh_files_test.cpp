@@ -8,8 +8,8 @@
 namespace hexpipe {
 namespace {
 
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 constexpr std::string_view read_and_written[] = {"mesh", "msh", "msh-binary", "msh22", "msh22-binary", "vtk", "vtu"};
 
@@ -21,7 +21,7 @@ MixedMesh as_carried_by(std::string_view format, MixedMesh mesh) {
 
 TEST(MeshFiles, NamesEveryFormatThatItWrites) {
   EXPECT_THAT(mesh_format_names(),
-              testing::ElementsAre("mesh", "msh", "msh-binary", "msh22", "msh22-binary", "vtk", "vtu", "inp"));
+              ::testing::ElementsAre("mesh", "msh", "msh-binary", "msh22", "msh22-binary", "vtk", "vtu", "inp"));
   EXPECT_THROW(written(one_cell_of_each_kind(), "stl"), UsageError);
 }
 
@@ -144,7 +144,7 @@ TEST(MeshFiles, RefusesCoordinatesThatAreNotFinite) {
   MixedMesh mesh = one_cell_of_each_kind();
   mesh.points[3].y = std::numeric_limits<double>::quiet_NaN();
   for (const std::string_view format : read_and_written)
-    EXPECT_THAT(message_of_reading(written(mesh, format)), testing::ContainsRegex("coordinate|number")) << format;
+    EXPECT_THAT(message_of_reading(written(mesh, format)), ::testing::ContainsRegex("coordinate|number")) << format;
 }
 
 TEST(MeshFiles, RefusesCellsThatRepeatAVertex) {

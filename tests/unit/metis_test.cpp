@@ -3,13 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <fstream>
-#include <sstream>
-
 #include "common/run/error.hpp"
 #include "random_graphs.hpp"
-#include "tests/unit/temporary_path.hpp"
+#include "tests/unit/written_bytes.hpp"
 
 namespace hexpipe {
 namespace {
@@ -30,17 +26,7 @@ void expect_rejected(const std::string& text, const std::string& message) {
 }
 
 std::string written(const ConflictGraph& graph) {
-  const std::string path = hexpipe::testing::temporary_path("metis_test.graph");
-  {
-    Output output(path);
-    write_metis(graph, output);
-    output.commit();
-  }
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  std::remove(path.c_str());
-  return text.str();
+  return hexpipe::testing::written_bytes([&](Output& output) { write_metis(graph, output); });
 }
 
 TEST(Metis, ReadsEveryKindOfWeights) {

@@ -11,8 +11,8 @@
 namespace hexpipe {
 namespace {
 
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 TetMesh one_tet() {
   TetMesh mesh;

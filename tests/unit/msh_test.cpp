@@ -8,8 +8,8 @@
 namespace hexpipe {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 constexpr std::string_view two_tets_2 = R"($MeshFormat
 2.2 0 8

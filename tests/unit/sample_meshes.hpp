@@ -1,13 +1,8 @@
 #pragma once
 // Meshes and helpers for the tests of the formats.
 
-#include <unistd.h>
-
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <string>
 #include <string_view>
@@ -18,6 +13,7 @@
 #include "common/run/random.hpp"
 #include "formats/mesh_blocks.hpp"
 #include "formats/mesh_files.hpp"
+#include "tests/unit/written_bytes.hpp"
 
 namespace hexpipe {
 
@@ -82,16 +78,7 @@ inline void drop_quality(MixedMesh& mesh) {
 }
 
 inline std::string written(const MixedMesh& mesh, std::string_view format) {
-  const std::string path = "/tmp/hexpipe_formats_" + std::to_string(getpid());
-  {
-    Output output(path);
-    write_mixed_mesh(mesh, format, output);
-    output.commit();
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes(std::istreambuf_iterator<char>(file), {});
-  std::remove(path.c_str());
-  return bytes;
+  return hexpipe::testing::written_bytes([&](Output& output) { write_mixed_mesh(mesh, format, output); });
 }
 
 inline MixedMesh parsed(std::string bytes) {

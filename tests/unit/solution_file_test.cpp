@@ -3,12 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <fstream>
-#include <sstream>
-
 #include "common/run/error.hpp"
-#include "tests/unit/temporary_path.hpp"
+#include "tests/unit/written_bytes.hpp"
 
 namespace hexpipe {
 namespace {
@@ -66,17 +62,7 @@ TEST(SolutionFile, RejectsTruncatedLinesForEachVertex) {
 }
 
 TEST(SolutionFile, WritesNumbersFromOne) {
-  const std::string path = hexpipe::testing::temporary_path("solution_file_test.sol");
-  {
-    Output output(path);
-    write_solution({1, 4}, output);
-    output.commit();
-  }
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  std::remove(path.c_str());
-  EXPECT_EQ(text.str(), "2\n5\n");
+  EXPECT_EQ(hexpipe::testing::written_bytes([](Output& output) { write_solution({1, 4}, output); }), "2\n5\n");
 }
 
 }  // namespace

@@ -9,11 +9,11 @@
 namespace hexpipe {
 namespace {
 
-using testing::ElementsAre;
-using testing::EndsWith;
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
 
 // The files of a mesh of two tets, beside each other as TetGen leaves them; written anew with every read.
-class TetgenFiles : public testing::Test {
+class TetgenFiles : public ::testing::Test {
  protected:
   void SetUp() override {
     folder_ = "/tmp/hexpipe_tetgen_" + std::to_string(getpid());
@@ -117,7 +117,7 @@ TEST_F(TetgenFiles, DefectsAreNamedWithFileAndLine) {
   expect(face, "1 3 2", "1 3 9", "a.1.face:2: expected a point from 1 to 5, found '9'");
   expect(face, "3  1", "4  1", "a.1.face:5: expected the number of a line, found end of file");
   ele.clear();
-  EXPECT_THAT(message(".node"), testing::HasSubstr("a.1.ele: cannot open"));
+  EXPECT_THAT(message(".node"), ::testing::HasSubstr("a.1.ele: cannot open"));
 }
 
 TEST_F(TetgenFiles, EveryTruncatedPrefixIsRejected) {

@@ -9,8 +9,8 @@
 namespace hexpipe {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 constexpr std::string_view one_tet = R"(# vtk DataFile Version 2.0
 a title

@@ -10,8 +10,8 @@
 namespace hexpipe {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 constexpr std::string_view one_tet = R"(<?xml version="1.0"?>
 <!-- <VTKFile> -->
