@@ -33,6 +33,12 @@ void visit_members_of_graph(Graph& graph, Visit&& visit) {
   visit("graph/weights.npy", graph.weights);
 }
 
+template <class Cover, class Visit>
+void visit_members_of_cover(Cover& cover, Visit&& visit) {
+  visit("graph/clique_offsets.npy", cover.offsets);
+  visit("graph/clique_members.npy", cover.members);
+}
+
 template <class Set, class Visit>
 void visit_members_of_solution(Set& solution, Visit&& visit) {
   visit("solution/chosen.npy", solution);
@@ -71,7 +77,7 @@ std::optional<Role> role_of_member(std::string_view name) {
   return std::nullopt;
 }
 
-bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy) {
+bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy, bool with_cover) {
   bool known = false;
   auto take = [&]<class T>(std::string_view name, std::vector<T>& array) {
     if (known || reader.name() != name) return;
@@ -90,6 +96,7 @@ bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy) {
       break;
     case Role::graph:
       visit_members_of_graph(ensure(data.graph), take);
+      if (with_cover && reader.name().starts_with("graph/clique_")) visit_members_of_cover(ensure(data.cover), take);
       break;
     case Role::solution:
       visit_members_of_solution(ensure(data.solution), take);
@@ -117,6 +124,9 @@ void write_members(BundleWriter& writer, const Candidates& candidates) {
 }
 void write_members(BundleWriter& writer, const ConflictGraph& graph) {
   visit_members_of_graph(graph, writing_to(writer));
+}
+void write_members(BundleWriter& writer, const CliqueCover& cover) {
+  visit_members_of_cover(cover, writing_to(writer));
 }
 void write_members(BundleWriter& writer, const IndependentSet& solution) {
   visit_members_of_solution(solution, writing_to(writer));

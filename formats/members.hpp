@@ -14,12 +14,14 @@ namespace hexpipe {
 std::optional<Role> role_of_member(std::string_view name);
 
 // Takes the current member into `data` when it is one of its role's arrays, and also writes it to `copy` unless that is
-// null. False: the member is not known (and still unread).
-bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy);
+// null. A graph's clique cover is taken only where `with_cover` says so. False: the member is not known (and still
+// unread).
+bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy, bool with_cover);
 
 void write_members(BundleWriter& writer, const TetMesh& mesh);
 void write_members(BundleWriter& writer, const Candidates& candidates);
 void write_members(BundleWriter& writer, const ConflictGraph& graph);
+void write_members(BundleWriter& writer, const CliqueCover& cover);
 void write_members(BundleWriter& writer, const IndependentSet& solution);
 void write_members(BundleWriter& writer, const MixedMesh& result);
 

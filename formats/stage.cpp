@@ -135,6 +135,7 @@ void write_role(Role role, const StageData& data, BundleWriter& writer) {
       break;
     case Role::graph:
       write_members(writer, *data.graph);
+      if (data.cover) write_members(writer, *data.cover);
       break;
     case Role::solution:
       write_members(writer, *data.solution);
@@ -143,6 +144,16 @@ void write_role(Role role, const StageData& data, BundleWriter& writer) {
       write_members(writer, *data.result);
       break;
   }
+}
+
+struct GraphAndCover {
+  const ConflictGraph& graph;
+  const CliqueCover* cover;
+};
+
+void write_members(BundleWriter& writer, const GraphAndCover& product) {
+  write_members(writer, product.graph);
+  if (product.cover != nullptr) write_members(writer, *product.cover);
 }
 
 // Arrays that a stage of the user's own may leave out.
@@ -172,6 +183,8 @@ struct Stage::State {
   // Where each role came from, for messages.
   std::map<Role, std::string> sources;
   std::set<Role> seen;
+  bool with_cover = false;
+  std::set<Role> held_back;
 
   Role product() const { return *context.info.product; }
   bool reads(Role role) const {
@@ -271,11 +284,11 @@ void Stage::State::read_bundle(Input& input, const std::set<Role>& taken, StageD
   while (reader.next()) {
     const auto role = role_of_member(reader.name());
     const bool replaced = role && context.streams.files.contains(*role);
-    const bool passes = bundle && !replaced && (!role || *role < product());
+    const bool passes = bundle && !replaced && (!role || (*role < product() && !held_back.contains(*role)));
     if (role && !replaced) {
       seen.insert(*role);
       sources[*role] = input.name();
-      if (taken.contains(*role) && read_member(reader, data, passes ? &*bundle : nullptr)) continue;
+      if (taken.contains(*role) && read_member(reader, data, passes ? &*bundle : nullptr, with_cover)) continue;
     }
     if (reader.name().starts_with("history/")) {
       const std::string text = reader.read_text(longest_history_entry);
@@ -305,7 +318,7 @@ void Stage::State::read_files(std::map<Role, Input>& files, StageData& data) {
     if (looks_like_bundle(input)) {
       BundleReader reader(input);
       while (reader.next())
-        if (role_of_member(reader.name()) == role) read_member(reader, data, nullptr);
+        if (role_of_member(reader.name()) == role) read_member(reader, data, nullptr, with_cover || bundle);
       if (!holds(data, role))
         throw DataError::at(input.name(), "expected {} in this bundle, found none", name_of(role));
       fill_defaults(data);
@@ -313,13 +326,25 @@ void Stage::State::read_files(std::map<Role, Input>& files, StageData& data) {
       read_role_file(role, input, data);
       if (role == Role::mesh) orient(*data.mesh, input.name());
     }
-    if (bundle && role < product()) write_role(role, data, *bundle);
+    if (bundle && role < product() && !held_back.contains(role)) write_role(role, data, *bundle);
   }
 }
 
 std::string Stage::State::source_of(Role role) const {
   const auto found = sources.find(role);
   return found == sources.end() ? std::string(name_of(role)) : fmt::format("{}: {}", found->second, name_of(role));
+}
+
+void Stage::take_cover() {
+  state_->with_cover = true;
+}
+
+void Stage::hold_back(Role role) {
+  state_->held_back.insert(role);
+}
+
+bool Stage::writes_bundle() const {
+  return is_bundle_format(state_->format);
 }
 
 std::string Stage::source_of(Role role) const {
@@ -338,6 +363,7 @@ void Stage::State::check(const StageData& data) const {
       throw DataError::at(source_of(Role::graph), "expected a vertex for each of the {} candidates, found {}",
                           data.candidates->size(), data.graph->weights.size());
   }
+  if (data.cover) validate(*data.cover, *data.graph, source_of(Role::graph).c_str());
   if (data.solution && data.graph) validate(*data.solution, *data.graph, source_of(Role::solution).c_str());
   if (data.result) validate(*data.result, source_of(Role::result).c_str());
 }
@@ -368,8 +394,10 @@ void Stage::write(const Candidates& candidates, const nlohmann::ordered_json& de
   state_->write(candidates, details, [&](Output& output) { write_cand(candidates, output); });
 }
 
-void Stage::write(const ConflictGraph& graph, const nlohmann::ordered_json& details) {
-  state_->write(graph, details, [&](Output& output) {
+void Stage::write(const ConflictGraph& graph, const Candidates* candidates, const CliqueCover* cover,
+                  const nlohmann::ordered_json& details) {
+  if (state_->bundle && candidates != nullptr) write_members(*state_->bundle, *candidates);
+  state_->write(GraphAndCover{graph, cover}, details, [&](Output& output) {
     if (const auto warning = metis_weight_warning(graph)) state_->context.warn(*warning);
     write_metis(graph, output);
   });

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/graph/clique_cover.hpp"
 #include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/mixed_mesh.hpp"
@@ -21,6 +22,7 @@ struct StageData {
   std::optional<TetMesh> mesh;
   std::optional<Candidates> candidates;
   std::optional<ConflictGraph> graph;
+  std::optional<CliqueCover> cover;  // of the graph, for a stage that asked for it
   std::optional<IndependentSet> solution;
   std::optional<MixedMesh> result;
   std::vector<nlohmann::ordered_json> history;
@@ -38,6 +40,13 @@ class Stage {
   // tool's own product and what depends on it. A tool without a product only reads.
   StageData read(const std::vector<Role>& needs, const std::vector<Role>& wants = {});
 
+  // Before reading: takes the graph's clique cover too, where there is one, validated.
+  void take_cover();
+  // Before reading: members of this role do not pass, for the tool writes them anew with its product.
+  void hold_back(Role role);
+  // Whether the product goes into a bundle, where others may stand beside it.
+  bool writes_bundle() const;
+
   // The file (or stream) that a role was read from, for messages about it.
   std::string source_of(Role role) const;
 
@@ -48,7 +57,9 @@ class Stage {
   // ...details}, and commit.
   void write(const TetMesh& mesh, const nlohmann::ordered_json& details);
   void write(const Candidates& candidates, const nlohmann::ordered_json& details);
-  void write(const ConflictGraph& graph, const nlohmann::ordered_json& details);
+  // With what belongs to it, in a bundle only: candidates that were held back, a clique cover.
+  void write(const ConflictGraph& graph, const Candidates* candidates, const CliqueCover* cover,
+             const nlohmann::ordered_json& details);
   void write(const IndependentSet& solution, const nlohmann::ordered_json& details);
   void write(const MixedMesh& result, const nlohmann::ordered_json& details);
 

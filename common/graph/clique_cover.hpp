@@ -25,8 +25,17 @@ struct CliqueCover {
 };
 
 // Maximal cliques, grown from edges that no clique has yet, over neighbours with as many such edges as can be had first
-// (Verhetsel 2017, 3.2, the greedy edge clique cover). A vertex without neighbours is a clique of its own.
-CliqueCover greedy_edge_clique_cover(const ConflictGraph& graph);
+// (Verhetsel 2017, 3.2, the greedy edge clique cover). A vertex without neighbours is a clique of its own. Cliques that
+// are known may come `first`: each is grown until it is maximal, unless those before it have all of its edges.
+CliqueCover greedy_edge_clique_cover(const ConflictGraph& graph, const CliqueCover& first = {});
+
+// Each of `cliques` grown until it is maximal, unless those before it have all of its edges; those that are no cliques
+// of the graph are left out. Most edges may be in none.
+CliqueCover maximal_cliques(const ConflictGraph& graph, const CliqueCover& cliques);
+
+// Throws DataError naming `source` when offsets do not ascend, members are out of range, unsorted or repeated, two of a
+// clique are no edge, or an edge is in no clique. O(edges + pairs in cliques).
+void validate(const CliqueCover& cover, const ConflictGraph& graph, const char* source);
 
 // Adds maximal cliques whose members are chosen by more than 1 together, where `fractions`, one a vertex from 0 to 1,
 // says how much of it is: cliques that the cover misses. Returns their number.

@@ -18,6 +18,7 @@ MEMBERS = {  # member: (dtype, columns; 0 = one dimension)
     "candidates/volume.npy": ("<f8", 0), "candidates/tets.npy": ("<i4", 0), "candidates/tet_offsets.npy": ("<i8", 0),
     "candidates/boundary_tets.npy": ("<i4", 0), "candidates/boundary_tet_offsets.npy": ("<i8", 0),
     "graph/offsets.npy": ("<i8", 0), "graph/neighbours.npy": ("<i4", 0), "graph/weights.npy": ("<i8", 0),
+    "graph/clique_offsets.npy": ("<i8", 0), "graph/clique_members.npy": ("<i4", 0),
     "solution/chosen.npy": ("<i4", 0),
     "result/points.npy": ("<f8", 3), "result/hexes.npy": ("<i4", 8), "result/prisms.npy": ("<i4", 6),
     "result/pyramids.npy": ("<i4", 5), "result/tets.npy": ("<i4", 4), "result/triangles.npy": ("<i4", 3),

@@ -7,12 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include "common/graph/tet_cliques.hpp"
 #include "common/run/error.hpp"
 #include "common/run/freed_memory.hpp"
 #include "common/run/parallel.hpp"
 #include "tools/buildgraph/conflicts.hpp"
 #include "tools/buildgraph/dense_ids.hpp"
 #include "tools/buildgraph/packed_lists.hpp"
+#include "tools/buildgraph/reduce.hpp"
 #include "tools/buildgraph/sorted_set.hpp"
 
 namespace hexpipe {
@@ -26,6 +28,14 @@ struct LowerConflicts {
   std::vector<PackedLists> blocks;  // of candidates_a_block lists each
   std::vector<std::int64_t> degrees;
 };
+
+// What conflicts do not depend on is a third of the memory that candidates take.
+void forget_worth(Candidates& candidates) {
+  candidates.quality = {};
+  candidates.volume = {};
+  candidates.boundary_tets = {};
+  candidates.boundary_tet_offsets = {};
+}
 
 LowerConflicts find_lower_conflicts(const Candidates& candidates, const Part& part) {
   const std::size_t count = candidates.size();
@@ -68,13 +78,14 @@ LowerConflicts find_lower_conflicts(const Candidates& candidates, const Part& pa
 // Conflicts are found once, from their higher end. They are packed until all are counted, and what they were found by
 // is gone before the graph takes its memory. Then they are written at both ends: as higher ends come in ascending
 // order, so do all lists, and none goes further than the higher ends so far. So the graph grows as the lists are freed.
-ConflictGraph buildgraph(Candidates candidates, const BuildgraphOptions& options, const char* source) {
+ConflictGraph conflict_graph(Candidates candidates, const BuildgraphOptions& options, const char* source) {
   const std::size_t count = candidates.size();
   if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw DataError::at(source, "expected fewer than 2^31 candidates, found {}", count);
   ConflictGraph graph;
   graph.weights = weights_of(candidates, options.weight, options.weight_scale, source);
 
+  forget_worth(candidates);
   LowerConflicts conflicts = find_lower_conflicts(candidates, options.part);
   candidates = {};
   graph.offsets.assign(count + 1, 0);
@@ -97,6 +108,21 @@ ConflictGraph buildgraph(Candidates candidates, const BuildgraphOptions& options
   }
   graph.neighbours.resize(graph.offsets.back());
   return graph;
+}
+
+BuildgraphResult buildgraph(Candidates candidates, const BuildgraphOptions& options, const char* source) {
+  BuildgraphResult result;
+  if (options.reduce) {
+    result.graph = conflict_graph(candidates, options, source);
+    result.dominated = reduce(candidates, result.graph);
+    if (options.cover) result.cover = greedy_edge_clique_cover(result.graph, cliques_of_tets(candidates));
+    result.candidates = std::move(candidates);
+  } else {
+    const CliqueCover known = options.cover ? cliques_of_tets(candidates) : CliqueCover();
+    result.graph = conflict_graph(std::move(candidates), options, source);
+    if (options.cover) result.cover = greedy_edge_clique_cover(result.graph, known);
+  }
+  return result;
 }
 
 }  // namespace hexpipe

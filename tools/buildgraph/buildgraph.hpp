@@ -1,6 +1,9 @@
 #pragma once
 // The conflict graph of candidates: docs/definitions.md 2.
 
+#include <optional>
+
+#include "common/graph/clique_cover.hpp"
 #include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
 #include "common/run/part.hpp"
@@ -11,11 +14,23 @@ namespace hexpipe {
 struct BuildgraphOptions {
   WeightKind weight = WeightKind::quality;
   double weight_scale = 1e6;
-  Part part{};  // only conflicts whose higher end is in this part of the candidates
+  Part part{};          // only conflicts whose higher end is in this part of the candidates
+  bool reduce = false;  // leave out dominated candidates
+  bool cover = false;   // find an edge clique cover, from the mesh
+};
+
+struct BuildgraphResult {
+  ConflictGraph graph;
+  std::optional<Candidates> candidates;  // where they were reduced: those that are left, vertex i is candidate i
+  std::optional<CliqueCover> cover;
+  std::int64_t dominated = 0;  // candidates that were left out
 };
 
 // Vertex i is candidate i. Throws DataError naming `source` when weights do not fit (see weights_of) or there are 2^31
-// candidates or more. Candidates that are moved in are gone before the graph takes its memory.
-ConflictGraph buildgraph(Candidates candidates, const BuildgraphOptions& options, const char* source);
+// candidates or more.
+BuildgraphResult buildgraph(Candidates candidates, const BuildgraphOptions& options, const char* source);
+
+// The graph alone, of all candidates. Those that are moved in are gone before the graph takes its memory.
+ConflictGraph conflict_graph(Candidates candidates, const BuildgraphOptions& options, const char* source);
 
 }  // namespace hexpipe

@@ -1,13 +1,31 @@
 #include <map>
+#include <utility>
 
+#include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/phases.hpp"
 #include "common/run/tool_main.hpp"
+#include "formats/cand.hpp"
 #include "formats/stage.hpp"
 #include "tools/buildgraph/buildgraph.hpp"
 #include "tools/buildgraph/report.hpp"
 
 using namespace hexpipe;
+
+namespace {
+
+// What is written has to be understood later: a graph of fewer candidates needs these beside it.
+void check_together(const BuildgraphOptions& options, const std::string& reduced_candidates, bool to_bundle) {
+  if (options.part.count > 1 && (options.reduce || options.cover))
+    throw UsageError("--part does not go with --reduce and --cover: they need the whole graph");
+  if (!options.reduce && !reduced_candidates.empty())
+    throw UsageError("--reduced-candidates does nothing without --reduce");
+  if (options.reduce && !to_bundle && reduced_candidates.empty())
+    throw UsageError("--reduce to a .graph needs --reduced-candidates FILE, of which its vertices are the lines");
+  if (options.cover && !to_bundle) throw UsageError("--cover needs a bundle to be written to: a .tar, or a pipe");
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   const std::map<std::string, WeightKind> weights{{"quality", WeightKind::quality},
@@ -20,9 +38,10 @@ int main(int argc, char** argv) {
       .example = "buildgraph engine.cand --weight volume -o engine.graph",
       .reads = {Role::candidates},
       .product = Role::graph,
+      .outside_history = {"reduced-candidates"},
   };
   BuildgraphOptions options;
-  std::string weight = "quality", part = "1/1";
+  std::string weight = "quality", part = "1/1", reduced_candidates;
   const auto declare = [&](CLI::App& app) {
     app.add_option("--weight", weight, "What a candidate is worth: quality, volume, count (1 each) or quality*volume")
         ->check(CLI::IsMember(weights));
@@ -30,22 +49,37 @@ int main(int argc, char** argv) {
         ->check(number_between(1e-100, 1e100));
     app.add_option("--part", part,
                    "i/k: only conflicts whose higher candidate is in part i of k; see Makefile.examples");
+    app.add_flag("--reduce", options.reduce,
+                 "Leave out candidates that no choice needs: another one has no conflict more and weighs no less");
+    app.add_option("--reduced-candidates", reduced_candidates,
+                   "With --reduce: write the candidates that are left, vertex by vertex, to a .cand")
+        ->type_name("FILE");
+    app.add_flag("--cover", options.cover,
+                 "Add an edge clique cover to the bundle: cliques at tets, grown, then what they miss");
   };
   const auto run = [&](RunContext& context) {
     options.weight = weights.at(weight);
     options.part = parse_part(part);
     Phases phases;
     Stage stage(context);
+    check_together(options, reduced_candidates, stage.writes_bundle());
+    if (options.reduce) stage.hold_back(Role::candidates);
     StageData data = stage.read({Role::candidates});
     phases.end("read");
-    const ConflictGraph graph =
+    const BuildgraphResult result =
         buildgraph(std::move(*data.candidates), options, stage.source_of(Role::candidates).c_str());
     phases.end("build");
-    const GraphSummary summary = summarize(graph);
+    const GraphSummary summary = summarize(result);
     for (const auto& warning : warnings_about(summary)) context.warn(warning);
-    context.note(summary_line(summary));
+    for (const auto& line : summary_lines(summary)) context.note(line);
     context.statistics.update(to_json(summary));
-    stage.write(graph, {{"vertices", summary.vertices}, {"edges", summary.edges}});
+    if (!reduced_candidates.empty()) {
+      Output output(reduced_candidates);
+      write_cand(*result.candidates, output);
+      output.commit();
+    }
+    stage.write(result.graph, result.candidates ? &*result.candidates : nullptr,
+                result.cover ? &*result.cover : nullptr, history_of(summary));
     phases.end("write");
     context.statistics.update(phases.seconds());
   };

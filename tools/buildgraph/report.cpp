@@ -7,8 +7,14 @@
 
 namespace hexpipe {
 
-GraphSummary summarize(const ConflictGraph& graph) {
+GraphSummary summarize(const BuildgraphResult& result) {
+  const ConflictGraph& graph = result.graph;
   GraphSummary summary;
+  if (result.candidates) summary.dominated = result.dominated;
+  if (result.cover) {
+    summary.cliques = result.cover->size();
+    summary.clique_members = static_cast<std::int64_t>(result.cover->members.size());
+  }
   summary.vertices = graph.vertex_count();
   summary.edges = graph.edge_count();
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v)
@@ -26,17 +32,37 @@ std::vector<std::string> warnings_about(const GraphSummary& summary) {
                       summary.without_weight, summary.vertices)};
 }
 
-std::string summary_line(const GraphSummary& summary) {
-  return fmt::format("{} vertices, {} edges, greatest degree {}, density {:.3g}, total weight {}", summary.vertices,
-                     summary.edges, summary.max_degree, summary.density, summary.total_weight);
+std::vector<std::string> summary_lines(const GraphSummary& summary) {
+  std::vector<std::string> lines;
+  if (summary.dominated) {
+    const std::int64_t all = summary.vertices + *summary.dominated;
+    lines.push_back(
+        fmt::format("{} of {} candidates are left out as dominated ({:.1f} %)", *summary.dominated, all,
+                    all > 0 ? 100.0 * static_cast<double>(*summary.dominated) / static_cast<double>(all) : 0.0));
+  }
+  lines.push_back(fmt::format("{} vertices, {} edges, greatest degree {}, density {:.3g}, total weight {}",
+                              summary.vertices, summary.edges, summary.max_degree, summary.density,
+                              summary.total_weight));
+  if (summary.cliques)
+    lines.push_back(fmt::format("the edges are covered by {} cliques of {} vertices together", *summary.cliques,
+                                *summary.clique_members));
+  return lines;
+}
+
+nlohmann::ordered_json history_of(const GraphSummary& summary) {
+  nlohmann::ordered_json history{{"vertices", summary.vertices}, {"edges", summary.edges}};
+  if (summary.dominated) history["dominated"] = *summary.dominated;
+  if (summary.cliques) history["cliques"] = *summary.cliques;
+  return history;
 }
 
 nlohmann::ordered_json to_json(const GraphSummary& summary) {
-  return {{"vertices", summary.vertices},
-          {"edges", summary.edges},
-          {"max_degree", summary.max_degree},
-          {"density", summary.density},
-          {"total_weight", summary.total_weight}};
+  nlohmann::ordered_json all = history_of(summary);
+  if (summary.cliques) all["clique_members"] = *summary.clique_members;
+  all["max_degree"] = summary.max_degree;
+  all["density"] = summary.density;
+  all["total_weight"] = summary.total_weight;
+  return all;
 }
 
 }  // namespace hexpipe

@@ -1,11 +1,12 @@
 #pragma once
-// What buildgraph says of a graph: warnings, a line for -v, and JSON for --stats.
+// What buildgraph says of a graph: warnings, lines for -v, and JSON for --stats and the history.
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "common/graph/conflict_graph.hpp"
+#include "tools/buildgraph/buildgraph.hpp"
 
 namespace hexpipe {
 
@@ -14,12 +15,15 @@ struct GraphSummary {
   std::int64_t max_degree = 0;
   double density = 0;  // edges / pairs of vertices
   std::int64_t total_weight = 0;
-  std::int64_t without_weight = 0;  // vertices whose weight is 0
+  std::int64_t without_weight = 0;                      // vertices whose weight is 0
+  std::optional<std::int64_t> dominated;                // candidates that were left out, where that was asked for
+  std::optional<std::int64_t> cliques, clique_members;  // of the cover, where there is one
 };
 
-GraphSummary summarize(const ConflictGraph& graph);
+GraphSummary summarize(const BuildgraphResult& result);
 std::vector<std::string> warnings_about(const GraphSummary& summary);
-std::string summary_line(const GraphSummary& summary);
+std::vector<std::string> summary_lines(const GraphSummary& summary);
 nlohmann::ordered_json to_json(const GraphSummary& summary);
+nlohmann::ordered_json history_of(const GraphSummary& summary);
 
 }  // namespace hexpipe

@@ -1,0 +1,17 @@
+#pragma once
+// Vertices that no search needs: v is dominated by a neighbour u when every neighbour of u is one of v and u weighs at
+// least as much (N[u] is part of N[v]; Butenko, Pardalos et al. 2002 and Akiba, Iwata 2016 for vertex cover). A
+// solution with v is no worse with u in its place, so that v can be left out, exactly.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/graph/conflict_graph.hpp"
+
+namespace hexpipe {
+
+// The vertices that stay, ascending, once dominated ones are left out one after another until none is left. Of two that
+// dominate each other the higher one stays.
+std::vector<std::int32_t> undominated_vertices(const ConflictGraph& graph);
+
+}  // namespace hexpipe

@@ -1,0 +1,53 @@
+#include "tools/buildgraph/reduce.hpp"
+
+#include <vector>
+
+#include "tools/buildgraph/domination.hpp"
+
+namespace hexpipe {
+
+Candidates select(const Candidates& candidates, std::span<const std::int32_t> kept) {
+  Candidates chosen;
+  for (const std::int32_t i : kept) {
+    chosen.vertices.push_back(candidates.vertices[i]);
+    chosen.kind.push_back(candidates.kind[i]);
+    chosen.quality.push_back(candidates.quality[i]);
+    chosen.volume.push_back(candidates.volume[i]);
+    const auto tets = candidates.interior_tets_of(i), boundary_tets = candidates.boundary_tets_of(i);
+    chosen.tets.insert(chosen.tets.end(), tets.begin(), tets.end());
+    chosen.tet_offsets.push_back(static_cast<std::int64_t>(chosen.tets.size()));
+    chosen.boundary_tets.insert(chosen.boundary_tets.end(), boundary_tets.begin(), boundary_tets.end());
+    chosen.boundary_tet_offsets.push_back(static_cast<std::int64_t>(chosen.boundary_tets.size()));
+  }
+  return chosen;
+}
+
+void keep_only(ConflictGraph& graph, std::span<const std::int32_t> kept) {
+  std::vector<std::int32_t> numbers(graph.weights.size(), -1);
+  for (std::size_t i = 0; i < kept.size(); ++i) numbers[kept[i]] = static_cast<std::int32_t>(i);
+  std::int64_t end = 0, read = 0;
+  for (std::size_t v = 0; v < numbers.size(); ++v) {
+    const std::int64_t read_end = graph.offsets[v + 1];
+    if (numbers[v] >= 0) {
+      for (; read < read_end; ++read)
+        if (const std::int32_t number = numbers[graph.neighbours[read]]; number >= 0) graph.neighbours[end++] = number;
+      graph.weights[numbers[v]] = graph.weights[v];
+      graph.offsets[numbers[v] + 1] = end;
+    }
+    read = read_end;
+  }
+  graph.neighbours.resize(end);
+  graph.weights.resize(kept.size());
+  graph.offsets.resize(kept.size() + 1);
+}
+
+std::int64_t reduce(Candidates& candidates, ConflictGraph& graph) {
+  const std::vector<std::int32_t> kept = undominated_vertices(graph);
+  const auto dropped = static_cast<std::int64_t>(graph.weights.size() - kept.size());
+  if (dropped == 0) return 0;
+  keep_only(graph, kept);
+  candidates = select(candidates, kept);
+  return dropped;
+}
+
+}  // namespace hexpipe

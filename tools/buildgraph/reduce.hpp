@@ -1,0 +1,22 @@
+#pragma once
+// Candidates that no choice needs, left out of their list and of their graph alike.
+
+#include <cstdint>
+#include <span>
+
+#include "common/graph/conflict_graph.hpp"
+#include "common/mesh/candidates.hpp"
+
+namespace hexpipe {
+
+// Those of `kept`, ascending, in their order.
+Candidates select(const Candidates& candidates, std::span<const std::int32_t> kept);
+
+// The graph of those of `kept`, ascending, in place: large graphs have no room for another.
+void keep_only(ConflictGraph& graph, std::span<const std::int32_t> kept);
+
+// Leaves out what is dominated (domination.hpp). A solution of the graph that is left is one of the whole graph, of the
+// candidates that are left, and the heaviest one weighs the same. Returns how many candidates were left out.
+std::int64_t reduce(Candidates& candidates, ConflictGraph& graph);
+
+}  // namespace hexpipe
