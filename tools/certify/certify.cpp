@@ -30,6 +30,11 @@ Deadline share_for_dual(const Deadline& deadline) {
   return std::isfinite(deadline.remaining()) ? Deadline(0.2 * deadline.remaining()) : Deadline();
 }
 
+CliqueCover cliques_to_price(const ConflictGraph& graph, KnownCliques known) {
+  if (known.cover) return std::move(*known.cover);
+  return known.of_tets ? maximal_cliques(graph, *known.of_tets) : greedy_edge_clique_cover(graph);
+}
+
 // Looks for something better until nothing can be.
 void prove(const ConflictGraph& graph, const Deadline& deadline, CertifyResult& result) {
   BranchAndReduce search(deadline);
@@ -46,13 +51,14 @@ void prove(const ConflictGraph& graph, const Deadline& deadline, CertifyResult& 
 
 }  // namespace
 
-CertifyResult certify(const ConflictGraph& graph, const IndependentSet& solution, const CertifyOptions& options,
-                      const Deadline& deadline, const std::function<void(const CliqueDual&)>& report) {
+CertifyResult certify(const ConflictGraph& graph, const IndependentSet& solution, KnownCliques known,
+                      const CertifyOptions& options, const Deadline& deadline,
+                      const std::function<void(const CliqueDual&)>& report) {
   CertifyResult result;
   result.solution = solution;
   result.weight = total_weight(solution, graph);
   result.maximal = is_maximal(graph, solution);
-  result.cover = greedy_edge_clique_cover(graph);
+  result.cover = cliques_to_price(graph, std::move(known));
   CliqueDualOptions dual = options.dual;
   dual.target = result.weight;
   const Deadline dual_deadline = options.exact ? share_for_dual(deadline) : deadline;

@@ -2,6 +2,8 @@
 // What a solution is worth: its weight against a proven upper bound, and the vertices that the difference decides.
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 
 #include "common/graph/conflict_graph.hpp"
 #include "common/mwis/clique_dual.hpp"
@@ -29,8 +31,16 @@ struct CertifyResult {
   std::int64_t fixed_out = 0, fixed_in = 0;
 };
 
-// `solution` is independent.
-CertifyResult certify(const ConflictGraph& graph, const IndependentSet& solution, const CertifyOptions& options,
-                      const Deadline& deadline, const std::function<void(const CliqueDual&)>& report = {});
+// Cliques that are known before.
+struct KnownCliques {
+  std::optional<CliqueCover> cover;    // an edge clique cover
+  std::optional<CliqueCover> of_tets;  // candidates that share a tet
+};
+
+// `solution` is independent. Without known cliques they are found in the graph. Those at tets, made maximal, give as
+// good a bound with a third of the members: what they miss and the relaxation violates is added.
+CertifyResult certify(const ConflictGraph& graph, const IndependentSet& solution, KnownCliques known,
+                      const CertifyOptions& options, const Deadline& deadline,
+                      const std::function<void(const CliqueDual&)>& report = {});
 
 }  // namespace hexpipe

@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 
+#include <optional>
+#include <utility>
+
+#include "common/graph/tet_cliques.hpp"
 #include "common/mwis/search_log.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/stage.hpp"
@@ -26,14 +30,19 @@ int main(int argc, char** argv) {
                  "Go on to a proof of optimality by branch and reduce; its bound has no certificate");
   };
   const auto run = [&](RunContext& context) {
-    options.dual.passes = context.common.iterations.value_or(options.dual.passes);
     Stage stage(context);
+    stage.take_cover();
     SearchLog log(context.common.log_file, "bound");
-    const StageData data = stage.read({Role::graph, Role::solution});
+    const StageData data = stage.read({Role::graph, Role::solution}, {Role::candidates});
+    KnownCliques known{data.cover, std::nullopt};
+    if (data.candidates) known.of_tets = cliques_of_tets(*data.candidates);
+    // Cliques at tets are fewer, and a pass over them is that much quicker.
+    if (known.of_tets && !known.cover) options.dual.passes *= 2;
+    options.dual.passes = context.common.iterations.value_or(options.dual.passes);
     const Deadline deadline = context.deadline();
-    const CertifyResult result = certify(*data.graph, *data.solution, options, deadline, [&](const CliqueDual& now) {
-      log.record(deadline.elapsed(), now.passes, now.bound);
-    });
+    const CertifyResult result =
+        certify(*data.graph, *data.solution, std::move(known), options, deadline,
+                [&](const CliqueDual& now) { log.record(deadline.elapsed(), now.passes, now.bound); });
     log.finish(deadline.elapsed(), result.dual.passes, result.bound);
     if (!certificate.empty()) {
       Output output(certificate);
