@@ -119,3 +119,134 @@ assert stats['total_weight'] == sum(row[0] for row in rows), stats
 assert abs(stats['density'] - 2 * $edges / ($vertices * ($vertices - 1))) < 1e-12, stats"
   assert_success
 }
+
+# number KEY FILE: of --stats.
+number() {
+  $PYTHON -c "import json; print(json.load(open('$2'))['$1'])"
+}
+
+@test "--cover adds an edge clique cover, which passes through the stages and certify prices" {
+  for name in hexes mixed; do
+    buildgraph "$INPUTS/$name.cand" --format tar >plain.tar
+    buildgraph "$INPUTS/$name.cand" --cover -v --stats stats.json --format tar >cover.tar 2>notes
+    run "$CHECKERS/cover_check.py" cover.tar
+    assert_success
+    assert_output "cover.tar: $(number cliques stats.json) cliques of $(number clique_members stats.json) vertices, $(number edges stats.json) edges"
+    grep -q "^buildgraph: the edges are covered by $(number cliques stats.json) cliques of $(number clique_members stats.json) vertices together$" notes
+    assert_same_bytes <(tar xOf plain.tar graph/neighbours.npy) <(tar xOf cover.tar graph/neighbours.npy)
+    refute [ -n "$(tar tf plain.tar | grep clique)" ]
+    # The checker can fail: a member that belongs elsewhere, an edge that is missing.
+    for damage in "members[0] = members[1] - 1 if members[1] > 1 else members[2]" "members, offsets = members[offsets[1]:], offsets[1:] - offsets[1]"; do
+      $PYTHON - "$damage" <<'PYTHON'
+import io, sys, tarfile
+import numpy as np
+with tarfile.open("cover.tar") as old:
+    files = {m.name: old.extractfile(m).read() for m in old}
+load = lambda name: np.load(io.BytesIO(files[f"graph/clique_{name}.npy"]))
+names = {"members": load("members"), "offsets": load("offsets")}
+exec(sys.argv[1], names)
+for name in ("members", "offsets"):
+    buffer = io.BytesIO()
+    np.save(buffer, names[name])
+    files[f"graph/clique_{name}.npy"] = buffer.getvalue()
+with tarfile.open("bad.tar", "w", format=tarfile.PAX_FORMAT) as new:
+    for name, data in files.items():
+        info = tarfile.TarInfo(name)
+        info.size = len(data)
+        new.addfile(info, io.BytesIO(data))
+PYTHON
+      run "$CHECKERS/cover_check.py" bad.tar
+      assert_failure
+      initsol bad.tar --iterations 0 -o bad.sol
+      assert_fails_with 1 "^certify: bad.tar: graph: expected (cliques|every edge in a clique|ascending)" certify bad.tar --solution bad.sol -o out.sol
+    done
+  done
+  initsol cover.tar --iterations 0 | certify --iterations 20 --certificate proof --stats certify.json -o certified.tar
+  run "$CHECKERS/cover_check.py" certified.tar
+  assert_success
+  buildgraph "$INPUTS/mixed.cand" -o mixed.graph
+  run "$CHECKERS/bound_check.py" mixed.graph proof
+  assert_success
+  assert [ "$(number cliques certify.json)" -ge "$(number cliques stats.json)" ]
+}
+
+# optimum BUNDLE: the weight that certify proves to be the best.
+optimum() {
+  initsol -q "$1" --iterations 2000 | lns -q --iterations 50 | certify -q --exact --stats exact.json -o best.tar
+  assert_equal "$(number complete exact.json)" True
+  number weight exact.json
+}
+
+@test "--reduce leaves out dominated candidates, of their list too, and the optimum is the same" {
+  for name in hexes mixed; do
+    buildgraph "$INPUTS/$name.cand" --format tar >whole.tar
+    buildgraph "$INPUTS/$name.cand" --reduce -v --stats stats.json --format tar >reduced.tar 2>notes
+    run "$CHECKERS/bundle_check.py" whole.tar reduced.tar
+    assert_success
+    local all left=$(number vertices stats.json) dropped=$(number dominated stats.json)
+    all=$(($(wc -l <"$INPUTS/$name.cand") - 1))
+    assert_equal "$((left + dropped))" "$all"
+    assert [ "$dropped" -gt 0 ]
+    grep -q "^buildgraph: $dropped of $all candidates are left out as dominated (" notes
+    assert_equal "$(tar xOf reduced.tar --wildcards 'history/*-buildgraph.json' | grep -c "\"dominated\": $dropped")" 1
+    assert_equal "$(optimum whole.tar)" "$(optimum reduced.tar)"
+    # Through files, the candidates that are left are written beside the graph.
+    buildgraph "$INPUTS/$name.cand" --reduce --reduced-candidates left.cand -o reduced.graph
+    assert_equal "$(wc -l <left.cand)" "$((left + 1))"
+    assert_equal "$(comm -13 <(sort "$INPUTS/$name.cand") <(tail -n +2 left.cand | sort) | wc -l)" 0
+    run "$CHECKERS/graph_from_candidates.py" left.cand reduced.graph
+    assert_success
+    buildgraph reduced.tar --format graph >again.graph
+    assert_same_bytes reduced.graph again.graph
+    buildgraph left.cand --reduce -v --format tar 2>notes >again.tar
+    grep -q "^buildgraph: 0 of $left candidates" notes
+    buildgraph "$INPUTS/$name.cand" --reduce --cover --format tar >both.tar
+    run "$CHECKERS/cover_check.py" both.tar
+    assert_success
+  done
+}
+
+@test "a reduced graph becomes a mesh" {
+  findhex -q --mesh "$DATA/jittered_lattice.mesh" | buildgraph --reduce | initsol --iterations 100 | assemble -q -o out.vtu --stats stats.json
+  assert [ -s out.vtu ]
+  findhex -q --mesh "$DATA/jittered_lattice.mesh" -o all.cand
+  buildgraph all.cand --reduce --reduced-candidates left.cand -o left.graph
+  initsol left.graph --iterations 100 -o left.sol
+  assemble -q --mesh "$DATA/jittered_lattice.mesh" --candidates left.cand --solution left.sol -o files.vtu
+  assert_same_bytes out.vtu files.vtu
+}
+
+@test "options that need each other say so" {
+  local cand="$INPUTS/hexes.cand"
+  assert_fails_with 2 "buildgraph: --reduce to a .graph needs --reduced-candidates" buildgraph "$cand" --reduce -o out.graph
+  assert_fails_with 2 "buildgraph: --reduced-candidates does nothing without --reduce" buildgraph "$cand" --reduced-candidates left.cand -o out.graph
+  assert_fails_with 2 "buildgraph: --cover needs a bundle" buildgraph "$cand" --cover -o out.graph
+  for option in --reduce --cover; do
+    assert_fails_with 2 "buildgraph: --part does not go with" buildgraph "$cand" $option --part 1/2 -o out.tar
+  done
+  assert [ ! -e out.graph ] && [ ! -e left.cand ]
+}
+
+@test "bundles of parts are merged into that of one run, byte for byte" {
+  cp "$DATA/random_points.mesh" p.mesh
+  findhex -q --mesh p.mesh -o whole.tar
+  buildgraph -q whole.tar -o graph.tar
+  for shares in 1 4; do
+    rm -f p.candidates* p.conflicts*
+    make -s -C "$HEXPIPE_SOURCE" -f Makefile.examples BIN="$HEXPIPE_BIN" PARTS="$PWD" SHARES=$shares -j2 "$PWD/p.conflicts.tar"
+    assert_same_bytes whole.tar p.candidates.tar
+    assert_same_bytes graph.tar p.conflicts.tar
+  done
+  local kinds="--cells hex,prism,pyramid --min-quality 0.1"
+  findhex -q --mesh p.mesh $kinds -o kinds.tar
+  for i in 1 2 3; do findhex -q --mesh p.mesh $kinds --part $i/3 -o kinds$i.tar; done
+  "$HEXPIPE_SOURCE/formats/merge_parts.py" kinds1.tar kinds2.tar kinds3.tar >merged.tar
+  assert_same_bytes kinds.tar merged.tar
+  assert_fails_with 1 "merge_parts.py: expected the parts 1/2 to 2/2 in order, found 1/3, 2/3" "$HEXPIPE_SOURCE/formats/merge_parts.py" kinds1.tar kinds2.tar
+  assert_fails_with 1 "merge_parts.py: expected the parts 1/3" "$HEXPIPE_SOURCE/formats/merge_parts.py" kinds2.tar kinds1.tar kinds3.tar
+  findhex -q --mesh p.mesh ${kinds/0.1/0.2} --part 3/3 -o other.tar
+  assert_fails_with 1 "merge_parts.py: expected parts of one run" "$HEXPIPE_SOURCE/formats/merge_parts.py" kinds1.tar kinds2.tar other.tar
+  head -c 5000 kinds2.tar >cut.tar
+  assert_fails_with 1 "merge_parts.py: (cut.tar: expected|expected)" "$HEXPIPE_SOURCE/formats/merge_parts.py" kinds1.tar cut.tar kinds3.tar
+  assert_fails_with 1 "merge_parts.py: .*expected an uncompressed bundle" "$HEXPIPE_SOURCE/formats/merge_parts.py" p.mesh
+}
