@@ -102,6 +102,7 @@ assert stats["points"] == found["nv"]
 assert stats["nonconforming_quads"] == 0
 volume = stats["volume"]
 assert abs(volume["cells"] - volume["input"] - volume["bulge_of_boundary_quads"]) < 1e-9
+assert volume["flat_tets_taken_off"] == stats["smoothing"]["flat_tets_taken_off"] == 0
 assert stats["conformity"]["quads_against_tets"] > 0
 assert set(stats["conformity"]["cells_given_back"]) >= {"flat_corner", "no_valid_position", "poor_elements"}
 PYTHON

@@ -11,6 +11,7 @@
 #include "tools/assemble/conform.hpp"
 #include "tools/assemble/extract.hpp"
 #include "tools/assemble/input_surface.hpp"
+#include "tools/assemble/peel.hpp"
 #include "tools/assemble/reconnect.hpp"
 #include "tools/assemble/repair.hpp"
 #include "tools/assemble/selection.hpp"
@@ -81,6 +82,8 @@ constexpr int most_repairs = 4;
 // below the second get a vertex beside them.
 constexpr double worth_an_exchange = 0.15;
 constexpr double worth_a_vertex = 0.05;
+// Below this they are taken off where they lie on the boundary.
+constexpr double worth_peeling = 0.03;
 
 void move_points(const Extract& from, HybridMesh& to) {
   for (std::size_t i = 0; i < from.origin.size(); ++i) to.points[from.origin[i]] = from.mesh.points[i];
@@ -144,6 +147,7 @@ class Assembler {
  private:
   bool is_conforming() const { return options_.conformity == AssembleOptions::Conformity::pyramids; }
   Extract build();
+  HybridMesh select();
   HybridMesh conform();
   std::vector<std::int32_t> poor_hexes(const HybridMesh& hybrid) const;
   void untangle_in_place(HybridMesh& hybrid) const;
@@ -163,12 +167,17 @@ class Assembler {
   double poor_volume_ = 0;
 };
 
+HybridMesh Assembler::select() {
+  tags_ = SurfaceTags(input_);
+  return build_selection(input_, tags_, candidates_, kept_, names_);
+}
+
 // Conforms with inverted elements where there is no better, untangles them, and starts anew without the cells for which
 // that does not succeed.
 HybridMesh Assembler::conform() {
   for (int attempt = 1;; ++attempt) {
     const bool last = attempt == most_attempts || options_.smooth == 0;
-    HybridMesh hybrid = build_selection(input_, tags_, candidates_, kept_, names_);
+    HybridMesh hybrid = select();
     statistics_.conformity = make_conforming(hybrid, tags_, candidates_, last ? barely_valid : most_inverted);
     if (last) return hybrid;
     untangle_in_place(hybrid);
@@ -182,7 +191,7 @@ HybridMesh Assembler::conform() {
 }
 
 void Assembler::untangle_in_place(HybridMesh& hybrid) const {
-  Extract extracted = extract(hybrid, input_, tags_);
+  Extract extracted = extract(hybrid, tags_);
   const SlidingSurface sliding{surface_, input_.points, extracted.origin};
   untangle(extracted.mesh, untangling_rounds, &sliding);
   move_points(extracted, hybrid);
@@ -199,7 +208,7 @@ void Assembler::give_back(const std::vector<std::int32_t>& owners) {
 
 // Moves vertices, then exchanges tets and adds vertices where that was not enough; again while poor cells are left.
 Extract Assembler::smooth_and_repair(HybridMesh& hybrid) {
-  Extract extracted = extract(hybrid, input_, tags_);
+  Extract extracted = extract(hybrid, tags_);
   if (options_.smooth == 0) return extracted;
   compute_quality(extracted.mesh);
   statistics_.before_smoothing = kind_statistics(extracted.mesh);
@@ -208,10 +217,12 @@ Extract Assembler::smooth_and_repair(HybridMesh& hybrid) {
     move_points(extracted, hybrid);
     const std::int64_t exchanges = reconnect_poor_tets(hybrid, tags_, worth_an_exchange);
     const std::int64_t repaired = repair_flat_tets(hybrid, tags_, worth_a_vertex);
-    if (exchanges + repaired == 0) break;
+    const std::int64_t peeled = peel_flat_tets(hybrid, tags_, surface_, worth_peeling);
+    if (exchanges + repaired + peeled == 0) break;
     statistics_.exchanges += exchanges;
     statistics_.repaired += repaired;
-    extracted = extract(hybrid, input_, tags_);
+    statistics_.peeled += peeled;
+    extracted = extract(hybrid, tags_);
     improve(extracted);
     compute_quality(extracted.mesh);
     if (poor_cells(extracted.mesh).empty()) break;
@@ -243,8 +254,8 @@ std::vector<std::int32_t> Assembler::poor_hexes(const HybridMesh& hybrid) const 
 Extract Assembler::build() {
   for (int attempt = 1;; ++attempt) {
     statistics_.smoothing = {};
-    statistics_.exchanges = statistics_.repaired = 0;
-    HybridMesh hybrid = is_conforming() ? conform() : build_selection(input_, tags_, candidates_, kept_, names_);
+    statistics_.exchanges = statistics_.repaired = statistics_.peeled = 0;
+    HybridMesh hybrid = is_conforming() ? conform() : select();
     Extract extracted = smooth_and_repair(hybrid);
     move_points(extracted, hybrid);
     const auto poor = poor_hexes(hybrid);

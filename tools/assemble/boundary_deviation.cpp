@@ -48,12 +48,13 @@ double BoundaryDeviation::from_facet(std::int32_t f, double enough) const {
     return least;
   };
   Vec3 middle{};
-  bool moved = false;
+  // Facets where tets were taken off the boundary are not the input's.
+  bool moved = count == 3 && !surface_.has_triangle({origin_[corners[0]], origin_[corners[1]], origin_[corners[2]]});
   double greatest = 0;
   for (std::size_t i = 0; i < count; ++i) {
     middle += at(i) * (1.0 / static_cast<double>(count));
     // Edges between vertices that have not moved are edges of the input, and so are triangles.
-    if (!has_moved(corners[i]) && !has_moved(corners[(i + 1) % count])) continue;
+    if (!moved && !has_moved(corners[i]) && !has_moved(corners[(i + 1) % count])) continue;
     moved = true;
     greatest = std::max(greatest, distance((at(i) + at(i + 1)) * 0.5));
   }

@@ -37,9 +37,9 @@ Quad oriented_like(const Triangle& triangle, const Quad& quad) {
   return result;
 }
 
-void append_facets(MixedMesh& result, const HybridMesh& mesh, const TetMesh& input, const SurfaceTags& tags) {
+void append_facets(MixedMesh& result, const HybridMesh& mesh, const SurfaceTags& tags) {
   // By input triangle: the quad that it became half of.
-  std::vector<bool> covered(input.triangles.size());
+  std::vector<bool> covered(tags.size());
   std::vector<std::pair<std::int32_t, Quad>> quads;
   for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
     if (!mesh.cell(c).alive) continue;
@@ -52,10 +52,9 @@ void append_facets(MixedMesh& result, const HybridMesh& mesh, const TetMesh& inp
   }
   std::sort(quads.begin(), quads.end());
   for (const auto& [triangle, quad] : quads)
-    append(result.quads, oriented_like(input.triangles[triangle], quad), input.triangle_tags[triangle]);
-  for (std::size_t i = 0; i < covered.size(); ++i)
-    if (!covered[i] && tags.find(input.triangles[i]) == static_cast<std::int32_t>(i))
-      append(result.triangles, input.triangles[i], input.triangle_tags[i]);
+    append(result.quads, oriented_like(tags.triangle(triangle), quad), tags.tag_of(triangle));
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(covered.size()); ++i)
+    if (!covered[i] && tags.find(tags.triangle(i)) == i) append(result.triangles, tags.triangle(i), tags.tag_of(i));
 }
 
 template <int Corners>
@@ -87,13 +86,13 @@ void drop_unused_points(Extract& extract, const std::vector<Vec3>& points) {
 
 }  // namespace
 
-Extract extract(const HybridMesh& mesh, const TetMesh& input, const SurfaceTags& tags) {
+Extract extract(const HybridMesh& mesh, const SurfaceTags& tags) {
   Extract result;
   for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c)
     if (mesh.cell(c).alive) append_cell(result.mesh, mesh.cell(c));
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tet_count()); ++t)
     if (mesh.is_alive(t)) append(result.mesh.tets, mesh.tet(t), mesh.region_of(t));
-  append_facets(result.mesh, mesh, input, tags);
+  append_facets(result.mesh, mesh, tags);
   drop_unused_points(result, mesh.points);
   return result;
 }

@@ -15,8 +15,8 @@ struct Extract {
 };
 
 // Cells come in the order of their candidates, then tets and pyramids in the order in which they were made; each tagged
-// facet of `input` is there as a triangle, or as a quad with another one, in the input's order and orientation;
+// triangle of `tags` is there as it is, or as a quad with another one, in their order and orientation;
 // vertices keep their order, those that no cell uses are dropped.
-Extract extract(const HybridMesh& mesh, const TetMesh& input, const SurfaceTags& tags);
+Extract extract(const HybridMesh& mesh, const SurfaceTags& tags);
 
 }  // namespace hexpipe

@@ -237,4 +237,10 @@ double InputSurface::edge_length(Vertex v) const {
   return sum / static_cast<double>(std::max<std::size_t>(1, 3 * triangles_at(v).size()));
 }
 
+bool InputSurface::has_triangle(const Triangle& triangle) const {
+  const auto key = key_of(triangle);
+  return std::ranges::any_of(triangles_at(triangle[0]),
+                             [&](std::int32_t t) { return key_of(mesh_.triangles[t]) == key; });
+}
+
 }  // namespace hexpipe

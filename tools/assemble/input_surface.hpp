@@ -10,6 +10,10 @@
 
 namespace hexpipe {
 
+// How far facets may come to lie from the input's surface, in edge lengths there, where vertices slide on it or flat
+// tets are taken off it. Circles of 25 edges and more deviate less between their own vertices.
+inline constexpr double most_deviation = 0.03;
+
 // The nearest point of a triangle, which may be degenerate.
 Vec3 nearest_on_triangle(const std::array<Vec3, 3>& triangle, const Vec3& to);
 
@@ -41,6 +45,8 @@ class InputSurface {
 
   // The mean length of the edges of the triangles at v.
   double edge_length(Vertex v) const;
+
+  bool has_triangle(const Triangle& triangle) const;
 
   double diagonal() const { return diagonal_; }  // of the bounding box
 

@@ -187,8 +187,10 @@ CheckedVolumes check_result(const Extract& result, const TetMesh& input, const S
         cell_volume(kind, std::span<const Vec3>(corner_points(mesh.points, corners)).first(corners.size()));
   });
   volumes.input = volume_of(input.points, input.tets);
-  volumes.slide = volume_of(moved_input_points(result, input), input.tets) - volumes.input;
-  volumes.drift = volumes.parts - volumes.input - volumes.bulge - volumes.open_bulge - volumes.slide;
+  const auto moved = moved_input_points(result, input);
+  volumes.slide = volume_of(moved, input.tets) - volumes.input;
+  volumes.peeled = volume_of(moved, tags.peeled());
+  volumes.drift = volumes.parts - volumes.input - volumes.bulge - volumes.open_bulge - volumes.slide + volumes.peeled;
   check_volumes(volumes);
   return volumes;
 }

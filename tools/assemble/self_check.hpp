@@ -17,7 +17,8 @@ struct CheckedVolumes {
   double bulge = 0;        // of boundary quads over the two triangles that they replace: skin = input + bulge
   double open_bulge = 0;   // of non-conforming quads over the tets that they face: parts = input + bulge + open_bulge
   double slide = 0;        // what the input's triangles enclose more since vertices slid on its surface
-  double drift = 0;        // parts - input - bulge - open_bulge - slide: rounding
+  double peeled = 0;       // of the flat tets that were taken off the boundary
+  double drift = 0;        // parts - input - bulge - open_bulge - slide + peeled: rounding
   double deviation = 0;    // greatest distance of the boundary from the input's surface (boundary_deviation.hpp)
   std::int64_t moved = 0;  // vertices on the boundary and on interfaces
   std::int64_t nonconforming_quads = 0;

@@ -41,9 +41,6 @@ constexpr int steps_for_worst = 8;
 constexpr int steps_for_mean = 2;
 // Moves that gain less are not worth the neighbours' new look.
 constexpr double least_gain = 1e-3;
-// How far facets may come to lie from the input's surface, in edge lengths there, where vertices slide on it. Circles
-// of 25 edges and more deviate less between their own vertices.
-constexpr double most_deviation = 0.03;
 // How far a plane of a surface file may be from even, in diagonals of the bounding box: such files hold floats.
 constexpr double most_uneven = 5e-7;
 // Scaled Jacobians do not mind edges of any length: none may become shorter than this part of the longest at its

@@ -111,9 +111,10 @@ std::string histogram_line(CellKind kind, const char* when, const KindStatistics
 
 void append_histograms(const AssembleStatistics& statistics, std::vector<std::string>& lines) {
   lines.push_back(
-      fmt::format("smoothing: {} rounds, {} moves, {} exchanges of tets, {} vertices added at flat tets; cells by "
-                  "scaled Jacobian, 0 to 1 in tenths",
-                  statistics.smoothing.rounds, statistics.smoothing.moves, statistics.exchanges, statistics.repaired));
+      fmt::format("smoothing: {} rounds, {} moves, {} exchanges of tets, {} vertices added at flat tets, {} flat tets "
+                  "taken off the boundary; cells by scaled Jacobian, 0 to 1 in tenths",
+                  statistics.smoothing.rounds, statistics.smoothing.moves, statistics.exchanges, statistics.repaired,
+                  statistics.peeled));
   for (std::size_t i = 0; i < all_kinds.size(); ++i) {
     if (statistics.kinds[i].count == 0) continue;
     lines.push_back(histogram_line(all_kinds[i], "before", statistics.before_smoothing[i]));
@@ -146,12 +147,14 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
                     {"bulge_of_boundary_quads", volumes.bulge},
                     {"bulge_of_nonconforming_quads", volumes.open_bulge},
                     {"moved_on_the_surface", volumes.slide},
+                    {"flat_tets_taken_off", volumes.peeled},
                     {"drift", volumes.drift}};
   json["boundary"] = {{"vertices_moved", volumes.moved}, {"greatest_deviation", volumes.deviation}};
   json["smoothing"] = {{"rounds", statistics.smoothing.rounds},
                        {"moves", statistics.smoothing.moves},
                        {"exchanges_of_tets", statistics.exchanges},
-                       {"vertices_added_at_flat_tets", statistics.repaired}};
+                       {"vertices_added_at_flat_tets", statistics.repaired},
+                       {"flat_tets_taken_off", statistics.peeled}};
   json["nonconforming_quads"] = volumes.nonconforming_quads;
   const auto& counts = statistics.conformity;
   nlohmann::ordered_json given_back;

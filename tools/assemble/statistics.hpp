@@ -41,6 +41,7 @@ struct AssembleStatistics {
   std::vector<PoorCell> poor;                                     // all that are left
   std::int64_t exchanges = 0;                                     // of poor tets for others on the same vertices
   std::int64_t repaired = 0;                                      // vertices put beside flat tets
+  std::int64_t peeled = 0;                                        // flat tets taken off the boundary
   std::array<KindStatistics, all_kinds.size()> before_smoothing;  // when there was smoothing
 
   std::int64_t cells() const;

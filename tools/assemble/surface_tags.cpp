@@ -2,15 +2,25 @@
 
 namespace hexpipe {
 
-SurfaceTags::SurfaceTags(const TetMesh& mesh) : mesh_(mesh) {
-  triangles_.reserve(mesh.triangles.size());
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    triangles_.try_emplace(key_of(mesh.triangles[i]), static_cast<std::int32_t>(i));
+SurfaceTags::SurfaceTags(const TetMesh& mesh) : triangles_(mesh.triangles), tags_(mesh.triangle_tags) {
+  numbers_.reserve(triangles_.size());
+  for (std::size_t i = 0; i < triangles_.size(); ++i)
+    numbers_.try_emplace(key_of(triangles_[i]), static_cast<std::int32_t>(i));
+}
+
+void SurfaceTags::peel(const Tet& tet, const std::array<std::int32_t, 2>& places,
+                       const std::array<Triangle, 2>& triangles) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    numbers_.erase(key_of(triangles_[places[i]]));
+    triangles_[places[i]] = triangles[i];
+    numbers_.emplace(key_of(triangles[i]), places[i]);
+  }
+  peeled_.push_back(tet);
 }
 
 std::optional<std::int32_t> SurfaceTags::find(const Triangle& triangle) const {
-  const auto found = triangles_.find(key_of(triangle));
-  if (found == triangles_.end()) return std::nullopt;
+  const auto found = numbers_.find(key_of(triangle));
+  if (found == numbers_.end()) return std::nullopt;
   return found->second;
 }
 

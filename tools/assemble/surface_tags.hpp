@@ -1,8 +1,12 @@
 #pragma once
-// The tagged triangles of the input - its boundary, its interfaces, surfaces inside a region - which nothing may cross.
+// The tagged triangles of the input - its boundary, its interfaces, surfaces inside a region - which nothing may cross;
+// less the flat tets that were taken off the boundary (peel.hpp).
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/assemble/facet_key.hpp"
@@ -11,13 +15,20 @@ namespace hexpipe {
 
 class SurfaceTags {
  public:
-  // `mesh` must outlive this, with every facet of its boundary and interfaces among its triangles.
+  // `mesh` with every facet of its boundary and interfaces among its triangles.
   explicit SurfaceTags(const TetMesh& mesh);
 
-  bool contains(const Triangle& triangle) const { return triangles_.contains(key_of(triangle)); }
+  bool contains(const Triangle& triangle) const { return numbers_.contains(key_of(triangle)); }
   // The index of the tagged triangle with these vertices.
   std::optional<std::int32_t> find(const Triangle& triangle) const;
-  std::int32_t tag_of(std::int32_t triangle) const { return mesh_.triangle_tags[triangle]; }
+  std::size_t size() const { return triangles_.size(); }
+  const Triangle& triangle(std::int32_t i) const { return triangles_[i]; }
+  std::int32_t tag_of(std::int32_t i) const { return tags_[i]; }
+
+  // Takes a tet off the boundary: two of its facets, tagged triangles, give way to the other two in their places.
+  void peel(const Tet& tet, const std::array<std::int32_t, 2>& places, const std::array<Triangle, 2>& triangles);
+  // The tets that were.
+  std::span<const Tet> peeled() const { return peeled_; }
 
   // The two tagged triangles that a quad consists of, when the diagonal cuts it into two with one tag.
   struct Cover {
@@ -31,8 +42,10 @@ class SurfaceTags {
   bool covers_partly(const Quad& quad, int diagonal) const;
 
  private:
-  const TetMesh& mesh_;
-  KeyMap<3, std::int32_t> triangles_;
+  std::vector<Triangle> triangles_;
+  std::vector<std::int32_t> tags_;
+  KeyMap<3, std::int32_t> numbers_;
+  std::vector<Tet> peeled_;
 };
 
 }  // namespace hexpipe

@@ -1,0 +1,17 @@
+#pragma once
+// Takes tets off the boundary that are so flat that they lie on it.
+
+#include <cstdint>
+
+#include "tools/assemble/hybrid_mesh.hpp"
+#include "tools/assemble/input_surface.hpp"
+#include "tools/assemble/surface_tags.hpp"
+
+namespace hexpipe {
+
+// Takes off every tet whose least scaled Jacobian (times the square root of 2) is below `least`, with two facets on a
+// smooth part of the boundary, that is within `most_deviation` of a surface edge length of the input's surface: its
+// other two facets are boundary in their place. Returns their number.
+std::int64_t peel_flat_tets(HybridMesh& mesh, SurfaceTags& tags, const InputSurface& surface, double least);
+
+}  // namespace hexpipe
