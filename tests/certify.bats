@@ -116,6 +116,21 @@ PYTHON
   assert_equal "$(number complete bound.json)" False
 }
 
+@test "--algorithm proves the same optimum by another way, and does nothing without --exact" {
+  "$PYTHON" "$DATA/ring_graph.py" 200 200 3 >small.graph
+  printf "1\n" >one.sol
+  for algorithm in branch-and-reduce "$(certify --help | sed -n 's/.*--algorithm .*=\([a-z-]*\) .*/\1/p')"; do
+    certify --graph small.graph --solution one.sol --exact --algorithm "$algorithm" --stats "$algorithm.json" -o best.sol
+    assert_equal "$(number complete "$algorithm.json")" True
+    assert_equal "$(number weight "$algorithm.json")" "$(number weight branch-and-reduce.json)"
+    assert [ "$(number nodes "$algorithm.json")" -gt 0 ]
+  done
+  assert_fails_with 2 "certify: --algorithm requires --exact" certify --graph small.graph --solution one.sol \
+    --algorithm branch-and-reduce -o best.sol
+  assert_fails_with 2 "certify: --algorithm: .*guess" certify --graph small.graph --solution one.sol --exact \
+    --algorithm guess -o best.sol
+}
+
 @test "extreme graphs" {
   printf '0 0 10\n' >empty.graph
   : >empty.sol

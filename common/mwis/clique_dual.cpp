@@ -59,6 +59,9 @@ constexpr double hottest = 0.3, warmed_up = 0.02, coldest = 0.0015;
 constexpr int rounds = 10;
 constexpr double first_share = 1.0 / 3;
 
+// Passes in branch and reduce: before the first branch, and in a node.
+constexpr std::int64_t root_passes = 900, node_passes = 60;
+
 // How far the search is, in rounds of adding cliques: below 0 before the first. Goes by the passes or by the time,
 // whichever is further.
 double progress(std::int64_t passes, const CliqueDualOptions& options, const Deadline& deadline) {
@@ -116,6 +119,13 @@ CliqueDual solve_clique_dual(const ConflictGraph& graph, CliqueCover& cover, con
   }
   best.prices.resize(static_cast<std::size_t>(cover.size()), 0);
   return best;
+}
+
+Relaxation relax_by_clique_dual(const ConflictGraph& graph, std::int64_t target, int depth, const Deadline& deadline) {
+  CliqueCover cover = greedy_edge_clique_cover(graph);
+  const CliqueDualOptions options{.passes = depth == 0 ? root_passes : node_passes, .target = target};
+  const CliqueDual dual = solve_clique_dual(graph, cover, options, deadline);
+  return bounds_of_prices(graph, cover, {dual.prices.begin(), dual.prices.end()});
 }
 
 }  // namespace hexpipe

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/graph/clique_cover.hpp"
+#include "common/mwis/relaxation.hpp"
 #include "common/run/deadline.hpp"
 
 namespace hexpipe {
@@ -40,5 +41,8 @@ struct CliqueDualOptions {
 // Adds cliques to `cover`. `report` is called for every better bound.
 CliqueDual solve_clique_dual(const ConflictGraph& graph, CliqueCover& cover, const CliqueDualOptions& options,
                              const Deadline& deadline, const std::function<void(const CliqueDual&)>& report = {});
+
+// The same as a relaxation of branch and reduce.
+Relaxation relax_by_clique_dual(const ConflictGraph& graph, std::int64_t target, int depth, const Deadline& deadline);
 
 }  // namespace hexpipe

@@ -1,12 +1,22 @@
 #include "common/mwis/reducer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 namespace hexpipe {
 namespace {
 
-constexpr std::int32_t nowhere = -1;
+// Places count from the second word of a row, so that what is nowhere has a bit as well, in the first: then rows are
+// built without branches, which would be guessed wrong half of the time.
+constexpr std::int32_t nowhere = 0, first_place = 64;
+constexpr std::int32_t place_of(std::size_t i) {
+  return first_place + static_cast<std::int32_t>(i);
+}
+constexpr std::size_t index_of(std::int32_t place) {
+  return static_cast<std::size_t>(place - first_place);
+}
+
 // Neighbourhoods are looked into up to this size; beyond it the cost (its square) exceeds what hubs ever gave.
 constexpr std::size_t largest_neighbourhood = 512;
 // Quick reductions end when of so many vertices looked at fewer than so many were decided. On conflict graphs of
@@ -145,19 +155,27 @@ bool Reducer::look_around(std::int32_t v) {
   const auto neighbours = graph_.neighbours_of(v);
   if (neighbours.size() > largest_neighbourhood) return false;
   around_.assign(neighbours.begin(), neighbours.end());
-  std::ranges::stable_sort(around_, std::ranges::greater(), [&](std::int32_t u) { return graph_.weight(u); });
+  std::ranges::sort(around_, [&](std::int32_t a, std::int32_t b) {
+    return graph_.weight(a) != graph_.weight(b) ? graph_.weight(a) > graph_.weight(b) : a < b;
+  });
   local_.reset(around_.size());
   set_.assign(local_.words(), 0);
   excluded_.assign(local_.words(), 0);
-  for (std::size_t i = 0; i < around_.size(); ++i) places_[around_[i]] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < around_.size(); ++i) places_[around_[i]] = place_of(i);
   for (std::size_t i = 0; i < around_.size(); ++i) {
     local_.set_weight(i, graph_.weight(around_[i]));
-    bits::Word* const row = local_.row(i);
-    for (const std::int32_t u : graph_.neighbours_of(around_[i]))
-      if (places_[u] != nowhere) bits::insert(row, static_cast<std::size_t>(places_[u]));
+    build_row(around_[i], local_.row(i));
   }
   for (const std::int32_t u : around_) places_[u] = nowhere;
   return true;
+}
+
+// The neighbours of v that have places.
+void Reducer::build_row(std::int32_t v, bits::Word* row) {
+  std::array<bits::Word, 1 + bits::words_for(largest_neighbourhood)> marked{};
+  for (const std::int32_t u : graph_.neighbours_of(v))
+    bits::insert(marked.data(), static_cast<std::size_t>(places_[u]));
+  std::copy_n(marked.begin() + 1, local_.words(), row);
 }
 
 // A clique cover shows that no independent set of neighbours, without those in `excluded`, outweighs `limit`.
@@ -241,23 +259,22 @@ void Reducer::collect_sets() {
 
 void Reducer::look_outside() {
   // Marks those around as well, so that they are not outside.
-  for (const std::int32_t u : around_) places_[u] = 0;
+  for (const std::int32_t u : around_) places_[u] = first_place;
   outside_.clear();
   for (const std::int32_t u : around_)
     for (const std::int32_t x : graph_.neighbours_of(u))
       if (places_[x] == nowhere) {
-        places_[x] = 0;
+        places_[x] = first_place;
         outside_.push_back(x);
       }
   for (const std::int32_t u : around_) places_[u] = nowhere;
   std::ranges::sort(outside_);
-  for (std::size_t i = 0; i < outside_.size(); ++i) places_[outside_[i]] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < outside_.size(); ++i) places_[outside_[i]] = place_of(i);
   outside_words_ = bits::words_for(outside_.size());
   conflicts_.assign(around_.size() * outside_words_, 0);
   for (std::size_t j = 0; j < around_.size(); ++j)
     for (const std::int32_t x : graph_.neighbours_of(around_[j]))
-      if (places_[x] != nowhere)
-        bits::insert(conflicts_.data() + j * outside_words_, static_cast<std::size_t>(places_[x]));
+      if (places_[x] != nowhere) bits::insert(conflicts_.data() + j * outside_words_, index_of(places_[x]));
   for (const std::int32_t x : outside_) places_[x] = nowhere;
 }
 

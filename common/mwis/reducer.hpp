@@ -58,6 +58,7 @@ class Reducer {
 
   void decide(std::int32_t v);
   bool look_around(std::int32_t v);
+  void build_row(std::int32_t v, bits::Word* row);
   bool bound_without(const bits::Word* excluded, std::int64_t limit);
   bool drop_replaceable(std::int32_t v);
 

@@ -5,6 +5,7 @@
 #include "common/mwis/branch_and_bound.hpp"
 #include "common/mwis/branch_and_reduce.hpp"
 #include "common/mwis/dense_reductions.hpp"
+#include "common/mwis/exact_algorithm.hpp"
 #include "common/mwis/exact_solver.hpp"
 #include "random_graphs.hpp"
 
@@ -125,12 +126,23 @@ TEST(ExactSolver, NeverReturnsLessThanItGot) {
   }
 }
 
-TEST(BranchAndReduce, AgreesWithBruteForceFromAnyBound) {
-  const Deadline never;
+class BranchAndReduceTest : public ::testing::TestWithParam<std::pair<const std::string, ExactAlgorithm>> {
+ protected:
+  BranchAndReduce solver(std::int32_t small) const { return {relaxation_of(GetParam().second), never_, small}; }
+  const Deadline never_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Each, BranchAndReduceTest, ::testing::ValuesIn(exact_algorithms()), [](const auto& algorithm) {
+  std::string name = algorithm.param.first;
+  std::ranges::replace(name, '-', '_');
+  return name;
+});
+
+TEST_P(BranchAndReduceTest, AgreesWithBruteForceFromAnyBound) {
   for_random_graphs(1000, [&](const ConflictGraph& graph, int index) {
     const std::int64_t expected = brute_force_weight(graph);
     for (const std::int32_t small : {0, 6, 100}) {
-      BranchAndReduce solver(never, small);
+      BranchAndReduce solver = this->solver(small);
       const auto found = solver.solve(graph, expected - 1);
       ASSERT_TRUE(found) << "graph " << index;
       EXPECT_NO_THROW(validate(*found, graph, "found"));
@@ -142,13 +154,12 @@ TEST(BranchAndReduce, AgreesWithBruteForceFromAnyBound) {
   });
 }
 
-TEST(BranchAndReduce, BranchesWhereReductionsEnd) {
+TEST_P(BranchAndReduceTest, BranchesWhereReductionsEnd) {
   Random random(9);
-  const Deadline never;
   std::int64_t nodes = 0;
   for (int i = 0; i < 4; ++i) {
     const ConflictGraph graph = hexpipe::testing::random_graph(60, 0.1, 1000, random);
-    BranchAndReduce small(never, 100), branching(never, 20);
+    BranchAndReduce small = solver(100), branching = solver(20);
     const auto expected = small.solve(graph, 0), found = branching.solve(graph, 0);
     ASSERT_TRUE(expected && found) << "graph " << i;
     EXPECT_EQ(total_weight(*found, graph), total_weight(*expected, graph)) << "graph " << i;
@@ -156,7 +167,7 @@ TEST(BranchAndReduce, BranchesWhereReductionsEnd) {
   }
   EXPECT_GT(nodes, 4);
   const Deadline passed(0.0);
-  BranchAndReduce stopped(passed);
+  BranchAndReduce stopped(relaxation_of(GetParam().second), passed);
   EXPECT_FALSE(stopped.solve(hexpipe::testing::random_graph(70, 0.1, 1000, random), 0));
   EXPECT_FALSE(stopped.complete());
 }

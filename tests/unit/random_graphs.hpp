@@ -72,6 +72,15 @@ inline std::int64_t brute_force_weight(const ConflictGraph& graph) {
   return brute_force_weight(graph, 0, 0);
 }
 
+// The same weights, and an edge where the graph has none.
+inline ConflictGraph complement_of(const ConflictGraph& graph) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+  for (std::int32_t a = 0; a < graph.vertex_count(); ++a)
+    for (std::int32_t b = a + 1; b < graph.vertex_count(); ++b)
+      if (!graph.has_edge(a, b)) edges.emplace_back(a, b);
+  return make_graph(graph.weights, edges);
+}
+
 inline DenseGraph to_dense(const ConflictGraph& graph) {
   DenseGraph dense(graph.weights.size());
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "common/mwis/branch_and_reduce.hpp"
 #include "common/mwis/solution_state.hpp"
 
 namespace hexpipe {
@@ -36,17 +35,15 @@ CliqueCover cliques_to_price(const ConflictGraph& graph, KnownCliques known) {
 }
 
 // Looks for something better until nothing can be.
-void prove(const ConflictGraph& graph, const Deadline& deadline, CertifyResult& result) {
-  BranchAndReduce search(deadline);
-  if (auto better = search.solve(graph, result.weight)) {
-    result.solution = std::move(*better);
+void prove(const ConflictGraph& graph, ExactAlgorithm algorithm, const Deadline& deadline, CertifyResult& result) {
+  ExactResult exact = solve_exactly(graph, result.weight, algorithm, deadline);
+  result.nodes = exact.nodes;
+  if (exact.better) {
+    result.solution = std::move(*exact.better);
     result.weight = total_weight(result.solution, graph);
     result.maximal = is_maximal(graph, result.solution);
   }
-  if (search.complete())
-    result.bound = result.weight;
-  else if (search.kernel_size() > 0)
-    result.bound = std::min(result.bound, std::max(search.bound(), result.weight));
+  result.bound = exact.complete ? result.weight : std::min(result.bound, std::max(exact.bound, result.weight));
 }
 
 }  // namespace
@@ -64,7 +61,7 @@ CertifyResult certify(const ConflictGraph& graph, const IndependentSet& solution
   const Deadline dual_deadline = options.exact ? share_for_dual(deadline) : deadline;
   result.dual = solve_clique_dual(graph, result.cover, dual, dual_deadline, report);
   result.bound = result.dual.bound;
-  if (options.exact && result.bound > result.weight) prove(graph, deadline, result);
+  if (options.exact && result.bound > result.weight) prove(graph, *options.exact, deadline, result);
   result.complete = result.bound == result.weight;
   if (result.bound > 0)
     result.gap = static_cast<double>(result.bound - result.weight) / static_cast<double>(result.bound);

@@ -7,13 +7,14 @@
 
 #include "common/graph/conflict_graph.hpp"
 #include "common/mwis/clique_dual.hpp"
+#include "common/mwis/exact_algorithm.hpp"
 #include "common/run/deadline.hpp"
 
 namespace hexpipe {
 
 struct CertifyOptions {
   CliqueDualOptions dual;
-  bool exact = false;  // go on to a proof of optimality
+  std::optional<ExactAlgorithm> exact{};  // go on to a proof of optimality
 };
 
 struct CertifyResult {
@@ -27,11 +28,12 @@ struct CertifyResult {
   // Of the bound; 0 when the solution is optimal, which `complete` says.
   double gap = 0;
   bool complete = false;
+  std::int64_t nodes = 0;  // of the exact search
   // By reduced cost: vertices that no better solution has, and those that every better one has.
   std::int64_t fixed_out = 0, fixed_in = 0;
 };
 
-// Cliques that are known before.
+// Cliques that are known already, or that may be.
 struct KnownCliques {
   std::optional<CliqueCover> cover;    // an edge clique cover
   std::optional<CliqueCover> of_tets;  // candidates that share a tet

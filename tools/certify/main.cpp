@@ -23,13 +23,19 @@ int main(int argc, char** argv) {
       .outside_history = {"certificate"}};
   CertifyOptions options;
   std::string certificate;
+  bool exact = false;
+  std::string algorithm = default_exact_algorithm();
   const auto declare = [&](CLI::App& app) {
     app.add_option("--certificate", certificate, "Write the proof of the bound to a file: prices of cliques")
         ->type_name("FILE");
-    app.add_flag("--exact", options.exact,
-                 "Go on to a proof of optimality by branch and reduce; its bound has no certificate");
+    CLI::Option* const with_exact =
+        app.add_flag("--exact", exact, "Go on to a proof of optimality; its bound has no certificate");
+    app.add_option("--algorithm", algorithm, "How --exact proves it")
+        ->check(CLI::IsMember(exact_algorithms()))
+        ->needs(with_exact);
   };
   const auto run = [&](RunContext& context) {
+    if (exact) options.exact = exact_algorithms().at(algorithm);
     Stage stage(context);
     stage.take_cover();
     SearchLog log(context.common.log_file, "bound");
@@ -56,6 +62,7 @@ int main(int argc, char** argv) {
     context.statistics["maximal"] = result.maximal;
     context.statistics["cliques"] = result.cover.size();
     context.statistics["iterations"] = result.dual.passes;
+    context.statistics["nodes"] = result.nodes;
     context.statistics["fixed_out"] = result.fixed_out;
     context.statistics["fixed_in"] = result.fixed_in;
     context.note(fmt::format("weight {}, at most {} is possible: gap {:.4f} %{}{}", result.weight, result.bound,

@@ -1,0 +1,37 @@
+#pragma once
+// A linear program with a variable from 0 to 1 for each vertex and a row for each clique, of which at most 1 is chosen:
+// COIN-OR's simplex (CLP), which other cliques may be added to and which starts again from where it was.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "common/run/deadline.hpp"
+
+namespace hexpipe {
+
+class PackingProgram {
+ public:
+  explicit PackingProgram(std::span<const std::int64_t> weights);
+  ~PackingProgram();
+  PackingProgram(const PackingProgram&) = delete;
+  PackingProgram& operator=(const PackingProgram&) = delete;
+
+  void add_row(std::span<const std::int32_t> clique);
+
+  // False when the deadline passed first, or the solver gave up. Prices are worth something even then.
+  bool solve(const Deadline& deadline);
+
+  // How much of each vertex the heaviest fractional set has, from 0 to 1.
+  const std::vector<double>& fractions() const { return fractions_; }
+  // Of each row, in the order in which they were added; 0 or more.
+  const std::vector<double>& prices() const { return prices_; }
+
+ private:
+  class Simplex;
+  std::unique_ptr<Simplex> simplex_;
+  std::vector<double> fractions_, prices_;
+};
+
+}  // namespace hexpipe

@@ -1,0 +1,76 @@
+#include "common/mwis/exact_algorithm.hpp"
+
+#include <gtest/gtest.h>
+
+#include "random_graphs.hpp"
+
+namespace hexpipe {
+namespace {
+
+using hexpipe::testing::brute_force_weight;
+
+const Deadline no_deadline;
+
+ConflictGraph nth_graph(int i, Random& random) {
+  const auto vertices = static_cast<std::int32_t>(random.below(22));
+  const std::int64_t heaviest = i % 3 == 0 ? 3 : 1000;
+  return i % 2 == 0 ? hexpipe::testing::random_graph(vertices, random.uniform(), heaviest, random)
+                    : hexpipe::testing::random_clique_graph(vertices, 30, heaviest, random);
+}
+
+class ExactAlgorithmTest : public ::testing::TestWithParam<std::pair<const std::string, ExactAlgorithm>> {
+ protected:
+  ExactResult solve(const ConflictGraph& graph, std::int64_t weight, const Deadline& deadline = no_deadline) const {
+    return solve_exactly(graph, weight, GetParam().second, deadline);
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Each, ExactAlgorithmTest, ::testing::ValuesIn(exact_algorithms()), [](const auto& algorithm) {
+  std::string name = algorithm.param.first;
+  std::ranges::replace(name, '-', '_');
+  return name;
+});
+
+TEST_P(ExactAlgorithmTest, AgreesWithBruteForceFromAnyWeight) {
+  Random random(1);
+  for (int i = 0; i < 1000; ++i) {
+    const ConflictGraph graph = nth_graph(i, random);
+    const std::int64_t optimum = brute_force_weight(graph);
+    const ExactResult found = solve(graph, i % 4 == 0 ? optimum - 1 : -1);
+    ASSERT_TRUE(found.complete && found.better) << "graph " << i;
+    EXPECT_NO_THROW(validate(*found.better, graph, "found")) << "graph " << i;
+    EXPECT_EQ(total_weight(*found.better, graph), optimum) << "graph " << i;
+    EXPECT_GE(found.bound, optimum) << "graph " << i;
+    const ExactResult none = solve(graph, optimum);
+    EXPECT_TRUE(none.complete && !none.better) << "graph " << i;
+    EXPECT_GE(none.bound, optimum) << "graph " << i;
+  }
+}
+
+TEST_P(ExactAlgorithmTest, SaysWhenTheTimeWasTooShort) {
+  Random random(2);
+  const ConflictGraph graph = hexpipe::testing::random_graph(300, 0.05, 1000, random);
+  const ExactResult stopped = solve(graph, -1, Deadline(0));
+  EXPECT_FALSE(stopped.complete);
+  EXPECT_GE(stopped.bound, 0);
+}
+
+// Larger than brute force takes, and too large for what branch and reduce leaves to branch and bound at once.
+TEST(ExactAlgorithms, AgreeOnLargerGraphs) {
+  Random random(3);
+  for (int i = 0; i < 4; ++i) {
+    const ConflictGraph graph = i % 2 == 0 ? hexpipe::testing::random_graph(130, 0.08, 1000, random)
+                                           : hexpipe::testing::random_clique_graph(400, 120, 100, random);
+    std::int64_t optimum = -1;
+    for (const auto& [name, algorithm] : exact_algorithms()) {
+      const ExactResult result = solve_exactly(graph, -1, algorithm, no_deadline);
+      ASSERT_TRUE(result.complete && result.better) << name << ", graph " << i;
+      EXPECT_NO_THROW(validate(*result.better, graph, "found")) << name << ", graph " << i;
+      if (optimum < 0) optimum = total_weight(*result.better, graph);
+      EXPECT_EQ(total_weight(*result.better, graph), optimum) << name << ", graph " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hexpipe
