@@ -126,5 +126,26 @@ def run(command, **options):
     return seconds, peak
 
 
+def run_pipe(*commands):
+    """Likewise for commands that are piped into each other: seconds and peak memory of each."""
+    with tempfile.TemporaryDirectory() as folder:
+        processes, above = [], subprocess.DEVNULL
+        for number, command in enumerate(commands):
+            last = number + 1 == len(commands)
+            processes.append(subprocess.Popen([sys.executable, "-S", "-c", STARTER, os.path.join(folder, str(number)),
+                                               *map(str, command)], stdin=above,
+                                              stdout=None if last else subprocess.PIPE))
+            if above != subprocess.DEVNULL:
+                above.close()
+            above = processes[-1].stdout
+        for process in processes:
+            process.wait()
+        reports = [json.load(open(os.path.join(folder, str(number)))) for number in range(len(commands))]
+    for command, (status, _, _) in zip(commands, reports):
+        if status != 0:
+            raise SystemExit(f"{' '.join(map(str, command))}: status {status}")
+    return [(seconds, peak) for _, seconds, peak in reports]
+
+
 def tool(name):
     return os.path.join(BIN, name)

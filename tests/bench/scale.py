@@ -1,10 +1,12 @@
 #!/usr/bin/python3
-"""scale.py [--most N] [--only lattice|boxes] - time and memory of findhex and buildgraph against the number of tets: 10^5, 10^6, up to N (10^7).
+"""scale.py [--most N] [--only lattice|boxes] [--stream N] - time and memory of findhex and buildgraph against the number of tets: 10^5, 10^6, up to N (10^7).
 
 Lattices of five tets a cube, and boxes of Delaunay tets of points moved by 30 % set one beside the other. Printed are processor
 seconds and peak memory of both stages for each size, by tet, candidate and stored edge, and how far time and memory a tet
 are from those of the smallest size. The graph goes through a pipe and is counted at its end. Ends with 1 when a stage takes
-24 GiB or more, or a tet takes more than 1.5 times the time or 1.25 times the memory that it takes in the smallest mesh.
+24 GiB or more or more than formats/README.md says, or a tet takes more than 1.5 times the time or 1.25 times the memory that
+it takes in the smallest mesh. --stream sends the graph of a lattice of N tets to initsol, which makes a greedy choice, and
+prints time and memory of both sides: 4.2e6 tets have a billion stored edges.
 """
 import argparse
 import json
@@ -18,6 +20,19 @@ import bench_meshes as meshes
 MOST_MEMORY = 24 * 2**30
 STEPS = (10**5, 10**6, 10**7)
 TILE = 25
+# What formats/README.md says, in bytes, beyond what a program takes that does nothing.
+PROGRAM = 16 * 2**20
+FINDHEX_A_TET = 340
+BUILDGRAPH_OVER_GRAPH, BUILDGRAPH_A_CANDIDATE = 1.15, 600
+
+
+def graph_bytes(candidates, edges):
+    return 16 * candidates + 4 * edges
+
+
+def as_documented(tets, candidates, edges, find_peak, build_peak):
+    build_limit = max(BUILDGRAPH_OVER_GRAPH * graph_bytes(candidates, edges), BUILDGRAPH_A_CANDIDATE * candidates)
+    return find_peak <= PROGRAM + FINDHEX_A_TET * tets and build_peak <= PROGRAM + build_limit
 
 
 def lattice(tets):
@@ -29,10 +44,15 @@ def boxes(tets):
     return meshes.tiled(tile, TILE, max(1, round(tets / len(tile[1]))))
 
 
-def measure(mesh):
+def find_candidates(mesh):
     meshes.write_bundle("mesh.tar", mesh)
     find = meshes.run([meshes.tool("findhex"), "-q", "mesh.tar", "-o", "candidates.tar"])
     os.remove("mesh.tar")
+    return find
+
+
+def measure(mesh):
+    find = find_candidates(mesh)
     with tarfile.open("candidates.tar") as tar:
         candidates = tar.getmember("candidates/kind.npy").size - 128
     command = f"{meshes.tool('buildgraph')} -q candidates.tar --stats build.json | wc -c >streamed"
@@ -43,14 +63,32 @@ def measure(mesh):
     return find, build, candidates, edges, streamed
 
 
+def measure_stream(tets):
+    mesh = lattice(tets)
+    tets = len(mesh[1])
+    find_candidates(mesh)
+    del mesh
+    build, choose = meshes.run_pipe([meshes.tool("buildgraph"), "-q", "candidates.tar", "--stats", "build.json"],
+                                    [meshes.tool("initsol"), "-q", "--iterations", 0, "-o", "solution.sol"])
+    with open("build.json") as stats:
+        edges = 2 * json.load(stats)["edges"]
+    os.remove("candidates.tar")
+    print(f"stream of {tets} tets' graph, {edges} stored edges: buildgraph {build[0]:.2f} s, {build[1] / 2**20:.0f} MiB; "
+          f"initsol {choose[0]:.2f} s, {choose[1] / 2**20:.0f} MiB", flush=True)
+    return build[1] + choose[1] >= MOST_MEMORY
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--most", type=float, default=1e7)
     parser.add_argument("--only", choices=("lattice", "boxes"))
+    parser.add_argument("--stream", type=float)
     options = parser.parse_args()
     missed = False
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
+        if options.stream:
+            sys.exit(1 if measure_stream(options.stream) else 0)
         for name, make in (("lattice", lattice), ("boxes", boxes)):
             if options.only not in (None, name):
                 continue
@@ -63,11 +101,13 @@ def main():
                 a_tet = [find[0] / tets, build[0] / tets, find[1] / tets, build[1] / tets]
                 base = base or a_tet
                 ratios = [now / then for now, then in zip(a_tet, base)]
+                missed |= not as_documented(tets, candidates, edges, find[1], build[1])
                 missed |= max(ratios[:2]) > 1.5 or max(ratios[2:]) > 1.25 or max(find[1], build[1]) >= MOST_MEMORY
                 print(f"{name}: {tets} tets, {candidates} candidates, {edges} stored edges; findhex {find[0]:.2f} s, "
                       f"{find[1] / 2**20:.0f} MiB ({find[1] / tets:.0f} B a tet); buildgraph {build[0]:.2f} s, "
                       f"{build[1] / 2**20:.0f} MiB ({build[1] / max(candidates, 1):.0f} B a candidate, "
-                      f"{build[1] / max(edges, 1):.1f} B a stored edge); {streamed / 2**20:.0f} MiB through the pipe; "
+                      f"{build[1] / max(edges, 1):.1f} B a stored edge, "
+                      f"{build[1] / graph_bytes(candidates, edges):.2f} times the graph); {streamed / 2**20:.0f} MiB through the pipe; "
                       f"a tet against the smallest: time {ratios[0]:.2f} and {ratios[1]:.2f}, memory {ratios[2]:.2f} and "
                       f"{ratios[3]:.2f}", flush=True)
     sys.exit(1 if missed else 0)
