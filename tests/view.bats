@@ -206,11 +206,12 @@ PYTHON
 @test "the page works in a browser, as a file" {
   if sanitized; then skip "the browser is not sanitized"; fi
   if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
-  tetmesh "$DATA/bracket.stl" --size 5 | findhex | buildgraph | initsol --iterations 20000 | assemble | view -o bracket.html
+  tetmesh "$DATA/bracket.stl" --size 5 | findhex | buildgraph | initsol --iterations 20000 |
+    certify --iterations 20 | assemble | view -o bracket.html
   run timeout 200 "$PYTHON" "$HEXPIPE_SOURCE/tests/browser/page_test.py" bracket.html screenshots
   assert_success
   assert_output "the page works"
-  assert [ "$(ls screenshots | wc -l)" -ge 6 ]
+  assert [ "$(ls screenshots | wc -l)" -ge 15 ]
 }
 
 @test "--fragments shows parts of the graph one by one" {

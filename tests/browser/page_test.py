@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """page_test.py PAGE.html FOLDER - what a user does with a page of view, done in headless Chromium.
 
-Moves the clipping plane, peels, picks a cell, draws in the histogram, changes colours and theme, follows a link, and
-leaves screenshots in FOLDER. Ends with 1 and a line that says what was wrong, also when the console has errors.
+Moves the clipping plane along every axis, peels, filters, picks a cell, draws in the histogram, changes colours and theme,
+reads the history, copies a link and follows it, downloads a picture, and leaves screenshots in FOLDER. Ends with 1 and a
+line that says what was wrong, also when the console has errors or the page asks the network for something.
 """
 import json
 import pathlib
@@ -10,25 +11,11 @@ import sys
 import tempfile
 import time
 
-from selenium import webdriver
-from selenium.webdriver.chrome.options import Options
-from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
-FLAGS = """--headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking
-    --disable-component-update --disable-sync --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader
-    --window-size=980,800 --hide-scrollbars""".split()
-
-
-def start(profile):
-    options = Options()
-    options.binary_location = "/usr/bin/chromium"
-    for flag in FLAGS + [f"--user-data-dir={profile}"]:
-        options.add_argument(flag)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+import chromium
 
 
 class Page:
@@ -83,8 +70,33 @@ class Page:
             for (let i = 0; i < data.length; i += 4) seen.add(data[i] << 16 | data[i + 1] << 8 | data[i + 2]);
             return seen.size""")
 
+    def picture(self):
+        """Red, green and blue of a coarse grid of the canvas."""
+        return self.browser.execute_script("""const scene = document.getElementById('scene');
+            const copy = document.createElement('canvas'); copy.width = 60; copy.height = 40;
+            const context = copy.getContext('2d'); context.drawImage(scene, 0, 0, 60, 40);
+            return [...context.getImageData(0, 0, 60, 40).data].filter((_, i) => i % 4 !== 3)""")
+
+    def colours_of(self, colour):
+        """How many places of a grid of the canvas have this hue, however bright."""
+        return self.browser.execute_script("""const scene = document.getElementById('scene'), [r, g, b] = arguments[0];
+            const copy = document.createElement('canvas'); copy.width = 480; copy.height = 320;
+            const context = copy.getContext('2d'); context.drawImage(scene, 0, 0, 480, 320);
+            const data = context.getImageData(0, 0, 480, 320).data;
+            let count = 0;
+            for (let i = 0; i < data.length; i += 4) {
+              const part = data[i] / r;
+              if (part > 0.3 && Math.abs(data[i + 1] - part * g) < 30 && Math.abs(data[i + 2] - part * b) < 30) ++count;
+            }
+            return count""", colour)
+
     def shot(self, name):
         assert self.browser.save_screenshot(str(self.folder / f"{name}.png"))
+
+
+def difference(one, other):
+    """On average, of 255."""
+    return sum(abs(a - b) for a, b in zip(one, other)) / len(one)
 
 
 def check_opening(page):
@@ -107,6 +119,11 @@ def check_clipping(page, cells):
     page.choose("clip-axis", "flip")
     page.wait(lambda: page.state()["clip"].endswith("y:0.75"))
     assert half < page.shown() < cells, page.shown()
+    for axis in "x", "z":
+        page.choose("clip-axis", axis)
+        page.wait(lambda: page.state()["clip"].endswith(f"{axis}:0.75"))
+        assert 0 < page.shown() < cells, page.shown()
+        page.shot(f"clipped-{axis}")
     page.choose("clip-axis", "view")
     page.wait(lambda: page.state()["clip"].count(",") == 2)
     page.choose("clip-axis", "none")
@@ -138,12 +155,16 @@ def check_peeling_and_kinds(page, cells):
     assert 0 < page.shown() < cells
     page.slide("peel", 0)
     page.settles_with(peel="0")
-    page.find("#counts button[data-kind=tet]").click()
-    page.wait(lambda: "tet" not in page.state()["kinds"])
-    assert 0 < page.shown() < cells
-    page.shot("no-tets")
-    page.find("#counts button[data-kind=tet]").click()
-    page.wait(lambda: "tet" in page.state()["kinds"])
+    without = 0
+    for kind in "hex", "pyramid", "tet":
+        button = page.find(f"#counts button[data-kind={kind}]")
+        button.click()
+        page.wait(lambda: kind not in page.state()["kinds"])
+        without += cells - page.shown()
+        page.shot(f"no-{kind}")
+        button.click()
+        page.wait(lambda: kind in page.state()["kinds"])
+    assert without == cells, without
 
 
 def check_picking(page):
@@ -151,8 +172,12 @@ def check_picking(page):
     scene = page.find("#scene")
     ActionChains(page.browser).move_to_element_with_offset(scene, 0, 0).click().perform()
     page.wait(lambda: page.find("#picked").is_displayed())
-    rows = dict(row.text.split(" ", 1) for row in page.find("#picked").find_elements(By.CSS_SELECTOR, "tr"))
-    assert "scaled" in rows and "vertices" in rows and len(rows["vertices"].split()) >= 4, rows
+    rows = dict([td.text for td in row.find_elements(By.CSS_SELECTOR, "td")]
+                for row in page.find("#picked").find_elements(By.CSS_SELECTOR, "tr"))
+    kind, corners = next(iter(rows)), len(rows["vertices"].split())
+    assert {"hex": 8, "prism": 6, "pyramid": 5, "tet": 4}[kind] == corners, rows
+    assert 0 < float(rows["scaled Jacobian"]) <= 1 and rows["layer"] == "1" and len(rows["middle"].split(",")) == 3, rows
+    assert page.colours_of([236, 64, 140]) > 0, "the picked cell is not marked"
     page.shot("picked")
     ActionChains(page.browser).move_to_element_with_offset(scene, -470, 280).click().perform()
     page.wait(lambda: not page.find("#picked").is_displayed())
@@ -172,12 +197,15 @@ def check_turning(page):
 
 
 def check_colours(page):
+    before = [0] * 3 * 60 * 40
     for colour in "quality", "kind", "region", "hexes":
         page.choose("colour", colour)
         page.settles_with(colour=colour)
-        assert page.text("legend") or colour == "region"
-        if colour == "kind":
-            page.shot("kinds")
+        assert page.text("legend")
+        picture = page.picture()
+        assert difference(picture, before) > 1, f"{colour} looks like the one before"
+        before = picture
+        page.shot(f"by-{colour}")
     page.find("#edges").click()
     page.settles_with(edges="off")
     page.find("#theme").click()
@@ -185,14 +213,50 @@ def check_colours(page):
     page.shot("dark")
 
 
+HISTORY = {
+    "tetmesh": ("tets", "--size"), "findhex": ("hexes", "--min-quality"), "buildgraph": ("vertices", "edges"),
+    "initsol": ("seed", "weight", "--iterations"), "certify": ("weight", "bound", "gap"), "assemble": ("hex: count", "--smooth"),
+}
+
+
+def check_history(page):
+    page.find("#history summary").click()
+    entries = {entry.find_element(By.CSS_SELECTOR, "b").text: entry.text
+               for entry in page.find("#history").find_elements(By.CSS_SELECTOR, "li")}
+    for tool, words in HISTORY.items():
+        for word in words:
+            assert word in entries[tool], f"{tool} without {word}: {entries.get(tool)}"
+    page.browser.execute_script("document.getElementById('history').scrollIntoView()")
+    page.shot("history")
+    page.find("#history summary").click()
+
+
+def check_png(page, downloads):
+    """The button leaves the picture that the canvas shows, named after the page."""
+    page.find("#png").click()
+    target = downloads / "hexpipe-result.png"
+    page.wait(lambda: target.exists() and not list(downloads.glob("*.crdownload")))
+    data = target.read_bytes()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n" and len(data) > 20000, len(data)
+    size = [int.from_bytes(data[at:at + 4], "big") for at in (16, 20)]
+    canvas = page.find("#scene")
+    assert size == [int(canvas.get_attribute(name)) for name in ("width", "height")] and size[0] > 1000, size
+
+
 def check_link(page, address):
-    """The address that the page gives itself leads to the same view, also by a new visit."""
-    link = page.browser.current_url
+    """The button copies the address that leads to the same view, also by a new visit."""
+    page.browser.execute_cdp_cmd("Browser.grantPermissions", {"permissions": ["clipboardReadWrite", "clipboardSanitizedWrite"]})
+    page.find("#link").click()
+    page.wait(lambda: page.text("link") == "Copied")
+    link = page.browser.execute_async_script("navigator.clipboard.readText().then(arguments[0])")
+    assert link == page.browser.current_url, link
+    before = page.picture()
     assert link.startswith("file://") and "theme=dark" in link, link
     page.browser.get("about:blank")
     page.open(link)
     page.settles_with(theme="dark", edges="off")
     assert page.browser.current_url == link
+    assert difference(page.picture(), before) < 1, "the link shows another picture"
     page.browser.get("about:blank")
     page.open(address + "#clip=nonsense&peel=x&colour=none&nothing")  # what is no view changes nothing
     page.settles_with(peel="0", colour="hexes")
@@ -213,7 +277,8 @@ def main():
     folder = pathlib.Path(sys.argv[2])
     folder.mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
-        browser = start(profile)
+        downloads = pathlib.Path(profile) / "downloads"
+        browser = chromium.start(profile, downloads)
         try:
             page = Page(browser, folder)
             page.open(address)
@@ -224,6 +289,8 @@ def main():
             check_picking(page)
             check_turning(page)
             check_colours(page)
+            check_history(page)
+            check_png(page, downloads)
             check_link(page, address)
             check_console(page)
         finally:

@@ -13,12 +13,17 @@ export function cornersOf(scene, cell) {
 
 // The mean of each cell's corners, three numbers a cell.
 export function middlesOf(scene) {
-  const result = new Float64Array(3 * scene.cellCount);
+  const {points} = scene, result = new Float64Array(3 * scene.cellCount);
+  let place = 0;
   for (let k = 0; k < 4; ++k) {
     const count = scene.kinds[k].corners, corners = scene.corners[k];
-    for (let i = 0; i < corners.length; ++i) {
-      const cell = scene.kindBegin[k] + Math.floor(i / count);
-      for (let axis = 0; axis < 3; ++axis) result[3 * cell + axis] += scene.points[3 * corners[i] + axis] / count;
+    for (let base = 0; base < corners.length; base += count) {
+      let x = 0, y = 0, z = 0;
+      for (let i = base; i < base + count; ++i) {
+        const at = 3 * corners[i];
+        x += points[at], y += points[at + 1], z += points[at + 2];
+      }
+      result[place++] = x / count, result[place++] = y / count, result[place++] = z / count;
     }
   }
   return result;

@@ -1,27 +1,26 @@
 // Arrays as page.cpp packs them, and the scene made of them.
 
-async function inflate(text) {
-  const characters = atob(text);
-  const bytes = new Uint8Array(characters.length);
+function bytesOf(text) {
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
+  const characters = atob(text), bytes = new Uint8Array(characters.length);
   for (let i = 0; i < bytes.length; ++i) bytes[i] = characters.charCodeAt(i);
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
+  return bytes;
 }
 
 async function words(text) {
-  const bytes = await inflate(text);
-  const count = bytes.length / 4;
-  const result = new Uint32Array(count);
+  const stream = new Blob([bytesOf(text)]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+  const count = bytes.length / 4, result = new Int32Array(count);
   for (let i = 0; i < count; ++i)
     result[i] = bytes[i] | (bytes[count + i] << 8) | (bytes[2 * count + i] << 16) | (bytes[3 * count + i] << 24);
   return result;
 }
 
+// Each number is told by its difference to the one `stride` before.
 async function integers(text, stride) {
-  const coded = await words(text);
-  const result = new Int32Array(coded.length);
-  for (let i = 0; i < coded.length; ++i)
-    result[i] = (i < stride ? 0 : result[i - stride]) + ((coded[i] >>> 1) ^ -(coded[i] & 1));
+  const result = await words(text);
+  for (let i = 0; i < result.length; ++i)
+    result[i] = (i < stride ? 0 : result[i - stride]) + ((result[i] >>> 1) ^ -(result[i] & 1));
   return result;
 }
 

@@ -106,11 +106,17 @@ class Viewer {
   }
 }
 
+// The marks are for tests/bench/page.py, and for whoever opens the browser's tools.
 async function start() {
   const text = document.getElementById("data");
-  const scene = await decodeScene(JSON.parse(text.textContent));
+  const data = JSON.parse(text.textContent);
   text.remove();
+  performance.mark("parsed");
+  const scene = await decodeScene(data);
+  performance.mark("decoded");
   new Viewer(scene);
+  performance.mark("prepared");
+  requestAnimationFrame(() => performance.mark("drawn"));
   message.textContent = "";
 }
 

@@ -21,6 +21,21 @@ function swatch(colour) {
   return box;
 }
 
+function brief(value) {
+  if (typeof value !== "number" || !Number.isFinite(value)) return String(value);
+  return Number.isInteger(value) ? grouped(value) : String(Number(value.toPrecision(4)));
+}
+
+// What a tool said, a line for what stands together: single values, and behind them what is told part by part, but for
+// lists and for parts of parts, which only programs read.
+function linesOf(name, entry, depth = 0) {
+  const single = Object.entries(entry).filter(([, value]) => typeof value !== "object");
+  const parts = Object.entries(entry).filter(([, value]) => value && typeof value === "object" && !Array.isArray(value));
+  const words = single.map(([key, value]) => `${key.replaceAll("_", " ")} ${brief(value)}`);
+  return [...words.length ? [(name && `${name.replaceAll("_", " ")}: `) + words.join(" · ")] : [],
+    ...depth < 2 && entry.count !== 0 ? parts.flatMap(([key, part]) => linesOf(key, part, depth + 1)) : []];
+}
+
 export class Panel {
   // actions: changed(), viewDirection() -> a unit vector, link(), png(), reset()
   constructor(scene, state, actions) {
@@ -64,13 +79,10 @@ export class Panel {
   makeHistory() {
     const {history} = this.scene, list = byId("history").querySelector("ol");
     byId("history").hidden = history.length === 0;
-    const value = entry => typeof entry === "object" ? JSON.stringify(entry).replace(/["{}]/g, "").replace(/,/g, ", ")
-      : typeof entry === "number" && !Number.isInteger(entry) ? String(Number(entry.toPrecision(4))) : String(entry);
     for (const {tool, version, options, ...rest} of history) {
-      const item = element("li");
-      item.append(element("b", tool), element("div", Object.entries(rest).map(([k, v]) => `${k} ${value(v)}`).join(" · ")));
-      item.append(element("div", Object.entries(options ?? {}).map(([k, v]) => `--${k} ${value(v)}`).join("  ")));
-      item.title = `${tool} ${version ?? ""}`;
+      const item = element("li", undefined, {title: `${tool} ${version ?? ""}`});
+      item.append(element("b", tool), ...linesOf("", rest).map(line => element("div", line)));
+      item.append(element("div", Object.entries(options ?? {}).map(([k, v]) => `--${k} ${brief(v)}`).join("  ")));
       list.append(item);
     }
   }
@@ -184,5 +196,6 @@ export class Panel {
     row("layer", scene.layer[cell]);
     row("vertices", [...corners].join(" "));
     row("middle", middle.map((m, i) => Number((scene.centre[i] + scene.unit * m).toPrecision(5))).join(", "));
+    byId("picked").scrollIntoView({block: "nearest"});
   }
 }

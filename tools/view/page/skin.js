@@ -12,96 +12,119 @@ function senseOf(vertices, count) {
   return vertices[(least + 1) % count] < vertices[(least + count - 1) % count] ? 0 : 1;
 }
 
-// Numbers facets by their vertices, in the order in which they come: a hash table with open addressing.
-class FacetNumbers {
-  constructor(most) {
-    let size = 16;
-    while (size < 2 * most) size *= 2;
-    this.table = new Int32Array(size).fill(-1);
-    this.keys = new Int32Array(4 * most);
-    this.count = 0;
-    this.key = new Int32Array(4);
-  }
-
-  // Small insertion sort of the vertices; a triangle's fourth is -1.
-  sortIntoKey(vertices, count) {
-    const key = this.key;
-    key[3] = -1;
-    for (let i = 0; i < count; ++i) {
-      let j = i;
-      for (; j > 0 && key[j - 1] > vertices[i]; --j) key[j] = key[j - 1];
-      key[j] = vertices[i];
-    }
-  }
-
-  numberOf(vertices, count) {
-    this.sortIntoKey(vertices, count);
-    const {key, keys, table} = this, a = key[0], b = key[1], c = key[2], d = key[3];
-    let hash = Math.imul(a, 0x9e3779b1) ^ Math.imul(b, 0x85ebca6b) ^ Math.imul(c, 0xc2b2ae35) ^ Math.imul(d, 0x27d4eb2f);
-    hash ^= hash >>> 15;
-    for (let slot = hash & (table.length - 1);; slot = (slot + 1) & (table.length - 1)) {
-      const number = table[slot], at = 4 * number;
-      if (number < 0) {
-        const place = 4 * this.count;
-        keys[place] = a, keys[place + 1] = b, keys[place + 2] = c, keys[place + 3] = d;
-        return table[slot] = this.count++;
-      }
-      if (keys[at] === a && keys[at + 1] === b && keys[at + 2] === c && keys[at + 3] === d) return number;
-    }
-  }
-}
-
-// The sides of facet f are items [begin[f], begin[f + 1]), each (cell * 8 + its number in the cell) * 2 + sense.
-function findFacets(scene) {
-  let total = 0;
-  for (let k = 0; k < 4; ++k) total += scene.kinds[k].facets.length * (scene.kindBegin[k + 1] - scene.kindBegin[k]);
-  const numbers = new FacetNumbers(total), facetOf = new Int32Array(total), item = new Int32Array(total);
+// visit(vertices, count, item) for each facet of each cell; the item is (cell * 8 + the facet's number in the cell) * 2.
+function forEachSide(scene, visit) {
   const vertices = new Int32Array(4);
-  let side = 0;
   for (let k = 0; k < 4; ++k) {
     const {corners: width, facets} = scene.kinds[k], corners = scene.corners[k];
     for (let cell = scene.kindBegin[k], base = 0; cell < scene.kindBegin[k + 1]; ++cell, base += width)
-      for (let local = 0; local < facets.length; ++local, ++side) {
+      for (let local = 0; local < facets.length; ++local) {
         const facet = facets[local];
         for (let i = 0; i < facet.length; ++i) vertices[i] = corners[base + facet[i]];
-        facetOf[side] = numbers.numberOf(vertices, facet.length);
-        item[side] = (cell * 8 + local) * 2 + senseOf(vertices, facet.length);
+        visit(vertices, facet.length, (cell * 8 + local) * 2);
       }
   }
-  const begin = new Int32Array(numbers.count + 1), items = new Int32Array(total);
-  for (let i = 0; i < total; ++i) ++begin[facetOf[i] + 1];
-  for (let f = 0; f < numbers.count; ++f) begin[f + 1] += begin[f];
-  const next = begin.slice();
-  for (let i = 0; i < total; ++i) items[next[facetOf[i]]++] = item[i];
-  return {begin, items};
+}
+
+const leastOf = (vertices, count) =>
+  Math.min(vertices[0], vertices[1], vertices[2], vertices[count === 4 ? 3 : 2]);
+
+// Four numbers a side: its vertices but for the least, ascending (-1 where a triangle has no more), and its item, of which
+// the last bit is its sense.
+function writeSide(vertices, count, least, item, sides, at) {
+  sides[at] = sides[at + 1] = sides[at + 2] = -1;
+  let done = at;
+  for (let i = 0; i < count; ++i) {
+    const vertex = vertices[i];
+    if (vertex === least) continue;
+    let j = done++;
+    for (; j > at && sides[j - 1] > vertex; --j) sides[j] = sides[j - 1];
+    sides[j] = vertex;
+  }
+  sides[at + 3] = item + senseOf(vertices, count);
+}
+
+// Those that have vertex v as the least are [begin[v], begin[v + 1]).
+function sidesByLeastVertex(scene) {
+  const begin = new Int32Array(scene.pointCount + 1);
+  forEachSide(scene, (vertices, count) => { ++begin[leastOf(vertices, count) + 1]; });
+  for (let v = 0; v < scene.pointCount; ++v) begin[v + 1] += begin[v];
+  const next = begin.slice(), sides = new Int32Array(4 * begin[scene.pointCount]);
+  forEachSide(scene, (vertices, count, item) => {
+    const least = leastOf(vertices, count);
+    writeSide(vertices, count, least, item, sides, 4 * next[least]++);
+  });
+  return {begin, sides};
+}
+
+// Around a vertex this many sides are compared each with each; more are sorted first.
+const few = 200;
+
+// The sides of facet f are items [begin[f], begin[f + 1]), in any order.
+function findFacets(scene) {
+  const {begin: around, sides} = sidesByLeastVertex(scene), begin = new Int32Array(sides.length / 4 + 1);
+  let count = 0;
+  const same = (a, b) => sides[a] === sides[b] && sides[a + 1] === sides[b + 1] && sides[a + 2] === sides[b + 2];
+  for (let v = 0; v < scene.pointCount; ++v) {
+    const first = 4 * around[v], end = 4 * around[v + 1], many = end - first > 4 * few;
+    if (many) sortSides(sides.subarray(first, end));
+    for (let at = first, last; at < end; at = last + 4) {
+      last = at;
+      for (let other = at + 4; other < end; other += 4)
+        if (same(at, other)) swapSides(sides, last += 4, other);
+        else if (many) break;
+      begin[++count] = last / 4 + 1;
+    }
+  }
+  return {begin: begin.slice(0, count + 1), items: Int32Array.from({length: sides.length / 4}, (_, i) => sides[4 * i + 3])};
+}
+
+function swapSides(sides, a, b) {
+  if (a === b) return;
+  for (let i = 0; i < 4; ++i) {
+    const number = sides[a + i];
+    sides[a + i] = sides[b + i];
+    sides[b + i] = number;
+  }
+}
+
+function sortSides(sides) {
+  const old = sides.slice(), order = Int32Array.from({length: sides.length / 4}, (_, i) => 4 * i);
+  order.sort((a, b) => old[a] - old[b] || old[a + 1] - old[b + 1] || old[a + 2] - old[b + 2]);
+  order.forEach((from, i) => sides.set(old.subarray(from, from + 4), 4 * i));
 }
 
 export class Skin {
   constructor(scene) {
     this.scene = scene;
     this.facets = findFacets(scene);
-    this.middles = middlesOf(scene);
     this.visible = new Uint8Array(scene.cellCount);
     this.shown = new Int32Array(this.facets.begin.length - 1);
     this.at = new Int32Array(4);
   }
 
+  // cell -> whether its middle is beyond the plane. What sliding a plane does not change is kept.
+  clippedBy(clip) {
+    if (!clip) return () => false;
+    const middles = this.middles ??= middlesOf(this.scene), [x, y, z] = clip.normal;
+    if (this.direction !== clip.normal.join()) {
+      this.direction = clip.normal.join();
+      this.extent = extent(this.scene, clip.normal);
+    }
+    const [low, high] = this.extent, beyond = low + clip.fraction * (high - low);
+    return cell => x * middles[3 * cell] + y * middles[3 * cell + 1] + z * middles[3 * cell + 2] > beyond;
+  }
+
   // Cells that the state shows; returns how many of each kind.
   chooseCells(state) {
-    const {scene, middles, visible} = this;
-    const [x, y, z] = state.clip?.normal ?? [0, 0, 0];
-    let beyond = Infinity;
-    if (state.clip) {
-      const [low, high] = extent(scene, state.clip.normal);
-      beyond = low + state.clip.fraction * (high - low);
-    }
+    const {scene, visible} = this, clipped = this.clippedBy(state.clip);
     const low = Math.fround(state.quality[0]), high = Math.fround(state.quality[1]);
     const counts = [0, 0, 0, 0];
     visible.fill(0);
     const judge = (k, cell) => {
       const quality = scene.quality[cell];
       if (scene.layer[cell] <= state.peel || quality < low || quality > high) return;
-      if (x * middles[3 * cell] + y * middles[3 * cell + 1] + z * middles[3 * cell + 2] > beyond) return;
+      if (clipped(cell)) return;
       visible[cell] = 1;
       ++counts[k];
     };
@@ -124,8 +147,8 @@ export class Skin {
       for (let i = begin[f]; i < begin[f + 1]; ++i) {
         const item = items[i];
         if (!visible[item >> 4]) continue;
-        if (item & 1) first1 = first1 < 0 ? item : first1;
-        else first0 = first0 < 0 ? item : first0;
+        if (item & 1) first1 = first1 < 0 || item < first1 ? item : first1;
+        else first0 = first0 < 0 || item < first0 ? item : first0;
       }
       if ((first0 < 0) === (first1 < 0)) continue;
       const item = first0 < 0 ? first1 : first0;
