@@ -55,6 +55,17 @@ TEST(InputSurface, BordersOfTagsAreFeatures) {
   EXPECT_EQ(surface.place(lattice_vertex(4, 3, 2, 0)), Place::face);
 }
 
+// As in tetmesh, which lays no curve along a weaker bend.
+TEST(InputSurface, BendsOfFortyDegreesAreFeatures) {
+  for (double degrees : {35.0, 45.0}) {
+    auto lattice = make_lattice(4);
+    // Beyond the middle, the block leans.
+    for (auto& p : lattice.mesh.points) p.z -= std::max(0.0, p.x - 2) * std::tan(degrees * M_PI / 180);
+    tag_boundary(lattice.mesh);
+    EXPECT_EQ(InputSurface(lattice.mesh).place(lattice_vertex(4, 2, 2, 4)), degrees < 40 ? Place::face : Place::curve);
+  }
+}
+
 TEST(InputSurface, FindsFeetOnItsOwnPart) {
   auto lattice = make_lattice(3);
   tag_boundary(lattice.mesh);

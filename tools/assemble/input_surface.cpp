@@ -13,8 +13,8 @@
 namespace hexpipe {
 namespace {
 
-// 30 degrees: cylinders of twelve sides and more count as smooth, and a curve may turn by as much.
-const double cos_feature_angle = std::cos(std::numbers::pi / 6);
+// 40 degrees, as in tetmesh: cylinders of nine sides and more count as smooth, and a curve may turn by as much.
+const double cos_feature_angle = std::cos(std::numbers::pi * 40 / 180);
 // A vertex slides a few edges far at most; walks that do not end by then are at something odd, and a point that is too
 // far away is as safe as the nearest.
 constexpr int longest_walk = 30;
