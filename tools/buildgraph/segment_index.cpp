@@ -14,9 +14,9 @@ constexpr std::int64_t vertices_a_block = 256;
 template <class Topology>
 constexpr auto make_pair_numbers() {
   std::array<std::array<std::uint8_t, Topology::corner_count>, Topology::corner_count> numbers{};
-  for (std::uint8_t pair = 0; pair < corner_pairs<Topology>.size(); ++pair) {
+  for (std::size_t pair = 0; pair < corner_pairs<Topology>.size(); ++pair) {
     const CornerPair& corners = corner_pairs<Topology>[pair];
-    numbers[corners.a][corners.b] = numbers[corners.b][corners.a] = pair;
+    numbers[corners.a][corners.b] = numbers[corners.b][corners.a] = static_cast<std::uint8_t>(pair);
   }
   return numbers;
 }
