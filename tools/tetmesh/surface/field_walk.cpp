@@ -34,16 +34,17 @@ FieldWalker::Exit FieldWalker::exit_of(const SurfacePoint& point, const Vec3& di
   return exit;
 }
 
-Vec3 FieldWalker::direction_beyond(HalfEdge edge, const Vec3& direction) const {
+Vec3 FieldWalker::direction_beyond(HalfEdge edge, const Vec3& direction, bool along_field) const {
   const HalfEdge twin = surface_.twins[edge];
   const Vec3 side = surface_.edge_vector(edge);
   const Vec3 along = side * (1 / norm(side)), inward = surface_.inward(twin);
   const Vec3 unfolded = dot(direction, along) * along - dot(direction, surface_.inward(edge)) * inward;
+  if (!along_field) return unfolded;
   const Vec3 in_field = nearest_direction(triangle_of(twin), unfolded);
   return dot(in_field, inward) > least_advance ? in_field : unfolded;
 }
 
-WalkEnd FieldWalker::walk(const SurfacePoint& start, const Vec3& direction, double length) const {
+WalkEnd FieldWalker::go(const SurfacePoint& start, const Vec3& direction, double length, bool along_field) const {
   WalkEnd end{start, direction};
   Vec3& heading = end.heading;
   for (int i = 0; i < most_triangles; ++i) {
@@ -56,7 +57,7 @@ WalkEnd FieldWalker::walk(const SurfacePoint& start, const Vec3& direction, doub
       end.at_feature = true;
       break;
     }
-    heading = direction_beyond(exit.edge, heading);
+    heading = direction_beyond(exit.edge, heading, along_field);
     end.point.triangle = triangle_of(surface_.twins[exit.edge]);
   }
   return end;

@@ -26,15 +26,23 @@ class FieldWalker {
 
   // Walks straight in each triangle, from one to the next with the direction of the field that continues the last,
   // until `length` is walked or a feature edge met.
-  WalkEnd walk(const SurfacePoint& start, const Vec3& direction, double length) const;
+  WalkEnd walk(const SurfacePoint& start, const Vec3& direction, double length) const {
+    return go(start, direction, length, true);
+  }
+
+  // Straight on the surface, whatever the field.
+  WalkEnd walk_straight(const SurfacePoint& start, const Vec3& direction, double length) const {
+    return go(start, direction, length, false);
+  }
 
  private:
   struct Exit {
     HalfEdge edge = 0;
     double length = 0;
   };
+  WalkEnd go(const SurfacePoint& start, const Vec3& direction, double length, bool along_field) const;
   Exit exit_of(const SurfacePoint& point, const Vec3& direction) const;
-  Vec3 direction_beyond(HalfEdge edge, const Vec3& direction) const;
+  Vec3 direction_beyond(HalfEdge edge, const Vec3& direction, bool along_field) const;
 
   const FieldSurface& surface_;
   const CrossField& field_;

@@ -1,7 +1,9 @@
-// Packing of parallelograms: each point, first come first served, offers its four neighbours in the directions of the
-// field; one is taken when no point is nearer than a part of the size in the maximum norm of the field's directions
-// there (Baudouin, Remacle, Marchandise, Henrotte, Geuzaine 2014, section 3). Where a direction meets a feature curve
-// within a few sizes, the steps are stretched so that a whole number fits, which their paper leaves to chance.
+// Points of a lattice that fits the field come first (surface_lattice.hpp). Where its parts do not fit together,
+// packing of parallelograms fills what they leave: each point, first come first served, offers its four neighbours in
+// the directions of the field; one is taken when no point is nearer than a part of the size in the maximum norm of the
+// field's directions there (Baudouin, Remacle, Marchandise, Henrotte, Geuzaine 2014, section 3). Where a direction
+// meets a feature curve within a few sizes, the steps are stretched so that a whole number fits, which their paper
+// leaves to chance.
 
 #include "tools/tetmesh/surface/surface_front.hpp"
 
@@ -9,6 +11,7 @@
 #include <cmath>
 #include <optional>
 
+#include "tools/tetmesh/surface/surface_lattice.hpp"
 #include "tools/tetmesh/surface/surface_point_grid.hpp"
 
 namespace hexpipe {
@@ -46,6 +49,8 @@ class SurfaceFront {
 
   std::vector<SurfacePoint> run(std::span<const Vertex> kept) {
     add_kept(kept);
+    for (const SurfacePoint& p : surface_lattice(surface_, field_, kept, size_))
+      if (is_free(p, least_distance)) take(p, {});
     start_from_kept(kept);
     spread();
     fill_gaps();

@@ -1,6 +1,6 @@
 #pragma once
-// Points on a surface in the directions of its cross field, a size apart, by a front that starts from the feature
-// curves.
+// Points on a surface in the directions of its cross field, a size apart: those of a lattice that fits it, and between
+// them by a front that starts from the feature curves.
 
 #include <span>
 

@@ -29,9 +29,10 @@ constexpr double snap = 0.02;
 constexpr double sample_spacing = 0.34;
 // The part of the deviation that removing vertices may use, by the distances that it knows: those of vertices.
 constexpr double removal_share = 0.85;
-// Vertices nearer to a fault than that, in sizes, stay; and the double of it the next time.
-constexpr double repair_reach = 0.25;
-constexpr int most_attempts = 5;
+// Of the vertices nearer to a fault than that, in sizes, the nearest stays, but none for a fault as near to one that
+// stays. If that does not help in so many attempts, all of them stay, and those within the double of it the next time.
+constexpr double repair_reach = 0.5;
+constexpr int careful_attempts = 4, most_attempts = 6;
 // On the new surface, about 2 KB each while it is made.
 constexpr double most_points = 2e7;
 constexpr std::size_t most_intersections = 1000;
@@ -51,13 +52,15 @@ class SurfaceRemesher {
       return std::move(result_);
     }
     prepare();
-    SizeField reach = repair_reach * size_;
-    for (; result_.attempts < most_attempts; reach = 2 * reach) {
+    while (result_.attempts < most_attempts) {
       ++result_.attempts;
       remove_vertices_of_input();
       const std::vector<Vec3> faults = find_faults();
       if (faults.empty()) return std::move(result_);
-      keep_around(faults, reach);
+      if (result_.attempts < careful_attempts)
+        keep_nearest(faults, repair_reach / result_.attempts * size_);
+      else
+        keep_around(faults, repair_reach * (result_.attempts + 1 - careful_attempts) * size_);
     }
     result_.soup = {};
     return std::move(result_);
@@ -67,6 +70,7 @@ class SurfaceRemesher {
   void prepare();
   void remove_vertices_of_input();
   std::vector<Vec3> find_faults();
+  void keep_nearest(const std::vector<Vec3>& places, const SizeField& reach);
   void keep_around(const std::vector<Vec3>& places, const SizeField& reach);
   std::vector<Vertex> kept_vertices() const;
   void set_soup(const FeatureMesh& mesh);
@@ -100,7 +104,7 @@ std::vector<Vertex> SurfaceRemesher::kept_vertices() const {
 
 void SurfaceRemesher::remove_vertices_of_input() {
   FeatureMesh mesh = prepared_;
-  remove_vertices(mesh, removal_share * deviation_);
+  remove_vertices(mesh, input_, removal_share * deviation_);
   set_soup(mesh);
   result_.extra_points = result_.soup.points.size() - result_.feature_points - result_.front_points;
 }
@@ -158,6 +162,33 @@ std::vector<Vec3> SurfaceRemesher::find_faults() {
   faults.insert(faults.end(), back.beyond.begin(), back.beyond.end());
   result_.failure = faults.empty() ? "" : "the new surface is too far from the old one";
   return faults;
+}
+
+void SurfaceRemesher::keep_nearest(const std::vector<Vec3>& places, const SizeField& reach) {
+  SurfacePointGrid removable(size_.greatest()), fresh(reach.greatest());
+  std::vector<OpenMesh::VertexHandle> handles;
+  for (const auto v : prepared_.vertices()) {
+    if (prepared_.is_kept(v)) continue;
+    removable.add(prepared_.position(v));
+    handles.push_back(v);
+  }
+  for (const Vec3& place : places) {
+    const double here = reach.at(place), size = size_.at(place);
+    if (!fresh.none_near(place, [&](std::int32_t, const Vec3& p) { return norm_squared(p - place) <= here * here; }))
+      continue;
+    std::int32_t nearest = -1;
+    double least = size * size;
+    removable.none_near(place, [&](std::int32_t i, const Vec3& p) {
+      if (norm_squared(p - place) < least) {
+        least = norm_squared(p - place);
+        nearest = i;
+      }
+      return false;
+    });
+    if (nearest < 0) continue;
+    prepared_.keep(handles[nearest]);
+    fresh.add(prepared_.position(handles[nearest]));
+  }
 }
 
 void SurfaceRemesher::keep_around(const std::vector<Vec3>& places, const SizeField& reach) {

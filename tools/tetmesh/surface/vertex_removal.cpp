@@ -22,6 +22,9 @@ using VertexH = OpenMesh::VertexHandle;
 constexpr double least_cosine = 0.3, least_shape = 1e-3;
 // Edges that bend by less than this part of the deviation are flat.
 constexpr double least_bend = 0.05;
+// Normals of length 1 that differ by less are those of one plane; so are edges that bend by less than that part of
+// their length.
+constexpr double flatness = 1e-5;
 // On the others, points are watched at most so many deviations apart.
 constexpr double sample_spacing = 3;
 // Removing some vertices makes others removable; more rounds found nothing.
@@ -40,6 +43,7 @@ double shape_of(const Corners& c) {
 
 // A change of the mesh: faces that go or change, what they become, and where their removed vertices would go.
 struct Change {
+  bool flat = false;  // what changes lies in one plane, before and after
   std::vector<Face> faces;
   std::vector<Corners> corners;
   std::vector<Vec3> strays;         // removed vertices of all faces concerned
@@ -48,8 +52,8 @@ struct Change {
 
 class VertexRemover {
  public:
-  VertexRemover(FeatureMesh& mesh, const SizeField& deviation)
-      : mesh_(mesh), deviation_(deviation), strays_(mesh.n_faces()) {
+  VertexRemover(FeatureMesh& mesh, const DistanceIndex& original, const SizeField& deviation)
+      : mesh_(mesh), original_(original), deviation_(deviation), strays_(mesh.n_faces()) {
     for (const Edge e : mesh.edges()) add_samples(e);
   }
 
@@ -84,12 +88,17 @@ class VertexRemover {
   bool remove(VertexH v);
   double shape_after(HalfEdgeH collapse);
   void describe_collapse(HalfEdgeH collapse);
+  bool fits() { return strays_fit() && (change_.flat || faces_fit()); }
   bool strays_fit();
+  bool faces_fit();
+  bool is_flat_around(VertexH v) const;
   void settle_strays();
   void flip_queued();
   bool allow_flip(Edge e, const EdgeDiamond& diamond);
 
   FeatureMesh& mesh_;
+  const DistanceIndex& original_;
+  std::int32_t nearest_ = -1;  // triangle of the original to what was measured last
   const SizeField& deviation_;
   std::vector<std::vector<Vec3>> strays_;  // of each face
   std::vector<Choice> choices_;
@@ -121,7 +130,7 @@ bool VertexRemover::remove(VertexH v) {
   for (const Choice& choice : choices_) {
     if (!mesh_.is_collapse_ok(choice.collapse)) continue;
     describe_collapse(choice.collapse);
-    if (!strays_fit()) continue;
+    if (!fits()) continue;
     const VertexH target = mesh_.to_vertex_handle(choice.collapse);
     mesh_.collapse_edge(choice.collapse);
     settle_strays();
@@ -155,6 +164,7 @@ double VertexRemover::shape_after(HalfEdgeH collapse) {
 
 void VertexRemover::describe_collapse(HalfEdgeH collapse) {
   const VertexH v = mesh_.from_vertex_handle(collapse), to = mesh_.to_vertex_handle(collapse);
+  change_.flat = is_flat_around(v);
   change_.faces.clear();
   change_.corners.clear();
   change_.strays.assign(1, mesh_.position(v));
@@ -190,6 +200,25 @@ bool VertexRemover::strays_fit() {
   return true;
 }
 
+// The middles of the new faces and of their edges, from the original surface.
+bool VertexRemover::faces_fit() {
+  const auto is_near = [&](const Vec3& p) { return original_.distance(p, nearest_) <= deviation_.at(p); };
+  return std::ranges::all_of(change_.corners, [&](const Corners& c) {
+    return is_near((c[0] + c[1] + c[2]) * (1.0 / 3)) && is_near(0.5 * (c[0] + c[1])) && is_near(0.5 * (c[1] + c[2])) &&
+           is_near(0.5 * (c[2] + c[0]));
+  });
+}
+
+bool VertexRemover::is_flat_around(VertexH v) const {
+  Vec3 first;
+  for (const Face f : mesh_.vf_range(v)) {
+    const Vec3 area = mesh_.area_normal(f), normal = area * (1 / std::max(norm(area), 1e-300));
+    if (norm_squared(first) == 0) first = normal;
+    if (norm_squared(normal - first) > flatness * flatness) return false;
+  }
+  return true;
+}
+
 void VertexRemover::settle_strays() {
   for (const Face f : change_.faces) strays_[f.idx()].clear();
   for (std::size_t i = 0; i < change_.strays.size(); ++i)
@@ -212,13 +241,14 @@ bool VertexRemover::allow_flip(Edge e, const EdgeDiamond& diamond) {
   const auto [l, r] = diamond.across_points;
   change_.faces.assign({left, right});
   change_.corners.assign({Corners{a, r, l}, Corners{b, l, r}});
-  return strays_fit();
+  change_.flat = diamond.height() < flatness * norm(diamond.end_points[1] - diamond.end_points[0]);
+  return fits();
 }
 
 }  // namespace
 
-std::size_t remove_vertices(FeatureMesh& mesh, const SizeField& deviation) {
-  VertexRemover remover(mesh, deviation);
+std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, const SizeField& deviation) {
+  VertexRemover remover(mesh, original, deviation);
   const std::size_t left = remover.run();
   remover.flip_all();
   return left;

@@ -3,12 +3,14 @@
 
 #include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
+#include "tools/tetmesh/surface/surface_distance.hpp"
 
 namespace hexpipe {
 
-// Feature curves stay where they are but for their removed vertices, no face turns over, and every removed vertex stays
-// within `deviation` of the faces that took its place. What cannot be removed so stays. Returns how many stayed. The
+// Feature curves stay where they are but for their removed vertices, no face turns over, every removed vertex stays
+// within `deviation` of the faces that took its place, and these within it of the original surface. What cannot be
+// removed so stays. Returns how many stayed. The
 // mesh's deleted elements are left in it.
-std::size_t remove_vertices(FeatureMesh& mesh, const SizeField& deviation);
+std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, const SizeField& deviation);
 
 }  // namespace hexpipe
