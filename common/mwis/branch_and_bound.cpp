@@ -5,29 +5,18 @@
 namespace hexpipe {
 
 bool BranchAndBound::solve(const DenseGraph& graph, std::int64_t lower_bound, SearchBudget& budget) {
-  graph_ = &graph;
-  budget_ = &budget;
-  words_ = graph.words();
-  best_weight_ = lower_bound;
-  found_ = false;
-  current_.clear();
+  begin(graph, lower_bound, budget);
   clique_candidates_.resize(words_);
   residual_.resize(graph.size());
-  if (levels_.size() < 2 * words_ * (graph.size() + 1)) levels_.resize(2 * words_ * (graph.size() + 1));
-  if (graph.size() > 0) bits::fill(level(0).candidates, graph.size());
   expand(0, 0);
   return found_;
-}
-
-BranchAndBound::Level BranchAndBound::level(std::size_t depth) {
-  bits::Word* const begin = levels_.data() + 2 * words_ * depth;
-  return {begin, begin + words_};
 }
 
 // The candidates of this level may still be added to the current set, which weighs `weight`.
 void BranchAndBound::expand(std::size_t depth, std::int64_t weight) {
   if (!budget_->spend()) return;
-  const auto [candidates, branches] = level(depth);
+  bits::Word* const candidates = row(depth, 0);
+  bits::Word* const branches = row(depth, 1);
   if (bits::empty(candidates, words_)) return offer(weight);
   find_branches(candidates, branches, best_weight_ - weight);
 
@@ -38,12 +27,9 @@ void BranchAndBound::expand(std::size_t depth, std::int64_t weight) {
       const std::size_t v = 64 * w + 63 - static_cast<std::size_t>(std::countl_zero(branches[w]));
       bits::erase(branches, v);
       bits::erase(candidates, v);
-      bits::Word* const next = level(depth + 1).candidates;
-      const bits::Word* const row = graph_->row(v);
-      for (std::size_t i = 0; i < words_; ++i) next[i] = candidates[i] & ~row[i];
-      current_.push_back(static_cast<std::uint32_t>(v));
+      enter(v, depth);
       expand(depth + 1, weight + graph_->weight(v));
-      current_.pop_back();
+      leave();
       if (budget_->exhausted()) return;
     }
 }
@@ -70,8 +56,8 @@ std::int64_t BranchAndBound::take_clique(bits::Word* uncovered, std::size_t firs
   clique_.assign(1, static_cast<std::uint32_t>(first));
   std::int64_t least = residual_[first];
   bits::Word* const open = clique_candidates_.data();
-  const bits::Word* const row = graph_->row(first);
-  for (std::size_t i = first_word; i < words_; ++i) open[i] = uncovered[i] & row[i];
+  const bits::Word* const neighbours = graph_->row(first);
+  for (std::size_t i = first_word; i < words_; ++i) open[i] = uncovered[i] & neighbours[i];
   for (std::size_t w = first_word; w < words_; ++w)
     while (open[w] != 0) {
       const std::size_t v = 64 * w + static_cast<std::size_t>(std::countr_zero(open[w]));
@@ -84,13 +70,6 @@ std::int64_t BranchAndBound::take_clique(bits::Word* uncovered, std::size_t firs
   for (const std::uint32_t v : clique_)
     if ((residual_[v] -= least) == 0) bits::erase(uncovered, v);
   return least;
-}
-
-void BranchAndBound::offer(std::int64_t weight) {
-  if (weight <= best_weight_) return;
-  best_weight_ = weight;
-  best_.assign(current_.begin(), current_.end());
-  found_ = true;
 }
 
 }  // namespace hexpipe

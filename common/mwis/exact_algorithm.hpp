@@ -12,7 +12,15 @@
 
 namespace hexpipe {
 
-enum class ExactAlgorithm { branch_and_reduce, branch_and_cut };
+// The first four are those of Verhetsel 2017, 3.2, as they stand there: on bits, without reductions.
+enum class ExactAlgorithm {
+  complete_search,
+  clique_partition,
+  clique_cover,  // weighted, with weight splitting
+  clique_lp,     // by subgradient
+  branch_and_reduce,
+  branch_and_cut,
+};
 
 // Those that this build has: branch and cut needs CLP.
 const std::map<std::string, ExactAlgorithm>& exact_algorithms();
@@ -25,11 +33,12 @@ Relax relaxation_of(ExactAlgorithm algorithm);
 struct ExactResult {
   std::optional<IndependentSet> better;  // the heaviest set found that is heavier than what was asked for
   bool complete = false;                 // it, or that there is none, is proven
-  std::int64_t bound = 0;                // on every set, from before the first branch
+  std::int64_t bound = 0;                // on every set: where it is complete, the optimum or `weight`
   std::int64_t nodes = 0;
 };
 
-// Looks for the heaviest set among those heavier than `weight`, until it is proven or the deadline passes.
+// Looks for the heaviest set among those heavier than `weight`, until it is proven or the deadline passes. Throws
+// DataError where a graph has too many vertices for a search on bits, or weights too large for clique_lp.
 ExactResult solve_exactly(const ConflictGraph& graph, std::int64_t weight, ExactAlgorithm algorithm,
                           const Deadline& deadline);
 

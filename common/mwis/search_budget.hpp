@@ -18,12 +18,12 @@ class SearchBudget {
   // Takes one node from the budget; false when there is none left, and from then on. A node costs some microseconds,
   // the clock is looked at every 64.
   bool spend() {
-    if (left_ <= 0) return false;
+    if (exhausted()) return false;
     --left_;
-    if (deadline_ != nullptr && left_ % 64 == 0 && deadline_->passed()) left_ = 0, out_of_time_ = true;
-    return left_ > 0;
+    out_of_time_ = deadline_ != nullptr && left_ % 64 == 0 && deadline_->passed();
+    return !exhausted();
   }
-  bool exhausted() const { return left_ <= 0; }
+  bool exhausted() const { return left_ <= 0 || out_of_time_; }
   bool out_of_time() const { return out_of_time_; }
   std::int64_t spent() const { return nodes_ - left_; }
 

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "common/run/error.hpp"
 #include "random_graphs.hpp"
 
 namespace hexpipe {
@@ -58,16 +61,39 @@ TEST_P(ExactAlgorithmTest, SaysWhenTheTimeWasTooShort) {
 // Larger than brute force takes, and too large for what branch and reduce leaves to branch and bound at once.
 TEST(ExactAlgorithms, AgreeOnLargerGraphs) {
   Random random(3);
-  for (int i = 0; i < 4; ++i) {
-    const ConflictGraph graph = i % 2 == 0 ? hexpipe::testing::random_graph(130, 0.08, 1000, random)
-                                           : hexpipe::testing::random_clique_graph(400, 120, 100, random);
+  for (int i = 0; i < 12; ++i) {
+    const bool small = i < 8;
+    const std::int32_t vertices = small ? 40 : 90;
+    const ConflictGraph graph =
+        i % 2 == 0 ? hexpipe::testing::random_graph(vertices, small ? 0.2 : 0.12, 1000, random)
+                   : hexpipe::testing::random_clique_graph(small ? vertices : 200, vertices, 100, random);
     std::int64_t optimum = -1;
     for (const auto& [name, algorithm] : exact_algorithms()) {
+      if (!small && (name == "complete-search" || name == "clique-partition")) continue;  // would take days
       const ExactResult result = solve_exactly(graph, -1, algorithm, no_deadline);
       ASSERT_TRUE(result.complete && result.better) << name << ", graph " << i;
       EXPECT_NO_THROW(validate(*result.better, graph, "found")) << name << ", graph " << i;
       if (optimum < 0) optimum = total_weight(*result.better, graph);
       EXPECT_EQ(total_weight(*result.better, graph), optimum) << name << ", graph " << i;
+    }
+  }
+}
+
+TEST(ExactAlgorithms, RefuseWhatTheyCannotHold) {
+  ConflictGraph large;
+  large.weights.assign(5000, 1);
+  large.offsets.assign(5001, 0);
+  const ConflictGraph heavy = hexpipe::testing::make_graph({std::int64_t{1} << 60, 1}, {{0, 1}});
+  for (const auto& [name, algorithm] : exact_algorithms()) {
+    if (name.starts_with("branch-and-")) {
+      EXPECT_EQ(solve_exactly(large, -1, algorithm, no_deadline).bound, 5000) << name;
+    } else {
+      EXPECT_THROW(solve_exactly(large, -1, algorithm, no_deadline), DataError) << name;
+    }
+    if (name == "clique-lp") {
+      EXPECT_THROW(solve_exactly(heavy, -1, algorithm, no_deadline), DataError);
+    } else {
+      EXPECT_EQ(solve_exactly(heavy, -1, algorithm, no_deadline).bound, heavy.weights[0]) << name;
     }
   }
 }
