@@ -21,13 +21,22 @@ constexpr std::pair<int, std::size_t> skipped_types[] = {{15, 1}, {1, 2},  {8, 3
 
 class MshReader {
  public:
-  MshReader(std::string_view text, std::string_view file) : scanner_(text, file) {}
+  MshReader(std::string_view text, std::string_view file, bool wants_node_data)
+      : scanner_(text, file), wants_node_data_(wants_node_data) {}
 
   MixedMesh read() {
     while (!scanner_.at_end()) read_section(scanner_.word("a section"));
     if (!has_format_) scanner_.fail("expected $MeshFormat, found none");
     if (!has_elements_) scanner_.fail("expected $Elements, found none");
     return mesh_.take_mesh();
+  }
+
+  MshNodeValues read_node_values() {
+    MixedMesh mesh = read();
+    if (!has_node_data_) scanner_.fail("expected $NodeData with one component, found none");
+    std::vector<double> values(mesh.points.size(), std::numeric_limits<double>::quiet_NaN());
+    for (const auto& [node, value] : node_data_) values[vertex_of(node)] = value;
+    return {std::move(mesh), std::move(values)};
   }
 
  private:
@@ -49,8 +58,8 @@ class MshReader {
       read_entities();
     } else if (bare == "PartitionedEntities") {
       scanner_.fail("expected a mesh in one part, found a partitioned one");
-    } else if (bare == "ElementData" && has_elements_) {
-      return read_element_data();
+    } else if ((bare == "ElementData" && has_elements_) || (bare == "NodeData" && has_nodes_ && wants_node_data_)) {
+      return read_data(bare);
     } else {
       return skip_to_end_of(bare);
     }
@@ -324,7 +333,7 @@ class MshReader {
   }
 
   // Strings, reals and integers that describe the data stand as text also in binary files.
-  void read_element_data() {
+  void read_data(std::string_view section) {
     const std::size_t strings = scanner_.count("the number of strings", 2);
     scanner_.rest_of_line();
     std::string_view name;
@@ -338,30 +347,39 @@ class MshReader {
     std::vector<std::int64_t> values(std::max<std::size_t>(integers, 3), 0);
     for (std::size_t i = 0; i < integers; ++i) values[i] = scanner_.number<std::int64_t>("an integer");
     const std::int64_t components = values[1], count = values[2];
-    if (name == quality_name && components == 1) {
-      read_qualities(count);
-      expect_end_of("ElementData");
+    if (section == "ElementData" && name == quality_name && components == 1) {
+      read_values(count, "the number of an element", "a quality",
+                  [&](std::int32_t element, double quality) { mesh_.add_quality(element, quality); });
+      expect_end_of(section);
+    } else if (section == "NodeData" && components == 1 && !has_node_data_) {
+      has_node_data_ = true;
+      read_values(count, "the number of a node", "a value",
+                  [&](std::int32_t node, double value) { node_data_.emplace_back(node, value); });
+      expect_end_of(section);
     } else {
-      skip_to_end_of("ElementData");
+      skip_to_end_of(section);
     }
   }
 
-  void read_qualities(std::int64_t announced) {
+  template <class Take>
+  void read_values(std::int64_t announced, std::string_view number_name, std::string_view value_name, Take&& take) {
     MshNumbers in = numbers();
-    const std::size_t count = in.checked_count(announced, "a number of qualities", 2, 4 + 8);
+    const std::size_t count = in.checked_count(announced, "a number of values", 2, 4 + 8);
     if (binary_) scanner_.rest_of_line();
     for (std::size_t i = 0; i < count; ++i) {
-      const std::int32_t element = in.integer("the number of an element");
-      mesh_.add_quality(element, in.real("a quality"));
+      const std::int32_t number = in.integer(number_name);
+      take(number, in.real(value_name));
     }
   }
 
   TextScanner scanner_;
+  bool wants_node_data_;
   MshCollector mesh_;
   MshVersion version_ = MshVersion::v2_2;
   bool binary_ = false;
   std::size_t size_bytes_ = 8;
-  bool has_format_ = false, has_nodes_ = false, has_elements_ = false;
+  bool has_format_ = false, has_nodes_ = false, has_elements_ = false, has_node_data_ = false;
+  std::vector<std::pair<std::int32_t, double>> node_data_;
   std::map<std::pair<int, std::int32_t>, std::int32_t> groups_;  // by dimension and entity
 };
 
@@ -372,7 +390,11 @@ bool looks_like_msh(std::string_view text) {
 }
 
 MixedMesh read_msh(std::string_view text, std::string_view file) {
-  return MshReader(text, file).read();
+  return MshReader(text, file, false).read();
+}
+
+MshNodeValues read_msh_node_values(std::string_view text, std::string_view file) {
+  return MshReader(text, file, true).read_node_values();
 }
 
 }  // namespace hexpipe

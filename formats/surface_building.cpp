@@ -36,13 +36,16 @@ SurfaceSoup merge_equal_points(SurfaceSoup soup) {
   std::vector<Vec3> merged;
   PointMerger merger(merged);
   std::vector<Vertex> new_index(soup.points.size(), unknown);
+  soup.file_vertices.clear();
   for (Triangle& triangle : soup.triangles) {
     for (Vertex& corner : triangle) {
       Vertex& index = new_index[corner];
       if (index == unknown) index = merger.index_of(soup.points[corner]);
+      if (merged.size() > soup.file_vertices.size()) soup.file_vertices.push_back(corner);
       corner = index;
     }
   }
+  soup.file_vertex_count = soup.points.size();
   soup.points = std::move(merged);
   return soup;
 }

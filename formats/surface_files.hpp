@@ -18,7 +18,11 @@ struct SurfaceSoup {
       tags;  // surface tag: number of the STL solid, STL attribute, number of the OBJ group, else 0
   std::vector<std::int64_t> places;  // line (text) or number in the file (binary) of each triangle's facet, from 1
   bool text = true;                  // what `places` counts
-  std::string name;                  // of the input, for messages
+  // Of each point, its vertex in the file, the first of those that are equal, and how many the file has. Empty in
+  // formats that repeat the coordinates in every triangle, and once points have been changed.
+  std::vector<Vertex> file_vertices = {};
+  std::size_t file_vertex_count = 0;
+  std::string name;  // of the input, for messages
 
   // "part.stl:12" or "part.stl: triangle 3", to begin a message with.
   std::string place_of(std::size_t triangle) const;

@@ -463,6 +463,140 @@ for kind in ("frame", "lattice"):
 PYTHON
 }
 
+# A cube of 10 with sizes from 0.4 at a corner: by a list, by its vertices, and on a background mesh.
+sizes_of_cube() {
+  $PYTHON - <<'PYTHON'
+import itertools
+import numpy as np
+corners = [(x, y, z) for z in (0, 10) for y in (0, 10) for x in (0, 10)]
+quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7), (2, 0, 4, 6)]
+with open("cube.obj", "w") as file:
+    file.write("".join("v %d %d %d\n" % c for c in corners) + "".join("f %d %d %d %d\n" % tuple(i + 1 for i in q) for q in quads))
+open("place.txt", "w").write("# x y z size\n0 0 0 0.4\n")
+np.save("place.npy", [(0., 0., 0., 0.4)])
+open("vertices.txt", "w").write("0.8\n" * 4 + "1.6\n" * 4)
+tets = [(1, *t, 8) for t in ((2, 4), (4, 3), (3, 7), (7, 5), (5, 6), (6, 2))]
+with open("background.msh", "w") as file:
+    file.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n")
+    file.write("".join("%d %d %d %d\n" % (i + 1, *c) for i, c in enumerate(corners)) + "$EndNodes\n$Elements\n6\n")
+    file.write("".join("%d 4 2 1 1 %d %d %d %d\n" % (i + 1, *t) for i, t in enumerate(tets)) + "$EndElements\n")
+    file.write('$NodeData\n1\n"size"\n1\n0\n3\n0\n1\n8\n' + "".join("%d %g\n" % (i + 1, 0.8 if i < 4 else 1.6) for i in range(8)) + "$EndNodeData\n")
+PYTHON
+}
+
+# edges BUNDLE EXPRESSION: mean length of the edges along the axes, which are no diagonals, over the size at their middles,
+# an expression of x, y and z.
+edges() {
+  $PYTHON - "$1" "$2" <<'PYTHON'
+import io, itertools, sys, tarfile
+import numpy as np
+bundle = tarfile.open(sys.argv[1])
+points, tets = (np.load(io.BytesIO(bundle.extractfile(f"mesh/{n}.npy").read())) for n in ("points", "tets"))
+edges = np.unique(np.sort(np.vstack([tets[:, pair] for pair in itertools.combinations(range(4), 2)]), axis=1), axis=0)
+from_, to = points[edges[:, 0]], points[edges[:, 1]]
+x, y, z = ((from_ + to) / 2).T
+ratio = np.linalg.norm(to - from_, axis=1) / eval(sys.argv[2])
+along_axes = np.abs(to - from_).max(axis=1) > 0.95 * np.linalg.norm(to - from_, axis=1)
+assert along_axes.sum() > 300, along_axes.sum()
+print("%.2f" % ratio[along_axes].mean())
+PYTHON
+}
+
+@test "--size-field: edges are as long as it says, in every format" {
+  sizes_of_cube
+  local ratio
+  for points in lattice frame; do
+    tetmesh -q cube.obj --size 2 --size-field place.txt --points $points -o $points.tar --stats stats.json
+    assert_equal "$(stats size) $(stats least_size)" "2.0 0.4"
+    ratio=$(edges $points.tar "np.minimum(2, 0.4 + 0.3 * np.sqrt(x**2 + y**2 + z**2))")
+    $PYTHON -c "assert 0.85 < $ratio < 1.15, $ratio"
+    tetmesh -q cube.obj --size-field vertices.txt --points $points -o out.tar --stats stats.json
+    assert_equal "$(stats size) $(stats least_size)" "1.6 0.8"
+    ratio=$(edges out.tar "0.8 + 0.08 * z")
+    $PYTHON -c "assert 0.85 < $ratio < 1.15, $ratio"
+  done
+  tetmesh -q cube.obj --size 2 --size-field place.npy --points lattice -o npy.tar
+  $PYTHON - <<'PYTHON'
+import tarfile
+read = lambda name: {m.name: tarfile.open(name).extractfile(m.name).read() for m in tarfile.open(name) if m.name.startswith("mesh/")}
+assert read("lattice.tar") == read("npy.tar")
+PYTHON
+  tetmesh -q cube.obj --size-field background.msh -o out.tar
+  ratio=$(edges out.tar "0.8 + 0.08 * z")
+  $PYTHON -c "assert 0.85 < $ratio < 1.15, $ratio"
+  run $PYTHON "$CHECKERS/meshstats.py" --json --exact <(tetmesh -q cube.obj --size-field background.msh --format mesh)
+  assert_success
+}
+
+@test "--grading says how fast sizes change, --size how large they get" {
+  sizes_of_cube
+  local more=100000 points
+  for grading in 0.1 0.3 1; do
+    tetmesh -q cube.obj --size 2 --size-field place.txt --grading $grading -o out.tar --stats stats.json
+    points=$(stats points)
+    assert [ "$points" -lt "$more" ]
+    more=$points
+  done
+  tetmesh -q cube.obj --size 1.2 --size-field place.txt --grading 1 -o out.tar --stats stats.json
+  assert [ "$(stats points)" -gt "$points" ]
+  assert_fails_with 2 "grading" tetmesh cube.obj --grading 0
+}
+
+@test "sizes that cannot be are named" {
+  sizes_of_cube
+  echo 1 >short.txt
+  printf '0 0 0 1\n0 0 0 0\n' >zero.txt
+  assert_fails_with 1 "^tetmesh: short.txt: expected 8 sizes, one for each vertex of cube.obj, found 1" tetmesh cube.obj --size-field short.txt
+  assert_fails_with 1 "^tetmesh: zero.txt:2: expected a positive size, found 0" tetmesh cube.obj --size-field zero.txt
+  assert_fails_with 1 "^tetmesh: none.txt: .*No such file" tetmesh cube.obj --size-field none.txt
+  assert_fails_with 1 "^tetmesh: short.txt: expected sizes with their places" tetmesh "$FILES/cube.stl" --size-field short.txt
+  echo 0 0 0 1e-4 >fine.txt
+  assert_fails_with 1 "at most 1000 points inside" tetmesh cube.obj --size-field fine.txt --size 1 --surface keep --points lattice --most-points 1000
+}
+
+@test "--layers gives a thin wall as many elements across" {
+  $PYTHON - <<'PYTHON'
+corners = [(x, y, z) for z in (0, 1) for y in (0, 6) for x in (0, 6)]
+quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7), (2, 0, 4, 6)]
+with open("plate.obj", "w") as file:
+    file.write("".join("v %d %d %d\n" % c for c in corners) + "".join("f %d %d %d %d\n" % tuple(i + 1 for i in q) for q in quads))
+PYTHON
+  # Levels of points between the sides, in steps of a tenth.
+  local levels='len(np.unique(a[:, 2].round(1))) - 1'
+  tetmesh -q plate.obj --size 1.5 -o out.tar
+  assert_equal "$(array out.tar mesh/points.npy "$levels")" 1
+  for layers in 2 3; do
+    tetmesh -q plate.obj --size 1.5 --layers $layers -o out.tar
+    assert_equal "$(array out.tar mesh/points.npy "$levels")" $layers
+  done
+  tetmesh -q plate.obj --size 1.5 --layers 2 -o two.mesh
+  tetmesh -q plate.obj --size 1.5 --layers -o asked.mesh
+  assert_same_bytes two.mesh asked.mesh
+  assert_fails_with 2 "layers" tetmesh plate.obj --layers 0
+}
+
+@test "a part out of the axes gets the hexes of one along them" {
+  $PYTHON - "$DATA/bracket.stl" >turned.obj <<'PYTHON'
+import sys
+import numpy as np
+data = open(sys.argv[1], "rb").read()
+facets = np.frombuffer(data[84:], dtype=[("normal", "<3f4"), ("corners", "<9f4"), ("attribute", "<u2")])
+axes, _ = np.linalg.qr(np.random.RandomState(1).normal(size=(3, 3)))
+if np.linalg.det(axes) < 0: axes = -axes
+points, index = np.unique(facets["corners"].reshape(-1, 3), axis=0, return_inverse=True)
+np.savetxt(sys.stdout, points.astype(float) @ axes, "v %.17g %.17g %.17g")
+np.savetxt(sys.stdout, index.reshape(-1, 3) + 1, "f %d %d %d")
+PYTHON
+  for part in "$DATA/bracket.stl" turned.obj; do
+    tetmesh -q $part --surface keep --size 5 -o out.tar --stats stats.json
+    stats estimated_hex_share >>shares
+  done
+  $PYTHON - <<'PYTHON'
+straight, turned = (eval(line)["lattice"] for line in open("shares"))
+assert straight > 0.5 and abs(straight - turned) < 0.01, (straight, turned)
+PYTHON
+}
+
 @test "a surface far from the size is told, unless -q" {
   run_apart tetmesh "$FILES/cube.stl" --surface keep --size 0.2 -o out.tar
   assert_success

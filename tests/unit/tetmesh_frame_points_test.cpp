@@ -105,7 +105,7 @@ Surface surface_of(const Facets& facets) {
 
 // On the mesh of a lattice, as tetmesh does it.
 std::vector<Vec3> points_of(const Surface& surface, const FramePointsOptions& options) {
-  const std::vector<Vec3> lattice = lattice_points(surface, {.size = options.size});
+  const std::vector<Vec3> lattice = lattice_points(surface, {.size = options.size.greatest()});
   TetGenResult tetgen =
       run_tetgen({.surface_points = surface.points, .triangles = surface.triangles, .interior_points = lattice}, 60);
   const BuiltMesh background = build_mesh(surface, lattice, std::move(tetgen));

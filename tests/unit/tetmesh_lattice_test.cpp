@@ -9,6 +9,7 @@
 #include "common/run/error.hpp"
 #include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/column_index.hpp"
+#include "tools/tetmesh/graded_lattice.hpp"
 
 namespace hexpipe {
 namespace {
@@ -116,6 +117,59 @@ TEST(Lattice, JitterMovesPointsWithinItsReachBySeed) {
   EXPECT_NEAR(mean, 0, 2e-4);
   EXPECT_EQ(jittered, points_with(0.02, 1));
   EXPECT_NE(jittered, other);
+}
+
+SizeField fine_in_a_corner() {
+  SizeSources sources;
+  sources.points = {{0, 0, 0}};
+  sources.sizes = {0.1};
+  sources.simplices = {{0, SizeSources::none, SizeSources::none, SizeSources::none}};
+  return {sources, 1.0, 0.2};
+}
+
+TEST(GradedLattice, IsTheLatticeWhereSizesAreTheSame) {
+  const Surface surface = surface_of(sphere({1, 2, 3}, 2.5, 14));
+  EXPECT_EQ(graded_lattice_points(surface, 0.4, {}, 1e6), lattice_points(surface, {.size = 0.4}));
+}
+
+TEST(GradedLattice, HasStepsThatFollowTheSizes) {
+  const Surface surface = surface_of(cube(0, 8));
+  const SizeField field = fine_in_a_corner();
+  const auto points = graded_lattice_points(surface, field, {.jitter = 0}, 1e6);
+  ASSERT_GT(points.size(), 500u);
+  for (const Vec3& p : points) {
+    const double size = field.at(p);
+    EXPECT_GE(naive_distance(surface, p), 0.5 * size);
+    double nearest = 100;
+    for (const Vec3& q : points)
+      if (q != p) nearest = std::min(nearest, norm(p - q));
+    EXPECT_GE(nearest, 0.3 * size);  // where lattices meet, the next point is one of the finer
+    EXPECT_LE(nearest, 1.24 * size);
+  }
+}
+
+// None is left out where a cell of the octree is not halved and its neighbour is.
+TEST(GradedLattice, HasAllPointsOfItsLattices) {
+  const SizeField field = fine_in_a_corner();
+  const auto points = graded_lattice_points(surface_of(cube(0, 8)), field, {.clearance = 0.1, .jitter = 0}, 1e6);
+  const auto step_at = [&](const Vec3& p) {
+    return std::exp2(-std::max(0.0, std::ceil(std::log2(1 / field.at(p)) - 0.3)));
+  };
+  std::size_t expected = 0;
+  constexpr int n = 8 * 16;  // the finest steps are a sixteenth
+  for (int i = 1; i < n; ++i)
+    for (int j = 1; j < n; ++j)
+      for (int k = 1; k < n; ++k) {
+        const Vec3 p{i / 16.0, j / 16.0, k / 16.0};
+        const double step = step_at(p), sixteenths = 16 * step;
+        expected += std::fmod(i, sixteenths) == 0 && std::fmod(j, sixteenths) == 0 && std::fmod(k, sixteenths) == 0;
+      }
+  EXPECT_EQ(points.size(), expected);
+}
+
+TEST(GradedLattice, RefusesMorePointsThanAllowed) {
+  EXPECT_THAT([&] { graded_lattice_points(surface_of(cube(0, 8)), fine_in_a_corner(), {}, 300); },
+              ::testing::ThrowsMessage<DataError>(::testing::HasSubstr("at most 300 points inside")));
 }
 
 TEST(Lattice, NoPointsWhereTheBoxIsThin) {

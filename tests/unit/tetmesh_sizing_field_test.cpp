@@ -65,7 +65,7 @@ TEST(SizeField, IsALengthWhereNothingElseIsKnown) {
   EXPECT_TRUE(field.is_uniform());
   EXPECT_EQ(field.at({1, 2, 3}), 0.25);
   EXPECT_EQ((4 * field).at({1, 2, 3}), 1);
-  EXPECT_EQ((4 * field).least_near({1, 2, 3}, 9), 1);
+  EXPECT_EQ((4 * field).least_near(1, 9), 1);
   EXPECT_TRUE(SizeField(random_sources(1, 8), 0.05, 0.3).is_uniform());
 }
 
@@ -81,7 +81,7 @@ TEST(SizeField, IsTheGreatestThatGrowsNoFaster) {
       EXPECT_GE(field.at(p), expected - (grading + 1) * 0.15);
       const Vec3 q = p + random_point(random, 0.3);
       EXPECT_LE(std::abs(field.at(p) - field.at(q)), grading * norm(p - q) + 1e-12);
-      EXPECT_GE(field.at(q), field.least_near(p, norm(p - q)) - 1e-12);
+      EXPECT_GE(field.at(q), field.least_near(field.at(p), norm(p - q)) - 1e-12);
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include "common/run/error.hpp"
 #include "tetmesh_surfaces.hpp"
+#include "tools/tetmesh/wall_thickness.hpp"
 
 namespace hexpipe {
 namespace {
@@ -58,6 +59,35 @@ TEST(Sizing, ComplainsOfTrianglesFarFromTheSize) {
       ::testing::HasSubstr(
           "100 % of the surface lies in triangles with edges much longer than the size 0.05 (the median edge is 0.1)"));
   EXPECT_THAT(fine.complaint(0.3).value(), ::testing::HasSubstr("much shorter than the size 0.3"));
+}
+
+TEST(WallSizes, AreThePartsOfThinWalls) {
+  const SizeSources walls = wall_sizes(surface_of(box({0, 0, 0}, {9, 9, 1}, 2)), 2, 4);
+  ASSERT_FALSE(walls.empty());
+  for (const double size : walls.sizes) EXPECT_DOUBLE_EQ(size, 0.25);
+  const SizeField field(walls, 2, 0.3);
+  for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{4, 5, 0.5}, Vec3{8.9, 8.8, 1}, Vec3{9, 4, 0.3}})
+    EXPECT_NEAR(field.at(p), 0.25, 1e-9);
+  EXPECT_NEAR(field.at({4, 4, 3}), 0.25 + 0.3 * 2, 1e-9);
+  EXPECT_TRUE(wall_sizes(surface_of(box({0, 0, 0}, {9, 9, 1}, 2)), 0.5, 2).empty());
+  EXPECT_TRUE(wall_sizes(surface_of(cube(0, 9)), 2, 4).empty());
+}
+
+TEST(WallSizes, DoNotGoAcrossWhatIsEmpty) {
+  // A gap of 0.5 between two blocks of 9.
+  const auto blocks = testing::joined(cube(0, 9), box({0, 0, 9.5}, {9, 9, 18.5}));
+  EXPECT_TRUE(wall_sizes(surface_of(blocks), 1, 2).empty());
+}
+
+TEST(WallSizes, EndBeforeSharpEdges) {
+  // A wedge of 20 degrees with its edge along y.
+  const double top = std::tan(20 * std::numbers::pi / 180);
+  testing::Facets wedge = box({0, 0, 0}, {4, 4, 1});
+  for (testing::Facet& facet : wedge)
+    for (Vec3& p : facet) p.z *= top * (0.01 + p.x);
+  const SizeSources walls = wall_sizes(surface_of(wedge), 0.5, 2);
+  ASSERT_FALSE(walls.empty());
+  EXPECT_GE(std::ranges::min(walls.sizes), 0.5 / 32);
 }
 
 }  // namespace

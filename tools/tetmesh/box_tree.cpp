@@ -54,4 +54,11 @@ std::int32_t BoxTree::build(std::span<const Box> boxes, std::span<const double> 
   return number;
 }
 
+BoxTree tree_of_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles) {
+  std::vector<Box> boxes;
+  boxes.reserve(triangles.size());
+  for (const auto& [a, b, c] : triangles) boxes.push_back(Box::around(std::array{points[a], points[b], points[c]}));
+  return {boxes, std::vector<double>(boxes.size(), 0.0)};
+}
+
 }  // namespace hexpipe

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "common/mesh/vec3.hpp"
+#include "common/mesh/tet_mesh.hpp"
 
 namespace hexpipe {
 
@@ -40,8 +40,8 @@ class BoxTree {
   // A thing's number is that of its box. `values`, one each, are lower bounds of what least() looks for.
   BoxTree(std::span<const Box> boxes, std::span<const double> values);
 
-  // The least of value_of(thing) over the things, or `most` if none is below. It must not be less than the thing's
-  // value plus `slope` times the distance of p from its box.
+  // The least of value_of(thing) over the things, to 10^-9 of it, or `most` if none is below. A value must not be less
+  // than the thing's value plus `slope` times the distance of p from its box.
   template <class ValueOf>
   double least(const Vec3& p, double slope, double most, ValueOf&& value_of) const {
     return search(most, value_of, [&](const Node& node) { return node.value + slope * node.box.distance(p); });
@@ -66,7 +66,9 @@ class BoxTree {
     double bound;
     std::int32_t node;
   };
-  static constexpr std::int32_t most_in_leaf = 4;
+  // Where many things are as good as the best, rounding must not have all of them looked at.
+  static constexpr double tolerance = 1 - 1e-9;
+  static constexpr std::int32_t most_in_leaf = 2;
   static constexpr std::size_t most_pending = 128;  // halves of 2^31 things, twice
 
   std::int32_t build(std::span<const Box> boxes, std::span<const double> values, std::span<std::int32_t> things);
@@ -78,7 +80,7 @@ class BoxTree {
     if (!nodes_.empty()) stack[depth++] = {bound(nodes_[0]), 0};
     while (depth > 0) {
       const Pending next = stack[--depth];
-      if (!(next.bound < best)) continue;
+      if (!(next.bound < tolerance * best)) continue;
       const Node& node = nodes_[next.node];
       if (node.count > 0) {
         for (std::int32_t i = node.first; i < node.first + node.count; ++i) best = std::min(best, value_of(things_[i]));
@@ -95,5 +97,8 @@ class BoxTree {
   std::vector<Node> nodes_;
   std::vector<std::int32_t> things_;  // by leaf
 };
+
+// With values of 0, so that least() with a slope of 1 finds distances.
+BoxTree tree_of_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
 }  // namespace hexpipe

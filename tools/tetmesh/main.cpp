@@ -10,6 +10,7 @@
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/point_files.hpp"
+#include "formats/size_files.hpp"
 #include "formats/stage.hpp"
 #include "formats/surface_files.hpp"
 #include "tools/tetmesh/tetmesh.hpp"
@@ -40,6 +41,12 @@ void choose_points(const std::string& points, TetmeshOptions& options) {
   options.given_points = read_points(input);
 }
 
+SizeSources size_sources(const std::string& path, const SurfaceSoup& surface) {
+  Input input = Input::open(path);
+  SizeList list = on_surface(read_sizes(input), surface);
+  return {std::move(list.points), std::move(list.sizes), std::move(list.simplices)};
+}
+
 std::string summary(const TetmeshStatistics& s) {
   return fmt::format(
       "{} points ({} of the surface, {} inside), {} tets, volume {:.6g}, size {:.4g}, dihedral angles {:.3g} to {:.4g} "
@@ -61,7 +68,7 @@ int main(int argc, char** argv) {
       .outside_history = {"tetgen-timeout"},
       .licence = "AGPL-3.0, for it links TetGen"};
   TetmeshOptions options;
-  std::optional<std::string> size;
+  std::optional<std::string> size, sizes;
   std::string path = "-", surface_kind = "remesh", points = "best", shells = "oriented", weld = "0.0001%";
   const auto declare = [&](CLI::App& app) {
     app.add_option("surface", path, "A surface in any format; '-' or nothing: standard input")->type_name("FILE");
@@ -70,6 +77,17 @@ int main(int argc, char** argv) {
            "Distance of points inside, in the surface's units or, with %, in percent of the bounding box's diagonal "
            "[what suits the part]")
         ->type_name("LENGTH");
+    app.add_option("--size-field", sizes,
+                   "Sizes by place: lines of x y z size, or of one size for each vertex of the surface, or the same in "
+                   ".npy, or a background mesh in .msh with $NodeData")
+        ->type_name("FILE");
+    app.add_option("--grading", options.grading,
+                   "How much sizes may differ between two places, against their distance, at the most")
+        ->check(number_between(0.01, 10));
+    app.add_option("--layers", options.layers, "Give thin walls at least that many elements across [2, if asked]")
+        ->expected(0, 1)
+        ->default_str("2")
+        ->check(CLI::Range(1, 100));
     app.add_option("--surface", surface_kind, "The surface's triangles: made anew to suit hexes, or kept")
         ->check(CLI::IsMember(surface_kinds));
     app.add_option("--feature-angle", options.feature_angle,
@@ -111,6 +129,7 @@ int main(int argc, char** argv) {
     Stage stage(context);
     Input input = open_surface(path);
     SurfaceSoup surface = read_surface(input);
+    if (sizes) options.size_sources = size_sources(*sizes, surface);
     stage.begin();
     const TetmeshResult result = tetmesh(std::move(surface), options);
     if (const auto& repair = result.statistics.repair; repair && repair->anything())

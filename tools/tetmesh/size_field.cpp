@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <span>
 
 #include "tools/tetmesh/box_tree.hpp"
@@ -74,7 +76,7 @@ class SmallSystem {
 
 // The least of size(y) + grading |p - y| over y in the simplex. The function is convex: in the plane of the simplex its
 // least value is where the direction to p makes the angle with the plane that the sizes' gradient asks for, and when
-// that is outside, the least value in the simplex is on its boundary.
+// that is outside, the least value in the simplex is on a facet that separates it from there.
 double least_over(const SizeSimplex& simplex, const Vec3& p, double grading) {
   const Vec3 to_p = p - simplex.corners[0];
   if (simplex.count == 1) return simplex.sizes[0] + grading * norm(to_p);
@@ -95,19 +97,23 @@ double least_over(const SizeSimplex& simplex, const Vec3& p, double grading) {
     size += rise[i] * foot[i];
   }
   const double steepness = std::sqrt(std::max(0.0, grading * grading - slope_squared));
+  std::array<bool, most_corners> behind{};  // of each facet, whether the least value may be on it
   if (system.is_regular() && steepness > 0) {
     const double height = std::sqrt(std::max(0.0, height_squared));
     double rest = 1;
-    bool inside = true;
     for (std::size_t i = 0; i < count; ++i) {
       const double weight = foot[i] - gradient[i] * height / steepness;
-      inside = inside && weight >= 0;
+      behind[i + 1] = weight < 0;
       rest -= weight;
     }
-    if (inside && rest >= 0) return size + height * steepness;
+    behind[0] = rest < 0;
+    if (std::ranges::none_of(behind, std::identity())) return size + height * steepness;
+  } else {
+    behind.fill(true);
   }
-  double least = least_over(simplex.without(0), p, grading);
-  for (std::size_t i = 1; i < simplex.count; ++i) least = std::min(least, least_over(simplex.without(i), p, grading));
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < simplex.count; ++i)
+    if (behind[i]) least = std::min(least, least_over(simplex.without(i), p, grading));
   return least;
 }
 
@@ -168,9 +174,8 @@ double SizeField::limited_at(const Vec3& p) const {
   });
 }
 
-double SizeField::least_near(const Vec3& p, double reach) const {
-  if (!known_) return greatest();
-  return factor_ * std::max(least_, limited_at(p) - known_->grading * reach);
+double SizeField::least_near(double here, double reach) const {
+  return known_ ? std::max(least(), here - factor_ * known_->grading * reach) : greatest();
 }
 
 }  // namespace hexpipe

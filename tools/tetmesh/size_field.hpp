@@ -36,9 +36,9 @@ class SizeField {
 
   double at(const Vec3& p) const { return known_ ? factor_ * limited_at(p) : factor_ * greatest_; }
   double greatest() const { return factor_ * greatest_; }
-  // Lower bounds, everywhere and within `reach` of a place.
+  // Lower bounds, everywhere and within `reach` of a place where the length is `here`.
   double least() const { return factor_ * least_; }
-  double least_near(const Vec3& p, double reach) const;
+  double least_near(double here, double reach) const;
   bool is_uniform() const { return known_ == nullptr; }
 
   friend SizeField operator*(double factor, SizeField field) {

@@ -38,9 +38,13 @@ class SizedPointGrid {
   // Calls visit(number) for the points within `reach` of p along every axis, and some more, until it returns false.
   // Points of which the length is below `least` may be left out.
   template <class Visit>
-  void for_each_near(const Vec3& p, double reach, double least, Visit&& visit) const {
+  void for_each_near(const Vec3& p, const Vec3& reach, double least, Visit&& visit) const {
     for (const Octave& octave : octaves_)
       if (2 * octave.width >= least && !visit_octave(octave, p, reach, visit)) return;
+  }
+  template <class Visit>
+  void for_each_near(const Vec3& p, double reach, double least, Visit&& visit) const {
+    for_each_near(p, Vec3{reach, reach, reach}, least, visit);
   }
 
  private:
@@ -67,9 +71,8 @@ class SizedPointGrid {
   }
 
   template <class Visit>
-  bool visit_octave(const Octave& octave, const Vec3& p, double reach, Visit&& visit) const {
-    const Vec3 offset{reach, reach, reach};
-    const GridCell low = cell_of(p - offset, octave.width), high = cell_of(p + offset, octave.width);
+  bool visit_octave(const Octave& octave, const Vec3& p, const Vec3& reach, Visit&& visit) const {
+    const GridCell low = cell_of(p - reach, octave.width), high = cell_of(p + reach, octave.width);
     GridCell cell;
     for (cell[2] = low[2]; cell[2] <= high[2]; ++cell[2])
       for (cell[1] = low[1]; cell[1] <= high[1]; ++cell[1])

@@ -98,7 +98,7 @@ double points_expected(const Surface& surface, double size) {
   return volume / size / size / size;
 }
 
-SizeFit fit_to_size(const Surface& surface, double size) {
+SizeFit fit_to_size(const Surface& surface, const SizeField& size) {
   double area = 0, coarse = 0, fine = 0;
   std::vector<double> edges;
   edges.reserve(3 * surface.triangles.size());
@@ -111,10 +111,11 @@ SizeFit fit_to_size(const Surface& surface, double size) {
       edges.push_back(edge);
     }
     const double triangle_area = area_of(surface, t);
+    const double here = size.at((surface.points[t[0]] + surface.points[t[1]] + surface.points[t[2]]) * (1.0 / 3));
     area += triangle_area;
-    if (longest > coarse_edge * size)
+    if (longest > coarse_edge * here)
       coarse += triangle_area;
-    else if (shortest < fine_edge * size)
+    else if (shortest < fine_edge * here)
       fine += triangle_area;
   }
   const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);

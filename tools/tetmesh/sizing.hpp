@@ -33,7 +33,7 @@ double points_on_surface(const Surface& surface, const SizeField& size, double e
 // About how many points fill the material at that distance: its volume in cubes of the size.
 double points_expected(const Surface& surface, double size);
 
-// How far the surface's triangles are from the size of the elements behind them.
+// How far the surface's triangles are from the size of the elements behind them, which is that at their centres.
 struct SizeFit {
   double median_edge = 0;
   // The part of the area in triangles with an edge longer than 2.5 times the size, or shorter than 0.4 times. The
@@ -44,6 +44,6 @@ struct SizeFit {
   std::optional<std::string> complaint(double size) const;
 };
 
-SizeFit fit_to_size(const Surface& surface, double size);
+SizeFit fit_to_size(const Surface& surface, const SizeField& size);
 
 }  // namespace hexpipe

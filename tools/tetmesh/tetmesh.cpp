@@ -6,6 +6,7 @@
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "tools/tetmesh/build_mesh.hpp"
+#include "tools/tetmesh/graded_lattice.hpp"
 #include "tools/tetmesh/mesh_shape.hpp"
 #include "tools/tetmesh/part_axes.hpp"
 #include "tools/tetmesh/run_tetgen.hpp"
@@ -13,6 +14,7 @@
 #include "tools/tetmesh/volume/frame_points.hpp"
 #include "tools/tetmesh/volume/given_points.hpp"
 #include "tools/tetmesh/volume/hex_estimate.hpp"
+#include "tools/tetmesh/wall_thickness.hpp"
 
 namespace hexpipe {
 namespace {
@@ -41,22 +43,36 @@ RepairReport repair(SurfaceSoup& soup, const TetmeshOptions& options) {
   return repair(soup, {options.weld.value * unit, options.largest_hole});
 }
 
+// Of the elements: what the user asks for, else the greatest of the sizes given by place, else what suits the part.
+double greatest_size(const Surface& surface, const TetmeshOptions& options) {
+  if (options.size || options.size_sources.empty())
+    return element_size(surface, options.size, options.surface == SurfaceKind::keep);
+  return std::ranges::max(options.size_sources.sizes);
+}
+
+SizeField size_field(const Surface& surface, const TetmeshOptions& options, double greatest) {
+  SizeSources sources = options.size_sources;
+  if (options.layers) sources.add(wall_sizes(surface, greatest, *options.layers));
+  return {std::move(sources), greatest, options.grading};
+}
+
 // A point given by the user may come as near to the surface as TetGen can bear.
 constexpr double clearance_of_given = 1e-3;  // in sizes
 
-std::vector<Vec3> place_points(const Surface& surface, const TetmeshOptions& options, TetmeshResult& result) {
-  const double size = result.statistics.size;
+std::vector<Vec3> place_points(const Surface& surface, const SizeField& size, const TetmeshOptions& options,
+                               TetmeshResult& result) {
   if (options.points == PointKind::none) return {};
   if (options.points == PointKind::given) {
-    GivenPoints given = usable_points(surface, options.given_points, clearance_of_given * size);
+    GivenPoints given = usable_points(surface, options.given_points, clearance_of_given * size.least());
     if (given.complaint) result.warning = given.complaint;
     return given.points;
   }
-  return lattice_points(surface, {.size = size,
-                                  .clearance = options.clearance,
-                                  .jitter = options.jitter.value_or(LatticeOptions{}.jitter),
-                                  .seed = options.seed,
-                                  .axes = axes_of_part(surface)});
+  return graded_lattice_points(surface, size,
+                               {.clearance = options.clearance,
+                                .jitter = options.jitter.value_or(LatticeOptions{}.jitter),
+                                .seed = options.seed,
+                                .axes = axes_of_part(surface)},
+                               options.most_points);
 }
 
 void describe(const Surface& surface, TetmeshStatistics& statistics) {
@@ -67,9 +83,9 @@ void describe(const Surface& surface, TetmeshStatistics& statistics) {
 }
 
 // Where no new surface can be made, the old one stays, and the result says so.
-void remesh(Surface& surface, const TetmeshOptions& options, TetmeshResult& result) {
+void remesh(Surface& surface, const SizeField& size, const TetmeshOptions& options, TetmeshResult& result) {
   TetmeshStatistics& statistics = result.statistics;
-  RemeshResult remeshed = remesh_surface(surface, {statistics.size, options.feature_angle, options.deviation});
+  RemeshResult remeshed = remesh_surface(surface, {size, options.feature_angle, options.deviation});
   statistics.remeshed = remeshed.failure.empty();
   if (!statistics.remeshed) {
     result.warning = fmt::format("the surface is kept as it is: {}", remeshed.failure);
@@ -131,10 +147,10 @@ BuiltMesh tetrahedralize(const Surface& surface, std::span<const Vec3> points, d
 }
 
 // From the mesh with the lattice's points, which stays where it is the better one.
-void try_frame_points(const Surface& surface, const TetmeshOptions& options, StepWatch& watch, BuiltMesh& built,
-                      TetmeshStatistics& statistics) {
+void try_frame_points(const Surface& surface, const SizeField& size, const TetmeshOptions& options, StepWatch& watch,
+                      BuiltMesh& built, TetmeshStatistics& statistics) {
   const std::vector<Vec3> points = frame_points(surface, built.mesh, built.adjacency,
-                                                {.size = statistics.size,
+                                                {.size = size,
                                                  .clearance = options.clearance,
                                                  .jitter = options.jitter.value_or(FramePointsOptions{}.jitter),
                                                  .seed = options.seed});
@@ -179,16 +195,18 @@ TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
   Surface surface = find_shells(std::move(soup), options.shells);
   watch.add_to(statistics.seconds_checking);
 
-  statistics.size = element_size(surface, options.size, options.surface == SurfaceKind::keep);
+  statistics.size = greatest_size(surface, options);
   check_number_of_points(surface, options, statistics.size);
+  const SizeField size = size_field(surface, options, statistics.size);
+  if (!size.is_uniform()) statistics.least_size = size.least();
   if (options.surface == SurfaceKind::remesh) {
-    remesh(surface, options, result);
+    remesh(surface, size, options, result);
     watch.add_to(statistics.seconds_remeshing);
   }
   describe(surface, statistics);
   if (options.points != PointKind::none && !statistics.remeshed && !result.warning)
-    result.warning = fit_to_size(surface, statistics.size).complaint(statistics.size);
-  const std::vector<Vec3> points = place_points(surface, options, result);
+    result.warning = fit_to_size(surface, size).complaint(statistics.size);
+  const std::vector<Vec3> points = place_points(surface, size, options, result);
   statistics.interior_points = points.size();
   watch.add_to(statistics.seconds_placing);
 
@@ -197,7 +215,7 @@ TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
   statistics.points_kept = is_lattice ? PointKind::lattice : options.points;
   if (options.points == PointKind::frame || options.points == PointKind::best) {
     try {
-      try_frame_points(surface, options, watch, built, statistics);
+      try_frame_points(surface, size, options, watch, built, statistics);
     } catch (const TetGenFailure&) {
       if (options.points == PointKind::frame) throw;
     }
@@ -228,6 +246,7 @@ nlohmann::ordered_json to_json(const TetmeshStatistics& s) {
                               {"volume", s.volume},
                               {"least_dihedral", s.least_dihedral},
                               {"greatest_dihedral", s.greatest_dihedral}};
+  if (s.least_size) json["least_size"] = *s.least_size;
   if (s.repair) json["repair"] = to_json(*s.repair);
   if (s.lattice_hex_share)
     json["estimated_hex_share"] = {{"lattice", *s.lattice_hex_share}, {"frame", *s.frame_hex_share}};

@@ -12,6 +12,7 @@
 #include "tools/tetmesh/lattice.hpp"
 #include "tools/tetmesh/repair.hpp"
 #include "tools/tetmesh/shells.hpp"
+#include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/sizing.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 
@@ -29,7 +30,10 @@ enum class PointKind {
 };
 
 struct TetmeshOptions {
-  std::optional<Length> size = {};  // nothing: see element_size()
+  std::optional<Length> size = {};  // nothing: see greatest_size()
+  SizeSources size_sources = {};
+  double grading = 0.3;
+  std::optional<int> layers = {};  // across thin walls, at least; nothing: walls do not count
   SurfaceKind surface = SurfaceKind::remesh;
   double feature_angle = RemeshOptions{}.feature_angle;  // degrees
   double deviation = RemeshOptions{}.deviation;          // in sizes
@@ -47,7 +51,8 @@ struct TetmeshOptions {
 };
 
 struct TetmeshStatistics {
-  double size = 0;
+  double size = 0;                   // the greatest
+  std::optional<double> least_size;  // where sizes differ
   std::size_t surface_points = 0, surface_triangles = 0;
   bool remeshed = false;
   double distance_to_input = 0, distance_from_input = 0;  // Hausdorff, of the new surface and of the old one

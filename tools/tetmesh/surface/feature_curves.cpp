@@ -100,7 +100,7 @@ class CurveLength {
   void add_segment(const Vec3& from, const Vec3& to, const SizeField& size) {
     const double length = norm(to - from);
     const int parts =
-        size.least() < size.greatest() ? parts_of(length / size.least_near(0.5 * (from + to), length)) : 1;
+        size.least() < size.greatest() ? parts_of(length / size.least_near(size.at(0.5 * (from + to)), length)) : 1;
     for (int i = 1; i <= parts; ++i) {
       const Vec3 start = points_.back();
       points_.push_back(i == parts ? to : from + (static_cast<double>(i) / parts) * (to - from));

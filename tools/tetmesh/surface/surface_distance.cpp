@@ -22,7 +22,7 @@ int parts_of(double length, double spacing) {
 // Vertices are samples of the first triangle that has them, points of an edge of the one that runs along it upwards.
 class SurfaceSampler {
  public:
-  SurfaceSampler(std::span<const Vec3> points, std::span<const Triangle> triangles, double spacing)
+  SurfaceSampler(std::span<const Vec3> points, std::span<const Triangle> triangles, const SizeField& spacing)
       : points_(points), triangles_(triangles), spacing_(spacing), owner_(points.size(), -1) {
     for (std::size_t t = triangles.size(); t-- > 0;)
       for (const Vertex v : triangles[t]) owner_[v] = static_cast<std::int32_t>(t);
@@ -39,11 +39,11 @@ class SurfaceSampler {
       longest = std::max(longest, length);
       if (owner_[from] == triangle) visit(start);
       if (from > to) continue;
-      const int parts = parts_of(length, spacing_);
+      const int parts = parts_of(length, spacing_.at(start + 0.5 * along));
       for (int part = 1; part < parts; ++part) visit(start + (static_cast<double>(part) / parts) * along);
     }
-    const int n = parts_of(longest, spacing_);
     const Vec3 &a = points_[t[0]], &b = points_[t[1]], &c = points_[t[2]];
+    const int n = parts_of(longest, spacing_.at((a + b + c) * (1.0 / 3)));
     for (int i = 1; i < n; ++i)
       for (int j = 1; i + j < n; ++j)
         visit(a + (static_cast<double>(i) / n) * (b - a) + (static_cast<double>(j) / n) * (c - a));
@@ -52,7 +52,7 @@ class SurfaceSampler {
  private:
   std::span<const Vec3> points_;
   std::span<const Triangle> triangles_;
-  double spacing_;
+  const SizeField& spacing_;
   std::vector<std::int32_t> owner_;  // of each vertex, a triangle
 };
 
@@ -166,7 +166,7 @@ void DistanceIndex::look_in_cell(const Vec3& p, const Cell& cell, double& best, 
 }
 
 SurfaceDistance one_sided_distance(std::span<const Vec3> points, std::span<const Triangle> triangles,
-                                   const DistanceIndex& other, double spacing, double limit) {
+                                   const DistanceIndex& other, const SizeField& spacing, const SizeField& limit) {
   SurfaceDistance result;
   const SurfaceSampler sampler(points, triangles, spacing);
   parallel_in_order(
@@ -178,7 +178,7 @@ SurfaceDistance one_sided_distance(std::span<const Vec3> points, std::span<const
           sampler.for_each_sample(i, [&](const Vec3& p) {
             const double distance = other.distance(p, nearest);
             part.greatest = std::max(part.greatest, distance);
-            if (distance > limit) part.beyond.push_back(p);
+            if (distance > limit.at(p)) part.beyond.push_back(p);
           });
         }
         return part;

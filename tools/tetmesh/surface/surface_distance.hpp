@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/mesh/tet_mesh.hpp"
+#include "tools/tetmesh/size_field.hpp"
 
 namespace hexpipe {
 
@@ -51,6 +52,6 @@ struct SurfaceDistance {
 
 // Distances of samples of one surface, its vertices among them, from another.
 SurfaceDistance one_sided_distance(std::span<const Vec3> points, std::span<const Triangle> triangles,
-                                   const DistanceIndex& other, double spacing, double limit);
+                                   const DistanceIndex& other, const SizeField& spacing, const SizeField& limit);
 
 }  // namespace hexpipe

@@ -11,8 +11,8 @@
 #include <cmath>
 #include <optional>
 
+#include "tools/tetmesh/sized_point_grid.hpp"
 #include "tools/tetmesh/surface/surface_lattice.hpp"
-#include "tools/tetmesh/surface/surface_point_grid.hpp"
 
 namespace hexpipe {
 namespace {
@@ -26,26 +26,28 @@ constexpr double least_normal_cosine = 0.3;
 constexpr double look_ahead = 30, least_ahead = 15;
 // Cosine from which a direction is the one in which a point was reached.
 constexpr double same_way = 0.999;
+// Places on the way to a feature at which the size is asked for.
+constexpr std::size_t size_samples = 32;
 
 // What is known of the way ahead.
 struct Outlook {
   Vec3 heading;
-  double step = 0;   // to walk
+  double step = 0;   // of sizes, to walk
   double steps = 0;  // until a feature is met; 0: none is in sight
   double clear = 0;  // how far none is, then
 
   bool holds_for(const Vec3& direction, double least) const {
     return (steps > 0 || clear > least) && dot(heading, direction) > same_way;
   }
-  Outlook after_step(const Vec3& new_heading) const {
-    return {new_heading, step, std::max(0.0, steps - 1), clear - step};
+  Outlook after_step(const WalkEnd& end) const {
+    return {end.heading, step, std::max(0.0, steps - 1), clear - end.length};
   }
 };
 
 class SurfaceFront {
  public:
-  SurfaceFront(const FieldSurface& surface, const CrossField& field, double size)
-      : surface_(surface), field_(field), walker_(surface, field), size_(size), grid_(size) {}
+  SurfaceFront(const FieldSurface& surface, const CrossField& field, const SizeField& size)
+      : surface_(surface), field_(field), walker_(surface, field), size_(size), grid_(surface.points.front()) {}
 
   std::vector<SurfacePoint> run(std::span<const Vertex> kept) {
     add_kept(kept);
@@ -64,6 +66,8 @@ class SurfaceFront {
   void spread();
   void fill_gaps();
   void offer_step(const SurfacePoint& from, const Vec3& direction, const Outlook& known);
+  WalkEnd step(const SurfacePoint& from, const Vec3& direction, double sizes) const;
+  double sizes_along(const Vec3& from, const WalkEnd& end) const;
   Outlook look(const SurfacePoint& from, const Vec3& direction) const;
   // Whether no point is nearer than `distance` sizes.
   bool is_free(const SurfacePoint& point, double distance) const;
@@ -72,18 +76,18 @@ class SurfaceFront {
   const FieldSurface& surface_;
   const CrossField& field_;
   FieldWalker walker_;
-  double size_;
+  const SizeField& size_;
   std::vector<SurfacePoint> points_;
   std::vector<Outlook> outlooks_;           // of the points, along the way on which they were reached
   std::size_t next_ = 0;                    // of the points, the first that has not yet offered its neighbours
-  SurfacePointGrid grid_;                   // the kept vertices, then the points
+  SizedPointGrid grid_;                     // the kept vertices, then the points
   std::vector<std::vector<Vec3>> normals_;  // of the points in the grid, of each face around them that differs
 };
 
 void SurfaceFront::add_kept(std::span<const Vertex> kept) {
   std::vector<std::int32_t> number(surface_.points.size(), -1);
   for (const Vertex v : kept) {
-    number[v] = grid_.add(surface_.points[v]);
+    number[v] = grid_.add(surface_.points[v], size_.at(surface_.points[v]));
     normals_.emplace_back();
   }
   for (std::size_t f = 0; f < surface_.triangles.size(); ++f)
@@ -133,37 +137,59 @@ void SurfaceFront::fill_gaps() {
 }
 
 void SurfaceFront::offer_step(const SurfacePoint& from, const Vec3& direction, const Outlook& known) {
-  WalkEnd end = walker_.walk(from, direction, size_);
+  WalkEnd end = step(from, direction, 1);
   // Fitting moves the end of a step that is taken by at most a quarter of the size.
   if (!end.at_feature && !is_free(end.point, least_distance - 0.25)) return;
-  const Outlook outlook = known.holds_for(direction, least_ahead * size_) ? known : look(from, direction);
+  const Outlook outlook =
+      known.holds_for(direction, least_ahead * size_.at(from.position)) ? known : look(from, direction);
   if (outlook.steps > 0) {
     if (outlook.steps < 2) return;
-    end = walker_.walk(from, direction, outlook.step);
+    end = step(from, direction, outlook.step);
   }
-  if (!end.at_feature && is_free(end.point, least_distance)) take(end.point, outlook.after_step(end.heading));
+  if (!end.at_feature && is_free(end.point, least_distance)) take(end.point, outlook.after_step(end));
+}
+
+// As long as the mean of the sizes at its ends, times `sizes`.
+WalkEnd SurfaceFront::step(const SurfacePoint& from, const Vec3& direction, double sizes) const {
+  const double size = sizes * size_.at(from.position);
+  const double mean = (size + sizes * size_.at(from.position + size * direction)) / 2;
+  return walker_.walk(from, direction, mean);
+}
+
+// The length of a way in sizes, which are taken along its chord.
+double SurfaceFront::sizes_along(const Vec3& from, const WalkEnd& end) const {
+  if (size_.is_uniform()) return end.length / size_.greatest();
+  double sum = 0;
+  for (std::size_t i = 0; i < size_samples; ++i) {
+    const double middle = (static_cast<double>(i) + 0.5) / size_samples;
+    sum += 1 / size_.at(from + middle * (end.point.position - from));
+  }
+  return end.length * sum / size_samples;
 }
 
 Outlook SurfaceFront::look(const SurfacePoint& from, const Vec3& direction) const {
-  const WalkEnd far = walker_.walk(from, direction, look_ahead * size_);
-  if (!far.at_feature) return {direction, size_, 0, far.length};
-  const double steps = std::max(1.0, std::round(far.length / size_));
-  return {direction, far.length / steps, steps, 0};
+  const WalkEnd far = walker_.walk(from, direction, look_ahead * size_.at(from.position));
+  if (!far.at_feature) return {direction, 1, 0, far.length};
+  const double sizes = sizes_along(from.position, far), steps = std::max(1.0, std::round(sizes));
+  return {direction, sizes / steps, steps, 0};
 }
 
 bool SurfaceFront::is_free(const SurfacePoint& point, double distance) const {
   const Vec3 &x = field_.directions[point.triangle], &n = surface_.normals[point.triangle];
   const Vec3 y = cross(n, x);
-  const double least = distance * size_;
-  return grid_.none_near(point.position, [&](std::int32_t i, const Vec3& other) {
-    const Vec3 d = other - point.position;
-    if (std::abs(dot(d, x)) >= least || std::abs(dot(d, y)) >= least || std::abs(dot(d, n)) >= least) return false;
-    return std::ranges::any_of(normals_[i], [&](const Vec3& m) { return dot(n, m) > least_normal_cosine; });
+  const double size = size_.at(point.position), least = distance * size;
+  bool is_free = true;
+  grid_.for_each_near(point.position, size, size_.least_near(size, size), [&](std::int32_t i) {
+    const Vec3 d = grid_.points()[i] - point.position;
+    if (std::abs(dot(d, x)) >= least || std::abs(dot(d, y)) >= least || std::abs(dot(d, n)) >= least) return true;
+    is_free = std::ranges::none_of(normals_[i], [&](const Vec3& m) { return dot(n, m) > least_normal_cosine; });
+    return is_free;
   });
+  return is_free;
 }
 
 void SurfaceFront::take(const SurfacePoint& point, const Outlook& outlook) {
-  grid_.add(point.position);
+  grid_.add(point.position, size_.at(point.position));
   outlooks_.push_back(outlook);
   normals_.push_back({surface_.normals[point.triangle]});
   points_.push_back(point);
@@ -172,7 +198,7 @@ void SurfaceFront::take(const SurfacePoint& point, const Outlook& outlook) {
 }  // namespace
 
 std::vector<SurfacePoint> surface_front(const FieldSurface& surface, const CrossField& field,
-                                        std::span<const Vertex> kept, double size) {
+                                        std::span<const Vertex> kept, const SizeField& size) {
   return SurfaceFront(surface, field, size).run(kept);
 }
 

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/surface/cross_field.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
 
@@ -11,6 +12,6 @@ namespace hexpipe {
 
 // `kept` are the vertices of the surface that are points already: those of its feature curves.
 std::vector<SurfacePoint> surface_front(const FieldSurface& surface, const CrossField& field,
-                                        std::span<const Vertex> kept, double size);
+                                        std::span<const Vertex> kept, const SizeField& size);
 
 }  // namespace hexpipe

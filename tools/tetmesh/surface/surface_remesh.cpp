@@ -89,7 +89,7 @@ void SurfaceRemesher::prepare() {
   const std::vector<Vertex> kept = kept_vertices();
   const FieldSurface field_surface(prepared_);
   const CrossField field = cross_field(field_surface, size_);
-  const std::vector<SurfacePoint> points = surface_front(field_surface, field, kept, size_.greatest());
+  const std::vector<SurfacePoint> points = surface_front(field_surface, field, kept, size_);
   insert_points(prepared_, points, snap * size_);
   result_.feature_points = kept.size();
   result_.front_points = points.size();
@@ -152,7 +152,7 @@ std::vector<Vec3> SurfaceRemesher::find_faults() {
   result_.failure = "the new surface intersects itself";
   if (!faults.empty()) return faults;
 
-  const double spacing = sample_spacing * size_.greatest(), limit = deviation_.greatest() * (1 + 1e-9);
+  const SizeField spacing = sample_spacing * size_, limit = (1 + 1e-9) * deviation_;
   const DistanceIndex output(soup.points, soup.triangles);
   SurfaceDistance there = one_sided_distance(soup.points, soup.triangles, input_, spacing, limit);
   const SurfaceDistance back = one_sided_distance(surface_.points, surface_.triangles, output, spacing, limit);

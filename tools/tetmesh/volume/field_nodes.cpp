@@ -125,15 +125,18 @@ void SurfaceReader::find_vague() {
 
 }  // namespace
 
-FieldNodes make_field_nodes(const Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency, double size) {
+FieldNodes make_field_nodes(const Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency,
+                            const SizeField& size) {
   constexpr double nearest = 0.25;  // squared; keeps a single link from ruling
   FieldNodes nodes;
   nodes.points = mesh.points;
+  nodes.sizes.reserve(nodes.points.size());
+  for (const Vec3& p : nodes.points) nodes.sizes.push_back(size.at(p));
   nodes.surface = SurfaceReader(surface).read();
   nodes.offsets.assign(1, 0);
   for (std::size_t v = 0; v < nodes.points.size(); ++v) {
     for (const Vertex u : adjacency.neighbours_of(static_cast<Vertex>(v))) {
-      const double squared = norm_squared(nodes.points[u] - nodes.points[v]) / (size * size);
+      const double squared = norm_squared(nodes.points[u] - nodes.points[v]) / (nodes.sizes[u] * nodes.sizes[v]);
       nodes.links.push_back({u, static_cast<float>(1 / std::max(squared, nearest))});
     }
     nodes.offsets.push_back(static_cast<std::int64_t>(nodes.links.size()));

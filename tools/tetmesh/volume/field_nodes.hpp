@@ -9,6 +9,7 @@
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/tetmesh/shells.hpp"
+#include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/volume/octahedral.hpp"
 
 namespace hexpipe {
@@ -33,6 +34,7 @@ struct SurfaceNode {
 
 struct FieldNodes {
   std::vector<Vec3> points;  // the surface's first
+  std::vector<double> sizes;
   std::vector<SurfaceNode> surface;
   std::vector<std::int64_t> offsets;  // points + 1
   std::vector<FieldLink> links;       // both ways
@@ -45,6 +47,7 @@ struct FieldNodes {
 };
 
 // Of a mesh whose first vertices are the surface's. Weights fall with the square of the distance in sizes.
-FieldNodes make_field_nodes(const Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency, double size);
+FieldNodes make_field_nodes(const Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency,
+                            const SizeField& size);
 
 }  // namespace hexpipe

@@ -6,10 +6,10 @@
 #include <numeric>
 
 #include "common/run/parallel.hpp"
+#include "tools/tetmesh/sized_point_grid.hpp"
 #include "tools/tetmesh/volume/frame_field.hpp"
 #include "tools/tetmesh/volume/jitter.hpp"
 #include "tools/tetmesh/volume/lattice_field.hpp"
-#include "tools/tetmesh/volume/point_grid.hpp"
 #include "tools/tetmesh/volume/surface_clearance.hpp"
 
 namespace hexpipe {
@@ -26,6 +26,7 @@ constexpr double furthest = 1 + 1e-6, distrust_begins = 1.5;
 // A point of the lattice as a node sees it.
 struct Proposal {
   Vec3 point;
+  double size = 0;  // there
   std::int32_t node = 0;
   double trust = 0;
 };
@@ -53,9 +54,9 @@ class PointPlacer {
   void propose();
   void propose(std::size_t node, const std::array<double, 3>& coordinates, double agreement);
   void agree();
-  Proposal agreed(const PointGrid& grid, const Proposal& proposal) const;
+  Proposal agreed(const SizedPointGrid& grid, const Proposal& proposal) const;
   std::vector<Vec3> accept() const;
-  bool is_free(const PointGrid& taken, const Proposal& proposal) const;
+  bool is_free(const SizedPointGrid& taken, const Proposal& proposal) const;
 
   const Surface& surface_;
   const FramePointsOptions& options_;
@@ -65,7 +66,7 @@ class PointPlacer {
 };
 
 void PointPlacer::propose() {
-  const LatticeField field = solve_lattice_field(nodes_, frames_, options_.size);
+  const LatticeField field = solve_lattice_field(nodes_, frames_);
   for (std::size_t i = 0; i < nodes_.size(); ++i) propose(i, field.coordinates[i], field.agreement[i]);
 }
 
@@ -77,33 +78,35 @@ void PointPlacer::propose(std::size_t i, const std::array<double, 3>& coordinate
     const Vec3 steps{cell % 3 - 1 - coordinates[0], cell / 3 % 3 - 1 - coordinates[1], cell / 9 - 1 - coordinates[2]};
     const double distance = std::max({std::abs(steps.x), std::abs(steps.y), std::abs(steps.z)});
     if (distance > furthest) continue;
-    const Vec3 point =
-        nodes_.points[i] + options_.size * (steps.x * frame[0] + steps.y * frame[1] + steps.z * frame[2]);
-    proposals_.push_back({point, node, (distrust_begins - distance) * agreement});
+    const Vec3 way = steps.x * frame[0] + steps.y * frame[1] + steps.z * frame[2];
+    const Vec3 point = nodes_.points[i] + options_.size.at(nodes_.points[i] + nodes_.sizes[i] / 2 * way) * way;
+    proposals_.push_back({point, options_.size.at(point), node, (distrust_begins - distance) * agreement});
   }
 }
 
 // Moves every proposal to the mean of those that see the same point, and trusts it as much as all of them.
 void PointPlacer::agree() {
-  PointGrid grid(surface_.points.front(), 2 * same_point * options_.size);
-  for (const Proposal& p : proposals_) grid.add(p.point);
+  SizedPointGrid grid(surface_.points.front());
+  for (const Proposal& p : proposals_) grid.add(p.point, 2 * same_point * p.size);
   std::vector<Proposal> result(proposals_.size());
   parallel_for(static_cast<std::int64_t>(result.size()), 256,
                [&](std::int64_t i) { result[i] = agreed(grid, proposals_[i]); });
   proposals_ = std::move(result);
 }
 
-Proposal PointPlacer::agreed(const PointGrid& grid, const Proposal& proposal) const {
-  const double reach = same_point * options_.size;
+Proposal PointPlacer::agreed(const SizedPointGrid& grid, const Proposal& proposal) const {
+  const double reach = same_point * proposal.size;
   Vec3 sum;
   double trust = 0;
-  grid.for_each_near(proposal.point, reach, [&](std::int32_t i) {
+  const double least = 2 * same_point * options_.size.least_near(proposal.size, reach);
+  grid.for_each_near(proposal.point, reach, least, [&](std::int32_t i) {
     const Proposal& other = proposals_[i];
-    if (norm_squared(other.point - proposal.point) > reach * reach) return;
+    if (norm_squared(other.point - proposal.point) > reach * reach) return true;
     sum += other.trust * other.point;
     trust += other.trust;
+    return true;
   });
-  return trust > 0 ? Proposal{sum * (1 / trust), proposal.node, trust} : proposal;
+  return trust > 0 ? Proposal{sum * (1 / trust), proposal.size, proposal.node, trust} : proposal;
 }
 
 // The most trusted first.
@@ -113,23 +116,26 @@ std::vector<Vec3> PointPlacer::accept() const {
   std::ranges::stable_sort(order, std::greater(), [&](std::int32_t i) { return proposals_[i].trust; });
 
   const SurfaceClearance clearance(surface_, options_.clearance * options_.size);
-  PointGrid taken(surface_.points.front(), 2 * least_spacing * options_.size);
-  for (const Vec3& p : surface_.points) taken.add(p);
+  SizedPointGrid taken(surface_.points.front());
+  for (const Vec3& p : surface_.points) taken.add(p, 2 * least_spacing * options_.size.at(p));
   for (const std::int32_t i : order) {
     const Proposal& p = proposals_[i];
-    if (is_free(taken, p) && clearance.is_clear(p.point) && clearance.is_inside(p.point)) taken.add(p.point);
+    if (is_free(taken, p) && clearance.is_clear(p.point) && clearance.is_inside(p.point))
+      taken.add(p.point, 2 * least_spacing * p.size);
   }
   return {taken.points().begin() + static_cast<std::ptrdiff_t>(surface_.points.size()), taken.points().end()};
 }
 
-bool PointPlacer::is_free(const PointGrid& taken, const Proposal& proposal) const {
-  const double spacing = least_spacing * options_.size;
+bool PointPlacer::is_free(const SizedPointGrid& taken, const Proposal& proposal) const {
+  const double spacing = least_spacing * proposal.size;
   const Frame& frame = frames_[proposal.node];
   Vec3 reach;  // of a cube of the frame, along the coordinate axes
   for (const Vec3& axis : frame) reach += spacing * Vec3{std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)};
   bool free = true;
-  taken.for_each_near(proposal.point, reach, [&](std::int32_t i) {
-    free = free && maximum_norm(frame, taken.points()[i] - proposal.point) >= spacing;
+  const double least = 2 * least_spacing * options_.size.least_near(proposal.size, norm(reach));
+  taken.for_each_near(proposal.point, reach, least, [&](std::int32_t i) {
+    free = maximum_norm(frame, taken.points()[i] - proposal.point) >= spacing;
+    return free;
   });
   return free;
 }
@@ -140,7 +146,7 @@ std::vector<Vec3> frame_points(const Surface& surface, const TetMesh& background
                                const FramePointsOptions& options) {
   std::vector<Vec3> points = PointPlacer(surface, background, adjacency, options).place();
   for (std::size_t i = 0; i < points.size(); ++i)
-    points[i] += jitter_of(i, options.jitter * options.size, options.seed);
+    points[i] += jitter_of(i, options.jitter * options.size.at(points[i]), options.seed);
   return points;
 }
 

@@ -13,11 +13,12 @@
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/tetmesh/shells.hpp"
+#include "tools/tetmesh/size_field.hpp"
 
 namespace hexpipe {
 
 struct FramePointsOptions {
-  double size = 1;
+  SizeField size = 1;
   double clearance = 0.5;  // least distance from the surface before points are jittered, in sizes
   // Each coordinate moves by at most that, in sizes. Candidates a vertex, and the share of the volume in hexes, over
   // three parts: 11.3 and 87.2 % at 0, 8.4 and 87.6 at 0.01, 7.4 and 87.7 at 0.02, 6.2 and 87.6 at 0.04.

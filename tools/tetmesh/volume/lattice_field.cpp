@@ -64,10 +64,9 @@ struct Transition {
 
 class LatticeSolver {
  public:
-  LatticeSolver(const FieldNodes& nodes, const std::vector<Frame>& frames, double size)
+  LatticeSolver(const FieldNodes& nodes, const std::vector<Frame>& frames)
       : nodes_(nodes),
         frames_(frames),
-        size_(size),
         transitions_(nodes.links.size()),
         degree_(nodes.size()),
         anchors_(nodes.size()),
@@ -109,7 +108,6 @@ class LatticeSolver {
 
   const FieldNodes& nodes_;
   const std::vector<Frame>& frames_;
-  double size_;
   std::vector<Transition> transitions_;  // of each link
   std::vector<double> degree_;
   std::vector<std::array<double, 3>> anchors_;  // weight of the number 1: the node is a point of the lattice
@@ -129,11 +127,11 @@ Transition LatticeSolver::make_transition(std::size_t i, const FieldLink& link) 
   const AxisMatch matched = match(frames_[i], frames_[j]);
   Transition t{{}, matched.axis, matched.flipped, link.node, 0};
   t.weight = static_cast<double>(link.weight) * std::max(0.0, 4 * matched.quality - 3);
-  const Vec3 back = nodes_.points[i] - nodes_.points[j];
+  const Vec3 back = (2 / (nodes_.sizes[i] + nodes_.sizes[j])) * (nodes_.points[i] - nodes_.points[j]);
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3& there = frames_[j][t.axis[k]];
     const Vec3 mean = 0.5 * (frames_[i][k] + (t.flipped[k] ? -there : there));
-    t.turn[k] = std::polar(1.0, 2 * std::numbers::pi * dot(mean, back) / size_);
+    t.turn[k] = std::polar(1.0, 2 * std::numbers::pi * dot(mean, back));
   }
   return t;
 }
@@ -248,8 +246,8 @@ LatticeField LatticeSolver::result() const {
 
 }  // namespace
 
-LatticeField solve_lattice_field(const FieldNodes& nodes, const std::vector<Frame>& frames, double size) {
-  return LatticeSolver(nodes, frames, size).solve();
+LatticeField solve_lattice_field(const FieldNodes& nodes, const std::vector<Frame>& frames) {
+  return LatticeSolver(nodes, frames).solve();
 }
 
 }  // namespace hexpipe

@@ -22,7 +22,7 @@ struct LatticeField {
   std::vector<double> agreement;
 };
 
-// `size`: the width of the lattice's cells.
-LatticeField solve_lattice_field(const FieldNodes& nodes, const std::vector<Frame>& frames, double size);
+// The cells of the lattice are as wide as the sizes of the nodes.
+LatticeField solve_lattice_field(const FieldNodes& nodes, const std::vector<Frame>& frames);
 
 }  // namespace hexpipe

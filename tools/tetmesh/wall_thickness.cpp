@@ -1,0 +1,121 @@
+#include "tools/tetmesh/wall_thickness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/tetmesh/box_tree.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr double least_cosine = 0.70710678118654752;  // of 45 degrees
+constexpr double least_part = 1.0 / 32;               // of the size
+// Rays start that far from their triangle, in sizes, and take nothing nearer for another wall.
+constexpr double least_length = 1e-6;
+// Parts of a triangle that are looked at; rays further apart than a size from there on.
+constexpr std::size_t most_parts = 1u << 20;
+
+using Corners = std::array<Vec3, 3>;
+
+class WallFinder {
+ public:
+  WallFinder(const Surface& surface, double size, int layers)
+      : surface_(surface), size_(size), layers_(layers), tree_(tree_of_triangles(surface.points, surface.triangles)) {}
+
+  SizeSources find() {
+    for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
+      const auto& [a, b, c] = surface_.triangles[t];
+      const Corners corners{surface_.points[a], surface_.points[b], surface_.points[c]};
+      const Shell& shell = surface_.shells[surface_.shell_of[t]];
+      const Vec3 area = cross(corners[1] - corners[0], corners[2] - corners[0]), normal = area * (1 / norm(area));
+      look(corners, -normal);
+      if (shell.in_front != outside_region) look(corners, normal);
+    }
+    return std::move(walls_);
+  }
+
+ private:
+  void look(const Corners& corners, const Vec3& inwards);
+  double thickness_at(const Vec3& from, const Vec3& inwards) const;
+  double length_to(std::int32_t triangle, const Vec3& from, const Vec3& direction) const;
+  void add_wall(const Corners& corners, const Vec3& across, double size);
+
+  const Surface& surface_;
+  double size_;
+  int layers_;
+  BoxTree tree_;
+  SizeSources walls_;
+  std::vector<Corners> parts_;
+};
+
+// In parts of a size.
+void WallFinder::look(const Corners& corners, const Vec3& inwards) {
+  parts_.assign(1, corners);
+  for (std::size_t looked = 0; !parts_.empty(); ++looked) {
+    const Corners part = parts_.back();
+    parts_.pop_back();
+    std::size_t longest = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+      if (norm_squared(part[(i + 1) % 3] - part[i]) > norm_squared(part[(longest + 1) % 3] - part[longest]))
+        longest = i;
+    const Vec3 &from = part[longest], &to = part[(longest + 1) % 3], &beside = part[(longest + 2) % 3];
+    if (norm(to - from) > size_ && looked < most_parts) {
+      parts_.push_back({from, 0.5 * (from + to), beside});
+      parts_.push_back({0.5 * (from + to), to, beside});
+      continue;
+    }
+    const double thickness = thickness_at((part[0] + part[1] + part[2]) * (1.0 / 3), inwards);
+    if (thickness < layers_ * size_)
+      add_wall(part, thickness * inwards, std::max(thickness / layers_, least_part * size_));
+  }
+}
+
+// Infinite where there is no wall.
+double WallFinder::thickness_at(const Vec3& from, const Vec3& inwards) const {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  std::int32_t hit = -1;
+  double best = layers_ * size_;
+  const double thickness = tree_.first_hit(from, inwards, best, [&](std::int32_t triangle) {
+    const double length = length_to(triangle, from, inwards);
+    if (length < best) best = length, hit = triangle;
+    return length;
+  });
+  if (hit < 0) return none;
+  const auto& [a, b, c] = surface_.triangles[hit];
+  const Vec3 area = cross(surface_.points[b] - surface_.points[a], surface_.points[c] - surface_.points[a]);
+  return std::abs(dot(area, inwards)) >= least_cosine * norm(area) ? thickness : none;
+}
+
+// Along a direction of length 1, infinite where the ray misses the triangle (T. Möller, B. Trumbore: Fast,
+// minimum storage ray/triangle intersection, 1997).
+double WallFinder::length_to(std::int32_t triangle, const Vec3& from, const Vec3& direction) const {
+  constexpr double miss = std::numeric_limits<double>::infinity();
+  const auto& [a, b, c] = surface_.triangles[triangle];
+  const Vec3 first = surface_.points[b] - surface_.points[a], second = surface_.points[c] - surface_.points[a];
+  const Vec3 across = cross(direction, second), to_origin = from - surface_.points[a];
+  const double volume = dot(first, across);
+  if (volume == 0) return miss;
+  const double u = dot(to_origin, across) / volume;
+  const Vec3 other = cross(to_origin, first);
+  const double v = dot(direction, other) / volume;
+  if (u < 0 || v < 0 || u + v > 1) return miss;
+  const double length = dot(second, other) / volume;
+  return length > least_length * size_ ? length : miss;
+}
+
+// The prism from the triangle across the wall, as three tets.
+void WallFinder::add_wall(const Corners& corners, const Vec3& across, double size) {
+  const auto first = static_cast<Vertex>(walls_.points.size());
+  for (const Vec3& p : corners) walls_.points.push_back(p);
+  for (const Vec3& p : corners) walls_.points.push_back(p + across);
+  walls_.sizes.resize(walls_.points.size(), size);
+  for (Vertex i = 0; i < 3; ++i) walls_.simplices.push_back({first + i, first + i + 1, first + i + 2, first + i + 3});
+}
+
+}  // namespace
+
+SizeSources wall_sizes(const Surface& surface, double size, int layers) {
+  return WallFinder(surface, size, layers).find();
+}
+
+}  // namespace hexpipe
