@@ -58,6 +58,15 @@ def jittered(n, share, seed=1):
     return moved, positive(moved, Delaunay(moved).simplices)
 
 
+def random_points(count, seed=1):
+    """Delaunay tets of points anywhere in a unit cube."""
+    points = np.random.default_rng(seed).uniform(0, 1, (count, 3))
+    simplices = Delaunay(points).simplices
+    edges = points[simplices[:, 1:]] - points[simplices[:, :1]]
+    negative = np.linalg.det(edges) < 0
+    return points, np.where(negative[:, None], simplices[:, [0, 2, 1, 3]], simplices).astype(np.int32)
+
+
 def tiled(tile, n, copies):
     """Copies of a box of n cubes along x, welded."""
     points, tets = tile
