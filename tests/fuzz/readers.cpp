@@ -141,7 +141,9 @@ void read_as_stage(std::string_view bytes) {
   context.info.reads = {Role::mesh, Role::candidates, Role::graph, Role::solution, Role::result};
   context.common.quiet = true;
   context.streams.operand = scratch().write("stage.tar", bytes);
-  Stage(context).read({}, context.info.reads);
+  Stage stage(context);
+  stage.take_cover();
+  stage.read({}, context.info.reads);
 }
 
 void read_bundle(std::string_view bytes) {
