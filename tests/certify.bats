@@ -116,19 +116,40 @@ PYTHON
   assert_equal "$(number complete bound.json)" False
 }
 
-@test "--algorithm proves the same optimum by another way, and does nothing without --exact" {
-  "$PYTHON" "$DATA/ring_graph.py" 200 200 3 >small.graph
+# all_algorithms: the names that --help lists.
+all_algorithms() {
+  certify --help | sed -n 's/.*--algorithm .*{\([a-z,-]*\)}.*/\1/p' | tr , ' '
+}
+
+@test "every --algorithm proves the optimum that cbc finds on fragments of a real graph" {
+  command -v cbc >/dev/null || skip "needs coinor-cbc"
+  findhex --mesh "$DATA/jittered_lattice.mesh" | buildgraph -o part.graph
   printf "1\n" >one.sol
-  for algorithm in branch-and-reduce "$(certify --help | sed -n 's/.*--algorithm .*=\([a-z-]*\) .*/\1/p')"; do
-    certify --graph small.graph --solution one.sol --exact --algorithm "$algorithm" --stats "$algorithm.json" -o best.sol
-    assert_equal "$(number complete "$algorithm.json")" True
-    assert_equal "$(number weight "$algorithm.json")" "$(number weight branch-and-reduce.json)"
-    assert [ "$(number nodes "$algorithm.json")" -gt 0 ]
+  assert [ "$(all_algorithms | wc -w)" -ge 5 ]
+  for seed in 1 2; do
+    "$DATA/graph_fragment.py" part.graph 60 $seed >small.graph
+    "$CHECKERS/solve_with_cbc.py" small.graph cbc.sol
+    run "$CHECKERS/solution_check.py" small.graph cbc.sol
+    weight=${output##* }
+    for algorithm in $(all_algorithms); do
+      # Without passes of the dual, which would prove it alone.
+      certify --graph small.graph --solution one.sol --exact --algorithm "$algorithm" --iterations 0 --stats stats.json \
+        -o best.sol
+      assert_equal "$algorithm $(number complete stats.json)" "$algorithm True"
+      assert_equal "$algorithm $(number weight stats.json)" "$algorithm $weight"
+      assert [ "$(number nodes stats.json)" -gt 0 ]
+    done
   done
-  assert_fails_with 2 "certify: --algorithm requires --exact" certify --graph small.graph --solution one.sol \
+}
+
+@test "--algorithm is one of those there are, for graphs that it can hold, with --exact" {
+  assert_fails_with 2 "certify: --algorithm requires --exact" certify --graph ring.graph --solution good.sol \
     --algorithm branch-and-reduce -o best.sol
-  assert_fails_with 2 "certify: --algorithm: .*guess" certify --graph small.graph --solution one.sol --exact \
+  assert_fails_with 2 "certify: --algorithm: .*guess" certify --graph ring.graph --solution good.sol --exact \
     --algorithm guess -o best.sol
+  "$PYTHON" "$DATA/ring_graph.py" 5000 2000 1 >large.graph
+  assert_fails_with 1 "certify: expected a graph of at most 4096 vertices .*, found 5000" certify --graph large.graph \
+    --solution good.sol --exact --iterations 0 --algorithm clique-cover -o best.sol
 }
 
 @test "extreme graphs" {

@@ -12,6 +12,9 @@
 
 namespace hexpipe {
 
+// Passes of the dual where a proof follows, whose bound is better: a third of what they are without.
+inline constexpr std::int64_t passes_before_proof = 100;
+
 struct CertifyOptions {
   CliqueDualOptions dual;
   std::optional<ExactAlgorithm> exact{};  // go on to a proof of optimality

@@ -35,7 +35,10 @@ int main(int argc, char** argv) {
         ->needs(with_exact);
   };
   const auto run = [&](RunContext& context) {
-    if (exact) options.exact = exact_algorithms().at(algorithm);
+    if (exact) {
+      options.exact = exact_algorithms().at(algorithm);
+      options.dual.passes = passes_before_proof;
+    }
     Stage stage(context);
     stage.take_cover();
     SearchLog log(context.common.log_file, "bound");
