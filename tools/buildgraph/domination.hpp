@@ -1,7 +1,7 @@
 #pragma once
 // Vertices that no search needs: v is dominated by a neighbour u when every neighbour of u is one of v and u weighs at
-// least as much (N[u] is part of N[v]; Butenko, Pardalos et al. 2002 and Akiba, Iwata 2016 for vertex cover). A
-// solution with v is no worse with u in its place, so that v can be left out, exactly.
+// least as much (Lamm, Schulz, Strash, Williger, Zhang 2019, weighted domination). A solution with v is no worse with u
+// in its place, so that v can be left out, exactly.
 
 #include <cstdint>
 #include <vector>
