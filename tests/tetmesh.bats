@@ -402,17 +402,27 @@ PYTHON
     assert_success
     assert_equal "$(regions "$BATS_TEST_TMPDIR/out.tar")" 1:1
     echo "$stderr" >>"$BATS_TEST_TMPDIR/said"
+    cp "$BATS_TEST_TMPDIR/stats.json" "$BATS_TEST_TMPDIR/$file.json"
   done
   assert_equal "$(grep -c "^tetmesh: warning: .*.stl: repaired: 1*[0-9] .*" "$BATS_TEST_TMPDIR/said")" 5
   grep -q "hole.stl: repaired: 1 hole filled by 1 triangle$" "$BATS_TEST_TMPDIR/said"
   cd "$BATS_TEST_TMPDIR"
-  $PYTHON -c "import json; assert json.load(open('stats.json'))['repair']['turned_triangles'] == 12"
+  # Each act by its count, and no other.
+  $PYTHON - <<'PYTHON'
+import json
+acts = {"hole": {"filled_holes": 1, "hole_triangles": 1}, "flipped": {"turned_triangles": 1},
+        "duplicated": {"duplicate_triangles": 1}, "degenerate": {"degenerate_triangles": 1}, "inward": {"turned_triangles": 12}}
+for name, expected in acts.items():
+    report = json.load(open(name + ".json"))["repair"]
+    assert {act: count for act, count in report.items() if count} == expected, (name, report)
+PYTHON
   assert_fails_with 1 "hole.stl: triangle .* closed surface" tetmesh "$FILES/hole.stl" --repair --largest-hole 2
   # Corners that miss each other by 1e-5.
   awk '$1 == "vertex" && $2 == 1 && n++ % 2 { $2 = 1.00001 } { print }' "$FILES/cube.ascii.stl" >loose.stl
   assert_fails_with 1 "loose.stl:.* closed surface" tetmesh loose.stl
   assert_fails_with 1 "loose.stl:" tetmesh loose.stl --repair -q
-  tetmesh loose.stl --repair --weld 0.01% -q -o out.tar
+  tetmesh loose.stl --repair --weld 0.01% -q -o out.tar --stats stats.json
+  $PYTHON -c "import json; assert json.load(open('stats.json'))['repair']['welded_points'] > 0"
 }
 
 @test "points of the user's own, in every format, kept to the last bit" {
@@ -463,7 +473,7 @@ for kind in ("frame", "lattice"):
 PYTHON
 }
 
-# A cube of 10 with sizes from 0.4 at a corner: by a list, by its vertices, and on a background mesh.
+# A cube of 10 with sizes from 0.6 at a corner: by a list, by its vertices, and on a background mesh.
 sizes_of_cube() {
   $PYTHON - <<'PYTHON'
 import itertools
@@ -472,8 +482,8 @@ corners = [(x, y, z) for z in (0, 10) for y in (0, 10) for x in (0, 10)]
 quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7), (2, 0, 4, 6)]
 with open("cube.obj", "w") as file:
     file.write("".join("v %d %d %d\n" % c for c in corners) + "".join("f %d %d %d %d\n" % tuple(i + 1 for i in q) for q in quads))
-open("place.txt", "w").write("# x y z size\n0 0 0 0.4\n")
-np.save("place.npy", [(0., 0., 0., 0.4)])
+open("place.txt", "w").write("# x y z size\n0 0 0 0.6\n")
+np.save("place.npy", [(0., 0., 0., 0.6)])
 open("vertices.txt", "w").write("0.8\n" * 4 + "1.6\n" * 4)
 tets = [(1, *t, 8) for t in ((2, 4), (4, 3), (3, 7), (7, 5), (5, 6), (6, 2))]
 with open("background.msh", "w") as file:
@@ -507,8 +517,8 @@ PYTHON
   local ratio
   for points in lattice frame; do
     tetmesh -q cube.obj --size 2 --size-field place.txt --points $points -o $points.tar --stats stats.json
-    assert_equal "$(stats size) $(stats least_size)" "2.0 0.4"
-    ratio=$(edges $points.tar "np.minimum(2, 0.4 + 0.3 * np.sqrt(x**2 + y**2 + z**2))")
+    assert_equal "$(stats size) $(stats least_size)" "2.0 0.6"
+    ratio=$(edges $points.tar "np.minimum(2, 0.6 + 0.3 * np.sqrt(x**2 + y**2 + z**2))")
     $PYTHON -c "assert 0.85 < $ratio < 1.15, $ratio"
     tetmesh -q cube.obj --size-field vertices.txt --points $points -o out.tar --stats stats.json
     assert_equal "$(stats size) $(stats least_size)" "1.6 0.8"

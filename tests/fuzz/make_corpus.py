@@ -56,6 +56,13 @@ def meshes():
     seed("tetgen", "without_faces", "=====\n".join(parts[:2]))
 
 
+def sizes():
+    tet = (ROOT / "formats/README.md").read_text().split("<!-- example tet.msh22 -->\n```\n")[1].split("```")[0]
+    seed("sizes", "places", "# x y z size\n0 0 0 0.5\n10 0 0 2\n")
+    seed("sizes", "by_vertex", "0.5\n0.5\n2\n")
+    seed("sizes", "background", tet + '$NodeData\n1\n"size"\n1\n0\n3\n0\n1\n4\n1 0.5\n2 0.5\n3 2\n4 2\n$EndNodeData\n')
+
+
 def examples():
     """What formats/README.md shows, so that every form that it tells of is among the seeds."""
     text = (ROOT / "formats/README.md").read_text()
@@ -113,6 +120,7 @@ def surfaces():
 
 
 meshes()
+sizes()
 examples()
 stages()
 surfaces()

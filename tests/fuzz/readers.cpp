@@ -17,6 +17,7 @@
 #include "formats/mesh_files.hpp"
 #include "formats/metis.hpp"
 #include "formats/npy.hpp"
+#include "formats/size_files.hpp"
 #include "formats/solution_file.hpp"
 #include "formats/stage.hpp"
 #include "formats/surface_files.hpp"
@@ -151,6 +152,15 @@ void read_bundle(std::string_view bytes) {
   if (looks_like_bundle(input)) read_as_stage(bytes);
 }
 
+void read_size_list(std::string_view bytes) {
+  Input input = memory(bytes);
+  const SizeList list = read_sizes(input);
+  promise(list.points.empty() || list.points.size() == list.sizes.size(), "a size each");
+  for (const auto& simplex : list.simplices)
+    for (const Vertex v : simplex)
+      promise(v == SizeList::none || list.sizes.at(static_cast<std::size_t>(v)) > 0, "sizes are positive");
+}
+
 void read_members(std::string_view bytes) {
   read_bundle(with_right_checksums(bytes));
 }
@@ -175,6 +185,7 @@ constexpr std::array readers{
     FuzzedReader{"obj", read_soup},
     FuzzedReader{"ply", read_soup},
     FuzzedReader{"off", read_soup},
+    FuzzedReader{"sizes", read_size_list},
 };
 
 }  // namespace

@@ -42,9 +42,11 @@ class GradedLattice {
     if (counts_[0] * counts_[1] * counts_[2] > most_roots)
       throw DataError::at(surface_.name, "expected a size of which the bounding box holds at most {:g}, found {:g}",
                           most_roots, options_.size);
-    for (double k = 0; k < counts_[2]; ++k)
-      for (double j = 0; j < counts_[1]; ++j)
-        for (double i = 0; i < counts_[0]; ++i) visit({i, j, k}, 0, true);
+    const auto count = [&](int axis) { return static_cast<int>(counts_[axis]); };
+    for (int k = 0; k < count(2); ++k)
+      for (int j = 0; j < count(1); ++j)
+        for (int i = 0; i < count(0); ++i)
+          visit({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}, 0, true);
     return std::move(points_);
   }
 
