@@ -50,10 +50,21 @@ def read_log(path):
 
 
 def draw_curves(path, title, runs):
-    """runs: (name, file of --log). Bounds are drawn as dotted lines, weights as steps."""
+    """runs: (name, file of --log). Bounds are drawn as dotted lines, weights as steps that go on to the last time of all; of the
+    bounds what lies as near to their best as the weights do."""
+    logs = [(name, *read_log(log)) for name, log in runs]
+    end = max(points[-1][0] for _, _, points in logs)
     series = []
-    for name, log in runs:
-        kind, points = read_log(log)
+    for name, kind, points in logs:
         style = "lines lw 2 dt 3" if kind == "bound" else "steps lw 2"
-        series.append((f"{name} (bound)" if kind == "bound" else name, points, style))
-    draw(path, title, "seconds", "weight", series, ["set format y '%.4s%c'"])
+        series.append((f"{name} (bound)" if kind == "bound" else name, points + [(end, points[-1][1])], style))
+    draw(path, title, "seconds", "weight", series, ["set format y '%.4s%c'", *height_of(logs)])
+
+
+def height_of(logs):
+    weights = [value for _, kind, points in logs for _, value in points if kind == "weight"]
+    bounds = [points[-1][1] for _, kind, points in logs if kind == "bound"]
+    if not weights or not bounds:
+        return []
+    margin = 0.08 * (max(bounds) - min(weights))
+    return [f"set yrange [{min(weights) - margin}:{max(bounds) + margin}]"]
