@@ -51,5 +51,31 @@ TEST(Conform, RandomChoicesOnJitteredLatticesStayConforming) {
   }
 }
 
+// Two pyramids whose common quad is a hole of the mesh: a missing tet. With a quad on one side the hole would have two
+// triangles on the other, with quads on both sides there would be no hole.
+TEST(Conform, CellsThatWouldCloseAHoleGoBack) {
+  TetMesh mesh;
+  mesh.points = {{0, 0, 0.1}, {1, 0, 0}, {1, 1, 0.1}, {0, 1, 0}, {0.5, 0.5, 1}, {0.5, 0.5, -1}};
+  mesh.tets = {{0, 1, 2, 4}, {0, 2, 3, 4}, {0, 3, 1, 5}, {1, 3, 2, 5}};
+  for (auto& tet : mesh.tets)
+    if (tet_determinant(mesh.points, tet) < 0) std::swap(tet[2], tet[3]);
+  mesh.tet_tags = {1, 1, 1, 1};
+  Candidates pyramids;
+  pyramids.vertices = {{0, 1, 2, 3, 4, -1, -1, -1}, {0, 3, 2, 1, 5, -1, -1, -1}};
+  pyramids.kind = {CellKind::pyramid, CellKind::pyramid};
+  pyramids.quality = {0.5, 0.5};
+  pyramids.volume = {0.3, 0.3};
+  pyramids.tets = {0, 1, 2, 3};
+  pyramids.tet_offsets = {0, 2, 4};
+  pyramids.boundary_tet_offsets = {0, 0, 0};
+  for (const IndependentSet& chosen : {IndependentSet{0}, IndependentSet{1}, IndependentSet{0, 1}}) {
+    const auto result = assemble(mesh, pyramids, chosen, {});
+    EXPECT_EQ(result.mesh.tets.size(), 4u);
+    EXPECT_EQ(result.mesh.triangles.size(), 12u);
+    EXPECT_EQ(result.statistics.conformity.given_back[static_cast<std::size_t>(GivenBack::diagonal_on_surface)],
+              static_cast<std::int64_t>(chosen.size()));
+  }
+}
+
 }  // namespace
 }  // namespace hexpipe

@@ -95,6 +95,21 @@ bool is_worse(const HybridMesh& mesh, CellKind kind, std::span<const Vertex> cor
   return scale * least_corner_scaled_jacobian(kind, std::span<const Vec3>(at).first(corners.size())) < limit;
 }
 
+// Whether a quad of the candidate has tagged triangles along both diagonals: it stands at a hole, or an interface
+// around a tet, that its four vertices span. On the far side nothing can tell the quad from these two triangles.
+bool closes_a_hole(const SurfaceTags& tags, const Candidates& candidates, std::int32_t candidate) {
+  HybridCell cell;
+  cell.kind = candidates.kind[candidate];
+  cell.corners = candidates.vertices[candidate];
+  for (int i = 0; i < cell.quad_count(); ++i) {
+    int tagged = 0;
+    for (int diagonal = 0; diagonal < 2; ++diagonal)
+      for (const auto& half : triangles_of(cell.quad(i), diagonal)) tagged += tags.contains(half);
+    if (tagged == 4) return true;
+  }
+  return false;
+}
+
 // Candidates whose cells went back to their tets.
 void append_given_back(const HybridMesh& mesh, std::vector<std::int32_t>& out) {
   for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c)
@@ -151,7 +166,7 @@ class Assembler {
   HybridMesh conform();
   std::vector<std::int32_t> poor_hexes(const HybridMesh& hybrid) const;
   void untangle_in_place(HybridMesh& hybrid) const;
-  void give_back(const std::vector<std::int32_t>& owners);
+  void give_back(const std::vector<std::int32_t>& owners, GivenBack reason);
   Extract smooth_and_repair(HybridMesh& hybrid);
   void improve(Extract& extracted);
 
@@ -163,8 +178,9 @@ class Assembler {
   const AssembleOptions& options_;
   const InputNames& names_;
   AssembleStatistics statistics_;
-  std::int64_t poor_ = 0;
-  double poor_volume_ = 0;
+  // Cells that went back between attempts, and the volume of the hexes among them.
+  std::array<std::int64_t, all_reasons.size()> given_back_{};
+  double volume_given_back_ = 0;
 };
 
 HybridMesh Assembler::select() {
@@ -186,7 +202,7 @@ HybridMesh Assembler::conform() {
       untangle_in_place(hybrid);
     const auto owners = owners_of_poor_elements(hybrid, input_.points.size());
     if (owners.empty()) return hybrid;
-    give_back(owners);
+    give_back(owners, GivenBack::poor_elements);
   }
 }
 
@@ -197,13 +213,13 @@ void Assembler::untangle_in_place(HybridMesh& hybrid) const {
   move_points(extracted, hybrid);
 }
 
-void Assembler::give_back(const std::vector<std::int32_t>& owners) {
+void Assembler::give_back(const std::vector<std::int32_t>& owners, GivenBack reason) {
   IndependentSet rest;
   std::ranges::set_difference(kept_, owners, std::back_inserter(rest));
   kept_ = std::move(rest);
-  poor_ += static_cast<std::int64_t>(owners.size());
+  given_back_[static_cast<std::size_t>(reason)] += static_cast<std::int64_t>(owners.size());
   for (std::int32_t owner : owners)
-    if (candidates_.kind[owner] == CellKind::hex) poor_volume_ += candidates_.volume[owner];
+    if (candidates_.kind[owner] == CellKind::hex) volume_given_back_ += candidates_.volume[owner];
 }
 
 // Moves vertices, then exchanges tets and adds vertices where that was not enough; again while poor cells are left.
@@ -260,14 +276,18 @@ Extract Assembler::build() {
     move_points(extracted, hybrid);
     const auto poor = poor_hexes(hybrid);
     if (!is_conforming() || options_.smooth == 0 || poor.empty() || attempt == most_attempts) return extracted;
-    give_back(poor);
+    give_back(poor, GivenBack::poor_elements);
   }
 }
 
 AssembleResult Assembler::run() {
+  std::vector<std::int32_t> at_holes;
+  std::ranges::copy_if(kept_, std::back_inserter(at_holes),
+                       [&](std::int32_t c) { return closes_a_hole(tags_, candidates_, c); });
+  give_back(at_holes, GivenBack::diagonal_on_surface);
   Extract extracted = build();
-  statistics_.conformity.given_back[static_cast<std::size_t>(GivenBack::poor_elements)] = poor_;
-  statistics_.conformity.volume_given_back += poor_volume_;
+  for (std::size_t i = 0; i < given_back_.size(); ++i) statistics_.conformity.given_back[i] += given_back_[i];
+  statistics_.conformity.volume_given_back += volume_given_back_;
   statistics_.volumes = check_result(extracted, input_, tags_, surface_, is_conforming());
   compute_quality(extracted.mesh);
   statistics_.kinds = kind_statistics(extracted.mesh);

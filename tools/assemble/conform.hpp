@@ -12,7 +12,8 @@ namespace hexpipe {
 
 // Why a cell went back to its tets.
 enum class GivenBack : std::uint8_t {
-  diagonal_on_surface,  // the diagonal of a quad lies on the boundary or an interface, though the quad does not
+  // The diagonal of a quad lies on the boundary or an interface, though the quad does not; or both do, around a hole.
+  diagonal_on_surface,
   flat_corner,        // at a corner, two boundary triangles leave no angle above the quad: no cell can ever stand there
   diagonal_in_use,    // cells around leave no ball of tets at the quad
   no_valid_position,  // no place for a new vertex gives elements that are good enough
