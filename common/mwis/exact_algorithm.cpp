@@ -133,7 +133,7 @@ std::string default_exact_algorithm() {
   return exact_algorithms().contains("branch-and-cut") ? "branch-and-cut" : "branch-and-reduce";
 }
 
-Relax relaxation_of(ExactAlgorithm algorithm) {
+Relax relaxation_of([[maybe_unused]] ExactAlgorithm algorithm) {
 #ifdef HEXPIPE_WITH_CLP
   if (algorithm == ExactAlgorithm::branch_and_cut) return relax_by_cutting_planes;
 #endif

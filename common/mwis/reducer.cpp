@@ -170,8 +170,16 @@ bool Reducer::look_around(std::int32_t v) {
   return true;
 }
 
-// The neighbours of v that have places.
+// The neighbours of v that have places. In one word what is nowhere is shifted in as a 0; in several it is marked in
+// the first, which is left behind.
 void Reducer::build_row(std::int32_t v, bits::Word* row) {
+  if (local_.words() == 1) {
+    for (const std::int32_t u : graph_.neighbours_of(v)) {
+      const auto place = static_cast<bits::Word>(places_[u]);
+      *row |= place / 64 << place % 64;
+    }
+    return;
+  }
   std::array<bits::Word, 1 + bits::words_for(largest_neighbourhood)> marked{};
   for (const std::int32_t u : graph_.neighbours_of(v))
     bits::insert(marked.data(), static_cast<std::size_t>(places_[u]));
