@@ -84,10 +84,11 @@ int main(int argc, char** argv) {
     app.add_option("--grading", options.grading,
                    "How much sizes may differ between two places, against their distance, at the most")
         ->check(number_between(0.01, 10));
-    app.add_option("--layers", options.layers, "Give thin walls at least that many elements across [2, if asked]")
+    app.add_option("--layers", options.layers, "If given: thin walls get at least N elements across, or 2")
         ->expected(0, 1)
         ->default_str("2")
-        ->check(CLI::Range(1, 100));
+        ->check(CLI::Range(1, 100))
+        ->type_name("[N]");
     app.add_option("--surface", surface_kind, "The surface's triangles: made anew to suit hexes, or kept")
         ->check(CLI::IsMember(surface_kinds));
     app.add_option("--feature-angle", options.feature_angle,
