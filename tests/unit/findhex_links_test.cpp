@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/mesh/cell_topology.hpp"
+#include "common/mesh/quality.hpp"
 #include "findhex_meshes.hpp"
 #include "tools/findhex/quads.hpp"
 #include "tools/findhex/vertex_links.hpp"
@@ -133,6 +134,41 @@ TEST_P(Links, OppositesAreThoseOfAllVertices) {
           }
       }
   }
+}
+
+// The look aheads of a fan may let too much through, but lose nothing.
+TEST_P(Links, FansKnowWhichCornersSuffice) {
+  constexpr double min_quality = 0.1;
+  QuadFan fan(mesh, links, {min_quality, false});
+  fan.find(0);
+  const auto neighbours = links.neighbours_of(0);
+  const auto from = [&](int place, Vertex end) { return mesh.points[end] - mesh.points[neighbours[place]]; };
+  std::size_t quads = 0, sufficient = 0;
+  for (int place = fan.first_place(); place < static_cast<int>(neighbours.size()); ++place)
+    for (const auto& partner : fan.partners_of(place))
+      for (const auto& other : fan.partners_of(place)) {
+        const auto &pair = fan.pair_of(partner), &other_pair = fan.pair_of(other);
+        EXPECT_EQ(&pair, fan.find_pair(place, partner.place));
+        EXPECT_EQ(&pair, fan.find_pair(partner.place, place));
+        const std::size_t side = pair.places[0] == place ? 0 : 1, other_side = other_pair.places[0] == place ? 0 : 1;
+        for (const auto& quad : fan.quads_of(pair))
+          for (const auto& other_quad : fan.quads_of(other_pair)) {
+            const std::int32_t edge = quad.outer_edges[side], next = other_quad.outer_edges[other_side];
+            EXPECT_EQ(links.place_of(quad.opposite, neighbours[place]), fan.place_at_near_end(edge));
+            const bool suffices = quad.opposite != other_quad.opposite &&
+                                  scaled_jacobian_exceeds(from(place, 0), from(place, quad.opposite),
+                                                          from(place, other_quad.opposite), min_quality);
+            ASSERT_EQ(fan.corner_suffices(edge, next), suffices);
+            if (suffices) {
+              EXPECT_TRUE(fan.may_suffice_before(edge, other_pair, other_side));
+              EXPECT_TRUE(fan.may_suffice_after(next, pair, side));
+            }
+            ++quads;
+            sufficient += suffices ? 1 : 0;
+          }
+      }
+  EXPECT_GT(quads, sufficient);
+  EXPECT_GT(sufficient, 0u);
 }
 
 // Lattices of n cubes along each side; spindles with that many tets. 63 leaves 64 neighbours, 64 one more.

@@ -74,7 +74,7 @@ TYPED_TEST(Plan, TestsEverythingOnce) {
     opened += step.opened_quads.size();
     quads += step.closed_quads.size();
     triangles += step.triangles.size();
-    corners += step.corners.size();
+    corners += step.corners.size() + step.outer_corners.size();
     if (!placed.empty()) {
       EXPECT_TRUE(step.closed_quads.size() > 0 || step.is_beside_first);
     }

@@ -41,14 +41,16 @@ class CellSearch {
   // visited.
   void visit_cells_at(Vertex corner_0, const QuadFan& fan) {
     fan_ = &fan;
-    set<0>(corner_0);
+    corners_[first] = corner_0;
+    set<0>();
     place<1>();
   }
 
  private:
   template <std::size_t step>
   static constexpr const SearchStep& plan = search_plan<Topology>[step];
-  static constexpr std::uint8_t first = search_plan<Topology>[0].corner;
+  static constexpr std::uint8_t first = first_corner<Topology>;
+  static constexpr bool is_at_first(const OpenQuad& quad) { return quad.corner == first; }
 
   template <std::size_t step>
   void place() {
@@ -56,18 +58,20 @@ class CellSearch {
       visit_(corners_, points_);
     } else {
       for_each_choice<step>([&](Vertex v) {
-        if (!may_stand<step>(v)) return;
-        set<step>(v);
-        if (corners_suffice<step>() && facets_exist<step>()) place<step + 1>();
+        corners_[plan<step>.corner] = v;
+        if (!may_stand<step>(v) || !facets_close<step>() || !outer_corners_suffice<step>() ||
+            !open_corners_may_suffice<step>() || !quads_open<step>())
+          return;
+        set<step>();
+        if (corners_suffice<step>()) place<step + 1>();
       });
     }
   }
 
   template <std::size_t step>
-  void set(Vertex v) {
+  void set() {
     constexpr std::uint8_t corner = plan<step>.corner;
-    corners_[corner] = v;
-    points_[corner] = tables_.mesh().points[v];
+    points_[corner] = tables_.mesh().points[corners_[corner]];
     all_of_indices<plan<step>.edges.size()>([&](auto i) {
       constexpr std::uint8_t edge = plan<step>.edges[i];
       edges_[edge] = points_[Topology::edges[edge][1]] - points_[Topology::edges[edge][0]];
@@ -80,31 +84,54 @@ class CellSearch {
   // that rule 1 follows from rule 2 and from the facets.
   template <std::size_t step, class Body>
   void for_each_choice(Body&& body) {
+    constexpr std::uint8_t corner = plan<step>.corner;
     if constexpr (plan<step>.closed_quads.size() > 0) {
       constexpr OpenQuad quad = plan<step>.closed_quads[0];
-      for (const Vertex v : fourths_of<quad.quad, quad.corner>()) body(v);
+      if constexpr (is_at_first(quad)) {
+        for (const QuadFan::Quad& found : fan_->quads_of(*pairs_[quad.quad])) {
+          set_outer_edges<quad, corner>(found);
+          body(found.opposite);
+        }
+      } else {
+        angles_[quad.quad].find_opposites(tables_.links(), found_);
+        for (const Vertex v : found_) body(v);
+      }
     } else if constexpr (opens_at_first<step>()) {
       constexpr OpenQuad quad = plan<step>.opened_quads[0];
-      constexpr std::uint8_t other = quad.side == plan<step>.corner ? quad.other_side : quad.side;
+      constexpr std::uint8_t other = quad.side == corner ? quad.other_side : quad.side;
       const auto neighbours = tables_.links().neighbours_of(corners_[first]);
-      for (const QuadFan::Partner& partner : fan_->partners_of(places_[other])) {
-        places_[plan<step>.corner] = partner.place;
+      for (const QuadFan::Partner& partner : partners_of<step, other>()) {
+        places_[corner] = partner.place;
+        pairs_[quad.quad] = &fan_->pair_of(partner);
         body(neighbours[partner.place]);
       }
     } else {
       static_assert(plan<step>.is_beside_first);
       const auto neighbours = tables_.links().neighbours_of(corners_[first]);
-      for (std::size_t place = 0; place < neighbours.size(); ++place) {
-        places_[plan<step>.corner] = static_cast<int>(place);
+      for (std::size_t place = exceeds<step>(first) ? fan_->first_place() : 0; place < neighbours.size(); ++place) {
+        places_[corner] = static_cast<int>(place);
         body(neighbours[place]);
       }
     }
   }
 
+  template <std::size_t step, std::uint8_t other>
+  auto partners_of() const {
+    if constexpr (exceeds<step>(other)) return fan_->partners_above(places_[other]);
+    return fan_->partners_of(places_[other]);
+  }
+
+  template <std::size_t step>
+  static constexpr bool exceeds(std::uint8_t corner) {
+    for (std::size_t i = 0; i < plan<step>.greater.size(); ++i)
+      if (plan<step>.greater[i] == corner) return true;
+    return false;
+  }
+
   // The new corner is beside the first one in a quad.
   template <std::size_t step>
   static constexpr bool opens_at_first() {
-    return plan<step>.opened_quads.size() > 0 && plan<step>.opened_quads[0].corner == first;
+    return plan<step>.opened_quads.size() > 0 && is_at_first(plan<step>.opened_quads[0]);
   }
 
   // One labelling of each cell, and no vertex twice. All is compared: a branch for each would cost more.
@@ -124,6 +151,25 @@ class CellSearch {
 
   // Rule 3.
   template <std::size_t step>
+  bool outer_corners_suffice() {
+    return all_of_indices<plan<step>.outer_corners.size()>([&](auto i) {
+      constexpr OuterCorner c = plan<step>.outer_corners[i];
+      return fan_->corner_suffices(outer_edges_[c.corner][c.end], outer_edges_[c.corner][c.next_end]);
+    });
+  }
+  // A look ahead: some quad has an outer edge that goes with the one that stands now.
+  template <std::size_t step>
+  bool open_corners_may_suffice() {
+    return all_of_indices<plan<step>.open_corners.size()>([&](auto i) {
+      constexpr OpenCorner open = plan<step>.open_corners[i];
+      const QuadFan::Pair& pair = *pairs_[open.quad];
+      const std::size_t side = pair.places[0] == places_[open.corner.corner] ? 0 : 1;
+      const auto& outer_edges = outer_edges_[open.corner.corner];
+      if constexpr (open.next_is_open) return fan_->may_suffice_before(outer_edges[open.corner.end], pair, side);
+      return fan_->may_suffice_after(outer_edges[open.corner.next_end], pair, side);
+    });
+  }
+  template <std::size_t step>
   bool corners_suffice() const {
     return all_of_indices<plan<step>.corners.size()>([&](auto i) {
       constexpr CornerEdges c = corner_edges<Topology>(plan<step>.corners[i]);
@@ -134,54 +180,72 @@ class CellSearch {
     });
   }
 
-  // Rules 2 and 8, the triangles of prisms and pyramids, and a look ahead: there is a fourth corner for each quad with
-  // three.
+  // Rules 2 and 8, and the triangles of prisms and pyramids.
   template <std::size_t step>
-  bool facets_exist() {
+  bool facets_close() {
     return all_of_indices<plan<step>.triangles.size()>([&](auto i) {
              constexpr LocalTriangle t = plan<step>.triangles[i];
              return tables_.links().is_facet(corners_[t[0]], corners_[t[1]], corners_[t[2]]);
            }) &&
            all_of_indices<plan<step>.closed_quads.size()>([&](auto i) {
              constexpr OpenQuad quad = plan<step>.closed_quads[i];
-             return closes(quad, corners_[plan<step>.corner], i == 0);
-           }) &&
-           all_of_indices<plan<step>.opened_quads.size()>([&](auto i) {
-             constexpr OpenQuad quad = plan<step>.opened_quads[i];
-             return open(quad);
+             return closes<quad, plan<step>.corner>(i == 0);
            });
   }
 
-  // Whether there is a fourth corner. The quads at the first corner have been found and judged for all cells there.
-  bool open(const OpenQuad& quad) {
-    if (quad.corner == first) {
-      fourths_[quad.quad] = fan_->opposites(places_[quad.side], places_[quad.other_side]);
-      return !fourths_[quad.quad].empty();
+  // A look ahead: there is a fourth corner for each quad with three.
+  template <std::size_t step>
+  bool quads_open() {
+    return all_of_indices<plan<step>.opened_quads.size()>([&](auto i) {
+      constexpr OpenQuad quad = plan<step>.opened_quads[i];
+      return (i == 0 && opens_at_first<step>()) || opens<quad>();
+    });
+  }
+
+  // The quads at the first corner have been found and judged for all cells there.
+  template <OpenQuad quad>
+  bool opens() {
+    if constexpr (is_at_first(quad)) {
+      pairs_[quad.quad] = fan_->find_pair(places_[quad.side], places_[quad.other_side]);
+      return pairs_[quad.quad] != nullptr;
     }
     const VertexLinks& links = tables_.links();
-    const Vertex corner = corners_[quad.corner];
-    angles_[quad.quad] = {links, corner, links.place_of(corners_[quad.side], corner),
-                          links.place_of(corners_[quad.other_side], corner)};
+    angles_[quad.quad] = {links, corners_[quad.corner], place_beside<quad.side, quad.corner>(),
+                          place_beside<quad.other_side, quad.corner>()};
     return angles_[quad.quad].has_opposite(links);
   }
 
-  template <std::uint8_t quad, std::uint8_t corner>
-  std::span<const Vertex> fourths_of() {
-    if constexpr (corner != first) {
-      angles_[quad].find_opposites(tables_.links(), found_);
-      fourths_[quad] = found_;
-    }
-    return fourths_[quad];
+  // The place of a corner among the neighbours of one beside the first.
+  template <std::uint8_t corner, std::uint8_t beside>
+  int place_beside() const {
+    if constexpr (is_outer_edge<Topology>(beside, corner))
+      return fan_->place_at_near_end(outer_edges_[beside][corner]);
+    else
+      return tables_.links().place_of(corners_[corner], corners_[beside]);
   }
 
-  bool closes(const OpenQuad& quad, Vertex fourth, bool is_from_there) const {
-    if (quad.corner == first) {
-      const auto fourths = fourths_[quad.quad];
-      return is_from_there || std::find(fourths.begin(), fourths.end(), fourth) != fourths.end();
+  template <OpenQuad quad, std::uint8_t fourth>
+  bool closes(bool is_from_there) {
+    if constexpr (is_at_first(quad)) {
+      if (is_from_there) return true;
+      for (const QuadFan::Quad& found : fan_->quads_of(*pairs_[quad.quad])) {
+        if (found.opposite != corners_[fourth]) continue;
+        set_outer_edges<quad, fourth>(found);
+        return true;
+      }
+      return false;
     }
-    return (is_from_there || angles_[quad.quad].has_opposite(tables_.links(), fourth)) &&
-           (!filter_.drop_folded || has_unfolded_diagonal(tables_.mesh(), tables_.links(), corners_[quad.corner],
-                                                          corners_[quad.side], fourth, corners_[quad.other_side]));
+    return (is_from_there || angles_[quad.quad].has_opposite(tables_.links(), corners_[fourth])) &&
+           (!filter_.drop_folded ||
+            has_unfolded_diagonal(tables_.mesh(), tables_.links(), corners_[quad.corner], corners_[quad.side],
+                                  corners_[fourth], corners_[quad.other_side]));
+  }
+
+  template <OpenQuad quad, std::uint8_t fourth>
+  void set_outer_edges(const QuadFan::Quad& found) {
+    const std::size_t side = places_[quad.side] > places_[quad.other_side];
+    outer_edges_[quad.side][fourth] = found.outer_edges[side];
+    outer_edges_[quad.other_side][fourth] = found.outer_edges[1 - side];
   }
 
   const MeshTables& tables_;
@@ -192,10 +256,10 @@ class CellSearch {
   CellPoints points_{};
   std::array<Vec3, Topology::edges.size()> edges_{};  // from their first corner to their second, of those that stand
   std::array<double, Topology::edges.size()> squares_{};  // of their lengths
-  std::array<int, corner_count>
-      places_{};  // among the neighbours of the first corner, of those that an edge joins to it
+  std::array<int, corner_count> places_{};  // among the neighbours of the first corner, of those beside it
+  std::array<std::array<std::int32_t, corner_count>, corner_count> outer_edges_{};  // of the fan, by their two corners
   // By quad, once it is open: what closes it, found before at the first corner; or where that is to be found.
-  std::array<std::span<const Vertex>, Topology::quads.size()> fourths_{};
+  std::array<const QuadFan::Pair*, Topology::quads.size()> pairs_{};
   std::array<QuadAngle, Topology::quads.size()> angles_{};
   std::vector<Vertex> found_;
 };

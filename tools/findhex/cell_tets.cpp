@@ -7,6 +7,7 @@
 #include "tools/findhex/cell_tets.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "common/mesh/quality.hpp"
 
@@ -68,7 +69,7 @@ auto CellTets<Topology>::starts() const -> Starts {
   auto has = [&](int a, int b, int c) { return tables_.links().is_facet(corners_[a], corners_[b], corners_[c]); };
   Starts all;
   auto add = [&](std::int32_t tet) {
-    if (tet != TetAdjacency::none && !all.contains(tet)) all.push_back(tet);
+    if (tet != TetAdjacency::none) all.add(tet);
   };
   if constexpr (Topology::triangles.size() > 0) {
     const LocalTriangle& t = Topology::triangles[0];
@@ -78,18 +79,17 @@ auto CellTets<Topology>::starts() const -> Starts {
   for (const LocalQuad& q : Topology::quads) {
     const bool diagonal_02 = has(q[0], q[1], q[2]) && has(q[0], q[2], q[3]);
     const bool diagonal_13 = has(q[0], q[1], q[3]) && has(q[1], q[2], q[3]);
-    if (diagonal_02 != diagonal_13) {
-      all.clear();
-      add(diagonal_02 ? inside(q[0], q[1], q[2]) : inside(q[0], q[1], q[3]));
-      return all;
-    }
+    if (diagonal_02 == diagonal_13) continue;
+    add(diagonal_02 ? inside(q[0], q[1], q[2]) : inside(q[0], q[1], q[3]));
+    return all;
+  }
+  for (const LocalQuad& q : Topology::quads)
     for (const std::int32_t tet :
          {inside(q[0], q[1], q[2]), inside(q[0], q[2], q[3]), inside(q[0], q[1], q[3]), inside(q[1], q[2], q[3])}) {
       if (tet == TetAdjacency::none) continue;
       const auto b = corner_bits(tet);
       if ((b[0] | b[1] | b[2] | b[3]) != bits(q)) add(tet);
     }
-  }
   return all;
 }
 
@@ -97,10 +97,18 @@ template <class Topology>
 std::array<unsigned, 4> CellTets<Topology>::corner_bits(std::int32_t tet) const {
   std::array<unsigned, 4> result{};
   for (std::size_t i = 0; i < 4; ++i) {
-    const Vertex v = tables_.mesh().tets[tet][i];
+    const Vertex v = tables_.flood_tet(tet).vertices[i];
     for (int c = 0; c < Topology::corner_count; ++c) result[i] |= v == corners_[c] ? bit(c) : 0u;
   }
   return result;
+}
+
+// The vertex of the tet beyond that the facet does not have: what is left of the eight of both tets when those of the
+// facet, which come twice, and the one opposite cancel out.
+template <class Topology>
+Vertex CellTets<Topology>::apex_beyond(const TetFacet& facet, std::int32_t beyond) const {
+  const Tet &a = tables_.flood_tet(facet.tet).vertices, &b = tables_.flood_tet(beyond).vertices;
+  return a[0] ^ a[1] ^ a[2] ^ a[3] ^ a[facet.facet] ^ b[0] ^ b[1] ^ b[2] ^ b[3];
 }
 
 template <class Topology>
@@ -113,8 +121,8 @@ TetVerdict CellTets<Topology>::find_from(std::int32_t start) {
     return TetVerdict::tet_count;
   if (boundary_.size() > rules_.max_boundary_tets) return TetVerdict::boundary_tets;
   if (has_inner_vertex_ && !rules_.inner_vertices) return TetVerdict::inner_vertex;
-  std::sort(interior_.begin(), interior_.end());
-  std::sort(boundary_.begin(), boundary_.end());
+  interior_.sort();
+  boundary_.sort();
   return TetVerdict::accepted;
 }
 
@@ -125,7 +133,7 @@ TetVerdict CellTets<Topology>::flood_from(std::int32_t start) {
   boundary_.clear();
   walls_.clear();
   has_inner_vertex_ = false;
-  interior_.push_back(start);
+  interior_.add(start);
   TetVerdict verdict = TetVerdict::accepted;
   for (std::size_t next = 0; next < interior_.size() && verdict == TetVerdict::accepted; ++next)
     verdict = leave(interior_[next]);
@@ -137,21 +145,18 @@ template <class Topology>
 TetVerdict CellTets<Topology>::leave(std::int32_t tet) {
   const auto b = corner_bits(tet);
   const unsigned all = b[0] | b[1] | b[2] | b[3];
-  if (std::ranges::count(b, 0u) > 0) has_inner_vertex_ = true;
-  const auto beyond = tables_.adjacency().tets_beyond(tet);
+  for (const unsigned bits_of : b) has_inner_vertex_ |= bits_of == 0;
+  FixedVector<std::int32_t, 4> next;
   for (int facet = 0; facet < 4; ++facet) {
     const unsigned corners = all & ~b[facet];
     const int of_cell = facet_of_corners<Topology>[corners];
-    if (of_cell >= 0) {
-      walls_.push_back({tet, facet, of_cell, corners});
-      continue;
-    }
-    const std::int32_t next = beyond[facet];
-    // Facets on the boundary and between regions always have a label.
-    if (tables_.facet_label(tet, facet) != 0 || !tables_.usable(next)) return TetVerdict::crosses_mesh;
-    if (interior_.contains(next)) continue;
-    if (interior_.is_full()) return TetVerdict::tet_count;
-    interior_.push_back(next);
+    walls_.push_back_if(of_cell >= 0, {tet, facet, of_cell, corners});
+    next.push_back_if(of_cell < 0, tables_.flood_tet(tet).across[facet]);
+  }
+  for (const std::int32_t beyond : next) {
+    if (beyond < 0) return TetVerdict::crosses_mesh;
+    if (interior_.is_full() && !interior_.contains(beyond)) return TetVerdict::tet_count;
+    interior_.add(beyond);
   }
   return TetVerdict::accepted;
 }
@@ -161,8 +166,10 @@ TetVerdict CellTets<Topology>::leave(std::int32_t tet) {
 template <class Topology>
 TetVerdict CellTets<Topology>::find_outer_facets() {
   for (auto& facets : outer_) facets.clear();
+  // With no more walls than outer facets all have to be outside: one inside would come twice, from either side.
+  const bool may_be_inside = walls_.size() > 2 * quad_count + Topology::triangles.size();
   for (const WallFacet& wall : walls_) {
-    if (interior_.contains(tables_.adjacency().tet_beyond(wall.tet, wall.facet))) {
+    if (may_be_inside && interior_.contains(tables_.usable_beyond(wall.tet, wall.facet))) {
       if (tables_.facet_label(wall.tet, wall.facet) != 0) return TetVerdict::crosses_mesh;
       continue;
     }
@@ -190,13 +197,14 @@ TetVerdict CellTets<Topology>::judge_quad(std::size_t quad) {
                                     TetFacet{outer_[quad][1].tet, outer_[quad][1].facet}};
   const auto label = [&](const TetFacet& at) { return tables_.facet_label(at.tet, at.facet); };
   if (label(outermost[0]) != label(outermost[1])) return TetVerdict::half_on_surface;
-  const std::int32_t beyond = tables_.adjacency().tet_beyond(outermost[0].tet, outermost[0].facet);
-  if (beyond == TetAdjacency::none || !tables_.usable(beyond)) return TetVerdict::accepted;
-  const auto b = corner_bits(beyond);
-  if ((b[0] | b[1] | b[2] | b[3]) == bits(q)) {
+  const std::int32_t beyond = tables_.usable_beyond(outermost[0].tet, outermost[0].facet);
+  if (beyond == TetAdjacency::none) return TetVerdict::accepted;
+  const unsigned missing = bits(q) & ~outer_[quad][0].corners;
+  if (apex_beyond(outermost[0], beyond) == corners_[std::countr_zero(missing)]) {
     if (label(outermost[0]) != 0) return TetVerdict::crosses_mesh;
-    boundary_.push_back(beyond);
+    boundary_.add(beyond);
     // Its two facets opposite the corners of the diagonal that the interior tets have are outside, at the other one.
+    const auto b = corner_bits(beyond);
     std::size_t next = 0;
     for (int facet = 0; facet < 4; ++facet)
       if ((b[facet] & diagonal) != 0) outermost[next++] = {beyond, facet};
@@ -215,12 +223,9 @@ bool CellTets<Topology>::has_flat_corner(const LocalQuad& quad, unsigned diagona
   std::array<std::int32_t, 2> beyond{};
   std::array<Vertex, 2> apex{};
   for (std::size_t i = 0; i < 2; ++i) {
-    beyond[i] = tables_.adjacency().tet_beyond(outermost[i].tet, outermost[i].facet);
-    if (beyond[i] == TetAdjacency::none || !tables_.usable(beyond[i])) return false;
-    const auto b = corner_bits(beyond[i]);
-    const auto beside = std::find_if(b.begin(), b.end(), [&](unsigned bits_of) { return (bits_of & bits(quad)) == 0; });
-    if (beside == b.end()) return false;
-    apex[i] = tables_.mesh().tets[beyond[i]][beside - b.begin()];
+    beyond[i] = tables_.usable_beyond(outermost[i].tet, outermost[i].facet);
+    if (beyond[i] == TetAdjacency::none) return false;
+    apex[i] = apex_beyond(outermost[i], beyond[i]);
   }
   if (apex[0] != apex[1]) return false;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "common/mesh/cell_topology.hpp"
@@ -50,22 +51,67 @@ enum class TetVerdict {
   flat_corner,      // 9
 };
 
+// Which way a flood goes is hard to foresee, for a processor too: what follows decides by arithmetic where it can, not
+// by branches.
+
 template <class T, std::size_t Most>
 class FixedVector {
  public:
   bool is_full() const { return size_ == Most; }
   void push_back(const T& item) { items_[size_++] = item; }
+  void push_back_if(bool is_kept, const T& item) {
+    items_[size_] = item;
+    size_ += is_kept ? 1 : 0;
+  }
   void clear() { size_ = 0; }
-  bool contains(const T& item) const { return std::find(begin(), end(), item) != end(); }
   std::size_t size() const { return size_; }
   const T& operator[](std::size_t i) const { return items_[i]; }
-  T* begin() { return items_.data(); }
-  T* end() { return items_.data() + size_; }
   const T* begin() const { return items_.data(); }
   const T* end() const { return items_.data() + size_; }
 
  private:
-  std::array<T, Most> items_;
+  std::array<T, Most + 1> items_;  // room for one that is not kept
+  std::size_t size_ = 0;
+};
+
+// A few tets, none of them twice.
+template <std::size_t Most>
+class FewTets {
+ public:
+  FewTets() { clear(); }
+  void clear() {
+    tets_.fill(unused);
+    size_ = 0;
+  }
+  bool is_full() const { return size_ == Most; }
+  bool contains(std::int32_t tet) const {
+    std::int32_t found = 0;
+    for (const std::int32_t other : tets_) found |= tet == other ? -1 : 0;
+    return found != 0;
+  }
+  void add(std::int32_t tet) {
+    const bool is_new = !contains(tet);
+    tets_[size_] = is_new ? tet : unused;
+    size_ += is_new ? 1 : 0;
+  }
+  // Each tet goes to where as many places are before it as there are less ones.
+  void sort() {
+    const auto unsorted = tets_;
+    for (std::size_t i = 0; i < size_; ++i) {
+      std::int32_t less = 0;
+      for (const std::int32_t other : unsorted) less += other < unsorted[i] ? 1 : 0;
+      tets_[less - (tets_.size() - size_)] = unsorted[i];
+    }
+  }
+  std::size_t size() const { return size_; }
+  std::int32_t operator[](std::size_t i) const { return tets_[i]; }
+  const std::int32_t* begin() const { return tets_.data(); }
+  const std::int32_t* end() const { return tets_.data() + size_; }
+
+ private:
+  static constexpr std::int32_t unused = std::numeric_limits<std::int32_t>::min();  // less than all, and not `none`
+
+  std::array<std::int32_t, (Most + 4) / 4 * 4> tets_;  // unused behind the last, one at least
   std::size_t size_ = 0;
 };
 
@@ -99,10 +145,11 @@ class CellTets {
     std::int32_t tet;
     int facet;
   };
-  using Starts = FixedVector<std::int32_t, 4 * quad_count>;
+  using Starts = FewTets<4 * quad_count>;
 
   Starts starts() const;
   std::array<unsigned, 4> corner_bits(std::int32_t tet) const;
+  Vertex apex_beyond(const TetFacet& facet, std::int32_t beyond) const;
   TetVerdict find_from(std::int32_t start);
   TetVerdict flood_from(std::int32_t start);
   TetVerdict leave(std::int32_t tet);
@@ -114,8 +161,8 @@ class CellTets {
   const CellTetRules rules_;
   TetStar star_;
   CellCorners corners_{};
-  FixedVector<std::int32_t, most_tets<Topology>> interior_;
-  FixedVector<std::int32_t, quad_count> boundary_;
+  FewTets<most_tets<Topology>> interior_;
+  FewTets<quad_count> boundary_;
   FixedVector<WallFacet, 4 * most_tets<Topology>> walls_;
   std::array<FixedVector<WallFacet, 2>, facet_count> outer_;  // walls with no interior tet beyond, by facet of the cell
   bool has_inner_vertex_ = false;

@@ -31,8 +31,10 @@ MeshTables::MeshTables(TetMesh mesh, const char* source)
     : mesh_(std::move(mesh)),
       usable_(judge_tets(source)),
       adjacency_(mesh_, source),
-      links_(mesh_, adjacency_, usable_),
-      facet_labels_(label_facets()) {}
+      links_(mesh_, adjacency_, usable_) {
+  make_flood_tets();
+  label_walls();
+}
 
 std::vector<bool> MeshTables::judge_tets(const char* source) {
   findings_.orientation = orient_tets(mesh_, source);
@@ -62,23 +64,42 @@ std::int32_t MeshTables::tet_inside(Vertex a, Vertex b, Vertex c) const {
   return inside;
 }
 
-std::vector<std::int32_t> MeshTables::label_facets() {
+void MeshTables::make_flood_tets() {
+  flood_tets_.resize(mesh_.tets.size());
+  for (std::size_t t = 0; t < flood_tets_.size(); ++t) {
+    FloodTet& tet = flood_tets_[t];
+    tet.vertices = mesh_.tets[t];
+    const auto beyond = adjacency_.tets_beyond(static_cast<std::int32_t>(t));
+    std::copy(beyond.begin(), beyond.end(), tet.across.begin());
+    for (std::int32_t& across : tet.across) {
+      if (across != TetAdjacency::none && usable_[across]) continue;
+      across = ~static_cast<std::int32_t>(walls_.size());
+      walls_.push_back({TetAdjacency::none, 0});
+    }
+  }
+}
+
+// Every facet on the boundary or between regions has a triangle then.
+void MeshTables::label_walls() {
   findings_.derived_triangles =
       static_cast<std::int64_t>(add_missing_boundary_triangles(mesh_, adjacency_, derived_tag));
   std::vector<std::int32_t> tags = mesh_.triangle_tags;
   std::sort(tags.begin(), tags.end());
   tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
-  std::vector<std::int32_t> labels(4 * mesh_.tets.size(), 0);
   // The first of several triangles at one place counts.
   for (std::size_t i = mesh_.triangles.size(); i-- > 0;) {
     const auto tag =
         static_cast<std::int32_t>(std::lower_bound(tags.begin(), tags.end(), mesh_.triangle_tags[i]) - tags.begin());
     for_each_tet_at(mesh_.triangles[i], [&](std::int32_t t, const FoundFacet& found) {
       const bool is_inside = adjacency_.tet_beyond(t, found.facet) != TetAdjacency::none;
-      labels[4 * static_cast<std::size_t>(t) + found.facet] = 2 * (tag + 1) + (is_inside ? 1 : 0);
+      std::int32_t& across = flood_tets_[t].across[found.facet];
+      if (across >= 0) {
+        walls_.push_back({across, 0});
+        across = ~static_cast<std::int32_t>(walls_.size() - 1);
+      }
+      walls_[~across].label = 2 * (tag + 1) + (is_inside ? 1 : 0);
     });
   }
-  return labels;
 }
 
 }  // namespace hexpipe

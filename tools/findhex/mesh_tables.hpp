@@ -1,6 +1,7 @@
 #pragma once
 // What the search asks about a mesh, prepared once: which tets may be used, its facets, and the surface tags on them.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -30,15 +31,35 @@ class MeshTables {
   // The usable tet of which (a, b, c) is a facet, counter-clockwise seen from outside, or none.
   std::int32_t tet_inside(Vertex a, Vertex b, Vertex c) const;
 
+  // A tet with what is asked at each step of a flood, in half a cache line.
+  struct FloodTet {
+    Tet vertices;
+    // The tet beyond each facet where a cell may reach across it: a usable one, in the same region, no tag between
+    // them. Else negative.
+    std::array<std::int32_t, 4> across;
+  };
+  const FloodTet& flood_tet(std::int32_t tet) const { return flood_tets_[tet]; }
+  // The usable tet beyond a facet, whatever lies between, or none.
+  std::int32_t usable_beyond(std::int32_t tet, int facet) const {
+    const std::int32_t across = flood_tets_[tet].across[facet];
+    return across >= 0 ? across : walls_[~across].usable_beyond;
+  }
   // 0 where a facet lies inside a region and has no surface tag; else a number that two facets share when they have the
   // same tag and are both on the boundary of the mesh or both inside it.
   std::int32_t facet_label(std::int32_t tet, int facet) const {
-    return facet_labels_[4 * static_cast<std::size_t>(tet) + facet];
+    const std::int32_t across = flood_tets_[tet].across[facet];
+    return across >= 0 ? 0 : walls_[~across].label;
   }
 
  private:
+  // A facet that no cell may reach across.
+  struct Wall {
+    std::int32_t usable_beyond, label;
+  };
+
   std::vector<bool> judge_tets(const char* source);
-  std::vector<std::int32_t> label_facets();
+  void make_flood_tets();
+  void label_walls();
   // visit(tet, FoundFacet) of the tets, one or two, that have this facet.
   template <class Visit>
   void for_each_tet_at(const Triangle& facet, Visit&& visit) const;
@@ -48,7 +69,8 @@ class MeshTables {
   std::vector<bool> usable_;
   TetAdjacency adjacency_;
   VertexLinks links_;
-  std::vector<std::int32_t> facet_labels_;  // 4 a tet
+  std::vector<FloodTet> flood_tets_;
+  std::vector<Wall> walls_;
 };
 
 }  // namespace hexpipe

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <utility>
+
+#include "common/mesh/quality.hpp"
 
 namespace hexpipe {
 namespace {
@@ -34,67 +37,174 @@ bool has_unfolded_diagonal(const TetMesh& mesh, const VertexLinks& links, Vertex
          (!is_folded(q, r, s, p) && links.is_facet(b, c, d) && links.is_facet(b, d, a));
 }
 
-void QuadFan::find(Vertex least) {
-  opposites_.clear();
+void QuadFan::find(Vertex first) {
+  first_ = first;
+  quads_.clear();
   pairs_.clear();
-  const auto neighbours = links_.neighbours_of(least);
-  const int first =
-      static_cast<int>(std::upper_bound(neighbours.begin(), neighbours.end(), least) - neighbours.begin());
-  const int count = static_cast<int>(neighbours.size());
-  for (int place = first; place < count; ++place)
-    links_.for_each_within_two_links(least, place, first, [&](int other_place) {
-      if (angle_suffices(mesh_.points[neighbours[place]] - mesh_.points[least],
-                         mesh_.points[neighbours[other_place]] - mesh_.points[least]))
-        find_between(least, place, other_place);
+  outer_edges_.clear();
+  slots_.assign(least_slots, none);
+  measure_spokes();
+  const int count = static_cast<int>(links_.neighbours_of(first).size());
+  for (int place = first_place_; place < count; ++place)
+    links_.for_each_within_two_links(first, place, first_place_, [&](int other_place) {
+      const Spoke &a = spokes_[place - first_place_], &b = spokes_[other_place - first_place_];
+      if (angle_suffices(a.vector, a.square, b.vector, b.square)) find_between(place, other_place);
     });
-  file_pairs(neighbours.size());
+  file_pairs(static_cast<std::size_t>(count));
+  table_pairs();
+  for (const Spoke& spoke : spokes_) judge_corners_at(spoke);
+  for (Pair& pair : pairs_) collect_outer_edges(pair);
 }
 
-void QuadFan::find_between(Vertex least, int place, int other_place) {
-  const auto neighbours = links_.neighbours_of(least);
-  const Vertex side = neighbours[place], other_side = neighbours[other_place];
-  const auto begin = static_cast<std::int32_t>(opposites_.size());
-  QuadAngle(links_, least, place, other_place).find_opposites(links_, found_);
-  for (const Vertex opposite : found_)
-    if (is_wanted(least, side, opposite, other_side)) opposites_.push_back(opposite);
-  const auto end = static_cast<std::int32_t>(opposites_.size());
-  if (begin < end) pairs_.push_back({place, other_place, begin, end});
+void QuadFan::measure_spokes() {
+  const auto neighbours = links_.neighbours_of(first_);
+  const auto greater = std::upper_bound(neighbours.begin(), neighbours.end(), first_);
+  first_place_ = static_cast<int>(greater - neighbours.begin());
+  spokes_.clear();
+  for (auto neighbour = greater; neighbour != neighbours.end(); ++neighbour) {
+    const Vec3 vector = mesh_.points[*neighbour] - mesh_.points[first_];
+    spokes_.push_back({vector, norm_squared(vector)});
+  }
+}
+
+void QuadFan::find_between(int place, int other_place) {
+  const auto neighbours = links_.neighbours_of(first_);
+  const auto begin = static_cast<std::int32_t>(quads_.size());
+  QuadAngle(links_, first_, place, other_place).find_opposites(links_, found_);
+  for (const Vertex opposite : found_) {
+    if (opposite < first_) continue;
+    const std::int32_t edge = outer_edge(place, opposite), other_edge = outer_edge(other_place, opposite);
+    if (!is_wanted(outer_edges_[edge], outer_edges_[other_edge]) ||
+        (filter_.drop_folded &&
+         !has_unfolded_diagonal(mesh_, links_, first_, neighbours[place], opposite, neighbours[other_place])))
+      continue;
+    number_outer_edge(edge);
+    number_outer_edge(other_edge);
+    quads_.push_back({opposite, {edge, other_edge}});
+  }
+  const auto end = static_cast<std::int32_t>(quads_.size());
+  if (begin < end) pairs_.push_back({{place, other_place}, begin, end});
 }
 
 // Each pair is filed under both; pairs ascend, so the partners do.
 void QuadFan::file_pairs(std::size_t neighbour_count) {
   offsets_.assign(neighbour_count + 1, 0);
-  for (const Pair& pair : pairs_) {
-    ++offsets_[pair.place];
-    ++offsets_[pair.other_place];
-  }
+  for (const Pair& pair : pairs_)
+    for (const int place : pair.places) ++offsets_[place];
   std::exclusive_scan(offsets_.begin(), offsets_.end(), offsets_.begin(), 0);
   partners_.resize(2 * pairs_.size());
-  for (const Pair& pair : pairs_) partners_[offsets_[pair.other_place]++] = {pair.place, pair.begin, pair.end};
-  for (const Pair& pair : pairs_) partners_[offsets_[pair.place]++] = {pair.other_place, pair.begin, pair.end};
+  const auto file = [&](std::size_t side) {
+    for (std::size_t i = 0; i < pairs_.size(); ++i)
+      partners_[offsets_[pairs_[i].places[side]]++] = {pairs_[i].places[1 - side], static_cast<std::int32_t>(i)};
+  };
+  file(1);
+  middles_.assign(offsets_.begin(), offsets_.end() - 1);
+  file(0);
   std::copy_backward(offsets_.begin(), offsets_.end() - 1, offsets_.end());
   offsets_.front() = 0;
 }
 
-bool QuadFan::is_wanted(Vertex least, Vertex side, Vertex opposite, Vertex other_side) const {
-  if (opposite < least) return false;
-  const std::array<Vec3, 4> p{mesh_.points[least], mesh_.points[side], mesh_.points[opposite],
-                              mesh_.points[other_side]};
-  const std::array<Vec3, 4> edges{p[1] - p[0], p[2] - p[1], p[3] - p[2], p[0] - p[3]};
-  for (std::size_t i = 0; i < 3; ++i)
-    if (!angle_suffices(edges[i], edges[i + 1])) return false;
-  return !filter_.drop_folded || has_unfolded_diagonal(mesh_, links_, least, side, opposite, other_side);
+void QuadFan::table_pairs() {
+  if (spokes_.size() > most_tabled) return;
+  pair_of_spokes_.assign(spokes_.size() * spokes_.size(), none);
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const std::size_t a = pairs_[i].places[0] - first_place_, b = pairs_[i].places[1] - first_place_;
+    pair_of_spokes_[a * spokes_.size() + b] = pair_of_spokes_[b * spokes_.size() + a] = static_cast<std::int32_t>(i);
+  }
 }
 
-bool QuadFan::angle_suffices(const Vec3& u, const Vec3& v) const {
+bool QuadFan::is_wanted(const OuterEdge& edge, const OuterEdge& other_edge) const {
+  return edge.angle_suffices && other_edge.angle_suffices &&
+         angle_suffices(edge.vector, edge.square, other_edge.vector, other_edge.square);
+}
+
+bool QuadFan::angle_suffices(const Vec3& u, double u_square, const Vec3& v, double v_square) const {
   const double least = filter_.min_quality * filter_.min_quality * filter_slack;
-  return norm_squared(cross(u, v)) >= least * norm_squared(u) * norm_squared(v);
+  return norm_squared(cross(u, v)) >= least * u_square * v_square;
 }
 
-std::span<const Vertex> QuadFan::opposites(int place, int other_place) const {
-  for (const Partner& partner : partners_of(place))
-    if (partner.place == other_place) return std::span(opposites_).subspan(partner.begin, partner.end - partner.begin);
-  return {};
+std::size_t QuadFan::first_slot(int place, Vertex end) const {
+  const std::uint32_t hash =
+      (static_cast<std::uint32_t>(place) * 0x9e3779b9u + static_cast<std::uint32_t>(end)) * 0x85ebca6bu;
+  return (hash >> 12) & (slots_.size() - 1);
+}
+
+std::int32_t QuadFan::outer_edge(int place, Vertex end) {
+  const int spoke = place - first_place_;
+  std::size_t slot = first_slot(spoke, end);
+  for (; slots_[slot] != none; slot = (slot + 1) & (slots_.size() - 1)) {
+    const OuterEdge& edge = outer_edges_[slots_[slot]];
+    if (edge.spoke == spoke && edge.end == end) return slots_[slot];
+  }
+  const auto number = static_cast<std::int32_t>(outer_edges_.size());
+  slots_[slot] = number;
+  const Vec3 vector = mesh_.points[end] - mesh_.points[links_.neighbours_of(first_)[place]];
+  const double square = norm_squared(vector);
+  const Spoke& from = spokes_[spoke];
+  outer_edges_.push_back({vector, square, end, spoke, angle_suffices(from.vector, from.square, vector, square)});
+  if (2 * outer_edges_.size() > slots_.size()) widen_slots();
+  return number;
+}
+
+// Of one that is in a quad.
+void QuadFan::number_outer_edge(std::int32_t outer_edge) {
+  OuterEdge& edge = outer_edges_[outer_edge];
+  if (edge.number != none) return;
+  Spoke& spoke = spokes_[edge.spoke];
+  edge.place = links_.place_of(edge.end, links_.neighbours_of(first_)[edge.spoke + first_place_]);
+  edge.number = spoke.count++;
+  edge.before = std::exchange(spoke.last, outer_edge);
+}
+
+void QuadFan::widen_slots() {
+  slots_.assign(2 * slots_.size(), none);
+  for (std::size_t i = 0; i < outer_edges_.size(); ++i) {
+    std::size_t slot = first_slot(outer_edges_[i].spoke, outer_edges_[i].end);
+    while (slots_[slot] != none) slot = (slot + 1) & (slots_.size() - 1);
+    slots_[slot] = static_cast<std::int32_t>(i);
+  }
+}
+
+void QuadFan::judge_corners_at(const Spoke& spoke) {
+  at_spoke_.clear();
+  for (std::int32_t i = spoke.last; i != none; i = outer_edges_[i].before) at_spoke_.push_back(i);
+  if (spoke.count > most_numbered) {
+    for (const std::int32_t i : at_spoke_) {
+      outer_edges_[i].number = most_numbered;
+      outer_edges_[i].suffices_before = outer_edges_[i].suffices_after = ~std::uint64_t{0};
+    }
+    return;
+  }
+  for (auto i = at_spoke_.begin(); i != at_spoke_.end(); ++i)
+    for (auto j = i + 1; j != at_spoke_.end(); ++j) {
+      OuterEdge &a = outer_edges_[*i], &b = outer_edges_[*j];
+      const std::uint64_t before = corner_suffices(a, b), after = corner_suffices(b, a);
+      a.suffices_before |= before << b.number;
+      b.suffices_after |= before << a.number;
+      b.suffices_before |= after << a.number;
+      a.suffices_after |= after << b.number;
+    }
+}
+
+void QuadFan::collect_outer_edges(Pair& pair) const {
+  for (const Quad& quad : quads_of(pair))
+    for (std::size_t side = 0; side < 2; ++side) {
+      const int number = outer_edges_[quad.outer_edges[side]].number;
+      pair.outer_edges[side] |= number < most_numbered ? std::uint64_t{1} << number : ~std::uint64_t{0};
+    }
+}
+
+bool QuadFan::corner_suffices(const OuterEdge& edge, const OuterEdge& next) const {
+  const Spoke& spoke = spokes_[edge.spoke];
+  return &edge != &next && scaled_jacobian_exceeds(-dot(cross(spoke.vector, edge.vector), next.vector),
+                                                   spoke.square * edge.square * next.square, filter_.min_quality);
+}
+
+auto QuadFan::find_pair_among_many(int place, int other_place) const -> const Pair* {
+  const auto partners = partners_of(place);
+  const auto at = std::lower_bound(partners.begin(), partners.end(), other_place,
+                                   [](const Partner& partner, int wanted) { return partner.place < wanted; });
+  return at != partners.end() && at->place == other_place ? &pair_of(*at) : nullptr;
 }
 
 }  // namespace hexpipe

@@ -1,6 +1,7 @@
 #pragma once
 // The triangulated quads of a mesh: docs/definitions.md 1, rules 2 and 8.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -60,47 +61,130 @@ class QuadAngle {
 // Rules 2 and 8 for the quad with these vertices in a cycle, not all diagonals of which may be there.
 bool has_unfolded_diagonal(const TetMesh& mesh, const VertexLinks& links, Vertex a, Vertex b, Vertex c, Vertex d);
 
-// The quads of which one vertex is the least, found once and used by all cells that have it as corner 0.
+// The quads of which one vertex, the first, is the least: found once and used by all cells that have it as corner 0. An
+// outer edge is a side of such quads that does not meet the first vertex.
 class QuadFan {
  public:
+  struct Quad {
+    Vertex opposite;
+    std::array<std::int32_t, 2> outer_edges;  // from its two sides to the opposite vertex, the lower side first
+  };
+  // Two neighbours of the first vertex that lie beside it in some quads.
+  struct Pair {
+    std::array<int, 2> places;                   // among the neighbours of the first vertex, ascending
+    std::int32_t begin, end;                     // of the quads
+    std::array<std::uint64_t, 2> outer_edges{};  // of the quads, at either one: bits by number
+  };
+  // A pair as one of the two sees the other.
+  struct Partner {
+    int place;
+    std::int32_t pair;
+  };
+
   QuadFan(const TetMesh& mesh, const VertexLinks& links, const QuadFilter& filter)
       : mesh_(mesh), links_(links), filter_(filter) {}
 
-  // Two neighbours of the vertex that lie beside it in some quads, as one sees the other.
-  struct Partner {
-    int place;                // of the other among the neighbours of the vertex
-    std::int32_t begin, end;  // of the quads' fourth vertices
-  };
-
   // Finds the quads of this vertex.
-  void find(Vertex least);
+  void find(Vertex first);
 
+  // The places of the neighbours of the first vertex that are greater begin here.
+  int first_place() const { return first_place_; }
   // Ascending by place.
   std::span<const Partner> partners_of(int place) const {
     return std::span(partners_).subspan(offsets_[place], offsets_[place + 1] - offsets_[place]);
   }
-  // The vertices opposite the least one in quads where it lies between these two neighbours; ascending.
-  std::span<const Vertex> opposites(int place, int other_place) const;
-  std::size_t size() const { return opposites_.size(); }
+  // Those at greater places.
+  std::span<const Partner> partners_above(int place) const {
+    return std::span(partners_).subspan(middles_[place], offsets_[place + 1] - middles_[place]);
+  }
+  const Pair& pair_of(const Partner& partner) const { return pairs_[partner.pair]; }
+  // The pair of these two neighbours, or nullptr where the first vertex lies between them in no quad.
+  const Pair* find_pair(int place, int other_place) const {
+    if (spokes_.size() > most_tabled) return find_pair_among_many(place, other_place);
+    const std::size_t spoke = place - first_place_, other_spoke = other_place - first_place_;
+    const std::int32_t pair = pair_of_spokes_[spoke * spokes_.size() + other_spoke];
+    return pair == none ? nullptr : &pairs_[pair];
+  }
+  // By ascending opposite vertex.
+  std::span<const Quad> quads_of(const Pair& pair) const {
+    return std::span(quads_).subspan(pair.begin, pair.end - pair.begin);
+  }
+  std::size_t size() const { return quads_.size(); }
+
+  // Of the far end of an outer edge, among the neighbours of the near one.
+  int place_at_near_end(std::int32_t outer_edge) const { return outer_edges_[outer_edge].place; }
+
+  // Rule 3 for the corner at a neighbour of the first vertex with an edge to this one and two outer edges, in the
+  // positive sense.
+  bool corner_suffices(std::int32_t outer_edge, std::int32_t next) const {
+    const OuterEdge &a = outer_edges_[outer_edge], &b = outer_edges_[next];
+    return b.number < most_numbered ? (a.suffices_before >> b.number & 1) != 0 : corner_suffices(a, b);
+  }
+  // Rule 3 may hold for the corner with this outer edge and the next (or the one before) from some quad of the pair,
+  // both at the same neighbour of the first vertex, which is at `side` of the pair.
+  bool may_suffice_before(std::int32_t outer_edge, const Pair& pair, std::size_t side) const {
+    return (outer_edges_[outer_edge].suffices_before & pair.outer_edges[side]) != 0;
+  }
+  bool may_suffice_after(std::int32_t outer_edge, const Pair& pair, std::size_t side) const {
+    return (outer_edges_[outer_edge].suffices_after & pair.outer_edges[side]) != 0;
+  }
 
  private:
-  struct Pair {
-    int place, other_place;
-    std::int32_t begin, end;
+  static constexpr std::int32_t none = -1;
+  static constexpr std::size_t least_slots = 512;
+  static constexpr int most_numbered = 64;
+  static constexpr std::size_t most_tabled = 64;
+  // An edge to a neighbour of the first vertex, and the outer edges that go on from there.
+  struct Spoke {
+    Vec3 vector;
+    double square;  // of its length
+    std::int32_t last = none;
+    int count = 0;
   };
-  void find_between(Vertex least, int place, int other_place);
+  struct OuterEdge {
+    Vec3 vector;
+    double square;
+    Vertex end;
+    int spoke;
+    bool angle_suffices;              // with the spoke
+    int place = none, number = none;  // at the near end; among those of the spoke that are in quads
+    std::int32_t before = none;       // the one of the spoke numbered before
+    // By number, the others with which the corner suffices, the other the next one or the one before. All, where the
+    // spoke has more than bits; their numbers are then most_numbered.
+    std::uint64_t suffices_before = 0, suffices_after = 0;
+  };
+
+  void measure_spokes();
+  void find_between(int place, int other_place);
   void file_pairs(std::size_t neighbour_count);
-  bool is_wanted(Vertex least, Vertex side, Vertex opposite, Vertex other_side) const;
-  bool angle_suffices(const Vec3& u, const Vec3& v) const;
+  void table_pairs();
+  const Pair* find_pair_among_many(int place, int other_place) const;
+  bool is_wanted(const OuterEdge& edge, const OuterEdge& other_edge) const;
+  bool angle_suffices(const Vec3& u, double u_square, const Vec3& v, double v_square) const;
+  std::int32_t outer_edge(int place, Vertex end);
+  std::size_t first_slot(int place, Vertex end) const;
+  void widen_slots();
+  void number_outer_edge(std::int32_t outer_edge);
+  void judge_corners_at(const Spoke& spoke);
+  void collect_outer_edges(Pair& pair) const;
+  bool corner_suffices(const OuterEdge& edge, const OuterEdge& next) const;
 
   const TetMesh& mesh_;
   const VertexLinks& links_;
   const QuadFilter filter_;
-  std::vector<Vertex> opposites_;
-  std::vector<Pair> pairs_;            // place < other_place, ascending
-  std::vector<std::int32_t> offsets_;  // neighbours + 1
+  Vertex first_ = 0;
+  int first_place_ = 0;
+  std::vector<Spoke> spokes_;  // by place, of the greater neighbours
+  std::vector<OuterEdge> outer_edges_;
+  std::vector<std::int32_t> slots_;  // of outer edges, a hash table at most half full
+  std::vector<Quad> quads_;
+  std::vector<Pair> pairs_;                   // ascending by place
+  std::vector<std::int32_t> pair_of_spokes_;  // by both, where there are not many
+  std::vector<std::int32_t> offsets_;         // neighbours + 1
+  std::vector<std::int32_t> middles_;         // where the partners at greater places begin
   std::vector<Partner> partners_;
   std::vector<Vertex> found_;
+  std::vector<std::int32_t> at_spoke_;
 };
 
 }  // namespace hexpipe

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "common/mesh/cell_topology.hpp"
 #include "tools/findhex/rotations.hpp"
@@ -32,6 +33,19 @@ struct OpenQuad {
   std::uint8_t corner, side, other_side;
 };
 
+// A corner beside the first one whose two other edges are outer edges (quads.hpp), in the positive sense after the one
+// to the first.
+struct OuterCorner {
+  std::uint8_t corner, end, next_end;
+};
+
+// An outer corner with one of its outer edges to come, from one of the quads in which the first corner is opposite.
+struct OpenCorner {
+  OuterCorner corner;
+  bool next_is_open = false;  // the edge to come is the one to next_end
+  std::uint8_t quad = 0;      // of the topology
+};
+
 // What there is to do with one corner; all others that it names are placed already.
 struct SearchStep {
   std::uint8_t corner = 0;
@@ -41,7 +55,9 @@ struct SearchStep {
   ShortList<OpenQuad, 3> opened_quads;  // it is the third corner of these
   ShortList<OpenQuad, 3> closed_quads;  // it is the fourth corner of these
   ShortList<LocalTriangle, 4> triangles;
-  ShortList<LocalCorner, 4> corners;  // whose determinants are known now
+  ShortList<LocalCorner, 4> corners;        // whose edges stand now, but for
+  ShortList<OuterCorner, 3> outer_corners;  // those beside the first corner that have two outer edges
+  ShortList<OpenCorner, 3> open_corners;    // of these, one of whose outer edges stands now
 };
 
 // Corners in the order in which they are placed.
@@ -74,6 +90,20 @@ constexpr CornerEdges corner_edges(const LocalCorner& corner) {
   return result;
 }
 
+template <class Topology>
+inline constexpr std::uint8_t first_corner = placement_order<Topology>[0];
+
+// Some quad has the first corner, and the other end opposite to it.
+template <class Topology>
+constexpr bool is_outer_edge(std::uint8_t near_end, std::uint8_t end) {
+  for (const LocalQuad& q : Topology::quads)
+    for (std::size_t i = 0; i < 4; ++i)
+      if (q[i] == first_corner<Topology> && q[(i + 2) % 4] == end &&
+          (q[(i + 1) % 4] == near_end || q[(i + 3) % 4] == near_end))
+        return true;
+  return false;
+}
+
 namespace plan_details {
 
 template <class Topology>
@@ -88,6 +118,30 @@ constexpr bool completed_by(const Corners& corners, std::uint8_t corner, const P
     among = among || c == corner;
   }
   return among;
+}
+
+// The quad in which this corner is opposite the first one, beside `side`.
+template <class Topology>
+constexpr std::uint8_t quad_to(std::uint8_t opposite, std::uint8_t side) {
+  for (std::size_t number = 0; number < Topology::quads.size(); ++number)
+    for (std::size_t i = 0; i < 4; ++i) {
+      const LocalQuad& q = Topology::quads[number];
+      if (q[i] == opposite && q[(i + 2) % 4] == first_corner<Topology> &&
+          (q[(i + 1) % 4] == side || q[(i + 3) % 4] == side))
+        return static_cast<std::uint8_t>(number);
+    }
+  return 0;
+}
+
+template <class Topology>
+constexpr std::optional<OuterCorner> as_outer_corner(const LocalCorner& corner) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const OuterCorner outer{corner[0], corner[1 + (i + 1) % 3], corner[1 + (i + 2) % 3]};
+    if (corner[1 + i] == first_corner<Topology> && is_outer_edge<Topology>(outer.corner, outer.end) &&
+        is_outer_edge<Topology>(outer.corner, outer.next_end))
+      return outer;
+  }
+  return std::nullopt;
 }
 
 // The labelling found is the least in placement order: each corner's vertex is the least of those that rotations put in
@@ -128,8 +182,6 @@ constexpr auto make_search_plan() {
     }
     for (const LocalTriangle& t : Topology::triangles)
       if (plan_details::completed_by<Topology>(t, corner, placed)) step.triangles.add(t);
-    for (const LocalCorner& c : Topology::corners)
-      if (plan_details::completed_by<Topology>(c, corner, placed)) step.corners.add(c);
     // NOLINTNEXTLINE(bugprone-too-small-loop-variable): a dozen at most
     for (std::uint8_t number = 0; number < Topology::quads.size(); ++number)
       for (std::size_t i = 0; i < 4; ++i) {
@@ -139,6 +191,18 @@ constexpr auto make_search_plan() {
         if (q[i] == corner && placed[three[0]] && placed[three[1]] && placed[three[2]]) step.closed_quads.add(quad);
         if (!placed[q[i]] && plan_details::completed_by<Topology>(three, corner, placed)) step.opened_quads.add(quad);
       }
+    for (const LocalCorner& c : Topology::corners) {
+      const auto open = plan_details::as_outer_corner<Topology>(c);
+      if (open && (open->end == corner && !placed[open->next_end]))
+        step.open_corners.add({*open, true, plan_details::quad_to<Topology>(open->next_end, open->corner)});
+      if (open && (open->next_end == corner && !placed[open->end]))
+        step.open_corners.add({*open, false, plan_details::quad_to<Topology>(open->end, open->corner)});
+      if (!plan_details::completed_by<Topology>(c, corner, placed)) continue;
+      if (const auto outer = plan_details::as_outer_corner<Topology>(c))
+        step.outer_corners.add(*outer);
+      else
+        step.corners.add(c);
+    }
   }
   plan_details::order_against_rotations<Topology>(plan);
   return plan;
