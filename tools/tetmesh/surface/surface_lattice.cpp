@@ -27,6 +27,7 @@ constexpr double aligned_cosine = 0.94;  // between a feature edge's normal and 
 constexpr int most_iterations = 200;
 constexpr double tolerance = 1e-3;
 constexpr int smoothing_sweeps = 60;  // 20 lose 1 % of the volume in hexes on small parts
+constexpr double certain = 1e-3;      // moduli of numbers that features say something about
 constexpr double inertia = 0.3;       // of a number's own value, against its links
 // Triangles see points of the lattice that far along each direction, in sizes, and trust them less with the distance.
 constexpr double furthest = 0.75, distrust_begins = 1.5;
@@ -41,7 +42,7 @@ Complex times(const Complex& a, const Complex& b) {
 }
 
 Complex unit(const Complex& z) {
-  const double modulus = std::abs(z);
+  const double modulus = std::sqrt(std::norm(z));  // not std::abs, whose care for overflow takes longer
   return modulus > 0 ? z / modulus : Complex(1);
 }
 
@@ -84,6 +85,7 @@ class SurfaceLattice {
     make_links();
     make_anchors(kept);
     diffuse();
+    reach_the_rest();
     for (int i = 0; i < smoothing_sweeps; ++i) sweep();
     propose();
     agree();
@@ -108,8 +110,10 @@ class SurfaceLattice {
   Link make_link(HalfEdge h) const;
   void make_anchors(std::span<const Vertex> kept);
   void pull(std::int32_t f, std::size_t axis, double weight, double coordinate);
+  Phases seen_through(HalfEdge h, const std::vector<Phases>& phases) const;
   Phases view_of_neighbours(const std::vector<Phases>& phases, std::int32_t f) const;
   void diffuse();
+  void reach_the_rest();
   void sweep();
   void propose();
   void propose(std::int32_t f);
@@ -190,16 +194,24 @@ void SurfaceLattice::make_anchors(std::span<const Vertex> kept) {
   }
 }
 
+// The numbers of the triangle beyond h, as those of h's own would have to be.
+Phases SurfaceLattice::seen_through(HalfEdge h, const std::vector<Phases>& phases) const {
+  const Link& link = links_[h];
+  const Phases& theirs = phases[link.neighbour];
+  Phases seen;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Complex there = theirs[link.crossed ? 1 - k : k];
+    seen[k] = times(link.flipped[k] ? std::conj(there) : there, link.turn[k]);
+  }
+  return seen;
+}
+
 Phases SurfaceLattice::view_of_neighbours(const std::vector<Phases>& phases, std::int32_t f) const {
   Phases sum{};
   for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
-    const Link& link = links_[h];
-    if (link.neighbour < 0) continue;
-    const Phases& theirs = phases[link.neighbour];
-    for (std::size_t k = 0; k < 2; ++k) {
-      const Complex there = theirs[link.crossed ? 1 - k : k];
-      sum[k] += link.weight * times(link.flipped[k] ? std::conj(there) : there, link.turn[k]);
-    }
+    if (links_[h].neighbour < 0) continue;
+    const Phases seen = seen_through(h, phases);
+    for (std::size_t k = 0; k < 2; ++k) sum[k] += links_[h].weight * seen[k];
   }
   return sum;
 }
@@ -244,8 +256,29 @@ void SurfaceLattice::diffuse() {
     });
     rest_z = next;
   }
-  for (Phases& phases : phases_)
-    for (Complex& phase : phases) phase = unit(phase);
+}
+
+// Where features are too far away to tell, or missing, numbers are those of a neighbour, as it is seen from there.
+void SurfaceLattice::reach_the_rest() {
+  const auto count = static_cast<std::int32_t>(phases_.size());
+  std::vector<std::int32_t> queue;
+  std::vector<bool> reached(phases_.size());
+  const auto reach = [&](std::int32_t f, const Phases& phases) {
+    for (std::size_t k = 0; k < 2; ++k) phases_[f][k] = unit(phases[k]);
+    reached[f] = true;
+    queue.push_back(f);
+  };
+  for (std::int32_t f = 0; f < count; ++f)
+    if (std::min(std::norm(phases_[f][0]), std::norm(phases_[f][1])) > certain * certain) reach(f, phases_[f]);
+  std::size_t next = 0;
+  for (std::int32_t seed = 0; seed < count; ++seed) {
+    for (; next < queue.size(); ++next)
+      for (HalfEdge h = 3 * queue[next]; h < 3 * queue[next] + 3; ++h) {
+        if (links_[h].neighbour < 0 || reached[links_[h].neighbour]) continue;
+        reach(links_[h].neighbour, seen_through(surface_.twins[h], phases_));
+      }
+    if (!reached[seed]) reach(seed, {Complex(1), Complex(1)});
+  }
 }
 
 // All at once from the numbers before, so that the order of the triangles does not count.
