@@ -2,8 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "common/run/error.hpp"
 #include "surface_samples.hpp"
@@ -111,6 +114,29 @@ TEST(RunTetgen, SurvivesSurfacesThatMakeTetgenAbort) {
 TEST(RunTetgen, GivesUpInTime) {
   const Surface surface = surface_of(sphere({0, 0, 0}, 1, 100));
   EXPECT_THAT(run(surface, {}, 0.001).failure, HasSubstr("longer than --tetgen-timeout"));
+}
+
+// A failure of the surface would be tried again in another order, or taken for a reason to keep another mesh.
+TEST(RunTetgen, TellsOfMissingMemoryAtOnce) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer's shadow memory is over any limit";
+#else
+  const Surface surface = surface_of(sphere({0, 0, 0}, 1, 250));
+  rlimit limit;
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &limit), 0);
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const rlimit less{pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + (60u << 20), limit.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &less), 0);
+  std::string message;
+  try {
+    run(surface);
+  } catch (const DataError& error) {
+    message = error.what();
+  }
+  setrlimit(RLIMIT_AS, &limit);
+  EXPECT_THAT(message, HasSubstr("not enough memory"));
+#endif
 }
 
 TEST(BuildMesh, NoticesWhatTetgenMightDoWrong) {

@@ -6,9 +6,11 @@
 #include <tetgen.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstring>
 #include <numeric>
 
+#include "common/run/error.hpp"
 #include "common/run/random.hpp"
 #include "tools/tetmesh/child_process.hpp"
 
@@ -27,9 +29,6 @@ constexpr int out_of_memory = 1, self_intersection = 3;
 
 const char* reason_of(int code) {
   switch (code) {
-    case out_of_memory:
-    case SharedResult::write_failed:
-      return "there is not enough memory";
     case 2:
       return "it met an internal error";
     case self_intersection:
@@ -152,6 +151,16 @@ std::vector<Triangle> find_intersecting(const TetGenInput& input, double timeout
   return take_rows<Triangle>(shared);
 }
 
+// What has nothing to do with the surface, and would not go better in another order.
+void check_system(const ChildEnd& end) {
+  const bool by_kernel = end.kind == ChildEnd::Kind::killed && end.code == SIGKILL;
+  const bool by_itself =
+      end.kind == ChildEnd::Kind::exited &&
+      (end.code == out_of_memory || end.code == SharedResult::write_failed || end.code == uncaught_exception);
+  if (by_itself) throw DataError("TetGen failed: there is not enough memory");
+  if (by_kernel) throw DataError("TetGen's process was killed; there may not be enough memory");
+}
+
 std::string failure_of(const ChildEnd& end) {
   switch (end.kind) {
     case ChildEnd::Kind::timed_out:
@@ -171,6 +180,7 @@ TetGenResult run_tetgen(const TetGenInput& input, double timeout) {
   SharedResult shared;
   const ShuffledInput shuffled = shuffle(input);
   const ChildEnd end = run_in_child([&] { mesh_in_child(shuffled, shared); }, timeout);
+  check_system(end);
   result.failure = failure_of(end);
   if (result.failure.empty()) {
     result.points = take_rows<Vec3>(shared);

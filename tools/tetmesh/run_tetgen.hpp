@@ -29,7 +29,8 @@ struct TetGenResult {
 };
 
 // Runs TetGen in a child process: it ends processes, throws through frames that free twice, and prints. `timeout` is in
-// seconds. Throws DataError only when no child process can be run.
+// seconds. Throws DataError when no child process can be run, or when it has not enough
+// memory.
 TetGenResult run_tetgen(const TetGenInput& input, double timeout);
 
 }  // namespace hexpipe
