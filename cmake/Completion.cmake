@@ -27,6 +27,7 @@ foreach(line IN LISTS lines)
   # What zsh shows: no colons, quotes or what belongs to the type.
   string(REGEX REPLACE "^in \\([^)]*\\)[^ ]* *" "" text "${text}")
   string(REGEX REPLACE "^(=[^ ]*|\\.\\.\\.) *" "" text "${text}")
+  string(REGEX REPLACE "(Needs|Excludes): (--[a-z-]+ *)+" "" text "${text}")
   string(REPLACE "'" "" text "${text}")
   string(REPLACE ":" "," text "${text}")
   set(names "${long}")
