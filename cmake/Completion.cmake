@@ -8,6 +8,7 @@ execute_process(COMMAND "${TOOL}" --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_F
 string(REPLACE ";" "," help "${help}")
 string(REPLACE "[" "(" help "${help}")
 string(REPLACE "]" ")" help "${help}")
+string(REGEX REPLACE "({[^}\n]*,)\n +" "\\1" help "${help}")
 string(REGEX REPLACE "\n                            +" " " help "${help}")
 string(REPLACE "\n" ";" lines "${help}")
 

@@ -14,20 +14,32 @@ std::string plain_name(const std::string& name) {
   return brace == std::string::npos ? name : name.substr(0, brace);
 }
 
+std::string line_break() {
+  return "\n" + std::string(option_column, ' ');
+}
+
+// The values to choose from may be more than a line holds; cmake/Completion.cmake puts them together again.
+std::string broken_at_comma(const std::string& text) {
+  const std::size_t comma = text.size() > page_width ? text.rfind(',', page_width - 1) : std::string::npos;
+  return comma == std::string::npos ? text : text.substr(0, comma + 1) + line_break() + text.substr(comma + 1);
+}
+
 }  // namespace
 
 std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positional) const {
-  std::string text = "  " + plain_name(make_option_name(option, is_positional)) + make_option_opts(option);
-  const std::string indent = "\n" + std::string(option_column, ' ');
-  if (text.size() + 1 > option_column) text += indent;
-  else text.resize(option_column, ' ');
+  std::string text =
+      broken_at_comma("  " + plain_name(make_option_name(option, is_positional)) + make_option_opts(option));
+  if (text.size() + 1 > option_column)
+    text += line_break();
+  else
+    text.resize(option_column, ' ');
 
   std::istringstream words(make_option_desc(option));
   std::size_t column = option_column;
   for (std::string word; words >> word;) {
     const bool first_in_line = column == option_column;
     if (!first_in_line && column + 1 + word.size() > page_width) {
-      text += indent;
+      text += line_break();
       column = option_column;
     } else if (!first_in_line) {
       text += ' ';
