@@ -116,9 +116,9 @@ PYTHON
   assert_equal "$(number complete bound.json)" False
 }
 
-# all_algorithms: the names that --help lists.
+# all_algorithms: the names that --help lists, which take more than a line.
 all_algorithms() {
-  certify --help | sed -n 's/.*--algorithm .*{\([a-z,-]*\)}.*/\1/p' | tr , ' '
+  certify --help | tr -d '\n ' | sed -n 's/.*--algorithm[A-Z]*:{\([a-z,-]*\)}.*/\1/p' | tr , ' '
 }
 
 @test "every --algorithm proves the optimum that cbc finds on fragments of a real graph" {

@@ -145,6 +145,7 @@ ViewState parse_view_state(std::string_view text) {
     const auto setter = setters.find(part.substr(0, equals));
     if (setter == setters.end()) {
       std::vector<std::string_view> names;
+      names.reserve(setters.size());
       for (const auto& [name, set] : setters) names.push_back(name);
       throw UsageError(
           fmt::format("--view: expected KEY=VALUE with a key of {}, found '{}'", fmt::join(names, ", "), part));
