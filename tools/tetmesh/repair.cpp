@@ -13,7 +13,7 @@
 #include "tools/tetmesh/exact_geometry.hpp"
 #include "tools/tetmesh/half_edges.hpp"
 #include "tools/tetmesh/hole_filling.hpp"
-#include "tools/tetmesh/volume/point_grid.hpp"
+#include "tools/tetmesh/sized_point_grid.hpp"
 
 namespace hexpipe {
 namespace {
@@ -79,17 +79,18 @@ void Repairer::weld() {
   if (options_.tolerance <= 0 || soup_.points.empty()) return;
   Vec3 low = soup_.points.front();
   for (const Vec3& p : soup_.points) low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-  PointGrid kept(low, options_.tolerance);
+  SizedPointGrid kept(low);
   std::vector<Vertex> new_index;
   new_index.reserve(soup_.points.size());
   for (const Vec3& p : soup_.points) {
     Vertex nearest = std::numeric_limits<Vertex>::max();
-    kept.for_each_near(p, options_.tolerance, [&](std::int32_t i) {
+    kept.for_each_near(p, options_.tolerance, 0, [&](std::int32_t i) {
       if (norm_squared(kept.points()[i] - p) <= options_.tolerance * options_.tolerance) nearest = std::min(nearest, i);
+      return true;
     });
     if (nearest == std::numeric_limits<Vertex>::max()) {
       nearest = static_cast<Vertex>(kept.points().size());
-      kept.add(p);
+      kept.add(p, options_.tolerance);
     }
     new_index.push_back(nearest);
   }

@@ -15,7 +15,8 @@
 #include <numeric>
 
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/volume/point_grid.hpp"
+#include "tools/tetmesh/periodic_numbers.hpp"
+#include "tools/tetmesh/sized_point_grid.hpp"
 
 namespace hexpipe {
 namespace {
@@ -24,8 +25,7 @@ namespace {
 // Shares of the volume in hexes differ by up to 0.4 % from 2 to 20 for points, on larger parts.
 constexpr double edge_weight = 20, point_weight = 5;
 constexpr double aligned_cosine = 0.94;  // between a feature edge's normal and a direction that it is across
-constexpr int most_iterations = 200;
-constexpr double tolerance = 1e-3;
+constexpr DiffusionLimits limits{200, 1e-3};
 constexpr int smoothing_sweeps = 60;  // 20 lose 1 % of the volume in hexes on small parts
 constexpr double certain = 1e-3;      // moduli of numbers that features say something about
 constexpr double inertia = 0.3;       // of a number's own value, against its links
@@ -34,17 +34,7 @@ constexpr double furthest = 0.75, distrust_begins = 1.5;
 // Points nearer to each other, in sizes, on surfaces with normals of at least this cosine, are the same.
 constexpr double same_point = 0.3, least_normal_cosine = 0.3;
 
-using Complex = std::complex<double>;
 using Phases = std::array<Complex, 2>;
-
-Complex times(const Complex& a, const Complex& b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
-
-Complex unit(const Complex& z) {
-  const double modulus = std::sqrt(std::norm(z));  // not std::abs, whose care for overflow takes longer
-  return modulus > 0 ? z / modulus : Complex(1);
-}
 
 Complex turn_by(double sizes) {
   return std::polar(1.0, 2 * std::numbers::pi * sizes);
@@ -118,7 +108,7 @@ class SurfaceLattice {
   void propose();
   void propose(std::int32_t f);
   void agree();
-  Proposal agreed(const PointGrid& grid, const Proposal& proposal) const;
+  Proposal agreed(const SizedPointGrid& grid, const Proposal& proposal) const;
 
   const FieldSurface& surface_;
   const CrossField& field_;
@@ -216,46 +206,13 @@ Phases SurfaceLattice::view_of_neighbours(const std::vector<Phases>& phases, std
   return sum;
 }
 
-double product(const std::vector<Phases>& a, const std::vector<Phases>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    for (std::size_t k = 0; k < 2; ++k) sum += a[i][k].real() * b[i][k].real() + a[i][k].imag() * b[i][k].imag();
-  return sum;
-}
-
-// The quadratic energy of differences along links and from anchors, by conjugate gradients, preconditioned by the
-// diagonal.
 void SurfaceLattice::diffuse() {
-  std::vector<Phases> rest = targets_, z(rest.size()), image(rest.size());
-  const auto diagonal = [&](std::int32_t f, std::size_t k) { return degrees_[f] + pulls_[f][k]; };
-  const auto precondition = [&] {
-    for_each_triangle([&](std::int32_t f) {
-      for (std::size_t k = 0; k < 2; ++k) z[f][k] = rest[f][k] / diagonal(f, k);
-    });
+  const auto diagonal = [&](std::size_t f, std::size_t k) { return degrees_[f] + pulls_[f][k]; };
+  const auto view = [&](const std::vector<Phases>& phases, std::size_t f) {
+    return view_of_neighbours(phases, static_cast<std::int32_t>(f));
   };
-  precondition();
-  std::vector<Phases> direction = z;
-  double rest_z = product(rest, z);
-  const double enough = tolerance * tolerance * rest_z;
-  for (int step = 0; step < most_iterations && rest_z > enough; ++step) {
-    for_each_triangle([&](std::int32_t f) {
-      const Phases view = view_of_neighbours(direction, f);
-      for (std::size_t k = 0; k < 2; ++k) image[f][k] = diagonal(f, k) * direction[f][k] - view[k];
-    });
-    const double length = rest_z / product(direction, image);
-    for_each_triangle([&](std::int32_t f) {
-      for (std::size_t k = 0; k < 2; ++k) {
-        phases_[f][k] += length * direction[f][k];
-        rest[f][k] -= length * image[f][k];
-      }
-    });
-    precondition();
-    const double next = product(rest, z), ratio = next / rest_z;
-    for_each_triangle([&](std::int32_t f) {
-      for (std::size_t k = 0; k < 2; ++k) direction[f][k] = z[f][k] + ratio * direction[f][k];
-    });
-    rest_z = next;
-  }
+  phases_ = diffused<2>(
+      targets_, limits, [&](const auto& body) { for_each_triangle(body); }, diagonal, view);
 }
 
 // Where features are too far away to tell, or missing, numbers are those of a neighbour, as it is seen from there.
@@ -317,25 +274,26 @@ void SurfaceLattice::propose(std::int32_t f) {
 
 // Moves every proposal to the mean of those that see the same point, and trusts it as much as all of them.
 void SurfaceLattice::agree() {
-  PointGrid grid(centres_.front(), 2 * same_point * greatest_size_);
-  for (const Proposal& p : proposals_) grid.add(p.point.position);
+  SizedPointGrid grid(centres_.front());
+  for (const Proposal& p : proposals_) grid.add(p.point.position, 2 * same_point * greatest_size_);
   std::vector<Proposal> result(proposals_.size());
   parallel_for(static_cast<std::int64_t>(result.size()), 256,
                [&](std::int64_t i) { result[i] = agreed(grid, proposals_[i]); });
   proposals_ = std::move(result);
 }
 
-Proposal SurfaceLattice::agreed(const PointGrid& grid, const Proposal& proposal) const {
+Proposal SurfaceLattice::agreed(const SizedPointGrid& grid, const Proposal& proposal) const {
   const Vec3 &place = proposal.point.position, &normal = surface_.normals[proposal.point.triangle];
   const double reach = same_point * sizes_[proposal.point.triangle];
   Vec3 sum;
   double trust = 0;
-  grid.for_each_near(place, reach, [&](std::int32_t i) {
+  grid.for_each_near(place, reach, 0, [&](std::int32_t i) {
     const Proposal& other = proposals_[i];
-    if (norm_squared(other.point.position - place) > reach * reach) return;
-    if (dot(surface_.normals[other.point.triangle], normal) < least_normal_cosine) return;
+    if (norm_squared(other.point.position - place) > reach * reach) return true;
+    if (dot(surface_.normals[other.point.triangle], normal) < least_normal_cosine) return true;
     sum += other.trust * (other.point.position - place);
     trust += other.trust;
+    return true;
   });
   if (trust <= 0) return proposal;
   const Vec3 way = sum * (1 / trust) - dot(sum, normal) / trust * normal;

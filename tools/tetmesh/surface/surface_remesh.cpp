@@ -7,12 +7,12 @@
 #include <algorithm>
 
 #include "tools/tetmesh/exact_geometry.hpp"
+#include "tools/tetmesh/sized_point_grid.hpp"
 #include "tools/tetmesh/sizing.hpp"
 #include "tools/tetmesh/surface/feature_curves.hpp"
 #include "tools/tetmesh/surface/point_insertion.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
 #include "tools/tetmesh/surface/surface_front.hpp"
-#include "tools/tetmesh/surface/surface_point_grid.hpp"
 #include "tools/tetmesh/surface/surface_refine.hpp"
 #include "tools/tetmesh/surface/vertex_removal.hpp"
 
@@ -36,6 +36,15 @@ constexpr int careful_attempts = 4, most_attempts = 6;
 // On the new surface, about 2 KB each while it is made.
 constexpr double most_points = 2e7;
 constexpr std::size_t most_intersections = 1000;
+
+bool has_within(const SizedPointGrid& grid, const Vec3& place, double reach) {
+  bool found = false;
+  grid.for_each_near(place, reach, 0, [&](std::int32_t i) {
+    found = norm_squared(grid.points()[i] - place) <= reach * reach;
+    return !found;
+  });
+  return found;
+}
 
 class SurfaceRemesher {
  public:
@@ -165,40 +174,40 @@ std::vector<Vec3> SurfaceRemesher::find_faults() {
 }
 
 void SurfaceRemesher::keep_nearest(const std::vector<Vec3>& places, const SizeField& reach) {
-  SurfacePointGrid removable(size_.greatest()), fresh(reach.greatest());
+  if (places.empty()) return;
+  SizedPointGrid removable(places.front()), fresh(places.front());
   std::vector<OpenMesh::VertexHandle> handles;
   for (const auto v : prepared_.vertices()) {
     if (prepared_.is_kept(v)) continue;
-    removable.add(prepared_.position(v));
+    removable.add(prepared_.position(v), size_.greatest());
     handles.push_back(v);
   }
   for (const Vec3& place : places) {
     const double here = reach.at(place), size = size_.at(place);
-    if (!fresh.none_near(place, [&](std::int32_t, const Vec3& p) { return norm_squared(p - place) <= here * here; }))
-      continue;
+    if (has_within(fresh, place, here)) continue;
     std::int32_t nearest = -1;
     double least = size * size;
-    removable.none_near(place, [&](std::int32_t i, const Vec3& p) {
-      if (norm_squared(p - place) < least) {
-        least = norm_squared(p - place);
+    removable.for_each_near(place, size, 0, [&](std::int32_t i) {
+      const double distance = norm_squared(removable.points()[i] - place);
+      if (distance < least) {
+        least = distance;
         nearest = i;
       }
-      return false;
+      return true;
     });
     if (nearest < 0) continue;
     prepared_.keep(handles[nearest]);
-    fresh.add(prepared_.position(handles[nearest]));
+    fresh.add(prepared_.position(handles[nearest]), reach.greatest());
   }
 }
 
 void SurfaceRemesher::keep_around(const std::vector<Vec3>& places, const SizeField& reach) {
-  SurfacePointGrid grid(reach.greatest());
-  for (const Vec3& p : places) grid.add(p);
+  if (places.empty()) return;
+  SizedPointGrid grid(places.front());
+  for (const Vec3& p : places) grid.add(p, reach.greatest());
   for (const auto v : prepared_.vertices()) {
     const Vec3 p = prepared_.position(v);
-    const double here = reach.at(p);
-    if (!grid.none_near(p, [&](std::int32_t, const Vec3& place) { return norm_squared(p - place) <= here * here; }))
-      prepared_.keep(v);
+    if (has_within(grid, p, reach.at(p))) prepared_.keep(v);
   }
 }
 

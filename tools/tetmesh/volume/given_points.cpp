@@ -2,22 +2,22 @@
 
 #include <fmt/format.h>
 
-#include "tools/tetmesh/volume/point_grid.hpp"
+#include "tools/tetmesh/sized_point_grid.hpp"
 #include "tools/tetmesh/volume/surface_clearance.hpp"
 
 namespace hexpipe {
 
 GivenPoints usable_points(const Surface& surface, const PointList& list, double clearance) {
   const SurfaceClearance clear(surface, clearance);
-  PointGrid taken(surface.points.front(), clearance);
+  SizedPointGrid taken(surface.points.front());
   std::size_t left_out = 0, first = 0;
   for (std::size_t i = 0; i < list.points.size(); ++i) {
     const Vec3& p = list.points[i];
     bool is_usable = clear.is_inside(p) && clear.is_clear(p);
     if (is_usable)
-      taken.for_each_near(p, 0, [&](std::int32_t other) { is_usable = is_usable && taken.points()[other] != p; });
+      taken.for_each_near(p, 0, 0, [&](std::int32_t other) { return is_usable = taken.points()[other] != p; });
     if (is_usable)
-      taken.add(p);
+      taken.add(p, clearance);
     else if (left_out++ == 0)
       first = i;
   }

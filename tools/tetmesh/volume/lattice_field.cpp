@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "common/run/parallel.hpp"
+#include "tools/tetmesh/periodic_numbers.hpp"
 
 namespace hexpipe {
 namespace {
@@ -18,13 +19,7 @@ constexpr double anchor_threshold = 0.3, weakest_anchor = 0.05;
 constexpr int smoothing_sweeps = 60;
 constexpr double inertia = 0.3;  // of a number's own value, against its links
 
-using Complex = std::complex<double>;
 using Phases = std::array<Complex, 3>;
-
-// Without the standard's care for infinities, which costs more than the product.
-Complex times(const Complex& a, const Complex& b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
 
 // Which axis of the other frame is the nearest, and whether it points the same way.
 struct AxisMatch {
@@ -88,10 +83,6 @@ class LatticeSolver {
     parallel_for(static_cast<std::int64_t>(nodes_.size()), 256,
                  [&](std::int64_t i) { body(static_cast<std::size_t>(i)); });
   }
-  static Complex unit(const Complex& z) {
-    const double modulus = std::sqrt(std::norm(z));  // not std::abs, whose care for overflow takes longer
-    return modulus > 0 ? z / modulus : Complex(1);
-  }
   std::span<const Transition> transitions_of(std::size_t i) const {
     return std::span(transitions_).subspan(nodes_.offsets[i], nodes_.offsets[i + 1] - nodes_.offsets[i]);
   }
@@ -101,7 +92,6 @@ class LatticeSolver {
   void make_anchors(std::size_t i);
   Phases view_of_neighbours(const std::vector<Phases>& phases, std::size_t i) const;
   double diagonal(std::size_t i, std::size_t axis) const { return degree_[i] + anchors_[i][axis]; }
-  void apply(const std::vector<Phases>& x, std::vector<Phases>& y) const;
   void diffuse();
   void sweep();
   LatticeField result() const;
@@ -168,53 +158,15 @@ Phases LatticeSolver::view_of_neighbours(const std::vector<Phases>& phases, std:
   return sum;
 }
 
-// The matrix of the quadratic energy: differences along links, and from anchors.
-void LatticeSolver::apply(const std::vector<Phases>& x, std::vector<Phases>& y) const {
-  for_each_node([&](std::size_t i) {
-    const Phases view = view_of_neighbours(x, i);
-    for (std::size_t k = 0; k < 3; ++k) y[i][k] = diagonal(i, k) * x[i][k] - view[k];
-  });
-}
-
-double product(const std::vector<Phases>& a, const std::vector<Phases>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) sum += a[i][k].real() * b[i][k].real() + a[i][k].imag() * b[i][k].imag();
-  return sum;
-}
-
-// Conjugate gradients, preconditioned by the diagonal.
 void LatticeSolver::diffuse() {
-  constexpr int most_iterations = 60;
-  constexpr double tolerance = 1e-3;
-  std::vector<Phases> rest(nodes_.size()), z(nodes_.size()), image(nodes_.size());
-  const auto precondition = [&] {
-    for_each_node([&](std::size_t i) {
-      for (std::size_t k = 0; k < 3; ++k) z[i][k] = rest[i][k] / diagonal(i, k);
-    });
-  };
-  for (std::size_t i = 0; i < rest.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) rest[i][k] = anchors_[i][k];
-  precondition();
-  std::vector<Phases> direction = z;
-  double rest_z = product(rest, z);
-  const double enough = tolerance * tolerance * rest_z;
-  for (int step = 0; step < most_iterations && rest_z > enough; ++step) {
-    apply(direction, image);
-    const double length = rest_z / product(direction, image);
-    for_each_node([&](std::size_t i) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        phases_[i][k] += length * direction[i][k];
-        rest[i][k] -= length * image[i][k];
-      }
-    });
-    precondition();
-    const double next = product(rest, z), ratio = next / rest_z;
-    for_each_node([&](std::size_t i) {
-      for (std::size_t k = 0; k < 3; ++k) direction[i][k] = z[i][k] + ratio * direction[i][k];
-    });
-    rest_z = next;
-  }
+  constexpr DiffusionLimits limits{60, 1e-3};
+  std::vector<Phases> held(nodes_.size());
+  for (std::size_t i = 0; i < held.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) held[i][k] = anchors_[i][k];
+  phases_ = diffused<3>(
+      std::move(held), limits, [&](const auto& body) { for_each_node(body); },
+      [&](std::size_t i, std::size_t k) { return diagonal(i, k); },
+      [&](const std::vector<Phases>& phases, std::size_t i) { return view_of_neighbours(phases, i); });
 }
 
 // All at once from the numbers before, so that the order of the nodes does not count.

@@ -1,0 +1,80 @@
+#pragma once
+// Periodic coordinates on the nodes of a surface or a volume: K complex numbers a node, exp(2 pi i coordinate), that
+// turn by the distance from one node to the next (Ray, Li, Lévy, Sheffer, Alliez: Periodic global parameterization,
+// 2006). Here is how they spread from where they are held; what a node sees of its neighbours is the caller's.
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <vector>
+
+namespace hexpipe {
+
+using Complex = std::complex<double>;
+template <std::size_t K>
+using PeriodicNumbers = std::vector<std::array<Complex, K>>;
+
+// Without the standard's care for infinities, which costs more than the product.
+inline Complex times(const Complex& a, const Complex& b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+inline Complex unit(const Complex& z) {
+  const double modulus = std::sqrt(std::norm(z));  // not std::abs, whose care for overflow takes longer
+  return modulus > 0 ? z / modulus : Complex(1);
+}
+
+template <std::size_t K>
+double product(const PeriodicNumbers<K>& a, const PeriodicNumbers<K>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t k = 0; k < K; ++k) sum += a[i][k].real() * b[i][k].real() + a[i][k].imag() * b[i][k].imag();
+  return sum;
+}
+
+struct DiffusionLimits {
+  int iterations;
+  double tolerance;  // of the residual, against that of the start
+};
+
+// Least quadratic energy of differences along links and from what holds the numbers, by conjugate gradients,
+// preconditioned by the diagonal. `rest` is what holds them, times its weights; for_each(body) calls body(node) for all
+// nodes in parallel, diagonal(node, k) is the weight of all links and of what holds number k, and view(numbers, node)
+// the weighted sum of the neighbours' numbers, as the node sees them. The result starts from zeros.
+template <std::size_t K, class ForEach, class Diagonal, class View>
+PeriodicNumbers<K> diffused(PeriodicNumbers<K> rest, const DiffusionLimits& limits, ForEach&& for_each,
+                            Diagonal&& diagonal, View&& view) {
+  PeriodicNumbers<K> numbers(rest.size()), z(rest.size()), image(rest.size());
+  const auto precondition = [&] {
+    for_each([&](std::size_t i) {
+      for (std::size_t k = 0; k < K; ++k) z[i][k] = rest[i][k] / diagonal(i, k);
+    });
+  };
+  precondition();
+  PeriodicNumbers<K> direction = z;
+  double rest_z = product<K>(rest, z);
+  const double enough = limits.tolerance * limits.tolerance * rest_z;
+  for (int step = 0; step < limits.iterations && rest_z > enough; ++step) {
+    for_each([&](std::size_t i) {
+      const std::array<Complex, K> seen = view(direction, i);
+      for (std::size_t k = 0; k < K; ++k) image[i][k] = diagonal(i, k) * direction[i][k] - seen[k];
+    });
+    const double length = rest_z / product<K>(direction, image);
+    for_each([&](std::size_t i) {
+      for (std::size_t k = 0; k < K; ++k) {
+        numbers[i][k] += length * direction[i][k];
+        rest[i][k] -= length * image[i][k];
+      }
+    });
+    precondition();
+    const double next = product<K>(rest, z), ratio = next / rest_z;
+    for_each([&](std::size_t i) {
+      for (std::size_t k = 0; k < K; ++k) direction[i][k] = z[i][k] + ratio * direction[i][k];
+    });
+    rest_z = next;
+  }
+  return numbers;
+}
+
+}  // namespace hexpipe
