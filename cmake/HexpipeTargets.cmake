@@ -24,11 +24,15 @@ function(hexpipe_library name)
 endfunction()
 
 # hexpipe_tool(NAME [SOURCES...] [LINK LIBS...]): library NAME_core with the algorithms, executable NAME from main.cpp.
+# Without sources main.cpp is all of the tool.
 function(hexpipe_tool name)
   cmake_parse_arguments(arg "" "COMPONENT" "SOURCES;LINK" ${ARGN})
-  hexpipe_library(${name}_core SOURCES ${arg_SOURCES} LINK ${arg_LINK})
   add_executable(${name} main.cpp)
-  target_link_libraries(${name} PRIVATE ${name}_core hexpipe_formats hexpipe_common)
+  if(arg_SOURCES)
+    hexpipe_library(${name}_core SOURCES ${arg_SOURCES} LINK ${arg_LINK})
+    target_link_libraries(${name} PRIVATE ${name}_core)
+  endif()
+  target_link_libraries(${name} PRIVATE hexpipe_formats hexpipe_common)
   if(NOT arg_COMPONENT)
     set(arg_COMPONENT hexpipe)
   endif()

@@ -2,12 +2,12 @@
 
 #include <set>
 
+#include "common/mwis/fragment.hpp"
+#include "common/mwis/lns.hpp"
+#include "common/mwis/repair.hpp"
+#include "common/mwis/schedule.hpp"
 #include "common/run/parallel.hpp"
 #include "random_graphs.hpp"
-#include "tools/lns/fragment.hpp"
-#include "tools/lns/lns.hpp"
-#include "tools/lns/repair.hpp"
-#include "tools/lns/schedule.hpp"
 
 namespace hexpipe {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/lns/repair.hpp"
+#include "common/mwis/repair.hpp"
 
 namespace hexpipe {
 namespace {

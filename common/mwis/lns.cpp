@@ -1,4 +1,4 @@
-#include "tools/lns/lns.hpp"
+#include "common/mwis/lns.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,12 +6,12 @@
 #include <mutex>
 #include <vector>
 
+#include "common/mwis/effort.hpp"
+#include "common/mwis/fragment.hpp"
 #include "common/mwis/kernel.hpp"
+#include "common/mwis/repair.hpp"
+#include "common/mwis/schedule.hpp"
 #include "common/run/parallel.hpp"
-#include "tools/lns/effort.hpp"
-#include "tools/lns/fragment.hpp"
-#include "tools/lns/repair.hpp"
-#include "tools/lns/schedule.hpp"
 
 namespace hexpipe {
 namespace {

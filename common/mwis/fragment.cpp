@@ -1,4 +1,4 @@
-#include "tools/lns/fragment.hpp"
+#include "common/mwis/fragment.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "tools/lns/schedule.hpp"
+#include "common/mwis/schedule.hpp"
 
 #include <algorithm>
 #include <limits>

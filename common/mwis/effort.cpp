@@ -1,4 +1,4 @@
-#include "tools/lns/effort.hpp"
+#include "common/mwis/effort.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "common/mwis/annealing.hpp"
+#include "common/mwis/effort.hpp"
 #include "common/mwis/exact_solver.hpp"
-#include "tools/lns/effort.hpp"
-#include "tools/lns/fragment.hpp"
+#include "common/mwis/fragment.hpp"
 
 namespace hexpipe {
 

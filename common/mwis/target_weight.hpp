@@ -1,0 +1,17 @@
+#pragma once
+// The weight at which a search may stop, from a bound that is known.
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+namespace hexpipe {
+
+// The lowest bound that certify has proven since the graph was made, by the history of a bundle.
+std::optional<std::int64_t> bound_in(const std::vector<nlohmann::ordered_json>& history);
+
+// The least weight whose gap to the bound is no more than this. Throws DataError when no bound is known.
+std::int64_t target_weight(double gap, std::optional<std::int64_t> bound);
+
+}  // namespace hexpipe
