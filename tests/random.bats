@@ -1,11 +1,10 @@
-# Random meshes and graphs through whole pipelines, by the checkers: a few cases here, thousands by hand
+# Random meshes, graphs and surfaces through whole pipelines, by the checkers: a few cases here, thousands by hand
 # (tests/random/random_pipelines.py --cases 2000 --seed new).
 
 load helpers
 
-@test "random meshes and graphs of every kind pass the independent checkers" {
-  run "$PYTHON" "$HEXPIPE_SOURCE/tests/random/random_pipelines.py" --cases 7 \
-    general flat coplanar lattice regions holes graph
+@test "random meshes, graphs and surfaces of every kind pass the independent checkers" {
+  run "$PYTHON" "$HEXPIPE_SOURCE/tests/random/random_pipelines.py" --cases 36
   assert_success
   assert_output --partial "0 failed"
 }

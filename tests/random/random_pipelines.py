@@ -2,16 +2,19 @@
 """random_pipelines.py [--cases N] [--seed S] [--keep DIRECTORY] [KIND...]
 
 Random tet meshes, graphs and surfaces through whole pipelines, judged by the independent checkers. Case i has the seed
-S + i; --seed new takes one from the clock. A case that fails is printed with its seed and kind; a mesh or a graph is made
-smaller as long as it fails, and lies in the directory of --keep. Ends with 1 then.
+S + i; --seed new takes one from the clock. A case that fails is printed with its seed and kind, and lies in the directory
+of --keep; a mesh or a graph is made smaller first, as long as it fails. Ends with 1 then.
 """
 import argparse
+import contextlib
+import io
 import itertools
 import json
 import math
 import os
 import pathlib
 import random
+import runpy
 import subprocess
 import sys
 import tempfile
@@ -46,7 +49,22 @@ def tool(directory, name, *options):
 
 
 def check(directory, name, *arguments):
-    return run(directory, "/usr/bin/python3", CHECKERS / name, *arguments)
+    """A checker as it runs by hand, but in this process: to load numpy takes longer than to check."""
+    said, before = io.StringIO(), (os.getcwd(), sys.argv)
+    os.chdir(directory)
+    sys.argv = [name, *map(str, arguments)]
+    code = 0
+    try:
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            runpy.run_path(str(CHECKERS / name), run_name="__main__")
+    except SystemExit as end:
+        code = end.code or 0
+    finally:
+        os.chdir(before[0])
+        sys.argv = before[1]
+    if code != 0:
+        raise Failure(f"{name} {' '.join(map(str, arguments))}: exit code {code}: {said.getvalue()[-500:]}")
+    return said.getvalue()
 
 
 def require(condition, message):
@@ -143,6 +161,20 @@ def regions(rng):
     return points, tets, [1 if h < cut else 2 for h in heights]
 
 
+def apart(rng):
+    """Two parts that share nothing, or one vertex, in which they touch."""
+    (left, left_tets, left_tags), (right, right_tets, right_tags) = (rng.choice([general, lattice])(rng) for _ in "ab")
+    last, first = left[:, 0].argmax(), right[:, 0].argmin()
+    right = right + (left[last] - right[first])
+    number = list(range(len(left), len(left) + len(right)))
+    if rng.random() < 0.5:
+        right = right + np.array([rng.randrange(1, 30), 0, 0])
+    else:
+        number[first] = int(last)
+    moved = [[number[v] for v in tet] for tet in right_tets]
+    return np.concatenate([left, right]), left_tets + moved, left_tags + right_tags
+
+
 def with_holes(rng):
     """Not convex, perhaps in several parts or touching itself in edges and vertices."""
     points, tets, tags = rng.choice([general, lattice])(rng)
@@ -150,7 +182,8 @@ def with_holes(rng):
     return points, kept, tags[: len(kept)]
 
 
-MESHES = {"general": general, "flat": flat, "coplanar": coplanar, "lattice": lattice, "regions": regions, "holes": with_holes}
+MESHES = {"general": general, "flat": flat, "coplanar": coplanar, "lattice": lattice, "regions": regions, "apart": apart,
+          "holes": with_holes}
 
 
 def write_mesh(path, mesh):
@@ -250,35 +283,89 @@ def judge_choice(directory, seed):
 # ---- surfaces
 
 
+def outward(points, faces, middle):
+    for a, b, c in faces:
+        yield (a, b, c) if np.dot(np.cross(points[b] - points[a], points[c] - points[a]), points[a] - middle) > 0 else (a, c, b)
+
+
+def convex_surface(rng):
+    points = points_in_general(rng, rng.randrange(6, 20), 40)
+    hull = ConvexHull(points)
+    return points.tolist(), list(outward(points, hull.simplices.tolist(), points[hull.vertices].mean(axis=0)))
+
+
+def blocks(rng):
+    """Boxes of a grid that grew at random: not convex, perhaps with handles, perhaps in two pieces."""
+    grown = {(0, 0, 0)}
+    for _ in range(rng.randrange(1, 14)):
+        cell, axis = rng.choice(sorted(grown)), rng.randrange(3)
+        grown.add(tuple(c + rng.choice([-1, 1]) * (i == axis) for i, c in enumerate(cell)))
+    if rng.random() < 0.2:
+        grown.add((rng.randrange(9), 9, 9))
+    return grown
+
+
+def touching(cells):
+    """Whether two boxes meet in an edge or a vertex alone, where no surface is a manifold."""
+    for cell in cells:
+        for step in itertools.product((-1, 0, 1), repeat=3):
+            other = tuple(c + s for c, s in zip(cell, step))
+            if sum(map(abs, step)) < 2 or other not in cells:
+                continue
+            around = {tuple(c + s * k for c, s, k in zip(cell, step, take)) for take in itertools.product((0, 1), repeat=3)}
+            reached = {cell}
+            for _ in range(3):
+                near = lambda p: any(sum(abs(x - y) for x, y in zip(p, q)) == 1 for q in reached)
+                reached |= {p for p in around & cells if near(p)}
+            if other not in reached:
+                return True
+    return False
+
+
+def stepped_surface(rng):
+    cells = blocks(rng)
+    while touching(cells):
+        cells = blocks(rng)
+    planes = [list(itertools.accumulate(rng.randrange(2, 9) for _ in range(40))) for _ in range(3)]
+    number, faces = {}, []
+    for cell in sorted(cells):
+        for axis, side in itertools.product(range(3), (0, 1)):
+            if tuple(c + (2 * side - 1) * (i == axis) for i, c in enumerate(cell)) in cells:
+                continue
+            quad = []
+            for u, v in ((0, 0), (1, 0), (1, 1), (0, 1)) if side else ((0, 0), (0, 1), (1, 1), (1, 0)):
+                corner = list(cell)
+                corner[axis] += side
+                corner[(axis + 1) % 3] += u
+                corner[(axis + 2) % 3] += v
+                quad.append(number.setdefault(tuple(corner), len(number)))
+            faces += [(quad[0], quad[1], quad[2]), (quad[0], quad[2], quad[3])]
+    return [[planes[i][c + 20] for i, c in enumerate(corner)] for corner in number], faces
+
+
 def random_surface(rng):
-    """A convex polyhedron, or a box with a box on one side, with whole corners."""
-    if rng.random() < 0.5:
-        points = points_in_general(rng, rng.randrange(6, 20), 40)
-        hull = ConvexHull(points)
-        middle = points[hull.vertices].mean(axis=0)
-        faces = []
-        for a, b, c in hull.simplices.tolist():
-            outward = np.dot(np.cross(points[b] - points[a], points[c] - points[a]), points[a] - middle) > 0
-            faces.append((a, b, c) if outward else (a, c, b))
-        return points.tolist(), faces
-    x, y, z = (rng.randrange(2, 12) for _ in range(3))
-    corners = [[i * x, j * y, k * z] for i in (0, 1) for j in (0, 1) for k in (0, 1)]
-    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    return corners, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+    """With whole coordinates."""
+    return rng.choice([convex_surface, stepped_surface])(rng)
 
 
-def judge_surface(directory, surface, seed):
-    rng = random.Random(seed)
+def write_surface(path, surface):
     points, faces = surface
-    with open(directory / "part.off", "w") as file:
+    with open(path, "w") as file:
         print("OFF\n%d %d 0" % (len(points), len(faces)), file=file)
         for p in points:
             print(*p, file=file)
         for face in faces:
             print(3, *face, file=file)
+
+
+def judge_surface(directory, surface, seed):
+    rng = random.Random(seed)
+    points, faces = surface
+    write_surface(directory / "part.off", surface)
     require("OK" in check(directory, "surfcheck.py", "part.off"), "the surface itself is bad")
     volume = sum(float(np.linalg.det(np.array([points[v] for v in face], dtype=float))) for face in faces) / 6
-    tool(directory, "tetmesh", "part.off", "--size", rng.choice(["15%", "25%"]), "--seed", seed, "-o", "part.mesh")
+    tool(directory, "tetmesh", "part.off", "--size", rng.choice(["15%", "25%"]), "--seed", seed, "--surface",
+         rng.choice(["remesh", "keep"]), "--points", rng.choice(["best", "lattice", "frame", "none"]), "-o", "part.mesh")
     tool(directory, "findhex", "--mesh", "part.mesh", "-o", "part.cand")
     tool(directory, "buildgraph", "--candidates", "part.cand", "-o", "part.graph")
     judge_choice(directory, seed)
@@ -345,6 +432,8 @@ def keep(directory, kind, case, seed):
         write_mesh(directory / f"{kind}-{seed}.mesh", case)
     elif kind == "graph":
         write_graph(directory / f"{kind}-{seed}.graph", case)
+    else:
+        write_surface(directory / f"{kind}-{seed}.off", case)
 
 
 def main():
