@@ -11,6 +11,7 @@ build_packages=(
   libcli11-dev libfmt-dev nlohmann-json3-dev robin-map-dev libtbb-dev libboost-dev
   libarchive-dev libzstd-dev libpugixml-dev zlib1g-dev
   libopenmesh-dev libtet1.5-dev libcgal-dev libeigen3-dev libgmp-dev libmpfr-dev coinor-libclp-dev
+  libmetis-dev libopenmpi-dev openmpi-bin
   esbuild libjs-three libosmesa6-dev libpng-dev help2man
 )
 test_packages=(

@@ -86,6 +86,8 @@ bool convert_numbers(NpyType from, const char* data, NpyType to, void* destinati
   if (to == NpyType{'f', 8}) return convert_to(from, data, static_cast<double*>(destination), count);
   if (to == NpyType{'i', 4}) return convert_to(from, data, static_cast<std::int32_t*>(destination), count);
   if (to == NpyType{'i', 8}) return convert_to(from, data, static_cast<std::int64_t*>(destination), count);
+  if (to == NpyType{'i', 1}) return convert_to(from, data, static_cast<std::int8_t*>(destination), count);
+  if (to == NpyType{'u', 8}) return convert_to(from, data, static_cast<std::uint64_t*>(destination), count);
   return convert_to(from, data, static_cast<std::uint8_t*>(destination), count);
 }
 

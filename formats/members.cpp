@@ -1,7 +1,17 @@
 #include "formats/members.hpp"
 
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdlib>
+
+#include "common/run/error.hpp"
+
 namespace hexpipe {
 namespace {
+
+constexpr const char* part_json = "mesh/part.json";
+constexpr std::size_t longest_part_json = 1 << 20;
 
 // Each list names the members of a role once, for reading and writing: visit(member name, array).
 
@@ -12,6 +22,22 @@ void visit_members_of_mesh(Mesh& mesh, Visit&& visit) {
   visit("mesh/tet_tags.npy", mesh.tet_tags);
   visit("mesh/triangles.npy", mesh.triangles);
   visit("mesh/triangle_tags.npy", mesh.triangle_tags);
+}
+
+template <class Part, class Visit>
+void visit_members_of_part(Part& part, Visit&& visit) {
+  visit("mesh/point_number.npy", part.point_number);
+  visit("mesh/point_part.npy", part.point_part);
+  visit("mesh/tet_number.npy", part.tet_number);
+  visit("mesh/tet_part.npy", part.tet_part);
+  visit("mesh/triangle_number.npy", part.triangle_number);
+  visit("mesh/tet_turned.npy", part.tet_turned);
+}
+
+template <class Keys, class Visit>
+void visit_members_of_keys(Keys& keys, Visit&& visit) {
+  visit("candidates/key.npy", keys.key);
+  visit("candidates/part.npy", keys.part);
 }
 
 template <class Cells, class Visit>
@@ -68,6 +94,31 @@ T& ensure(std::optional<T>& slot) {
   return *slot;
 }
 
+std::string text_of(const MeshPart& part) {
+  const nlohmann::ordered_json json{{"part", part.part},
+                                    {"parts", part.parts},
+                                    {"neighbours", part.neighbours},
+                                    {"mesh",
+                                     {{"points", part.whole.points},
+                                      {"tets", part.whole.tets},
+                                      {"triangles", part.whole.triangles},
+                                      {"checksum", fmt::format("{:016x}", part.whole.checksum)}}}};
+  return json.dump() + "\n";
+}
+
+// Throws what nlohmann throws at a missing or wrong value.
+void parse_part(const std::string& text, MeshPart& part) {
+  const auto json = nlohmann::json::parse(text);
+  part.part = json.at("part").get<std::int32_t>();
+  part.parts = json.at("parts").get<std::int32_t>();
+  part.neighbours = json.at("neighbours").get<std::vector<std::int32_t>>();
+  const auto& whole = json.at("mesh");
+  part.whole = {whole.at("points").get<std::int64_t>(), whole.at("tets").get<std::int64_t>(),
+                whole.at("triangles").get<std::int64_t>(), 0};
+  const auto checksum = whole.at("checksum").get<std::string>();
+  std::from_chars(checksum.data(), checksum.data() + checksum.size(), part.whole.checksum, 16);
+}
+
 }  // namespace
 
 std::optional<Role> role_of_member(std::string_view name) {
@@ -108,13 +159,58 @@ bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy, bool
   return known;
 }
 
+bool read_part_member(BundleReader& reader, StageData& data, BundleWriter* copy) {
+  if (reader.name() == part_json) {
+    const std::string text = reader.read_text(longest_part_json);
+    try {
+      parse_part(text, ensure(data.part));
+    } catch (const nlohmann::json::exception&) {
+      throw DataError::at(reader.where(), "expected the numbers of a part and its mesh, found something else");
+    }
+    if (copy) copy->add_text(reader.name(), text);
+    return true;
+  }
+  bool known = false;
+  auto take = [&]<class T>(std::string_view name, std::vector<T>& array) {
+    if (known || reader.name() != name) return;
+    known = true;
+    if (!data.part) throw DataError::at(reader.where(), "expected {} before it, found none", part_json);
+    array = reader.read_array<T>();
+    if (copy) copy->add_array(reader.name(), array);
+  };
+  if (reader.name().starts_with("mesh/")) {
+    MeshPart none;
+    visit_members_of_part(data.part ? *data.part : none, take);
+  } else if (reader.name().starts_with("candidates/")) {
+    CandidateKeys keys = std::move(data.candidate_keys).value_or(CandidateKeys());
+    visit_members_of_keys(keys, take);
+    if (known || data.candidate_keys) data.candidate_keys = std::move(keys);
+  }
+  return known;
+}
+
 namespace {
 
 auto writing_to(BundleWriter& writer) {
   return [&writer](const char* name, const auto& array) { writer.add_array(name, array); };
 }
 
+// Without what a part does not need to have.
+auto writing_what_is_there_to(BundleWriter& writer, std::string_view may_be_missing) {
+  return [&writer, may_be_missing](std::string_view name, const auto& array) {
+    if (!array.empty() || name != may_be_missing) writer.add_array(std::string(name), array);
+  };
+}
+
 }  // namespace
+
+void write_members(BundleWriter& writer, const MeshPart& part) {
+  writer.add_text(part_json, text_of(part));
+  visit_members_of_part(part, writing_what_is_there_to(writer, "mesh/tet_turned.npy"));
+}
+void write_members(BundleWriter& writer, const CandidateKeys& keys) {
+  visit_members_of_keys(keys, writing_what_is_there_to(writer, "candidates/part.npy"));
+}
 
 void write_members(BundleWriter& writer, const TetMesh& mesh) {
   visit_members_of_mesh(mesh, writing_to(writer));

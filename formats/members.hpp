@@ -18,6 +18,11 @@ std::optional<Role> role_of_member(std::string_view name);
 // unread).
 bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy, bool with_cover);
 
+// The same for what a part of a mesh has beside mesh and candidates.
+bool read_part_member(BundleReader& reader, StageData& data, BundleWriter* copy);
+
+void write_members(BundleWriter& writer, const MeshPart& part);
+void write_members(BundleWriter& writer, const CandidateKeys& keys);
 void write_members(BundleWriter& writer, const TetMesh& mesh);
 void write_members(BundleWriter& writer, const Candidates& candidates);
 void write_members(BundleWriter& writer, const ConflictGraph& graph);

@@ -128,9 +128,11 @@ void read_role_file(Role role, Input& input, StageData& data) {
 void write_role(Role role, const StageData& data, BundleWriter& writer) {
   switch (role) {
     case Role::mesh:
+      if (data.part) write_members(writer, *data.part);
       write_members(writer, *data.mesh);
       break;
     case Role::candidates:
+      if (data.candidate_keys) write_members(writer, *data.candidate_keys);
       write_members(writer, *data.candidates);
       break;
     case Role::graph:
@@ -144,6 +146,16 @@ void write_role(Role role, const StageData& data, BundleWriter& writer) {
       write_members(writer, *data.result);
       break;
   }
+}
+
+struct KeysAndCandidates {
+  const CandidateKeys* keys;
+  const Candidates& candidates;
+};
+
+void write_members(BundleWriter& writer, const KeysAndCandidates& product) {
+  if (product.keys != nullptr) write_members(writer, *product.keys);
+  write_members(writer, product.candidates);
 }
 
 struct GraphAndCover {
@@ -183,7 +195,7 @@ struct Stage::State {
   // Where each role came from, for messages.
   std::map<Role, std::string> sources;
   std::set<Role> seen;
-  bool with_cover = false;
+  bool with_cover = false, with_part = false;
   std::set<Role> held_back;
 
   Role product() const { return *context.info.product; }
@@ -288,6 +300,7 @@ void Stage::State::read_bundle(Input& input, const std::set<Role>& taken, StageD
     if (role && !replaced) {
       seen.insert(*role);
       sources[*role] = input.name();
+      if (with_part && read_part_member(reader, data, passes ? &*bundle : nullptr)) continue;
       if (taken.contains(*role) && read_member(reader, data, passes ? &*bundle : nullptr, with_cover)) continue;
     }
     if (reader.name().starts_with("history/")) {
@@ -318,7 +331,8 @@ void Stage::State::read_files(std::map<Role, Input>& files, StageData& data) {
     if (looks_like_bundle(input)) {
       BundleReader reader(input);
       while (reader.next())
-        if (role_of_member(reader.name()) == role) read_member(reader, data, nullptr, with_cover || bundle);
+        if (role_of_member(reader.name()) == role && !(with_part && read_part_member(reader, data, nullptr)))
+          read_member(reader, data, nullptr, with_cover || bundle);
       if (!holds(data, role))
         throw DataError::at(input.name(), "expected {} in this bundle, found none", name_of(role));
       fill_defaults(data);
@@ -339,6 +353,10 @@ void Stage::take_cover() {
   state_->with_cover = true;
 }
 
+void Stage::take_part() {
+  state_->with_part = true;
+}
+
 void Stage::hold_back(Role role) {
   state_->held_back.insert(role);
 }
@@ -353,10 +371,13 @@ std::string Stage::source_of(Role role) const {
 
 void Stage::State::check(const StageData& data) const {
   if (data.mesh) validate(*data.mesh, source_of(Role::mesh).c_str());
+  if (data.mesh && data.part) validate(*data.part, *data.mesh, source_of(Role::mesh).c_str());
   if (data.candidates) {
     validate(*data.candidates, source_of(Role::candidates).c_str());
     if (data.mesh) validate_against(*data.candidates, *data.mesh, source_of(Role::candidates).c_str());
   }
+  if (data.candidates && data.candidate_keys)
+    validate(*data.candidate_keys, data.candidates->size(), source_of(Role::candidates).c_str());
   if (data.graph) {
     validate(*data.graph, source_of(Role::graph).c_str());
     if (data.candidates && data.candidates->size() != data.graph->weights.size())
@@ -390,13 +411,13 @@ void Stage::write(const TetMesh& mesh, const nlohmann::ordered_json& details) {
   state_->write(mesh, details, [&](Output& output) { write_mixed_mesh(to_mixed_mesh(mesh), state_->format, output); });
 }
 
-void Stage::write(const Candidates& candidates, const nlohmann::ordered_json& details) {
-  state_->write(candidates, details, [&](Output& output) { write_cand(candidates, output); });
+void Stage::write(const Candidates& candidates, const CandidateKeys* keys, const nlohmann::ordered_json& details) {
+  state_->write(KeysAndCandidates{keys, candidates}, details, [&](Output& output) { write_cand(candidates, output); });
 }
 
-void Stage::write(const ConflictGraph& graph, const Candidates* candidates, const CliqueCover* cover,
-                  const nlohmann::ordered_json& details) {
-  if (state_->bundle && candidates != nullptr) write_members(*state_->bundle, *candidates);
+void Stage::write(const ConflictGraph& graph, const CandidateKeys* keys, const Candidates* candidates,
+                  const CliqueCover* cover, const nlohmann::ordered_json& details) {
+  if (state_->bundle && candidates != nullptr) write_members(*state_->bundle, KeysAndCandidates{keys, *candidates});
   state_->write(GraphAndCover{graph, cover}, details, [&](Output& output) {
     if (const auto warning = metis_weight_warning(graph)) state_->context.warn(*warning);
     write_metis(graph, output);

@@ -11,6 +11,7 @@
 #include "common/graph/clique_cover.hpp"
 #include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
+#include "common/mesh/mesh_part.hpp"
 #include "common/mesh/mixed_mesh.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "common/run/run_context.hpp"
@@ -25,6 +26,9 @@ struct StageData {
   std::optional<CliqueCover> cover;  // of the graph, for a stage that asked for it
   std::optional<IndependentSet> solution;
   std::optional<MixedMesh> result;
+  // Where the mesh is a part of another, for a stage that asked for it.
+  std::optional<MeshPart> part;
+  std::optional<CandidateKeys> candidate_keys;
   std::vector<nlohmann::ordered_json> history;
 };
 
@@ -42,6 +46,8 @@ class Stage {
 
   // Before reading: takes the graph's clique cover too, where there is one, validated.
   void take_cover();
+  // Before reading: takes what a part of a mesh has beside mesh and candidates, where it is one.
+  void take_part();
   // Before reading: members of this role do not pass, for the tool writes them anew with its product.
   void hold_back(Role role);
   // Whether the product goes into a bundle, where others may stand beside it.
@@ -56,10 +62,11 @@ class Stage {
   // Write the product, in the form that the command line asks for, then the history entry {tool, version, options,
   // ...details}, and commit.
   void write(const TetMesh& mesh, const nlohmann::ordered_json& details);
-  void write(const Candidates& candidates, const nlohmann::ordered_json& details);
-  // With what belongs to it, in a bundle only: candidates that were held back, a clique cover.
-  void write(const ConflictGraph& graph, const Candidates* candidates, const CliqueCover* cover,
-             const nlohmann::ordered_json& details);
+  // Of a part of a mesh, with their keys in a bundle; else null.
+  void write(const Candidates& candidates, const CandidateKeys* keys, const nlohmann::ordered_json& details);
+  // With what belongs to it, in a bundle only: candidates that were held back and their keys, a clique cover.
+  void write(const ConflictGraph& graph, const CandidateKeys* keys, const Candidates* candidates,
+             const CliqueCover* cover, const nlohmann::ordered_json& details);
   void write(const IndependentSet& solution, const nlohmann::ordered_json& details);
   void write(const MixedMesh& result, const nlohmann::ordered_json& details);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/cell_topology.hpp"
@@ -70,32 +71,44 @@ void prefer_positive(std::span<const std::int32_t> part, const std::vector<std::
   for (const std::int32_t t : part) turns[t] = turns[t] == Turn::keep ? Turn::turn : Turn::keep;
 }
 
-void turn_tets(TetMesh& mesh, const char* source, TetOrientation& result) {
+std::vector<std::int8_t> find_turns(const TetMesh& mesh, const std::vector<std::int8_t>& signs, const char* source) {
   const TetAdjacency adjacency(mesh, source);
   std::vector<Turn> turns(mesh.tets.size(), Turn::unknown);
   std::vector<std::int32_t> part;
   for (std::size_t start = 0; start < mesh.tets.size(); ++start) {
     if (turns[start] != Turn::unknown) continue;
     spread(mesh, adjacency, static_cast<std::int32_t>(start), turns, part);
-    prefer_positive(part, result.signs, turns);
+    prefer_positive(part, signs, turns);
   }
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    if (turns[t] != Turn::turn) continue;
+  std::vector<std::int8_t> turned(turns.size());
+  for (std::size_t t = 0; t < turns.size(); ++t) turned[t] = turns[t] == Turn::turn ? 1 : 0;
+  return turned;
+}
+
+// `turns` empty: none.
+TetOrientation turn_tets(TetMesh& mesh, std::vector<std::int8_t> signs, std::vector<std::int8_t> turns) {
+  TetOrientation result{.signs = std::move(signs), .turns = std::move(turns)};
+  for (std::size_t t = 0; t < result.turns.size(); ++t) {
+    if (result.turns[t] == 0) continue;
     std::swap(mesh.tets[t][2], mesh.tets[t][3]);
     result.signs[t] = static_cast<std::int8_t>(-result.signs[t]);
     ++result.turned;
   }
+  result.inverted = std::count(result.signs.begin(), result.signs.end(), -1);
+  result.flat = std::count(result.signs.begin(), result.signs.end(), 0);
+  return result;
 }
 
 }  // namespace
 
 TetOrientation orient_tets(TetMesh& mesh, const char* source) {
-  TetOrientation result;
-  result.signs = signs_of(mesh);
-  if (std::find(result.signs.begin(), result.signs.end(), -1) != result.signs.end()) turn_tets(mesh, source, result);
-  result.inverted = std::count(result.signs.begin(), result.signs.end(), -1);
-  result.flat = std::count(result.signs.begin(), result.signs.end(), 0);
-  return result;
+  std::vector<std::int8_t> signs = signs_of(mesh), turns;
+  if (std::find(signs.begin(), signs.end(), -1) != signs.end()) turns = find_turns(mesh, signs, source);
+  return turn_tets(mesh, std::move(signs), std::move(turns));
+}
+
+TetOrientation orient_tets(TetMesh& mesh, std::vector<std::int8_t> turns) {
+  return turn_tets(mesh, signs_of(mesh), std::move(turns));
 }
 
 std::optional<std::string> turned_tets_warning(const TetOrientation& orientation) {

@@ -14,8 +14,9 @@ namespace hexpipe {
 
 struct TetOrientation {
   std::vector<std::int8_t>
-      signs;                // of each tet's volume after it was turned: 1, 0 for a flat tet, -1 for an inverted one
-  std::int64_t turned = 0;  // tets whose last two corners were swapped
+      signs;  // of each tet's volume after it was turned: 1, 0 for a flat tet, -1 for an inverted one
+  std::vector<std::int8_t> turns;  // 1 for each tet whose last two corners were swapped; empty where none was negative
+  std::int64_t turned = 0;         // how many were
   std::int64_t inverted = 0;
   std::int64_t flat = 0;
 };
@@ -24,6 +25,9 @@ struct TetOrientation {
 // possible are positive. A mesh of positive tets stays as it is. Throws DataError naming `source` when a facet belongs
 // to more than two tets.
 TetOrientation orient_tets(TetMesh& mesh, const char* source);
+
+// The same where it was found before which tets are to be turned: as TetOrientation::turns.
+TetOrientation orient_tets(TetMesh& mesh, std::vector<std::int8_t> turns);
 
 // What to tell a user of the tets that were turned: something where they are few among many, which hints at a fault;
 // nothing where the file lists its tets in another sense, or in no order.

@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
       write_cand(*result.candidates, output);
       output.commit();
     }
-    stage.write(result.graph, result.candidates ? &*result.candidates : nullptr,
+    stage.write(result.graph, nullptr, result.candidates ? &*result.candidates : nullptr,
                 result.cover ? &*result.cover : nullptr, history_of(summary));
     phases.end("write");
     context.statistics.update(phases.seconds());

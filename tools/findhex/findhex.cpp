@@ -97,7 +97,7 @@ struct FoundInBlock {
 
 // All kinds together, so that the quads of a vertex are found once.
 FoundInBlock find_cells_at(std::int64_t begin, std::int64_t end, const MeshTables& tables,
-                           const FindhexOptions& options) {
+                           const FindhexOptions& options, const SearchScope& scope) {
   const QuadFilter filter{options.min_quality, options.drop_folded_quads};
   std::vector<std::unique_ptr<KindSearch>> searches;
   for (const CellKind kind : options.kinds)
@@ -108,6 +108,7 @@ FoundInBlock find_cells_at(std::int64_t begin, std::int64_t end, const MeshTable
   FoundInBlock found;
   QuadFan fan(tables.mesh(), tables.links(), filter);
   for (std::int64_t v = begin; v < end; ++v) {
+    if (!scope.begins_at.empty() && !scope.begins_at[v]) continue;
     fan.find(static_cast<Vertex>(v));
     found.quads += static_cast<std::int64_t>(fan.size());
     for (const auto& search : searches) search->search_at(static_cast<Vertex>(v), fan);
@@ -125,8 +126,8 @@ CellCounts& CellCounts::operator+=(const CellCounts& other) {
   return *this;
 }
 
-FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* source) {
-  const MeshTables tables(std::move(mesh), source);
+FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* source, const SearchScope& scope) {
+  const MeshTables tables(std::move(mesh), source, scope.turns);
   FindhexResult result;
   result.findings = tables.findings();
   for (const CellKind kind : options.kinds) result.counts.push_back({kind, {}});
@@ -136,7 +137,9 @@ FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* s
   std::int64_t vertices_done = 0;
   parallel_in_order(
       count, vertices_a_block,
-      [&](std::int64_t begin, std::int64_t end) { return find_cells_at(first + begin, first + end, tables, options); },
+      [&](std::int64_t begin, std::int64_t end) {
+        return find_cells_at(first + begin, first + end, tables, options, scope);
+      },
       [&](FoundInBlock&& found) {
         vertices_done = std::min(vertices_done + vertices_a_block, count);
         const double share_done = static_cast<double>(vertices_done) / static_cast<double>(count);

@@ -47,7 +47,13 @@ struct FindhexResult {
   std::int64_t triangulated_quads = 0;
 };
 
+// What is known of a mesh that is cut out of another.
+struct SearchScope {
+  std::vector<bool> begins_at;      // vertices where cells may begin; empty: all
+  std::vector<std::int8_t> turns;  // TetOrientation::turns; empty: to be found
+};
+
 // Throws DataError naming `source` when a facet of the mesh belongs to more than two tets.
-FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* source);
+FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* source, const SearchScope& scope = {});
 
 }  // namespace hexpipe

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
@@ -7,6 +9,7 @@
 #include "common/run/tool_main.hpp"
 #include "formats/stage.hpp"
 #include "tools/findhex/findhex.hpp"
+#include "tools/findhex/part_search.hpp"
 #include "tools/findhex/report.hpp"
 
 using namespace hexpipe;
@@ -60,17 +63,23 @@ int main(int argc, char** argv) {
 
     Phases phases;
     Stage stage(context);
+    stage.take_part();
     StageData data = stage.read({Role::mesh});
     const std::string source = stage.source_of(Role::mesh);
     phases.end("read");
     if (data.mesh->tets.empty())
       throw DataError::at(source, "expected tets, found none (tetmesh makes them from a surface)");
-    const FindhexResult result = findhex(std::move(*data.mesh), options, source.c_str());
+    if (data.part && options.part.count > 1)
+      throw UsageError(fmt::format("--part does not go with a mesh that is {} already", title_of(*data.part)));
+    const FindhexResult result = data.part ? findhex_of_part(*data.mesh, *data.part, options, source.c_str())
+                                           : findhex(std::move(*data.mesh), options, source.c_str());
     phases.end("find");
     for (const auto& warning : warnings_about(result.findings)) context.warn(warning);
     for (const auto& line : summary_lines(result)) context.note(line);
     context.statistics.update(statistics_of(result));
-    stage.write(result.candidates, {{"candidates", candidate_counts(result)}});
+    CandidateKeys keys;
+    if (data.part) keys.key = candidate_keys(result.candidates, data.part->point_number, source.c_str());
+    stage.write(result.candidates, data.part ? &keys : nullptr, {{"candidates", candidate_counts(result)}});
     phases.end("write");
     context.statistics.update(phases.seconds());
   };

@@ -27,17 +27,17 @@ FoundFacet facet_of(const Tet& tet, const Triangle& triangle) {
 
 }  // namespace
 
-MeshTables::MeshTables(TetMesh mesh, const char* source)
+MeshTables::MeshTables(TetMesh mesh, const char* source, const std::vector<std::int8_t>& turns)
     : mesh_(std::move(mesh)),
-      usable_(judge_tets(source)),
+      usable_(judge_tets(source, turns)),
       adjacency_(mesh_, source),
       links_(mesh_, adjacency_, usable_) {
   make_flood_tets();
   label_walls();
 }
 
-std::vector<bool> MeshTables::judge_tets(const char* source) {
-  findings_.orientation = orient_tets(mesh_, source);
+std::vector<bool> MeshTables::judge_tets(const char* source, const std::vector<std::int8_t>& turns) {
+  findings_.orientation = turns.empty() ? orient_tets(mesh_, source) : orient_tets(mesh_, turns);
   const std::vector<std::int8_t>& signs = findings_.orientation.signs;
   std::vector<bool> usable(signs.size());
   for (std::size_t t = 0; t < usable.size(); ++t) usable[t] = signs[t] > 0;

@@ -20,8 +20,9 @@ struct MeshFindings {
 
 class MeshTables {
  public:
-  // Throws DataError naming `source` when a facet belongs to more than two tets.
-  MeshTables(TetMesh mesh, const char* source);
+  // `turns`: which tets are to be turned (TetOrientation::turns) where that is known. Throws DataError naming `source`
+  // when a facet belongs to more than two tets.
+  MeshTables(TetMesh mesh, const char* source, const std::vector<std::int8_t>& turns = {});
 
   const TetMesh& mesh() const { return mesh_; }
   const TetAdjacency& adjacency() const { return adjacency_; }
@@ -57,7 +58,7 @@ class MeshTables {
     std::int32_t usable_beyond, label;
   };
 
-  std::vector<bool> judge_tets(const char* source);
+  std::vector<bool> judge_tets(const char* source, const std::vector<std::int8_t>& turns);
   void make_flood_tets();
   void label_walls();
   // visit(tet, FoundFacet) of the tets, one or two, that have this facet.

@@ -1,0 +1,76 @@
+#include "common/mesh/submesh.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+namespace hexpipe {
+namespace {
+
+template <class T>
+std::vector<T> select(const std::vector<T>& items, std::span<const std::int32_t> chosen) {
+  std::vector<T> selected;
+  selected.reserve(chosen.size());
+  for (const std::int32_t i : chosen) selected.push_back(items[i]);
+  return selected;
+}
+
+template <class Cell>
+bool has_marked(const Cell& cell, const std::vector<bool>& marked) {
+  return std::any_of(cell.begin(), cell.end(), [&](Vertex v) { return marked[v]; });
+}
+
+template <class Cell>
+bool all_marked(const Cell& cell, const std::vector<bool>& marked) {
+  return std::all_of(cell.begin(), cell.end(), [&](Vertex v) { return marked[v]; });
+}
+
+std::vector<std::int32_t> where_true(const std::vector<bool>& marked) {
+  std::vector<std::int32_t> places;
+  for (std::size_t i = 0; i < marked.size(); ++i)
+    if (marked[i]) places.push_back(static_cast<std::int32_t>(i));
+  return places;
+}
+
+}  // namespace
+
+Submesh submesh(const TetMesh& mesh, std::vector<std::int32_t> points, std::vector<std::int32_t> tets,
+                std::vector<std::int32_t> triangles, std::vector<std::int32_t>& scratch) {
+  Submesh part{{}, std::move(points), std::move(tets), std::move(triangles)};
+  part.mesh.points = select(mesh.points, part.points);
+  part.mesh.tets = select(mesh.tets, part.tets);
+  part.mesh.tet_tags = select(mesh.tet_tags, part.tets);
+  part.mesh.triangles = select(mesh.triangles, part.triangles);
+  part.mesh.triangle_tags = select(mesh.triangle_tags, part.triangles);
+  scratch.resize(mesh.points.size());
+  for (std::size_t i = 0; i < part.points.size(); ++i) scratch[part.points[i]] = static_cast<std::int32_t>(i);
+  const auto renumber = [&](auto& cells) {
+    for (auto& cell : cells)
+      for (Vertex& v : cell) v = scratch[v];
+  };
+  renumber(part.mesh.tets);
+  renumber(part.mesh.triangles);
+  return part;
+}
+
+Submesh submesh_around(const TetMesh& mesh, const std::vector<bool>& marked, int edges) {
+  std::vector<bool> reached = marked;
+  std::vector<std::int32_t> tets;
+  for (int distance = 0; distance <= edges; ++distance) {
+    tets.clear();
+    std::vector<bool> next = reached;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+      if (!has_marked(mesh.tets[t], reached)) continue;
+      tets.push_back(static_cast<std::int32_t>(t));
+      for (const Vertex v : mesh.tets[t]) next[v] = true;
+    }
+    reached = std::move(next);
+  }
+  std::vector<std::int32_t> triangles;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    if (all_marked(mesh.triangles[i], reached)) triangles.push_back(static_cast<std::int32_t>(i));
+  std::vector<std::int32_t> scratch;
+  return submesh(mesh, where_true(reached), std::move(tets), std::move(triangles), scratch);
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,13 @@
+#pragma once
+// The candidates that belong to a part of a mesh: docs/definitions.md 5.
+
+#include "common/mesh/mesh_part.hpp"
+#include "tools/findhex/findhex.hpp"
+
+namespace hexpipe {
+
+// Those that begin at a point of the part's own, as they are found in the whole, in the part's numbers.
+FindhexResult findhex_of_part(const TetMesh& mesh, const MeshPart& part, const FindhexOptions& options,
+                              const char* source);
+
+}  // namespace hexpipe

@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include "common/run/phases.hpp"
+#include "common/run/tool_main.hpp"
+#include "common/run/version.hpp"
+#include "formats/stage.hpp"
+#include "tools/mesh-part/mesh_part.hpp"
+#include "tools/mesh-part/part_files.hpp"
+
+using namespace hexpipe;
+
+int main(int argc, char** argv) {
+  const ToolInfo info{
+      .name = "mesh-part",
+      .summary = "Split a mesh into parts, each a bundle that findhex and buildgraph work on alone.",
+      .example = "mesh-part engine.msh --parts 16 -o engine.parts && findhex engine.parts/part-0003.tar -o 3.tar",
+      .reads = {Role::mesh},
+      .product = std::nullopt,
+      .random = true,
+      .outside_history = {},
+  };
+  SplitOptions options;
+  std::string directory;
+  bool compress = false;
+  const auto declare = [&](CLI::App& app) {
+    app.add_option("--parts", options.parts, "How many parts of about as many tets")
+        ->required()
+        ->check(CLI::Range(1, most_parts));
+    app.add_option("-o,--output", directory, "The directory for part-0000.tar and so on; it is made")
+        ->required()
+        ->type_name("DIR");
+    app.add_flag("--compress", compress, "Compress the bundles with zstd");
+  };
+  const auto run = [&](RunContext& context) {
+    options.seed = context.common.seed;
+    Phases phases;
+    Stage stage(context);
+    StageData data = stage.read({Role::mesh});
+    const std::string source = stage.source_of(Role::mesh);
+    phases.end("read");
+    data.history.push_back({{"tool", info.name}, {"version", version()}, {"options", context.options}});
+    PartFiles files(directory, options.parts, compress);
+    const SplitCounts counts = split(std::move(*data.mesh), options, source.c_str(),
+                                     [&](const PartOfMesh& part) { files.write(part, data.history); });
+    files.commit();
+    phases.end("split");
+    context.note(summary(counts));
+    context.statistics.update(to_json(counts));
+    context.statistics.update(phases.seconds());
+  };
+  return tool_main(argc, argv, info, declare, run);
+}

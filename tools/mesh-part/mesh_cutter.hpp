@@ -1,0 +1,68 @@
+#pragma once
+// Cuts the parts of a partition out of a mesh, with the tets around them.
+
+#include <compare>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/mesh/adjacency.hpp"
+#include "common/mesh/mesh_part.hpp"
+#include "common/mesh/tet_mesh.hpp"
+#include "tools/mesh-part/partition.hpp"
+
+namespace hexpipe {
+
+struct PartOfMesh {
+  TetMesh mesh;
+  MeshPart part;
+  std::int64_t own_tets = 0;
+};
+
+class MeshCutter {
+ public:
+  // Of the tets around a part those are taken that have a point at most so many edges away from a point of its own.
+  // Three edges are what findhex looks at (docs/definitions.md 5).
+  MeshCutter(const TetMesh& mesh, const TetAdjacency& adjacency, const Partition& partition, std::int32_t parts,
+             int edges);
+
+  // `turns`: TetOrientation::turns of the whole.
+  PartOfMesh cut(std::int32_t part, const MeshFingerprint& whole, const std::vector<std::int8_t>& turns);
+
+ private:
+  void file_triangles();
+  // Points at most `edges` edges away from one of the part's own.
+  std::vector<std::int32_t> points_within(std::int32_t part, int edges);
+  std::vector<std::int32_t> tets_of(std::int32_t part);
+  std::vector<std::int32_t> triangles_of(std::int32_t part, const std::vector<std::int32_t>& tets) const;
+  std::vector<std::int32_t> points_of(std::int32_t part, const std::vector<std::int32_t>& tets,
+                                      const std::vector<std::int32_t>& triangles);
+
+  struct TriangleAtTet {
+    std::int32_t tet, triangle;
+    auto operator<=>(const TriangleAtTet&) const = default;
+  };
+  // Items by part.
+  struct Lists {
+    std::vector<std::int64_t> offsets;
+    std::vector<std::int32_t> items;
+    std::span<const std::int32_t> of(std::int32_t part) const {
+      return std::span(items).subspan(offsets[part], offsets[part + 1] - offsets[part]);
+    }
+  };
+  static Lists lists_by_part(const std::vector<std::int32_t>& parts_of_items, std::int32_t parts);
+
+  const TetMesh& mesh_;
+  const TetAdjacency& adjacency_;
+  const Partition& partition_;
+  std::int32_t parts_;
+  int edges_;
+  Lists own_points_, own_tets_;
+  std::vector<TriangleAtTet> triangles_;      // sorted
+  std::vector<std::int32_t> lone_triangles_;  // of no tet; they are part 0's
+  // When a point was last taken, by the number of the search, and for which part a tet was.
+  std::vector<std::int32_t> point_taken_, tet_taken_, scratch_;
+  std::int32_t search_ = 0;
+};
+
+}  // namespace hexpipe

@@ -1,0 +1,58 @@
+#include "tools/mesh-part/mesh_part.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "common/mesh/orientation.hpp"
+
+namespace hexpipe {
+namespace {
+
+// How far the tets around a part reach: docs/definitions.md 5.
+constexpr int ghost_edges = 6;
+
+// What the whole says of its tets' orientation; the mesh stays as it is.
+std::vector<std::int8_t> turns_of(TetMesh& mesh, const char* source) {
+  TetOrientation orientation = orient_tets(mesh, source);
+  for (std::size_t t = 0; t < orientation.turns.size(); ++t)
+    if (orientation.turns[t] != 0) std::swap(mesh.tets[t][2], mesh.tets[t][3]);
+  return std::move(orientation.turns);
+}
+
+}  // namespace
+
+SplitCounts split(TetMesh mesh, const SplitOptions& options, const char* source,
+                  const std::function<void(const PartOfMesh&)>& take) {
+  const std::vector<std::int8_t> turns = turns_of(mesh, source);
+  const MeshFingerprint whole = fingerprint_of(mesh);
+  const TetAdjacency adjacency(mesh, source);
+  const Partition parts = partition(mesh, adjacency, options.parts, options.seed, source);
+  MeshCutter cutter(mesh, adjacency, parts, options.parts, ghost_edges);
+  SplitCounts counts{.tets = whole.tets, .least = whole.tets, .parts = options.parts};
+  for (std::int32_t number = 0; number < options.parts; ++number) {
+    const PartOfMesh part = cutter.cut(number, whole, turns);
+    counts.ghosts += static_cast<std::int64_t>(part.mesh.tets.size()) - part.own_tets;
+    counts.least = std::min(counts.least, part.own_tets);
+    counts.most = std::max(counts.most, part.own_tets);
+    counts.most_neighbours = std::max(counts.most_neighbours, static_cast<std::int64_t>(part.part.neighbours.size()));
+    take(part);
+  }
+  return counts;
+}
+
+std::string summary(const SplitCounts& counts) {
+  return fmt::format(
+      "{} tets in {} parts of {} to {}, with {:.1f} % ghosts and up to {} neighbours each", counts.tets, counts.parts,
+      counts.least, counts.most,
+      100.0 * static_cast<double>(counts.ghosts) / static_cast<double>(std::max<std::int64_t>(counts.tets, 1)),
+      counts.most_neighbours);
+}
+
+nlohmann::ordered_json to_json(const SplitCounts& counts) {
+  return {{"tets", counts.tets},          {"parts", counts.parts},       {"least_tets", counts.least},
+          {"greatest_tets", counts.most}, {"ghost_tets", counts.ghosts}, {"most_neighbours", counts.most_neighbours}};
+}
+
+}  // namespace hexpipe

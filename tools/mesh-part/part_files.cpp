@@ -1,0 +1,65 @@
+#include "tools/mesh-part/part_files.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "common/run/error.hpp"
+#include "formats/bundle.hpp"
+#include "formats/members.hpp"
+#include "formats/output.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr std::string_view stem = "part-";
+
+// Of "part-0012.tar": 12; of other names -1.
+std::int32_t number_in(std::string_view name) {
+  if (!name.starts_with(stem)) return -1;
+  name.remove_prefix(stem.size());
+  std::int32_t number = -1;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  const std::string_view ending(end, static_cast<std::size_t>(name.data() + name.size() - end));
+  return error == std::errc() && (ending == ".tar" || ending == ".tar.zst") ? number : -1;
+}
+
+}  // namespace
+
+PartFiles::PartFiles(std::string directory, std::int32_t parts, bool compress)
+    : directory_(std::move(directory)), compress_(compress) {
+  std::error_code error;
+  std::filesystem::create_directories(directory_, error);
+  if (error) throw DataError::at(directory_, "cannot make the directory: {}", error.message());
+  for (auto entry = std::filesystem::directory_iterator(directory_, error);
+       !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (number_in(name) >= parts)
+      throw DataError::at(directory_, "expected no parts but the {} to be written, found {}: remove it", parts, name);
+  }
+  if (error) throw DataError::at(directory_, "cannot list the directory: {}", error.message());
+}
+
+PartFiles::~PartFiles() {
+  std::error_code ignored;
+  for (const std::string& path : written_) std::filesystem::remove(path, ignored);
+}
+
+void PartFiles::write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history) {
+  const std::string path = fmt::format("{}/{}{:04}.tar{}", directory_, stem, part.part.part, compress_ ? ".zst" : "");
+  Output output(path);
+  BundleWriter writer(output, compress_);
+  write_members(writer, part.part);
+  write_members(writer, part.mesh);
+  int number = 0;
+  for (const auto& entry : history)
+    writer.add_text(fmt::format("history/{:02}-{}.json", ++number, entry.value("tool", "stage")), entry.dump(2) + "\n");
+  writer.close();
+  output.commit();
+  written_.push_back(path);
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,22 @@
+#pragma once
+// Which part each tet and each point of a mesh belongs to.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/mesh/adjacency.hpp"
+#include "common/mesh/tet_mesh.hpp"
+
+namespace hexpipe {
+
+struct Partition {
+  std::vector<std::int32_t> tet_part, point_part;
+};
+
+// Into `parts` parts of about as many tets, none without a tet. A point belongs to the part that has most of its tets,
+// the first of several; a point without tets to part 0. The same seed gives the same partition. Throws DataError naming
+// `source` when there are fewer tets than parts, or more than METIS can count.
+Partition partition(const TetMesh& mesh, const TetAdjacency& adjacency, std::int32_t parts, std::uint64_t seed,
+                    const char* source);
+
+}  // namespace hexpipe
