@@ -25,26 +25,35 @@ constexpr unsigned bits(const std::array<std::uint8_t, Size>& corners) {
   return set;
 }
 
-// The facet of the cell (quads, then triangles) on which three of its corners lie, by their bits; -1 where there is
-// none.
+// The triangle of a cell's facets that three of its corners are, by their bits: 4 times the number of the quad plus the
+// place of the corner left out, then the triangles; their count where there is none.
 template <class Topology>
-constexpr auto make_facet_of_corners() {
-  std::array<std::int16_t, 1u << Topology::corner_count> facet_of{};
-  facet_of.fill(-1);
-  std::int16_t facet = 0;
-  for (const LocalQuad& q : Topology::quads) {
-    for (const int left_out : q) facet_of[bits(q) & ~bit(left_out)] = facet;
-    ++facet;
-  }
-  for (const LocalTriangle& t : Topology::triangles) facet_of[bits(t)] = facet++;
-  return facet_of;
+constexpr auto make_triangle_of_corners() {
+  constexpr std::size_t count = 4 * Topology::quads.size() + Topology::triangles.size();
+  static_assert(count < 32);
+  std::array<std::uint8_t, 1u << Topology::corner_count> triangle_of{};
+  triangle_of.fill(count);
+  std::uint8_t next = 0;
+  for (const LocalQuad& q : Topology::quads)
+    for (const int left_out : q) triangle_of[bits(q) & ~bit(left_out)] = next++;
+  for (const LocalTriangle& t : Topology::triangles) triangle_of[bits(t)] = next++;
+  return triangle_of;
+}
+template <class Topology>
+constexpr auto triangle_of_corners = make_triangle_of_corners<Topology>();
+
+// Of each quad the two triangles that leave out opposite corners, and every triangle, as bits.
+template <class Topology>
+constexpr bool encloses(std::uint32_t triangles) {
+  constexpr std::size_t quad_bits = 4 * Topology::quads.size();
+  constexpr std::uint32_t one_a_quad = 0x11111111u & ((1u << quad_bits) - 1);
+  return ((triangles ^ triangles >> 2) & 3 * one_a_quad) == 0 &&
+         ((triangles ^ triangles >> 1) & one_a_quad) == one_a_quad &&
+         triangles >> quad_bits == (1u << Topology::triangles.size()) - 1;
 }
 
 // Rule 9: a scaled Jacobian that differs from that of three edges in one plane by no more than coordinates are rounded.
 constexpr double flat = 1e-6;
-
-template <class Topology>
-constexpr auto facet_of_corners = make_facet_of_corners<Topology>();
 
 }  // namespace
 
@@ -52,11 +61,13 @@ template <class Topology>
 TetVerdict CellTets<Topology>::find(const CellCorners& corners) {
   corners_ = corners;
   star_.move_to(corners[0]);
+  for (int c = 0; c < Topology::corner_count; ++c) marks_.corner_bits[corners[c]] = static_cast<std::uint8_t>(bit(c));
   TetVerdict verdict = TetVerdict::no_interior;
   for (const std::int32_t start : starts()) {
     verdict = find_from(start);
     if (verdict == TetVerdict::accepted) break;
   }
+  for (const Vertex v : corners) marks_.corner_bits[v] = 0;
   return verdict;
 }
 
@@ -69,7 +80,7 @@ auto CellTets<Topology>::starts() const -> Starts {
   auto has = [&](int a, int b, int c) { return tables_.links().is_facet(corners_[a], corners_[b], corners_[c]); };
   Starts all;
   auto add = [&](std::int32_t tet) {
-    if (tet != TetAdjacency::none) all.add(tet);
+    if (tet != TetAdjacency::none && std::find(all.begin(), all.end(), tet) == all.end()) all.push_back(tet);
   };
   if constexpr (Topology::triangles.size() > 0) {
     const LocalTriangle& t = Topology::triangles[0];
@@ -87,104 +98,109 @@ auto CellTets<Topology>::starts() const -> Starts {
     for (const std::int32_t tet :
          {inside(q[0], q[1], q[2]), inside(q[0], q[2], q[3]), inside(q[0], q[1], q[3]), inside(q[1], q[2], q[3])}) {
       if (tet == TetAdjacency::none) continue;
-      const auto b = corner_bits(tet);
+      const auto b = corner_bits(tables_.flood_tet(tet).vertices);
       if ((b[0] | b[1] | b[2] | b[3]) != bits(q)) add(tet);
     }
   return all;
 }
 
 template <class Topology>
-std::array<unsigned, 4> CellTets<Topology>::corner_bits(std::int32_t tet) const {
-  std::array<unsigned, 4> result{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Vertex v = tables_.flood_tet(tet).vertices[i];
-    for (int c = 0; c < Topology::corner_count; ++c) result[i] |= v == corners_[c] ? bit(c) : 0u;
-  }
-  return result;
+std::array<unsigned, 4> CellTets<Topology>::corner_bits(const Tet& tet) const {
+  const std::uint8_t* const bits_of = marks_.corner_bits.data();
+  return {bits_of[tet[0]], bits_of[tet[1]], bits_of[tet[2]], bits_of[tet[3]]};
 }
 
 // The vertex of the tet beyond that the facet does not have: what is left of the eight of both tets when those of the
 // facet, which come twice, and the one opposite cancel out.
 template <class Topology>
-Vertex CellTets<Topology>::apex_beyond(const TetFacet& facet, std::int32_t beyond) const {
-  const Tet &a = tables_.flood_tet(facet.tet).vertices, &b = tables_.flood_tet(beyond).vertices;
-  return a[0] ^ a[1] ^ a[2] ^ a[3] ^ a[facet.facet] ^ b[0] ^ b[1] ^ b[2] ^ b[3];
+Vertex CellTets<Topology>::apex_beyond(TetFacet facet, std::int32_t beyond) const {
+  const Tet &a = tables_.flood_tet(static_cast<std::int32_t>(facet / 4)).vertices,
+            &b = tables_.flood_tet(beyond).vertices;
+  return a[0] ^ a[1] ^ a[2] ^ a[3] ^ a[facet % 4] ^ b[0] ^ b[1] ^ b[2] ^ b[3];
 }
 
 template <class Topology>
 TetVerdict CellTets<Topology>::find_from(std::int32_t start) {
+  interior_.clear();
+  const TetVerdict verdict = judge_from(start);
+  for (const std::int32_t tet : interior_) marks_.interior[tet] = CellMarks::Interior::no;
+  if (verdict == TetVerdict::accepted) {
+    interior_.sort();
+    boundary_.sort();
+  }
+  return verdict;
+}
+
+template <class Topology>
+TetVerdict CellTets<Topology>::judge_from(std::int32_t start) {
   TetVerdict verdict = flood_from(start);
-  if (verdict == TetVerdict::accepted) verdict = find_outer_facets();
+  if (verdict == TetVerdict::accepted) verdict = judge_walls();
+  boundary_.clear();
   for (std::size_t quad = 0; quad < quad_count && verdict == TetVerdict::accepted; ++quad) verdict = judge_quad(quad);
   if (verdict != TetVerdict::accepted) return verdict;
   if (interior_.size() < least_interior_tets<Topology> || interior_.size() + boundary_.size() > most_tets<Topology>)
     return TetVerdict::tet_count;
   if (boundary_.size() > rules_.max_boundary_tets) return TetVerdict::boundary_tets;
   if (has_inner_vertex_ && !rules_.inner_vertices) return TetVerdict::inner_vertex;
-  interior_.sort();
-  boundary_.sort();
   return TetVerdict::accepted;
 }
 
 // Rule 5.
 template <class Topology>
 TetVerdict CellTets<Topology>::flood_from(std::int32_t start) {
-  interior_.clear();
-  boundary_.clear();
-  walls_.clear();
+  outer_ = inner_ = 0;
   has_inner_vertex_ = false;
-  interior_.add(start);
+  add_interior(start);
   TetVerdict verdict = TetVerdict::accepted;
   for (std::size_t next = 0; next < interior_.size() && verdict == TetVerdict::accepted; ++next)
     verdict = leave(interior_[next]);
   return verdict;
 }
 
-// Crosses the facets of an interior tet that are not on the cell's surface.
 template <class Topology>
-TetVerdict CellTets<Topology>::leave(std::int32_t tet) {
-  const auto b = corner_bits(tet);
+inline void CellTets<Topology>::add_interior(std::int32_t tet) {
+  interior_.push_back_if(marks_.interior[tet] == CellMarks::Interior::no, tet);
+  marks_.interior[tet] = CellMarks::Interior::yes;
+}
+
+// Crosses the facets of an interior tet that are not on the cell's surface. A tet that is left stands for none beyond.
+template <class Topology>
+inline TetVerdict CellTets<Topology>::leave(std::int32_t tet) {
+  const MeshTables::FloodTet& at = tables_.flood_tet(tet);
+  const auto b = corner_bits(at.vertices);
   const unsigned all = b[0] | b[1] | b[2] | b[3];
-  for (const unsigned bits_of : b) has_inner_vertex_ |= bits_of == 0;
-  FixedVector<std::int32_t, 4> next;
+  std::array<std::int32_t, 4> next;
+  std::int32_t any_next = 0;
   for (int facet = 0; facet < 4; ++facet) {
-    const unsigned corners = all & ~b[facet];
-    const int of_cell = facet_of_corners<Topology>[corners];
-    walls_.push_back_if(of_cell >= 0, {tet, facet, of_cell, corners});
-    next.push_back_if(of_cell < 0, tables_.flood_tet(tet).across[facet]);
+    has_inner_vertex_ |= b[facet] == 0;
+    const std::size_t triangle = triangle_of_corners<Topology>[all & ~b[facet]];
+    walls_[triangle] = 4 * TetFacet{tet} + facet;
+    const std::uint32_t wall = 1u << triangle;
+    inner_ |= outer_ & wall;
+    outer_ ^= wall;
+    next[facet] = triangle == triangle_count ? at.across[facet] : tet;
+    any_next |= next[facet];
   }
-  for (const std::int32_t beyond : next) {
-    if (beyond < 0) return TetVerdict::crosses_mesh;
-    if (interior_.is_full() && !interior_.contains(beyond)) return TetVerdict::tet_count;
-    interior_.add(beyond);
-  }
-  return TetVerdict::accepted;
+  if (any_next < 0) return stop_at(next);
+  for (const std::int32_t beyond : next) add_interior(beyond);
+  return interior_.size() > most_tets<Topology> ? TetVerdict::tet_count : TetVerdict::accepted;
+}
+
+// At the first facet that cannot be crossed, unless there are too many tets before.
+template <class Topology>
+TetVerdict CellTets<Topology>::stop_at(const std::array<std::int32_t, 4>& next) {
+  for (std::size_t facet = 0; next[facet] >= 0; ++facet) add_interior(next[facet]);
+  return interior_.size() > most_tets<Topology> ? TetVerdict::tet_count : TetVerdict::crosses_mesh;
 }
 
 // The flood may have come to both sides of a wall, where a triangle with three corners of a quad lies inside. The
 // others are outside: one on each triangle of the cell, and two on each quad, at one of its diagonals.
 template <class Topology>
-TetVerdict CellTets<Topology>::find_outer_facets() {
-  for (auto& facets : outer_) facets.clear();
-  // With no more walls than outer facets all have to be outside: one inside would come twice, from either side.
-  const bool may_be_inside = walls_.size() > 2 * quad_count + Topology::triangles.size();
-  for (const WallFacet& wall : walls_) {
-    if (may_be_inside && interior_.contains(tables_.usable_beyond(wall.tet, wall.facet))) {
-      if (tables_.facet_label(wall.tet, wall.facet) != 0) return TetVerdict::crosses_mesh;
-      continue;
-    }
-    if (outer_[wall.of_cell].is_full()) return TetVerdict::no_interior;
-    outer_[wall.of_cell].push_back(wall);
-  }
-  for (std::size_t quad = 0; quad < quad_count; ++quad) {
-    const LocalQuad& q = Topology::quads[quad];
-    if (outer_[quad].size() != 2) return TetVerdict::no_interior;
-    const unsigned shared = outer_[quad][0].corners & outer_[quad][1].corners;
-    if (shared != (bit(q[0]) | bit(q[2])) && shared != (bit(q[1]) | bit(q[3]))) return TetVerdict::no_interior;
-  }
-  for (std::size_t triangle = quad_count; triangle < facet_count; ++triangle)
-    if (outer_[triangle].size() != 1) return TetVerdict::no_interior;
-  return TetVerdict::accepted;
+TetVerdict CellTets<Topology>::judge_walls() const {
+  constexpr std::uint32_t all = (1u << triangle_count) - 1;
+  for (std::uint32_t inner = inner_ & all; inner != 0; inner &= inner - 1)
+    if (tables_.facet_label(across(walls_[std::countr_zero(inner)])) != 0) return TetVerdict::crosses_mesh;
+  return encloses<Topology>(outer_ & all) ? TetVerdict::accepted : TetVerdict::no_interior;
 }
 
 // The two triangles that the interior tets have on a quad, the boundary tet on it if there is one, and rules 7 and 9
@@ -192,26 +208,28 @@ TetVerdict CellTets<Topology>::find_outer_facets() {
 template <class Topology>
 TetVerdict CellTets<Topology>::judge_quad(std::size_t quad) {
   const LocalQuad& q = Topology::quads[quad];
-  unsigned diagonal = outer_[quad][0].corners & outer_[quad][1].corners;
-  std::array<TetFacet, 2> outermost{TetFacet{outer_[quad][0].tet, outer_[quad][0].facet},
-                                    TetFacet{outer_[quad][1].tet, outer_[quad][1].facet}};
-  const auto label = [&](const TetFacet& at) { return tables_.facet_label(at.tet, at.facet); };
-  if (label(outermost[0]) != label(outermost[1])) return TetVerdict::half_on_surface;
-  const std::int32_t beyond = tables_.usable_beyond(outermost[0].tet, outermost[0].facet);
-  if (beyond == TetAdjacency::none) return TetVerdict::accepted;
-  const unsigned missing = bits(q) & ~outer_[quad][0].corners;
-  if (apex_beyond(outermost[0], beyond) == corners_[std::countr_zero(missing)]) {
-    if (label(outermost[0]) != 0) return TetVerdict::crosses_mesh;
-    boundary_.add(beyond);
+  const std::size_t left_out = (outer_ >> 4 * quad & 1) != 0 ? 0 : 1;
+  std::array<TetFacet, 2> outermost{walls_[4 * quad + left_out], walls_[4 * quad + left_out + 2]};
+  std::array<std::int32_t, 2> beyond{across(outermost[0]), across(outermost[1])};
+  const auto labels_differ = [&] { return tables_.facet_label(beyond[0]) != tables_.facet_label(beyond[1]); };
+  if (labels_differ()) return TetVerdict::half_on_surface;
+  const std::int32_t sliver = tables_.usable_beyond(beyond[0]);
+  if (sliver == TetAdjacency::none) return TetVerdict::accepted;
+  unsigned diagonal = bit(q[1 - left_out]) | bit(q[3 - left_out]);
+  // A tet at both triangles has the four corners of the quad.
+  if (sliver == tables_.usable_beyond(beyond[1])) {
+    if (tables_.facet_label(beyond[0]) != 0) return TetVerdict::crosses_mesh;
+    boundary_.push_back(sliver);
     // Its two facets opposite the corners of the diagonal that the interior tets have are outside, at the other one.
-    const auto b = corner_bits(beyond);
+    const auto b = corner_bits(tables_.flood_tet(sliver).vertices);
     std::size_t next = 0;
     for (int facet = 0; facet < 4; ++facet)
-      if ((b[facet] & diagonal) != 0) outermost[next++] = {beyond, facet};
+      if ((b[facet] & diagonal) != 0) outermost[next++] = 4 * TetFacet{sliver} + facet;
     diagonal = bits(q) & ~diagonal;
-    if (label(outermost[0]) != label(outermost[1])) return TetVerdict::half_on_surface;
+    beyond = {across(outermost[0]), across(outermost[1])};
+    if (labels_differ()) return TetVerdict::half_on_surface;
   }
-  if (!rules_.flat_corners && label(outermost[0]) == 0 && has_flat_corner(q, diagonal, outermost))
+  if (!rules_.flat_corners && tables_.facet_label(beyond[0]) == 0 && has_flat_corner(q, diagonal, outermost))
     return TetVerdict::flat_corner;
   return TetVerdict::accepted;
 }
@@ -223,7 +241,7 @@ bool CellTets<Topology>::has_flat_corner(const LocalQuad& quad, unsigned diagona
   std::array<std::int32_t, 2> beyond{};
   std::array<Vertex, 2> apex{};
   for (std::size_t i = 0; i < 2; ++i) {
-    beyond[i] = tables_.usable_beyond(outermost[i].tet, outermost[i].facet);
+    beyond[i] = tables_.usable_beyond(across(outermost[i]));
     if (beyond[i] == TetAdjacency::none) return false;
     apex[i] = apex_beyond(outermost[i], beyond[i]);
   }
@@ -235,8 +253,9 @@ bool CellTets<Topology>::has_flat_corner(const LocalQuad& quad, unsigned diagona
     // In both tets the facet opposite the other end of the diagonal is one at this corner and the apex.
     const Vertex other_end = corners_[quad[(i + 2) % 4]];
     const bool on_surface = std::ranges::all_of(beyond, [&](std::int32_t t) {
-      const Tet& tet = tables_.mesh().tets[t];
-      return tables_.facet_label(t, static_cast<int>(std::find(tet.begin(), tet.end(), other_end) - tet.begin())) != 0;
+      const auto& [vertices, across] = tables_.flood_tet(t);
+      return tables_.facet_label(across[std::find(vertices.begin(), vertices.end(), other_end) - vertices.begin()]) !=
+             0;
     });
     if (!on_surface) continue;
     const Vec3& at = points[corners_[quad[i]]];

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/tet_mesh.hpp"
@@ -54,48 +55,22 @@ enum class TetVerdict {
 // Which way a flood goes is hard to foresee, for a processor too: what follows decides by arithmetic where it can, not
 // by branches.
 
-template <class T, std::size_t Most>
-class FixedVector {
- public:
-  bool is_full() const { return size_ == Most; }
-  void push_back(const T& item) { items_[size_++] = item; }
-  void push_back_if(bool is_kept, const T& item) {
-    items_[size_] = item;
-    size_ += is_kept ? 1 : 0;
-  }
-  void clear() { size_ = 0; }
-  std::size_t size() const { return size_; }
-  const T& operator[](std::size_t i) const { return items_[i]; }
-  const T* begin() const { return items_.data(); }
-  const T* end() const { return items_.data() + size_; }
-
- private:
-  std::array<T, Most + 1> items_;  // room for one that is not kept
-  std::size_t size_ = 0;
-};
-
-// A few tets, none of them twice.
+// A few tets, to be sorted in the end.
 template <std::size_t Most>
 class FewTets {
  public:
-  FewTets() { clear(); }
   void clear() {
     tets_.fill(unused);
     size_ = 0;
   }
-  bool is_full() const { return size_ == Most; }
-  bool contains(std::int32_t tet) const {
-    std::int32_t found = 0;
-    for (const std::int32_t other : tets_) found |= tet == other ? -1 : 0;
-    return found != 0;
-  }
-  void add(std::int32_t tet) {
-    const bool is_new = !contains(tet);
-    tets_[size_] = is_new ? tet : unused;
-    size_ += is_new ? 1 : 0;
+  void push_back(std::int32_t tet) { tets_[size_++] = tet; }
+  void push_back_if(bool is_kept, std::int32_t tet) {
+    tets_[size_] = tet;
+    size_ += is_kept ? 1 : 0;
   }
   // Each tet goes to where as many places are before it as there are less ones.
   void sort() {
+    tets_[size_] = unused;
     const auto unsorted = tets_;
     for (std::size_t i = 0; i < size_; ++i) {
       std::int32_t less = 0;
@@ -109,10 +84,20 @@ class FewTets {
   const std::int32_t* end() const { return tets_.data() + size_; }
 
  private:
-  static constexpr std::int32_t unused = std::numeric_limits<std::int32_t>::min();  // less than all, and not `none`
+  static constexpr std::int32_t unused = std::numeric_limits<std::int32_t>::min();  // less than all
 
-  std::array<std::int32_t, (Most + 4) / 4 * 4> tets_;  // unused behind the last, one at least
+  std::array<std::int32_t, (Most + 4) / 4 * 4> tets_;  // behind the last, one that was not kept, then unused
   std::size_t size_ = 0;
+};
+
+// What is known of the cell at hand by vertex and by tet of the mesh, for one thread; all 0 between cells.
+struct CellMarks {
+  enum class Interior : std::uint8_t { no, yes };
+
+  explicit CellMarks(const TetMesh& mesh) : corner_bits(mesh.points.size(), 0), interior(mesh.tets.size()) {}
+
+  std::vector<std::uint8_t> corner_bits;  // of a vertex: bit c where it is corner c
+  std::vector<Interior> interior;         // of a tet
 };
 
 // Finds and judges the tets of one cell after another. Topology: HexTopology, PrismTopology or PyramidTopology.
@@ -121,7 +106,8 @@ class CellTets {
  public:
   using CellCorners = std::array<Vertex, Topology::corner_count>;
 
-  CellTets(const MeshTables& tables, const CellTetRules& rules) : tables_(tables), rules_(rules), star_(tables) {}
+  CellTets(const MeshTables& tables, const CellTetRules& rules, CellMarks& marks)
+      : tables_(tables), rules_(rules), marks_(marks), star_(tables) {}
 
   // Of a cell whose quads are triangulated quads of the mesh and whose triangles are facets.
   TetVerdict find(const CellCorners& corners);
@@ -132,39 +118,42 @@ class CellTets {
 
  private:
   static constexpr std::size_t quad_count = Topology::quads.size();
-  static constexpr std::size_t facet_count = quad_count + Topology::triangles.size();
 
-  // A facet of an interior tet whose vertices lie on one facet of the cell, so that the flood did not cross it.
-  struct WallFacet {
-    std::int32_t tet;
-    int facet;
-    int of_cell;       // the facet of the cell: quads, then triangles
-    unsigned corners;  // of the cell, as bits
-  };
-  struct TetFacet {
-    std::int32_t tet;
-    int facet;
-  };
+  // Of the cell, from three corners each: four on each quad, one on each triangle.
+  static constexpr std::size_t triangle_count = 4 * quad_count + Topology::triangles.size();
+
+  // A facet of a tet: 4 times the number of the tet, plus that of the facet.
+  using TetFacet = std::int64_t;
   using Starts = FewTets<4 * quad_count>;
 
   Starts starts() const;
-  std::array<unsigned, 4> corner_bits(std::int32_t tet) const;
-  Vertex apex_beyond(const TetFacet& facet, std::int32_t beyond) const;
+  std::array<unsigned, 4> corner_bits(const Tet& tet) const;
+  std::int32_t across(TetFacet facet) const {
+    return tables_.flood_tet(static_cast<std::int32_t>(facet / 4)).across[facet % 4];
+  }
+  Vertex apex_beyond(TetFacet facet, std::int32_t beyond) const;
   TetVerdict find_from(std::int32_t start);
+  TetVerdict judge_from(std::int32_t start);
   TetVerdict flood_from(std::int32_t start);
   TetVerdict leave(std::int32_t tet);
-  TetVerdict find_outer_facets();
+  TetVerdict stop_at(const std::array<std::int32_t, 4>& next);
+  void add_interior(std::int32_t tet);
+  TetVerdict judge_walls() const;
   TetVerdict judge_quad(std::size_t quad);
   bool has_flat_corner(const LocalQuad& quad, unsigned diagonal, const std::array<TetFacet, 2>& outermost) const;
 
   const MeshTables& tables_;
   const CellTetRules rules_;
+  CellMarks& marks_;
   TetStar star_;
   CellCorners corners_{};
-  FewTets<most_tets<Topology>> interior_;
+  FewTets<most_tets<Topology> + 4> interior_;  // a flood that finds too many ends when it has left a tet
   FewTets<quad_count> boundary_;
-  FixedVector<WallFacet, 4 * most_tets<Topology>> walls_;
-  std::array<FixedVector<WallFacet, 2>, facet_count> outer_;  // walls with no interior tet beyond, by facet of the cell
+  // Facets of interior tets whose vertices lie on one facet of the cell, so that the flood did not cross them, by
+  // triangle of the cell; which there are with interior tets on one side, and on both, as bits. One more for no
+  // triangle.
+  std::array<TetFacet, triangle_count + 1> walls_{};
+  std::uint32_t outer_ = 0, inner_ = 0;
   bool has_inner_vertex_ = false;
 };
 

@@ -29,8 +29,8 @@ void append_tets(std::span<const std::int32_t> added, std::vector<std::int32_t>&
 template <class Topology>
 class CandidateCollector {
  public:
-  CandidateCollector(const MeshTables& tables, const FindhexOptions& options)
-      : options_(options), tets_(tables, options.tet_rules) {}
+  CandidateCollector(const MeshTables& tables, const FindhexOptions& options, CellMarks& marks)
+      : options_(options), tets_(tables, options.tet_rules, marks) {}
 
   void judge(const std::array<Vertex, Topology::corner_count>& corners,
              const std::array<Vec3, Topology::corner_count>& points) {
@@ -75,8 +75,8 @@ class KindSearch {
 template <class Topology>
 class KindSearchOf final : public KindSearch {
  public:
-  KindSearchOf(const MeshTables& tables, const QuadFilter& filter, const FindhexOptions& options)
-      : collector_(tables, options), search_(tables, filter, Judge{collector_}) {}
+  KindSearchOf(const MeshTables& tables, const QuadFilter& filter, const FindhexOptions& options, CellMarks& marks)
+      : collector_(tables, options, marks), search_(tables, filter, Judge{collector_}) {}
 
   void search_at(Vertex corner_0, const QuadFan& fan) override { search_.visit_cells_at(corner_0, fan); }
   Found take() override { return collector_.take(); }
@@ -97,13 +97,13 @@ struct FoundInBlock {
 
 // All kinds together, so that the quads of a vertex are found once.
 FoundInBlock find_cells_at(std::int64_t begin, std::int64_t end, const MeshTables& tables,
-                           const FindhexOptions& options, const SearchScope& scope) {
+                           const FindhexOptions& options, const SearchScope& scope, CellMarks& marks) {
   const QuadFilter filter{options.min_quality, options.drop_folded_quads};
   std::vector<std::unique_ptr<KindSearch>> searches;
   for (const CellKind kind : options.kinds)
     with_topology(kind, [&]<class Topology>(Topology) {
       if constexpr (Topology::kind != CellKind::tet)
-        searches.push_back(std::make_unique<KindSearchOf<Topology>>(tables, filter, options));
+        searches.push_back(std::make_unique<KindSearchOf<Topology>>(tables, filter, options, marks));
     });
   FoundInBlock found;
   QuadFan fan(tables.mesh(), tables.links(), filter);
@@ -135,10 +135,11 @@ FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* s
   const std::int64_t first = options.part.begin(vertex_count), count = options.part.end(vertex_count) - first;
   std::vector<Candidates> by_kind(options.kinds.size());
   std::int64_t vertices_done = 0;
+  PerThread<CellMarks> marks{CellMarks(tables.mesh())};
   parallel_in_order(
       count, vertices_a_block,
       [&](std::int64_t begin, std::int64_t end) {
-        return find_cells_at(first + begin, first + end, tables, options, scope);
+        return find_cells_at(first + begin, first + end, tables, options, scope, marks.local());
       },
       [&](FoundInBlock&& found) {
         vertices_done = std::min(vertices_done + vertices_a_block, count);

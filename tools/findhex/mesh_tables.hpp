@@ -40,17 +40,11 @@ class MeshTables {
     std::array<std::int32_t, 4> across;
   };
   const FloodTet& flood_tet(std::int32_t tet) const { return flood_tets_[tet]; }
-  // The usable tet beyond a facet, whatever lies between, or none.
-  std::int32_t usable_beyond(std::int32_t tet, int facet) const {
-    const std::int32_t across = flood_tets_[tet].across[facet];
-    return across >= 0 ? across : walls_[~across].usable_beyond;
-  }
+  // The usable tet beyond a facet, whatever lies between, or none; of an entry of FloodTet::across.
+  std::int32_t usable_beyond(std::int32_t across) const { return across >= 0 ? across : walls_[~across].usable_beyond; }
   // 0 where a facet lies inside a region and has no surface tag; else a number that two facets share when they have the
   // same tag and are both on the boundary of the mesh or both inside it.
-  std::int32_t facet_label(std::int32_t tet, int facet) const {
-    const std::int32_t across = flood_tets_[tet].across[facet];
-    return across >= 0 ? 0 : walls_[~across].label;
-  }
+  std::int32_t facet_label(std::int32_t across) const { return across >= 0 ? 0 : walls_[~across].label; }
 
  private:
   // A facet that no cell may reach across.
