@@ -25,6 +25,7 @@ Input Input::open(const std::string& path) {
     input.descriptor_ = dup(STDIN_FILENO);
   } else {
     input.name_ = input.path_ = path;
+    const WaitForInput wait;  // for the writer of a FIFO
     input.descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   }
   if (input.descriptor_ < 0) throw DataError::at(input.name_, "cannot open: {}", std::strerror(errno));
@@ -71,6 +72,7 @@ Input::~Input() {
 // Adds bytes behind those at hand, at least one unless the end is reached. The buffer must have room.
 bool Input::fill() {
   if (at_end_) return false;
+  const WaitForInput wait;
   ssize_t got;
   do got = ::read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
   while (got < 0 && errno == EINTR);

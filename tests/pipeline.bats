@@ -149,6 +149,24 @@ PYTHON
   mesh_is_valid out.vtk
 }
 
+@test "SIGTERM to the searches of a pipe lets the answer of the first come through the others" {
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 3 >lattice.mesh
+  findhex --mesh lattice.mesh | buildgraph -o graph.tar
+  mkfifo first second
+  initsol graph.tar --time-limit 60 >first &
+  local searches=($!)
+  lns <first >second &
+  searches+=($!)
+  certify <second >out.tar &
+  searches+=($!)
+  sleep 1
+  kill -TERM "${searches[@]}"
+  local search
+  for search in "${searches[@]}"; do wait "$search"; done
+  run "$CHECKERS/solution_check.py" out.tar
+  assert_success
+}
+
 @test "Ctrl-C ends a tool that waits for a pipe the second time" {
   mkfifo pipe
   sleep 30 >pipe &

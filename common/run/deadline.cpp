@@ -15,18 +15,36 @@ std::atomic<bool> stop_flag{false};
 std::atomic<bool> first_signal_stops_searches{false};
 std::atomic<bool> upstream_may_answer{false};
 std::atomic<bool> interrupted{false};
+std::atomic<bool> waits_for_input{false};
+std::atomic<int> impatient_signal{0};  // that stopped the search and does not let it wait
 std::atomic<bool> file_registered{false};
 char registered_file[4096];
 
-void on_signal(int signal_number) {
-  if (first_signal_stops_searches.load()) {
-    if (!stop_flag.exchange(true)) return;
-  } else if (signal_number == SIGINT && upstream_may_answer.load() && !interrupted.exchange(true)) {
-    return;
-  }
+constexpr unsigned longest_wait = 1;  // seconds, for input after a signal
+
+void end_by(int signal_number) {
   remove_registered_file();
   signal(signal_number, SIG_DFL);
   raise(signal_number);
+}
+
+void stop_search(int signal_number) {
+  if (signal_number == SIGINT) return;
+  impatient_signal = signal_number;
+  if (waits_for_input.load()) alarm(longest_wait);
+}
+
+void on_signal(int signal_number) {
+  if (first_signal_stops_searches.load()) {
+    if (!stop_flag.exchange(true)) return stop_search(signal_number);
+  } else if (signal_number == SIGINT && upstream_may_answer.load() && !interrupted.exchange(true)) {
+    return;
+  }
+  end_by(signal_number);
+}
+
+void on_alarm(int) {
+  if (waits_for_input.load()) end_by(impatient_signal.load());
 }
 
 }  // namespace
@@ -51,6 +69,16 @@ void leave_interrupt_upstream(bool on) {
   upstream_may_answer = on;
 }
 
+// The alarm is set here or in the handler, whichever comes second.
+WaitForInput::WaitForInput() {
+  waits_for_input = true;
+  if (impatient_signal.load() != 0) alarm(longest_wait);
+}
+
+WaitForInput::~WaitForInput() {
+  waits_for_input = false;
+}
+
 void remove_on_signal(const char* path) {
   file_registered = false;
   const std::size_t length = std::strlen(path);
@@ -71,6 +99,8 @@ void install_signal_handlers() {
   action.sa_flags = SA_RESTART | SA_NODEFER;
   sigemptyset(&action.sa_mask);
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
+  action.sa_handler = on_alarm;
+  sigaction(SIGALRM, &action, nullptr);
   signal(SIGPIPE, SIG_IGN);
 }
 

@@ -34,7 +34,7 @@ class Deadline {
 
 // After this call the first SIGINT or SIGTERM makes stop_requested() true and every Deadline pass; the second ends the
 // process as an uncaught signal would. Without it the first one already does. Either way the temporary files
-// registered with remove_on_signal are gone.
+// registered with remove_on_signal are gone. SIGHUP does as SIGTERM.
 void stop_searches_on_signal();
 bool stop_requested();
 
@@ -42,6 +42,17 @@ bool stop_requested();
 // processes of a pipeline at once, and the best solution of the search that it stops is still to come down the pipe.
 // The second ends the process.
 void leave_interrupt_upstream(bool on);
+
+// Stands around a call that waits for input. A search that was asked to stop reads on, for what comes may be the answer
+// of a search upstream that was asked at the same time. Where it was asked by another signal than SIGINT, it ends as by
+// that signal when nothing has come for a second. One at a time.
+class WaitForInput {
+ public:
+  WaitForInput();
+  ~WaitForInput();
+  WaitForInput(const WaitForInput&) = delete;
+  WaitForInput& operator=(const WaitForInput&) = delete;
+};
 
 // Registers a file to be removed when a signal ends the process; an empty path takes the registration back.
 // One file at a time: a tool writes one output.

@@ -305,26 +305,30 @@ def blocks(rng):
     return grown
 
 
-def touching(cells):
-    """Whether two boxes meet in an edge or a vertex alone, where no surface is a manifold."""
-    for cell in cells:
-        for step in itertools.product((-1, 0, 1), repeat=3):
-            other = tuple(c + s for c, s in zip(cell, step))
-            if sum(map(abs, step)) < 2 or other not in cells:
-                continue
-            around = {tuple(c + s * k for c, s, k in zip(cell, step, take)) for take in itertools.product((0, 1), repeat=3)}
-            reached = {cell}
-            for _ in range(3):
-                near = lambda p: any(sum(abs(x - y) for x, y in zip(p, q)) == 1 for q in reached)
-                reached |= {p for p in around & cells if near(p)}
-            if other not in reached:
-                return True
-    return False
+def in_one_piece(cells):
+    """Over facets; nothing is in one piece too."""
+    left = set(cells)
+    reached = [left.pop()] if left else []
+    for cell in reached:
+        near = {p for p in left if sum(abs(x - y) for x, y in zip(p, cell)) == 1}
+        left -= near
+        reached += near
+    return not left
+
+
+def is_manifold(cells):
+    """Around each corner what is inside is in one piece, and what is outside."""
+    steps = list(itertools.product((0, 1), repeat=3))
+    for corner in {tuple(c + s for c, s in zip(cell, step)) for cell in cells for step in steps}:
+        around = {tuple(c - s for c, s in zip(corner, step)) for step in steps}
+        if not (in_one_piece(around & cells) and in_one_piece(around - cells)):
+            return False
+    return True
 
 
 def stepped_surface(rng):
     cells = blocks(rng)
-    while touching(cells):
+    while not is_manifold(cells):
         cells = blocks(rng)
     planes = [list(itertools.accumulate(rng.randrange(2, 9) for _ in range(40))) for _ in range(3)]
     number, faces = {}, []

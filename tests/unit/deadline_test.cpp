@@ -2,11 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <pthread.h>
 #include <signal.h>
 #include <unistd.h>
 
 #include <fstream>
 #include <string>
+#include <thread>
 
 namespace hexpipe {
 namespace {
@@ -58,6 +60,36 @@ TEST(SignalsDeathTest, TheFirstStopsASearchTheSecondEndsIt) {
         _exit(0);
       },
       testing::KilledBySignal(SIGINT), "");
+}
+
+// Blocked in read(2) on a pipe where nothing comes, as `signal_number` arrives before the read or in it.
+void wait_for_nothing(int signal_number, bool before) {
+  install_signal_handlers();
+  stop_searches_on_signal();
+  int ends[2];
+  if (pipe(ends) != 0) _exit(1);
+  if (before) raise(signal_number);
+  const pthread_t reader = pthread_self();
+  std::thread sender([&] {
+    usleep(100'000);
+    if (!before) pthread_kill(reader, signal_number);
+    usleep(1'300'000);  // longer than the wait, not than the test
+    [[maybe_unused]] const auto written = write(ends[1], "x", 1);
+  });
+  char byte;
+  const WaitForInput wait;
+  [[maybe_unused]] const auto got = read(ends[0], &byte, 1);
+  _exit(stop_requested() ? 0 : 1);
+}
+
+TEST(SignalsDeathTest, ASearchThatWaitsForInputEndsByOneSignalThatIsNoInterrupt) {
+  for (const bool before : {true, false})
+    for (const int number : {SIGTERM, SIGHUP})
+      EXPECT_EXIT(wait_for_nothing(number, before), testing::KilledBySignal(number), "") << number << before;
+}
+
+TEST(SignalsDeathTest, ASearchThatIsInterruptedWaitsForWhatComesDownThePipe) {
+  EXPECT_EXIT(wait_for_nothing(SIGINT, false), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
