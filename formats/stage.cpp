@@ -371,10 +371,14 @@ std::string Stage::source_of(Role role) const {
 
 void Stage::State::check(const StageData& data) const {
   if (data.mesh) validate(*data.mesh, source_of(Role::mesh).c_str());
-  if (data.mesh && data.part) validate(*data.part, *data.mesh, source_of(Role::mesh).c_str());
+  if (data.part) {
+    validate(*data.part, source_of(Role::mesh).c_str());
+    if (data.mesh) validate_against(*data.part, *data.mesh, source_of(Role::mesh).c_str());
+  }
   if (data.candidates) {
     validate(*data.candidates, source_of(Role::candidates).c_str());
     if (data.mesh) validate_against(*data.candidates, *data.mesh, source_of(Role::candidates).c_str());
+    if (data.part) validate_against(*data.part, *data.candidates, source_of(Role::candidates).c_str());
   }
   if (data.candidates && data.candidate_keys)
     validate(*data.candidate_keys, data.candidates->size(), source_of(Role::candidates).c_str());

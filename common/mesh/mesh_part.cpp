@@ -69,21 +69,35 @@ MeshFingerprint fingerprint_of(const TetMesh& mesh) {
           static_cast<std::int64_t>(mesh.triangles.size()), sum.value()};
 }
 
-void validate(const MeshPart& part, const TetMesh& mesh, const char* source) {
+void validate(const MeshPart& part, const char* source) {
   if (part.parts < 1 || part.part < 0 || part.part >= part.parts)
     throw DataError::at(source, "expected a part below {}, found {}", part.parts, part.part);
-  check_size(source, "point numbers", mesh.points.size(), part.point_number.size());
-  check_size(source, "point owners", mesh.points.size(), part.point_part.size());
-  check_size(source, "tet numbers", mesh.tets.size(), part.tet_number.size());
-  check_size(source, "tet owners", mesh.tets.size(), part.tet_part.size());
-  check_size(source, "triangle numbers", mesh.triangles.size(), part.triangle_number.size());
-  if (!part.tet_turned.empty()) check_size(source, "tet turns", mesh.tets.size(), part.tet_turned.size());
+  check_size(source, "owners of points", part.point_number.size(), part.point_part.size());
+  check_size(source, "owners of tets", part.tet_number.size(), part.tet_part.size());
+  if (!part.tet_turned.empty()) check_size(source, "turns of tets", part.tet_number.size(), part.tet_turned.size());
   check_numbers(source, "points", part.point_number, part.whole.points);
   check_numbers(source, "tets", part.tet_number, part.whole.tets);
   check_numbers(source, "triangles", part.triangle_number, part.whole.triangles);
   check_owners(source, "points", part.point_part, part.parts);
   check_owners(source, "tets", part.tet_part, part.parts);
   check_owners(source, "neighbours", part.neighbours, part.parts);
+}
+
+void validate_against(const MeshPart& part, const TetMesh& mesh, const char* source) {
+  check_size(source, "numbers of points", mesh.points.size(), part.point_number.size());
+  check_size(source, "numbers of tets", mesh.tets.size(), part.tet_number.size());
+  check_size(source, "numbers of triangles", mesh.triangles.size(), part.triangle_number.size());
+}
+
+void validate_against(const MeshPart& part, const Candidates& candidates, const char* source) {
+  const auto check = [&](const char* what, std::int32_t item, std::size_t bound) {
+    if (item >= static_cast<std::int64_t>(bound))
+      throw DataError::at(source, "expected candidates of {} below {}, found {}", what, bound, item);
+  };
+  for (const auto& row : candidates.vertices)
+    for (const Vertex v : row) check("points", v, part.point_number.size());
+  for (const std::int32_t tet : candidates.tets) check("tets", tet, part.tet_number.size());
+  for (const std::int32_t tet : candidates.boundary_tets) check("tets", tet, part.tet_number.size());
 }
 
 std::string title_of(const MeshPart& part) {

@@ -33,9 +33,14 @@ struct MeshPart {
   std::vector<std::int8_t> tet_turned;
 };
 
-// Throws DataError naming `source` when arrays do not fit the mesh, numbers do not ascend or exceed the whole, or an
+// Throws DataError naming `source` when arrays disagree in length, numbers do not ascend or exceed the whole, or an
 // owner is none of the parts.
-void validate(const MeshPart& part, const TetMesh& mesh, const char* source);
+void validate(const MeshPart& part, const char* source);
+
+// Throws DataError naming `source` when there are not as many numbers as the mesh has points, tets and triangles; or as
+// the candidates name points and tets.
+void validate_against(const MeshPart& part, const TetMesh& mesh, const char* source);
+void validate_against(const MeshPart& part, const Candidates& candidates, const char* source);
 
 // "part 3 of 16", for messages.
 std::string title_of(const MeshPart& part);

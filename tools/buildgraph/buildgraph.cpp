@@ -37,7 +37,7 @@ void forget_worth(Candidates& candidates) {
   candidates.boundary_tet_offsets = {};
 }
 
-LowerConflicts find_lower_conflicts(const Candidates& candidates, const Part& part) {
+LowerConflicts find_lower_conflicts(const Candidates& candidates, const Part& part, const std::vector<bool>& own) {
   const std::size_t count = candidates.size();
   const std::optional<Candidates> dense = with_dense_ids(candidates);
   const ConflictFinder finder(dense ? *dense : candidates);
@@ -55,7 +55,9 @@ LowerConflicts find_lower_conflicts(const Candidates& candidates, const Part& pa
         PackedLists lists;
         for (std::int64_t i = conflicts.first + begin; i < conflicts.first + end; ++i) {
           finder.collect_lower(static_cast<std::size_t>(i), scratch.found);
+          const bool keeps_all = own.empty() || own[i];
           scratch.found.drain([&](std::int32_t j) {
+            if (!keeps_all && !own[j]) return;
             lists.add(j);
             ++scratch.degrees[i];
             ++scratch.degrees[j];
@@ -78,7 +80,8 @@ LowerConflicts find_lower_conflicts(const Candidates& candidates, const Part& pa
 // Conflicts are found once, from their higher end. They are packed until all are counted, and what they were found by
 // is gone before the graph takes its memory. Then they are written at both ends: as higher ends come in ascending
 // order, so do all lists, and none goes further than the higher ends so far. So the graph grows as the lists are freed.
-ConflictGraph conflict_graph(Candidates candidates, const BuildgraphOptions& options, const char* source) {
+ConflictGraph conflict_graph(Candidates candidates, const BuildgraphOptions& options, const char* source,
+                             const std::vector<bool>& own) {
   const std::size_t count = candidates.size();
   if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw DataError::at(source, "expected fewer than 2^31 candidates, found {}", count);
@@ -86,7 +89,7 @@ ConflictGraph conflict_graph(Candidates candidates, const BuildgraphOptions& opt
   graph.weights = weights_of(candidates, options.weight, options.weight_scale, source);
 
   forget_worth(candidates);
-  LowerConflicts conflicts = find_lower_conflicts(candidates, options.part);
+  LowerConflicts conflicts = find_lower_conflicts(candidates, options.part, own);
   candidates = {};
   graph.offsets.assign(count + 1, 0);
   std::partial_sum(conflicts.degrees.begin(), conflicts.degrees.end(), graph.offsets.begin() + 1);
@@ -123,6 +126,22 @@ BuildgraphResult buildgraph(Candidates candidates, const BuildgraphOptions& opti
     if (options.cover) result.cover = greedy_edge_clique_cover(result.graph, known);
   }
   return result;
+}
+
+PartGraph buildgraph_of_part(PartCandidates all, std::int32_t part, const BuildgraphOptions& options,
+                             const char* source) {
+  std::vector<bool> own(all.keys.part.size());
+  for (std::size_t i = 0; i < own.size(); ++i) own[i] = all.keys.part[i] == part;
+  PartGraph built;
+  ConflictGraph& graph = built.result.graph;
+  graph = conflict_graph(all.candidates, options, source, own);
+  std::vector<std::int32_t> kept;
+  for (std::int32_t v = 0; v < graph.vertex_count(); ++v)
+    if (own[v] || graph.degree(v) > 0) kept.push_back(v);
+  keep_only(graph, kept);
+  built.result.candidates = select(all.candidates, kept);
+  built.keys = select(all.keys, kept);
+  return built;
 }
 
 }  // namespace hexpipe

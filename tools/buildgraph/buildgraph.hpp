@@ -7,6 +7,7 @@
 #include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
 #include "common/run/part.hpp"
+#include "tools/buildgraph/neighbours.hpp"
 #include "tools/buildgraph/weights.hpp"
 
 namespace hexpipe {
@@ -30,7 +31,18 @@ struct BuildgraphResult {
 // candidates or more.
 BuildgraphResult buildgraph(Candidates candidates, const BuildgraphOptions& options, const char* source);
 
-// The graph alone, of all candidates. Those that are moved in are gone before the graph takes its memory.
-ConflictGraph conflict_graph(Candidates candidates, const BuildgraphOptions& options, const char* source);
+// The same for a part of a mesh, its own candidates and those of its neighbours: of the latter those are left that are
+// in conflict with one of its own, and of conflicts those that one of its own is in.
+struct PartGraph {
+  BuildgraphResult result;
+  CandidateKeys keys;
+};
+PartGraph buildgraph_of_part(PartCandidates all, std::int32_t part, const BuildgraphOptions& options,
+                             const char* source);
+
+// The graph alone, of all candidates. Those that are moved in are gone before the graph takes its memory. Where `own`
+// is not empty, conflicts between two candidates that are not own are left out.
+ConflictGraph conflict_graph(Candidates candidates, const BuildgraphOptions& options, const char* source,
+                             const std::vector<bool>& own = {});
 
 }  // namespace hexpipe

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <map>
 #include <utility>
 
@@ -13,6 +15,19 @@
 using namespace hexpipe;
 
 namespace {
+
+// A part of a mesh and its neighbours.
+PartGraph build_part(StageData data, const BuildgraphOptions& options, const std::vector<std::string>& neighbours,
+                     const std::string& source) {
+  if (options.part.count > 1 || options.reduce || options.cover)
+    throw UsageError(
+        fmt::format("--part, --reduce and --cover need the whole graph, not that of {}", title_of(*data.part)));
+  if (!data.candidate_keys)
+    throw DataError::at(source, "expected candidates with their keys, as findhex makes them of a part, found none");
+  PartCandidates own{std::move(*data.candidates), std::move(*data.candidate_keys)};
+  return buildgraph_of_part(with_neighbours(std::move(own), *data.part, data.history, neighbours, source),
+                            data.part->part, options, source.c_str());
+}
 
 // What is written has to be understood later: a graph of fewer candidates needs these beside it.
 void check_together(const BuildgraphOptions& options, const std::string& reduced_candidates, bool to_bundle) {
@@ -38,9 +53,10 @@ int main(int argc, char** argv) {
       .example = "buildgraph engine.cand --weight volume -o engine.graph",
       .reads = {Role::candidates},
       .product = Role::graph,
-      .outside_history = {"reduced-candidates"},
+      .outside_history = {"reduced-candidates", "neighbours"},
   };
   BuildgraphOptions options;
+  std::vector<std::string> neighbours;
   std::string weight = "quality", part = "1/1", reduced_candidates;
   const auto declare = [&](CLI::App& app) {
     app.add_option("--weight", weight, "What a candidate is worth: quality, volume, count (1 each) or quality*volume")
@@ -54,6 +70,9 @@ int main(int argc, char** argv) {
     app.add_option("--reduced-candidates", reduced_candidates,
                    "With --reduce: write the candidates that are left, vertex by vertex, to a .cand")
         ->type_name("FILE");
+    app.add_option("--neighbours", neighbours,
+                   "With a part of a mesh: bundles of the other parts' candidates, of which those beside it are read")
+        ->type_name("FILE");
     app.add_flag("--cover", options.cover,
                  "Add an edge clique cover to the bundle: cliques at tets, grown, then what they miss");
   };
@@ -63,11 +82,16 @@ int main(int argc, char** argv) {
     Phases phases;
     Stage stage(context);
     check_together(options, reduced_candidates, stage.writes_bundle());
-    if (options.reduce) stage.hold_back(Role::candidates);
+    if (options.reduce || !neighbours.empty()) stage.hold_back(Role::candidates);
+    stage.take_part();
     StageData data = stage.read({Role::candidates});
+    const std::string source = stage.source_of(Role::candidates);
     phases.end("read");
-    const BuildgraphResult result =
-        buildgraph(std::move(*data.candidates), options, stage.source_of(Role::candidates).c_str());
+    if (!data.part && !neighbours.empty())
+      throw UsageError("--neighbours goes with the candidates of a part of a mesh, as mesh-part makes them");
+    const auto [result, keys] = data.part
+                                    ? build_part(std::move(data), options, neighbours, source)
+                                    : PartGraph{buildgraph(std::move(*data.candidates), options, source.c_str()), {}};
     phases.end("build");
     const GraphSummary summary = summarize(result);
     for (const auto& warning : warnings_about(summary)) context.warn(warning);
@@ -78,7 +102,8 @@ int main(int argc, char** argv) {
       write_cand(*result.candidates, output);
       output.commit();
     }
-    stage.write(result.graph, nullptr, result.candidates ? &*result.candidates : nullptr,
+    const bool writes_candidates = options.reduce || !neighbours.empty();
+    stage.write(result.graph, keys.key.empty() ? nullptr : &keys, writes_candidates ? &*result.candidates : nullptr,
                 result.cover ? &*result.cover : nullptr, history_of(summary));
     phases.end("write");
     context.statistics.update(phases.seconds());

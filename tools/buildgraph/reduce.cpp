@@ -22,6 +22,17 @@ Candidates select(const Candidates& candidates, std::span<const std::int32_t> ke
   return chosen;
 }
 
+CandidateKeys select(const CandidateKeys& keys, std::span<const std::int32_t> kept) {
+  CandidateKeys chosen;
+  chosen.key.reserve(kept.size());
+  chosen.part.reserve(kept.size());
+  for (const std::int32_t i : kept) {
+    chosen.key.push_back(keys.key[i]);
+    chosen.part.push_back(keys.part[i]);
+  }
+  return chosen;
+}
+
 void keep_only(ConflictGraph& graph, std::span<const std::int32_t> kept) {
   std::vector<std::int32_t> numbers(graph.weights.size(), -1);
   for (std::size_t i = 0; i < kept.size(); ++i) numbers[kept[i]] = static_cast<std::int32_t>(i);

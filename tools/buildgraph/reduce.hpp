@@ -6,11 +6,14 @@
 
 #include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
+#include "common/mesh/mesh_part.hpp"
 
 namespace hexpipe {
 
-// Those of `kept`, ascending, in their order.
+// Those of `kept`, in its order.
 Candidates select(const Candidates& candidates, std::span<const std::int32_t> kept);
+
+CandidateKeys select(const CandidateKeys& keys, std::span<const std::int32_t> kept);
 
 // The graph of those of `kept`, ascending, in place: large graphs have no room for another.
 void keep_only(ConflictGraph& graph, std::span<const std::int32_t> kept);

@@ -1,0 +1,140 @@
+#include "tools/buildgraph/neighbours.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "common/run/error.hpp"
+#include "formats/part_bundle.hpp"
+#include "tools/buildgraph/reduce.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr std::int32_t none = -1;
+
+// By place in `from`, the place in `to` of the same number, or none; both ascend.
+std::vector<std::int32_t> places_in(const std::vector<std::int64_t>& to, const std::vector<std::int64_t>& from) {
+  std::vector<std::int32_t> places(from.size(), none);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    while (at < to.size() && to[at] < from[i]) ++at;
+    if (at < to.size() && to[at] == from[i]) places[i] = static_cast<std::int32_t>(at);
+  }
+  return places;
+}
+
+// Adds to the candidates of a part those of others that may be in conflict with them.
+class HaloCollector {
+ public:
+  HaloCollector(PartCandidates own, const MeshPart& part)
+      : all_(std::move(own)),
+        part_(part),
+        corners_(part.point_number.size()),
+        tets_(part.tet_number.size()),
+        order_(all_.keys.key.size()) {
+    for (const auto& row : all_.candidates.vertices)
+      for (const Vertex v : row)
+        if (v >= 0) corners_[v] = true;
+    for (const std::int32_t tet : all_.candidates.tets) tets_[tet] = true;
+    std::iota(order_.begin(), order_.end(), 0);
+    all_.keys.part.assign(all_.keys.key.size(), part.part);
+  }
+
+  void add_from(const PartBundle& other) {
+    const std::vector<std::int32_t> points = places_in(part_.point_number, other.part.point_number);
+    const std::vector<std::int32_t> tets = places_in(part_.tet_number, other.part.tet_number);
+    for (std::size_t i = 0; i < other.candidates.size(); ++i) {
+      const bool is_own = other.keys.part.empty() || other.keys.part[i] == other.part.part;
+      if (is_own && may_conflict(other.candidates, i, points, tets)) add(other, i, points, tets);
+    }
+  }
+
+  // In the order of keys.
+  PartCandidates take() {
+    std::sort(order_.begin(), order_.end(),
+              [&](std::int32_t a, std::int32_t b) { return all_.keys.key[a] < all_.keys.key[b]; });
+    return {select(all_.candidates, order_), select(all_.keys, order_)};
+  }
+
+ private:
+  bool may_conflict(const Candidates& others, std::size_t i, const std::vector<std::int32_t>& points,
+                    const std::vector<std::int32_t>& tets) const {
+    const auto corners = others.corners_of(i);
+    const auto shared = std::count_if(corners.begin(), corners.end(),
+                                      [&](Vertex v) { return points[v] != none && corners_[points[v]]; });
+    if (shared >= 2) return true;
+    const auto interior = others.interior_tets_of(i);
+    return std::any_of(interior.begin(), interior.end(),
+                       [&](std::int32_t tet) { return tets[tet] != none && tets_[tets[tet]]; });
+  }
+
+  void add(const PartBundle& other, std::size_t i, const std::vector<std::int32_t>& points,
+           const std::vector<std::int32_t>& tets) {
+    const auto place = [&](const std::vector<std::int32_t>& places, std::int32_t item) {
+      if (places[item] != none) return places[item];
+      throw DataError::at(other.name, "expected candidates at {} to lie within its ghosts, found one beyond them",
+                          title_of(part_));
+    };
+    Candidates& c = all_.candidates;
+    std::array<Vertex, 8> row = other.candidates.vertices[i];
+    for (Vertex& v : row)
+      if (v >= 0) v = place(points, v);
+    c.vertices.push_back(row);
+    c.kind.push_back(other.candidates.kind[i]);
+    c.quality.push_back(other.candidates.quality[i]);
+    c.volume.push_back(other.candidates.volume[i]);
+    for (const std::int32_t tet : other.candidates.interior_tets_of(i)) c.tets.push_back(place(tets, tet));
+    c.tet_offsets.push_back(static_cast<std::int64_t>(c.tets.size()));
+    for (const std::int32_t tet : other.candidates.boundary_tets_of(i)) c.boundary_tets.push_back(place(tets, tet));
+    c.boundary_tet_offsets.push_back(static_cast<std::int64_t>(c.boundary_tets.size()));
+    order_.push_back(static_cast<std::int32_t>(all_.keys.key.size()));
+    all_.keys.key.push_back(other.keys.key[i]);
+    all_.keys.part.push_back(other.part.part);
+  }
+
+  PartCandidates all_;
+  const MeshPart& part_;
+  std::vector<bool> corners_, tets_;  // of the part's own candidates
+  std::vector<std::int32_t> order_;
+};
+
+void check_head(const MeshPart& other, const MeshPart& part, const std::string& name, const std::string& source) {
+  if (other.whole != part.whole)
+    throw DataError::at(name, "expected a part of the same mesh as {}, found one of another", source);
+  if (other.parts != part.parts)
+    throw DataError::at(name, "expected one of {} parts as {}, found {}", part.parts, source, title_of(other));
+}
+
+}  // namespace
+
+PartCandidates with_neighbours(PartCandidates own, const MeshPart& part,
+                               const std::vector<nlohmann::ordered_json>& history,
+                               const std::vector<std::string>& paths, const std::string& source) {
+  const nlohmann::ordered_json settings = settings_of("findhex", history);
+  HaloCollector halo(std::move(own), part);
+  std::map<std::int32_t, std::string> found;
+  const auto is_neighbour = [&](const MeshPart& other) {
+    return std::binary_search(part.neighbours.begin(), part.neighbours.end(), other.part);
+  };
+  for (const std::string& path : paths) {
+    const PartHead head = read_part_bundle(path, is_neighbour);
+    check_head(head.part, part, path, source);
+    const auto [twin, is_first] = found.emplace(head.part.part, path);
+    if (!is_first)
+      throw DataError::at(path, "expected each part once, found {} as in {}", title_of(head.part), twin->second);
+    if (!head.bundle) continue;
+    if (settings_of("findhex", head.bundle->history) != settings)
+      throw DataError::at(path, "expected candidates found with the version and options of {}, found others", source);
+    halo.add_from(*head.bundle);
+  }
+  for (const std::int32_t neighbour : part.neighbours)
+    if (!found.contains(neighbour))
+      throw DataError::at(source, "expected the neighbours of {} with --neighbours, found no part {}", title_of(part),
+                          neighbour);
+  return halo.take();
+}
+
+}  // namespace hexpipe
