@@ -13,5 +13,7 @@ jobs=$(nproc)
 for preset in ci ci-sanitize; do
   cmake --preset "$preset"
   cmake --build --preset "$preset" --parallel "$jobs"
+  # What the sanitized tools make is compared with what the optimized ones make: tests/reproducible.bats.
+  if [[ $preset == ci-sanitize ]]; then export HEXPIPE_OTHER_BIN="$PWD/build-ci/bin"; fi
   ctest --test-dir "build-$preset" --output-on-failure --parallel "$jobs" --no-tests=error
 done
