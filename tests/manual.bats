@@ -3,7 +3,7 @@
 load helpers
 
 TOOLS="findhex buildgraph initsol lns certify assemble"
-for optional in tetmesh mesh-part view; do
+for optional in tetmesh mesh-part lns-mpi view; do
   if [[ -x "$HEXPIPE_BIN/$optional" ]]; then TOOLS="$TOOLS $optional"; fi
 done
 MANUAL="$HEXPIPE_BIN/../manual"

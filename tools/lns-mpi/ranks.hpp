@@ -1,0 +1,143 @@
+#pragma once
+// The processes of an MPI job, and everything that travels between them: counted, and waited for asleep, so that more
+// ranks than processors do not take the time from each other.
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "common/run/error.hpp"
+
+namespace hexpipe {
+
+using Bytes = std::vector<char>;
+
+struct Traffic {
+  std::int64_t messages = 0, bytes = 0;  // sent from rank to rank
+  std::int64_t collectives = 0;          // reductions and broadcasts of a few numbers, each log2(ranks) deep
+  Traffic operator-(const Traffic& other) const {
+    return {messages - other.messages, bytes - other.bytes, collectives - other.collectives};
+  }
+};
+
+// All ranks throw it together; one of them is left to say why.
+class ErrorOfAll : public DataError {
+ public:
+  using DataError::DataError;
+};
+
+class Ranks {
+ public:
+  // One at a time: begins and ends MPI.
+  Ranks();
+  ~Ranks();
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
+
+  int rank() const { return rank_; }
+  int count() const { return count_; }
+  bool is_first() const { return rank_ == 0; }
+  const Traffic& traffic() const { return traffic_; }
+
+  // Runs task() on every rank, and none goes on before all are done. Where it throws on some, all throw ErrorOfAll, and
+  // only the first of these is not silent.
+  template <class Task>
+  void together(Task&& task) {
+    std::string error;
+    bool failed = false;
+    try {
+      task();
+    } catch (const std::exception& exception) {
+      failed = true;
+      error = exception.what();
+    }
+    agree(failed, error);
+  }
+
+  // Each entry becomes the sum, or the greatest, over all ranks.
+  void sum(std::span<std::int64_t> values);
+  void maximum(std::span<std::int64_t> values);
+  // Everybody gets what the first rank has.
+  void broadcast(Bytes& bytes);
+
+  // to[r] goes to rank r; returns what came from each. For the few times when anybody may have something for anybody.
+  std::vector<Bytes> exchange(std::vector<Bytes> to);
+  // to[i] goes to partners[i], which names this rank among its partners too; returns what came from each.
+  std::vector<Bytes> exchange(std::span<const int> partners, const std::vector<Bytes>& to);
+  // To one rank, which calls receive.
+  void send(int to, const Bytes& bytes);
+  Bytes receive(int from);
+
+  // Ends all ranks at once, after this one has said why.
+  [[noreturn]] static void abandon();
+
+ private:
+  void agree(bool failed, const std::string& error);
+  void post_send(int to, const Bytes& bytes);
+  void post_receive(int from, Bytes& bytes);
+  void wait();
+
+  int rank_ = 0, count_ = 1;
+  Traffic traffic_;
+  std::vector<MPI_Request> requests_;
+};
+
+// The number that mpirun or another launcher gave this process, known before MPI begins.
+std::optional<int> launched_rank();
+
+// Puts numbers and arrays of numbers into bytes and takes them out again, in the same order.
+class Packer {
+ public:
+  template <class T>
+  void put(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    append(&value, sizeof value);
+  }
+  template <class T>
+  void put_all(std::span<const T> values) {
+    put(static_cast<std::uint64_t>(values.size()));
+    append(values.data(), values.size_bytes());
+  }
+  Bytes take() { return std::move(bytes_); }
+
+ private:
+  void append(const void* data, std::size_t size) {
+    const auto* const first = static_cast<const char*>(data);
+    bytes_.insert(bytes_.end(), first, first + size);
+  }
+  Bytes bytes_;
+};
+
+class Unpacker {
+ public:
+  explicit Unpacker(const Bytes& bytes) : bytes_(bytes) {}
+  bool at_end() const { return next_ == bytes_.size(); }
+  template <class T>
+  T get() {
+    T value;
+    std::memcpy(&value, bytes_.data() + next_, sizeof value);
+    next_ += sizeof value;
+    return value;
+  }
+  // Appends to `values`.
+  template <class T>
+  void get_all(std::vector<T>& values) {
+    const auto count = static_cast<std::size_t>(get<std::uint64_t>());
+    const std::size_t before = values.size();
+    values.resize(before + count);
+    if (count > 0) std::memcpy(values.data() + before, bytes_.data() + next_, count * sizeof(T));
+    next_ += count * sizeof(T);
+  }
+
+ private:
+  const Bytes& bytes_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace hexpipe

@@ -1,0 +1,59 @@
+#include "tools/lns-mpi/regions.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "common/run/random.hpp"
+
+namespace hexpipe {
+
+Regions::Regions(const Piece& piece, std::uint64_t seed, std::int64_t round)
+    : piece_(piece), priority_(static_cast<std::size_t>(piece.owners.blocks())) {
+  std::iota(priority_.begin(), priority_.end(), 0);
+  Random(seed, static_cast<std::uint64_t>(round)).shuffle(std::span(priority_));
+
+  const std::int32_t first = piece.owners.first_of(piece.rank), last = piece.owners.first_of(piece.rank + 1);
+  may_change_.resize(static_cast<std::size_t>(last - first));
+  block_ = piece.block;
+  for (std::int32_t v = 0; v < piece.vertex_count(); ++v)
+    for (const NearBlock& near : piece.near_of(v))
+      if (near.distance <= piece.overlap && priority_[near.block] < priority_[block_[v]]) block_[v] = near.block;
+  for (std::int32_t v = 0; v < piece.vertex_count(); ++v)
+    if (block_[v] >= first && block_[v] < last && !stays(v)) may_change_[block_[v] - first].push_back(v);
+  number_.assign(piece.keys.size(), -1);
+}
+
+// A neighbour belongs to a block that comes before. Vertices with no other block near have none.
+bool Regions::stays(std::int32_t v) const {
+  if (piece_.near_of(v).empty()) return false;
+  return std::ranges::any_of(piece_.graph.neighbours_of(v),
+                             [&](std::int32_t u) { return priority_[block_[u]] < priority_[block_[v]]; });
+}
+
+// By a chosen vertex outside of the region.
+bool Regions::is_blocked(std::int32_t v) const {
+  return std::ranges::any_of(piece_.graph.neighbours_of(v),
+                             [&](std::int32_t u) { return piece_.chosen[u] != 0 && number_[u] < 0; });
+}
+
+Region Regions::extract(std::int32_t block) {
+  Region region;
+  const auto& inside = may_change_[block - piece_.owners.first_of(piece_.rank)];
+  for (const std::int32_t v : inside) number_[v] = 0;
+  for (const std::int32_t v : inside)
+    if (!is_blocked(v)) region.vertices.push_back(v);
+  for (const std::int32_t v : inside) number_[v] = -1;
+  for (std::size_t i = 0; i < region.vertices.size(); ++i) number_[region.vertices[i]] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < region.vertices.size(); ++i) {
+    const std::int32_t v = region.vertices[i];
+    if (piece_.chosen[v] != 0) region.chosen.push_back(static_cast<std::int32_t>(i));
+    region.graph.weights.push_back(piece_.graph.weights[v]);
+    for (const std::int32_t u : piece_.graph.neighbours_of(v))
+      if (number_[u] >= 0) region.graph.neighbours.push_back(number_[u]);
+    region.graph.offsets.push_back(static_cast<std::int64_t>(region.graph.neighbours.size()));
+  }
+  for (const std::int32_t v : region.vertices) number_[v] = -1;
+  return region;
+}
+
+}  // namespace hexpipe

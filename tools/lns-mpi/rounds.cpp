@@ -1,0 +1,228 @@
+#include "tools/lns-mpi/rounds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "common/mwis/solution_state.hpp"
+#include "common/run/random.hpp"
+#include "tools/lns-mpi/regions.hpp"
+
+namespace hexpipe {
+namespace {
+
+// Under a time limit: an eighth of it, so that every border has moved several times, and no more than a minute, so that
+// ranks do not go on for long after one of them was told to stop.
+constexpr double round_share = 1.0 / 8, longest_round = 60;
+// Then what no region could improve is left as it is.
+constexpr std::int64_t most_quiet_rounds = 10;
+
+std::int64_t own_weight(const Piece& piece) {
+  std::int64_t sum = 0;
+  for (std::int32_t v = 0; v < piece.vertex_count(); ++v)
+    if (piece.chosen[v] != 0 && piece.owns(v)) sum += piece.graph.weights[v];
+  return sum;
+}
+
+class Rounds {
+ public:
+  Rounds(Ranks& ranks, Piece& piece, const RoundsOptions& options, const Deadline& deadline, RoundsProgress& progress)
+      : ranks_(ranks),
+        piece_(piece),
+        options_(options),
+        deadline_(deadline),
+        progress_(progress),
+        block_sizes_(static_cast<std::size_t>(piece.owners.blocks()), 0) {
+    for (std::int32_t v = 0; v < piece.vertex_count(); ++v)
+      if (piece.owns(v)) ++block_sizes_[piece.block[v]];
+    ranks_.sum(block_sizes_);
+    for (const std::int64_t size : block_sizes_) vertices_ += size;
+    round_seconds_ = std::isfinite(deadline.remaining()) ? std::min(longest_round, round_share * deadline.remaining())
+                                                         : std::numeric_limits<double>::infinity();
+  }
+
+  bool goes_on() const {
+    return !stopped_ && progress_.allotted < options_.search.iterations && progress_.weight < options_.search.target &&
+           progress_.quiet < most_quiet_rounds && vertices_ > 0;
+  }
+
+  // Takes what nothing chosen is beside, which a search that ended early leaves where borders were.
+  void make_maximal() {
+    for (std::int64_t round = progress_.round; count_free() > 0; ++round) {
+      Regions regions(piece_, options_.search.seed, round);
+      changed_.clear();
+      const std::int32_t first = piece_.owners.first_of(piece_.rank), last = piece_.owners.first_of(piece_.rank + 1);
+      for (std::int32_t b = first; b < last; ++b) add_free(regions.extract(b));
+      tell_partners();
+    }
+    progress_.weight = total_weight(ranks_, piece_);
+  }
+
+  RoundCosts run_one() {
+    RoundCosts costs;
+    const Traffic before = ranks_.traffic();
+    const Stopwatch watch;
+    Regions regions(piece_, options_.search.seed, progress_.round);
+    changed_.clear();
+    improvements_ = iterations_ = unproven_ = 0;
+    search_own(regions);
+    costs.search_seconds = watch.seconds();
+    tell_partners();
+    put_together();
+    costs.wait_seconds = watch.seconds() - costs.search_seconds;
+    costs.traffic = ranks_.traffic() - before;
+    return costs;
+  }
+
+ private:
+  // On all ranks.
+  std::int64_t count_free() {
+    std::array<std::int64_t, 1> count{0};
+    for (std::int32_t v = 0; v < piece_.vertex_count(); ++v)
+      if (piece_.chosen[v] == 0 && piece_.owns(v) &&
+          std::ranges::none_of(piece_.graph.neighbours_of(v), [&](std::int32_t u) { return piece_.chosen[u] != 0; }))
+        ++count[0];
+    ranks_.sum(count);
+    return count[0];
+  }
+
+  void add_free(const Region& region) {
+    SolutionState state(region.graph, region.chosen);
+    state.make_maximal();
+    put_back(region, state.to_set());
+  }
+
+  // The round's fragments up to a block, by the vertices up to there.
+  std::int64_t allotment() const {
+    const std::int64_t wanted = std::max<std::int64_t>(options_.fragments_a_round * vertices_ / 1000, 1);
+    return std::min(wanted, options_.search.iterations - progress_.allotted);
+  }
+  std::int64_t share_of(std::int64_t fragments, std::int64_t vertices) const {
+    return static_cast<std::int64_t>(static_cast<long double>(fragments) * static_cast<long double>(vertices) /
+                                     static_cast<long double>(vertices_));
+  }
+
+  void search_own(Regions& regions) {
+    const std::int32_t first = piece_.owners.first_of(piece_.rank), last = piece_.owners.first_of(piece_.rank + 1);
+    const Stopwatch watch;
+    std::int64_t own = 0, before = 0;
+    for (std::int32_t b = first; b < last; ++b) own += block_sizes_[b];
+    for (std::int32_t b = 0; b < first; ++b) before += block_sizes_[b];
+    for (std::int32_t b = first; b < last; ++b) {
+      const std::int64_t size = block_sizes_[b];
+      const double left = std::min(round_seconds_ - watch.seconds(), deadline_.remaining());
+      const Deadline deadline =
+          std::isfinite(left)
+              ? Deadline(left * static_cast<double>(size) / static_cast<double>(std::max<std::int64_t>(own, 1)))
+              : Deadline();
+      // A limit in time alone has no fragments to share.
+      const bool timed_alone = options_.search.iterations == std::numeric_limits<std::int64_t>::max();
+      const std::int64_t fragments = timed_alone && std::isfinite(left)
+                                         ? options_.search.iterations
+                                         : share_of(allotment(), before + size) - share_of(allotment(), before);
+      search(regions, b, fragments, deadline);
+      own -= size;
+      before += size;
+    }
+  }
+
+  void search(Regions& regions, std::int32_t block, std::int64_t fragments, const Deadline& deadline) {
+    if (fragments == 0 || deadline.passed()) {
+      ++unproven_;
+      return;
+    }
+    const Region region = regions.extract(block);
+    LnsOptions options = options_.search;
+    options.iterations = fragments;
+    options.target = std::numeric_limits<std::int64_t>::max();
+    // Another number for every region.
+    options.seed =
+        Random(options.seed, static_cast<std::uint64_t>(progress_.round)).next() + static_cast<std::uint64_t>(block);
+    const LnsResult result = improve_by_lns(region.graph, region.chosen, options, deadline);
+    iterations_ += result.iterations;
+    improvements_ += result.improvements;
+    unproven_ += result.complete ? 0 : 1;
+    put_back(region, result.solution);
+  }
+
+  void put_back(const Region& region, const IndependentSet& solution) {
+    const std::size_t before = changed_.size();
+    std::ranges::set_symmetric_difference(region.chosen, solution, std::back_inserter(changed_));
+    for (std::size_t i = before; i < changed_.size(); ++i) {
+      changed_[i] = region.vertices[changed_[i]];
+      piece_.chosen[changed_[i]] ^= 1;
+    }
+  }
+
+  // What changed, by its place in the list that both have.
+  void tell_partners() {
+    std::ranges::sort(changed_);
+    std::vector<int> to;
+    std::vector<Bytes> news;
+    for (const Piece::Partner& partner : piece_.partners) {
+      Packer packer;
+      auto at = partner.shared.begin();
+      for (const std::int32_t v : changed_) {
+        at = std::lower_bound(at, partner.shared.end(), v);
+        if (at == partner.shared.end()) break;
+        if (*at == v) packer.put(static_cast<std::uint32_t>(at - partner.shared.begin()));
+      }
+      to.push_back(partner.rank);
+      news.push_back(packer.take());
+    }
+    const std::vector<Bytes> heard = ranks_.exchange(to, news);
+    for (std::size_t i = 0; i < heard.size(); ++i)
+      for (Unpacker unpacker(heard[i]); !unpacker.at_end();)
+        piece_.chosen[piece_.partners[i].shared[unpacker.get<std::uint32_t>()]] ^= 1;
+  }
+
+  void put_together() {
+    std::array<std::int64_t, 5> sums{own_weight(piece_), iterations_, improvements_, unproven_,
+                                     stop_requested() || deadline_.passed() ? 1 : 0};
+    const std::int64_t allotted = allotment();
+    ranks_.sum(sums);
+    ++progress_.round;
+    progress_.weight = sums[0];
+    progress_.allotted += allotted;
+    progress_.iterations += sums[1];
+    progress_.improvements += sums[2];
+    progress_.quiet = sums[2] == 0 && sums[3] == 0 ? progress_.quiet + 1 : 0;
+    stopped_ = sums[4] > 0;
+  }
+
+  Ranks& ranks_;
+  Piece& piece_;
+  const RoundsOptions& options_;
+  const Deadline& deadline_;
+  RoundsProgress& progress_;
+  std::vector<std::int64_t> block_sizes_;
+  std::int64_t vertices_ = 0;
+  double round_seconds_ = 0;
+  std::vector<std::int32_t> changed_;  // vertices of the piece, in this round
+  std::int64_t iterations_ = 0, improvements_ = 0, unproven_ = 0;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+std::int64_t total_weight(Ranks& ranks, const Piece& piece) {
+  std::array<std::int64_t, 1> sum{own_weight(piece)};
+  ranks.sum(sum);
+  return sum[0];
+}
+
+void improve_in_rounds(Ranks& ranks, Piece& piece, const RoundsOptions& options, const Deadline& deadline,
+                       RoundsProgress& progress,
+                       const std::function<bool(const RoundsProgress&, const RoundCosts&)>& report) {
+  Rounds rounds(ranks, piece, options, deadline, progress);
+  std::array<std::int64_t, 1> passed{deadline.passed() ? 1 : 0};
+  ranks.maximum(passed);
+  while (passed[0] == 0 && rounds.goes_on()) {
+    const RoundCosts costs = rounds.run_one();
+    if (!report(progress, costs)) break;
+  }
+  rounds.make_maximal();
+}
+
+}  // namespace hexpipe
