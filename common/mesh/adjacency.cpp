@@ -20,9 +20,9 @@ struct FiledFacet {
 
 std::array<Vertex, 3> sorted_facet(const Tet& tet, int facet) {
   const auto& corners = TetTopology::triangles[facet];
-  std::array<Vertex, 3> v{tet[corners[0]], tet[corners[1]], tet[corners[2]]};
-  std::sort(v.begin(), v.end());
-  return v;
+  const Vertex a = tet[corners[0]], b = tet[corners[1]], c = tet[corners[2]];
+  const Vertex least = std::min({a, b, c}), greatest = std::max({a, b, c});
+  return {least, a ^ b ^ c ^ least ^ greatest, greatest};
 }
 
 // Counts become offsets: entry v holds the sum of the counts before v, the last entry the total.

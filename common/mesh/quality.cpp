@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/mesh/cell_measures.hpp"
 #include "common/mesh/jacobian.hpp"
 
 namespace hexpipe {
@@ -180,23 +181,9 @@ Corners<Topology> corners_of(std::span<const Vec3> corners) {
 
 }  // namespace
 
-// The corner is chosen by squares, with the sign of the determinant, so that roots are taken at one corner only.
 double least_corner_scaled_jacobian(CellKind kind, std::span<const Vec3> corners) {
-  return with_topology(kind, [&]<class Topology>(Topology) {
-    const auto edge = [&](const LocalCorner& c, int i) { return corners[c[i]] - corners[c[0]]; };
-    double least_square = std::numeric_limits<double>::infinity();
-    const LocalCorner* at = &Topology::corners[0];
-    for (const LocalCorner& c : Topology::corners) {
-      const Vec3 u = edge(c, 1), v = edge(c, 2), w = edge(c, 3);
-      const double determinant = det(u, v, w), squares = norm_squared(u) * norm_squared(v) * norm_squared(w);
-      const double square = squares > 0 ? determinant * std::abs(determinant) / squares : 0;
-      if (square < least_square) {
-        least_square = square;
-        at = &c;
-      }
-    }
-    return scaled_jacobian(edge(*at, 1), edge(*at, 2), edge(*at, 3));
-  });
+  return with_topology(kind,
+                       [&]<class Topology>(Topology) { return least_corner_scaled_jacobian_of<Topology>(corners); });
 }
 
 double least_scaled_jacobian(CellKind kind, std::span<const Vec3> corners) {
@@ -210,19 +197,8 @@ double least_scaled_jacobian(CellKind kind, std::span<const Vec3> corners) {
   });
 }
 
-// The sum of the tets from corner 0 to the facets. A bilinear quad encloses the mean of its two triangulations, abc +
-// acd and abd + bcd; their four determinants are det(a, b, c + d) + det(c, d, a + b).
 double cell_volume(CellKind kind, std::span<const Vec3> corners) {
-  return with_topology(kind, [&]<class Topology>(Topology) {
-    const auto at = [&](int c) { return corners[c] - corners[0]; };
-    double triangles = 0, quads = 0;
-    for (const LocalTriangle& t : Topology::triangles) triangles += det(at(t[0]), at(t[1]), at(t[2]));
-    for (const LocalQuad& q : Topology::quads) {
-      const Vec3 a = at(q[0]), b = at(q[1]), c = at(q[2]), d = at(q[3]);
-      quads += det(a, b, c + d) + det(c, d, a + b);
-    }
-    return triangles / 6 + quads / 12;
-  });
+  return with_topology(kind, [&]<class Topology>(Topology) { return cell_volume_of<Topology>(corners); });
 }
 
 }  // namespace hexpipe

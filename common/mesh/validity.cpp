@@ -76,7 +76,7 @@ class ErrorBound {
   static constexpr double roundings = 16;
 
   ErrorBound(const Vec3& extent, double determinants, double roundings_of_each = roundings)
-      : bound_(determinants * 6 * roundings_of_each * epsilon * extent.x * extent.y * extent.z) {
+      : bound_(of_sum(determinants, roundings_of_each) * extent.x * extent.y * extent.z) {
     for (int axis = 0; axis < 3; ++axis)
       if (!(extent[axis] > smallest && extent[axis] < largest)) bound_ = std::numeric_limits<double>::infinity();
   }
@@ -85,20 +85,39 @@ class ErrorBound {
     return value > bound_ ? Answer::yes : value < -bound_ ? Answer::no : Answer::unsure;
   }
 
- private:
+  // What is to be multiplied by the extent along each axis.
+  static constexpr double of_sum(double determinants, double roundings_of_each = roundings) {
+    return determinants * 6 * roundings_of_each * epsilon;
+  }
   // Beyond these a product of two or three may overflow, or lose its digits.
   static constexpr double smallest = 1e-90, largest = 1e90;
+
+ private:
   double bound_;
 };
 
-void extend(Vec3& extent, const Vec3& v) {
-  extent.x = std::max(extent.x, std::abs(v.x));
-  extent.y = std::max(extent.y, std::abs(v.y));
-  extent.z = std::max(extent.z, std::abs(v.z));
+// The largest determinant of a hex is one of an edge: two of its vectors are sums of two.
+constexpr double determinants_at_edge = 4;
+// The coefficient at the centre sums 12 determinants at edges and 5 times 8 at corners, with up to 24 additions.
+constexpr double determinants_in_coefficient = 4 * (12 * 4 + 5 * 8);
+
+double greater(double a, double b) {
+  return std::max(a, b);
+}
+Lanes greater(Lanes a, Lanes b) {
+  return select(a > b, a, b);
 }
 
-Vec3 extent_of(const HexTangents<Vec3>& t) {
-  Vec3 extent;
+template <class Vector>
+void extend(Vector& extent, const Vector& v) {
+  extent.x = greater(extent.x, absolute(v.x));
+  extent.y = greater(extent.y, absolute(v.y));
+  extent.z = greater(extent.z, absolute(v.z));
+}
+
+template <class Vector>
+Vector extent_of(const HexTangents<Vector>& t) {
+  Vector extent;
   for (int a = 0; a < 2; ++a)
     for (int b = 0; b < 2; ++b) {
       extend(extent, t.along_i[a][b]);
@@ -146,8 +165,7 @@ Answer judge_in_doubles(const RelativeHex& hex, int subdivisions = 0) {
   const Vec3 extent = extent_of(tangents);
   const double roundings = roundings_of(hex, extent, subdivisions);
   const HexJacobian<Vec3> jacobian(tangents);
-  // The largest determinant is one of an edge: two of its vectors are sums of two.
-  const ErrorBound determinant_bound(extent, 4, roundings);
+  const ErrorBound determinant_bound(extent, determinants_at_edge, roundings);
   Answer answer = Answer::yes;
   jacobian.all_determinants([&](double value) {
     const Answer one = determinant_bound.positive(value);
@@ -156,8 +174,7 @@ Answer judge_in_doubles(const RelativeHex& hex, int subdivisions = 0) {
   });
   if (answer != Answer::yes) return answer;
 
-  // The coefficient at the centre sums 12 determinants at edges and 5 times 8 at corners, with up to 24 additions.
-  const ErrorBound coefficient_bound(extent, 4 * (12 * 4 + 5 * 8), roundings);
+  const ErrorBound coefficient_bound(extent, determinants_in_coefficient, roundings);
   auto surely_positive = [&](double value) { return coefficient_bound.positive(value) == Answer::yes; };
   if (std::ranges::all_of(jacobian.bezier(), surely_positive)) return Answer::yes;
   if (subdivisions == max_subdivisions) return Answer::unsure;
@@ -212,6 +229,25 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   if (positive != Answer::unsure) return positive == Answer::yes ? 1 : -1;
   const auto p = to_integers<4>(std::array{a, b, c, d});
   return det(p[1] - p[0], p[2] - p[0], p[3] - p[0]).sign();
+}
+
+// The tangents are differences of the points themselves, each rounded once.
+LaneMask are_surely_valid_hexes(const std::array<LaneVector, 8>& corners) {
+  const HexTangents<LaneVector> tangents(corners);
+  const LaneVector extent = extent_of(tangents);
+  const HexJacobian<LaneVector> jacobian(tangents);
+  const auto lesser = [](Lanes a, Lanes b) { return select(a < b, a, b); };
+  Lanes determinant = jacobian.at_corner(0, 0, 0);
+  jacobian.all_determinants([&](Lanes value) { return determinant = lesser(determinant, value), true; });
+  Lanes coefficient = determinant;
+  for (const Lanes value : jacobian.bezier()) coefficient = lesser(coefficient, value);
+
+  const Lanes volume = extent.x * extent.y * extent.z;
+  LaneMask sure = (determinant > ErrorBound::of_sum(determinants_at_edge) * volume) &
+                  (coefficient > ErrorBound::of_sum(determinants_in_coefficient) * volume);
+  for (const Lanes along_axis : {extent.x, extent.y, extent.z})
+    sure &= (along_axis > ErrorBound::smallest) & (along_axis < ErrorBound::largest);
+  return sure;
 }
 
 bool is_valid(CellKind kind, std::span<const Vec3> corners) {

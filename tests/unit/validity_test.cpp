@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "cell_shapes.hpp"
+#include "common/mesh/cell_measures.hpp"
 #include "common/mesh/quality.hpp"
 
 namespace hexpipe {
@@ -181,6 +183,42 @@ TEST(Validity, OfAPyramidIsThatOfItsBaseCorners) {
   EXPECT_TRUE(is_valid(CellKind::pyramid, corners));
   corners[4].z = 0;
   EXPECT_FALSE(is_valid(CellKind::pyramid, corners));
+}
+
+// Measured with others a cell has the same bits as alone, and no hex is sure that is not valid.
+TEST(SideBySide, HexesAreAsTheyAreAlone) {
+  Random random(7);
+  int sure = 0, valid = 0;
+  for (int round = 0; round < 2000; ++round) {
+    std::array<std::array<Vec3, 8>, lane_count> hexes;
+    for (auto& hex : hexes) {
+      const auto corners = mapped(shaken_cell(CellKind::hex, 0.45, random), 1e-3, {1e3, 0, -7});
+      std::copy(corners.begin(), corners.end(), hex.begin());
+    }
+    const auto together = side_by_side(hexes);
+    const LaneMask surely_valid = are_surely_valid_hexes(together);
+    const Lanes quality = least_corner_scaled_jacobian_of<HexTopology>(together);
+    const Lanes volume = cell_volume_of<HexTopology>(together);
+    for (int lane = 0; lane < lane_count; ++lane) {
+      EXPECT_EQ(quality[lane], least_corner_scaled_jacobian(CellKind::hex, hexes[lane]));
+      EXPECT_EQ(volume[lane], cell_volume(CellKind::hex, hexes[lane]));
+      const bool is_surely = surely_valid[lane] != 0, is = is_valid(CellKind::hex, hexes[lane]);
+      EXPECT_LE(is_surely, is);
+      sure += is_surely ? 1 : 0;
+      valid += is ? 1 : 0;
+    }
+  }
+  EXPECT_GT(sure, valid / 2);
+  EXPECT_LT(valid, 2000 * lane_count);
+}
+
+TEST(SideBySide, HexesOfNoSizeOrTooMuchAreNotSure) {
+  for (const double scale : {0.0, 1e-100, 1e100, 1e200}) {
+    std::array<std::array<Vec3, 8>, lane_count> hexes;
+    const auto corners = mapped(unit_cell(CellKind::hex), scale, {});
+    for (auto& hex : hexes) std::copy(corners.begin(), corners.end(), hex.begin());
+    EXPECT_EQ(are_surely_valid_hexes(side_by_side(hexes))[0], 0) << scale;
+  }
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ constexpr bool all_of_indices(Body&& body) {
   (std::make_index_sequence<count>{});
 }
 
-// Visit: called as visit(corners, points) with arrays of a cell's vertices and their points, in the numbering of
-// Topology.
+// Visit: called as visit(corners, points, diagonals) with arrays of a cell's vertices and their points, in the
+// numbering of Topology, and the diagonals of its first quad, seen from corner 0.
 template <class Topology, class Visit>
 class CellSearch {
  public:
@@ -55,7 +55,8 @@ class CellSearch {
   template <std::size_t step>
   void place() {
     if constexpr (step == corner_count) {
-      visit_(corners_, points_);
+      static_assert(Topology::quads[0][0] == first);
+      visit_(corners_, points_, diagonals_[0]);
     } else {
       for_each_choice<step>([&](Vertex v) {
         corners_[plan<step>.corner] = v;
@@ -94,7 +95,7 @@ class CellSearch {
         }
       } else {
         angles_[quad.quad].find_opposites(tables_.links(), found_);
-        for (const Vertex v : found_) body(v);
+        for (const OppositeCorner& opposite : found_) body(opposite.vertex);
       }
     } else if constexpr (opens_at_first<step>()) {
       constexpr OpenQuad quad = plan<step>.opened_quads[0];
@@ -244,6 +245,7 @@ class CellSearch {
   template <OpenQuad quad, std::uint8_t fourth>
   void set_outer_edges(const QuadFan::Quad& found) {
     const std::size_t side = places_[quad.side] > places_[quad.other_side];
+    diagonals_[quad.quad] = found.diagonals;
     outer_edges_[quad.side][fourth] = found.outer_edges[side];
     outer_edges_[quad.other_side][fourth] = found.outer_edges[1 - side];
   }
@@ -261,7 +263,8 @@ class CellSearch {
   // By quad, once it is open: what closes it, found before at the first corner; or where that is to be found.
   std::array<const QuadFan::Pair*, Topology::quads.size()> pairs_{};
   std::array<QuadAngle, Topology::quads.size()> angles_{};
-  std::vector<Vertex> found_;
+  std::array<Diagonals, Topology::quads.size()> diagonals_{};  // seen from the first corner, of the closed ones there
+  std::vector<OppositeCorner> found_;
 };
 
 }  // namespace hexpipe

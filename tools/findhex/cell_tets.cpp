@@ -58,12 +58,12 @@ constexpr double flat = 1e-6;
 }  // namespace
 
 template <class Topology>
-TetVerdict CellTets<Topology>::find(const CellCorners& corners) {
+TetVerdict CellTets<Topology>::find(const CellCorners& corners, Diagonals of_first_quad) {
   corners_ = corners;
   star_.move_to(corners[0]);
   for (int c = 0; c < Topology::corner_count; ++c) marks_.corner_bits[corners[c]] = static_cast<std::uint8_t>(bit(c));
   TetVerdict verdict = TetVerdict::no_interior;
-  for (const std::int32_t start : starts()) {
+  for (const std::int32_t start : starts(of_first_quad)) {
     verdict = find_from(start);
     if (verdict == TetVerdict::accepted) break;
   }
@@ -75,9 +75,8 @@ TetVerdict CellTets<Topology>::find(const CellCorners& corners) {
 // quad has its triangles in the mesh. Otherwise some of those found may be outside, and all have to be tried; the tet
 // of a quad's four corners is on either side of none.
 template <class Topology>
-auto CellTets<Topology>::starts() const -> Starts {
+auto CellTets<Topology>::starts(Diagonals of_first_quad) const -> Starts {
   auto inside = [&](int a, int b, int c) { return star_.tet_inside(corners_[a], corners_[b], corners_[c]); };
-  auto has = [&](int a, int b, int c) { return tables_.links().is_facet(corners_[a], corners_[b], corners_[c]); };
   Starts all;
   auto add = [&](std::int32_t tet) {
     if (tet != TetAdjacency::none && std::find(all.begin(), all.end(), tet) == all.end()) all.push_back(tet);
@@ -88,10 +87,9 @@ auto CellTets<Topology>::starts() const -> Starts {
     return all;
   }
   for (const LocalQuad& q : Topology::quads) {
-    const bool diagonal_02 = has(q[0], q[1], q[2]) && has(q[0], q[2], q[3]);
-    const bool diagonal_13 = has(q[0], q[1], q[3]) && has(q[1], q[2], q[3]);
-    if (diagonal_02 == diagonal_13) continue;
-    add(diagonal_02 ? inside(q[0], q[1], q[2]) : inside(q[0], q[1], q[3]));
+    const Diagonals diagonals = &q == &Topology::quads[0] ? of_first_quad : diagonals_of(q);
+    if (diagonals == (from_corner | between_sides)) continue;
+    add(diagonals == from_corner ? inside(q[0], q[1], q[2]) : inside(q[0], q[1], q[3]));
     return all;
   }
   for (const LocalQuad& q : Topology::quads)
@@ -102,6 +100,14 @@ auto CellTets<Topology>::starts() const -> Starts {
       if ((b[0] | b[1] | b[2] | b[3]) != bits(q)) add(tet);
     }
   return all;
+}
+
+template <class Topology>
+Diagonals CellTets<Topology>::diagonals_of(const LocalQuad& q) const {
+  const auto has = [&](int a, int b, int c) { return tables_.links().is_facet(corners_[a], corners_[b], corners_[c]); };
+  const bool along = has(q[0], q[1], q[2]) && has(q[0], q[2], q[3]);
+  const bool between = has(q[0], q[1], q[3]) && has(q[1], q[2], q[3]);
+  return static_cast<Diagonals>((along ? from_corner : 0) | (between ? between_sides : 0));
 }
 
 template <class Topology>

@@ -11,6 +11,7 @@
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/findhex/mesh_tables.hpp"
+#include "tools/findhex/quads.hpp"
 #include "tools/findhex/tet_star.hpp"
 
 namespace hexpipe {
@@ -109,8 +110,9 @@ class CellTets {
   CellTets(const MeshTables& tables, const CellTetRules& rules, CellMarks& marks)
       : tables_(tables), rules_(rules), marks_(marks), star_(tables) {}
 
-  // Of a cell whose quads are triangulated quads of the mesh and whose triangles are facets.
-  TetVerdict find(const CellCorners& corners);
+  // Of a cell whose quads are triangulated quads of the mesh and whose triangles are facets; with the diagonals of its
+  // first quad, seen from corner 0.
+  TetVerdict find(const CellCorners& corners, Diagonals of_first_quad);
 
   // Of an accepted cell, both ascending.
   std::span<const std::int32_t> interior() const { return {interior_.begin(), interior_.end()}; }
@@ -126,7 +128,8 @@ class CellTets {
   using TetFacet = std::int64_t;
   using Starts = FewTets<4 * quad_count>;
 
-  Starts starts() const;
+  Starts starts(Diagonals of_first_quad) const;
+  Diagonals diagonals_of(const LocalQuad& quad) const;
   std::array<unsigned, 4> corner_bits(const Tet& tet) const;
   std::int32_t across(TetFacet facet) const {
     return tables_.flood_tet(static_cast<std::int32_t>(facet / 4)).across[facet % 4];

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "common/mesh/cell_measures.hpp"
+#include "common/mesh/lanes.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/run/parallel.hpp"
@@ -25,43 +27,73 @@ void append_tets(std::span<const std::int32_t> added, std::vector<std::int32_t>&
   offsets.push_back(static_cast<std::int64_t>(tets.size()));
 }
 
-// Rules 4 to 7 for cells that the search has completed; keeps those that hold them all.
+// Rules 4 to 7 and 9 for cells that the search has completed; keeps those that hold them all. A few cells are measured
+// side by side.
 template <class Topology>
 class CandidateCollector {
  public:
+  using CellCorners = std::array<Vertex, Topology::corner_count>;
+  using CellPoints = std::array<Vec3, Topology::corner_count>;
+
   CandidateCollector(const MeshTables& tables, const FindhexOptions& options, CellMarks& marks)
       : options_(options), tets_(tables, options.tet_rules, marks) {}
 
-  void judge(const std::array<Vertex, Topology::corner_count>& corners,
-             const std::array<Vec3, Topology::corner_count>& points) {
-    ++found_.counts.complete;
-    if (!is_valid(Topology::kind, points)) {
-      ++found_.counts.invalid;
-      return;
-    }
-    const TetVerdict verdict = tets_.find(corners);
-    ++found_.counts.by_verdict[static_cast<int>(verdict)];
-    if (verdict != TetVerdict::accepted) return;
+  void add(const CellCorners& corners, const CellPoints& points, Diagonals of_first_quad) {
+    corners_[waiting_] = corners;
+    points_[waiting_] = points;
+    diagonals_[waiting_] = of_first_quad;
+    if (++waiting_ == lane_count) judge();
+  }
 
+  Found take() {
+    judge();
+    return std::move(found_);
+  }
+
+ private:
+  // Of those that wait; lanes beyond hold what was there before.
+  void judge() {
+    const auto points = side_by_side(points_);
+    LaneMask surely_valid{};
+    if constexpr (Topology::kind == CellKind::hex) surely_valid = are_surely_valid_hexes(points);
+    const Lanes quality = least_corner_scaled_jacobian_of<Topology>(points);
+    const Lanes volume = cell_volume_of<Topology>(points);
+    const int count = std::exchange(waiting_, 0);
+    for (int lane = 0; lane < count; ++lane) {
+      ++found_.counts.complete;
+      if (surely_valid[lane] == 0 && !is_valid(Topology::kind, points_[lane])) {
+        ++found_.counts.invalid;
+        continue;
+      }
+      const TetVerdict verdict = tets_.find(corners_[lane], diagonals_[lane]);
+      ++found_.counts.by_verdict[static_cast<int>(verdict)];
+      if (verdict != TetVerdict::accepted) continue;
+      keep(corners_[lane],
+           options_.quality == CandidateQuality::corner ? quality[lane]
+                                                        : least_scaled_jacobian(Topology::kind, points_[lane]),
+           volume[lane]);
+    }
+  }
+
+  void keep(const CellCorners& corners, double quality, double volume) {
     Candidates& c = found_.candidates;
     std::array<Vertex, 8>& row = c.vertices.emplace_back();
     row.fill(-1);
     std::copy(corners.begin(), corners.end(), row.begin());
     c.kind.push_back(Topology::kind);
-    c.quality.push_back(options_.quality == CandidateQuality::corner
-                            ? least_corner_scaled_jacobian(Topology::kind, points)
-                            : least_scaled_jacobian(Topology::kind, points));
-    c.volume.push_back(cell_volume(Topology::kind, points));
+    c.quality.push_back(quality);
+    c.volume.push_back(volume);
     append_tets(tets_.interior(), c.tets, c.tet_offsets);
     append_tets(tets_.boundary(), c.boundary_tets, c.boundary_tet_offsets);
   }
 
-  Found take() { return std::move(found_); }
-
- private:
   const FindhexOptions& options_;
   CellTets<Topology> tets_;
   Found found_;
+  std::array<CellCorners, lane_count> corners_{};
+  std::array<CellPoints, lane_count> points_{};
+  std::array<Diagonals, lane_count> diagonals_{};
+  int waiting_ = 0;
 };
 
 // The search for one kind of cell at one vertex after another.
@@ -84,7 +116,9 @@ class KindSearchOf final : public KindSearch {
  private:
   struct Judge {
     CandidateCollector<Topology>& collector;
-    void operator()(const auto& corners, const auto& points) { collector.judge(corners, points); }
+    void operator()(const auto& corners, const auto& points, Diagonals of_first_quad) {
+      collector.add(corners, points, of_first_quad);
+    }
   };
   CandidateCollector<Topology> collector_;
   CellSearch<Topology, Judge> search_;

@@ -15,26 +15,42 @@ constexpr double filter_slack = 1 - 1e-9;
 
 }  // namespace
 
-void QuadAngle::find_opposites(const VertexLinks& links, std::vector<Vertex>& found) const {
+void QuadAngle::find_opposites(const VertexLinks& links, std::vector<OppositeCorner>& found) const {
   found.clear();
   const auto neighbours = links.neighbours_of(corner_);
-  links.for_each_linked_to_both(corner_, place_, other_place_, [&](int p) { found.push_back(neighbours[p]); });
+  links.for_each_linked_to_both(corner_, place_, other_place_, [&](int p) {
+    found.push_back({neighbours[p], from_corner});
+  });
   if (!sides_are_linked_) return;
 
   const bool both = !found.empty();
   const auto beside = links.neighbours_of(side_);
   links.for_each_linked(side_, links.place_of(other_side_, side_), [&](int p) {
-    if (beside[p] != corner_) found.push_back(beside[p]);
+    if (beside[p] != corner_) found.push_back({beside[p], between_sides});
   });
   if (!both) return;
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  std::sort(found.begin(), found.end(),
+            [](const OppositeCorner& a, const OppositeCorner& b) { return a.vertex < b.vertex; });
+  auto last = found.begin();
+  for (auto next = last + 1; next != found.end(); ++next) {
+    if (last->vertex == next->vertex)
+      last->diagonals = from_corner | between_sides;
+    else
+      *++last = *next;
+  }
+  found.erase(last + 1, found.end());
 }
 
 bool has_unfolded_diagonal(const TetMesh& mesh, const VertexLinks& links, Vertex a, Vertex b, Vertex c, Vertex d) {
   const Vec3 &p = mesh.points[a], &q = mesh.points[b], &r = mesh.points[c], &s = mesh.points[d];
   return (!is_folded(p, q, r, s) && links.is_facet(a, b, c) && links.is_facet(a, c, d)) ||
          (!is_folded(q, r, s, p) && links.is_facet(b, c, d) && links.is_facet(b, d, a));
+}
+
+bool has_unfolded_diagonal(const TetMesh& mesh, Diagonals diagonals, Vertex a, Vertex b, Vertex c, Vertex d) {
+  const Vec3 &p = mesh.points[a], &q = mesh.points[b], &r = mesh.points[c], &s = mesh.points[d];
+  return ((diagonals & from_corner) != 0 && !is_folded(p, q, r, s)) ||
+         ((diagonals & between_sides) != 0 && !is_folded(q, r, s, p));
 }
 
 void QuadFan::find(Vertex first) {
@@ -71,16 +87,16 @@ void QuadFan::find_between(int place, int other_place) {
   const auto neighbours = links_.neighbours_of(first_);
   const auto begin = static_cast<std::int32_t>(quads_.size());
   QuadAngle(links_, first_, place, other_place).find_opposites(links_, found_);
-  for (const Vertex opposite : found_) {
+  for (const auto& [opposite, diagonals] : found_) {
     if (opposite < first_) continue;
     const std::int32_t edge = outer_edge(place, opposite), other_edge = outer_edge(other_place, opposite);
     if (!is_wanted(outer_edges_[edge], outer_edges_[other_edge]) ||
         (filter_.drop_folded &&
-         !has_unfolded_diagonal(mesh_, links_, first_, neighbours[place], opposite, neighbours[other_place])))
+         !has_unfolded_diagonal(mesh_, diagonals, first_, neighbours[place], opposite, neighbours[other_place])))
       continue;
     number_outer_edge(edge);
     number_outer_edge(other_edge);
-    quads_.push_back({opposite, {edge, other_edge}});
+    quads_.push_back({opposite, {edge, other_edge}, diagonals});
   }
   const auto end = static_cast<std::int32_t>(quads_.size());
   if (begin < end) pairs_.push_back({{place, other_place}, begin, end});

@@ -24,6 +24,16 @@ struct QuadFilter {
   bool drop_folded;    // rule 8; where the mesh has both diagonals, one of them has to hold it
 };
 
+// The diagonals of a quad both triangles of which are in the mesh, as bits; seen from one of its corners.
+using Diagonals = std::uint8_t;
+inline constexpr Diagonals from_corner = 1, between_sides = 2;
+
+// A fourth corner of a quad.
+struct OppositeCorner {
+  Vertex vertex;
+  Diagonals diagonals;
+};
+
 // Three corners of a quad, and rule 2 for the fourth: one diagonal leads from the corner to a vertex that is linked to
 // both sides; the other one joins the sides, and the vertex is at one more facet with it. Rule 8 is not judged here.
 class QuadAngle {
@@ -50,7 +60,7 @@ class QuadAngle {
     return sides_are_linked_ && links.is_facet(side_, other_side_, opposite);
   }
   // Replaces `found` by the vertices opposite, ascending.
-  void find_opposites(const VertexLinks& links, std::vector<Vertex>& found) const;
+  void find_opposites(const VertexLinks& links, std::vector<OppositeCorner>& found) const;
 
  private:
   Vertex corner_ = 0, side_ = 0, other_side_ = 0;
@@ -58,8 +68,10 @@ class QuadAngle {
   bool sides_are_linked_ = false;
 };
 
-// Rules 2 and 8 for the quad with these vertices in a cycle, not all diagonals of which may be there.
+// Rules 2 and 8 for the quad with these vertices in a cycle, not all diagonals of which may be there; seen from a in
+// the second case.
 bool has_unfolded_diagonal(const TetMesh& mesh, const VertexLinks& links, Vertex a, Vertex b, Vertex c, Vertex d);
+bool has_unfolded_diagonal(const TetMesh& mesh, Diagonals diagonals, Vertex a, Vertex b, Vertex c, Vertex d);
 
 // The quads of which one vertex, the first, is the least: found once and used by all cells that have it as corner 0. An
 // outer edge is a side of such quads that does not meet the first vertex.
@@ -68,6 +80,7 @@ class QuadFan {
   struct Quad {
     Vertex opposite;
     std::array<std::int32_t, 2> outer_edges;  // from its two sides to the opposite vertex, the lower side first
+    Diagonals diagonals;                      // seen from the first vertex
   };
   // Two neighbours of the first vertex that lie beside it in some quads.
   struct Pair {
@@ -183,7 +196,7 @@ class QuadFan {
   std::vector<std::int32_t> offsets_;         // neighbours + 1
   std::vector<std::int32_t> middles_;         // where the partners at greater places begin
   std::vector<Partner> partners_;
-  std::vector<Vertex> found_;
+  std::vector<OppositeCorner> found_;
   std::vector<std::int32_t> at_spoke_;
 };
 

@@ -1,0 +1,50 @@
+#pragma once
+// The formulas of a cell's quality and volume, for one cell (Vec3) or for several side by side (LaneVector): the same
+// bits either way. What they measure stands in quality.hpp.
+
+#include <limits>
+
+#include "common/mesh/cell_topology.hpp"
+#include "common/mesh/lanes.hpp"
+#include "common/mesh/vec3.hpp"
+
+namespace hexpipe {
+
+// The corner is chosen by squares, with the sign of the determinant, so that roots are taken at one corner only.
+template <class Topology, class Points>
+auto least_corner_scaled_jacobian_of(const Points& p) {
+  using Number = decltype(norm_squared(p[0]));
+  Number least_square = Number{} + std::numeric_limits<double>::infinity();
+  Number determinant{}, u_square{}, v_square{}, w_square{};  // at the least corner
+  for (const LocalCorner& c : Topology::corners) {
+    const auto u = p[c[1]] - p[c[0]], v = p[c[2]] - p[c[0]], w = p[c[3]] - p[c[0]];
+    const Number uu = norm_squared(u), vv = norm_squared(v), ww = norm_squared(w);
+    const Number d = det(u, v, w), squares = uu * vv * ww;
+    const Number square = select(squares > 0, d * absolute(d) / squares, Number{});
+    const auto is_less = square < least_square;
+    least_square = select(is_less, square, least_square);
+    determinant = select(is_less, d, determinant);
+    u_square = select(is_less, uu, u_square);
+    v_square = select(is_less, vv, v_square);
+    w_square = select(is_less, ww, w_square);
+  }
+  const Number lengths = square_root(u_square) * square_root(v_square) * square_root(w_square);
+  return select(lengths > 0, determinant / lengths, Number{});
+}
+
+// The sum of the tets from corner 0 to the facets. A bilinear quad encloses the mean of its two triangulations, abc +
+// acd and abd + bcd; their four determinants are det(a, b, c + d) + det(c, d, a + b).
+template <class Topology, class Points>
+auto cell_volume_of(const Points& p) {
+  using Number = decltype(norm_squared(p[0]));
+  const auto at = [&](int c) { return p[c] - p[0]; };
+  Number triangles{}, quads{};
+  for (const LocalTriangle& t : Topology::triangles) triangles += det(at(t[0]), at(t[1]), at(t[2]));
+  for (const LocalQuad& q : Topology::quads) {
+    const auto a = at(q[0]), b = at(q[1]), c = at(q[2]), d = at(q[3]);
+    quads += det(a, b, c + d) + det(c, d, a + b);
+  }
+  return triangles / 6 + quads / 12;
+}
+
+}  // namespace hexpipe
