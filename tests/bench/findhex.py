@@ -10,9 +10,10 @@ PROGRAM MESH QUALITY THREADS FILE is the search of HXT Combine (Gmsh's repositor
 JSON with tables_cpu, search_cpu, tables_wall, search_wall (seconds), and writes a line for each hex: its eight vertices, its
 numbers of interior and boundary tets, then these, all counted from 1. Without it the comparison is skipped.
 
-A hex that only findhex finds is explained when a tet that is not inside joins four of its corners: the peer's flood may
-begin there and fail (docs/definitions.md, rule 5). Ends with 1 when the peer finds a hex that findhex does not, or the
-tets differ, or a difference is not explained.
+The peer's flood begins at a tet that joins four of the corners. A hex that only findhex finds is explained when such a
+tet is not inside, where the flood may begin and fail, or when there is none: all tets inside meet at a vertex inside
+(docs/definitions.md, rule 5 and what follows rule 9). Ends with 1 when the peer finds a hex that findhex does not, or
+the tets differ, or a difference is not explained.
 """
 import argparse
 import json
@@ -82,13 +83,19 @@ def compare(tets):
     for t, tet in enumerate(tets):
         for v in tet:
             at_vertex.setdefault(int(v) + 1, []).append(t)
-    unexplained = 0
+    outside = without = unexplained = 0
     for key in mine.keys() - theirs.keys():
         corners = frozenset().union(*key)
-        near = {t for v in corners for t in at_vertex[v] if corners.issuperset(int(x) + 1 for x in tets[t])}
-        unexplained += not near - {t - 1 for t in mine[key][0]}
-    print(f"    sets: {len(mine)} and {len(theirs)}; {len(mine.keys() - theirs.keys())} only here, of which {unexplained} "
-          f"unexplained; {lost} only there; {other_tets} with other tets")
+        starts = {t for v in corners for t in at_vertex[v] if corners.issuperset(int(x) + 1 for x in tets[t])}
+        if not starts:
+            without += 1
+        elif starts - {t - 1 for t in mine[key][0]}:
+            outside += 1
+        else:
+            unexplained += 1
+    print(f"    sets: {len(mine)} and {len(theirs)}; {outside + without + unexplained} only here, of which the peer may start "
+          f"outside {outside}, has no start {without}, {unexplained} unexplained; {lost} only there; {other_tets} with "
+          "other tets")
     return lost + other_tets + unexplained
 
 
