@@ -163,11 +163,10 @@ void BundleWriter::add_text(const std::string& name, std::string_view text) {
   write(text.data(), text.size());
 }
 
-void BundleWriter::add_array(const std::string& name, const NpyHeader& header, const void* data, std::size_t bytes) {
+void BundleWriter::begin_array(const std::string& name, const NpyHeader& header, std::uint64_t bytes) {
   const std::string start = npy_header(header);
   begin_member(name, start.size() + bytes);
   write(start.data(), start.size());
-  write(data, bytes);
 }
 
 void BundleWriter::close() {
@@ -307,6 +306,18 @@ void BundleReader::read_rows(const NpyHeader& header, NpyType wanted, std::size_
   }
 }
 
+std::size_t BundleReader::read_some(char* bytes, std::size_t most) {
+  const std::size_t count = std::min<std::uint64_t>(most, left_);
+  read_bytes(bytes, count);
+  return count;
+}
+
+void BundleReader::check_type(const NpyHeader& header, NpyType wanted) const {
+  if (header.type != wanted)
+    throw DataError::at(where(), "expected numbers of type {}{}, found {}{}", wanted.kind, wanted.bytes,
+                        header.type.kind, header.type.bytes);
+}
+
 std::string BundleReader::read_text(std::size_t limit) {
   if (size_ > limit) throw DataError::at(where(), "expected at most {} bytes, found {}", limit, size_);
   std::string text(size_, '\0');
@@ -317,11 +328,7 @@ std::string BundleReader::read_text(std::size_t limit) {
 void BundleReader::copy_to(BundleWriter& writer) {
   writer.begin_member(name_, size_);
   std::vector<char> chunk(std::min<std::uint64_t>(size_, 1 << 20));
-  while (left_ > 0) {
-    const std::size_t bytes = std::min<std::uint64_t>(left_, chunk.size());
-    read_bytes(chunk.data(), bytes);
-    writer.write(chunk.data(), bytes);
-  }
+  while (const std::size_t bytes = read_some(chunk.data(), chunk.size())) writer.write(chunk.data(), bytes);
 }
 
 }  // namespace hexpipe

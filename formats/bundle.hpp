@@ -39,9 +39,15 @@ class BundleWriter {
   // T is a number, or an array of numbers (a row); the .npy shape is (n) or (n,columns).
   template <class T>
   void add_array(const std::string& name, const std::vector<T>& rows) {
-    NpyHeader header{npy_type<typename NpyRow<T>::Number>(), {rows.size()}};
+    begin_rows<T>(name, rows.size());
+    write(rows.data(), rows.size() * sizeof(T));
+  }
+  // An array of so many rows, whose bytes are to be written next.
+  template <class T>
+  void begin_rows(const std::string& name, std::uint64_t count) {
+    NpyHeader header{npy_type<typename NpyRow<T>::Number>(), {count}};
     if (NpyRow<T>::columns > 0) header.shape.push_back(NpyRow<T>::columns);
-    add_array(name, header, rows.data(), rows.size() * sizeof(T));
+    begin_array(name, header, count * sizeof(T));
   }
 
   // Writes the end of the archive.
@@ -49,7 +55,7 @@ class BundleWriter {
 
  private:
   static long on_write(archive*, void* self, const void* data, std::size_t bytes);
-  void add_array(const std::string& name, const NpyHeader& header, const void* data, std::size_t bytes);
+  void begin_array(const std::string& name, const NpyHeader& header, std::uint64_t bytes);
   // Throws what the output threw, or what libarchive says when a call did not succeed.
   void check(bool succeeded) const;
 
@@ -91,6 +97,20 @@ class BundleReader {
         });
     return rows;
   }
+  // The same a block at a time, for arrays that are larger than the memory: how many rows there are, then the next
+  // `count` of them. Numbers have to be of the very type of T.
+  template <class T>
+  std::uint64_t begin_rows() {
+    const NpyHeader header = begin_array(NpyRow<T>::columns);
+    check_type(header, npy_type<typename NpyRow<T>::Number>());
+    return header.shape[0];
+  }
+  template <class T>
+  void read_next_rows(T* rows, std::size_t count) {
+    read_bytes(rows, count * sizeof(T));
+  }
+  // The current member's next bytes, at most so many; 0 at its end.
+  std::size_t read_some(char* bytes, std::size_t most);
   // The current member as text; throws DataError when larger than `limit`.
   std::string read_text(std::size_t limit = 64 << 20);
   // The current member's bytes, unchanged, to another bundle.
@@ -108,6 +128,7 @@ class BundleReader {
   // that only claims to be huge costs nothing; `reserve` is called with the whole count first.
   void read_rows(const NpyHeader& header, NpyType wanted, std::size_t row_bytes,
                  const std::function<void(std::size_t)>& reserve, const std::function<void*(std::size_t)>& resize);
+  void check_type(const NpyHeader& header, NpyType wanted) const;
   [[noreturn]] void fail(const char* what) const;
 
   Input& input_;

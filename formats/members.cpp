@@ -159,8 +159,12 @@ bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy, bool
   return known;
 }
 
+bool is_part_title(std::string_view name) {
+  return name == part_json;
+}
+
 bool read_part_member(BundleReader& reader, StageData& data, BundleWriter* copy) {
-  if (reader.name() == part_json) {
+  if (is_part_title(reader.name())) {
     const std::string text = reader.read_text(longest_part_json);
     try {
       parse_part(text, ensure(data.part));
@@ -195,21 +199,16 @@ auto writing_to(BundleWriter& writer) {
   return [&writer](const char* name, const auto& array) { writer.add_array(name, array); };
 }
 
-// Without what a part does not need to have.
-auto writing_what_is_there_to(BundleWriter& writer, std::string_view may_be_missing) {
-  return [&writer, may_be_missing](std::string_view name, const auto& array) {
-    if (!array.empty() || name != may_be_missing) writer.add_array(std::string(name), array);
-  };
-}
-
 }  // namespace
 
 void write_members(BundleWriter& writer, const MeshPart& part) {
   writer.add_text(part_json, text_of(part));
-  visit_members_of_part(part, writing_what_is_there_to(writer, "mesh/tet_turned.npy"));
+  visit_members_of_part(part, [&](const std::string& name, const auto& array) {
+    if (!array.empty() || name != "mesh/tet_turned.npy") writer.add_array(name, array);
+  });
 }
 void write_members(BundleWriter& writer, const CandidateKeys& keys) {
-  visit_members_of_keys(keys, writing_what_is_there_to(writer, "candidates/part.npy"));
+  visit_members_of_keys(keys, writing_to(writer));
 }
 
 void write_members(BundleWriter& writer, const TetMesh& mesh) {

@@ -18,6 +18,8 @@ std::optional<Role> role_of_member(std::string_view name);
 // unread).
 bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy, bool with_cover);
 
+// Whether it says that what follows is a part of a mesh, and which.
+bool is_part_title(std::string_view name);
 // The same for what a part of a mesh has beside mesh and candidates.
 bool read_part_member(BundleReader& reader, StageData& data, BundleWriter* copy);
 

@@ -241,13 +241,16 @@ optimum() {
   local kinds="--cells hex,prism,pyramid --min-quality 0.1"
   findhex -q --mesh p.mesh $kinds -o kinds.tar
   for i in 1 2 3; do findhex -q --mesh p.mesh $kinds --part $i/3 -o kinds$i.tar; done
-  "$HEXPIPE_SOURCE/formats/merge_parts.py" kinds1.tar kinds2.tar kinds3.tar >merged.tar
+  merge-parts kinds1.tar kinds2.tar kinds3.tar -o merged.tar
   assert_same_bytes kinds.tar merged.tar
-  assert_fails_with 1 "merge_parts.py: expected the parts 1/2 to 2/2 in order, found 1/3, 2/3" "$HEXPIPE_SOURCE/formats/merge_parts.py" kinds1.tar kinds2.tar
-  assert_fails_with 1 "merge_parts.py: expected the parts 1/3" "$HEXPIPE_SOURCE/formats/merge_parts.py" kinds2.tar kinds1.tar kinds3.tar
+  assert_fails_with 1 "merge-parts: expected the parts 1/2 to 2/2 in order, found 1/3, 2/3" merge-parts kinds1.tar kinds2.tar -o out.tar
+  assert_fails_with 1 "merge-parts: expected the parts 1/3" merge-parts kinds2.tar kinds1.tar kinds3.tar -o out.tar
   findhex -q --mesh p.mesh ${kinds/0.1/0.2} --part 3/3 -o other.tar
-  assert_fails_with 1 "merge_parts.py: expected parts of one run" "$HEXPIPE_SOURCE/formats/merge_parts.py" kinds1.tar kinds2.tar other.tar
+  assert_fails_with 1 "other.tar: history/.*: expected a run with the same version and options" merge-parts kinds1.tar kinds2.tar other.tar -o out.tar
   head -c 5000 kinds2.tar >cut.tar
-  assert_fails_with 1 "merge_parts.py: (cut.tar: expected|expected)" "$HEXPIPE_SOURCE/formats/merge_parts.py" kinds1.tar cut.tar kinds3.tar
-  assert_fails_with 1 "merge_parts.py: .*expected an uncompressed bundle" "$HEXPIPE_SOURCE/formats/merge_parts.py" p.mesh
+  assert_fails_with 1 "cut.tar: .*(found: |cut off)" merge-parts kinds1.tar cut.tar kinds3.tar -o out.tar
+  assert_fails_with 1 "p.mesh: expected a bundle of a part" merge-parts p.mesh -o out.tar
+  initsol -q graph.tar --iterations 1 -o solved.tar
+  assert_fails_with 1 "solved.tar: expected a bundle that findhex or buildgraph wrote last" merge-parts solved.tar -o out.tar
+  assert [ ! -e out.tar ]
 }

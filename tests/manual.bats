@@ -2,7 +2,7 @@
 
 load helpers
 
-TOOLS="findhex buildgraph initsol lns certify assemble"
+TOOLS="merge-parts findhex buildgraph initsol lns certify assemble"
 for optional in tetmesh mesh-part lns-mpi view; do
   if [[ -x "$HEXPIPE_BIN/$optional" ]]; then TOOLS="$TOOLS $optional"; fi
 done

@@ -104,27 +104,28 @@ std::string title_of(const MeshPart& part) {
   return fmt::format("part {} of {}", part.part, part.parts);
 }
 
-std::vector<std::uint64_t> candidate_keys(const Candidates& candidates, const std::vector<std::int64_t>& point_number,
-                                          const char* source) {
-  std::vector<std::uint64_t> keys(candidates.size());
+CandidateKeys keys_of_own(const Candidates& candidates, const MeshPart& part, const char* source) {
+  CandidateKeys keys{std::vector<std::uint64_t>(candidates.size()),
+                     std::vector<std::int32_t>(candidates.size(), part.part)};
   std::uint64_t place = 0;
-  for (std::size_t i = 0; i < keys.size(); ++i) {
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Vertex first = first_vertex(candidates, i);
     const bool is_next =
         i > 0 && candidates.kind[i] == candidates.kind[i - 1] && first == first_vertex(candidates, i - 1);
     place = is_next ? place + 1 : 0;
-    const auto vertex = static_cast<std::uint64_t>(point_number[first]);
+    const auto vertex = static_cast<std::uint64_t>(part.point_number[first]);
     if (place >> key_place_bits != 0 || vertex >> key_vertex_bits != 0)
       throw DataError::at(source, "expected fewer than 2^{} candidates at one vertex, found more at vertex {}",
                           key_place_bits, vertex);
-    keys[i] = kind_code(candidates.kind[i]) << (key_place_bits + key_vertex_bits) | vertex << key_place_bits | place;
+    keys.key[i] =
+        kind_code(candidates.kind[i]) << (key_place_bits + key_vertex_bits) | vertex << key_place_bits | place;
   }
   return keys;
 }
 
 void validate(const CandidateKeys& keys, std::size_t count, const char* source) {
   check_size(source, "candidate keys", count, keys.key.size());
-  if (!keys.part.empty()) check_size(source, "candidate owners", count, keys.part.size());
+  check_size(source, "candidate owners", count, keys.part.size());
   for (std::size_t i = 1; i < keys.key.size(); ++i)
     if (keys.key[i] <= keys.key[i - 1])
       throw DataError::at(source, "expected ascending keys of candidates, found {} after {}", keys.key[i],

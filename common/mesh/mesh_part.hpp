@@ -48,17 +48,16 @@ std::string title_of(const MeshPart& part);
 // What identifies candidates in all parts: ascending keys are the order that candidates have in a single run.
 struct CandidateKeys {
   std::vector<std::uint64_t> key;
-  std::vector<std::int32_t> part;  // owners; empty where all are the part's own
+  std::vector<std::int32_t> part;  // owners
 };
 
 // From the top: 2 bits for the kind, 38 for the number in the whole of the vertex that the candidate was found from, 24
 // for its place among the candidates of this kind and vertex.
 constexpr int key_place_bits = 24, key_vertex_bits = 38;
 
-// Of all candidates that begin at the owned vertices, in the order in which they are found. Throws DataError naming
-// `source` where a number does not fit.
-std::vector<std::uint64_t> candidate_keys(const Candidates& candidates, const std::vector<std::int64_t>& point_number,
-                                          const char* source);
+// Of all candidates that begin at points of the part's own, in the order in which they are found. Throws DataError
+// naming `source` where a number does not fit.
+CandidateKeys keys_of_own(const Candidates& candidates, const MeshPart& part, const char* source);
 
 // Throws DataError naming `source` when there is not one for each of `count` candidates, or keys do not ascend.
 void validate(const CandidateKeys& keys, std::size_t count, const char* source);

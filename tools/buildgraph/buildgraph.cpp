@@ -139,8 +139,7 @@ PartGraph buildgraph_of_part(PartCandidates all, std::int32_t part, const Buildg
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v)
     if (own[v] || graph.degree(v) > 0) kept.push_back(v);
   keep_only(graph, kept);
-  built.result.candidates = select(all.candidates, kept);
-  built.keys = select(all.keys, kept);
+  built.candidates = {select(all.candidates, kept), select(all.keys, kept)};
   return built;
 }
 

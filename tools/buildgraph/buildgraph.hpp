@@ -35,7 +35,7 @@ BuildgraphResult buildgraph(Candidates candidates, const BuildgraphOptions& opti
 // in conflict with one of its own, and of conflicts those that one of its own is in.
 struct PartGraph {
   BuildgraphResult result;
-  CandidateKeys keys;
+  PartCandidates candidates;  // vertex i is candidate i
 };
 PartGraph buildgraph_of_part(PartCandidates all, std::int32_t part, const BuildgraphOptions& options,
                              const char* source);

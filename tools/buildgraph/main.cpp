@@ -89,9 +89,9 @@ int main(int argc, char** argv) {
     phases.end("read");
     if (!data.part && !neighbours.empty())
       throw UsageError("--neighbours goes with the candidates of a part of a mesh, as mesh-part makes them");
-    const auto [result, keys] = data.part
-                                    ? build_part(std::move(data), options, neighbours, source)
-                                    : PartGraph{buildgraph(std::move(*data.candidates), options, source.c_str()), {}};
+    const auto [result, of_part] =
+        data.part ? build_part(std::move(data), options, neighbours, source)
+                  : PartGraph{buildgraph(std::move(*data.candidates), options, source.c_str()), {}};
     phases.end("build");
     const GraphSummary summary = summarize(result);
     for (const auto& warning : warnings_about(summary)) context.warn(warning);
@@ -102,8 +102,10 @@ int main(int argc, char** argv) {
       write_cand(*result.candidates, output);
       output.commit();
     }
-    const bool writes_candidates = options.reduce || !neighbours.empty();
-    stage.write(result.graph, keys.key.empty() ? nullptr : &keys, writes_candidates ? &*result.candidates : nullptr,
+    const Candidates* const candidates = !neighbours.empty() ? &of_part.candidates
+                                         : result.candidates ? &*result.candidates
+                                                             : nullptr;
+    stage.write(result.graph, neighbours.empty() ? nullptr : &of_part.keys, candidates,
                 result.cover ? &*result.cover : nullptr, history_of(summary));
     phases.end("write");
     context.statistics.update(phases.seconds());

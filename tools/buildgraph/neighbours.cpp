@@ -40,14 +40,13 @@ class HaloCollector {
         if (v >= 0) corners_[v] = true;
     for (const std::int32_t tet : all_.candidates.tets) tets_[tet] = true;
     std::iota(order_.begin(), order_.end(), 0);
-    all_.keys.part.assign(all_.keys.key.size(), part.part);
   }
 
   void add_from(const PartBundle& other) {
     const std::vector<std::int32_t> points = places_in(part_.point_number, other.part.point_number);
     const std::vector<std::int32_t> tets = places_in(part_.tet_number, other.part.tet_number);
     for (std::size_t i = 0; i < other.candidates.size(); ++i) {
-      const bool is_own = other.keys.part.empty() || other.keys.part[i] == other.part.part;
+      const bool is_own = other.keys.part[i] == other.part.part;
       if (is_own && may_conflict(other.candidates, i, points, tets)) add(other, i, points, tets);
     }
   }

@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
     for (const auto& line : summary_lines(result)) context.note(line);
     context.statistics.update(statistics_of(result));
     CandidateKeys keys;
-    if (data.part) keys.key = candidate_keys(result.candidates, data.part->point_number, source.c_str());
+    if (data.part) keys = keys_of_own(result.candidates, *data.part, source.c_str());
     stage.write(result.candidates, data.part ? &keys : nullptr, {{"candidates", candidate_counts(result)}});
     phases.end("write");
     context.statistics.update(phases.seconds());

@@ -1,0 +1,113 @@
+#include "tools/merge-parts/history.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "common/run/error.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr std::size_t longest_entry = 1 << 20;
+
+nlohmann::ordered_json read_entry(PartReader& part) {
+  auto json = nlohmann::ordered_json::parse(part.bundle().read_text(longest_entry), nullptr, false);
+  if (!json.is_object() || (json.contains("tool") && !json["tool"].is_string()))
+    throw DataError::at(part.bundle().where(), "expected a JSON object with the name of a tool, found something else");
+  return json;
+}
+
+// Counts of parts that add up to those of the whole: a number, or an object of numbers.
+void add_counts(nlohmann::ordered_json& sum, const nlohmann::ordered_json& counts) {
+  if (sum.is_number_integer() && counts.is_number_integer())
+    sum = sum.get<std::int64_t>() + counts.get<std::int64_t>();
+  else if (sum.is_object() && counts.is_object())
+    for (auto& [name, value] : sum.items())
+      if (counts.contains(name)) add_counts(value, counts[name]);
+}
+
+// What a tool's entry counts for its part alone.
+const std::map<std::string, std::vector<const char*>> counts_of_tools{{"findhex", {"candidates"}},
+                                                                      {"buildgraph", {"vertices", "edges"}}};
+
+std::vector<const char*> counts_of(const std::string& tool) {
+  const auto found = counts_of_tools.find(tool);
+  return found == counts_of_tools.end() ? std::vector<const char*>() : found->second;
+}
+
+std::string tool_of(const nlohmann::ordered_json& entry) {
+  return entry.value("tool", "stage");
+}
+
+// The role of what a tool makes; of one that we do not know, what was made last.
+Role role_of(const std::string& tool, Role latest) {
+  static const std::map<std::string, Role> made{{"tetmesh", Role::mesh},     {"findhex", Role::candidates},
+                                                {"buildgraph", Role::graph}, {"initsol", Role::solution},
+                                                {"lns", Role::solution},     {"lns-mpi", Role::solution}};
+  const auto found = made.find(tool);
+  return found == made.end() ? latest : found->second;
+}
+
+void merge_into(nlohmann::ordered_json& entry, const nlohmann::ordered_json& other, PartReader& part) {
+  nlohmann::ordered_json same = entry, same_other = other;
+  for (const char* name : counts_of(tool_of(entry))) {
+    same.erase(name);
+    same_other.erase(name);
+  }
+  if (same != same_other)
+    throw DataError::at(part.bundle().where(),
+                        "expected a run with the same version and options as in the first part, found another");
+  for (const char* name : counts_of(tool_of(entry)))
+    if (entry.contains(name) && other.contains(name)) add_counts(entry[name], other[name]);
+}
+
+}  // namespace
+
+void MergedHistory::take(PartReaders& parts) {
+  nlohmann::ordered_json entry = read_entry(parts.front());
+  for (std::size_t p = 1; p < parts.size(); ++p) merge_into(entry, read_entry(parts[p]), parts[p]);
+  if (tool_of(entry) == "mesh-part") return;
+  latest_ = std::max(latest_, role_of(tool_of(entry), latest_));
+  entries_.push_back({std::move(entry), latest_});
+}
+
+std::vector<std::string> MergedHistory::take_shares(PartReaders& parts) {
+  std::vector<std::string> shares;
+  nlohmann::ordered_json entry;
+  for (PartReader& part : parts) {
+    nlohmann::ordered_json other = read_entry(part);
+    auto& options = other["options"];
+    shares.push_back(options.is_object() ? options.value("part", "") : "");
+    if (options.is_object()) options["part"] = "1/1";
+    if (entry.is_null())
+      entry = std::move(other);
+    else
+      merge_into(entry, other, part);
+  }
+  latest_ = std::max(latest_, role_of(tool_of(entry), latest_));
+  entries_.push_back({std::move(entry), latest_});
+  return shares;
+}
+
+void MergedHistory::write(Entry& entry, const std::string& name, const MergedCounts& counts, BundleWriter& out) {
+  const bool of_graph = tool_of(entry.json) == "buildgraph";
+  if (of_graph && counts.vertices) entry.json["vertices"] = *counts.vertices;
+  if (of_graph && counts.edges) entry.json["edges"] = *counts.edges;
+  out.add_text(name, entry.json.dump(2) + "\n");
+}
+
+void MergedHistory::write_before(std::optional<Role> role, const MergedCounts& counts, BundleWriter& out) {
+  std::size_t done = 0;
+  for (; done < entries_.size() && (!role || entries_[done].made < *role); ++done)
+    write(entries_[done], fmt::format("history/{:02}-{}.json", ++written_, tool_of(entries_[done].json)), counts, out);
+  entries_.erase(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(done));
+}
+
+void MergedHistory::write_last(const std::string& name, const MergedCounts& counts, BundleWriter& out) {
+  for (Entry& entry : entries_) write(entry, name, counts, out);
+}
+
+}  // namespace hexpipe

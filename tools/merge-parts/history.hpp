@@ -1,0 +1,46 @@
+#pragma once
+// The history of a whole out of those of its parts.
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/run/stream_options.hpp"
+#include "formats/bundle.hpp"
+#include "tools/merge-parts/part_reader.hpp"
+
+namespace hexpipe {
+
+// What a single run would have counted.
+struct MergedCounts {
+  std::optional<std::int64_t> vertices, edges;  // of the graph, where it was merged
+};
+
+class MergedHistory {
+ public:
+  // Takes the entry at which all parts stand. Throws DataError unless the parts were made by the same tool with the
+  // same version and options.
+  void take(PartReaders& parts);
+  // Writes the entries that come before the members of this role, as the tools that made them wrote them; all of them
+  // where there is none.
+  void write_before(std::optional<Role> role, const MergedCounts& counts, BundleWriter& out);
+  // The same for shares (--part i/k): which ones they are.
+  std::vector<std::string> take_shares(PartReaders& parts);
+  // Writes the only entry, under this name.
+  void write_last(const std::string& name, const MergedCounts& counts, BundleWriter& out);
+
+ private:
+  struct Entry {
+    nlohmann::ordered_json json;
+    Role made;  // the role of what the tool writes
+  };
+  static void write(Entry& entry, const std::string& name, const MergedCounts& counts, BundleWriter& out);
+
+  std::vector<Entry> entries_;  // not written yet
+  int written_ = 0;
+  Role latest_ = Role::mesh;
+};
+
+}  // namespace hexpipe

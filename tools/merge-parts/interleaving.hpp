@@ -1,0 +1,138 @@
+#pragma once
+// How rows of several parts make those of a whole: from which part each row comes, and which rows a part gives. A part
+// gives its rows in its own order.
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tools/merge-parts/part_reader.hpp"
+
+namespace hexpipe {
+
+struct Interleaving {
+  std::vector<std::uint16_t> part_of_row;
+  std::vector<std::vector<bool>> gives;  // by part and row of the part
+
+  std::uint64_t size() const { return part_of_row.size(); }
+  std::uint64_t rows_of(std::size_t part) const { return gives[part].size(); }
+};
+
+// Of rows that are numbered in the whole, ascending; one that several parts have comes from the first of them. Throws
+// DataError, which says `what` they are, when one is nowhere.
+Interleaving interleave(const std::vector<std::vector<std::int32_t>>& numbers, std::int64_t count, const char* what);
+
+// Of the rows of an array, a block at a time.
+template <class T>
+class RowReader {
+ public:
+  RowReader(PartReader& part, std::uint64_t rows) : part_(part), left_(part.bundle().begin_rows<T>()) {
+    check_rows(part, rows, left_);
+  }
+
+  const T& next() {
+    if (at_ == block_.size()) fill();
+    return block_[at_++];
+  }
+  void skip(std::uint64_t count) {
+    for (; count > 0; --count) next();
+  }
+
+ private:
+  static constexpr std::size_t block_bytes = 64 << 10;
+
+  void fill() {
+    block_.resize(std::min<std::uint64_t>(left_, block_bytes / sizeof(T)));
+    part_.bundle().read_next_rows(block_.data(), block_.size());
+    left_ -= block_.size();
+    at_ = 0;
+  }
+  static void check_rows(PartReader& part, std::uint64_t wanted, std::uint64_t found);
+
+  PartReader& part_;
+  std::uint64_t left_;
+  std::vector<T> block_;
+  std::size_t at_ = 0;
+};
+
+// Throws DataError unless an array has as many rows as wanted; and unless there is a row left.
+void check_row_count(PartReader& part, std::uint64_t wanted, std::uint64_t found);
+
+template <class T>
+void RowReader<T>::check_rows(PartReader& part, std::uint64_t wanted, std::uint64_t found) {
+  check_row_count(part, wanted, found);
+}
+
+template <class T>
+class RowWriter {
+ public:
+  RowWriter(BundleWriter& bundle, const std::string& name, std::uint64_t rows) : bundle_(bundle) {
+    bundle.begin_rows<T>(name, rows);
+    block_.reserve(block_rows);
+  }
+  void add(const T& row) {
+    block_.push_back(row);
+    if (block_.size() == block_rows) flush();
+  }
+  // After the last row.
+  void flush() {
+    bundle_.write(block_.data(), block_.size() * sizeof(T));
+    block_.clear();
+  }
+
+ private:
+  static constexpr std::size_t block_rows = (1 << 20) / sizeof(T);
+  BundleWriter& bundle_;
+  std::vector<T> block_;
+};
+
+// Writes the member at which all parts stand: change(part, row) of each row.
+template <class T, class Change>
+void merge_rows(PartReaders& parts, const Interleaving& order, BundleWriter& out, Change&& change) {
+  std::vector<RowReader<T>> readers;
+  readers.reserve(parts.size());
+  for (std::size_t p = 0; p < parts.size(); ++p) readers.emplace_back(parts[p], order.rows_of(p));
+  std::vector<std::uint64_t> at(parts.size(), 0);
+  RowWriter<T> writer(out, parts.front().name(), order.size());
+  for (const std::uint16_t p : order.part_of_row) {
+    for (; !order.gives[p][at[p]]; ++at[p]) readers[p].next();
+    ++at[p];
+    writer.add(change(p, readers[p].next()));
+  }
+  writer.flush();
+}
+
+// Lists: their ends in one member, what is in them in the next.
+using ListLengths = std::vector<std::vector<std::int32_t>>;  // by part and list
+
+// Writes the member of ends; lengths of all lists of the parts, given or not.
+ListLengths merge_offsets(PartReaders& parts, const Interleaving& order, BundleWriter& out);
+
+// Writes the items, changed; how many.
+template <class Change>
+std::uint64_t merge_items(PartReaders& parts, const Interleaving& order, const ListLengths& lengths, BundleWriter& out,
+                          Change&& change) {
+  std::vector<RowReader<std::int32_t>> readers;
+  readers.reserve(parts.size());
+  std::uint64_t total = 0;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    std::uint64_t items = 0;
+    for (std::size_t i = 0; i < lengths[p].size(); ++i) {
+      items += static_cast<std::uint64_t>(lengths[p][i]);
+      if (order.gives[p][i]) total += static_cast<std::uint64_t>(lengths[p][i]);
+    }
+    readers.emplace_back(parts[p], items);
+  }
+  std::vector<std::uint64_t> at(parts.size(), 0);
+  RowWriter<std::int32_t> writer(out, parts.front().name(), total);
+  for (const std::uint16_t p : order.part_of_row) {
+    for (; !order.gives[p][at[p]]; ++at[p]) readers[p].skip(static_cast<std::uint64_t>(lengths[p][at[p]]));
+    for (std::int32_t i = 0; i < lengths[p][at[p]]; ++i) writer.add(change(p, readers[p].next()));
+    ++at[p];
+  }
+  writer.flush();
+  return total;
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,19 @@
+#include "tools/merge-parts/merge_parts.hpp"
+
+#include "formats/members.hpp"
+#include "tools/merge-parts/part_reader.hpp"
+#include "tools/merge-parts/parts_of_mesh.hpp"
+#include "tools/merge-parts/shares.hpp"
+
+namespace hexpipe {
+
+void merge_parts(const std::vector<std::string>& paths, BundleWriter& out) {
+  PartReaders parts;
+  for (const std::string& path : paths) parts.emplace_back(path);
+  if (parts.front().at_member() && is_part_title(parts.front().name()))
+    merge_parts_of_mesh(parts, out);
+  else
+    merge_shares(parts, paths, out);
+}
+
+}  // namespace hexpipe

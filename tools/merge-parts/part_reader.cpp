@@ -1,0 +1,33 @@
+#include "tools/merge-parts/part_reader.hpp"
+
+#include "common/run/error.hpp"
+
+namespace hexpipe {
+namespace {
+
+std::string standing_at(const PartReader& part) {
+  return part.at_member() ? part.name() : std::string();
+}
+
+}  // namespace
+
+PartReader::PartReader(const std::string& path) : input_(std::make_unique<Input>(Input::open(path))) {
+  if (!looks_like_bundle(*input_)) throw DataError::at(path, "expected a bundle of a part, found another file");
+  reader_ = std::make_unique<BundleReader>(*input_);
+  next();
+}
+
+std::string common_member(const PartReaders& parts) {
+  const std::string first = standing_at(parts.front());
+  for (const PartReader& part : parts)
+    if (const std::string other = standing_at(part); other != first)
+      throw DataError::at(part.bundle_name(), "expected {} as in {}, found {}", first.empty() ? "its end" : first,
+                          parts.front().bundle_name(), other.empty() ? "its end" : other);
+  return first;
+}
+
+void next(PartReaders& parts) {
+  for (PartReader& part : parts) part.next();
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,38 @@
+#pragma once
+// A part's bundle, read once from front to back, side by side with the others.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "formats/bundle.hpp"
+#include "formats/input.hpp"
+
+namespace hexpipe {
+
+class PartReader {
+ public:
+  // Stands at the first member. Throws DataError when it is no bundle.
+  explicit PartReader(const std::string& path);
+
+  BundleReader& bundle() { return *reader_; }
+  // Whether there is a member to read, and which.
+  bool at_member() const { return at_member_; }
+  const std::string& name() const { return reader_->name(); }
+  void next() { at_member_ = reader_->next(); }
+  const std::string& bundle_name() const { return input_->name(); }
+
+ private:
+  // At an address of its own, which the reader holds.
+  std::unique_ptr<Input> input_;
+  std::unique_ptr<BundleReader> reader_;
+  bool at_member_ = false;
+};
+
+using PartReaders = std::vector<PartReader>;
+
+// The member at which all stand; empty at the end. Throws DataError when they differ.
+std::string common_member(const PartReaders& parts);
+void next(PartReaders& parts);
+
+}  // namespace hexpipe

@@ -1,0 +1,198 @@
+#include "tools/merge-parts/shares.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+
+#include "common/mesh/candidates.hpp"
+#include "common/run/error.hpp"
+#include "tools/merge-parts/history.hpp"
+#include "tools/merge-parts/interleaving.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr auto unchanged = [](std::size_t, const auto& row) { return row; };
+
+// What was shared out: its own members are the last before the last entry of the history.
+struct Shared {
+  std::string folder;      // "candidates/" or "graph/"
+  std::string last_entry;  // of the history
+  std::vector<std::vector<std::uint8_t>> kinds;
+};
+
+// Reads all bundles once before they are merged: what comes last decides.
+Shared look_through(const std::vector<std::string>& paths) {
+  Shared shared;
+  for (const std::string& path : paths) {
+    PartReader part(path);
+    std::string last;
+    std::vector<std::uint8_t> kinds;
+    for (; part.at_member(); part.next()) {
+      last = part.name();
+      if (last == "candidates/kind.npy") kinds = part.bundle().read_array<std::uint8_t>();
+    }
+    if (shared.kinds.empty()) shared.last_entry = last;
+    shared.kinds.push_back(std::move(kinds));
+  }
+  const auto ends_with = [&](const char* ending) { return shared.last_entry.ends_with(ending); };
+  if (!ends_with("-findhex.json") && !ends_with("-buildgraph.json"))
+    throw DataError::at(paths.front(),
+                        "expected a bundle that findhex or buildgraph wrote last with --part, found another");
+  shared.folder = ends_with("-findhex.json") ? "candidates/" : "graph/";
+  return shared;
+}
+
+// Each kind in the order of the shares.
+Interleaving order_by_kinds(const std::vector<std::vector<std::uint8_t>>& kinds) {
+  Interleaving order;
+  std::vector<std::size_t> at(kinds.size(), 0);
+  for (const auto& of_part : kinds) order.gives.emplace_back(of_part.size(), true);
+  for (const CellKind kind : {CellKind::hex, CellKind::prism, CellKind::pyramid})
+    for (std::size_t p = 0; p < kinds.size(); ++p)
+      for (; at[p] < kinds[p].size() && kinds[p][at[p]] == static_cast<std::uint8_t>(kind); ++at[p])
+        order.part_of_row.push_back(static_cast<std::uint16_t>(p));
+  return order;
+}
+
+// The member at which all stand, which has to be the same in all.
+void copy_common(PartReaders& parts, BundleWriter& out) {
+  constexpr std::size_t block = 64 << 10;
+  BundleReader& first = parts.front().bundle();
+  const auto fail = [](PartReader& part) {
+    throw DataError::at(part.bundle().where(), "expected the same as in the first bundle, found other bytes");
+  };
+  for (PartReader& part : parts)
+    if (part.bundle().size() != first.size()) fail(part);
+  out.begin_member(first.name(), first.size());
+  std::array<char, block> bytes{}, others{};
+  while (const std::size_t count = first.read_some(bytes.data(), block)) {
+    for (std::size_t p = 1; p < parts.size(); ++p) {
+      parts[p].bundle().read_some(others.data(), count);
+      if (!std::equal(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(count), bytes.begin()))
+        fail(parts[p]);
+    }
+    out.write(bytes.data(), count);
+  }
+}
+
+class CandidateShares {
+ public:
+  CandidateShares(PartReaders& parts, const Shared& shared, BundleWriter& out)
+      : parts_(parts), order_(order_by_kinds(shared.kinds)), out_(out) {}
+
+  bool merge_member(const std::string& name) {
+    if (name == "candidates/vertices.npy")
+      merge_rows<std::array<Vertex, 8>>(parts_, order_, out_, unchanged);
+    else if (name == "candidates/kind.npy")
+      merge_rows<std::uint8_t>(parts_, order_, out_, unchanged);
+    else if (name == "candidates/quality.npy" || name == "candidates/volume.npy")
+      merge_rows<double>(parts_, order_, out_, unchanged);
+    else if (name == "candidates/tet_offsets.npy" || name == "candidates/boundary_tet_offsets.npy")
+      lengths_ = merge_offsets(parts_, order_, out_);
+    else if (name == "candidates/tets.npy" || name == "candidates/boundary_tets.npy")
+      merge_items(parts_, order_, lengths_, out_, unchanged);
+    else
+      return false;
+    return true;
+  }
+
+ private:
+  PartReaders& parts_;
+  Interleaving order_;
+  BundleWriter& out_;
+  ListLengths lengths_;
+};
+
+// Each conflict is in one share, at both ends, and later shares have the higher neighbours: rows are joined.
+class GraphShares {
+ public:
+  GraphShares(PartReaders& parts, BundleWriter& out) : parts_(parts), out_(out) {}
+
+  bool merge_member(const std::string& name) {
+    if (name == "graph/offsets.npy")
+      merge_offsets();
+    else if (name == "graph/neighbours.npy")
+      merge_neighbours();
+    else if (name == "graph/weights.npy")
+      copy_common(parts_, out_);
+    else
+      return false;
+    return true;
+  }
+  MergedCounts counts() const { return {vertices_, ends_ / 2}; }
+
+ private:
+  void merge_offsets() {
+    for (PartReader& part : parts_) {
+      const std::vector<std::int64_t> offsets = part.bundle().read_array<std::int64_t>();
+      const auto count = static_cast<std::int64_t>(offsets.size()) - 1;
+      if (lengths_.empty()) vertices_ = count;
+      if (count != vertices_ || !std::is_sorted(offsets.begin(), offsets.end()))
+        throw DataError::at(part.bundle().where(), "expected ascending ends of {} lists", vertices_);
+      auto& lengths = lengths_.emplace_back();
+      for (std::int64_t v = 0; v < vertices_; ++v)
+        lengths.push_back(static_cast<std::int32_t>(offsets[v + 1] - offsets[v]));
+    }
+    RowWriter<std::int64_t> writer(out_, parts_.front().name(), vertices_ + 1);
+    writer.add(0);
+    for (std::int64_t v = 0; v < vertices_; ++v) {
+      for (const auto& lengths : lengths_) ends_ += lengths[v];
+      writer.add(ends_);
+    }
+    writer.flush();
+  }
+
+  void merge_neighbours() {
+    std::vector<RowReader<std::int32_t>> readers;
+    readers.reserve(parts_.size());
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      readers.emplace_back(parts_[p], std::accumulate(lengths_[p].begin(), lengths_[p].end(), std::uint64_t{0}));
+    RowWriter<std::int32_t> writer(out_, parts_.front().name(), ends_);
+    for (std::int64_t v = 0; v < vertices_; ++v)
+      for (std::size_t p = 0; p < parts_.size(); ++p)
+        for (std::int32_t i = 0; i < lengths_[p][v]; ++i) writer.add(readers[p].next());
+    writer.flush();
+  }
+
+  PartReaders& parts_;
+  BundleWriter& out_;
+  std::int64_t vertices_ = 0, ends_ = 0;
+  ListLengths lengths_;
+};
+
+void check_shares(const std::vector<std::string>& shares) {
+  std::vector<std::string> wanted;
+  for (std::size_t i = 1; i <= shares.size(); ++i) wanted.push_back(fmt::format("{}/{}", i, shares.size()));
+  if (shares != wanted)
+    throw DataError(fmt::format("expected the parts {} to {} in order, found {}", wanted.front(), wanted.back(),
+                                fmt::join(shares, ", ")));
+}
+
+}  // namespace
+
+void merge_shares(PartReaders& parts, const std::vector<std::string>& paths, BundleWriter& out) {
+  const Shared shared = look_through(paths);
+  const bool of_graph = shared.folder == "graph/";
+  CandidateShares candidates(parts, shared, out);
+  GraphShares graph(parts, out);
+  MergedHistory history;
+  for (; !common_member(parts).empty(); next(parts)) {
+    const std::string name = common_member(parts);
+    if (name == shared.last_entry)
+      check_shares(history.take_shares(parts));
+    else if (!name.starts_with(shared.folder))
+      copy_common(parts, out);
+    else if (!(of_graph ? graph.merge_member(name) : candidates.merge_member(name)))
+      throw DataError::at(parts.front().bundle().where(), "expected members of {}, found one that cannot be merged",
+                          shared.folder);
+  }
+  history.write_last(shared.last_entry, of_graph ? graph.counts() : MergedCounts(), out);
+}
+
+}  // namespace hexpipe
