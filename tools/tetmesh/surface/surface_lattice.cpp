@@ -15,6 +15,7 @@
 #include <numeric>
 
 #include "common/run/parallel.hpp"
+#include "tools/tetmesh/curl_correction.hpp"
 #include "tools/tetmesh/periodic_numbers.hpp"
 #include "tools/tetmesh/sized_point_grid.hpp"
 
@@ -41,9 +42,10 @@ Complex turn_by(double sizes) {
 }
 
 // What a triangle sees of a neighbour: its direction k is direction k there, or the other one where crossed, turned
-// round where flipped, and `turn[k]` further on.
+// round where flipped, and `distance[k]` further on.
 struct Link {
-  Phases turn;
+  std::array<double, 2> distance{};  // in sizes
+  Phases turn;                       // by these
   std::array<bool, 2> flipped{};
   bool crossed = false;
   std::int32_t neighbour = -1;
@@ -73,6 +75,7 @@ class SurfaceLattice {
 
   std::vector<SurfacePoint> points(std::span<const Vertex> kept) {
     make_links();
+    correct_curl();
     make_anchors(kept);
     diffuse();
     reach_the_rest();
@@ -98,6 +101,16 @@ class SurfaceLattice {
   }
   void make_links();
   Link make_link(HalfEdge h) const;
+  void correct_curl();
+  void add_loops(HalfEdge first, Loops& loops) const;
+  static std::int32_t number_of(HalfEdge h, std::size_t axis) { return 2 * h + static_cast<std::int32_t>(axis); }
+  static Link reversed(const Link& link, std::int32_t from);
+  // Calls body(h) for one half-edge of each pair with links.
+  template <class Body>
+  void for_each_pair(Body&& body) const {
+    for (HalfEdge h = 0; h < static_cast<HalfEdge>(links_.size()); ++h)
+      if (links_[h].neighbour >= 0 && h < surface_.twins[h]) body(h);
+  }
   void make_anchors(std::span<const Vertex> kept);
   void pull(std::int32_t f, std::size_t axis, double weight, double coordinate);
   Phases seen_through(HalfEdge h, const std::vector<Phases>& phases) const;
@@ -126,11 +139,81 @@ class SurfaceLattice {
 
 void SurfaceLattice::make_links() {
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(links_.size()); ++h) {
-    if (surface_.feature[h]) continue;
+    const HalfEdge twin = surface_.twins[h];
+    if (surface_.feature[h] || twin < h) continue;
     links_[h] = make_link(h);
+    links_[twin] = reversed(links_[h], triangle_of(h));
     degrees_[triangle_of(h)] += links_[h].weight;
+    degrees_[triangle_of(twin)] += links_[h].weight;
   }
   for (double& degree : degrees_) degree = std::max(degree, 1e-9);
+}
+
+Link SurfaceLattice::reversed(const Link& link, std::int32_t from) {
+  Link back;
+  back.neighbour = from;
+  back.weight = link.weight;
+  back.crossed = link.crossed;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::size_t there = link.crossed ? 1 - k : k;
+    back.flipped[there] = link.flipped[k];
+    back.distance[there] = link.flipped[k] ? link.distance[k] : -link.distance[k];
+    back.turn[there] = turn_by(back.distance[there]);
+  }
+  return back;
+}
+
+// Distances that add up around vertices, as far as directions do.
+void SurfaceLattice::correct_curl() {
+  std::vector<double> distances(2 * links_.size());
+  for_each_pair([&](HalfEdge h) {
+    for (std::size_t k = 0; k < 2; ++k) distances[number_of(h, k)] = links_[h].distance[k];
+  });
+  Loops loops;
+  std::vector<bool> seen(surface_.points.size());
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(links_.size()); ++h) {
+    const Vertex v = start_of(surface_.triangles, h);
+    if (seen[v]) continue;
+    seen[v] = true;
+    add_loops(h, loops);
+  }
+  const std::vector<double> correction = curl_correction(distances, loops);
+  for_each_pair([&](HalfEdge h) {
+    Link& link = links_[h];
+    const std::int32_t f = triangle_of(h);
+    const double longest = most_strain * norm(centres_[f] - centres_[link.neighbour]) / sizes_[f];
+    for (std::size_t k = 0; k < 2; ++k) {
+      link.distance[k] += std::clamp(correction[number_of(h, k)], -longest, longest);
+      link.turn[k] = turn_by(link.distance[k]);
+    }
+    links_[surface_.twins[h]] = reversed(link, f);
+  });
+}
+
+// Around the start of a half-edge, along both directions of its triangle, unless a feature is in the way or they are
+// not the same at the end.
+void SurfaceLattice::add_loops(HalfEdge first, Loops& loops) const {
+  for (std::size_t k = 0; k < 2; ++k) {
+    std::size_t axis = k;
+    bool flipped = false;
+    HalfEdge h = first;
+    do {
+      const Link& link = links_[h];
+      if (link.neighbour < 0 || link.weight <= 0) return loops.drop();
+      const HalfEdge twin = surface_.twins[h];
+      const std::size_t there = link.crossed ? 1 - axis : axis;
+      const bool turned = flipped != link.flipped[axis];
+      if (h < twin)
+        loops.add_step(number_of(h, axis), flipped);
+      else
+        loops.add_step(number_of(twin, there), !turned);
+      axis = there;
+      flipped = turned;
+      h = next_in_triangle(twin);
+    } while (h != first);
+    if (axis != k || flipped) return loops.drop();
+    loops.close();
+  }
 }
 
 // Of the triangle of h, to that beyond it, as both lie unfolded.
@@ -153,7 +236,8 @@ Link SurfaceLattice::make_link(HalfEdge h) const {
     quality += std::abs(cosines[axis]) / 2;
     const Vec3 matched = link.flipped[k] ? -there[axis] : there[axis];
     const double distance = dot(here[k], centres_[f] - middle) + dot(matched, middle - centres_[g]);
-    link.turn[k] = turn_by(distance / (0.5 * (sizes_[f] + sizes_[g])));
+    link.distance[k] = distance / (0.5 * (sizes_[f] + sizes_[g]));
+    link.turn[k] = turn_by(link.distance[k]);
   }
   const double across = dot(centres_[f] - middle, inward) + dot(centres_[g] - middle, beyond);
   link.weight = norm(side) / std::max(across, 1e-3 * norm(side)) * std::max(0.0, 4 * quality - 3);

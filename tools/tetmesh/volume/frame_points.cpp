@@ -52,7 +52,8 @@ class PointPlacer {
 
  private:
   void propose();
-  void propose(std::size_t node, const std::array<double, 3>& coordinates, double agreement);
+  void propose(std::size_t node, const std::array<double, 3>& coordinates, const std::array<Vec3, 3>& steps,
+               double agreement);
   void agree();
   Proposal agreed(const SizedPointGrid& grid, const Proposal& proposal) const;
   std::vector<Vec3> accept() const;
@@ -67,18 +68,18 @@ class PointPlacer {
 
 void PointPlacer::propose() {
   const LatticeField field = solve_lattice_field(nodes_, frames_);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) propose(i, field.coordinates[i], field.agreement[i]);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) propose(i, field.coordinates[i], field.steps[i], field.agreement[i]);
 }
 
-void PointPlacer::propose(std::size_t i, const std::array<double, 3>& coordinates, double agreement) {
+void PointPlacer::propose(std::size_t i, const std::array<double, 3>& coordinates, const std::array<Vec3, 3>& steps,
+                          double agreement) {
   const auto node = static_cast<std::int32_t>(i);
-  const Frame& frame = frames_[i];
   for (int cell = 0; cell < 27; ++cell) {
     // NOLINTNEXTLINE(bugprone-integer-division): the digits of a number to base 3
-    const Vec3 steps{cell % 3 - 1 - coordinates[0], cell / 3 % 3 - 1 - coordinates[1], cell / 9 - 1 - coordinates[2]};
-    const double distance = std::max({std::abs(steps.x), std::abs(steps.y), std::abs(steps.z)});
+    const Vec3 cells{cell % 3 - 1 - coordinates[0], cell / 3 % 3 - 1 - coordinates[1], cell / 9 - 1 - coordinates[2]};
+    const double distance = std::max({std::abs(cells.x), std::abs(cells.y), std::abs(cells.z)});
     if (distance > furthest) continue;
-    const Vec3 way = steps.x * frame[0] + steps.y * frame[1] + steps.z * frame[2];
+    const Vec3 way = cells.x * steps[0] + cells.y * steps[1] + cells.z * steps[2];
     const Vec3 point = nodes_.points[i] + options_.size.at(nodes_.points[i] + nodes_.sizes[i] / 2 * way) * way;
     proposals_.push_back({point, options_.size.at(point), node, (distrust_begins - distance) * agreement});
   }

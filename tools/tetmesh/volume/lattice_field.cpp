@@ -1,10 +1,12 @@
 #include "tools/tetmesh/volume/lattice_field.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "common/run/parallel.hpp"
+#include "tools/tetmesh/curl_correction.hpp"
 #include "tools/tetmesh/periodic_numbers.hpp"
 
 namespace hexpipe {
@@ -18,6 +20,9 @@ constexpr double anchor_threshold = 0.3, weakest_anchor = 0.05;
 // 10 sweeps lose 0.5 % of the volume in hexes, 150 gain 0.1.
 constexpr int smoothing_sweeps = 60;
 constexpr double inertia = 0.3;  // of a number's own value, against its links
+// How strongly the step to the next point of the lattice keeps to the frame, against what all links say.
+constexpr double rigidity = 0.1;
+constexpr double least_determinant = 0.2;  // of the cells a step in each direction, below which frames are taken
 
 using Phases = std::array<Complex, 3>;
 
@@ -48,9 +53,11 @@ AxisMatch match(const Frame& from, const Frame& to) {
   return result;
 }
 
-// What a node sees of a neighbour: its axis k is axis[k] there, turned round where flipped, and `turn[k]` further on.
+// What a node sees of a neighbour: its axis k is axis[k] there, turned round where flipped, and `distance[k]` further
+// on.
 struct Transition {
-  std::array<Complex, 3> turn;
+  std::array<double, 3> distance;  // in sizes
+  std::array<Complex, 3> turn;     // by these
   std::array<std::uint8_t, 3> axis;
   std::array<bool, 3> flipped;
   std::int32_t node;
@@ -69,6 +76,7 @@ class LatticeSolver {
 
   LatticeField solve() {
     for_each_node([&](std::size_t i) { make_transitions(i); });
+    correct_curl();
     for (std::size_t i = 0; i < nodes_.surface.size(); ++i) make_anchors(i);
     diffuse();
     for (Phases& phases : phases_)
@@ -90,11 +98,31 @@ class LatticeSolver {
   void make_transitions(std::size_t i);
   Transition make_transition(std::size_t i, const FieldLink& link) const;
   void make_anchors(std::size_t i);
+  void correct_curl();
+  void add_loops(std::int64_t ij, std::int64_t jl, std::int64_t il, Loops& loops) const;
+  static std::int32_t number_of(std::int64_t link, std::size_t axis) {
+    return static_cast<std::int32_t>(3 * link) + static_cast<std::int32_t>(axis);
+  }
+  static void turn(Transition& t);
+  static Transition reversed(const Transition& t, std::int32_t from);
+  // Calls body(node, its link) for the links that lead to a later node.
+  template <class Body>
+  void for_each_pair(Body&& body) const {
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(nodes_.size()); ++i)
+      for (std::int64_t l = nodes_.offsets[i]; l < nodes_.offsets[i + 1]; ++l)
+        if (transitions_[l].node > i) body(i, l);
+  }
+  std::int64_t link_between(std::int32_t i, std::int32_t j) const {
+    const auto links = nodes_.links_of(i);
+    const auto found = std::ranges::lower_bound(links, j, {}, &FieldLink::node);
+    return found != links.end() && found->node == j ? nodes_.offsets[i] + (found - links.begin()) : -1;
+  }
   Phases view_of_neighbours(const std::vector<Phases>& phases, std::size_t i) const;
   double diagonal(std::size_t i, std::size_t axis) const { return degree_[i] + anchors_[i][axis]; }
   void diffuse();
   void sweep();
   LatticeField result() const;
+  std::array<Vec3, 3> steps_of(std::size_t i) const;
 
   const FieldNodes& nodes_;
   const std::vector<Frame>& frames_;
@@ -115,15 +143,68 @@ void LatticeSolver::make_transitions(std::size_t i) {
 Transition LatticeSolver::make_transition(std::size_t i, const FieldLink& link) const {
   const auto j = static_cast<std::size_t>(link.node);
   const AxisMatch matched = match(frames_[i], frames_[j]);
-  Transition t{{}, matched.axis, matched.flipped, link.node, 0};
+  Transition t{{}, {}, matched.axis, matched.flipped, link.node, 0};
   t.weight = static_cast<double>(link.weight) * std::max(0.0, 4 * matched.quality - 3);
   const Vec3 back = (2 / (nodes_.sizes[i] + nodes_.sizes[j])) * (nodes_.points[i] - nodes_.points[j]);
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3& there = frames_[j][t.axis[k]];
     const Vec3 mean = 0.5 * (frames_[i][k] + (t.flipped[k] ? -there : there));
-    t.turn[k] = std::polar(1.0, 2 * std::numbers::pi * dot(mean, back));
+    t.distance[k] = dot(mean, back);
   }
+  turn(t);
   return t;
+}
+
+void LatticeSolver::turn(Transition& t) {
+  for (std::size_t k = 0; k < 3; ++k) t.turn[k] = std::polar(1.0, 2 * std::numbers::pi * t.distance[k]);
+}
+
+Transition LatticeSolver::reversed(const Transition& t, std::int32_t from) {
+  Transition back{{}, {}, {}, {}, from, t.weight};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t there = t.axis[k];
+    back.axis[there] = static_cast<std::uint8_t>(k);
+    back.flipped[there] = t.flipped[k];
+    back.distance[there] = t.flipped[k] ? t.distance[k] : -t.distance[k];
+  }
+  turn(back);
+  return back;
+}
+
+// Distances that add up around triangles, as far as frames do.
+void LatticeSolver::correct_curl() {
+  std::vector<double> distances(3 * transitions_.size());
+  Loops loops;
+  for_each_pair([&](std::int32_t i, std::int64_t ij) {
+    const Transition& to_j = transitions_[ij];
+    for (std::size_t k = 0; k < 3; ++k) distances[number_of(ij, k)] = to_j.distance[k];
+    for (std::int64_t il = ij + 1; il < nodes_.offsets[i + 1]; ++il)
+      if (const std::int64_t jl = link_between(to_j.node, transitions_[il].node); jl >= 0) add_loops(ij, jl, il, loops);
+  });
+  const std::vector<double> correction = curl_correction(distances, loops);
+  for_each_pair([&](std::int32_t i, std::int64_t ij) {
+    Transition& t = transitions_[ij];
+    const double longest = most_strain * norm(nodes_.points[i] - nodes_.points[t.node]) / nodes_.sizes[i];
+    for (std::size_t k = 0; k < 3; ++k) t.distance[k] += std::clamp(correction[number_of(ij, k)], -longest, longest);
+    turn(t);
+    transitions_[link_between(t.node, i)] = reversed(t, i);
+  });
+}
+
+// Along each axis of the first node, unless the frames say at the end that it is another one.
+void LatticeSolver::add_loops(std::int64_t ij, std::int64_t jl, std::int64_t il, Loops& loops) const {
+  const Transition &to_j = transitions_[ij], &onward = transitions_[jl], &to_l = transitions_[il];
+  if (std::min({to_j.weight, onward.weight, to_l.weight}) <= 0) return;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t there = to_j.axis[k];
+    if (onward.axis[there] != to_l.axis[k] || (to_j.flipped[k] != onward.flipped[there]) != to_l.flipped[k]) return;
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    loops.add_step(number_of(ij, k), false);
+    loops.add_step(number_of(jl, to_j.axis[k]), to_j.flipped[k]);
+    loops.add_step(number_of(il, k), true);
+    loops.close();
+  }
 }
 
 // A surface point is one of the lattice as far as its neighbours on the surface are, seen from it; along its normal in
@@ -180,10 +261,33 @@ void LatticeSolver::sweep() {
   phases_.swap(next);
 }
 
+// By least squares over the distances to the neighbours, which are those of the frame no longer.
+std::array<Vec3, 3> LatticeSolver::steps_of(std::size_t i) const {
+  const double hold = rigidity * degree_[i];
+  Eigen::Matrix3d moments = hold * Eigen::Matrix3d::Identity(), right;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3& axis = frames_[i][static_cast<std::size_t>(k)];
+    right.col(k) = hold * Eigen::Vector3d(axis.x, axis.y, axis.z);
+  }
+  for (const Transition& t : transitions_of(i)) {
+    const Vec3 back = (2 / (nodes_.sizes[i] + nodes_.sizes[t.node])) * (nodes_.points[i] - nodes_.points[t.node]);
+    const Eigen::Vector3d way(back.x, back.y, back.z);
+    moments += t.weight * way * way.transpose();
+    right += t.weight * way * Eigen::RowVector3d(t.distance[0], t.distance[1], t.distance[2]);
+  }
+  const Eigen::Matrix3d gradients = moments.inverse() * right;  // columns: of each coordinate
+  if (!(std::abs(gradients.determinant()) > least_determinant)) return frames_[i];
+  const Eigen::Matrix3d steps = gradients.transpose().inverse();
+  std::array<Vec3, 3> result;
+  for (int k = 0; k < 3; ++k) result[static_cast<std::size_t>(k)] = {steps(0, k), steps(1, k), steps(2, k)};
+  return result;
+}
+
 LatticeField LatticeSolver::result() const {
   LatticeField field;
   field.coordinates.resize(nodes_.size());
   field.agreement.resize(nodes_.size());
+  field.steps.resize(nodes_.size());
   for_each_node([&](std::size_t i) {
     const Phases view = view_of_neighbours(phases_, i);
     double least = degree_[i];
@@ -192,6 +296,7 @@ LatticeField LatticeSolver::result() const {
       least = std::min(least, std::abs(view[k]));
     }
     field.agreement[i] = least / degree_[i];
+    field.steps[i] = steps_of(i);
   });
   return field;
 }

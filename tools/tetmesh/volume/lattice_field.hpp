@@ -18,6 +18,8 @@ namespace hexpipe {
 struct LatticeField {
   // Of each node, along each axis of its frame: from -1/2 to 1/2 cells from a point of the lattice.
   std::vector<std::array<double, 3>> coordinates;
+  // From one point of the lattice to the next along each axis, in sizes.
+  std::vector<std::array<Vec3, 3>> steps;
   // How far the neighbours agree with that, from 0 to 1, on the axis where they do least.
   std::vector<double> agreement;
 };

@@ -1,0 +1,58 @@
+// Conjugate gradients on the normal equations. Ray, Li, Lévy, Sheffer, Alliez: Periodic global parameterization (2006),
+// section 4.3, and Sokolov, Ray, Untereiner, Lévy: Hexahedral-Dominant Meshing (2016), section 4.3, correct the curl of
+// a field to the same end, before they look for periodic coordinates along it.
+
+#include "tools/tetmesh/curl_correction.hpp"
+
+namespace hexpipe {
+namespace {
+
+// Of what is added, squared, against the squares of what is missing around loops. On six parts at the fine size, of the
+// volume in hexes: on surfaces 88.5 % without, 89.2 at 0.05; in volumes with the surfaces as before, of blub, spot and
+// mambo-m1, 85.4 % without, 86.4 at 0.3, 86.5 at 0.05, 86.6 at 0.01, where mambo-m1 loses 0.3.
+constexpr double stiffness = 0.05;
+constexpr int most_iterations = 40;
+constexpr double tolerance = 1e-2;  // of the residual, against that of the start
+
+double squared_norm(std::span<const double> a) {
+  double sum = 0;
+  for (const double x : a) sum += x * x;
+  return sum;
+}
+
+// Adds to `image` what the sums around loops of `value` say of each distance, times `factor`.
+void add_circulations(const Loops& loops, std::span<const double> value, double factor, std::vector<double>& image) {
+  for (std::size_t loop = 0; loop < loops.size(); ++loop) {
+    double sum = 0;
+    for (const std::int32_t step : loops[loop]) sum += step < 0 ? -value[~step] : value[step];
+    sum *= factor;
+    for (const std::int32_t step : loops[loop]) (step < 0 ? image[~step] : image[step]) += step < 0 ? -sum : sum;
+  }
+}
+
+}  // namespace
+
+std::vector<double> curl_correction(std::span<const double> distances, const Loops& loops) {
+  std::vector<double> correction(distances.size()), rest(distances.size()), image(distances.size());
+  add_circulations(loops, distances, -1, rest);
+  std::vector<double> direction = rest;
+  double product = squared_norm(rest);
+  const double enough = tolerance * tolerance * product;
+  for (int k = 0; k < most_iterations && product > enough; ++k) {
+    for (std::size_t i = 0; i < image.size(); ++i) image[i] = stiffness * direction[i];
+    add_circulations(loops, direction, 1, image);
+    double along = 0;
+    for (std::size_t i = 0; i < image.size(); ++i) along += direction[i] * image[i];
+    const double step = product / along;
+    for (std::size_t i = 0; i < image.size(); ++i) {
+      correction[i] += step * direction[i];
+      rest[i] -= step * image[i];
+    }
+    const double next = squared_norm(rest);
+    for (std::size_t i = 0; i < image.size(); ++i) direction[i] = rest[i] + next / product * direction[i];
+    product = next;
+  }
+  return correction;
+}
+
+}  // namespace hexpipe
