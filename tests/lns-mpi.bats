@@ -17,13 +17,38 @@ setup() {
   cp "$BATS_FILE_TMPDIR"/*.graph "$BATS_FILE_TMPDIR"/*.sol .
 }
 
+# Leaks are the MPI library's own.
+export ASAN_OPTIONS="${ASAN_OPTIONS:-}:detect_leaks=0"
+
 # on RANKS OPTIONS...: the search of the ring on so many ranks.
 on() {
   local ranks=$1
   shift
-  # Leaks are the MPI library's own.
-  ASAN_OPTIONS="${ASAN_OPTIONS:-}:detect_leaks=0" mpirun --oversubscribe -n "$ranks" \
-    lns-mpi --graph ring.graph --solution start.sol "$@"
+  mpirun --oversubscribe -n "$ranks" lns-mpi --graph ring.graph --solution start.sol "$@"
+}
+
+# start_long OPTIONS...: one of two ranks that takes minutes; $job is mpirun. Goes on when the search has begun.
+start_long() {
+  "$PYTHON" - >ring.graph <<'PYTHON'
+import random
+rng = random.Random(1)
+n = 1000
+rows = [[] for _ in range(n)]
+for a in range(n):
+    for b in range(a + 1, n):
+        if rng.random() < 0.02:
+            rows[a].append(b + 1), rows[b].append(a + 1)
+print(n, sum(map(len, rows)) // 2, 10)
+for row in rows:
+    print(rng.randint(1, 1000), *row)
+PYTHON
+  initsol ring.graph --iterations 0 -o start.sol
+  rm -f log.jsonl out.sol
+  mpirun --oversubscribe -n 2 lns-mpi --graph ring.graph --solution start.sol --iterations 100000000 \
+    --round 20 --log log.jsonl -o out.sol "$@" 2>message 3>&- &
+  job=$!
+  for _ in $(seq 400); do [[ -s log.jsonl ]] || sleep 0.05; done
+  sleep 0.5
 }
 
 weight_of() {
@@ -43,11 +68,146 @@ weight_of() {
   on 2 --iterations 50 -o two.sol
   lns-mpi --graph ring.graph --solution start.sol --iterations 50 -o alone.sol
   initsol ring.graph --iterations 0 --greedy weight |
-    ASAN_OPTIONS="${ASAN_OPTIONS:-}:detect_leaks=0" mpirun --oversubscribe -n 2 lns-mpi --iterations 50 >out.tar
+    mpirun --oversubscribe -n 2 lns-mpi --iterations 50 >out.tar
   run "$CHECKERS/bundle_check.py" out.tar
   assert_success
   assert_output --regexp "lns-mpi$"
   lns out.tar --iterations 0 -o piped.sol
   assert_same_bytes two.sol alone.sol
   assert_same_bytes two.sol piped.sol
+}
+
+@test "every option changes the search" {
+  whole() { lns-mpi --graph ring.graph --solution start.sol --iterations 60 --no-reductions "$@"; }
+  whole -o base.sol
+  whole --blocks 9 -o blocks.sol
+  whole --overlap 1 -o overlap.sol
+  whole --round 3 -o round.sol
+  whole --seed 2 -o seed.sol
+  whole --fragment-size 20 -o size.sol
+  for other in blocks overlap round seed size; do assert_different_bytes base.sol $other.sol; done
+  # Of 5000 fragments: the search ends long before.
+  lns-mpi --graph ring.graph --solution start.sol --iterations 5000 --round 5 --target-gap 0.5 --bound 500000 \
+    --stats stats.json -o target.sol
+  "$PYTHON" -c 'import json; stats = json.load(open("stats.json")); assert stats["rounds"] <= 1, stats'
+}
+
+@test "a run that is killed goes on from its checkpoint to the same result, on any number of ranks" {
+  search() { on "$@" --iterations 300 --no-reductions --round 10; }
+  search 2 -o straight.sol
+  search 2 --checkpoint state --checkpoint-interval 0 -o killed.sol &
+  local job=$!
+  for _ in $(seq 400); do [[ -e state/checkpoint.json ]] || sleep 0.02; done
+  # mpirun's processes end with it.
+  kill -KILL "$(pgrep -P $job)"
+  wait $job || true
+  sleep 0.5
+  grep -q '"round"' state/checkpoint.json
+  search 3 --checkpoint state -v -o resumed.sol 2>message
+  grep -q "goes on after round" message
+  assert_same_bytes straight.sol resumed.sol
+  # One round alone is left.
+  assert_equal "$(ls state | wc -l)" 2
+}
+
+@test "a checkpoint of another graph, and a damaged one, are errors" {
+  on 2 --iterations 20 --checkpoint state -o one.sol
+  "$PYTHON" "$DATA/ring_graph.py" 3000 1500 2 >other.graph
+  initsol other.graph --iterations 0 -o other.sol
+  cp other.graph ring.graph
+  cp other.sol start.sol
+  run_apart on 2 --iterations 20 --checkpoint state -o out.sol
+  assert_equal "$status" 1
+  assert_equal "$(grep -c '^lns-mpi: ' <<<"$stderr")" 1
+  grep -q "^lns-mpi: state/checkpoint.json: expected a checkpoint of this graph and its blocks" <<<"$stderr"
+  echo '{"round": 1}' >state/checkpoint.json
+  run_apart on 2 --iterations 20 --checkpoint state -o out.sol
+  assert_equal "$status" 1
+  grep -q "^lns-mpi: state/checkpoint.json: expected the title of a checkpoint" <<<"$stderr"
+  assert [ ! -e out.sol ]
+}
+
+@test "SIGTERM to one rank, and SIGUSR1 to mpirun, write the best so far and end well" {
+  local job
+  for signal in TERM USR1; do
+    start_long
+    if [[ $signal == TERM ]]; then
+      kill -TERM "$(pgrep -P $job -x lns-mpi | head -1)"
+    else
+      kill -USR1 $job
+    fi
+    wait $job
+    run "$CHECKERS/solution_check.py" ring.graph out.sol
+    assert_success
+  done
+}
+
+@test "more ranks than blocks, and bad input, are one line of one rank" {
+  refuse() {
+    local ranks=$1 message=$2
+    shift 2
+    run_apart timeout 60 mpirun --oversubscribe -n "$ranks" lns-mpi --iterations 1 -o out.sol "$@"
+    assert_equal "$status" 1
+    assert_equal "$(grep -c '^lns-mpi: ' <<<"$stderr")" 1
+    grep -Eq "^lns-mpi: $message" <<<"$stderr"
+  }
+  refuse 3 "expected at least a block for each of 3 ranks, found 2" --graph ring.graph --solution start.sol --blocks 2
+  refuse 2 "missing.graph: .*No such file" --graph missing.graph --solution start.sol
+  echo 99999 >bad.sol
+  refuse 2 "bad.sol:1: expected a vertex from 1 to 3000" --graph ring.graph --solution bad.sol
+  run_apart mpirun --oversubscribe -n 2 lns-mpi --no-such-option
+  assert_equal "$status" 2
+  assert_equal "$(grep -c '^lns-mpi: ' <<<"$stderr")" 1
+}
+
+@test "a rank that dies ends the job, which names it" {
+  local job
+  start_long --checkpoint state
+  kill -KILL "$(pgrep -P $job -x lns-mpi | tail -1)"
+  local code=0
+  wait $job || code=$?
+  assert [ "$code" -ne 0 ]
+  grep -Eq "process rank [01] .*signal 9" message
+  assert [ ! -e out.sol ]
+}
+
+# parts_of PREFIX MESH: graph parts PREFIX0.tar to PREFIX2.tar, of three parts.
+parts_of() {
+  mesh-part "$2" --parts 3 -o "$1"
+  local i
+  for i in 0 1 2; do findhex "$1/part-000$i.tar" --min-quality 0.4 -o "$1.candidates$i.tar"; done
+  buildgraph "$1.candidates0.tar" --neighbours "$1.candidates1.tar" "$1.candidates2.tar" -o "${1}0.tar"
+  buildgraph "$1.candidates1.tar" --neighbours "$1.candidates0.tar" "$1.candidates2.tar" -o "${1}1.tar"
+  buildgraph "$1.candidates2.tar" --neighbours "$1.candidates0.tar" "$1.candidates1.tar" -o "${1}2.tar"
+}
+
+@test "parts that were made apart are searched together, and their solutions merge into one" {
+  "$PYTHON" "$DATA/lattices/lattice.py" kuhn 3 >lattice.mesh
+  parts_of part lattice.mesh
+  for ranks in 1 3; do
+    mpirun --oversubscribe -n $ranks lns-mpi --parts part0.tar part1.tar part2.tar --iterations 60 --stats stats.json -o $ranks
+    "$PYTHON" -c 'import json; stats = json.load(open("stats.json")); assert stats["chosen"] == 27, stats'
+  done
+  for i in 0 1 2; do assert_same_bytes 1/part$i.tar 3/part$i.tar; done
+  merge-parts 1/part0.tar 1/part1.tar 1/part2.tar -o merged.tar
+  lns merged.tar --iterations 0 --stats stats.json -o merged.sol
+  assert_equal "$(wc -l <merged.sol)" 27
+
+  "$PYTHON" "$DATA/lattices/lattice.py" five 3 >other.mesh
+  parts_of other other.mesh
+  refuse() {
+    local ranks=$1 message=$2
+    shift 2
+    run_apart mpirun --oversubscribe -n "$ranks" lns-mpi --iterations 1 -o out --parts "$@"
+    assert_equal "$status" 1
+    assert_equal "$(grep -c '^lns-mpi: ' <<<"$stderr")" 1
+    grep -Eq "^lns-mpi: $message" <<<"$stderr"
+  }
+  refuse 3 "other2.tar: expected a part of the mesh of part0.tar, found one of another mesh" part0.tar part1.tar other2.tar
+  refuse 1 "part0.tar: expected part 0 of 2, found part 0 of 3" part0.tar part2.tar
+  refuse 3 "part2.tar: expected part 1 of 3, found part 2 of 3" part0.tar part2.tar part1.tar
+  refuse 4 "expected at least a part for each of 4 ranks, found 3" part0.tar part1.tar part2.tar
+  refuse 2 "part.candidates0.tar: expected graph" part.candidates0.tar part1.tar part2.tar
+  assert_fails_with 2 "--parts needs a directory" lns-mpi --parts part0.tar
+  assert_fails_with 2 "expected --parts or a graph" lns-mpi --parts part0.tar --graph ring.graph -o out
 }

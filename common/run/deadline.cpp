@@ -47,6 +47,16 @@ void on_alarm(int) {
   if (waits_for_input.load()) end_by(impatient_signal.load());
 }
 
+void handle(int signal_number, void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  // SA_NODEFER: the raise() inside the handler takes effect at once. SA_RESTART: a stop request does not make reads
+  // fail.
+  action.sa_flags = SA_RESTART | SA_NODEFER;
+  sigemptyset(&action.sa_mask);
+  sigaction(signal_number, &action, nullptr);
+}
+
 }  // namespace
 
 bool Deadline::passed() const {
@@ -59,6 +69,10 @@ double Deadline::remaining() const {
 
 void stop_searches_on_signal() {
   first_signal_stops_searches = true;
+}
+
+void stop_searches_also_on(int signal_number) {
+  handle(signal_number, on_signal);
 }
 
 bool stop_requested() {
@@ -92,15 +106,8 @@ void remove_registered_file() {
 }
 
 void install_signal_handlers() {
-  struct sigaction action {};
-  action.sa_handler = on_signal;
-  // SA_NODEFER: the raise() inside the handler takes effect at once. SA_RESTART: a stop request does not make reads
-  // fail.
-  action.sa_flags = SA_RESTART | SA_NODEFER;
-  sigemptyset(&action.sa_mask);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
-  action.sa_handler = on_alarm;
-  sigaction(SIGALRM, &action, nullptr);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) handle(number, on_signal);
+  handle(SIGALRM, on_alarm);
   signal(SIGPIPE, SIG_IGN);
 }
 

@@ -37,6 +37,8 @@ class Deadline {
 // registered with remove_on_signal are gone. SIGHUP does as SIGTERM.
 void stop_searches_on_signal();
 bool stop_requested();
+// Another signal that does as SIGTERM.
+void stop_searches_also_on(int signal_number);
 
 // While on, a tool that does not search leaves the first SIGINT to the stages upstream, for Ctrl-C reaches all
 // processes of a pipeline at once, and the best solution of the search that it stops is still to come down the pipe.

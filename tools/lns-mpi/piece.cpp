@@ -1,5 +1,7 @@
 #include "tools/lns-mpi/piece.hpp"
 
+#include "tools/lns-mpi/fingerprint.hpp"
+
 #include <tsl/robin_set.h>
 
 #include <algorithm>
@@ -214,6 +216,7 @@ std::vector<Piece::Partner> find_partners(const Piece& piece) {
 }  // namespace
 
 Piece make_piece(Ranks& ranks, const BlockOwners& owners, OwnedRows rows, std::int32_t overlap) {
+  expect_agreement(ranks, rows);
   Held held;
   {
     const KeyIndex index(rows.keys);

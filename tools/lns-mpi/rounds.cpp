@@ -12,9 +12,9 @@
 namespace hexpipe {
 namespace {
 
-// Under a time limit: an eighth of it, so that every border has moved several times, and no more than a minute, so that
-// ranks do not go on for long after one of them was told to stop.
-constexpr double round_share = 1.0 / 8, longest_round = 60;
+// Under a time limit: a quarter of it, so that borders move, and reductions, which each round needs anew, have time;
+// and no more than a minute, so that ranks do not go on for long after one of them was told to stop.
+constexpr double round_share = 1.0 / 4, longest_round = 60;
 // Then what no region could improve is left as it is.
 constexpr std::int64_t most_quiet_rounds = 10;
 
@@ -40,6 +40,22 @@ class Rounds {
     for (const std::int64_t size : block_sizes_) vertices_ += size;
     round_seconds_ = std::isfinite(deadline.remaining()) ? std::min(longest_round, round_share * deadline.remaining())
                                                          : std::numeric_limits<double>::infinity();
+  }
+
+  // What parts chose apart need not fit together: of two neighbours the heavier one stays.
+  void make_independent() {
+    changed_.clear();
+    const auto outweighs = [&](std::int32_t u, std::int32_t v) {
+      const auto& weights = piece_.graph.weights;
+      return piece_.chosen[u] != 0 && (weights[u] != weights[v] ? weights[u] > weights[v] : u < v);
+    };
+    for (std::int32_t v = 0; v < piece_.vertex_count(); ++v)
+      if (piece_.chosen[v] != 0 && piece_.owns(v) &&
+          std::ranges::any_of(piece_.graph.neighbours_of(v), [&](std::int32_t u) { return outweighs(u, v); }))
+        changed_.push_back(v);
+    for (const std::int32_t v : changed_) piece_.chosen[v] = 0;
+    tell_partners();
+    progress_.weight = total_weight(ranks_, piece_);
   }
 
   bool goes_on() const {
@@ -214,13 +230,14 @@ std::int64_t total_weight(Ranks& ranks, const Piece& piece) {
 
 void improve_in_rounds(Ranks& ranks, Piece& piece, const RoundsOptions& options, const Deadline& deadline,
                        RoundsProgress& progress,
-                       const std::function<bool(const RoundsProgress&, const RoundCosts&)>& report) {
+                       const std::function<void(const RoundsProgress&, const RoundCosts&, bool)>& report) {
   Rounds rounds(ranks, piece, options, deadline, progress);
   std::array<std::int64_t, 1> passed{deadline.passed() ? 1 : 0};
   ranks.maximum(passed);
+  rounds.make_independent();
   while (passed[0] == 0 && rounds.goes_on()) {
     const RoundCosts costs = rounds.run_one();
-    if (!report(progress, costs)) break;
+    report(progress, costs, !rounds.goes_on());
   }
   rounds.make_maximal();
 }

@@ -40,11 +40,12 @@ struct RoundCosts {
   Traffic traffic;
 };
 
-// From the solution in `piece` on, where `progress` says: the same whether or not it was stopped in between.
-// `report` is called after every round, on all ranks; it may end the search by returning false.
+// From the solution in `piece` on, where `progress` says: the same whether or not it was stopped in between. Chosen
+// vertices may be neighbours where they are in different blocks. `report` is called after every round, on all ranks,
+// and told whether it was the last one.
 void improve_in_rounds(Ranks& ranks, Piece& piece, const RoundsOptions& options, const Deadline& deadline,
                        RoundsProgress& progress,
-                       const std::function<bool(const RoundsProgress&, const RoundCosts&)>& report);
+                       const std::function<void(const RoundsProgress&, const RoundCosts&, bool)>& report);
 
 // Of the vertices that all ranks own, together.
 std::int64_t total_weight(Ranks& ranks, const Piece& piece);

@@ -1,6 +1,12 @@
-#include "tools/lns-mpi/whole_graph.hpp"
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+
+#include "common/mwis/target_weight.hpp"
+#include "formats/stage.hpp"
+#include "tools/lns-mpi/cut.hpp"
+#include "tools/lns-mpi/source.hpp"
 
 namespace hexpipe {
 namespace {
@@ -17,8 +23,13 @@ Bytes pack(const OwnedRows& rows) {
   return packer.take();
 }
 
-}  // namespace
+// Regions large enough for the search to have room, and as many as a small machine has processors.
+std::int32_t usual_blocks(std::int64_t vertices) {
+  constexpr std::int64_t least = 4, most = 1 << 20, vertices_a_block = 50000;
+  return static_cast<std::int32_t>(std::clamp(vertices / vertices_a_block, least, most));
+}
 
+// On the first rank: sends the others their rows and returns its own. The numbers of the vertices are their keys.
 OwnedRows scatter_rows(Ranks& ranks, const BlockOwners& owners, const ConflictGraph& graph,
                        const IndependentSet& solution, const std::vector<std::int32_t>& blocks) {
   std::vector<std::uint8_t> chosen(graph.weights.size(), 0);
@@ -43,6 +54,7 @@ OwnedRows scatter_rows(Ranks& ranks, const BlockOwners& owners, const ConflictGr
   return rows_of(0);
 }
 
+// On the others.
 OwnedRows receive_rows(Ranks& ranks) {
   const Bytes bytes = ranks.receive(0);
   OwnedRows rows;
@@ -52,6 +64,7 @@ OwnedRows receive_rows(Ranks& ranks) {
   return rows;
 }
 
+// The first gets the whole solution, the others nothing.
 IndependentSet gather_solution(Ranks& ranks, const Piece& piece) {
   Packer packer;
   for (std::int32_t v = 0; v < piece.vertex_count(); ++v)
@@ -63,6 +76,54 @@ IndependentSet gather_solution(Ranks& ranks, const Piece& piece) {
     for (Unpacker unpacker(bytes); !unpacker.at_end();) solution.push_back(unpacker.get<std::int32_t>());
   std::ranges::sort(solution);
   return solution;
+}
+
+class WholeGraph : public Source {
+ public:
+  WholeGraph(const RunContext& context, std::int32_t blocks) : context_(context) { blocks_ = blocks; }
+
+  OwnedRows read(Ranks& ranks) override {
+    StageData data;
+    std::vector<std::int32_t> cut;
+    ranks.together([&] {
+      if (!ranks.is_first()) return;
+      stage_.emplace(context_);
+      data = stage_->read({Role::graph, Role::solution});
+      if (blocks_ == 0) blocks_ = usual_blocks(data.graph->vertex_count());
+      if (blocks_ < ranks.count())
+        throw DataError(
+            fmt::format("expected at least a block for each of {} ranks, found {}", ranks.count(), blocks_));
+      cut = cut_into_blocks(*data.graph, blocks_);
+      if (!context_.streams.files.contains(Role::graph)) bound_ = bound_in(data.history).value_or(-1);
+    });
+    Packer packer;
+    packer.put(blocks_);
+    packer.put(bound_);
+    Bytes facts = packer.take();
+    ranks.broadcast(facts);
+    Unpacker unpacker(facts);
+    blocks_ = unpacker.get<std::int32_t>();
+    bound_ = unpacker.get<std::int64_t>();
+    if (!ranks.is_first()) return receive_rows(ranks);
+    return scatter_rows(ranks, BlockOwners(blocks_, ranks.count()), *data.graph, *data.solution, cut);
+  }
+
+  void write(Ranks& ranks, const Piece& piece, const nlohmann::ordered_json& details) override {
+    const IndependentSet solution = gather_solution(ranks, piece);
+    ranks.together([&] {
+      if (ranks.is_first()) stage_->write(solution, details);
+    });
+  }
+
+ private:
+  RunContext context_;
+  std::optional<Stage> stage_;
+};
+
+}  // namespace
+
+std::unique_ptr<Source> whole_graph(const RunContext& context, std::int32_t blocks) {
+  return std::make_unique<WholeGraph>(context, blocks);
 }
 
 }  // namespace hexpipe

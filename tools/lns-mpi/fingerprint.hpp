@@ -1,0 +1,25 @@
+#pragma once
+// Whether all ranks hold parts of one graph, and the same that a checkpoint was made of: sums of mixed numbers, which
+// do not depend on who holds what.
+
+#include <cstdint>
+
+#include "tools/lns-mpi/piece.hpp"
+#include "tools/lns-mpi/ranks.hpp"
+
+namespace hexpipe {
+
+// The finalizer of splitmix64 (Steele, Lea, Flood 2014).
+constexpr std::uint64_t mix(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+// Of vertices, weights, edges and blocks of all ranks together.
+std::uint64_t fingerprint_of(Ranks& ranks, const OwnedRows& rows);
+
+// Throws DataError on all ranks where an edge between blocks is in the rows of one of its ends alone.
+void expect_agreement(Ranks& ranks, const OwnedRows& rows);
+
+}  // namespace hexpipe

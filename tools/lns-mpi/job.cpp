@@ -1,0 +1,144 @@
+#include "tools/lns-mpi/job.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "common/mwis/search_log.hpp"
+#include "common/mwis/target_weight.hpp"
+#include "common/run/progress.hpp"
+#include "tools/lns-mpi/checkpoint.hpp"
+#include "tools/lns-mpi/fingerprint.hpp"
+#include "tools/lns-mpi/source.hpp"
+
+namespace hexpipe {
+namespace {
+
+// What all ranks sent together, and the one that sent most.
+struct Sent {
+  std::int64_t messages = 0, bytes = 0, most_messages = 0, most_bytes = 0;
+};
+
+Sent put_together(Ranks& ranks, const Traffic& own) {
+  std::array<std::int64_t, 2> sums{own.messages, own.bytes}, most = sums;
+  ranks.sum(sums);
+  ranks.maximum(most);
+  return {sums[0], sums[1], most[0], most[1]};
+}
+
+class Job {
+ public:
+  Job(Ranks& ranks, RunContext& context, JobOptions options)
+      : ranks_(ranks),
+        context_(context),
+        options_(std::move(options)),
+        deadline_(context.deadline()),
+        shown_(context.info.name, context.common.quiet || !ranks.is_first()) {
+    source_ = options_.parts.empty() ? whole_graph(context, options_.blocks) : graph_parts(context, options_.parts);
+  }
+
+  void run() {
+    ranks_.together([&] { log_.emplace(ranks_.is_first() ? context_.common.log_file : std::string()); });
+    OwnedRows rows = source_->read(ranks_);
+    const BlockOwners owners(source_->blocks(), ranks_.count());
+    choose_target();
+    resume(owners, rows);
+    Piece piece = make_piece(ranks_, owners, std::move(rows), options_.overlap);
+    setup_ = put_together(ranks_, ranks_.traffic());
+    note_size(piece);
+
+    improve_in_rounds(ranks_, piece, options_.rounds, deadline_, progress_,
+                      [&](const RoundsProgress&, const RoundCosts& costs, bool last) {
+                        report(costs);
+                        if (checkpoint_ && (last || checkpoint_->is_due())) checkpoint_->write(piece, progress_);
+                      });
+    finish(piece);
+  }
+
+ private:
+  void choose_target() {
+    if (options_.target_gap < 0) return;
+    const std::int64_t bound = options_.known_bound >= 0 ? options_.known_bound : source_->bound();
+    ranks_.together([&] {
+      options_.rounds.search.target =
+          target_weight(options_.target_gap, bound < 0 ? std::nullopt : std::optional(bound));
+    });
+  }
+
+  void resume(const BlockOwners& owners, OwnedRows& rows) {
+    if (options_.checkpoint.empty()) return;
+    checkpoint_.emplace(ranks_, options_.checkpoint, options_.checkpoint_interval, fingerprint_of(ranks_, rows));
+    if (checkpoint_->resume(owners, rows, progress_))
+      context_.note(fmt::format("goes on after round {} of {}", progress_.round, options_.checkpoint));
+  }
+
+  void note_size(const Piece& piece) {
+    std::array<std::int64_t, 3> sizes{0, piece.vertex_count(), piece.graph.edge_count()};
+    for (std::int32_t v = 0; v < piece.vertex_count(); ++v) sizes[0] += piece.owns(v) ? 1 : 0;
+    ranks_.sum(sizes);
+    std::array<std::int64_t, 1> most{piece.vertex_count()};
+    ranks_.maximum(most);
+    context_.statistics["ranks"] = ranks_.count();
+    context_.statistics["blocks"] = piece.owners.blocks();
+    context_.statistics["vertices"] = sizes[0];
+    context_.statistics["held_vertices"] = sizes[1];
+    context_.statistics["most_held_vertices"] = most[0];
+    context_.statistics["held_edges"] = sizes[2];
+    context_.statistics["setup_bytes"] = setup_.bytes;
+    context_.note(fmt::format("{} ranks, {} blocks, {} vertices, {} held with halos, {} bytes sent for that",
+                              ranks_.count(), piece.owners.blocks(), sizes[0], sizes[1], setup_.bytes));
+  }
+
+  void report(const RoundCosts& costs) {
+    const Sent sent = put_together(ranks_, costs.traffic);
+    messages_ += sent.messages, bytes_ += sent.bytes;
+    log_->record(deadline_.elapsed(), progress_.iterations, progress_.weight);
+    if (shown_.due()) shown_.show(fmt::format("weight {} after {} rounds", progress_.weight, progress_.round));
+    context_.note(
+        fmt::format("round {}: weight {}, {:.2f} s of search, {:.2f} s of waiting; {} messages, {} bytes in all, {} "
+                    "and {} a rank at most",
+                    progress_.round, progress_.weight, costs.search_seconds, costs.wait_seconds, sent.messages,
+                    sent.bytes, sent.most_messages, sent.most_bytes));
+  }
+
+  void finish(const Piece& piece) {
+    std::array<std::int64_t, 1> chosen{0};
+    for (std::int32_t v = 0; v < piece.vertex_count(); ++v) chosen[0] += piece.chosen[v] != 0 && piece.owns(v) ? 1 : 0;
+    ranks_.sum(chosen);
+    ranks_.together([&] { log_->finish(deadline_.elapsed(), progress_.iterations, progress_.weight); });
+    context_.statistics["weight"] = progress_.weight;
+    context_.statistics["chosen"] = chosen[0];
+    context_.statistics["iterations"] = progress_.iterations;
+    context_.statistics["improvements"] = progress_.improvements;
+    context_.statistics["rounds"] = progress_.round;
+    context_.statistics["round_messages"] = messages_;
+    context_.statistics["round_bytes"] = bytes_;
+    context_.note(fmt::format("{} chosen, weight {}, {} of {} fragments were improved in {} rounds", chosen[0],
+                              progress_.weight, progress_.improvements, progress_.iterations, progress_.round));
+    source_->write(ranks_, piece,
+                   {{"weight", progress_.weight}, {"iterations", progress_.iterations}, {"rounds", progress_.round}});
+    if (!ranks_.is_first()) context_.common.stats_file.clear();
+  }
+
+  Ranks& ranks_;
+  RunContext& context_;
+  JobOptions options_;
+  Deadline deadline_;
+  Progress shown_;
+  std::unique_ptr<Source> source_;
+  std::optional<SearchLog> log_;
+  std::optional<Checkpoint> checkpoint_;
+  RoundsProgress progress_;
+  Sent setup_;
+  std::int64_t messages_ = 0, bytes_ = 0;  // of all rounds, sent by all ranks
+};
+
+}  // namespace
+
+void run_job(Ranks& ranks, RunContext& context, JobOptions options) {
+  Job(ranks, context, std::move(options)).run();
+}
+
+}  // namespace hexpipe
