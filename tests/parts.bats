@@ -188,3 +188,42 @@ PYTHON
   merge-parts solution-*.tar -o merged.tar
   assert_same_bytes solved.tar merged.tar
 }
+
+@test "the Slurm script's jobs run the pipeline, each when those before it have succeeded" {
+  bar >bar.mesh
+  mkdir bin
+  # Runs a job at once, all numbers of its array, and prints its number: the searching ranks and assemble are others' tests.
+  cat >bin/sbatch <<'SBATCH'
+#!/usr/bin/env bash
+set -e
+array= after= command=
+while (($#)); do
+  case $1 in
+    --array=*) array=${1#--array=} ;;
+    --dependency=afterok:*) after=${1#--dependency=afterok:} ;;
+    --wrap) command=$2; shift ;;
+  esac
+  shift
+done
+job=$(($(cat jobs 2>/dev/null || echo 0) + 1))
+[[ "$after" == "${job/#1/}" || "$after" == "$((job - 1))" ]]
+if [[ -n "$array" ]]; then
+  for i in $(seq "${array%-*}" "${array#*-}"); do SLURM_ARRAY_TASK_ID=$i sh -c "$command" >&2; done
+else
+  sh -c "$command" >&2
+fi
+echo $job | tee jobs
+SBATCH
+  printf '#!/bin/sh\nexec "$@"\n' >bin/srun
+  printf '#!/bin/sh\nmkdir solved && cp graphs/* solved/ && echo "$@" >searched\n' >bin/lns-mpi
+  printf '#!/bin/sh\ncat >assembled.tar\n' >bin/assemble
+  chmod +x bin/*
+  run_apart env PATH="$PWD/bin:$PATH" "$HEXPIPE_SOURCE/docs/slurm/submit.sh" bar.mesh 5 scratch
+  assert_success
+  assert_equal "$output" 5
+  findhex -q --mesh bar.mesh | buildgraph -q -o whole.tar
+  assert_same_bytes scratch/assembled.tar whole.tar
+  assert_equal "$(cat scratch/searched | cut -d ' ' -f 1-7)" "--parts graphs/part-0000.tar graphs/part-0001.tar graphs/part-0002.tar graphs/part-0003.tar graphs/part-0004.tar --time-limit"
+  run_apart "$HEXPIPE_SOURCE/docs/slurm/submit.sh" bar.mesh
+  assert_equal "$status" 2
+}

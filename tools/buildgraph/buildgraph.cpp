@@ -139,7 +139,9 @@ PartGraph buildgraph_of_part(PartCandidates all, std::int32_t part, const Buildg
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v)
     if (own[v] || graph.degree(v) > 0) kept.push_back(v);
   keep_only(graph, kept);
-  built.candidates = {select(all.candidates, kept), select(all.keys, kept)};
+  keep_only(all.candidates, kept);
+  keep_only(all.keys, kept);
+  built.candidates = std::move(all);
   return built;
 }
 

@@ -15,7 +15,10 @@ Candidates select(const Candidates& candidates, std::span<const std::int32_t> ke
 
 CandidateKeys select(const CandidateKeys& keys, std::span<const std::int32_t> kept);
 
-// The graph of those of `kept`, ascending, in place: large graphs have no room for another.
+// Those of `kept`, ascending, in place: what is large has no room for another.
+void keep_only(Candidates& candidates, std::span<const std::int32_t> kept);
+void keep_only(CandidateKeys& keys, std::span<const std::int32_t> kept);
+// The graph of them.
 void keep_only(ConflictGraph& graph, std::span<const std::int32_t> kept);
 
 // Leaves out what is dominated (domination.hpp). A solution of the graph that is left is one of the whole graph, of the
