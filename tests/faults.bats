@@ -28,3 +28,18 @@ for_tools() {
   [[ -x $HEXPIPE_BIN/tetmesh ]] || skip "built without TetGen"
   for_tools tetmesh
 }
+
+@test "memory that is missing at the end, for statistics and history, is an error and no crash" {
+  "$PYTHON" "$DATA/lattices/lattice.py" kuhn 1 >part.mesh
+  findhex -q --mesh part.mesh | buildgraph -q | initsol -q --iterations 5 -o part.tar
+  local library="$HEXPIPE_BIN/../lib/libfail_calls.so" tool calls number code
+  for tool in certify assemble; do
+    LD_PRELOAD=$library HEXPIPE_FAULT=count:count $tool -q part.tar -o out.tar
+    calls=$(sed -n 's/^memory //p' count)
+    for ((number = calls - 150; number <= calls; number += 1)); do
+      code=0
+      LD_PRELOAD=$library HEXPIPE_FAULT=memory:$number $tool -q part.tar -o out.tar 2>message || code=$?
+      if ((code > 1)); then fail "$tool ends with $code when allocation $number of $calls fails"; fi
+    done
+  done
+}

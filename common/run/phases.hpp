@@ -28,7 +28,8 @@ class Phases {
   Stopwatch stopwatch_;
   std::clock_t cpu_began_ = std::clock();
   double wall_began_ = 0;
-  nlohmann::ordered_json seconds_;
+  nlohmann::ordered_json seconds_{{"cpu_seconds", nlohmann::ordered_json::object()},
+                                  {"wall_seconds", nlohmann::ordered_json::object()}};
 };
 
 }  // namespace hexpipe

@@ -43,8 +43,10 @@ struct RunContext {
   ToolInfo info;
   CommonOptions common;
   StreamOptions streams;
-  nlohmann::ordered_json options;     // every option that decides the result, for the history
-  nlohmann::ordered_json statistics;  // goes to --stats FILE, filled by the tool
+  // Objects from the beginning: what becomes one only by its first entry cannot be destroyed when memory is missing
+  // then (nlohmann-json 3.11.2).
+  nlohmann::ordered_json options = nlohmann::ordered_json::object();     // all that decide the result, for the history
+  nlohmann::ordered_json statistics = nlohmann::ordered_json::object();  // goes to --stats FILE, filled by the tool
 
   // The limit of a search: --time-limit, else the tool's default unless --iterations is given.
   Deadline deadline() const;

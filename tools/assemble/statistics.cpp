@@ -125,7 +125,8 @@ void append_histograms(const AssembleStatistics& statistics, std::vector<std::st
 }  // namespace
 
 nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
-  nlohmann::ordered_json json;
+  auto json = nlohmann::ordered_json::object();
+  json["cells"] = nlohmann::ordered_json::object();
   const double volume = total_volume(statistics), cells = static_cast<double>(statistics.cells());
   for (std::size_t i = 0; i < all_kinds.size(); ++i) {
     const auto& kind = statistics.kinds[i];
@@ -157,7 +158,7 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
                        {"flat_tets_taken_off", statistics.peeled}};
   json["nonconforming_quads"] = volumes.nonconforming_quads;
   const auto& counts = statistics.conformity;
-  nlohmann::ordered_json given_back;
+  auto given_back = nlohmann::ordered_json::object();
   for (GivenBack reason : all_reasons)
     given_back[name_of(reason)] = counts.given_back[static_cast<std::size_t>(reason)];
   json["conformity"] = {{"quads_against_tets", counts.open_quads}, {"pyramids_merged", counts.merged},

@@ -51,7 +51,7 @@ std::string pack_points(const std::vector<std::array<float, 3>>& points) {
 
 // For each kind its name, how many corners it has, and which of them each facet has.
 nlohmann::ordered_json kinds_to_json() {
-  nlohmann::ordered_json kinds;
+  auto kinds = nlohmann::ordered_json::array();
   for (const CellKind kind : scene_kinds)
     with_topology(kind, [&](auto topology) {
       nlohmann::ordered_json facets = nlohmann::ordered_json::array();
