@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <limits>
@@ -14,6 +15,7 @@
 
 #include "common/run/error.hpp"
 #include "common/run/memory.hpp"
+#include "formats/text_scanner.hpp"
 
 namespace hexpipe {
 namespace {
@@ -24,11 +26,19 @@ constexpr std::size_t rows_chunk_bytes = 4 << 20;
 constexpr std::int64_t most_members = 10'000;
 // Zeros compressed by zstd swell by 32768. Bundles, which hold coordinates, do so by less than 20.
 constexpr std::int64_t most_swelling = 1000, swelling_judged_from = 64 << 20;
+// What tar held before pax came.
+constexpr std::size_t longest_name = 255;
 constexpr std::string_view zstd_magic = "\x28\xb5\x2f\xfd";
 
 struct EntryDeleter {
   void operator()(archive_entry* entry) const { archive_entry_free(entry); }
 };
+
+// Names stand in messages, and pass on to other programs.
+bool is_printable_name(std::string_view name) {
+  const bool printable = std::all_of(name.begin(), name.end(), [](char c) { return c >= ' ' && c <= '~'; });
+  return printable && name.size() <= longest_name;
+}
 
 bool is_safe_name(std::string_view name) {
   if (name.empty() || name.front() == '/') return false;
@@ -224,9 +234,13 @@ bool BundleReader::next() {
   }
   if (result != ARCHIVE_OK) fail("expected the next member of the bundle");
   const char* const path = archive_entry_pathname(entry);
-  name_ = path ? path : "";
-  if (!is_safe_name(name_))
-    throw DataError::at(input_.name(), "expected a relative member name without '..', found '{}'", name_);
+  const std::string name = path ? path : "";
+  if (!is_printable_name(name))
+    throw DataError::at(input_.name(), "expected a member name of at most {} printable ASCII characters, found {}",
+                        longest_name, quote_found(name));
+  if (!is_safe_name(name))
+    throw DataError::at(input_.name(), "expected a relative member name without '..', found '{}'", name);
+  name_ = name;
   if (archive_entry_filetype(entry) != AE_IFREG || archive_entry_hardlink(entry) || !archive_entry_size_is_set(entry))
     throw DataError::at(where(), "expected a plain file in the bundle, found a link, directory or device");
   // Its holes would be read as zeros without end.

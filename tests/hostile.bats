@@ -28,6 +28,17 @@ refused() {
   done
 }
 
+@test "names that would play tricks on a terminal, or that cannot be written again, are refused" {
+  for name in 'mesh/two\nlines' 'notes/\x1b[2J' 'notes/\x7f'; do
+    bundle out.in.tar "[('$name', b'')]"
+    refused "^findhex: out.in.tar: expected a member name of at most 255 printable ASCII characters, found '[ -~]*\?[ -~]*'$" out.in.tar
+  done
+  bundle out.in.tar "[('n' * 300, b'')]"
+  refused "printable ASCII characters, found 'n+\.*'" out.in.tar
+  bundle out.in.tar "[('n' * 255, b'')]"
+  refused "expected mesh for findhex" out.in.tar
+}
+
 @test "directories, FIFOs and devices are refused" {
   for kind in DIRTYPE FIFOTYPE CHRTYPE BLKTYPE LNKTYPE SYMTYPE; do
     $PYTHON -c "
