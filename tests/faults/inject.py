@@ -1,13 +1,15 @@
 #!/usr/bin/python3
-"""inject.py [--library FILE] [--per-kind N] [--disk N] [--kills N] [--pipes N] [TOOL...]
+"""inject.py [--library FILE] [--per-kind N] [--disk N] [--kills N] [--pipes N] [--stalls N] [TOOL...]
 
 Runs the tools with one fault each, by the library fail_calls.cpp: every call of the system that a run makes fails once,
-the disk is full at every byte of the output, the tool is killed at every call and at random moments, whoever reads its
-output goes away. --per-kind, --disk, --kills and --pipes spread so many cases over all there are (0: every one).
+the disk is full at every byte of the output, the tool is killed at every call and at random moments (INT, TERM, HUP,
+KILL), whoever reads its output goes away, its input stalls and one SIGTERM has to end it. --per-kind, --disk, --pipes
+and --stalls spread so many cases over all there are (0: every one); --kills is how many there are.
 
 After each case the old output is there, or the new one as a run without fault writes it; there is no other file beside
 it; the exit code is 0 with the new output and 1 with the old one, then with one line on standard error that names the
-tool; a stop of a search leaves a valid solution. Prints a line for each case that breaks this, then a table.
+tool; a search that is stopped leaves a solution that is independent, maximal and no lighter than its input. Prints a
+line for each case that breaks this, then a table.
 """
 import argparse
 import os
@@ -32,6 +34,18 @@ STAGES = {  # options, ending of the product
     "certify": (["--iterations", "5"], "sol"),
     "assemble": ([], "vtu"),
 }
+# Of runs that are long enough to be stopped in the middle.
+LONG_RUNS = {
+    "tetmesh": ["--size", "0.2"],
+    "findhex": ["--cells", "hex,prism,pyramid"],
+    "buildgraph": ["--weight", "volume"],
+    "initsol": ["--time-limit", "0.3"],
+    "lns": ["--time-limit", "0.3"],
+    "certify": ["--iterations", "3000"],
+    "assemble": ["--smooth", "20"],
+}
+LIBARCHIVE_WITHOUT_MEMORY = ("Fatal Internal Error in libarchive: Out of memory", "Fatal Internal Error in libarchive: No memory")
+SEARCHES = ("initsol", "lns", "certify")
 KINDS = ["open", "read", "write", "close", "link", "rename", "fork", "thread", "pipe", "memory"]
 
 
@@ -64,10 +78,11 @@ def spread(total, wanted):
 class Bench:
     """One tool with its input, in a directory of its own."""
 
-    def __init__(self, tool, source, library, directory):
-        self.tool, self.library, self.directory = tool, library, directory
-        options, self.ending = STAGES[tool]
-        self.command = [BIN / tool, *options, "-q", "--threads", "2", source]
+    def __init__(self, tool, options, source, library, directory):
+        self.tool, self.source, self.library, self.directory = tool, source, library, directory
+        self.ending = STAGES[tool][1]
+        self.options = [BIN / tool, *options, "-q", "--threads", "2"]
+        self.command = self.options + [source]
         self.expected = {}
         for name in ("out.tar", "out." + self.ending):
             self.run(name, "")
@@ -98,8 +113,12 @@ class Bench:
         (self.directory / "count").unlink()
         return {kind: int(number) for kind, number in (line.split() for line in lines)}
 
-    def complaint(self, name, code, errors, killed=False, may_differ=False):
-        """What is wrong after a run into the file `name`, which held OLD; None when all is well."""
+    def complaint(self, name, code, errors, signals=(), judge=None):
+        """What is wrong after a run into the file `name`, which held OLD; None when all is well.
+
+        It may have ended by one of these signals; `judge` says what is wrong with an output that is not the usual one.
+        """
+        killed = -code in signals
         left = sorted(p.name for p in self.directory.iterdir())
         if code == -signal.SIGKILL and len(left) == 2 and left[0] == name:
             # Between a link and a rename the new file stands beside the old one, whole: no system can do it in one step.
@@ -111,26 +130,28 @@ class Bench:
         if left != [name]:
             return f"files left: {left}"
         if found == OLD:
-            if killed and code < 0:
+            if killed:
                 return None
             if code != 1:
                 return f"exit code {code} with the old output: {errors[-300:]!r}"
             lines = errors.decode(errors="replace").splitlines()
             # libarchive speaks for itself when it has no memory.
-            if len(lines) != 1 or not lines[0].startswith((self.tool + ": ", "Fatal Internal Error in libarchive: Out of memory")):
+            if len(lines) != 1 or not lines[0].startswith((self.tool + ": ", *LIBARCHIVE_WITHOUT_MEMORY)):
                 return f"expected one line of standard error, found {errors[-300:]!r}"
             return None
-        if found != self.expected[name] and not may_differ:
-            return f"exit code {code}, another output of {len(found)} bytes"
+        if found != self.expected[name]:
+            wrong = judge(found) if judge else f"another output of {len(found)} bytes"
+            if wrong:
+                return f"exit code {code}, {wrong}"
         # Memory may be missing when all is done.
         if b"not enough memory" in errors and code == 1:
             return None
-        return None if code == 0 or (killed and code < 0) else f"exit code {code} with the new output: {errors!r}"
+        return None if code == 0 or killed else f"exit code {code} with the new output: {errors!r}"
 
-    def case(self, name, fault, killed=False):
+    def case(self, name, fault, signals=()):
         (self.directory / name).write_bytes(OLD)
         code, errors = self.run(name, fault)
-        return "hangs" if code == "hangs" else self.complaint(name, code, errors, killed)
+        return "hangs" if code == "hangs" else self.complaint(name, code, errors, signals)
 
 
 def fail_every_call(bench, report, per_kind):
@@ -140,7 +161,7 @@ def fail_every_call(bench, report, per_kind):
             fault = f"{kind}:{number}"
             report.case(bench.tool, kind, fault, bench.case("out.tar", fault))
     for number in spread(counts["kill"], per_kind):
-        report.case(bench.tool, "kill", f"kill:{number}", bench.case("out.tar", f"kill:{number}", killed=True))
+        report.case(bench.tool, "kill", f"kill:{number}", bench.case("out.tar", f"kill:{number}", [signal.SIGKILL]))
     report.case(bench.tool, "short", "short:1", bench.case("out.tar", "short:1"))
 
 
@@ -152,12 +173,36 @@ def fill_the_disk(bench, report, wanted):
         report.case(bench.tool, "disk", f"disk:{room - 1}", complaint)
 
 
+def weight_of(*paths):
+    """By the checker, which also says whether the solution is one."""
+    checked = subprocess.run(["/usr/bin/python3", ROOT / "tests/checkers/solution_check.py", *paths], stdout=subprocess.PIPE)
+    return int(checked.stdout.split()[-1]) if checked.returncode == 0 else None
+
+
+def judge_of_search(bench):
+    """None for tools whose output is always the same."""
+    if bench.tool not in SEARCHES:
+        return None
+    least = 0 if bench.tool == "initsol" else weight_of(bench.source)
+
+    def judge(output):
+        copy = bench.directory.parent / "judged.tar"
+        copy.write_bytes(output)
+        weight = weight_of(copy)
+        if weight is None:
+            return "no valid solution"
+        return None if weight >= least else f"a solution of weight {weight} out of one of {least}"
+
+    return judge
+
+
 def kill_at_random(bench, report, kills, seed):
-    random_numbers = random.Random(seed)
+    random_numbers = random.Random(f"{seed} {bench.tool}")
     begun = time.monotonic()
     bench.run("out.tar", "")
     longest = time.monotonic() - begun
     (bench.directory / "out.tar").unlink()
+    judge = judge_of_search(bench)
     for i in range(kills):
         number = random_numbers.choice([signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGKILL])
         (bench.directory / "out.tar").write_bytes(OLD)
@@ -165,9 +210,34 @@ def kill_at_random(bench, report, kills, seed):
         time.sleep(random_numbers.uniform(0, longest))
         process.send_signal(number)
         _, errors = process.communicate(timeout=60)
-        searches = bench.tool in ("initsol", "lns", "certify")
-        complaint = bench.complaint("out.tar", process.returncode, errors, killed=True, may_differ=searches)
+        complaint = bench.complaint("out.tar", process.returncode, errors, [number], judge)
         report.case(bench.tool, "signal", f"signal {number} (case {i} of seed {seed})", complaint)
+
+
+def stall(bench, report, wanted):
+    """The input comes to a halt; one SIGTERM ends the tool within a moment, and the old output stays."""
+    source = bench.source.read_bytes()
+    for given in spread(len(source), wanted):
+        (bench.directory / "out.tar").write_bytes(OLD)
+        process = subprocess.Popen(bench.options + ["-", "-o", bench.directory / "out.tar"], stdin=subprocess.PIPE,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        # In pieces: what is more than the pipe holds is there only once the tool reads.
+        process.stdin.write(source[: given - 1])
+        process.stdin.flush()
+        time.sleep(0.05)
+        process.send_signal(signal.SIGTERM)
+        try:
+            code = process.wait(timeout=20)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            code = "still running"
+        process.stdin.close()
+        errors = process.stderr.read()
+        process.stdout.close()
+        process.stderr.close()
+        process.wait()
+        complaint = "hangs" if code == "still running" else bench.complaint("out.tar", code, errors, [signal.SIGTERM])
+        report.case(bench.tool, "stall", f"input stalls after {given - 1} bytes", complaint)
 
 
 def leave_the_pipe(bench, report, wanted):
@@ -186,12 +256,14 @@ def leave_the_pipe(bench, report, wanted):
                     None if fine else f"exit code {process.returncode}, {errors!r}")
 
 
-def stage_inputs(directory):
-    """The input of each tool, as a file."""
+def stage_inputs(directory, size):
+    """The input of each tool, as a file; the mesh is a lattice of so many cubes along each axis."""
+    directory.mkdir()
     inputs = {"tetmesh": ROOT / "tests/data/cube.stl"}
     mesh = directory / "lattice.mesh"
     lattice = ROOT / "tests/data/lattices/lattice.py"
-    mesh.write_bytes(subprocess.run(["/usr/bin/python3", lattice, "kuhn", "1"], check=True, stdout=subprocess.PIPE).stdout)
+    made = subprocess.run(["/usr/bin/python3", lattice, "kuhn", str(size)], check=True, stdout=subprocess.PIPE)
+    mesh.write_bytes(made.stdout)
     inputs["findhex"] = mesh
     order = ["findhex", "buildgraph", "initsol", "lns", "assemble"]
     for tool, following in zip(order, order[1:]):
@@ -209,6 +281,7 @@ def main():
     parser.add_argument("--disk", type=int, default=0)
     parser.add_argument("--kills", type=int, default=100)
     parser.add_argument("--pipes", type=int, default=20)
+    parser.add_argument("--stalls", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("tools", nargs="*")
     options = parser.parse_args()
@@ -216,15 +289,17 @@ def main():
     report = Report()
     with tempfile.TemporaryDirectory() as scratch:
         scratch = pathlib.Path(scratch)
-        inputs = stage_inputs(scratch)
+        small, large = stage_inputs(scratch / "small", 1), stage_inputs(scratch / "large", 3)
+        library = pathlib.Path(options.library).resolve()
         for tool in tools:
             directory = scratch / tool
             directory.mkdir()
-            bench = Bench(tool, inputs[tool], pathlib.Path(options.library).resolve(), directory)
+            bench = Bench(tool, STAGES[tool][0], small[tool], library, directory)
             fail_every_call(bench, report, options.per_kind)
             fill_the_disk(bench, report, options.disk)
-            kill_at_random(bench, report, options.kills, options.seed)
             leave_the_pipe(bench, report, options.pipes)
+            stall(bench, report, options.stalls)
+            kill_at_random(Bench(tool, LONG_RUNS[tool], large[tool], library, directory), report, options.kills, options.seed)
     report.table(tools)
     sys.exit(report.broken > 0)
 
