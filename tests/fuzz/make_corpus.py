@@ -100,6 +100,22 @@ def stages():
     seed("sol", "flags", b"\x03" + b"1\n0\n1\n")
 
 
+def tools():
+    """Behind a byte that chooses options: the input of each tool, or a mesh for the whole pipeline."""
+    lattice = lambda kind, size: run("/usr/bin/python3", DATA / "lattices/lattice.py", kind, size)
+    inputs = {"findhex": ["mesh"], "buildgraph": ["candidates"], "initsol": ["graph", "candidates"], "lns": ["graph", "solution"],
+              "certify": ["graph", "solution", "candidates"], "assemble": ["mesh", "candidates", "solution"]}
+    for name, kind, size, cells in (("cube", "kuhn", "1", "hex,prism,pyramid"), ("cubes", "kuhn", "2", "hex")):
+        graph = tool("buildgraph", stdin=tool("findhex", "--cells", cells, "--min-quality", "0.8", stdin=lattice(kind, size)))
+        solution = tool("initsol", "--iterations", "1", stdin=graph)
+        for choice, (tool_name, folders) in enumerate(inputs.items()):
+            seed("tool-" + tool_name, name, bytes([choice % 2]) + only(solution, *folders))
+    for choice, (kind, size) in enumerate((("kuhn", "1"), ("kuhn", "2"), ("five", "1"))):
+        seed("pipeline", f"{kind}{size}", bytes([choice]) + lattice(kind, size))
+    readme = (ROOT / "formats/README.md").read_text()
+    seed("pipeline", "readme", b"\x07" + readme.split("<!-- example tet.mesh -->\n```\n")[1].split("```")[0].encode())
+
+
 def surfaces():
     binary = bytearray(80) + (4).to_bytes(4, "little")
     corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
@@ -123,4 +139,5 @@ meshes()
 sizes()
 examples()
 stages()
+tools()
 surfaces()

@@ -1,10 +1,6 @@
-#include "tests/fuzz/readers.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -23,6 +19,7 @@
 #include "formats/surface_files.hpp"
 #include "tests/fuzz/scratch_files.hpp"
 #include "tests/fuzz/tar_members.hpp"
+#include "tests/fuzz/targets.hpp"
 
 namespace hexpipe {
 namespace {
@@ -30,12 +27,6 @@ namespace {
 const ScratchFiles& scratch() {
   static const ScratchFiles files;
   return files;
-}
-
-void promise(bool kept, const char* what) {
-  if (kept) return;
-  std::fprintf(stderr, "broken promise: %s\n", what);
-  std::abort();
 }
 
 Input memory(std::string_view bytes) {
@@ -166,46 +157,32 @@ void read_members(std::string_view bytes) {
 }
 
 constexpr std::array readers{
-    FuzzedReader{"bundle", read_bundle},
-    FuzzedReader{"members", read_members},
-    FuzzedReader{"npy", read_npy},
-    FuzzedReader{"medit", [](std::string_view bytes) { read_mesh(bytes, "mesh"); }},
-    FuzzedReader{"msh22", [](std::string_view bytes) { read_mesh(bytes, "msh22"); }},
-    FuzzedReader{"msh22-binary", [](std::string_view bytes) { read_mesh(bytes, "msh22-binary"); }},
-    FuzzedReader{"msh", [](std::string_view bytes) { read_mesh(bytes, "msh"); }},
-    FuzzedReader{"msh-binary", [](std::string_view bytes) { read_mesh(bytes, "msh-binary"); }},
-    FuzzedReader{"vtk", [](std::string_view bytes) { read_mesh(bytes, "vtk"); }},
-    FuzzedReader{"vtu", [](std::string_view bytes) { read_mesh(bytes, "vtu"); }},
-    FuzzedReader{"tetgen", read_tetgen_files},
-    FuzzedReader{"metis", read_graph},
-    FuzzedReader{"dimacs", read_graph},
-    FuzzedReader{"cand", read_candidates},
-    FuzzedReader{"sol", read_solution_of_few},
-    FuzzedReader{"stl", read_soup},
-    FuzzedReader{"obj", read_soup},
-    FuzzedReader{"ply", read_soup},
-    FuzzedReader{"off", read_soup},
-    FuzzedReader{"sizes", read_size_list},
+    FuzzTarget{"bundle", read_bundle},
+    FuzzTarget{"members", read_members, 0},
+    FuzzTarget{"npy", read_npy},
+    FuzzTarget{"medit", [](std::string_view bytes) { read_mesh(bytes, "mesh"); }},
+    FuzzTarget{"msh22", [](std::string_view bytes) { read_mesh(bytes, "msh22"); }},
+    FuzzTarget{"msh22-binary", [](std::string_view bytes) { read_mesh(bytes, "msh22-binary"); }},
+    FuzzTarget{"msh", [](std::string_view bytes) { read_mesh(bytes, "msh"); }},
+    FuzzTarget{"msh-binary", [](std::string_view bytes) { read_mesh(bytes, "msh-binary"); }},
+    FuzzTarget{"vtk", [](std::string_view bytes) { read_mesh(bytes, "vtk"); }},
+    FuzzTarget{"vtu", [](std::string_view bytes) { read_mesh(bytes, "vtu"); }},
+    FuzzTarget{"tetgen", read_tetgen_files},
+    FuzzTarget{"metis", read_graph},
+    FuzzTarget{"dimacs", read_graph},
+    FuzzTarget{"cand", read_candidates},
+    FuzzTarget{"sol", read_solution_of_few},
+    FuzzTarget{"stl", read_soup},
+    FuzzTarget{"obj", read_soup},
+    FuzzTarget{"ply", read_soup},
+    FuzzTarget{"off", read_soup},
+    FuzzTarget{"sizes", read_size_list},
 };
 
 }  // namespace
 
-std::span<const FuzzedReader> fuzzed_readers() {
+std::span<const FuzzTarget> reader_targets() {
   return readers;
-}
-
-const FuzzedReader* find_fuzzed_reader(std::string_view name) {
-  const auto* const found = std::ranges::find(readers, name, &FuzzedReader::name);
-  return found == readers.end() ? nullptr : &*found;
-}
-
-bool accepts(const FuzzedReader& reader, std::string_view bytes) {
-  try {
-    reader.read(bytes);
-    return true;
-  } catch (const DataError&) {
-    return false;
-  }
 }
 
 }  // namespace hexpipe

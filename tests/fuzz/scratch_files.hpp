@@ -13,9 +13,7 @@ namespace hexpipe {
 class ScratchFiles {
  public:
   ScratchFiles() {
-    const std::filesystem::path memory = "/dev/shm";
-    const bool in_memory = access(memory.c_str(), W_OK) == 0;
-    std::string name = ((in_memory ? memory : std::filesystem::temp_directory_path()) / "hexpipe-fuzz-XXXXXX").string();
+    std::string name = (std::filesystem::temp_directory_path() / "hexpipe-fuzz-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) throw std::filesystem::filesystem_error("mkdtemp", name, {});
     directory_ = name;
   }
