@@ -127,6 +127,25 @@ weight_of() {
   assert [ ! -e out.sol ]
 }
 
+@test "--prove proves a bound on any number of ranks, close to that of certify" {
+  for ranks in 1 2; do
+    on $ranks --iterations 100 --prove 60 --certificate $ranks.proof --stats $ranks.json -o out.sol
+    run "$CHECKERS/bound_check.py" ring.graph $ranks.proof
+    assert_success
+    cp out.sol best.sol
+  done
+  assert_same_bytes 1.proof 2.proof
+  on 1 --iterations 100 --prove 3 --stats few.json -o out.sol
+  certify --graph ring.graph --solution best.sol --iterations 60 --stats certify.json -o out.sol
+  "$PYTHON" - "$output" "$(weight_of best.sol)" <<'PYTHON'
+import json, sys
+bound, few, single = (json.load(open(name + ".json"))["bound"] for name in ("1", "few", "certify"))
+assert sys.argv[1].startswith(f"bound {bound} "), sys.argv
+assert int(sys.argv[2]) <= bound < few, (bound, few)
+assert bound < 1.01 * single, (bound, single)
+PYTHON
+}
+
 @test "SIGTERM to one rank, and SIGUSR1 to mpirun, write the best so far and end well" {
   local job
   for signal in TERM USR1; do

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/mwis/entropy_dual.hpp"
+
 namespace hexpipe {
 namespace {
 
@@ -13,8 +15,7 @@ class SmoothedDual {
         prices_(static_cast<std::size_t>(cover.size()), 0.0),
         costs_(graph.weights.begin(), graph.weights.end()) {}
 
-  // Minimizes sum(prices) + T sum(exp(cost / T)) in one price after the other, forth and back: the step that makes the
-  // members of the clique sum to one where exp(cost / T) is how much of a vertex is chosen.
+  // In one price after the other, forth and back.
   void pass(double temperature) {
     for (std::int64_t c = 0; c < cover_.size(); ++c) step(c, temperature);
     for (std::int64_t c = cover_.size(); c-- > 0;) step(c, temperature);
@@ -37,43 +38,21 @@ class SmoothedDual {
 
  private:
   void step(std::int64_t c, double temperature) {
-    const auto members = cover_.clique(c);
-    double highest = costs_[members.front()];
-    for (const std::int32_t v : members) highest = std::max(highest, costs_[v]);
-    double sum = 0;
-    for (const std::int32_t v : members) sum += std::exp((costs_[v] - highest) / temperature);
-    const double wanted = highest + temperature * std::log(sum);
-    const double change = std::max(wanted, -prices_[c]);
-    prices_[c] += change;
-    for (const std::int32_t v : members) costs_[v] -= change;
+    prices_[c] = step_price(cover_.clique(c), prices_[c], temperature, costs_);
   }
 
   const CliqueCover& cover_;
   std::vector<double> prices_, costs_;
 };
 
-// Temperatures are in heaviest weights. A third of the effort goes into the cliques there are, from `hottest`, where
-// all prices move at once, geometrically to `coldest`, where few still do; then cliques are added and all prices warmed
-// up again, ten times.
-constexpr double hottest = 0.3, warmed_up = 0.02, coldest = 0.0015;
-constexpr int rounds = 10;
-constexpr double first_share = 1.0 / 3;
-
 // Passes in branch and reduce: before the first branch, and in a node.
 constexpr std::int64_t root_passes = 900, node_passes = 60;
 
-// How far the search is, in rounds of adding cliques: below 0 before the first. Goes by the passes or by the time,
-// whichever is further.
+// Goes by the passes or by the time, whichever is further.
 double progress(std::int64_t passes, const CliqueDualOptions& options, const Deadline& deadline) {
   const double of_passes = static_cast<double>(passes) / static_cast<double>(options.passes);
   const double of_time = deadline.elapsed() / (deadline.elapsed() + std::max(deadline.remaining(), 0.0));
-  const double over = std::max(of_passes, of_time) - first_share;
-  return over < 0 ? over / first_share : over / (1 - first_share) * rounds;
-}
-
-double temperature_at(double progress) {
-  const double first = progress < 0 ? hottest : warmed_up;
-  return first * std::pow(coldest / first, progress - std::floor(progress));
+  return dual_rounds(std::max(of_passes, of_time));
 }
 
 }  // namespace
@@ -106,9 +85,9 @@ CliqueDual solve_clique_dual(const ConflictGraph& graph, CliqueCover& cover, con
   double round = -1;
   while (best.passes < options.passes && best.bound > options.target && !deadline.passed()) {
     const double now = progress(best.passes, options, deadline);
-    if (std::floor(now) > round && best.passes > 0) dual.add_cliques(graph, cover, heaviest * coldest);
+    if (std::floor(now) > round && best.passes > 0) dual.add_cliques(graph, cover, heaviest * coldest_dual_temperature);
     round = std::floor(now);
-    dual.pass(heaviest * temperature_at(now));
+    dual.pass(heaviest * dual_temperature(now));
     ++best.passes;
     std::vector<std::int64_t> prices = dual.whole_prices();
     const std::int64_t bound = bound_of_prices(graph, cover, prices);

@@ -11,6 +11,7 @@
 #include "common/run/progress.hpp"
 #include "tools/lns-mpi/checkpoint.hpp"
 #include "tools/lns-mpi/fingerprint.hpp"
+#include "tools/lns-mpi/shared_dual.hpp"
 #include "tools/lns-mpi/source.hpp"
 
 namespace hexpipe {
@@ -54,6 +55,7 @@ class Job {
                         report(costs);
                         if (checkpoint_ && (last || checkpoint_->is_due())) checkpoint_->write(piece, progress_);
                       });
+    if (options_.passes > 0) prove(piece);
     finish(piece);
   }
 
@@ -103,6 +105,14 @@ class Job {
                     sent.bytes, sent.most_messages, sent.most_bytes));
   }
 
+  void prove(const Piece& piece) {
+    bound_ = prove_bound(ranks_, piece, options_.passes, options_.rounds.search.seed, Deadline(), options_.certificate);
+    const double gap = *bound_ > 0 ? static_cast<double>(*bound_ - progress_.weight) / static_cast<double>(*bound_) : 0;
+    context_.statistics["bound"] = *bound_;
+    context_.statistics["gap"] = gap;
+    context_.note(fmt::format("at most {} is possible: gap {:.4f} %", *bound_, 100 * gap));
+  }
+
   void finish(const Piece& piece) {
     std::array<std::int64_t, 1> chosen{0};
     for (std::int32_t v = 0; v < piece.vertex_count(); ++v) chosen[0] += piece.chosen[v] != 0 && piece.owns(v) ? 1 : 0;
@@ -117,8 +127,10 @@ class Job {
     context_.statistics["round_bytes"] = bytes_;
     context_.note(fmt::format("{} chosen, weight {}, {} of {} fragments were improved in {} rounds", chosen[0],
                               progress_.weight, progress_.improvements, progress_.iterations, progress_.round));
-    source_->write(ranks_, piece,
-                   {{"weight", progress_.weight}, {"iterations", progress_.iterations}, {"rounds", progress_.round}});
+    nlohmann::ordered_json details{
+        {"weight", progress_.weight}, {"iterations", progress_.iterations}, {"rounds", progress_.round}};
+    if (bound_) details["bound"] = *bound_;
+    source_->write(ranks_, piece, details);
     if (!ranks_.is_first()) context_.common.stats_file.clear();
   }
 
@@ -131,6 +143,7 @@ class Job {
   std::optional<SearchLog> log_;
   std::optional<Checkpoint> checkpoint_;
   RoundsProgress progress_;
+  std::optional<std::int64_t> bound_;
   Sent setup_;
   std::int64_t messages_ = 0, bytes_ = 0;  // of all rounds, sent by all ranks
 };

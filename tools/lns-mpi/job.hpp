@@ -17,6 +17,8 @@ struct JobOptions {
   std::int64_t known_bound = -1;  // likewise
   std::int32_t blocks = 0;        // of a graph that is read whole; 0: as many as its size asks for
   std::int32_t overlap = 2;
+  std::int64_t passes = 0;           // of the dual, for a bound that is proven when the search has ended
+  std::string certificate;           // a file for its proof; empty: none
   std::vector<std::string> parts;    // bundles of a graph that is not
   std::string checkpoint;            // a directory; empty: none
   double checkpoint_interval = 600;  // seconds

@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
       .random = true,
       .searches = true,
       .default_time_limit = 60,
-      .outside_history = {"parts", "checkpoint", "checkpoint-interval"}};
+      .outside_history = {"parts", "certificate", "checkpoint", "checkpoint-interval"}};
   JobOptions options;
   TargetOptions target;
   const auto declare = [&](CLI::App& app) {
@@ -52,6 +52,13 @@ int main(int argc, char** argv) {
     app.add_option("--round", options.rounds.fragments_a_round,
                    "Fragments in a round for a thousand vertices, under a limit of iterations")
         ->check(CLI::Range(1, 1000000).description(""));
+    CLI::Option* const prove = app.add_option("--prove", options.passes,
+                                              "Prove a bound after the search, in so many passes of the dual; 0: none");
+    prove->check(CLI::Range(0, 1000000).description(""));
+    app.add_option("--certificate", options.certificate,
+                   "Write the proof to a file, as certify does; for a graph that is not in parts")
+        ->type_name("FILE")
+        ->needs(prove);
     app.add_option("--parts", options.parts,
                    "Bundles of the parts of a graph, in their order; the solution goes into bundles of the same names "
                    "in the directory that -o names")
@@ -66,6 +73,8 @@ int main(int argc, char** argv) {
     check(target);
     if (!options.parts.empty() && (context.streams.operand || !context.streams.files.empty()))
       throw UsageError("expected --parts or a graph, found both");
+    if (!options.parts.empty() && !options.certificate.empty())
+      throw UsageError("--certificate needs a graph that is not in parts");
     if (!options.parts.empty() && (context.streams.output.empty() || context.streams.output == "-"))
       throw UsageError("--parts needs a directory to write to: -o DIR");
     options.rounds.search.seed = context.common.seed;

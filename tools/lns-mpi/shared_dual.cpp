@@ -1,0 +1,232 @@
+#include "tools/lns-mpi/shared_dual.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "common/graph/clique_cover.hpp"
+#include "common/graph/subgraph.hpp"
+#include "common/mwis/entropy_dual.hpp"
+#include "common/run/random.hpp"
+#include "formats/output.hpp"
+
+namespace hexpipe {
+namespace {
+
+// Other than those of the search's rounds.
+constexpr std::uint64_t stream = 0x5eed0fd0a15u;
+
+// The cliques of one block, in the numbers of its own vertices and their neighbours.
+struct BlockCliques {
+  std::int32_t block = 0;
+  std::vector<std::int32_t> vertices;  // of the piece, ascending
+  ConflictGraph graph;
+  CliqueCover cover;
+  std::vector<double> prices;
+  std::vector<std::int64_t> whole_prices;
+};
+
+class SharedDual {
+ public:
+  SharedDual(Ranks& ranks, const Piece& piece)
+      : ranks_(ranks), piece_(piece), costs_(piece.graph.weights.begin(), piece.graph.weights.end()) {
+    std::array<std::int64_t, 1> heaviest{1};
+    for (const std::int64_t weight : piece.graph.weights) heaviest[0] = std::max(heaviest[0], weight);
+    ranks.maximum(heaviest);
+    heaviest_ = static_cast<double>(heaviest[0]);
+    for (std::int32_t b = piece.owners.first_of(piece.rank); b < piece.owners.first_of(piece.rank + 1); ++b)
+      blocks_.push_back(find_cliques(b));
+  }
+
+  void run(std::int64_t passes, std::uint64_t seed, const Deadline& deadline) {
+    double round = -1;
+    for (std::int64_t pass = 0; pass < passes && goes_on(deadline); ++pass) {
+      const double now = dual_rounds(static_cast<double>(pass) / static_cast<double>(passes));
+      draw(seed, pass);
+      if (std::floor(now) > round && pass > 0) add_cliques();
+      round = std::floor(now);
+      for (BlockCliques& cliques : blocks_) step(cliques, heaviest_ * dual_temperature(now));
+      tell_costs();
+    }
+  }
+
+  std::int64_t whole_bound() {
+    std::int64_t bound = 0;
+    std::vector<std::int64_t> left = piece_.graph.weights;
+    for (BlockCliques& cliques : blocks_) {
+      cliques.whole_prices.resize(cliques.prices.size());
+      for (std::int64_t c = 0; c < cliques.cover.size(); ++c) {
+        const std::int64_t price = std::llround(cliques.prices[c]);
+        cliques.whole_prices[c] = price;
+        bound += price;
+        for (const std::int32_t i : cliques.cover.clique(c)) left[cliques.vertices[i]] -= price;
+      }
+    }
+    add_prices_of_others(left);
+    for (std::int32_t v = 0; v < piece_.vertex_count(); ++v)
+      if (piece_.owns(v)) bound += std::max<std::int64_t>(left[v], 0);
+    std::array<std::int64_t, 1> sum{bound};
+    ranks_.sum(sum);
+    return sum[0];
+  }
+
+  void write(const std::string& path, std::int64_t bound) {
+    std::string lines;
+    for (const BlockCliques& cliques : blocks_)
+      for (std::int64_t c = 0; c < cliques.cover.size(); ++c) {
+        if (cliques.whole_prices[c] == 0) continue;
+        fmt::format_to(std::back_inserter(lines), "{}", cliques.whole_prices[c]);
+        for (const std::int32_t i : cliques.cover.clique(c))
+          fmt::format_to(std::back_inserter(lines), " {}", piece_.keys[cliques.vertices[i]] + 1);
+        lines += '\n';
+      }
+    std::vector<Bytes> to(static_cast<std::size_t>(ranks_.count()));
+    to[0].assign(lines.begin(), lines.end());
+    const std::vector<Bytes> from = ranks_.exchange(std::move(to));
+    ranks_.together([&] {
+      if (!ranks_.is_first()) return;
+      Output output(path);
+      output.print("bound {}\n", bound);
+      for (const Bytes& bytes : from) output.write({bytes.data(), bytes.size()});
+      output.commit();
+    });
+  }
+
+ private:
+  // In the graph of the block and its neighbours, those with a vertex of the block.
+  BlockCliques find_cliques(std::int32_t block) const {
+    BlockCliques found;
+    found.block = block;
+    for (std::int32_t v = 0; v < piece_.vertex_count(); ++v)
+      if (piece_.block[v] == block || touches(v, block)) found.vertices.push_back(v);
+    found.graph = induced_subgraph(piece_.graph, found.vertices);
+    const CliqueCover all = greedy_edge_clique_cover(found.graph);
+    std::vector<std::int32_t> clique;
+    for (std::int64_t c = 0; c < all.size(); ++c) {
+      clique.assign(all.clique(c).begin(), all.clique(c).end());
+      if (std::ranges::any_of(clique, [&](std::int32_t i) { return piece_.block[found.vertices[i]] == block; }))
+        found.cover.add(clique);
+    }
+    found.prices.assign(static_cast<std::size_t>(found.cover.size()), 0);
+    return found;
+  }
+
+  bool touches(std::int32_t v, std::int32_t block) const {
+    return std::ranges::any_of(piece_.near_of(v),
+                               [&](const NearBlock& near) { return near.block == block && near.distance == 1; });
+  }
+
+  bool goes_on(const Deadline& deadline) {
+    std::array<std::int64_t, 1> passed{deadline.passed() ? 1 : 0};
+    ranks_.maximum(passed);
+    return passed[0] == 0;
+  }
+
+  // Whose cliques may move at each vertex: those of the first in an order of all blocks that have it.
+  void draw(std::uint64_t seed, std::int64_t pass) {
+    std::vector<std::int32_t> priority(static_cast<std::size_t>(piece_.owners.blocks()));
+    std::iota(priority.begin(), priority.end(), 0);
+    Random(seed ^ stream, static_cast<std::uint64_t>(pass)).shuffle(std::span(priority));
+    turn_ = piece_.block;
+    for (std::int32_t v = 0; v < piece_.vertex_count(); ++v)
+      for (const NearBlock& near : piece_.near_of(v))
+        if (near.distance == 1 && priority[near.block] < priority[turn_[v]]) turn_[v] = near.block;
+  }
+
+  void step(BlockCliques& cliques, double temperature) {
+    local_.resize(cliques.vertices.size());
+    for (std::size_t i = 0; i < local_.size(); ++i) local_[i] = costs_[cliques.vertices[i]];
+    const auto move = [&](std::int64_t c) {
+      const auto members = cliques.cover.clique(c);
+      const bool may =
+          std::ranges::all_of(members, [&](std::int32_t i) { return turn_[cliques.vertices[i]] == cliques.block; });
+      if (may) cliques.prices[c] = step_price(members, cliques.prices[c], temperature, local_);
+    };
+    for (std::int64_t c = 0; c < cliques.cover.size(); ++c) move(c);
+    for (std::int64_t c = cliques.cover.size(); c-- > 0;) move(c);
+    for (std::size_t i = 0; i < local_.size(); ++i)
+      if (turn_[cliques.vertices[i]] == cliques.block) costs_[cliques.vertices[i]] = local_[i];
+  }
+
+  void add_cliques() {
+    for (BlockCliques& cliques : blocks_) {
+      std::vector<double> fractions(cliques.vertices.size());
+      std::ranges::transform(cliques.vertices, fractions.begin(), [&](std::int32_t v) {
+        return std::min(1.0, std::exp(costs_[v] / (heaviest_ * coldest_dual_temperature)));
+      });
+      add_violated_cliques(cliques.graph, fractions, cliques.cover);
+      cliques.prices.resize(static_cast<std::size_t>(cliques.cover.size()), 0);
+    }
+  }
+
+  // Calls visit(v) for the shared vertices whose costs the rank may have changed, in an order that both know.
+  template <class Visit>
+  void visit_turns(const Piece::Partner& partner, int rank, Visit&& visit) const {
+    for (const std::int32_t v : partner.shared)
+      if (piece_.owners.rank_of(turn_[v]) == rank && is_between(v)) visit(v);
+  }
+  // In cliques of several blocks.
+  bool is_between(std::int32_t v) const {
+    return std::ranges::any_of(piece_.near_of(v), [](const NearBlock& near) { return near.distance == 1; });
+  }
+
+  void tell_costs() {
+    std::vector<int> to;
+    std::vector<Bytes> news;
+    for (const Piece::Partner& partner : piece_.partners) {
+      Packer packer;
+      visit_turns(partner, piece_.rank, [&](std::int32_t v) { packer.put(costs_[v]); });
+      to.push_back(partner.rank);
+      news.push_back(packer.take());
+    }
+    const std::vector<Bytes> heard = ranks_.exchange(to, news);
+    for (std::size_t i = 0; i < heard.size(); ++i) {
+      Unpacker unpacker(heard[i]);
+      visit_turns(piece_.partners[i], piece_.partners[i].rank,
+                  [&](std::int32_t v) { costs_[v] = unpacker.get<double>(); });
+    }
+  }
+
+  // What blocks of other ranks took off the weights of this rank's vertices.
+  void add_prices_of_others(std::vector<std::int64_t>& left) {
+    std::vector<int> to;
+    std::vector<Bytes> news;
+    for (const Piece::Partner& partner : piece_.partners) {
+      Packer packer;
+      for (const std::int32_t v : partner.shared)
+        if (piece_.owners.rank_of(piece_.block[v]) == partner.rank) packer.put(piece_.graph.weights[v] - left[v]);
+      to.push_back(partner.rank);
+      news.push_back(packer.take());
+    }
+    const std::vector<Bytes> heard = ranks_.exchange(to, news);
+    for (std::size_t i = 0; i < heard.size(); ++i) {
+      Unpacker unpacker(heard[i]);
+      for (const std::int32_t v : piece_.partners[i].shared)
+        if (piece_.owns(v)) left[v] -= unpacker.get<std::int64_t>();
+    }
+  }
+
+  Ranks& ranks_;
+  const Piece& piece_;
+  double heaviest_ = 1;
+  std::vector<double> costs_;  // by vertex of the piece: right where one of the rank's blocks has cliques
+  std::vector<double> local_;  // of the block that steps
+  std::vector<std::int32_t> turn_;
+  std::vector<BlockCliques> blocks_;
+};
+
+}  // namespace
+
+std::int64_t prove_bound(Ranks& ranks, const Piece& piece, std::int64_t passes, std::uint64_t seed,
+                         const Deadline& deadline, const std::string& certificate) {
+  SharedDual dual(ranks, piece);
+  dual.run(passes, seed, deadline);
+  const std::int64_t bound = dual.whole_bound();
+  if (!certificate.empty()) dual.write(certificate, bound);
+  return bound;
+}
+
+}  // namespace hexpipe
