@@ -70,9 +70,16 @@ std::vector<std::int32_t> match_facets(const TetMesh& mesh, const char* source) 
 
 }  // namespace
 
-TetAdjacency::TetAdjacency(const TetMesh& mesh, const char* source) : across_(match_facets(mesh, source)) {
-  const std::size_t vertex_count = mesh.points.size();
-  std::vector<std::int64_t> counts(vertex_count, 0);
+TetAdjacency::TetAdjacency(const TetMesh& mesh, const char* source) {
+  both_at_once([&] { across_ = match_facets(mesh, source); },
+               [&] {
+                 file_tets(mesh);
+                 find_neighbours(mesh);
+               });
+}
+
+void TetAdjacency::file_tets(const TetMesh& mesh) {
+  std::vector<std::int64_t> counts(mesh.points.size(), 0);
   for (const Tet& tet : mesh.tets)
     for (const Vertex v : tet) ++counts[v];
   tet_offsets_ = offsets_from_counts(std::move(counts));
@@ -81,11 +88,16 @@ TetAdjacency::TetAdjacency(const TetMesh& mesh, const char* source) : across_(ma
   std::vector<std::int64_t> next(tet_offsets_.begin(), tet_offsets_.end() - 1);
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
     for (const Vertex v : mesh.tets[t]) tets_at_vertex_[next[v]++] = static_cast<std::int32_t>(t);
+}
 
+void TetAdjacency::find_neighbours(const TetMesh& mesh) {
+  const std::size_t vertex_count = mesh.points.size();
   neighbour_offsets_.assign(vertex_count + 1, 0);
+  // As many edges as vertices and tets, by Euler's formula, each at both ends; what the boundary adds is little.
+  neighbours_.reserve(2 * (vertex_count + mesh.tets.size()));
   PerThread<std::vector<Vertex>> seen_from(std::vector<Vertex>(vertex_count, none));  // by vertex, the last one
   parallel_in_order(
-      static_cast<std::int64_t>(vertex_count), 4096,
+      static_cast<std::int64_t>(vertex_count), 1024,
       [&](std::int64_t begin, std::int64_t end) {
         std::pair<std::vector<std::int64_t>, std::vector<Vertex>> block;
         std::vector<Vertex>& last_seen_from = seen_from.local();

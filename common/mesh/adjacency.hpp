@@ -40,6 +40,9 @@ class TetAdjacency {
   bool has_edge(Vertex a, Vertex b) const;
 
  private:
+  void file_tets(const TetMesh& mesh);
+  void find_neighbours(const TetMesh& mesh);
+
   std::vector<std::int32_t> across_;       // 4 a tet
   std::vector<std::int64_t> tet_offsets_;  // vertices + 1
   std::vector<std::int32_t> tets_at_vertex_;

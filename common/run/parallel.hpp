@@ -5,6 +5,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 
 #include <algorithm>
@@ -55,6 +56,12 @@ void parallel_for(std::int64_t count, std::int64_t grain, Body&& body) {
   tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, count, grain), [&](const auto& range) {
     for (std::int64_t i = range.begin(); i != range.end(); ++i) body(i);
   });
+}
+
+// one() and other(), at the same time where there are threads; neither writes what the other one reads.
+template <class One, class Other>
+void both_at_once(One&& one, Other&& other) {
+  tbb::parallel_invoke(std::forward<One>(one), std::forward<Other>(other));
 }
 
 // Cuts [0, count) into blocks of `block` items, calls produce(begin, end) -> Product in parallel and consume(Product&&)

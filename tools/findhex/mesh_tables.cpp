@@ -5,6 +5,7 @@
 
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/orientation.hpp"
+#include "common/run/parallel.hpp"
 
 namespace hexpipe {
 namespace {
@@ -28,12 +29,12 @@ FoundFacet facet_of(const Tet& tet, const Triangle& triangle) {
 }  // namespace
 
 MeshTables::MeshTables(TetMesh mesh, const char* source, const std::vector<std::int8_t>& turns)
-    : mesh_(std::move(mesh)),
-      usable_(judge_tets(source, turns)),
-      adjacency_(mesh_, source),
-      links_(mesh_, adjacency_, usable_) {
-  make_flood_tets();
-  label_walls();
+    : mesh_(std::move(mesh)), usable_(judge_tets(source, turns)), adjacency_(mesh_, source) {
+  both_at_once([this] { links_.emplace(mesh_, adjacency_, usable_); },
+               [this] {
+                 make_flood_tets();
+                 label_walls();
+               });
 }
 
 std::vector<bool> MeshTables::judge_tets(const char* source, const std::vector<std::int8_t>& turns) {

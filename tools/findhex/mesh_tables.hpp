@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/mesh/adjacency.hpp"
@@ -26,7 +27,7 @@ class MeshTables {
 
   const TetMesh& mesh() const { return mesh_; }
   const TetAdjacency& adjacency() const { return adjacency_; }
-  const VertexLinks& links() const { return links_; }
+  const VertexLinks& links() const { return *links_; }
   const MeshFindings& findings() const { return findings_; }
   bool usable(std::int32_t tet) const { return usable_[tet]; }
   // The usable tet of which (a, b, c) is a facet, counter-clockwise seen from outside, or none.
@@ -63,7 +64,7 @@ class MeshTables {
   MeshFindings findings_;
   std::vector<bool> usable_;
   TetAdjacency adjacency_;
-  VertexLinks links_;
+  std::optional<VertexLinks> links_;
   std::vector<FloodTet> flood_tets_;
   std::vector<Wall> walls_;
 };
