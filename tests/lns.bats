@@ -82,6 +82,13 @@ PYTHON
   for other in kernel seed size batch large exact annealed; do assert_different_bytes base.sol $other.sol; done
   assert_different_bytes size.sol largest.sol
   assert_different_bytes large.sol nodes.sol
+  # What recombines takes its turn when the others have worked as long.
+  long() {
+    ring --no-reductions --fragment-size 30 --largest-fragment 30 --node-limit 3 --annealed-fragment 0 --iterations 8000 "$@"
+  }
+  long --recombined-fragment 0 -o alone.sol
+  long --recombined-fragment 50 -o recombined.sol
+  assert [ "$(weight_of recombined.sol)" -gt "$(weight_of alone.sol)" ]
 }
 
 @test "--target-gap ends the search at a bound that is given or that certify proved" {

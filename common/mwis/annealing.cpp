@@ -21,11 +21,11 @@ double Cooling::at(double progress) const {
   return hot * std::pow(cold / hot, progress);
 }
 
-Annealing::Annealing(const ConflictGraph& graph, const IndependentSet& start, Random random)
+Annealing::Annealing(const ConflictGraph& graph, const IndependentSet& start, Random random, const Deadline& deadline)
     : random_(random), state_(graph, start), is_waiting_(graph.weights.size(), 0), marks_(graph.weights.size(), 0) {
   state_.make_maximal();
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v) wait(v);
-  settle();
+  settle_first(deadline);
   step_.clear();
   best_weight_ = state_.weight();
 }
@@ -67,17 +67,37 @@ void Annealing::kick(std::int32_t v) {
 // In rounds, each in random order: what a change touched is looked at when the changes of its round are made.
 void Annealing::settle() {
   while (!waiting_.empty()) {
-    random_.shuffle(std::span(waiting_));
-    std::swap(waiting_, settling_);
-    waiting_.clear();
-    for (const std::int32_t v : settling_) is_waiting_[v] = 0;
-    for (const std::int32_t v : settling_) {
-      if (state_.contains(v))
-        swap_for_two(v);
-      else if (state_.push_gain(v) > 0)
-        push(v);
-    }
+    begin_round();
+    for (const std::int32_t v : settling_) settle(v);
   }
+}
+
+// The whole graph takes seconds where it has a hundred million edges.
+void Annealing::settle_first(const Deadline& deadline) {
+  while (!waiting_.empty()) {
+    begin_round();
+    for (const std::int32_t v : settling_) {
+      if (deadline.passed()) break;
+      settle(v);
+    }
+    if (!deadline.passed()) continue;
+    for (const std::int32_t v : waiting_) is_waiting_[v] = 0;
+    waiting_.clear();
+  }
+}
+
+void Annealing::begin_round() {
+  random_.shuffle(std::span(waiting_));
+  std::swap(waiting_, settling_);
+  waiting_.clear();
+  for (const std::int32_t v : settling_) is_waiting_[v] = 0;
+}
+
+void Annealing::settle(std::int32_t v) {
+  if (state_.contains(v))
+    swap_for_two(v);
+  else if (state_.push_gain(v) > 0)
+    push(v);
 }
 
 void Annealing::push(std::int32_t v) {

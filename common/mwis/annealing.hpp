@@ -29,8 +29,9 @@ struct Cooling {
 
 class Annealing {
  public:
-  // `start` is independent; it is made maximal and locally optimal.
-  Annealing(const ConflictGraph& graph, const IndependentSet& start, Random random);
+  // `start` is independent; it is made maximal and, unless the deadline passes before, locally optimal.
+  Annealing(const ConflictGraph& graph, const IndependentSet& start, Random random,
+            const Deadline& deadline = Deadline());
 
   // Makes `kicks` more kicks at this temperature, in units of weight, fewer when the deadline passes or `most_touched`
   // neighbours are touched: a kick beside a hub moves thousands of vertices.
@@ -52,6 +53,9 @@ class Annealing {
   std::int32_t next_to_kick();
   void kick(std::int32_t v);
   void settle();
+  void settle_first(const Deadline& deadline);
+  void settle(std::int32_t v);
+  void begin_round();
   void push(std::int32_t v);
   bool swap_for_two(std::int32_t v);
   void add(std::int32_t v);

@@ -8,22 +8,29 @@ namespace {
 
 // What was gained before so many nanoseconds of work in the same way counts a third.
 constexpr double memory = 3e8;
+// What each way keeps at least, for its time may come.
+constexpr std::array least_shares{0.2, 0.2, 0.1};
+
+double least_share_of(Way way) {
+  return least_shares[static_cast<std::size_t>(way)];
+}
 
 }  // namespace
 
 Way Effort::next() const {
-  return of(Way::anneal).credit > of(Way::exact).credit ? Way::anneal : Way::exact;
+  return *std::ranges::max_element(ways_, {}, [this](Way way) { return of(way).credit - of(way).cost; });
 }
 
 double Effort::share_of(Way way) const {
-  const double both = of(Way::exact).yield + of(Way::anneal).yield;
-  if (both <= 0) return 0.5;
-  return std::clamp(of(way).yield / both, least_share_, 1 - least_share_);
+  double yields = 0, left = 1;
+  for (const Way each : ways_) yields += of(each).yield, left -= least_share_of(each);
+  const double earned = yields > 0 ? of(way).yield / yields : 1 / static_cast<double>(ways_.size());
+  return least_share_of(way) + left * earned;
 }
 
 void Effort::record(Way way, double work, double gain) {
   if (work <= 0) return;
-  for (const Way each : all_ways) of(each).credit += work * share_of(each);
+  for (const Way each : ways_) of(each).credit += work * share_of(each);
   of(way).credit -= work;
   double& yield = of(way).yield;
   yield += (1 - std::exp(-work / memory)) * (gain / work - yield);

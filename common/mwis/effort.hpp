@@ -1,23 +1,27 @@
 #pragma once
-// Which of two ways to improve fragments gets the next work: the one that is behind its share, and shares follow what
-// each has gained lately for its work.
+// Which of the ways to improve fragments gets the next work: the one that would be most behind its share after that
+// work, so that a way that takes seconds waits until the search is that long. Shares follow what each has gained lately
+// for its work.
 
 #include <array>
+#include <vector>
 
 namespace hexpipe {
 
 enum class Way {
-  exact,   // branch and bound on fragments of some hundred vertices
-  anneal,  // annealing of fragments of some thousand
+  exact,      // branch and bound on fragments of some hundred vertices
+  anneal,     // annealing of fragments of some thousand from what is chosen
+  recombine,  // annealing from nothing, and the best of both: what is chosen and what was found
 };
-inline constexpr std::array all_ways{Way::exact, Way::anneal};
+inline constexpr std::array all_ways{Way::exact, Way::anneal, Way::recombine};
 
 class Effort {
  public:
-  // The smallest share that a way keeps, at most a half: a fifth costs a quarter more time where the other way alone
-  // would do.
-  explicit Effort(double least_share = 0.2) : least_share_(least_share) {}
+  // At least one way. Each keeps some share.
+  explicit Effort(std::vector<Way> ways = {all_ways.begin(), all_ways.end()}) : ways_(std::move(ways)) {}
 
+  // What this way does at a time; 0 unless told.
+  void expect(Way way, double work) { of(way).cost = work; }
   Way next() const;
   // `work` in nanoseconds, roughly, of which the latest tenths of a second decide the shares.
   void record(Way way, double work, double gain);
@@ -26,13 +30,14 @@ class Effort {
  private:
   struct Account {
     double credit = 0;  // work that it is behind its share
+    double cost = 0;    // work at a time
     double yield = 0;   // gain a unit of work, of late
   };
   Account& of(Way way) { return accounts_[static_cast<std::size_t>(way)]; }
   const Account& of(Way way) const { return accounts_[static_cast<std::size_t>(way)]; }
 
-  double least_share_;
-  std::array<Account, 2> accounts_;
+  std::vector<Way> ways_;
+  std::array<Account, all_ways.size()> accounts_;
 };
 
 }  // namespace hexpipe

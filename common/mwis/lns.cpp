@@ -1,6 +1,7 @@
 #include "common/mwis/lns.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <condition_variable>
 #include <mutex>
@@ -17,7 +18,7 @@ namespace hexpipe {
 namespace {
 
 // Of annealing a fragment for the first time. Of 20 and 60, on random-33k after 8 s: 20, by far.
-constexpr std::int64_t kicks_a_vertex = 20;
+constexpr int kicks_a_vertex = 20;
 // Annealed fragments may be so many times as large as wanted, which only hubs make them: these can be exchanged for all
 // of their neighbours in no other way.
 constexpr std::size_t hub_factor = 16;
@@ -31,14 +32,19 @@ class Lns {
         report_(report),
         state_(graph, initial),
         grower_(state_, Random(options.seed, 1)),
-        exact_(graph.weights.size(), options.fragment_size, options.largest_fragment, Random(options.seed, 0)),
-        annealed_(graph.weights.size(), options.annealed_fragment, options.annealed_fragment, Random(options.seed, 2)) {
+        schedules_{
+            Schedule(graph.weights.size(), options.fragment_size, options.largest_fragment, Random(options.seed, 0)),
+            Schedule(graph.weights.size(), options.annealed_fragment, options.annealed_fragment,
+                     Random(options.seed, 2)),
+            Schedule(graph.weights.size(), options.recombined_fragment, options.recombined_fragment,
+                     Random(options.seed, 3))},
+        effort_(ways_of(options)) {
     state_.make_maximal();
-    for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
-      if (!state_.contains(v)) continue;
-      exact_.renew(v);
-      annealed_.renew(v);
-    }
+    for (std::int32_t v = 0; v < graph.vertex_count(); ++v)
+      if (state_.contains(v)) renew(v);
+    const auto largest = std::min<std::size_t>(graph.weights.size(), options.recombined_fragment);
+    effort_.expect(Way::recombine, static_cast<double>(options.free_running ? 1 : batch_of(Way::recombine)) *
+                                       static_cast<double>(largest) * kicks_a_vertex * Repair::work_a_kick(graph));
   }
 
   LnsResult run() {
@@ -55,8 +61,17 @@ class Lns {
   bool goes_on() const {
     return begun_ < options_.iterations && state_.weight() < options_.target && !is_complete() && !deadline_.passed();
   }
-  Way next_way() const { return options_.annealed_fragment > 0 ? effort_.next() : Way::exact; }
-  Schedule& schedule_of(Way way) { return way == Way::exact ? exact_ : annealed_; }
+  static std::vector<Way> ways_of(const LnsOptions& options) {
+    std::vector<Way> ways{Way::exact};
+    if (options.annealed_fragment > 0) ways.push_back(Way::anneal);
+    if (options.recombined_fragment > 0) ways.push_back(Way::recombine);
+    return ways;
+  }
+  Schedule& schedule_of(Way way) { return schedules_[static_cast<std::size_t>(way)]; }
+  const Schedule& schedule_of(Way way) const { return schedules_[static_cast<std::size_t>(way)]; }
+  void renew(std::int32_t v) {
+    for (Schedule& schedule : schedules_) schedule.renew(v);
+  }
 
   void run_rounds() {
     std::vector<Repair> repairs(static_cast<std::size_t>(options_.batch));
@@ -73,10 +88,17 @@ class Lns {
     }
   }
 
+  // Larger fragments come fewer at a time.
+  std::int64_t batch_of(Way way) const {
+    constexpr std::array parts{1, 4, 8};
+    const int part = parts[static_cast<std::size_t>(way)];
+    return (options_.batch + part - 1) / part;
+  }
+
   // Fills the round with fragments that do not touch each other.
   std::int64_t grow_round(std::vector<Repair>& repairs) {
-    const Way way = next_way();
-    const auto batch = static_cast<std::int64_t>(way == Way::exact ? options_.batch : (options_.batch + 3) / 4);
+    const Way way = effort_.next();
+    const std::int64_t batch = batch_of(way);
     const std::int64_t wanted = std::min(batch, options_.iterations - begun_);
     std::int64_t size = 0;
     while (size < wanted && grow(way, repairs[size], batch)) ++size;
@@ -91,7 +113,7 @@ class Lns {
       Repair repair;
       std::unique_lock lock(mutex);
       while (goes_on()) {
-        if (!grow(next_way(), repair, options_.batch)) {
+        if (!grow(effort_.next(), repair, options_.batch)) {
           if (begun_ == iterations_) return;
           put_back.wait(lock);
           continue;
@@ -134,12 +156,13 @@ class Lns {
     return grown;
   }
 
-  Random random_for(std::int64_t index) const { return {options_.seed, static_cast<std::uint64_t>(3 + index)}; }
+  Random random_for(std::int64_t index) const { return {options_.seed, static_cast<std::uint64_t>(4 + index)}; }
 
   // Where annealing did not help, the next one is slower.
   std::int64_t effort_for(const Repair& repair) const {
     if (repair.way() == Way::exact) return options_.node_limit;
-    return kicks_a_vertex * (1 + std::min<std::int64_t>(annealed_.tries_at(repair.fragment().released.front()), 15));
+    const std::int64_t tries = schedule_of(repair.way()).tries_at(repair.fragment().released.front());
+    return kicks_a_vertex * (1 + std::min<std::int64_t>(tries, 15));
   }
 
   void solve(Repair& repair, std::int64_t index) const {
@@ -183,14 +206,11 @@ class Lns {
   // Everything that could be better now, because it is in the fragment or could share one with it.
   void renew_around(const Repair& repair) {
     const Fragment& fragment = repair.fragment();
-    const std::size_t size = exact_.size_at(fragment.released.front());
-    const auto renew = [&](std::int32_t v) {
-      exact_.renew(v);
-      annealed_.renew(v);
-    };
+    Schedule& exact = schedule_of(Way::exact);
+    const std::size_t size = exact.size_at(fragment.released.front());
     for (const std::int32_t v : fragment.vertices) {
       if (!state_.contains(v)) continue;
-      exact_.set_size(v, size);
+      exact.set_size(v, size);
       renew(v);
     }
     for (const std::int32_t v : fragment.frontier) renew(v);
@@ -213,10 +233,8 @@ class Lns {
 
   void close(const Fragment& fragment) {
     closed_ += static_cast<std::int32_t>(fragment.vertices.size());
-    for (const std::int32_t v : fragment.vertices) {
-      exact_.close(v);
-      annealed_.close(v);
-    }
+    for (const std::int32_t v : fragment.vertices)
+      for (Schedule& schedule : schedules_) schedule.close(v);
   }
 
   const LnsOptions& options_;
@@ -224,7 +242,7 @@ class Lns {
   const std::function<void(const LnsProgress&)>& report_;
   SolutionState state_;
   FragmentGrower grower_;
-  Schedule exact_, annealed_;
+  std::array<Schedule, all_ways.size()> schedules_;  // by way
   Effort effort_;
   std::vector<std::int32_t> postponed_, removed_;
   std::int64_t begun_ = 0, iterations_ = 0;  // fragments grown, and put back

@@ -20,10 +20,11 @@ struct LnsOptions {
   std::int64_t iterations = std::numeric_limits<std::int64_t>::max();  // fragments solved
   std::size_t fragment_size = 100;                                     // free vertices of the first fragments
   std::size_t largest_fragment = 1000;
-  std::int64_t node_limit = 1000;        // of branch and bound, a fragment
-  std::size_t annealed_fragment = 2000;  // free vertices of fragments that are annealed; 0: none are
-  int batch = 16;                        // fragments in a round, a quarter of them in one that anneals
-  bool reduce = true;                    // search the kernel that exact reductions leave
+  std::int64_t node_limit = 1000;           // of branch and bound, a fragment
+  std::size_t annealed_fragment = 2000;     // free vertices of fragments that are annealed; 0: none are
+  std::size_t recombined_fragment = 12000;  // likewise of those that are annealed from nothing and recombined
+  int batch = 16;      // exact fragments in a round; annealed ones are a quarter of them, recombined an eighth
+  bool reduce = true;  // search the kernel that exact reductions leave
   // Every thread goes on to the next fragment when it has done one. Faster, but the result depends on the timing.
   bool free_running = false;
   std::int64_t target = std::numeric_limits<std::int64_t>::max();  // ends the search at this weight

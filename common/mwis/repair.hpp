@@ -22,7 +22,7 @@ class Repair {
 
   // Copies the graph of the fragment, after which solve needs nothing else.
   void extract(FragmentGrower& grower);
-  // Exactly: with so many nodes of branch and bound at most. Annealed: with so many kicks a vertex.
+  // Exactly: with so many nodes of branch and bound at most; otherwise with so many kicks a vertex.
   void solve(std::int64_t effort, Random random, const Deadline& deadline);
 
   // After solve: by place in fragment().vertices, a set that is not lighter.
@@ -31,10 +31,15 @@ class Repair {
   bool complete() const { return complete_; }
   // A rough number of nanoseconds that does not depend on the machine.
   double work() const { return work_; }
+  // What a kick will take in this graph, likewise.
+  static double work_a_kick(const ConflictGraph& graph);
 
  private:
   void solve_exactly(std::int64_t nodes, const Deadline& deadline);
   void anneal(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline);
+  void recombine(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline);
+  IndependentSet cool(Annealing& search, const Cooling& cooling, std::int64_t kicks_a_vertex, const Deadline& deadline);
+  void choose(const IndependentSet& set);
 
   Way way_ = Way::exact;
   Fragment fragment_;

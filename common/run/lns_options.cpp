@@ -17,6 +17,10 @@ void declare_lns_options(CLI::App& app, LnsOptions& options, TargetOptions& targ
   app.add_option("--annealed-fragment", options.annealed_fragment,
                  "Vertices of the larger fragments that are annealed in between; 0: none are")
       ->check(CLI::Range(0, 1000000).description(""));
+  app.add_option(
+         "--recombined-fragment", options.recombined_fragment,
+         "Vertices of fragments that are annealed from nothing, and recombined with what is chosen; 0: none are")
+      ->check(CLI::Range(0, 1000000).description(""));
   app.add_option("--batch", options.batch,
                  "Fragments in a round, which are solved in parallel and put together in order")
       ->check(CLI::Range(1, 10000).description(""));

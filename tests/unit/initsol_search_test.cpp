@@ -154,6 +154,18 @@ TEST(Initsol, MoreStartsAreNotWorse) {
   }
 }
 
+TEST(Initsol, PutsStartsTogether) {
+  Random random(12);
+  const ConflictGraph graph = hexpipe::testing::random_clique_graph(3000, 900, 1000, random);
+  const InitsolOptions two{.starts = 2, .iterations = 20000};
+  std::int64_t better_than_best = 0;
+  const InitsolResult both = find_initial_solution(graph, {}, two, no_deadline,
+                                                   [&](const InitsolProgress& now) { better_than_best = now.weight; });
+  EXPECT_GT(both.weight, better_than_best) << "reported is the better of the two";
+  EXPECT_NO_THROW(validate(both.solution, graph, "solution"));
+  EXPECT_EQ(total_weight(both.solution, graph), both.weight);
+}
+
 TEST(Initsol, StopsAtItsDeadline) {
   Random random(8);
   const ConflictGraph graph = hexpipe::testing::random_graph(300, 0.1, 1000, random);

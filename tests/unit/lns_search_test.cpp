@@ -178,7 +178,7 @@ TEST(FragmentGrower, LetsGoOfFragmentsInAnyOrder) {
 
 TEST(Effort, FollowsTheYield) {
   constexpr double work = 1e8;
-  Effort effort(0.2);
+  Effort effort({Way::exact, Way::anneal});
   EXPECT_EQ(effort.share_of(Way::exact), 0.5);
   const auto share_done = [&](double exact_gain, double anneal_gain) {
     int exact = 0;
@@ -194,7 +194,23 @@ TEST(Effort, FollowsTheYield) {
   EXPECT_NEAR(share_done(1, 100), 20, 10);
 }
 
-TEST(Repair, NeverLosesInEitherWay) {
+TEST(Effort, SharesAmongTheWaysItIsGiven) {
+  Effort all, alone({Way::recombine});
+  EXPECT_NEAR(all.share_of(Way::exact) + all.share_of(Way::anneal) + all.share_of(Way::recombine), 1, 1e-12);
+  EXPECT_EQ(alone.next(), Way::recombine);
+  EXPECT_NEAR(alone.share_of(Way::recombine), 1, 1e-12);
+  std::array<int, all_ways.size()> done{};
+  for (int i = 0; i < 300; ++i) {
+    const Way way = all.next();
+    ++done[static_cast<std::size_t>(way)];
+    all.record(way, 1e8, way == Way::recombine ? 100 : 0);
+  }
+  EXPECT_GT(done[static_cast<std::size_t>(Way::recombine)], 150);
+  EXPECT_GT(done[static_cast<std::size_t>(Way::exact)], 20);
+  EXPECT_GT(done[static_cast<std::size_t>(Way::anneal)], 20);
+}
+
+TEST(Repair, NeverLosesInAnyWay) {
   Random random(11);
   for (int i = 0; i < 40; ++i) {
     const ConflictGraph graph = hexpipe::testing::random_clique_graph(200, 150, 1000, random);
@@ -277,8 +293,11 @@ TEST(Lns, TakesTheExtremes) {
   std::vector<std::int64_t> weights{5000};
   for (std::int32_t v = 1; v <= 6000; ++v) spokes.emplace_back(0, v), weights.push_back(1);
   const ConflictGraph star = make_graph(weights, spokes);
-  EXPECT_EQ(improve_by_lns(star, {0}, {.iterations = 20, .annealed_fragment = 0, .reduce = false}, no_deadline).weight,
-            5000);
+  EXPECT_EQ(
+      improve_by_lns(star, {0}, {.iterations = 20, .annealed_fragment = 0, .recombined_fragment = 0, .reduce = false},
+                     no_deadline)
+          .weight,
+      5000);
   for (const bool reduce : {false, true})
     EXPECT_EQ(improve_by_lns(star, {0}, {.iterations = 40, .reduce = reduce}, no_deadline).weight, 6000);
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/mwis/recombination.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe {
@@ -18,7 +19,7 @@ constexpr std::int64_t least_rounds = 100;
 IndependentSet start_solution(const ConflictGraph& graph, std::vector<double> merits, const InitsolOptions& options,
                               std::int64_t index) {
   if (index > 0) {
-    Random random(options.seed, static_cast<std::uint64_t>(index));
+    Random random(options.seed, static_cast<std::uint64_t>(2 * index));
     for (double& merit : merits) merit *= random.uniform(0.8, 1.2);
   }
   return greedy(graph, merits);
@@ -49,8 +50,9 @@ class TabuStart : public Search {
 
 class AnnealedStart : public Search {
  public:
-  AnnealedStart(const ConflictGraph& graph, const IndependentSet& start, const InitsolOptions& options, Random random)
-      : cooling_(options.cooling), search_(graph, start, random), unit_(search_.mean_weight()) {}
+  AnnealedStart(const ConflictGraph& graph, const IndependentSet& start, const InitsolOptions& options, Random random,
+                const Deadline& deadline)
+      : cooling_(options.cooling), search_(graph, start, random, deadline), unit_(search_.mean_weight()) {}
   void run(std::int64_t moves, double progress, const Deadline& deadline) override {
     search_.run(moves, unit_ * cooling_.at(progress), deadline);
   }
@@ -65,9 +67,16 @@ class AnnealedStart : public Search {
 };
 
 std::unique_ptr<Search> make_search(const ConflictGraph& graph, const IndependentSet& start,
-                                    const InitsolOptions& options, Random random) {
+                                    const InitsolOptions& options, Random random, const Deadline& deadline) {
   if (options.method == Method::tabu) return std::make_unique<TabuStart>(graph, start, options, random);
-  return std::make_unique<AnnealedStart>(graph, start, options, random);
+  return std::make_unique<AnnealedStart>(graph, start, options, random, deadline);
+}
+
+// The best parts of all: two starts of random-33k differ by 0.1 to 0.3 %, and together gain 0.1 %.
+IndependentSet recombined(const ConflictGraph& graph, const std::vector<std::unique_ptr<Search>>& searches) {
+  IndependentSet set = searches.front()->best();
+  for (std::size_t i = 1; i < searches.size(); ++i) set = recombine(graph, searches[i]->best(), set);
+  return set;
 }
 
 double progress_of(std::int64_t done, const InitsolOptions& options, const Deadline& deadline) {
@@ -93,9 +102,9 @@ InitsolResult find_initial_solution(const ConflictGraph& graph, std::span<const 
 
   std::vector<std::unique_ptr<Search>> searches(static_cast<std::size_t>(options.starts));
   parallel_for(options.starts, 1, [&](std::int64_t i) {
-    // Streams 0, 1, ... of the seed make the starts, the ones after them search.
-    const Random random(options.seed, static_cast<std::uint64_t>(options.starts + i));
-    searches[i] = make_search(graph, start_solution(graph, vertex_merits, options, i), options, random);
+    // Even streams of the seed make the starts, odd ones search.
+    const Random random(options.seed, static_cast<std::uint64_t>(2 * i + 1));
+    searches[i] = make_search(graph, start_solution(graph, vertex_merits, options, i), options, random, deadline);
   });
   const auto leader = [&] {
     return std::ranges::max_element(searches, {}, [](const auto& search) { return search->best_weight(); })->get();
@@ -114,7 +123,7 @@ InitsolResult find_initial_solution(const ConflictGraph& graph, std::span<const 
     if (std::ranges::all_of(searches, [&](const auto& search) { return search->moves() < done; })) break;
   }
   for (const auto& search : searches) result.iterations += search->moves();
-  SolutionState best(graph, leader()->best());
+  SolutionState best(graph, recombined(graph, searches));
   best.make_maximal();  // with vertices of weight 0
   result.solution = best.to_set();
   result.weight = best.weight();

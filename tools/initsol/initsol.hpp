@@ -1,5 +1,5 @@
 #pragma once
-// A first solution: greedy, then a search, from one or several starts of which the best is kept.
+// A first solution: greedy, then a search, from one or several starts whose results are recombined.
 
 #include <cstdint>
 #include <functional>

@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
         app.add_option("--patience", options.tabu.patience,
                        "Tabu search: moves without a better solution before the way out")
             ->check(CLI::Range(1, 1000000000).description(""))};
-    app.add_option("--starts", options.starts, "Searches from different starts, of which the best is kept")
+    app.add_option("--starts", options.starts, "Searches from different starts, whose results are recombined")
         ->check(CLI::Range(1, 1000).description(""));
   };
   const auto run = [&](RunContext& context) {

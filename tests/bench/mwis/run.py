@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""run.py [--seconds S] [--threads N] [--seeds N] [--chils FILE] [--learn-and-reduce FILE] GRAPH... - hexpipe and its peers.
+"""run.py [--seconds S] [--threads N] [--seeds N] [--only WORD] [PEER...] GRAPH... - hexpipe and its peers.
 
 Every solver gets the same METIS graph (plain or .zst), the same threads and the same CPU seconds for each of them: their
 clocks are those of cpu_clock.c, preloaded, so that the figures do not depend on what else the machine does. A table for
@@ -13,6 +13,9 @@ with a word when it is not there:
   CHILS                    --chils FILE, or CHILS in the environment; https://github.com/KarlsruheMIS/CHILS
   LearnAndReduce + CHILS   --learn-and-reduce FILE (its reduce_and_chils), or LEARN_AND_REDUCE in the environment;
                            https://github.com/KarlsruheMIS/LearnAndReduce; half of the time is for reductions
+  GNN-VC, DynWVC2, FastWVC, HILS
+                           --gnn-mwvc FOLDER, or GNN_MWVC in the environment; https://github.com/KennethLangedal/GNN-MWVC.
+                           They have one thread, and so get the time of all
 Published figures for the graphs of ../shared/graphs (40 CPU s, one thread, one seed; its README.md) stand below them.
 Without graphs it takes these three.
 """
@@ -102,11 +105,35 @@ class Bench:
                                       f"--chils_time_limit={half}", "--chils_n_solutions=4"])
         return Run([None, None], int(out.strip().splitlines()[-1].split(",")[-2]), cpu, memory)
 
+    def cover(self, graph, command, field):
+        """A solver that prints a line of fields, one of which is the weight of the vertices it leaves out."""
+        out, cpu, memory = self.call([self.options.gnn_mwvc / command[0], *command[1:]])
+        return Run([None, None], weight_of_all(graph) - int(out.strip().splitlines()[-1].split(",")[field]), cpu, memory)
+
+    def gnn_vc(self, graph, seed):
+        return self.cover(graph, ["GNN_VC", graph, self.folder / "cover", f"{self.options.seconds:g}", -1, 0], 2)
+
+    def dyn_wvc(self, graph, seed):
+        return self.cover(graph, ["DynWVC2", graph, seed, round(self.options.seconds), 0], 1)
+
+    def fast_wvc(self, graph, seed):
+        return self.cover(graph, ["FastWVC", graph, seed, round(self.options.seconds), 0], 1)
+
+    def hils(self, graph, seed):
+        out, cpu, memory = self.call([self.options.gnn_mwvc / "HILS", "-T", self.options.seconds, "-i", 10 ** 9, f"-s{seed}",
+                                      graph])
+        return Run([None, None], int(out.strip().splitlines()[-1].split(",")[1]), cpu, memory)
+
     def bound(self, graph):
-        stats = self.folder / "certify.json"
-        self.call([self.options.bin / "certify", "--graph", graph, "--solution", self.folder / "best.sol", "--stats", stats,
+        stats, solution = self.folder / "certify.json", self.folder / "best.sol"
+        if not solution.exists():  # ours was not among those asked for
+            self.call([self.options.bin / "initsol", "--graph", graph, "--iterations", 0, "-o", solution])
+        self.call([self.options.bin / "certify", "--graph", graph, "--solution", solution, "--stats", stats,
                    "--time-limit", self.options.seconds, "-o", self.folder / "certified.sol"])
         return json.load(open(stats))["bound"]
+
+    def chosen_solvers(self):
+        return [(name, solve) for name, solve in self.solvers() if self.options.only in name]
 
     def solvers(self):
         options = self.options
@@ -118,6 +145,17 @@ class Bench:
             yield "CHILS -p 4 -s 1", lambda graph, seed: self.chils(graph, seed, "-p", 4, "-s", 1)
         if options.learn_and_reduce:
             yield "LearnAndReduce + CHILS", self.learn_and_reduce
+        if options.gnn_mwvc:
+            yield "GNN-VC", self.gnn_vc
+            yield "DynWVC2", self.dyn_wvc
+            yield "FastWVC", self.fast_wvc
+            yield "HILS", self.hils
+
+
+def weight_of_all(graph):
+    with open(graph) as file:
+        next(file)
+        return sum(int(line.split(maxsplit=1)[0]) for line in file)
 
 
 def plain_file(graph, folder):
@@ -168,12 +206,14 @@ def parse_options():
     parser.add_argument("--bin", type=pathlib.Path, default=os.environ.get("HEXPIPE_BIN", ROOT / "build/bin"))
     parser.add_argument("--chils", type=pathlib.Path, default=os.environ.get("CHILS"))
     parser.add_argument("--learn-and-reduce", type=pathlib.Path, default=os.environ.get("LEARN_AND_REDUCE"))
+    parser.add_argument("--gnn-mwvc", type=pathlib.Path, default=os.environ.get("GNN_MWVC"))
+    parser.add_argument("--only", default="", help="the solvers whose names hold this word")
     options = parser.parse_args()
     options.bin = pathlib.Path(options.bin).resolve()
-    for peer in ("chils", "learn_and_reduce"):
+    for peer in ("chils", "learn_and_reduce", "gnn_mwvc"):
         path = getattr(options, peer)
-        if path is None or not pathlib.Path(path).is_file():
-            print(f"skipped: {peer.replace('_', '-')}: " + (f"no file {path}" if path else "not given"))
+        if path is None or not pathlib.Path(path).exists():
+            print(f"skipped: {peer.replace('_', '-')}: " + (f"no {path}" if path else "not given"))
             setattr(options, peer, None)
     return options
 
@@ -189,7 +229,7 @@ def main():
             bench = Bench(options, folder)
             plain = plain_file(graph, folder)
             rows = {solver: mean([solve(plain, seed) for seed in range(1, options.seeds + 1)])
-                    for solver, solve in bench.solvers()}
+                    for solver, solve in bench.chosen_solvers()}
             print_table(plain.stem, rows, bench.bound(plain), options.seconds)
 
 

@@ -1,0 +1,13 @@
+#pragma once
+// Two independent sets put together into the heaviest one among their vertices. What only one of them holds is a
+// bipartite graph, so a minimum cut finds its best set exactly (optimal recombination: Aggarwal, Orlin, Tai 1997; for
+// conflict graphs: Haller and Savchynskyy 2024).
+
+#include "common/graph/conflict_graph.hpp"
+
+namespace hexpipe {
+
+// Not lighter than either; that of `b` where both weigh the same. It need not be maximal.
+IndependentSet recombine(const ConflictGraph& graph, const IndependentSet& a, const IndependentSet& b);
+
+}  // namespace hexpipe
