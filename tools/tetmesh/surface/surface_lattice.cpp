@@ -1,8 +1,8 @@
 // Periodic coordinates, as on the nodes of a volume (lattice_field.hpp): two complex numbers a triangle, exp(2 pi i
 // coordinate of its centre) along its two directions, that turn by the distance from one triangle to the next (Ray, Li,
-// Lévy, Sheffer, Alliez: Periodic global parameterization, 2006, without their correction of the field's curl). Feature
-// edges and the points on them hold the numbers beside them. Every triangle proposes the points of the lattice that it
-// sees; those that see the same one agree on its place.
+// Lévy, Sheffer, Alliez: Periodic global parameterization, 2006). Feature edges and the points on them hold the numbers
+// beside them. Every triangle proposes the points of the lattice that it sees; those that see the same one agree on its
+// place.
 
 #include "tools/tetmesh/surface/surface_lattice.hpp"
 
@@ -15,9 +15,8 @@
 #include <numeric>
 
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/curl_correction.hpp"
-#include "tools/tetmesh/periodic_numbers.hpp"
 #include "tools/tetmesh/sized_point_grid.hpp"
+#include "tools/tetmesh/surface/surface_links.hpp"
 
 namespace hexpipe {
 namespace {
@@ -41,17 +40,6 @@ Complex turn_by(double sizes) {
   return std::polar(1.0, 2 * std::numbers::pi * sizes);
 }
 
-// What a triangle sees of a neighbour: its direction k is direction k there, or the other one where crossed, turned
-// round where flipped, and `distance[k]` further on.
-struct Link {
-  std::array<double, 2> distance{};  // in sizes
-  Phases turn;                       // by these
-  std::array<bool, 2> flipped{};
-  bool crossed = false;
-  std::int32_t neighbour = -1;
-  double weight = 0;
-};
-
 struct Proposal {
   SurfacePoint point;
   double trust = 0;
@@ -60,7 +48,7 @@ struct Proposal {
 class SurfaceLattice {
  public:
   SurfaceLattice(const FieldSurface& surface, const CrossField& field, const SizeField& size)
-      : surface_(surface), field_(field), walker_(surface, field), links_(surface.twins.size()) {
+      : surface_(surface), field_(field), walker_(surface, field) {
     const std::size_t count = surface.triangles.size();
     for (const auto& [a, b, c] : surface.triangles) {
       centres_.push_back((surface.points[a] + surface.points[b] + surface.points[c]) * (1.0 / 3));
@@ -74,8 +62,7 @@ class SurfaceLattice {
   }
 
   std::vector<SurfacePoint> points(std::span<const Vertex> kept) {
-    make_links();
-    correct_curl();
+    link();
     make_anchors(kept);
     diffuse();
     reach_the_rest();
@@ -99,18 +86,7 @@ class SurfaceLattice {
     parallel_for(static_cast<std::int64_t>(centres_.size()), 512,
                  [&](std::int64_t f) { body(static_cast<std::int32_t>(f)); });
   }
-  void make_links();
-  Link make_link(HalfEdge h) const;
-  void correct_curl();
-  void add_loops(HalfEdge first, Loops& loops) const;
-  static std::int32_t number_of(HalfEdge h, std::size_t axis) { return 2 * h + static_cast<std::int32_t>(axis); }
-  static Link reversed(const Link& link, std::int32_t from);
-  // Calls body(h) for one half-edge of each pair with links.
-  template <class Body>
-  void for_each_pair(Body&& body) const {
-    for (HalfEdge h = 0; h < static_cast<HalfEdge>(links_.size()); ++h)
-      if (links_[h].neighbour >= 0 && h < surface_.twins[h]) body(h);
-  }
+  void link();
   void make_anchors(std::span<const Vertex> kept);
   void pull(std::int32_t f, std::size_t axis, double weight, double coordinate);
   Phases seen_through(HalfEdge h, const std::vector<Phases>& phases) const;
@@ -129,119 +105,22 @@ class SurfaceLattice {
   double greatest_size_;
   std::vector<Vec3> centres_;
   std::vector<double> sizes_;
-  std::vector<Link> links_;      // of half-edges; none beyond a feature
-  std::vector<double> degrees_;  // sums of the weights of links
+  std::vector<SurfaceLink> links_;  // of half-edges; none beyond a feature
+  std::vector<double> degrees_;     // sums of the weights of links
   std::vector<std::array<double, 2>> pulls_;
   std::vector<Phases> targets_;  // times the pulls
   std::vector<Phases> phases_;
   std::vector<Proposal> proposals_;
 };
 
-void SurfaceLattice::make_links() {
+void SurfaceLattice::link() {
+  links_ = surface_links(surface_, field_, centres_, sizes_);
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(links_.size()); ++h) {
-    const HalfEdge twin = surface_.twins[h];
-    if (surface_.feature[h] || twin < h) continue;
-    links_[h] = make_link(h);
-    links_[twin] = reversed(links_[h], triangle_of(h));
+    if (h > surface_.twins[h]) continue;
     degrees_[triangle_of(h)] += links_[h].weight;
-    degrees_[triangle_of(twin)] += links_[h].weight;
+    degrees_[triangle_of(surface_.twins[h])] += links_[h].weight;
   }
   for (double& degree : degrees_) degree = std::max(degree, 1e-9);
-}
-
-Link SurfaceLattice::reversed(const Link& link, std::int32_t from) {
-  Link back;
-  back.neighbour = from;
-  back.weight = link.weight;
-  back.crossed = link.crossed;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const std::size_t there = link.crossed ? 1 - k : k;
-    back.flipped[there] = link.flipped[k];
-    back.distance[there] = link.flipped[k] ? link.distance[k] : -link.distance[k];
-    back.turn[there] = turn_by(back.distance[there]);
-  }
-  return back;
-}
-
-// Distances that add up around vertices, as far as directions do.
-void SurfaceLattice::correct_curl() {
-  std::vector<double> distances(2 * links_.size());
-  for_each_pair([&](HalfEdge h) {
-    for (std::size_t k = 0; k < 2; ++k) distances[number_of(h, k)] = links_[h].distance[k];
-  });
-  Loops loops;
-  std::vector<bool> seen(surface_.points.size());
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(links_.size()); ++h) {
-    const Vertex v = start_of(surface_.triangles, h);
-    if (seen[v]) continue;
-    seen[v] = true;
-    add_loops(h, loops);
-  }
-  const std::vector<double> correction = curl_correction(distances, loops);
-  for_each_pair([&](HalfEdge h) {
-    Link& link = links_[h];
-    const std::int32_t f = triangle_of(h);
-    const double longest = most_strain * norm(centres_[f] - centres_[link.neighbour]) / sizes_[f];
-    for (std::size_t k = 0; k < 2; ++k) {
-      link.distance[k] += std::clamp(correction[number_of(h, k)], -longest, longest);
-      link.turn[k] = turn_by(link.distance[k]);
-    }
-    links_[surface_.twins[h]] = reversed(link, f);
-  });
-}
-
-// Around the start of a half-edge, along both directions of its triangle, unless a feature is in the way or they are
-// not the same at the end.
-void SurfaceLattice::add_loops(HalfEdge first, Loops& loops) const {
-  for (std::size_t k = 0; k < 2; ++k) {
-    std::size_t axis = k;
-    bool flipped = false;
-    HalfEdge h = first;
-    do {
-      const Link& link = links_[h];
-      if (link.neighbour < 0 || link.weight <= 0) return loops.drop();
-      const HalfEdge twin = surface_.twins[h];
-      const std::size_t there = link.crossed ? 1 - axis : axis;
-      const bool turned = flipped != link.flipped[axis];
-      if (h < twin)
-        loops.add_step(number_of(h, axis), flipped);
-      else
-        loops.add_step(number_of(twin, there), !turned);
-      axis = there;
-      flipped = turned;
-      h = next_in_triangle(twin);
-    } while (h != first);
-    if (axis != k || flipped) return loops.drop();
-    loops.close();
-  }
-}
-
-// Of the triangle of h, to that beyond it, as both lie unfolded.
-Link SurfaceLattice::make_link(HalfEdge h) const {
-  const HalfEdge twin = surface_.twins[h];
-  const std::int32_t f = triangle_of(h), g = triangle_of(twin);
-  const auto here = directions(f), there = directions(g);
-  const Vec3 side = surface_.edge_vector(h);
-  const Vec3 along = side * (1 / norm(side)), &inward = surface_.inward(h), &beyond = surface_.inward(twin);
-  const Vec3 middle = surface_.points[start_of(surface_.triangles, h)] + 0.5 * side;
-  Link link;
-  link.neighbour = g;
-  double quality = 0;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const Vec3 unfolded = dot(here[k], along) * along - dot(here[k], inward) * beyond;
-    const std::array<double, 2> cosines{dot(unfolded, there[0]), dot(unfolded, there[1])};
-    if (k == 0) link.crossed = std::abs(cosines[1]) > std::abs(cosines[0]);
-    const std::size_t axis = link.crossed ? 1 - k : k;
-    link.flipped[k] = cosines[axis] < 0;
-    quality += std::abs(cosines[axis]) / 2;
-    const Vec3 matched = link.flipped[k] ? -there[axis] : there[axis];
-    const double distance = dot(here[k], centres_[f] - middle) + dot(matched, middle - centres_[g]);
-    link.distance[k] = distance / (0.5 * (sizes_[f] + sizes_[g]));
-    link.turn[k] = turn_by(link.distance[k]);
-  }
-  const double across = dot(centres_[f] - middle, inward) + dot(centres_[g] - middle, beyond);
-  link.weight = norm(side) / std::max(across, 1e-3 * norm(side)) * std::max(0.0, 4 * quality - 3);
-  return link;
 }
 
 void SurfaceLattice::pull(std::int32_t f, std::size_t axis, double weight, double coordinate) {
@@ -270,7 +149,7 @@ void SurfaceLattice::make_anchors(std::span<const Vertex> kept) {
 
 // The numbers of the triangle beyond h, as those of h's own would have to be.
 Phases SurfaceLattice::seen_through(HalfEdge h, const std::vector<Phases>& phases) const {
-  const Link& link = links_[h];
+  const SurfaceLink& link = links_[h];
   const Phases& theirs = phases[link.neighbour];
   Phases seen;
   for (std::size_t k = 0; k < 2; ++k) {
