@@ -1,10 +1,17 @@
 # `cpack` in the build directory makes Debian packages: hexpipe (MIT), and hexpipe-tetmesh (AGPL) apart, which the other
 # only suggests. Included last, when every component is known. What they depend on is found from the executables.
 
+# Whoever makes a package answers for it: the variables are those of Debian's own tools.
+set(maintainer "The hexpipe developers")
+if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL})
+  set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+endif()
+set(HEXPIPE_MAINTAINER "${maintainer}" CACHE STRING "Who answers for packages, as Name <address>; else DEBFULLNAME, DEBEMAIL")
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME hexpipe)
 set(CPACK_PACKAGE_VENDOR "The hexpipe developers")
-set(CPACK_PACKAGE_CONTACT "The hexpipe developers <hexpipe@localhost>")
+set(CPACK_PACKAGE_CONTACT "${HEXPIPE_MAINTAINER}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
