@@ -11,7 +11,8 @@
 
 #include "tests/fuzz/targets.hpp"
 
-// Of the sanitizers, where there are any.
+// Of the sanitizers, where there are any: with the name and the type that they give it.
+// NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming)
 extern "C" __attribute__((weak)) void __sanitizer_set_report_fd(void* descriptor);
 
 namespace hexpipe {
@@ -42,6 +43,7 @@ class HeardErrors {
  private:
   static void report_to(int descriptor) {
     if (__sanitizer_set_report_fd != nullptr)
+      // NOLINTNEXTLINE(performance-no-int-to-ptr)
       __sanitizer_set_report_fd(reinterpret_cast<void*>(static_cast<std::intptr_t>(descriptor)));
   }
 
