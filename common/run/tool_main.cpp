@@ -56,7 +56,9 @@ nlohmann::ordered_json options_for_history(const CLI::App& app, const ToolInfo& 
   nlohmann::ordered_json options = nlohmann::ordered_json::object();
   for (const CLI::Option* option : app.get_options()) {
     if (!decides_result(*option, info)) continue;
-    const std::string value = option->count() > 0 ? CLI::detail::join(option->results(), ",") : default_value(*option);
+    // Not by CLI11's join: a stream without memory cuts its text off and says nothing.
+    const std::string value =
+        option->count() > 0 ? fmt::format("{}", fmt::join(option->results(), ",")) : default_value(*option);
     if (!value.empty()) options[option->get_lnames().front()] = value;
   }
   return options;
