@@ -168,6 +168,7 @@ class GraphShares {
 
 void check_shares(const std::vector<std::string>& shares) {
   std::vector<std::string> wanted;
+  wanted.reserve(shares.size());
   for (std::size_t i = 1; i <= shares.size(); ++i) wanted.push_back(fmt::format("{}/{}", i, shares.size()));
   if (shares != wanted)
     throw DataError(fmt::format("expected the parts {} to {} in order, found {}", wanted.front(), wanted.back(),

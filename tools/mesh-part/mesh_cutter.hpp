@@ -1,7 +1,6 @@
 #pragma once
 // Cuts the parts of a partition out of a mesh, with the tets around them.
 
-#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -40,7 +39,9 @@ class MeshCutter {
 
   struct TriangleAtTet {
     std::int32_t tet, triangle;
-    auto operator<=>(const TriangleAtTet&) const = default;
+    bool operator<(const TriangleAtTet& other) const {
+      return tet != other.tet ? tet < other.tet : triangle < other.triangle;
+    }
   };
   // Items by part.
   struct Lists {
