@@ -1,14 +1,13 @@
 #include "tools/lns-mpi/piece.hpp"
 
-#include "tools/lns-mpi/fingerprint.hpp"
-
 #include <tsl/robin_set.h>
 
 #include <algorithm>
 #include <numeric>
 #include <optional>
-#include <tuple>
 #include <utility>
+
+#include "tools/lns-mpi/fingerprint.hpp"
 
 namespace hexpipe {
 namespace {
@@ -86,6 +85,7 @@ std::vector<Reach> find_near_blocks(Ranks& ranks, const BlockOwners& owners, con
         }
       }
     std::vector<Bytes> bytes;
+    bytes.reserve(to.size());
     for (Packer& packer : to) bytes.push_back(packer.take());
     for (const Bytes& from : ranks.exchange(std::move(bytes)))
       for (Unpacker unpacker(from); !unpacker.at_end();) {
@@ -156,6 +156,7 @@ std::vector<Bytes> pack_halos(const Ranks& ranks, const BlockOwners& owners, con
     }
   }
   std::vector<Bytes> packed;
+  packed.reserve(to.size());
   for (Held& held : to) packed.push_back(held.pack());
   return packed;
 }
