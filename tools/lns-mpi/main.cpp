@@ -18,7 +18,11 @@ void run_on_all_ranks(RunContext& context, const JobOptions& options) {
   Ranks ranks;
   try {
     run_job(ranks, context, options);
-  } catch (const ErrorOfAll&) {
+  } catch (const ErrorOfAll& error) {
+    // The first rank that ends with an error makes mpirun end the others: all wait until one of them has said why.
+    print_message(fmt::format("{}: {}\n", context.info.name, error.what()));
+    ranks.together([] {});
+    silence_messages(true);
     throw;
   } catch (const std::exception& error) {
     silence_messages(false);
