@@ -1,5 +1,5 @@
-# `cpack` in the build directory makes Debian packages: hexpipe (MIT), and hexpipe-tetmesh (AGPL) apart, which the other
-# only suggests. Included last, when every component is known. What they depend on is found from the executables.
+# `cpack` in the build directory makes Debian packages: hexpipe (MIT), and apart from it hexpipe-tetmesh (AGPL) and
+# hexpipe-mpi (MIT, needs MPI), which it only suggests. Included last, when every component is known. What they depend on is found from the executables.
 
 # Whoever makes a package answers for it: the variables are those of Debian's own tools.
 set(maintainer "The hexpipe developers")
@@ -29,7 +29,7 @@ set(CPACK_COMPONENT_HEXPIPE_DESCRIPTION
  A pipeline of small tools that finds every way to merge tetrahedra into
  hexahedra, chooses the best set of them that fit together as a maximum weight
  independent set, and builds a conforming mesh for finite elements.")
-set(CPACK_DEBIAN_HEXPIPE_PACKAGE_SUGGESTS hexpipe-tetmesh)
+set(CPACK_DEBIAN_HEXPIPE_PACKAGE_SUGGESTS "hexpipe-tetmesh, hexpipe-mpi")
 
 if(WITH_TETGEN)
   list(APPEND CPACK_COMPONENTS_ALL hexpipe-tetmesh)
@@ -39,5 +39,15 @@ if(WITH_TETGEN)
  Fills a surface (STL, OBJ, PLY, OFF) with tetrahedra whose vertices lie so that
  they merge into hexahedra. It links TetGen and so is under the AGPL, version 3.")
   set(CPACK_DEBIAN_HEXPIPE-TETMESH_PACKAGE_RECOMMENDS hexpipe)
+endif()
+
+if(TARGET lns-mpi)
+  list(APPEND CPACK_COMPONENTS_ALL hexpipe-mpi)
+  set(CPACK_DEBIAN_HEXPIPE-MPI_PACKAGE_NAME hexpipe-mpi)
+  set(CPACK_COMPONENT_HEXPIPE-MPI_DESCRIPTION
+"The search of hexpipe on many machines
+ Improves a choice of candidates by large neighbourhood search over MPI, on a graph
+ that may be too large for one machine.")
+  set(CPACK_DEBIAN_HEXPIPE-MPI_PACKAGE_RECOMMENDS "hexpipe, openmpi-bin")
 endif()
 include(CPack)
