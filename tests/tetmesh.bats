@@ -220,7 +220,7 @@ PYTHON
 }
 
 @test "the same tessellation out of the axes, where TetGen fails in some orders of its input" {
-  for turn in 6 7 9 12; do
+  for turn in 1 2 3 4; do
     $PYTHON - "$DATA/plate-holes.stl" $turn >turned.obj <<'PYTHON'
 import sys
 import numpy as np
