@@ -29,19 +29,7 @@ on() {
 
 # start_long OPTIONS...: one of two ranks that takes minutes; $job is mpirun. Goes on when the search has begun.
 start_long() {
-  "$PYTHON" - >ring.graph <<'PYTHON'
-import random
-rng = random.Random(1)
-n = 1000
-rows = [[] for _ in range(n)]
-for a in range(n):
-    for b in range(a + 1, n):
-        if rng.random() < 0.02:
-            rows[a].append(b + 1), rows[b].append(a + 1)
-print(n, sum(map(len, rows)) // 2, 10)
-for row in rows:
-    print(rng.randint(1, 1000), *row)
-PYTHON
+  "$PYTHON" "$DATA/random_graph.py" 1000 >ring.graph
   initsol ring.graph --iterations 0 -o start.sol
   rm -f log.jsonl out.sol
   mpirun --oversubscribe -n 2 lns-mpi --graph ring.graph --solution start.sol --iterations 100000000 \

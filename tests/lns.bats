@@ -194,19 +194,7 @@ PYTHON
 
 @test "a signal writes the best so far and ends with 0" {
   # Dense and without structure, so that the search does not end by itself.
-  "$PYTHON" - >hard.graph <<'PYTHON'
-import random
-rng = random.Random(1)
-n = 1500
-rows = [[] for _ in range(n)]
-for a in range(n):
-    for b in range(a + 1, n):
-        if rng.random() < 0.02:
-            rows[a].append(b + 1), rows[b].append(a + 1)
-print(n, sum(map(len, rows)) // 2, 10)
-for row in rows:
-    print(rng.randint(1, 1000), *row)
-PYTHON
+  "$PYTHON" "$DATA/random_graph.py" 1500 >hard.graph
   initsol hard.graph --iterations 0 -o hard.sol
   for signal in INT TERM; do
     lns --graph hard.graph --solution hard.sol --time-limit 60 -o out.sol --log log.jsonl 3>&- &
