@@ -12,7 +12,16 @@ if(HEXPIPE_SANITIZE)
     -fsanitize=${HEXPIPE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
     # The sanitizers' instructions make g++ see uses of uninitialized values where there are none (in OpenMesh).
     -Wno-maybe-uninitialized)
+  if(NOT HEXPIPE_FUZZ)
+    # Left to the fuzzers, for everything compiles a quarter faster: accesses by null end in the address sanitizer anyway.
+    target_compile_options(hexpipe_flags INTERFACE -fno-sanitize=null,vptr,object-size)
+  endif()
   target_link_options(hexpipe_flags INTERFACE -fsanitize=${HEXPIPE_SANITIZE})
+endif()
+
+# Under the sanitizers, what takes options apart or tests takes half as long to compile without optimization.
+if(HEXPIPE_SANITIZE AND NOT HEXPIPE_FUZZ)
+  set(HEXPIPE_QUICK_COMPILE -O0)
 endif()
 
 # hexpipe_library(NAME SOURCES... [LINK LIBS...])
@@ -28,6 +37,7 @@ endfunction()
 function(hexpipe_tool name)
   cmake_parse_arguments(arg "" "COMPONENT" "SOURCES;LINK" ${ARGN})
   add_executable(${name} main.cpp)
+  set_source_files_properties(main.cpp PROPERTIES COMPILE_OPTIONS "${HEXPIPE_QUICK_COMPILE}")
   if(arg_SOURCES)
     hexpipe_library(${name}_core SOURCES ${arg_SOURCES} LINK ${arg_LINK})
     target_link_libraries(${name} PRIVATE ${name}_core)

@@ -10,6 +10,13 @@
 
 namespace hexpipe {
 
+// The finalizer of splitmix64 (Steele, Lea, Flood 2014): one to one, and every bit of x moves every bit of the result.
+constexpr std::uint64_t mix(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
 class Random {
  public:
   explicit Random(std::uint64_t seed) {
@@ -53,12 +60,7 @@ class Random {
  private:
   __extension__ using Wide = unsigned __int128;
 
-  static std::uint64_t splitmix(std::uint64_t& x) {
-    std::uint64_t z = (x += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+  static std::uint64_t splitmix(std::uint64_t& x) { return mix(x += 0x9e3779b97f4a7c15u); }
 
   std::array<std::uint64_t, 4> state_;
 };

@@ -14,12 +14,14 @@
 #include "tests/fuzz/tool_run.hpp"
 
 // Each is the main() of a tool: CMakeLists.txt.
+extern "C" {
 int findhex_main(int argc, char** argv);
 int buildgraph_main(int argc, char** argv);
 int initsol_main(int argc, char** argv);
 int lns_main(int argc, char** argv);
 int certify_main(int argc, char** argv);
 int assemble_main(int argc, char** argv);
+}
 
 namespace hexpipe {
 namespace {

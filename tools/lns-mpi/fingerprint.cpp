@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "common/run/random.hpp"
+
 namespace hexpipe {
 namespace {
 

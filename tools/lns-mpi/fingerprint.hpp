@@ -9,13 +9,6 @@
 
 namespace hexpipe {
 
-// The finalizer of splitmix64 (Steele, Lea, Flood 2014).
-constexpr std::uint64_t mix(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
 // Of vertices, weights, edges and blocks of all ranks together.
 std::uint64_t fingerprint_of(Ranks& ranks, const OwnedRows& rows);
 
