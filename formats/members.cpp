@@ -70,6 +70,11 @@ void visit_members_of_solution(Set& solution, Visit&& visit) {
   visit("solution/chosen.npy", solution);
 }
 
+template <class Gaps, class Visit>
+void visit_members_of_gaps(Gaps& gaps, Visit&& visit) {
+  visit("solution/gaps.npy", gaps);
+}
+
 template <class Mesh, class Visit>
 void visit_members_of_result(Mesh& mesh, Visit&& visit) {
   visit("result/points.npy", mesh.points);
@@ -151,6 +156,7 @@ bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy, bool
       break;
     case Role::solution:
       visit_members_of_solution(ensure(data.solution), take);
+      if (reader.name() == "solution/gaps.npy") visit_members_of_gaps(ensure(data.gaps), take);
       break;
     case Role::result:
       visit_members_of_result(ensure(data.result), take);
@@ -225,6 +231,9 @@ void write_members(BundleWriter& writer, const CliqueCover& cover) {
 }
 void write_members(BundleWriter& writer, const IndependentSet& solution) {
   visit_members_of_solution(solution, writing_to(writer));
+}
+void write_gap_members(BundleWriter& writer, const std::vector<std::int64_t>& gaps) {
+  visit_members_of_gaps(gaps, writing_to(writer));
 }
 void write_members(BundleWriter& writer, const MixedMesh& result) {
   visit_members_of_result(result, writing_to(writer));

@@ -30,6 +30,8 @@ void write_members(BundleWriter& writer, const Candidates& candidates);
 void write_members(BundleWriter& writer, const ConflictGraph& graph);
 void write_members(BundleWriter& writer, const CliqueCover& cover);
 void write_members(BundleWriter& writer, const IndependentSet& solution);
+// StageData::gaps.
+void write_gap_members(BundleWriter& writer, const std::vector<std::int64_t>& gaps);
 void write_members(BundleWriter& writer, const MixedMesh& result);
 
 }  // namespace hexpipe

@@ -141,6 +141,7 @@ void write_role(Role role, const StageData& data, BundleWriter& writer) {
       break;
     case Role::solution:
       write_members(writer, *data.solution);
+      if (data.gaps) write_gap_members(writer, *data.gaps);
       break;
     case Role::result:
       write_members(writer, *data.result);
@@ -166,6 +167,24 @@ struct GraphAndCover {
 void write_members(BundleWriter& writer, const GraphAndCover& product) {
   write_members(writer, product.graph);
   if (product.cover != nullptr) write_members(writer, *product.cover);
+}
+
+struct SolutionAndGaps {
+  const IndependentSet& solution;
+  const std::vector<std::int64_t>* gaps;
+};
+
+void write_members(BundleWriter& writer, const SolutionAndGaps& product) {
+  write_members(writer, product.solution);
+  if (product.gaps != nullptr) write_gap_members(writer, *product.gaps);
+}
+
+void validate_gaps(const StageData& data, const char* name) {
+  const std::size_t chosen = data.solution ? data.solution->size() : 0;
+  if (data.gaps->size() != chosen)
+    throw DataError::at(name, "expected a gap for each of the {} chosen, found {}", chosen, data.gaps->size());
+  for (const std::int64_t gap : *data.gaps)
+    if (gap < 0) throw DataError::at(name, "expected gaps of at least 0, found {}", gap);
 }
 
 // Arrays that a stage of the user's own may leave out.
@@ -390,6 +409,7 @@ void Stage::State::check(const StageData& data) const {
   }
   if (data.cover) validate(*data.cover, *data.graph, source_of(Role::graph).c_str());
   if (data.solution && data.graph) validate(*data.solution, *data.graph, source_of(Role::solution).c_str());
+  if (data.gaps) validate_gaps(data, source_of(Role::solution).c_str());
   if (data.result) validate(*data.result, source_of(Role::result).c_str());
 }
 
@@ -428,8 +448,9 @@ void Stage::write(const ConflictGraph& graph, const CandidateKeys* keys, const C
   });
 }
 
-void Stage::write(const IndependentSet& solution, const nlohmann::ordered_json& details) {
-  state_->write(solution, details, [&](Output& output) { write_solution(solution, output); });
+void Stage::write(const IndependentSet& solution, const nlohmann::ordered_json& details,
+                  const std::vector<std::int64_t>* gaps) {
+  state_->write(SolutionAndGaps{solution, gaps}, details, [&](Output& output) { write_solution(solution, output); });
 }
 
 void Stage::write(const MixedMesh& result, const nlohmann::ordered_json& details) {

@@ -25,6 +25,8 @@ struct StageData {
   std::optional<ConflictGraph> graph;
   std::optional<CliqueCover> cover;  // of the graph, for a stage that asked for it
   std::optional<IndependentSet> solution;
+  // Of the solution's vertices, what certify found of the gap to its bound at each (gap_shares.hpp).
+  std::optional<std::vector<std::int64_t>> gaps;
   std::optional<MixedMesh> result;
   // Where the mesh is a part of another, for a stage that asked for it.
   std::optional<MeshPart> part;
@@ -67,7 +69,9 @@ class Stage {
   // With what belongs to it, in a bundle only: candidates that were held back and their keys, a clique cover.
   void write(const ConflictGraph& graph, const CandidateKeys* keys, const Candidates* candidates,
              const CliqueCover* cover, const nlohmann::ordered_json& details);
-  void write(const IndependentSet& solution, const nlohmann::ordered_json& details);
+  // With the gap at its vertices in a bundle, where that is known.
+  void write(const IndependentSet& solution, const nlohmann::ordered_json& details,
+             const std::vector<std::int64_t>* gaps = nullptr);
   void write(const MixedMesh& result, const nlohmann::ordered_json& details);
 
  private:

@@ -84,6 +84,23 @@ PYTHON
   [ -f solution/chosen.npy ]
 }
 
+@test "assemble reports weight, bound and gap, unless the graph is another" {
+  findhex --mesh "$DATA/jittered_lattice.mesh" | buildgraph | initsol --iterations 100 | certify --iterations 10 -o chosen.tar
+  assemble chosen.tar -v --stats stats.json -o mesh.tar 2>log
+  tar xf mesh.tar
+  "$PYTHON" - <<'PYTHON'
+import glob, json
+certified = json.load(open(glob.glob("history/*certify.json")[0]))
+choice = {key: certified[key] for key in ("weight", "bound", "gap")}
+assert json.load(open("stats.json"))["choice"] == choice
+assert json.load(open(glob.glob("history/*assemble.json")[0]))["choice"] == choice
+assert f"the choice weighs {choice['weight']}, at most {choice['bound']} is possible" in open("log").read()
+PYTHON
+  buildgraph chosen.tar --weight count -o other.graph
+  assemble chosen.tar --graph other.graph --stats stats.json -o mesh.vtu
+  assert_equal "$(grep -c '"choice"' stats.json)" 0
+}
+
 @test "what is no solution is refused" {
   seq 3000 >all.sol
   assert_fails_with 1 "certify: all.sol: .*neighbours" certify --graph ring.graph --solution all.sol -o out.sol

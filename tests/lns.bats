@@ -94,7 +94,7 @@ PYTHON
 @test "--target-gap ends the search at a bound that is given or that certify proved" {
   initsol ring.graph --iterations 0 --greedy weight | certify -o proven.tar --stats bound.json
   lns proven.tar --no-reductions --target-gap 0.08 --time-limit 100 --stats stats.json -o bundle.sol
-  lns --graph ring.graph --solution start.sol --no-reductions --target-gap 0.08 --time-limit 100 -o given.sol \
+  lns proven.tar --graph ring.graph --no-reductions --target-gap 0.08 --time-limit 100 -o given.sol \
     --bound "$("$PYTHON" -c 'import json; print(json.load(open("bound.json"))["bound"])')"
   assert_same_bytes bundle.sol given.sol
   "$PYTHON" - "$(weight_of start.sol)" "$(weight_of bundle.sol)" <<'PYTHON'
@@ -108,6 +108,50 @@ PYTHON
   assert_fails_with 2 "lns: .*--target-gap" ring --target-gap 1.5 -o out.sol
   assert_fails_with 2 "lns: .*--bound" ring --bound -1 -o out.sol
   assert_fails_with 2 "lns: --bound does nothing without --target-gap" ring --bound 5 -o out.sol
+}
+
+# A hundred stars with a centre of weight 5 and three rays of 2; one of them has its centre chosen.
+@test "lns begins where certify found that solution and bound differ" {
+  "$PYTHON" - <<'PYTHON'
+stars = 100
+with open("stars.graph", "w") as file:
+    print(4 * stars, 3 * stars, 10, file=file)
+    for star in range(stars):
+        centre = 4 * star + 1
+        print(5, centre + 1, centre + 2, centre + 3, file=file)
+        file.write(3 * f"2 {centre}\n")
+with open("stars.sol", "w") as file:
+    for star in range(stars):
+        for v in ([1] if star == 63 else [2, 3, 4]):
+            print(4 * star + v, file=file)
+PYTHON
+  certify --graph stars.graph --solution stars.sol -o certified.tar
+  local options=(--no-reductions --batch 1 --iterations 1 --annealed-fragment 0 --recombined-fragment 0 --fragment-size 4)
+  for seed in 1 2 3; do
+    lns certified.tar "${options[@]}" --seed $seed -o best.sol
+    assert_equal "$("$CHECKERS/solution_check.py" stars.graph best.sol)" "300 chosen, weight 600"
+  done
+  lns --graph stars.graph --solution stars.sol "${options[@]}" -o elsewhere.sol
+  assert_equal "$("$CHECKERS/solution_check.py" stars.graph elsewhere.sol)" "298 chosen, weight 599"
+}
+
+@test "gaps that do not belong to the solution are named" {
+  certify --graph ring.graph --solution start.sol --iterations 5 -o certified.tar
+  "$PYTHON" - <<'PYTHON'
+import io, tarfile
+import numpy
+source = tarfile.open("certified.tar")
+with tarfile.open("short.tar", "w", format=tarfile.USTAR_FORMAT) as target:
+    for member in source:
+        data = source.extractfile(member).read()
+        if member.name == "solution/gaps.npy":
+            short = io.BytesIO()
+            numpy.save(short, numpy.load(io.BytesIO(data))[:-1])
+            data = short.getvalue()
+            member.size = len(data)
+        target.addfile(member, io.BytesIO(data))
+PYTHON
+  assert_fails_with 1 "lns: short.tar: .*expected a gap for each of the .* chosen, found" lns short.tar -o out.sol
 }
 
 @test "--free-running improves too, and says that its result depends on the timing" {

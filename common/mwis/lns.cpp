@@ -40,8 +40,12 @@ class Lns {
                      Random(options.seed, 3))},
         effort_(ways_of(options)) {
     state_.make_maximal();
-    for (std::int32_t v = 0; v < graph.vertex_count(); ++v)
-      if (state_.contains(v)) renew(v);
+    for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
+      if (!state_.contains(v)) continue;
+      renew(v);
+      // Other places wait as if one fragment had been tried there.
+      if (!options.first_places.empty() && !options.first_places[v]) schedule_of(Way::exact).retire(v);
+    }
     const auto largest = std::min<std::size_t>(graph.weights.size(), options.recombined_fragment);
     effort_.expect(Way::recombine, static_cast<double>(options.free_running ? 1 : batch_of(Way::recombine)) *
                                        static_cast<double>(largest) * kicks_a_vertex * Repair::work_a_kick(graph));
@@ -259,6 +263,17 @@ Deadline share_for_reductions(const Deadline& deadline) {
   return std::isfinite(deadline.remaining()) ? Deadline(0.1 * deadline.remaining()) : Deadline();
 }
 
+// What reductions made of several vertices may be first.
+std::vector<bool> of_kernel(const std::vector<bool>& of_graph, const Kernel& kernel) {
+  std::vector<bool> result(of_graph.empty() ? 0 : kernel.graph().weights.size(), true);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const auto v = static_cast<std::int32_t>(i);
+    const auto original = kernel.originals(std::span(&v, 1));
+    if (!original.empty()) result[i] = of_graph[original.front()];
+  }
+  return result;
+}
+
 LnsResult search_kernel(const ConflictGraph& graph, const IndependentSet& start, const LnsOptions& options,
                         const Deadline& deadline, const std::function<void(const LnsProgress&)>& report) {
   const Kernel kernel(graph, share_for_reductions(deadline));
@@ -271,6 +286,7 @@ LnsResult search_kernel(const ConflictGraph& graph, const IndependentSet& start,
   };
   LnsOptions kernel_options = options;
   kernel_options.target -= kernel.offset();
+  kernel_options.first_places = of_kernel(options.first_places, kernel);
   LnsResult result = Lns(kernel.graph(), kernel.project(start), kernel_options, deadline, report_whole).run();
   result.solution = kernel.lift(result.solution);
   result.weight = total_weight(result.solution, graph);

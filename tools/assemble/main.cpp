@@ -1,10 +1,26 @@
+#include <fmt/format.h>
+
 #include <map>
 
+#include "common/mwis/target_weight.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/stage.hpp"
 #include "tools/assemble/assemble.hpp"
 
 using namespace hexpipe;
+
+namespace {
+
+// How good the choice is, where certify has proven a bound for its graph: weight, bound and gap.
+nlohmann::ordered_json proven_gap(const StageData& data) {
+  const auto bound = bound_in(data.history);
+  if (!data.graph || !bound) return nullptr;
+  const std::int64_t weight = total_weight(*data.solution, *data.graph);
+  const auto gap = *bound > 0 ? static_cast<double>(*bound - weight) / static_cast<double>(*bound) : 0.0;
+  return {{"weight", weight}, {"bound", *bound}, {"gap", gap}};
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   const std::map<std::string, AssembleOptions::Conformity> conformities{
@@ -40,7 +56,15 @@ int main(int argc, char** argv) {
                                             .solution = stage.source_of(Role::solution)});
     context.statistics = to_json(result.statistics);
     for (const auto& line : summary_lines(result.statistics)) context.note(line);
-    stage.write(result.mesh, {{"counts", to_json(result.statistics)["cells"]}});
+    nlohmann::ordered_json details{{"counts", context.statistics["cells"]}};
+    const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
+    if (const auto choice = graph_of_bundle ? proven_gap(data) : nullptr; !choice.is_null()) {
+      context.statistics["choice"] = details["choice"] = choice;
+      context.note(fmt::format("the choice weighs {}, at most {} is possible: gap {:.4f} %",
+                               choice["weight"].get<std::int64_t>(), choice["bound"].get<std::int64_t>(),
+                               100 * choice["gap"].get<double>()));
+    }
+    stage.write(result.mesh, details);
   };
   return tool_main(argc, argv, info, declare, run);
 }

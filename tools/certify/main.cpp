@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/graph/tet_cliques.hpp"
+#include "common/mwis/gap_shares.hpp"
 #include "common/mwis/search_log.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/stage.hpp"
@@ -71,9 +72,13 @@ int main(int argc, char** argv) {
     context.note(fmt::format("weight {}, at most {} is possible: gap {:.4f} %{}{}", result.weight, result.bound,
                              100 * result.gap, result.complete ? ", optimal" : "",
                              result.maximal ? "" : ", not maximal"));
+    const std::vector<std::int64_t> gaps =
+        stage.writes_bundle() ? gap_shares(*data.graph, result.cover, result.dual.prices, result.solution)
+                              : std::vector<std::int64_t>();
     stage.write(
         result.solution,
-        {{"weight", result.weight}, {"bound", result.bound}, {"gap", result.gap}, {"complete", result.complete}});
+        {{"weight", result.weight}, {"bound", result.bound}, {"gap", result.gap}, {"complete", result.complete}},
+        &gaps);
   };
   return tool_main(argc, argv, info, declare, run);
 }

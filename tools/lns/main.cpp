@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "common/mwis/gap_shares.hpp"
 #include "common/mwis/lns.hpp"
 #include "common/mwis/search_log.hpp"
 #include "common/mwis/target_weight.hpp"
@@ -62,6 +63,7 @@ int main(int argc, char** argv) {
       options.target =
           target_weight(*target.gap, target.bound || !graph_of_bundle ? target.bound : bound_in(data.history));
 
+    if (data.gaps) options.first_places = holds_most_of_gap(data.graph->vertex_count(), *data.solution, *data.gaps);
     std::optional<Output> fragments;
     if (!fragments_file.empty()) fragments.emplace(fragments_file);
     const Deadline deadline = context.deadline();
