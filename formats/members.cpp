@@ -11,6 +11,7 @@ namespace hexpipe {
 namespace {
 
 constexpr const char* part_json = "mesh/part.json";
+constexpr const char* piece_json = "result/piece.json";
 constexpr std::size_t longest_part_json = 1 << 20;
 
 // Each list names the members of a role once, for reading and writing: visit(member name, array).
@@ -32,6 +33,14 @@ void visit_members_of_part(Part& part, Visit&& visit) {
   visit("mesh/tet_part.npy", part.tet_part);
   visit("mesh/triangle_number.npy", part.triangle_number);
   visit("mesh/tet_turned.npy", part.tet_turned);
+}
+
+template <class Piece, class Visit>
+void visit_members_of_piece(Piece& piece, Visit&& visit) {
+  visit("result/moved_tets.npy", piece.moved_tets);
+  visit("result/moved_to.npy", piece.moved_to);
+  visit("result/given_back.npy", piece.given_back);
+  visit("result/point_number.npy", piece.point_number);
 }
 
 template <class Keys, class Visit>
@@ -99,29 +108,49 @@ T& ensure(std::optional<T>& slot) {
   return *slot;
 }
 
+nlohmann::ordered_json json_of(const MeshFingerprint& whole) {
+  return {{"points", whole.points},
+          {"tets", whole.tets},
+          {"triangles", whole.triangles},
+          {"checksum", fmt::format("{:016x}", whole.checksum)}};
+}
+
 std::string text_of(const MeshPart& part) {
-  const nlohmann::ordered_json json{{"part", part.part},
-                                    {"parts", part.parts},
-                                    {"neighbours", part.neighbours},
-                                    {"mesh",
-                                     {{"points", part.whole.points},
-                                      {"tets", part.whole.tets},
-                                      {"triangles", part.whole.triangles},
-                                      {"checksum", fmt::format("{:016x}", part.whole.checksum)}}}};
+  const nlohmann::ordered_json json{
+      {"part", part.part}, {"parts", part.parts}, {"neighbours", part.neighbours}, {"mesh", json_of(part.whole)}};
   return json.dump() + "\n";
 }
 
-// Throws what nlohmann throws at a missing or wrong value.
+std::string text_of(const MeshPiece& piece) {
+  const nlohmann::ordered_json json{
+      {"part", piece.part}, {"parts", piece.parts}, {"settled", piece.settled}, {"mesh", json_of(piece.whole)}};
+  return json.dump() + "\n";
+}
+
+// These throw what nlohmann throws at a missing or wrong value.
+
+MeshFingerprint fingerprint_from(const nlohmann::json& json) {
+  MeshFingerprint whole{json.at("points").get<std::int64_t>(), json.at("tets").get<std::int64_t>(),
+                        json.at("triangles").get<std::int64_t>(), 0};
+  const auto checksum = json.at("checksum").get<std::string>();
+  std::from_chars(checksum.data(), checksum.data() + checksum.size(), whole.checksum, 16);
+  return whole;
+}
+
 void parse_part(const std::string& text, MeshPart& part) {
   const auto json = nlohmann::json::parse(text);
   part.part = json.at("part").get<std::int32_t>();
   part.parts = json.at("parts").get<std::int32_t>();
   part.neighbours = json.at("neighbours").get<std::vector<std::int32_t>>();
-  const auto& whole = json.at("mesh");
-  part.whole = {whole.at("points").get<std::int64_t>(), whole.at("tets").get<std::int64_t>(),
-                whole.at("triangles").get<std::int64_t>(), 0};
-  const auto checksum = whole.at("checksum").get<std::string>();
-  std::from_chars(checksum.data(), checksum.data() + checksum.size(), part.whole.checksum, 16);
+  part.whole = fingerprint_from(json.at("mesh"));
+}
+
+void parse_piece(const std::string& text, MeshPiece& piece) {
+  const auto json = nlohmann::json::parse(text);
+  piece.part = json.at("part").get<std::int32_t>();
+  piece.parts = json.at("parts").get<std::int32_t>();
+  piece.settled = json.at("settled").get<bool>();
+  piece.whole = fingerprint_from(json.at("mesh"));
 }
 
 }  // namespace
@@ -199,6 +228,30 @@ bool read_part_member(BundleReader& reader, StageData& data, BundleWriter* copy)
   return known;
 }
 
+bool is_piece_title(std::string_view name) {
+  return name == piece_json;
+}
+
+bool read_piece_member(BundleReader& reader, std::optional<MeshPiece>& piece) {
+  if (is_piece_title(reader.name())) {
+    try {
+      parse_piece(reader.read_text(longest_part_json), ensure(piece));
+    } catch (const nlohmann::json::exception&) {
+      throw DataError::at(reader.where(), "expected the numbers of a piece and its mesh, found something else");
+    }
+    return true;
+  }
+  bool known = false;
+  MeshPiece none;
+  visit_members_of_piece(piece ? *piece : none, [&]<class T>(std::string_view name, std::vector<T>& array) {
+    if (known || reader.name() != name) return;
+    known = true;
+    if (!piece) throw DataError::at(reader.where(), "expected {} before it, found none", piece_json);
+    array = reader.read_array<T>();
+  });
+  return known;
+}
+
 namespace {
 
 auto writing_to(BundleWriter& writer) {
@@ -212,6 +265,10 @@ void write_members(BundleWriter& writer, const MeshPart& part) {
   visit_members_of_part(part, [&](const std::string& name, const auto& array) {
     if (!array.empty() || name != "mesh/tet_turned.npy") writer.add_array(name, array);
   });
+}
+void write_members(BundleWriter& writer, const MeshPiece& piece) {
+  writer.add_text(piece_json, text_of(piece));
+  visit_members_of_piece(piece, writing_to(writer));
 }
 void write_members(BundleWriter& writer, const CandidateKeys& keys) {
   visit_members_of_keys(keys, writing_to(writer));

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "common/mesh/mesh_piece.hpp"
 #include "common/run/stream_options.hpp"
 #include "formats/bundle.hpp"
 #include "formats/stage.hpp"
@@ -23,6 +24,10 @@ bool is_part_title(std::string_view name);
 // The same for what a part of a mesh has beside mesh and candidates.
 bool read_part_member(BundleReader& reader, StageData& data, BundleWriter* copy);
 
+bool is_piece_title(std::string_view name);
+// The same for what a piece of a result has beside it.
+bool read_piece_member(BundleReader& reader, std::optional<MeshPiece>& piece);
+
 void write_members(BundleWriter& writer, const MeshPart& part);
 void write_members(BundleWriter& writer, const CandidateKeys& keys);
 void write_members(BundleWriter& writer, const TetMesh& mesh);
@@ -33,5 +38,6 @@ void write_members(BundleWriter& writer, const IndependentSet& solution);
 // StageData::gaps.
 void write_gap_members(BundleWriter& writer, const std::vector<std::int64_t>& gaps);
 void write_members(BundleWriter& writer, const MixedMesh& result);
+void write_members(BundleWriter& writer, const MeshPiece& piece);
 
 }  // namespace hexpipe

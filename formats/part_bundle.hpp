@@ -8,8 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/mesh_part.hpp"
+#include "common/mesh/mesh_piece.hpp"
+#include "common/mesh/mixed_mesh.hpp"
 
 namespace hexpipe {
 
@@ -18,17 +21,33 @@ struct PartBundle {
   MeshPart part;
   Candidates candidates;
   CandidateKeys keys;
+  std::optional<IndependentSet> chosen;  // where there is a solution
   std::vector<nlohmann::ordered_json> history;
 };
 
-// Reads what a bundle has of a part, its candidates and its history, all validated; of a part that `wanted` declines,
-// nothing but MeshPart's numbers of part and whole. Throws DataError when it is no part of a mesh, or one that is
-// wanted has no candidates with keys.
+// Reads what a bundle has of a part, its candidates, its solution and its history, all validated; of a part that
+// `wanted` declines, nothing but MeshPart's numbers of part and whole. Throws DataError when it is no part of a mesh,
+// or one that is wanted has no candidates with keys.
 struct PartHead {
   MeshPart part;
   std::optional<PartBundle> bundle;  // where it was wanted
 };
 PartHead read_part_bundle(const std::string& path, const std::function<bool(const MeshPart&)>& wanted);
+
+// Reads one after the other, in the order of `paths`, the bundles of those parts that are neighbours of `part`, whose
+// own bundle is `source`. Throws DataError when one is of another mesh or another number of parts, comes twice, or is
+// missing.
+void for_each_neighbour(const MeshPart& part, const std::vector<std::string>& paths, const std::string& source,
+                        const std::function<void(const PartBundle&)>& visit);
+
+// A piece that assemble made of a part, without its mesh where that is not wanted; validated.
+struct PieceBundle {
+  std::string name;
+  MeshPiece piece;
+  MixedMesh mesh;
+  std::vector<nlohmann::ordered_json> history;
+};
+PieceBundle read_piece_bundle(const std::string& path, bool with_mesh);
 
 // The last entry of a tool, without the counts that are its part's own: version and options. Null where there is none.
 nlohmann::ordered_json settings_of(const std::string& tool, const std::vector<nlohmann::ordered_json>& history);

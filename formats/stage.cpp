@@ -453,7 +453,8 @@ void Stage::write(const IndependentSet& solution, const nlohmann::ordered_json& 
   state_->write(SolutionAndGaps{solution, gaps}, details, [&](Output& output) { write_solution(solution, output); });
 }
 
-void Stage::write(const MixedMesh& result, const nlohmann::ordered_json& details) {
+void Stage::write(const MixedMesh& result, const MeshPiece* piece, const nlohmann::ordered_json& details) {
+  if (state_->bundle && piece != nullptr) write_members(*state_->bundle, *piece);
   state_->write(result, details, [&](Output& output) { write_mixed_mesh(result, state_->format, output); });
 }
 

@@ -12,6 +12,7 @@
 #include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/mesh_part.hpp"
+#include "common/mesh/mesh_piece.hpp"
 #include "common/mesh/mixed_mesh.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "common/run/run_context.hpp"
@@ -72,7 +73,8 @@ class Stage {
   // With the gap at its vertices in a bundle, where that is known.
   void write(const IndependentSet& solution, const nlohmann::ordered_json& details,
              const std::vector<std::int64_t>* gaps = nullptr);
-  void write(const MixedMesh& result, const nlohmann::ordered_json& details);
+  // With what a piece of a result has beside it, in a bundle only; else null.
+  void write(const MixedMesh& result, const MeshPiece* piece, const nlohmann::ordered_json& details);
 
  private:
   struct State;

@@ -100,6 +100,16 @@ void validate_against(const MeshPart& part, const Candidates& candidates, const 
   for (const std::int32_t tet : candidates.boundary_tets) check("tets", tet, part.tet_number.size());
 }
 
+std::vector<std::int32_t> places_in(const std::vector<std::int64_t>& to, const std::vector<std::int64_t>& from) {
+  std::vector<std::int32_t> places(from.size(), -1);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    while (at < to.size() && to[at] < from[i]) ++at;
+    if (at < to.size() && to[at] == from[i]) places[i] = static_cast<std::int32_t>(at);
+  }
+  return places;
+}
+
 std::string title_of(const MeshPart& part) {
   return fmt::format("part {} of {}", part.part, part.parts);
 }

@@ -45,6 +45,9 @@ void validate_against(const MeshPart& part, const Candidates& candidates, const 
 // "part 3 of 16", for messages.
 std::string title_of(const MeshPart& part);
 
+// By place in `from`, the place in `to` of the same number, or -1; both ascend.
+std::vector<std::int32_t> places_in(const std::vector<std::int64_t>& to, const std::vector<std::int64_t>& from);
+
 // What identifies candidates in all parts: ascending keys are the order that candidates have in a single run.
 struct CandidateKeys {
   std::vector<std::uint64_t> key;

@@ -25,7 +25,7 @@ TetMesh roof(double height) {
 
 std::int64_t peel(const TetMesh& mesh, SurfaceTags& tags) {
   HybridMesh hybrid(mesh, std::vector<bool>(mesh.tets.size()));
-  return peel_flat_tets(hybrid, tags, InputSurface(mesh), 0.03);
+  return peel_flat_tets(hybrid, tags, InputSurface(mesh), {}, 0.03);
 }
 
 TEST(Peel, AFlatTetOnTheBoundaryGoesAndItsInnerFacetsAreBoundary) {
@@ -77,7 +77,7 @@ TEST(Peel, TheSelfCheckKnowsOfIt) {
   const InputSurface surface(mesh);
   SurfaceTags tags(mesh);
   HybridMesh hybrid(mesh, std::vector<bool>(mesh.tets.size()));
-  ASSERT_EQ(peel_flat_tets(hybrid, tags, surface, 0.03), 1);
+  ASSERT_EQ(peel_flat_tets(hybrid, tags, surface, {}, 0.03), 1);
   const auto volumes = check_result(extract(hybrid, tags), mesh, tags, surface, true);
   EXPECT_NEAR(volumes.peeled, 0.01 / 3, 1e-12);
   EXPECT_NEAR(volumes.parts, volumes.input - volumes.peeled, 1e-12);

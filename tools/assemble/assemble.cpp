@@ -8,6 +8,7 @@
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/run/error.hpp"
+#include "tools/assemble/complete_surface.hpp"
 #include "tools/assemble/conform.hpp"
 #include "tools/assemble/extract.hpp"
 #include "tools/assemble/input_surface.hpp"
@@ -21,9 +22,6 @@
 
 namespace hexpipe {
 namespace {
-
-// Boundary facets that no triangle of the input names get this tag, as in findhex.
-constexpr std::int32_t untagged = 0;
 
 void check_orientation(const TetMesh& mesh, const InputNames& names) {
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
@@ -42,31 +40,6 @@ void check_chosen(const IndependentSet& chosen, const Candidates& candidates, co
       throw DataError::at(names.solution, "expected ascending candidates, found {} after {}", chosen[i] + 1,
                           chosen[i - 1] + 1);
   }
-}
-
-bool is_facet_of_a_tet(const Triangle& triangle, const TetMesh& mesh, const TetAdjacency& adjacency) {
-  for (std::int32_t t : adjacency.tets_at(triangle[0])) {
-    const Tet& tet = mesh.tets[t];
-    auto has = [&](Vertex v) { return tet[0] == v || tet[1] == v || tet[2] == v || tet[3] == v; };
-    if (has(triangle[1]) && has(triangle[2])) return true;
-  }
-  return false;
-}
-
-// The input with all boundary and interface facets among its triangles, and no others than facets of tets.
-TetMesh with_complete_surface(const TetMesh& mesh, const InputNames& names) {
-  TetMesh result = mesh;
-  const TetAdjacency adjacency(mesh, names.mesh.c_str());
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < result.triangles.size(); ++i) {
-    if (!is_facet_of_a_tet(result.triangles[i], mesh, adjacency)) continue;
-    result.triangles[kept] = result.triangles[i];
-    result.triangle_tags[kept++] = result.triangle_tags[i];
-  }
-  result.triangles.resize(kept);
-  result.triangle_tags.resize(kept);
-  add_missing_boundary_triangles(result, adjacency, untagged);
-  return result;
 }
 
 // New elements may be this inverted before smoothing: beyond it untangling has been seen to fail.
@@ -147,20 +120,27 @@ std::vector<std::int32_t> owners_of_poor_elements(const HybridMesh& mesh, std::s
 
 class Assembler {
  public:
+  // `input` with its surface complete; `seam` where it is a piece of a mesh, else null.
   Assembler(TetMesh input, const Candidates& candidates, const IndependentSet& chosen, const AssembleOptions& options,
-            const InputNames& names)
+            const InputNames& names, const Seam* seam)
       : input_(std::move(input)),
         tags_(input_),
         surface_(input_),
         candidates_(candidates),
         kept_(chosen),
         options_(options),
-        names_(names) {}
+        names_(names),
+        seam_(seam) {
+    if (seam != nullptr) is_shared_ = seam->is_shared;
+  }
 
   AssembleResult run();
 
  private:
   bool is_conforming() const { return options_.conformity == AssembleOptions::Conformity::pyramids; }
+  bool is_guest(std::int32_t candidate) const { return seam_ != nullptr && seam_->is_guest[candidate] != 0; }
+  Extract own_part_of(Extract extracted) const;
+  TetMesh own_input() const;
   Extract build();
   HybridMesh select();
   HybridMesh conform();
@@ -169,6 +149,7 @@ class Assembler {
   void give_back(const std::vector<std::int32_t>& owners, GivenBack reason);
   Extract smooth_and_repair(HybridMesh& hybrid);
   void improve(Extract& extracted);
+  void note_cells_left(const HybridMesh& hybrid);
 
   const TetMesh input_;
   SurfaceTags tags_;
@@ -177,10 +158,13 @@ class Assembler {
   IndependentSet kept_;
   const AssembleOptions& options_;
   const InputNames& names_;
+  const Seam* seam_;
+  std::span<const std::uint8_t> is_shared_;  // by vertex of the input; empty without a seam
   AssembleStatistics statistics_;
   // Cells that went back between attempts, and the volume of the hexes among them.
   std::array<std::int64_t, all_reasons.size()> given_back_{};
   double volume_given_back_ = 0;
+  IndependentSet left_;  // candidates that are cells of the result
 };
 
 HybridMesh Assembler::select() {
@@ -208,7 +192,7 @@ HybridMesh Assembler::conform() {
 
 void Assembler::untangle_in_place(HybridMesh& hybrid) const {
   Extract extracted = extract(hybrid, tags_);
-  const SlidingSurface sliding{surface_, input_.points, extracted.origin};
+  const SlidingSurface sliding{surface_, input_.points, extracted.origin, is_shared_};
   untangle(extracted.mesh, untangling_rounds, &sliding);
   move_points(extracted, hybrid);
 }
@@ -227,13 +211,13 @@ Extract Assembler::smooth_and_repair(HybridMesh& hybrid) {
   Extract extracted = extract(hybrid, tags_);
   if (options_.smooth == 0) return extracted;
   compute_quality(extracted.mesh);
-  statistics_.before_smoothing = kind_statistics(extracted.mesh);
+  statistics_.before_smoothing = kind_statistics(seam_ == nullptr ? extracted.mesh : own_part_of(extracted).mesh);
   improve(extracted);
   for (int pass = 0; pass < most_repairs; ++pass) {
     move_points(extracted, hybrid);
     const std::int64_t exchanges = reconnect_poor_tets(hybrid, tags_, worth_an_exchange);
     const std::int64_t repaired = repair_flat_tets(hybrid, tags_, worth_a_vertex);
-    const std::int64_t peeled = peel_flat_tets(hybrid, tags_, surface_, worth_peeling);
+    const std::int64_t peeled = peel_flat_tets(hybrid, tags_, surface_, is_shared_, worth_peeling);
     if (exchanges + repaired + peeled == 0) break;
     statistics_.exchanges += exchanges;
     statistics_.repaired += repaired;
@@ -247,7 +231,7 @@ Extract Assembler::smooth_and_repair(HybridMesh& hybrid) {
 }
 
 void Assembler::improve(Extract& extracted) {
-  const SlidingSurface sliding{surface_, input_.points, extracted.origin};
+  const SlidingSurface sliding{surface_, input_.points, extracted.origin, is_shared_};
   const SmoothCounts counts = smooth(extracted.mesh, options_.smooth, &sliding);
   statistics_.smoothing.rounds += counts.rounds;
   statistics_.smoothing.moves += counts.moves;
@@ -259,11 +243,37 @@ std::vector<std::int32_t> Assembler::poor_hexes(const HybridMesh& hybrid) const 
   std::vector<std::int32_t> result;
   for (std::int32_t c = 0; c < static_cast<std::int32_t>(hybrid.cell_count()); ++c) {
     const HybridCell& cell = hybrid.cell(c);
-    if (cell.alive && cell.kind == CellKind::hex && is_worse(hybrid, cell.kind, cell.corners, poor_hex))
-      result.push_back(cell.candidate);
+    if (!cell.alive || cell.kind != CellKind::hex || is_guest(cell.candidate)) continue;
+    if (is_worse(hybrid, cell.kind, cell.corners, poor_hex)) result.push_back(cell.candidate);
   }
   std::sort(result.begin(), result.end());
   return result;
+}
+
+void Assembler::note_cells_left(const HybridMesh& hybrid) {
+  left_.clear();
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(hybrid.cell_count()); ++c)
+    if (hybrid.cell(c).alive && hybrid.cell(c).candidate != HybridCell::none) left_.push_back(hybrid.cell(c).candidate);
+}
+
+// Without what is the guests'.
+Extract Assembler::own_part_of(Extract extracted) const {
+  if (seam_ == nullptr) return extracted;
+  return without(extracted, seam_->guest_region, seam_->guest_tag);
+}
+
+// The input without the guests' tets; of a piece only.
+TetMesh Assembler::own_input() const {
+  TetMesh own = input_;
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < own.tets.size(); ++t) {
+    if (own.tet_tags[t] == seam_->guest_region) continue;
+    own.tets[kept] = own.tets[t];
+    own.tet_tags[kept++] = own.tet_tags[t];
+  }
+  own.tets.resize(kept);
+  own.tet_tags.resize(kept);
+  return own;
 }
 
 // All of it, anew without the hexes that stay poor.
@@ -274,6 +284,7 @@ Extract Assembler::build() {
     HybridMesh hybrid = is_conforming() ? conform() : select();
     Extract extracted = smooth_and_repair(hybrid);
     move_points(extracted, hybrid);
+    note_cells_left(hybrid);
     const auto poor = poor_hexes(hybrid);
     if (!is_conforming() || options_.smooth == 0 || poor.empty() || attempt == most_attempts) return extracted;
     give_back(poor, GivenBack::poor_elements);
@@ -285,10 +296,12 @@ AssembleResult Assembler::run() {
   std::ranges::copy_if(kept_, std::back_inserter(at_holes),
                        [&](std::int32_t c) { return closes_a_hole(tags_, candidates_, c); });
   give_back(at_holes, GivenBack::diagonal_on_surface);
-  Extract extracted = build();
+  Extract extracted = own_part_of(build());
   for (std::size_t i = 0; i < given_back_.size(); ++i) statistics_.conformity.given_back[i] += given_back_[i];
   statistics_.conformity.volume_given_back += volume_given_back_;
-  statistics_.volumes = check_result(extracted, input_, tags_, surface_, is_conforming());
+  statistics_.volumes =
+      check_result(extracted, seam_ == nullptr ? input_ : own_input(), tags_, surface_, is_conforming());
+  if (seam_ != nullptr) extracted = without_facets(std::move(extracted), seam_->seam_tag);
   compute_quality(extracted.mesh);
   statistics_.kinds = kind_statistics(extracted.mesh);
   const auto inside = least_inside(extracted.mesh);
@@ -297,17 +310,18 @@ AssembleResult Assembler::run() {
   statistics_.points = static_cast<std::int64_t>(extracted.mesh.points.size());
   statistics_.triangles = static_cast<std::int64_t>(extracted.mesh.triangles.size());
   statistics_.quads = static_cast<std::int64_t>(extracted.mesh.quads.size());
-  return {std::move(extracted.mesh), statistics_};
+  return {std::move(extracted.mesh), statistics_, std::move(extracted.origin), std::move(left_)};
 }
 
 }  // namespace
 
-AssembleResult assemble(const TetMesh& mesh, const Candidates& candidates, const IndependentSet& chosen,
-                        const AssembleOptions& options, const InputNames& names) {
+AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const IndependentSet& chosen,
+                        const AssembleOptions& options, const InputNames& names, const Seam* seam) {
   validate_against(candidates, mesh, names.candidates.c_str());
   check_chosen(chosen, candidates, names);
   check_orientation(mesh, names);
-  return Assembler(with_complete_surface(mesh, names), candidates, chosen, options, names).run();
+  if (seam == nullptr) complete_surface(mesh, TetAdjacency(mesh, names.mesh.c_str()));
+  return Assembler(std::move(mesh), candidates, chosen, options, names, seam).run();
 }
 
 }  // namespace hexpipe

@@ -5,6 +5,7 @@
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/mixed_mesh.hpp"
 #include "common/mesh/tet_mesh.hpp"
+#include "tools/assemble/seam.hpp"
 #include "tools/assemble/selection.hpp"
 #include "tools/assemble/statistics.hpp"
 
@@ -19,6 +20,9 @@ struct AssembleOptions {
 struct AssembleResult {
   MixedMesh mesh;  // with quality
   AssembleStatistics statistics;
+  // By point the input's vertex that it was, or a number from theirs on for one that was added.
+  std::vector<Vertex> origin;
+  IndependentSet left;  // the chosen candidates that are cells of the mesh, ascending
 };
 
 // The chosen cells and the tets that remain, with the input's regions and tagged facets; with Conformity::pyramids
@@ -26,7 +30,10 @@ struct AssembleResult {
 //
 // Throws DataError, with the name of the input, when a tet is not positively oriented, the candidates are not of this
 // mesh, or the chosen ones cannot stand together.
-AssembleResult assemble(const TetMesh& mesh, const Candidates& candidates, const IndependentSet& chosen,
-                        const AssembleOptions& options, const InputNames& names = {});
+//
+// Of a piece of a mesh, with its `seam`, the triangles have every facet of its boundary and interfaces; the result is
+// without the guests and without facets that have the tags of `seam`.
+AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const IndependentSet& chosen,
+                        const AssembleOptions& options, const InputNames& names = {}, const Seam* seam = nullptr);
 
 }  // namespace hexpipe

@@ -97,4 +97,38 @@ Extract extract(const HybridMesh& mesh, const SurfaceTags& tags) {
   return result;
 }
 
+namespace {
+
+template <int Corners>
+void drop_tagged(CellBlock<Corners>& block, std::int32_t tag) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    if (block.tags[i] == tag) continue;
+    if (!block.quality.empty()) block.quality[kept] = block.quality[i];
+    block.cells[kept] = block.cells[i];
+    block.tags[kept++] = block.tags[i];
+  }
+  if (!block.quality.empty()) block.quality.resize(kept);
+  block.cells.resize(kept);
+  block.tags.resize(kept);
+}
+
+}  // namespace
+
+Extract without_facets(Extract from, std::int32_t tag) {
+  drop_tagged(from.mesh.triangles, tag), drop_tagged(from.mesh.quads, tag);
+  return from;
+}
+
+Extract without(const Extract& from, std::int32_t region, std::int32_t tag) {
+  Extract result = without_facets({from.mesh, {}}, tag);
+  MixedMesh& mesh = result.mesh;
+  drop_tagged(mesh.hexes, region), drop_tagged(mesh.prisms, region);
+  drop_tagged(mesh.pyramids, region), drop_tagged(mesh.tets, region);
+  mesh.points.clear();
+  drop_unused_points(result, from.mesh.points);
+  for (Vertex& v : result.origin) v = from.origin[v];
+  return result;
+}
+
 }  // namespace hexpipe

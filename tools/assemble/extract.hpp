@@ -19,4 +19,9 @@ struct Extract {
 // vertices keep their order, those that no cell uses are dropped.
 Extract extract(const HybridMesh& mesh, const SurfaceTags& tags);
 
+// Without the cells of a region and the facets with a tag, and the vertices that then no cell uses.
+Extract without(const Extract& from, std::int32_t region, std::int32_t tag);
+// Without the facets with a tag.
+Extract without_facets(Extract from, std::int32_t tag);
+
 }  // namespace hexpipe

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <utility>
 
 #include "common/mwis/target_weight.hpp"
+#include "common/run/error.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/stage.hpp"
 #include "tools/assemble/assemble.hpp"
+#include "tools/assemble/assemble_part.hpp"
 
 using namespace hexpipe;
 
@@ -20,6 +23,27 @@ nlohmann::ordered_json proven_gap(const StageData& data) {
   return {{"weight", weight}, {"bound", *bound}, {"gap", gap}};
 }
 
+SolvedPart solved_part(StageData data, const InputNames& names) {
+  if (!data.part) throw UsageError("--neighbours goes with a part of a mesh, as mesh-part makes them");
+  if (!data.candidate_keys)
+    throw DataError::at(names.candidates,
+                        "expected candidates with their keys, as findhex makes them of a part, found none");
+  return {.part = std::move(*data.part),
+          .mesh = std::move(*data.mesh),
+          .candidates = std::move(*data.candidates),
+          .keys = std::move(*data.candidate_keys),
+          .chosen = std::move(*data.solution),
+          .history = std::move(data.history)};
+}
+
+PartResult assemble_whole(StageData data, const AssembleOptions& options, const InputNames& names) {
+  if (data.part && !data.part->neighbours.empty())
+    throw DataError::at(names.mesh, "expected the neighbours of {} with --neighbours, found none",
+                        title_of(*data.part));
+  AssembleResult result = assemble(std::move(*data.mesh), *data.candidates, *data.solution, options, names);
+  return {std::move(result.mesh), std::move(result.statistics), {}};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -31,7 +55,9 @@ int main(int argc, char** argv) {
       .example = "tetmesh bracket.stl --size 3 | findhex | buildgraph | initsol | assemble -v -o bracket.vtu",
       .reads = {Role::mesh, Role::candidates, Role::graph, Role::solution},
       .product = Role::result,
+      .outside_history = {"neighbours", "before"},
   };
+  std::vector<std::string> neighbours, before;
   std::string conformity = "pyramids";
   int smooth = AssembleOptions{}.smooth;
   auto declare = [&](CLI::App& app) {
@@ -43,28 +69,47 @@ int main(int argc, char** argv) {
                    "rounds of moving vertices and exchanging tets to make the worst cells better; 0: none")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
+    app.add_option("--neighbours", neighbours,
+                   "With a part of a mesh: bundles of the other parts' solutions, of which those beside it are read")
+        ->type_name("FILE");
+    app.add_option("--before", before, "With --neighbours: the pieces that the round before made")->type_name("FILE");
   };
   auto run = [&](RunContext& context) {
     const AssembleOptions options{.conformity = conformities.at(conformity), .smooth = smooth};
     context.options["conformity"] = conformity;
     context.options["smooth"] = smooth;
+    const bool by_part = !neighbours.empty();
+    if (by_part && options.conformity == AssembleOptions::Conformity::none)
+      throw UsageError("--conformity none does not go with --neighbours: pieces fit because they conform");
+    if (!by_part && !before.empty()) throw UsageError("--before goes with --neighbours");
     Stage stage(context);
-    const StageData data = stage.read({Role::mesh, Role::candidates, Role::solution}, {Role::graph});
-    const AssembleResult result = assemble(*data.mesh, *data.candidates, *data.solution, options,
-                                           {.mesh = stage.source_of(Role::mesh),
-                                            .candidates = stage.source_of(Role::candidates),
-                                            .solution = stage.source_of(Role::solution)});
+    stage.take_part();
+    if (by_part)
+      for (const Role role : {Role::mesh, Role::candidates, Role::graph, Role::solution}) stage.hold_back(role);
+    StageData data = stage.read({Role::mesh, Role::candidates, Role::solution},
+                                by_part ? std::vector<Role>{} : std::vector<Role>{Role::graph});
+    const InputNames names{.mesh = stage.source_of(Role::mesh),
+                           .candidates = stage.source_of(Role::candidates),
+                           .solution = stage.source_of(Role::solution)};
+    const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
+    const auto choice = graph_of_bundle ? proven_gap(data) : nullptr;
+    const PartResult result =
+        by_part ? assemble_part(view_part(solved_part(std::move(data), names), neighbours, names.solution), before,
+                                options, names)
+                : assemble_whole(std::move(data), options, names);
     context.statistics = to_json(result.statistics);
     for (const auto& line : summary_lines(result.statistics)) context.note(line);
     nlohmann::ordered_json details{{"counts", context.statistics["cells"]}};
-    const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
-    if (const auto choice = graph_of_bundle ? proven_gap(data) : nullptr; !choice.is_null()) {
+    if (!choice.is_null()) {
       context.statistics["choice"] = details["choice"] = choice;
       context.note(fmt::format("the choice weighs {}, at most {} is possible: gap {:.4f} %",
                                choice["weight"].get<std::int64_t>(), choice["bound"].get<std::int64_t>(),
                                100 * choice["gap"].get<double>()));
     }
-    stage.write(result.mesh, details);
+    if (by_part)
+      context.note(result.piece.settled ? "this piece is settled"
+                                        : "this piece has something new to say: another round has to follow");
+    stage.write(result.mesh, by_part ? &result.piece : nullptr, details);
   };
   return tool_main(argc, argv, info, declare, run);
 }

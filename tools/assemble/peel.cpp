@@ -31,13 +31,15 @@ struct Peel {
 
 class Peeler {
  public:
-  Peeler(HybridMesh& mesh, SurfaceTags& tags, const InputSurface& surface, double least)
-      : mesh_(mesh), tags_(tags), surface_(surface), least_(least) {}
+  Peeler(HybridMesh& mesh, SurfaceTags& tags, const InputSurface& surface, std::span<const std::uint8_t> is_shared,
+         double least)
+      : mesh_(mesh), tags_(tags), surface_(surface), is_shared_(is_shared), least_(least) {}
 
   std::int64_t run();
 
  private:
   bool is_flat(const Tet& tet) const;
+  bool is_at_seam(const Tet& tet) const;
   std::optional<Peel> peel_of(std::int32_t t) const;
   bool has_good_shape(const Peel& peel) const;
   void collect_obstacles(const std::vector<Peel>& peels);
@@ -46,6 +48,7 @@ class Peeler {
   HybridMesh& mesh_;
   SurfaceTags& tags_;
   const InputSurface& surface_;
+  std::span<const std::uint8_t> is_shared_;
   double least_;
   KeySet<2> cell_edges_;      // with diagonals; an outer edge may not be among them
   KeySet<2> boundary_edges_;  // with those of interfaces; an inner edge may not be among them
@@ -55,6 +58,12 @@ class Peeler {
 bool Peeler::is_flat(const Tet& tet) const {
   const auto at = corner_points(mesh_.points, tet);
   return std::sqrt(2.0) * least_corner_scaled_jacobian(CellKind::tet, std::span<const Vec3>(at).first(4)) < least_;
+}
+
+// With an edge that another piece may have too.
+bool Peeler::is_at_seam(const Tet& tet) const {
+  return std::ranges::count_if(
+             tet, [&](Vertex v) { return static_cast<std::size_t>(v) < is_shared_.size() && is_shared_[v] != 0; }) >= 2;
 }
 
 Triangle turned(const Triangle& triangle, bool turn) {
@@ -164,7 +173,7 @@ bool Peeler::is_free(const Peel& peel) const {
 std::int64_t Peeler::run() {
   std::vector<Peel> peels;
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh_.tet_count()); ++t)
-    if (mesh_.is_alive(t) && is_flat(mesh_.tet(t)))
+    if (mesh_.is_alive(t) && is_flat(mesh_.tet(t)) && !is_at_seam(mesh_.tet(t)))
       if (const auto peel = peel_of(t)) peels.push_back(*peel);
   if (peels.empty()) return 0;
   collect_obstacles(peels);
@@ -183,8 +192,9 @@ std::int64_t Peeler::run() {
 
 }  // namespace
 
-std::int64_t peel_flat_tets(HybridMesh& mesh, SurfaceTags& tags, const InputSurface& surface, double least) {
-  return Peeler(mesh, tags, surface, least).run();
+std::int64_t peel_flat_tets(HybridMesh& mesh, SurfaceTags& tags, const InputSurface& surface,
+                            std::span<const std::uint8_t> is_shared, double least) {
+  return Peeler(mesh, tags, surface, is_shared, least).run();
 }
 
 }  // namespace hexpipe

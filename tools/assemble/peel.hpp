@@ -2,6 +2,7 @@
 // Takes tets off the boundary that are so flat that they lie on it.
 
 #include <cstdint>
+#include <span>
 
 #include "tools/assemble/hybrid_mesh.hpp"
 #include "tools/assemble/input_surface.hpp"
@@ -11,7 +12,9 @@ namespace hexpipe {
 
 // Takes off every tet whose least scaled Jacobian (times the square root of 2) is below `least`, with two facets on a
 // smooth part of the boundary, that is within `most_deviation` of a surface edge length of the input's surface: its
-// other two facets are boundary in their place. Returns their number.
-std::int64_t peel_flat_tets(HybridMesh& mesh, SurfaceTags& tags, const InputSurface& surface, double least);
+// other two facets are boundary in their place. Those with an edge between shared vertices of the input (seam.hpp;
+// empty where there are none) stay. Returns their number.
+std::int64_t peel_flat_tets(HybridMesh& mesh, SurfaceTags& tags, const InputSurface& surface,
+                            std::span<const std::uint8_t> is_shared, double least);
 
 }  // namespace hexpipe

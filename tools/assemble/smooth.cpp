@@ -96,6 +96,8 @@ class Smoother {
         due_(mesh.points.size(), 1) {
     if (sliding == nullptr) return;
     sliding_ = sliding;
+    for (Vertex v = 0; v < static_cast<Vertex>(points_.size()); ++v)
+      if (sliding->has_to_stay(v)) freedoms_[v].kind = Freedom::Kind::none;
     deviation_.emplace(mesh, sliding->surface, sliding->input_points, sliding->origin);
   }
 
@@ -154,7 +156,7 @@ bool Smoother::is_valid_cell(std::int32_t c) const {
 
 // On a curved surface or curve: there is no plane or line for it.
 bool Smoother::slides(Vertex v) const {
-  if (sliding_ == nullptr || freedoms_[v].kind != Freedom::Kind::none) return false;
+  if (sliding_ == nullptr || freedoms_[v].kind != Freedom::Kind::none || sliding_->has_to_stay(v)) return false;
   const auto place = sliding_->surface.place(sliding_->origin[v]);
   return place == InputSurface::Place::face || place == InputSurface::Place::curve;
 }

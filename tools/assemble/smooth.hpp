@@ -18,6 +18,13 @@ struct SlidingSurface {
   const InputSurface& surface;
   std::span<const Vec3> input_points;
   std::span<const Vertex> origin;
+  // By vertex of the input: 1 for one that has to stay; empty where there is none.
+  std::span<const std::uint8_t> stays = {};
+
+  bool has_to_stay(Vertex v) const {
+    const auto from = static_cast<std::size_t>(origin[v]);
+    return from < stays.size() && stays[from] != 0;
+  }
 };
 
 // What counts as poor: the least scaled Jacobian (of a tet times the square root of 2) that cells should have.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <numeric>
 #include <utility>
 
@@ -14,17 +13,6 @@ namespace hexpipe {
 namespace {
 
 constexpr std::int32_t none = -1;
-
-// By place in `from`, the place in `to` of the same number, or none; both ascend.
-std::vector<std::int32_t> places_in(const std::vector<std::int64_t>& to, const std::vector<std::int64_t>& from) {
-  std::vector<std::int32_t> places(from.size(), none);
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    while (at < to.size() && to[at] < from[i]) ++at;
-    if (at < to.size() && to[at] == from[i]) places[i] = static_cast<std::int32_t>(at);
-  }
-  return places;
-}
 
 // Adds to the candidates of a part those of others that may be in conflict with them.
 class HaloCollector {
@@ -100,13 +88,6 @@ class HaloCollector {
   std::vector<std::int32_t> order_;
 };
 
-void check_head(const MeshPart& other, const MeshPart& part, const std::string& name, const std::string& source) {
-  if (other.whole != part.whole)
-    throw DataError::at(name, "expected a part of the same mesh as {}, found one of another", source);
-  if (other.parts != part.parts)
-    throw DataError::at(name, "expected one of {} parts as {}, found {}", part.parts, source, title_of(other));
-}
-
 }  // namespace
 
 PartCandidates with_neighbours(PartCandidates own, const MeshPart& part,
@@ -114,25 +95,12 @@ PartCandidates with_neighbours(PartCandidates own, const MeshPart& part,
                                const std::vector<std::string>& paths, const std::string& source) {
   const nlohmann::ordered_json settings = settings_of("findhex", history);
   HaloCollector halo(std::move(own), part);
-  std::map<std::int32_t, std::string> found;
-  const auto is_neighbour = [&](const MeshPart& other) {
-    return std::binary_search(part.neighbours.begin(), part.neighbours.end(), other.part);
-  };
-  for (const std::string& path : paths) {
-    const PartHead head = read_part_bundle(path, is_neighbour);
-    check_head(head.part, part, path, source);
-    const auto [twin, is_first] = found.emplace(head.part.part, path);
-    if (!is_first)
-      throw DataError::at(path, "expected each part once, found {} as in {}", title_of(head.part), twin->second);
-    if (!head.bundle) continue;
-    if (settings_of("findhex", head.bundle->history) != settings)
-      throw DataError::at(path, "expected candidates found with the version and options of {}, found others", source);
-    halo.add_from(*head.bundle);
-  }
-  for (const std::int32_t neighbour : part.neighbours)
-    if (!found.contains(neighbour))
-      throw DataError::at(source, "expected the neighbours of {} with --neighbours, found no part {}", title_of(part),
-                          neighbour);
+  for_each_neighbour(part, paths, source, [&](const PartBundle& neighbour) {
+    if (settings_of("findhex", neighbour.history) != settings)
+      throw DataError::at(neighbour.name, "expected candidates found with the version and options of {}, found others",
+                          source);
+    halo.add_from(neighbour);
+  });
   return halo.take();
 }
 

@@ -5,6 +5,7 @@
 #include "formats/bundle.hpp"
 #include "formats/output.hpp"
 #include "tools/merge-parts/merge_parts.hpp"
+#include "tools/merge-parts/pieces.hpp"
 
 using namespace hexpipe;
 
@@ -31,6 +32,10 @@ int main(int argc, char** argv) {
     const bool to_stdout = path.empty() || path == "-";
     if (to_stdout && isatty(STDOUT_FILENO))
       throw UsageError("standard output is a terminal: pipe it to the next tool, or write a file with -o");
+    if (is_piece(paths.front())) {
+      merge_pieces(paths, path, compress);
+      return;
+    }
     Output output(path);
     BundleWriter writer(output, compress || path.ends_with(".zst"));
     merge_parts(paths, writer);

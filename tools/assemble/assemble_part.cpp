@@ -1,0 +1,122 @@
+// The parts of a mesh are assembled apart, each piece with its seam as it is. What a piece needs from others is said in
+// rounds: which cells went back to their tets, so that the cells beside them face tets now. Nothing but lists of cells
+// crosses from part to part, lists only grow, and each round starts from the input, so that the last one, in which no
+// list has grown, is one in which all pieces agree.
+
+#include "tools/assemble/assemble_part.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "common/run/error.hpp"
+#include "formats/part_bundle.hpp"
+#include "tools/assemble/complete_surface.hpp"
+#include "tools/assemble/piece_input.hpp"
+#include "tools/assemble/pieces.hpp"
+
+namespace hexpipe {
+namespace {
+
+struct Before {
+  RoundBefore said;
+  bool is_there = false;
+  MeshPiece own;
+};
+
+void check_piece(const MeshPiece& piece, const MeshPart& part, const std::string& path) {
+  if (piece.whole != part.whole) throw DataError::at(path, "expected a piece of the same mesh, found one of another");
+  if (piece.parts != part.parts)
+    throw DataError::at(path, "expected one of {} pieces, found one of {}", part.parts, piece.parts);
+}
+
+Before read_round_before(const MeshPart& part, const std::vector<std::string>& paths, const std::string& source) {
+  Before before;
+  std::map<std::int64_t, std::int32_t> moved;
+  std::map<std::int32_t, std::string> found;
+  for (const std::string& path : paths) {
+    PieceBundle bundle = read_piece_bundle(path, false);
+    MeshPiece& piece = bundle.piece;
+    check_piece(piece, part, path);
+    const auto [twin, is_first] = found.emplace(piece.part, path);
+    if (!is_first) throw DataError::at(path, "expected each piece once, found {} as in {}", piece.part, twin->second);
+    const bool is_own = piece.part == part.part;
+    if (!is_own && !std::ranges::binary_search(part.neighbours, piece.part)) continue;
+    std::ranges::copy(piece.given_back, std::back_inserter(before.said.given_back));
+    before.said.known_homes.push_back(piece.part);
+    for (std::size_t i = 0; i < piece.moved_tets.size(); ++i) moved.emplace(piece.moved_tets[i], piece.moved_to[i]);
+    if (is_own) before.own = std::move(piece);
+  }
+  before.is_there = !paths.empty();
+  if (!before.is_there) return before;
+  std::ranges::sort(before.said.known_homes);
+  for (const std::int32_t neighbour : part.neighbours)
+    if (!found.contains(neighbour))
+      throw DataError::at(source, "expected the pieces of {} and its neighbours, found no piece {}", title_of(part),
+                          neighbour);
+  if (!found.contains(part.part))
+    throw DataError::at(source, "expected the pieces of {} and its neighbours, found no piece {}", title_of(part),
+                        part.part);
+  for (const auto& [tet, to] : moved) {
+    before.said.moved_tets.push_back(tet);
+    before.said.moved_to.push_back(to);
+  }
+  auto& list = before.said.given_back;
+  std::ranges::sort(list);
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  return before;
+}
+
+// The numbers of points that were added begin behind those of the whole, and tell the part.
+std::vector<std::int64_t> point_numbers(const std::vector<Vertex>& origin, const PieceInput& input,
+                                        const MeshPart& part) {
+  std::vector<std::int64_t> numbers;
+  numbers.reserve(origin.size());
+  std::int64_t added = 0;
+  for (const Vertex v : origin) {
+    const bool is_input = static_cast<std::size_t>(v) < input.point_number.size();
+    numbers.push_back(is_input ? input.point_number[v] : part.whole.points + part.parts * added++ + part.part);
+  }
+  return numbers;
+}
+
+}  // namespace
+
+PartResult assemble_part(PartView view, const std::vector<std::string>& before_paths, const AssembleOptions& options,
+                         const InputNames& names) {
+  const Before before = read_round_before(view.part, before_paths, names.solution);
+  const TetAdjacency adjacency(view.mesh, names.mesh.c_str());
+  complete_surface(view.mesh, adjacency);
+  const SurfaceTags tags(view.mesh);
+  const Pieces pieces = divide_tets(view, tags, adjacency, before.said, names);
+  const SeamCells cells = cells_at_seams(view, tags, pieces, before.said.given_back, names);
+  PieceInput input = cut_piece(view, adjacency, tags, pieces, cells);
+
+  PartResult result;
+  MeshPiece& piece = result.piece;
+  piece.part = view.part.part;
+  piece.parts = view.part.parts;
+  piece.whole = view.part.whole;
+  piece.moved_tets = pieces.moved_tets;
+  piece.moved_to = pieces.moved_to;
+  piece.given_back = before.said.given_back;
+  for (const std::int32_t i : cells.given_back) piece.given_back.push_back(view.keys.key[i]);
+  if (!input.mesh.tets.empty()) {
+    IndependentSet all(input.cells.size());
+    std::iota(all.begin(), all.end(), 0);
+    AssembleResult assembled = assemble(std::move(input.mesh), input.cells, all, options, names, &input.seam);
+    IndependentSet given_back;
+    std::ranges::set_difference(all, assembled.left, std::back_inserter(given_back));
+    for (const std::int32_t c : given_back) piece.given_back.push_back(view.keys.key[input.view_cells[c]]);
+    piece.point_number = point_numbers(assembled.origin, input, view.part);
+    result.mesh = std::move(assembled.mesh);
+    result.statistics = std::move(assembled.statistics);
+  }
+  std::ranges::sort(piece.given_back);
+  piece.settled = before.is_there && piece.given_back == before.own.given_back;
+  return result;
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,206 @@
+#include "tools/merge-parts/pieces.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+#include "common/run/error.hpp"
+#include "formats/bundle.hpp"
+#include "formats/input.hpp"
+#include "formats/members.hpp"
+#include "formats/mesh_files.hpp"
+#include "formats/output.hpp"
+#include "formats/part_bundle.hpp"
+#include "formats/vtu.hpp"
+#include "tools/merge-parts/seam_check.hpp"
+
+namespace hexpipe {
+namespace {
+
+using History = std::vector<nlohmann::ordered_json>;
+
+// Entries as far as all pieces have them in common.
+History settings_in(const History& history) {
+  History result;
+  for (const auto& entry : history)
+    if (entry.is_object() && entry.contains("tool"))
+      result.push_back({{"tool", entry["tool"]},
+                        {"version", entry.value("version", "")},
+                        {"options", entry.value("options", nlohmann::ordered_json::object())}});
+  return result;
+}
+
+// All k pieces of one mesh, each once, one after the other.
+class PieceReader {
+ public:
+  explicit PieceReader(const std::vector<std::string>& paths) : paths_(paths) {
+    std::map<std::int32_t, std::string> found;
+    for (const std::string& path : paths) {
+      const MeshPiece piece = read_piece_bundle(path, false).piece;
+      if (found.empty()) first_ = piece;
+      if (piece.whole != first_.whole)
+        throw DataError::at(path, "expected a piece of the same mesh as {}, found one of another", paths.front());
+      if (piece.parts != first_.parts)
+        throw DataError::at(path, "expected one of {} pieces as {}, found one of {}", first_.parts, paths.front(),
+                            piece.parts);
+      const auto [twin, is_first] = found.emplace(piece.part, path);
+      if (!is_first) throw DataError::at(path, "expected each piece once, found {} as in {}", piece.part, twin->second);
+      if (!piece.settled && piece.parts > 1)
+        throw DataError::at(path, "expected a settled piece, found one that needs another round of assemble --before");
+    }
+    for (std::int32_t part = 0; part < first_.parts; ++part)
+      if (!found.contains(part))
+        throw DataError(fmt::format("expected all {} pieces, found no piece {}", first_.parts, part));
+    order_.reserve(found.size());
+    for (const auto& [part, path] : found) order_.push_back(path);
+  }
+
+  // visit(piece) in the order of parts; their facets are compared.
+  template <class Visit>
+  void for_each(Visit&& visit) {
+    SeamCheck seams;
+    for (const std::string& path : order_) {
+      PieceBundle piece = read_piece_bundle(path, true);
+      History settings = settings_in(piece.history);
+      if (path == order_.front()) settings_ = settings;
+      if (settings != settings_)
+        throw DataError::at(path, "expected a piece made with the versions and options of {}, found another",
+                            order_.front());
+      seams.add(piece.mesh, piece.piece, path);
+      visit(std::move(piece));
+    }
+    seams.end();
+  }
+
+  const History& settings() const { return settings_; }
+  std::size_t size() const { return order_.size(); }
+
+ private:
+  const std::vector<std::string>& paths_;
+  MeshPiece first_;
+  std::vector<std::string> order_;
+  History settings_;
+};
+
+class Joiner {
+ public:
+  void add(const PieceBundle& piece) {
+    const auto begin = static_cast<Vertex>(points_.size());
+    for (std::size_t v = 0; v < piece.mesh.points.size(); ++v)
+      points_.push_back({piece.piece.point_number[v], static_cast<Vertex>(points_.size()), piece.mesh.points[v]});
+    each_block(piece.mesh, [&](auto member) { append(mesh_.*member, piece.mesh.*member, begin); });
+  }
+
+  // Points in the order of their numbers; those of several pieces are one.
+  MixedMesh take() {
+    std::ranges::sort(points_, {}, [](const Point& p) { return std::tie(p.number, p.place); });
+    std::vector<Vertex> places(points_.size());
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (i == 0 || points_[i].number != points_[i - 1].number) mesh_.points.push_back(points_[i].at);
+      places[points_[i].place] = static_cast<Vertex>(mesh_.points.size()) - 1;
+    }
+    each_block(mesh_, [&](auto member) {
+      for (auto& cell : (mesh_.*member).cells)
+        for (Vertex& v : cell) v = places[v];
+    });
+    return std::move(mesh_);
+  }
+
+ private:
+  struct Point {
+    std::int64_t number;
+    Vertex place;
+    Vec3 at;
+  };
+
+  template <class Visit>
+  static void each_block(const MixedMesh&, Visit&& visit) {
+    visit(&MixedMesh::hexes), visit(&MixedMesh::prisms), visit(&MixedMesh::pyramids), visit(&MixedMesh::tets);
+    visit(&MixedMesh::triangles), visit(&MixedMesh::quads);
+  }
+
+  template <int Corners>
+  static void append(CellBlock<Corners>& to, const CellBlock<Corners>& from, Vertex first_point) {
+    for (auto cell : from.cells) {
+      for (Vertex& v : cell) v += first_point;
+      to.cells.push_back(cell);
+    }
+    to.tags.insert(to.tags.end(), from.tags.begin(), from.tags.end());
+    to.quality.insert(to.quality.end(), from.quality.begin(), from.quality.end());
+  }
+
+  std::vector<Point> points_;
+  MixedMesh mesh_;
+};
+
+std::string ending_of(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  return ending.empty() ? ending : ending.substr(1);
+}
+
+void write_pieces(PieceReader& reader, const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).replace_extension();
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw DataError::at(folder.string(), "cannot make the directory: {}", error.message());
+  std::vector<std::string> names;
+  Output head(path);
+  reader.for_each([&](const PieceBundle& piece) {
+    if (piece.mesh.cell_count() == 0) return;
+    const std::string name = fmt::format("part-{:04}.vtu", piece.piece.part);
+    Output output((folder / name).string());
+    write_vtu_piece(piece.mesh, piece.piece.point_number, output);
+    output.commit();
+    names.push_back((folder.filename() / name).string());
+  });
+  write_pvtu(names, head);
+  head.commit();
+}
+
+void write_whole(PieceReader& reader, const std::string& path, bool compress) {
+  const std::string ending = ending_of(path);
+  const auto& formats = mesh_format_names();
+  Output output(path);
+  Joiner joiner;
+  reader.for_each([&](const PieceBundle& piece) { joiner.add(piece); });
+  const MixedMesh mesh = joiner.take();
+  if (std::ranges::find(formats, ending) != formats.end()) {
+    write_mixed_mesh(mesh, ending, output);
+  } else {
+    BundleWriter writer(output, compress || ending == "zst");
+    write_members(writer, mesh);
+    int number = 0;
+    for (const auto& entry : reader.settings())
+      writer.add_text(fmt::format("history/{:02}-{}.json", ++number, entry["tool"].get<std::string>()),
+                      entry.dump(2) + "\n");
+    writer.close();
+  }
+  output.commit();
+}
+
+}  // namespace
+
+bool is_piece(const std::string& path) {
+  Input input = Input::open(path);
+  if (!looks_like_bundle(input)) return false;
+  BundleReader reader(input);
+  // Histories may come before it.
+  while (reader.next())
+    if (!reader.name().starts_with("history/")) return is_piece_title(reader.name());
+  return false;
+}
+
+void merge_pieces(const std::vector<std::string>& paths, const std::string& output, bool compress) {
+  PieceReader reader(paths);
+  if (ending_of(output) == "pvtu")
+    write_pieces(reader, output);
+  else
+    write_whole(reader, output, compress);
+}
+
+}  // namespace hexpipe

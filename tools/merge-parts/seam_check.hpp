@@ -1,0 +1,41 @@
+#pragma once
+// Whether the pieces of a mesh fit together: every facet at which one ends is one at which another does, or a tagged
+// one of the boundary; and a point has one place in all pieces.
+
+#include <tsl/robin_map.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "common/mesh/mesh_piece.hpp"
+#include "common/mesh/mixed_mesh.hpp"
+
+namespace hexpipe {
+
+class SeamCheck {
+ public:
+  // Throws DataError naming `source` when a point is elsewhere than in the pieces before, or a third piece has a facet.
+  void add(const MixedMesh& mesh, const MeshPiece& piece, const std::string& source);
+  // Of all pieces. Throws DataError when one has a facet for itself that is not tagged.
+  void end() const;
+
+ private:
+  // The points of a facet by their numbers in the whole: the least, the one opposite to it (of a triangle -1), and the
+  // other two ascending.
+  using Facet = std::array<std::int64_t, 4>;
+  struct Hash {
+    std::size_t operator()(const Facet& facet) const;
+  };
+  struct Sides {
+    std::int32_t pieces = 0;
+    std::int32_t first = 0;
+    bool tagged = false;
+  };
+  static Facet facet_of(const MeshPiece& piece, const Vertex* corners, std::size_t count);
+
+  tsl::robin_map<Facet, Sides, Hash> facets_;
+  tsl::robin_map<std::int64_t, Vec3> places_;  // of points of these facets
+};
+
+}  // namespace hexpipe
