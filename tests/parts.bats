@@ -160,36 +160,211 @@ PYTHON
   run_parts bar.mesh 3 three
   merge-parts three/graph-*.tar -o whole.tar
   initsol -q whole.tar --iterations 2000 -o solved.tar
-  $PYTHON - <<'PYTHON'
-import glob, io, tarfile
+  $PYTHON "$DATA/split_solution.py" solved.tar solved three/graph-*.tar
+  merge-parts solved/*.tar -o merged.tar
+  assert_same_bytes solved.tar merged.tar
+}
+
+# solve_parts MESH K DIR OPTIONS...: also the solution of a single run, as DIR/solved.tar, and in parts, in DIR/solved.
+solve_parts() {
+  run_parts "$@"
+  merge-parts "$3"/graph-*.tar | initsol -q --iterations 2000 -o "$3/solved.tar"
+  $PYTHON "$DATA/split_solution.py" "$3/solved.tar" "$3/solved" "$3"/graph-*.tar
+}
+
+# assemble_round DIR ROUND OPTIONS...: the pieces of a round, in DIR/ROUND.
+assemble_round() {
+  local dir=$1 round=$2 part before=()
+  shift 2
+  if ((round > 1)); then before=(--before "$dir/$((round - 1))"/*.tar); fi
+  mkdir "$dir/$round"
+  for part in "$dir"/solved/*.tar; do
+    assemble -q "$part" --neighbours "$dir"/solved/*.tar "${before[@]}" "$@" -o "$dir/$round/$(basename "$part")"
+  done
+}
+
+# assemble_parts DIR OPTIONS...: rounds until all pieces are settled, the last one as DIR/pieces.
+assemble_parts() {
+  local dir=$1 round part
+  shift
+  for round in 1 2 3 4 5 6 7 8; do
+    assemble_round "$dir" $round "$@"
+    for part in "$dir/$round"/*.tar; do
+      if ! tar xOf "$part" result/piece.json | grep -q '"settled":true'; then continue 2; fi
+    done
+    mv "$dir/$round" "$dir/pieces"
+    return
+  done
+  fail "pieces of $dir do not settle"
+}
+
+# statistics FILE: what the checker counts, as lines NAME=VALUE.
+statistics() {
+  $PYTHON "$CHECKERS/meshstats.py" --exact "$1" | tr ' ' '\n'
+}
+
+# assert_is_whole STATISTICS VOLUME: conforming, valid, nothing overlaps or is missing.
+assert_is_whole() {
+  assert grep -qx conforming=True <<<"$1"
+  run grep -E '^(inv|hexbad|negvol|ncq|perm|halfq|bedge_odd|nonconf_quads|orphan_nodes|dupcells)=.*[1-9]' <<<"$1"
+  assert_output ""
+  assert $PYTHON -c 'import sys; a, b, gap = map(float, sys.argv[1:]); sys.exit(abs(a - b) > 1e-9 * b or abs(gap) > 1e-9)' \
+    "$(sed -n s/^vol=//p <<<"$1")" "$2" "$(sed -n s/^volgap=//p <<<"$1")"
+}
+
+@test "pieces of a lattice are the hexes of a single run, for any number of parts" {
+  bar --length 6 --kuhn >kuhn.mesh
+  for k in 2 7; do
+    solve_parts kuhn.mesh $k k$k
+    assemble -q k$k/solved.tar -o whole.vtu
+    assemble_parts k$k
+    merge-parts k$k/pieces/*.tar -o merged.vtu
+    stats=$(statistics merged.vtu)
+    assert_is_whole "$stats" 54
+    assert_equal "$(grep ^hex= <<<"$stats")" "$(statistics whole.vtu | grep ^hex=)"
+    assert [ "$(sed -n s/^hex=//p <<<"$stats")" -gt 20 ]
+  done
+}
+
+@test "pieces of Delaunay tets conform, with their regions, tags, and pieces that do not touch" {
+  for options in "--length 10" "--length 5 --regions --apart"; do
+    rm -rf k
+    bar $options >bar.mesh
+    solve_parts bar.mesh 4 k $ALL
+    assemble_parts k
+    merge-parts k/pieces/*.tar -o merged.vtu
+    stats=$(statistics merged.vtu)
+    assert_is_whole "$stats" "$(statistics bar.mesh | sed -n s/^vol=//p)"
+    assert [ "$(sed -n s/^prism=//p <<<"$stats")" -gt 5 ]
+  done
+}
+
+@test "one part is assembled as the whole" {
+  bar --length 6 >bar.mesh
+  solve_parts bar.mesh 1 one $ALL
+  assemble -q one/solved.tar -o whole.vtu
+  assemble_parts one
+  merge-parts one/pieces/*.tar -o merged.vtu
+  assert_same_bytes whole.vtu merged.vtu
+}
+
+@test "pieces are files of VTK with a .pvtu, points that several have are the same in all" {
+  bar --length 8 --regions >bar.mesh
+  solve_parts bar.mesh 3 k $ALL
+  assemble_parts k
+  merge-parts k/pieces/*.tar -o mesh.pvtu
+  merge-parts k/pieces/part-000[210].tar -o merged.vtu
+  assert_equal "$(ls mesh | tr '\n' ' ')" "part-0000.vtu part-0001.vtu part-0002.vtu "
+  run $PYTHON - <<'PYTHON'
+import numpy as np
+import vtk
+from vtk.util.numpy_support import vtk_to_numpy
+
+def read(reader, path):
+    reader.SetFileName(path)
+    reader.Update()
+    return reader.GetOutput()
+
+pieces, whole = read(vtk.vtkXMLPUnstructuredGridReader(), "mesh.pvtu"), read(vtk.vtkXMLUnstructuredGridReader(), "merged.vtu")
+numbers = vtk_to_numpy(pieces.GetPointData().GetGlobalIds())
+points = vtk_to_numpy(pieces.GetPoints().GetData())
+order = np.lexsort((np.arange(len(numbers)), numbers))
+first = np.concatenate([[True], np.diff(numbers[order]) > 0])
+assert (points[order][~first] == points[order][np.flatnonzero(~first) - 1]).all()
+assert (points[order][first] == vtk_to_numpy(whole.GetPoints().GetData())).all()
+assert 0 < (~first).sum() < len(numbers) / 2
+def of_cells(grid, name):
+    # A facet between two pieces says what the cell is on whose side it is written.
+    data, types = vtk_to_numpy(grid.GetCellData().GetArray(name)), vtk_to_numpy(grid.GetCellTypesArray())
+    return np.sort(data if name == "surface" else data[types >= 10])
+
+for name in "region", "surface", "kind", "quality":
+    assert (of_cells(pieces, name) == of_cells(whole, name)).all(), name
+print("good")
+PYTHON
+  assert_output good
+  # The merged mesh as a bundle, in any order of pieces, is a result like any other.
+  merge-parts k/pieces/*.tar -o merged.tar
+  merge-parts k/pieces/part-000[120].tar | cat >piped.tar
+  assert_same_bytes merged.tar piped.tar
+  merge-parts k/pieces/*.tar -o merged.tar.zst
+  zstd -qd merged.tar.zst -o unpacked.tar
+  assert_same_bytes merged.tar unpacked.tar
+  # Its options reach the pieces, and the same round gives the same bytes.
+  assemble -q k/solved/part-0001.tar --neighbours k/solved/*.tar --before k/pieces/*.tar -o again.tar
+  assert_same_bytes again.tar k/pieces/part-0001.tar
+  assemble -q k/solved/part-0001.tar --neighbours k/solved/*.tar --smooth 0 -o rough.tar
+  assert_different_bytes rough.tar k/1/part-0001.tar
+}
+
+@test "assemble of a part, and merge-parts of pieces, say what is wrong in a line" {
+  bar --length 12 >bar.mesh
+  solve_parts bar.mesh 3 k $ALL
+  assemble_round k 1
+  local one="assemble k/solved/part-0001.tar"
+  assert_fails_with 1 "mesh: expected the neighbours of part 1 of 3 with --neighbours, found none" shell "initsol -q k/graph-0001.tar --iterations 9 | assemble -o out.tar"
+  assert_fails_with 1 "expected the neighbours of part 1 of 3 with --neighbours, found no part 2" $one --neighbours k/solved/part-000[01].tar -o out.tar
+  assert_fails_with 1 "k/graph-0000.tar: expected a solution, found none" $one --neighbours k/graph-0000.tar k/solved/part-000[12].tar -o out.tar
+  assert_fails_with 2 "before goes with --neighbours" $one --before k/1/*.tar -o out.tar
+  assert_fails_with 2 "conformity none does not go with --neighbours" $one --conformity none --neighbours k/solved/*.tar -o out.tar
+  assert_fails_with 2 "neighbours goes with a part of a mesh" assemble k/solved.tar --neighbours k/solved/*.tar -o out.tar
+  local with="$one --neighbours k/solved/part-0000.tar k/solved/part-0001.tar k/solved/part-0002.tar"
+  assert_fails_with 1 "expected the pieces of part 1 of 3 and its neighbours, found no piece 2" $with --before k/1/part-000[01].tar -o out.tar
+  assert_fails_with 1 "k/1/part-0000.tar: expected each piece once, found 0 as in k/1/part-0000.tar" $with --before k/1/part-0000.tar k/1/*.tar -o out.tar
+  assert_fails_with 1 "k/graph-0000.tar: expected a piece of a mesh, as assemble makes them of parts, found none" $with --before k/graph-0000.tar -o out.tar
+  # Solutions that were searched apart, and cells of two parts in one place.
+  merge-parts k/graph-*.tar | initsol -q --iterations 50 --seed 5 -o other.tar
+  $PYTHON "$DATA/split_solution.py" other.tar others k/graph-*.tar
+  assert_fails_with 1 "others/part-0000.tar: expected a solution made with the version and options of k/solved/part-0001.tar" $one --neighbours others/part-0000.tar k/solved/part-000[12].tar -o out.tar
+  $PYTHON - k/solved/part-0000.tar k/solved/part-0001.tar crossing.tar <<'PYTHON'
+import io, sys, tarfile
 import numpy as np
 
 def arrays(path):
     with tarfile.open(path) as tar:
         return {m.name: np.load(io.BytesIO(tar.extractfile(m).read())) for m in tar if m.name.endswith(".npy")}
 
-parts = [arrays(path) for path in sorted(glob.glob("three/graph-*.tar"))]
-own = [p["candidates/part.npy"] == i for i, p in enumerate(parts)]
-keys = np.sort(np.concatenate([p["candidates/key.npy"][o] for p, o in zip(parts, own)]))
-chosen = set(keys[arrays("solved.tar")["solution/chosen.npy"]])
-with tarfile.open("solved.tar") as tar:
-    entry = [m for m in tar if m.name.endswith("initsol.json")][0]
-    history = tar.extractfile(entry).read()
-for i, (p, o) in enumerate(zip(parts, own)):
-    # Of others' candidates it says the contrary of what is so, which must not count.
-    says = np.array([(key in chosen) == mine for key, mine in zip(p["candidates/key.npy"], o)])
-    data = io.BytesIO()
-    np.save(data, np.flatnonzero(says).astype("<i4"))
-    with tarfile.open(f"three/graph-{i:04}.tar") as old, tarfile.open(f"solution-{i}.tar", "w", format=tarfile.PAX_FORMAT) as new:
-        for member in old:
-            new.addfile(member, old.extractfile(member))
-        for name, content in (("solution/chosen.npy", data.getvalue()), ("history/05-initsol.json", history)):
-            member = tarfile.TarInfo(name)
-            member.size = len(content)
-            new.addfile(member, io.BytesIO(content))
+first, second = arrays(sys.argv[1]), arrays(sys.argv[2])
+theirs = second["solution/chosen.npy"]
+theirs = second["candidates/key.npy"][theirs[second["candidates/part.npy"][theirs] == 1]]
+key, part, offsets, neighbours = (first[n + ".npy"] for n in ("candidates/key", "candidates/part", "graph/offsets", "graph/neighbours"))
+rows = [v for v in np.flatnonzero(part == 0) if np.isin(key[neighbours[offsets[v]:offsets[v + 1]]], theirs).any()]
+data = io.BytesIO()
+np.save(data, np.array(rows[:1], "<i4"))
+with tarfile.open(sys.argv[1]) as old, tarfile.open(sys.argv[3], "w", format=tarfile.PAX_FORMAT) as new:
+    for member in old:
+        content = data.getvalue() if member.name == "solution/chosen.npy" else old.extractfile(member).read()
+        member.size = len(content)
+        new.addfile(member, io.BytesIO(content))
 PYTHON
-  merge-parts solution-*.tar -o merged.tar
-  assert_same_bytes solved.tar merged.tar
+  assert_fails_with 1 "part-0001.tar: solution: expected candidates that fit together" $one --neighbours crossing.tar k/solved/part-000[12].tar -o out.tar
+  # Pieces.
+  assert_fails_with 1 "k/1/part-0000.tar: expected a settled piece, found one that needs another round of assemble --before" merge-parts k/1/*.tar -o out.vtu
+  mv k/1 first
+  assemble_parts k
+  local merged="merge-parts k/pieces/part-0000.tar k/pieces/part-0001.tar"
+  assert_fails_with 1 "expected all 3 pieces, found no piece 2" $merged -o out.pvtu
+  assert_fails_with 1 "k/pieces/part-0001.tar: expected each piece once, found 1 as in k/pieces/part-0001.tar" $merged k/pieces/part-0001.tar -o out.vtu
+  assert_fails_with 1 "k/graph-0002.tar: expected a piece" $merged k/graph-0002.tar -o out.vtu
+  assert_fails_with 1 "/dev/null/x: cannot make the directory" $merged k/pieces/part-0002.tar -o /dev/null/x.pvtu
+  bar --length 12 --folded >folded.mesh
+  solve_parts bar.mesh 2 two $ALL
+  assemble_parts two
+  assert_fails_with 1 "two/pieces/part-0001.tar: expected one of 3 pieces as k/pieces/part-0000.tar, found one of 2" $merged two/pieces/part-0001.tar -o out.vtu
+  $PYTHON - k/pieces/part-0002.tar moved.tar <<'PYTHON'
+import io, sys, tarfile
+import numpy as np
+with tarfile.open(sys.argv[1]) as old, tarfile.open(sys.argv[2], "w", format=tarfile.PAX_FORMAT) as new:
+    for member in old:
+        data = old.extractfile(member).read()
+        if member.name == "result/points.npy":
+            points = io.BytesIO()
+            np.save(points, np.load(io.BytesIO(data)) + 1e-12)
+            data = points.getvalue()
+        new.addfile(member, io.BytesIO(data))
+PYTHON
+  assert_fails_with 1 "moved.tar: expected point [0-9]+ where the other pieces have it, found it elsewhere" $merged moved.tar -o out.vtu
+  assert [ ! -e out.vtu ] && [ ! -e out.tar ]
 }
 
 @test "the Slurm script's jobs run the pipeline, each when those before it have succeeded" {

@@ -186,6 +186,9 @@ void write_whole(PieceReader& reader, const std::string& path, bool compress) {
 }  // namespace
 
 bool is_piece(const std::string& path) {
+  // What comes from a pipe can be read only once; pieces are read more often.
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
   Input input = Input::open(path);
   if (!looks_like_bundle(input)) return false;
   BundleReader reader(input);
