@@ -33,7 +33,7 @@ TEST(Recombination, FindsTheHeaviestOfBoth) {
   Random random(1);
   int better_than_both = 0;
   for (int i = 0; i < 2000; ++i) {
-    const ConflictGraph graph = hexpipe::testing::random_graph(30, random.uniform(0.05, 0.3), 20, random);
+    const ConflictGraph graph = hexpipe::testing::random_graph(24, random.uniform(0.05, 0.3), 20, random);
     const IndependentSet a = random_set(graph, random), b = random_set(graph, random);
     const IndependentSet both = recombine(graph, a, b);
     ASSERT_NO_THROW(validate(both, graph, "recombined"));
