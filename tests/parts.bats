@@ -370,7 +370,7 @@ PYTHON
 @test "the Slurm script's jobs run the pipeline, each when those before it have succeeded" {
   bar >bar.mesh
   mkdir bin
-  # Runs a job at once, all numbers of its array, and prints its number: the searching ranks and assemble are others' tests.
+  # Runs a job at once, all numbers of its array, and prints its number; a search by one process stands for that of lns-mpi.
   cat >bin/sbatch <<'SBATCH'
 #!/usr/bin/env bash
 set -e
@@ -393,14 +393,21 @@ fi
 echo $job | tee jobs
 SBATCH
   printf '#!/bin/sh\nexec "$@"\n' >bin/srun
-  printf '#!/bin/sh\nmkdir solved && cp graphs/* solved/ && echo "$@" >searched\n' >bin/lns-mpi
-  printf '#!/bin/sh\ncat >assembled.tar\n' >bin/assemble
+  cat >bin/lns-mpi <<SEARCH
+#!/usr/bin/env bash
+set -e -o pipefail
+echo "\$@" >searched
+merge-parts graphs/*.tar | initsol -q --iterations 1000 -o whole.tar
+$PYTHON "$DATA/split_solution.py" whole.tar solved graphs/*.tar
+SEARCH
   chmod +x bin/*
   run_apart env PATH="$PWD/bin:$PATH" "$HEXPIPE_SOURCE/docs/slurm/submit.sh" bar.mesh 5 scratch
   assert_success
-  assert_equal "$output" 5
-  findhex -q --mesh bar.mesh | buildgraph -q -o whole.tar
-  assert_same_bytes scratch/assembled.tar whole.tar
+  assert_equal "$output" 9
+  assert_equal "$(ls scratch/mesh | tr '\n' ' ')" "part-0000.vtu part-0001.vtu part-0002.vtu part-0003.vtu part-0004.vtu "
+  assemble -q scratch/whole.tar -o whole.vtu
+  merge-parts scratch/pieces-4/*.tar -o merged.vtu
+  assert_equal "$(statistics merged.vtu | grep ^hex=)" "$(statistics whole.vtu | grep ^hex=)"
   assert_equal "$(cat scratch/searched | cut -d ' ' -f 1-7)" "--parts graphs/part-0000.tar graphs/part-0001.tar graphs/part-0002.tar graphs/part-0003.tar graphs/part-0004.tar --time-limit"
   run_apart "$HEXPIPE_SOURCE/docs/slurm/submit.sh" bar.mesh
   assert_equal "$status" 2

@@ -4,7 +4,8 @@
 #   docs/slurm/submit.sh engine.msh 64 /scratch/engine
 #
 # One job splits the mesh, an array finds the candidates of each part, an array their conflicts, lns-mpi searches with a
-# rank a part, and the last job puts everything together and builds DIR/mesh.vtu. DIR has to be seen from every node.
+# rank a part, arrays assemble the parts in rounds, and the last job checks that the pieces fit and writes DIR/mesh.pvtu.
+# No job but the first needs the memory for the whole. DIR has to be seen from every node.
 # Options for sbatch, such as a partition or an account, come from SBATCH_PARTITION, SBATCH_ACCOUNT and so on.
 set -euo pipefail
 
@@ -19,6 +20,8 @@ mkdir -p candidates graphs logs
 
 # What a part needs, by its number of tets: docs/definitions.md 5 and formats/README.md.
 seconds=${SEARCH_SECONDS:-3600}
+# Two are enough where no cell at a seam goes back to its tets; the last job says when more are needed.
+rounds=${ROUNDS:-4}
 memory_to_split=${MEMORY_TO_SPLIT:-64G} memory_a_part=${MEMORY_A_PART:-8G}
 number='$(printf %04d "$SLURM_ARRAY_TASK_ID")'
 array="0-$((parts - 1))"
@@ -42,5 +45,10 @@ link=$(submit "$find" --job-name=buildgraph --array="$array" --mem="$memory_a_pa
 search=$(submit "$link" --job-name=lns-mpi --ntasks="$parts" --mem-per-cpu="$memory_a_part" --signal=USR1@120 --requeue \
   --time="$((seconds / 60 + 10))" \
   "srun lns-mpi --parts graphs/part-*.tar --time-limit $seconds --checkpoint checkpoints -o solved")
-submit "$search" --job-name=assemble --mem="$memory_to_split" \
-  "merge-parts solved/part-*.tar | assemble -o mesh.vtu"
+last=$search before=
+for round in $(seq "$rounds"); do
+  last=$(submit "$last" --job-name=assemble --array="$array" --mem="$memory_a_part" \
+    "mkdir -p pieces-$round && assemble solved/part-$number.tar --neighbours solved/part-*.tar $before -o pieces-$round/part-$number.tar")
+  before="--before pieces-$round/part-*.tar"
+done
+submit "$last" --job-name=merge-parts --mem="$memory_a_part" "merge-parts pieces-$rounds/part-*.tar -o mesh.pvtu"
