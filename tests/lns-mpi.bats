@@ -17,8 +17,7 @@ setup() {
   cp "$BATS_FILE_TMPDIR"/*.graph "$BATS_FILE_TMPDIR"/*.sol .
 }
 
-# Leaks are the MPI library's own.
-export ASAN_OPTIONS="${ASAN_OPTIONS:-}:detect_leaks=0"
+export LSAN_OPTIONS="suppressions=$HEXPIPE_SOURCE/tests/leaks_of_mpi.txt:print_suppressions=0"
 
 # on RANKS OPTIONS...: the search of the ring on so many ranks.
 on() {
@@ -74,10 +73,24 @@ weight_of() {
   whole --seed 2 -o seed.sol
   whole --fragment-size 20 -o size.sol
   for other in blocks overlap round seed size; do assert_different_bytes base.sol $other.sol; done
+  lns-mpi --iterations 5 --free-running <(initsol ring.graph --iterations 0) | tar xO --wildcards 'history/*lns-mpi.json' |
+    grep -q depends_on_timing
   # Of 5000 fragments: the search ends long before.
   lns-mpi --graph ring.graph --solution start.sol --iterations 5000 --round 5 --target-gap 0.5 --bound 500000 \
     --stats stats.json -o target.sol
   "$PYTHON" -c 'import json; stats = json.load(open("stats.json")); assert stats["rounds"] <= 1, stats'
+}
+
+@test "--fragments writes what was improved, the same on any number of ranks, as view reads it" {
+  for ranks in 1 2; do on $ranks --iterations 200 --round 20 --fragments $ranks.txt --stats stats.json -o out.sol; done
+  assert_same_bytes 1.txt 2.txt
+  "$PYTHON" - <<'PYTHON'
+import json
+lines = [list(map(int, line.split())) for line in open("1.txt")]
+assert len(lines) == json.load(open("stats.json"))["improvements"] > 10, len(lines)
+for line in lines:
+    assert len(set(line)) == len(line) > 1 and 1 <= min(line) <= max(line) <= 3000, line
+PYTHON
 }
 
 @test "a run that is killed goes on from its checkpoint to the same result, on any number of ranks" {
@@ -113,6 +126,44 @@ weight_of() {
   assert_equal "$status" 1
   grep -q "^lns-mpi: state/checkpoint.json: expected the title of a checkpoint" <<<"$stderr"
   assert [ ! -e out.sol ]
+}
+
+@test "a checkpoint that is cut off, lacks a rank's file, or says nonsense is an error that names the file" {
+  on 2 --iterations 20 --round 1 --checkpoint state -o one.sol
+  local round
+  round=$(echo state/round-*)
+  cp -r state whole
+  refuse() {
+    run_apart timeout 60 mpirun --oversubscribe -n 2 lns-mpi --graph ring.graph --solution start.sol --iterations 20 \
+      --round 1 --checkpoint state -o out.sol
+    assert_equal "$status" 1
+    assert_equal "$(grep -c '^lns-mpi: ' <<<"$stderr")" 1
+    grep -Eq "^lns-mpi: $1" <<<"$stderr"
+    assert [ ! -e out.sol ]
+    rm -r state
+    cp -r whole state
+  }
+  head -c 3000 whole/${round#state/}/0001.tar >$round/0001.tar
+  refuse "$round/0001.tar: "
+  rm $round/0000.tar
+  refuse "$round/0000.tar: .*No such file"
+  head -c 100 whole/checkpoint.json >state/checkpoint.json
+  refuse "state/checkpoint.json: expected the title of a checkpoint"
+  "$PYTHON" - whole/${round#state/}/0001.tar $round/0001.tar <<'PYTHON'
+import io, sys, tarfile
+import numpy as np
+with tarfile.open(sys.argv[1]) as whole, tarfile.open(sys.argv[2], "w", format=tarfile.PAX_FORMAT) as damaged:
+    for member in whole:
+        array = np.load(io.BytesIO(whole.extractfile(member).read()))
+        if member.name == "place_state.npy":
+            array[0, 0] = 4000000000
+        file = io.BytesIO()
+        np.save(file, array)
+        member.size = file.tell()
+        file.seek(0)
+        damaged.addfile(member, file)
+PYTHON
+  refuse "$round/0001.tar: expected the state of 2 blocks in this part of a checkpoint"
 }
 
 @test "--prove proves a bound on any number of ranks, close to that of certify" {
@@ -169,20 +220,41 @@ PYTHON
 
 @test "a rank that dies ends the job, which names it" {
   local job
-  start_long --checkpoint state
+  start_long --checkpoint state --checkpoint-interval 0
+  for _ in $(seq 400); do [[ -e state/checkpoint.json ]] || sleep 0.05; done
   kill -KILL "$(pgrep -P $job -x lns-mpi | tail -1)"
   local code=0
   wait $job || code=$?
   assert [ "$code" -ne 0 ]
   grep -Eq "process rank [01] .*signal 9" message
   assert [ ! -e out.sol ]
+  # Its checkpoint is whole, and not worse where a search goes on from there.
+  local weight
+  weight=$(sed -n 's/.*"weight": \([0-9]*\).*/\1/p' state/checkpoint.json)
+  assert [ "$weight" -ge "$(weight_of start.sol)" ]
+  on 2 --time-limit 1 --checkpoint state -v -o out.sol 2>message
+  grep -q "goes on after round" message
+  assert [ "$(weight_of out.sol)" -ge "$weight" ]
 }
 
-# parts_of PREFIX MESH: graph parts PREFIX0.tar to PREFIX2.tar, of three parts.
+@test "ranks that are started with other options are an error, not a job that hangs" {
+  cat >wrapper <<'SHELL'
+#!/bin/bash
+if [[ $OMPI_COMM_WORLD_RANK == 1 ]]; then extra=(--overlap 1); fi
+exec lns-mpi "${extra[@]}" "$@"
+SHELL
+  chmod +x wrapper
+  run_apart timeout 60 mpirun --oversubscribe -n 2 ./wrapper --graph ring.graph --solution start.sol --iterations 1 -o out.sol
+  assert_equal "$status" 1
+  assert_equal "$(grep -c '^lns-mpi: ' <<<"$stderr")" 1
+  grep -q "^lns-mpi: rank 1: expected the options of the first rank, found others" <<<"$stderr"
+}
+
+# parts_of PREFIX MESH [QUALITY]: graph parts PREFIX0.tar to PREFIX2.tar, of three parts.
 parts_of() {
   mesh-part "$2" --parts 3 -o "$1"
   local i
-  for i in 0 1 2; do findhex "$1/part-000$i.tar" --min-quality 0.4 -o "$1.candidates$i.tar"; done
+  for i in 0 1 2; do findhex "$1/part-000$i.tar" --min-quality "${3:-0.4}" -o "$1.candidates$i.tar"; done
   buildgraph "$1.candidates0.tar" --neighbours "$1.candidates1.tar" "$1.candidates2.tar" -o "${1}0.tar"
   buildgraph "$1.candidates1.tar" --neighbours "$1.candidates0.tar" "$1.candidates2.tar" -o "${1}1.tar"
   buildgraph "$1.candidates2.tar" --neighbours "$1.candidates0.tar" "$1.candidates1.tar" -o "${1}2.tar"
@@ -211,10 +283,24 @@ parts_of() {
     grep -Eq "^lns-mpi: $message" <<<"$stderr"
   }
   refuse 3 "other2.tar: expected a part of the mesh of part0.tar, found one of another mesh" part0.tar part1.tar other2.tar
+  refuse 3 "missing2.tar: .*No such file" part0.tar part1.tar missing2.tar
   refuse 1 "part0.tar: expected part 0 of 2, found part 0 of 3" part0.tar part2.tar
   refuse 3 "part2.tar: expected part 1 of 3, found part 2 of 3" part0.tar part2.tar part1.tar
   refuse 4 "expected at least a part for each of 4 ranks, found 3" part0.tar part1.tar part2.tar
   refuse 2 "part.candidates0.tar: expected graph" part.candidates0.tar part1.tar part2.tar
+  # Of the same mesh, but with other candidates; and so that one rank alone is given it.
+  parts_of fewer lattice.mesh 0.7
+  refuse 2 "parts 0 and 1 disagree about the conflicts between them" part0.tar fewer1.tar part2.tar
+  cat >wrapper <<'SHELL'
+#!/bin/bash
+if [[ $OMPI_COMM_WORLD_RANK == 1 ]]; then exec lns-mpi --iterations 1 -o out --parts other0.tar other1.tar other2.tar; fi
+exec lns-mpi "$@"
+SHELL
+  chmod +x wrapper
+  run_apart mpirun --oversubscribe -n 3 ./wrapper --iterations 1 -o out --parts part0.tar part1.tar part2.tar
+  assert_equal "$status" 1
+  grep -q "^lns-mpi: other1.tar: expected a part of the mesh of .*part0.tar, found one of another mesh" <<<"$stderr"
+  assert_fails_with 2 "--fragments needs a graph that is not in parts" lns-mpi --parts part0.tar --fragments f -o out
   assert_fails_with 2 "--parts needs a directory" lns-mpi --parts part0.tar
   assert_fails_with 2 "expected --parts or a graph" lns-mpi --parts part0.tar --graph ring.graph -o out
 }

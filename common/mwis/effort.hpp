@@ -17,6 +17,13 @@ inline constexpr std::array all_ways{Way::exact, Way::anneal, Way::recombine};
 
 class Effort {
  public:
+  struct Account {
+    double credit = 0;  // work that it is behind its share
+    double cost = 0;    // work at a time
+    double yield = 0;   // gain a unit of work, of late
+  };
+  using Accounts = std::array<Account, all_ways.size()>;  // by way
+
   // At least one way. Each keeps some share.
   explicit Effort(std::vector<Way> ways = {all_ways.begin(), all_ways.end()}) : ways_(std::move(ways)) {}
 
@@ -27,17 +34,16 @@ class Effort {
   void record(Way way, double work, double gain);
   double share_of(Way way) const;
 
+  // To go on as an earlier search ended.
+  const Accounts& accounts() const { return accounts_; }
+  void recall(const Accounts& accounts) { accounts_ = accounts; }
+
  private:
-  struct Account {
-    double credit = 0;  // work that it is behind its share
-    double cost = 0;    // work at a time
-    double yield = 0;   // gain a unit of work, of late
-  };
   Account& of(Way way) { return accounts_[static_cast<std::size_t>(way)]; }
   const Account& of(Way way) const { return accounts_[static_cast<std::size_t>(way)]; }
 
   std::vector<Way> ways_;
-  std::array<Account, all_ways.size()> accounts_;
+  Accounts accounts_;
 };
 
 }  // namespace hexpipe

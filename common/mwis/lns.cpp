@@ -7,7 +7,6 @@
 #include <mutex>
 #include <vector>
 
-#include "common/mwis/effort.hpp"
 #include "common/mwis/fragment.hpp"
 #include "common/mwis/kernel.hpp"
 #include "common/mwis/repair.hpp"
@@ -26,10 +25,11 @@ constexpr std::size_t hub_factor = 16;
 class Lns {
  public:
   Lns(const ConflictGraph& graph, const IndependentSet& initial, const LnsOptions& options, const Deadline& deadline,
-      const std::function<void(const LnsProgress&)>& report)
+      const std::function<void(const LnsProgress&)>& report, LnsMemory* memory = nullptr)
       : options_(options),
         deadline_(deadline),
         report_(report),
+        memory_(memory),
         state_(graph, initial),
         grower_(state_, Random(options.seed, 1)),
         schedules_{
@@ -40,9 +40,10 @@ class Lns {
                      Random(options.seed, 3))},
         effort_(ways_of(options)) {
     state_.make_maximal();
+    if (memory_ != nullptr) recall();
     for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
       if (!state_.contains(v)) continue;
-      renew(v);
+      wait(v);
       // Other places wait as if one fragment had been tried there.
       if (!options.first_places.empty() && !options.first_places[v]) schedule_of(Way::exact).retire(v);
     }
@@ -57,6 +58,7 @@ class Lns {
     else
       run_rounds();
     state_.make_maximal();
+    if (memory_ != nullptr) remember();
     return {state_.to_set(), state_.weight(), iterations_, improvements_, is_complete()};
   }
 
@@ -75,6 +77,30 @@ class Lns {
   const Schedule& schedule_of(Way way) const { return schedules_[static_cast<std::size_t>(way)]; }
   void renew(std::int32_t v) {
     for (Schedule& schedule : schedules_) schedule.renew(v);
+  }
+  void wait(std::int32_t v) {
+    for (Schedule& schedule : schedules_) schedule.wait(v);
+  }
+
+  void recall() {
+    for (const LnsMemory::Place& place : memory_->places)
+      for (const Way way : all_ways) {
+        Schedule& schedule = schedule_of(way);
+        const auto size = way == Way::exact ? place.size : static_cast<std::uint32_t>(schedule.size_at(place.vertex));
+        schedule.recall(place.vertex, place.tries[static_cast<std::size_t>(way)], size);
+      }
+    effort_.recall(memory_->effort);
+  }
+  void remember() {
+    memory_->places.clear();
+    for (std::int32_t v = 0; v < state_.graph().vertex_count(); ++v) {
+      if (!state_.contains(v)) continue;
+      LnsMemory::Place& place = memory_->places.emplace_back();
+      place.vertex = v;
+      for (const Way way : all_ways) place.tries[static_cast<std::size_t>(way)] = schedule_of(way).tries_at(v);
+      place.size = static_cast<std::uint32_t>(schedule_of(Way::exact).size_at(v));
+    }
+    memory_->effort = effort_.accounts();
   }
 
   void run_rounds() {
@@ -244,6 +270,7 @@ class Lns {
   const LnsOptions& options_;
   const Deadline& deadline_;
   const std::function<void(const LnsProgress&)>& report_;
+  LnsMemory* const memory_;
   SolutionState state_;
   FragmentGrower grower_;
   std::array<Schedule, all_ways.size()> schedules_;  // by way
@@ -311,6 +338,12 @@ LnsResult improve_by_lns(const ConflictGraph& graph, const IndependentSet& initi
     result.weight = state.weight();
   }
   return result;
+}
+
+LnsResult continue_lns(const ConflictGraph& graph, const IndependentSet& initial, const LnsOptions& options,
+                       const Deadline& deadline, LnsMemory& memory,
+                       const std::function<void(const LnsProgress&)>& report) {
+  return Lns(graph, initial, options, deadline, report, &memory).run();
 }
 
 }  // namespace hexpipe

@@ -5,6 +5,7 @@
 // threads; in annealing larger fragments beside solving smaller ones exactly; and in searching the kernel that exact
 // reductions leave.
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "common/graph/conflict_graph.hpp"
+#include "common/mwis/effort.hpp"
 #include "common/run/deadline.hpp"
 
 namespace hexpipe {
@@ -50,8 +52,24 @@ struct LnsResult {
   bool complete = false;
 };
 
+// What a search leaves for the next one on nearly the same graph, of each vertex that it chose.
+struct LnsMemory {
+  struct Place {
+    std::int32_t vertex;
+    std::array<std::uint32_t, all_ways.size()> tries;  // fragments since something changed around it, by way
+    std::uint32_t size;                                // of the next fragment that is solved exactly
+  };
+  std::vector<Place> places;  // ascending
+  Effort::Accounts effort;
+};
+
 // `initial` is independent. `report` is called for every improvement.
 LnsResult improve_by_lns(const ConflictGraph& graph, const IndependentSet& initial, const LnsOptions& options,
                          const Deadline& deadline, const std::function<void(const LnsProgress&)>& report = {});
+
+// Likewise without reductions, from what is remembered on, and remembers in the end.
+LnsResult continue_lns(const ConflictGraph& graph, const IndependentSet& initial, const LnsOptions& options,
+                       const Deadline& deadline, LnsMemory& memory,
+                       const std::function<void(const LnsProgress&)>& report = {});
 
 }  // namespace hexpipe

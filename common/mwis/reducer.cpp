@@ -51,8 +51,12 @@ void Reducer::Queue::clear() {
   while (!vertices.empty()) pop();
 }
 
-Reducer::Reducer(const ConflictGraph& graph, ReductionLog& log)
-    : graph_(graph), log_(log), growth_(graph.weights.size(), unknown), places_(graph.weights.size(), nowhere) {
+Reducer::Reducer(const ConflictGraph& graph, ReductionLog& log, std::vector<char> incomplete)
+    : graph_(graph),
+      log_(log),
+      incomplete_(std::move(incomplete)),
+      growth_(graph.weights.size(), unknown),
+      places_(graph.weights.size(), nowhere) {
   std::vector<std::int32_t> order(graph.weights.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](std::int32_t v) { return graph.degree(v); });
@@ -73,7 +77,7 @@ void Reducer::skim(const Deadline& deadline) {
   std::int32_t left = graph_.alive_count();
   for (std::size_t seen = 1; !queue_.vertices.empty(); ++seen) {
     const std::int32_t v = queue_.pop();
-    if (graph_.alive(v)) decide(v);
+    if (graph_.alive(v) && is_complete(v)) decide(v);
     if (seen % 64 == 0 && deadline.passed()) break;
     if (seen % window != 0) continue;
     if (left - graph_.alive_count() < least_yield) break;
@@ -86,7 +90,7 @@ void Reducer::settle(const Deadline& deadline, std::int32_t wanted) {
   for (std::size_t seen = 1; !queue_.vertices.empty() || !set_queue_.vertices.empty(); ++seen) {
     const bool quick = !queue_.vertices.empty();
     const std::int32_t v = quick ? queue_.pop() : set_queue_.pop();
-    if (graph_.alive(v)) quick ? decide(v) : decide_by_sets(v);
+    if (graph_.alive(v) && is_complete(v)) quick ? decide(v) : decide_by_sets(v);
     if (seen % 64 == 0 && deadline.passed()) break;
     if (wanted > 0 && seen % patience == 0 && graph_.alive_count() >= wanted) break;
   }

@@ -32,7 +32,8 @@ enum class ReductionEffort {
 
 class Reducer {
  public:
-  Reducer(const ConflictGraph& graph, ReductionLog& log);
+  // Around those in `incomplete`, which have neighbours that the graph does not show, nothing is decided.
+  Reducer(const ConflictGraph& graph, ReductionLog& log, std::vector<char> incomplete = {});
 
   // Until no rule applies any more, or to the deadline. Returns how much heavier solutions become by the lift.
   std::int64_t run(ReductionEffort effort, const Deadline& deadline);
@@ -49,6 +50,9 @@ class Reducer {
     void clear();
   };
 
+  bool is_complete(std::int32_t v) const {
+    return static_cast<std::size_t>(v) >= incomplete_.size() || incomplete_[v] == 0;
+  }
   void skim(const Deadline& deadline);
   void settle(const Deadline& deadline, std::int32_t least);
   void blow_up(const Deadline& deadline);
@@ -74,6 +78,7 @@ class Reducer {
 
   ReducibleGraph graph_;
   ReductionLog& log_;
+  const std::vector<char> incomplete_;
   std::int64_t offset_ = 0;
   Queue queue_, set_queue_;
 

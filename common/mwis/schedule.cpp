@@ -49,6 +49,12 @@ void Schedule::wait(std::int32_t v) {
   lowest_ = std::min<std::size_t>(lowest_, place.tries);
 }
 
+void Schedule::recall(std::int32_t v, std::uint32_t tries, std::uint32_t size) {
+  places_[v].tries = tries;
+  places_[v].size = std::min(size, static_cast<std::uint32_t>(largest_size_));
+  wait(v);
+}
+
 // The factors are the usual gentle ones; what matters is that growing is the slower of the two per unit of time,
 // because a larger fragment costs more.
 void Schedule::enlarge(std::int32_t v) {

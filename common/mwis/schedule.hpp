@@ -27,11 +27,13 @@ class Schedule {
   void retire(std::int32_t v);
   // v waits as it did before.
   void wait(std::int32_t v);
+  // v waits as a seed around which so many fragments were tried in an earlier search, and the next one has this size.
+  void recall(std::int32_t v, std::uint32_t tries, std::uint32_t size);
   // v is no seed any more.
   void close(std::int32_t v) { places_[v].closed = true; }
 
   // Fragments tried around v since it was renewed.
-  std::int64_t tries_at(std::int32_t v) const { return places_[v].tries; }
+  std::uint32_t tries_at(std::int32_t v) const { return places_[v].tries; }
   std::size_t size_at(std::int32_t v) const { return places_[v].size; }
   void set_size(std::int32_t v, std::size_t size) { places_[v].size = static_cast<std::uint32_t>(size); }
   void enlarge(std::int32_t v);

@@ -26,6 +26,8 @@ void declare_lns_options(CLI::App& app, LnsOptions& options, TargetOptions& targ
       ->check(CLI::Range(1, 10000).description(""));
   app.add_flag("!--no-reductions", options.reduce,
                "Search the whole graph, not the kernel that exact reductions leave");
+  app.add_flag("--free-running", options.free_running,
+               "Threads do not wait for each other: faster, but the result depends on the timing");
   app.add_option(
          "--target-gap", target.gap,
          "Stop when (bound - weight) / bound is no more than this; the bound is what certify left in the bundle")

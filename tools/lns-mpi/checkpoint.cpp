@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
@@ -14,8 +15,6 @@
 
 namespace hexpipe {
 namespace {
-
-constexpr const char* chosen_member = "chosen.npy";
 
 // The numbers of RoundsProgress by name, for both directions.
 template <class Progress, class Visit>
@@ -48,12 +47,73 @@ Title read_title(const std::string& path) {
   return title;
 }
 
-std::vector<std::uint64_t> read_chosen(const std::string& path) {
+// What one rank wrote: rows of the same length for places, and a row of `effort` for each of its blocks.
+struct RankState {
+  std::vector<std::uint64_t> chosen, keys;
+  std::vector<std::int32_t> blocks;
+  std::vector<std::array<std::uint32_t, 4>> places;  // tries by way, and the size
+  std::vector<std::array<double, 9>> effort;         // credit, cost and yield by way
+
+  template <class Visit>
+  void visit(Visit&& each) {
+    each("chosen.npy", chosen), each("place_key.npy", keys), each("place_block.npy", blocks);
+    each("place_state.npy", places), each("effort.npy", effort);
+  }
+
+  void add(std::int32_t block, const BlockMemory& memory) {
+    for (const BlockMemory::Place& place : memory.places()) {
+      keys.push_back(place.key);
+      blocks.push_back(block);
+      places.push_back({place.tries[0], place.tries[1], place.tries[2], place.size});
+    }
+    auto& row = effort.emplace_back();
+    for (std::size_t way = 0; way < memory.effort().size(); ++way) {
+      const Effort::Account& account = memory.effort()[way];
+      row[3 * way] = account.credit, row[3 * way + 1] = account.cost, row[3 * way + 2] = account.yield;
+    }
+  }
+};
+
+BlockMemory memory_of(std::int32_t block, const RankState& state, const std::array<double, 9>& row) {
+  std::vector<BlockMemory::Place> places;
+  for (std::size_t i = 0; i < state.keys.size(); ++i) {
+    const auto& place = state.places[i];
+    if (state.blocks[i] == block) places.push_back({state.keys[i], {place[0], place[1], place[2]}, place[3]});
+  }
+  Effort::Accounts accounts;
+  for (std::size_t way = 0; way < accounts.size(); ++way)
+    accounts[way] = {row[3 * way], row[3 * way + 1], row[3 * way + 2]};
+  return {std::move(places), accounts};
+}
+
+bool is_sound(const RankState& state, std::size_t blocks) {
+  const auto has_bounded_tries = [](const std::array<std::uint32_t, 4>& place) {
+    return std::all_of(place.begin(), place.end() - 1, [](auto tries) { return tries <= BlockMemory::most_tries; });
+  };
+  const auto is_finite = [](const std::array<double, 9>& row) {
+    return std::ranges::all_of(row, [](double value) { return std::isfinite(value); });
+  };
+  return state.blocks.size() == state.keys.size() && state.places.size() == state.keys.size() &&
+         state.effort.size() == blocks && std::ranges::all_of(state.places, has_bounded_tries) &&
+         std::ranges::all_of(state.effort, is_finite);
+}
+
+RankState read_state(const std::string& path, std::size_t blocks) {
   Input input = Input::open(path);
   BundleReader reader(input);
+  RankState state;
+  int found = 0, expected = 0;
   while (reader.next())
-    if (reader.name() == chosen_member) return reader.read_array<std::uint64_t>();
-  throw DataError::at(path, "expected {} in this part of a checkpoint, found none", chosen_member);
+    state.visit([&]<class Row>(const char* name, std::vector<Row>& rows) {
+      if (reader.name() != name) return;
+      rows = reader.read_array<Row>();
+      ++found;
+    });
+  state.visit([&](const char*, const auto&) { ++expected; });
+  if (found != expected || !is_sound(state, blocks))
+    throw DataError::at(path, "expected the state of {} blocks in this part of a checkpoint, found something else",
+                        blocks);
+  return state;
 }
 
 }  // namespace
@@ -75,7 +135,8 @@ std::filesystem::path Checkpoint::folder_of(std::int64_t round) const {
   return directory_ / fmt::format("round-{}", round);
 }
 
-bool Checkpoint::resume(const BlockOwners& owners, OwnedRows& rows, RoundsProgress& progress) {
+bool Checkpoint::resume(const BlockOwners& owners, OwnedRows& rows, RoundsProgress& progress,
+                        std::vector<BlockMemory>& memories) {
   const std::string path = (directory_ / "checkpoint.json").string();
   std::array<std::int64_t, 1> there{ranks_.is_first() && std::filesystem::exists(path) ? 1 : 0};
   ranks_.sum(there);
@@ -88,12 +149,18 @@ bool Checkpoint::resume(const BlockOwners& owners, OwnedRows& rows, RoundsProgre
     const BlockOwners writers(owners.blocks(), static_cast<int>(title.ranks));
     const std::int32_t first = owners.first_of(ranks_.rank()), last = owners.first_of(ranks_.rank() + 1) - 1;
     std::vector<std::uint8_t> chosen(rows.keys.size(), 0);
-    for (int writer = writers.rank_of(first); writer <= writers.rank_of(last); ++writer)
-      for (const std::uint64_t key :
-           read_chosen((folder_of(title.progress.round) / fmt::format("{:04}.tar", writer)).string())) {
+    memories.clear();
+    for (int writer = writers.rank_of(first); writer <= writers.rank_of(last); ++writer) {
+      const std::int32_t begin = writers.first_of(writer), end = writers.first_of(writer + 1);
+      const RankState state = read_state((folder_of(title.progress.round) / fmt::format("{:04}.tar", writer)).string(),
+                                         static_cast<std::size_t>(end - begin));
+      for (const std::uint64_t key : state.chosen) {
         const auto found = std::ranges::lower_bound(rows.keys, key);
         if (found != rows.keys.end() && *found == key) chosen[found - rows.keys.begin()] = 1;
       }
+      for (std::int32_t block = std::max(first, begin); block < std::min(last + 1, end); ++block)
+        memories.push_back(memory_of(block, state, state.effort[block - begin]));
+    }
     rows.chosen = std::move(chosen);
     progress = title.progress;
     round_ = title.progress.round;
@@ -115,7 +182,7 @@ bool Checkpoint::is_due() {
   return due[0] != 0;
 }
 
-void Checkpoint::write(const Piece& piece, const RoundsProgress& progress) {
+void Checkpoint::write(const Piece& piece, const RoundsProgress& progress, const std::vector<BlockMemory>& memories) {
   if (round_ == progress.round) return;
   next_ = watch_.seconds() + seconds_between_;
   const std::filesystem::path folder = folder_of(progress.round);
@@ -125,12 +192,14 @@ void Checkpoint::write(const Piece& piece, const RoundsProgress& progress) {
     if (error) throw DataError::at(folder.string(), "cannot make this directory: {}", error.message());
   });
   ranks_.together([&] {
-    std::vector<std::uint64_t> chosen;
+    RankState state;
     for (std::int32_t v = 0; v < piece.vertex_count(); ++v)
-      if (piece.chosen[v] != 0 && piece.owns(v)) chosen.push_back(piece.keys[v]);
+      if (piece.chosen[v] != 0 && piece.owns(v)) state.chosen.push_back(piece.keys[v]);
+    for (std::int32_t block = piece.owners.first_of(piece.rank); const BlockMemory& memory : memories)
+      state.add(block++, memory);
     Output output((folder / fmt::format("{:04}.tar", ranks_.rank())).string());
     BundleWriter writer(output, false);
-    writer.add_array(chosen_member, chosen);
+    state.visit([&](const char* name, const auto& rows) { writer.add_array(name, rows); });
     writer.close();
     output.commit();
   });

@@ -2,7 +2,9 @@
 // Where a search has come to, on disk: a file for each rank, of which all are whole or none counts.
 //
 //   DIR/checkpoint.json      the round that counts, and of what it is
-//   DIR/round-12/0003.tar    of the fourth rank: the numbers of the vertices that it chose
+//   DIR/round-12/0003.tar    of the fourth rank: the numbers of the vertices that it chose, and what the searches of
+//   its
+//                            blocks remember
 //
 // checkpoint.json is replaced when all files of a round are there, and the round before goes only then.
 
@@ -10,6 +12,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tools/lns-mpi/piece.hpp"
 #include "tools/lns-mpi/ranks.hpp"
@@ -22,13 +25,13 @@ class Checkpoint {
   // Makes the directory. `fingerprint` is of the graph. All ranks call this and all that follows together.
   Checkpoint(Ranks& ranks, std::string directory, double seconds_between, std::uint64_t fingerprint);
 
-  // Takes up where an earlier run stopped: the solution into `rows` and the rest into `progress`. False, with nothing
-  // changed, where there is no checkpoint. Throws DataError when it is damaged or of another graph.
-  bool resume(const BlockOwners& owners, OwnedRows& rows, RoundsProgress& progress);
+  // Takes up where an earlier run stopped: the solution into `rows`, the rest into what else is named. False, with
+  // nothing changed, where there is no checkpoint. Throws DataError when it is damaged or of another graph.
+  bool resume(const BlockOwners& owners, OwnedRows& rows, RoundsProgress& progress, std::vector<BlockMemory>& memories);
 
   // Whether so much time has passed since the last one.
   bool is_due();
-  void write(const Piece& piece, const RoundsProgress& progress);
+  void write(const Piece& piece, const RoundsProgress& progress, const std::vector<BlockMemory>& memories);
 
  private:
   std::filesystem::path folder_of(std::int64_t round) const;

@@ -1,6 +1,11 @@
 #include "tools/lns-mpi/fingerprint.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
+#include <map>
+#include <utility>
 
 #include "common/run/random.hpp"
 
@@ -15,6 +20,17 @@ std::uint64_t sum_over_ranks(Ranks& ranks, std::uint64_t value) {
   return (static_cast<std::uint64_t>(halves[0]) << 32) + static_cast<std::uint64_t>(halves[1]);
 }
 
+// What a block's rows say of its conflicts with the block beside it.
+struct Seen {
+  std::int32_t block, beside;
+  std::uint64_t sum;
+};
+
+DataError disagreement(std::int32_t a, std::int32_t b) {
+  return DataError(fmt::format("parts {} and {} disagree about the conflicts between them: they are not of one graph",
+                               std::min(a, b), std::max(a, b)));
+}
+
 }  // namespace
 
 std::uint64_t fingerprint_of(Ranks& ranks, const OwnedRows& rows) {
@@ -27,20 +43,33 @@ std::uint64_t fingerprint_of(Ranks& ranks, const OwnedRows& rows) {
   return sum_over_ranks(ranks, sum);
 }
 
-void expect_agreement(Ranks& ranks, const OwnedRows& rows) {
-  std::uint64_t sum = 0;
+void expect_agreement(Ranks& ranks, const BlockOwners& owners, const OwnedRows& rows) {
+  // By block of the rank's own, and by another one: the conflicts between both, as the rows of the first have them.
+  std::map<std::pair<std::int32_t, std::int32_t>, std::uint64_t> sums;
+  auto sum = sums.end();  // of the last edge, for the next one is mostly between the same blocks
   for (std::size_t v = 0; v < rows.keys.size(); ++v)
     for (std::int64_t e = rows.offsets[v]; e < rows.offsets[v + 1]; ++e) {
-      if (rows.neighbour_blocks[e] == rows.blocks[v]) continue;
-      const std::uint64_t a = rows.keys[v], b = rows.neighbours[e];
-      if (a < b)
-        sum += mix(mix(a) + b);
-      else
-        sum -= mix(mix(b) + a);
+      const std::pair both(rows.blocks[v], rows.neighbour_blocks[e]);
+      if (both.first == both.second) continue;
+      if (sum == sums.end() || sum->first != both) sum = sums.try_emplace(both, 0).first;
+      const auto [low, high] = std::minmax(rows.keys[v], rows.neighbours[e]);
+      sum->second += mix(mix(low) + high);
     }
-  const bool agree = sum_over_ranks(ranks, sum) == 0;
+  std::vector<Packer> packers(static_cast<std::size_t>(ranks.count()));
+  for (const auto& [both, seen] : sums) packers[owners.rank_of(both.second)].put(Seen{both.first, both.second, seen});
+  std::vector<Bytes> to;
+  to.reserve(packers.size());
+  for (Packer& packer : packers) to.push_back(packer.take());
+  const std::vector<Bytes> seen_by_others = ranks.exchange(std::move(to));
   ranks.together([&] {
-    if (!agree) throw DataError("the parts disagree about the conflicts between them: they are not of one graph");
+    for (const Bytes& bytes : seen_by_others)
+      for (Unpacker unpacker(bytes); !unpacker.at_end();) {
+        const auto seen = unpacker.get<Seen>();
+        const auto own = sums.find({seen.beside, seen.block});
+        if (own == sums.end() || own->second != seen.sum) throw disagreement(seen.block, seen.beside);
+        sums.erase(own);
+      }
+    if (!sums.empty()) throw disagreement(sums.begin()->first.first, sums.begin()->first.second);
   });
 }
 

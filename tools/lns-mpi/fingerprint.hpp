@@ -12,7 +12,8 @@ namespace hexpipe {
 // Of vertices, weights, edges and blocks of all ranks together.
 std::uint64_t fingerprint_of(Ranks& ranks, const OwnedRows& rows);
 
-// Throws DataError on all ranks where an edge between blocks is in the rows of one of its ends alone.
-void expect_agreement(Ranks& ranks, const OwnedRows& rows);
+// Throws DataError on all ranks that names two blocks where an edge between them is in the rows of one of its ends
+// alone.
+void expect_agreement(Ranks& ranks, const BlockOwners& owners, const OwnedRows& rows);
 
 }  // namespace hexpipe

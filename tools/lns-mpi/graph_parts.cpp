@@ -5,6 +5,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "formats/stage.hpp"
@@ -125,13 +126,18 @@ class GraphParts : public Source {
   void expect_same_mesh(Ranks& ranks, const MeshFingerprint& whole) const {
     Packer packer;
     packer.put(whole);
+    packer.put_all(std::span<const char>(files_.front()));
     Bytes first = packer.take();
     ranks.broadcast(first);
-    const auto expected = Unpacker(first).get<MeshFingerprint>();
+    Unpacker unpacker(first);
+    const auto expected = unpacker.get<MeshFingerprint>();
+    std::vector<char> name;
+    unpacker.get_all(name);
     ranks.together([&] {
       if (whole != expected)
         throw DataError::at(files_[BlockOwners(blocks_, ranks.count()).first_of(ranks.rank())],
-                            "expected a part of the mesh of {}, found one of another mesh", files_.front());
+                            "expected a part of the mesh of {}, found one of another mesh",
+                            std::string_view(name.data(), name.size()));
     });
   }
 

@@ -9,6 +9,7 @@
 #include "common/mwis/search_log.hpp"
 #include "common/mwis/target_weight.hpp"
 #include "common/run/progress.hpp"
+#include "formats/output.hpp"
 #include "tools/lns-mpi/checkpoint.hpp"
 #include "tools/lns-mpi/fingerprint.hpp"
 #include "tools/lns-mpi/shared_dual.hpp"
@@ -41,7 +42,11 @@ class Job {
   }
 
   void run() {
-    ranks_.together([&] { log_.emplace(ranks_.is_first() ? context_.common.log_file : std::string()); });
+    expect_same_options();
+    ranks_.together([&] {
+      log_.emplace(ranks_.is_first() ? context_.common.log_file : std::string());
+      if (ranks_.is_first() && !options_.fragments.empty()) fragments_.emplace(options_.fragments);
+    });
     OwnedRows rows = source_->read(ranks_);
     const BlockOwners owners(source_->blocks(), ranks_.count());
     choose_target();
@@ -50,16 +55,39 @@ class Job {
     setup_ = put_together(ranks_, ranks_.traffic());
     note_size(piece);
 
-    improve_in_rounds(ranks_, piece, options_.rounds, deadline_, progress_,
+    Packer improved;
+    if (!options_.fragments.empty())
+      options_.rounds.improved = [&](std::span<const std::int32_t> fragment) {
+        std::vector<std::uint64_t> numbers;
+        numbers.reserve(fragment.size());
+        for (const std::int32_t v : fragment) numbers.push_back(piece.keys[v] + 1);
+        improved.put_all(std::span<const std::uint64_t>(numbers));
+      };
+    improve_in_rounds(ranks_, piece, options_.rounds, deadline_, progress_, memories_,
                       [&](const RoundsProgress&, const RoundCosts& costs, bool last) {
                         report(costs);
-                        if (checkpoint_ && (last || checkpoint_->is_due())) checkpoint_->write(piece, progress_);
+                        if (!options_.fragments.empty()) write_fragments(improved.take());
+                        if (checkpoint_ && (last || checkpoint_->is_due()))
+                          checkpoint_->write(piece, progress_, memories_);
                       });
     if (options_.passes > 0) prove(piece);
     finish(piece);
   }
 
  private:
+  // Ranks may be started apart, each with a command line of its own; where these differ, some would wait for ever.
+  void expect_same_options() {
+    const std::string own =
+        fmt::format("{} {} parts, checkpoint '{}', certificate '{}', fragments '{}'", context_.options.dump(),
+                    options_.parts.size(), options_.checkpoint, options_.certificate, options_.fragments);
+    Bytes first(own.begin(), own.end());
+    ranks_.broadcast(first);
+    ranks_.together([&] {
+      if (std::string(first.begin(), first.end()) != own)
+        throw DataError(fmt::format("rank {}: expected the options of the first rank, found others", ranks_.rank()));
+    });
+  }
+
   void choose_target() {
     if (options_.target_gap < 0) return;
     const std::int64_t bound = options_.known_bound >= 0 ? options_.known_bound : source_->bound();
@@ -72,12 +100,13 @@ class Job {
   void resume(const BlockOwners& owners, OwnedRows& rows) {
     if (options_.checkpoint.empty()) return;
     checkpoint_.emplace(ranks_, options_.checkpoint, options_.checkpoint_interval, fingerprint_of(ranks_, rows));
-    if (checkpoint_->resume(owners, rows, progress_))
+    if (checkpoint_->resume(owners, rows, progress_, memories_))
       context_.note(fmt::format("goes on after round {} of {}", progress_.round, options_.checkpoint));
   }
 
   void note_size(const Piece& piece) {
-    std::array<std::int64_t, 3> sizes{0, piece.vertex_count(), piece.graph.edge_count()};
+    std::array<std::int64_t, 4> sizes{0, piece.vertex_count(), piece.graph.edge_count(),
+                                      static_cast<std::int64_t>(piece.partners.size())};
     for (std::int32_t v = 0; v < piece.vertex_count(); ++v) sizes[0] += piece.owns(v) ? 1 : 0;
     ranks_.sum(sizes);
     std::array<std::int64_t, 1> most{piece.vertex_count()};
@@ -88,6 +117,7 @@ class Job {
     context_.statistics["held_vertices"] = sizes[1];
     context_.statistics["most_held_vertices"] = most[0];
     context_.statistics["held_edges"] = sizes[2];
+    context_.statistics["partners"] = sizes[3];
     context_.statistics["setup_bytes"] = setup_.bytes;
     context_.note(fmt::format("{} ranks, {} blocks, {} vertices, {} held with halos, {} bytes sent for that",
                               ranks_.count(), piece.owners.blocks(), sizes[0], sizes[1], setup_.bytes));
@@ -105,6 +135,21 @@ class Job {
                     sent.bytes, sent.most_messages, sent.most_bytes));
   }
 
+  // In the order of the blocks, whichever ranks have them.
+  void write_fragments(Bytes own) {
+    std::vector<Bytes> to(static_cast<std::size_t>(ranks_.count()));
+    to.front() = std::move(own);
+    const std::vector<Bytes> all = ranks_.exchange(std::move(to));
+    ranks_.together([&] {
+      for (const Bytes& from : all)
+        for (Unpacker unpacker(from); fragments_ && !unpacker.at_end();) {
+          std::vector<std::uint64_t> numbers;
+          unpacker.get_all(numbers);
+          fragments_->print("{}\n", fmt::join(numbers, " "));
+        }
+    });
+  }
+
   void prove(const Piece& piece) {
     bound_ = prove_bound(ranks_, piece, options_.passes, options_.rounds.search.seed, Deadline(), options_.certificate);
     const double gap = *bound_ > 0 ? static_cast<double>(*bound_ - progress_.weight) / static_cast<double>(*bound_) : 0;
@@ -117,7 +162,10 @@ class Job {
     std::array<std::int64_t, 1> chosen{0};
     for (std::int32_t v = 0; v < piece.vertex_count(); ++v) chosen[0] += piece.chosen[v] != 0 && piece.owns(v) ? 1 : 0;
     ranks_.sum(chosen);
-    ranks_.together([&] { log_->finish(deadline_.elapsed(), progress_.iterations, progress_.weight); });
+    ranks_.together([&] {
+      log_->finish(deadline_.elapsed(), progress_.iterations, progress_.weight);
+      if (fragments_) fragments_->commit();
+    });
     context_.statistics["weight"] = progress_.weight;
     context_.statistics["chosen"] = chosen[0];
     context_.statistics["iterations"] = progress_.iterations;
@@ -130,6 +178,7 @@ class Job {
     nlohmann::ordered_json details{
         {"weight", progress_.weight}, {"iterations", progress_.iterations}, {"rounds", progress_.round}};
     if (bound_) details["bound"] = *bound_;
+    if (options_.rounds.search.free_running) details["depends_on_timing"] = true;
     source_->write(ranks_, piece, details);
     if (!ranks_.is_first()) context_.common.stats_file.clear();
   }
@@ -141,8 +190,10 @@ class Job {
   Progress shown_;
   std::unique_ptr<Source> source_;
   std::optional<SearchLog> log_;
+  std::optional<Output> fragments_;  // of the first rank
   std::optional<Checkpoint> checkpoint_;
   RoundsProgress progress_;
+  std::vector<BlockMemory> memories_;
   std::optional<std::int64_t> bound_;
   Sent setup_;
   std::int64_t messages_ = 0, bytes_ = 0;  // of all rounds, sent by all ranks

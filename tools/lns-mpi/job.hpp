@@ -19,6 +19,7 @@ struct JobOptions {
   std::int32_t overlap = 2;
   std::int64_t passes = 0;           // of the dual, for a bound that is proven when the search has ended
   std::string certificate;           // a file for its proof; empty: none
+  std::string fragments;             // a file for those that were improved; empty: none
   std::vector<std::string> parts;    // bundles of a graph that is not
   std::string checkpoint;            // a directory; empty: none
   double checkpoint_interval = 600;  // seconds

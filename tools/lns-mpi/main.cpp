@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
       .random = true,
       .searches = true,
       .default_time_limit = 60,
-      .outside_history = {"parts", "certificate", "checkpoint", "checkpoint-interval"}};
+      .outside_history = {"parts", "certificate", "fragments", "checkpoint", "checkpoint-interval"}};
   JobOptions options;
   TargetOptions target;
   const auto declare = [&](CLI::App& app) {
@@ -63,6 +63,9 @@ int main(int argc, char** argv) {
                    "Write the proof to a file, as certify does; for a graph that is not in parts")
         ->type_name("FILE")
         ->needs(prove);
+    app.add_option("--fragments", options.fragments,
+                   "Write the fragments that were improved to a file, as lns does; for a graph that is not in parts")
+        ->type_name("FILE");
     app.add_option("--parts", options.parts,
                    "Bundles of the parts of a graph, in their order; the solution goes into bundles of the same names "
                    "in the directory that -o names")
@@ -79,6 +82,8 @@ int main(int argc, char** argv) {
       throw UsageError("expected --parts or a graph, found both");
     if (!options.parts.empty() && !options.certificate.empty())
       throw UsageError("--certificate needs a graph that is not in parts");
+    if (!options.parts.empty() && !options.fragments.empty())
+      throw UsageError("--fragments needs a graph that is not in parts");
     if (!options.parts.empty() && (context.streams.output.empty() || context.streams.output == "-"))
       throw UsageError("--parts needs a directory to write to: -o DIR");
     options.rounds.search.seed = context.common.seed;

@@ -217,7 +217,7 @@ std::vector<Piece::Partner> find_partners(const Piece& piece) {
 }  // namespace
 
 Piece make_piece(Ranks& ranks, const BlockOwners& owners, OwnedRows rows, std::int32_t overlap) {
-  expect_agreement(ranks, rows);
+  expect_agreement(ranks, owners, rows);
   Held held;
   {
     const KeyIndex index(rows.keys);
@@ -232,6 +232,7 @@ Piece make_piece(Ranks& ranks, const BlockOwners& owners, OwnedRows rows, std::i
   piece.rank = ranks.rank();
   piece.overlap = overlap;
   fill(held, piece);
+  piece.decided.assign(piece.keys.size(), 0);
   piece.partners = find_partners(piece);
   return piece;
 }

@@ -56,6 +56,8 @@ struct Piece {
   std::vector<std::int64_t> near_offsets{0};
   std::vector<NearBlock> near;  // other blocks at most overlap + 1 edges away, ascending
   std::vector<std::uint8_t> chosen;
+  // Taken or left out for good before the search, by reductions; no region has them.
+  std::vector<std::uint8_t> decided;
 
   // A rank that holds some of the same vertices; it has the same list.
   struct Partner {

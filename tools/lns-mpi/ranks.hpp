@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "common/run/error.hpp"
@@ -104,7 +105,7 @@ class Packer {
     put(static_cast<std::uint64_t>(values.size()));
     append(values.data(), values.size_bytes());
   }
-  Bytes take() { return std::move(bytes_); }
+  Bytes take() { return std::exchange(bytes_, {}); }
 
  private:
   void append(const void* data, std::size_t size) {

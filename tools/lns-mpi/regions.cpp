@@ -19,7 +19,8 @@ Regions::Regions(const Piece& piece, std::uint64_t seed, std::int64_t round)
     for (const NearBlock& near : piece.near_of(v))
       if (near.distance <= piece.overlap && priority_[near.block] < priority_[block_[v]]) block_[v] = near.block;
   for (std::int32_t v = 0; v < piece.vertex_count(); ++v)
-    if (block_[v] >= first && block_[v] < last && !stays(v)) may_change_[block_[v] - first].push_back(v);
+    if (block_[v] >= first && block_[v] < last && piece.decided[v] == 0 && !stays(v))
+      may_change_[block_[v] - first].push_back(v);
   number_.assign(piece.keys.size(), -1);
 }
 
@@ -48,8 +49,12 @@ Region Regions::extract(std::int32_t block) {
     const std::int32_t v = region.vertices[i];
     if (piece_.chosen[v] != 0) region.chosen.push_back(static_cast<std::int32_t>(i));
     region.graph.weights.push_back(piece_.graph.weights[v]);
+    region.at_edge.push_back(0);
     for (const std::int32_t u : piece_.graph.neighbours_of(v))
-      if (number_[u] >= 0) region.graph.neighbours.push_back(number_[u]);
+      if (number_[u] >= 0)
+        region.graph.neighbours.push_back(number_[u]);
+      else if (piece_.decided[u] == 0)
+        region.at_edge.back() = 1;
     region.graph.offsets.push_back(static_cast<std::int64_t>(region.graph.neighbours.size()));
   }
   for (const std::int32_t v : region.vertices) number_[v] = -1;

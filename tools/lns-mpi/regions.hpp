@@ -16,6 +16,7 @@ struct Region {
   std::vector<std::int32_t> vertices;  // of the piece, ascending
   ConflictGraph graph;                 // of these, numbered in this order
   IndependentSet chosen;
+  std::vector<char> at_edge;  // has a neighbour that another region may change, in this round or in another one
 };
 
 class Regions {

@@ -7,15 +7,17 @@
 
 #include "common/mwis/solution_state.hpp"
 #include "common/run/random.hpp"
+#include "tools/lns-mpi/reduce.hpp"
 #include "tools/lns-mpi/regions.hpp"
 
 namespace hexpipe {
 namespace {
 
-// Under a time limit: a quarter of it, so that borders move, and reductions, which each round needs anew, have time;
-// and no more than a minute, so that ranks do not go on for long after one of them was told to stop.
+// Under a time limit: a quarter of it, so that borders move; and no more than a minute, so that ranks do not go on for
+// long after one of them was told to stop.
 constexpr double round_share = 1.0 / 4, longest_round = 60;
-constexpr std::int64_t largest_doubling = 8;
+// Of a time limit, as in lns.
+constexpr double share_for_reductions = 0.1;
 // Then what no region could improve is left as it is.
 constexpr std::int64_t most_quiet_rounds = 10;
 
@@ -28,12 +30,14 @@ std::int64_t own_weight(const Piece& piece) {
 
 class Rounds {
  public:
-  Rounds(Ranks& ranks, Piece& piece, const RoundsOptions& options, const Deadline& deadline, RoundsProgress& progress)
+  Rounds(Ranks& ranks, Piece& piece, const RoundsOptions& options, const Deadline& deadline, RoundsProgress& progress,
+         std::vector<BlockMemory>& memories)
       : ranks_(ranks),
         piece_(piece),
         options_(options),
         deadline_(deadline),
         progress_(progress),
+        memories_(memories),
         block_sizes_(static_cast<std::size_t>(piece.owners.blocks()), 0) {
     for (std::int32_t v = 0; v < piece.vertex_count(); ++v)
       if (piece.owns(v)) ++block_sizes_[piece.block[v]];
@@ -64,7 +68,24 @@ class Rounds {
            progress_.quiet < most_quiet_rounds && vertices_ > 0;
   }
 
-  // Takes what nothing chosen is beside, which a search that ended early leaves where borders were.
+  void reduce() {
+    given_ = piece_.chosen;
+    given_weight_ = progress_.weight;
+    const double left = deadline_.remaining();
+    reduce_blocks(ranks_, piece_, std::isfinite(left) ? Deadline(share_for_reductions * left) : Deadline());
+    progress_.weight = total_weight(ranks_, piece_);
+  }
+
+  // Takes what nothing chosen is beside: what reductions left out, and what a search that ended early leaves where
+  // borders were. Then it may still be behind what reductions began with.
+  void complete() {
+    std::ranges::fill(piece_.decided, 0);
+    make_maximal();
+    if (progress_.weight >= given_weight_) return;
+    piece_.chosen = given_;
+    make_maximal();
+  }
+
   void make_maximal() {
     for (std::int64_t round = progress_.round; count_free() > 0; ++round) {
       Regions regions(piece_, options_.search.seed, round);
@@ -150,18 +171,25 @@ class Rounds {
       return;
     }
     const Region region = regions.extract(block);
+    BlockMemory& known = memories_[block - piece_.owners.first_of(piece_.rank)];
     LnsOptions options = options_.search;
     options.iterations = fragments;
     options.target = std::numeric_limits<std::int64_t>::max();
-    // A round knows nothing of how large fragments had become in the one before. On block-28k from annealing, 8 rounds
-    // of 500: 33,020,706 where each begins at 100, 33,029,003 at 400, 33,030,194 at 800 (lns without rounds:
-    // 33,030,194).
-    options.fragment_size = std::min(
-        options.largest_fragment, options.fragment_size << std::min<std::int64_t>(progress_.round, largest_doubling));
+    // Of places that came to this block with the round: as large as they have become elsewhere in it.
+    if (known.usual_size() > 0) options.fragment_size = known.usual_size();
     // Another number for every region.
     options.seed =
         Random(options.seed, static_cast<std::uint64_t>(progress_.round)).next() + static_cast<std::uint64_t>(block);
-    const LnsResult result = improve_by_lns(region.graph, region.chosen, options, deadline);
+    LnsMemory memory = known.recall(region, piece_.keys);
+    std::vector<std::int32_t> fragment;
+    const auto report = [&](const LnsProgress& now) {
+      if (!options_.improved) return;
+      fragment.clear();
+      for (const std::int32_t v : now.fragment) fragment.push_back(region.vertices[v]);
+      options_.improved(fragment);
+    };
+    const LnsResult result = continue_lns(region.graph, region.chosen, options, deadline, memory, report);
+    known.remember(memory, region, piece_.keys);
     iterations_ += result.iterations;
     improvements_ += result.improvements;
     unproven_ += result.complete ? 0 : 1;
@@ -218,9 +246,12 @@ class Rounds {
   const RoundsOptions& options_;
   const Deadline& deadline_;
   RoundsProgress& progress_;
+  std::vector<BlockMemory>& memories_;
   std::vector<std::int64_t> block_sizes_;
   std::int64_t vertices_ = 0;
   double round_seconds_ = 0;
+  std::vector<std::uint8_t> given_;  // what reductions began with
+  std::int64_t given_weight_ = 0;
   std::vector<std::int32_t> changed_;  // vertices of the piece, in this round
   std::int64_t iterations_ = 0, improvements_ = 0, unproven_ = 0;
   bool stopped_ = false;
@@ -235,17 +266,20 @@ std::int64_t total_weight(Ranks& ranks, const Piece& piece) {
 }
 
 void improve_in_rounds(Ranks& ranks, Piece& piece, const RoundsOptions& options, const Deadline& deadline,
-                       RoundsProgress& progress,
+                       RoundsProgress& progress, std::vector<BlockMemory>& memories,
                        const std::function<void(const RoundsProgress&, const RoundCosts&, bool)>& report) {
-  Rounds rounds(ranks, piece, options, deadline, progress);
+  const std::int32_t blocks = piece.owners.first_of(piece.rank + 1) - piece.owners.first_of(piece.rank);
+  memories.resize(static_cast<std::size_t>(blocks));
+  Rounds rounds(ranks, piece, options, deadline, progress, memories);
   std::array<std::int64_t, 1> passed{deadline.passed() ? 1 : 0};
   ranks.maximum(passed);
   rounds.make_independent();
+  if (options.search.reduce && passed[0] == 0 && rounds.goes_on()) rounds.reduce();
   while (passed[0] == 0 && rounds.goes_on()) {
     const RoundCosts costs = rounds.run_one();
     report(progress, costs, !rounds.goes_on());
   }
-  rounds.make_maximal();
+  rounds.complete();
 }
 
 }  // namespace hexpipe

@@ -14,6 +14,7 @@
 
 #include "common/mwis/lns.hpp"
 #include "common/run/deadline.hpp"
+#include "tools/lns-mpi/block_memory.hpp"
 #include "tools/lns-mpi/piece.hpp"
 #include "tools/lns-mpi/ranks.hpp"
 
@@ -22,6 +23,8 @@ namespace hexpipe {
 struct RoundsOptions {
   LnsOptions search;                    // `iterations` and `target` over all rounds and blocks
   std::int64_t fragments_a_round = 20;  // for a thousand vertices of the whole graph
+  // Called with what this rank improved, by vertices of the piece; may be empty.
+  std::function<void(std::span<const std::int32_t>)> improved;
 };
 
 // The same on all ranks.
@@ -41,10 +44,11 @@ struct RoundCosts {
 };
 
 // From the solution in `piece` on, where `progress` says: the same whether or not it was stopped in between. Chosen
-// vertices may be neighbours where they are in different blocks. `report` is called after every round, on all ranks,
-// and told whether it was the last one.
+// vertices may be neighbours where they are in different blocks. `memories` are of the blocks of this rank, in order,
+// and empty where nothing was searched. `report` is called after every round, on all ranks, and told whether it was the
+// last one.
 void improve_in_rounds(Ranks& ranks, Piece& piece, const RoundsOptions& options, const Deadline& deadline,
-                       RoundsProgress& progress,
+                       RoundsProgress& progress, std::vector<BlockMemory>& memories,
                        const std::function<void(const RoundsProgress&, const RoundCosts&, bool)>& report);
 
 // Of the vertices that all ranks own, together.

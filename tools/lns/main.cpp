@@ -48,8 +48,6 @@ int main(int argc, char** argv) {
     app.add_option("--fragments", fragments_file,
                    "Write the fragments that were improved to a file, a line each, to look at with view --fragments")
         ->type_name("FILE");
-    app.add_flag("--free-running", options.free_running,
-                 "Threads do not wait for each other: faster, but the result depends on the timing");
   };
   const auto run = [&](RunContext& context) {
     check(target);

@@ -1,0 +1,46 @@
+#include "tools/lns-mpi/block_memory.hpp"
+
+#include <algorithm>
+
+namespace hexpipe {
+namespace {
+
+// What other blocks choose beyond the edge changes which fragments there are around it.
+bool is_near_edge(const Region& region, std::int32_t v) {
+  return region.at_edge[v] != 0 ||
+         std::ranges::any_of(region.graph.neighbours_of(v), [&](std::int32_t u) { return region.at_edge[u] != 0; });
+}
+
+}  // namespace
+
+LnsMemory BlockMemory::recall(const Region& region, std::span<const std::uint64_t> keys) const {
+  LnsMemory memory;
+  memory.effort = effort_;
+  auto known = places_.begin();
+  for (const std::int32_t v : region.chosen) {
+    const std::uint64_t key = keys[region.vertices[v]];
+    while (known != places_.end() && known->key < key) ++known;
+    if (known != places_.end() && known->key == key) memory.places.push_back({v, known->tries, known->size});
+  }
+  return memory;
+}
+
+void BlockMemory::remember(const LnsMemory& memory, const Region& region, std::span<const std::uint64_t> keys) {
+  effort_ = memory.effort;
+  places_.clear();
+  places_.reserve(memory.places.size());
+  for (const LnsMemory::Place& place : memory.places) {
+    Place& known = places_.emplace_back(Place{keys[region.vertices[place.vertex]], place.tries, place.size});
+    for (std::uint32_t& tries : known.tries)
+      tries = is_near_edge(region, place.vertex) ? 0 : std::min(tries, most_tries);
+  }
+}
+
+std::size_t BlockMemory::usual_size() const {
+  if (places_.empty()) return 0;
+  std::size_t sum = 0;
+  for (const Place& place : places_) sum += place.size;
+  return sum / places_.size();
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,46 @@
+#pragma once
+// What a block's search knows of the places that it has tried, from one round to the next.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "common/mwis/lns.hpp"
+#include "tools/lns-mpi/regions.hpp"
+
+namespace hexpipe {
+
+class BlockMemory {
+ public:
+  // Places are told apart by no more tries.
+  static constexpr std::uint32_t most_tries = 1 << 16;
+  struct Place {
+    std::uint64_t key;
+    std::array<std::uint32_t, all_ways.size()> tries;
+    std::uint32_t size;
+  };
+
+  BlockMemory() = default;
+  BlockMemory(std::vector<Place> places, const Effort::Accounts& effort)
+      : places_(std::move(places)), effort_(effort) {}
+
+  // What counts in this region, by its numbers; `keys` are those of the piece.
+  LnsMemory recall(const Region& region, std::span<const std::uint64_t> keys) const;
+  // Of places at the edge of the region the size alone, for what is beyond may change before the next round. Everything
+  // further inside stays as this search leaves it, because no other block may change it meanwhile.
+  void remember(const LnsMemory& memory, const Region& region, std::span<const std::uint64_t> keys);
+
+  // How large fragments have become; 0 where nothing is known.
+  std::size_t usual_size() const;
+
+  const std::vector<Place>& places() const { return places_; }
+  const Effort::Accounts& effort() const { return effort_; }
+
+ private:
+  std::vector<Place> places_;  // ascending
+  Effort::Accounts effort_;
+};
+
+}  // namespace hexpipe
