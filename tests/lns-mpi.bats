@@ -17,7 +17,9 @@ setup() {
   cp "$BATS_FILE_TMPDIR"/*.graph "$BATS_FILE_TMPDIR"/*.sol .
 }
 
+# The MPI library's own leaks are known by its name, to which stacks have to reach: its plugins are unloaded by the end.
 export LSAN_OPTIONS="suppressions=$HEXPIPE_SOURCE/tests/leaks_of_mpi.txt:print_suppressions=0"
+export ASAN_OPTIONS="${ASAN_OPTIONS:-}:fast_unwind_on_malloc=0"
 
 # on RANKS OPTIONS...: the search of the ring on so many ranks.
 on() {
@@ -245,7 +247,7 @@ exec lns-mpi "${extra[@]}" "$@"
 SHELL
   chmod +x wrapper
   run_apart timeout 60 mpirun --oversubscribe -n 2 ./wrapper --graph ring.graph --solution start.sol --iterations 1 -o out.sol
-  assert_equal "$status" 1
+  assert_equal "$status" 2
   assert_equal "$(grep -c '^lns-mpi: ' <<<"$stderr")" 1
   grep -q "^lns-mpi: rank 1: expected the options of the first rank, found others" <<<"$stderr"
 }

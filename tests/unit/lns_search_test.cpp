@@ -362,6 +362,34 @@ TEST(Lns, ReportsRisingWeights) {
   EXPECT_GT(count, 0);
 }
 
+TEST(Lns, GoesOnFromWhatItRemembers) {
+  Random random(9);
+  const ConflictGraph graph = hexpipe::testing::random_clique_graph(2000, 1500, 1000, random);
+  const LnsOptions options{.iterations = 100, .fragment_size = 40, .annealed_fragment = 0, .recombined_fragment = 0};
+  LnsMemory memory;
+  const LnsResult first = continue_lns(graph, {}, options, no_deadline, memory);
+  ASSERT_EQ(memory.places.size(), first.solution.size());
+  std::int64_t tried = 0, grown = 0;
+  for (std::size_t i = 0; i < memory.places.size(); ++i) {
+    EXPECT_EQ(memory.places[i].vertex, first.solution[i]);
+    tried += memory.places[i].tries.front() > 0 ? 1 : 0;
+    grown += memory.places[i].size > 40 ? 1 : 0;
+  }
+  EXPECT_GT(tried, 50);
+  EXPECT_GT(grown, 50);
+  // What was tried comes last: so as many fragments again leave fewer places untried than they do without memory.
+  const auto untried_after = [&](LnsMemory known) {
+    continue_lns(graph, first.solution, options, no_deadline, known);
+    return std::ranges::count_if(known.places, [](const auto& place) { return place.tries.front() == 0; });
+  };
+  EXPECT_LT(untried_after(memory), untried_after({}));
+  // Remembered sizes are those of another search, whose limit may have been larger.
+  for (LnsMemory::Place& place : memory.places) place.size = 4000000000;
+  const LnsResult second = continue_lns(graph, first.solution, options, no_deadline, memory);
+  EXPECT_GE(second.weight, first.weight);
+  for (const LnsMemory::Place& place : memory.places) EXPECT_LE(place.size, options.largest_fragment);
+}
+
 TEST(Lns, StopsAtItsDeadline) {
   Random random(8);
   // Too hard to be solved in this time.

@@ -56,6 +56,51 @@ TEST_P(KernelTest, KeepsTheOptimumAndLiftsIt) {
   EXPECT_GT(decided, vertices / 2);
 }
 
+// As lns-mpi does on the blocks of a graph, none of which sees the others.
+TEST(ReducerTest, HalvesThatAreReducedApartKeepTheOptimumTogether) {
+  Random random(3);
+  int decided = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const auto count = static_cast<std::int32_t>(2 + random.below(22)), middle = count / 2;
+    const ConflictGraph graph = i % 2 == 0 ? hexpipe::testing::random_graph(count, 0.4 * random.uniform(), 20, random)
+                                           : hexpipe::testing::random_clique_graph(count, count / 2, 20, random);
+    std::vector<char> left(static_cast<std::size_t>(count), 1);
+    std::int64_t offset = 0;
+    for (const std::int32_t first : {0, middle}) {
+      const std::int32_t last = first == 0 ? middle : count;
+      ConflictGraph half;
+      std::vector<char> incomplete;
+      for (std::int32_t v = first; v < last; ++v) {
+        half.weights.push_back(graph.weights[v]);
+        incomplete.push_back(0);
+        for (const std::int32_t u : graph.neighbours_of(v))
+          if (u >= first && u < last)
+            half.neighbours.push_back(u - first);
+          else
+            incomplete.back() = 1;
+        half.offsets.push_back(static_cast<std::int64_t>(half.neighbours.size()));
+      }
+      ReductionLog log;
+      Reducer reducer(half, log, incomplete);
+      offset += reducer.run(ReductionEffort::quick, Deadline());
+      for (std::int32_t v = first; v < last; ++v) left[v] = reducer.graph().alive(v - first) ? 1 : 0;
+    }
+    std::vector<std::int32_t> numbers(static_cast<std::size_t>(count), -1);
+    ConflictGraph rest;
+    for (std::int32_t v = 0; v < count; ++v)
+      if (left[v] != 0) numbers[v] = rest.vertex_count(), rest.weights.push_back(graph.weights[v]);
+    for (std::int32_t v = 0; v < count; ++v) {
+      if (left[v] == 0) continue;
+      for (const std::int32_t u : graph.neighbours_of(v))
+        if (left[u] != 0) rest.neighbours.push_back(numbers[u]);
+      rest.offsets.push_back(static_cast<std::int64_t>(rest.neighbours.size()));
+    }
+    ASSERT_EQ(brute_force_weight(rest) + offset, brute_force_weight(graph)) << "graph " << i;
+    decided += count - rest.vertex_count();
+  }
+  EXPECT_GT(decided, 1500);
+}
+
 TEST_P(KernelTest, LiftsAnySetToAMaximalOneAndProjectsBack) {
   Random random(2);
   for (int i = 0; i < 12; ++i) {

@@ -84,7 +84,7 @@ class Job {
     ranks_.broadcast(first);
     ranks_.together([&] {
       if (std::string(first.begin(), first.end()) != own)
-        throw DataError(fmt::format("rank {}: expected the options of the first rank, found others", ranks_.rank()));
+        throw UsageError(fmt::format("rank {}: expected the options of the first rank, found others", ranks_.rank()));
     });
   }
 

@@ -23,7 +23,8 @@ void run_on_all_ranks(RunContext& context, const JobOptions& options) {
     print_message(fmt::format("{}: {}\n", context.info.name, error.what()));
     ranks.together([] {});
     silence_messages(true);
-    throw;
+    if (error.of_usage()) throw UsageError(error.what());
+    throw DataError(error.what());
   } catch (const std::exception& error) {
     silence_messages(false);
     print_message(fmt::format("{}: rank {}: {}\n", context.info.name, ranks.rank(), error.what()));

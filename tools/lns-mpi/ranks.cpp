@@ -17,14 +17,15 @@ namespace {
 constexpr std::size_t longest_piece = std::size_t{1} << 30;
 constexpr int tag = 1;
 
-// After some tries at once, a tenth of a millisecond: far below a round, far above a switch of processes.
+// After some tries at once, from a tenth of a millisecond up: far below what was waited for already, far above a switch
+// of processes. A rank that waits while the first one reads and cuts a graph takes nearly no time of a processor then.
 void pause(int tries) {
   constexpr int at_once = 200;
-  constexpr useconds_t microseconds = 100;
+  constexpr int shortest = 100, longest = 10000;  // microseconds
   if (tries < at_once)
     sched_yield();
   else
-    usleep(microseconds);
+    usleep(static_cast<useconds_t>(std::min(shortest + tries - at_once, longest)));
 }
 
 }  // namespace
@@ -60,12 +61,14 @@ void Ranks::wait() {
   requests_.clear();
 }
 
-void Ranks::agree(bool failed, const std::string& error) {
-  std::array<std::int64_t, 1> first{failed ? -rank_ : -count_};
+void Ranks::agree(Failure failure, const std::string& error) {
+  // The first rank that failed, and how: each has a number of its own, greater for ranks that come before.
+  const std::int64_t behind = count_ - rank_;
+  std::array<std::int64_t, 1> first{failure == Failure::none ? 0 : 2 * behind + (failure == Failure::usage ? 1 : 0)};
   maximum(first);
-  if (first[0] == -count_) return;
-  silence_messages(first[0] != -rank_);
-  throw ErrorOfAll(error);
+  if (first[0] == 0) return;
+  silence_messages(first[0] / 2 != behind);
+  throw ErrorOfAll(error, first[0] % 2 == 1);
 }
 
 void Ranks::sum(std::span<std::int64_t> values) {

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -28,9 +29,14 @@ struct Traffic {
 };
 
 // All ranks throw it together; one of them is left to say why.
-class ErrorOfAll : public DataError {
+class ErrorOfAll : public std::runtime_error {
  public:
-  using DataError::DataError;
+  ErrorOfAll(const std::string& message, bool of_usage) : std::runtime_error(message), of_usage_(of_usage) {}
+  // As the error that the rank that says why had: the command line's, or the data's.
+  bool of_usage() const { return of_usage_; }
+
+ private:
+  bool of_usage_;
 };
 
 class Ranks {
@@ -51,14 +57,17 @@ class Ranks {
   template <class Task>
   void together(Task&& task) {
     std::string error;
-    bool failed = false;
+    Failure failure = Failure::none;
     try {
       task();
+    } catch (const UsageError& exception) {
+      failure = Failure::usage;
+      error = exception.what();
     } catch (const std::exception& exception) {
-      failed = true;
+      failure = Failure::data;
       error = exception.what();
     }
-    agree(failed, error);
+    agree(failure, error);
   }
 
   // Each entry becomes the sum, or the greatest, over all ranks.
@@ -79,7 +88,8 @@ class Ranks {
   [[noreturn]] static void abandon();
 
  private:
-  void agree(bool failed, const std::string& error);
+  enum class Failure { none, data, usage };
+  void agree(Failure failure, const std::string& error);
   void post_send(int to, const Bytes& bytes);
   void post_receive(int from, Bytes& bytes);
   void wait();

@@ -66,24 +66,28 @@ class Model:
     thickness = 14.0
 
     def __init__(self, ranks, vertices):
+        self.ranks = ranks
         self.sides = box(ranks)
         self.vertices = vertices
 
-    def held(self, beside=lambda side: 1 - 1 / side):
+    def held(self, share=1.0):
         """Of a vertex owned, on the average; a block at an end of an axis has a neighbour on one side of it alone."""
-        thick = self.thickness / self.vertices ** (1 / 3)
-        return np.prod([1 + thick * beside(side) for side in self.sides])
+        thick = share * self.thickness / self.vertices ** (1 / 3)
+        return np.prod([1 + thick * (1 - 1 / side) for side in self.sides])
 
     def most_held(self):
-        return self.held(lambda side: 1 if side > 2 else 1 - 1 / side)
+        thick = self.thickness / self.vertices ** (1 / 3)
+        return np.prod([1 + thick * (1 if side > 2 else 1 - 1 / side) for side in self.sides])
 
     def partners(self):
         """Blocks that meet in a corner are partners."""
         return np.prod([3 - 2 / side for side in self.sides]) - 1
 
     def setup_bytes(self):
-        """A row of the halo: a number of 8 bytes for each neighbour, and 41."""
-        return (self.held() - 1) * self.vertices * (8 * DEGREE + 41)
+        """The first rank sends a block, 12 bytes a neighbour; neighbours send the halo, 8, but not in the last of its three
+        layers, whose rows nobody needs."""
+        block = self.vertices * (12 * DEGREE + 29) * (self.ranks - 1) / self.ranks
+        return block + self.vertices * ((self.held(2 / 3) - 1) * 8 * DEGREE + (self.held() - 1) * 41)
 
     def mebibytes(self, base):
         """Rows as read, with 12 bytes a neighbour, and as held, twice, while one is made of the other."""
@@ -110,7 +114,7 @@ def weak(options):
           "a rank | bytes a round a rank | MiB of the first rank | of the fullest other |")
     print("|" + " --- |" * 10)
     base = None
-    for ranks in map(int, options.ranks.split(",")):
+    for ranks in map(int, filter(None, options.ranks.split(","))):
         with tempfile.TemporaryDirectory() as name:
             r = run(options.bin, pathlib.Path(name), ranks, options.vertices, options.rounds)
         rounds, memory = r["rounds"], r["mebibytes"]
@@ -165,7 +169,7 @@ def equal(options):
             used = timed([options.bin / "lns", start, "--time-limit", options.seconds, *search],
                          dict(os.environ, LD_PRELOAD=str(clock)))
             row("lns, one thread", used)
-        for ranks in map(int, options.ranks.split(",")):
+        for ranks in map(int, filter(None, options.ranks.split(","))):
             used = timed(["mpirun", "--oversubscribe", "-n", ranks, "-x", f"LD_PRELOAD={clock}", options.bin / "lns-mpi", start,
                           "--time-limit", options.seconds / ranks, *search], MPI)
             row(f"lns-mpi, {ranks} rank{'s' if ranks > 1 else ''}", used)
