@@ -222,10 +222,17 @@ Piece make_piece(Ranks& ranks, const BlockOwners& owners, OwnedRows rows, std::i
   {
     const KeyIndex index(rows.keys);
     const std::vector<Reach> reached = find_near_blocks(ranks, owners, rows, index, overlap + 1);
-    const std::vector<Bytes> came = ranks.exchange(pack_halos(ranks, owners, rows, reached, overlap));
+    std::vector<Bytes> came = ranks.exchange(pack_halos(ranks, owners, rows, reached, overlap));
+    // Here a rank needs most memory: nothing grows, and each message goes when it is taken over.
+    std::size_t most = rows.neighbours.size();
+    for (const Bytes& bytes : came) most += bytes.size() / sizeof(std::uint64_t);
+    held.neighbours.reserve(most);
     append_own(rows, reached, held);
     rows = {};
-    for (const Bytes& bytes : came) held.append(bytes);
+    for (Bytes& bytes : came) {
+      held.append(bytes);
+      bytes = Bytes();
+    }
   }
   Piece piece;
   piece.owners = owners;

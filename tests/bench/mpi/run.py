@@ -90,8 +90,8 @@ class Model:
         return block + self.vertices * ((self.held(2 / 3) - 1) * 8 * DEGREE + (self.held() - 1) * 41)
 
     def mebibytes(self, base):
-        """Rows as read, with 12 bytes a neighbour, and as held, twice, while one is made of the other."""
-        return base + DEGREE * self.vertices * (12 + 12 * self.most_held()) / 2 ** 20
+        """12 bytes a neighbour in rows as read, 8 in rows that came, and 8 in both put together."""
+        return base + DEGREE * self.vertices * (4 + 16 * self.most_held()) / 2 ** 20
 
 
 def run(bin_folder, folder, ranks, vertices, rounds, extra=()):
