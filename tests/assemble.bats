@@ -150,6 +150,15 @@ assert slid["cells"]["tet"]["scaled_jacobian"]["least"] > held["cells"]["tet"]["
   expect slid.msh 's["conforming"] and s["hexbad"] == s["inv"] == 0'
 }
 
+@test "smoothing takes next to nothing off a part that is thinner than its edges are long" {
+  findhex -q --mesh "$DATA/thin.mesh" | buildgraph -q | initsol -q --iterations 10 |
+    assemble -q --stats stats.json -o thin.vtk
+  $PYTHON -c '
+import json
+volume = json.load(open("stats.json"))["volume"]
+assert abs(volume["cells"] - volume["input"]) < 0.01 * volume["input"], volume'
+}
+
 @test "regions and the interface between them come through" {
   for conformity in pyramids none; do
     assemble $FILES --conformity $conformity -o mesh.vtk

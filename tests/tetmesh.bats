@@ -362,6 +362,28 @@ PYTHON
   assert_fails_with 2 "^tetmesh: .*surface" tetmesh "$part" --surface new
 }
 
+@test "remeshing takes little off a part that is thinner than a size" {
+  cat >wedge.off <<'END'
+OFF
+5 6 0
+17 15 1.4
+8 6 3.4
+5 37 2.7
+2 1 0.5
+38 1 3.5
+3 0 4 3
+3 0 3 2
+3 0 2 4
+3 1 3 4
+3 1 2 3
+3 1 4 2
+END
+  tetmesh -q wedge.off --size 25% --points none --stats stats.json -o wedge.mesh
+  assert_equal "$(stats surface_remeshed)" True
+  tetmesh -q wedge.off --size 25% --points none --surface keep --stats kept.json -o kept.mesh
+  $PYTHON -c "import json; assert $(stats volume) > 0.95 * json.load(open('kept.json'))['volume']"
+}
+
 @test "a surface is made anew: coarse, fine, of slivers, with its tags, and by the independent checker" {
   for part in bracket.stl plate-holes.stl notch.stl; do
     tetmesh -q "$DATA/$part" --size 5% --points none -o part.mesh --stats stats.json

@@ -55,6 +55,26 @@ TEST(InputSurface, BordersOfTagsAreFeatures) {
   EXPECT_EQ(surface.place(lattice_vertex(4, 3, 2, 0)), Place::face);
 }
 
+// A plate a fifth of an edge thick, and one of two sheets that are half of it.
+TEST(InputSurface, FacetsStayNearerWhereThePartIsThinnerThanAnEdge) {
+  constexpr int n = 4;
+  const Vertex middle = lattice_vertex(n, 2, 2, n);
+  auto block = make_lattice(n);
+  tag_boundary(block.mesh);
+  EXPECT_NEAR(InputSurface(block.mesh).most_deviation_at(middle), most_deviation * (2 + std::sqrt(2)) / 3, 1e-12);
+  for (const bool sheets : {false, true}) {
+    auto plate = make_lattice(n, [&](int, int, int k) { return sheets && k >= n / 2 ? 2 : 1; });
+    for (auto& p : plate.mesh.points) p.z *= 0.2 / n;
+    tag_boundary(plate.mesh);
+    const InputSurface surface(plate.mesh);
+    EXPECT_NEAR(surface.most_deviation_at(middle), most_deviation * (sheets ? 0.1 : 0.2), 1e-12);
+    EXPECT_NEAR(surface.most_deviation_at(lattice_vertex(n, 2, 2, 0)), surface.most_deviation_at(middle), 1e-12);
+    if (sheets) {
+      EXPECT_NEAR(surface.most_deviation_at(lattice_vertex(n, 2, 2, 2)), most_deviation * 0.1, 1e-12);
+    }
+  }
+}
+
 // As in tetmesh, which lays no curve along a weaker bend.
 TEST(InputSurface, BendsOfFortyDegreesAreFeatures) {
   for (double degrees : {35.0, 45.0}) {

@@ -8,7 +8,9 @@
 #include <numeric>
 #include <utility>
 
+#include "common/mesh/adjacency.hpp"
 #include "tools/assemble/facet_key.hpp"
+#include "tools/assemble/wall_thickness.hpp"
 
 namespace hexpipe {
 namespace {
@@ -71,6 +73,7 @@ InputSurface::InputSurface(const TetMesh& mesh) : mesh_(mesh) {
   find_features();
   places_.resize(mesh.points.size());
   for (std::size_t v = 0; v < places_.size(); ++v) places_[v] = place_of(static_cast<Vertex>(v));
+  find_lengths();
 }
 
 void InputSurface::list_triangles() {
@@ -130,6 +133,17 @@ void InputSurface::find_features() {
     feature_ends_[fill[edge[0]]++] = edge[1];
     feature_ends_[fill[edge[1]]++] = edge[0];
   }
+}
+
+void InputSurface::find_lengths() {
+  lengths_.resize(mesh_.points.size());
+  for (std::size_t v = 0; v < lengths_.size(); ++v) lengths_[v] = edge_length(static_cast<Vertex>(v));
+  std::vector<double> reach;
+  reach.reserve(mesh_.triangles.size());
+  for (const auto& [a, b, c] : mesh_.triangles) reach.push_back(std::max({lengths_[a], lengths_[b], lengths_[c]}));
+  const auto thickness = wall_thickness(mesh_, TetAdjacency(mesh_, "input"), reach);
+  for (std::size_t t = 0; t < thickness.size(); ++t)
+    for (const Vertex v : mesh_.triangles[t]) lengths_[v] = std::min(lengths_[v], thickness[t]);
 }
 
 // Whether the triangles at v that join by edges are all of them.
@@ -229,6 +243,7 @@ double InputSurface::distance(const Vec3& to) const {
   return std::sqrt(least);
 }
 
+// The mean, of the triangles at v.
 double InputSurface::edge_length(Vertex v) const {
   double sum = 0;
   for (std::int32_t t : triangles_at(v))

@@ -10,8 +10,9 @@
 
 namespace hexpipe {
 
-// How far facets may come to lie from the input's surface, in edge lengths there, where vertices slide on it or flat
-// tets are taken off it. Circles of 25 edges and more deviate less between their own vertices.
+// How far facets may come to lie from the input's surface where vertices slide on it or flat tets are taken off it: in
+// edge lengths there, or, where the part is thinner than an edge is long, in its thickness. Circles of 25 edges and
+// more deviate less between their own vertices.
 inline constexpr double most_deviation = 0.03;
 
 // The nearest point of a triangle, which may be degenerate.
@@ -43,8 +44,8 @@ class InputSurface {
   // To all of the surface: looks at every triangle.
   double distance(const Vec3& to) const;
 
-  // The mean length of the edges of the triangles at v.
-  double edge_length(Vertex v) const;
+  // How far facets at v may come to lie from the surface; v is on a triangle.
+  double most_deviation_at(Vertex v) const { return most_deviation * lengths_[v]; }
 
   bool has_triangle(const Triangle& triangle) const;
 
@@ -61,6 +62,8 @@ class InputSurface {
   }
   void list_triangles();
   void find_features();
+  void find_lengths();
+  double edge_length(Vertex v) const;
   Place place_of(Vertex v) const;
   bool is_one_fan(Vertex v) const;
   Nearest descend(Vertex v, const Vec3& to, bool within_part, double enough) const;
@@ -75,6 +78,8 @@ class InputSurface {
   std::vector<std::int64_t> feature_offsets_;
   std::vector<Vertex> feature_ends_;
   std::vector<Place> places_;
+  // By vertex: the mean length of the edges of its triangles or the least thickness behind one of them; 0 inside.
+  std::vector<double> lengths_;
 };
 
 }  // namespace hexpipe

@@ -130,8 +130,7 @@ bool Peeler::has_good_shape(const Peel& peel) const {
         return false;
   }
   const Vec3 middle = (mesh_.points[peel.inner[0]] + mesh_.points[peel.inner[1]]) * 0.5;
-  return after >= before &&
-         surface_.distance(peel.inner[0], middle) <= most_deviation * surface_.edge_length(peel.inner[0]);
+  return after >= before && surface_.distance(peel.inner[0], middle) <= surface_.most_deviation_at(peel.inner[0]);
 }
 
 // Only what concerns these tets.

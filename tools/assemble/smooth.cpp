@@ -170,7 +170,7 @@ Freedom Smoother::freedom(Vertex v) const {
 
 // Whether v, moved to `at`, leaves the boundary as near to the input's surface as it has to be.
 bool Smoother::stays_close(Vertex v, const Vec3& at) {
-  const double most = most_deviation * sliding_->surface.edge_length(sliding_->origin[v]);
+  const double most = sliding_->surface.most_deviation_at(sliding_->origin[v]);
   const Vec3 before = std::exchange(points_[v], at);
   const double deviation = deviation_->around(v, most, most);
   points_[v] = before;

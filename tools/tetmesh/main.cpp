@@ -94,7 +94,8 @@ int main(int argc, char** argv) {
     app.add_option("--feature-angle", options.feature_angle,
                    "Edges where the surface turns by more are kept, and corners where they turn, in degrees")
         ->check(number_between(1, 180));
-    app.add_option("--deviation", options.deviation, "How far the new surface may be from the old one, in sizes")
+    app.add_option("--deviation", options.deviation,
+                   "How far the new surface may be from the old one, in sizes, or in thicknesses of a thinner wall")
         ->check(number_between(1e-6, 1));
     app.add_option("--points", points,
                    "Points inside: best, frame (along a frame field that follows the surface), lattice (along the "

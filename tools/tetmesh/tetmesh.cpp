@@ -50,9 +50,11 @@ double greatest_size(const Surface& surface, const TetmeshOptions& options) {
   return std::ranges::max(options.size_sources.sizes);
 }
 
-SizeField size_field(const Surface& surface, const TetmeshOptions& options, double greatest) {
+// Walls count with so many layers.
+SizeField size_field(const Surface& surface, const TetmeshOptions& options, double greatest,
+                     std::optional<int> layers) {
   SizeSources sources = options.size_sources;
-  if (options.layers) sources.add(wall_sizes(surface, greatest, *options.layers));
+  if (layers) sources.add(wall_sizes(surface, greatest, *layers));
   return {std::move(sources), greatest, options.grading};
 }
 
@@ -85,7 +87,9 @@ void describe(const Surface& surface, TetmeshStatistics& statistics) {
 // Where no new surface can be made, the old one stays, and the result says so.
 void remesh(Surface& surface, const SizeField& size, const TetmeshOptions& options, TetmeshResult& result) {
   TetmeshStatistics& statistics = result.statistics;
-  RemeshResult remeshed = remesh_surface(surface, {size, options.feature_angle, options.deviation});
+  // What a size may take is nothing beside the part, unless that is thinner than a size.
+  const SizeField unit = options.layers ? size : size_field(surface, options, size.greatest(), 1);
+  RemeshResult remeshed = remesh_surface(surface, {size, options.feature_angle, options.deviation, unit});
   statistics.remeshed = remeshed.failure.empty();
   if (!statistics.remeshed) {
     result.warning = fmt::format("the surface is kept as it is: {}", remeshed.failure);
@@ -197,7 +201,7 @@ TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
 
   statistics.size = greatest_size(surface, options);
   check_number_of_points(surface, options, statistics.size);
-  const SizeField size = size_field(surface, options, statistics.size);
+  const SizeField size = size_field(surface, options, statistics.size, options.layers);
   if (!size.is_uniform()) statistics.least_size = size.least();
   if (options.surface == SurfaceKind::remesh) {
     remesh(surface, size, options, result);

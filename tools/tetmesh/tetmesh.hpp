@@ -36,7 +36,7 @@ struct TetmeshOptions {
   std::optional<int> layers = {};  // across thin walls, at least; nothing: walls do not count
   SurfaceKind surface = SurfaceKind::remesh;
   double feature_angle = RemeshOptions{}.feature_angle;  // degrees
-  double deviation = RemeshOptions{}.deviation;          // in sizes
+  double deviation = RemeshOptions{}.deviation;          // in sizes, or in the thickness of thinner walls
   PointKind points = PointKind::best;
   PointList given_points = {};  // for PointKind::given
   double clearance = LatticeOptions{}.clearance;

@@ -51,7 +51,7 @@ class SurfaceRemesher {
   SurfaceRemesher(const Surface& surface, const RemeshOptions& options)
       : surface_(surface),
         size_(options.size),
-        deviation_(options.deviation * options.size),
+        deviation_(options.deviation * options.unit.value_or(options.size)),
         prepared_(surface, options.feature_angle),
         input_(surface.points, surface.triangles) {}
 

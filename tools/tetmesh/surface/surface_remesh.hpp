@@ -2,6 +2,7 @@
 // A surface's triangles anew, on points that merge into quads and so into hexes: along its features, and between them
 // in the directions of a cross field.
 
+#include <optional>
 #include <string>
 
 #include "tools/tetmesh/shells.hpp"
@@ -10,9 +11,10 @@
 namespace hexpipe {
 
 struct RemeshOptions {
-  SizeField size = 1;         // distance of the points
-  double feature_angle = 40;  // degrees
-  double deviation = 0.15;    // of either surface from the other, at the most, in sizes
+  SizeField size = 1;                  // distance of the points
+  double feature_angle = 40;           // degrees
+  double deviation = 0.15;             // of either surface from the other, at the most, in units
+  std::optional<SizeField> unit = {};  // nothing: the size
 };
 
 struct RemeshResult {
