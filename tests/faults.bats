@@ -43,3 +43,27 @@ for_tools() {
     done
   done
 }
+
+@test "a library that never ends holds no tool up" {
+  "$PYTHON" "$DATA/lattices/lattice.py" kuhn 1 >part.mesh
+  findhex -q --mesh part.mesh | buildgraph -q | initsol -q --iterations 5 -o part.tar
+  certify -q part.tar -o certified.tar
+  local waits="timeout -k 1 20 env LD_PRELOAD=$HEXPIPE_BIN/../lib/libfail_calls.so HEXPIPE_FAULT=exit:1" tool
+  for tool in findhex buildgraph initsol lns certify assemble; do
+    run $waits $tool --version
+    assert_success
+    assert_output --partial "$tool (hexpipe)"
+    run -2 $waits $tool --no-such-option
+  done
+  shell "$waits certify -q part.tar | cat >piped.tar"
+  run -1 $waits certify -q --memory 1M part.tar -o none.tar
+  # It waits where nobody leaves it out.
+  run -124 ${waits/20/0.2} sleep 0
+  assert_same_bytes certified.tar piped.tar
+}
+
+@test "help that cannot be written is an error" {
+  run_apart bash -c "findhex --help >/dev/full"
+  assert_equal "$status" 1
+  assert_equal "$stderr" "findhex: stdout: cannot write: No space left on device"
+}

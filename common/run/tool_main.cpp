@@ -11,6 +11,7 @@
 #include <cstring>
 #include <exception>
 #include <fstream>
+#include <iostream>
 #include <memory>
 #include <new>
 
@@ -22,6 +23,10 @@
 #include "common/run/option_checks.hpp"
 #include "common/run/parallel.hpp"
 #include "common/run/version.hpp"
+
+// Of the sanitizers, where there are any: with the name and the type that they give it.
+// NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming)
+extern "C" __attribute__((weak)) void __sanitizer_set_report_fd(void* descriptor);
 
 namespace hexpipe {
 namespace {
@@ -163,6 +168,29 @@ int report(const std::string& tool, std::string_view message, int code) {
   return code;
 }
 
+// Standard streams hold nothing but help, whose fate is known: see show().
+void end_at_once(int code, void*) {
+  std::cout.flush();
+  std::fflush(nullptr);
+  _exit(code);
+}
+
+// Ends the process behind main() without the destructors of libraries, which have nothing to do for us: OpenBLAS's
+// waits for threads that try without end to allocate what --memory does not leave them. Sanitizers look for leaks
+// there.
+void leave_libraries_out_at_exit() {
+  static const bool sanitized = __sanitizer_set_report_fd != nullptr;
+  static const int registered = sanitized ? 0 : on_exit(end_at_once, nullptr);
+  static_cast<void>(registered);
+}
+
+// --help and --version.
+int show(const CLI::App& app, const CLI::Success& text, const ToolInfo& info) {
+  app.exit(text);
+  if (std::cout.flush()) return 0;
+  return report(info.name, fmt::format("stdout: cannot write: {}", std::strerror(errno)), exit_data);
+}
+
 [[noreturn]] void end_without_memory();
 
 // From before main() on; the usual handler stays in charge of everything but missing memory.
@@ -194,6 +222,7 @@ std::string one_line(std::string text) {
 int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<void(CLI::App&)>& declare,
               const std::function<void(RunContext&)>& run) {
   keep_standard_streams_apart();
+  leave_libraries_out_at_exit();
   install_signal_handlers();
   if (info.searches) stop_searches_on_signal();
 
@@ -211,7 +240,7 @@ int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<v
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version
-    return app.exit(success);
+    return show(app, success, info);
   } catch (const CLI::ParseError& error) {
     return report(info.name, one_line(error.what()) + fmt::format(" (see {} --help)", info.name), exit_usage);
   }

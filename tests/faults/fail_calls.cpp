@@ -4,6 +4,7 @@
 //   disk:BYTES     files have no room behind so many bytes, all together; the last write before is a short one
 //   kill:N         SIGKILL at the Nth call of any kind
 //   short:1        reads and writes move one byte less than asked, where that is more than none
+//   exit:1         a library's destructor never ends
 //   count:FILE     nothing fails; how many calls of each kind there were is written to FILE
 //
 // Kinds: open, read, write, close, link, rename, fork, thread, pipe, memory. After the fault everything works again,
@@ -56,6 +57,7 @@ int failing_kind = -1;
 long failing_number = -1;
 long kill_number = -1;
 bool short_counts = false;
+bool waits_at_exit = false;
 std::atomic<long> room_on_disk{-1};  // -1: without end
 const char* count_file = nullptr;
 pid_t tool = 0;
@@ -84,6 +86,7 @@ void read_fault(const char* fault) {
   if (is("disk")) room_on_disk = number;
   if (is("kill")) kill_number = number;
   if (is("short")) short_counts = true;
+  if (is("exit")) waits_at_exit = true;
   if (is("count")) count_file = colon + 1;
   for (int kind = 0; kind < kinds; ++kind)
     if (is(kind_names[kind])) failing_kind = kind, failing_number = number;
@@ -117,9 +120,12 @@ Main real_main = nullptr;
 int counted_main(int argc, char** argv, char** environment) {
   tool = getpid();
   read_fault(getenv("HEXPIPE_FAULT"));
-  std::atexit(write_counts);
   in_main = true;
   return real_main(argc, argv, environment);
+}
+
+__attribute__((destructor)) void wait_for_ever() {
+  while (waits_at_exit) pause();
 }
 
 int failed(int error) {
@@ -136,6 +142,14 @@ int __libc_start_main(Main program, int argc, char** argv, void (*init)(), void 
   using Start = int (*)(Main, int, char**, void (*)(), void (*)(), void (*)(), void*);
   real_main = program;
   return next<Start>("__libc_start_main")(counted_main, argc, argv, init, fini, loader, stack);
+}
+
+// Tools end by it: no handler that was registered before main() runs.
+void _exit(int code) {
+  static const auto real = next<void (*)(int)>("_exit");
+  write_counts();
+  real(code);
+  __builtin_unreachable();
 }
 
 int open(const char* path, int flags, ...) {
