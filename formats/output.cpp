@@ -115,6 +115,7 @@ void Output::flush() {
 
 void Output::write_through(std::string_view bytes) {
   while (!bytes.empty()) {
+    const WaitForReader wait;
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail();

@@ -15,12 +15,12 @@ std::atomic<bool> stop_flag{false};
 std::atomic<bool> first_signal_stops_searches{false};
 std::atomic<bool> upstream_may_answer{false};
 std::atomic<bool> interrupted{false};
-std::atomic<bool> waits_for_input{false};
+std::atomic<unsigned> patience{0};     // seconds that the call underway may wait after a signal; 0: none waits
 std::atomic<int> impatient_signal{0};  // that stopped the search and does not let it wait
 std::atomic<bool> file_registered{false};
 char registered_file[4096];
 
-constexpr unsigned longest_wait = 1;  // seconds, for input after a signal
+constexpr unsigned patience_with_writers = 1, patience_with_readers = 3;  // seconds
 
 void end_by(int signal_number) {
   remove_registered_file();
@@ -31,7 +31,7 @@ void end_by(int signal_number) {
 void stop_search(int signal_number) {
   if (signal_number == SIGINT) return;
   impatient_signal = signal_number;
-  if (waits_for_input.load()) alarm(longest_wait);
+  if (const unsigned seconds = patience.load()) alarm(seconds);
 }
 
 void on_signal(int signal_number) {
@@ -44,7 +44,7 @@ void on_signal(int signal_number) {
 }
 
 void on_alarm(int) {
-  if (waits_for_input.load()) end_by(impatient_signal.load());
+  if (patience.load() != 0) end_by(impatient_signal.load());
 }
 
 void handle(int signal_number, void (*handler)(int)) {
@@ -84,14 +84,17 @@ void leave_interrupt_upstream(bool on) {
 }
 
 // The alarm is set here or in the handler, whichever comes second.
-WaitForInput::WaitForInput() {
-  waits_for_input = true;
-  if (impatient_signal.load() != 0) alarm(longest_wait);
+WaitForOther::WaitForOther(unsigned seconds) {
+  patience = seconds;
+  if (impatient_signal.load() != 0) alarm(seconds);
 }
 
-WaitForInput::~WaitForInput() {
-  waits_for_input = false;
+WaitForOther::~WaitForOther() {
+  patience = 0;
 }
+
+WaitForInput::WaitForInput() : WaitForOther(patience_with_writers) {}
+WaitForReader::WaitForReader() : WaitForOther(patience_with_readers) {}
 
 void remove_on_signal(const char* path) {
   file_registered = false;

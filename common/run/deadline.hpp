@@ -45,15 +45,30 @@ void stop_searches_also_on(int signal_number);
 // The second ends the process.
 void leave_interrupt_upstream(bool on);
 
-// Stands around a call that waits for input. A search that was asked to stop reads on, for what comes may be the answer
-// of a search upstream that was asked at the same time. Where it was asked by another signal than SIGINT, it ends as by
-// that signal when nothing has come for a second. One at a time.
-class WaitForInput {
+// Stands around a call that waits for another process. One at a time.
+class WaitForOther {
+ public:
+  WaitForOther(const WaitForOther&) = delete;
+  WaitForOther& operator=(const WaitForOther&) = delete;
+
+ protected:
+  explicit WaitForOther(unsigned seconds);
+  ~WaitForOther();
+};
+
+// For input. A search that was asked to stop reads on, for what comes may be the answer of a search upstream that was
+// asked at the same time. Where it was asked by another signal than SIGINT, it ends as by that signal when nothing has
+// come for a second.
+class WaitForInput : WaitForOther {
  public:
   WaitForInput();
-  ~WaitForInput();
-  WaitForInput(const WaitForInput&) = delete;
-  WaitForInput& operator=(const WaitForInput&) = delete;
+};
+
+// For room in a pipe, likewise: its reader may be at work for some seconds, but one that is stuck costs no more than
+// three.
+class WaitForReader : WaitForOther {
+ public:
+  WaitForReader();
 };
 
 // Registers a file to be removed when a signal ends the process; an empty path takes the registration back.

@@ -88,6 +88,22 @@ TEST(SignalsDeathTest, ASearchThatWaitsForInputEndsByOneSignalThatIsNoInterrupt)
       EXPECT_EXIT(wait_for_nothing(number, before), testing::KilledBySignal(number), "") << number << before;
 }
 
+// Blocked in write(2) on a pipe that is full and that nobody reads.
+void wait_for_nobody() {
+  install_signal_handlers();
+  stop_searches_on_signal();
+  int ends[2];
+  if (pipe(ends) != 0) _exit(1);
+  raise(SIGTERM);
+  const std::string more_than_it_holds(1 << 20, 'x');
+  const WaitForReader wait;
+  _exit(write(ends[1], more_than_it_holds.data(), more_than_it_holds.size()) < 0 ? 1 : 0);
+}
+
+TEST(SignalsDeathTest, ASearchWhoseAnswerNobodyReadsEndsByOneSignalThatIsNoInterrupt) {
+  EXPECT_EXIT(wait_for_nobody(), testing::KilledBySignal(SIGTERM), "");
+}
+
 TEST(SignalsDeathTest, ASearchThatIsInterruptedWaitsForWhatComesDownThePipe) {
   EXPECT_EXIT(wait_for_nothing(SIGINT, false), testing::ExitedWithCode(0), "");
 }
