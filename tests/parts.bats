@@ -412,3 +412,14 @@ SEARCH
   run_apart "$HEXPIPE_SOURCE/docs/slurm/submit.sh" bar.mesh
   assert_equal "$status" 2
 }
+
+@test "a mesh that mesh-part refuses leaves no directory" {
+  # Three tets at one facet.
+  printf '%s\n' 'MeshVersionFormatted 2' 'Dimension 3' 'Vertices' 6 '0 0 0 0' '1 0 0 0' '0 1 0 0' '0 0 1 0' '0 0 2 0' '0 0 3 0' \
+    'Tetrahedra' 3 '1 2 3 4 1' '1 2 3 5 1' '1 2 3 6 1' 'End' >bad.mesh
+  assert_fails_with 1 "bad.mesh: .*expected at most two tets at each facet" mesh-part bad.mesh --parts 2 -o parts
+  assert [ ! -e parts ]
+  mkdir parts
+  assert_fails_with 1 "bad.mesh: .*expected at most two tets at each facet" mesh-part bad.mesh --parts 2 -o parts
+  assert [ -d parts ]
+}

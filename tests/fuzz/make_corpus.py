@@ -10,6 +10,7 @@ import struct
 import subprocess
 import sys
 import tarfile
+import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -110,6 +111,15 @@ def tools():
         solution = tool("initsol", "--iterations", "1", stdin=graph)
         for choice, (tool_name, folders) in enumerate(inputs.items()):
             seed("tool-" + tool_name, name, bytes([choice % 2]) + only(solution, *folders))
+        seed("tool-mesh-part", name, bytes([1]) + only(solution, "mesh"))
+    with tempfile.TemporaryDirectory() as folder:
+        mesh = pathlib.Path(folder) / "lattice.mesh"
+        mesh.write_bytes(lattice("kuhn", "1"))
+        seed("tool-merge-parts", "share", b"\0" + tool("findhex", mesh, "--part", "1/1"))
+        tool("mesh-part", mesh, "--parts", "1", "-o", f"{folder}/parts")
+        found = pathlib.Path(folder) / "found.tar"
+        found.write_bytes(tool("findhex", f"{folder}/parts/part-0000.tar"))
+        seed("tool-merge-parts", "part", b"\1" + tool("buildgraph", found, "--neighbours", found))
     for choice, (kind, size) in enumerate((("kuhn", "1"), ("kuhn", "2"), ("five", "1"))):
         seed("pipeline", f"{kind}{size}", bytes([choice]) + lattice(kind, size))
     readme = (ROOT / "formats/README.md").read_text()
@@ -135,9 +145,30 @@ def surfaces():
          "usemtl steel\nf -3 -2 -1\nf 1 4 3\n")
 
 
+def solids():
+    """Behind a byte that says what is done with them: tests/fuzz/surfaces.cpp."""
+    def off(*cubes, skipped=0):
+        points, faces = [], []
+        for low, high in cubes:
+            first = len(points)
+            points += [[(low, high)[i >> axis & 1] for axis in range(3)] for i in range(8)]
+            for a, b, c, d in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)):
+                faces += [[first + v for v in face] for face in ((a, b, c), (a, c, d))]
+        faces = faces[skipped:]
+        return "\n".join(["OFF", f"{len(points)} {len(faces)} 0", *(" ".join(map(str, p)) for p in points),
+                          *(" ".join(map(str, [3, *f])) for f in faces), ""]).encode()
+
+    seed("surface", "cube-remeshed", b"\x08" + off((0, 1)))
+    seed("surface", "hole-repaired", b"\x09" + off((0, 1), skipped=1))
+    for name, choice in (("regions", 2), ("holes", 4)):
+        seed("surface", name, bytes([choice]) + off((0, 3), (1, 2)))
+    seed("surface", "stl-repaired", b"\x01" + (DATA / "cube.stl").read_bytes())
+
+
 meshes()
 sizes()
 examples()
 stages()
 tools()
 surfaces()
+solids()

@@ -65,7 +65,8 @@ fi
 fuzzer=$(realpath "$1")
 seconds=${2:-1200}
 targets=("${@:3}")
-if ((${#targets[@]} == 0)); then mapfile -t targets < <(ls "$here/corpus"); fi
+# Without one it tells which it has.
+if ((${#targets[@]} == 0)); then mapfile -t targets < <({ "$fuzzer" 2>&1 || true; } | sed -n 's/^  //p'); fi
 # Tools read and write files, in memory where that can be.
 TMPDIR=$(mktemp -d -p /dev/shm 2>/dev/null || mktemp -d)
 export TMPDIR

@@ -10,6 +10,9 @@ namespace hexpipe {
 std::vector<FuzzTarget> fuzz_targets() {
   std::vector<FuzzTarget> targets;
   for (const auto& some : {reader_targets(), tool_targets()}) targets.insert(targets.end(), some.begin(), some.end());
+#ifdef HEXPIPE_FUZZES_SURFACES
+  for (const auto& target : surface_targets()) targets.push_back(target);
+#endif
   return targets;
 }
 

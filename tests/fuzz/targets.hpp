@@ -21,6 +21,10 @@ std::span<const FuzzTarget> reader_targets();
 // Bad bytes must end in exit code 1 with a message and no output, good ones in 0 and an output that the next tool
 // takes.
 std::span<const FuzzTarget> tool_targets();
+#ifdef HEXPIPE_FUZZES_SURFACES
+// Bad bytes must end in a DataError; what passes for the boundary of a solid must be one, and what is made of it.
+std::span<const FuzzTarget> surface_targets();
+#endif
 
 std::vector<FuzzTarget> fuzz_targets();
 

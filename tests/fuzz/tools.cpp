@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -21,6 +20,8 @@ int initsol_main(int argc, char** argv);
 int lns_main(int argc, char** argv);
 int certify_main(int argc, char** argv);
 int assemble_main(int argc, char** argv);
+int merge_parts_main(int argc, char** argv);
+int mesh_part_main(int argc, char** argv);
 }
 
 namespace hexpipe {
@@ -71,6 +72,10 @@ const FuzzedTool certify{
     "certify", certify_main, {{"--iterations", "20"}, {"--iterations", "5", "--exact", "--time-limit", "1"}}};
 const FuzzedTool assemble{
     "assemble", assemble_main, {{}, {"--smooth", "0"}, {"--conformity", "none"}, {"--format", "msh"}}};
+const FuzzedTool merge_parts{"merge-parts", merge_parts_main, {{}, {"--compress"}}};
+#ifdef HEXPIPE_FUZZES_MESH_PART
+const FuzzedTool mesh_part{"mesh-part", mesh_part_main, {{"--parts", "1"}, {"--parts", "2"}, {"--parts", "5"}}};
+#endif
 
 const ScratchFiles& scratch() {
   static const ScratchFiles files;
@@ -79,7 +84,7 @@ const ScratchFiles& scratch() {
 
 // Throws a DataError where the tool ends with one.
 void run(const FuzzedTool& tool, const Options& options, const std::string& input, const std::string& output) {
-  std::remove(output.c_str());
+  std::filesystem::remove_all(output);
   std::vector<std::string> arguments{tool.name, "-q", "--threads", "1", input, "-o", output};
   arguments.insert(arguments.end(), options.begin(), options.end());
   const auto [code, message] = run_tool(tool.main, arguments);
@@ -135,6 +140,10 @@ constexpr std::array targets{
     FuzzTarget{"tool-lns", [](std::string_view bytes) { run_on_bundle(lns, bytes); }, 1},
     FuzzTarget{"tool-certify", [](std::string_view bytes) { run_on_bundle(certify, bytes); }, 1},
     FuzzTarget{"tool-assemble", [](std::string_view bytes) { run_on_bundle(assemble, bytes); }, 1},
+    FuzzTarget{"tool-merge-parts", [](std::string_view bytes) { run_on_bundle(merge_parts, bytes); }, 1},
+#ifdef HEXPIPE_FUZZES_MESH_PART
+    FuzzTarget{"tool-mesh-part", [](std::string_view bytes) { run_on_bundle(mesh_part, bytes); }, 1},
+#endif
     FuzzTarget{"pipeline", run_pipeline},
 };
 

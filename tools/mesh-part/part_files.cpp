@@ -32,7 +32,7 @@ std::int32_t number_in(std::string_view name) {
 PartFiles::PartFiles(std::string directory, std::int32_t parts, bool compress)
     : directory_(std::move(directory)), compress_(compress) {
   std::error_code error;
-  std::filesystem::create_directories(directory_, error);
+  made_ = std::filesystem::create_directories(directory_, error);
   if (error) throw DataError::at(directory_, "cannot make the directory: {}", error.message());
   for (auto entry = std::filesystem::directory_iterator(directory_, error);
        !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
@@ -46,6 +46,7 @@ PartFiles::PartFiles(std::string directory, std::int32_t parts, bool compress)
 PartFiles::~PartFiles() {
   std::error_code ignored;
   for (const std::string& path : written_) std::filesystem::remove(path, ignored);
+  if (made_) std::filesystem::remove(directory_, ignored);
 }
 
 void PartFiles::write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history) {
