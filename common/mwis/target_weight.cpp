@@ -20,6 +20,10 @@ std::optional<std::int64_t> bound_in(const std::vector<nlohmann::ordered_json>& 
   return lowest;
 }
 
+double gap_to(std::int64_t bound, std::int64_t weight) {
+  return bound > 0 ? static_cast<double>(bound - weight) / static_cast<double>(bound) : 0;
+}
+
 std::int64_t target_weight(double gap, std::optional<std::int64_t> bound) {
   if (!bound) throw DataError("--target-gap needs a bound: pipe the solution through certify first, or give --bound");
   return *bound - static_cast<std::int64_t>(std::floor(static_cast<long double>(*bound) * gap));

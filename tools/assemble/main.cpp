@@ -19,8 +19,7 @@ nlohmann::ordered_json proven_gap(const StageData& data) {
   const auto bound = bound_in(data.history);
   if (!data.graph || !bound) return nullptr;
   const std::int64_t weight = total_weight(*data.solution, *data.graph);
-  const auto gap = *bound > 0 ? static_cast<double>(*bound - weight) / static_cast<double>(*bound) : 0.0;
-  return {{"weight", weight}, {"bound", *bound}, {"gap", gap}};
+  return {{"weight", weight}, {"bound", *bound}, {"gap", gap_to(*bound, weight)}};
 }
 
 SolvedPart solved_part(StageData data, const InputNames& names) {

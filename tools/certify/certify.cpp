@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/mwis/solution_state.hpp"
+#include "common/mwis/target_weight.hpp"
 
 namespace hexpipe {
 namespace {
@@ -63,8 +64,7 @@ CertifyResult certify(const ConflictGraph& graph, const IndependentSet& solution
   result.bound = result.dual.bound;
   if (options.exact && result.bound > result.weight) prove(graph, *options.exact, deadline, result);
   result.complete = result.bound == result.weight;
-  if (result.bound > 0)
-    result.gap = static_cast<double>(result.bound - result.weight) / static_cast<double>(result.bound);
+  result.gap = gap_to(result.bound, result.weight);
   count_fixed(graph, result);
   return result;
 }

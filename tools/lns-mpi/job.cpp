@@ -152,7 +152,7 @@ class Job {
 
   void prove(const Piece& piece) {
     bound_ = prove_bound(ranks_, piece, options_.passes, options_.rounds.search.seed, Deadline(), options_.certificate);
-    const double gap = *bound_ > 0 ? static_cast<double>(*bound_ - progress_.weight) / static_cast<double>(*bound_) : 0;
+    const double gap = gap_to(*bound_, progress_.weight);
     context_.statistics["bound"] = *bound_;
     context_.statistics["gap"] = gap;
     context_.note(fmt::format("at most {} is possible: gap {:.4f} %", *bound_, 100 * gap));
