@@ -5,15 +5,13 @@
 #include <vector>
 
 #include "common/run/error.hpp"
+#include "common/run/random.hpp"
 
 namespace hexpipe {
 
 std::size_t SeamCheck::Hash::operator()(const Facet& facet) const {
   std::uint64_t h = 0;
-  for (const std::int64_t number : facet) {
-    h = (h ^ static_cast<std::uint64_t>(number)) * 0x9e3779b97f4a7c15u;
-    h ^= h >> 32;
-  }
+  for (const std::int64_t number : facet) h = mix(h ^ static_cast<std::uint64_t>(number));
   return static_cast<std::size_t>(h);
 }
 
