@@ -25,7 +25,7 @@ TetMesh roof(double height) {
 
 std::int64_t peel(const TetMesh& mesh, SurfaceTags& tags) {
   HybridMesh hybrid(mesh, std::vector<bool>(mesh.tets.size()));
-  return peel_flat_tets(hybrid, tags, InputSurface(mesh), {}, 0.03);
+  return peel_flat_tets(hybrid, tags, InputSurface(mesh, TetAdjacency(mesh, "mesh")), {}, 0.03);
 }
 
 TEST(Peel, AFlatTetOnTheBoundaryGoesAndItsInnerFacetsAreBoundary) {
@@ -74,7 +74,7 @@ TEST(Peel, NoTetWhoseOuterEdgeOthersHave) {
 
 TEST(Peel, TheSelfCheckKnowsOfIt) {
   const TetMesh mesh = roof(0.01);
-  const InputSurface surface(mesh);
+  const InputSurface surface(mesh, TetAdjacency(mesh, "mesh"));
   SurfaceTags tags(mesh);
   HybridMesh hybrid(mesh, std::vector<bool>(mesh.tets.size()));
   ASSERT_EQ(peel_flat_tets(hybrid, tags, surface, {}, 0.03), 1);

@@ -27,7 +27,8 @@ class SelfCheck : public ::testing::Test {
   }
   std::string error(bool conforming = true) const {
     try {
-      check_result(result_, lattice_.mesh, SurfaceTags(lattice_.mesh), InputSurface(lattice_.mesh), conforming);
+      check_result(result_, lattice_.mesh, SurfaceTags(lattice_.mesh),
+                   InputSurface(lattice_.mesh, TetAdjacency(lattice_.mesh, "mesh")), conforming);
     } catch (const DataError& error) {
       return error.what();
     }

@@ -35,7 +35,7 @@ testing::Lattice make_column(int n) {
 TEST(InputSurface, TellsSidesEdgesAndCornersOfABox) {
   auto lattice = make_lattice(3);
   tag_boundary(lattice.mesh);
-  const InputSurface surface(lattice.mesh);
+  const InputSurface surface(lattice.mesh, TetAdjacency(lattice.mesh, "mesh"));
   std::array<int, 4> found{};
   for (std::size_t v = 0; v < lattice.mesh.points.size(); ++v)
     ++found[static_cast<int>(surface.place(static_cast<Vertex>(v)))];
@@ -49,7 +49,7 @@ TEST(InputSurface, BordersOfTagsAreFeatures) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     for (Vertex v : mesh.triangles[i])
       if (mesh.points[v].x < 2) mesh.triangle_tags[i] = 3;
-  const InputSurface surface(mesh);
+  const InputSurface surface(mesh, TetAdjacency(mesh, "mesh"));
   EXPECT_EQ(surface.place(lattice_vertex(4, 2, 2, 0)), Place::curve);
   EXPECT_EQ(surface.place(lattice_vertex(4, 2, 0, 0)), Place::corner);
   EXPECT_EQ(surface.place(lattice_vertex(4, 3, 2, 0)), Place::face);
@@ -61,12 +61,13 @@ TEST(InputSurface, FacetsStayNearerWhereThePartIsThinnerThanAnEdge) {
   const Vertex middle = lattice_vertex(n, 2, 2, n);
   auto block = make_lattice(n);
   tag_boundary(block.mesh);
-  EXPECT_NEAR(InputSurface(block.mesh).most_deviation_at(middle), most_deviation * (2 + std::sqrt(2)) / 3, 1e-12);
+  EXPECT_NEAR(InputSurface(block.mesh, TetAdjacency(block.mesh, "mesh")).most_deviation_at(middle),
+              most_deviation * (2 + std::sqrt(2)) / 3, 1e-12);
   for (const bool sheets : {false, true}) {
     auto plate = make_lattice(n, [&](int, int, int k) { return sheets && k >= n / 2 ? 2 : 1; });
     for (auto& p : plate.mesh.points) p.z *= 0.2 / n;
     tag_boundary(plate.mesh);
-    const InputSurface surface(plate.mesh);
+    const InputSurface surface(plate.mesh, TetAdjacency(plate.mesh, "mesh"));
     EXPECT_NEAR(surface.most_deviation_at(middle), most_deviation * (sheets ? 0.1 : 0.2), 1e-12);
     EXPECT_NEAR(surface.most_deviation_at(lattice_vertex(n, 2, 2, 0)), surface.most_deviation_at(middle), 1e-12);
     if (sheets) {
@@ -82,14 +83,15 @@ TEST(InputSurface, BendsOfFortyDegreesAreFeatures) {
     // Beyond the middle, the block leans.
     for (auto& p : lattice.mesh.points) p.z -= std::max(0.0, p.x - 2) * std::tan(degrees * M_PI / 180);
     tag_boundary(lattice.mesh);
-    EXPECT_EQ(InputSurface(lattice.mesh).place(lattice_vertex(4, 2, 2, 4)), degrees < 40 ? Place::face : Place::curve);
+    EXPECT_EQ(InputSurface(lattice.mesh, TetAdjacency(lattice.mesh, "mesh")).place(lattice_vertex(4, 2, 2, 4)),
+              degrees < 40 ? Place::face : Place::curve);
   }
 }
 
 TEST(InputSurface, FindsFeetOnItsOwnPart) {
   auto lattice = make_lattice(3);
   tag_boundary(lattice.mesh);
-  const InputSurface surface(lattice.mesh);
+  const InputSurface surface(lattice.mesh, TetAdjacency(lattice.mesh, "mesh"));
   const Vec3 to{2.9, 2.2, 0.5};
   const auto on_face = surface.foot(lattice_vertex(3, 1, 1, 0), to);
   EXPECT_NEAR(norm(on_face.at - Vec3{2.9, 2.2, 0}), 0, 1e-12);
@@ -125,7 +127,7 @@ TEST(InputSurface, TheNearestPointOfATriangleIsTheNearestOfMany) {
 TEST(BoundaryDeviation, SeesWhatMoved) {
   auto lattice = make_lattice(2);
   tag_boundary(lattice.mesh);
-  const InputSurface surface(lattice.mesh);
+  const InputSurface surface(lattice.mesh, TetAdjacency(lattice.mesh, "mesh"));
   MixedMesh mesh = to_mixed_mesh(lattice.mesh);
   std::vector<Vertex> origin(mesh.points.size());
   std::iota(origin.begin(), origin.end(), 0);
@@ -150,7 +152,7 @@ TEST(Smooth, VerticesSlideOnACurvedSurface) {
   const double turn = 0.21;
   close = {close.x * std::cos(turn) - close.y * std::sin(turn), close.x * std::sin(turn) + close.y * std::cos(turn),
            close.z};
-  const InputSurface surface(lattice.mesh);
+  const InputSurface surface(lattice.mesh, TetAdjacency(lattice.mesh, "mesh"));
   auto worst_after = [&](bool slide, BoundaryDeviation::Summary& summary) {
     MixedMesh mesh = to_mixed_mesh(lattice.mesh);
     std::vector<Vertex> origin(mesh.points.size());

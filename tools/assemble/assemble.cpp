@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/quality.hpp"
@@ -120,12 +121,12 @@ std::vector<std::int32_t> owners_of_poor_elements(const HybridMesh& mesh, std::s
 
 class Assembler {
  public:
-  // `input` with its surface complete; `seam` where it is a piece of a mesh, else null.
-  Assembler(TetMesh input, const Candidates& candidates, const IndependentSet& chosen, const AssembleOptions& options,
-            const InputNames& names, const Seam* seam)
+  // `input` with its surface complete, and its adjacency; `seam` where it is a piece of a mesh, else null.
+  Assembler(TetMesh input, const TetAdjacency& adjacency, const Candidates& candidates, const IndependentSet& chosen,
+            const AssembleOptions& options, const InputNames& names, const Seam* seam)
       : input_(std::move(input)),
         tags_(input_),
-        surface_(input_),
+        surface_(input_, adjacency),
         candidates_(candidates),
         kept_(chosen),
         options_(options),
@@ -320,8 +321,11 @@ AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const Indepe
   validate_against(candidates, mesh, names.candidates.c_str());
   check_chosen(chosen, candidates, names);
   check_orientation(mesh, names);
-  if (seam == nullptr) complete_surface(mesh, TetAdjacency(mesh, names.mesh.c_str()));
-  return Assembler(std::move(mesh), candidates, chosen, options, names, seam).run();
+  std::optional<TetAdjacency> adjacency(std::in_place, mesh, names.mesh.c_str());
+  if (seam == nullptr) complete_surface(mesh, *adjacency);
+  Assembler assembler(std::move(mesh), *adjacency, candidates, chosen, options, names, seam);
+  adjacency.reset();  // for it takes much memory and has done its work
+  return assembler.run();
 }
 
 }  // namespace hexpipe

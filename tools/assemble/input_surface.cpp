@@ -8,7 +8,6 @@
 #include <numeric>
 #include <utility>
 
-#include "common/mesh/adjacency.hpp"
 #include "tools/assemble/facet_key.hpp"
 #include "tools/assemble/wall_thickness.hpp"
 
@@ -61,7 +60,7 @@ Vec3 nearest_on_triangle(const std::array<Vec3, 3>& triangle, const Vec3& to) {
   return best;
 }
 
-InputSurface::InputSurface(const TetMesh& mesh) : mesh_(mesh) {
+InputSurface::InputSurface(const TetMesh& mesh, const TetAdjacency& adjacency) : mesh_(mesh) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Vec3 low{infinity, infinity, infinity}, high = -low;
   for (const Vec3& p : mesh.points) {
@@ -73,7 +72,7 @@ InputSurface::InputSurface(const TetMesh& mesh) : mesh_(mesh) {
   find_features();
   places_.resize(mesh.points.size());
   for (std::size_t v = 0; v < places_.size(); ++v) places_[v] = place_of(static_cast<Vertex>(v));
-  find_lengths();
+  find_lengths(adjacency);
 }
 
 void InputSurface::list_triangles() {
@@ -135,13 +134,13 @@ void InputSurface::find_features() {
   }
 }
 
-void InputSurface::find_lengths() {
+void InputSurface::find_lengths(const TetAdjacency& adjacency) {
   lengths_.resize(mesh_.points.size());
   for (std::size_t v = 0; v < lengths_.size(); ++v) lengths_[v] = edge_length(static_cast<Vertex>(v));
   std::vector<double> reach;
   reach.reserve(mesh_.triangles.size());
   for (const auto& [a, b, c] : mesh_.triangles) reach.push_back(std::max({lengths_[a], lengths_[b], lengths_[c]}));
-  const auto thickness = wall_thickness(mesh_, TetAdjacency(mesh_, "input"), reach);
+  const auto thickness = wall_thickness(mesh_, adjacency, reach);
   for (std::size_t t = 0; t < thickness.size(); ++t)
     for (const Vertex v : mesh_.triangles[t]) lengths_[v] = std::min(lengths_[v], thickness[t]);
 }

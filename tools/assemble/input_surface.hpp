@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "common/mesh/adjacency.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
 namespace hexpipe {
@@ -26,7 +27,8 @@ class InputSurface {
   enum class Place : std::uint8_t { inside, face, curve, corner };
 
   // `mesh` must outlive this, with every facet of its boundary and interfaces among its triangles.
-  explicit InputSurface(const TetMesh& mesh);
+  // `adjacency` is that of the mesh.
+  InputSurface(const TetMesh& mesh, const TetAdjacency& adjacency);
 
   Place place(Vertex v) const { return places_[v]; }
 
@@ -62,7 +64,7 @@ class InputSurface {
   }
   void list_triangles();
   void find_features();
-  void find_lengths();
+  void find_lengths(const TetAdjacency& adjacency);
   double edge_length(Vertex v) const;
   Place place_of(Vertex v) const;
   bool is_one_fan(Vertex v) const;
