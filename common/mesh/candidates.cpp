@@ -97,6 +97,13 @@ void append(Candidates& to, const Candidates& from, double share_of_all) {
   append_offsets(to.boundary_tet_offsets, from.boundary_tet_offsets, share_of_all);
 }
 
+Candidates select(const Candidates& candidates, std::span<const std::int32_t> kept) {
+  const auto same = [](std::int32_t number) { return number; };
+  Candidates chosen;
+  for (const std::int32_t i : kept) append_candidate(chosen, candidates, i, same, same, same);
+  return chosen;
+}
+
 void validate(const Candidates& candidates, const char* source) {
   const std::size_t count = candidates.kind.size();
   check_length(source, "rows of vertices", count, candidates.vertices.size());

@@ -39,6 +39,27 @@ struct Candidates {
 // there: memory for the rest is set aside, so that it need not move again and again.
 void append(Candidates& to, const Candidates& from, double share_of_all = 1);
 
+// Appends candidate i of `from` with its vertices and tets renumbered; tets whose number becomes negative are left out.
+template <class Point, class InteriorTet, class BoundaryTet>
+void append_candidate(Candidates& to, const Candidates& from, std::size_t i, Point&& point, InteriorTet&& interior_tet,
+                      BoundaryTet&& boundary_tet) {
+  std::array<Vertex, 8>& row = to.vertices.emplace_back(from.vertices[i]);
+  for (Vertex& v : row)
+    if (v >= 0) v = point(v);
+  to.kind.push_back(from.kind[i]);
+  to.quality.push_back(from.quality[i]);
+  to.volume.push_back(from.volume[i]);
+  for (const std::int32_t t : from.interior_tets_of(i))
+    if (const std::int32_t number = interior_tet(t); number >= 0) to.tets.push_back(number);
+  to.tet_offsets.push_back(static_cast<std::int64_t>(to.tets.size()));
+  for (const std::int32_t t : from.boundary_tets_of(i))
+    if (const std::int32_t number = boundary_tet(t); number >= 0) to.boundary_tets.push_back(number);
+  to.boundary_tet_offsets.push_back(static_cast<std::int64_t>(to.boundary_tets.size()));
+}
+
+// Those of `kept`, in its order.
+Candidates select(const Candidates& candidates, std::span<const std::int32_t> kept);
+
 // Throws DataError naming `source` when arrays disagree in length, a kind is unknown, the padding is wrong, offsets do
 // not ascend, or a number is not finite.
 void validate(const Candidates& candidates, const char* source);

@@ -110,6 +110,17 @@ std::vector<std::int32_t> places_in(const std::vector<std::int64_t>& to, const s
   return places;
 }
 
+CandidateKeys select(const CandidateKeys& keys, std::span<const std::int32_t> kept) {
+  CandidateKeys chosen;
+  chosen.key.reserve(kept.size());
+  chosen.part.reserve(kept.size());
+  for (const std::int32_t i : kept) {
+    chosen.key.push_back(keys.key[i]);
+    chosen.part.push_back(keys.part[i]);
+  }
+  return chosen;
+}
+
 std::string title_of(const MeshPart& part) {
   return fmt::format("part {} of {}", part.part, part.parts);
 }

@@ -3,6 +3,7 @@
 // whose they are. docs/definitions.md 5 has the rules; formats/README.md the members of a bundle.
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,8 @@ struct CandidateKeys {
   std::vector<std::uint64_t> key;
   std::vector<std::int32_t> part;  // owners
 };
+// Those of `kept`, in its order.
+CandidateKeys select(const CandidateKeys& keys, std::span<const std::int32_t> kept);
 
 // From the top: 2 bits for the kind, 38 for the number in the whole of the vertex that the candidate was found from, 24
 // for its place among the candidates of this kind and vertex.

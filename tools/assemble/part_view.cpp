@@ -38,13 +38,18 @@ class ChosenCells {
   explicit ChosenCells(PartView& view) : view_(view) {}
 
   // Of candidates in a part's numbers those chosen that are its own and lie within the view; the places of its points
-  // and tets in the view's.
+  // and tets in the view's; none for a part whose numbers are the view's.
   void add(const Candidates& from, const CandidateKeys& keys, const IndependentSet& chosen, std::int32_t part,
            std::span<const std::int32_t> points, std::span<const std::int32_t> tets, const std::string& source) {
     for (const std::int32_t i : chosen) {
       if (i < 0 || static_cast<std::size_t>(i) >= from.size())
         throw DataError::at(source, "expected candidates from 1 to {} in the solution, found {}", from.size(), i + 1);
-      if (keys.part[i] == part && is_within(from.corners_of(i), points)) add_one(from, keys, i, points, tets);
+      if (keys.part[i] != part || !is_within(from.corners_of(i), points)) continue;
+      const auto tet = [&](std::int32_t t) { return tets.empty() ? t : tets[t]; };
+      append_candidate(
+          view_.cells, from, i, [&](Vertex v) { return points.empty() ? v : points[v]; }, tet, tet);
+      view_.keys.key.push_back(keys.key[i]);
+      view_.keys.part.push_back(part);
     }
   }
 
@@ -52,10 +57,8 @@ class ChosenCells {
     std::vector<std::int32_t> order(view_.keys.key.size());
     std::iota(order.begin(), order.end(), 0);
     std::ranges::sort(order, {}, [&](std::int32_t i) { return view_.keys.key[i]; });
-    Candidates cells;
-    CandidateKeys keys;
-    std::swap(cells, view_.cells), std::swap(keys, view_.keys);
-    for (const std::int32_t i : order) add_one(cells, keys, i, {}, {});
+    view_.cells = select(view_.cells, order);
+    view_.keys = select(view_.keys, order);
   }
 
  private:
@@ -64,27 +67,6 @@ class ChosenCells {
       const Vertex here = points.empty() ? v : points[v];
       return here != none && view_.distance[here] <= furthest;
     });
-  }
-
-  // Without places the numbers are the view's.
-  void add_one(const Candidates& from, const CandidateKeys& keys, std::int32_t i, std::span<const std::int32_t> points,
-               std::span<const std::int32_t> tets) {
-    const auto place = [](std::span<const std::int32_t> places, std::int32_t item) {
-      return places.empty() || item < 0 ? item : places[item];
-    };
-    Candidates& to = view_.cells;
-    auto row = from.vertices[i];
-    for (Vertex& v : row) v = place(points, v);
-    to.vertices.push_back(row);
-    to.kind.push_back(from.kind[i]);
-    to.quality.push_back(from.quality[i]);
-    to.volume.push_back(from.volume[i]);
-    for (const std::int32_t tet : from.interior_tets_of(i)) to.tets.push_back(place(tets, tet));
-    to.tet_offsets.push_back(static_cast<std::int64_t>(to.tets.size()));
-    for (const std::int32_t tet : from.boundary_tets_of(i)) to.boundary_tets.push_back(place(tets, tet));
-    to.boundary_tet_offsets.push_back(static_cast<std::int64_t>(to.boundary_tets.size()));
-    view_.keys.key.push_back(keys.key[i]);
-    view_.keys.part.push_back(keys.part[i]);
   }
 
   PartView& view_;

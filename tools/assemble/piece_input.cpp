@@ -124,20 +124,10 @@ class Cutter {
   }
 
   void take_cell(std::int32_t i) {
-    const Candidates& from = view_.cells;
-    Candidates& to = result_.cells;
-    auto row = from.vertices[i];
-    for (Vertex& v : row)
-      if (v >= 0) v = point_place_[v];
-    to.vertices.push_back(row);
-    to.kind.push_back(from.kind[i]);
-    to.quality.push_back(from.quality[i]);
-    to.volume.push_back(from.volume[i]);
-    for (const std::int32_t t : from.interior_tets_of(i)) to.tets.push_back(tet_place_[t]);
-    to.tet_offsets.push_back(static_cast<std::int64_t>(to.tets.size()));
-    for (const std::int32_t t : from.boundary_tets_of(i))
-      if (pieces_.of_tet[t] == view_.keys.part[i]) to.boundary_tets.push_back(tet_place_[t]);
-    to.boundary_tet_offsets.push_back(static_cast<std::int64_t>(to.boundary_tets.size()));
+    append_candidate(
+        result_.cells, view_.cells, i, [&](Vertex v) { return point_place_[v]; },
+        [&](std::int32_t t) { return tet_place_[t]; },
+        [&](std::int32_t t) { return pieces_.of_tet[t] == view_.keys.part[i] ? tet_place_[t] : none; });
     result_.seam.is_guest.push_back(view_.keys.part[i] != view_.part.part ? 1 : 0);
   }
 

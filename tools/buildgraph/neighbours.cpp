@@ -1,13 +1,11 @@
 #include "tools/buildgraph/neighbours.hpp"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <utility>
 
 #include "common/run/error.hpp"
 #include "formats/part_bundle.hpp"
-#include "tools/buildgraph/reduce.hpp"
 
 namespace hexpipe {
 namespace {
@@ -65,18 +63,9 @@ class HaloCollector {
       throw DataError::at(other.name, "expected candidates at {} to lie within its ghosts, found one beyond them",
                           title_of(part_));
     };
-    Candidates& c = all_.candidates;
-    std::array<Vertex, 8> row = other.candidates.vertices[i];
-    for (Vertex& v : row)
-      if (v >= 0) v = place(points, v);
-    c.vertices.push_back(row);
-    c.kind.push_back(other.candidates.kind[i]);
-    c.quality.push_back(other.candidates.quality[i]);
-    c.volume.push_back(other.candidates.volume[i]);
-    for (const std::int32_t tet : other.candidates.interior_tets_of(i)) c.tets.push_back(place(tets, tet));
-    c.tet_offsets.push_back(static_cast<std::int64_t>(c.tets.size()));
-    for (const std::int32_t tet : other.candidates.boundary_tets_of(i)) c.boundary_tets.push_back(place(tets, tet));
-    c.boundary_tet_offsets.push_back(static_cast<std::int64_t>(c.boundary_tets.size()));
+    const auto tet = [&](std::int32_t t) { return place(tets, t); };
+    append_candidate(
+        all_.candidates, other.candidates, i, [&](Vertex v) { return place(points, v); }, tet, tet);
     order_.push_back(static_cast<std::int32_t>(all_.keys.key.size()));
     all_.keys.key.push_back(other.keys.key[i]);
     all_.keys.part.push_back(other.part.part);

@@ -7,33 +7,6 @@
 
 namespace hexpipe {
 
-Candidates select(const Candidates& candidates, std::span<const std::int32_t> kept) {
-  Candidates chosen;
-  for (const std::int32_t i : kept) {
-    chosen.vertices.push_back(candidates.vertices[i]);
-    chosen.kind.push_back(candidates.kind[i]);
-    chosen.quality.push_back(candidates.quality[i]);
-    chosen.volume.push_back(candidates.volume[i]);
-    const auto tets = candidates.interior_tets_of(i), boundary_tets = candidates.boundary_tets_of(i);
-    chosen.tets.insert(chosen.tets.end(), tets.begin(), tets.end());
-    chosen.tet_offsets.push_back(static_cast<std::int64_t>(chosen.tets.size()));
-    chosen.boundary_tets.insert(chosen.boundary_tets.end(), boundary_tets.begin(), boundary_tets.end());
-    chosen.boundary_tet_offsets.push_back(static_cast<std::int64_t>(chosen.boundary_tets.size()));
-  }
-  return chosen;
-}
-
-CandidateKeys select(const CandidateKeys& keys, std::span<const std::int32_t> kept) {
-  CandidateKeys chosen;
-  chosen.key.reserve(kept.size());
-  chosen.part.reserve(kept.size());
-  for (const std::int32_t i : kept) {
-    chosen.key.push_back(keys.key[i]);
-    chosen.part.push_back(keys.part[i]);
-  }
-  return chosen;
-}
-
 namespace {
 
 template <class T>

@@ -10,11 +10,6 @@
 
 namespace hexpipe {
 
-// Those of `kept`, in its order.
-Candidates select(const Candidates& candidates, std::span<const std::int32_t> kept);
-
-CandidateKeys select(const CandidateKeys& keys, std::span<const std::int32_t> kept);
-
 // Those of `kept`, ascending, in place: what is large has no room for another.
 void keep_only(Candidates& candidates, std::span<const std::int32_t> kept);
 void keep_only(CandidateKeys& keys, std::span<const std::int32_t> kept);
