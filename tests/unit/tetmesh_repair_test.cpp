@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/run/error.hpp"
 #include "common/run/random.hpp"
 #include "surface_samples.hpp"
 #include "tools/tetmesh/hole_filling.hpp"
@@ -32,6 +33,11 @@ RepairReport repaired(SurfaceSoup& soup, const RepairOptions& options = {}) {
   EXPECT_EQ(soup.tags.size(), soup.triangles.size());
   EXPECT_EQ(soup.places.size(), soup.triangles.size());
   return report;
+}
+
+TEST(Repair, OfTrianglesWithoutAreaNothingIsLeft) {
+  SurfaceSoup soup = soup_of(Facets{{Vec3{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}});
+  EXPECT_THROW(repair(soup, {}), DataError);
 }
 
 TEST(Repair, LeavesAGoodSurfaceAsItIs) {

@@ -17,7 +17,7 @@ void for_each_edge(std::size_t vertex_count, std::span<const Triangle> triangles
   for (HalfEdge h = 0; h < half_edge_count; ++h) sorted[next[ends(h).first]++] = h;
 
   for (std::size_t v = 0; v < vertex_count; ++v) {
-    const std::span at_vertex(&sorted[0] + offsets[v], &sorted[0] + offsets[v + 1]);
+    const auto at_vertex = std::span(sorted).subspan(offsets[v], offsets[v + 1] - offsets[v]);
     std::ranges::sort(at_vertex, {}, [&](HalfEdge h) { return std::pair(ends(h).second, h); });
     for (std::size_t begin = 0; begin < at_vertex.size();) {
       std::size_t end = begin + 1;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/run/error.hpp"
 #include "tools/tetmesh/column_index.hpp"
 #include "tools/tetmesh/exact_geometry.hpp"
 #include "tools/tetmesh/half_edges.hpp"
@@ -32,6 +33,7 @@ class Repairer {
     fill_holes();
     turn_outward();
     drop_unused_points();
+    if (count() == 0) throw DataError::at(soup_.name, "expected a surface, found only triangles without area");
     return report_;
   }
 

@@ -32,7 +32,7 @@ nlohmann::ordered_json to_json(const RepairReport& report);
 // In this order: welds points; removes triangles without area, cutting the neighbour at the longest side of one whose
 // corners are distinct; removes repeated triangles; turns triangles until neighbours agree, as most of their piece do;
 // fills holes with the triangulation of least area; turns closed pieces that lie in no other outward. What it cannot
-// mend stays, for check_surface to name.
+// mend stays, for check_surface to name. Throws DataError where no triangle is left.
 RepairReport repair(SurfaceSoup& soup, const RepairOptions& options);
 
 }  // namespace hexpipe
