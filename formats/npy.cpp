@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "common/run/error.hpp"
+#include "formats/text_scanner.hpp"
 
 namespace hexpipe {
 namespace {
@@ -32,7 +33,8 @@ NpyType parse_type(std::string_view value, std::string_view source) {
   const bool known = code.size() == 3 && (code[0] == '<' || (code[0] == '|' && code[2] == '1')) &&
                      std::string_view("fiu").find(code[1]) != std::string_view::npos &&
                      std::string_view("1248").find(code[2]) != std::string_view::npos && code != "<f1" && code != "|f1";
-  if (!known) throw DataError::at(source, "expected little-endian numbers (like '<i4'), found type '{}'", code);
+  if (!known)
+    throw DataError::at(source, "expected little-endian numbers (like '<i4'), found type {}", quote_found(code));
   return {code[1], code[2] - '0'};
 }
 

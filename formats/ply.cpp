@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "formats/surface_building.hpp"
+#include "formats/text_scanner.hpp"
 
 namespace hexpipe {
 namespace {
@@ -274,8 +275,8 @@ void BodyReader<Body>::check_count(const Element& element) const {
     bytes_each += Body::least_bytes(property.is_list ? property.count_type : property.type);
   const std::size_t most = bytes_each == 0 ? std::numeric_limits<std::size_t>::max() : body_.bytes_left() / bytes_each;
   if (element.count > most)
-    throw DataError::at(name_, "expected at most {} elements '{}' in the rest of the file, found {} in its header",
-                        most, element.name, element.count);
+    throw DataError::at(name_, "expected at most {} elements {} in the rest of the file, found {} in its header", most,
+                        quote_found(element.name), element.count);
 }
 
 template <class Body>

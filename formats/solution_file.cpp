@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/run/error.hpp"
+#include "formats/text_scanner.hpp"
 
 namespace hexpipe {
 namespace {
@@ -41,7 +42,7 @@ std::vector<NumberedLine> read_lines(std::string_view text, const std::string& n
     std::int64_t number = 0;
     const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), number);
     if (error != std::errc{} || rest != word.data() + word.size())
-      throw FormatError(name, line, fmt::format("expected one number, found '{}'", word.substr(0, 30)));
+      throw FormatError(name, line, fmt::format("expected one number, found {}", quote_found(word)));
     lines.push_back({number, line});
   }
   return lines;

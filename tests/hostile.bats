@@ -117,3 +117,15 @@ PYTHON
   echo '2147483648 0' >beyond.graph
   assert_fails_with 1 "beyond.graph:1: expected fewer than 2\^31 vertices" bash -c "$limit" limit initsol --graph beyond.graph -o out.tar
 }
+
+@test "what a terminal would obey in the name of a file or in its bytes stays out of messages" {
+  local name=$'new\nline \e[31m.mesh'
+  printf 'MeshVersionFormatted 2\nDimension 3\nVertices\nmany\n' >"$name"
+  assert_fails_with 1 "^findhex: new\?line \?\[31m.mesh:4: expected .*, found 'many'$" findhex --mesh "$name" -o out.tar
+  $PYTHON -c "
+import io, numpy
+out = io.BytesIO(); numpy.save(out, numpy.zeros((4, 3)))
+open('points.npy', 'wb').write(out.getvalue().replace(b'<f8', b'<\n8'))"
+  tar --format=pax -cf type.tar --transform 's,^,mesh/,' points.npy
+  refused "mesh/points.npy: expected little-endian numbers .*, found type '<\?8'" type.tar
+}

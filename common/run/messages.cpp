@@ -1,5 +1,8 @@
 #include "common/run/messages.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 
@@ -10,7 +13,14 @@ std::atomic<bool> silent{false};
 
 }  // namespace
 
-void print_message(const std::string& text) {
+void print_message(std::string_view tool, std::string_view text) {
+  std::string line = fmt::format("{}: {}", tool, text);
+  std::ranges::replace_if(
+      line, [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
+  print_text(line + '\n');
+}
+
+void print_text(const std::string& text) {
   if (silent) return;
   std::fputs(text.c_str(), stderr);
   std::fflush(stderr);

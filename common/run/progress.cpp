@@ -11,7 +11,7 @@ Progress::Progress(std::string label, bool quiet)
     : label_(std::move(label)), visible_(!quiet && isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
-  if (visible_ && next_ > 0) print_message("\r\033[K");
+  if (visible_ && next_ > 0) print_text("\r\033[K");
 }
 
 bool Progress::due() {
@@ -20,7 +20,7 @@ bool Progress::due() {
 
 void Progress::show(const std::string& text) {
   next_ = watch_.seconds() + 0.1;
-  print_message(fmt::format("\r\033[K{}: {}", label_, text));
+  print_text(fmt::format("\r\033[K{}: {}", label_, text));
 }
 
 }  // namespace hexpipe

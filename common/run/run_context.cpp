@@ -1,7 +1,5 @@
 #include "common/run/run_context.hpp"
 
-#include <fmt/format.h>
-
 #include "common/run/messages.hpp"
 
 namespace hexpipe {
@@ -13,11 +11,11 @@ Deadline RunContext::deadline() const {
 }
 
 void RunContext::note(const std::string& text) const {
-  if (common.verbose) print_message(fmt::format("{}: {}\n", info.name, text));
+  if (common.verbose) print_message(info.name, text);
 }
 
 void RunContext::warn(const std::string& text) const {
-  if (!common.quiet) print_message(fmt::format("{}: warning: {}\n", info.name, text));
+  if (!common.quiet) print_message(info.name, "warning: " + text);
 }
 
 }  // namespace hexpipe

@@ -164,7 +164,7 @@ void keep_standard_streams_apart() {
 }
 
 int report(const std::string& tool, std::string_view message, int code) {
-  print_message(fmt::format("{}: {}\n", tool, message));
+  print_message(tool, message);
   return code;
 }
 

@@ -20,14 +20,14 @@ void run_on_all_ranks(RunContext& context, const JobOptions& options) {
     run_job(ranks, context, options);
   } catch (const ErrorOfAll& error) {
     // The first rank that ends with an error makes mpirun end the others: all wait until one of them has said why.
-    print_message(fmt::format("{}: {}\n", context.info.name, error.what()));
+    print_message(context.info.name, error.what());
     ranks.together([] {});
     silence_messages(true);
     if (error.of_usage()) throw UsageError(error.what());
     throw DataError(error.what());
   } catch (const std::exception& error) {
     silence_messages(false);
-    print_message(fmt::format("{}: rank {}: {}\n", context.info.name, ranks.rank(), error.what()));
+    print_message(context.info.name, fmt::format("rank {}: {}", ranks.rank(), error.what()));
     Ranks::abandon();
   }
 }

@@ -8,6 +8,7 @@
 
 #include "common/mesh/quality.hpp"
 #include "common/run/error.hpp"
+#include "formats/text_scanner.hpp"
 #include "tools/view/facets.hpp"
 
 namespace hexpipe {
@@ -211,7 +212,7 @@ void read_fragments(Scene& scene, Input& input) {
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
       if (error != std::errc() || end != word.data() + word.size() || number < 1)
         throw FormatError(input.name(), line_number,
-                          fmt::format("expected the number of a candidate, found '{}'", word));
+                          fmt::format("expected the number of a candidate, found {}", quote_found(word)));
       // A solution shows only those that were chosen.
       if (const auto found = cell_of.find(number - 1); found != cell_of.end()) fragment.push_back(found->second);
     }
