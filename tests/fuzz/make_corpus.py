@@ -47,11 +47,13 @@ def only(bundle, *folders):
 
 
 def meshes():
-    endings = {"mesh": "medit", "msh22": "msh22", "msh22-binary": "msh22-binary", "msh": "msh", "msh-binary": "msh-binary",
-               "vtk": "vtk", "vtu": "vtu"}
+    targets = {"mesh": "medit", "vtk": "vtk", "vtu": "vtu"}
     for kind, source in (("all_kinds", DATA / "meshes/one_of_each.msh"), ("tets", DATA / "meshes/cube.1.node")):
-        for form, reader in endings.items():
-            seed(reader, kind, run(BIN / "mesh_convert", source, form, "/dev/stdout"))
+        convert = lambda form: run(BIN / "mesh_convert", source, form, "/dev/stdout")
+        for form, target in targets.items():
+            seed(target, kind, convert(form))
+        for form in ("msh", "msh-binary", "msh22", "msh22-binary"):
+            seed("msh", f"{kind}.{form}", convert(form))
     parts = [(DATA / "meshes" / f"cube.1.{part}").read_text() for part in ("node", "ele", "face")]
     seed("tetgen", "cube", "=====\n".join(parts))
     seed("tetgen", "without_faces", "=====\n".join(parts[:2]))
@@ -112,6 +114,8 @@ def tools():
         for choice, (tool_name, folders) in enumerate(inputs.items()):
             seed("tool-" + tool_name, name, bytes([choice % 2]) + only(solution, *folders))
         seed("tool-mesh-part", name, bytes([1]) + only(solution, "mesh"))
+        seed("tool-view", name, bytes([3]) + only(solution, "mesh", "candidates", "graph", "solution"))
+        seed("tool-view", name + "-result", b"\0" + only(tool("assemble", stdin=solution), "result"))
     with tempfile.TemporaryDirectory() as folder:
         mesh = pathlib.Path(folder) / "lattice.mesh"
         mesh.write_bytes(lattice("kuhn", "1"))

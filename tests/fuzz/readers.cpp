@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -50,16 +51,17 @@ bool same_mesh(const MixedMesh& a, const MixedMesh& b) {
          same(a.tets, b.tets) && same(a.triangles, b.triangles) && same(a.quads, b.quads);
 }
 
-// Written and read again a mesh is the same mesh; writing it in the other formats ends well too.
+// Written and read again a mesh is the same mesh.
 void check_round_trip(const MixedMesh& mesh, const char* format) {
   Input again = written("round_trip", [&](Output& output) { write_mixed_mesh(mesh, format, output); });
   promise(same_mesh(read_mixed_mesh(again), mesh), "a mesh that is written is read as the same mesh");
 }
 
 // The first bytes decide what is read, as in a tool: a mutated beginning leads to another reader or to none.
-void read_mesh(std::string_view bytes, const char* format) {
+void read_mesh(std::string_view bytes, std::initializer_list<const char*> formats) {
   Input input = memory(bytes);
-  check_round_trip(read_mixed_mesh(input), format);
+  const MixedMesh mesh = read_mixed_mesh(input);
+  for (const char* const format : formats) check_round_trip(mesh, format);
 }
 
 // The three files behind each other with a line between; the last may be missing.
@@ -160,13 +162,13 @@ constexpr std::array readers{
     FuzzTarget{"bundle", read_bundle},
     FuzzTarget{"members", read_members, 0},
     FuzzTarget{"npy", read_npy},
-    FuzzTarget{"medit", [](std::string_view bytes) { read_mesh(bytes, "mesh"); }},
-    FuzzTarget{"msh22", [](std::string_view bytes) { read_mesh(bytes, "msh22"); }},
-    FuzzTarget{"msh22-binary", [](std::string_view bytes) { read_mesh(bytes, "msh22-binary"); }},
-    FuzzTarget{"msh", [](std::string_view bytes) { read_mesh(bytes, "msh"); }},
-    FuzzTarget{"msh-binary", [](std::string_view bytes) { read_mesh(bytes, "msh-binary"); }},
-    FuzzTarget{"vtk", [](std::string_view bytes) { read_mesh(bytes, "vtk"); }},
-    FuzzTarget{"vtu", [](std::string_view bytes) { read_mesh(bytes, "vtu"); }},
+    FuzzTarget{"medit", [](std::string_view bytes) { read_mesh(bytes, {"mesh"}); }},
+    FuzzTarget{"msh",
+               [](std::string_view bytes) {
+                 read_mesh(bytes, {"msh", "msh-binary", "msh22", "msh22-binary"});
+               }},
+    FuzzTarget{"vtk", [](std::string_view bytes) { read_mesh(bytes, {"vtk"}); }},
+    FuzzTarget{"vtu", [](std::string_view bytes) { read_mesh(bytes, {"vtu"}); }},
     FuzzTarget{"tetgen", read_tetgen_files},
     FuzzTarget{"metis", read_graph},
     FuzzTarget{"dimacs", read_graph},

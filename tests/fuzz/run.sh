@@ -12,8 +12,9 @@ runs=fuzz-corpus/runs # a line for each start of the fuzzer: target, seconds, ex
 dictionary() {
   local name=$1
   case $1 in
-    msh*) name=msh ;;
     members | tool-*) name=bundle ;;
+    pipeline) name=medit ;;
+    surface) name=off ;;
   esac
   cat "$here/dictionaries/text_numbers.dict"
   if [[ -e $here/dictionaries/$name.dict ]]; then cat "$here/dictionaries/$name.dict"; fi

@@ -79,11 +79,11 @@ ToolRun run_tool(int (*tool_main)(int, char**), std::vector<std::string> argumen
   return {code, errors.text()};
 }
 
-bool is_message_of(std::string_view tool, std::string_view message) {
+bool is_message_of(std::string_view tool, std::string_view message, std::string_view input) {
   if (!message.starts_with(std::string(tool) + ": ") || message.find('\n') != message.size() - 1) return false;
   message = message.substr(0, message.find('\''));  // behind it are words of the file
   for (const std::string_view foreign : {"std::", "::_M_", "basic_string::", "map::at", "json.exception"})
-    if (message.find(foreign) != std::string_view::npos) return false;
+    if (message.find(foreign) != std::string_view::npos && input.find(foreign) == std::string_view::npos) return false;
   return true;
 }
 

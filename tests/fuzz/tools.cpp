@@ -22,6 +22,7 @@ int certify_main(int argc, char** argv);
 int assemble_main(int argc, char** argv);
 int merge_parts_main(int argc, char** argv);
 int mesh_part_main(int argc, char** argv);
+int view_main(int argc, char** argv);
 }
 
 namespace hexpipe {
@@ -76,14 +77,20 @@ const FuzzedTool merge_parts{"merge-parts", merge_parts_main, {{}, {"--compress"
 #ifdef HEXPIPE_FUZZES_MESH_PART
 const FuzzedTool mesh_part{"mesh-part", mesh_part_main, {{"--parts", "1"}, {"--parts", "2"}, {"--parts", "5"}}};
 #endif
+#ifdef HEXPIPE_FUZZES_VIEW
+const FuzzedTool view{"view",
+                      view_main,
+                      {{}, {"--show", "mesh"}, {"--show", "candidates"}, {"--show", "solution"}, {"--show", "result"}}};
+#endif
 
 const ScratchFiles& scratch() {
   static const ScratchFiles files;
   return files;
 }
 
-// Throws a DataError where the tool ends with one.
-void run(const FuzzedTool& tool, const Options& options, const std::string& input, const std::string& output) {
+// Throws a DataError where the tool ends with one. `bytes` are those that the input was made of.
+void run(const FuzzedTool& tool, const Options& options, const std::string& input, const std::string& output,
+         std::string_view bytes) {
   std::filesystem::remove_all(output);
   std::vector<std::string> arguments{tool.name, "-q", "--threads", "1", input, "-o", output};
   arguments.insert(arguments.end(), options.begin(), options.end());
@@ -95,7 +102,7 @@ void run(const FuzzedTool& tool, const Options& options, const std::string& inpu
   } else {
     promise(code == 1, "bad data is exit code 1: " + message);
     promise(!made, "a tool that refuses its input has no output");
-    promise(is_message_of(tool.name, message), "a message is a line of ours: " + message);
+    promise(is_message_of(tool.name, message, bytes), "a message is a line of ours: " + message);
   }
   if (code != 0) throw DataError(message);
 }
@@ -108,7 +115,7 @@ std::size_t first_byte(std::string_view bytes) {
 void run_on_bundle(const FuzzedTool& tool, std::string_view bytes) {
   if (bytes.empty()) return;
   const std::string input = scratch().write("in.tar", with_right_checksums(bytes.substr(1)));
-  run(tool, tool.choices[first_byte(bytes) % tool.choices.size()], input, scratch().path("out.tar"));
+  run(tool, tool.choices[first_byte(bytes) % tool.choices.size()], input, scratch().path("out.tar"), bytes);
 }
 
 // The first byte chooses options, the others are a mesh in any format: what a tool makes is taken by the next.
@@ -120,7 +127,7 @@ void run_pipeline(std::string_view bytes) {
     const std::string output = scratch().path(std::string(tool->name) + ".tar");
     const std::size_t choices = tool->choices.size() - tool->alone;
     try {
-      run(*tool, tool->choices[choice % choices], input, output);
+      run(*tool, tool->choices[choice % choices], input, output, bytes);
     } catch (const DataError& error) {
       // findhex warns of flat and inverted tets and leaves them alone; assemble needs a mesh without.
       const bool may_refuse =
@@ -143,6 +150,9 @@ constexpr std::array targets{
     FuzzTarget{"tool-merge-parts", [](std::string_view bytes) { run_on_bundle(merge_parts, bytes); }, 1},
 #ifdef HEXPIPE_FUZZES_MESH_PART
     FuzzTarget{"tool-mesh-part", [](std::string_view bytes) { run_on_bundle(mesh_part, bytes); }, 1},
+#endif
+#ifdef HEXPIPE_FUZZES_VIEW
+    FuzzTarget{"tool-view", [](std::string_view bytes) { run_on_bundle(view, bytes); }, 1},
 #endif
     FuzzTarget{"pipeline", run_pipeline},
 };
