@@ -298,7 +298,8 @@ void BodyReader<Body>::read_vertices(const Element& element) {
       else
         skip(element, property, i);
     }
-    if (!is_finite(point)) body_.fail(element.name, i, "expected finite coordinates, found NaN or infinity");
+    if (!is_place(point))
+      body_.fail(element.name, i, fmt::format("expected coordinates up to {}, found others", largest_coordinate));
     soup_.points.push_back(point);
   }
 }

@@ -92,8 +92,8 @@ PointList read_points(Input& input) {
   PointList list = read_by_content(input.read_all(), input.name());
   list.name = input.name();
   for (std::size_t i = 0; i < list.points.size(); ++i)
-    if (!is_finite(list.points[i]))
-      throw DataError::at(list.place_of(i), "expected finite coordinates, found NaN or infinity");
+    if (!is_place(list.points[i]))
+      throw DataError::at(list.place_of(i), "expected coordinates up to {}, found others", largest_coordinate);
   return list;
 }
 

@@ -72,8 +72,9 @@ SizeList read_npy(std::string_view bytes, const std::string& name) {
   for (std::size_t i = 0; i < numbers.size(); i += columns) {
     const Vec3 place = has_places ? Vec3{numbers[i], numbers[i + 1], numbers[i + 2]} : Vec3{};
     const double size = numbers[i + columns - 1];
-    if (!is_size(size) || !is_finite(place))
-      throw DataError::at(name, "row {}: expected finite numbers and a positive size, found others", i / columns + 1);
+    if (!is_size(size) || !is_place(place))
+      throw DataError::at(name, "row {}: expected coordinates up to {} and a positive size, found others",
+                          i / columns + 1, largest_coordinate);
     if (has_places)
       add(list, place, size);
     else

@@ -82,9 +82,9 @@ SurfaceSoup read_binary_stl(std::string_view bytes, const std::string& name) {
     Triangle triangle;
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const Vec3 point{xyz[3 * corner], xyz[3 * corner + 1], xyz[3 * corner + 2]};
-      if (!is_finite(point))
-        throw DataError::at(name, "triangle {}: expected finite coordinates, found {}, {}, {}", i + 1, point.x, point.y,
-                            point.z);
+      if (!is_place(point))
+        throw DataError::at(name, "triangle {}: expected coordinates up to {}, found {}, {}, {}", i + 1,
+                            largest_coordinate, point.x, point.y, point.z);
       triangle[corner] = merger.index_of(point);
     }
     append_polygon(soup, triangle, attribute, static_cast<std::int64_t>(i) + 1);

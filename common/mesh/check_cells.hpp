@@ -13,14 +13,15 @@
 
 namespace hexpipe {
 
-// Throws DataError naming `source` when a coordinate is not finite or there are more points than a Vertex can number.
+// Throws DataError naming `source` when a coordinate is too large or NaN, or there are more points than a Vertex can
+// number.
 inline void check_points(std::span<const Vec3> points, const char* source) {
   if (points.size() > static_cast<std::size_t>(std::numeric_limits<Vertex>::max()))
     throw DataError::at(source, "expected fewer than 2^31 points, found {}", points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (!is_finite(points[i]))
-      throw DataError::at(source, "points[{}]: expected finite coordinates, found {} {} {}", i, points[i].x,
-                          points[i].y, points[i].z);
+    if (!is_place(points[i]))
+      throw DataError::at(source, "points[{}]: expected coordinates up to {}, found {} {} {}", i, largest_coordinate,
+                          points[i].x, points[i].y, points[i].z);
 }
 
 // Throws DataError naming `source` when a cell names a vertex that is not there or one twice, or tags are too few or

@@ -48,8 +48,18 @@ constexpr double norm_squared(const Vec3& a) {
 inline double norm(const Vec3& a) {
   return std::sqrt(norm_squared(a));
 }
-inline bool is_finite(const Vec3& a) {
-  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+// In the direction of a; zero where a is, or too short for its square to be told from zero.
+inline Vec3 unit(const Vec3& a) {
+  const double length = norm(a);
+  return length > 0 ? a * (1 / length) : Vec3{};
+}
+
+// Squares of determinants of points within that are finite.
+inline constexpr double largest_coordinate = 1e50;
+// False for NaN.
+inline bool is_place(const Vec3& a) {
+  return std::abs(a.x) <= largest_coordinate && std::abs(a.y) <= largest_coordinate &&
+         std::abs(a.z) <= largest_coordinate;
 }
 
 }  // namespace hexpipe

@@ -113,7 +113,7 @@ void read_soup(std::string_view bytes) {
   const SurfaceSoup soup = read_surface(input);
   promise(soup.tags.size() == soup.triangles.size() && soup.places.size() == soup.triangles.size(),
           "each triangle has a tag and a place");
-  for (const Vec3& point : soup.points) promise(is_finite(point), "coordinates are finite");
+  for (const Vec3& point : soup.points) promise(is_place(point), "coordinates can be reckoned with");
   for (const Triangle& triangle : soup.triangles)
     for (const Vertex v : triangle)
       promise(v >= 0 && static_cast<std::size_t>(v) < soup.points.size(), "corners are points");

@@ -92,7 +92,7 @@ TEST(SizeFiles, NameWhatIsWrong) {
   expect_error("1\n1 2\n", "sizes:2: expected the end of the line");
   expect_error(npy({2, 3}, {1, 1, 1, 1, 1, 1}), "expected an array of floats");
   expect_error(npy({3}, {1, 1}), "expected 3 rows of 8 bytes, found 16 bytes");
-  expect_error(npy({2}, {1, -1}), "row 2: expected finite numbers and a positive size");
+  expect_error(npy({2}, {1, -1}), "row 2: expected coordinates up to 1e+50 and a positive size");
 }
 
 }  // namespace

@@ -230,13 +230,15 @@ TEST(SurfaceFiles, RejectsCoordinatesThatAreNotFinite) {
   std::string stl = binary_stl();
   const float nan = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(&stl[84 + 50 + 16], &nan, sizeof nan);
-  EXPECT_THAT(error_of(stl), HasSubstr("part: triangle 2: expected finite coordinates, found 0, nan, 0"));
+  EXPECT_THAT(error_of(stl), HasSubstr("part: triangle 2: expected coordinates up to 1e+50, found 0, nan, 0"));
   EXPECT_EQ(error_of("v 0 0 0\nv 0 nan 0\n"), "part:2: expected a finite coordinate, found 'nan'");
+  EXPECT_THAT(error_of("OFF 3 1 0\n0 0 0\n1 0 0\n0 1e51 0\n3 0 1 2\n"),
+              HasSubstr("part: expected coordinates up to 1e+50, found 1e+51; scale the surface"));
   EXPECT_EQ(error_of("v 0 0 0\nv 0 0 1e999\n"), "part:2: expected a finite coordinate, found '1e999'");
   std::string ply = binary_ply(false);
   const double infinity = std::numeric_limits<double>::infinity();
   std::memcpy(&ply[ply_header("binary_little_endian").size() + 17 + 5], &infinity, sizeof infinity);
-  EXPECT_EQ(error_of(ply), "part: vertex 2: expected finite coordinates, found NaN or infinity");
+  EXPECT_EQ(error_of(ply), "part: vertex 2: expected coordinates up to 1e+50, found others");
 }
 
 TEST(SurfaceFiles, RejectsBadIndicesOfObj) {

@@ -50,8 +50,7 @@ Fans collect_fans(const MixedMesh& mesh) {
   std::vector<std::int64_t> fill(result.offsets.begin(), result.offsets.end() - 1);
   for_each_facet_corner(mesh, [&](Vertex v, Vertex next, Vertex last, std::int32_t tag) {
     const Vec3 normal = cross(mesh.points[next] - mesh.points[v], mesh.points[last] - mesh.points[v]);
-    const double length = norm(normal);
-    result.fans[fill[v]++] = {length > 0 ? normal * (1 / length) : Vec3{}, tag, next, last};
+    result.fans[fill[v]++] = {unit(normal), tag, next, last};
   });
   return result;
 }
@@ -108,9 +107,9 @@ Freedom freedom_of(std::span<const Fan> fans, const MixedMesh& mesh, Vertex v) {
     return {Freedom::Kind::plane, planes[0]->normal};
   }
   const Vec3 line = cross(planes[0]->normal, planes[1]->normal);
-  const Vec3 unit = line * (1 / norm(line));
-  if (!edges_are_paired(fans, mesh, v, unit)) return fixed;
-  return {Freedom::Kind::line, unit};
+  const Vec3 direction = unit(line);
+  if (!edges_are_paired(fans, mesh, v, direction)) return fixed;
+  return {Freedom::Kind::line, direction};
 }
 
 }  // namespace

@@ -20,11 +20,6 @@ const double cos_feature_angle = std::cos(std::numbers::pi * 40 / 180);
 // far away is as safe as the nearest.
 constexpr int longest_walk = 30;
 
-Vec3 unit(const Vec3& v) {
-  const double length = norm(v);
-  return length > 0 ? v * (1 / length) : Vec3{};
-}
-
 Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& to) {
   const Vec3 along = b - a;
   const double length = norm_squared(along);

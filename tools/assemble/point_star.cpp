@@ -225,10 +225,8 @@ Placement raise_worst(const PointStar& star, const Vec3& start, int steps, const
 }
 
 Plane Plane::through(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 normal = cross(b - a, c - a);
-  const double length = norm(normal);
-  const Vec3 unit = length > 0 ? normal * (1 / length) : Vec3{};
-  return {unit, dot(unit, a)};
+  const Vec3 normal = unit(cross(b - a, c - a));
+  return {normal, dot(normal, a)};
 }
 
 Vec3 deepest_point(std::span<const Plane> planes, const Vec3& start) {

@@ -29,7 +29,7 @@ struct Direction {
   Vec3 sum;  // of the normals, all to one side, by area
   double weight = 0;
 
-  Vec3 unit() const { return sum * (1 / norm(sum)); }
+  Vec3 mean() const { return unit(sum); }
 };
 
 // Directions up to their sign, the heaviest first.
@@ -75,7 +75,7 @@ class AxesFinder {
       if (3 * first.weight < most) break;  // no frame with lesser faces only has more
       for (const DirectionList* list : {&faces_, &edges_})
         for (const Direction& second : list->directions()) {
-          const Vec3 a = first.unit(), b = second.unit();
+          const Vec3 a = first.mean(), b = second.mean();
           if (std::abs(dot(a, b)) > right_angle_cosine) continue;
           const Axes axes = frame_of(a, b);
           if (const double s = score(axes); s > most) {
@@ -119,7 +119,7 @@ class AxesFinder {
   }
 
   static Axes frame_of(const Vec3& a, const Vec3& b) {
-    const Vec3 across = cross(a, b), third = across * (1 / norm(across));
+    const Vec3 third = unit(cross(a, b));
     return {a, cross(third, a), third};
   }
 
@@ -149,7 +149,7 @@ class AxesFinder {
       }
     std::array<std::size_t, 3> order{0, 1, 2};
     std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return weights[i]; });
-    const auto summed = [&](std::size_t i) { return weights[i] > 0 ? sums[i] * (1 / norm(sums[i])) : axes[i]; };
+    const auto summed = [&](std::size_t i) { return weights[i] > 0 ? unit(sums[i]) : axes[i]; };
     return frame_of(summed(order[0]), summed(order[1]));
   }
 

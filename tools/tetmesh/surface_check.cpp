@@ -42,27 +42,6 @@ std::string list_of(const SurfaceSoup& soup, const Triangles& triangles) {
                                         : fmt::format(" and {}", places[listed - 1]));
 }
 
-// Volumes are products of three lengths, and predicates of six: beyond this they are infinite or vanish.
-constexpr double least_extent = 1e-50, greatest_coordinate = 1e50;
-
-void check_magnitude(const SurfaceSoup& soup) {
-  double least = std::numeric_limits<double>::max(), greatest = std::numeric_limits<double>::lowest(), extent = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto along_axis = [&](const Vec3& p) { return p[axis]; };
-    const auto [lowest, highest] = std::ranges::minmax_element(soup.points, {}, along_axis);
-    const double low = along_axis(*lowest), high = along_axis(*highest);
-    least = std::min(least, low);
-    greatest = std::max(greatest, high);
-    extent = std::max(extent, high - low);
-  }
-  if (std::max(-least, greatest) > greatest_coordinate)
-    throw DataError::at(soup.name, "expected coordinates up to {:g}, found {:g}; scale the surface",
-                        greatest_coordinate, -least > greatest ? least : greatest);
-  if (extent < least_extent)
-    throw DataError::at(soup.name, "expected a surface at least {:g} long, found one of {:g}; scale the surface",
-                        least_extent, extent);
-}
-
 void check_no_degenerate_triangles(const SurfaceSoup& soup) {
   std::size_t count = 0, first = 0;
   for (std::size_t i = soup.triangles.size(); i-- > 0;) {
@@ -221,7 +200,6 @@ void check_no_intersections(const SurfaceSoup& soup) {
 }  // namespace
 
 void check_surface(const SurfaceSoup& soup) {
-  check_magnitude(soup);
   check_no_degenerate_triangles(soup);
   check_no_repeated_triangles(soup);
   check_edges(soup);

@@ -27,7 +27,8 @@ class WallFinder {
       const auto& [a, b, c] = surface_.triangles[t];
       const Corners corners{surface_.points[a], surface_.points[b], surface_.points[c]};
       const Shell& shell = surface_.shells[surface_.shell_of[t]];
-      const Vec3 area = cross(corners[1] - corners[0], corners[2] - corners[0]), normal = area * (1 / norm(area));
+      const Vec3 normal = unit(cross(corners[1] - corners[0], corners[2] - corners[0]));
+      if (norm_squared(normal) == 0) continue;
       look(corners, -normal);
       if (shell.in_front != outside_region) look(corners, normal);
     }

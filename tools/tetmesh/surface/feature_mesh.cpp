@@ -66,7 +66,7 @@ bool FeatureMesh::is_corner(VertexHandle v, double cosine) const {
     if (!is_feature(edge_handle(h))) continue;
     if (count == 2) return true;
     const Vec3 d = position(to_vertex_handle(h)) - position(v);
-    directions[count++] = d * (1 / norm(d));
+    directions[count++] = unit(d);
   }
   return count != 2 || -dot(directions[0], directions[1]) < cosine;
 }

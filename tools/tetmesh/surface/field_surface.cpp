@@ -21,14 +21,12 @@ FieldSurface::FieldSurface(const FeatureMesh& mesh) {
   twins = find_twins(points.size(), triangles);
   inwards.reserve(twins.size());
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(twins.size()); ++h) {
-    const Vec3 direction = cross(normals[triangle_of(h)], edge_vector(h));
-    inwards.push_back(direction * (1 / norm(direction)));
+    inwards.push_back(unit(cross(normals[triangle_of(h)], edge_vector(h))));
   }
 }
 
 TangentFrame::TangentFrame(const FieldSurface& surface, std::int32_t triangle) {
-  const Vec3 side = surface.edge_vector(3 * triangle);
-  x = side * (1 / norm(side));
+  x = unit(surface.edge_vector(3 * triangle));
   y = cross(surface.normals[triangle], x);
 }
 

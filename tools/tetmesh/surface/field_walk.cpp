@@ -37,7 +37,7 @@ FieldWalker::Exit FieldWalker::exit_of(const SurfacePoint& point, const Vec3& di
 Vec3 FieldWalker::direction_beyond(HalfEdge edge, const Vec3& direction, bool along_field) const {
   const HalfEdge twin = surface_.twins[edge];
   const Vec3 side = surface_.edge_vector(edge);
-  const Vec3 along = side * (1 / norm(side)), inward = surface_.inward(twin);
+  const Vec3 along = unit(side), inward = surface_.inward(twin);
   const Vec3 unfolded = dot(direction, along) * along - dot(direction, surface_.inward(edge)) * inward;
   if (!along_field) return unfolded;
   const Vec3 in_field = nearest_direction(triangle_of(twin), unfolded);

@@ -44,7 +44,7 @@ class PointInserter {
   }
 
   HalfEdgeHandle nearest_edge(Face f, const Vec3& p) const {
-    const Vec3 area = mesh_.area_normal(f), normal = area * (1 / norm(area));
+    const Vec3 normal = unit(mesh_.area_normal(f));
     HalfEdgeHandle nearest;
     double least = std::numeric_limits<double>::max();
     for (const auto h : mesh_.fh_range(f))

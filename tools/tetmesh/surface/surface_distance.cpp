@@ -72,7 +72,7 @@ DistanceIndex::DistanceIndex(std::span<const Vec3> points, std::span<const Trian
     const Vec3 normal = cross(points[b] - points[a], points[c] - points[a]);
     const double length = norm(normal);
     area += length;
-    normals_.push_back(normal * (1 / length));
+    normals_.push_back(unit(normal));
   }
   const double edge = std::sqrt(area / static_cast<double>(triangles.size()));
   width_ = std::max(edge, std::max({extent.x, extent.y, extent.z}) / most_cells);

@@ -262,7 +262,7 @@ Proposal SurfaceLattice::agreed(const SizedPointGrid& grid, const Proposal& prop
   const Vec3 way = sum * (1 / trust) - dot(sum, normal) / trust * normal;
   const double length = norm(way), size = sizes_[proposal.point.triangle];
   if (length <= 0) return {proposal.point, trust / (size * size)};
-  return {walker_.walk_straight(proposal.point, way * (1 / length), length).point, trust / (size * size)};
+  return {walker_.walk_straight(proposal.point, unit(way), length).point, trust / (size * size)};
 }
 
 }  // namespace

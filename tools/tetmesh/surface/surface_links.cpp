@@ -64,7 +64,7 @@ Link Linker::make_link(HalfEdge h) const {
   const std::int32_t f = triangle_of(h), g = triangle_of(twin);
   const auto here = directions(f), there = directions(g);
   const Vec3 side = surface_.edge_vector(h);
-  const Vec3 along = side * (1 / norm(side)), &inward = surface_.inward(h), &beyond = surface_.inward(twin);
+  const Vec3 along = unit(side), &inward = surface_.inward(h), &beyond = surface_.inward(twin);
   const Vec3 middle = surface_.points[start_of(surface_.triangles, h)] + 0.5 * side;
   Link link;
   link.neighbour = g;

@@ -60,7 +60,10 @@ class SurfaceRemesher {
       result_.failure = "its size asks for more points than memory holds";
       return std::move(result_);
     }
-    prepare();
+    if (!prepare()) {
+      result_.failure = "in double precision some of its triangles have no direction";
+      return std::move(result_);
+    }
     while (result_.attempts < most_attempts) {
       ++result_.attempts;
       remove_vertices_of_input();
@@ -76,7 +79,8 @@ class SurfaceRemesher {
   }
 
  private:
-  void prepare();
+  // False where triangles are too thin for a field.
+  bool prepare();
   void remove_vertices_of_input();
   std::vector<Vec3> find_faults();
   void keep_nearest(const std::vector<Vec3>& places, const SizeField& reach);
@@ -92,16 +96,18 @@ class SurfaceRemesher {
   RemeshResult result_;
 };
 
-void SurfaceRemesher::prepare() {
+bool SurfaceRemesher::prepare() {
   sample_feature_curves(prepared_, size_, deviation_);
   refine_surface(prepared_, field_edge * size_, flatness * size_);
   const std::vector<Vertex> kept = kept_vertices();
   const FieldSurface field_surface(prepared_);
   const CrossField field = cross_field(field_surface, size_);
+  if (!std::ranges::all_of(field.directions, is_place)) return false;
   const std::vector<SurfacePoint> points = surface_front(field_surface, field, kept, size_);
   insert_points(prepared_, points, snap * size_);
   result_.feature_points = kept.size();
   result_.front_points = points.size();
+  return true;
 }
 
 std::vector<Vertex> SurfaceRemesher::kept_vertices() const {

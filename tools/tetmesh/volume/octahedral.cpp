@@ -43,10 +43,6 @@ double value_of(const Harmonics& function, const Frame& frame) {
   return value_at(function, frame[0]) + value_at(function, frame[1]) + value_at(function, frame[2]);
 }
 
-Vec3 normalized(const Vec3& v) {
-  return v * (1 / norm(v));
-}
-
 // Rotates by the vector's length around it (Rodrigues).
 Frame rotated(const Frame& frame, const Vec3& rotation) {
   const double angle = norm(rotation);
@@ -60,8 +56,8 @@ Frame rotated(const Frame& frame, const Vec3& rotation) {
 }
 
 void orthonormalize(Frame& frame) {
-  frame[0] = normalized(frame[0]);
-  frame[1] = normalized(frame[1] - dot(frame[1], frame[0]) * frame[0]);
+  frame[0] = unit(frame[0]);
+  frame[1] = unit(frame[1] - dot(frame[1], frame[0]) * frame[0]);
   const Vec3 third = cross(frame[0], frame[1]);
   frame[2] = dot(third, frame[2]) < 0 ? -third : third;
 }
@@ -153,7 +149,7 @@ Frame turned_onto(const Frame& frame, const Vec3& direction) {
 
 Frame frame_around(const Vec3& direction) {
   const Vec3 helper = std::abs(direction.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-  const Vec3 second = normalized(cross(direction, helper));
+  const Vec3 second = unit(cross(direction, helper));
   return {direction, second, cross(direction, second)};
 }
 
