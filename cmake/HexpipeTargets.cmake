@@ -9,7 +9,7 @@ if(HEXPIPE_WERROR)
 endif()
 if(HEXPIPE_SANITIZE)
   target_compile_options(hexpipe_flags INTERFACE
-    -fsanitize=${HEXPIPE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
+    -fsanitize=${HEXPIPE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -D_GLIBCXX_ASSERTIONS
     # The sanitizers' instructions make g++ see uses of uninitialized values where there are none (in OpenMesh).
     -Wno-maybe-uninitialized)
   if(NOT HEXPIPE_FUZZ)
