@@ -19,7 +19,9 @@ if(HEXPIPE_SANITIZE)
   target_link_options(hexpipe_flags INTERFACE -fsanitize=${HEXPIPE_SANITIZE})
 endif()
 
-# Under the sanitizers, what takes options apart or tests takes half as long to compile without optimization.
+# What takes options apart or tests has nothing to be fast at, and takes a third less time to compile so, under the
+# sanitizers half.
+set(HEXPIPE_QUICK_COMPILE -O1)
 if(HEXPIPE_SANITIZE AND NOT HEXPIPE_FUZZ)
   set(HEXPIPE_QUICK_COMPILE -O0)
 endif()
@@ -37,7 +39,8 @@ endfunction()
 function(hexpipe_tool name)
   cmake_parse_arguments(arg "" "COMPONENT" "SOURCES;LINK" ${ARGN})
   add_executable(${name} main.cpp)
-  set_source_files_properties(main.cpp PROPERTIES COMPILE_OPTIONS "${HEXPIPE_QUICK_COMPILE}")
+  target_compile_options(${name} PRIVATE ${HEXPIPE_QUICK_COMPILE})
+  target_precompile_headers(${name} REUSE_FROM tool_headers)
   if(arg_SOURCES)
     hexpipe_library(${name}_core SOURCES ${arg_SOURCES} LINK ${arg_LINK})
     target_link_libraries(${name} PRIVATE ${name}_core)

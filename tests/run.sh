@@ -9,11 +9,13 @@ cd "$(dirname "$0")/.."
 export ASAN_OPTIONS="${ASAN_OPTIONS:-detect_leaks=1:abort_on_error=0}"
 export UBSAN_OPTIONS="${UBSAN_OPTIONS:-print_stacktrace=1}"
 jobs=$(nproc)
+# Many of them wait: for signals, for a stalled input, for a time limit.
+tests_at_once=$((jobs + 1))
 
 for preset in ci ci-sanitize; do
   cmake --preset "$preset"
   cmake --build --preset "$preset" --parallel "$jobs"
   # What the sanitized tools make is compared with what the optimized ones make: tests/reproducible.bats.
   if [[ $preset == ci-sanitize ]]; then export HEXPIPE_OTHER_BIN="$PWD/build-ci/bin"; fi
-  ctest --test-dir "build-$preset" --output-on-failure --parallel "$jobs" --no-tests=error
+  ctest --test-dir "build-$preset" --output-on-failure --parallel "$tests_at_once" --no-tests=error
 done
