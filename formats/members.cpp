@@ -198,14 +198,24 @@ bool is_part_title(std::string_view name) {
   return name == part_json;
 }
 
+namespace {
+
+// What says which part or piece of which mesh it is: `parse` throws what the library for JSON throws.
+template <class Parse>
+void parse_title(const BundleReader& reader, const char* of, Parse&& parse) {
+  try {
+    parse();
+  } catch (const nlohmann::json::exception&) {
+    throw DataError::at(reader.where(), "expected the numbers of a {} and its mesh, found something else", of);
+  }
+}
+
+}  // namespace
+
 bool read_part_member(BundleReader& reader, StageData& data, BundleWriter* copy) {
   if (is_part_title(reader.name())) {
     const std::string text = reader.read_text(longest_part_json);
-    try {
-      parse_part(text, ensure(data.part));
-    } catch (const nlohmann::json::exception&) {
-      throw DataError::at(reader.where(), "expected the numbers of a part and its mesh, found something else");
-    }
+    parse_title(reader, "part", [&] { parse_part(text, ensure(data.part)); });
     if (copy) copy->add_text(reader.name(), text);
     return true;
   }
@@ -234,11 +244,7 @@ bool is_piece_title(std::string_view name) {
 
 bool read_piece_member(BundleReader& reader, std::optional<MeshPiece>& piece) {
   if (is_piece_title(reader.name())) {
-    try {
-      parse_piece(reader.read_text(longest_part_json), ensure(piece));
-    } catch (const nlohmann::json::exception&) {
-      throw DataError::at(reader.where(), "expected the numbers of a piece and its mesh, found something else");
-    }
+    parse_title(reader, "piece", [&] { parse_piece(reader.read_text(longest_part_json), ensure(piece)); });
     return true;
   }
   bool known = false;

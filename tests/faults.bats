@@ -29,6 +29,15 @@ for_tools() {
   for_tools tetmesh
 }
 
+@test "faults leave the old output or the whole new one: merge-parts" {
+  for_tools merge-parts
+}
+
+@test "faults leave the old output or the whole new one: view" {
+  [[ -x $HEXPIPE_BIN/view ]] || skip "built without it"
+  for_tools view
+}
+
 @test "memory that is missing at the end, for statistics and history, is an error and no crash" {
   "$PYTHON" "$DATA/lattices/lattice.py" kuhn 1 >part.mesh
   findhex -q --mesh part.mesh | buildgraph -q | initsol -q --iterations 5 -o part.tar

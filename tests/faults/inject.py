@@ -33,6 +33,8 @@ STAGES = {  # options, ending of the product
     "lns": (["--iterations", "5"], "sol"),
     "certify": (["--iterations", "5"], "sol"),
     "assemble": ([], "vtu"),
+    "merge-parts": ([], "cand"),
+    "view": ([], "html"),
 }
 # Of runs that are long enough to be stopped in the middle.
 LONG_RUNS = {
@@ -43,6 +45,8 @@ LONG_RUNS = {
     "lns": ["--time-limit", "0.3"],
     "certify": ["--iterations", "3000"],
     "assemble": ["--smooth", "20"],
+    "merge-parts": [],
+    "view": [],
 }
 LIBARCHIVE_WITHOUT_MEMORY = ("Fatal Internal Error in libarchive: Out of memory", "Fatal Internal Error in libarchive: No memory")
 SEARCHES = ("initsol", "lns", "certify")
@@ -270,7 +274,9 @@ def stage_inputs(directory, size):
         inputs[following] = directory / (following + ".in.tar")
         options = STAGES[tool][0]
         subprocess.run([BIN / tool, *options, "-q", inputs[tool], "-o", inputs[following]], check=True)
-    inputs["certify"] = inputs["assemble"]
+    inputs["certify"] = inputs["view"] = inputs["assemble"]
+    inputs["merge-parts"] = directory / "merge-parts.in.tar"
+    subprocess.run([BIN / "findhex", *STAGES["findhex"][0], "--part", "1/1", "-q", mesh, "-o", inputs["merge-parts"]], check=True)
     return inputs
 
 

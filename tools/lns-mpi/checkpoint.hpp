@@ -2,9 +2,8 @@
 // Where a search has come to, on disk: a file for each rank, of which all are whole or none counts.
 //
 //   DIR/checkpoint.json      the round that counts, and of what it is
-//   DIR/round-12/0003.tar    of the fourth rank: the numbers of the vertices that it chose, and what the searches of
-//   its
-//                            blocks remember
+//   DIR/round-12/0003.tar    of the fourth rank: the numbers of the vertices that it chose, and what
+//                            the searches of its blocks remember
 //
 // checkpoint.json is replaced when all files of a round are there, and the round before goes only then.
 
