@@ -2,6 +2,7 @@
 // The formulas of a cell's quality and volume, for one cell (Vec3) or for several side by side (LaneVector): the same
 // bits either way. What they measure stands in quality.hpp.
 
+#include <array>
 #include <limits>
 
 #include "common/mesh/cell_topology.hpp"
@@ -46,5 +47,20 @@ auto cell_volume_of(const Points& p) {
   }
   return triangles / 6 + quads / 12;
 }
+
+// As for one corner, in quality.hpp.
+inline LaneMask scaled_jacobian_exceeds(const Lanes& determinant, const Lanes& squared_lengths, double threshold) {
+  return determinant * absolute(determinant) > threshold * threshold * squared_lengths;
+}
+
+struct CellMeasures {
+  Lanes quality;  // least_corner_scaled_jacobian_of
+  Lanes volume;
+};
+
+// Of cells side by side: hexes, prisms or pyramids.
+void measure_cells(const std::array<LaneVector, 8>& corners, CellMeasures& measures);
+void measure_cells(const std::array<LaneVector, 6>& corners, CellMeasures& measures);
+void measure_cells(const std::array<LaneVector, 5>& corners, CellMeasures& measures);
 
 }  // namespace hexpipe

@@ -122,17 +122,20 @@ auto prism_bezier(const Points& p) {
 
 template <class Vector>
 std::array<std::array<Vector, 8>, 8> split(const std::array<Vector, 8>& p) {
-  constexpr int weight[3][2] = {{2, 0}, {1, 1}, {0, 2}};
   Vector grid[3][3][3];
-  for (int at = 0; at < 27; ++at) {
-    const int i = at / 9, j = at / 3 % 3, k = at % 3;
-    Vector sum{};
-    for (int c = 0; c < 8; ++c) {
-      const int a = c & 1, b = c >> 1 & 1, d = c >> 2;
-      sum = sum + weight[i][a] * weight[j][b] * weight[k][d] * p[hex_corner_at[a][b][d]];
-    }
-    grid[i][j][k] = sum;
-  }
+  for (int c = 0; c < 8; ++c)
+    grid[2 * (c & 1)][2 * (c >> 1 & 1)][2 * (c >> 2)] = p[hex_corner_at[c & 1][c >> 1 & 1][c >> 2]];
+  const auto halve = [](Vector& low, Vector& middle, Vector& high) {
+    middle = low + high;
+    low = low + low;
+    high = high + high;
+  };
+  for (int j = 0; j < 3; j += 2)
+    for (int k = 0; k < 3; k += 2) halve(grid[0][j][k], grid[1][j][k], grid[2][j][k]);
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; k += 2) halve(grid[i][0][k], grid[i][1][k], grid[i][2][k]);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) halve(grid[i][j][0], grid[i][j][1], grid[i][j][2]);
   std::array<std::array<Vector, 8>, 8> parts;
   for (int part = 0; part < 8; ++part)
     for (int c = 0; c < 8; ++c) {

@@ -1,7 +1,8 @@
 #pragma once
 // Numbers side by side, on which one instruction does the same: the measures of several cells at once. Each lane is
-// rounded as a double is, so that it holds the same bits as if it were alone. A vector extension of gcc and clang; two
-// doubles are what every 64-bit processor has registers for.
+// rounded as a double is, so that it holds the same bits as if it were alone. A vector extension of gcc and clang;
+// where a processor has narrower registers, they take several of them. How functions pass and return lanes depends on
+// the processor they are compiled for: those that are not inlined take and give them by reference.
 
 #include <array>
 #include <cmath>
@@ -10,9 +11,20 @@
 
 #include "common/mesh/vec3.hpp"
 
+// Compiles a function with all that it calls once more for processors with wider registers (AVX2, AVX-512); the program
+// decides when it starts which one it calls. All give the same bits. The sanitizers are not ready then.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
+#define HEXPIPE_ANY_REGISTERS [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"), gnu::flatten]]
+#else
+#define HEXPIPE_ANY_REGISTERS
+#endif
+
+#pragma GCC diagnostic ignored "-Wpsabi"  // on passing lanes
+
 namespace hexpipe {
 
-inline constexpr int lane_count = 2;
+inline constexpr int lane_count = 8;
 using Lanes [[gnu::vector_size(lane_count * sizeof(double))]] = double;
 // Of a comparison: all bits of a lane where it holds, else none.
 using LaneMask [[gnu::vector_size(lane_count * sizeof(std::int64_t))]] = std::int64_t;
@@ -33,6 +45,13 @@ inline Lanes dot(const LaneVector& a, const LaneVector& b) {
 inline LaneVector cross(const LaneVector& a, const LaneVector& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+// With one vector for all lanes.
+inline Lanes dot(const LaneVector& a, const Vec3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline LaneVector cross(const Vec3& a, const LaneVector& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 inline Lanes det(const LaneVector& a, const LaneVector& b, const LaneVector& c) {
   return dot(a, cross(b, c));
 }
@@ -44,21 +63,22 @@ inline Lanes norm_squared(const LaneVector& a) {
 inline double select(bool condition, double yes, double no) {
   return condition ? yes : no;
 }
-inline Lanes select(LaneMask condition, Lanes yes, Lanes no) {
+inline Lanes select(const LaneMask& condition, const Lanes& yes, const Lanes& no) {
   return condition ? yes : no;
 }
 inline double absolute(double a) {
   return std::abs(a);
 }
-inline Lanes absolute(Lanes a) {
+inline Lanes absolute(const Lanes& a) {
   return select(a < 0, -a, a);
 }
 inline double square_root(double a) {
   return std::sqrt(a);
 }
-inline Lanes square_root(Lanes a) {
-  for (int lane = 0; lane < lane_count; ++lane) a[lane] = std::sqrt(a[lane]);
-  return a;
+inline Lanes square_root(const Lanes& a) {
+  Lanes result;
+  for (int lane = 0; lane < lane_count; ++lane) result[lane] = std::sqrt(a[lane]);
+  return result;
 }
 
 // The corners of several cells, each as many as the first has, corner by corner.

@@ -31,9 +31,6 @@ IntegerVector operator+(const IntegerVector& a, const IntegerVector& b) {
 IntegerVector operator-(const IntegerVector& a, const IntegerVector& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-IntegerVector operator*(int s, const IntegerVector& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
 Integer det(const IntegerVector& a, const IntegerVector& b, const IntegerVector& c) {
   return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
 }
@@ -86,7 +83,8 @@ class ErrorBound {
   }
 
   // What is to be multiplied by the extent along each axis.
-  static constexpr double of_sum(double determinants, double roundings_of_each = roundings) {
+  template <class Roundings>
+  static constexpr Roundings of_sum(double determinants, const Roundings& roundings_of_each) {
     return determinants * 6 * roundings_of_each * epsilon;
   }
   // Beyond these a product of two or three may overflow, or lose its digits.
@@ -104,7 +102,7 @@ constexpr double determinants_in_coefficient = 4 * (12 * 4 + 5 * 8);
 double greater(double a, double b) {
   return std::max(a, b);
 }
-Lanes greater(Lanes a, Lanes b) {
+Lanes greater(const Lanes& a, const Lanes& b) {
   return select(a > b, a, b);
 }
 
@@ -153,11 +151,37 @@ using RelativeHex = std::array<Vec3, 8>;
 
 // A coordinate is off by a rounding of the greatest one, and cutting, which adds up 8 points and multiplies coordinates
 // by 8, makes that 8 more each time; each of the three vectors of a determinant is off by twice as much.
-double roundings_of(const RelativeHex& hex, const Vec3& extent, int subdivisions) {
-  Vec3 reach;
-  for (const Vec3& p : hex) extend(reach, p);
-  const double ratio = std::max({reach.x / extent.x, reach.y / extent.y, reach.z / extent.z});
+template <class Vector>
+auto roundings_of(const std::array<Vector, 8>& hex, const Vector& extent, int subdivisions) {
+  Vector reach;
+  for (const Vector& p : hex) extend(reach, p);
+  const auto ratio = greater(greater(reach.x / extent.x, reach.y / extent.y), reach.z / extent.z);
   return ErrorBound::roundings + 2 * 3 * 2 * (1 + 8 * subdivisions) * ratio;
+}
+
+// Of hexes with these tangents, whose determinants have so many roundings in the way of each product.
+template <class Roundings>
+LaneMask are_surely_valid(const HexTangents<LaneVector>& tangents, const LaneVector& extent,
+                          const Roundings& roundings) {
+  const HexJacobian<LaneVector> jacobian(tangents);
+  const auto lesser = [](const Lanes& a, const Lanes& b) { return select(a < b, a, b); };
+  Lanes determinant = jacobian.at_corner(0, 0, 0);
+  jacobian.all_determinants([&](const Lanes& value) { return determinant = lesser(determinant, value), true; });
+  Lanes coefficient = determinant;
+  for (const Lanes& value : jacobian.bezier()) coefficient = lesser(coefficient, value);
+
+  const Lanes bound = ErrorBound::of_sum(1, roundings) * extent.x * extent.y * extent.z;
+  LaneMask sure = (determinant > determinants_at_edge * bound) & (coefficient > determinants_in_coefficient * bound);
+  for (const Lanes& along_axis : {extent.x, extent.y, extent.z})
+    sure &= (along_axis > ErrorBound::smallest) & (along_axis < ErrorBound::largest);
+  return sure;
+}
+
+HEXPIPE_ANY_REGISTERS void find_surely_valid_parts(const std::array<LaneVector, 8>& parts, int subdivisions,
+                                                   LaneMask& surely_valid) {
+  const HexTangents<LaneVector> tangents(parts);
+  const LaneVector extent = extent_of(tangents);
+  surely_valid = are_surely_valid(tangents, extent, roundings_of(parts, extent, subdivisions));
 }
 
 Answer judge_in_doubles(const RelativeHex& hex, int subdivisions = 0) {
@@ -178,8 +202,13 @@ Answer judge_in_doubles(const RelativeHex& hex, int subdivisions = 0) {
   auto surely_positive = [&](double value) { return coefficient_bound.positive(value) == Answer::yes; };
   if (std::ranges::all_of(jacobian.bezier(), surely_positive)) return Answer::yes;
   if (subdivisions == max_subdivisions) return Answer::unsure;
-  for (const RelativeHex& part : split(hex)) {
-    const Answer one = judge_in_doubles(part, subdivisions + 1);
+  const auto parts = split(hex);
+  static_assert(parts.size() == lane_count);
+  LaneMask surely_valid;
+  find_surely_valid_parts(side_by_side(parts), subdivisions + 1, surely_valid);
+  for (int part = 0; part < lane_count; ++part) {
+    if (surely_valid[part] != 0) continue;
+    const Answer one = judge_in_doubles(parts[part], subdivisions + 1);
     if (one == Answer::no) return one;
     if (one == Answer::unsure) answer = one;
   }
@@ -232,22 +261,9 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 }
 
 // The tangents are differences of the points themselves, each rounded once.
-LaneMask are_surely_valid_hexes(const std::array<LaneVector, 8>& corners) {
+HEXPIPE_ANY_REGISTERS void find_surely_valid_hexes(const std::array<LaneVector, 8>& corners, LaneMask& surely_valid) {
   const HexTangents<LaneVector> tangents(corners);
-  const LaneVector extent = extent_of(tangents);
-  const HexJacobian<LaneVector> jacobian(tangents);
-  const auto lesser = [](Lanes a, Lanes b) { return select(a < b, a, b); };
-  Lanes determinant = jacobian.at_corner(0, 0, 0);
-  jacobian.all_determinants([&](Lanes value) { return determinant = lesser(determinant, value), true; });
-  Lanes coefficient = determinant;
-  for (const Lanes value : jacobian.bezier()) coefficient = lesser(coefficient, value);
-
-  const Lanes volume = extent.x * extent.y * extent.z;
-  LaneMask sure = (determinant > ErrorBound::of_sum(determinants_at_edge) * volume) &
-                  (coefficient > ErrorBound::of_sum(determinants_in_coefficient) * volume);
-  for (const Lanes along_axis : {extent.x, extent.y, extent.z})
-    sure &= (along_axis > ErrorBound::smallest) & (along_axis < ErrorBound::largest);
-  return sure;
+  surely_valid = are_surely_valid(tangents, extent_of(tangents), ErrorBound::roundings);
 }
 
 bool is_valid(CellKind kind, std::span<const Vec3> corners) {

@@ -25,6 +25,6 @@ bool is_valid(CellKind kind, std::span<const Vec3> corners);
 
 // Hexes side by side: those whose 20 determinants and 27 coefficients are positive for sure, as most are, are valid;
 // the others may be.
-LaneMask are_surely_valid_hexes(const std::array<LaneVector, 8>& corners);
+void find_surely_valid_hexes(const std::array<LaneVector, 8>& corners, LaneMask& surely_valid);
 
 }  // namespace hexpipe

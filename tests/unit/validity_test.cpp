@@ -196,12 +196,13 @@ TEST(SideBySide, HexesAreAsTheyAreAlone) {
       std::copy(corners.begin(), corners.end(), hex.begin());
     }
     const auto together = side_by_side(hexes);
-    const LaneMask surely_valid = are_surely_valid_hexes(together);
-    const Lanes quality = least_corner_scaled_jacobian_of<HexTopology>(together);
-    const Lanes volume = cell_volume_of<HexTopology>(together);
+    LaneMask surely_valid;
+    find_surely_valid_hexes(together, surely_valid);
+    CellMeasures measures;
+    measure_cells(together, measures);
     for (int lane = 0; lane < lane_count; ++lane) {
-      EXPECT_EQ(quality[lane], least_corner_scaled_jacobian(CellKind::hex, hexes[lane]));
-      EXPECT_EQ(volume[lane], cell_volume(CellKind::hex, hexes[lane]));
+      EXPECT_EQ(measures.quality[lane], least_corner_scaled_jacobian(CellKind::hex, hexes[lane]));
+      EXPECT_EQ(measures.volume[lane], cell_volume(CellKind::hex, hexes[lane]));
       const bool is_surely = surely_valid[lane] != 0, is = is_valid(CellKind::hex, hexes[lane]);
       EXPECT_LE(is_surely, is);
       sure += is_surely ? 1 : 0;
@@ -217,7 +218,9 @@ TEST(SideBySide, HexesOfNoSizeOrTooMuchAreNotSure) {
     std::array<std::array<Vec3, 8>, lane_count> hexes;
     const auto corners = mapped(unit_cell(CellKind::hex), scale, {});
     for (auto& hex : hexes) std::copy(corners.begin(), corners.end(), hex.begin());
-    EXPECT_EQ(are_surely_valid_hexes(side_by_side(hexes))[0], 0) << scale;
+    LaneMask surely_valid;
+    find_surely_valid_hexes(side_by_side(hexes), surely_valid);
+    EXPECT_EQ(surely_valid[0], 0) << scale;
   }
 }
 

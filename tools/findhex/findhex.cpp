@@ -55,9 +55,9 @@ class CandidateCollector {
   void judge() {
     const auto points = side_by_side(points_);
     LaneMask surely_valid{};
-    if constexpr (Topology::kind == CellKind::hex) surely_valid = are_surely_valid_hexes(points);
-    const Lanes quality = least_corner_scaled_jacobian_of<Topology>(points);
-    const Lanes volume = cell_volume_of<Topology>(points);
+    if constexpr (Topology::kind == CellKind::hex) find_surely_valid_hexes(points, surely_valid);
+    CellMeasures measures;
+    measure_cells(points, measures);
     const int count = std::exchange(waiting_, 0);
     for (int lane = 0; lane < count; ++lane) {
       ++found_.counts.complete;
@@ -69,9 +69,9 @@ class CandidateCollector {
       ++found_.counts.by_verdict[static_cast<int>(verdict)];
       if (verdict != TetVerdict::accepted) continue;
       keep(corners_[lane],
-           options_.quality == CandidateQuality::corner ? quality[lane]
+           options_.quality == CandidateQuality::corner ? measures.quality[lane]
                                                         : least_scaled_jacobian(Topology::kind, points_[lane]),
-           volume[lane]);
+           measures.volume[lane]);
     }
   }
 
