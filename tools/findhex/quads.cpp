@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstring>
 #include <numeric>
 #include <utility>
 
+#include "common/mesh/cell_measures.hpp"
+#include "common/mesh/lanes.hpp"
 #include "common/mesh/quality.hpp"
 
 namespace hexpipe {
@@ -12,6 +16,46 @@ namespace {
 
 // The angles are a filter before the test of the corners, so its rounding must not reject what that one accepts.
 constexpr double filter_slack = 1 - 1e-9;
+
+// Up to 64 edges from one vertex, side by side.
+constexpr int most_in_row = 64;
+struct OuterEdgeRow {
+  std::array<LaneVector, most_in_row / lane_count> vectors;
+  std::array<Lanes, most_in_row / lane_count> squares;
+  int size = 0;
+
+  void add(const Vec3& vector, double square) {
+    LaneVector& vectors_there = vectors[size / lane_count];
+    const int lane = size % lane_count;
+    vectors_there.x[lane] = vector.x;
+    vectors_there.y[lane] = vector.y;
+    vectors_there.z[lane] = vector.z;
+    squares[size / lane_count][lane] = square;
+    ++size;
+  }
+};
+
+// By edge of a row: bits of those with which rule 3 holds for the corner that begins with a spoke and this edge. Lanes
+// behind the row's end hold anything.
+using CornerBits = std::array<std::uint64_t, most_in_row>;
+
+HEXPIPE_ANY_REGISTERS void judge_corners(const Vec3& spoke, double spoke_square, const OuterEdgeRow& row,
+                                         double min_quality, CornerBits& suffices) {
+  for (int begin = 0; begin < row.size; begin += lane_count) {
+    const LaneVector normals = cross(spoke, row.vectors[begin / lane_count]);
+    const Lanes squares = spoke_square * row.squares[begin / lane_count];
+    LaneMask bits{};
+    for (int next = 0; next < row.size; ++next) {
+      const int lane = next % lane_count;
+      const LaneVector& nexts = row.vectors[next / lane_count];
+      const Vec3 vector{nexts.x[lane], nexts.y[lane], nexts.z[lane]};
+      const Lanes determinants = -dot(normals, vector);
+      bits |= scaled_jacobian_exceeds(determinants, squares * row.squares[next / lane_count][lane], min_quality) &
+              (std::int64_t{1} << next);
+    }
+    std::memcpy(&suffices[begin], &bits, sizeof bits);
+  }
+}
 
 }  // namespace
 
@@ -191,15 +235,17 @@ void QuadFan::judge_corners_at(const Spoke& spoke) {
     }
     return;
   }
-  for (auto i = at_spoke_.begin(); i != at_spoke_.end(); ++i)
-    for (auto j = i + 1; j != at_spoke_.end(); ++j) {
-      OuterEdge &a = outer_edges_[*i], &b = outer_edges_[*j];
-      const std::uint64_t before = corner_suffices(a, b), after = corner_suffices(b, a);
-      a.suffices_before |= before << b.number;
-      b.suffices_after |= before << a.number;
-      b.suffices_before |= after << a.number;
-      a.suffices_after |= after << b.number;
-    }
+  std::reverse(at_spoke_.begin(), at_spoke_.end());
+  OuterEdgeRow row;
+  for (const std::int32_t i : at_spoke_) row.add(outer_edges_[i].vector, outer_edges_[i].square);
+  CornerBits suffices_before;
+  judge_corners(spoke.vector, spoke.square, row, filter_.min_quality, suffices_before);
+  for (int number = 0; number < row.size; ++number) {
+    const std::uint64_t others = suffices_before[number] & ~(std::uint64_t{1} << number);
+    outer_edges_[at_spoke_[number]].suffices_before = others;
+    for (std::uint64_t bits = others; bits != 0; bits &= bits - 1)
+      outer_edges_[at_spoke_[std::countr_zero(bits)]].suffices_after |= std::uint64_t{1} << number;
+  }
 }
 
 void QuadFan::collect_outer_edges(Pair& pair) const {
