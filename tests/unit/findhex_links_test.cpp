@@ -120,13 +120,13 @@ TEST_P(Links, OppositesAreThoseOfAllVertices) {
       for (int j = i + 1; j < static_cast<int>(std::min<std::size_t>(neighbours.size(), i + 9)); ++j) {
         const Vertex a = neighbours[i], b = neighbours[j];
         std::vector<Vertex> expected;
-        std::vector<OppositeCorner> found;
+        std::vector<OppositeCorner> memory;
         for (Vertex w = 0; w < static_cast<Vertex>(mesh.points.size()); ++w)
           if (w != v && w != a && w != b &&
               ((linked(v, a, w) && linked(v, b, w)) || (linked(a, b, v) && linked(a, b, w))))
             expected.push_back(w);
         const QuadAngle angle(links, v, i, j);
-        angle.find_opposites(links, found);
+        const auto found = angle.find_opposites(links, memory);
         ASSERT_EQ(found.size(), expected.size()) << v << ' ' << a << ' ' << b;
         for (std::size_t k = 0; k < found.size(); ++k) {
           const auto [w, diagonals] = found[k];

@@ -50,6 +50,7 @@ class CellSearch {
   template <std::size_t step>
   static constexpr const SearchStep& plan = search_plan<Topology>[step];
   static constexpr std::uint8_t first = first_corner<Topology>;
+  static constexpr int no_quad = -1;
   static constexpr bool is_at_first(const OpenQuad& quad) { return quad.corner == first; }
 
   template <std::size_t step>
@@ -58,9 +59,9 @@ class CellSearch {
       static_assert(Topology::quads[0][0] == first);
       visit_(corners_, points_, diagonals_[0]);
     } else {
-      for_each_choice<step>([&](Vertex v) {
+      for_each_choice<step>([&](Vertex v, int from_quad) {
         corners_[plan<step>.corner] = v;
-        if (!may_stand<step>(v) || !facets_close<step>() || !outer_corners_suffice<step>() ||
+        if (!may_stand<step>(v) || !facets_close<step>(from_quad) || !outer_corners_suffice<step>() ||
             !open_corners_may_suffice<step>() || !quads_open<step>())
           return;
         set<step>();
@@ -81,21 +82,25 @@ class CellSearch {
     });
   }
 
-  // The vertices that may take the place of the new corner. Every edge of a cell is a side of one of its facets, so
-  // that rule 1 follows from rule 2 and from the facets.
+  // body(vertex, quad): the vertices that may take the place of the new corner, and the quad from which each comes,
+  // which it closes, or no_quad. Every edge of a cell is a side of one of its facets, so that rule 1 follows from rule
+  // 2 and from the facets.
   template <std::size_t step, class Body>
   void for_each_choice(Body&& body) {
     constexpr std::uint8_t corner = plan<step>.corner;
     if constexpr (plan<step>.closed_quads.size() > 0) {
       constexpr OpenQuad quad = plan<step>.closed_quads[0];
-      if constexpr (is_at_first(quad)) {
+      if constexpr (closes_at_first<step>()) {
+        const auto allowed = allowed_outer_edges<step, quad>();
         for (const QuadFan::Quad& found : fan_->quads_of(*pairs_[quad.quad])) {
+          if ((allowed[0] >> found.numbers[0] & allowed[1] >> found.numbers[1] & 1) == 0) continue;
           set_outer_edges<quad, corner>(found);
-          body(found.opposite);
+          body(found.opposite, quad.quad);
         }
       } else {
-        angles_[quad.quad].find_opposites(tables_.links(), found_);
-        for (const OppositeCorner& opposite : found_) body(opposite.vertex);
+        const int fewest = quad_with_fewest<step>();
+        for (const OppositeCorner& opposite : angles_[fewest].find_opposites(tables_.links(), found_))
+          body(opposite.vertex, fewest);
       }
     } else if constexpr (opens_at_first<step>()) {
       constexpr OpenQuad quad = plan<step>.opened_quads[0];
@@ -104,16 +109,47 @@ class CellSearch {
       for (const QuadFan::Partner& partner : partners_of<step, other>()) {
         places_[corner] = partner.place;
         pairs_[quad.quad] = &fan_->pair_of(partner);
-        body(neighbours[partner.place]);
+        body(neighbours[partner.place], no_quad);
       }
     } else {
       static_assert(plan<step>.is_beside_first);
       const auto neighbours = tables_.links().neighbours_of(corners_[first]);
       for (std::size_t place = exceeds<step>(first) ? fan_->first_place() : 0; place < neighbours.size(); ++place) {
         places_[corner] = static_cast<int>(place);
-        body(neighbours[place]);
+        body(neighbours[place], no_quad);
       }
     }
+  }
+
+  // Rule 3 for a quad at the first corner, on either side of it, as far as it is known by bits: the numbers of its
+  // outer edges, at the lower side and at the other.
+  template <std::size_t step, OpenQuad quad>
+  std::array<std::uint64_t, 2> allowed_outer_edges() const {
+    std::array<std::uint64_t, 2> allowed{~std::uint64_t{0}, ~std::uint64_t{0}};
+    all_of_indices<plan<step>.outer_corners.size()>([&](auto i) {
+      constexpr OuterCorner c = plan<step>.outer_corners[i];
+      static_assert(c.corner == quad.side || c.corner == quad.other_side);
+      const std::size_t side = places_[c.corner] > places_[c.corner == quad.side ? quad.other_side : quad.side];
+      if constexpr (c.end == plan<step>.corner)
+        allowed[side] &= fan_->suffices_after(outer_edges_[c.corner][c.next_end]);
+      else
+        allowed[side] &= fan_->suffices_before(outer_edges_[c.corner][c.end]);
+      return true;
+    });
+    return allowed;
+  }
+
+  // Of the quads that the new corner closes, the one away from the first corner that leaves least choice.
+  template <std::size_t step>
+  int quad_with_fewest() const {
+    int fewest = plan<step>.closed_quads[0].quad;
+    all_of_indices<plan<step>.closed_quads.size()>([&](auto i) {
+      constexpr OpenQuad quad = plan<step>.closed_quads[i];
+      if (!is_at_first(quad) && angles_[quad.quad].opposite_count() < angles_[fewest].opposite_count())
+        fewest = quad.quad;
+      return true;
+    });
+    return fewest;
   }
 
   template <std::size_t step, std::uint8_t other>
@@ -127,6 +163,12 @@ class CellSearch {
     for (std::size_t i = 0; i < plan<step>.greater.size(); ++i)
       if (plan<step>.greater[i] == corner) return true;
     return false;
+  }
+
+  // The new corner is sought opposite the first one in a quad.
+  template <std::size_t step>
+  static constexpr bool closes_at_first() {
+    return plan<step>.closed_quads.size() > 0 && is_at_first(plan<step>.closed_quads[0]);
   }
 
   // The new corner is beside the first one in a quad.
@@ -150,13 +192,14 @@ class CellSearch {
     return may;
   }
 
-  // Rule 3.
+  // Rule 3, where the choice was not made by it.
   template <std::size_t step>
-  bool outer_corners_suffice() {
-    return all_of_indices<plan<step>.outer_corners.size()>([&](auto i) {
-      constexpr OuterCorner c = plan<step>.outer_corners[i];
-      return fan_->corner_suffices(outer_edges_[c.corner][c.end], outer_edges_[c.corner][c.next_end]);
-    });
+  bool outer_corners_suffice() const {
+    return (closes_at_first<step>() && fan_->are_all_corners_judged()) ||
+           all_of_indices<plan<step>.outer_corners.size()>([&](auto i) {
+             constexpr OuterCorner c = plan<step>.outer_corners[i];
+             return fan_->corner_suffices(outer_edges_[c.corner][c.end], outer_edges_[c.corner][c.next_end]);
+           });
   }
   // A look ahead: some quad has an outer edge that goes with the one that stands now.
   template <std::size_t step>
@@ -183,14 +226,14 @@ class CellSearch {
 
   // Rules 2 and 8, and the triangles of prisms and pyramids.
   template <std::size_t step>
-  bool facets_close() {
+  bool facets_close(int from_quad) {
     return all_of_indices<plan<step>.triangles.size()>([&](auto i) {
              constexpr LocalTriangle t = plan<step>.triangles[i];
              return tables_.links().is_facet(corners_[t[0]], corners_[t[1]], corners_[t[2]]);
            }) &&
            all_of_indices<plan<step>.closed_quads.size()>([&](auto i) {
              constexpr OpenQuad quad = plan<step>.closed_quads[i];
-             return closes<quad, plan<step>.corner>(i == 0);
+             return closes<quad, plan<step>.corner>(from_quad == quad.quad);
            });
   }
 

@@ -59,30 +59,79 @@ HEXPIPE_ANY_REGISTERS void judge_corners(const Vec3& spoke, double spoke_square,
 
 }  // namespace
 
-void QuadAngle::find_opposites(const VertexLinks& links, std::vector<OppositeCorner>& found) const {
-  found.clear();
+QuadAngle::QuadAngle(const VertexLinks& links, Vertex corner, int place, int other_place)
+    : corner_(corner),
+      side_(links.neighbours_of(corner)[place]),
+      other_side_(links.neighbours_of(corner)[other_place]),
+      place_(place),
+      other_place_(other_place),
+      sides_are_linked_(links.are_linked(corner, place, other_place)),
+      is_narrow_(links.is_narrow(corner) && (!sides_are_linked_ || links.is_narrow(side_))) {
+  if (!is_narrow_) return;
+  along_ = links.links_of(corner, place) & links.links_of(corner, other_place);
+  if (sides_are_linked_) between_ = links.links_of(side_, links.place_of(other_side_, side_));
+}
+
+bool QuadAngle::has_opposite_among_many(const VertexLinks& links) const {
+  return links.have_common_link(corner_, place_, other_place_) ||
+         (sides_are_linked_ && links.link_count_exceeds_one(side_, links.place_of(other_side_, side_)));
+}
+
+bool QuadAngle::has_opposite_among_many(const VertexLinks& links, Vertex opposite) const {
+  if (const int place = links.place_of(opposite, corner_); place != VertexLinks::none &&
+                                                           links.are_linked(corner_, place_, place) &&
+                                                           links.are_linked(corner_, other_place_, place))
+    return true;
+  return sides_are_linked_ && links.is_facet(side_, other_side_, opposite);
+}
+
+// The corner itself is linked to its sides: it is among those at their other diagonal, and written over.
+std::span<const OppositeCorner> QuadAngle::find_opposites(const VertexLinks& links,
+                                                          std::vector<OppositeCorner>& memory) const {
+  if (!is_narrow_) return find_among_many(links, memory);
+  memory.resize(std::max(memory.size(), 2 * VertexLinks::most_narrow));
+  OppositeCorner* next = memory.data();
+  const auto beside_corner = links.neighbours_of(corner_), beside_side = links.neighbours_of(side_);
+  std::uint64_t along = along_, between = between_;
+  while (along != 0 && between != 0) {
+    const Vertex a = beside_corner[std::countr_zero(along)], b = beside_side[std::countr_zero(between)];
+    *next = {std::min(a, b), static_cast<Diagonals>((a <= b ? from_corner : 0) | (b <= a ? between_sides : 0))};
+    next += next->vertex != corner_ ? 1 : 0;
+    along &= along - (a <= b ? 1 : 0);
+    between &= between - (b <= a ? 1 : 0);
+  }
+  for (; along != 0; along &= along - 1) *next++ = {beside_corner[std::countr_zero(along)], from_corner};
+  for (; between != 0; between &= between - 1) {
+    *next = {beside_side[std::countr_zero(between)], between_sides};
+    next += next->vertex != corner_ ? 1 : 0;
+  }
+  return {memory.data(), next};
+}
+
+std::span<const OppositeCorner> QuadAngle::find_among_many(const VertexLinks& links,
+                                                           std::vector<OppositeCorner>& memory) const {
+  memory.clear();
   const auto neighbours = links.neighbours_of(corner_);
   links.for_each_linked_to_both(corner_, place_, other_place_, [&](int p) {
-    found.push_back({neighbours[p], from_corner});
+    memory.push_back({neighbours[p], from_corner});
   });
-  if (!sides_are_linked_) return;
+  if (!sides_are_linked_) return memory;
 
-  const bool both = !found.empty();
   const auto beside = links.neighbours_of(side_);
   links.for_each_linked(side_, links.place_of(other_side_, side_), [&](int p) {
-    if (beside[p] != corner_) found.push_back({beside[p], between_sides});
+    if (beside[p] != corner_) memory.push_back({beside[p], between_sides});
   });
-  if (!both) return;
-  std::sort(found.begin(), found.end(),
+  if (memory.empty()) return memory;
+  std::sort(memory.begin(), memory.end(),
             [](const OppositeCorner& a, const OppositeCorner& b) { return a.vertex < b.vertex; });
-  auto last = found.begin();
-  for (auto next = last + 1; next != found.end(); ++next) {
+  auto last = memory.begin();
+  for (auto next = last + 1; next != memory.end(); ++next) {
     if (last->vertex == next->vertex)
       last->diagonals = from_corner | between_sides;
     else
       *++last = *next;
   }
-  found.erase(last + 1, found.end());
+  return {memory.begin(), last + 1};
 }
 
 bool has_unfolded_diagonal(const TetMesh& mesh, const VertexLinks& links, Vertex a, Vertex b, Vertex c, Vertex d) {
@@ -103,6 +152,7 @@ void QuadFan::find(Vertex first) {
   pairs_.clear();
   outer_edges_.clear();
   slots_.assign(least_slots, none);
+  are_all_judged_ = true;
   measure_spokes();
   const int count = static_cast<int>(links_.neighbours_of(first).size());
   for (int place = first_place_; place < count; ++place)
@@ -130,8 +180,8 @@ void QuadFan::measure_spokes() {
 void QuadFan::find_between(int place, int other_place) {
   const auto neighbours = links_.neighbours_of(first_);
   const auto begin = static_cast<std::int32_t>(quads_.size());
-  QuadAngle(links_, first_, place, other_place).find_opposites(links_, found_);
-  for (const auto& [opposite, diagonals] : found_) {
+  for (const auto& [opposite, diagonals] :
+       QuadAngle(links_, first_, place, other_place).find_opposites(links_, found_)) {
     if (opposite < first_) continue;
     const std::int32_t edge = outer_edge(place, opposite), other_edge = outer_edge(other_place, opposite);
     if (!is_wanted(outer_edges_[edge], outer_edges_[other_edge]) ||
@@ -229,6 +279,7 @@ void QuadFan::judge_corners_at(const Spoke& spoke) {
   at_spoke_.clear();
   for (std::int32_t i = spoke.last; i != none; i = outer_edges_[i].before) at_spoke_.push_back(i);
   if (spoke.count > most_numbered) {
+    are_all_judged_ = false;
     for (const std::int32_t i : at_spoke_) {
       outer_edges_[i].number = most_numbered;
       outer_edges_[i].suffices_before = outer_edges_[i].suffices_after = ~std::uint64_t{0};
@@ -248,11 +299,13 @@ void QuadFan::judge_corners_at(const Spoke& spoke) {
   }
 }
 
-void QuadFan::collect_outer_edges(Pair& pair) const {
-  for (const Quad& quad : quads_of(pair))
+void QuadFan::collect_outer_edges(Pair& pair) {
+  for (Quad& quad : std::span(quads_).subspan(pair.begin, pair.end - pair.begin))
     for (std::size_t side = 0; side < 2; ++side) {
       const int number = outer_edges_[quad.outer_edges[side]].number;
-      pair.outer_edges[side] |= number < most_numbered ? std::uint64_t{1} << number : ~std::uint64_t{0};
+      const bool is_bit = number < most_numbered;
+      quad.numbers[side] = is_bit ? static_cast<std::uint8_t>(number) : 0;
+      pair.outer_edges[side] |= is_bit ? std::uint64_t{1} << number : ~std::uint64_t{0};
     }
 }
 

@@ -2,7 +2,9 @@
 // The triangulated quads of a mesh: docs/definitions.md 1, rules 2 and 8.
 
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -40,32 +42,39 @@ class QuadAngle {
  public:
   QuadAngle() = default;
   // The sides as places among the neighbours of the corner.
-  QuadAngle(const VertexLinks& links, Vertex corner, int place, int other_place)
-      : corner_(corner),
-        side_(links.neighbours_of(corner)[place]),
-        other_side_(links.neighbours_of(corner)[other_place]),
-        place_(place),
-        other_place_(other_place),
-        sides_are_linked_(links.are_linked(corner, place, other_place)) {}
+  QuadAngle(const VertexLinks& links, Vertex corner, int place, int other_place);
 
   bool has_opposite(const VertexLinks& links) const {
-    return links.have_common_link(corner_, place_, other_place_) ||
-           (sides_are_linked_ && links.link_count_exceeds_one(side_, links.place_of(other_side_, side_)));
+    return is_narrow_ ? along_ != 0 || (between_ & (between_ - 1)) != 0 : has_opposite_among_many(links);
   }
   bool has_opposite(const VertexLinks& links, Vertex opposite) const {
-    if (const int place = links.place_of(opposite, corner_); place != VertexLinks::none &&
-                                                             links.are_linked(corner_, place_, place) &&
-                                                             links.are_linked(corner_, other_place_, place))
-      return true;
-    return sides_are_linked_ && links.is_facet(side_, other_side_, opposite);
+    if (!is_narrow_) return has_opposite_among_many(links, opposite);
+    const auto is_linked = [&](std::uint64_t linked, Vertex v) {
+      if (linked == 0) return false;
+      const int place = links.place_of(opposite, v);
+      return place != VertexLinks::none && (linked >> place & 1) != 0;
+    };
+    return is_linked(along_, corner_) || is_linked(between_, side_);
   }
-  // Replaces `found` by the vertices opposite, ascending.
-  void find_opposites(const VertexLinks& links, std::vector<OppositeCorner>& found) const;
+  // How many there are, or one or two less; of vertices with many neighbours, more.
+  int opposite_count() const { return is_narrow_ ? std::popcount(along_) + std::popcount(between_) : most; }
+  // The vertices opposite, ascending; in `memory`.
+  std::span<const OppositeCorner> find_opposites(const VertexLinks& links, std::vector<OppositeCorner>& memory) const;
 
  private:
+  static constexpr int most = std::numeric_limits<int>::max();
+
+  bool has_opposite_among_many(const VertexLinks& links) const;
+  bool has_opposite_among_many(const VertexLinks& links, Vertex opposite) const;
+  std::span<const OppositeCorner> find_among_many(const VertexLinks& links, std::vector<OppositeCorner>& memory) const;
+
   Vertex corner_ = 0, side_ = 0, other_side_ = 0;
   int place_ = 0, other_place_ = 0;  // of the sides among the neighbours of the corner
   bool sides_are_linked_ = false;
+  bool is_narrow_ = true;
+  // By place at the corner, what is linked to both sides; by place at the side, what is linked to the other one, if
+  // this one is linked to it.
+  std::uint64_t along_ = 0, between_ = 0;
 };
 
 // Rules 2 and 8 for the quad with these vertices in a cycle, not all diagonals of which may be there; seen from a in
@@ -81,6 +90,7 @@ class QuadFan {
     Vertex opposite;
     std::array<std::int32_t, 2> outer_edges;  // from its two sides to the opposite vertex, the lower side first
     Diagonals diagonals;                      // seen from the first vertex
+    std::array<std::uint8_t, 2> numbers{};    // of the outer edges, each at its side
   };
   // Two neighbours of the first vertex that lie beside it in some quads.
   struct Pair {
@@ -133,6 +143,12 @@ class QuadFan {
     const OuterEdge &a = outer_edges_[outer_edge], &b = outer_edges_[next];
     return b.number < most_numbered ? (a.suffices_before >> b.number & 1) != 0 : corner_suffices(a, b);
   }
+  // By number, the outer edges that go with this one as the next at their neighbour of the first vertex, or as the one
+  // before. Where there are too many for bits they are all in, with number 0, and not all corners are judged.
+  std::uint64_t suffices_before(std::int32_t outer_edge) const { return outer_edges_[outer_edge].suffices_before; }
+  std::uint64_t suffices_after(std::int32_t outer_edge) const { return outer_edges_[outer_edge].suffices_after; }
+  bool are_all_corners_judged() const { return are_all_judged_; }
+
   // Rule 3 may hold for the corner with this outer edge and the next (or the one before) from some quad of the pair,
   // both at the same neighbour of the first vertex, which is at `side` of the pair.
   bool may_suffice_before(std::int32_t outer_edge, const Pair& pair, std::size_t side) const {
@@ -179,7 +195,7 @@ class QuadFan {
   void widen_slots();
   void number_outer_edge(std::int32_t outer_edge);
   void judge_corners_at(const Spoke& spoke);
-  void collect_outer_edges(Pair& pair) const;
+  void collect_outer_edges(Pair& pair);
   bool corner_suffices(const OuterEdge& edge, const OuterEdge& next) const;
 
   const TetMesh& mesh_;
@@ -187,6 +203,7 @@ class QuadFan {
   const QuadFilter filter_;
   Vertex first_ = 0;
   int first_place_ = 0;
+  bool are_all_judged_ = true;
   std::vector<Spoke> spokes_;  // by place, of the greater neighbours
   std::vector<OuterEdge> outer_edges_;
   std::vector<std::int32_t> slots_;  // of outer edges, a hash table at most half full

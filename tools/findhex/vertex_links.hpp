@@ -47,6 +47,11 @@ class VertexLinks {
     for_each_linked_to_both(v, i, j, [&](int) { found = true; });
     return found;
   }
+  // v has so few neighbours that its links are bits.
+  bool is_narrow(Vertex v) const { return neighbours_of(v).size() <= most_narrow; }
+  // Of such a vertex, by place: the neighbours linked to i.
+  std::uint64_t links_of(Vertex v, int i) const { return row(v, i); }
+
   // More than one neighbour of v is linked to i.
   bool link_count_exceeds_one(Vertex v, int i) const {
     return is_narrow(v) ? (row(v, i) & (row(v, i) - 1)) != 0 : wide_row(v, i).size() > 1;
@@ -86,8 +91,9 @@ class VertexLinks {
     }
   }
 
- private:
   static constexpr std::size_t most_narrow = 64;
+
+ private:
   static constexpr std::uint8_t no_place = 255;
 
   template <class Visit>
@@ -95,7 +101,6 @@ class VertexLinks {
     for (; bits != 0; bits &= bits - 1) visit(std::countr_zero(bits));
   }
 
-  bool is_narrow(Vertex v) const { return neighbours_of(v).size() <= most_narrow; }
   std::uint64_t row(Vertex v, int i) const { return rows_[adjacency_.first_neighbour_of(v) + i]; }
   static std::int64_t first_slot(Vertex w) { return static_cast<std::uint32_t>(w) * std::uint32_t{0x9e3779b9} >> 16; }
   static int place_among_many(Vertex w, std::span<const Vertex> neighbours);
