@@ -7,6 +7,7 @@
 
 #include "common/mesh/cell_topology.hpp"
 #include "common/run/error.hpp"
+#include "common/run/huge_pages.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe {
@@ -18,11 +19,32 @@ struct FiledFacet {
   std::int64_t code;
 };
 
-std::array<Vertex, 3> sorted_facet(const Tet& tet, int facet) {
-  const auto& corners = TetTopology::triangles[facet];
-  const Vertex a = tet[corners[0]], b = tet[corners[1]], c = tet[corners[2]];
-  const Vertex least = std::min({a, b, c}), greatest = std::max({a, b, c});
-  return {least, a ^ b ^ c ^ least ^ greatest, greatest};
+// The corners of a tet by ascending vertex.
+std::array<int, 4> ascending_corners(const Tet& tet) {
+  std::array<std::int64_t, 4> keys;
+  for (int corner = 0; corner < 4; ++corner) keys[corner] = std::int64_t{tet[corner]} * 4 + corner;
+  const auto order = [&](int i, int j) {
+    const std::int64_t lesser = std::min(keys[i], keys[j]);
+    keys[j] = std::max(keys[i], keys[j]);
+    keys[i] = lesser;
+  };
+  order(0, 1);
+  order(2, 3);
+  order(0, 2);
+  order(1, 3);
+  order(1, 2);
+  return {static_cast<int>(keys[0] & 3), static_cast<int>(keys[1] & 3), static_cast<int>(keys[2] & 3),
+          static_cast<int>(keys[3] & 3)};
+}
+
+// visit(lowest, middle, highest, facet), of the facets of a tet: all but the one opposite the lowest vertex have that.
+template <class Visit>
+void for_each_sorted_facet(const Tet& tet, Visit&& visit) {
+  const auto c = ascending_corners(tet);
+  visit(tet[c[0]], tet[c[1]], tet[c[2]], c[3]);
+  visit(tet[c[0]], tet[c[1]], tet[c[3]], c[2]);
+  visit(tet[c[0]], tet[c[2]], tet[c[3]], c[1]);
+  visit(tet[c[1]], tet[c[2]], tet[c[3]], c[0]);
 }
 
 // Counts become offsets: entry v holds the sum of the counts before v, the last entry the total.
@@ -35,17 +57,18 @@ std::vector<std::int64_t> offsets_from_counts(std::vector<std::int64_t> counts) 
 std::vector<std::int32_t> match_facets(const TetMesh& mesh, const char* source) {
   std::vector<std::int64_t> counts(mesh.points.size(), 0);
   for (const Tet& tet : mesh.tets)
-    for (int facet = 0; facet < 4; ++facet) ++counts[sorted_facet(tet, facet)[0]];
+    for_each_sorted_facet(tet, [&](Vertex lowest, Vertex, Vertex, int) { ++counts[lowest]; });
   const std::vector<std::int64_t> offsets = offsets_from_counts(std::move(counts));
 
-  std::vector<FiledFacet> filed(4 * mesh.tets.size());
+  std::vector<FiledFacet> filed;
+  reserve_in_huge_pages(filed, 4 * mesh.tets.size());
+  filed.resize(4 * mesh.tets.size());
   std::vector<std::int64_t> next(offsets.begin(), offsets.end() - 1);
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-    for (int facet = 0; facet < 4; ++facet) {
-      const auto v = sorted_facet(mesh.tets[t], facet);
-      filed[next[v[0]]++] = {static_cast<std::uint64_t>(v[1]) << 32 | static_cast<std::uint32_t>(v[2]),
-                             static_cast<std::int64_t>(4 * t) + facet};
-    }
+    for_each_sorted_facet(mesh.tets[t], [&](Vertex lowest, Vertex middle, Vertex highest, int facet) {
+      filed[next[lowest]++] = {static_cast<std::uint64_t>(middle) << 32 | static_cast<std::uint32_t>(highest),
+                               static_cast<std::int64_t>(4 * t) + facet};
+    });
 
   std::vector<std::int32_t> across(4 * mesh.tets.size(), TetAdjacency::none);
   parallel_for(static_cast<std::int64_t>(mesh.points.size()), 1024, [&](std::int64_t v) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/run/error.hpp"
+#include "common/run/huge_pages.hpp"
 
 namespace hexpipe {
 namespace {
@@ -69,7 +70,7 @@ void make_room(std::vector<T>& items, std::size_t added, double share_of_all) {
   constexpr double margin = 1.05;
   // No estimate makes more than an eightfold growth.
   const double whole = std::min(share_of_all < 1 ? margin / share_of_all : 1.0, 8.0) * static_cast<double>(wanted);
-  items.reserve(std::max(wanted, static_cast<std::size_t>(whole)));
+  reserve_in_huge_pages(items, std::max(wanted, static_cast<std::size_t>(whole)));
 }
 
 template <class T>

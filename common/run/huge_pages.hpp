@@ -1,0 +1,20 @@
+#pragma once
+// Large arrays in large pages: the first touch of a page costs as much as many numbers, and a page of 2 MiB no more
+// than a few of 4 KiB. Arrays below that, and systems that have none, lose nothing.
+
+#include <cstddef>
+#include <vector>
+
+namespace hexpipe {
+
+// Asks the system for large pages where the memory has not been touched yet.
+void use_huge_pages(void* memory, std::size_t bytes);
+
+template <class T>
+void reserve_in_huge_pages(std::vector<T>& items, std::size_t count) {
+  if (count <= items.capacity()) return;
+  items.reserve(count);
+  use_huge_pages(items.data() + items.size(), (count - items.size()) * sizeof(T));
+}
+
+}  // namespace hexpipe
