@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -61,8 +62,8 @@ class CellSearch {
     } else {
       for_each_choice<step>([&](Vertex v, int from_quad) {
         corners_[plan<step>.corner] = v;
-        if (!may_stand<step>(v) || !facets_close<step>(from_quad) || !outer_corners_suffice<step>() ||
-            !open_corners_may_suffice<step>() || !quads_open<step>())
+        if ((!closes_at_first<step>() && !may_stand<step>(v)) || !facets_close<step>(from_quad) ||
+            !outer_corners_suffice<step>() || !quads_open<step>())
           return;
         set<step>();
         if (corners_suffice<step>()) place<step + 1>();
@@ -91,11 +92,14 @@ class CellSearch {
     if constexpr (plan<step>.closed_quads.size() > 0) {
       constexpr OpenQuad quad = plan<step>.closed_quads[0];
       if constexpr (closes_at_first<step>()) {
-        const auto allowed = allowed_outer_edges<step, quad>();
-        for (const QuadFan::Quad& found : fan_->quads_of(*pairs_[quad.quad])) {
-          if ((allowed[0] >> found.numbers[0] & allowed[1] >> found.numbers[1] & 1) == 0) continue;
-          set_outer_edges<quad, corner>(found);
-          body(found.opposite, quad.quad);
+        for (auto quads = fan_->quads_of(*pairs_[quad.quad]); !quads.empty();) {
+          const auto some = quads.first(std::min<std::size_t>(quads.size(), 64));
+          quads = quads.subspan(some.size());
+          for (std::uint64_t bits = choosable<step, quad>(some); bits != 0; bits &= bits - 1) {
+            const QuadFan::Quad& found = some[std::countr_zero(bits)];
+            set_outer_edges<quad, corner>(found);
+            body(found.opposite, quad.quad);
+          }
         }
       } else {
         const int fewest = quad_with_fewest<step>();
@@ -121,22 +125,36 @@ class CellSearch {
     }
   }
 
-  // Rule 3 for a quad at the first corner, on either side of it, as far as it is known by bits: the numbers of its
-  // outer edges, at the lower side and at the other.
+  // Of up to 64 quads at the first corner, as bits, those whose vertex may stand opposite, and whose outer edges go
+  // with those that stand (rule 3) and with some of each pair where one is to come. Which these are is hard to foresee:
+  // all is computed for all, without branches.
   template <std::size_t step, OpenQuad quad>
-  std::array<std::uint64_t, 2> allowed_outer_edges() const {
+  std::uint64_t choosable(std::span<const QuadFan::Quad> quads) const {
+    const auto side_of = [&](std::uint8_t corner) -> std::size_t {
+      return places_[corner] > places_[corner == quad.side ? quad.other_side : quad.side] ? 1 : 0;
+    };
     std::array<std::uint64_t, 2> allowed{~std::uint64_t{0}, ~std::uint64_t{0}};
     all_of_indices<plan<step>.outer_corners.size()>([&](auto i) {
       constexpr OuterCorner c = plan<step>.outer_corners[i];
-      static_assert(c.corner == quad.side || c.corner == quad.other_side);
-      const std::size_t side = places_[c.corner] > places_[c.corner == quad.side ? quad.other_side : quad.side];
       if constexpr (c.end == plan<step>.corner)
-        allowed[side] &= fan_->suffices_after(outer_edges_[c.corner][c.next_end]);
+        allowed[side_of(c.corner)] &= fan_->suffices_after(outer_edges_[c.corner][c.next_end]);
       else
-        allowed[side] &= fan_->suffices_before(outer_edges_[c.corner][c.end]);
+        allowed[side_of(c.corner)] &= fan_->suffices_before(outer_edges_[c.corner][c.end]);
       return true;
     });
-    return allowed;
+    std::uint64_t bits = 0;
+    for (std::size_t q = 0; q < quads.size(); ++q) {
+      const QuadFan::Quad& found = quads[q];
+      bool may = may_stand<step>(found.opposite);
+      all_of_indices<plan<step>.open_corners.size()>([&](auto i) {
+        constexpr OpenCorner open = plan<step>.open_corners[i];
+        may &= open_corner_may_suffice<open>(found.outer_edges[side_of(open.corner.corner)]);
+        return true;
+      });
+      const std::uint64_t go_with_all = allowed[0] >> found.numbers[0] & allowed[1] >> found.numbers[1];
+      bits |= (go_with_all & (may ? 1 : 0)) << q;
+    }
+    return bits;
   }
 
   // Of the quads that the new corner closes, the one away from the first corner that leaves least choice.
@@ -202,16 +220,12 @@ class CellSearch {
            });
   }
   // A look ahead: some quad has an outer edge that goes with the one that stands now.
-  template <std::size_t step>
-  bool open_corners_may_suffice() {
-    return all_of_indices<plan<step>.open_corners.size()>([&](auto i) {
-      constexpr OpenCorner open = plan<step>.open_corners[i];
-      const QuadFan::Pair& pair = *pairs_[open.quad];
-      const std::size_t side = pair.places[0] == places_[open.corner.corner] ? 0 : 1;
-      const auto& outer_edges = outer_edges_[open.corner.corner];
-      if constexpr (open.next_is_open) return fan_->may_suffice_before(outer_edges[open.corner.end], pair, side);
-      return fan_->may_suffice_after(outer_edges[open.corner.next_end], pair, side);
-    });
+  template <OpenCorner open>
+  bool open_corner_may_suffice(std::int32_t outer_edge) const {
+    const QuadFan::Pair& pair = *pairs_[open.quad];
+    const std::size_t side = pair.places[0] == places_[open.corner.corner] ? 0 : 1;
+    if constexpr (open.next_is_open) return fan_->may_suffice_before(outer_edge, pair, side);
+    return fan_->may_suffice_after(outer_edge, pair, side);
   }
   template <std::size_t step>
   bool corners_suffice() const {
