@@ -53,7 +53,7 @@ inline LaneMask scaled_jacobian_exceeds(const Lanes& determinant, const Lanes& s
   return determinant * absolute(determinant) > threshold * threshold * squared_lengths;
 }
 
-struct CellMeasures {
+struct alignas(lane_bytes) CellMeasures {
   Lanes quality;  // least_corner_scaled_jacobian_of
   Lanes volume;
 };

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -29,7 +30,10 @@ using Lanes [[gnu::vector_size(lane_count * sizeof(double))]] = double;
 // Of a comparison: all bits of a lane where it holds, else none.
 using LaneMask [[gnu::vector_size(lane_count * sizeof(std::int64_t))]] = std::int64_t;
 
-struct LaneVector {
+// Where functions for wide registers find lanes, these are aligned for them, which others would not see to.
+inline constexpr std::size_t lane_bytes = lane_count * sizeof(double);
+
+struct alignas(lane_bytes) LaneVector {
   Lanes x{}, y{}, z{};
 };
 
@@ -79,6 +83,13 @@ inline Lanes square_root(const Lanes& a) {
   Lanes result;
   for (int lane = 0; lane < lane_count; ++lane) result[lane] = std::sqrt(a[lane]);
   return result;
+}
+
+// Bit i where lane i is set.
+inline std::uint32_t bits_of(const LaneMask& mask) {
+  std::uint32_t bits = 0;
+  for (int lane = 0; lane < lane_count; ++lane) bits |= static_cast<std::uint32_t>(mask[lane] & 1) << lane;
+  return bits;
 }
 
 // The corners of several cells, each as many as the first has, corner by corner.

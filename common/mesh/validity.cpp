@@ -177,11 +177,10 @@ LaneMask are_surely_valid(const HexTangents<LaneVector>& tangents, const LaneVec
   return sure;
 }
 
-HEXPIPE_ANY_REGISTERS void find_surely_valid_parts(const std::array<LaneVector, 8>& parts, int subdivisions,
-                                                   LaneMask& surely_valid) {
+HEXPIPE_ANY_REGISTERS std::uint32_t surely_valid_parts(const std::array<LaneVector, 8>& parts, int subdivisions) {
   const HexTangents<LaneVector> tangents(parts);
   const LaneVector extent = extent_of(tangents);
-  surely_valid = are_surely_valid(tangents, extent, roundings_of(parts, extent, subdivisions));
+  return bits_of(are_surely_valid(tangents, extent, roundings_of(parts, extent, subdivisions)));
 }
 
 Answer judge_in_doubles(const RelativeHex& hex, int subdivisions = 0) {
@@ -204,10 +203,9 @@ Answer judge_in_doubles(const RelativeHex& hex, int subdivisions = 0) {
   if (subdivisions == max_subdivisions) return Answer::unsure;
   const auto parts = split(hex);
   static_assert(parts.size() == lane_count);
-  LaneMask surely_valid;
-  find_surely_valid_parts(side_by_side(parts), subdivisions + 1, surely_valid);
+  const std::uint32_t surely_valid = surely_valid_parts(side_by_side(parts), subdivisions + 1);
   for (int part = 0; part < lane_count; ++part) {
-    if (surely_valid[part] != 0) continue;
+    if ((surely_valid >> part & 1) != 0) continue;
     const Answer one = judge_in_doubles(parts[part], subdivisions + 1);
     if (one == Answer::no) return one;
     if (one == Answer::unsure) answer = one;
@@ -261,9 +259,9 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 }
 
 // The tangents are differences of the points themselves, each rounded once.
-HEXPIPE_ANY_REGISTERS void find_surely_valid_hexes(const std::array<LaneVector, 8>& corners, LaneMask& surely_valid) {
+HEXPIPE_ANY_REGISTERS std::uint32_t surely_valid_hexes(const std::array<LaneVector, 8>& corners) {
   const HexTangents<LaneVector> tangents(corners);
-  surely_valid = are_surely_valid(tangents, extent_of(tangents), ErrorBound::roundings);
+  return bits_of(are_surely_valid(tangents, extent_of(tangents), ErrorBound::roundings));
 }
 
 bool is_valid(CellKind kind, std::span<const Vec3> corners) {

@@ -3,6 +3,7 @@
 // where they cannot tell.
 
 #include <array>
+#include <cstdint>
 #include <span>
 
 #include "common/mesh/cell_topology.hpp"
@@ -23,8 +24,8 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 // four base corners, times a square.
 bool is_valid(CellKind kind, std::span<const Vec3> corners);
 
-// Hexes side by side: those whose 20 determinants and 27 coefficients are positive for sure, as most are, are valid;
-// the others may be.
-void find_surely_valid_hexes(const std::array<LaneVector, 8>& corners, LaneMask& surely_valid);
+// Hexes side by side, a bit for each: those whose 20 determinants and 27 coefficients are positive for sure, as most
+// are, are valid; the others may be.
+std::uint32_t surely_valid_hexes(const std::array<LaneVector, 8>& corners);
 
 }  // namespace hexpipe

@@ -151,12 +151,13 @@ TEST_P(Links, FansKnowWhichCornersSuffice) {
   const auto neighbours = links.neighbours_of(0);
   const auto from = [&](int place, Vertex end) { return mesh.points[end] - mesh.points[neighbours[place]]; };
   std::size_t quads = 0, sufficient = 0;
-  for (int place = fan.first_place(); place < static_cast<int>(neighbours.size()); ++place)
-    for (const auto& partner : fan.partners_of(place))
-      for (const auto& other : fan.partners_of(place)) {
-        const auto &pair = fan.pair_of(partner), &other_pair = fan.pair_of(other);
-        EXPECT_EQ(&pair, fan.find_pair(place, partner.place));
-        EXPECT_EQ(&pair, fan.find_pair(partner.place, place));
+  const int end = std::min(static_cast<int>(neighbours.size()), fan.first_place() + 70);
+  for (int place = fan.first_place(); place < end; ++place)
+    for (int partner = fan.first_place(); partner < end; ++partner)
+      for (int other = fan.first_place(); other < end; ++other) {
+        if (fan.find_pair(place, partner) == nullptr || fan.find_pair(place, other) == nullptr) continue;
+        const auto &pair = *fan.find_pair(place, partner), &other_pair = *fan.find_pair(place, other);
+        EXPECT_EQ(&pair, fan.find_pair(partner, place));
         const std::size_t side = pair.places[0] == place ? 0 : 1, other_side = other_pair.places[0] == place ? 0 : 1;
         for (const auto& quad : fan.quads_of(pair))
           for (const auto& other_quad : fan.quads_of(other_pair)) {
@@ -175,6 +176,32 @@ TEST_P(Links, FansKnowWhichCornersSuffice) {
           }
       }
   EXPECT_GT(quads, sufficient);
+  EXPECT_GT(sufficient, 0u);
+}
+
+TEST_P(Links, FansKnowTheCornersAtTheirVertex) {
+  constexpr double min_quality = 0.1;
+  QuadFan fan(mesh, links, {min_quality, false});
+  fan.find(0);
+  const auto neighbours = links.neighbours_of(0);
+  const auto to = [&](int place) { return mesh.points[neighbours[place]] - mesh.points[0]; };
+  const auto bit = [&](auto&& bits, int place) {
+    const int spoke = place - fan.first_place();
+    return (bits(static_cast<std::size_t>(spoke) / 64) >> spoke % 64 & 1) != 0;
+  };
+  std::size_t sufficient = 0;
+  for (int a = fan.first_place(); a < static_cast<int>(neighbours.size()); ++a)
+    for (int b = fan.first_place(); b < static_cast<int>(neighbours.size()); ++b) {
+      const auto partners = [&](std::size_t word) { return fan.partners_of(a, word); };
+      ASSERT_EQ(bit(partners, b), fan.find_pair(a, b) != nullptr);
+      ASSERT_EQ(bit([&](std::size_t word) { return fan.greater_than(a, word); }, b), b > a);
+      const auto thirds = [&](std::size_t word) { return fan.third_edges(a, b, word); };
+      for (int c = fan.first_place(); c < static_cast<int>(neighbours.size()); c += 3) {
+        const bool suffices = scaled_jacobian_exceeds(to(a), to(b), to(c), min_quality);
+        ASSERT_EQ(bit(thirds, c), suffices);
+        sufficient += suffices ? 1 : 0;
+      }
+    }
   EXPECT_GT(sufficient, 0u);
 }
 

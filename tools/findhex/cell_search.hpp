@@ -107,14 +107,12 @@ class CellSearch {
           body(opposite.vertex, fewest);
       }
     } else if constexpr (opens_at_first<step>()) {
-      constexpr OpenQuad quad = plan<step>.opened_quads[0];
-      constexpr std::uint8_t other = quad.side == corner ? quad.other_side : quad.side;
       const auto neighbours = tables_.links().neighbours_of(corners_[first]);
-      for (const QuadFan::Partner& partner : partners_of<step, other>()) {
-        places_[corner] = partner.place;
-        pairs_[quad.quad] = &fan_->pair_of(partner);
-        body(neighbours[partner.place], no_quad);
-      }
+      for (std::size_t word = 0; word < fan_->word_count(); ++word)
+        for (std::uint64_t bits = choosable_neighbours<step>(word); bits != 0; bits &= bits - 1) {
+          places_[corner] = fan_->first_place() + static_cast<int>(64 * word) + std::countr_zero(bits);
+          body(neighbours[places_[corner]], no_quad);
+        }
     } else {
       static_assert(plan<step>.is_beside_first);
       const auto neighbours = tables_.links().neighbours_of(corners_[first]);
@@ -170,10 +168,28 @@ class CellSearch {
     return fewest;
   }
 
-  template <std::size_t step, std::uint8_t other>
-  auto partners_of() const {
-    if constexpr (exceeds<step>(other)) return fan_->partners_above(places_[other]);
-    return fan_->partners_of(places_[other]);
+  // Of the neighbours of the first vertex, 64 to a word, those that are beside it in some quad with each other side
+  // that stands, and go with two others at the first corner (rule 3) where they complete it.
+  template <std::size_t step>
+  std::uint64_t choosable_neighbours(std::size_t word) const {
+    constexpr std::uint8_t corner = plan<step>.corner;
+    std::uint64_t bits = ~std::uint64_t{0};
+    all_of_indices<plan<step>.opened_quads.size()>([&](auto i) {
+      constexpr OpenQuad quad = plan<step>.opened_quads[i];
+      constexpr std::uint8_t other = quad.side == corner ? quad.other_side : quad.side;
+      if constexpr (is_at_first(quad)) bits &= fan_->partners_of(places_[other], word);
+      if constexpr (is_at_first(quad) && exceeds<step>(other)) bits &= fan_->greater_than(places_[other], word);
+      return true;
+    });
+    all_of_indices<plan<step>.corners.size()>([&](auto i) {
+      constexpr LocalCorner c = plan<step>.corners[i];
+      if constexpr (c[0] == first) {
+        static_assert(c[3] == corner);
+        bits &= fan_->third_edges(places_[c[1]], places_[c[2]], word);
+      }
+      return true;
+    });
+    return bits;
   }
 
   template <std::size_t step>
@@ -230,6 +246,7 @@ class CellSearch {
   template <std::size_t step>
   bool corners_suffice() const {
     return all_of_indices<plan<step>.corners.size()>([&](auto i) {
+      if (opens_at_first<step>() && plan<step>.corners[i][0] == first) return true;  // it was chosen by that
       constexpr CornerEdges c = corner_edges<Topology>(plan<step>.corners[i]);
       const double determinant = det(edges_[c.edges[0]], edges_[c.edges[1]], edges_[c.edges[2]]);
       return scaled_jacobian_exceeds(c.is_turned ? -determinant : determinant,
@@ -256,7 +273,7 @@ class CellSearch {
   bool quads_open() {
     return all_of_indices<plan<step>.opened_quads.size()>([&](auto i) {
       constexpr OpenQuad quad = plan<step>.opened_quads[i];
-      return (i == 0 && opens_at_first<step>()) || opens<quad>();
+      return opens<quad>();
     });
   }
 

@@ -54,14 +54,14 @@ class CandidateCollector {
   // Of those that wait; lanes beyond hold what was there before.
   void judge() {
     const auto points = side_by_side(points_);
-    LaneMask surely_valid{};
-    if constexpr (Topology::kind == CellKind::hex) find_surely_valid_hexes(points, surely_valid);
+    std::uint32_t surely_valid = 0;
+    if constexpr (Topology::kind == CellKind::hex) surely_valid = surely_valid_hexes(points);
     CellMeasures measures;
     measure_cells(points, measures);
     const int count = std::exchange(waiting_, 0);
     for (int lane = 0; lane < count; ++lane) {
       ++found_.counts.complete;
-      if (surely_valid[lane] == 0 && !is_valid(Topology::kind, points_[lane])) {
+      if ((surely_valid >> lane & 1) == 0 && !is_valid(Topology::kind, points_[lane])) {
         ++found_.counts.invalid;
         continue;
       }

@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cstring>
-#include <numeric>
 #include <utility>
 
 #include "common/mesh/cell_measures.hpp"
@@ -17,30 +16,11 @@ namespace {
 // The angles are a filter before the test of the corners, so its rounding must not reject what that one accepts.
 constexpr double filter_slack = 1 - 1e-9;
 
-// Up to 64 edges from one vertex, side by side.
-constexpr int most_in_row = 64;
-struct OuterEdgeRow {
-  std::array<LaneVector, most_in_row / lane_count> vectors;
-  std::array<Lanes, most_in_row / lane_count> squares;
-  int size = 0;
+// By edge of a row: bits of those with which rule 3 holds for the corner that begins with a spoke and this edge.
+using CornerBits = std::array<std::uint64_t, EdgeRow::most>;
 
-  void add(const Vec3& vector, double square) {
-    LaneVector& vectors_there = vectors[size / lane_count];
-    const int lane = size % lane_count;
-    vectors_there.x[lane] = vector.x;
-    vectors_there.y[lane] = vector.y;
-    vectors_there.z[lane] = vector.z;
-    squares[size / lane_count][lane] = square;
-    ++size;
-  }
-};
-
-// By edge of a row: bits of those with which rule 3 holds for the corner that begins with a spoke and this edge. Lanes
-// behind the row's end hold anything.
-using CornerBits = std::array<std::uint64_t, most_in_row>;
-
-HEXPIPE_ANY_REGISTERS void judge_corners(const Vec3& spoke, double spoke_square, const OuterEdgeRow& row,
-                                         double min_quality, CornerBits& suffices) {
+HEXPIPE_ANY_REGISTERS void judge_corners(const Vec3& spoke, double spoke_square, const EdgeRow& row, double min_quality,
+                                         CornerBits& suffices) {
   for (int begin = 0; begin < row.size; begin += lane_count) {
     const LaneVector normals = cross(spoke, row.vectors[begin / lane_count]);
     const Lanes squares = spoke_square * row.squares[begin / lane_count];
@@ -55,6 +35,19 @@ HEXPIPE_ANY_REGISTERS void judge_corners(const Vec3& spoke, double spoke_square,
     }
     std::memcpy(&suffices[begin], &bits, sizeof bits);
   }
+}
+
+// The edges of a row that may be the third at a corner, as bits.
+HEXPIPE_ANY_REGISTERS std::uint64_t judge_third_edges(const Vec3& edge, const Vec3& next, double two_squares,
+                                                      const EdgeRow& row, double min_quality) {
+  std::uint64_t suffices = 0;
+  for (int begin = 0; begin < row.size; begin += lane_count) {
+    const Lanes determinants = dot(cross(next, row.vectors[begin / lane_count]), edge);
+    const LaneMask enough =
+        scaled_jacobian_exceeds(determinants, two_squares * row.squares[begin / lane_count], min_quality);
+    suffices |= std::uint64_t{bits_of(enough)} << begin;
+  }
+  return row.size < EdgeRow::most ? suffices & ((std::uint64_t{1} << row.size) - 1) : suffices;
 }
 
 }  // namespace
@@ -160,7 +153,6 @@ void QuadFan::find(Vertex first) {
       const Spoke &a = spokes_[place - first_place_], &b = spokes_[other_place - first_place_];
       if (angle_suffices(a.vector, a.square, b.vector, b.square)) find_between(place, other_place);
     });
-  file_pairs(static_cast<std::size_t>(count));
   table_pairs();
   for (const Spoke& spoke : spokes_) judge_corners_at(spoke);
   for (Pair& pair : pairs_) collect_outer_edges(pair);
@@ -171,9 +163,13 @@ void QuadFan::measure_spokes() {
   const auto greater = std::upper_bound(neighbours.begin(), neighbours.end(), first_);
   first_place_ = static_cast<int>(greater - neighbours.begin());
   spokes_.clear();
+  spoke_rows_.clear();
   for (auto neighbour = greater; neighbour != neighbours.end(); ++neighbour) {
     const Vec3 vector = mesh_.points[*neighbour] - mesh_.points[first_];
-    spokes_.push_back({vector, norm_squared(vector)});
+    const double square = norm_squared(vector);
+    if (spokes_.size() % EdgeRow::most == 0) spoke_rows_.emplace_back();
+    spokes_.push_back({vector, square});
+    spoke_rows_.back().add(vector, square);
   }
 }
 
@@ -196,31 +192,22 @@ void QuadFan::find_between(int place, int other_place) {
   if (begin < end) pairs_.push_back({{place, other_place}, begin, end});
 }
 
-// Each pair is filed under both; pairs ascend, so the partners do.
-void QuadFan::file_pairs(std::size_t neighbour_count) {
-  offsets_.assign(neighbour_count + 1, 0);
-  for (const Pair& pair : pairs_)
-    for (const int place : pair.places) ++offsets_[place];
-  std::exclusive_scan(offsets_.begin(), offsets_.end(), offsets_.begin(), 0);
-  partners_.resize(2 * pairs_.size());
-  const auto file = [&](std::size_t side) {
-    for (std::size_t i = 0; i < pairs_.size(); ++i)
-      partners_[offsets_[pairs_[i].places[side]]++] = {pairs_[i].places[1 - side], static_cast<std::int32_t>(i)};
-  };
-  file(1);
-  middles_.assign(offsets_.begin(), offsets_.end() - 1);
-  file(0);
-  std::copy_backward(offsets_.begin(), offsets_.end() - 1, offsets_.end());
-  offsets_.front() = 0;
-}
-
 void QuadFan::table_pairs() {
-  if (spokes_.size() > most_tabled) return;
-  pair_of_spokes_.assign(spokes_.size() * spokes_.size(), none);
+  const std::size_t count = spokes_.size(), words = word_count();
+  partner_bits_.assign(count * words, 0);
+  if (count <= most_tabled) pair_of_spokes_.assign(count * count, none);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const std::size_t a = pairs_[i].places[0] - first_place_, b = pairs_[i].places[1] - first_place_;
-    pair_of_spokes_[a * spokes_.size() + b] = pair_of_spokes_[b * spokes_.size() + a] = static_cast<std::int32_t>(i);
+    partner_bits_[a * words + b / 64] |= std::uint64_t{1} << b % 64;
+    partner_bits_[b * words + a / 64] |= std::uint64_t{1} << a % 64;
+    if (count <= most_tabled)
+      pair_of_spokes_[a * count + b] = pair_of_spokes_[b * count + a] = static_cast<std::int32_t>(i);
   }
+}
+
+std::uint64_t QuadFan::third_edges(int place, int next_place, std::size_t word) const {
+  const Spoke &edge = spokes_[place - first_place_], &next = spokes_[next_place - first_place_];
+  return judge_third_edges(edge.vector, next.vector, edge.square * next.square, spoke_rows_[word], filter_.min_quality);
 }
 
 bool QuadFan::is_wanted(const OuterEdge& edge, const OuterEdge& other_edge) const {
@@ -287,7 +274,7 @@ void QuadFan::judge_corners_at(const Spoke& spoke) {
     return;
   }
   std::reverse(at_spoke_.begin(), at_spoke_.end());
-  OuterEdgeRow row;
+  EdgeRow row;
   for (const std::int32_t i : at_spoke_) row.add(outer_edges_[i].vector, outer_edges_[i].square);
   CornerBits suffices_before;
   judge_corners(spoke.vector, spoke.square, row, filter_.min_quality, suffices_before);
@@ -316,10 +303,11 @@ bool QuadFan::corner_suffices(const OuterEdge& edge, const OuterEdge& next) cons
 }
 
 auto QuadFan::find_pair_among_many(int place, int other_place) const -> const Pair* {
-  const auto partners = partners_of(place);
-  const auto at = std::lower_bound(partners.begin(), partners.end(), other_place,
-                                   [](const Partner& partner, int wanted) { return partner.place < wanted; });
-  return at != partners.end() && at->place == other_place ? &pair_of(*at) : nullptr;
+  const std::array<int, 2> wanted{std::min(place, other_place), std::max(place, other_place)};
+  const auto at =
+      std::lower_bound(pairs_.begin(), pairs_.end(), wanted,
+                       [](const Pair& pair, const std::array<int, 2>& places) { return pair.places < places; });
+  return at != pairs_.end() && at->places == wanted ? &*at : nullptr;
 }
 
 }  // namespace hexpipe

@@ -1,6 +1,7 @@
 #pragma once
 // The triangulated quads of a mesh: docs/definitions.md 1, rules 2 and 8.
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/mesh/lanes.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/findhex/vertex_links.hpp"
 
@@ -82,6 +84,25 @@ class QuadAngle {
 bool has_unfolded_diagonal(const TetMesh& mesh, const VertexLinks& links, Vertex a, Vertex b, Vertex c, Vertex d);
 bool has_unfolded_diagonal(const TetMesh& mesh, Diagonals diagonals, Vertex a, Vertex b, Vertex c, Vertex d);
 
+// Up to 64 edges from one vertex, side by side. Lanes behind the last hold anything.
+struct alignas(lane_bytes) EdgeRow {
+  static constexpr int most = 64;
+
+  std::array<LaneVector, most / lane_count> vectors;
+  std::array<Lanes, most / lane_count> squares;  // of their lengths
+  int size = 0;
+
+  void add(const Vec3& vector, double square) {
+    LaneVector& vectors_there = vectors[size / lane_count];
+    const int lane = size % lane_count;
+    vectors_there.x[lane] = vector.x;
+    vectors_there.y[lane] = vector.y;
+    vectors_there.z[lane] = vector.z;
+    squares[size / lane_count][lane] = square;
+    ++size;
+  }
+};
+
 // The quads of which one vertex, the first, is the least: found once and used by all cells that have it as corner 0. An
 // outer edge is a side of such quads that does not meet the first vertex.
 class QuadFan {
@@ -98,12 +119,6 @@ class QuadFan {
     std::int32_t begin, end;                     // of the quads
     std::array<std::uint64_t, 2> outer_edges{};  // of the quads, at either one: bits by number
   };
-  // A pair as one of the two sees the other.
-  struct Partner {
-    int place;
-    std::int32_t pair;
-  };
-
   QuadFan(const TetMesh& mesh, const VertexLinks& links, const QuadFilter& filter)
       : mesh_(mesh), links_(links), filter_(filter) {}
 
@@ -112,15 +127,20 @@ class QuadFan {
 
   // The places of the neighbours of the first vertex that are greater begin here.
   int first_place() const { return first_place_; }
-  // Ascending by place.
-  std::span<const Partner> partners_of(int place) const {
-    return std::span(partners_).subspan(offsets_[place], offsets_[place + 1] - offsets_[place]);
+  // The greater neighbours as bits, from that place on, 64 to a word.
+  std::size_t word_count() const { return (spokes_.size() + 63) / 64; }
+  // Those with which a neighbour makes a pair.
+  std::uint64_t partners_of(int place, std::size_t word) const {
+    return partner_bits_[(place - first_place_) * word_count() + word];
   }
   // Those at greater places.
-  std::span<const Partner> partners_above(int place) const {
-    return std::span(partners_).subspan(middles_[place], offsets_[place + 1] - middles_[place]);
+  std::uint64_t greater_than(int place, std::size_t word) const {
+    const int before = place + 1 - first_place_ - static_cast<int>(64 * word);
+    return before >= 64 ? 0 : ~std::uint64_t{0} << std::max(before, 0);
   }
-  const Pair& pair_of(const Partner& partner) const { return pairs_[partner.pair]; }
+  // Those for which rule 3 holds at the first vertex, with edges to two of its neighbours and to them in the positive
+  // sense.
+  std::uint64_t third_edges(int place, int next_place, std::size_t word) const;
   // The pair of these two neighbours, or nullptr where the first vertex lies between them in no quad.
   const Pair* find_pair(int place, int other_place) const {
     if (spokes_.size() > most_tabled) return find_pair_among_many(place, other_place);
@@ -185,7 +205,6 @@ class QuadFan {
 
   void measure_spokes();
   void find_between(int place, int other_place);
-  void file_pairs(std::size_t neighbour_count);
   void table_pairs();
   const Pair* find_pair_among_many(int place, int other_place) const;
   bool is_wanted(const OuterEdge& edge, const OuterEdge& other_edge) const;
@@ -204,15 +223,14 @@ class QuadFan {
   Vertex first_ = 0;
   int first_place_ = 0;
   bool are_all_judged_ = true;
-  std::vector<Spoke> spokes_;  // by place, of the greater neighbours
+  std::vector<Spoke> spokes_;        // by place, of the greater neighbours
+  std::vector<EdgeRow> spoke_rows_;  // the same, 64 to a row
   std::vector<OuterEdge> outer_edges_;
   std::vector<std::int32_t> slots_;  // of outer edges, a hash table at most half full
   std::vector<Quad> quads_;
   std::vector<Pair> pairs_;                   // ascending by place
   std::vector<std::int32_t> pair_of_spokes_;  // by both, where there are not many
-  std::vector<std::int32_t> offsets_;         // neighbours + 1
-  std::vector<std::int32_t> middles_;         // where the partners at greater places begin
-  std::vector<Partner> partners_;
+  std::vector<std::uint64_t> partner_bits_;   // word_count() for each spoke
   std::vector<OppositeCorner> found_;
   std::vector<std::int32_t> at_spoke_;
 };
