@@ -51,10 +51,12 @@ void MeshTables::for_each_tet_at(const Triangle& facet, Visit&& visit) const {
   auto tets = adjacency_.tets_at(facet[0]);
   for (const Vertex v : facet)
     if (const auto others = adjacency_.tets_at(v); others.size() < tets.size()) tets = others;
+  const auto has = [](const Tet& tet, Vertex v) {
+    return (tet[0] == v) | (tet[1] == v) | (tet[2] == v) | (tet[3] == v);
+  };
   for (const std::int32_t t : tets) {
-    int shared = 0;
-    for (const Vertex v : mesh_.tets[t]) shared += static_cast<int>(v == facet[0]) + (v == facet[1]) + (v == facet[2]);
-    if (shared == 3) visit(t, facet_of(mesh_.tets[t], facet));
+    const Tet& tet = mesh_.tets[t];
+    if (has(tet, facet[0]) && has(tet, facet[1]) && has(tet, facet[2])) visit(t, facet_of(tet, facet));
   }
 }
 

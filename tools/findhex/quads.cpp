@@ -163,13 +163,14 @@ void QuadFan::measure_spokes() {
   const auto greater = std::upper_bound(neighbours.begin(), neighbours.end(), first_);
   first_place_ = static_cast<int>(greater - neighbours.begin());
   spokes_.clear();
-  spoke_rows_.clear();
   for (auto neighbour = greater; neighbour != neighbours.end(); ++neighbour) {
     const Vec3 vector = mesh_.points[*neighbour] - mesh_.points[first_];
     const double square = norm_squared(vector);
-    if (spokes_.size() % EdgeRow::most == 0) spoke_rows_.emplace_back();
+    const std::size_t row = spokes_.size() / EdgeRow::most;
+    if (row == spoke_rows_.size()) spoke_rows_.emplace_back();
+    if (spokes_.size() % EdgeRow::most == 0) spoke_rows_[row].size = 0;
     spokes_.push_back({vector, square});
-    spoke_rows_.back().add(vector, square);
+    spoke_rows_[row].add(vector, square);
   }
 }
 
@@ -274,15 +275,19 @@ void QuadFan::judge_corners_at(const Spoke& spoke) {
     return;
   }
   std::reverse(at_spoke_.begin(), at_spoke_.end());
-  EdgeRow row;
-  for (const std::int32_t i : at_spoke_) row.add(outer_edges_[i].vector, outer_edges_[i].square);
-  CornerBits suffices_before;
-  judge_corners(spoke.vector, spoke.square, row, filter_.min_quality, suffices_before);
-  for (int number = 0; number < row.size; ++number) {
-    const std::uint64_t others = suffices_before[number] & ~(std::uint64_t{1} << number);
-    outer_edges_[at_spoke_[number]].suffices_before = others;
-    for (std::uint64_t bits = others; bits != 0; bits &= bits - 1)
-      outer_edges_[at_spoke_[std::countr_zero(bits)]].suffices_after |= std::uint64_t{1} << number;
+  row_.size = 0;
+  for (const std::int32_t i : at_spoke_) row_.add(outer_edges_[i].vector, outer_edges_[i].square);
+  CornerBits before, after{};
+  judge_corners(spoke.vector, spoke.square, row_, filter_.min_quality, before);
+  for (int number = 0; number < row_.size; ++number) {
+    before[number] &= ~(std::uint64_t{1} << number);
+    for (std::uint64_t bits = before[number]; bits != 0; bits &= bits - 1)
+      after[std::countr_zero(bits)] |= std::uint64_t{1} << number;
+  }
+  for (int number = 0; number < row_.size; ++number) {
+    OuterEdge& edge = outer_edges_[at_spoke_[number]];
+    edge.suffices_before = before[number];
+    edge.suffices_after = after[number];
   }
 }
 

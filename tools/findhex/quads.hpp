@@ -59,12 +59,20 @@ class QuadAngle {
     return is_linked(along_, corner_) || is_linked(between_, side_);
   }
   // How many there are, or one or two less; of vertices with many neighbours, more.
-  int opposite_count() const { return is_narrow_ ? std::popcount(along_) + std::popcount(between_) : most; }
+  int opposite_count() const { return is_narrow_ ? bit_count(along_) + bit_count(between_) : most; }
   // The vertices opposite, ascending; in `memory`.
   std::span<const OppositeCorner> find_opposites(const VertexLinks& links, std::vector<OppositeCorner>& memory) const;
 
  private:
   static constexpr int most = std::numeric_limits<int>::max();
+
+  // As std::popcount, which is a call where not all processors have it as an instruction.
+  static int bit_count(std::uint64_t bits) {
+    constexpr std::uint64_t pairs = 0x3333333333333333, nibbles = 0x0f0f0f0f0f0f0f0f, bytes = 0x0101010101010101;
+    bits -= bits >> 1 & 0x5555555555555555;
+    bits = (bits & pairs) + (bits >> 2 & pairs);
+    return static_cast<int>(((bits + (bits >> 4)) & nibbles) * bytes >> 56);
+  }
 
   bool has_opposite_among_many(const VertexLinks& links) const;
   bool has_opposite_among_many(const VertexLinks& links, Vertex opposite) const;
@@ -224,7 +232,7 @@ class QuadFan {
   int first_place_ = 0;
   bool are_all_judged_ = true;
   std::vector<Spoke> spokes_;        // by place, of the greater neighbours
-  std::vector<EdgeRow> spoke_rows_;  // the same, 64 to a row
+  std::vector<EdgeRow> spoke_rows_;  // the same, 64 to a row, as far as there are some
   std::vector<OuterEdge> outer_edges_;
   std::vector<std::int32_t> slots_;  // of outer edges, a hash table at most half full
   std::vector<Quad> quads_;
@@ -232,7 +240,8 @@ class QuadFan {
   std::vector<std::int32_t> pair_of_spokes_;  // by both, where there are not many
   std::vector<std::uint64_t> partner_bits_;   // word_count() for each spoke
   std::vector<OppositeCorner> found_;
-  std::vector<std::int32_t> at_spoke_;
+  std::vector<std::int32_t> at_spoke_;  // outer edges, by number
+  EdgeRow row_;                         // the same
 };
 
 }  // namespace hexpipe
