@@ -189,8 +189,10 @@ BundleReader::BundleReader(Input& input) : input_(input), archive_(archive_read_
   if (!archive_) throw std::bad_alloc();
   archive_read_support_format_tar(archive_.get());
   archive_read_support_filter_zstd(archive_.get());
-  if (archive_read_open(archive_.get(), this, nullptr, &BundleReader::on_read, nullptr) != ARCHIVE_OK)
-    fail("expected a bundle");
+  // archive_read_open() is the same without looking whether there was memory for it.
+  archive_read_set_read_callback(archive_.get(), &BundleReader::on_read);
+  if (archive_read_set_callback_data(archive_.get(), this) != ARCHIVE_OK) throw std::bad_alloc();
+  if (archive_read_open1(archive_.get()) != ARCHIVE_OK) fail("expected a bundle");
 }
 
 long BundleReader::on_read(archive* handle, void* self, const void** data) {
@@ -223,8 +225,11 @@ bool BundleReader::next() {
   // libarchive takes the end of the input between two members for the end of the archive. Ours ends with blocks of
   // zeros.
   const la_int64_t before = archive_filter_bytes(archive_.get(), 0);
-  archive_entry* entry = nullptr;
-  const int result = archive_read_next_header(archive_.get(), &entry);
+  // One of ours: libarchive does not look whether there was memory for its own.
+  const std::unique_ptr<archive_entry, EntryDeleter> owner(archive_entry_new());
+  archive_entry* const entry = owner.get();
+  if (entry == nullptr) throw std::bad_alloc();
+  const int result = archive_read_next_header2(archive_.get(), entry);
   if (result == ARCHIVE_EOF) {
     const la_int64_t after = archive_filter_bytes(archive_.get(), 0);
     if (after - before < static_cast<la_int64_t>(tar_block))

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
@@ -127,12 +128,13 @@ void Output::write_through(std::string_view bytes) {
 void Output::put_in_place(int descriptor) {
   const std::string unnamed = link_of(descriptor);
   for (int attempt = 0; temporary_.empty(); ++attempt) {
-    const std::string name = fmt::format("{}.{}-{}", path_, getpid(), attempt);
+    std::string name = fmt::format("{}.{}-{}", path_, getpid(), attempt);
+    remove_on_signal(name.c_str());  // before it is there, for a signal may come with it
     if (linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
-      temporary_ = name;
-      remove_on_signal(temporary_.c_str());
-    } else if (errno != EEXIST || attempt == most_names_tried) {
-      fail();
+      temporary_ = std::move(name);  // which needs no memory
+    } else {
+      remove_on_signal("");
+      if (errno != EEXIST || attempt == most_names_tried) fail();
     }
   }
   if (rename(temporary_.c_str(), path_.c_str()) != 0) fail();

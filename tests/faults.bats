@@ -53,6 +53,20 @@ for_tools() {
   done
 }
 
+@test "memory that is missing anywhere behind the options is an error in time, and leaves nothing" {
+  "$PYTHON" "$DATA/lattices/lattice.py" kuhn 1 >part.mesh
+  findhex -q --mesh part.mesh | buildgraph -q | initsol -q --iterations 5 -o part.tar
+  local library="$HEXPIPE_BIN/../lib/libfail_calls.so" calls number code
+  LD_PRELOAD=$library HEXPIPE_FAULT=count:count lns -q --iterations 5 --threads 2 part.tar -o out.tar
+  calls=$(sed -n 's/^memory //p' count)
+  for ((number = calls / 2; number <= calls; number += 1)); do
+    code=0
+    LD_PRELOAD=$library HEXPIPE_FAULT=memory:$number timeout 10 lns -q --iterations 5 --threads 2 part.tar -o out.tar 2>message || code=$?
+    if ((code > 1)); then fail "lns ends with $code when allocation $number of $calls fails"; fi
+  done
+  assert_equal "$(ls)" "$(printf '%s\n' count message out.tar part.mesh part.tar)"
+}
+
 @test "a library that never ends holds no tool up" {
   "$PYTHON" "$DATA/lattices/lattice.py" kuhn 1 >part.mesh
   findhex -q --mesh part.mesh | buildgraph -q | initsol -q --iterations 5 -o part.tar

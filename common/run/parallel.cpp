@@ -16,6 +16,10 @@ ThreadLimit::ThreadLimit(int threads)
 
 ThreadLimit::~ThreadLimit() = default;
 
+void ThreadLimit::stay() {
+  static_cast<void>(control_.release());  // TBB knows where it is
+}
+
 int thread_count() {
   return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }

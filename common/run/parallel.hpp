@@ -17,13 +17,16 @@
 
 namespace hexpipe {
 
-// While one stands, parallel loops use `threads` threads; 0 means all that the machine has. tool_main holds one.
+// While one stands, parallel loops use `threads` threads; 0 means all that the machine has.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
   ~ThreadLimit();
   ThreadLimit(const ThreadLimit&) = delete;
   ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+  // Lets it stand until the process ends. Where memory was missing for one of TBB's threads, to lift it waits for ever.
+  void stay();
 
  private:
   struct Control;

@@ -249,7 +249,7 @@ int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<v
 
   try {
     if (context.common.memory) limit_memory(*context.common.memory);
-    const ThreadLimit limit(context.common.threads);
+    ThreadLimit(context.common.threads).stay();
     check_writable(context.common.stats_file);
     const Stopwatch watch;
     run(context);
