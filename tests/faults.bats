@@ -9,7 +9,7 @@ setup() {
 
 for_tools() {
   HEXPIPE_BIN="$HEXPIPE_BIN" timeout 300 "$PYTHON" "$HEXPIPE_SOURCE/tests/faults/inject.py" \
-    --per-kind 6 --disk 5 --kills 5 --pipes 3 "$@" || fail "see above"
+    --per-kind 6 --disk 5 --kills 5 --pipes 3 --stalls 5 "$@" || fail "see above"
 }
 
 @test "faults leave the old output or the whole new one: findhex, buildgraph" {

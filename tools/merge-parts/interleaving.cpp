@@ -32,6 +32,11 @@ void check_row_count(PartReader& part, std::uint64_t wanted, std::uint64_t found
   if (wanted != found) throw DataError::at(part.bundle().where(), "expected {} rows, found {}", wanted, found);
 }
 
+void check_ends_are_there(PartReaders& parts, const ListLengths& lengths) {
+  if (lengths.size() != parts.size())
+    throw DataError::at(parts.front().bundle().where(), "expected the ends of its lists before it, found none");
+}
+
 ListLengths merge_offsets(PartReaders& parts, const Interleaving& order, BundleWriter& out) {
   ListLengths lengths(parts.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {

@@ -109,10 +109,14 @@ using ListLengths = std::vector<std::vector<std::int32_t>>;  // by part and list
 // Writes the member of ends; lengths of all lists of the parts, given or not.
 ListLengths merge_offsets(PartReaders& parts, const Interleaving& order, BundleWriter& out);
 
+// Throws DataError unless the ends of the lists of these parts, so many, came before what is in them.
+void check_ends_are_there(PartReaders& parts, const ListLengths& lengths);
+
 // Writes the items, changed; how many.
 template <class Change>
 std::uint64_t merge_items(PartReaders& parts, const Interleaving& order, const ListLengths& lengths, BundleWriter& out,
                           Change&& change) {
+  check_ends_are_there(parts, lengths);
   std::vector<RowReader<std::int32_t>> readers;
   readers.reserve(parts.size());
   std::uint64_t total = 0;

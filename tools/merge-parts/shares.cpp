@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -133,8 +134,11 @@ class GraphShares {
       const std::vector<std::int64_t> offsets = part.bundle().read_array<std::int64_t>();
       const auto count = static_cast<std::int64_t>(offsets.size()) - 1;
       if (lengths_.empty()) vertices_ = count;
-      if (count != vertices_ || !std::is_sorted(offsets.begin(), offsets.end()))
-        throw DataError::at(part.bundle().where(), "expected ascending ends of {} lists", vertices_);
+      const auto is_no_list = [](std::int64_t begin, std::int64_t end) {
+        return end < begin || end - begin > std::numeric_limits<std::int32_t>::max();
+      };
+      if (count < 0 || count != vertices_ || std::ranges::adjacent_find(offsets, is_no_list) != offsets.end())
+        throw DataError::at(part.bundle().where(), "expected ascending ends of {} lists, found others", vertices_);
       auto& lengths = lengths_.emplace_back();
       for (std::int64_t v = 0; v < vertices_; ++v)
         lengths.push_back(static_cast<std::int32_t>(offsets[v + 1] - offsets[v]));
@@ -149,6 +153,7 @@ class GraphShares {
   }
 
   void merge_neighbours() {
+    check_ends_are_there(parts_, lengths_);
     std::vector<RowReader<std::int32_t>> readers;
     readers.reserve(parts_.size());
     for (std::size_t p = 0; p < parts_.size(); ++p)
