@@ -9,12 +9,17 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 export CCACHE_DISABLE=1 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-1700000000}
 
+directories=("$scratch/one" "$scratch/another/of/a/longer/name")
+# Both before anything is built: who works on the files meanwhile changes neither.
+for directory in "${directories[@]}"; do
+  mkdir -p "$directory/source"
+  git -C "$here" ls-files -z | tar -C "$here" --null --ignore-failed-read -cf - -T - | tar -C "$directory/source" -xf -
+done
+
 # build DIRECTORY [TARGET...]
 build() {
   local directory=$1
   shift
-  mkdir -p "$directory/source"
-  git -C "$here" ls-files -z | tar -C "$here" --null --ignore-failed-read -cf - -T - | tar -C "$directory/source" -xf -
   cmake -S "$directory/source" -B "$directory/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DHEXPIPE_TESTS=OFF >"$directory/log"
   cmake --build "$directory/build" --parallel "${JOBS:-$(nproc)}" ${1:+--target "$@"} >>"$directory/log"
   if (($# == 0)); then (cd "$directory/build" && umask 022 && cpack >>"$directory/log"); fi
@@ -27,10 +32,9 @@ products() {
   find . -maxdepth 1 -name '*.deb' -print0 | sort -z | xargs -0 --no-run-if-empty sha256sum
 }
 
-build "$scratch/one" "$@"
-build "$scratch/another/of/a/longer/name" "$@"
-(products "$scratch/one") >"$scratch/first"
-(products "$scratch/another/of/a/longer/name") >"$scratch/second"
+for directory in "${directories[@]}"; do build "$directory" "$@"; done
+(products "${directories[0]}") >"$scratch/first"
+(products "${directories[1]}") >"$scratch/second"
 cut -c1-16,65- "$scratch/first"
 if ! diff "$scratch/first" "$scratch/second"; then
   echo "two builds differ"
