@@ -3,6 +3,9 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 
+#include <utility>
+#include <vector>
+
 namespace hexpipe {
 
 struct ThreadLimit::Control {
@@ -17,7 +20,9 @@ ThreadLimit::ThreadLimit(int threads)
 ThreadLimit::~ThreadLimit() = default;
 
 void ThreadLimit::stay() {
-  static_cast<void>(control_.release());  // TBB knows where it is
+  // Nobody destroys the list, at exit neither.
+  static auto* const standing = new std::vector<std::unique_ptr<Control>>;
+  standing->push_back(std::move(control_));
 }
 
 int thread_count() {
