@@ -28,10 +28,10 @@ struct Group {
   }
 };
 
-// The groups of one dimension, by ascending tag.
+// The groups of one dimension, by ascending tag; their boxes where the version has them.
 class Groups {
  public:
-  Groups(const MixedMesh& mesh, int dimension) {
+  Groups(const MixedMesh& mesh, int dimension, MshVersion version) {
     std::set<std::int32_t> tags;
     for_each_block(mesh, [&](const ElementNames& names, const auto& block) {
       if (names.dimension == dimension) insert_tags(block.tags, tags);
@@ -41,6 +41,7 @@ class Groups {
       while (tag <= 0 && tags.contains(free_number)) ++free_number;
       list_.push_back({tag, tag > 0 ? tag : free_number++});
     }
+    if (version == MshVersion::v2_2) return;
     for_each_block(mesh, [&](const ElementNames& names, const auto& block) {
       if (names.dimension == dimension) extend_boxes(mesh, block);
     });
@@ -103,7 +104,12 @@ class MshSink {
 class MshWriter {
  public:
   MshWriter(const MixedMesh& mesh, MshVersion version, MshCoding coding, Output& output)
-      : mesh_(mesh), version_(version), output_(output), sink_(output, coding), surfaces_(mesh, 2), regions_(mesh, 3) {}
+      : mesh_(mesh),
+        version_(version),
+        output_(output),
+        sink_(output, coding),
+        surfaces_(mesh, 2, version),
+        regions_(mesh, 3, version) {}
 
   void write() {
     write_format();

@@ -225,6 +225,7 @@ InputSurface::Foot InputSurface::foot(Vertex v, const Vec3& to) const {
 }
 
 double InputSurface::distance(Vertex v, const Vec3& to, double enough) const {
+  if (triangles_at(v).empty()) return distance(to);  // of a boundary that has come to where it was not
   return std::sqrt(descend(v, to, false, enough).distance_squared);
 }
 
