@@ -34,6 +34,14 @@ struct EntryDeleter {
   void operator()(archive_entry* entry) const { archive_entry_free(entry); }
 };
 
+using EntryPointer = std::unique_ptr<archive_entry, EntryDeleter>;
+
+EntryPointer new_entry() {
+  EntryPointer entry(archive_entry_new());
+  if (!entry) throw std::bad_alloc();
+  return entry;
+}
+
 // Names stand in messages, and pass on to other programs.
 bool is_printable_name(std::string_view name) {
   const bool printable = std::all_of(name.begin(), name.end(), [](char c) { return c >= ' ' && c <= '~'; });
@@ -147,8 +155,7 @@ void BundleWriter::check(bool succeeded) const {
 }
 
 void BundleWriter::begin_member(const std::string& name, std::uint64_t bytes) {
-  const std::unique_ptr<archive_entry, EntryDeleter> entry(archive_entry_new());
-  if (!entry) throw std::bad_alloc();
+  const EntryPointer entry = new_entry();
   archive_entry_set_pathname(entry.get(), name.c_str());
   archive_entry_set_size(entry.get(), static_cast<la_int64_t>(bytes));
   archive_entry_set_filetype(entry.get(), AE_IFREG);
@@ -226,9 +233,8 @@ bool BundleReader::next() {
   // zeros.
   const la_int64_t before = archive_filter_bytes(archive_.get(), 0);
   // One of ours: libarchive does not look whether there was memory for its own.
-  const std::unique_ptr<archive_entry, EntryDeleter> owner(archive_entry_new());
+  const EntryPointer owner = new_entry();
   archive_entry* const entry = owner.get();
-  if (entry == nullptr) throw std::bad_alloc();
   const int result = archive_read_next_header2(archive_.get(), entry);
   if (result == ARCHIVE_EOF) {
     const la_int64_t after = archive_filter_bytes(archive_.get(), 0);

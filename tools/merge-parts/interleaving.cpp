@@ -32,6 +32,12 @@ void check_row_count(PartReader& part, std::uint64_t wanted, std::uint64_t found
   if (wanted != found) throw DataError::at(part.bundle().where(), "expected {} rows, found {}", wanted, found);
 }
 
+std::int32_t list_length(PartReader& part, std::int64_t begin, std::int64_t end) {
+  if (end < begin || end - begin > std::numeric_limits<std::int32_t>::max())
+    throw DataError::at(part.bundle().where(), "expected ascending ends of lists, found {} after {}", end, begin);
+  return static_cast<std::int32_t>(end - begin);
+}
+
 void check_ends_are_there(PartReaders& parts, const ListLengths& lengths) {
   if (lengths.size() != parts.size())
     throw DataError::at(parts.front().bundle().where(), "expected the ends of its lists before it, found none");
@@ -44,10 +50,7 @@ ListLengths merge_offsets(PartReaders& parts, const Interleaving& order, BundleW
     std::int64_t last = reader.next();
     for (std::uint64_t i = 0; i < order.rows_of(p); ++i) {
       const std::int64_t end = reader.next();
-      if (end < last || end - last > std::numeric_limits<std::int32_t>::max())
-        throw DataError::at(parts[p].bundle().where(), "expected ascending ends of lists, found {} after {}", end,
-                            last);
-      lengths[p].push_back(static_cast<std::int32_t>(end - last));
+      lengths[p].push_back(list_length(parts[p], last, end));
       last = end;
     }
   }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -134,14 +133,10 @@ class GraphShares {
       const std::vector<std::int64_t> offsets = part.bundle().read_array<std::int64_t>();
       const auto count = static_cast<std::int64_t>(offsets.size()) - 1;
       if (lengths_.empty()) vertices_ = count;
-      const auto is_no_list = [](std::int64_t begin, std::int64_t end) {
-        return end < begin || end - begin > std::numeric_limits<std::int32_t>::max();
-      };
-      if (count < 0 || count != vertices_ || std::ranges::adjacent_find(offsets, is_no_list) != offsets.end())
+      if (count < 0 || count != vertices_)
         throw DataError::at(part.bundle().where(), "expected ascending ends of {} lists, found others", vertices_);
       auto& lengths = lengths_.emplace_back();
-      for (std::int64_t v = 0; v < vertices_; ++v)
-        lengths.push_back(static_cast<std::int32_t>(offsets[v + 1] - offsets[v]));
+      for (std::int64_t v = 0; v < vertices_; ++v) lengths.push_back(list_length(part, offsets[v], offsets[v + 1]));
     }
     RowWriter<std::int64_t> writer(out_, parts_.front().name(), vertices_ + 1);
     writer.add(0);
