@@ -1,7 +1,6 @@
 #pragma once
 // Bundles: tar archives (pax) of .npy arrays and small JSON files, streamed through libarchive, never sought.
 
-#include <algorithm>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -10,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/run/huge_pages.hpp"
 #include "formats/input.hpp"
 #include "formats/npy.hpp"
 #include "formats/output.hpp"
@@ -90,7 +90,7 @@ class BundleReader {
     std::vector<T> rows;
     read_rows(
         header, npy_type<Number>(), sizeof(T),
-        [&](std::size_t count) { rows.reserve(std::max(count, rows.capacity())); },
+        [&](std::size_t count) { reserve_in_huge_pages(rows, count); },
         [&](std::size_t count) {
           rows.resize(count);
           return static_cast<void*>(rows.data());

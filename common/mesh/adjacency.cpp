@@ -61,8 +61,7 @@ std::vector<std::int32_t> match_facets(const TetMesh& mesh, const char* source) 
   const std::vector<std::int64_t> offsets = offsets_from_counts(std::move(counts));
 
   std::vector<FiledFacet> filed;
-  reserve_in_huge_pages(filed, 4 * mesh.tets.size());
-  filed.resize(4 * mesh.tets.size());
+  resize_in_huge_pages(filed, 4 * mesh.tets.size());
   std::vector<std::int64_t> next(offsets.begin(), offsets.end() - 1);
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
     for_each_sorted_facet(mesh.tets[t], [&](Vertex lowest, Vertex middle, Vertex highest, int facet) {

@@ -17,4 +17,10 @@ void reserve_in_huge_pages(std::vector<T>& items, std::size_t count) {
   use_huge_pages(items.data() + items.size(), (count - items.size()) * sizeof(T));
 }
 
+template <class T>
+void resize_in_huge_pages(std::vector<T>& items, std::size_t count) {
+  reserve_in_huge_pages(items, count);
+  items.resize(count);
+}
+
 }  // namespace hexpipe

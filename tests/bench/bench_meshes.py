@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tarfile
 import tempfile
+import typing
 
 import numpy as np
 from scipy.spatial import Delaunay
@@ -120,19 +121,36 @@ import json, os, sys
 process = os.spawnvp(os.P_NOWAIT, sys.argv[2], sys.argv[2:])
 _, status, usage = os.wait4(process, 0)
 with open(sys.argv[1], "w") as file:
-    json.dump([status, usage.ru_utime + usage.ru_stime, usage.ru_maxrss * 1024], file)
+    json.dump([status, usage.ru_utime, usage.ru_stime, usage.ru_maxrss * 1024], file)
 """
+
+
+class Usage(typing.NamedTuple):
+    """Processor seconds and peak memory in bytes."""
+    user: float
+    system: float
+    peak: int
+
+    @property
+    def seconds(self):
+        return self.user + self.system
+
+
+def run_apart(command, **options):
+    """The usage of a command that has to succeed."""
+    command = list(map(str, command))
+    with tempfile.NamedTemporaryFile() as report:
+        subprocess.run([sys.executable, "-S", "-c", STARTER, report.name, *command], check=True, **options)
+        status, *usage = json.load(open(report.name))
+    if status != 0:
+        raise SystemExit(f"{' '.join(command)}: status {status}")
+    return Usage(*usage)
 
 
 def run(command, **options):
     """Processor seconds, user and system, and peak memory in bytes of a command that has to succeed."""
-    command = list(map(str, command))
-    with tempfile.NamedTemporaryFile() as report:
-        subprocess.run([sys.executable, "-S", "-c", STARTER, report.name, *command], check=True, **options)
-        status, seconds, peak = json.load(open(report.name))
-    if status != 0:
-        raise SystemExit(f"{' '.join(command)}: status {status}")
-    return seconds, peak
+    usage = run_apart(command, **options)
+    return usage.seconds, usage.peak
 
 
 def run_pipe(*commands):
@@ -150,10 +168,10 @@ def run_pipe(*commands):
         for process in processes:
             process.wait()
         reports = [json.load(open(os.path.join(folder, str(number)))) for number in range(len(commands))]
-    for command, (status, _, _) in zip(commands, reports):
+    for command, (status, *_) in zip(commands, reports):
         if status != 0:
             raise SystemExit(f"{' '.join(map(str, command))}: status {status}")
-    return [(seconds, peak) for _, seconds, peak in reports]
+    return [(user + system, peak) for _, user, system, peak in reports]
 
 
 def tool(name):

@@ -10,6 +10,7 @@
 #include "common/graph/tet_cliques.hpp"
 #include "common/run/error.hpp"
 #include "common/run/freed_memory.hpp"
+#include "common/run/huge_pages.hpp"
 #include "common/run/parallel.hpp"
 #include "tools/buildgraph/conflicts.hpp"
 #include "tools/buildgraph/dense_ids.hpp"
@@ -93,7 +94,7 @@ ConflictGraph conflict_graph(Candidates candidates, const BuildgraphOptions& opt
   candidates = {};
   graph.offsets.assign(count + 1, 0);
   std::partial_sum(conflicts.degrees.begin(), conflicts.degrees.end(), graph.offsets.begin() + 1);
-  graph.neighbours.reserve(graph.offsets.back());
+  reserve_in_huge_pages(graph.neighbours, static_cast<std::size_t>(graph.offsets.back()));
   std::vector<std::int64_t>& next = conflicts.degrees;
   std::copy(graph.offsets.begin(), graph.offsets.end() - 1, next.begin());
   std::int64_t first = conflicts.first;

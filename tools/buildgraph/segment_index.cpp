@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "common/run/huge_pages.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe {
@@ -81,7 +82,8 @@ constexpr std::size_t header = 2;
 }  // namespace
 
 SegmentIndex::SegmentIndex(const Candidates& candidates, std::size_t vertex_count)
-    : stride_(most_pairs(candidates)), places_(stride_ * candidates.size()) {
+    : stride_(most_pairs(candidates)) {
+  resize_in_huge_pages(places_, stride_ * candidates.size());
   make_segments(candidates, vertex_count);
 }
 
@@ -91,7 +93,7 @@ SegmentIndex::Filed SegmentIndex::file(const Candidates& candidates, std::size_t
   for (std::size_t i = 0; i < candidates.size(); ++i)
     for (const Vertex v : candidates.corners_of(i)) ++filed.offsets[v + 1];
   std::partial_sum(filed.offsets.begin(), filed.offsets.end(), filed.offsets.begin());
-  filed.candidates.resize(filed.offsets.back());
+  resize_in_huge_pages(filed.candidates, static_cast<std::size_t>(filed.offsets.back()));
   std::vector<std::int64_t> next(filed.offsets.begin(), filed.offsets.end() - 1);
   for (std::size_t i = 0; i < candidates.size(); ++i)
     for (const Vertex v : candidates.corners_of(i)) filed.candidates[next[v]++] = static_cast<std::int32_t>(i);
@@ -123,7 +125,7 @@ void SegmentIndex::make_segments(const Candidates& candidates, std::size_t verte
     maker.clear();
   });
   std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
-  entries_.resize(offsets_.back());
+  resize_in_huge_pages(entries_, static_cast<std::size_t>(offsets_.back()));
   parallel_for(static_cast<std::int64_t>(vertex_count), vertices_a_block, [&](std::int64_t v) {
     SegmentMaker& maker = makers.local();
     for_each_pair_at(v, [&](std::int32_t, std::size_t, Vertex high, int way) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "common/run/huge_pages.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe {
@@ -25,7 +26,7 @@ class SharingIndex {
     for (std::size_t i = 0; i < candidate_count; ++i)
       things_of(i, [&](std::size_t bucket, std::uint32_t) { ++offsets_[bucket + 1]; });
     std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
-    entries_.resize(offsets_.back());
+    resize_in_huge_pages(entries_, static_cast<std::size_t>(offsets_.back()));
     std::vector<std::int64_t> next(offsets_.begin(), offsets_.end() - 1);
     for (std::size_t i = 0; i < candidate_count; ++i)
       things_of(i, [&](std::size_t bucket, std::uint32_t key) {

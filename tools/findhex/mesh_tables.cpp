@@ -69,8 +69,7 @@ std::int32_t MeshTables::tet_inside(Vertex a, Vertex b, Vertex c) const {
 }
 
 void MeshTables::make_flood_tets() {
-  reserve_in_huge_pages(flood_tets_, mesh_.tets.size());
-  flood_tets_.resize(mesh_.tets.size());
+  resize_in_huge_pages(flood_tets_, mesh_.tets.size());
   for (std::size_t t = 0; t < flood_tets_.size(); ++t) {
     FloodTet& tet = flood_tets_[t];
     tet.vertices = mesh_.tets[t];
