@@ -16,11 +16,15 @@ tet is not inside, where the flood may begin and fail, or when there is none: al
 the tets differ, or a difference is not explained.
 """
 import argparse
+import io
 import json
 import os
 import subprocess
 import sys
+import tarfile
 import tempfile
+
+import numpy as np
 
 import bench_meshes as meshes
 
@@ -33,7 +37,7 @@ def ours(mesh, threads, repeat):
     best = None
     for _ in range(repeat):
         meshes.run([meshes.tool("findhex"), "-q", mesh, *RULES, "--threads", threads, "--stats", "stats.json", "-o",
-                    "ours.cand"])
+                    "ours.tar"])
         with open("stats.json") as file:
             stats = json.load(file)
         for clock in ("cpu_seconds", "wall_seconds"):
@@ -55,50 +59,81 @@ def peers(program, mesh, threads, repeat):
     return best
 
 
-def cells(lines, tets_at):
-    """{edges of a hex: its tets}, of lines of numbers; `tets_at` tells the numbers of tets, and then where these are."""
-    result = {}
-    for line in lines:
-        vertices, interior, boundary = tets_at(line)
-        result[frozenset(frozenset((vertices[a], vertices[b])) for a, b in EDGES)] = (interior, boundary)
-    return result
+class Hexes:
+    """Hexes as arrays: `edges` (n, 12), which tell one from another; `tets`, a hash of the interior and of the boundary
+    ones of each; `interior_of(i)`."""
+
+    def __init__(self, vertices, tets, begins, middles, ends):
+        pairs = np.sort(vertices[:, EDGES].astype(np.int64), axis=2)
+        rows = np.sort(pairs[:, :, 0] << 32 | pairs[:, :, 1], axis=1)
+        self.edges = np.ascontiguousarray(rows).view(np.dtype((np.void, 8 * len(EDGES)))).ravel()
+        self.vertices, self._tets, self._begins, self._middles = vertices, tets, begins, middles
+        # In any order, as a sum of well mixed numbers.
+        mixed = (tets.astype(np.uint64) + np.uint64(1)) * np.uint64(0x9E3779B97F4A7C15)
+        mixed = (mixed ^ mixed >> np.uint64(31)) * np.uint64(0xBF58476D1CE4E5B9)
+        sums = np.concatenate([np.zeros(1, np.uint64), np.cumsum(mixed ^ mixed >> np.uint64(29), dtype=np.uint64)])
+        self.tets = np.stack([sums[middles] - sums[begins], sums[ends] - sums[middles]], axis=1)
+
+    def interior_of(self, i):
+        return self._tets[self._begins[i]:self._middles[i]]
 
 
-def our_line(line):
-    words = line.split()
-    n = [int(x) for x in words[3:]]
-    return n[2:10], tuple(n[10:10 + n[0]]), tuple(n[10 + n[0]:])
+def our_hexes(bundle):
+    with tarfile.open(bundle) as tar:
+        def member(name):
+            return np.load(io.BytesIO(tar.extractfile(f"candidates/{name}.npy").read()))
+        interior, boundary = member("tets"), member("boundary_tets")
+        interior_ends, boundary_ends = member("tet_offsets"), member("boundary_tet_offsets")
+        vertices = member("vertices")
+    # One list for each hex: its interior tets, then the others.
+    begins = interior_ends[:-1] + boundary_ends[:-1]
+    middles = interior_ends[1:] + boundary_ends[:-1]
+    tets = np.empty(len(interior) + len(boundary), interior.dtype)
+    counts = np.diff(interior_ends), np.diff(boundary_ends)
+    tets[np.arange(len(interior)) + np.repeat(boundary_ends[:-1], counts[0])] = interior
+    tets[np.arange(len(boundary)) + np.repeat(interior_ends[1:], counts[1])] = boundary
+    return Hexes(vertices, tets, begins, middles, middles + counts[1])
 
 
-def their_line(line):
-    n = [int(x) for x in line.split()]
-    return n[:8], tuple(n[10:10 + n[8]]), tuple(n[10 + n[8]:])
+def their_hexes(path):
+    with open(path) as file:
+        numbers = np.fromfile(file, np.int32, sep=" ")
+    starts, at = [], 0
+    while at < len(numbers):
+        starts.append(at)
+        at += 10 + int(numbers[at + 8]) + int(numbers[at + 9])
+    starts = np.array(starts, np.int64)
+    vertices = numbers[starts[:, None] + np.arange(8)] - 1
+    middles = starts + 10 + numbers[starts + 8]
+    return Hexes(vertices, numbers - 1, starts + 10, middles, middles + numbers[starts + 9])
 
 
 def compare(tets):
-    with open("ours.cand") as file:
-        mine = cells(file.readlines()[1:], our_line)
-    with open("theirs.txt") as file:
-        theirs = cells(file, their_line)
-    lost = len(theirs.keys() - mine.keys())
-    other_tets = sum(mine[key] != theirs[key] for key in theirs.keys() & mine.keys())
+    mine, theirs = our_hexes("ours.tar"), their_hexes("theirs.txt")
+    for hexes, whose in ((mine, "findhex"), (theirs, "the peer")):
+        if len(np.unique(hexes.edges)) != len(hexes.edges):
+            print(f"    {whose} has a hex twice")
+            return 1
+    _, here, there = np.intersect1d(mine.edges, theirs.edges, assume_unique=True, return_indices=True)
+    lost = len(theirs.edges) - len(there)
+    other_tets = int((mine.tets[here] != theirs.tets[there]).any(axis=1).sum())
     at_vertex = {}
     for t, tet in enumerate(tets):
         for v in tet:
-            at_vertex.setdefault(int(v) + 1, []).append(t)
+            at_vertex.setdefault(int(v), []).append(t)
     outside = without = unexplained = 0
-    for key in mine.keys() - theirs.keys():
-        corners = frozenset().union(*key)
-        starts = {t for v in corners for t in at_vertex[v] if corners.issuperset(int(x) + 1 for x in tets[t])}
+    for i in np.setdiff1d(np.arange(len(mine.edges)), here):
+        corners = set(map(int, mine.vertices[i]))
+        starts = {t for v in corners for t in at_vertex[v] if corners.issuperset(map(int, tets[t]))}
         if not starts:
             without += 1
-        elif starts - {t - 1 for t in mine[key][0]}:
+        elif starts - set(map(int, mine.interior_of(i))):
             outside += 1
         else:
             unexplained += 1
-    print(f"    sets: {len(mine)} and {len(theirs)}; {outside + without + unexplained} only here, of which the peer may start "
-          f"outside {outside}, has no start {without}, {unexplained} unexplained; {lost} only there; {other_tets} with "
-          "other tets")
+    print(f"    sets: {len(mine.edges)} and {len(theirs.edges)}; {outside + without + unexplained} only here, of which the peer "
+          f"may start outside {outside}, has no start {without}, {unexplained} unexplained; {lost} only there; {other_tets} "
+          "with other tets", flush=True)
     return lost + other_tets + unexplained
 
 
