@@ -145,6 +145,39 @@ PYTHON
   assert [ ! -e out.tar ]
 }
 
+@test "lists of a part that end before they begin are refused" {
+  bar --length 6 >bar.mesh
+  run_parts bar.mesh 2 two
+  # with_end MEMBER PLACE VALUE: a part whose array says otherwise.
+  with_end() {
+    $PYTHON - two/graph-0001.tar "$@" <<'PYTHON'
+import io, sys, tarfile
+import numpy as np
+path, name, place, value = sys.argv[1:]
+with tarfile.open(path) as old, tarfile.open("bad.tar", "w", format=tarfile.PAX_FORMAT) as new:
+    for member in old:
+        data = old.extractfile(member).read()
+        if member.name == name:
+            ends = np.load(io.BytesIO(data))
+            ends[int(place)] = int(value)
+            buffer = io.BytesIO()
+            np.save(buffer, ends)
+            data = buffer.getvalue()
+        member.size = len(data)
+        new.addfile(member, io.BytesIO(data))
+PYTHON
+  }
+  for member in candidates/tet_offsets.npy graph/offsets.npy; do
+    for first in -9223372036854775808 -1 100000; do
+      with_end "$member" 0 "$first"
+      assert_fails_with 1 "bad.tar: $member: expected ascending ends of lists, found [0-9]+ after $first" merge-parts two/graph-0000.tar bad.tar -o out.tar
+    done
+    with_end "$member" 1 -9223372036854775808
+    assert_fails_with 1 "bad.tar: $member: expected ascending ends of lists, found -9223372036854775808 after 0" merge-parts two/graph-0000.tar bad.tar -o out.tar
+  done
+  assert [ ! -e out.tar ]
+}
+
 @test "merge-parts writes to a pipe, in any order of parts, and compresses" {
   bar --length 12 >bar.mesh
   run_parts bar.mesh 3 three

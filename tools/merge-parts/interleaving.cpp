@@ -33,7 +33,7 @@ void check_row_count(PartReader& part, std::uint64_t wanted, std::uint64_t found
 }
 
 std::int32_t list_length(PartReader& part, std::int64_t begin, std::int64_t end) {
-  if (end < begin || end - begin > std::numeric_limits<std::int32_t>::max())
+  if (begin < 0 || end < begin || end - begin > std::numeric_limits<std::int32_t>::max())
     throw DataError::at(part.bundle().where(), "expected ascending ends of lists, found {} after {}", end, begin);
   return static_cast<std::int32_t>(end - begin);
 }

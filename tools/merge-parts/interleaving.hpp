@@ -106,7 +106,8 @@ void merge_rows(PartReaders& parts, const Interleaving& order, BundleWriter& out
 // Lists: their ends in one member, what is in them in the next.
 using ListLengths = std::vector<std::vector<std::int32_t>>;  // by part and list
 
-// Throws DataError when a list of the member at which the part stands would end before it begins, or be too long.
+// Throws DataError when a list of the member at which the part stands would begin below 0, end before it begins, or be
+// too long.
 std::int32_t list_length(PartReader& part, std::int64_t begin, std::int64_t end);
 
 // Writes the member of ends; lengths of all lists of the parts, given or not.
