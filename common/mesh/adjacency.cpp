@@ -54,7 +54,7 @@ std::vector<std::int64_t> offsets_from_counts(std::vector<std::int64_t> counts) 
   return counts;
 }
 
-std::vector<std::int32_t> match_facets(const TetMesh& mesh, const char* source) {
+std::vector<std::int32_t> match_facets(const TetMesh& mesh, const char* source, std::span<const std::int32_t> numbers) {
   std::vector<std::int64_t> counts(mesh.points.size(), 0);
   for (const Tet& tet : mesh.tets)
     for_each_sorted_facet(tet, [&](Vertex lowest, Vertex, Vertex, int) { ++counts[lowest]; });
@@ -69,7 +69,16 @@ std::vector<std::int32_t> match_facets(const TetMesh& mesh, const char* source) 
                                static_cast<std::int64_t>(4 * t) + facet};
     });
 
-  std::vector<std::int32_t> across(4 * mesh.tets.size(), TetAdjacency::none);
+  const auto throw_too_many_tets = [&](std::array<std::int64_t, 3> tets, std::int64_t lowest, std::uint64_t others) {
+    if (!numbers.empty())
+      for (std::int64_t& tet : tets) tet = numbers[tet];
+    std::sort(tets.begin(), tets.end());
+    throw DataError::at(source,
+                        "expected at most two tets at each facet, found tets {}, {} and {} at vertices {} {} {}",
+                        tets[0], tets[1], tets[2], lowest, others >> 32, others & 0xffffffff);
+  };
+  std::vector<std::int32_t> across;
+  resize_in_huge_pages(across, 4 * mesh.tets.size(), TetAdjacency::none);
   parallel_for(static_cast<std::int64_t>(mesh.points.size()), 1024, [&](std::int64_t v) {
     const auto begin = filed.begin() + offsets[v], end = filed.begin() + offsets[v + 1];
     std::sort(begin, end, [](const FiledFacet& a, const FiledFacet& b) {
@@ -79,9 +88,7 @@ std::vector<std::int32_t> match_facets(const TetMesh& mesh, const char* source) 
     for (auto i = begin; i != end && i + 1 != end; ++i) {
       if (!same(*i, *(i + 1))) continue;
       if (i + 2 != end && same(*i, *(i + 2)))
-        throw DataError::at(
-            source, "expected at most two tets at each facet, found tets {}, {} and {} at vertices {} {} {}",
-            i->code / 4, (i + 1)->code / 4, (i + 2)->code / 4, v, i->others >> 32, i->others & 0xffffffff);
+        throw_too_many_tets({i->code / 4, (i + 1)->code / 4, (i + 2)->code / 4}, v, i->others);
       across[i->code] = static_cast<std::int32_t>((i + 1)->code / 4);
       across[(i + 1)->code] = static_cast<std::int32_t>(i->code / 4);
       ++i;
@@ -92,8 +99,8 @@ std::vector<std::int32_t> match_facets(const TetMesh& mesh, const char* source) 
 
 }  // namespace
 
-TetAdjacency::TetAdjacency(const TetMesh& mesh, const char* source) {
-  both_at_once([&] { across_ = match_facets(mesh, source); },
+TetAdjacency::TetAdjacency(const TetMesh& mesh, const char* source, std::span<const std::int32_t> numbers) {
+  both_at_once([&] { across_ = match_facets(mesh, source, numbers); },
                [&] {
                  file_tets(mesh);
                  find_neighbours(mesh);
@@ -106,7 +113,7 @@ void TetAdjacency::file_tets(const TetMesh& mesh) {
     for (const Vertex v : tet) ++counts[v];
   tet_offsets_ = offsets_from_counts(std::move(counts));
 
-  tets_at_vertex_.resize(4 * mesh.tets.size());
+  resize_in_huge_pages(tets_at_vertex_, 4 * mesh.tets.size());
   std::vector<std::int64_t> next(tet_offsets_.begin(), tet_offsets_.end() - 1);
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
     for (const Vertex v : mesh.tets[t]) tets_at_vertex_[next[v]++] = static_cast<std::int32_t>(t);
@@ -116,7 +123,7 @@ void TetAdjacency::find_neighbours(const TetMesh& mesh) {
   const std::size_t vertex_count = mesh.points.size();
   neighbour_offsets_.assign(vertex_count + 1, 0);
   // As many edges as vertices and tets, by Euler's formula, each at both ends; what the boundary adds is little.
-  neighbours_.reserve(2 * (vertex_count + mesh.tets.size()));
+  reserve_in_huge_pages(neighbours_, 2 * (vertex_count + mesh.tets.size()));
   PerThread<std::vector<Vertex>> seen_from(std::vector<Vertex>(vertex_count, none));  // by vertex, the last one
   parallel_in_order(
       static_cast<std::int64_t>(vertex_count), 1024,

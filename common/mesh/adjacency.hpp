@@ -14,8 +14,9 @@ class TetAdjacency {
  public:
   static constexpr std::int32_t none = -1;
 
-  // Throws DataError naming `source` when a facet belongs to more than two tets.
-  TetAdjacency(const TetMesh& mesh, const char* source);
+  // Throws DataError naming `source` when a facet belongs to more than two tets; `numbers`: what these are called
+  // there, if not by their places.
+  TetAdjacency(const TetMesh& mesh, const char* source, std::span<const std::int32_t> numbers = {});
 
   // The tet beyond a facet, or none at the boundary.
   std::int32_t tet_beyond(std::int32_t tet, int facet) const {

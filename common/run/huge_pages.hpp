@@ -3,6 +3,7 @@
 // than a few of 4 KiB. Arrays below that, and systems that have none, lose nothing.
 
 #include <cstddef>
+#include <iterator>
 #include <vector>
 
 namespace hexpipe {
@@ -13,14 +14,17 @@ void use_huge_pages(void* memory, std::size_t bytes);
 template <class T>
 void reserve_in_huge_pages(std::vector<T>& items, std::size_t count) {
   if (count <= items.capacity()) return;
-  items.reserve(count);
-  use_huge_pages(items.data() + items.size(), (count - items.size()) * sizeof(T));
+  std::vector<T> larger;
+  larger.reserve(count);
+  use_huge_pages(larger.data(), count * sizeof(T));
+  larger.insert(larger.end(), std::make_move_iterator(items.begin()), std::make_move_iterator(items.end()));
+  items.swap(larger);
 }
 
 template <class T>
-void resize_in_huge_pages(std::vector<T>& items, std::size_t count) {
+void resize_in_huge_pages(std::vector<T>& items, std::size_t count, const T& added = {}) {
   reserve_in_huge_pages(items, count);
-  items.resize(count);
+  items.resize(count, added);
 }
 
 }  // namespace hexpipe

@@ -1,8 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <numeric>
+#include <span>
 #include <sstream>
+#include <vector>
 
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
@@ -17,6 +21,7 @@ namespace {
 using testing::cube_points;
 using ::testing::Each;
 using ::testing::ElementsAre;
+using ::testing::ElementsAreArray;
 using testing::five_tets;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -272,8 +277,36 @@ TEST(Findhex, ThreeTetsAtAFacetAreAnError) {
   auto points = cube_points();
   auto tets = six_tets();
   points.push_back({0.5, 0.5, 0.4});
+  tets.insert(tets.begin(), {1, 2, 5, 6});
   tets.push_back({0, 1, 6, 8});
-  EXPECT_THAT([&] { find(mesh_of(points, tets)); }, ThrowsMessage<DataError>(HasSubstr("at most two tets")));
+  EXPECT_THAT(
+      [&] { find(mesh_of(points, tets)); },
+      ThrowsMessage<DataError>(HasSubstr("at most two tets at each facet, found tets 1, 6 and 7 at vertices 0 1 6")));
+}
+
+// Tets of two regions in another order: the same cells, of the same tets under their numbers there.
+TEST(Findhex, TetsAreNumberedAsTheMeshHasThem) {
+  TetMesh mesh = kuhn_lattice(4);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) mesh.tet_tags[t] = mesh.points[mesh.tets[t][0]].x < 1.5 ? 1 : 2;
+  std::vector<std::int32_t> order(mesh.tets.size());
+  std::iota(order.begin(), order.end(), 0);
+  Random(3).shuffle(std::span(order));
+  TetMesh shuffled = mesh;
+  for (std::size_t t = 0; t < order.size(); ++t) {
+    shuffled.tets[t] = mesh.tets[order[t]];
+    shuffled.tet_tags[t] = mesh.tet_tags[order[t]];
+  }
+  const FindhexOptions all = with([](FindhexOptions& o) {
+    o.kinds = {CellKind::hex, CellKind::prism, CellKind::pyramid};
+  });
+  const Candidates expected = find(mesh, all), found = find(shuffled, all);
+  ASSERT_EQ(found.vertices, expected.vertices);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    std::vector<std::int32_t> tets;
+    for (const std::int32_t tet : found.interior_tets_of(i)) tets.push_back(order[tet]);
+    std::sort(tets.begin(), tets.end());
+    EXPECT_THAT(tets, ElementsAreArray(expected.interior_tets_of(i)));
+  }
 }
 
 TEST(Findhex, AnEmptyMeshHasNoCandidates) {

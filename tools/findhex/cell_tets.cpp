@@ -131,6 +131,8 @@ TetVerdict CellTets<Topology>::find_from(std::int32_t start) {
   const TetVerdict verdict = judge_from(start);
   for (const std::int32_t tet : interior_) marks_.interior[tet] = CellMarks::Interior::no;
   if (verdict == TetVerdict::accepted) {
+    for (std::int32_t& tet : interior_) tet = tables_.number_in_mesh(tet);
+    for (std::int32_t& tet : boundary_) tet = tables_.number_in_mesh(tet);
     interior_.sort();
     boundary_.sort();
   }

@@ -81,6 +81,8 @@ class FewTets {
   }
   std::size_t size() const { return size_; }
   std::int32_t operator[](std::size_t i) const { return tets_[i]; }
+  std::int32_t* begin() { return tets_.data(); }
+  std::int32_t* end() { return tets_.data() + size_; }
   const std::int32_t* begin() const { return tets_.data(); }
   const std::int32_t* end() const { return tets_.data() + size_; }
 
@@ -114,7 +116,7 @@ class CellTets {
   // first quad, seen from corner 0.
   TetVerdict find(const CellCorners& corners, Diagonals of_first_quad);
 
-  // Of an accepted cell, both ascending.
+  // Of an accepted cell, by their numbers in the mesh; both ascending.
   std::span<const std::int32_t> interior() const { return {interior_.begin(), interior_.end()}; }
   std::span<const std::int32_t> boundary() const { return {boundary_.begin(), boundary_.end()}; }
 

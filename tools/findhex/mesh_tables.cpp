@@ -7,6 +7,7 @@
 #include "common/mesh/orientation.hpp"
 #include "common/run/huge_pages.hpp"
 #include "common/run/parallel.hpp"
+#include "tools/findhex/tet_order.hpp"
 
 namespace hexpipe {
 namespace {
@@ -30,7 +31,11 @@ FoundFacet facet_of(const Tet& tet, const Triangle& triangle) {
 }  // namespace
 
 MeshTables::MeshTables(TetMesh mesh, const char* source, const std::vector<std::int8_t>& turns)
-    : mesh_(std::move(mesh)), usable_(judge_tets(source, turns)), adjacency_(mesh_, source) {
+    : mesh_(std::move(mesh)),
+      findings_{.orientation = turns.empty() ? orient_tets(mesh_, source) : orient_tets(mesh_, turns)},
+      tet_order_(order_by_lowest_vertex(mesh_)),
+      usable_(order_tets()),
+      adjacency_(mesh_, source, tet_order_) {
   both_at_once([this] { links_.emplace(mesh_, adjacency_, usable_); },
                [this] {
                  make_flood_tets();
@@ -38,11 +43,13 @@ MeshTables::MeshTables(TetMesh mesh, const char* source, const std::vector<std::
                });
 }
 
-std::vector<bool> MeshTables::judge_tets(const char* source, const std::vector<std::int8_t>& turns) {
-  findings_.orientation = turns.empty() ? orient_tets(mesh_, source) : orient_tets(mesh_, turns);
-  const std::vector<std::int8_t>& signs = findings_.orientation.signs;
-  std::vector<bool> usable(signs.size());
-  for (std::size_t t = 0; t < usable.size(); ++t) usable[t] = signs[t] > 0;
+// Returns which of them are usable, in the new order.
+std::vector<bool> MeshTables::order_tets() {
+  reorder(mesh_.tets, tet_order_);
+  reorder(mesh_.tet_tags, tet_order_);
+  std::vector<bool> usable(mesh_.tets.size());
+  for (std::size_t t = 0; t < usable.size(); ++t)
+    usable[t] = findings_.orientation.signs[number_in_mesh(static_cast<std::int32_t>(t))] > 0;
   return usable;
 }
 

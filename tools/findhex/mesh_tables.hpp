@@ -25,7 +25,10 @@ class MeshTables {
   // when a facet belongs to more than two tets.
   MeshTables(TetMesh mesh, const char* source, const std::vector<std::int8_t>& turns = {});
 
+  // Its tets stand in an order of their own, and all else here and in what is made of this counts them so.
   const TetMesh& mesh() const { return mesh_; }
+  // What a tet's number was in the mesh as it came.
+  std::int32_t number_in_mesh(std::int32_t tet) const { return tet_order_.empty() ? tet : tet_order_[tet]; }
   const TetAdjacency& adjacency() const { return adjacency_; }
   const VertexLinks& links() const { return *links_; }
   const MeshFindings& findings() const { return findings_; }
@@ -53,7 +56,7 @@ class MeshTables {
     std::int32_t usable_beyond, label;
   };
 
-  std::vector<bool> judge_tets(const char* source, const std::vector<std::int8_t>& turns);
+  std::vector<bool> order_tets();
   void make_flood_tets();
   void label_walls();
   // visit(tet, FoundFacet) of the tets, one or two, that have this facet.
@@ -62,6 +65,7 @@ class MeshTables {
 
   TetMesh mesh_;
   MeshFindings findings_;
+  std::vector<std::int32_t> tet_order_;  // numbers in the mesh as it came; empty: the same
   std::vector<bool> usable_;
   TetAdjacency adjacency_;
   std::optional<VertexLinks> links_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "common/run/huge_pages.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe {
@@ -32,14 +33,15 @@ void for_each_link(const TetMesh& mesh, const TetAdjacency& adjacency, const std
 }  // namespace
 
 VertexLinks::VertexLinks(const TetMesh& mesh, const TetAdjacency& adjacency, const std::vector<bool>& usable)
-    : adjacency_(adjacency), slot_offsets_(mesh.points.size() + 1, 0), rows_(adjacency.neighbour_count(), 0) {
+    : adjacency_(adjacency), slot_offsets_(mesh.points.size() + 1, 0) {
+  resize_in_huge_pages(rows_, adjacency.neighbour_count());
   const auto vertex_count = static_cast<std::int64_t>(mesh.points.size());
   for (std::int64_t v = 0; v < vertex_count; ++v) {
     const std::size_t count = neighbours_of(static_cast<Vertex>(v)).size();
     const std::size_t slots = count <= most_narrow ? std::bit_ceil(2 * count + 1) : 0;
     slot_offsets_[v + 1] = slot_offsets_[v] + static_cast<std::int64_t>(slots);
   }
-  slots_.assign(slot_offsets_.back(), no_place);
+  resize_in_huge_pages(slots_, static_cast<std::size_t>(slot_offsets_.back()), no_place);
   parallel_for(vertex_count, vertices_a_block, [&](std::int64_t v) {
     if (!is_narrow(static_cast<Vertex>(v))) return;
     file_places(static_cast<Vertex>(v));
