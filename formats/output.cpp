@@ -114,6 +114,11 @@ void Output::flush() {
   buffer_.clear();
 }
 
+void Output::drain() {
+  flush();
+  buffer_.shrink_to_fit();
+}
+
 void Output::write_through(std::string_view bytes) {
   while (!bytes.empty()) {
     const WaitForReader wait;

@@ -30,6 +30,8 @@ class Output {
     fmt::format_to(std::back_inserter(buffer_), text, std::forward<Args>(args)...);
     if (buffer_.size() >= buffer_limit) flush();
   }
+  // Keeps no memory until commit(), which may come much later. Throws DataError when the disk is full.
+  void drain();
   // Everything is written: flush, close, put in place. Throws DataError when any of it fails.
   void commit();
 

@@ -33,6 +33,11 @@ for_tools() {
   for_tools merge-parts
 }
 
+@test "faults leave the old output or the whole new one: mesh-part" {
+  [[ -x $HEXPIPE_BIN/mesh-part ]] || skip "built without METIS"
+  for_tools mesh-part
+}
+
 @test "faults leave the old output or the whole new one: view" {
   [[ -x $HEXPIPE_BIN/view ]] || skip "built without it"
   for_tools view

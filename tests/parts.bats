@@ -109,6 +109,16 @@ PYTHON
   assert_fails_with 1 "expected.*mesh" mesh-part /dev/null --parts 2 -o out
 }
 
+@test "there may be more parts than files that a process has open; a failure leaves those that were there" {
+  bar --length 12 >bar.mesh
+  (ulimit -Sn 30 && mesh-part -q bar.mesh --parts 60 -o many && merge-parts -q many/*.tar -o merged.tar)
+  cp -r many before
+  (ulimit -n 30 && assert_fails_with 1 "many/part-00..\.tar: cannot write: Too many open files" mesh-part bar.mesh --parts 60 --seed 2 -o many)
+  (ulimit -n 30 && assert_fails_with 1 "new/part-00..\.tar: cannot write: Too many open files" mesh-part bar.mesh --parts 60 -o new)
+  assert [ ! -e new ]
+  diff -r before many
+}
+
 @test "parts that do not belong together are refused" {
   bar --length 12 >bar.mesh
   run_parts bar.mesh 4 four

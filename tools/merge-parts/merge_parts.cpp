@@ -1,27 +1,14 @@
 #include "tools/merge-parts/merge_parts.hpp"
 
-#include <sys/resource.h>
-
+#include "common/run/open_files.hpp"
 #include "formats/members.hpp"
 #include "tools/merge-parts/part_reader.hpp"
 #include "tools/merge-parts/parts_of_mesh.hpp"
 #include "tools/merge-parts/shares.hpp"
 
 namespace hexpipe {
-namespace {
-
-// Parts may be more than the files that a process may have open until it asks for more.
-void allow_many_files() {
-  rlimit files{};
-  if (getrlimit(RLIMIT_NOFILE, &files) != 0) return;
-  files.rlim_cur = files.rlim_max;
-  setrlimit(RLIMIT_NOFILE, &files);
-}
-
-}  // namespace
-
 void merge_parts(const std::vector<std::string>& paths, BundleWriter& out) {
-  allow_many_files();
+  allow_many_open_files();
   PartReaders parts;
   parts.reserve(paths.size());
   for (const std::string& path : paths) parts.emplace_back(path);

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "common/run/error.hpp"
+#include "common/run/open_files.hpp"
 #include "formats/bundle.hpp"
 #include "formats/members.hpp"
-#include "formats/output.hpp"
 
 namespace hexpipe {
 namespace {
@@ -41,17 +41,19 @@ PartFiles::PartFiles(std::string directory, std::int32_t parts, bool compress)
       throw DataError::at(directory_, "expected no parts but the {} to be written, found {}: remove it", parts, name);
   }
   if (error) throw DataError::at(directory_, "cannot list the directory: {}", error.message());
+  allow_many_open_files();
 }
 
 PartFiles::~PartFiles() {
   std::error_code ignored;
-  for (const std::string& path : written_) std::filesystem::remove(path, ignored);
+  written_.clear();
+  for (const std::string& path : added_) std::filesystem::remove(path, ignored);
   if (made_) std::filesystem::remove(directory_, ignored);
 }
 
 void PartFiles::write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history) {
   const std::string path = fmt::format("{}/{}{:04}.tar{}", directory_, stem, part.part.part, compress_ ? ".zst" : "");
-  Output output(path);
+  Output& output = *written_.emplace_back(std::make_unique<Output>(path));
   BundleWriter writer(output, compress_);
   write_members(writer, part.part);
   write_members(writer, part.mesh);
@@ -59,8 +61,20 @@ void PartFiles::write(const PartOfMesh& part, const std::vector<nlohmann::ordere
   for (const auto& entry : history)
     writer.add_text(fmt::format("history/{:02}-{}.json", ++number, entry.value("tool", "stage")), entry.dump(2) + "\n");
   writer.close();
-  output.commit();
-  written_.push_back(path);
+  output.drain();
+}
+
+void PartFiles::commit() {
+  added_.reserve(written_.size());
+  for (const auto& output : written_) {
+    std::string path = output->name();
+    std::error_code unknown;
+    const bool is_there = std::filesystem::exists(path, unknown);
+    output->commit();
+    if (!is_there) added_.push_back(std::move(path));
+  }
+  added_.clear();
+  made_ = false;
 }
 
 }  // namespace hexpipe
