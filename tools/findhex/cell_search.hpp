@@ -18,6 +18,15 @@ namespace hexpipe {
 
 // body(std::integral_constant) for 0 .. count - 1, at compile time.
 template <std::size_t count, class Body>
+constexpr void for_each_index(Body&& body) {
+  [&]<std::size_t... i>(std::index_sequence<i...>) {
+    (body(std::integral_constant<std::size_t, i>{}), ...);
+  }
+  (std::make_index_sequence<count>{});
+}
+
+// The same until a body is false; whether none was.
+template <std::size_t count, class Body>
 constexpr bool all_of_indices(Body&& body) {
   return [&]<std::size_t... i>(std::index_sequence<i...>) {
     return (body(std::integral_constant<std::size_t, i>{}) && ...);
@@ -75,11 +84,10 @@ class CellSearch {
   void set() {
     constexpr std::uint8_t corner = plan<step>.corner;
     points_[corner] = tables_.mesh().points[corners_[corner]];
-    all_of_indices<plan<step>.edges.size()>([&](auto i) {
+    for_each_index<plan<step>.edges.size()>([&](auto i) {
       constexpr std::uint8_t edge = plan<step>.edges[i];
       edges_[edge] = points_[Topology::edges[edge][1]] - points_[Topology::edges[edge][0]];
       squares_[edge] = norm_squared(edges_[edge]);
-      return true;
     });
   }
 
@@ -132,22 +140,20 @@ class CellSearch {
       return places_[corner] > places_[corner == quad.side ? quad.other_side : quad.side] ? 1 : 0;
     };
     std::array<std::uint64_t, 2> allowed{~std::uint64_t{0}, ~std::uint64_t{0}};
-    all_of_indices<plan<step>.outer_corners.size()>([&](auto i) {
+    for_each_index<plan<step>.outer_corners.size()>([&](auto i) {
       constexpr OuterCorner c = plan<step>.outer_corners[i];
       if constexpr (c.end == plan<step>.corner)
         allowed[side_of(c.corner)] &= fan_->suffices_after(outer_edges_[c.corner][c.next_end]);
       else
         allowed[side_of(c.corner)] &= fan_->suffices_before(outer_edges_[c.corner][c.end]);
-      return true;
     });
     std::uint64_t bits = 0;
     for (std::size_t q = 0; q < quads.size(); ++q) {
       const QuadFan::Quad& found = quads[q];
       bool may = may_stand<step>(found.opposite);
-      all_of_indices<plan<step>.open_corners.size()>([&](auto i) {
+      for_each_index<plan<step>.open_corners.size()>([&](auto i) {
         constexpr OpenCorner open = plan<step>.open_corners[i];
         may &= open_corner_may_suffice<open>(found.outer_edges[side_of(open.corner.corner)]);
-        return true;
       });
       const std::uint64_t go_with_all = allowed[0] >> found.numbers[0] & allowed[1] >> found.numbers[1];
       bits |= (go_with_all & (may ? 1 : 0)) << q;
@@ -159,11 +165,10 @@ class CellSearch {
   template <std::size_t step>
   int quad_with_fewest() const {
     int fewest = plan<step>.closed_quads[0].quad;
-    all_of_indices<plan<step>.closed_quads.size()>([&](auto i) {
+    for_each_index<plan<step>.closed_quads.size()>([&](auto i) {
       constexpr OpenQuad quad = plan<step>.closed_quads[i];
       if (!is_at_first(quad) && angles_[quad.quad].opposite_count() < angles_[fewest].opposite_count())
         fewest = quad.quad;
-      return true;
     });
     return fewest;
   }
@@ -174,20 +179,18 @@ class CellSearch {
   std::uint64_t choosable_neighbours(std::size_t word) const {
     constexpr std::uint8_t corner = plan<step>.corner;
     std::uint64_t bits = ~std::uint64_t{0};
-    all_of_indices<plan<step>.opened_quads.size()>([&](auto i) {
+    for_each_index<plan<step>.opened_quads.size()>([&](auto i) {
       constexpr OpenQuad quad = plan<step>.opened_quads[i];
       constexpr std::uint8_t other = quad.side == corner ? quad.other_side : quad.side;
       if constexpr (is_at_first(quad)) bits &= fan_->partners_of(places_[other], word);
       if constexpr (is_at_first(quad) && exceeds<step>(other)) bits &= fan_->greater_than(places_[other], word);
-      return true;
     });
-    all_of_indices<plan<step>.corners.size()>([&](auto i) {
+    for_each_index<plan<step>.corners.size()>([&](auto i) {
       constexpr LocalCorner c = plan<step>.corners[i];
       if constexpr (c[0] == first) {
         static_assert(c[3] == corner);
         bits &= fan_->third_edges(places_[c[1]], places_[c[2]], word);
       }
-      return true;
     });
     return bits;
   }
@@ -215,14 +218,8 @@ class CellSearch {
   template <std::size_t step>
   bool may_stand(Vertex v) const {
     bool may = true;
-    all_of_indices<plan<step>.greater.size()>([&](auto i) {
-      may &= v > corners_[plan<step>.greater[i]];
-      return true;
-    });
-    all_of_indices<step>([&](auto i) {
-      may &= v != corners_[plan<i>.corner];
-      return true;
-    });
+    for_each_index<plan<step>.greater.size()>([&](auto i) { may &= v > corners_[plan<step>.greater[i]]; });
+    for_each_index<step>([&](auto i) { may &= v != corners_[plan<i>.corner]; });
     return may;
   }
 
