@@ -394,6 +394,10 @@ PYTHON
   solve_parts bar.mesh 2 two $ALL
   assemble_parts two
   assert_fails_with 1 "two/pieces/part-0001.tar: expected one of 3 pieces as k/pieces/part-0000.tar, found one of 2" $merged two/pieces/part-0001.tar -o out.vtu
+  bar --length 11 >shorter.mesh
+  solve_parts shorter.mesh 3 shorter $ALL
+  assemble_parts shorter
+  assert_fails_with 1 "shorter/pieces/part-0002.tar: expected a piece of the same mesh as k/pieces/part-0000.tar, found one of another" $merged shorter/pieces/part-0002.tar -o out.vtu
   $PYTHON - k/pieces/part-0002.tar moved.tar <<'PYTHON'
 import io, sys, tarfile
 import numpy as np
