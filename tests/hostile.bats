@@ -94,6 +94,10 @@ PYTHON
   refused "history/01-x.json: expected a JSON object" list.tar
   bundle number.tar "[('history/01-x.json', b'{\"tool\": 1}')]"
   refused "history/01-x.json: expected a JSON object" number.tar
+  bundle version.tar "[('history/01-x.json', b'{\"tool\": \"x\", \"version\": 1}')]"
+  refused "history/01-x.json: expected a version that is text" version.tar
+  bundle options.tar "[('history/01-x.json', b'{\"tool\": \"x\", \"options\": [1]}')]"
+  refused "history/01-x.json: expected options as a JSON object" options.tar
   bundle long.tar "[('history/01-x.json', b'[' * (2 << 20))]"
   refused "history/01-x.json: expected at most 1048576 bytes" long.tar
   bundle deep.tar "[('history/01-x.json', b'[' * 1000000 + b']' * 1000)]"
@@ -128,4 +132,11 @@ out = io.BytesIO(); numpy.save(out, numpy.zeros((4, 3)))
 open('points.npy', 'wb').write(out.getvalue().replace(b'<f8', b'<\n8'))"
   tar --format=pax -cf type.tar --transform 's,^,mesh/,' points.npy
   refused "mesh/points.npy: expected little-endian numbers .*, found type '<\?8'" type.tar
+}
+
+@test "a surface that is a million times longer than wide ends in an error, not in points without end" {
+  [[ -x "$HEXPIPE_BIN/tetmesh" ]] || skip "tetmesh is not built"
+  tail -c +2 "$HEXPIPE_SOURCE/tests/fuzz/findings/surface/front-leaves-a-sliver" >sliver.off
+  assert_fails_with 1 "^tetmesh: sliver.off: TetGen failed: it does not accept the surface$" timeout 60 tetmesh sliver.off --size 25% -o out.tar
+  assert [ ! -e out.tar ]
 }

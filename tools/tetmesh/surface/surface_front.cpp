@@ -21,6 +21,9 @@ namespace {
 constexpr double least_distance = 0.7;
 // Normals of points that may be in each other's way have at least this cosine: those of the two sides of a wall do not.
 constexpr double least_normal_cosine = 0.3;
+// A triangle of the field, not longer than a size, has no room for more points that far apart. Where one is so thin
+// that its plane is noise, walks leave the surface, and a front would go on for ever in what should be that triangle.
+constexpr int most_in_triangle = 9;
 // How far, in sizes, a front looks ahead for the feature curve to fit its steps to, and with how much of that still
 // ahead it goes on without looking again.
 constexpr double look_ahead = 30, least_ahead = 15;
@@ -47,12 +50,16 @@ struct Outlook {
 class SurfaceFront {
  public:
   SurfaceFront(const FieldSurface& surface, const CrossField& field, const SizeField& size)
-      : surface_(surface), field_(field), walker_(surface, field), size_(size), grid_(surface.points.front()) {}
+      : surface_(surface),
+        field_(field),
+        walker_(surface, field),
+        size_(size),
+        grid_(surface.points.front()),
+        taken_in_(surface.triangles.size()) {}
 
   std::vector<SurfacePoint> run(std::span<const Vertex> kept) {
     add_kept(kept);
-    for (const SurfacePoint& p : surface_lattice(surface_, field_, kept, size_))
-      if (is_free(p, least_distance)) take(p, {});
+    for (const SurfacePoint& p : surface_lattice(surface_, field_, kept, size_)) take_if_free(p, {});
     start_from_kept(kept);
     spread();
     fill_gaps();
@@ -71,7 +78,7 @@ class SurfaceFront {
   Outlook look(const SurfacePoint& from, const Vec3& direction) const;
   // Whether no point is nearer than `distance` sizes.
   bool is_free(const SurfacePoint& point, double distance) const;
-  void take(const SurfacePoint& point, const Outlook& outlook);
+  void take_if_free(const SurfacePoint& point, const Outlook& outlook);
 
   const FieldSurface& surface_;
   const CrossField& field_;
@@ -82,6 +89,7 @@ class SurfaceFront {
   std::size_t next_ = 0;                    // of the points, the first that has not yet offered its neighbours
   SizedPointGrid grid_;                     // the kept vertices, then the points
   std::vector<std::vector<Vec3>> normals_;  // of the points in the grid, of each face around them that differs
+  std::vector<std::int8_t> taken_in_;       // of each triangle, the points
 };
 
 void SurfaceFront::add_kept(std::span<const Vertex> kept) {
@@ -130,8 +138,7 @@ void SurfaceFront::fill_gaps() {
   for (std::int32_t f = 0; f < static_cast<std::int32_t>(surface_.triangles.size()); ++f) {
     const auto [a, b, c] = surface_.triangles[f];
     const SurfacePoint centre{(surface_.points[a] + surface_.points[b] + surface_.points[c]) * (1.0 / 3), f};
-    if (!is_free(centre, least_distance)) continue;
-    take(centre, {});
+    take_if_free(centre, {});
     spread();
   }
 }
@@ -146,7 +153,7 @@ void SurfaceFront::offer_step(const SurfacePoint& from, const Vec3& direction, c
     if (outlook.steps < 2) return;
     end = step(from, direction, outlook.step);
   }
-  if (!end.at_feature && is_free(end.point, least_distance)) take(end.point, outlook.after_step(end));
+  if (!end.at_feature) take_if_free(end.point, outlook.after_step(end));
 }
 
 // As long as the mean of the sizes at its ends, times `sizes`.
@@ -188,7 +195,9 @@ bool SurfaceFront::is_free(const SurfacePoint& point, double distance) const {
   return is_free;
 }
 
-void SurfaceFront::take(const SurfacePoint& point, const Outlook& outlook) {
+void SurfaceFront::take_if_free(const SurfacePoint& point, const Outlook& outlook) {
+  if (taken_in_[point.triangle] == most_in_triangle || !is_free(point, least_distance)) return;
+  ++taken_in_[point.triangle];
   grid_.add(point.position, size_.at(point.position));
   outlooks_.push_back(outlook);
   normals_.push_back({surface_.normals[point.triangle]});
