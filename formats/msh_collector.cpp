@@ -5,16 +5,10 @@
 #include <limits>
 #include <numeric>
 
+#include "common/mesh/reorder.hpp"
+
 namespace hexpipe {
 namespace {
-
-template <class T>
-void permute(std::vector<T>& items, const std::vector<std::size_t>& order) {
-  std::vector<T> sorted;
-  sorted.reserve(items.size());
-  for (const std::size_t i : order) sorted.push_back(items[i]);
-  items = std::move(sorted);
-}
 
 // True when elements of one entity name different groups.
 bool has_entity_in_two_groups(const std::vector<MshElementNumbers>& numbers) {
@@ -102,8 +96,8 @@ void MshCollector::sort_elements() {
     std::vector<std::size_t> order(numbers.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return numbers[i].element; });
-    permute(block.cells, order);
-    permute(numbers, order);
+    reorder(block.cells, order);
+    reorder(numbers, order);
   });
 }
 

@@ -6,6 +6,7 @@
 
 #include "common/run/error.hpp"
 #include "formats/bundle.hpp"
+#include "formats/history.hpp"
 #include "formats/input.hpp"
 #include "formats/members.hpp"
 
@@ -23,8 +24,7 @@ PartHead read_part_bundle(const std::string& path, const std::function<bool(cons
     if (is_known) continue;
     const auto role = role_of_member(reader.name());
     if (role == Role::candidates || role == Role::solution) read_member(reader, data, nullptr, false);
-    if (reader.name().starts_with("history/"))
-      data.history.push_back(nlohmann::ordered_json::parse(reader.read_text(), nullptr, false));
+    if (is_history_entry(reader.name())) data.history.push_back(read_history_entry(reader));
   }
   if (!data.part) throw DataError::at(path, "expected a part of a mesh, as mesh-part makes them, found a whole");
   if (!data.candidates || !data.candidate_keys)
@@ -82,8 +82,7 @@ PieceBundle read_piece_bundle(const std::string& path, bool with_mesh) {
   while (reader.next()) {
     if (read_piece_member(reader, piece)) continue;
     if (with_mesh && role_of_member(reader.name()) == Role::result) read_member(reader, data, nullptr, false);
-    if (with_mesh && reader.name().starts_with("history/"))
-      data.history.push_back(nlohmann::ordered_json::parse(reader.read_text(), nullptr, false));
+    if (with_mesh && is_history_entry(reader.name())) data.history.push_back(read_history_entry(reader));
   }
   if (!piece) throw DataError::at(path, "expected a piece of a mesh, as assemble makes them of parts, found none");
   validate(*piece, path.c_str());
@@ -93,14 +92,6 @@ PieceBundle read_piece_bundle(const std::string& path, bool with_mesh) {
     validate_against(*piece, mesh, path.c_str());
   }
   return {path, std::move(*piece), std::move(mesh), std::move(data.history)};
-}
-
-nlohmann::ordered_json settings_of(const std::string& tool, const std::vector<nlohmann::ordered_json>& history) {
-  for (auto entry = history.rbegin(); entry != history.rend(); ++entry)
-    if (entry->is_object() && entry->value("tool", "") == tool)
-      return {{"version", entry->value("version", "")},
-              {"options", entry->value("options", nlohmann::ordered_json::object())}};
-  return nullptr;
 }
 
 }  // namespace hexpipe

@@ -49,7 +49,4 @@ struct PieceBundle {
 };
 PieceBundle read_piece_bundle(const std::string& path, bool with_mesh);
 
-// The last entry of a tool, without the counts that are its part's own: version and options. Null where there is none.
-nlohmann::ordered_json settings_of(const std::string& tool, const std::vector<nlohmann::ordered_json>& history);
-
 }  // namespace hexpipe

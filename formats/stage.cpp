@@ -13,6 +13,7 @@
 #include "formats/bundle.hpp"
 #include "formats/cand.hpp"
 #include "formats/dimacs.hpp"
+#include "formats/history.hpp"
 #include "formats/members.hpp"
 #include "formats/mesh_files.hpp"
 #include "formats/metis.hpp"
@@ -21,7 +22,6 @@
 namespace hexpipe {
 namespace {
 
-constexpr std::size_t longest_history_entry = 1 << 20;
 constexpr std::string_view bundle_format = "tar";
 constexpr std::string_view compressed_bundle_format = "tar.zst";
 
@@ -322,12 +322,9 @@ void Stage::State::read_bundle(Input& input, const std::set<Role>& taken, StageD
       if (with_part && read_part_member(reader, data, passes ? &*bundle : nullptr)) continue;
       if (taken.contains(*role) && read_member(reader, data, passes ? &*bundle : nullptr, with_cover)) continue;
     }
-    if (reader.name().starts_with("history/")) {
-      const std::string text = reader.read_text(longest_history_entry);
-      auto entry = nlohmann::ordered_json::parse(text, nullptr, false);
-      if (!entry.is_object() || (entry.contains("tool") && !entry["tool"].is_string()))
-        throw DataError::at(reader.where(), "expected a JSON object with the name of a tool, found something else");
-      data.history.push_back(std::move(entry));
+    if (is_history_entry(reader.name())) {
+      std::string text;
+      data.history.push_back(read_history_entry(reader, &text));
       ++history_count;
       if (passes) bundle->add_text(reader.name(), text);
       continue;
@@ -416,7 +413,7 @@ void Stage::State::check(const StageData& data) const {
 void Stage::State::write_history(const nlohmann::ordered_json& details) {
   nlohmann::ordered_json entry{{"tool", context.info.name}, {"version", version()}, {"options", context.options}};
   if (!details.is_null()) entry.update(details);
-  bundle->add_text(fmt::format("history/{:02}-{}.json", history_count + 1, context.info.name), entry.dump(2) + "\n");
+  write_history_entry(*bundle, history_member(history_count + 1, entry), entry);
 }
 
 template <class Product, class WriteFile>

@@ -378,21 +378,7 @@ PYTHON
 @test "arrays of the wrong shape or type are named" {
   # damage MEMBER EXPRESSION [TOOL]: copies the input of a tool (buildgraph) with one array changed.
   damage() {
-    $PYTHON - "$STAGES/${3:-buildgraph}.in" damaged.tar "$1" "$2" <<'PYTHON'
-import io, sys, tarfile
-import numpy as np
-source, target, name, expression = sys.argv[1:]
-with tarfile.open(source) as old, tarfile.open(target, "w", format=tarfile.PAX_FORMAT) as new:
-    for member in old:
-        data = old.extractfile(member).read()
-        if member.name == name:
-            a = np.load(io.BytesIO(data))
-            buffer = io.BytesIO()
-            np.save(buffer, eval(expression))
-            data = buffer.getvalue()
-            member.size = len(data)
-        new.addfile(member, io.BytesIO(data))
-PYTHON
+    $PYTHON "$DATA/change_array.py" "$STAGES/${3:-buildgraph}.in" damaged.tar "$1" "$2"
   }
   damage candidates/vertices.npy 'a[:, :7]'
   assert_fails_with 1 "candidates/vertices.npy: expected an array of shape \(n,8\), found \([0-9]+,7\)" buildgraph damaged.tar -o out.tar

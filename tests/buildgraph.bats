@@ -249,6 +249,11 @@ optimum() {
   assert_fails_with 1 "other.tar: history/.*: expected a run with the same version and options" merge-parts kinds1.tar kinds2.tar other.tar -o out.tar
   head -c 5000 kinds2.tar >cut.tar
   assert_fails_with 1 "cut.tar: .*(found: |cut off)" merge-parts kinds1.tar cut.tar kinds3.tar -o out.tar
+  for i in 1 2; do buildgraph -q whole.tar --part $i/2 -o graph$i.tar; done
+  for ends in '[]' 'a[:-1]'; do
+    $PYTHON "$DATA/change_array.py" graph2.tar ends.tar graph/offsets.npy "np.array($ends, '<i8')"
+    assert_fails_with 1 "ends.tar: graph/offsets.npy: expected [0-9]+ ends of lists, found [0-9]+$" merge-parts graph1.tar ends.tar -o out.tar
+  done
   assert_fails_with 1 "p.mesh: expected a bundle of a part" merge-parts p.mesh -o out.tar
   initsol -q graph.tar --iterations 1 -o solved.tar
   assert_fails_with 1 "solved.tar: expected a bundle that findhex or buildgraph wrote last" merge-parts solved.tar -o out.tar

@@ -160,22 +160,7 @@ PYTHON
   run_parts bar.mesh 2 two
   # with_end MEMBER PLACE VALUE: a part whose array says otherwise.
   with_end() {
-    $PYTHON - two/graph-0001.tar "$@" <<'PYTHON'
-import io, sys, tarfile
-import numpy as np
-path, name, place, value = sys.argv[1:]
-with tarfile.open(path) as old, tarfile.open("bad.tar", "w", format=tarfile.PAX_FORMAT) as new:
-    for member in old:
-        data = old.extractfile(member).read()
-        if member.name == name:
-            ends = np.load(io.BytesIO(data))
-            ends[int(place)] = int(value)
-            buffer = io.BytesIO()
-            np.save(buffer, ends)
-            data = buffer.getvalue()
-        member.size = len(data)
-        new.addfile(member, io.BytesIO(data))
-PYTHON
+    $PYTHON "$DATA/change_array.py" two/graph-0001.tar bad.tar "$1" "[*a[:$2], $3, *a[$2:][1:]]"
   }
   for member in candidates/tet_offsets.npy graph/offsets.npy; do
     for first in -9223372036854775808 -1 100000; do
@@ -359,7 +344,8 @@ PYTHON
   merge-parts k/graph-*.tar | initsol -q --iterations 50 --seed 5 -o other.tar
   $PYTHON "$DATA/split_solution.py" other.tar others k/graph-*.tar
   assert_fails_with 1 "others/part-0000.tar: expected a solution made with the version and options of k/solved/part-0001.tar" $one --neighbours others/part-0000.tar k/solved/part-000[12].tar -o out.tar
-  $PYTHON - k/solved/part-0000.tar k/solved/part-0001.tar crossing.tar <<'PYTHON'
+  # A candidate of the first part that shares a tet with a chosen one of the second.
+  row=$($PYTHON - k/solved/part-0000.tar k/solved/part-0001.tar <<'PYTHON'
 import io, sys, tarfile
 import numpy as np
 
@@ -371,15 +357,10 @@ first, second = arrays(sys.argv[1]), arrays(sys.argv[2])
 theirs = second["solution/chosen.npy"]
 theirs = second["candidates/key.npy"][theirs[second["candidates/part.npy"][theirs] == 1]]
 key, part, offsets, neighbours = (first[n + ".npy"] for n in ("candidates/key", "candidates/part", "graph/offsets", "graph/neighbours"))
-rows = [v for v in np.flatnonzero(part == 0) if np.isin(key[neighbours[offsets[v]:offsets[v + 1]]], theirs).any()]
-data = io.BytesIO()
-np.save(data, np.array(rows[:1], "<i4"))
-with tarfile.open(sys.argv[1]) as old, tarfile.open(sys.argv[3], "w", format=tarfile.PAX_FORMAT) as new:
-    for member in old:
-        content = data.getvalue() if member.name == "solution/chosen.npy" else old.extractfile(member).read()
-        member.size = len(content)
-        new.addfile(member, io.BytesIO(content))
+print(next(v for v in np.flatnonzero(part == 0) if np.isin(key[neighbours[offsets[v]:offsets[v + 1]]], theirs).any()))
 PYTHON
+  )
+  $PYTHON "$DATA/change_array.py" k/solved/part-0000.tar crossing.tar solution/chosen.npy "np.array([$row], '<i4')"
   assert_fails_with 1 "part-0001.tar: solution: expected candidates that fit together" $one --neighbours crossing.tar k/solved/part-000[12].tar -o out.tar
   # Pieces.
   assert_fails_with 1 "k/1/part-0000.tar: expected a settled piece, found one that needs another round of assemble --before" merge-parts k/1/*.tar -o out.vtu
@@ -398,18 +379,7 @@ PYTHON
   solve_parts shorter.mesh 3 shorter $ALL
   assemble_parts shorter
   assert_fails_with 1 "shorter/pieces/part-0002.tar: expected a piece of the same mesh as k/pieces/part-0000.tar, found one of another" $merged shorter/pieces/part-0002.tar -o out.vtu
-  $PYTHON - k/pieces/part-0002.tar moved.tar <<'PYTHON'
-import io, sys, tarfile
-import numpy as np
-with tarfile.open(sys.argv[1]) as old, tarfile.open(sys.argv[2], "w", format=tarfile.PAX_FORMAT) as new:
-    for member in old:
-        data = old.extractfile(member).read()
-        if member.name == "result/points.npy":
-            points = io.BytesIO()
-            np.save(points, np.load(io.BytesIO(data)) + 1e-12)
-            data = points.getvalue()
-        new.addfile(member, io.BytesIO(data))
-PYTHON
+  $PYTHON "$DATA/change_array.py" k/pieces/part-0002.tar moved.tar result/points.npy 'a + 1e-12'
   assert_fails_with 1 "moved.tar: expected point [0-9]+ where the other pieces have it, found it elsewhere" $merged moved.tar -o out.vtu
   assert [ ! -e out.vtu ] && [ ! -e out.tar ]
 }

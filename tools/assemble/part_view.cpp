@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/run/error.hpp"
+#include "formats/history.hpp"
 #include "formats/part_bundle.hpp"
 
 namespace hexpipe {

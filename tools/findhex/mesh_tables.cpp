@@ -5,6 +5,7 @@
 
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/orientation.hpp"
+#include "common/mesh/reorder.hpp"
 #include "common/run/huge_pages.hpp"
 #include "common/run/parallel.hpp"
 #include "tools/findhex/tet_order.hpp"
@@ -45,8 +46,10 @@ MeshTables::MeshTables(TetMesh mesh, const char* source, const std::vector<std::
 
 // Returns which of them are usable, in the new order.
 std::vector<bool> MeshTables::order_tets() {
-  reorder(mesh_.tets, tet_order_);
-  reorder(mesh_.tet_tags, tet_order_);
+  if (!tet_order_.empty()) {
+    reorder(mesh_.tets, tet_order_);
+    reorder(mesh_.tet_tags, tet_order_);
+  }
   std::vector<bool> usable(mesh_.tets.size());
   for (std::size_t t = 0; t < usable.size(); ++t)
     usable[t] = findings_.orientation.signs[number_in_mesh(static_cast<std::int32_t>(t))] > 0;

@@ -1,24 +1,14 @@
 #include "tools/merge-parts/history.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <utility>
 
 #include "common/run/error.hpp"
+#include "formats/history.hpp"
 
 namespace hexpipe {
 namespace {
-
-constexpr std::size_t longest_entry = 1 << 20;
-
-nlohmann::ordered_json read_entry(PartReader& part) {
-  auto json = nlohmann::ordered_json::parse(part.bundle().read_text(longest_entry), nullptr, false);
-  if (!json.is_object() || (json.contains("tool") && !json["tool"].is_string()))
-    throw DataError::at(part.bundle().where(), "expected a JSON object with the name of a tool, found something else");
-  return json;
-}
 
 // Counts of parts that add up to those of the whole: a number, or an object of numbers.
 void add_counts(nlohmann::ordered_json& sum, const nlohmann::ordered_json& counts) {
@@ -36,10 +26,6 @@ const std::map<std::string, std::vector<const char*>> counts_of_tools{{"findhex"
 std::vector<const char*> counts_of(const std::string& tool) {
   const auto found = counts_of_tools.find(tool);
   return found == counts_of_tools.end() ? std::vector<const char*>() : found->second;
-}
-
-std::string tool_of(const nlohmann::ordered_json& entry) {
-  return entry.value("tool", "stage");
 }
 
 // The role of what a tool makes; of one that we do not know, what was made last.
@@ -67,8 +53,8 @@ void merge_into(nlohmann::ordered_json& entry, const nlohmann::ordered_json& oth
 }  // namespace
 
 void MergedHistory::take(PartReaders& parts) {
-  nlohmann::ordered_json entry = read_entry(parts.front());
-  for (std::size_t p = 1; p < parts.size(); ++p) merge_into(entry, read_entry(parts[p]), parts[p]);
+  nlohmann::ordered_json entry = read_history_entry(parts.front().bundle());
+  for (std::size_t p = 1; p < parts.size(); ++p) merge_into(entry, read_history_entry(parts[p].bundle()), parts[p]);
   if (tool_of(entry) == "mesh-part") return;
   latest_ = std::max(latest_, role_of(tool_of(entry), latest_));
   entries_.push_back({std::move(entry), latest_});
@@ -78,9 +64,10 @@ std::vector<std::string> MergedHistory::take_shares(PartReaders& parts) {
   std::vector<std::string> shares;
   nlohmann::ordered_json entry;
   for (PartReader& part : parts) {
-    nlohmann::ordered_json other = read_entry(part);
+    nlohmann::ordered_json other = read_history_entry(part.bundle());
     auto& options = other["options"];
-    shares.push_back(options.is_object() ? options.value("part", "") : "");
+    const auto share = options.is_object() ? options.find("part") : options.end();
+    shares.push_back(share != options.end() && share->is_string() ? share->get<std::string>() : "");
     if (options.is_object()) options["part"] = "1/1";
     if (entry.is_null())
       entry = std::move(other);
@@ -96,13 +83,13 @@ void MergedHistory::write(Entry& entry, const std::string& name, const MergedCou
   const bool of_graph = tool_of(entry.json) == "buildgraph";
   if (of_graph && counts.vertices) entry.json["vertices"] = *counts.vertices;
   if (of_graph && counts.edges) entry.json["edges"] = *counts.edges;
-  out.add_text(name, entry.json.dump(2) + "\n");
+  write_history_entry(out, name, entry.json);
 }
 
 void MergedHistory::write_before(std::optional<Role> role, const MergedCounts& counts, BundleWriter& out) {
   std::size_t done = 0;
   for (; done < entries_.size() && (!role || entries_[done].made < *role); ++done)
-    write(entries_[done], fmt::format("history/{:02}-{}.json", ++written_, tool_of(entries_[done].json)), counts, out);
+    write(entries_[done], history_member(++written_, entries_[done].json), counts, out);
   entries_.erase(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(done));
 }
 

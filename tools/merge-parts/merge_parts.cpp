@@ -7,6 +7,7 @@
 #include "tools/merge-parts/shares.hpp"
 
 namespace hexpipe {
+
 void merge_parts(const std::vector<std::string>& paths, BundleWriter& out) {
   allow_many_open_files();
   PartReaders parts;

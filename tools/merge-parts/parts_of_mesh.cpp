@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/run/error.hpp"
+#include "formats/history.hpp"
 #include "formats/members.hpp"
 #include "tools/merge-parts/history.hpp"
 #include "tools/merge-parts/interleaving.hpp"
@@ -50,7 +51,7 @@ class Merger {
     check_heads();
     for (next(parts_); !common_member(parts_).empty(); next(parts_)) {
       const std::string name = common_member(parts_);
-      if (name.starts_with("history/"))
+      if (is_history_entry(name))
         history_.take(parts_);
       else
         merge_member(name);

@@ -11,6 +11,7 @@
 
 #include "common/run/error.hpp"
 #include "formats/bundle.hpp"
+#include "formats/history.hpp"
 #include "formats/input.hpp"
 #include "formats/members.hpp"
 #include "formats/mesh_files.hpp"
@@ -28,7 +29,7 @@ using History = std::vector<nlohmann::ordered_json>;
 History settings_in(const History& history) {
   History result;
   for (const auto& entry : history)
-    if (entry.is_object() && entry.contains("tool"))
+    if (entry.contains("tool"))
       result.push_back({{"tool", entry["tool"]},
                         {"version", entry.value("version", "")},
                         {"options", entry.value("options", nlohmann::ordered_json::object())}});
@@ -174,10 +175,7 @@ void write_whole(PieceReader& reader, const std::string& path, bool compress) {
   } else {
     BundleWriter writer(output, compress || ending == "zst");
     write_members(writer, mesh);
-    int number = 0;
-    for (const auto& entry : reader.settings())
-      writer.add_text(fmt::format("history/{:02}-{}.json", ++number, entry["tool"].get<std::string>()),
-                      entry.dump(2) + "\n");
+    write_history(writer, reader.settings());
     writer.close();
   }
   output.commit();
@@ -194,7 +192,7 @@ bool is_piece(const std::string& path) {
   BundleReader reader(input);
   // Histories may come before it.
   while (reader.next())
-    if (!reader.name().starts_with("history/")) return is_piece_title(reader.name());
+    if (!is_history_entry(reader.name())) return is_piece_title(reader.name());
   return false;
 }
 

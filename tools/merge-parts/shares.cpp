@@ -131,10 +131,10 @@ class GraphShares {
   void merge_offsets() {
     for (PartReader& part : parts_) {
       const std::vector<std::int64_t> offsets = part.bundle().read_array<std::int64_t>();
-      const auto count = static_cast<std::int64_t>(offsets.size()) - 1;
-      if (lengths_.empty()) vertices_ = count;
-      if (count < 0 || count != vertices_)
-        throw DataError::at(part.bundle().where(), "expected ascending ends of {} lists, found others", vertices_);
+      if (lengths_.empty()) vertices_ = std::max<std::int64_t>(0, static_cast<std::int64_t>(offsets.size()) - 1);
+      if (static_cast<std::int64_t>(offsets.size()) != vertices_ + 1)
+        throw DataError::at(part.bundle().where(), "expected {} ends of lists, found {}", vertices_ + 1,
+                            offsets.size());
       auto& lengths = lengths_.emplace_back();
       for (std::int64_t v = 0; v < vertices_; ++v) lengths.push_back(list_length(part, offsets[v], offsets[v + 1]));
     }

@@ -10,6 +10,7 @@
 #include "common/run/error.hpp"
 #include "common/run/open_files.hpp"
 #include "formats/bundle.hpp"
+#include "formats/history.hpp"
 #include "formats/members.hpp"
 
 namespace hexpipe {
@@ -57,9 +58,7 @@ void PartFiles::write(const PartOfMesh& part, const std::vector<nlohmann::ordere
   BundleWriter writer(output, compress_);
   write_members(writer, part.part);
   write_members(writer, part.mesh);
-  int number = 0;
-  for (const auto& entry : history)
-    writer.add_text(fmt::format("history/{:02}-{}.json", ++number, entry.value("tool", "stage")), entry.dump(2) + "\n");
+  write_history(writer, history);
   writer.close();
   output.drain();
 }

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+namespace hexpipe {
+
+// Puts item order[i] in place i, for all of them.
+template <class T, class Index>
+void reorder(std::vector<T>& items, const std::vector<Index>& order) {
+  std::vector<T> reordered;
+  reordered.reserve(items.size());
+  for (const Index i : order) reordered.push_back(std::move(items[i]));
+  items = std::move(reordered);
+}
+
+}  // namespace hexpipe
