@@ -495,6 +495,33 @@ for kind in ("frame", "lattice"):
 PYTHON
 }
 
+@test "--tries keeps the size of which most is estimated to become hexes" {
+  local part="$DATA/bracket.stl"
+  tetmesh -q "$part" --size 10 -o once.mesh --stats once.json
+  tetmesh -q "$part" --size 10 --tries 4 -o tried.mesh --stats tried.json
+  tetmesh -q "$part" --size 10 --tries 4 --threads 1 -o again.mesh
+  assert_same_bytes tried.mesh again.mesh
+  $PYTHON - <<'PYTHON'
+import json
+once, tried = json.load(open("once.json")), json.load(open("tried.json"))
+assert once["size"] == 10 and "tried" not in once, once
+sizes = [t["size"] for t in tried["tried"]]
+assert all(abs(a - b) < 1e-9 for a, b in zip(sizes, (10, 9.5, 10.5, 9.75))) and len(sizes) == 4, sizes
+shares = [t["estimated_hex_share"] for t in tried["tried"]]
+assert tried["size"] == sizes[shares.index(max(shares))], tried
+assert shares[0] == max(once["estimated_hex_share"].values()), (shares, once)
+assert len(set(shares)) == 4 and max(shares) > shares[0], shares
+PYTHON
+  cp tried.json stats.json
+  tetmesh -q "$part" --size "$(stats size)" -o direct.mesh
+  assert_same_bytes tried.mesh direct.mesh
+  assert_fails_with 1 "TetGen failed: it took longer than --tetgen-timeout" tetmesh "$part" --size 10 --tries 2 --tetgen-timeout 0.001 -o out.mesh
+  assert_fails_with 1 "^tetmesh: .*: expected a size that makes at most 10 points inside" tetmesh "$part" --size 10 --tries 2 --most-points 10 -o out.mesh
+  assert_fails_with 2 "^tetmesh: --tries has no sizes to try" tetmesh "$part" --surface keep --points none --tries 2 -o out.mesh
+  for tries in 0 10 -1 x; do assert_fails_with 2 "tries" tetmesh "$part" --tries $tries -o out.mesh; done
+  assert [ ! -e out.mesh ]
+}
+
 # A cube of 10 with sizes from 0.6 at a corner: by a list, by its vertices, and on a background mesh.
 sizes_of_cube() {
   $PYTHON - <<'PYTHON'
@@ -588,10 +615,10 @@ PYTHON
 
 @test "--layers gives a thin wall as many elements across" {
   $PYTHON - <<'PYTHON'
-corners = [(x, y, z) for z in (0, 1) for y in (0, 6) for x in (0, 6)]
+corners = [(x, y, z) for z in (0, 1) for y in (0, 5.3) for x in (0, 6)]
 quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7), (2, 0, 4, 6)]
 with open("plate.obj", "w") as file:
-    file.write("".join("v %d %d %d\n" % c for c in corners) + "".join("f %d %d %d %d\n" % tuple(i + 1 for i in q) for q in quads))
+    file.write("".join("v %g %g %g\n" % c for c in corners) + "".join("f %d %d %d %d\n" % tuple(i + 1 for i in q) for q in quads))
 PYTHON
   # Levels of points between the sides, in steps of a tenth.
   local levels='len(np.unique(a[:, 2].round(1))) - 1'

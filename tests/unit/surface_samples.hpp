@@ -45,6 +45,22 @@ inline Facets cube(double low = 0, double size = 1, int n = 1) {
   return box({low, low, low}, {low + size, low + size, low + size}, n);
 }
 
+// A prism of n sides, outward, its ends cut into fans of slivers.
+inline Facets prism(double radius, double height, int n) {
+  Facets facets;
+  auto point = [&](int i, double z) {
+    const double angle = 2 * std::numbers::pi * (i % n) / n;
+    return Vec3{radius * std::cos(angle), radius * std::sin(angle), z};
+  };
+  for (int i = 0; i < n; ++i) {
+    const Vec3 a = point(i, 0), b = point(i + 1, 0), c = point(i + 1, height), d = point(i, height);
+    facets.insert(facets.end(), {Facet{a, b, c}, Facet{a, c, d}});
+    if (i == 0 || i + 1 == n) continue;
+    facets.insert(facets.end(), {Facet{point(0, 0), b, a}, Facet{point(0, height), d, c}});
+  }
+  return facets;
+}
+
 // A sphere of `n` bands of latitude and 2 n of longitude, outward.
 inline Facets sphere(const Vec3& centre, double radius, int n) {
   Facets facets;

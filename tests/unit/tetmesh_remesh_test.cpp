@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
 #include "common/run/random.hpp"
 #include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
+#include "tools/tetmesh/surface/surface_refine.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 #include "tools/tetmesh/surface_check.hpp"
 
@@ -18,6 +21,7 @@ using testing::Facets;
 using testing::inverted;
 using testing::joined;
 using testing::naive_distance;
+using testing::prism;
 using testing::soup_of;
 using testing::sphere;
 using testing::surface_of;
@@ -46,6 +50,26 @@ TEST(Remesh, BoxesBecomeGrids) {
   EXPECT_EQ(result.soup.points.size(), 2 * (12 * 8 + 8 * 4 + 4 * 12) + 2u);
   for (const Vec3& p : result.soup.points)
     for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(p[axis] / 0.25, std::round(p[axis] / 0.25), 1e-6);
+}
+
+TEST(RefineSurface, CutsFansOfSliversIntoNoMorePointsThanTheyNeed) {
+  const Surface surface = surface_of(prism(1, 2, 200));
+  FeatureMesh mesh(surface, 40);
+  refine_surface(mesh, 0.2, 1e-6);
+  double longest = 0;
+  for (const auto e : mesh.edges()) longest = std::max(longest, mesh.calc_edge_length(e));
+  EXPECT_LE(longest, 0.2);
+  for (const auto f : mesh.faces()) EXPECT_GT(norm(mesh.area_normal(f)), 0);
+  const DistanceIndex input(surface.points, surface.triangles);
+  std::vector<Vec3> points;
+  for (const auto v : mesh.vertices()) {
+    points.push_back(mesh.position(v));
+    EXPECT_LT(input.distance(points.back()), 1e-9);
+  }
+  // An end has room for some 150; halving all slivers first, and flipping edges then, made 4,100.
+  const auto inside =
+      std::ranges::count_if(points, [](const Vec3& p) { return std::hypot(p.x, p.y) < 0.99 && p.z < 1e-9; });
+  EXPECT_LT(inside, 500);
 }
 
 TEST(Remesh, StepsFitWhatIsThere) {

@@ -82,6 +82,8 @@ TEST(SizeField, IsTheGreatestThatGrowsNoFaster) {
       const Vec3 q = p + random_point(random, 0.3);
       EXPECT_LE(std::abs(field.at(p) - field.at(q)), grading * norm(p - q) + 1e-12);
       EXPECT_GE(field.at(q), field.least_near(field.at(p), norm(p - q)) - 1e-12);
+      for (const double length : {0.0, field.least(), random.uniform(0, 1), field.at(p), field.greatest(), 2.0})
+        EXPECT_EQ(field.is_at_least(length, p), length <= field.at(p));
     }
   }
 }

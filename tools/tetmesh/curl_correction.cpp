@@ -10,20 +10,29 @@ namespace {
 // Of what is added, squared, against the squares of what is missing around loops. Of the volume in hexes at the fine
 // size of tests/bench/points: on the surfaces of six parts 88.5 % without, 89.2 at 0.05; in the volumes of blub, spot
 // and mambo-m1, with their surfaces as before, 84.9 % without, 86.6 at 0.05, 86.8 at 0.01, where mambo-m1 loses 0.2.
-constexpr double stiffness = 0.05;
+constexpr float stiffness = 0.05f;
 constexpr int most_iterations = 40;
 constexpr double tolerance = 1e-2;  // of the residual, against that of the start
 
-double squared_norm(std::span<const double> a) {
+// In single precision: the tolerance asks for no more, and how fast this is depends on how much memory it goes through.
+using Numbers = std::vector<float>;
+
+double squared_norm(const Numbers& a) {
   double sum = 0;
   for (const double x : a) sum += x * x;
   return sum;
 }
 
+double dot(const Numbers& a, const Numbers& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(a[i]) * b[i];
+  return sum;
+}
+
 // Adds to `image` what the sums around loops of `value` say of each distance, times `factor`.
-void add_circulations(const Loops& loops, std::span<const double> value, double factor, std::vector<double>& image) {
+void add_circulations(const Loops& loops, const Numbers& value, float factor, Numbers& image) {
   for (std::size_t loop = 0; loop < loops.size(); ++loop) {
-    double sum = 0;
+    float sum = 0;
     for (const std::int32_t step : loops[loop]) sum += step < 0 ? -value[~step] : value[step];
     sum *= factor;
     for (const std::int32_t step : loops[loop]) (step < 0 ? image[~step] : image[step]) += step < 0 ? -sum : sum;
@@ -32,24 +41,25 @@ void add_circulations(const Loops& loops, std::span<const double> value, double 
 
 }  // namespace
 
-std::vector<double> curl_correction(std::span<const double> distances, const Loops& loops) {
-  std::vector<double> correction(distances.size()), rest(distances.size()), image(distances.size());
-  add_circulations(loops, distances, -1, rest);
-  std::vector<double> direction = rest;
+std::vector<float> curl_correction(std::span<const float> distances, const Loops& loops) {
+  const std::size_t count = distances.size();
+  Numbers correction(count), rest(count), image(count);
+  Numbers direction(distances.begin(), distances.end());
+  add_circulations(loops, direction, -1, rest);
+  direction = rest;
   double product = squared_norm(rest);
   const double enough = tolerance * tolerance * product;
   for (int k = 0; k < most_iterations && product > enough; ++k) {
-    for (std::size_t i = 0; i < image.size(); ++i) image[i] = stiffness * direction[i];
+    for (std::size_t i = 0; i < count; ++i) image[i] = stiffness * direction[i];
     add_circulations(loops, direction, 1, image);
-    double along = 0;
-    for (std::size_t i = 0; i < image.size(); ++i) along += direction[i] * image[i];
-    const double step = product / along;
-    for (std::size_t i = 0; i < image.size(); ++i) {
+    const auto step = static_cast<float>(product / dot(direction, image));
+    for (std::size_t i = 0; i < count; ++i) {
       correction[i] += step * direction[i];
       rest[i] -= step * image[i];
     }
     const double next = squared_norm(rest);
-    for (std::size_t i = 0; i < image.size(); ++i) direction[i] = rest[i] + next / product * direction[i];
+    const auto onward = static_cast<float>(next / product);
+    for (std::size_t i = 0; i < count; ++i) direction[i] = rest[i] + onward * direction[i];
     product = next;
   }
   return correction;

@@ -26,7 +26,7 @@ class Loops {
 };
 
 // What to add to the distances so that each loop comes back to where it began, as nearly as little enough does.
-std::vector<double> curl_correction(std::span<const double> distances, const Loops& loops);
+std::vector<float> curl_correction(std::span<const float> distances, const Loops& loops);
 
 // Of its length, what a distance may gain or lose along an axis; where more is wanted, rows of a lattice have to end.
 inline constexpr double most_strain = 0.3;

@@ -108,6 +108,9 @@ int main(int argc, char** argv) {
         ->check(number_between(0, 1));
     app.add_option("--most-points", options.most_points, "Points inside that are allowed, lest memory runs out")
         ->check(number_between(1, 1e9));
+    app.add_option("--tries", options.tries,
+                   "Sizes that are tried, up to 5 % off, to keep the mesh that is estimated to have most hexes")
+        ->check(CLI::Range(std::size_t{1}, most_tries));
     app.add_flag("--repair", options.repair,
                  "Weld points, remove triangles that are flat or repeated, turn them to agree, fill small holes");
     app.add_option("--weld", weld, "With --repair: points this near become one; a length, or with % of the diagonal")

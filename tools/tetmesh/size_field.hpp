@@ -35,6 +35,10 @@ class SizeField {
   SizeField(SizeSources sources, double greatest, double grading);
 
   double at(const Vec3& p) const { return known_ ? factor_ * limited_at(p) : factor_ * greatest_; }
+  // length <= at(p), which is found out without at(p) where the bounds tell.
+  bool is_at_least(double length, const Vec3& p) const {
+    return length <= least() || (length <= greatest() && length <= at(p));
+  }
   double greatest() const { return factor_ * greatest_; }
   // Lower bounds, everywhere and within `reach` of a place where the length is `here`.
   double least() const { return factor_ * least_; }

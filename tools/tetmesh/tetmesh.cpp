@@ -1,25 +1,39 @@
 #include "tools/tetmesh/tetmesh.hpp"
 
 #include <algorithm>
+#include <array>
+#include <exception>
+#include <utility>
 
-#include "common/mesh/adjacency.hpp"
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "tools/tetmesh/build_mesh.hpp"
-#include "tools/tetmesh/graded_lattice.hpp"
-#include "tools/tetmesh/mesh_shape.hpp"
-#include "tools/tetmesh/part_axes.hpp"
-#include "tools/tetmesh/run_tetgen.hpp"
+#include "tools/tetmesh/fill.hpp"
 #include "tools/tetmesh/surface_check.hpp"
 #include "tools/tetmesh/volume/frame_points.hpp"
-#include "tools/tetmesh/volume/given_points.hpp"
-#include "tools/tetmesh/volume/hex_estimate.hpp"
-#include "tools/tetmesh/wall_thickness.hpp"
 
 namespace hexpipe {
+
+StepSeconds& StepSeconds::operator+=(const StepSeconds& other) {
+  checking += other.checking;
+  remeshing += other.remeshing;
+  placing += other.placing;
+  tetgen += other.tetgen;
+  building += other.building;
+  comparing += other.comparing;
+  return *this;
+}
+
 namespace {
 
+// Of the size, those that are tried, in this order. Whole numbers of cells across a part, and so the hexes, differ by
+// points between them, in no order.
+constexpr std::array<double, most_tries> tried_sizes{1, 0.95, 1.05, 0.975, 1.025, 0.9625, 1.0375, 0.9875, 1.0125};
+
 void check_options(const TetmeshOptions& options) {
+  if (options.tries > 1 && options.surface == SurfaceKind::keep &&
+      (options.points == PointKind::none || options.points == PointKind::given))
+    throw UsageError("--tries has no sizes to try with --surface keep and without points to place");
   // Each coordinate moves by the jitter, a point by up to sqrt(3) times that; it must not reach the surface.
   if (options.points == PointKind::none || options.points == PointKind::given) return;
   const double jitter = options.jitter.value_or(FramePointsOptions{}.jitter);
@@ -50,125 +64,32 @@ double greatest_size(const Surface& surface, const TetmeshOptions& options) {
   return std::ranges::max(options.size_sources.sizes);
 }
 
-// Walls count with so many layers.
-SizeField size_field(const Surface& surface, const TetmeshOptions& options, double greatest,
-                     std::optional<int> layers) {
-  SizeSources sources = options.size_sources;
-  if (layers) sources.add(wall_sizes(surface, greatest, *layers));
-  return {std::move(sources), greatest, options.grading};
+TetmeshResult fill_at(double factor, const Surface& surface, TetmeshOptions options, double greatest_size) {
+  for (double& size : options.size_sources.sizes) size *= factor;
+  return fill(surface, options, factor * greatest_size, options.tries > 1);
 }
 
-// A point given by the user may come as near to the surface as TetGen can bear.
-constexpr double clearance_of_given = 1e-3;  // in sizes
-
-std::vector<Vec3> place_points(const Surface& surface, const SizeField& size, const TetmeshOptions& options,
-                               TetmeshResult& result) {
-  if (options.points == PointKind::none) return {};
-  if (options.points == PointKind::given) {
-    GivenPoints given = usable_points(surface, options.given_points, clearance_of_given * size.least());
-    if (given.complaint) result.warning = given.complaint;
-    return given.points;
-  }
-  return graded_lattice_points(surface, size,
-                               {.clearance = options.clearance,
-                                .jitter = options.jitter.value_or(LatticeOptions{}.jitter),
-                                .seed = options.seed,
-                                .axes = axes_of_part(surface)},
-                               options.most_points);
-}
-
-void describe(const Surface& surface, TetmeshStatistics& statistics) {
-  statistics.surface_points = surface.points.size();
-  statistics.surface_triangles = surface.triangles.size();
-  statistics.shells = surface.shells.size();
-  statistics.regions = static_cast<std::size_t>(surface.region_count);
-}
-
-// Where no new surface can be made, the old one stays, and the result says so.
-void remesh(Surface& surface, const SizeField& size, const TetmeshOptions& options, TetmeshResult& result) {
-  TetmeshStatistics& statistics = result.statistics;
-  // What a size may take is nothing beside the part, unless that is thinner than a size.
-  const SizeField unit = options.layers ? size : size_field(surface, options, size.greatest(), 1);
-  RemeshResult remeshed = remesh_surface(surface, {size, options.feature_angle, options.deviation, unit});
-  statistics.remeshed = remeshed.failure.empty();
-  if (!statistics.remeshed) {
-    result.warning = fmt::format("the surface is kept as it is: {}", remeshed.failure);
-    return;
-  }
-  statistics.distance_to_input = remeshed.to_input;
-  statistics.distance_from_input = remeshed.from_input;
-  statistics.extra_points = remeshed.extra_points;
-  surface = find_shells(std::move(remeshed.soup), options.shells);
-}
-
-void describe(const BuiltMesh& built, TetmeshStatistics& statistics) {
-  const MeshShape shape = shape_of(built.mesh);
-  statistics.points = built.mesh.points.size();
-  statistics.tets = built.mesh.tets.size();
-  statistics.added_points = built.added_points;
-  statistics.dropped_points = built.dropped_points;
-  statistics.volume = shape.volume;
-  statistics.least_dihedral = shape.least_dihedral;
-  statistics.greatest_dihedral = shape.greatest_dihedral;
-}
-
-// Adds the seconds since the last call, or since the start, to a step.
-class StepWatch {
- public:
-  void add_to(double& step) {
-    step += watch_.seconds();
-    watch_ = Stopwatch();
-  }
-
- private:
-  Stopwatch watch_;
-};
-
-// TetGen fails on some surfaces of nearly coplanar slivers, by a crash or by losing triangles, in one order of its
-// input and not in another. Of 36 meshes of a CAD tessellation turned out of the axes 9 failed at the first run; the
-// worst needed 6.
-constexpr int most_runs = 16;
-
-BuiltMesh tetrahedralize(const Surface& surface, std::span<const Vec3> points, double timeout, StepWatch& watch,
-                         TetmeshStatistics& statistics) {
-  const Deadline deadline(timeout);
-  for (int run = 0;; ++run) {
+// The one that is estimated to have most hexes. A size at which TetGen fails is passed over, unless it does at all.
+TetmeshResult best_of_tries(const Surface& surface, const TetmeshOptions& options, double greatest_size) {
+  std::optional<TetmeshResult> best;
+  std::vector<TriedSize> tried;
+  StepSeconds seconds;
+  std::exception_ptr failure;
+  for (const double factor : std::span(tried_sizes).first(options.tries)) {
     try {
-      TetGenResult tetgen = run_tetgen({.surface_points = surface.points,
-                                        .triangles = surface.triangles,
-                                        .interior_points = points,
-                                        .shuffle = static_cast<std::uint64_t>(run)},
-                                       deadline.remaining());
-      ++statistics.tetgen_runs;
-      watch.add_to(statistics.seconds_tetgen);
-      BuiltMesh built = build_mesh(surface, points, std::move(tetgen));
-      watch.add_to(statistics.seconds_building);
-      return built;
+      TetmeshResult result = fill_at(factor, surface, options, greatest_size);
+      tried.push_back({result.statistics.size, result.statistics.hex_share});
+      seconds += result.statistics.seconds;
+      if (!best || result.statistics.hex_share > best->statistics.hex_share) best = std::move(result);
     } catch (const TetGenFailure&) {
-      if (run + 1 == most_runs || deadline.passed()) throw;
+      tried.push_back({factor * greatest_size, {}});
+      if (!failure) failure = std::current_exception();
     }
   }
-}
-
-// From the mesh with the lattice's points, which stays where it is the better one.
-void try_frame_points(const Surface& surface, const SizeField& size, const TetmeshOptions& options, StepWatch& watch,
-                      BuiltMesh& built, TetmeshStatistics& statistics) {
-  const std::vector<Vec3> points = frame_points(surface, built.mesh, built.adjacency,
-                                                {.size = size,
-                                                 .clearance = options.clearance,
-                                                 .jitter = options.jitter.value_or(FramePointsOptions{}.jitter),
-                                                 .seed = options.seed});
-  watch.add_to(statistics.seconds_placing);
-  BuiltMesh bent = tetrahedralize(surface, points, options.tetgen_timeout, watch, statistics);
-  if (options.points == PointKind::best) {
-    statistics.lattice_hex_share = estimate_hex_share(built.mesh, built.adjacency);
-    statistics.frame_hex_share = estimate_hex_share(bent.mesh, bent.adjacency);
-    watch.add_to(statistics.seconds_comparing);
-    if (*statistics.lattice_hex_share >= *statistics.frame_hex_share) return;
-  }
-  built = std::move(bent);
-  statistics.interior_points = points.size();
-  statistics.points_kept = PointKind::frame;
+  if (!best) std::rethrow_exception(failure);
+  best->statistics.seconds = seconds;
+  if (options.tries > 1) best->statistics.tried = std::move(tried);
+  return *std::move(best);
 }
 
 const char* name_of(PointKind kind) {
@@ -191,42 +112,19 @@ const char* name_of(PointKind kind) {
 
 TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
   check_options(options);
-  TetmeshResult result;
-  TetmeshStatistics& statistics = result.statistics;
-  StepWatch watch;
-  if (options.repair) statistics.repair = repair(soup, options);
+  const Stopwatch watch;
+  std::optional<RepairReport> repaired;
+  if (options.repair) repaired = repair(soup, options);
   check_surface(soup);
-  Surface surface = find_shells(std::move(soup), options.shells);
-  watch.add_to(statistics.seconds_checking);
+  const Surface surface = find_shells(std::move(soup), options.shells);
+  const double greatest = greatest_size(surface, options);
+  const auto tried = std::span(tried_sizes).first(options.tries);
+  check_number_of_points(surface, options, std::ranges::min(tried) * greatest);
+  const double seconds_checking = watch.seconds();
 
-  statistics.size = greatest_size(surface, options);
-  check_number_of_points(surface, options, statistics.size);
-  const SizeField size = size_field(surface, options, statistics.size, options.layers);
-  if (!size.is_uniform()) statistics.least_size = size.least();
-  if (options.surface == SurfaceKind::remesh) {
-    remesh(surface, size, options, result);
-    watch.add_to(statistics.seconds_remeshing);
-  }
-  describe(surface, statistics);
-  if (options.points != PointKind::none && !statistics.remeshed && !result.warning)
-    result.warning = fit_to_size(surface, size).complaint(statistics.size);
-  const std::vector<Vec3> points = place_points(surface, size, options, result);
-  statistics.interior_points = points.size();
-  watch.add_to(statistics.seconds_placing);
-
-  BuiltMesh built = tetrahedralize(surface, points, options.tetgen_timeout, watch, statistics);
-  const bool is_lattice = options.points != PointKind::none && options.points != PointKind::given;
-  statistics.points_kept = is_lattice ? PointKind::lattice : options.points;
-  if (options.points == PointKind::frame || options.points == PointKind::best) {
-    try {
-      try_frame_points(surface, size, options, watch, built, statistics);
-    } catch (const TetGenFailure&) {
-      if (options.points == PointKind::frame) throw;
-    }
-  }
-  describe(built, statistics);
-  result.mesh = std::move(built.mesh);
-  watch.add_to(statistics.seconds_building);
+  TetmeshResult result = best_of_tries(surface, options, greatest);
+  result.statistics.repair = repaired;
+  result.statistics.seconds.checking = seconds_checking;
   return result;
 }
 
@@ -254,12 +152,16 @@ nlohmann::ordered_json to_json(const TetmeshStatistics& s) {
   if (s.repair) json["repair"] = to_json(*s.repair);
   if (s.lattice_hex_share)
     json["estimated_hex_share"] = {{"lattice", *s.lattice_hex_share}, {"frame", *s.frame_hex_share}};
+  for (const auto& [size, share] : s.tried)
+    json["tried"].push_back(
+        {{"size", size}, {"estimated_hex_share", share ? nlohmann::ordered_json(*share) : nullptr}});
   return json;
 }
 
-nlohmann::ordered_json times_of(const TetmeshStatistics& s) {
-  return {{"checking", s.seconds_checking}, {"remeshing", s.seconds_remeshing}, {"placing", s.seconds_placing},
-          {"tetgen", s.seconds_tetgen},     {"building", s.seconds_building},   {"comparing", s.seconds_comparing}};
+nlohmann::ordered_json times_of(const TetmeshStatistics& statistics) {
+  const StepSeconds& s = statistics.seconds;
+  return {{"checking", s.checking}, {"remeshing", s.remeshing}, {"placing", s.placing},
+          {"tetgen", s.tetgen},     {"building", s.building},   {"comparing", s.comparing}};
 }
 
 }  // namespace hexpipe

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/mesh/tet_mesh.hpp"
 #include "formats/point_files.hpp"
@@ -29,6 +30,9 @@ enum class PointKind {
   none
 };
 
+// Sizes.
+constexpr std::size_t most_tries = 9;
+
 struct TetmeshOptions {
   std::optional<Length> size = {};  // nothing: see greatest_size()
   SizeSources size_sources = {};
@@ -48,6 +52,18 @@ struct TetmeshOptions {
   Length weld = {1e-4, true};
   std::size_t largest_hole = RepairOptions{}.largest_hole;
   double tetgen_timeout = 3600;  // seconds
+  std::size_t tries = 1;         // sizes, up to 5 % off, of which the one with most hexes is kept; at most most_tries
+};
+
+struct StepSeconds {
+  double checking = 0, remeshing = 0, placing = 0, tetgen = 0, building = 0, comparing = 0;
+
+  StepSeconds& operator+=(const StepSeconds& other);
+};
+
+struct TriedSize {
+  double size;
+  std::optional<double> hex_share;  // nothing where TetGen failed
 };
 
 struct TetmeshStatistics {
@@ -68,8 +84,9 @@ struct TetmeshStatistics {
   std::size_t points = 0, tets = 0;
   double volume = 0;
   double least_dihedral = 0, greatest_dihedral = 0;  // degrees
-  double seconds_checking = 0, seconds_remeshing = 0, seconds_placing = 0, seconds_tetgen = 0, seconds_building = 0;
-  double seconds_comparing = 0;
+  std::optional<double> hex_share;  // of the mesh, estimated in the same way, where several sizes were tried
+  std::vector<TriedSize> tried;     // these
+  StepSeconds seconds;              // of all tries
 };
 
 struct TetmeshResult {

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""run.py [--level coarse|middle|fine] [--kind KIND...] [--time-limit S] [MODEL...] - how much of a part its points let become hexes.
+"""run.py [--level coarse|middle|fine] [--kind KIND...] [--tries N] [--time-limit S] [MODEL...] - how much of a part its points
+let become hexes.
 
 Runs the pipeline on models of ../shared/models (or on the files named) once for every kind of points, and prints, worst first
 within each kind, the share of the volume in hexes after a greedy choice and after lns, candidates per vertex, the least scaled
@@ -65,7 +66,7 @@ def measure(path, level, kind, options):
     with tempfile.TemporaryDirectory() as folder:
         files = {stage: os.path.join(folder, stage + ".tar") for stage in ("mesh", "candidates", "graph", "greedy", "start", "best")}
         mesh = tool("tetmesh", folder, path, "--surface", surface, "--points", points, "--size", repr(size_of(path, level)),
-                    "--threads", "1", "-o", files["mesh"])
+                    "--tries", str(options.tries), "--threads", "1", "-o", files["mesh"])
         candidates = tool("findhex", folder, files["mesh"], "-o", files["candidates"])
         tool("buildgraph", folder, files["candidates"], "-o", files["graph"])
         tool("initsol", folder, files["graph"], "--iterations", "0", "-o", files["greedy"])
@@ -93,6 +94,7 @@ def main():
     parser.add_argument("models", nargs="*")
     parser.add_argument("--level", choices=LEVELS, action="append")
     parser.add_argument("--kind", action="append", help="surface+points, as the options of tetmesh name them")
+    parser.add_argument("--tries", type=int, default=1, help="sizes that tetmesh tries")
     parser.add_argument("--time-limit", type=float, default=5, help="seconds of lns")
     options = parser.parse_args()
     models = options.models or [os.path.join(MODELS, name) for name in FILES]

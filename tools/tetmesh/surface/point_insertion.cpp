@@ -6,6 +6,9 @@
 namespace hexpipe {
 namespace {
 
+// Normals of length 1 that differ by less are those of one plane.
+constexpr double flatness = 1e-5;
+
 class PointInserter {
  public:
   PointInserter(FeatureMesh& mesh, const SizeField& snap) : mesh_(mesh), snap_(snap), cut_from_(mesh.n_faces()) {
@@ -17,7 +20,7 @@ class PointInserter {
     const double snap = snap_.at(p);
     const auto face = part_around(point);
     for (const auto v : mesh_.corners(face))
-      if (norm(mesh_.position(v) - p) < snap) return mesh_.keep(v);
+      if (norm(mesh_.position(v) - p) < snap) return become(v, p);
     const auto nearest = nearest_edge(face, p);
     const auto from = mesh_.position(mesh_.from_vertex_handle(nearest)),
                to = mesh_.position(mesh_.to_vertex_handle(nearest));
@@ -28,7 +31,7 @@ class PointInserter {
       mesh_.keep(v);
       inherit(v, cut_from_[face.idx()]);
     } else if (!mesh_.is_feature(mesh_.edge_handle(nearest)) && t > 0 && t < 1) {
-      split_edge(nearest, foot);
+      become(split_edge(nearest, foot), p);
     }
   }
 
@@ -79,18 +82,43 @@ class PointInserter {
     return best;
   }
 
-  void split_edge(HalfEdgeHandle h, const Vec3& p) {
+  OpenMesh::VertexHandle split_edge(HalfEdgeHandle h, const Vec3& p) {
     const std::int32_t here = cut_from_[mesh_.face_handle(h).idx()];
     const std::int32_t there = cut_from_[mesh_.face_handle(mesh_.opposite_halfedge_handle(h)).idx()];
     const auto across = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h));
     const auto v = mesh_.split_edge_at(mesh_.edge_handle(h), p);
-    mesh_.keep(v);
     cut_from_.resize(mesh_.n_faces());
     for (const auto out : mesh_.voh_range(v)) {
       const bool is_here =
           mesh_.to_vertex_handle(out) == across || mesh_.to_vertex_handle(mesh_.next_halfedge_handle(out)) == across;
       cut_from_[mesh_.face_handle(out).idx()] = is_here ? here : there;
     }
+    return v;
+  }
+
+  // Puts the vertex in the place of a point near it where that leaves the surface as it is; else it stands for the
+  // point where it is.
+  void become(OpenMesh::VertexHandle v, const Vec3& p) {
+    if (!mesh_.is_kept(v) && !mesh_.is_on_feature(v) && is_flat_with(v, p)) mesh_.set_point(v, to_open_mesh(p));
+    mesh_.keep(v);
+  }
+
+  // Whether the faces at v lie in one plane, and still do, none turned over, with v at p.
+  bool is_flat_with(OpenMesh::VertexHandle v, const Vec3& p) const {
+    Vec3 normal;
+    for (const auto h : mesh_.voh_range(v)) {
+      const Vec3 to = mesh_.position(mesh_.to_vertex_handle(h)),
+                 next = mesh_.position(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)));
+      const Vec3 area = mesh_.area_normal(mesh_.face_handle(h)), moved = cross(to - p, next - p);
+      if (norm_squared(normal) == 0) normal = unit(area);
+      if (!is_along(area, normal) || !is_along(moved, normal)) return false;
+    }
+    return true;
+  }
+
+  static bool is_along(const Vec3& area, const Vec3& normal) {
+    const double along = dot(area, normal);
+    return along > 0 && norm_squared(area - along * normal) <= flatness * flatness * along * along;
   }
 
   void inherit(OpenMesh::VertexHandle v, std::int32_t face) {

@@ -178,7 +178,7 @@ SurfaceDistance one_sided_distance(std::span<const Vec3> points, std::span<const
           sampler.for_each_sample(i, [&](const Vec3& p) {
             const double distance = other.distance(p, nearest);
             part.greatest = std::max(part.greatest, distance);
-            if (distance > limit.least() && distance > limit.at(p)) part.beyond.push_back(p);
+            if (!limit.is_at_least(distance, p)) part.beyond.push_back(p);
           });
         }
         return part;

@@ -106,9 +106,9 @@ Link Linker::reversed(const Link& link, std::int32_t from) {
 
 // Distances that add up around vertices, as far as directions do.
 void Linker::correct_curl() {
-  std::vector<double> distances(2 * links_.size());
+  std::vector<float> distances(2 * links_.size());
   for_each_pair([&](HalfEdge h) {
-    for (std::size_t k = 0; k < 2; ++k) distances[number_of(h, k)] = links_[h].distance[k];
+    for (std::size_t k = 0; k < 2; ++k) distances[number_of(h, k)] = static_cast<float>(links_[h].distance[k]);
   });
   Loops loops;
   std::vector<bool> seen(surface_.points.size());
@@ -118,12 +118,13 @@ void Linker::correct_curl() {
     seen[v] = true;
     add_loops(h, loops);
   }
-  const std::vector<double> correction = curl_correction(distances, loops);
+  const std::vector<float> correction = curl_correction(distances, loops);
   for_each_pair([&](HalfEdge h) {
     Link& link = links_[h];
     const std::int32_t f = triangle_of(h);
     const double longest = most_strain * norm(centres_[f] - centres_[link.neighbour]) / sizes_[f];
-    for (std::size_t k = 0; k < 2; ++k) link.distance[k] += std::clamp(correction[number_of(h, k)], -longest, longest);
+    for (std::size_t k = 0; k < 2; ++k)
+      link.distance[k] += std::clamp<double>(correction[number_of(h, k)], -longest, longest);
     turn(link);
     links_[surface_.twins[h]] = reversed(link, f);
   });

@@ -7,15 +7,16 @@
 namespace hexpipe {
 namespace {
 
-void flip_flat_edges(FeatureMesh& mesh, const SizeField& flatness) {
-  EdgeQueue queue;
-  for (const auto e : mesh.edges()) queue.push(e);
+// Calls done(edge) for each edge that it flips.
+template <class Done>
+void flip_flat_edges(FeatureMesh& mesh, EdgeQueue& queue, const SizeField& flatness, Done&& done) {
   flip_towards_delaunay(
       mesh, queue,
       [&](OpenMesh::EdgeHandle, const EdgeDiamond& diamond) {
-        return diamond.height() <= flatness.at(diamond.end_points[0]) && diamond.least_cosine_after_flip() > 0.999;
+        return flatness.is_at_least(diamond.height(), diamond.end_points[0]) &&
+               diamond.least_cosine_after_flip() > 0.999;
       },
-      [](OpenMesh::EdgeHandle) {});
+      done);
 }
 
 std::array<Vec3, 2> ends_of(const FeatureMesh& mesh, OpenMesh::EdgeHandle e) {
@@ -30,8 +31,11 @@ double squared_length(const FeatureMesh& mesh, OpenMesh::EdgeHandle e, const Siz
   return norm_squared(to - from) / (allowed * allowed);
 }
 
-void halve_long_edges(FeatureMesh& mesh, const SizeField& longest) {
+// Flips after each halving keep the triangles of fans of slivers, which share the ends of their long edges, from having
+// points of their own each.
+void halve_long_edges(FeatureMesh& mesh, const SizeField& longest, const SizeField& flatness) {
   std::priority_queue<std::pair<double, int>> queue;
+  EdgeQueue changed;
   auto offer = [&](OpenMesh::EdgeHandle e) {
     const double length = squared_length(mesh, e, longest);
     if (length > 1) queue.emplace(length, -e.idx());
@@ -41,18 +45,23 @@ void halve_long_edges(FeatureMesh& mesh, const SizeField& longest) {
     const auto [length, number] = queue.top();
     queue.pop();
     const auto e = mesh.edge_handle(static_cast<unsigned>(-number));
-    if (squared_length(mesh, e, longest) != length) continue;  // halved since
+    if (squared_length(mesh, e, longest) != length) continue;  // halved or flipped since
     const auto [from, to] = ends_of(mesh, e);
-    for (const auto part : mesh.ve_range(mesh.split_edge_at(e, 0.5 * (from + to)))) offer(part);
+    const auto middle = mesh.split_edge_at(e, 0.5 * (from + to));
+    for (const auto part : mesh.ve_range(middle)) offer(part);
+    for (const auto f : mesh.vf_range(middle))
+      for (const auto around : mesh.fe_range(f)) changed.push(around);
+    flip_flat_edges(mesh, changed, flatness, offer);
   }
 }
 
 }  // namespace
 
 void refine_surface(FeatureMesh& mesh, const SizeField& longest, const SizeField& flatness) {
-  flip_flat_edges(mesh, flatness);
-  halve_long_edges(mesh, longest);
-  flip_flat_edges(mesh, flatness);
+  EdgeQueue all;
+  for (const auto e : mesh.edges()) all.push(e);
+  flip_flat_edges(mesh, all, flatness, [](OpenMesh::EdgeHandle) {});
+  halve_long_edges(mesh, longest, flatness);
 }
 
 }  // namespace hexpipe

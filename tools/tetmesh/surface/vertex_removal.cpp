@@ -110,6 +110,7 @@ class VertexRemover {
 void VertexRemover::add_samples(Edge e) {
   const EdgeDiamond diamond(mesh_, e);
   const double height = diamond.height(), length = norm(diamond.end_points[1] - diamond.end_points[0]);
+  if (height < least_bend * deviation_.least()) return;
   const double deviation = deviation_.at(diamond.end_points[0]);
   if (height < least_bend * deviation) return;
   const Face f = mesh_.face_handle(mesh_.halfedge_handle(e, 0));
@@ -193,8 +194,7 @@ bool VertexRemover::strays_fit() {
         least = d;
         nearest = i;
       }
-    const double most = deviation_.at(p);
-    if (!(least <= most * most)) return false;
+    if (!deviation_.is_at_least(std::sqrt(least), p)) return false;
     change_.target.push_back(nearest);
   }
   return true;
@@ -202,7 +202,7 @@ bool VertexRemover::strays_fit() {
 
 // The middles of the new faces and of their edges, from the original surface.
 bool VertexRemover::faces_fit() {
-  const auto is_near = [&](const Vec3& p) { return original_.distance(p, nearest_) <= deviation_.at(p); };
+  const auto is_near = [&](const Vec3& p) { return deviation_.is_at_least(original_.distance(p, nearest_), p); };
   return std::ranges::all_of(change_.corners, [&](const Corners& c) {
     return is_near((c[0] + c[1] + c[2]) * (1.0 / 3)) && is_near(0.5 * (c[0] + c[1])) && is_near(0.5 * (c[1] + c[2])) &&
            is_near(0.5 * (c[2] + c[0]));
@@ -232,7 +232,7 @@ void VertexRemover::flip_queued() {
 }
 
 bool VertexRemover::allow_flip(Edge e, const EdgeDiamond& diamond) {
-  if (diamond.height() > deviation_.at(diamond.end_points[0])) return false;
+  if (!deviation_.is_at_least(diamond.height(), diamond.end_points[0])) return false;
   const Face left = mesh_.face_handle(mesh_.halfedge_handle(e, 0)),
              right = mesh_.face_handle(mesh_.halfedge_handle(e, 1));
   change_.strays = strays_[left.idx()];

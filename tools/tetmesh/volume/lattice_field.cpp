@@ -100,8 +100,8 @@ class LatticeSolver {
   void make_anchors(std::size_t i);
   void correct_curl();
   void add_loops(std::int64_t ij, std::int64_t jl, std::int64_t il, Loops& loops) const;
-  static std::int32_t number_of(std::int64_t link, std::size_t axis) {
-    return static_cast<std::int32_t>(3 * link) + static_cast<std::int32_t>(axis);
+  std::int32_t number_of(std::int64_t link, std::size_t axis) const {
+    return 3 * pair_numbers_[link] + static_cast<std::int32_t>(axis);
   }
   static void turn(Transition& t);
   static Transition reversed(const Transition& t, std::int32_t from);
@@ -126,7 +126,8 @@ class LatticeSolver {
 
   const FieldNodes& nodes_;
   const std::vector<Frame>& frames_;
-  std::vector<Transition> transitions_;  // of each link
+  std::vector<Transition> transitions_;     // of each link
+  std::vector<std::int32_t> pair_numbers_;  // of each link to a later node, among these
   std::vector<double> degree_;
   std::vector<std::array<double, 3>> anchors_;  // weight of the number 1: the node is a point of the lattice
   std::vector<Phases> phases_;
@@ -173,19 +174,24 @@ Transition LatticeSolver::reversed(const Transition& t, std::int32_t from) {
 
 // Distances that add up around triangles, as far as frames do.
 void LatticeSolver::correct_curl() {
-  std::vector<double> distances(3 * transitions_.size());
+  std::vector<float> distances;
+  pair_numbers_.resize(transitions_.size());
+  for_each_pair([&](std::int32_t, std::int64_t ij) {
+    pair_numbers_[ij] = static_cast<std::int32_t>(distances.size() / 3);
+    for (const double distance : transitions_[ij].distance) distances.push_back(static_cast<float>(distance));
+  });
   Loops loops;
   for_each_pair([&](std::int32_t i, std::int64_t ij) {
     const Transition& to_j = transitions_[ij];
-    for (std::size_t k = 0; k < 3; ++k) distances[number_of(ij, k)] = to_j.distance[k];
     for (std::int64_t il = ij + 1; il < nodes_.offsets[i + 1]; ++il)
       if (const std::int64_t jl = link_between(to_j.node, transitions_[il].node); jl >= 0) add_loops(ij, jl, il, loops);
   });
-  const std::vector<double> correction = curl_correction(distances, loops);
+  const std::vector<float> correction = curl_correction(distances, loops);
   for_each_pair([&](std::int32_t i, std::int64_t ij) {
     Transition& t = transitions_[ij];
     const double longest = most_strain * norm(nodes_.points[i] - nodes_.points[t.node]) / nodes_.sizes[i];
-    for (std::size_t k = 0; k < 3; ++k) t.distance[k] += std::clamp(correction[number_of(ij, k)], -longest, longest);
+    for (std::size_t k = 0; k < 3; ++k)
+      t.distance[k] += std::clamp<double>(correction[number_of(ij, k)], -longest, longest);
     turn(t);
     transitions_[link_between(t.node, i)] = reversed(t, i);
   });
