@@ -20,7 +20,7 @@ namespace hexpipe {
 namespace {
 
 // The field's triangles are at most that long, in sizes.
-constexpr double field_edge = 1;
+constexpr double field_edge = 1.3;
 // Flips that move the surface by less than that, in sizes, do not count as moving it.
 constexpr double flatness = 1e-5;
 // Points nearer than that, in sizes, to a vertex or an edge of the field's triangles are moved there.
