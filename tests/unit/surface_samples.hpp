@@ -45,18 +45,17 @@ inline Facets cube(double low = 0, double size = 1, int n = 1) {
   return box({low, low, low}, {low + size, low + size, low + size}, n);
 }
 
-// A prism of n sides, outward, its ends cut into fans of slivers.
-inline Facets prism(double radius, double height, int n) {
+// A prism of n sides, outward, closed by two fans of slivers.
+inline Facets prism(int n, double radius, double length) {
   Facets facets;
-  auto point = [&](int i, double z) {
+  auto rim = [&](int i, double z) {
     const double angle = 2 * std::numbers::pi * (i % n) / n;
     return Vec3{radius * std::cos(angle), radius * std::sin(angle), z};
   };
   for (int i = 0; i < n; ++i) {
-    const Vec3 a = point(i, 0), b = point(i + 1, 0), c = point(i + 1, height), d = point(i, height);
-    facets.insert(facets.end(), {Facet{a, b, c}, Facet{a, c, d}});
-    if (i == 0 || i + 1 == n) continue;
-    facets.insert(facets.end(), {Facet{point(0, 0), b, a}, Facet{point(0, height), d, c}});
+    const Vec3 a = rim(i, 0), b = rim(i + 1, 0), c = rim(i + 1, length), d = rim(i, length);
+    facets.insert(facets.end(),
+                  {Facet{a, b, c}, Facet{a, c, d}, Facet{Vec3{0, 0, 0}, b, a}, Facet{Vec3{0, 0, length}, d, c}});
   }
   return facets;
 }

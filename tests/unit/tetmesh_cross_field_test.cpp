@@ -12,6 +12,7 @@ namespace {
 
 using testing::box;
 using testing::Facets;
+using testing::prism;
 using testing::soup_of;
 using testing::sphere;
 using testing::surface_of;
@@ -20,22 +21,6 @@ FeatureMesh refined(const Facets& facets, double longest) {
   FeatureMesh mesh(surface_of(facets), 40);
   refine_surface(mesh, longest, 1e-6);
   return mesh;
-}
-
-// A tube's outside without ends would be open: a long prism of `n` sides, closed by two fans.
-Facets prism(int n, double radius, double length) {
-  Facets facets;
-  auto rim = [&](int i, double z) {
-    const double angle = 2 * std::numbers::pi * (i % n) / n;
-    return Vec3{radius * std::cos(angle), radius * std::sin(angle), z};
-  };
-  for (int i = 0; i < n; ++i) {
-    const Vec3 a = rim(i, 0), b = rim(i + 1, 0), c = rim(i + 1, length), d = rim(i, length);
-    for (const testing::Facet& facet : {testing::Facet{a, b, c}, testing::Facet{a, c, d},
-                                        testing::Facet{Vec3{0, 0, 0}, b, a}, testing::Facet{Vec3{0, 0, length}, d, c}})
-      facets.push_back(facet);
-  }
-  return facets;
 }
 
 // Least over the triangles of |cos| to one of the cross's arms, 1 / sqrt(2) being the worst.
