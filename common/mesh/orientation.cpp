@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
-#include "common/mesh/adjacency.hpp"
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/validity.hpp"
+#include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe {
@@ -16,12 +15,15 @@ namespace {
 
 constexpr std::int64_t tets_a_block = 4096;
 
+std::int8_t sign_of(const TetMesh& mesh, std::int64_t t) {
+  const auto& [a, b, c, d] = mesh.tets[t];
+  return static_cast<std::int8_t>(orientation(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]));
+}
+
 std::vector<std::int8_t> signs_of(const TetMesh& mesh) {
   std::vector<std::int8_t> signs(mesh.tets.size());
-  parallel_for(static_cast<std::int64_t>(signs.size()), tets_a_block, [&](std::int64_t t) {
-    const auto& [a, b, c, d] = mesh.tets[t];
-    signs[t] = static_cast<std::int8_t>(orientation(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]));
-  });
+  parallel_for(static_cast<std::int64_t>(signs.size()), tets_a_block,
+               [&](std::int64_t t) { signs[t] = sign_of(mesh, t); });
   return signs;
 }
 
@@ -109,6 +111,25 @@ TetOrientation orient_tets(TetMesh& mesh, const char* source) {
 
 TetOrientation orient_tets(TetMesh& mesh, std::vector<std::int8_t> turns) {
   return turn_tets(mesh, signs_of(mesh), std::move(turns));
+}
+
+void check_sides(const TetMesh& mesh, const TetAdjacency& adjacency, const char* source,
+                 std::span<const std::int32_t> numbers) {
+  const auto number_of = [&](std::int64_t tet) { return numbers.empty() ? tet : numbers[tet]; };
+  parallel_for(static_cast<std::int64_t>(mesh.tets.size()), tets_a_block, [&](std::int64_t t) {
+    const auto across = adjacency.tets_beyond(static_cast<std::int32_t>(t));
+    for (int facet = 0; facet < 4; ++facet) {
+      const std::int32_t beyond = across[facet];
+      if (beyond <= t || listed_alike(mesh.tets[t], facet, mesh.tets[beyond])) continue;
+      if (sign_of(mesh, t) <= 0 || sign_of(mesh, beyond) <= 0) continue;
+      const auto [first, second] = std::minmax({number_of(t), number_of(beyond)});
+      const auto& [a, b, c] = facet_from_lowest(mesh.tets[t], facet);
+      throw DataError::at(source,
+                          "expected tets on the two sides of a facet, found tets {} and {} on one side of that at "
+                          "vertices {} {} {}",
+                          first, second, a, b, c);
+    }
+  });
 }
 
 std::optional<std::string> turned_tets_warning(const TetOrientation& orientation) {

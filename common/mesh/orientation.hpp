@@ -5,9 +5,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "common/mesh/adjacency.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
 namespace hexpipe {
@@ -28,6 +30,11 @@ TetOrientation orient_tets(TetMesh& mesh, const char* source);
 
 // The same where it was found before which tets are to be turned: as TetOrientation::turns.
 TetOrientation orient_tets(TetMesh& mesh, std::vector<std::int8_t> turns);
+
+// Throws DataError naming `source` where two positive tets lie on the same side of a facet that they share, as two copies
+// of a tet do; `numbers`: what tets are called there, if not by their places.
+void check_sides(const TetMesh& mesh, const TetAdjacency& adjacency, const char* source,
+                 std::span<const std::int32_t> numbers = {});
 
 // What to tell a user of the tets that were turned: something where they are few among many, which hints at a fault;
 // nothing where the file lists its tets in another sense, or in no order.

@@ -1,9 +1,11 @@
 #include "common/mesh/orientation.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "common/run/error.hpp"
 #include "common/run/random.hpp"
 #include "findhex_meshes.hpp"
 
@@ -11,6 +13,8 @@ namespace hexpipe {
 namespace {
 
 using testing::kuhn_lattice;
+using ::testing::StartsWith;
+using ::testing::ThrowsMessage;
 
 bool all_positive(const TetMesh& mesh) {
   return std::ranges::all_of(mesh.tets, [&](const Tet& t) { return tet_determinant(mesh.points, t) > 0; });
@@ -86,6 +90,25 @@ TEST(OrientTets, CountsFlatTetsAndWarnsOfFewTurnedOnes) {
   EXPECT_EQ(result.turned, 1);
   EXPECT_GT(result.flat, 0);
   EXPECT_EQ(turned_tets_warning(result), "1 of 48 tets listed inside out, unlike their neighbours: turned");
+}
+
+TEST(CheckSides, RefusesTwoCopiesOfATet) {
+  TetMesh mesh = kuhn_lattice(1);
+  EXPECT_NO_THROW(check_sides(mesh, TetAdjacency(mesh, "m.mesh"), "m.mesh"));
+  mesh.tets = {mesh.tets[0], mesh.tets[0]};
+  const TetAdjacency adjacency(mesh, "m.mesh");
+  const std::vector<std::int32_t> numbers{7, 5};
+  EXPECT_THAT([&] { check_sides(mesh, adjacency, "m.mesh", numbers); },
+              ThrowsMessage<DataError>(StartsWith(
+                  "m.mesh: expected tets on the two sides of a facet, found tets 5 and 7 on one side of that at ")));
+}
+
+// Of a flat or inverted tet others speak.
+TEST(CheckSides, IsSilentAboutInvertedTets) {
+  TetMesh mesh = kuhn_lattice(1);
+  mesh.tets = {mesh.tets[0], mesh.tets[0]};
+  for (Tet& t : mesh.tets) std::swap(t[2], t[3]);
+  EXPECT_NO_THROW(check_sides(mesh, TetAdjacency(mesh, "m.mesh"), "m.mesh"));
 }
 
 }  // namespace

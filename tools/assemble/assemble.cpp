@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/mesh/adjacency.hpp"
+#include "common/mesh/orientation.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/run/error.hpp"
@@ -322,6 +323,7 @@ AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const Indepe
   check_chosen(chosen, candidates, names);
   check_orientation(mesh, names);
   std::optional<TetAdjacency> adjacency(std::in_place, mesh, names.mesh.c_str());
+  check_sides(mesh, *adjacency, names.mesh.c_str());
   if (seam == nullptr) complete_surface(mesh, *adjacency);
   Assembler assembler(std::move(mesh), *adjacency, candidates, chosen, options, names, seam);
   adjacency.reset();  // for it takes much memory and has done its work

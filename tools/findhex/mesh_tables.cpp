@@ -37,6 +37,7 @@ MeshTables::MeshTables(TetMesh mesh, const char* source, const std::vector<std::
       tet_order_(order_by_lowest_vertex(mesh_)),
       usable_(order_tets()),
       adjacency_(mesh_, source, tet_order_) {
+  check_sides(mesh_, adjacency_, source, tet_order_);
   both_at_once([this] { links_.emplace(mesh_, adjacency_, usable_); },
                [this] {
                  make_flood_tets();
