@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/run/error.hpp"
+#include "common/run/version.hpp"
 
 namespace hexpipe {
 namespace {
@@ -16,6 +17,10 @@ constexpr std::size_t longest_entry = 1 << 20;
 
 bool is_history_entry(std::string_view member) {
   return member.starts_with(folder);
+}
+
+nlohmann::ordered_json history_entry_of(const RunContext& context) {
+  return {{"tool", context.info.name}, {"version", version()}, {"options", context.options}};
 }
 
 nlohmann::ordered_json read_history_entry(BundleReader& reader, std::string* text) {

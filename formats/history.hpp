@@ -7,11 +7,15 @@
 #include <string_view>
 #include <vector>
 
+#include "common/run/run_context.hpp"
 #include "formats/bundle.hpp"
 
 namespace hexpipe {
 
 bool is_history_entry(std::string_view member);
+
+// Of the tool that runs.
+nlohmann::ordered_json history_entry_of(const RunContext& context);
 
 // The current member, and its text where that is wanted. Throws DataError unless it is an object of at most 1 MiB of
 // which tool and version, if there, are text and the options an object.

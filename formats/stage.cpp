@@ -9,7 +9,6 @@
 
 #include "common/mesh/orientation.hpp"
 #include "common/run/error.hpp"
-#include "common/run/version.hpp"
 #include "formats/bundle.hpp"
 #include "formats/cand.hpp"
 #include "formats/dimacs.hpp"
@@ -411,7 +410,7 @@ void Stage::State::check(const StageData& data) const {
 }
 
 void Stage::State::write_history(const nlohmann::ordered_json& details) {
-  nlohmann::ordered_json entry{{"tool", context.info.name}, {"version", version()}, {"options", context.options}};
+  nlohmann::ordered_json entry = history_entry_of(context);
   if (!details.is_null()) entry.update(details);
   write_history_entry(*bundle, history_member(history_count + 1, entry), entry);
 }

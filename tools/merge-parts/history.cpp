@@ -65,10 +65,10 @@ std::vector<std::string> MergedHistory::take_shares(PartReaders& parts) {
   nlohmann::ordered_json entry;
   for (PartReader& part : parts) {
     nlohmann::ordered_json other = read_history_entry(part.bundle());
-    auto& options = other["options"];
-    const auto share = options.is_object() ? options.find("part") : options.end();
+    nlohmann::ordered_json& options = other["options"];
+    const auto share = options.find("part");
     shares.push_back(share != options.end() && share->is_string() ? share->get<std::string>() : "");
-    if (options.is_object()) options["part"] = "1/1";
+    options["part"] = "1/1";
     if (entry.is_null())
       entry = std::move(other);
     else

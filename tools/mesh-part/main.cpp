@@ -2,7 +2,7 @@
 
 #include "common/run/phases.hpp"
 #include "common/run/tool_main.hpp"
-#include "common/run/version.hpp"
+#include "formats/history.hpp"
 #include "formats/stage.hpp"
 #include "tools/mesh-part/mesh_part.hpp"
 #include "tools/mesh-part/part_files.hpp"
@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
     StageData data = stage.read({Role::mesh});
     const std::string source = stage.source_of(Role::mesh);
     phases.end("read");
-    data.history.push_back({{"tool", info.name}, {"version", version()}, {"options", context.options}});
+    data.history.push_back(history_entry_of(context));
     PartFiles files(directory, options.parts, compress);
     const SplitCounts counts = split(std::move(*data.mesh), options, source.c_str(),
                                      [&](const PartOfMesh& part) { files.write(part, data.history); });

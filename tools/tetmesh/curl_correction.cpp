@@ -17,12 +17,6 @@ constexpr double tolerance = 1e-2;  // of the residual, against that of the star
 // In single precision: the tolerance asks for no more, and how fast this is depends on how much memory it goes through.
 using Numbers = std::vector<float>;
 
-double squared_norm(const Numbers& a) {
-  double sum = 0;
-  for (const double x : a) sum += x * x;
-  return sum;
-}
-
 double dot(const Numbers& a, const Numbers& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(a[i]) * b[i];
@@ -47,7 +41,7 @@ std::vector<float> curl_correction(std::span<const float> distances, const Loops
   Numbers direction(distances.begin(), distances.end());
   add_circulations(loops, direction, -1, rest);
   direction = rest;
-  double product = squared_norm(rest);
+  double product = dot(rest, rest);
   const double enough = tolerance * tolerance * product;
   for (int k = 0; k < most_iterations && product > enough; ++k) {
     for (std::size_t i = 0; i < count; ++i) image[i] = stiffness * direction[i];
@@ -57,7 +51,7 @@ std::vector<float> curl_correction(std::span<const float> distances, const Loops
       correction[i] += step * direction[i];
       rest[i] -= step * image[i];
     }
-    const double next = squared_norm(rest);
+    const double next = dot(rest, rest);
     const auto onward = static_cast<float>(next / product);
     for (std::size_t i = 0; i < count; ++i) direction[i] = rest[i] + onward * direction[i];
     product = next;

@@ -52,8 +52,9 @@ void describe(const Surface& surface, TetmeshStatistics& statistics) {
   statistics.regions = static_cast<std::size_t>(surface.region_count);
 }
 
-// Where no new surface can be made, the old one stays, and the result says so.
-void remesh(Surface& surface, const SizeField& size, const TetmeshOptions& options, TetmeshResult& result) {
+// Where no new surface can be made there is none, and the result says so.
+std::optional<Surface> remesh(const Surface& surface, const SizeField& size, const TetmeshOptions& options,
+                              TetmeshResult& result) {
   TetmeshStatistics& statistics = result.statistics;
   // What a size may take is nothing beside the part, unless that is thinner than a size.
   const SizeField unit = options.layers ? size : size_field(surface, options, size.greatest(), 1);
@@ -61,12 +62,12 @@ void remesh(Surface& surface, const SizeField& size, const TetmeshOptions& optio
   statistics.remeshed = remeshed.failure.empty();
   if (!statistics.remeshed) {
     result.warning = fmt::format("the surface is kept as it is: {}", remeshed.failure);
-    return;
+    return std::nullopt;
   }
   statistics.distance_to_input = remeshed.to_input;
   statistics.distance_from_input = remeshed.from_input;
   statistics.extra_points = remeshed.extra_points;
-  surface = find_shells(std::move(remeshed.soup), options.shells);
+  return find_shells(std::move(remeshed.soup), options.shells);
 }
 
 void describe(const BuiltMesh& built, TetmeshStatistics& statistics) {
@@ -140,17 +141,19 @@ void try_frame_points(const Surface& surface, const SizeField& size, const Tetme
 
 }  // namespace
 
-TetmeshResult fill(Surface surface, const TetmeshOptions& options, double greatest_size, bool estimates) {
+TetmeshResult fill(const Surface& given, const TetmeshOptions& options, double greatest_size, bool estimates) {
   TetmeshResult result;
   TetmeshStatistics& statistics = result.statistics;
   StepWatch watch;
   statistics.size = greatest_size;
-  const SizeField size = size_field(surface, options, greatest_size, options.layers);
+  const SizeField size = size_field(given, options, greatest_size, options.layers);
   if (!size.is_uniform()) statistics.least_size = size.least();
+  std::optional<Surface> remeshed;
   if (options.surface == SurfaceKind::remesh) {
-    remesh(surface, size, options, result);
+    remeshed = remesh(given, size, options, result);
     watch.add_to(statistics.seconds.remeshing);
   }
+  const Surface& surface = remeshed ? *remeshed : given;
   describe(surface, statistics);
   if (options.points != PointKind::none && !statistics.remeshed && !result.warning)
     result.warning = fit_to_size(surface, size).complaint(statistics.size);

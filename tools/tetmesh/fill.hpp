@@ -9,6 +9,6 @@ namespace hexpipe {
 
 // `greatest_size` takes the place of options.size. With `estimates`, TetmeshStatistics::hex_share is there. Of the
 // statistics, repair and seconds.checking stay empty. Throws TetGenFailure.
-TetmeshResult fill(Surface surface, const TetmeshOptions& options, double greatest_size, bool estimates);
+TetmeshResult fill(const Surface& given, const TetmeshOptions& options, double greatest_size, bool estimates);
 
 }  // namespace hexpipe

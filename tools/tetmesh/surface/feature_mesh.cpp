@@ -1,5 +1,6 @@
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -31,6 +32,16 @@ Vec3 FeatureMesh::area_normal(FaceHandle f) const {
 std::array<FeatureMesh::VertexHandle, 3> FeatureMesh::corners(FaceHandle f) const {
   const HalfedgeHandle h = halfedge_handle(f);
   return {from_vertex_handle(h), to_vertex_handle(h), to_vertex_handle(next_halfedge_handle(h))};
+}
+
+bool FeatureMesh::is_flat_around(VertexHandle v) const {
+  Vec3 first;
+  for (const FaceHandle f : vf_range(v)) {
+    const Vec3 area = area_normal(f), normal = area * (1 / std::max(norm(area), 1e-300));
+    if (norm_squared(first) == 0) first = normal;
+    if (norm_squared(normal - first) > plane_tolerance * plane_tolerance) return false;
+  }
+  return true;
 }
 
 void FeatureMesh::resize_attributes() {

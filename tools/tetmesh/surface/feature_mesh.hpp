@@ -18,6 +18,10 @@ struct HalfEdgeTraits : OpenMesh::DefaultTraits {
   FaceAttributes(OpenMesh::Attributes::Status);
 };
 
+// Normals of length 1 that differ by less are those of one plane; so are edges that bend by less than that part of
+// their length.
+inline constexpr double plane_tolerance = 1e-5;
+
 enum class VertexRole : std::uint8_t {
   removable,  // of the input, or added to refine it
   kept        // a vertex of the result
@@ -36,6 +40,8 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
   // Twice the area long.
   Vec3 area_normal(FaceHandle f) const;
   std::array<VertexHandle, 3> corners(FaceHandle f) const;
+  // Whether its faces lie in one plane.
+  bool is_flat_around(VertexHandle v) const;
 
   bool is_feature(EdgeHandle e) const { return feature_[e.idx()] != 0; }
   bool is_on_feature(VertexHandle v) const { return on_feature_[v.idx()] != 0; }

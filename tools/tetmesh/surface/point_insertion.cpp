@@ -6,9 +6,6 @@
 namespace hexpipe {
 namespace {
 
-// Normals of length 1 that differ by less are those of one plane.
-constexpr double flatness = 1e-5;
-
 class PointInserter {
  public:
   PointInserter(FeatureMesh& mesh, const SizeField& snap) : mesh_(mesh), snap_(snap), cut_from_(mesh.n_faces()) {
@@ -99,26 +96,22 @@ class PointInserter {
   // Puts the vertex in the place of a point near it where that leaves the surface as it is; else it stands for the
   // point where it is.
   void become(OpenMesh::VertexHandle v, const Vec3& p) {
-    if (!mesh_.is_kept(v) && !mesh_.is_on_feature(v) && is_flat_with(v, p)) mesh_.set_point(v, to_open_mesh(p));
+    if (!mesh_.is_kept(v) && !mesh_.is_on_feature(v) && stays_flat_with(v, p)) mesh_.set_point(v, to_open_mesh(p));
     mesh_.keep(v);
   }
 
   // Whether the faces at v lie in one plane, and still do, none turned over, with v at p.
-  bool is_flat_with(OpenMesh::VertexHandle v, const Vec3& p) const {
-    Vec3 normal;
+  bool stays_flat_with(OpenMesh::VertexHandle v, const Vec3& p) const {
+    if (!mesh_.is_flat_around(v)) return false;
+    const Vec3 normal = unit(mesh_.area_normal(*mesh_.cvf_begin(v)));
     for (const auto h : mesh_.voh_range(v)) {
       const Vec3 to = mesh_.position(mesh_.to_vertex_handle(h)),
                  next = mesh_.position(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)));
-      const Vec3 area = mesh_.area_normal(mesh_.face_handle(h)), moved = cross(to - p, next - p);
-      if (norm_squared(normal) == 0) normal = unit(area);
-      if (!is_along(area, normal) || !is_along(moved, normal)) return false;
+      const Vec3 area = cross(to - p, next - p);
+      const double along = dot(area, normal);
+      if (along <= 0 || norm(area - along * normal) > plane_tolerance * along) return false;
     }
     return true;
-  }
-
-  static bool is_along(const Vec3& area, const Vec3& normal) {
-    const double along = dot(area, normal);
-    return along > 0 && norm_squared(area - along * normal) <= flatness * flatness * along * along;
   }
 
   void inherit(OpenMesh::VertexHandle v, std::int32_t face) {

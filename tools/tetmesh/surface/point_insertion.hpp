@@ -9,8 +9,9 @@
 
 namespace hexpipe {
 
-// Points name the faces of the mesh as it is now. Each becomes a kept vertex; one nearer than `snap` to a vertex or an
-// edge is moved there.
+// Points name the faces of the mesh as it is now. Each becomes a kept vertex. Near a vertex, or an edge, within `snap`,
+// no new one arises: where the surface is flat the vertex moves to the point, elsewhere it stands for the point where
+// it is.
 void insert_points(FeatureMesh& mesh, std::span<const SurfacePoint> points, const SizeField& snap);
 
 }  // namespace hexpipe

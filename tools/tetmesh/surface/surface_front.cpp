@@ -21,7 +21,7 @@ namespace {
 constexpr double least_distance = 0.7;
 // Normals of points that may be in each other's way have at least this cosine: those of the two sides of a wall do not.
 constexpr double least_normal_cosine = 0.3;
-// A triangle of the field, not longer than a size, has no room for more points that far apart. Where one is so thin
+// A triangle of the field, about a size long, has no room for more points that far apart. Where one is so thin
 // that its plane is noise, walks leave the surface, and a front would go on for ever in what should be that triangle.
 constexpr int most_in_triangle = 9;
 // How far, in sizes, a front looks ahead for the feature curve to fit its steps to, and with how much of that still

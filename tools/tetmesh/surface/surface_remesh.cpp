@@ -23,7 +23,7 @@ namespace {
 constexpr double field_edge = 1.3;
 // Flips that move the surface by less than that, in sizes, do not count as moving it.
 constexpr double flatness = 1e-5;
-// Points nearer than that, in sizes, to a vertex or an edge of the field's triangles are moved there.
+// Points nearer than that, in sizes, to a vertex or an edge of the field's triangles become one with it.
 constexpr double snap = 0.02;
 // Distances are measured at points so far apart, in sizes.
 constexpr double sample_spacing = 0.34;

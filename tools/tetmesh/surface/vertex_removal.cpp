@@ -22,9 +22,6 @@ using VertexH = OpenMesh::VertexHandle;
 constexpr double least_cosine = 0.3, least_shape = 1e-3;
 // Edges that bend by less than this part of the deviation are flat.
 constexpr double least_bend = 0.05;
-// Normals of length 1 that differ by less are those of one plane; so are edges that bend by less than that part of
-// their length.
-constexpr double flatness = 1e-5;
 // On the others, points are watched at most so many deviations apart.
 constexpr double sample_spacing = 3;
 // Removing some vertices makes others removable; more rounds found nothing.
@@ -91,7 +88,6 @@ class VertexRemover {
   bool fits() { return strays_fit() && (change_.flat || faces_fit()); }
   bool strays_fit();
   bool faces_fit();
-  bool is_flat_around(VertexH v) const;
   void settle_strays();
   void flip_queued();
   bool allow_flip(Edge e, const EdgeDiamond& diamond);
@@ -165,7 +161,7 @@ double VertexRemover::shape_after(HalfEdgeH collapse) {
 
 void VertexRemover::describe_collapse(HalfEdgeH collapse) {
   const VertexH v = mesh_.from_vertex_handle(collapse), to = mesh_.to_vertex_handle(collapse);
-  change_.flat = is_flat_around(v);
+  change_.flat = mesh_.is_flat_around(v);
   change_.faces.clear();
   change_.corners.clear();
   change_.strays.assign(1, mesh_.position(v));
@@ -209,16 +205,6 @@ bool VertexRemover::faces_fit() {
   });
 }
 
-bool VertexRemover::is_flat_around(VertexH v) const {
-  Vec3 first;
-  for (const Face f : mesh_.vf_range(v)) {
-    const Vec3 area = mesh_.area_normal(f), normal = area * (1 / std::max(norm(area), 1e-300));
-    if (norm_squared(first) == 0) first = normal;
-    if (norm_squared(normal - first) > flatness * flatness) return false;
-  }
-  return true;
-}
-
 void VertexRemover::settle_strays() {
   for (const Face f : change_.faces) strays_[f.idx()].clear();
   for (std::size_t i = 0; i < change_.strays.size(); ++i)
@@ -241,7 +227,7 @@ bool VertexRemover::allow_flip(Edge e, const EdgeDiamond& diamond) {
   const auto [l, r] = diamond.across_points;
   change_.faces.assign({left, right});
   change_.corners.assign({Corners{a, r, l}, Corners{b, l, r}});
-  change_.flat = diamond.height() < flatness * norm(diamond.end_points[1] - diamond.end_points[0]);
+  change_.flat = diamond.height() < plane_tolerance * norm(diamond.end_points[1] - diamond.end_points[0]);
   return fits();
 }
 
