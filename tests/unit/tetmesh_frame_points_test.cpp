@@ -12,6 +12,7 @@
 #include "tools/tetmesh/build_mesh.hpp"
 #include "tools/tetmesh/column_index.hpp"
 #include "tools/tetmesh/lattice.hpp"
+#include "tools/tetmesh/part_axes.hpp"
 #include "tools/tetmesh/triangle_distance.hpp"
 #include "tools/tetmesh/volume/octahedral.hpp"
 #include "tools/tetmesh/volume/surface_clearance.hpp"
@@ -104,12 +105,16 @@ Surface surface_of(const Facets& facets) {
 }
 
 // On the mesh of a lattice, as tetmesh does it.
-std::vector<Vec3> points_of(const Surface& surface, const FramePointsOptions& options) {
+FramePoints place(const Surface& surface, const FramePointsOptions& options) {
   const std::vector<Vec3> lattice = lattice_points(surface, {.size = options.size.greatest()});
   TetGenResult tetgen =
       run_tetgen({.surface_points = surface.points, .triangles = surface.triangles, .interior_points = lattice}, 60);
   const BuiltMesh background = build_mesh(surface, lattice, std::move(tetgen));
   return frame_points(surface, background.mesh, background.adjacency, options);
+}
+
+std::vector<Vec3> points_of(const Surface& surface, const FramePointsOptions& options) {
+  return place(surface, options).points;
 }
 
 // Turns by a rotation matrix without any special angle.
@@ -137,6 +142,17 @@ TEST(FramePoints, StretchWhereTheSurfacePointsAreNotOfTheSize) {
 
 TEST(FramePoints, FollowABoxThatLiesAskew) {
   EXPECT_EQ(points_of(surface_of(turned(box({0, 0, 0}, {1, 1, 1}, 8))), {.size = 1. / 8}).size(), 7u * 7 * 7);
+}
+
+TEST(FramePoints, TellHowMuchOfThePartALatticeDoesNotFit) {
+  const Facets straight = box({0, 0, 0}, {1, 1, 1}, 8);
+  EXPECT_EQ(place(surface_of(straight), {.size = 1. / 8}).turned_share, 0);
+  EXPECT_EQ(place(surface_of(turned(straight)), {.size = 1. / 8}).turned_share, 1);
+  const Surface box_turned = surface_of(turned(straight));
+  EXPECT_EQ(place(box_turned, {.size = 1. / 8, .axes = axes_of_part(box_turned)}).turned_share, 0);
+  const double round = place(surface_of(sphere({0, 0, 0}, 1, 12)), {.size = 0.2}).turned_share;
+  EXPECT_GT(round, 0.3);
+  EXPECT_LT(round, 1);
 }
 
 TEST(FramePoints, KeepClearOfSurfaceAndOfEachOther) {

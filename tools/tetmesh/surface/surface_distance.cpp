@@ -105,22 +105,23 @@ void DistanceIndex::for_each_cell(const Triangle& t, Visit&& visit) const {
       for (std::int64_t x = low.x; x <= high.x; ++x) visit(number_of({x, y, z}));
 }
 
-double DistanceIndex::distance(const Vec3& p, std::int32_t& nearest) const {
-  const Cell centre = cell_of(p);
-  const std::int64_t rings = std::max({counts_.x, counts_.y, counts_.z});
-  double best = std::numeric_limits<double>::max();
+double DistanceIndex::distance(const Vec3& p, std::int32_t& nearest, double enough) const {
+  Search search{nearest, std::numeric_limits<double>::max(), enough * enough};
   if (nearest >= 0) {
     const auto [a, b, c] = triangles_[nearest];
-    best = TriangleDistance(points_[a], points_[b], points_[c]).squared(p);
+    search.best = TriangleDistance(points_[a], points_[b], points_[c]).squared(p);
   }
+  const Cell centre = cell_of(p);
+  const std::int64_t rings = std::max({counts_.x, counts_.y, counts_.z});
   const double margin = margin_in(centre, p);
-  for (std::int64_t ring = 0; ring < rings; ++ring) {
-    look_in_shell(p, centre, ring, best, nearest);
+  for (std::int64_t ring = 0; ring < rings && !search.is_done(); ++ring) {
+    look_in_shell(p, centre, ring, search);
     // Whatever lies in a later ring is at least that far away; the cells of the next one are looked at singly.
     const double reach = static_cast<double>(ring) * width_ + margin;
-    if (best <= reach * reach) break;
+    if (search.best <= reach * reach) break;
   }
-  return std::sqrt(best);
+  nearest = search.nearest;
+  return std::sqrt(search.best);
 }
 
 // How far a point is from the sides of its cell; 0 outside.
@@ -132,15 +133,14 @@ double DistanceIndex::margin_in(const Cell& cell, const Vec3& p) const {
   return std::max(0.0, std::min({along(p.x, low_.x, cell.x), along(p.y, low_.y, cell.y), along(p.z, low_.z, cell.z)}));
 }
 
-void DistanceIndex::look_in_shell(const Vec3& p, const Cell& centre, std::int64_t ring, double& best,
-                                  std::int32_t& nearest) const {
+void DistanceIndex::look_in_shell(const Vec3& p, const Cell& centre, std::int64_t ring, Search& search) const {
   for (std::int64_t z = std::max<std::int64_t>(centre.z - ring, 0); z <= std::min(centre.z + ring, counts_.z - 1); ++z)
     for (std::int64_t y = std::max<std::int64_t>(centre.y - ring, 0); y <= std::min(centre.y + ring, counts_.y - 1);
          ++y) {
       const bool on_side = std::max(std::abs(z - centre.z), std::abs(y - centre.y)) == ring;
       const std::int64_t step = on_side || ring == 0 ? 1 : 2 * ring;
       for (std::int64_t x = centre.x - ring; x <= centre.x + ring; x += step)
-        if (x >= 0 && x < counts_.x && squared_to_box(p, {x, y, z}) < best) look_in_cell(p, {x, y, z}, best, nearest);
+        if (x >= 0 && x < counts_.x && squared_to_box(p, {x, y, z}) < search.best) look_in_cell(p, {x, y, z}, search);
     }
 }
 
@@ -152,16 +152,16 @@ double DistanceIndex::squared_to_box(const Vec3& p, const Cell& cell) const {
   return norm_squared(Vec3{outside(p.x, low_.x, cell.x), outside(p.y, low_.y, cell.y), outside(p.z, low_.z, cell.z)});
 }
 
-void DistanceIndex::look_in_cell(const Vec3& p, const Cell& cell, double& best, std::int32_t& nearest) const {
+void DistanceIndex::look_in_cell(const Vec3& p, const Cell& cell, Search& search) const {
   const std::int64_t number = number_of(cell);
-  for (std::int64_t i = offsets_[number]; i < offsets_[number + 1]; ++i) {
+  for (std::int64_t i = offsets_[number]; i < offsets_[number + 1] && !search.is_done(); ++i) {
     const auto [a, b, c] = triangles_[members_[i]];
     const double height = dot(p - points_[a], normals_[members_[i]]);
-    if (height * height >= best) continue;
+    if (height * height >= search.best) continue;
     const double squared = TriangleDistance(points_[a], points_[b], points_[c]).squared(p);
-    if (squared >= best) continue;
-    best = squared;
-    nearest = members_[i];
+    if (squared >= search.best) continue;
+    search.best = squared;
+    search.nearest = members_[i];
   }
 }
 
@@ -176,7 +176,8 @@ SurfaceDistance one_sided_distance(std::span<const Vec3> points, std::span<const
         std::int32_t nearest = -1;  // of the last sample, next to which the next one lies
         for (std::int64_t i = begin; i < end; ++i) {
           sampler.for_each_sample(i, [&](const Vec3& p) {
-            const double distance = other.distance(p, nearest);
+            // What is neither the greatest nor beyond the limit need not be exact.
+            const double distance = other.distance(p, nearest, std::min(part.greatest, limit.least()));
             part.greatest = std::max(part.greatest, distance);
             if (!limit.is_at_least(distance, p)) part.beyond.push_back(p);
           });

@@ -15,8 +15,9 @@ class DistanceIndex {
   // The arrays must outlive the index.
   DistanceIndex(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
-  // `nearest`: a guess of the nearest triangle, or -1; becomes it. A good guess saves most of the work.
-  double distance(const Vec3& p, std::int32_t& nearest) const;
+  // `nearest`: a guess of the nearest triangle, or -1; becomes it. A good guess saves most of the work, and so does
+  // `enough`: of a triangle that is not further away it is not asked whether it is the nearest.
+  double distance(const Vec3& p, std::int32_t& nearest, double enough = 0) const;
   double distance(const Vec3& p) const {
     std::int32_t nearest = -1;
     return distance(p, nearest);
@@ -29,8 +30,14 @@ class DistanceIndex {
   Cell cell_of(const Vec3& p) const;
   std::int64_t number_of(const Cell& c) const { return (c.z * counts_.y + c.y) * counts_.x + c.x; }
   double margin_in(const Cell& cell, const Vec3& p) const;
-  void look_in_shell(const Vec3& p, const Cell& centre, std::int64_t ring, double& best, std::int32_t& nearest) const;
-  void look_in_cell(const Vec3& p, const Cell& cell, double& best, std::int32_t& nearest) const;
+  // The nearest triangle so far, and the square of its distance; that of `enough`.
+  struct Search {
+    std::int32_t nearest;
+    double best, enough;
+    bool is_done() const { return best <= enough; }
+  };
+  void look_in_shell(const Vec3& p, const Cell& centre, std::int64_t ring, Search& search) const;
+  void look_in_cell(const Vec3& p, const Cell& cell, Search& search) const;
   double squared_to_box(const Vec3& p, const Cell& cell) const;
   template <class Visit>
   void for_each_cell(const Triangle& t, Visit&& visit) const;

@@ -198,7 +198,9 @@ bool VertexRemover::strays_fit() {
 
 // The middles of the new faces and of their edges, from the original surface.
 bool VertexRemover::faces_fit() {
-  const auto is_near = [&](const Vec3& p) { return deviation_.is_at_least(original_.distance(p, nearest_), p); };
+  const auto is_near = [&](const Vec3& p) {
+    return deviation_.is_at_least(original_.distance(p, nearest_, deviation_.least()), p);
+  };
   return std::ranges::all_of(change_.corners, [&](const Corners& c) {
     return is_near((c[0] + c[1] + c[2]) * (1.0 / 3)) && is_near(0.5 * (c[0] + c[1])) && is_near(0.5 * (c[1] + c[2])) &&
            is_near(0.5 * (c[2] + c[0]));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <numeric>
 
 #include "common/run/parallel.hpp"
@@ -22,6 +23,8 @@ constexpr double least_spacing = 0.6;
 constexpr double same_point = 0.3;
 // A node sees points of the lattice up to one cell away, trusted less with the distance.
 constexpr double furthest = 1 + 1e-6, distrust_begins = 1.5;
+// Frames further out of a lattice's axes than that are turned.
+constexpr double straight_angle = 10;  // degrees
 
 // A point of the lattice as a node sees it.
 struct Proposal {
@@ -49,6 +52,7 @@ class PointPlacer {
     agree();
     return accept();
   }
+  double turned_share() const;
 
  private:
   void propose();
@@ -141,14 +145,25 @@ bool PointPlacer::is_free(const SizedPointGrid& taken, const Proposal& proposal)
   return free;
 }
 
+double PointPlacer::turned_share() const {
+  const double least_cosine = std::cos(straight_angle * std::numbers::pi / 180);
+  const auto is_straight = [&](const Frame& frame) {
+    return std::ranges::all_of(options_.axes,
+                               [&](const Vec3& axis) { return maximum_norm(frame, axis) >= least_cosine; });
+  };
+  const auto straight = std::ranges::count_if(frames_, is_straight);
+  return 1 - static_cast<double>(straight) / static_cast<double>(frames_.size());
+}
+
 }  // namespace
 
-std::vector<Vec3> frame_points(const Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
-                               const FramePointsOptions& options) {
-  std::vector<Vec3> points = PointPlacer(surface, background, adjacency, options).place();
+FramePoints frame_points(const Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
+                         const FramePointsOptions& options) {
+  PointPlacer placer(surface, background, adjacency, options);
+  std::vector<Vec3> points = placer.place();
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i] += jitter_of(i, options.jitter * options.size.at(points[i]), options.seed);
-  return points;
+  return {std::move(points), placer.turned_share()};
 }
 
 }  // namespace hexpipe

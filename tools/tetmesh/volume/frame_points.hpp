@@ -7,6 +7,7 @@
 // (lattice_field.hpp), so that fronts from opposite walls meet where that is possible; points that many nodes see come
 // first.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -24,11 +25,17 @@ struct FramePointsOptions {
   // three parts: 11.3 and 87.2 % at 0, 8.4 and 87.6 at 0.01, 7.4 and 87.7 at 0.02, 6.2 and 87.6 at 0.04.
   double jitter = 0.04;
   std::uint64_t seed = 1;
+  std::array<Vec3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // of a lattice, to see how far the frames are from it
+};
+
+struct FramePoints {
+  std::vector<Vec3> points;  // in the order in which they were accepted
+  double turned_share = 0;   // of the vertices: where the frame is more than 10 degrees out of the lattice's axes
 };
 
 // `background`: a mesh of the surface with points inside at about the same distance; its first vertices are the
-// surface's. In the order in which they were accepted.
-std::vector<Vec3> frame_points(const Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
-                               const FramePointsOptions& options);
+// surface's.
+FramePoints frame_points(const Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
+                         const FramePointsOptions& options);
 
 }  // namespace hexpipe
