@@ -210,6 +210,17 @@ PYTHON
     assemble --mesh other.mesh --candidates "$WORK/moved.cand" --solution "$WORK/moved.sol"
 }
 
+@test "two copies of a tet are an error" {
+  # One tet, whose mesh has no candidates, and the same tet twice.
+  printf '%s\n' "MeshVersionFormatted 2" "Dimension 3" Vertices 4 "0 0 0 0" "1 0 0 0" "0 1 0 0" "0 0 1 0" >points
+  { cat points && printf '%s\n' Tetrahedra 1 "1 2 3 4 1" End; } >once.mesh
+  { cat points && printf '%s\n' Tetrahedra 2 "1 2 3 4 1" "1 2 3 4 1" End; } >twice.mesh
+  findhex once.mesh | buildgraph | initsol -o once.tar
+  assemble once.tar -o once.vtu
+  assert_fails_with 1 "^assemble: twice.mesh: .*found tets 0 and 1 on one side of that at vertices [0-3] [0-3] [0-3]$" \
+    assemble once.tar --mesh twice.mesh -o out.vtu
+}
+
 @test "regions that candidates do not respect are an error that names the file" {
   # Every tet of another region.
   awk '/^Tetrahedra/ {tets = 1} tets && NF == 5 {$5 = NR} {print}' "$WORK/moved.mesh" >regions.mesh
