@@ -109,6 +109,12 @@ InitsolResult find_initial_solution(const ConflictGraph& graph, std::span<const 
   const auto leader = [&] {
     return std::ranges::max_element(searches, {}, [](const auto& search) { return search->best_weight(); })->get();
   };
+  // Of the last round only some, where time ran out in it.
+  const auto moves_made = [&] {
+    std::int64_t sum = 0;
+    for (const auto& search : searches) sum += search->moves();
+    return sum;
+  };
   const std::int64_t round = std::clamp<std::int64_t>(options.iterations / least_rounds, 1, most_moves_a_round);
   const std::int64_t iterations = options.method == Method::descend ? 0 : options.iterations;
   for (std::int64_t done = 0; done < iterations && !deadline.passed();) {
@@ -118,11 +124,11 @@ InitsolResult find_initial_solution(const ConflictGraph& graph, std::span<const 
     done += moves;
     if (report && leader()->best_weight() > result.weight) {
       result.weight = leader()->best_weight();
-      report({done, result.weight});
+      report({moves_made(), result.weight});
     }
     if (std::ranges::all_of(searches, [&](const auto& search) { return search->moves() < done; })) break;
   }
-  for (const auto& search : searches) result.iterations += search->moves();
+  result.iterations = moves_made();
   SolutionState best(graph, recombined(graph, searches));
   best.make_maximal();  // with vertices of weight 0
   result.solution = best.to_set();
