@@ -9,6 +9,7 @@ namespace hexpipe {
 namespace {
 
 constexpr double least_cosine = 0.70710678118654752;  // of 45 degrees
+constexpr double least_wedge = 0.26794919243112270;   // tangent of 15 degrees
 constexpr double least_part = 1.0 / 32;               // of the size
 // Rays start that far from their triangle, in sizes, and take nothing nearer for another wall.
 constexpr double least_length = 1e-6;
@@ -38,6 +39,8 @@ class WallFinder {
  private:
   void look(const Corners& corners, const Vec3& inwards);
   double thickness_at(const Vec3& from, const Vec3& inwards) const;
+  bool is_wedge(const Vec3& from, const Vec3& inwards, double thickness, const Vec3& outwards) const;
+  double first_hit(const Vec3& from, const Vec3& direction, double longest) const;
   double length_to(std::int32_t triangle, const Vec3& from, const Vec3& direction) const;
   void add_wall(const Corners& corners, const Vec3& across, double size);
 
@@ -84,7 +87,28 @@ double WallFinder::thickness_at(const Vec3& from, const Vec3& inwards) const {
   if (hit < 0) return none;
   const auto& [a, b, c] = surface_.triangles[hit];
   const Vec3 area = cross(surface_.points[b] - surface_.points[a], surface_.points[c] - surface_.points[a]);
-  return std::abs(dot(area, inwards)) >= least_cosine * norm(area) ? thickness : none;
+  const Vec3 there = unit(area);
+  if (std::abs(dot(there, inwards)) < least_cosine) return none;
+  return is_wedge(from, inwards, thickness, dot(there, inwards) < 0 ? -there : there) ? none : thickness;
+}
+
+// Whether the two sides meet at an edge, and not just come nearer to each other. They do if, nine tenths of the way to
+// the line in which their planes meet, they are as near as they have to be. `outwards` is the other side's normal.
+bool WallFinder::is_wedge(const Vec3& from, const Vec3& inwards, double thickness, const Vec3& outwards) const {
+  constexpr double way = 0.9, left = 1 - way, most_left = 1.5 * left;
+  const double cosine = dot(outwards, inwards);
+  const Vec3 to_edge = outwards - cosine * inwards;  // as long as the sine of the angle between the planes
+  const double sine = norm(to_edge);
+  if (sine < least_wedge * cosine) return false;
+  const Vec3 inside = from + (way * thickness * cosine / (sine * sine)) * to_edge + (left / 2 * thickness) * inwards;
+  const double most = most_left * thickness;
+  return first_hit(inside, inwards, most) < most && first_hit(inside, -inwards, most) < most;
+}
+
+// Infinite where nothing is hit that near.
+double WallFinder::first_hit(const Vec3& from, const Vec3& direction, double longest) const {
+  return tree_.first_hit(from, direction, longest,
+                         [&](std::int32_t triangle) { return length_to(triangle, from, direction); });
 }
 
 // Along a direction of length 1, infinite where the ray misses the triangle (T. Möller, B. Trumbore: Fast,

@@ -10,7 +10,7 @@ namespace hexpipe {
 // degrees against the ray (L. Shapira, A. Shamir, D. Cohen-Or: Consistent mesh partitioning and skeletonisation using
 // the shape diameter function, 2008, with one ray in place of a cone). Where that length is less than `layers` times
 // `size`, its part by the layers is the size of the wall, in all of it between the two sides; but at least a 32nd of
-// `size`, lest sharp edges ask for elements without end. Rays start at most a size apart.
+// `size`. Sides that meet at an edge, at more than 15 degrees, are no wall. Rays start at most a size apart.
 SizeSources wall_sizes(const Surface& surface, double size, int layers);
 
 }  // namespace hexpipe
