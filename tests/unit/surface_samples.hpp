@@ -60,6 +60,28 @@ inline Facets prism(int n, double radius, double length) {
   return facets;
 }
 
+// A prism of n sides with a hole of n sides in its middle, outward.
+inline Facets ring(int n, double inner_radius, double outer_radius, double length) {
+  Facets facets;
+  auto rim = [&](int i, double radius, double z) {
+    const double angle = 2 * std::numbers::pi * (i % n) / n;
+    return Vec3{radius * std::cos(angle), radius * std::sin(angle), z};
+  };
+  for (int i = 0; i < n; ++i) {
+    std::array<Vec3, 4> here, next;  // once around the cross section
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double radius = k == 0 || k == 3 ? inner_radius : outer_radius, z = k < 2 ? 0 : length;
+      here[k] = rim(i, radius, z);
+      next[k] = rim(i + 1, radius, z);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t l = (k + 1) % 4;
+      facets.insert(facets.end(), {Facet{here[k], next[l], here[l]}, Facet{here[k], next[k], next[l]}});
+    }
+  }
+  return facets;
+}
+
 // A sphere of `n` bands of latitude and 2 n of longitude, outward.
 inline Facets sphere(const Vec3& centre, double radius, int n) {
   Facets facets;

@@ -28,7 +28,7 @@ struct Prepared {
       : kept(kept_of(mesh)),
         surface(mesh),
         field(cross_field(surface, size)),
-        points(surface_lattice(surface, field, kept, size)) {}
+        points(surface_lattice(surface, field, kept, size).points) {}
 
   static FeatureMesh mesh_of(const Facets& facets, double size) {
     FeatureMesh mesh(surface_of(facets), 40);

@@ -7,13 +7,6 @@
 namespace hexpipe {
 namespace {
 
-// Of what is added, squared, against the squares of what is missing around loops. Of the volume in hexes at the fine
-// size of tests/bench/points: on the surfaces of six parts 88.5 % without, 89.2 at 0.05; in the volumes of blub, spot
-// and mambo-m1, with their surfaces as before, 84.9 % without, 86.6 at 0.05, 86.8 at 0.01, where mambo-m1 loses 0.2.
-constexpr float stiffness = 0.05f;
-constexpr int most_iterations = 40;
-constexpr double tolerance = 1e-2;  // of the residual, against that of the start
-
 // In single precision: the tolerance asks for no more, and how fast this is depends on how much memory it goes through.
 using Numbers = std::vector<float>;
 
@@ -23,29 +16,30 @@ double dot(const Numbers& a, const Numbers& b) {
   return sum;
 }
 
-// Adds to `image` what the sums around loops of `value` say of each distance, times `factor`.
-void add_circulations(const Loops& loops, const Numbers& value, float factor, Numbers& image) {
-  for (std::size_t loop = 0; loop < loops.size(); ++loop) {
-    float sum = 0;
-    for (const std::int32_t step : loops[loop]) sum += step < 0 ? -value[~step] : value[step];
-    sum *= factor;
-    for (const std::int32_t step : loops[loop]) (step < 0 ? image[~step] : image[step]) += step < 0 ? -sum : sum;
-  }
+float sum_along(std::span<const std::int32_t> loop, const Numbers& value) {
+  float sum = 0;
+  for (const std::int32_t step : loop) sum += step < 0 ? -value[~step] : value[step];
+  return sum;
+}
+
+void add_along(std::span<const std::int32_t> loop, float sum, Numbers& image) {
+  for (const std::int32_t step : loop) (step < 0 ? image[~step] : image[step]) += step < 0 ? -sum : sum;
 }
 
 }  // namespace
 
-std::vector<float> curl_correction(std::span<const float> distances, const Loops& loops) {
+std::vector<float> curl_correction(std::span<const float> distances, const Loops& loops, const CurlLimits& limits) {
   const std::size_t count = distances.size();
   Numbers correction(count), rest(count), image(count);
   Numbers direction(distances.begin(), distances.end());
-  add_circulations(loops, direction, -1, rest);
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    add_along(loops[i], loops.sum_of(i) - sum_along(loops[i], direction), rest);
   direction = rest;
   double product = dot(rest, rest);
-  const double enough = tolerance * tolerance * product;
-  for (int k = 0; k < most_iterations && product > enough; ++k) {
-    for (std::size_t i = 0; i < count; ++i) image[i] = stiffness * direction[i];
-    add_circulations(loops, direction, 1, image);
+  const double enough = limits.tolerance * limits.tolerance * product;
+  for (int k = 0; k < limits.most_iterations && product > enough; ++k) {
+    for (std::size_t i = 0; i < count; ++i) image[i] = limits.stiffness * direction[i];
+    for (std::size_t i = 0; i < loops.size(); ++i) add_along(loops[i], sum_along(loops[i], direction), image);
     const auto step = static_cast<float>(product / dot(direction, image));
     for (std::size_t i = 0; i < count; ++i) {
       correction[i] += step * direction[i];

@@ -7,15 +7,27 @@
 
 namespace hexpipe {
 
-// Closed ways over numbered distances, of which each is taken forwards or backwards.
+// A numbered distance on a way.
+struct LoopStep {
+  std::int32_t number;
+  bool backwards;
+};
+
+// Ways over distances of which is known what they add up to: nothing, where a way comes back to where it began.
 class Loops {
  public:
   void add_step(std::int32_t number, bool backwards) { steps_.push_back(backwards ? ~number : number); }
-  // Ends the loop that was begun with the first step after the last one.
-  void close() { ends_.push_back(static_cast<std::int64_t>(steps_.size())); }
+  void add_step(const LoopStep& step) { add_step(step.number, step.backwards); }
+  // Ends the way that was begun with the first step after the last one.
+  void close(double sum = 0) {
+    ends_.push_back(static_cast<std::int64_t>(steps_.size()));
+    sums_.push_back(static_cast<float>(sum));
+  }
   // Forgets the steps since the last close().
   void drop() { steps_.resize(static_cast<std::size_t>(ends_.back())); }
   std::size_t size() const { return ends_.size() - 1; }
+  std::size_t steps() const { return steps_.size(); }
+  float sum_of(std::size_t loop) const { return sums_[loop]; }
   std::span<const std::int32_t> operator[](std::size_t loop) const {
     return std::span(steps_).subspan(ends_[loop], ends_[loop + 1] - ends_[loop]);
   }
@@ -23,12 +35,16 @@ class Loops {
  private:
   std::vector<std::int32_t> steps_;  // ~number where backwards
   std::vector<std::int64_t> ends_{0};
+  std::vector<float> sums_;
 };
 
-// What to add to the distances so that each loop comes back to where it began, as nearly as little enough does.
-std::vector<float> curl_correction(std::span<const float> distances, const Loops& loops);
+struct CurlLimits {
+  float stiffness;  // of what is added, squared, against the squares of what is missing around loops
+  int most_iterations;
+  double tolerance = 1e-2;  // of what would still be changed, against that of the start
+};
 
-// Of its length, what a distance may gain or lose along an axis; where more is wanted, rows of a lattice have to end.
-inline constexpr double most_strain = 0.3;
+// What to add to the distances so that each loop adds up to what it should, as nearly as little enough does.
+std::vector<float> curl_correction(std::span<const float> distances, const Loops& loops, const CurlLimits& limits);
 
 }  // namespace hexpipe

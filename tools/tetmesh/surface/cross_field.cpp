@@ -43,8 +43,7 @@ class FieldSolver {
     frames_.reserve(surface.triangles.size());
     for (std::int32_t f = 0; f < count; ++f) frames_.emplace_back(surface, f);
     sizes_.reserve(surface.triangles.size());
-    for (const auto& [a, b, c] : surface.triangles)
-      sizes_.push_back(size.at((surface.points[a] + surface.points[b] + surface.points[c]) * (1.0 / 3)));
+    for (const Vec3& centre : surface.centres) sizes_.push_back(size.at(centre));
     edges_.reserve(3 * surface.triangles.size());
     for (HalfEdge h = 0; h < 3 * count; ++h)
       edges_.push_back(angle_of(frames_[triangle_of(h)], surface.edge_vector(h)));

@@ -2,6 +2,9 @@
 // A 4-fold cross field on a surface: four directions at right angles in every triangle, along the feature curves and,
 // where the surface bends, along its principal curvatures, as smooth as that allows.
 
+#include <array>
+#include <vector>
+
 #include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/surface/field_surface.hpp"
 
@@ -10,6 +13,11 @@ namespace hexpipe {
 struct CrossField {
   // Of each triangle, one of its four directions: of length 1, in its plane.
   std::vector<Vec3> directions;
+
+  // That, and the one to its left.
+  std::array<Vec3, 2> axes(const FieldSurface& surface, std::int32_t triangle) const {
+    return {directions[triangle], cross(surface.normals[triangle], directions[triangle])};
+  }
 };
 
 // `size` is the distance over which a full bend counts as much as smoothness.

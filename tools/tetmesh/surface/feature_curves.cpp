@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace hexpipe {
 namespace {
@@ -60,14 +62,14 @@ class CurveFinder {
   std::vector<FeatureCurve> curves_;
 };
 
-// A curve by its length in sizes.
+// A curve by its length in steps.
 class CurveLength {
  public:
-  CurveLength(const std::vector<Vec3>& curve, const SizeField& size)
-      : points_(1, curve.front()), lengths_(1, 0.0), vertices_(1, 0) {
-    for (std::size_t i = 1; i < curve.size(); ++i) {
-      add_segment(curve[i - 1], curve[i], size);
-      vertices_.push_back(points_.size() - 1);
+  CurveLength(const MeasuredCurve& curve, const SizeField& size)
+      : points_(1, curve.points.front()), lengths_(1, 0.0), vertices_(1, 0) {
+    for (std::size_t i = 1; i < curve.points.size(); ++i) {
+      add_segment(curve.points[i - 1], curve.points[i], curve.steps_per_size[i - 1], size);
+      if (curve.vertices[i].is_valid()) vertices_.push_back(points_.size() - 1);
     }
   }
 
@@ -97,14 +99,15 @@ class CurveLength {
 
  private:
   // In parts over which the size hardly changes.
-  void add_segment(const Vec3& from, const Vec3& to, const SizeField& size) {
+  void add_segment(const Vec3& from, const Vec3& to, double steps_per_size, const SizeField& size) {
     const double length = norm(to - from);
     const int parts =
         size.least() < size.greatest() ? parts_of(length / size.least_near(size.at(0.5 * (from + to)), length)) : 1;
     for (int i = 1; i <= parts; ++i) {
       const Vec3 start = points_.back();
       points_.push_back(i == parts ? to : from + (static_cast<double>(i) / parts) * (to - from));
-      lengths_.push_back(lengths_.back() + norm(points_.back() - start) / size.at(0.5 * (start + points_.back())));
+      const double sizes = norm(points_.back() - start) / size.at(0.5 * (start + points_.back()));
+      lengths_.push_back(lengths_.back() + steps_per_size * sizes);
     }
   }
   static int parts_of(double sizes) { return static_cast<int>(std::clamp(parts_a_size * sizes, 1.0, most_parts)); }
@@ -131,16 +134,18 @@ class CurveSampler {
   CurveSampler(FeatureMesh& mesh, const SizeField& size, const SizeField& deviation)
       : mesh_(mesh), size_(size), deviation_(deviation) {}
 
-  void sample(FeatureCurve curve) {
+  void sample(MeasuredCurve curve) {
     if (curve.closed) turn_to_start(curve);
-    const CurveLength arc(positions(curve), size_);
+    const CurveLength arc(curve, size_);
+    std::vector<Vertex> vertices;
+    std::ranges::copy_if(curve.vertices, std::back_inserter(vertices), [](Vertex v) { return v.is_valid(); });
     const int count = step_count(arc, curve.closed);
-    if (curve.closed) mesh_.keep(curve.vertices.front());
+    if (curve.closed) mesh_.keep(vertices.front());
     const double step = arc.length() / count;
     int next = 1;
     for (std::size_t i = 0; i < arc.segments() && next < count; ++i) {
-      Vertex from = curve.vertices[i];
-      const Vertex to = curve.vertices[i + 1];
+      Vertex from = vertices[i];
+      const Vertex to = vertices[i + 1];
       const double end = arc.start_of(i + 1);
       for (; next < count && next * step < end + snapping * step; ++next) {
         if (std::abs(next * step - end) <= snapping * step)
@@ -152,12 +157,6 @@ class CurveSampler {
   }
 
  private:
-  std::vector<Vec3> positions(const FeatureCurve& curve) const {
-    std::vector<Vec3> points;
-    for (const Vertex v : curve.vertices) points.push_back(mesh_.position(v));
-    return points;
-  }
-
   Vertex place(Vertex from, Vertex to, const Vec3& p) {
     const Vertex v = mesh_.split_edge_at(mesh_.edge_handle(mesh_.find_halfedge(from, to)), p);
     mesh_.keep(v);
@@ -174,16 +173,24 @@ class CurveSampler {
     return count;
   }
 
-  // Cuts the loop at its start and turns it so that it begins there.
-  void turn_to_start(FeatureCurve& curve) {
-    const std::vector<Vec3> loop = positions(curve);
-    const Vec3 direction = start_direction(loop);
-    std::size_t first = 0;
-    for (std::size_t i = 0; i + 1 < loop.size(); ++i)
-      if (dot(loop[i], direction) > dot(loop[first], direction)) first = i;
+  // Cuts the loop at its start, a vertex of the mesh, and turns it so that it begins there.
+  void turn_to_start(MeasuredCurve& curve) const {
+    const Vec3 direction = start_direction(curve.points);
+    std::size_t first = curve.points.size();
+    for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
+      if (!curve.vertices[i].is_valid()) continue;
+      if (first == curve.points.size() || dot(curve.points[i], direction) > dot(curve.points[first], direction))
+        first = i;
+    }
+    curve.points.pop_back();
     curve.vertices.pop_back();
-    std::rotate(curve.vertices.begin(), curve.vertices.begin() + static_cast<std::ptrdiff_t>(first),
-                curve.vertices.end());
+    const auto turn = [&](auto& values) {
+      std::rotate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(first), values.end());
+    };
+    turn(curve.points);
+    turn(curve.vertices);
+    turn(curve.steps_per_size);
+    curve.points.push_back(curve.points.front());
     curve.vertices.push_back(curve.vertices.front());
   }
 
@@ -197,9 +204,22 @@ std::vector<FeatureCurve> feature_curves(const FeatureMesh& mesh) {
   return CurveFinder(mesh).find();
 }
 
-void sample_feature_curves(FeatureMesh& mesh, const SizeField& size, const SizeField& deviation) {
+void sample_feature_curves(FeatureMesh& mesh, std::span<const MeasuredCurve> curves, const SizeField& size,
+                           const SizeField& deviation) {
   CurveSampler sampler(mesh, size, deviation);
-  for (FeatureCurve& curve : feature_curves(mesh)) sampler.sample(std::move(curve));
+  for (const MeasuredCurve& curve : curves) sampler.sample(curve);
+}
+
+void sample_feature_curves(FeatureMesh& mesh, const SizeField& size, const SizeField& deviation) {
+  std::vector<MeasuredCurve> measured;
+  for (FeatureCurve& curve : feature_curves(mesh)) {
+    MeasuredCurve& even = measured.emplace_back();
+    for (const auto v : curve.vertices) even.points.push_back(mesh.position(v));
+    even.vertices = std::move(curve.vertices);
+    even.steps_per_size.assign(even.points.size() - 1, 1);
+    even.closed = curve.closed;
+  }
+  sample_feature_curves(mesh, measured, size, deviation);
 }
 
 }  // namespace hexpipe

@@ -10,9 +10,10 @@ FieldSurface::FieldSurface(const FeatureMesh& mesh) {
   for (const auto f : mesh.faces()) {
     const auto [a, b, c] = mesh.corners(f);
     triangles.push_back({a.idx(), b.idx(), c.idx()});
-    auto h = mesh.halfedge_handle(f);
+    auto h = mesh.halfedge_handle(f);  // half_edge_of() counts from here, too
     for (int i = 0; i < 3; ++i, h = mesh.next_halfedge_handle(h))
       feature.push_back(mesh.is_feature(mesh.edge_handle(h)));
+    centres.push_back((points[a.idx()] + points[b.idx()] + points[c.idx()]) * (1.0 / 3));
     const Vec3 normal = mesh.area_normal(f);
     const double length = norm(normal);
     normals.push_back(normal * (1 / length));
@@ -23,6 +24,13 @@ FieldSurface::FieldSurface(const FeatureMesh& mesh) {
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(twins.size()); ++h) {
     inwards.push_back(unit(cross(normals[triangle_of(h)], edge_vector(h))));
   }
+}
+
+HalfEdge half_edge_of(const FeatureMesh& mesh, OpenMesh::HalfedgeHandle h) {
+  const auto f = mesh.face_handle(h);
+  HalfEdge number = 3 * f.idx();
+  for (auto g = mesh.halfedge_handle(f); g != h; g = mesh.next_halfedge_handle(g)) ++number;
+  return number;
 }
 
 TangentFrame::TangentFrame(const FieldSurface& surface, std::int32_t triangle) {

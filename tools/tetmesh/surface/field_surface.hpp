@@ -16,6 +16,7 @@ struct FieldSurface {
   std::vector<Triangle> triangles;
   std::vector<HalfEdge> twins;
   std::vector<bool> feature;  // of each half-edge
+  std::vector<Vec3> centres;
   std::vector<Vec3> normals;  // of length 1
   std::vector<double> areas;
   std::vector<Vec3> inwards;  // of each half-edge, see inward()
@@ -24,6 +25,9 @@ struct FieldSurface {
   // At right angles to a half-edge in the plane of its triangle, of length 1, pointing into it.
   const Vec3& inward(HalfEdge h) const { return inwards[h]; }
 };
+
+// The half-edge of the surface that is one of the mesh's.
+HalfEdge half_edge_of(const FeatureMesh& mesh, OpenMesh::HalfedgeHandle h);
 
 // A frame of a triangle's plane: its first side, and that turned by 90 degrees.
 struct TangentFrame {

@@ -8,6 +8,7 @@
 #include "tools/tetmesh/surface/surface_front.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -17,7 +18,7 @@
 namespace hexpipe {
 namespace {
 
-// Points nearer than this, in sizes, are refused.
+// Points nearer than this, in steps of the lattice, are refused.
 constexpr double least_distance = 0.7;
 // Normals of points that may be in each other's way have at least this cosine: those of the two sides of a wall do not.
 constexpr double least_normal_cosine = 0.3;
@@ -59,7 +60,9 @@ class SurfaceFront {
 
   std::vector<SurfacePoint> run(std::span<const Vertex> kept) {
     add_kept(kept);
-    for (const SurfacePoint& p : surface_lattice(surface_, field_, kept, size_)) take_if_free(p, {});
+    const SurfaceLattice lattice = surface_lattice(surface_, field_, kept, size_);
+    spacing_ = lattice.spacing;
+    for (const SurfacePoint& p : lattice.points) take_if_free(p, {});
     start_from_kept(kept);
     spread();
     fill_gaps();
@@ -76,7 +79,7 @@ class SurfaceFront {
   WalkEnd step(const SurfacePoint& from, const Vec3& direction, double sizes) const;
   double sizes_along(const Vec3& from, const WalkEnd& end) const;
   Outlook look(const SurfacePoint& from, const Vec3& direction) const;
-  // Whether no point is nearer than `distance` sizes.
+  // Whether no point is nearer than `distance` steps of the lattice.
   bool is_free(const SurfacePoint& point, double distance) const;
   void take_if_free(const SurfacePoint& point, const Outlook& outlook);
 
@@ -85,11 +88,12 @@ class SurfaceFront {
   FieldWalker walker_;
   const SizeField& size_;
   std::vector<SurfacePoint> points_;
-  std::vector<Outlook> outlooks_;           // of the points, along the way on which they were reached
-  std::size_t next_ = 0;                    // of the points, the first that has not yet offered its neighbours
-  SizedPointGrid grid_;                     // the kept vertices, then the points
-  std::vector<std::vector<Vec3>> normals_;  // of the points in the grid, of each face around them that differs
-  std::vector<std::int8_t> taken_in_;       // of each triangle, the points
+  std::vector<Outlook> outlooks_;               // of the points, along the way on which they were reached
+  std::vector<std::array<double, 2>> spacing_;  // of the lattice, in each triangle
+  std::size_t next_ = 0;                        // of the points, the first that has not yet offered its neighbours
+  SizedPointGrid grid_;                         // the kept vertices, then the points
+  std::vector<std::vector<Vec3>> normals_;      // of the points in the grid, of each face around them that differs
+  std::vector<std::int8_t> taken_in_;           // of each triangle, the points
 };
 
 void SurfaceFront::add_kept(std::span<const Vertex> kept) {
@@ -120,7 +124,7 @@ void SurfaceFront::start_from_corner(HalfEdge h) {
   const std::int32_t f = triangle_of(h);
   const Vec3 left = surface_.inward(h), right = surface_.inward(previous_in_triangle(h));
   const SurfacePoint corner{surface_.points[start_of(surface_.triangles, h)], f};
-  const Vec3 x = field_.directions[f], y = cross(surface_.normals[f], x);
+  const auto [x, y] = field_.axes(surface_, f);
   for (const Vec3& direction : {x, y, -x, -y})
     if (dot(direction, left) >= 0 && dot(direction, right) > 0) offer_step(corner, direction, {});
 }
@@ -129,16 +133,14 @@ void SurfaceFront::spread() {
   for (; next_ < points_.size(); ++next_) {
     const SurfacePoint from = points_[next_];
     const Outlook outlook = outlooks_[next_];
-    const Vec3 x = field_.directions[from.triangle], y = cross(surface_.normals[from.triangle], x);
+    const auto [x, y] = field_.axes(surface_, from.triangle);
     for (const Vec3& direction : {x, y, -x, -y}) offer_step(from, direction, outlook);
   }
 }
 
 void SurfaceFront::fill_gaps() {
   for (std::int32_t f = 0; f < static_cast<std::int32_t>(surface_.triangles.size()); ++f) {
-    const auto [a, b, c] = surface_.triangles[f];
-    const SurfacePoint centre{(surface_.points[a] + surface_.points[b] + surface_.points[c]) * (1.0 / 3), f};
-    take_if_free(centre, {});
+    take_if_free({surface_.centres[f], f}, {});
     spread();
   }
 }
@@ -182,13 +184,16 @@ Outlook SurfaceFront::look(const SurfacePoint& from, const Vec3& direction) cons
 }
 
 bool SurfaceFront::is_free(const SurfacePoint& point, double distance) const {
-  const Vec3 &x = field_.directions[point.triangle], &n = surface_.normals[point.triangle];
-  const Vec3 y = cross(n, x);
+  const auto [x, y] = field_.axes(surface_, point.triangle);
+  const Vec3& n = surface_.normals[point.triangle];
+  const auto [along, across] = spacing_[point.triangle];
   const double size = size_.at(point.position), least = distance * size;
+  const double reach = std::max({1.0, distance * std::hypot(1.0, along, across)}) * size;
   bool is_free = true;
-  grid_.for_each_near(point.position, size, size_.least_near(size, size), [&](std::int32_t i) {
+  grid_.for_each_near(point.position, reach, size_.least_near(size, reach), [&](std::int32_t i) {
     const Vec3 d = grid_.points()[i] - point.position;
-    if (std::abs(dot(d, x)) >= least || std::abs(dot(d, y)) >= least || std::abs(dot(d, n)) >= least) return true;
+    if (std::abs(dot(d, x)) >= along * least || std::abs(dot(d, y)) >= across * least) return true;
+    if (std::abs(dot(d, n)) >= least) return true;
     is_free = std::ranges::none_of(normals_[i], [&](const Vec3& m) { return dot(n, m) > least_normal_cosine; });
     return is_free;
   });

@@ -6,6 +6,7 @@
 
 #include "tools/tetmesh/surface/surface_lattice.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +17,7 @@
 
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/sized_point_grid.hpp"
-#include "tools/tetmesh/surface/surface_links.hpp"
+#include "tools/tetmesh/surface/surface_curl.hpp"
 
 namespace hexpipe {
 namespace {
@@ -29,12 +30,18 @@ constexpr DiffusionLimits limits{200, 1e-3};
 constexpr int smoothing_sweeps = 60;  // 20 lose 1 % of the volume in hexes on small parts
 constexpr double certain = 1e-3;      // moduli of numbers that features say something about
 constexpr double inertia = 0.3;       // of a number's own value, against its links
+// How strongly the step to the next point of the lattice keeps to the field, against what all links say.
+constexpr double rigidity = 0.1;
+constexpr double least_determinant = 0.2;  // of the cells a step in each direction, below which the field is followed
 // Triangles see points of the lattice that far along each direction, in sizes, and trust them less with the distance.
 constexpr double furthest = 0.75, distrust_begins = 1.5;
 // Points nearer to each other, in sizes, on surfaces with normals of at least this cosine, are the same.
 constexpr double same_point = 0.3, least_normal_cosine = 0.3;
 
 using Phases = std::array<Complex, 2>;
+// From one point of the lattice to the next along each direction, in sizes along both.
+using Steps = std::array<std::array<double, 2>, 2>;
+constexpr Steps straight{{{1, 0}, {0, 1}}};
 
 Complex turn_by(double sizes) {
   return std::polar(1.0, 2 * std::numbers::pi * sizes);
@@ -45,15 +52,11 @@ struct Proposal {
   double trust = 0;
 };
 
-class SurfaceLattice {
+class LatticeMaker {
  public:
-  SurfaceLattice(const FieldSurface& surface, const CrossField& field, const SizeField& size)
-      : surface_(surface), field_(field), walker_(surface, field) {
+  LatticeMaker(const FieldSurface& surface, const CrossField& field, const SizeField& size)
+      : surface_(surface), field_(field), walker_(surface, field), links_(surface, field, size) {
     const std::size_t count = surface.triangles.size();
-    for (const auto& [a, b, c] : surface.triangles) {
-      centres_.push_back((surface.points[a] + surface.points[b] + surface.points[c]) * (1.0 / 3));
-      sizes_.push_back(size.at(centres_.back()));
-    }
     degrees_.resize(count);
     pulls_.resize(count);
     targets_.resize(count);
@@ -61,8 +64,8 @@ class SurfaceLattice {
     greatest_size_ = size.greatest();
   }
 
-  std::vector<SurfacePoint> points(std::span<const Vertex> kept) {
-    link();
+  SurfaceLattice make(std::span<const Vertex> kept) {
+    link(kept);
     make_anchors(kept);
     diffuse();
     reach_the_rest();
@@ -70,23 +73,22 @@ class SurfaceLattice {
     propose();
     agree();
     std::ranges::stable_sort(proposals_, std::greater(), &Proposal::trust);
-    std::vector<SurfacePoint> result;
-    result.reserve(proposals_.size());
-    for (const Proposal& p : proposals_) result.push_back(p.point);
-    return result;
+    SurfaceLattice lattice;
+    lattice.points.reserve(proposals_.size());
+    for (const Proposal& p : proposals_) lattice.points.push_back(p.point);
+    for (const auto& [first, second] : steps_)
+      lattice.spacing.push_back({std::hypot(first[0], first[1]), std::hypot(second[0], second[1])});
+    return lattice;
   }
 
  private:
-  std::array<Vec3, 2> directions(std::int32_t f) const {
-    const Vec3& x = field_.directions[f];
-    return {x, cross(surface_.normals[f], x)};
-  }
+  std::array<Vec3, 2> directions(std::int32_t f) const { return field_.axes(surface_, f); }
   template <class Body>
   void for_each_triangle(Body&& body) const {
-    parallel_for(static_cast<std::int64_t>(centres_.size()), 512,
+    parallel_for(static_cast<std::int64_t>(phases_.size()), 512,
                  [&](std::int64_t f) { body(static_cast<std::int32_t>(f)); });
   }
-  void link();
+  void link(std::span<const Vertex> kept);
   void make_anchors(std::span<const Vertex> kept);
   void pull(std::int32_t f, std::size_t axis, double weight, double coordinate);
   Phases seen_through(HalfEdge h, const std::vector<Phases>& phases) const;
@@ -94,6 +96,7 @@ class SurfaceLattice {
   void diffuse();
   void reach_the_rest();
   void sweep();
+  Steps steps_of(std::int32_t f) const;
   void propose();
   void propose(std::int32_t f);
   void agree();
@@ -103,42 +106,40 @@ class SurfaceLattice {
   const CrossField& field_;
   FieldWalker walker_;
   double greatest_size_;
-  std::vector<Vec3> centres_;
-  std::vector<double> sizes_;
-  std::vector<SurfaceLink> links_;  // of half-edges; none beyond a feature
-  std::vector<double> degrees_;     // sums of the weights of links
+  SurfaceLinks links_;
+  std::vector<double> degrees_;  // sums of the weights of links
   std::vector<std::array<double, 2>> pulls_;
   std::vector<Phases> targets_;  // times the pulls
   std::vector<Phases> phases_;
+  std::vector<Steps> steps_;
   std::vector<Proposal> proposals_;
 };
 
-void SurfaceLattice::link() {
-  links_ = surface_links(surface_, field_, centres_, sizes_);
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(links_.size()); ++h) {
-    if (h > surface_.twins[h]) continue;
-    degrees_[triangle_of(h)] += links_[h].weight;
-    degrees_[triangle_of(surface_.twins[h])] += links_[h].weight;
-  }
+void LatticeMaker::link(std::span<const Vertex> kept) {
+  correct_curl(links_, kept);
+  links_.for_each_pair([&](HalfEdge h) {
+    degrees_[triangle_of(h)] += links_.of[h].weight;
+    degrees_[triangle_of(surface_.twins[h])] += links_.of[h].weight;
+  });
   for (double& degree : degrees_) degree = std::max(degree, 1e-9);
 }
 
-void SurfaceLattice::pull(std::int32_t f, std::size_t axis, double weight, double coordinate) {
+void LatticeMaker::pull(std::int32_t f, std::size_t axis, double weight, double coordinate) {
   const double strength = weight * degrees_[f];
   pulls_[f][axis] += strength;
   targets_[f][axis] += strength * turn_by(coordinate);
 }
 
-void SurfaceLattice::make_anchors(std::span<const Vertex> kept) {
+void LatticeMaker::make_anchors(std::span<const Vertex> kept) {
   std::vector<bool> is_kept(surface_.points.size());
   for (const Vertex v : kept) is_kept[v] = true;
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(links_.size()); ++h) {
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(links_.of.size()); ++h) {
     const std::int32_t f = triangle_of(h);
     const Vertex v = start_of(surface_.triangles, h);
-    const Vec3 from_start = centres_[f] - surface_.points[v];
+    const Vec3 from_start = surface_.centres[f] - surface_.points[v];
     const auto axes = directions(f);
     for (std::size_t k = 0; k < 2; ++k) {
-      const double coordinate = dot(axes[k], from_start) / sizes_[f];
+      const double coordinate = dot(axes[k], from_start) / links_.sizes[f];
       if (surface_.feature[h] && std::abs(dot(axes[k], surface_.inward(h))) > aligned_cosine)
         pull(f, k, edge_weight, coordinate);
       else if (is_kept[v])
@@ -148,8 +149,8 @@ void SurfaceLattice::make_anchors(std::span<const Vertex> kept) {
 }
 
 // The numbers of the triangle beyond h, as those of h's own would have to be.
-Phases SurfaceLattice::seen_through(HalfEdge h, const std::vector<Phases>& phases) const {
-  const SurfaceLink& link = links_[h];
+Phases LatticeMaker::seen_through(HalfEdge h, const std::vector<Phases>& phases) const {
+  const SurfaceLink& link = links_.of[h];
   const Phases& theirs = phases[link.neighbour];
   Phases seen;
   for (std::size_t k = 0; k < 2; ++k) {
@@ -159,17 +160,17 @@ Phases SurfaceLattice::seen_through(HalfEdge h, const std::vector<Phases>& phase
   return seen;
 }
 
-Phases SurfaceLattice::view_of_neighbours(const std::vector<Phases>& phases, std::int32_t f) const {
+Phases LatticeMaker::view_of_neighbours(const std::vector<Phases>& phases, std::int32_t f) const {
   Phases sum{};
   for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
-    if (links_[h].neighbour < 0) continue;
+    if (links_.of[h].neighbour < 0) continue;
     const Phases seen = seen_through(h, phases);
-    for (std::size_t k = 0; k < 2; ++k) sum[k] += links_[h].weight * seen[k];
+    for (std::size_t k = 0; k < 2; ++k) sum[k] += links_.of[h].weight * seen[k];
   }
   return sum;
 }
 
-void SurfaceLattice::diffuse() {
+void LatticeMaker::diffuse() {
   const auto diagonal = [&](std::size_t f, std::size_t k) { return degrees_[f] + pulls_[f][k]; };
   const auto view = [&](const std::vector<Phases>& phases, std::size_t f) {
     return view_of_neighbours(phases, static_cast<std::int32_t>(f));
@@ -179,7 +180,7 @@ void SurfaceLattice::diffuse() {
 }
 
 // Where features are too far away to tell, or missing, numbers are those of a neighbour, as it is seen from there.
-void SurfaceLattice::reach_the_rest() {
+void LatticeMaker::reach_the_rest() {
   const auto count = static_cast<std::int32_t>(phases_.size());
   std::vector<std::int32_t> queue;
   std::vector<bool> reached(phases_.size());
@@ -194,15 +195,15 @@ void SurfaceLattice::reach_the_rest() {
   for (std::int32_t seed = 0; seed < count; ++seed) {
     for (; next < queue.size(); ++next)
       for (HalfEdge h = 3 * queue[next]; h < 3 * queue[next] + 3; ++h) {
-        if (links_[h].neighbour < 0 || reached[links_[h].neighbour]) continue;
-        reach(links_[h].neighbour, seen_through(surface_.twins[h], phases_));
+        if (links_.of[h].neighbour < 0 || reached[links_.of[h].neighbour]) continue;
+        reach(links_.of[h].neighbour, seen_through(surface_.twins[h], phases_));
       }
     if (!reached[seed]) reach(seed, {Complex(1), Complex(1)});
   }
 }
 
 // All at once from the numbers before, so that the order of the triangles does not count.
-void SurfaceLattice::sweep() {
+void LatticeMaker::sweep() {
   std::vector<Phases> next(phases_.size());
   for_each_triangle([&](std::int32_t f) {
     const Phases view = view_of_neighbours(phases_, f);
@@ -212,11 +213,29 @@ void SurfaceLattice::sweep() {
   phases_.swap(next);
 }
 
-void SurfaceLattice::propose() {
-  for (std::int32_t f = 0; f < static_cast<std::int32_t>(centres_.size()); ++f) propose(f);
+// By least squares over the distances to the neighbours, which are those of the field no longer.
+Steps LatticeMaker::steps_of(std::int32_t f) const {
+  const double hold = rigidity * degrees_[f];
+  Eigen::Matrix2d moments = hold * Eigen::Matrix2d::Identity(), right = moments;
+  for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
+    const SurfaceLink& link = links_.of[h];
+    const Eigen::Vector2d way(link.way[0], link.way[1]);
+    moments += link.weight * way * way.transpose();
+    right += link.weight * way * Eigen::RowVector2d(link.distance[0], link.distance[1]);
+  }
+  const Eigen::Matrix2d gradients = moments.inverse() * right;  // columns: of each coordinate
+  if (!(gradients.determinant() > least_determinant)) return straight;
+  const Eigen::Matrix2d steps = gradients.transpose().inverse();
+  return {{{steps(0, 0), steps(1, 0)}, {steps(0, 1), steps(1, 1)}}};
 }
 
-void SurfaceLattice::propose(std::int32_t f) {
+void LatticeMaker::propose() {
+  steps_.resize(phases_.size());
+  for_each_triangle([&](std::int32_t f) { steps_[f] = steps_of(f); });
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(phases_.size()); ++f) propose(f);
+}
+
+void LatticeMaker::propose(std::int32_t f) {
   const Phases view = view_of_neighbours(phases_, f);
   const double agreement = std::min(std::abs(view[0]), std::abs(view[1])) / degrees_[f];
   const auto axes = directions(f);
@@ -227,17 +246,19 @@ void SurfaceLattice::propose(std::int32_t f) {
     const double x = cell % 3 - 1 - coordinates[0], y = cell / 3 - 1 - coordinates[1];
     const double distance = std::max(std::abs(x), std::abs(y));
     if (distance > furthest) continue;
-    const double length = std::hypot(x, y);
-    const Vec3 way = length > 0 ? (x * axes[0] + y * axes[1]) * (1 / length) : axes[0];
-    const WalkEnd end = walker_.walk_straight({centres_[f], f}, way, length * sizes_[f]);
+    const auto& [first, second] = steps_[f];
+    const double along = x * first[0] + y * second[0], across = x * first[1] + y * second[1];
+    const double length = std::hypot(along, across);
+    const Vec3 way = length > 0 ? (along * axes[0] + across * axes[1]) * (1 / length) : axes[0];
+    const WalkEnd end = walker_.walk_straight({surface_.centres[f], f}, way, length * links_.sizes[f]);
     if (end.at_feature) continue;
     proposals_.push_back({end.point, (distrust_begins - distance) * agreement * surface_.areas[f]});
   }
 }
 
 // Moves every proposal to the mean of those that see the same point, and trusts it as much as all of them.
-void SurfaceLattice::agree() {
-  SizedPointGrid grid(centres_.front());
+void LatticeMaker::agree() {
+  SizedPointGrid grid(surface_.centres.front());
   for (const Proposal& p : proposals_) grid.add(p.point.position, 2 * same_point * greatest_size_);
   std::vector<Proposal> result(proposals_.size());
   parallel_for(static_cast<std::int64_t>(result.size()), 256,
@@ -245,9 +266,9 @@ void SurfaceLattice::agree() {
   proposals_ = std::move(result);
 }
 
-Proposal SurfaceLattice::agreed(const SizedPointGrid& grid, const Proposal& proposal) const {
+Proposal LatticeMaker::agreed(const SizedPointGrid& grid, const Proposal& proposal) const {
   const Vec3 &place = proposal.point.position, &normal = surface_.normals[proposal.point.triangle];
-  const double reach = same_point * sizes_[proposal.point.triangle];
+  const double reach = same_point * links_.sizes[proposal.point.triangle];
   Vec3 sum;
   double trust = 0;
   grid.for_each_near(place, reach, 0, [&](std::int32_t i) {
@@ -260,16 +281,16 @@ Proposal SurfaceLattice::agreed(const SizedPointGrid& grid, const Proposal& prop
   });
   if (trust <= 0) return proposal;
   const Vec3 way = sum * (1 / trust) - dot(sum, normal) / trust * normal;
-  const double length = norm(way), size = sizes_[proposal.point.triangle];
+  const double length = norm(way), size = links_.sizes[proposal.point.triangle];
   if (length <= 0) return {proposal.point, trust / (size * size)};
   return {walker_.walk_straight(proposal.point, unit(way), length).point, trust / (size * size)};
 }
 
 }  // namespace
 
-std::vector<SurfacePoint> surface_lattice(const FieldSurface& surface, const CrossField& field,
-                                          std::span<const Vertex> kept, const SizeField& size) {
-  return SurfaceLattice(surface, field, size).points(kept);
+SurfaceLattice surface_lattice(const FieldSurface& surface, const CrossField& field, std::span<const Vertex> kept,
+                               const SizeField& size) {
+  return LatticeMaker(surface, field, size).make(kept);
 }
 
 }  // namespace hexpipe

@@ -2,9 +2,9 @@
 // What the triangles of a surface see of their neighbours along a cross field.
 
 #include <array>
-#include <span>
 #include <vector>
 
+#include "tools/tetmesh/curl_correction.hpp"
 #include "tools/tetmesh/periodic_numbers.hpp"
 #include "tools/tetmesh/surface/cross_field.hpp"
 
@@ -13,17 +13,45 @@ namespace hexpipe {
 // Direction k here is direction k there, or the other one where crossed, turned round where flipped, and `distance[k]`
 // further on.
 struct SurfaceLink {
-  std::array<double, 2> distance{};  // between the centres, in sizes
-  std::array<Complex, 2> turn{};     // by these
+  std::array<double, 2> distance{};  // between the centres, in sizes; corrected
+  std::array<double, 2> way{};       // as it was before
+  std::array<Complex, 2> turn{};     // by the distances
   std::array<bool, 2> flipped{};
   bool crossed = false;
   std::int32_t neighbour = -1;
   double weight = 0;
+
+  // To be called when the distances were changed.
+  void set_turn();
+  // The same, seen from the neighbour.
+  SurfaceLink reversed(std::int32_t from) const;
 };
 
-// Of every half-edge, from its triangle to that beyond it; without a neighbour where it is a feature. Distances are
-// corrected so that they add up around vertices. `centres` and `sizes` are those of the triangles.
-std::vector<SurfaceLink> surface_links(const FieldSurface& surface, const CrossField& field,
-                                       std::span<const Vec3> centres, std::span<const double> sizes);
+struct SurfaceLinks {
+  SurfaceLinks(const FieldSurface& on, const CrossField& along, const SizeField& size);
+
+  const FieldSurface& surface;
+  const CrossField& field;
+  std::vector<double> sizes;    // of the triangles
+  std::vector<SurfaceLink> of;  // each half-edge, to the triangle beyond it; without a neighbour where it is a feature
+
+  // Calls body(h) for one half-edge of each pair with links.
+  template <class Body>
+  void for_each_pair(Body&& body) const {
+    for (HalfEdge h = 0; h < static_cast<HalfEdge>(of.size()); ++h)
+      if (of[h].neighbour >= 0 && h < surface.twins[h]) body(h);
+  }
+  // Distances are numbered by those half-edges and their triangles' directions.
+  static std::int32_t number_of(HalfEdge h, std::size_t axis) { return 2 * h + static_cast<std::int32_t>(axis); }
+};
+
+// A direction of a triangle that is followed from one to the next.
+struct FollowedAxis {
+  std::size_t axis;
+  bool flipped = false;
+
+  // Goes on over a half-edge with a link; what that adds to the coordinate.
+  LoopStep cross(const SurfaceLinks& links, HalfEdge h);
+};
 
 }  // namespace hexpipe

@@ -1,6 +1,6 @@
-// Features are sampled first, the field's triangles made from what is there, a front puts points on them, these are
-// inserted, and the rest of the vertices taken out. What comes out is judged as a whole; around a fault the input's own
-// vertices stay the next time.
+// Features are sampled first, as densely as rows of points are to begin there, the field's triangles made from what is
+// there, a front puts points on them, these are inserted, and the rest of the vertices taken out. What comes out is
+// judged as a whole; around a fault the input's own vertices stay the next time.
 
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 
@@ -9,7 +9,7 @@
 #include "tools/tetmesh/exact_geometry.hpp"
 #include "tools/tetmesh/sized_point_grid.hpp"
 #include "tools/tetmesh/sizing.hpp"
-#include "tools/tetmesh/surface/feature_curves.hpp"
+#include "tools/tetmesh/surface/curve_rows.hpp"
 #include "tools/tetmesh/surface/point_insertion.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
 #include "tools/tetmesh/surface/surface_front.hpp"
@@ -97,8 +97,12 @@ class SurfaceRemesher {
 };
 
 bool SurfaceRemesher::prepare() {
-  sample_feature_curves(prepared_, size_, deviation_);
-  refine_surface(prepared_, field_edge * size_, flatness * size_);
+  const SizeField longest = field_edge * size_, flat = flatness * size_;
+  if (size_.is_uniform())
+    sample_feature_curves(prepared_, curves_by_rows(prepared_, size_, longest, flat), size_, deviation_);
+  else  // rows end where sizes are to differ
+    sample_feature_curves(prepared_, size_, deviation_);
+  refine_surface(prepared_, longest, flat);
   const std::vector<Vertex> kept = kept_vertices();
   const FieldSurface field_surface(prepared_);
   const CrossField field = cross_field(field_surface, size_);

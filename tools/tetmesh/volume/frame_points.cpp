@@ -16,8 +16,8 @@
 namespace hexpipe {
 namespace {
 
-// Least distance of two points in the frame's maximum norm, in sizes: 0.5 and 0.8 lose 1 % of the volume in hexes, 0.7
-// loses 0.3.
+// Least distance of two points in the frame's maximum norm, in steps of the lattice: 0.5 and 0.8 lose 1 % of the volume
+// in hexes, 0.7 loses 0.3.
 constexpr double least_spacing = 0.6;
 // Nodes that see a point of the lattice within this distance of each other, in sizes, see the same one.
 constexpr double same_point = 0.3;
@@ -34,6 +34,7 @@ struct Proposal {
   double trust = 0;
 };
 
+// Of a vector in units of the frame's axes.
 double maximum_norm(const Frame& frame, const Vec3& v) {
   return std::max({std::abs(dot(frame[0], v)), std::abs(dot(frame[1], v)), std::abs(dot(frame[2], v))});
 }
@@ -67,11 +68,13 @@ class PointPlacer {
   const FramePointsOptions& options_;
   FieldNodes nodes_;
   std::vector<Frame> frames_;
+  std::vector<Vec3> spacing_;  // of the lattice along the frames' axes, in sizes
   std::vector<Proposal> proposals_;
 };
 
 void PointPlacer::propose() {
   const LatticeField field = solve_lattice_field(nodes_, frames_);
+  for (const auto& [x, y, z] : field.steps) spacing_.push_back({norm(x), norm(y), norm(z)});
   for (std::size_t i = 0; i < nodes_.size(); ++i) propose(i, field.coordinates[i], field.steps[i], field.agreement[i]);
 }
 
@@ -132,14 +135,18 @@ std::vector<Vec3> PointPlacer::accept() const {
 }
 
 bool PointPlacer::is_free(const SizedPointGrid& taken, const Proposal& proposal) const {
-  const double spacing = least_spacing * proposal.size;
-  const Frame& frame = frames_[proposal.node];
-  Vec3 reach;  // of a cube of the frame, along the coordinate axes
-  for (const Vec3& axis : frame) reach += spacing * Vec3{std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)};
+  Frame units = frames_[proposal.node];  // of which the frame's coordinates are numbers of least spacings
+  Vec3 reach;                            // of a box of these, along the coordinate axes
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double spacing = least_spacing * spacing_[proposal.node][k] * proposal.size;
+    const Vec3& axis = units[k];
+    reach += spacing * Vec3{std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)};
+    units[k] = (1 / spacing) * axis;
+  }
   bool free = true;
   const double least = 2 * least_spacing * options_.size.least_near(proposal.size, norm(reach));
   taken.for_each_near(proposal.point, reach, least, [&](std::int32_t i) {
-    free = maximum_norm(frame, taken.points()[i] - proposal.point) >= spacing;
+    free = maximum_norm(units, taken.points()[i] - proposal.point) >= 1;
     return free;
   });
   return free;

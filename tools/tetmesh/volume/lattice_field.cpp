@@ -20,6 +20,12 @@ constexpr double anchor_threshold = 0.3, weakest_anchor = 0.05;
 // 10 sweeps lose 0.5 % of the volume in hexes, 150 gain 0.1.
 constexpr int smoothing_sweeps = 60;
 constexpr double inertia = 0.3;  // of a number's own value, against its links
+// Stretched links at the surface count as a step up to the second, as none up to the first, in sizes.
+constexpr double no_step = 0.2, least_step = 0.75, greatest_step = 1.7;
+// In the volumes of blub, spot and mambo-m1, with their surfaces as before, 84.9 % of the volume in hexes without, 86.6
+// at a stiffness of 0.05, 86.8 at 0.01.
+constexpr CurlLimits curl_limits{.stiffness = 0.01f, .most_iterations = 40};
+constexpr double most_strain = 0.45;  // of its length, what a distance may gain or lose
 // How strongly the step to the next point of the lattice keeps to the frame, against what all links say.
 constexpr double rigidity = 0.1;
 constexpr double least_determinant = 0.2;  // of the cells a step in each direction, below which frames are taken
@@ -99,6 +105,7 @@ class LatticeSolver {
   Transition make_transition(std::size_t i, const FieldLink& link) const;
   void make_anchors(std::size_t i);
   void correct_curl();
+  void add_steps_on_surface(Loops& loops) const;
   void add_loops(std::int64_t ij, std::int64_t jl, std::int64_t il, Loops& loops) const;
   std::int32_t number_of(std::int64_t link, std::size_t axis) const {
     return 3 * pair_numbers_[link] + static_cast<std::int32_t>(axis);
@@ -186,7 +193,8 @@ void LatticeSolver::correct_curl() {
     for (std::int64_t il = ij + 1; il < nodes_.offsets[i + 1]; ++il)
       if (const std::int64_t jl = link_between(to_j.node, transitions_[il].node); jl >= 0) add_loops(ij, jl, il, loops);
   });
-  const std::vector<float> correction = curl_correction(distances, loops);
+  add_steps_on_surface(loops);
+  const std::vector<float> correction = curl_correction(distances, loops, curl_limits);
   for_each_pair([&](std::int32_t i, std::int64_t ij) {
     Transition& t = transitions_[ij];
     const double longest = most_strain * norm(nodes_.points[i] - nodes_.points[t.node]) / nodes_.sizes[i];
@@ -211,6 +219,20 @@ void LatticeSolver::add_loops(std::int64_t ij, std::int64_t jl, std::int64_t il,
     loops.add_step(number_of(il, k), true);
     loops.close();
   }
+}
+
+// Between points of the surface, which are points of the lattice, are whole numbers of steps.
+void LatticeSolver::add_steps_on_surface(Loops& loops) const {
+  for_each_pair([&](std::int32_t i, std::int64_t ij) {
+    const Transition& t = transitions_[ij];
+    if (!nodes_.is_on_surface(i) || !nodes_.is_on_surface(t.node) || t.weight <= 0) return;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double length = std::abs(t.distance[k]);
+      if (length > greatest_step || (length > no_step && length < least_step)) continue;
+      loops.add_step(number_of(ij, k), false);
+      loops.close(length <= no_step ? 0 : std::copysign(1, t.distance[k]));
+    }
+  });
 }
 
 // A surface point is one of the lattice as far as its neighbours on the surface are, seen from it; along its normal in

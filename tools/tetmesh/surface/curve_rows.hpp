@@ -1,0 +1,16 @@
+#pragma once
+// How dense the points on feature curves have to be for the rows of a lattice that begin at them to reach the other
+// curves, where the rows are to be as many again.
+
+#include <vector>
+
+#include "tools/tetmesh/size_field.hpp"
+#include "tools/tetmesh/surface/feature_curves.hpp"
+
+namespace hexpipe {
+
+// Follows the surface's cross field, on triangles as refine_surface() makes them with these lengths.
+std::vector<MeasuredCurve> curves_by_rows(const FeatureMesh& mesh, const SizeField& size, const SizeField& longest,
+                                          const SizeField& flatness);
+
+}  // namespace hexpipe

@@ -1,0 +1,48 @@
+#include "tools/tetmesh/surface/feature_fan.hpp"
+
+#include <cmath>
+
+namespace hexpipe {
+namespace {
+
+constexpr double aligned_cosine = 0.94;  // between an edge of the feature and a direction that runs along it
+
+// The direction that is followed, in a triangle.
+Vec3 direction_in(const SurfaceLinks& links, std::int32_t triangle, const FollowedAxis& followed) {
+  const Vec3 axis = links.field.axes(links.surface, triangle)[followed.axis];
+  return followed.flipped ? -axis : axis;
+}
+
+}  // namespace
+
+std::optional<FeatureFan> feature_fan(const SurfaceLinks& links, HalfEdge first) {
+  const FieldSurface& surface = links.surface;
+  const std::int32_t f = triangle_of(first);
+  const Vec3& vertex = surface.points[start_of(surface.triangles, first)];
+  const Vec3 edge = surface.edge_vector(first);
+  const auto axes = links.field.axes(surface, f);
+  const std::size_t nearest = std::abs(dot(axes[0], edge)) > std::abs(dot(axes[1], edge)) ? 0 : 1;
+  FollowedAxis along{nearest, dot(axes[nearest], edge) < 0};
+  FollowedAxis across{1 - nearest, dot(axes[1 - nearest], surface.inward(first)) < 0};
+  const Vec3 onward = direction_in(links, f, along), inward = direction_in(links, f, across);
+  if (dot(onward, unit(edge)) < aligned_cosine) return std::nullopt;
+
+  FeatureFan fan{};
+  fan.first = first;
+  fan.first_ahead = dot(onward, vertex + 0.5 * edge - surface.centres[f]) / links.sizes[f];
+  fan.last = previous_in_triangle(first);
+  for (; !surface.feature[fan.last]; fan.last = previous_in_triangle(surface.twins[fan.last])) {
+    if (links.of[fan.last].weight <= 0) return std::nullopt;
+    fan.along.push_back(along.cross(links, fan.last));
+    fan.across.push_back(across.cross(links, fan.last));
+  }
+  const std::int32_t g = triangle_of(fan.last);
+  const Vec3 last_edge = surface.edge_vector(fan.last), last_onward = direction_in(links, g, along);
+  if (dot(last_onward, unit(last_edge)) < aligned_cosine) return std::nullopt;
+  fan.last_ahead = dot(last_onward, vertex - 0.5 * last_edge - surface.centres[g]) / links.sizes[g];
+  fan.apart = dot(inward, surface.centres[f] - vertex) / links.sizes[f] -
+              dot(direction_in(links, g, across), surface.centres[g] - vertex) / links.sizes[g];
+  return fan;
+}
+
+}  // namespace hexpipe
