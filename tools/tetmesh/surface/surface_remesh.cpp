@@ -19,8 +19,10 @@
 namespace hexpipe {
 namespace {
 
-// The field's triangles are at most that long, in sizes.
-constexpr double field_edge = 1.3;
+// The field's triangles are at most that long, in sizes; those on which rows are counted, at most that.
+constexpr double field_edge = 1.3, row_edge = 2.6;
+// Points on features, as a part of all on the surface, that make no difference by their number.
+constexpr double few_features = 0.05;
 // Flips that move the surface by less than that, in sizes, do not count as moving it.
 constexpr double flatness = 1e-5;
 // Points nearer than that, in sizes, to a vertex or an edge of the field's triangles become one with it.
@@ -81,6 +83,7 @@ class SurfaceRemesher {
  private:
   // False where triangles are too thin for a field.
   bool prepare();
+  bool rows_go_across() const;
   void remove_vertices_of_input();
   std::vector<Vec3> find_faults();
   void keep_nearest(const std::vector<Vec3>& places, const SizeField& reach);
@@ -96,11 +99,20 @@ class SurfaceRemesher {
   RemeshResult result_;
 };
 
+// Rows end where sizes are to differ. Where features are few, what counts is between them.
+bool SurfaceRemesher::rows_go_across() const {
+  if (!size_.is_uniform()) return false;
+  double steps = 0;
+  for (const auto e : prepared_.edges())
+    if (prepared_.is_feature(e)) steps += prepared_.calc_edge_length(e) / size_.greatest();
+  return steps > few_features * points_on_surface(surface_, size_, most_points);
+}
+
 bool SurfaceRemesher::prepare() {
   const SizeField longest = field_edge * size_, flat = flatness * size_;
-  if (size_.is_uniform())
-    sample_feature_curves(prepared_, curves_by_rows(prepared_, size_, longest, flat), size_, deviation_);
-  else  // rows end where sizes are to differ
+  if (rows_go_across())
+    sample_feature_curves(prepared_, curves_by_rows(prepared_, size_, row_edge * size_, flat), size_, deviation_);
+  else
     sample_feature_curves(prepared_, size_, deviation_);
   refine_surface(prepared_, longest, flat);
   const std::vector<Vertex> kept = kept_vertices();
