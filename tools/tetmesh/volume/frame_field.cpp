@@ -122,7 +122,7 @@ void FrameSolver::restrict_to_freedom(Field& x) const {
 // Conjugate gradients, preconditioned by the diagonal.
 void FrameSolver::diffuse() {
   constexpr int most_iterations = 100;
-  constexpr double tolerance = 1e-3;
+  constexpr double tolerance = 1e-2;
   const auto preconditioned = [&](const Field& x) -> Field { return x.array().rowwise() / degree_.array(); };
   Field rest = residual();
   Field z = preconditioned(rest), direction = z;

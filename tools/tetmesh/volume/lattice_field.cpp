@@ -17,8 +17,8 @@ namespace {
 constexpr double anchor_weight = 20;
 // Mean of cos(2 pi coordinate) over a surface point's neighbours from which it is held, growing up to 1; below, weakly.
 constexpr double anchor_threshold = 0.3, weakest_anchor = 0.05;
-// 10 sweeps lose 0.5 % of the volume in hexes, 150 gain 0.1.
-constexpr int smoothing_sweeps = 60;
+// 15 sweeps lose 0.1 % of the volume in hexes, 60 and 150 gain nothing.
+constexpr int smoothing_sweeps = 30;
 constexpr double inertia = 0.3;  // of a number's own value, against its links
 // Stretched links at the surface count as a step up to the second, as none up to the first, in sizes.
 constexpr double no_step = 0.2, least_step = 0.75, greatest_step = 1.7;
