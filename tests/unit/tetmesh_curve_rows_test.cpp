@@ -49,21 +49,31 @@ TEST(CurveRows, OfABoxAreOfTheSize) {
   }
 }
 
+std::map<long, int> kept_by_radius(const FeatureMesh& mesh) {
+  std::map<long, int> count;
+  for (const auto v : mesh.vertices())
+    if (mesh.is_kept(v)) ++count[std::lround(std::hypot(mesh.position(v).x, mesh.position(v).y))];
+  return count;
+}
+
 TEST(CurveRows, AreAsManyOnBothRimsOfARing) {
   FeatureMesh mesh = mesh_of(ring(120, 4, 6, 2));
   FeatureMesh evenly = mesh;
-  const auto points_by_radius = [](const FeatureMesh& m) {
-    std::map<long, int> count;
-    for (const auto v : m.vertices())
-      if (m.is_kept(v)) ++count[std::lround(std::hypot(m.position(v).x, m.position(v).y))];
-    return count;
-  };
   sample_feature_curves(evenly, 0.5, 0.05);
-  EXPECT_EQ(points_by_radius(evenly)[4] / 2, 50);
-  EXPECT_EQ(points_by_radius(evenly)[6] / 2, 76);
+  EXPECT_EQ(kept_by_radius(evenly)[4] / 2, 50);
+  EXPECT_EQ(kept_by_radius(evenly)[6] / 2, 76);
   sample_feature_curves(mesh, curves_of(mesh, 0.5), 0.5, 0.05);
-  EXPECT_NEAR(points_by_radius(mesh)[4] / 2, 62, 4);
-  EXPECT_NEAR(points_by_radius(mesh)[6] / 2, 62, 4);
+  EXPECT_NEAR(kept_by_radius(mesh)[4] / 2, 62, 4);
+  EXPECT_NEAR(kept_by_radius(mesh)[6] / 2, 62, 4);
+}
+
+TEST(CurveRows, GiveWayToTheDeviation) {
+  FeatureMesh mesh = mesh_of(ring(480, 4, 6, 2));
+  FeatureMesh evenly = mesh;
+  sample_feature_curves(evenly, 0.5, 0.002);
+  sample_feature_curves(mesh, curves_of(mesh, 0.5), 0.5, 0.002);
+  EXPECT_NEAR(kept_by_radius(evenly)[4] / 2, 100, 4);  // 1 - cos(pi / n) is the sagitta
+  EXPECT_EQ(kept_by_radius(mesh), kept_by_radius(evenly));
 }
 
 TEST(CurveRows, AreNearlyAsManyOnBothSidesOfATrapezoid) {

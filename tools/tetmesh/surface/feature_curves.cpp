@@ -136,7 +136,11 @@ class CurveSampler {
 
   void sample(MeasuredCurve curve) {
     if (curve.closed) turn_to_start(curve);
-    const CurveLength arc(curve, size_);
+    CurveLength arc(curve, size_);
+    if (arc.is_bent(whole_steps(arc, curve.closed), deviation_)) {  // what it needs is not what rows do
+      std::ranges::fill(curve.steps_per_size, 1);
+      arc = CurveLength(curve, size_);
+    }
     std::vector<Vertex> vertices;
     std::ranges::copy_if(curve.vertices, std::back_inserter(vertices), [](Vertex v) { return v.is_valid(); });
     const int count = step_count(arc, curve.closed);
@@ -163,11 +167,13 @@ class CurveSampler {
     return v;
   }
 
+  static int whole_steps(const CurveLength& arc, bool closed) {
+    if (!closed) return std::max(1, static_cast<int>(std::round(arc.length())));
+    return std::max(4, 2 * static_cast<int>(std::round(arc.length() / 2)));
+  }
+
   int step_count(const CurveLength& arc, bool closed) const {
-    const int least = closed ? 4 : 1;
-    const double wanted = std::round(arc.length());
-    int count = std::max(least, static_cast<int>(wanted));
-    if (closed && count > 4) count = 2 * static_cast<int>(std::round(arc.length() / 2));
+    int count = whole_steps(arc, closed);
     const int most = most_refinement * count;
     while (count < most && arc.is_bent(count, deviation_)) count += closed ? 2 : 1;
     return count;

@@ -14,6 +14,9 @@ constexpr CurlLimits limits{.stiffness = 0.01f, .most_iterations = 300, .toleran
 // Of its length, what a distance may gain or lose; where more is wanted, rows have to end.
 constexpr double most_strain = 0.3;
 
+// Of steps along features, in sizes, for which rows stretch; where the deviation asks for shorter ones, rows end.
+constexpr double shortest_step = 0.55, longest_step = 1.8;
+
 std::vector<float> distances_of(const SurfaceLinks& links) {
   std::vector<float> distances(2 * links.of.size());
   links.for_each_pair([&](HalfEdge h) {
@@ -98,7 +101,11 @@ std::vector<double> step_lengths(const FieldSurface& surface, std::span<const Ve
 void add_known_steps(const SurfaceLinks& links, const FeatureFan& fan, const std::vector<double>& step_length,
                      Loops& loops) {
   const double first_length = step_length[fan.first], last_length = step_length[fan.last];
-  if (first_length <= 0 || last_length <= 0) return;
+  const auto is_about_a_size = [&](double length, HalfEdge h) {
+    const double sizes = length / links.sizes[triangle_of(h)];
+    return sizes > shortest_step && sizes < longest_step;
+  };
+  if (!is_about_a_size(first_length, fan.first) || !is_about_a_size(last_length, fan.last)) return;
   const FieldSurface& surface = links.surface;
   const double steps =
       0.5 * (norm(surface.edge_vector(fan.first)) / first_length + norm(surface.edge_vector(fan.last)) / last_length);
