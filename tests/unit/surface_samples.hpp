@@ -45,13 +45,16 @@ inline Facets cube(double low = 0, double size = 1, int n = 1) {
   return box({low, low, low}, {low + size, low + size, low + size}, n);
 }
 
+// Corner i of n, around the z axis.
+inline Vec3 rim_point(int n, int i, double radius, double z) {
+  const double angle = 2 * std::numbers::pi * (i % n) / n;
+  return {radius * std::cos(angle), radius * std::sin(angle), z};
+}
+
 // A prism of n sides, outward, closed by two fans of slivers.
 inline Facets prism(int n, double radius, double length) {
   Facets facets;
-  auto rim = [&](int i, double z) {
-    const double angle = 2 * std::numbers::pi * (i % n) / n;
-    return Vec3{radius * std::cos(angle), radius * std::sin(angle), z};
-  };
+  auto rim = [&](int i, double z) { return rim_point(n, i, radius, z); };
   for (int i = 0; i < n; ++i) {
     const Vec3 a = rim(i, 0), b = rim(i + 1, 0), c = rim(i + 1, length), d = rim(i, length);
     facets.insert(facets.end(),
@@ -63,16 +66,12 @@ inline Facets prism(int n, double radius, double length) {
 // A prism of n sides with a hole of n sides in its middle, outward.
 inline Facets ring(int n, double inner_radius, double outer_radius, double length) {
   Facets facets;
-  auto rim = [&](int i, double radius, double z) {
-    const double angle = 2 * std::numbers::pi * (i % n) / n;
-    return Vec3{radius * std::cos(angle), radius * std::sin(angle), z};
-  };
   for (int i = 0; i < n; ++i) {
     std::array<Vec3, 4> here, next;  // once around the cross section
     for (std::size_t k = 0; k < 4; ++k) {
       const double radius = k == 0 || k == 3 ? inner_radius : outer_radius, z = k < 2 ? 0 : length;
-      here[k] = rim(i, radius, z);
-      next[k] = rim(i + 1, radius, z);
+      here[k] = rim_point(n, i, radius, z);
+      next[k] = rim_point(n, i + 1, radius, z);
     }
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t l = (k + 1) % 4;

@@ -166,8 +166,8 @@ TEST(FramePoints, KeepClearOfSurfaceAndOfEachOther) {
     for (const auto& [a, b, c] : surface.triangles)
       ASSERT_GE(TriangleDistance(surface.points[a], surface.points[b], surface.points[c]).squared(points[i]),
                 0.4 * 0.4 * 0.45 * 0.45 * (1 - 1e-9));
-    // 0.6 steps of the lattice, which are up to a third shorter than the size.
-    for (std::size_t j = 0; j < i; ++j) ASSERT_GE(norm(points[i] - points[j]), 0.4 * 0.45);
+    // 0.6 steps of the lattice, of which up to 1.45 are as long as the size.
+    for (std::size_t j = 0; j < i; ++j) ASSERT_GE(norm(points[i] - points[j]), 0.6 / 1.45 * 0.45 * (1 - 1e-9));
   }
 }
 

@@ -79,6 +79,17 @@ TEST(WallSizes, DoNotGoAcrossWhatIsEmpty) {
   EXPECT_TRUE(wall_sizes(surface_of(blocks), 1, 2).empty());
 }
 
+TEST(WallSizes, EndBeforeSharpEdges) {
+  // A wedge of 20 degrees with its edge along y.
+  const double top = std::tan(20 * std::numbers::pi / 180);
+  testing::Facets wedge = box({0, 0, 0}, {4, 4, 1});
+  for (testing::Facet& facet : wedge)
+    for (Vec3& p : facet) p.z *= top * (0.01 + p.x);
+  const SizeSources walls = wall_sizes(surface_of(wedge), 0.5, 2);
+  ASSERT_FALSE(walls.empty());
+  EXPECT_GE(std::ranges::min(walls.sizes), 0.5 / 32);
+}
+
 // A box from x = `begin` to 4 that is as high as a wedge with its edge at x = 0 along y.
 testing::Facets wedge(double degrees, double begin) {
   testing::Facets facets = box({begin, 0, 0}, {4, 4, 1}, 16);

@@ -26,7 +26,6 @@ class Loops {
   // Forgets the steps since the last close().
   void drop() { steps_.resize(static_cast<std::size_t>(ends_.back())); }
   std::size_t size() const { return ends_.size() - 1; }
-  std::size_t steps() const { return steps_.size(); }
   float sum_of(std::size_t loop) const { return sums_[loop]; }
   std::span<const std::int32_t> operator[](std::size_t loop) const {
     return std::span(steps_).subspan(ends_[loop], ends_[loop + 1] - ends_[loop]);

@@ -71,15 +71,10 @@ class CurveMeasurer {
   std::vector<double> steps_;  // of half-edges
 };
 
-bool has_features(const FeatureMesh& mesh) {
-  return std::ranges::any_of(mesh.edges(), [&](auto e) { return mesh.is_feature(e); });
-}
-
 }  // namespace
 
 std::vector<MeasuredCurve> curves_by_rows(const FeatureMesh& mesh, const SizeField& size, const SizeField& longest,
                                           const SizeField& flatness) {
-  if (!has_features(mesh)) return {};
   FeatureMesh refined = mesh;
   refine_surface(refined, longest, flatness);
   const CurveMeasurer measurer(refined, mesh.n_vertices(), size);

@@ -14,8 +14,7 @@ constexpr double least_advance = 1e-3;
 }  // namespace
 
 Vec3 FieldWalker::nearest_direction(std::int32_t triangle, const Vec3& direction) const {
-  const Vec3& x = field_.directions[triangle];
-  const Vec3 y = cross(surface_.normals[triangle], x);
+  const auto [x, y] = field_.axes(surface_, triangle);
   const double along_x = dot(direction, x), along_y = dot(direction, y);
   if (std::abs(along_x) >= std::abs(along_y)) return along_x >= 0 ? x : -x;
   return along_y >= 0 ? y : -y;

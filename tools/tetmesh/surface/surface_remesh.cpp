@@ -58,7 +58,8 @@ class SurfaceRemesher {
         input_(surface.points, surface.triangles) {}
 
   RemeshResult run() {
-    if (points_on_surface(surface_, size_, most_points) > most_points) {
+    expected_points_ = points_on_surface(surface_, size_, most_points);
+    if (expected_points_ > most_points) {
       result_.failure = "its size asks for more points than memory holds";
       return std::move(result_);
     }
@@ -94,7 +95,8 @@ class SurfaceRemesher {
 
   const Surface& surface_;
   SizeField size_, deviation_;
-  FeatureMesh prepared_;  // with all points inserted, and the vertices of the input
+  double expected_points_ = 0;  // on the new surface
+  FeatureMesh prepared_;        // with all points inserted, and the vertices of the input
   DistanceIndex input_;
   RemeshResult result_;
 };
@@ -105,7 +107,7 @@ bool SurfaceRemesher::rows_go_across() const {
   double steps = 0;
   for (const auto e : prepared_.edges())
     if (prepared_.is_feature(e)) steps += prepared_.calc_edge_length(e) / size_.greatest();
-  return steps > few_features * points_on_surface(surface_, size_, most_points);
+  return steps > few_features * expected_points_;
 }
 
 bool SurfaceRemesher::prepare() {
