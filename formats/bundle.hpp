@@ -89,8 +89,7 @@ class BundleReader {
     const NpyHeader header = begin_array(NpyRow<T>::columns);
     std::vector<T> rows;
     read_rows(
-        header, npy_type<Number>(), sizeof(T),
-        [&](std::size_t count) { reserve_in_huge_pages(rows, count); },
+        header, npy_type<Number>(), sizeof(T), [&](std::size_t count) { reserve_in_huge_pages(rows, count); },
         [&](std::size_t count) {
           rows.resize(count);
           return static_cast<void*>(rows.data());

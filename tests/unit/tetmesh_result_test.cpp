@@ -56,7 +56,8 @@ TEST(Tetmesh, FillsWhatTheShellsEnclose) {
   for (const Facets& facets : {hollow, nested, apart}) {
     const Surface surface = find_shells(soup_of(facets), ShellRule::oriented);
     for (const PointKind points : {PointKind::lattice, PointKind::none}) {
-      const TetmeshResult result = run(facets, {.size = Length{0.3, false}, .surface = SurfaceKind::keep, .points = points});
+      const TetmeshResult result =
+          run(facets, {.size = Length{0.3, false}, .surface = SurfaceKind::keep, .points = points});
       const auto volumes = surface.region_volumes();
       EXPECT_NEAR(result.statistics.volume, std::accumulate(volumes.begin(), volumes.end(), 0.0), 1e-9);
       EXPECT_EQ(result.statistics.dropped_points, 0u);
@@ -94,7 +95,8 @@ TEST(Tetmesh, WarnsOfASurfaceFarFromTheSize) {
 TEST(Tetmesh, MeasuresDihedralAngles) {
   // One tet with three right angles; the others are arccos(1 / sqrt(3)).
   const Vec3 o{0, 0, 0}, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-  const TetmeshResult result = run({{o, y, x}, {o, x, z}, {o, z, y}, {x, y, z}}, {.surface = SurfaceKind::keep, .points = PointKind::none});
+  const TetmeshResult result =
+      run({{o, y, x}, {o, x, z}, {o, z, y}, {x, y, z}}, {.surface = SurfaceKind::keep, .points = PointKind::none});
   EXPECT_EQ(result.statistics.tets, 1u);
   EXPECT_NEAR(result.statistics.greatest_dihedral, 90, 1e-9);
   EXPECT_NEAR(result.statistics.least_dihedral, 54.735610317, 1e-8);

@@ -81,8 +81,7 @@ constexpr std::size_t header = 2;
 
 }  // namespace
 
-SegmentIndex::SegmentIndex(const Candidates& candidates, std::size_t vertex_count)
-    : stride_(most_pairs(candidates)) {
+SegmentIndex::SegmentIndex(const Candidates& candidates, std::size_t vertex_count) : stride_(most_pairs(candidates)) {
   resize_in_huge_pages(places_, stride_ * candidates.size());
   make_segments(candidates, vertex_count);
 }

@@ -49,7 +49,7 @@ struct FindhexResult {
 
 // What is known of a mesh that is cut out of another.
 struct SearchScope {
-  std::vector<bool> begins_at;      // vertices where cells may begin; empty: all
+  std::vector<bool> begins_at;     // vertices where cells may begin; empty: all
   std::vector<std::int8_t> turns;  // TetOrientation::turns; empty: to be found
 };
 
