@@ -13,14 +13,15 @@ double cosine_of_degrees(double angle) {
 
 }  // namespace
 
-FeatureMesh::FeatureMesh(const Surface& surface, double feature_angle) {
+FeatureMesh::FeatureMesh(const Surface& surface, double feature_angle)
+    : corner_cosine_(cosine_of_degrees(feature_angle)) {
   reserve(surface.points.size(), 3 * surface.triangles.size() / 2, surface.triangles.size());
   for (const Vec3& p : surface.points) add_vertex(to_open_mesh(p));
   for (const Triangle& t : surface.triangles) add_face(vertex_handle(t[0]), vertex_handle(t[1]), vertex_handle(t[2]));
   resize_attributes();
   for (std::size_t f = 0; f < n_faces(); ++f) source_[f] = static_cast<std::int32_t>(f);
   mark_features(surface, feature_angle);
-  mark_corners(feature_angle);
+  mark_corners();
 }
 
 Vec3 FeatureMesh::area_normal(FaceHandle f) const {
@@ -58,19 +59,27 @@ void FeatureMesh::mark_features(const Surface& surface, double feature_angle) {
     const Vec3 n = area_normal(f), m = area_normal(g);
     const bool sharp = dot(n, m) < cosine * norm(n) * norm(m);
     if (!sharp && surface.tags[source(f)] == surface.tags[source(g)]) continue;
-    feature_[e.idx()] = 1;
-    on_feature_[to_vertex_handle(halfedge_handle(e, 0)).idx()] = 1;
-    on_feature_[to_vertex_handle(halfedge_handle(e, 1)).idx()] = 1;
+    mark_feature(e, EdgeRole::feature);
   }
 }
 
-void FeatureMesh::mark_corners(double feature_angle) {
-  const double cosine = cosine_of_degrees(feature_angle);
-  for (const VertexHandle v : vertices())
-    if (is_on_feature(v) && is_corner(v, cosine)) keep(v);
+void FeatureMesh::mark_feature(EdgeHandle e, EdgeRole role) {
+  feature_[e.idx()] = role;
+  on_feature_[to_vertex_handle(halfedge_handle(e, 0)).idx()] = 1;
+  on_feature_[to_vertex_handle(halfedge_handle(e, 1)).idx()] = 1;
 }
 
-bool FeatureMesh::is_corner(VertexHandle v, double cosine) const {
+void FeatureMesh::add_crests(std::span<const EdgeHandle> edges) {
+  for (const EdgeHandle e : edges) mark_feature(e, EdgeRole::crest);
+  mark_corners();
+}
+
+void FeatureMesh::mark_corners() {
+  for (const VertexHandle v : vertices())
+    if (is_on_feature(v) && is_corner(v)) keep(v);
+}
+
+bool FeatureMesh::is_corner(VertexHandle v) const {
   int count = 0;
   std::array<Vec3, 2> directions;
   for (const HalfedgeHandle h : voh_range(v)) {
@@ -79,7 +88,7 @@ bool FeatureMesh::is_corner(VertexHandle v, double cosine) const {
     const Vec3 d = position(to_vertex_handle(h)) - position(v);
     directions[count++] = unit(d);
   }
-  return count != 2 || -dot(directions[0], directions[1]) < cosine;
+  return count != 2 || -dot(directions[0], directions[1]) < corner_cosine_;
 }
 
 FeatureMesh::VertexHandle FeatureMesh::add_removable(const Vec3& p, bool on_feature) {
@@ -95,13 +104,13 @@ FeatureMesh::VertexHandle FeatureMesh::split_edge_at(EdgeHandle e, const Vec3& p
   const VertexHandle across = to_vertex_handle(next_halfedge_handle(h));
   const std::int32_t source_here = source(face_handle(h));
   const std::int32_t source_there = source(face_handle(opposite_halfedge_handle(h)));
-  const bool feature = is_feature(e);
-  const VertexHandle v = add_removable(p, feature);
+  const EdgeRole feature = feature_[e.idx()];
+  const VertexHandle v = add_removable(p, is_feature(e));
   split(e, v);
   resize_attributes();
   for (const HalfedgeHandle out : voh_range(v)) {
     const VertexHandle end = to_vertex_handle(out);
-    feature_[edge_handle(out).idx()] = feature && (end == ends[0] || end == ends[1]);
+    feature_[edge_handle(out).idx()] = end == ends[0] || end == ends[1] ? feature : EdgeRole::none;
     const bool here = end == across || to_vertex_handle(next_halfedge_handle(out)) == across;
     source_[face_handle(out).idx()] = here ? source_here : source_there;
   }
@@ -120,11 +129,12 @@ FeatureMesh::VertexHandle FeatureMesh::split_face_at(FaceHandle f, const Vec3& p
 // Two pairs of edges fall into one each: what survives is a feature if one of them was.
 void FeatureMesh::collapse_edge(HalfedgeHandle h) {
   const VertexHandle end = to_vertex_handle(h);
-  std::array<std::pair<VertexHandle, bool>, 2> sides;
+  std::array<std::pair<VertexHandle, EdgeRole>, 2> sides;
   for (const unsigned side : {0u, 1u}) {
     const HalfedgeHandle next = next_halfedge_handle(side == 0 ? h : opposite_halfedge_handle(h));
     const HalfedgeHandle last = next_halfedge_handle(next);
-    sides[side] = {to_vertex_handle(next), is_feature(edge_handle(next)) || is_feature(edge_handle(last))};
+    sides[side] = {to_vertex_handle(next),
+                   std::max(feature_[edge_handle(next).idx()], feature_[edge_handle(last).idx()])};
   }
   collapse(h);
   for (const auto& [across, feature] : sides) feature_[edge_handle(find_halfedge(end, across)).idx()] = feature;

@@ -4,6 +4,7 @@
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tools/tetmesh/shells.hpp"
@@ -21,6 +22,12 @@ struct HalfEdgeTraits : OpenMesh::DefaultTraits {
 // Normals of length 1 that differ by less are those of one plane; so are edges that bend by less than that part of
 // their length.
 inline constexpr double plane_tolerance = 1e-5;
+
+enum class EdgeRole : std::uint8_t {
+  none,
+  crest,   // the middle of a fillet (crest_lines.hpp), which is kept as a feature is
+  feature  // one of the surface
+};
 
 enum class VertexRole : std::uint8_t {
   removable,  // of the input, or added to refine it
@@ -43,12 +50,16 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
   // Whether its faces lie in one plane.
   bool is_flat_around(VertexHandle v) const;
 
-  bool is_feature(EdgeHandle e) const { return feature_[e.idx()] != 0; }
+  bool is_feature(EdgeHandle e) const { return feature_[e.idx()] != EdgeRole::none; }
+  bool is_crest(EdgeHandle e) const { return feature_[e.idx()] == EdgeRole::crest; }
   bool is_on_feature(VertexHandle v) const { return on_feature_[v.idx()] != 0; }
   bool is_kept(VertexHandle v) const { return role_[v.idx()] == VertexRole::kept; }
   void keep(VertexHandle v) { role_[v.idx()] = VertexRole::kept; }
   // The triangle of the input surface that a face lies on, or was before its corners were moved.
   std::int32_t source(FaceHandle f) const { return source_[f.idx()]; }
+
+  // Makes edges features that are none.
+  void add_crests(std::span<const EdgeHandle> edges);
 
   // Split at a point of the edge or face, which becomes a removable vertex.
   VertexHandle split_edge_at(EdgeHandle e, const Vec3& p);
@@ -59,11 +70,13 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
  private:
   VertexHandle add_removable(const Vec3& p, bool on_feature);
   void mark_features(const Surface& surface, double feature_angle);
-  void mark_corners(double feature_angle);
-  bool is_corner(VertexHandle v, double cosine) const;
+  void mark_feature(EdgeHandle e, EdgeRole role);
+  void mark_corners();
+  bool is_corner(VertexHandle v) const;
   void resize_attributes();
 
-  std::vector<std::uint8_t> feature_;     // of edges
+  double corner_cosine_;
+  std::vector<EdgeRole> feature_;         // of edges
   std::vector<std::uint8_t> on_feature_;  // of vertices
   std::vector<VertexRole> role_;
   std::vector<std::int32_t> source_;  // of faces

@@ -16,6 +16,7 @@ struct FieldSurface {
   std::vector<Triangle> triangles;
   std::vector<HalfEdge> twins;
   std::vector<bool> feature;  // of each half-edge
+  std::vector<bool> crest;    // those of these that are in the middle of a fillet
   std::vector<Vec3> centres;
   std::vector<Vec3> normals;  // of length 1
   std::vector<double> areas;

@@ -79,7 +79,7 @@ class SurfaceFront {
   WalkEnd step(const SurfacePoint& from, const Vec3& direction, double sizes) const;
   double sizes_along(const Vec3& from, const WalkEnd& end) const;
   Outlook look(const SurfacePoint& from, const Vec3& direction) const;
-  // Whether no point is nearer than `distance` steps of the lattice.
+  // Whether no point is nearer than `distance` steps of the lattice, on the surface or off it.
   bool is_free(const SurfacePoint& point, double distance) const;
   void take_if_free(const SurfacePoint& point, const Outlook& outlook);
 
@@ -192,8 +192,8 @@ bool SurfaceFront::is_free(const SurfacePoint& point, double distance) const {
   bool is_free = true;
   grid_.for_each_near(point.position, reach, size_.least_near(size, reach), [&](std::int32_t i) {
     const Vec3 d = grid_.points()[i] - point.position;
-    if (std::abs(dot(d, x)) >= along * least || std::abs(dot(d, y)) >= across * least) return true;
-    if (std::abs(dot(d, n)) >= least) return true;
+    const double off = dot(d, n);
+    if (std::hypot(dot(d, x), off) >= along * least || std::hypot(dot(d, y), off) >= across * least) return true;
     is_free = std::ranges::none_of(normals_[i], [&](const Vec3& m) { return dot(n, m) > least_normal_cosine; });
     return is_free;
   });

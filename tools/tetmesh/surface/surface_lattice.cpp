@@ -30,8 +30,8 @@ constexpr DiffusionLimits limits{200, 1e-3};
 constexpr int smoothing_sweeps = 60;  // 20 lose 1 % of the volume in hexes on small parts
 constexpr double certain = 1e-3;      // moduli of numbers that features say something about
 constexpr double inertia = 0.3;       // of a number's own value, against its links
-// How strongly the step to the next point of the lattice keeps to the field, against what all links say.
-constexpr double rigidity = 0.1;
+// How strongly the step to the next point of the lattice keeps to the field, against what all links say; and at least.
+constexpr double rigidity = 0.1, least_hold = 1e-9;
 constexpr double least_determinant = 0.2;  // of the cells a step in each direction, below which the field is followed
 // Triangles see points of the lattice that far along each direction, in sizes, and trust them less with the distance.
 constexpr double furthest = 0.75, distrust_begins = 1.5;
@@ -215,15 +215,15 @@ void LatticeMaker::sweep() {
 
 // By least squares over the distances to the neighbours, which are those of the field no longer.
 Steps LatticeMaker::steps_of(std::int32_t f) const {
-  const double hold = rigidity * degrees_[f];
-  Eigen::Matrix2d moments = hold * Eigen::Matrix2d::Identity(), right = moments;
+  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero(), right = moments;
   for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
     const SurfaceLink& link = links_.of[h];
     const Eigen::Vector2d way(link.way[0], link.way[1]);
     moments += link.weight * way * way.transpose();
     right += link.weight * way * Eigen::RowVector2d(link.distance[0], link.distance[1]);
   }
-  const Eigen::Matrix2d gradients = moments.inverse() * right;  // columns: of each coordinate
+  const Eigen::Matrix2d hold = (rigidity * moments.trace() + least_hold) * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d gradients = (moments + hold).inverse() * (right + hold);  // columns: of each coordinate
   if (!(gradients.determinant() > least_determinant)) return straight;
   const Eigen::Matrix2d steps = gradients.transpose().inverse();
   return {{{steps(0, 0), steps(1, 0)}, {steps(0, 1), steps(1, 1)}}};

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/tetmesh/surface/crest_lines.hpp"
+
 namespace hexpipe {
 namespace {
 
 // Of the triangle of h, to that beyond it, as both lie unfolded.
-SurfaceLink make_link(const SurfaceLinks& links, HalfEdge h) {
+SurfaceLink make_link(const SurfaceLinks& links, const BendStretch& stretch, HalfEdge h) {
   const FieldSurface& surface = links.surface;
   const HalfEdge twin = surface.twins[h];
   const std::int32_t f = triangle_of(h), g = triangle_of(twin);
@@ -28,9 +30,10 @@ SurfaceLink make_link(const SurfaceLinks& links, HalfEdge h) {
     link.flipped[k] = cosines[axis] < 0;
     quality += std::abs(cosines[axis]) / 2;
     const Vec3 matched = link.flipped[k] ? -there[axis] : there[axis];
-    link.way[k] = (dot(here[k], from) - dot(matched, to)) / (0.5 * (links.sizes[f] + links.sizes[g]));
+    const double size = 0.5 * (links.sizes[f] + links.sizes[g]), before = dot(here[k], from), after = dot(matched, to);
+    link.way[k] = (before - after) / size;
+    link.distance[k] = (stretch.in_direction(f, here[k]) * before - stretch.in_direction(g, matched) * after) / size;
   }
-  link.distance = link.way;
   link.set_turn();
   const double across = dot(from, inward) + dot(to, beyond);
   link.weight = norm(side) / std::max(across, 1e-3 * norm(side)) * std::max(0.0, 4 * quality - 3);
@@ -63,10 +66,11 @@ SurfaceLinks::SurfaceLinks(const FieldSurface& on, const CrossField& along, cons
     : surface(on), field(along), of(on.twins.size()) {
   sizes.reserve(on.centres.size());
   for (const Vec3& centre : on.centres) sizes.push_back(size.at(centre));
+  const BendStretch stretch = bend_stretch(on, size);
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(of.size()); ++h) {
     const HalfEdge twin = on.twins[h];
     if (on.feature[h] || twin < h) continue;
-    of[h] = make_link(*this, h);
+    of[h] = make_link(*this, stretch, h);
     of[twin] = of[h].reversed(triangle_of(h));
   }
 }

@@ -13,7 +13,7 @@ namespace hexpipe {
 // Direction k here is direction k there, or the other one where crossed, turned round where flipped, and `distance[k]`
 // further on.
 struct SurfaceLink {
-  std::array<double, 2> distance{};  // between the centres, in sizes; corrected
+  std::array<double, 2> distance{};  // between the centres, in sizes and over what fillets would be; corrected
   std::array<double, 2> way{};       // as it was before
   std::array<Complex, 2> turn{};     // by the distances
   std::array<bool, 2> flipped{};

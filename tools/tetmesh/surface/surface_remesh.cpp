@@ -1,6 +1,6 @@
-// Features are sampled first, as densely as rows of points are to begin there, the field's triangles made from what is
-// there, a front puts points on them, these are inserted, and the rest of the vertices taken out. What comes out is
-// judged as a whole; around a fault the input's own vertices stay the next time.
+// Features, and the middles of small fillets, are sampled first, as densely as rows of points are to begin there, the
+// field's triangles made from what is there, a front puts points on them, these are inserted, and the rest of the
+// vertices taken out. What comes out is judged as a whole; around a fault the input's own vertices stay the next time.
 
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 
@@ -9,6 +9,7 @@
 #include "tools/tetmesh/exact_geometry.hpp"
 #include "tools/tetmesh/sized_point_grid.hpp"
 #include "tools/tetmesh/sizing.hpp"
+#include "tools/tetmesh/surface/crest_lines.hpp"
 #include "tools/tetmesh/surface/curve_rows.hpp"
 #include "tools/tetmesh/surface/point_insertion.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
@@ -111,8 +112,10 @@ bool SurfaceRemesher::rows_go_across() const {
 }
 
 bool SurfaceRemesher::prepare() {
+  const bool by_rows = rows_go_across();
+  if (by_rows) prepared_.add_crests(crest_lines(prepared_, size_));
   const SizeField longest = field_edge * size_, flat = flatness * size_;
-  if (rows_go_across())
+  if (by_rows)
     sample_feature_curves(prepared_, curves_by_rows(prepared_, size_, row_edge * size_, flat), size_, deviation_);
   else
     sample_feature_curves(prepared_, size_, deviation_);

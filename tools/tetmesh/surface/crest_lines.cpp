@@ -1,0 +1,202 @@
+#include "tools/tetmesh/surface/crest_lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hexpipe {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+// A fillet turns by so much, and no more beyond its reach on either side, in sizes.
+constexpr double least_turn = 60 * degree, most_turn = 125 * degree, flat_turn = 8 * degree;
+constexpr double fillet_reach = 0.85, flat_reach = 1.25;
+// Edges that bend by less are in one plane; a strip of a fillet is plane but for a part of that.
+constexpr double least_bend = 1 * degree, strip_bend = 0.1 * degree;
+// The turns on both sides of an edge differ by less than that part of its own bend in the middle of a fillet; up to the
+// other at a side of the strip that is in the middle.
+constexpr double in_the_middle = 0.9, beside_the_middle = 1.1;
+// Of both sides, of all turns, that go one way.
+constexpr double least_one_way = 0.9;
+// On a way across; more are needles without a width.
+constexpr std::size_t most_triangles = 1000;
+// A line goes on from one edge to the next where it turns by less, and counts from that length on, in sizes. Others
+// nearer than that to it are of the same fillet.
+constexpr double most_line_turn = 40 * degree, least_length = 4, same_fillet = 0.5;
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(norm(cross(a, b)), dot(a, b));
+}
+
+struct Across {
+  double turn_near = 0, turn = 0;  // of the normal, within `near` and after all of the way
+  Vec3 normal_near;
+  std::vector<std::int32_t> triangles;
+};
+
+// Straight on from the middle of a half-edge into its triangle and over the next ones, up to a feature.
+Across walk_across(const FieldSurface& surface, HalfEdge start, double near, double reach) {
+  Across result;
+  const Vec3& normal = surface.normals[triangle_of(start)];
+  Vec3 at = surface.points[start_of(surface.triangles, start)] + 0.5 * surface.edge_vector(start);
+  Vec3 way = surface.inward(start);
+  HalfEdge entry = start;
+  for (double gone = 0; gone < reach && result.triangles.size() < most_triangles;) {
+    const std::int32_t f = triangle_of(entry);
+    result.triangles.push_back(f);
+    result.turn = angle_between(normal, surface.normals[f]);
+    if (gone < near) {
+      result.turn_near = result.turn;
+      result.normal_near = surface.normals[f];
+    }
+    HalfEdge exit = -1;
+    double least = 1e300;
+    for (HalfEdge h = next_in_triangle(entry); h != entry; h = next_in_triangle(h)) {
+      const double speed = -dot(way, surface.inward(h));
+      if (speed <= 0) continue;
+      const double length =
+          std::max(0.0, dot(at - surface.points[start_of(surface.triangles, h)], surface.inward(h))) / speed;
+      if (length < least) {
+        least = length;
+        exit = h;
+      }
+    }
+    if (exit < 0 || surface.feature[exit]) break;
+    at += least * way;
+    gone += least;
+    const HalfEdge twin = surface.twins[exit];
+    const Vec3 along = unit(surface.edge_vector(exit));
+    way = unit(dot(way, along) * along - dot(way, surface.inward(exit)) * surface.inward(twin));
+    entry = twin;
+  }
+  return result;
+}
+
+class CrestFinder {
+ public:
+  CrestFinder(const FeatureMesh& mesh, const SizeField& size) : mesh_(mesh), size_(size), surface_(mesh) {
+    rank_.resize(mesh.n_edges());
+    for (const auto e : mesh.edges()) rank_[e.idx()] = rank_of(e);
+  }
+
+  std::vector<OpenMesh::EdgeHandle> find() {
+    std::vector<OpenMesh::EdgeHandle> result;
+    for (const int rank : {2, 1})
+      for (const auto e : mesh_.edges()) {
+        if (rank_[e.idx()] != rank) continue;
+        const std::vector<OpenMesh::EdgeHandle> line = line_through(e);
+        double length = 0;
+        for (const auto part : line) length += mesh_.calc_edge_length(part);
+        for (const auto part : line) rank_[part.idx()] = 0;
+        if (length < least_length * size_.at(middle(e))) continue;
+        result.insert(result.end(), line.begin(), line.end());
+        forget_beside(line);
+      }
+    return result;
+  }
+
+ private:
+  Vec3 middle(OpenMesh::EdgeHandle e) const {
+    const auto h = mesh_.halfedge_handle(e, 0);
+    return 0.5 * (mesh_.position(mesh_.from_vertex_handle(h)) + mesh_.position(mesh_.to_vertex_handle(h)));
+  }
+
+  // 2 in the middle of a fillet, 1 at one of the sides of the strip that is, 0 elsewhere.
+  int rank_of(OpenMesh::EdgeHandle e) const {
+    if (mesh_.is_feature(e)) return 0;
+    const HalfEdge h = half_edge_of(mesh_, mesh_.halfedge_handle(e, 0)), twin = surface_.twins[h];
+    const double bend = angle_between(surface_.normals[triangle_of(h)], surface_.normals[triangle_of(twin)]);
+    if (bend < least_bend) return 0;
+    const double size = size_.at(middle(e));
+    const Across here = walk_across(surface_, h, fillet_reach * size, flat_reach * size);
+    const Across there = walk_across(surface_, twin, fillet_reach * size, flat_reach * size);
+    const double turn = here.turn_near + bend + there.turn_near;
+    if (turn < least_turn || turn > most_turn || here.turn + bend + there.turn > turn + flat_turn) return 0;
+    if (angle_between(here.normal_near, there.normal_near) < least_one_way * turn) return 0;
+    const double off = std::abs(here.turn_near - there.turn_near);
+    return off < in_the_middle * bend ? 2 : off < beside_the_middle * bend ? 1 : 0;
+  }
+
+  OpenMesh::HalfedgeHandle onward(OpenMesh::HalfedgeHandle h) const {
+    const auto v = mesh_.to_vertex_handle(h);
+    OpenMesh::HalfedgeHandle best;
+    if (mesh_.is_on_feature(v)) return best;
+    double least = most_line_turn;
+    const Vec3 way = mesh_.position(v) - mesh_.position(mesh_.from_vertex_handle(h));
+    for (const auto next : mesh_.voh_range(v)) {
+      if (next == mesh_.opposite_halfedge_handle(h) || rank_[mesh_.edge_handle(next).idx()] == 0) continue;
+      const double turn = angle_between(way, mesh_.position(mesh_.to_vertex_handle(next)) - mesh_.position(v));
+      if (turn < least) {
+        least = turn;
+        best = next;
+      }
+    }
+    return best;
+  }
+
+  std::vector<OpenMesh::EdgeHandle> line_through(OpenMesh::EdgeHandle e) const {
+    std::vector<OpenMesh::EdgeHandle> line{e};
+    for (const unsigned side : {0u, 1u})
+      for (auto h = onward(mesh_.halfedge_handle(e, side)); h.is_valid(); h = onward(h)) {
+        if (std::ranges::find(line, mesh_.edge_handle(h)) != line.end()) return line;
+        line.push_back(mesh_.edge_handle(h));
+      }
+    return line;
+  }
+
+  // What is beside the line on its fillet is none.
+  void forget_beside(const std::vector<OpenMesh::EdgeHandle>& line) {
+    for (const auto e : line)
+      for (const unsigned side : {0u, 1u}) {
+        const HalfEdge h = half_edge_of(mesh_, mesh_.halfedge_handle(e, side));
+        const double reach = same_fillet * size_.at(middle(e));
+        for (const std::int32_t f : walk_across(surface_, h, reach, reach).triangles)
+          for (const auto part : mesh_.fe_range(mesh_.face_handle(static_cast<unsigned>(f)))) rank_[part.idx()] = 0;
+      }
+  }
+
+  const FeatureMesh& mesh_;
+  const SizeField& size_;
+  FieldSurface surface_;
+  std::vector<int> rank_;  // of edges
+};
+
+}  // namespace
+
+std::vector<OpenMesh::EdgeHandle> crest_lines(const FeatureMesh& mesh, const SizeField& size) {
+  return CrestFinder(mesh, size).find();
+}
+
+BendStretch bend_stretch(const FieldSurface& surface, const SizeField& size) {
+  BendStretch result{std::vector<double>(surface.triangles.size(), 1.0), std::vector<Vec3>(surface.triangles.size())};
+  std::vector<std::int32_t> queue;
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(surface.twins.size()); ++h) {
+    if (!surface.crest[h]) continue;
+    const double reach = flat_reach * size.at(surface.centres[triangle_of(h)]);
+    const Across across = walk_across(surface, h, reach, reach);
+    const Vec3& end = surface.normals[across.triangles.back()];
+    const Vec3 crest = unit(surface.normals[triangle_of(h)] + surface.normals[triangle_of(surface.twins[h])]);
+    const double turn = std::min(angle_between(crest, end), 0.5 * most_turn);
+    for (const std::int32_t f : across.triangles) {
+      if (result.factor[f] > 1 || angle_between(surface.normals[f], end) < least_bend) continue;
+      result.factor[f] = std::tan(turn) / turn;
+      result.along[f] = unit(surface.edge_vector(h));
+      queue.push_back(f);
+    }
+  }
+  // The rest of their planes.
+  for (std::size_t next = 0; next < queue.size(); ++next) {
+    const std::int32_t f = queue[next];
+    for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
+      const std::int32_t g = triangle_of(surface.twins[h]);
+      if (surface.feature[h] || result.factor[g] > 1) continue;
+      if (angle_between(surface.normals[f], surface.normals[g]) > strip_bend) continue;
+      result.factor[g] = result.factor[f];
+      result.along[g] = result.along[f];
+      queue.push_back(g);
+    }
+  }
+  return result;
+}
+
+}  // namespace hexpipe
