@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+#include <optional>
+
 #include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/surface/feature_curves.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
+#include "tools/tetmesh/surface/opposite_sides.hpp"
 #include "tools/tetmesh/surface/surface_refine.hpp"
 
 namespace hexpipe {
@@ -63,6 +67,73 @@ TEST(CrossField, FollowsTheBendOfATube) {
     return Vec3{0, 0, 1};
   });
   EXPECT_GT(worst, 0.999);
+}
+
+// A box with a line of features across its top from corner to corner, where tags meet.
+FeatureMesh with_diagonal(double height) {
+  Surface surface = surface_of(box({0, 0, 0}, {9, 9, height}, 9));
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    Vec3 sum;
+    for (const Vertex v : surface.triangles[t]) sum += surface.points[v];
+    if (sum.z > 2.9 * height && sum.x > sum.y) surface.tags[t] = 2;
+  }
+  FeatureMesh mesh(surface, 40);
+  refine_surface(mesh, 0.7, 1e-6);
+  return mesh;
+}
+
+// Of the middle of the bottom, along the diagonal.
+double alignment_below(const FeatureMesh& mesh) {
+  const FieldSurface surface(mesh);
+  return worst_alignment(surface, cross_field(surface, 0.5), [](const FieldSurface& s, std::size_t f) {
+    const Vec3& c = s.centres[f];
+    const bool in_the_middle = s.normals[f].z < -0.5 && norm(c - Vec3{4.5, 4.5, 0}) < 0.8;
+    return in_the_middle ? std::optional(Vec3{std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2, 0}) : std::nullopt;
+  });
+}
+
+TEST(CrossField, FollowsWhatIsOnTheOtherSideOfAWall) {
+  EXPECT_GT(alignment_below(with_diagonal(1)), 0.95);
+  EXPECT_LT(alignment_below(with_diagonal(20)), 0.75) << "too far away, and the sides say otherwise";
+}
+
+TEST(OppositeSides, AreThoseOfABox) {
+  const FieldSurface surface(refined(box({0, 0, 0}, {3, 2, 1}), 0.3));
+  const auto sides = opposite_sides(surface, 0.1, 25);
+  ASSERT_EQ(sides.size(), surface.triangles.size());
+  for (std::size_t f = 0; f < sides.size(); ++f) {
+    const Vec3& n = surface.normals[f];
+    const double across = std::abs(n.x) > 0.5 ? 3 : std::abs(n.y) > 0.5 ? 2 : 1;
+    if (across > 2.5) {
+      EXPECT_EQ(sides[f].triangle, -1) << "30 sizes away";
+      continue;
+    }
+    ASSERT_GE(sides[f].triangle, 0);
+    EXPECT_NEAR(sides[f].distance, across / 0.1, 1e-9);
+    EXPECT_NEAR(dot(surface.normals[sides[f].triangle], n), -1, 1e-9);
+  }
+}
+
+TEST(OppositeSides, AreParallel) {
+  Facets wedge = box({0, 0, 0}, {4, 4, 1}, 4);
+  for (auto& facet : wedge)
+    for (Vec3& p : facet) p.z *= 0.2 + p.x / 4;
+  const FieldSurface surface(refined(wedge, 0.3));
+  const auto sides = opposite_sides(surface, 0.1, 25);
+  for (std::size_t f = 0; f < sides.size(); ++f) {
+    if (surface.normals[f].z < -0.5) {
+      ASSERT_GE(sides[f].triangle, 0) << "14 degrees";
+    }
+  }
+  for (auto& facet : wedge)
+    for (Vec3& p : facet) p.z *= 3;
+  const FieldSurface steep(refined(wedge, 0.3));
+  const auto beyond = opposite_sides(steep, 0.1, 25);
+  for (std::size_t f = 0; f < beyond.size(); ++f) {
+    if (steep.normals[f].z < -0.5) {
+      EXPECT_EQ(beyond[f].triangle, -1) << "37 degrees";
+    }
+  }
 }
 
 TEST(FieldWalk, GoesStraightToTheEdgeOfABox) {

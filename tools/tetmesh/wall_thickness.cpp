@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tools/tetmesh/box_tree.hpp"
+#include "tools/tetmesh/ray_hit.hpp"
 
 namespace hexpipe {
 namespace {
@@ -111,21 +112,11 @@ double WallFinder::first_hit(const Vec3& from, const Vec3& direction, double lon
                          [&](std::int32_t triangle) { return length_to(triangle, from, direction); });
 }
 
-// Along a direction of length 1, infinite where the ray misses the triangle (T. Möller, B. Trumbore: Fast,
-// minimum storage ray/triangle intersection, 1997).
+// Along a direction of length 1, infinite where the ray misses the triangle.
 double WallFinder::length_to(std::int32_t triangle, const Vec3& from, const Vec3& direction) const {
-  constexpr double miss = std::numeric_limits<double>::infinity();
   const auto& [a, b, c] = surface_.triangles[triangle];
-  const Vec3 first = surface_.points[b] - surface_.points[a], second = surface_.points[c] - surface_.points[a];
-  const Vec3 across = cross(direction, second), to_origin = from - surface_.points[a];
-  const double volume = dot(first, across);
-  if (volume == 0) return miss;
-  const double u = dot(to_origin, across) / volume;
-  const Vec3 other = cross(to_origin, first);
-  const double v = dot(direction, other) / volume;
-  if (u < 0 || v < 0 || u + v > 1) return miss;
-  const double length = dot(second, other) / volume;
-  return length > least_length * size_ ? length : miss;
+  const double length = length_to_triangle(from, direction, surface_.points[a], surface_.points[b], surface_.points[c]);
+  return length > least_length * size_ ? length : std::numeric_limits<double>::infinity();
 }
 
 // The prism from the triangle across the wall, as three tets.

@@ -4,12 +4,18 @@
 // constraints along edges are exact; Bommes, Zimmer, Kobbelt 2009 use the same). Feature edges pull their triangles'
 // u to their own direction, curvature pulls weakly everywhere (Cohen-Steiner and Morvan's tensor), so that the linear
 // system is definite and has a direction to follow on surfaces without features. Lengths of u are dropped.
+//
+// Sides that face each other across the part pull each other's directions to their own: where these differ, frames have
+// to turn on the way through the inside, and rows of points end there. As seen from the other side angles are of the
+// other sign, which is not linear in u: each is pulled to the middle of what both were in the round before.
 
 #include "tools/tetmesh/surface/cross_field.hpp"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <complex>
+
+#include "tools/tetmesh/surface/opposite_sides.hpp"
 
 namespace hexpipe {
 namespace {
@@ -36,9 +42,23 @@ Complex fourth_power(Complex z) {
   return square * square;
 }
 
+// Pull of a square of the size on the other side of a wall of one size; as that of smoothness through the wall it fades
+// with the square of the thickness, in sizes. Seven parts at two sizes of tests/bench/points have 90.8 % of the volume
+// in hexes without, 91.3 with it, mambo-m1 94.5 and 96.7. From 10 in 4 rounds to 20 in 2, 91.1 to 91.2.
+constexpr double opposite_weight = 12, furthest_opposite = 25;
+constexpr int opposite_rounds = 3;
+
+// Of length 1 at most.
+Complex bounded(Complex u) {
+  return u / std::max(1.0, std::abs(u));
+}
+
+using Matrix = Eigen::SparseMatrix<Complex>;
+using Factors = Eigen::SimplicialLDLT<Matrix>;
+
 class FieldSolver {
  public:
-  FieldSolver(const FieldSurface& surface, const SizeField& size) : surface_(surface) {
+  FieldSolver(const FieldSurface& surface, const SizeField& size) : surface_(surface), size_(size) {
     const auto count = static_cast<std::int32_t>(surface.triangles.size());
     frames_.reserve(surface.triangles.size());
     for (std::int32_t f = 0; f < count; ++f) frames_.emplace_back(surface, f);
@@ -62,12 +82,17 @@ class FieldSolver {
  private:
   std::vector<Complex> curvature() const;
   std::vector<Complex> solve_system() const;
+  void agree_with_opposite_sides(Matrix matrix, const Eigen::VectorXcd& right, Factors& factors,
+                                 Eigen::VectorXcd& solution) const;
+  // What a triangle's u would be if it had the directions of the one on its other side.
+  Complex seen_from(std::int32_t triangle, std::int32_t opposite, Complex u) const;
 
   // exp(i angle) by which a direction of h's triangle has to be multiplied to be one of its neighbour's. The edge runs
   // the other way there.
   Complex turn(HalfEdge h) const { return -edges_[surface_.twins[h]] / edges_[h]; }
 
   const FieldSurface& surface_;
+  const SizeField& size_;
   std::vector<double> sizes_;  // of triangles
   std::vector<TangentFrame> frames_;
   std::vector<Complex> edges_;  // exp(i angle) of each half-edge in its triangle's frame
@@ -129,11 +154,43 @@ std::vector<Complex> FieldSolver::solve_system() const {
     if (f < g) entries.emplace_back(g, f, -weight * fourth_power(turn(h)));  // the lower triangle suffices
   }
   for (std::int32_t f = 0; f < count; ++f) entries.emplace_back(f, f, diagonal[f]);
-  Eigen::SparseMatrix<Complex> matrix(count, count);
+  Matrix matrix(count, count);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<Complex>> factors(matrix);
-  const Eigen::VectorXcd solution = factors.solve(right);
+  Factors factors;
+  factors.analyzePattern(matrix);
+  factors.factorize(matrix);
+  Eigen::VectorXcd solution = factors.solve(right);
+  agree_with_opposite_sides(std::move(matrix), right, factors, solution);
   return {solution.begin(), solution.end()};
+}
+
+// From the solution without them.
+void FieldSolver::agree_with_opposite_sides(Matrix matrix, const Eigen::VectorXcd& right, Factors& factors,
+                                            Eigen::VectorXcd& solution) const {
+  const auto count = static_cast<std::int32_t>(frames_.size());
+  const std::vector<OppositeSide> opposite = opposite_sides(surface_, size_, furthest_opposite);
+  std::vector<double> pulls(frames_.size());
+  for (std::int32_t f = 0; f < count; ++f) {
+    if (opposite[f].triangle < 0) continue;
+    const double thickness = std::max(1.0, opposite[f].distance);
+    pulls[f] = opposite_weight * surface_.areas[f] / (sizes_[f] * sizes_[f]) / (thickness * thickness);
+    matrix.coeffRef(f, f) += pulls[f];
+  }
+  factors.factorize(matrix);
+  for (int round = 0; round < opposite_rounds; ++round) {
+    Eigen::VectorXcd pulled = right;
+    for (std::int32_t f = 0; f < count; ++f)
+      if (pulls[f] > 0)
+        pulled[f] += pulls[f] * 0.5 *
+                     (bounded(solution[f]) + seen_from(f, opposite[f].triangle, solution[opposite[f].triangle]));
+    solution = factors.solve(pulled);
+  }
+}
+
+Complex FieldSolver::seen_from(std::int32_t triangle, std::int32_t opposite, Complex u) const {
+  const double angle = std::arg(u) / 4;
+  const Vec3 direction = std::cos(angle) * frames_[opposite].x + std::sin(angle) * frames_[opposite].y;
+  return std::abs(bounded(u)) * fourth_power(angle_of(frames_[triangle], direction));
 }
 
 }  // namespace

@@ -1,0 +1,39 @@
+#include "tools/tetmesh/surface/opposite_sides.hpp"
+
+#include <array>
+
+#include "common/run/parallel.hpp"
+#include "tools/tetmesh/box_tree.hpp"
+#include "tools/tetmesh/ray_hit.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr double least_cosine = 0.9;
+// Of the size; nothing nearer than that to a triangle is on another side.
+constexpr double least_distance = 1e-6;
+
+}  // namespace
+
+std::vector<OppositeSide> opposite_sides(const FieldSurface& surface, const SizeField& size, double furthest) {
+  const BoxTree tree = tree_of_triangles(surface.points, surface.triangles);
+  std::vector<OppositeSide> result(surface.triangles.size());
+  parallel_for(static_cast<std::int64_t>(result.size()), 256, [&](std::int64_t f) {
+    const Vec3 &from = surface.centres[f], inwards = -surface.normals[f];
+    const double here = size.at(from);
+    OppositeSide side;
+    double best = furthest * here;
+    tree.first_hit(from, inwards, best, [&](std::int32_t triangle) {
+      const auto& [a, b, c] = surface.triangles[triangle];
+      const double length = length_to_triangle(from, inwards, surface.points[a], surface.points[b], surface.points[c]);
+      if (length <= least_distance * here || length >= best) return std::numeric_limits<double>::infinity();
+      best = length;
+      side = {triangle, length / here};
+      return length;
+    });
+    if (side.triangle >= 0 && dot(surface.normals[side.triangle], inwards) > least_cosine) result[f] = side;
+  });
+  return result;
+}
+
+}  // namespace hexpipe

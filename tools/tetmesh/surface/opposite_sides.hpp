@@ -1,0 +1,19 @@
+#pragma once
+// What faces what across the inside of a part.
+
+#include <vector>
+
+#include "tools/tetmesh/size_field.hpp"
+#include "tools/tetmesh/surface/field_surface.hpp"
+
+namespace hexpipe {
+
+struct OppositeSide {
+  std::int32_t triangle = -1;  // the first one that a ray from the centre, inwards along the normal, meets; -1: none
+  double distance = 0;         // in sizes
+};
+
+// Of each triangle; none where the other side is not nearly parallel, or further than so many sizes.
+std::vector<OppositeSide> opposite_sides(const FieldSurface& surface, const SizeField& size, double furthest);
+
+}  // namespace hexpipe
