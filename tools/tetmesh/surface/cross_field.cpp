@@ -173,7 +173,7 @@ void FieldSolver::agree_with_opposite_sides(Matrix matrix, const Eigen::VectorXc
   for (std::int32_t f = 0; f < count; ++f) {
     if (opposite[f].triangle < 0) continue;
     const double thickness = std::max(1.0, opposite[f].distance);
-    pulls[f] = opposite_weight * surface_.areas[f] / (sizes_[f] * sizes_[f]) / (thickness * thickness);
+    pulls[f] = opposite_weight * opposite[f].area / (thickness * thickness);
     matrix.coeffRef(f, f) += pulls[f];
   }
   factors.factorize(matrix);

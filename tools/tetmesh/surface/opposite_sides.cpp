@@ -12,26 +12,40 @@ namespace {
 constexpr double least_cosine = 0.9;
 // Of the size; nothing nearer than that to a triangle is on another side.
 constexpr double least_distance = 1e-6;
+// That a ray stands for, in squares of the size.
+constexpr double least_area = 0.25;
 
 }  // namespace
 
 std::vector<OppositeSide> opposite_sides(const FieldSurface& surface, const SizeField& size, double furthest) {
   const BoxTree tree = tree_of_triangles(surface.points, surface.triangles);
   std::vector<OppositeSide> result(surface.triangles.size());
-  parallel_for(static_cast<std::int64_t>(result.size()), 256, [&](std::int64_t f) {
+  std::vector<std::int32_t> samples;
+  double area = 0;
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(result.size()); ++f) {
+    const double here = size.at(surface.centres[f]);
+    area += surface.areas[f] / (here * here);
+    if (area < least_area) continue;
+    result[f].area = area;
+    samples.push_back(f);
+    area = 0;
+  }
+  parallel_for(static_cast<std::int64_t>(samples.size()), 64, [&](std::int64_t i) {
+    const std::int32_t f = samples[i];
     const Vec3 &from = surface.centres[f], inwards = -surface.normals[f];
     const double here = size.at(from);
-    OppositeSide side;
+    OppositeSide& side = result[f];
     double best = furthest * here;
     tree.first_hit(from, inwards, best, [&](std::int32_t triangle) {
       const auto& [a, b, c] = surface.triangles[triangle];
       const double length = length_to_triangle(from, inwards, surface.points[a], surface.points[b], surface.points[c]);
       if (length <= least_distance * here || length >= best) return std::numeric_limits<double>::infinity();
       best = length;
-      side = {triangle, length / here};
+      side.triangle = triangle;
+      side.distance = length / here;
       return length;
     });
-    if (side.triangle >= 0 && dot(surface.normals[side.triangle], inwards) > least_cosine) result[f] = side;
+    if (side.triangle >= 0 && !(dot(surface.normals[side.triangle], inwards) > least_cosine)) side.triangle = -1;
   });
   return result;
 }

@@ -11,9 +11,11 @@ namespace hexpipe {
 struct OppositeSide {
   std::int32_t triangle = -1;  // the first one that a ray from the centre, inwards along the normal, meets; -1: none
   double distance = 0;         // in sizes
+  double area = 0;             // of the surface around, in squares of the size, of which this is a sample
 };
 
-// Of each triangle; none where the other side is not nearly parallel, or further than so many sizes.
+// Of each triangle; none where the other side is not nearly parallel, or further than so many sizes, and of most of
+// those that are small: for these, one of several stands.
 std::vector<OppositeSide> opposite_sides(const FieldSurface& surface, const SizeField& size, double furthest);
 
 }  // namespace hexpipe

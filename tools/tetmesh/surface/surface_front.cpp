@@ -192,8 +192,11 @@ bool SurfaceFront::is_free(const SurfacePoint& point, double distance) const {
   bool is_free = true;
   grid_.for_each_near(point.position, reach, size_.least_near(size, reach), [&](std::int32_t i) {
     const Vec3 d = grid_.points()[i] - point.position;
-    const double off = dot(d, n);
-    if (std::hypot(dot(d, x), off) >= along * least || std::hypot(dot(d, y), off) >= across * least) return true;
+    const auto is_far = [&, off = dot(d, n)](const Vec3& axis, double wanted) {
+      const double here = dot(d, axis);
+      return here * here + off * off >= wanted * wanted;
+    };
+    if (is_far(x, along * least) || is_far(y, across * least)) return true;
     is_free = std::ranges::none_of(normals_[i], [&](const Vec3& m) { return dot(n, m) > least_normal_cosine; });
     return is_free;
   });
