@@ -84,10 +84,9 @@ class CrestFinder {
     for (const int rank : {2, 1})
       for (const auto e : mesh_.edges()) {
         if (rank_[e.idx()] != rank) continue;
-        const std::vector<OpenMesh::EdgeHandle> line = line_through(e);
+        const std::vector<OpenMesh::EdgeHandle> line = take_line(e);
         double length = 0;
         for (const auto part : line) length += mesh_.calc_edge_length(part);
-        for (const auto part : line) rank_[part.idx()] = 0;
         if (length < least_length * size_.at(middle(e))) continue;
         result.insert(result.end(), line.begin(), line.end());
         forget_beside(line);
@@ -134,12 +133,14 @@ class CrestFinder {
     return best;
   }
 
-  std::vector<OpenMesh::EdgeHandle> line_through(OpenMesh::EdgeHandle e) const {
+  // Both ways from an edge; its edges are no others' any more.
+  std::vector<OpenMesh::EdgeHandle> take_line(OpenMesh::EdgeHandle e) {
     std::vector<OpenMesh::EdgeHandle> line{e};
+    rank_[e.idx()] = 0;
     for (const unsigned side : {0u, 1u})
       for (auto h = onward(mesh_.halfedge_handle(e, side)); h.is_valid(); h = onward(h)) {
-        if (std::ranges::find(line, mesh_.edge_handle(h)) != line.end()) return line;
         line.push_back(mesh_.edge_handle(h));
+        rank_[line.back().idx()] = 0;
       }
     return line;
   }
@@ -176,7 +177,7 @@ BendStretch bend_stretch(const FieldSurface& surface, const SizeField& size) {
     const Across across = walk_across(surface, h, reach, reach);
     const Vec3& end = surface.normals[across.triangles.back()];
     const Vec3 crest = unit(surface.normals[triangle_of(h)] + surface.normals[triangle_of(surface.twins[h])]);
-    const double turn = std::min(angle_between(crest, end), 0.5 * most_turn);
+    const double turn = std::clamp(angle_between(crest, end), least_bend, 0.5 * most_turn);
     for (const std::int32_t f : across.triangles) {
       if (result.factor[f] > 1 || angle_between(surface.normals[f], end) < least_bend) continue;
       result.factor[f] = std::tan(turn) / turn;
