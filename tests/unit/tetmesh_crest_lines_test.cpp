@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -142,6 +143,54 @@ TEST(Remesh, TreatsASmallFilletAsAnEdge) {
   }
   EXPECT_EQ(on_crest, 9);
   EXPECT_EQ(on_side, 6 * 7);
+}
+
+// All edges and corners of a box about the origin rounded, by `strips` from the middle of an edge to each side.
+Facets rounded_box(const Vec3& half, double radius, int strips) {
+  const auto cuts = [&](double h) {
+    std::vector<double> result;
+    for (int i = 0; i <= strips; ++i)
+      result.push_back(h - radius + radius * std::tan(0.25 * std::numbers::pi * i / strips));
+    for (int i = 0; i <= strips; ++i) result.insert(result.begin(), -result[2 * i]);
+    return result;
+  };
+  const auto rounded = [&](const Vec3& p) {
+    const auto inside = [&](double x, double h) { return std::clamp(x, radius - h, h - radius); };
+    const Vec3 q{inside(p.x, half.x), inside(p.y, half.y), inside(p.z, half.z)};
+    return q + radius * unit(p - q);
+  };
+  Facets facets;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto component = [&](const Vec3& v, int k) {
+      return (axis + k) % 3 == 0 ? v.x : (axis + k) % 3 == 1 ? v.y : v.z;
+    };
+    const std::vector<double> us = cuts(component(half, 1)), vs = cuts(component(half, 2));
+    for (const int side : {-1, 1}) {
+      const auto at = [&](std::size_t i, std::size_t j) {
+        std::array<double, 3> p{};
+        p[static_cast<std::size_t>(axis)] = side * component(half, 0);
+        p[static_cast<std::size_t>((axis + 1) % 3)] = us[i];
+        p[static_cast<std::size_t>((axis + 2) % 3)] = vs[j];
+        return rounded({p[0], p[1], p[2]});
+      };
+      for (std::size_t i = 0; i + 1 < us.size(); ++i)
+        for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
+          const Vec3 a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
+          if (side > 0)
+            facets.insert(facets.end(), {Facet{a, b, c}, Facet{a, c, d}});
+          else
+            facets.insert(facets.end(), {Facet{a, c, b}, Facet{a, d, c}});
+        }
+    }
+  }
+  return facets;
+}
+
+TEST(Remesh, GivesARoundedBoxNearlyThePointsOfABox) {
+  const RemeshResult result = remesh_surface(surface_of(rounded_box({5, 4, 3}, 0.5, 3)), {.size = 1});
+  EXPECT_EQ(result.failure, "");
+  EXPECT_EQ(result.extra_points, 0u);
+  EXPECT_NEAR(static_cast<double>(result.soup.points.size()), 11 * 9 * 7 - 9 * 7 * 5, 16);
 }
 
 }  // namespace
