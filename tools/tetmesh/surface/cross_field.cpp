@@ -58,7 +58,8 @@ using Factors = Eigen::SimplicialLDLT<Matrix>;
 
 class FieldSolver {
  public:
-  FieldSolver(const FieldSurface& surface, const SizeField& size) : surface_(surface), size_(size) {
+  FieldSolver(const FieldSurface& surface, const SizeField& size, const CrossFieldOptions& options)
+      : surface_(surface), size_(size), options_(options) {
     const auto count = static_cast<std::int32_t>(surface.triangles.size());
     frames_.reserve(surface.triangles.size());
     for (std::int32_t f = 0; f < count; ++f) frames_.emplace_back(surface, f);
@@ -93,6 +94,7 @@ class FieldSolver {
 
   const FieldSurface& surface_;
   const SizeField& size_;
+  const CrossFieldOptions& options_;
   std::vector<double> sizes_;  // of triangles
   std::vector<TangentFrame> frames_;
   std::vector<Complex> edges_;  // exp(i angle) of each half-edge in its triangle's frame
@@ -160,7 +162,7 @@ std::vector<Complex> FieldSolver::solve_system() const {
   factors.analyzePattern(matrix);
   factors.factorize(matrix);
   Eigen::VectorXcd solution = factors.solve(right);
-  agree_with_opposite_sides(std::move(matrix), right, factors, solution);
+  if (options_.sides_agree) agree_with_opposite_sides(std::move(matrix), right, factors, solution);
   return {solution.begin(), solution.end()};
 }
 
@@ -195,8 +197,8 @@ Complex FieldSolver::seen_from(std::int32_t triangle, std::int32_t opposite, Com
 
 }  // namespace
 
-CrossField cross_field(const FieldSurface& surface, const SizeField& size) {
-  return FieldSolver(surface, size).solve();
+CrossField cross_field(const FieldSurface& surface, const SizeField& size, const CrossFieldOptions& options) {
+  return FieldSolver(surface, size, options).solve();
 }
 
 }  // namespace hexpipe

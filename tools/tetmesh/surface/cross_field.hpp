@@ -20,7 +20,11 @@ struct CrossField {
   }
 };
 
+struct CrossFieldOptions {
+  bool sides_agree = true;  // those that face each other across the inside, as far as their features let them
+};
+
 // `size` is the distance over which a full bend counts as much as smoothness.
-CrossField cross_field(const FieldSurface& surface, const SizeField& size);
+CrossField cross_field(const FieldSurface& surface, const SizeField& size, const CrossFieldOptions& options = {});
 
 }  // namespace hexpipe

@@ -37,7 +37,8 @@ class CurveMeasurer {
  private:
   static std::vector<double> steps(const FeatureMesh& mesh, const SizeField& size) {
     const FieldSurface surface(mesh);
-    const CrossField field = cross_field(surface, size);
+    // Whether sides agree makes no difference to how many rows there are: 93.0 or 93.1 % in hexes on five parts.
+    const CrossField field = cross_field(surface, size, {.sides_agree = false});
     return steps_along_features({surface, field, size});
   }
 
