@@ -48,6 +48,10 @@ constexpr double norm_squared(const Vec3& a) {
 inline double norm(const Vec3& a) {
   return std::sqrt(norm_squared(a));
 }
+// In radians, of full precision near 0 and pi too; 0 where one vanishes.
+inline double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(norm(cross(a, b)), dot(a, b));
+}
 // In the direction of a; zero where a is, or too short for its square to be told from zero.
 inline Vec3 unit(const Vec3& a) {
   const double length = norm(a);

@@ -161,14 +161,11 @@ Facets rounded_box(const Vec3& half, double radius, int strips) {
   };
   Facets facets;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto component = [&](const Vec3& v, int k) {
-      return (axis + k) % 3 == 0 ? v.x : (axis + k) % 3 == 1 ? v.y : v.z;
-    };
-    const std::vector<double> us = cuts(component(half, 1)), vs = cuts(component(half, 2));
+    const std::vector<double> us = cuts(half[(axis + 1) % 3]), vs = cuts(half[(axis + 2) % 3]);
     for (const int side : {-1, 1}) {
       const auto at = [&](std::size_t i, std::size_t j) {
         std::array<double, 3> p{};
-        p[static_cast<std::size_t>(axis)] = side * component(half, 0);
+        p[static_cast<std::size_t>(axis)] = side * half[axis];
         p[static_cast<std::size_t>((axis + 1) % 3)] = us[i];
         p[static_cast<std::size_t>((axis + 2) % 3)] = vs[j];
         return rounded({p[0], p[1], p[2]});

@@ -97,9 +97,13 @@ TEST(CrossField, FollowsWhatIsOnTheOtherSideOfAWall) {
   EXPECT_LT(alignment_below(with_diagonal(20)), 0.75) << "too far away, and the sides say otherwise";
 }
 
+std::vector<double> everywhere(const FieldSurface& surface, double size) {
+  return std::vector<double>(surface.triangles.size(), size);
+}
+
 TEST(OppositeSides, AreThoseOfABox) {
   const FieldSurface surface(refined(box({0, 0, 0}, {3, 2, 1}), 0.3));
-  const auto sides = opposite_sides(surface, 0.1, 25);
+  const auto sides = opposite_sides(surface, everywhere(surface, 0.1), 25);
   ASSERT_EQ(sides.size(), surface.triangles.size());
   for (std::size_t f = 0; f < sides.size(); ++f) {
     const Vec3& n = surface.normals[f];
@@ -119,7 +123,7 @@ TEST(OppositeSides, AreParallel) {
   for (auto& facet : wedge)
     for (Vec3& p : facet) p.z *= 0.2 + p.x / 4;
   const FieldSurface surface(refined(wedge, 0.3));
-  const auto sides = opposite_sides(surface, 0.1, 25);
+  const auto sides = opposite_sides(surface, everywhere(surface, 0.1), 25);
   for (std::size_t f = 0; f < sides.size(); ++f) {
     if (surface.normals[f].z < -0.5) {
       ASSERT_GE(sides[f].triangle, 0) << "14 degrees";
@@ -128,7 +132,7 @@ TEST(OppositeSides, AreParallel) {
   for (auto& facet : wedge)
     for (Vec3& p : facet) p.z *= 3;
   const FieldSurface steep(refined(wedge, 0.3));
-  const auto beyond = opposite_sides(steep, 0.1, 25);
+  const auto beyond = opposite_sides(steep, everywhere(steep, 0.1), 25);
   for (std::size_t f = 0; f < beyond.size(); ++f) {
     if (steep.normals[f].z < -0.5) {
       EXPECT_EQ(beyond[f].triangle, -1) << "37 degrees";

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/tetmesh/surface/field_walk.hpp"
+
 namespace hexpipe {
 namespace {
 
@@ -24,10 +26,6 @@ constexpr std::size_t most_triangles = 1000;
 // nearer than that to it are of the same fillet.
 constexpr double most_line_turn = 40 * degree, least_length = 4, same_fillet = 0.5;
 
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(norm(cross(a, b)), dot(a, b));
-}
-
 struct Across {
   double turn_near = 0, turn = 0;  // of the normal, within `near` and after all of the way
   Vec3 normal_near;
@@ -38,36 +36,22 @@ struct Across {
 Across walk_across(const FieldSurface& surface, HalfEdge start, double near, double reach) {
   Across result;
   const Vec3& normal = surface.normals[triangle_of(start)];
-  Vec3 at = surface.points[start_of(surface.triangles, start)] + 0.5 * surface.edge_vector(start);
+  SurfacePoint at{surface.points[start_of(surface.triangles, start)] + 0.5 * surface.edge_vector(start),
+                  triangle_of(start)};
   Vec3 way = surface.inward(start);
-  HalfEdge entry = start;
   for (double gone = 0; gone < reach && result.triangles.size() < most_triangles;) {
-    const std::int32_t f = triangle_of(entry);
-    result.triangles.push_back(f);
-    result.turn = angle_between(normal, surface.normals[f]);
+    result.triangles.push_back(at.triangle);
+    const Vec3& here = surface.normals[at.triangle];
+    result.turn = angle_between(normal, here);
     if (gone < near) {
       result.turn_near = result.turn;
-      result.normal_near = surface.normals[f];
+      result.normal_near = here;
     }
-    HalfEdge exit = -1;
-    double least = 1e300;
-    for (HalfEdge h = next_in_triangle(entry); h != entry; h = next_in_triangle(h)) {
-      const double speed = -dot(way, surface.inward(h));
-      if (speed <= 0) continue;
-      const double length =
-          std::max(0.0, dot(at - surface.points[start_of(surface.triangles, h)], surface.inward(h))) / speed;
-      if (length < least) {
-        least = length;
-        exit = h;
-      }
-    }
-    if (exit < 0 || surface.feature[exit]) break;
-    at += least * way;
-    gone += least;
-    const HalfEdge twin = surface.twins[exit];
-    const Vec3 along = unit(surface.edge_vector(exit));
-    way = unit(dot(way, along) * along - dot(way, surface.inward(exit)) * surface.inward(twin));
-    entry = twin;
+    const TriangleExit exit = exit_of(surface, at, way);
+    if (surface.feature[exit.edge]) break;
+    at = {at.position + exit.length * way, triangle_of(surface.twins[exit.edge])};
+    gone += exit.length;
+    way = unfolded_beyond(surface, exit.edge, way);
   }
   return result;
 }

@@ -59,7 +59,7 @@ using Factors = Eigen::SimplicialLDLT<Matrix>;
 class FieldSolver {
  public:
   FieldSolver(const FieldSurface& surface, const SizeField& size, const CrossFieldOptions& options)
-      : surface_(surface), size_(size), options_(options) {
+      : surface_(surface), options_(options) {
     const auto count = static_cast<std::int32_t>(surface.triangles.size());
     frames_.reserve(surface.triangles.size());
     for (std::int32_t f = 0; f < count; ++f) frames_.emplace_back(surface, f);
@@ -93,7 +93,6 @@ class FieldSolver {
   Complex turn(HalfEdge h) const { return -edges_[surface_.twins[h]] / edges_[h]; }
 
   const FieldSurface& surface_;
-  const SizeField& size_;
   const CrossFieldOptions& options_;
   std::vector<double> sizes_;  // of triangles
   std::vector<TangentFrame> frames_;
@@ -170,7 +169,7 @@ std::vector<Complex> FieldSolver::solve_system() const {
 void FieldSolver::agree_with_opposite_sides(Matrix matrix, const Eigen::VectorXcd& right, Factors& factors,
                                             Eigen::VectorXcd& solution) const {
   const auto count = static_cast<std::int32_t>(frames_.size());
-  const std::vector<OppositeSide> opposite = opposite_sides(surface_, size_, furthest_opposite);
+  const std::vector<OppositeSide> opposite = opposite_sides(surface_, sizes_, furthest_opposite);
   std::vector<double> pulls(frames_.size());
   for (std::int32_t f = 0; f < count; ++f) {
     if (opposite[f].triangle < 0) continue;

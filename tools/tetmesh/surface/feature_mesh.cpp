@@ -46,9 +46,9 @@ bool FeatureMesh::is_flat_around(VertexHandle v) const {
 }
 
 void FeatureMesh::resize_attributes() {
-  feature_.resize(n_edges());
+  edge_role_.resize(n_edges());
   on_feature_.resize(n_vertices());
-  role_.resize(n_vertices(), VertexRole::removable);
+  vertex_role_.resize(n_vertices(), VertexRole::removable);
   source_.resize(n_faces());
 }
 
@@ -64,7 +64,7 @@ void FeatureMesh::mark_features(const Surface& surface, double feature_angle) {
 }
 
 void FeatureMesh::mark_feature(EdgeHandle e, EdgeRole role) {
-  feature_[e.idx()] = role;
+  edge_role_[e.idx()] = role;
   on_feature_[to_vertex_handle(halfedge_handle(e, 0)).idx()] = 1;
   on_feature_[to_vertex_handle(halfedge_handle(e, 1)).idx()] = 1;
 }
@@ -104,13 +104,13 @@ FeatureMesh::VertexHandle FeatureMesh::split_edge_at(EdgeHandle e, const Vec3& p
   const VertexHandle across = to_vertex_handle(next_halfedge_handle(h));
   const std::int32_t source_here = source(face_handle(h));
   const std::int32_t source_there = source(face_handle(opposite_halfedge_handle(h)));
-  const EdgeRole feature = feature_[e.idx()];
+  const EdgeRole role = edge_role_[e.idx()];
   const VertexHandle v = add_removable(p, is_feature(e));
   split(e, v);
   resize_attributes();
   for (const HalfedgeHandle out : voh_range(v)) {
     const VertexHandle end = to_vertex_handle(out);
-    feature_[edge_handle(out).idx()] = end == ends[0] || end == ends[1] ? feature : EdgeRole::none;
+    edge_role_[edge_handle(out).idx()] = end == ends[0] || end == ends[1] ? role : EdgeRole::none;
     const bool here = end == across || to_vertex_handle(next_halfedge_handle(out)) == across;
     source_[face_handle(out).idx()] = here ? source_here : source_there;
   }
@@ -134,10 +134,10 @@ void FeatureMesh::collapse_edge(HalfedgeHandle h) {
     const HalfedgeHandle next = next_halfedge_handle(side == 0 ? h : opposite_halfedge_handle(h));
     const HalfedgeHandle last = next_halfedge_handle(next);
     sides[side] = {to_vertex_handle(next),
-                   std::max(feature_[edge_handle(next).idx()], feature_[edge_handle(last).idx()])};
+                   std::max(edge_role_[edge_handle(next).idx()], edge_role_[edge_handle(last).idx()])};
   }
   collapse(h);
-  for (const auto& [across, feature] : sides) feature_[edge_handle(find_halfedge(end, across)).idx()] = feature;
+  for (const auto& [across, role] : sides) edge_role_[edge_handle(find_halfedge(end, across)).idx()] = role;
 }
 
 }  // namespace hexpipe

@@ -50,11 +50,11 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
   // Whether its faces lie in one plane.
   bool is_flat_around(VertexHandle v) const;
 
-  bool is_feature(EdgeHandle e) const { return feature_[e.idx()] != EdgeRole::none; }
-  bool is_crest(EdgeHandle e) const { return feature_[e.idx()] == EdgeRole::crest; }
+  bool is_feature(EdgeHandle e) const { return edge_role_[e.idx()] != EdgeRole::none; }
+  bool is_crest(EdgeHandle e) const { return edge_role_[e.idx()] == EdgeRole::crest; }
   bool is_on_feature(VertexHandle v) const { return on_feature_[v.idx()] != 0; }
-  bool is_kept(VertexHandle v) const { return role_[v.idx()] == VertexRole::kept; }
-  void keep(VertexHandle v) { role_[v.idx()] = VertexRole::kept; }
+  bool is_kept(VertexHandle v) const { return vertex_role_[v.idx()] == VertexRole::kept; }
+  void keep(VertexHandle v) { vertex_role_[v.idx()] = VertexRole::kept; }
   // The triangle of the input surface that a face lies on, or was before its corners were moved.
   std::int32_t source(FaceHandle f) const { return source_[f.idx()]; }
 
@@ -76,9 +76,9 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
   void resize_attributes();
 
   double corner_cosine_;
-  std::vector<EdgeRole> feature_;         // of edges
+  std::vector<EdgeRole> edge_role_;
   std::vector<std::uint8_t> on_feature_;  // of vertices
-  std::vector<VertexRole> role_;
+  std::vector<VertexRole> vertex_role_;
   std::vector<std::int32_t> source_;  // of faces
 };
 

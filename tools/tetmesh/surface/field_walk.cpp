@@ -20,34 +20,35 @@ Vec3 FieldWalker::nearest_direction(std::int32_t triangle, const Vec3& direction
   return along_y >= 0 ? y : -y;
 }
 
-FieldWalker::Exit FieldWalker::exit_of(const SurfacePoint& point, const Vec3& direction) const {
-  Exit exit{3 * point.triangle, std::numeric_limits<double>::max()};
+TriangleExit exit_of(const FieldSurface& surface, const SurfacePoint& point, const Vec3& direction) {
+  TriangleExit exit{3 * point.triangle, std::numeric_limits<double>::max()};
   for (HalfEdge h = 3 * point.triangle; h < 3 * point.triangle + 3; ++h) {
-    const Vec3 inward = surface_.inward(h);
+    const Vec3 inward = surface.inward(h);
     const double advance = dot(direction, inward);
     if (advance >= -1e-12) continue;
-    const double distance =
-        std::max(0.0, dot(point.position - surface_.points[start_of(surface_.triangles, h)], inward));
+    const double distance = std::max(0.0, dot(point.position - surface.points[start_of(surface.triangles, h)], inward));
     if (distance / -advance < exit.length) exit = {h, distance / -advance};
   }
   return exit;
 }
 
-Vec3 FieldWalker::direction_beyond(HalfEdge edge, const Vec3& direction, bool along_field) const {
+Vec3 unfolded_beyond(const FieldSurface& surface, HalfEdge edge, const Vec3& direction) {
+  const Vec3 along = unit(surface.edge_vector(edge));
+  return dot(direction, along) * along - dot(direction, surface.inward(edge)) * surface.inward(surface.twins[edge]);
+}
+
+Vec3 FieldWalker::field_beyond(HalfEdge edge, const Vec3& direction) const {
   const HalfEdge twin = surface_.twins[edge];
-  const Vec3 side = surface_.edge_vector(edge);
-  const Vec3 along = unit(side), inward = surface_.inward(twin);
-  const Vec3 unfolded = dot(direction, along) * along - dot(direction, surface_.inward(edge)) * inward;
-  if (!along_field) return unfolded;
+  const Vec3 unfolded = unfolded_beyond(surface_, edge, direction);
   const Vec3 in_field = nearest_direction(triangle_of(twin), unfolded);
-  return dot(in_field, inward) > least_advance ? in_field : unfolded;
+  return dot(in_field, surface_.inward(twin)) > least_advance ? in_field : unfolded;
 }
 
 WalkEnd FieldWalker::go(const SurfacePoint& start, const Vec3& direction, double length, bool along_field) const {
   WalkEnd end{start, direction};
   Vec3& heading = end.heading;
   for (int i = 0; i < most_triangles; ++i) {
-    const Exit exit = exit_of(end.point, heading);
+    const TriangleExit exit = exit_of(surface_, end.point, heading);
     const double step = std::min(exit.length, length - end.length);
     end.point.position += step * heading;
     end.length += step;
@@ -56,7 +57,7 @@ WalkEnd FieldWalker::go(const SurfacePoint& start, const Vec3& direction, double
       end.at_feature = true;
       break;
     }
-    heading = direction_beyond(exit.edge, heading, along_field);
+    heading = along_field ? field_beyond(exit.edge, heading) : unfolded_beyond(surface_, exit.edge, heading);
     end.point.triangle = triangle_of(surface_.twins[exit.edge]);
   }
   return end;

@@ -17,6 +17,16 @@ struct WalkEnd {
   bool at_feature = false;  // stopped by a feature edge
 };
 
+// Where a straight way leaves a triangle.
+struct TriangleExit {
+  HalfEdge edge = 0;
+  double length = 0;  // of the way until there
+};
+TriangleExit exit_of(const FieldSurface& surface, const SurfacePoint& point, const Vec3& direction);
+
+// How a direction goes on straight beyond an edge, with both triangles unfolded.
+Vec3 unfolded_beyond(const FieldSurface& surface, HalfEdge edge, const Vec3& direction);
+
 class FieldWalker {
  public:
   FieldWalker(const FieldSurface& surface, const CrossField& field) : surface_(surface), field_(field) {}
@@ -36,13 +46,8 @@ class FieldWalker {
   }
 
  private:
-  struct Exit {
-    HalfEdge edge = 0;
-    double length = 0;
-  };
   WalkEnd go(const SurfacePoint& start, const Vec3& direction, double length, bool along_field) const;
-  Exit exit_of(const SurfacePoint& point, const Vec3& direction) const;
-  Vec3 direction_beyond(HalfEdge edge, const Vec3& direction, bool along_field) const;
+  Vec3 field_beyond(HalfEdge edge, const Vec3& direction) const;
 
   const FieldSurface& surface_;
   const CrossField& field_;

@@ -113,9 +113,8 @@ bool SurfaceRemesher::rows_go_across() const {
 
 bool SurfaceRemesher::prepare() {
   if (size_.is_uniform()) prepared_.add_crests(crest_lines(prepared_, size_));
-  const bool by_rows = rows_go_across();
   const SizeField longest = field_edge * size_, flat = flatness * size_;
-  if (by_rows)
+  if (rows_go_across())
     sample_feature_curves(prepared_, curves_by_rows(prepared_, size_, row_edge * size_, flat), size_, deviation_);
   else
     sample_feature_curves(prepared_, size_, deviation_);

@@ -65,7 +65,7 @@ void SurfaceReader::add_normals() {
     normals_.push_back(normal);
     for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
       const Vec3 to_next = end(h) - start(h), to_previous = start(previous_in_triangle(h)) - start(h);
-      const double angle = std::atan2(norm(cross(to_next, to_previous)), dot(to_next, to_previous));
+      const double angle = angle_between(to_next, to_previous);
       SurfaceNode& node = nodes_[start_of(surface_.triangles, h)];
       node.normal += angle * normal;
       node.suggested += angle * harmonics;
