@@ -31,11 +31,10 @@ double product_of_norms(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 }  // namespace
 
-void PointStar::add(CellKind kind, std::span<const Vec3> corners, int moving, double weight, double enough) {
+void PointStar::add(CellKind kind, std::span<const Vec3> corners, int moving, const Standing& standing) {
   Term term{};
-  term.scale = kind == CellKind::tet ? weight * tet_scale : weight;
-  term.weight = weight;
-  term.enough = enough;
+  term.scale = kind == CellKind::tet ? standing.weight * tet_scale : standing.weight;
+  term.standing = standing;
   with_topology(kind, [&](auto topology) {
     for (const auto& corner : decltype(topology)::corners) add_corner(corners, corner, moving, term);
   });
@@ -105,7 +104,7 @@ double PointStar::worst_unweighted(const Vec3& at) const {
 double PointStar::mean(const Vec3& at) const {
   double sum = 0, shares = 0;
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    sum += mean_share(i) * std::min(value(i, at) / weight(i), terms_[i].enough);
+    sum += mean_share(i) * std::min(value(i, at) / weight(i), terms_[i].standing.enough);
     shares += mean_share(i);
   }
   return terms_.empty() ? 0 : sum / shares;
@@ -114,6 +113,14 @@ double PointStar::mean(const Vec3& at) const {
 bool PointStar::exceeds(const Vec3& at, double bound) const {
   for (std::size_t i = 0; i < terms_.size(); ++i)
     if (!(value(i, at) > bound)) return false;
+  return true;
+}
+
+bool PointStar::keeps_floors(const Vec3& before, const Vec3& at) const {
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    const double there = value(i, at);
+    if (there < weight(i) * terms_[i].standing.floor && there < value(i, before)) return false;
+  }
   return true;
 }
 

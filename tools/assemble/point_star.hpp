@@ -10,26 +10,31 @@
 
 namespace hexpipe {
 
+// How the corners of an element count beside those of others.
+struct Standing {
+  double weight = 1;  // of the scaled Jacobian: below 1, the element gives way to others sooner
+  double enough = 1;  // the mean counts no value above it
+  double floor = -1;  // values that keep_floors() guards: they do not fall below it
+};
+
 // The corners of elements whose scaled Jacobian depends on one vertex. A corner at o with edges to a, b, c has
 // det(a-o, b-o, c-o) / (|a-o| |b-o| |c-o|); for a tet times the square root of 2, so that the regular tet has 1.
 class PointStar {
  public:
   void clear() { terms_.clear(); }
   bool empty() const { return terms_.empty(); }
-  // The corners of an element that involve its corner `moving`; the position given for it is not used. Values are
-  // multiplied by `weight`, so that a weight below 1 makes the element give way to others sooner.
-  // The mean counts no value above `enough`.
-  void add(CellKind kind, std::span<const Vec3> corners, int moving, double weight = 1, double enough = 1);
+  // The corners of an element that involve its corner `moving`; the position given for it is not used.
+  void add(CellKind kind, std::span<const Vec3> corners, int moving, const Standing& standing = {});
 
   std::size_t size() const { return terms_.size(); }
   double value(std::size_t term, const Vec3& at) const;
   Vec3 gradient(std::size_t term, const Vec3& at) const;
-  double weight(std::size_t term) const { return terms_[term].weight; }
+  double weight(std::size_t term) const { return terms_[term].standing.weight; }
   // What a corner counts in the mean: the more, the sooner it has to give way as the worst.
   double mean_share(std::size_t term) const { return 1 / (weight(term) * weight(term)); }
   // True when the mean counts no more of the value.
   bool is_enough(std::size_t term, const Vec3& at) const {
-    return value(term, at) / weight(term) >= terms_[term].enough;
+    return value(term, at) / weight(term) >= terms_[term].standing.enough;
   }
   // Least over all corners, weighted and not.
   double worst(const Vec3& at) const;
@@ -38,6 +43,8 @@ class PointStar {
   double mean(const Vec3& at) const;
   // True when worst(at) > bound; stops at the first corner that is not.
   bool exceeds(const Vec3& at, double bound) const;
+  // False when a value that the move changes falls below its floor, or further below it.
+  bool keeps_floors(const Vec3& before, const Vec3& at) const;
 
  private:
   // The moving vertex is the corner itself, fixed = its three neighbours; or it is one of the neighbours, fixed[0] =
@@ -46,8 +53,7 @@ class PointStar {
     std::array<Vec3, 3> fixed;
     Vec3 normal;
     double scale;  // the weight, and for a tet the square root of 2
-    double weight;
-    double enough;
+    Standing standing;
     bool is_corner;
   };
   void add_corner(std::span<const Vec3> corners, const LocalCorner& corner, int moving, const Term& model);

@@ -29,6 +29,8 @@ namespace {
 constexpr double hex_weight = 0.5;
 // While there are poor cells a hex of 0.1 counts as another of 0.025: about what both should reach.
 constexpr double hex_weight_of_poor = 0.25;
+// Hexes are not pressed below that scaled Jacobian, which they have where findhex is not told otherwise.
+constexpr double least_hex = 0.3;
 // Better than this, cells other than hexes gain nothing in the mean: pyramids would grow tall and press hexes flat.
 constexpr double good_beside_hexes = 0.5;
 // Where the worst cell, so weighted, is better than this, the average counts.
@@ -142,9 +144,9 @@ void Smoother::look_around(Vertex v) {
     const auto corners = cells_.corners_of(c);
     const auto at = corner_points(points_, corners);
     const auto moving = static_cast<int>(std::find(corners.begin(), corners.end(), v) - corners.begin());
-    const double weight = cells_.kind(c) == CellKind::hex ? weight_of_hexes_ : 1;
-    const double enough = cells_.kind(c) == CellKind::hex ? 1 : good_beside_hexes;
-    star_.add(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()), moving, weight, enough);
+    const Standing standing = cells_.kind(c) == CellKind::hex ? Standing{.weight = weight_of_hexes_, .floor = least_hex}
+                                                              : Standing{.enough = good_beside_hexes};
+    star_.add(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()), moving, standing);
   }
 }
 
@@ -222,7 +224,7 @@ bool Smoother::improve(Vertex v, double only_below, bool weighted) {
   for (int i = 0; i <= retreats; ++i, step *= 0.5) {
     const Vec3 there = before + step;
     const Vec3 at = slide ? sliding_->surface.foot(sliding_->origin[v], there).at : there;
-    if (star_.worst_unweighted(at) < worst_unweighted) continue;
+    if (star_.worst_unweighted(at) < worst_unweighted || !star_.keeps_floors(before, at)) continue;
     const bool better =
         poor ? star_.worst(at) > worst + least_gain : star_.worst(at) >= worst && star_.mean(at) > mean + least_gain;
     if (!better || leaves_surface(v, at) || (worst > 0 && !keeps_edges_long(v, at)) || (slide && !stays_close(v, at)))

@@ -32,12 +32,13 @@ inline constexpr double poor_quality = 0.02;
 inline constexpr double poor_hex = 0.1;
 
 // Makes cells that are poor or inverted better, at most `rounds` times over their vertices, at the cost of those around
-// them; cells that are valid stay so.
+// them; cells that are valid stay so, and hexes of a scaled Jacobian of 0.3 at least do.
 void untangle(MixedMesh& mesh, int rounds, const SlidingSurface* sliding = nullptr);
 
 // At most `rounds` times over all vertices. No vertex leaves its plane or line (freedom.hpp), no move makes the worst
-// cell around it worse, every cell stays valid everywhere. With `sliding`, vertices on curved surfaces and curves slide
-// on them where the worst cell is poor, within a small part of an edge length of the input's surface.
+// cell around it worse or presses a hex below a scaled Jacobian of 0.3, every cell stays valid everywhere. With
+// `sliding`, vertices on curved surfaces and curves slide on them where the worst cell is poor, within a small part of
+// an edge length of the input's surface.
 SmoothCounts smooth(MixedMesh& mesh, int rounds, const SlidingSurface* sliding = nullptr);
 
 }  // namespace hexpipe
