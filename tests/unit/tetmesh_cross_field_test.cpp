@@ -85,11 +85,12 @@ FeatureMesh with_diagonal(double height) {
 // Of the middle of the bottom, along the diagonal.
 double alignment_below(const FeatureMesh& mesh) {
   const FieldSurface surface(mesh);
-  return worst_alignment(surface, cross_field(surface, 0.5), [](const FieldSurface& s, std::size_t f) {
-    const Vec3& c = s.centres[f];
-    const bool in_the_middle = s.normals[f].z < -0.5 && norm(c - Vec3{4.5, 4.5, 0}) < 0.8;
-    return in_the_middle ? std::optional(Vec3{std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2, 0}) : std::nullopt;
-  });
+  return worst_alignment(
+      surface, cross_field(surface, 0.5, opposite_sides(surface, 0.5)), [](const FieldSurface& s, std::size_t f) {
+        const Vec3& c = s.centres[f];
+        const bool in_the_middle = s.normals[f].z < -0.5 && norm(c - Vec3{4.5, 4.5, 0}) < 0.8;
+        return in_the_middle ? std::optional(Vec3{std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2, 0}) : std::nullopt;
+      });
 }
 
 TEST(CrossField, FollowsWhatIsOnTheOtherSideOfAWall) {
@@ -97,13 +98,9 @@ TEST(CrossField, FollowsWhatIsOnTheOtherSideOfAWall) {
   EXPECT_LT(alignment_below(with_diagonal(20)), 0.75) << "too far away, and the sides say otherwise";
 }
 
-std::vector<double> everywhere(const FieldSurface& surface, double size) {
-  return std::vector<double>(surface.triangles.size(), size);
-}
-
 TEST(OppositeSides, AreThoseOfABox) {
   const FieldSurface surface(refined(box({0, 0, 0}, {3, 2, 1}), 0.3));
-  const auto sides = opposite_sides(surface, everywhere(surface, 0.1), 25);
+  const auto sides = opposite_sides(surface, 0.1);
   ASSERT_EQ(sides.size(), surface.triangles.size());
   for (std::size_t f = 0; f < sides.size(); ++f) {
     const Vec3& n = surface.normals[f];
@@ -123,7 +120,7 @@ TEST(OppositeSides, AreParallel) {
   for (auto& facet : wedge)
     for (Vec3& p : facet) p.z *= 0.2 + p.x / 4;
   const FieldSurface surface(refined(wedge, 0.3));
-  const auto sides = opposite_sides(surface, everywhere(surface, 0.1), 25);
+  const auto sides = opposite_sides(surface, 0.1);
   for (std::size_t f = 0; f < sides.size(); ++f) {
     if (surface.normals[f].z < -0.5) {
       ASSERT_GE(sides[f].triangle, 0) << "14 degrees";
@@ -132,7 +129,7 @@ TEST(OppositeSides, AreParallel) {
   for (auto& facet : wedge)
     for (Vec3& p : facet) p.z *= 3;
   const FieldSurface steep(refined(wedge, 0.3));
-  const auto beyond = opposite_sides(steep, everywhere(steep, 0.1), 25);
+  const auto beyond = opposite_sides(steep, 0.1);
   for (std::size_t f = 0; f < beyond.size(); ++f) {
     if (steep.normals[f].z < -0.5) {
       EXPECT_EQ(beyond[f].triangle, -1) << "37 degrees";

@@ -112,7 +112,7 @@ TEST(SurfaceCurl, StretchesRowsBetweenThePointsOfFeatures) {
     if (mesh.is_kept(v)) kept.push_back(v.idx());
   const FieldSurface surface(mesh);
   const CrossField field = cross_field(surface, 1);
-  const SurfaceLattice lattice = surface_lattice(surface, field, kept, 1);
+  const SurfaceLattice lattice = surface_lattice(surface, field, {}, kept, 1);
   ASSERT_EQ(lattice.spacing.size(), surface.triangles.size());
   std::array<double, 2> sum{}, area{};  // below, above
   for (std::size_t f = 0; f < surface.triangles.size(); ++f) {

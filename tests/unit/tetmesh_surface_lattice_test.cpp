@@ -4,6 +4,7 @@
 
 #include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/surface/feature_curves.hpp"
+#include "tools/tetmesh/surface/links_across.hpp"
 #include "tools/tetmesh/surface/surface_refine.hpp"
 
 namespace hexpipe {
@@ -11,27 +12,32 @@ namespace {
 
 using testing::box;
 using testing::Facets;
+using testing::prism;
 using testing::sphere;
 using testing::surface_of;
 
 // As a surface is remeshed: features sampled, triangles refined.
 struct Prepared {
-  Prepared(const Facets& facets, double size) : Prepared(mesh_of(facets, size), size) {}
+  Prepared(const Facets& facets, double size) : Prepared(surface_of(facets), size, {}) {}
+  // With or without what faces what.
+  Prepared(const Surface& whole, double size, bool knows_sides) : Prepared(mesh_of(whole, size), size, knows_sides) {}
 
   std::vector<Vertex> kept;
   FieldSurface surface;
+  std::vector<OppositeSide> opposite;
   CrossField field;
   std::vector<SurfacePoint> points;
 
  private:
-  Prepared(const FeatureMesh& mesh, double size)
+  Prepared(const FeatureMesh& mesh, double size, bool knows_sides)
       : kept(kept_of(mesh)),
         surface(mesh),
-        field(cross_field(surface, size)),
-        points(surface_lattice(surface, field, kept, size).points) {}
+        opposite(knows_sides ? opposite_sides(surface, size) : std::vector<OppositeSide>(surface.triangles.size())),
+        field(cross_field(surface, size, opposite)),
+        points(surface_lattice(surface, field, opposite, kept, size).points) {}
 
-  static FeatureMesh mesh_of(const Facets& facets, double size) {
-    FeatureMesh mesh(surface_of(facets), 40);
+  static FeatureMesh mesh_of(const Surface& whole, double size) {
+    FeatureMesh mesh(whole, 40);
     sample_feature_curves(mesh, size, 0.1 * size);
     refine_surface(mesh, size, 1e-6);
     return mesh;
@@ -72,6 +78,65 @@ TEST(SurfaceLattice, SpreadsWhatDoesNotFit) {
   }
   EXPECT_GT(on_top, 10u);
   EXPECT_EQ(in_rows, on_top);
+}
+
+// A plate nine sizes wide whose tags meet along the middle of its top, half a size off the rows below.
+double offset_below(double height, bool knows_sides) {
+  Surface plate = surface_of(box({0, 0, 0}, {9, 9, height}, 18));
+  for (std::size_t t = 0; t < plate.triangles.size(); ++t) {
+    Vec3 sum;
+    for (const Vertex v : plate.triangles[t]) sum += plate.points[v];
+    if (sum.z > 2.9 * height && sum.x > 13.5) plate.tags[t] = 2;
+  }
+  const Prepared prepared(plate, 1, knows_sides);
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < prepared.points.size() / 2; ++i) {  // the more trusted ones
+    const SurfacePoint& p = prepared.points[i];
+    if (prepared.surface.normals[p.triangle].z > -0.5 || std::abs(p.position.x - 4.5) > 1) continue;
+    sum += from_whole(p.position.x - 4.5);
+    ++count;
+  }
+  EXPECT_GT(count, 10);
+  return sum / count;
+}
+
+TEST(SurfaceLattice, RowsOfBothSidesOfAWallMeet) {
+  EXPECT_GT(offset_below(2, false), 0.4);
+  EXPECT_LT(offset_below(2, true), 0.15);
+}
+
+std::size_t count_of(const LinksAcross& across, const FieldSurface& surface, auto which) {
+  std::size_t count = 0;
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(surface.triangles.size()); ++f)
+    if (which(f)) count += across.of(f).size();
+  return count;
+}
+
+TEST(LinksAcross, LeadToWhatLiesBehind) {
+  const Prepared plate(surface_of(box({0, 0, 0}, {6, 5, 2}, 6)), 1, true);
+  const SurfaceLinks links(plate.surface, plate.field, 1);
+  const LinksAcross across(links, plate.opposite);
+  const auto& surface = plate.surface;
+  EXPECT_GT(count_of(across, surface, [&](std::int32_t f) { return std::abs(surface.normals[f].z) > 0.5; }), 60u);
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(surface.triangles.size()); ++f)
+    for (const SurfaceLink& link : across.of(f)) {
+      EXPECT_GT(link.weight, 0);
+      EXPECT_LT(dot(surface.normals[f], surface.normals[link.neighbour]), -0.99);
+      const auto axes = plate.field.axes(surface, f);
+      const Vec3 back = surface.centres[f] - surface.centres[link.neighbour];
+      for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(link.distance[k], dot(axes[k], back), 1e-6);
+      const auto reversed = across.of(link.neighbour);
+      EXPECT_TRUE(std::ranges::any_of(reversed, [&](const SurfaceLink& r) { return r.neighbour == f; }));
+    }
+}
+
+TEST(LinksAcross, AreNoneWhereOneSideIsMuchLonger) {
+  const Prepared bar(surface_of(prism(40, 3, 10)), 1, true);
+  const SurfaceLinks links(bar.surface, bar.field, 1);
+  const LinksAcross across(links, bar.opposite);
+  const auto is_round = [&](std::int32_t f) { return std::abs(bar.surface.normals[f].z) < 0.5; };
+  EXPECT_EQ(count_of(across, bar.surface, is_round), 0u);
+  EXPECT_GT(count_of(across, bar.surface, [&](std::int32_t f) { return !is_round(f); }), 20u);
 }
 
 TEST(SurfaceLattice, PointsLieOnTheSurface) {

@@ -15,8 +15,6 @@
 #include <algorithm>
 #include <complex>
 
-#include "tools/tetmesh/surface/opposite_sides.hpp"
-
 namespace hexpipe {
 namespace {
 
@@ -45,7 +43,7 @@ Complex fourth_power(Complex z) {
 // Pull of a square of the size on the other side of a wall of one size; as that of smoothness through the wall it fades
 // with the square of the thickness, in sizes. Seven parts at two sizes of tests/bench/points have 90.8 % of the volume
 // in hexes without, 91.3 with it, mambo-m1 94.5 and 96.7. From 10 in 4 rounds to 20 in 2, 91.1 to 91.2.
-constexpr double opposite_weight = 12, furthest_opposite = 25;
+constexpr double opposite_weight = 12;
 constexpr int opposite_rounds = 3;
 
 // Of length 1 at most.
@@ -58,8 +56,8 @@ using Factors = Eigen::SimplicialLDLT<Matrix>;
 
 class FieldSolver {
  public:
-  FieldSolver(const FieldSurface& surface, const SizeField& size, const CrossFieldOptions& options)
-      : surface_(surface), options_(options) {
+  FieldSolver(const FieldSurface& surface, const SizeField& size, std::span<const OppositeSide> opposite)
+      : surface_(surface), opposite_(opposite) {
     const auto count = static_cast<std::int32_t>(surface.triangles.size());
     frames_.reserve(surface.triangles.size());
     for (std::int32_t f = 0; f < count; ++f) frames_.emplace_back(surface, f);
@@ -93,7 +91,7 @@ class FieldSolver {
   Complex turn(HalfEdge h) const { return -edges_[surface_.twins[h]] / edges_[h]; }
 
   const FieldSurface& surface_;
-  const CrossFieldOptions& options_;
+  std::span<const OppositeSide> opposite_;
   std::vector<double> sizes_;  // of triangles
   std::vector<TangentFrame> frames_;
   std::vector<Complex> edges_;  // exp(i angle) of each half-edge in its triangle's frame
@@ -161,7 +159,7 @@ std::vector<Complex> FieldSolver::solve_system() const {
   factors.analyzePattern(matrix);
   factors.factorize(matrix);
   Eigen::VectorXcd solution = factors.solve(right);
-  if (options_.sides_agree) agree_with_opposite_sides(std::move(matrix), right, factors, solution);
+  if (!opposite_.empty()) agree_with_opposite_sides(std::move(matrix), right, factors, solution);
   return {solution.begin(), solution.end()};
 }
 
@@ -169,12 +167,11 @@ std::vector<Complex> FieldSolver::solve_system() const {
 void FieldSolver::agree_with_opposite_sides(Matrix matrix, const Eigen::VectorXcd& right, Factors& factors,
                                             Eigen::VectorXcd& solution) const {
   const auto count = static_cast<std::int32_t>(frames_.size());
-  const std::vector<OppositeSide> opposite = opposite_sides(surface_, sizes_, furthest_opposite);
   std::vector<double> pulls(frames_.size());
   for (std::int32_t f = 0; f < count; ++f) {
-    if (opposite[f].triangle < 0) continue;
-    const double thickness = std::max(1.0, opposite[f].distance);
-    pulls[f] = opposite_weight * opposite[f].area / (thickness * thickness);
+    if (opposite_[f].triangle < 0) continue;
+    const double thickness = std::max(1.0, opposite_[f].distance);
+    pulls[f] = opposite_weight * opposite_[f].area / (thickness * thickness);
     matrix.coeffRef(f, f) += pulls[f];
   }
   factors.factorize(matrix);
@@ -183,7 +180,7 @@ void FieldSolver::agree_with_opposite_sides(Matrix matrix, const Eigen::VectorXc
     for (std::int32_t f = 0; f < count; ++f)
       if (pulls[f] > 0)
         pulled[f] += pulls[f] * 0.5 *
-                     (bounded(solution[f]) + seen_from(f, opposite[f].triangle, solution[opposite[f].triangle]));
+                     (bounded(solution[f]) + seen_from(f, opposite_[f].triangle, solution[opposite_[f].triangle]));
     solution = factors.solve(pulled);
   }
 }
@@ -196,8 +193,8 @@ Complex FieldSolver::seen_from(std::int32_t triangle, std::int32_t opposite, Com
 
 }  // namespace
 
-CrossField cross_field(const FieldSurface& surface, const SizeField& size, const CrossFieldOptions& options) {
-  return FieldSolver(surface, size, options).solve();
+CrossField cross_field(const FieldSurface& surface, const SizeField& size, std::span<const OppositeSide> opposite) {
+  return FieldSolver(surface, size, opposite).solve();
 }
 
 }  // namespace hexpipe

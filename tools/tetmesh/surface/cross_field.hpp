@@ -3,10 +3,12 @@
 // where the surface bends, along its principal curvatures, as smooth as that allows.
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/surface/field_surface.hpp"
+#include "tools/tetmesh/surface/opposite_sides.hpp"
 
 namespace hexpipe {
 
@@ -20,11 +22,8 @@ struct CrossField {
   }
 };
 
-struct CrossFieldOptions {
-  bool sides_agree = true;  // those that face each other across the inside, as far as their features let them
-};
-
-// `size` is the distance over which a full bend counts as much as smoothness.
-CrossField cross_field(const FieldSurface& surface, const SizeField& size, const CrossFieldOptions& options = {});
+// `size` is the distance over which a full bend counts as much as smoothness. Where `opposite` is not empty, sides that
+// face each other across the inside agree as far as their features let them.
+CrossField cross_field(const FieldSurface& surface, const SizeField& size, std::span<const OppositeSide> opposite = {});
 
 }  // namespace hexpipe

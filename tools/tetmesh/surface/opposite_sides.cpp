@@ -9,6 +9,7 @@
 namespace hexpipe {
 namespace {
 
+constexpr double furthest = 25;  // in sizes
 constexpr double least_cosine = 0.9;
 // Of the size; nothing nearer than that to a triangle is on another side.
 constexpr double least_distance = 1e-6;
@@ -17,13 +18,14 @@ constexpr double least_area = 0.25;
 
 }  // namespace
 
-std::vector<OppositeSide> opposite_sides(const FieldSurface& surface, std::span<const double> sizes, double furthest) {
+std::vector<OppositeSide> opposite_sides(const FieldSurface& surface, const SizeField& size) {
   const BoxTree tree = tree_of_triangles(surface.points, surface.triangles);
   std::vector<OppositeSide> result(surface.triangles.size());
   std::vector<std::int32_t> samples;
   double area = 0;
   for (std::int32_t f = 0; f < static_cast<std::int32_t>(result.size()); ++f) {
-    area += surface.areas[f] / (sizes[f] * sizes[f]);
+    const double here = size.at(surface.centres[f]);
+    area += surface.areas[f] / (here * here);
     if (area < least_area) continue;
     result[f].area = area;
     samples.push_back(f);
@@ -32,7 +34,7 @@ std::vector<OppositeSide> opposite_sides(const FieldSurface& surface, std::span<
   parallel_for(static_cast<std::int64_t>(samples.size()), 64, [&](std::int64_t i) {
     const std::int32_t f = samples[i];
     const Vec3 &from = surface.centres[f], inwards = -surface.normals[f];
-    const double here = sizes[f];
+    const double here = size.at(from);
     OppositeSide& side = result[f];
     double best = furthest * here;
     tree.first_hit(from, inwards, best, [&](std::int32_t triangle) {

@@ -1,9 +1,9 @@
 #pragma once
 // What faces what across the inside of a part.
 
-#include <span>
 #include <vector>
 
+#include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/surface/field_surface.hpp"
 
 namespace hexpipe {
@@ -14,8 +14,8 @@ struct OppositeSide {
   double area = 0;             // of the surface around, in squares of the size, of which this is a sample
 };
 
-// Of each triangle, by the sizes there; none where the other side is not nearly parallel, or further than so many
-// sizes, and of most of those that are small: for these, one of several stands.
-std::vector<OppositeSide> opposite_sides(const FieldSurface& surface, std::span<const double> sizes, double furthest);
+// Of each triangle; none where the other side is not nearly parallel, or further than 25 sizes, and of most of those
+// that are small: for these, one of several stands.
+std::vector<OppositeSide> opposite_sides(const FieldSurface& surface, const SizeField& size);
 
 }  // namespace hexpipe

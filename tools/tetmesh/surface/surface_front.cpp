@@ -58,9 +58,8 @@ class SurfaceFront {
         grid_(surface.points.front()),
         taken_in_(surface.triangles.size()) {}
 
-  std::vector<SurfacePoint> run(std::span<const Vertex> kept) {
+  std::vector<SurfacePoint> run(const SurfaceLattice& lattice, std::span<const Vertex> kept) {
     add_kept(kept);
-    const SurfaceLattice lattice = surface_lattice(surface_, field_, kept, size_);
     spacing_ = lattice.spacing;
     for (const SurfacePoint& p : lattice.points) take_if_free(p, {});
     start_from_kept(kept);
@@ -215,8 +214,9 @@ void SurfaceFront::take_if_free(const SurfacePoint& point, const Outlook& outloo
 }  // namespace
 
 std::vector<SurfacePoint> surface_front(const FieldSurface& surface, const CrossField& field,
-                                        std::span<const Vertex> kept, const SizeField& size) {
-  return SurfaceFront(surface, field, size).run(kept);
+                                        std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
+                                        const SizeField& size) {
+  return SurfaceFront(surface, field, size).run(surface_lattice(surface, field, opposite, kept, size), kept);
 }
 
 }  // namespace hexpipe

@@ -12,6 +12,7 @@ namespace hexpipe {
 
 // `kept` are the vertices of the surface that are points already: those of its feature curves.
 std::vector<SurfacePoint> surface_front(const FieldSurface& surface, const CrossField& field,
-                                        std::span<const Vertex> kept, const SizeField& size);
+                                        std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
+                                        const SizeField& size);
 
 }  // namespace hexpipe

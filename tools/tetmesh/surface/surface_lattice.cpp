@@ -1,7 +1,8 @@
 // Periodic coordinates, as on the nodes of a volume (lattice_field.hpp): two complex numbers a triangle, exp(2 pi i
 // coordinate of its centre) along its two directions, that turn by the distance from one triangle to the next (Ray, Li,
 // Lévy, Sheffer, Alliez: Periodic global parameterization, 2006). Feature edges and the points on them hold the numbers
-// beside them. Every triangle proposes the points of the lattice that it sees; those that see the same one agree on its
+// beside them, and each other those on sides that face each other (links_across.hpp), as rows end inside where these
+// differ. Every triangle proposes the points of the lattice that it sees; those that see the same one agree on its
 // place.
 
 #include "tools/tetmesh/surface/surface_lattice.hpp"
@@ -17,6 +18,7 @@
 
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/sized_point_grid.hpp"
+#include "tools/tetmesh/surface/links_across.hpp"
 #include "tools/tetmesh/surface/surface_curl.hpp"
 
 namespace hexpipe {
@@ -54,8 +56,13 @@ struct Proposal {
 
 class LatticeMaker {
  public:
-  LatticeMaker(const FieldSurface& surface, const CrossField& field, const SizeField& size)
-      : surface_(surface), field_(field), walker_(surface, field), links_(surface, field, size) {
+  LatticeMaker(const FieldSurface& surface, const CrossField& field, std::span<const OppositeSide> opposite,
+               const SizeField& size)
+      : surface_(surface),
+        field_(field),
+        walker_(surface, field),
+        links_(surface, field, size),
+        across_(links_, opposite) {
     const std::size_t count = surface.triangles.size();
     degrees_.resize(count);
     pulls_.resize(count);
@@ -91,7 +98,6 @@ class LatticeMaker {
   void link(std::span<const Vertex> kept);
   void make_anchors(std::span<const Vertex> kept);
   void pull(std::int32_t f, std::size_t axis, double weight, double coordinate);
-  Phases seen_through(HalfEdge h, const std::vector<Phases>& phases) const;
   Phases view_of_neighbours(const std::vector<Phases>& phases, std::int32_t f) const;
   void diffuse();
   void reach_the_rest();
@@ -107,6 +113,7 @@ class LatticeMaker {
   FieldWalker walker_;
   double greatest_size_;
   SurfaceLinks links_;
+  LinksAcross across_;
   std::vector<double> degrees_;  // sums of the weights of links
   std::vector<std::array<double, 2>> pulls_;
   std::vector<Phases> targets_;  // times the pulls
@@ -121,7 +128,10 @@ void LatticeMaker::link(std::span<const Vertex> kept) {
     degrees_[triangle_of(h)] += links_.of[h].weight;
     degrees_[triangle_of(surface_.twins[h])] += links_.of[h].weight;
   });
-  for (double& degree : degrees_) degree = std::max(degree, 1e-9);
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(degrees_.size()); ++f) {
+    for (const SurfaceLink& link : across_.of(f)) degrees_[f] += link.weight;
+    degrees_[f] = std::max(degrees_[f], 1e-9);
+  }
 }
 
 void LatticeMaker::pull(std::int32_t f, std::size_t axis, double weight, double coordinate) {
@@ -148,13 +158,12 @@ void LatticeMaker::make_anchors(std::span<const Vertex> kept) {
   }
 }
 
-// The numbers of the triangle beyond h, as those of h's own would have to be.
-Phases LatticeMaker::seen_through(HalfEdge h, const std::vector<Phases>& phases) const {
-  const SurfaceLink& link = links_.of[h];
+// The numbers of the triangle that a link leads to, as those of its own would have to be.
+Phases seen_through(const SurfaceLink& link, const std::vector<Phases>& phases) {
   const Phases& theirs = phases[link.neighbour];
   Phases seen;
   for (std::size_t k = 0; k < 2; ++k) {
-    const Complex there = theirs[link.crossed ? 1 - k : k];
+    const Complex there = theirs[link.axis(k)];
     seen[k] = times(link.flipped[k] ? std::conj(there) : there, link.turn[k]);
   }
   return seen;
@@ -162,11 +171,13 @@ Phases LatticeMaker::seen_through(HalfEdge h, const std::vector<Phases>& phases)
 
 Phases LatticeMaker::view_of_neighbours(const std::vector<Phases>& phases, std::int32_t f) const {
   Phases sum{};
-  for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
-    if (links_.of[h].neighbour < 0) continue;
-    const Phases seen = seen_through(h, phases);
-    for (std::size_t k = 0; k < 2; ++k) sum[k] += links_.of[h].weight * seen[k];
-  }
+  const auto add = [&](const SurfaceLink& link) {
+    const Phases seen = seen_through(link, phases);
+    for (std::size_t k = 0; k < 2; ++k) sum[k] += link.weight * seen[k];
+  };
+  for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h)
+    if (links_.of[h].neighbour >= 0) add(links_.of[h]);
+  for (const SurfaceLink& link : across_.of(f)) add(link);
   return sum;
 }
 
@@ -196,7 +207,7 @@ void LatticeMaker::reach_the_rest() {
     for (; next < queue.size(); ++next)
       for (HalfEdge h = 3 * queue[next]; h < 3 * queue[next] + 3; ++h) {
         if (links_.of[h].neighbour < 0 || reached[links_.of[h].neighbour]) continue;
-        reach(links_.of[h].neighbour, seen_through(surface_.twins[h], phases_));
+        reach(links_.of[h].neighbour, seen_through(links_.of[surface_.twins[h]], phases_));
       }
     if (!reached[seed]) reach(seed, {Complex(1), Complex(1)});
   }
@@ -288,9 +299,10 @@ Proposal LatticeMaker::agreed(const SizedPointGrid& grid, const Proposal& propos
 
 }  // namespace
 
-SurfaceLattice surface_lattice(const FieldSurface& surface, const CrossField& field, std::span<const Vertex> kept,
+SurfaceLattice surface_lattice(const FieldSurface& surface, const CrossField& field,
+                               std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
                                const SizeField& size) {
-  return LatticeMaker(surface, field, size).make(kept);
+  return LatticeMaker(surface, field, opposite, size).make(kept);
 }
 
 }  // namespace hexpipe

@@ -19,8 +19,10 @@ struct SurfaceLattice {
   std::vector<std::array<double, 2>> spacing;
 };
 
-// `kept` are the vertices of the surface that are points already.
-SurfaceLattice surface_lattice(const FieldSurface& surface, const CrossField& field, std::span<const Vertex> kept,
+// `kept` are the vertices of the surface that are points already. Of sides that face each other across the inside, so
+// that rows lead from the one to the other, `opposite` tells.
+SurfaceLattice surface_lattice(const FieldSurface& surface, const CrossField& field,
+                               std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
                                const SizeField& size);
 
 }  // namespace hexpipe

@@ -21,22 +21,18 @@ SurfaceLink make_link(const SurfaceLinks& links, const BendStretch& stretch, Hal
   const Vec3 from = surface.centres[f] - middle, to = surface.centres[g] - middle;
   SurfaceLink link;
   link.neighbour = g;
-  double quality = 0;
+  std::array<Vec3, 2> unfolded;
+  for (std::size_t k = 0; k < 2; ++k) unfolded[k] = dot(here[k], along) * along - dot(here[k], inward) * beyond;
+  const double cosine = link.match(unfolded, there);
   for (std::size_t k = 0; k < 2; ++k) {
-    const Vec3 unfolded = dot(here[k], along) * along - dot(here[k], inward) * beyond;
-    const std::array<double, 2> cosines{dot(unfolded, there[0]), dot(unfolded, there[1])};
-    if (k == 0) link.crossed = std::abs(cosines[1]) > std::abs(cosines[0]);
-    const std::size_t axis = link.crossed ? 1 - k : k;
-    link.flipped[k] = cosines[axis] < 0;
-    quality += std::abs(cosines[axis]) / 2;
-    const Vec3 matched = link.flipped[k] ? -there[axis] : there[axis];
+    const Vec3 matched = link.matched(k, there);
     const double size = 0.5 * (links.sizes[f] + links.sizes[g]), before = dot(here[k], from), after = dot(matched, to);
     link.way[k] = (before - after) / size;
     link.distance[k] = (stretch.in_direction(f, here[k]) * before - stretch.in_direction(g, matched) * after) / size;
   }
   link.set_turn();
   const double across = dot(from, inward) + dot(to, beyond);
-  link.weight = norm(side) / std::max(across, 1e-3 * norm(side)) * std::max(0.0, 4 * quality - 3);
+  link.weight = norm(side) / std::max(across, 1e-3 * norm(side)) * trust_in_match(cosine);
   return link;
 }
 
@@ -46,13 +42,24 @@ void SurfaceLink::set_turn() {
   for (std::size_t k = 0; k < 2; ++k) turn[k] = std::polar(1.0, 2 * std::numbers::pi * distance[k]);
 }
 
+double SurfaceLink::match(const std::array<Vec3, 2>& seen, const std::array<Vec3, 2>& there) {
+  crossed = std::abs(dot(seen[0], there[1])) > std::abs(dot(seen[0], there[0]));
+  double sum = 0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double cosine = dot(seen[k], there[axis(k)]);
+    flipped[k] = cosine < 0;
+    sum += std::abs(cosine);
+  }
+  return sum / 2;
+}
+
 SurfaceLink SurfaceLink::reversed(std::int32_t from) const {
   SurfaceLink back;
   back.neighbour = from;
   back.weight = weight;
   back.crossed = crossed;
   for (std::size_t k = 0; k < 2; ++k) {
-    const std::size_t there = crossed ? 1 - k : k;
+    const std::size_t there = axis(k);
     const double sign = flipped[k] ? 1 : -1;
     back.flipped[there] = flipped[k];
     back.distance[there] = sign * distance[k];
@@ -78,7 +85,7 @@ SurfaceLinks::SurfaceLinks(const FieldSurface& on, const CrossField& along, cons
 LoopStep FollowedAxis::cross(const SurfaceLinks& links, HalfEdge h) {
   const SurfaceLink& link = links.of[h];
   const HalfEdge twin = links.surface.twins[h];
-  const std::size_t here = axis, there = link.crossed ? 1 - axis : axis;
+  const std::size_t here = axis, there = link.axis(axis);
   const bool before = flipped, turned = flipped != link.flipped[axis];
   axis = there;
   flipped = turned;

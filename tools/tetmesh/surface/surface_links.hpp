@@ -1,6 +1,7 @@
 #pragma once
 // What the triangles of a surface see of their neighbours along a cross field.
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -23,9 +24,21 @@ struct SurfaceLink {
 
   // To be called when the distances were changed.
   void set_turn();
+  // Matches directions as they are seen here to those there; their mean cosine.
+  double match(const std::array<Vec3, 2>& seen, const std::array<Vec3, 2>& there);
+  // A direction that was matched to k, turned round if need be.
+  Vec3 matched(std::size_t k, const std::array<Vec3, 2>& there) const {
+    return flipped[k] ? -there[axis(k)] : there[axis(k)];
+  }
+  std::size_t axis(std::size_t k) const { return crossed ? 1 - k : k; }
   // The same, seen from the neighbour.
   SurfaceLink reversed(std::int32_t from) const;
 };
+
+// What a link counts, by the mean cosine of the directions that it matches.
+inline double trust_in_match(double cosine) {
+  return std::max(0.0, 4 * cosine - 3);
+}
 
 struct SurfaceLinks {
   SurfaceLinks(const FieldSurface& on, const CrossField& along, const SizeField& size);

@@ -121,9 +121,10 @@ bool SurfaceRemesher::prepare() {
   refine_surface(prepared_, longest, flat);
   const std::vector<Vertex> kept = kept_vertices();
   const FieldSurface field_surface(prepared_);
-  const CrossField field = cross_field(field_surface, size_);
+  const std::vector<OppositeSide> opposite = opposite_sides(field_surface, size_);
+  const CrossField field = cross_field(field_surface, size_, opposite);
   if (!std::ranges::all_of(field.directions, is_place)) return false;
-  const std::vector<SurfacePoint> points = surface_front(field_surface, field, kept, size_);
+  const std::vector<SurfacePoint> points = surface_front(field_surface, field, opposite, kept, size_);
   insert_points(prepared_, points, snap * size_);
   result_.feature_points = kept.size();
   result_.front_points = points.size();

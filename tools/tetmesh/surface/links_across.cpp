@@ -1,0 +1,79 @@
+#include "tools/tetmesh/surface/links_across.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "common/run/parallel.hpp"
+#include "tools/tetmesh/surface/field_walk.hpp"
+
+namespace hexpipe {
+namespace {
+
+// Of a square of the size on the other side of a wall of one size. Six parts at two levels and three sizes each of
+// tests/bench/points have 93.9 % of the volume in hexes without, 94.5 at 1, 94.6 at 4, 94.5 at 10.
+constexpr double weight_across = 4;
+// Over so many sizes either way a triangle is asked how the surface bends: flat facets of a cylinder are narrower.
+constexpr double bend_reach = 1.5, shortest_walk = 0.5;
+
+// In radians by sizes, along the direction of the field in which it bends most.
+double bend_of(const SurfaceLinks& links, const FieldWalker& walker, std::int32_t f) {
+  const SurfacePoint centre{links.surface.centres[f], f};
+  const double reach = bend_reach * links.sizes[f];
+  double most = 0;
+  for (const Vec3& axis : links.field.axes(links.surface, f)) {
+    const WalkEnd ahead = walker.walk_straight(centre, axis, reach),
+                  behind = walker.walk_straight(centre, -axis, reach);
+    const double length = (ahead.length + behind.length) / links.sizes[f];
+    if (length < shortest_walk) continue;
+    const auto& normals = links.surface.normals;
+    most = std::max(most, norm(normals[ahead.point.triangle] - normals[behind.point.triangle]) / length);
+  }
+  return most;
+}
+
+// Of weight 0 where there is none.
+SurfaceLink make_link(const SurfaceLinks& links, const FieldWalker& walker, const OppositeSide& opposite,
+                      std::int32_t f) {
+  SurfaceLink link;
+  const std::int32_t g = opposite.triangle;
+  if (g < 0) return link;
+  link.neighbour = g;
+  const auto here = links.field.axes(links.surface, f), there = links.field.axes(links.surface, g);
+  const double trust = trust_in_match(link.match(here, there));
+  // Of the lengths of both sides, as a part of one.
+  const double difference = trust > 0 ? bend_of(links, walker, f) * opposite.distance : 1;
+  link.weight =
+      weight_across * trust * std::max(0.0, 1 - difference) * opposite.area / std::max(1.0, opposite.distance);
+  const Vec3 back = (2 / (links.sizes[f] + links.sizes[g])) * (links.surface.centres[f] - links.surface.centres[g]);
+  for (std::size_t k = 0; k < 2; ++k)
+    link.way[k] = link.distance[k] = 0.5 * dot(here[k] + link.matched(k, there), back);
+  link.set_turn();
+  return link;
+}
+
+}  // namespace
+
+LinksAcross::LinksAcross(const SurfaceLinks& links, std::span<const OppositeSide> opposite)
+    : offsets_(links.sizes.size() + 1) {
+  const FieldWalker walker(links.surface, links.field);
+  std::vector<SurfaceLink> found(opposite.size());
+  parallel_for(static_cast<std::int64_t>(found.size()), 64, [&](std::int64_t i) {
+    const auto f = static_cast<std::int32_t>(i);
+    found[f] = make_link(links, walker, opposite[f], f);
+  });
+  for (std::size_t f = 0; f < found.size(); ++f) {
+    if (found[f].weight <= 0) continue;
+    ++offsets_[f + 1];
+    ++offsets_[found[f].neighbour + 1];
+  }
+  std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
+  links_.resize(static_cast<std::size_t>(offsets_.back()));
+  std::vector<std::int64_t> next(offsets_.begin(), offsets_.end() - 1);
+  for (std::size_t f = 0; f < found.size(); ++f) {
+    if (found[f].weight <= 0) continue;
+    links_[next[f]++] = found[f];
+    links_[next[found[f].neighbour]++] = found[f].reversed(static_cast<std::int32_t>(f));
+  }
+}
+
+}  // namespace hexpipe
