@@ -40,7 +40,7 @@ class Loops {
 struct CurlLimits {
   float stiffness;  // of what is added, squared, against the squares of what is missing around loops
   int most_iterations;
-  double tolerance = 1e-2;  // of what would still be changed, against that of the start
+  double tolerance;  // of what would still be changed, against that of the start
 };
 
 // What to add to the distances so that each loop adds up to what it should, as nearly as little enough does.

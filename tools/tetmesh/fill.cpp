@@ -5,6 +5,7 @@
 #include "common/mesh/adjacency.hpp"
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
+#include "common/run/parallel.hpp"
 #include "tools/tetmesh/build_mesh.hpp"
 #include "tools/tetmesh/graded_lattice.hpp"
 #include "tools/tetmesh/mesh_shape.hpp"
@@ -139,8 +140,8 @@ void try_frame_points(const Surface& surface, const SizeField& size, const Tetme
   watch.add_to(statistics.seconds.placing);
   BuiltMesh bent = tetrahedralize(surface, frame.points, options.tetgen_timeout, watch, statistics);
   if (options.points == PointKind::best && !frame_plainly_wins(frame, built.mesh, statistics)) {
-    statistics.lattice_hex_share = estimate_hex_share(built.mesh, built.adjacency);
-    statistics.frame_hex_share = estimate_hex_share(bent.mesh, bent.adjacency);
+    both_at_once([&] { statistics.lattice_hex_share = estimate_hex_share(built.mesh, built.adjacency); },
+                 [&] { statistics.frame_hex_share = estimate_hex_share(bent.mesh, bent.adjacency); });
     watch.add_to(statistics.seconds.comparing);
     if (*statistics.lattice_hex_share >= *statistics.frame_hex_share) return;
   }

@@ -174,6 +174,15 @@ double SizeField::limited_at(const Vec3& p) const {
   });
 }
 
+bool SizeField::is_limited_below(double length, const Vec3& p) const {
+  if (!known_) return false;
+  const double least = known_->tree.least(p, known_->grading, length, [&](std::int32_t number) {
+    const double here = least_over(known_->simplex(static_cast<std::size_t>(number)), p, known_->grading);
+    return here < length ? 0 : here;  // so that nothing else is looked at
+  });
+  return least < length;
+}
+
 double SizeField::least_near(double here, double reach) const {
   return known_ ? std::max(least(), here - factor_ * known_->grading * reach) : greatest();
 }

@@ -35,9 +35,9 @@ class SizeField {
   SizeField(SizeSources sources, double greatest, double grading);
 
   double at(const Vec3& p) const { return known_ ? factor_ * limited_at(p) : factor_ * greatest_; }
-  // length <= at(p), which is found out without at(p) where the bounds tell.
+  // length <= at(p), which is found out sooner.
   bool is_at_least(double length, const Vec3& p) const {
-    return length <= least() || (length <= greatest() && length <= at(p));
+    return length <= least() || (length <= greatest() && !is_limited_below(length / factor_, p));
   }
   double greatest() const { return factor_ * greatest_; }
   // Lower bounds, everywhere and within `reach` of a place where the length is `here`.
@@ -54,6 +54,7 @@ class SizeField {
   struct Known;
 
   double limited_at(const Vec3& p) const;
+  bool is_limited_below(double length, const Vec3& p) const;
 
   double greatest_, least_, factor_ = 1;
   std::shared_ptr<const Known> known_;  // null: the same everywhere

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/run/parallel.hpp"
 #include "tools/tetmesh/box_tree.hpp"
 #include "tools/tetmesh/ray_hit.hpp"
 
@@ -16,6 +17,7 @@ constexpr double least_part = 1.0 / 32;               // of the size
 constexpr double least_length = 1e-6;
 // Parts of a triangle that are looked at; rays further apart than a size from there on.
 constexpr std::size_t most_parts = 1u << 20;
+constexpr std::int64_t triangles_at_once = 256;
 
 using Corners = std::array<Vec3, 3>;
 
@@ -24,54 +26,63 @@ class WallFinder {
   WallFinder(const Surface& surface, double size, int layers)
       : surface_(surface), size_(size), layers_(layers), tree_(tree_of_triangles(surface.points, surface.triangles)) {}
 
-  SizeSources find() {
-    for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
-      const auto& [a, b, c] = surface_.triangles[t];
-      const Corners corners{surface_.points[a], surface_.points[b], surface_.points[c]};
-      const Shell& shell = surface_.shells[surface_.shell_of[t]];
-      const Vec3 normal = unit(cross(corners[1] - corners[0], corners[2] - corners[0]));
-      if (norm_squared(normal) == 0) continue;
-      look(corners, -normal);
-      if (shell.in_front != outside_region) look(corners, normal);
-    }
-    return std::move(walls_);
+  SizeSources find() const {
+    SizeSources walls;
+    parallel_in_order(
+        static_cast<std::int64_t>(surface_.triangles.size()), triangles_at_once,
+        [&](std::int64_t begin, std::int64_t end) {
+          SizeSources found;
+          for (std::int64_t t = begin; t < end; ++t) look_from(static_cast<std::size_t>(t), found);
+          return found;
+        },
+        [&](SizeSources&& found) { walls.add(found); });
+    return walls;
   }
 
  private:
-  void look(const Corners& corners, const Vec3& inwards);
+  void look_from(std::size_t triangle, SizeSources& walls) const;
+  void look(const Corners& corners, const Vec3& inwards, SizeSources& walls) const;
   double thickness_at(const Vec3& from, const Vec3& inwards) const;
   bool is_wedge(const Vec3& from, const Vec3& inwards, double thickness, const Vec3& outwards) const;
   double first_hit(const Vec3& from, const Vec3& direction, double longest) const;
   double length_to(std::int32_t triangle, const Vec3& from, const Vec3& direction) const;
-  void add_wall(const Corners& corners, const Vec3& across, double size);
+  static void add_wall(const Corners& corners, const Vec3& across, double size, SizeSources& walls);
 
   const Surface& surface_;
   double size_;
   int layers_;
   BoxTree tree_;
-  SizeSources walls_;
-  std::vector<Corners> parts_;
 };
 
+void WallFinder::look_from(std::size_t triangle, SizeSources& walls) const {
+  const auto& [a, b, c] = surface_.triangles[triangle];
+  const Corners corners{surface_.points[a], surface_.points[b], surface_.points[c]};
+  const Shell& shell = surface_.shells[surface_.shell_of[triangle]];
+  const Vec3 normal = unit(cross(corners[1] - corners[0], corners[2] - corners[0]));
+  if (norm_squared(normal) == 0) return;
+  look(corners, -normal, walls);
+  if (shell.in_front != outside_region) look(corners, normal, walls);
+}
+
 // In parts of a size.
-void WallFinder::look(const Corners& corners, const Vec3& inwards) {
-  parts_.assign(1, corners);
-  for (std::size_t looked = 0; !parts_.empty(); ++looked) {
-    const Corners part = parts_.back();
-    parts_.pop_back();
+void WallFinder::look(const Corners& corners, const Vec3& inwards, SizeSources& walls) const {
+  std::vector<Corners> parts{corners};
+  for (std::size_t looked = 0; !parts.empty(); ++looked) {
+    const Corners part = parts.back();
+    parts.pop_back();
     std::size_t longest = 0;
     for (std::size_t i = 1; i < 3; ++i)
       if (norm_squared(part[(i + 1) % 3] - part[i]) > norm_squared(part[(longest + 1) % 3] - part[longest]))
         longest = i;
     const Vec3 &from = part[longest], &to = part[(longest + 1) % 3], &beside = part[(longest + 2) % 3];
     if (norm(to - from) > size_ && looked < most_parts) {
-      parts_.push_back({from, 0.5 * (from + to), beside});
-      parts_.push_back({0.5 * (from + to), to, beside});
+      parts.push_back({from, 0.5 * (from + to), beside});
+      parts.push_back({0.5 * (from + to), to, beside});
       continue;
     }
     const double thickness = thickness_at((part[0] + part[1] + part[2]) * (1.0 / 3), inwards);
     if (thickness < layers_ * size_)
-      add_wall(part, thickness * inwards, std::max(thickness / layers_, least_part * size_));
+      add_wall(part, thickness * inwards, std::max(thickness / layers_, least_part * size_), walls);
   }
 }
 
@@ -120,12 +131,12 @@ double WallFinder::length_to(std::int32_t triangle, const Vec3& from, const Vec3
 }
 
 // The prism from the triangle across the wall, as three tets.
-void WallFinder::add_wall(const Corners& corners, const Vec3& across, double size) {
-  const auto first = static_cast<Vertex>(walls_.points.size());
-  for (const Vec3& p : corners) walls_.points.push_back(p);
-  for (const Vec3& p : corners) walls_.points.push_back(p + across);
-  walls_.sizes.resize(walls_.points.size(), size);
-  for (Vertex i = 0; i < 3; ++i) walls_.simplices.push_back({first + i, first + i + 1, first + i + 2, first + i + 3});
+void WallFinder::add_wall(const Corners& corners, const Vec3& across, double size, SizeSources& walls) {
+  const auto first = static_cast<Vertex>(walls.points.size());
+  for (const Vec3& p : corners) walls.points.push_back(p);
+  for (const Vec3& p : corners) walls.points.push_back(p + across);
+  walls.sizes.resize(walls.points.size(), size);
+  for (Vertex i = 0; i < 3; ++i) walls.simplices.push_back({first + i, first + i + 1, first + i + 2, first + i + 3});
 }
 
 }  // namespace

@@ -32,21 +32,26 @@ class SurfaceSampler {
   void for_each_sample(std::int64_t triangle, Visit&& visit) const {
     const Triangle& t = triangles_[triangle];
     double longest = 0;
+    std::size_t base = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vertex from = t[i], to = t[(i + 1) % 3];
       const Vec3 start = points_[from], along = points_[to] - start;
       const double length = norm(along);
-      longest = std::max(longest, length);
+      if (length > longest) longest = length, base = i;
       if (owner_[from] == triangle) visit(start);
       if (from > to) continue;
       const int parts = parts_of(length, spacing_.at(start + 0.5 * along));
       for (int part = 1; part < parts; ++part) visit(start + (static_cast<double>(part) / parts) * along);
     }
-    const Vec3 &a = points_[t[0]], &b = points_[t[1]], &c = points_[t[2]];
-    const int n = parts_of(longest, spacing_.at((a + b + c) * (1.0 / 3)));
-    for (int i = 1; i < n; ++i)
-      for (int j = 1; i + j < n; ++j)
-        visit(a + (static_cast<double>(i) / n) * (b - a) + (static_cast<double>(j) / n) * (c - a));
+    // In rows along the longest side: slivers need none.
+    const Vec3 &a = points_[t[base]], &b = points_[t[(base + 1) % 3]], &c = points_[t[(base + 2) % 3]];
+    const double spacing = spacing_.at((a + b + c) * (1.0 / 3)), height = norm(cross(b - a, c - a)) / longest;
+    const int rows = parts_of(height, spacing);
+    for (int row = 1; row < rows; ++row) {
+      const double up = static_cast<double>(row) / rows;
+      const int parts = parts_of((1 - up) * longest, spacing);
+      for (int part = 1; part < parts; ++part) visit(a + up * (c - a) + ((1 - up) * part / parts) * (b - a));
+    }
   }
 
  private:

@@ -104,7 +104,7 @@ class LatticeMaker {
   void sweep();
   Steps steps_of(std::int32_t f) const;
   void propose();
-  void propose(std::int32_t f);
+  void propose(std::int32_t f, std::vector<Proposal>& proposals) const;
   void agree();
   Proposal agreed(const SizedPointGrid& grid, const Proposal& proposal) const;
 
@@ -243,10 +243,17 @@ Steps LatticeMaker::steps_of(std::int32_t f) const {
 void LatticeMaker::propose() {
   steps_.resize(phases_.size());
   for_each_triangle([&](std::int32_t f) { steps_[f] = steps_of(f); });
-  for (std::int32_t f = 0; f < static_cast<std::int32_t>(phases_.size()); ++f) propose(f);
+  parallel_in_order(
+      static_cast<std::int64_t>(phases_.size()), 512,
+      [&](std::int64_t begin, std::int64_t end) {
+        std::vector<Proposal> proposals;
+        for (std::int64_t f = begin; f < end; ++f) propose(static_cast<std::int32_t>(f), proposals);
+        return proposals;
+      },
+      [&](const std::vector<Proposal>& some) { proposals_.insert(proposals_.end(), some.begin(), some.end()); });
 }
 
-void LatticeMaker::propose(std::int32_t f) {
+void LatticeMaker::propose(std::int32_t f, std::vector<Proposal>& proposals) const {
   const Phases view = view_of_neighbours(phases_, f);
   const double agreement = std::min(std::abs(view[0]), std::abs(view[1])) / degrees_[f];
   const auto axes = directions(f);
@@ -263,7 +270,7 @@ void LatticeMaker::propose(std::int32_t f) {
     const Vec3 way = length > 0 ? (along * axes[0] + across * axes[1]) * (1 / length) : axes[0];
     const WalkEnd end = walker_.walk_straight({surface_.centres[f], f}, way, length * links_.sizes[f]);
     if (end.at_feature) continue;
-    proposals_.push_back({end.point, (distrust_begins - distance) * agreement * surface_.areas[f]});
+    proposals.push_back({end.point, (distrust_begins - distance) * agreement * surface_.areas[f]});
   }
 }
 

@@ -5,7 +5,9 @@
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 
 #include <algorithm>
+#include <optional>
 
+#include "common/run/parallel.hpp"
 #include "tools/tetmesh/exact_geometry.hpp"
 #include "tools/tetmesh/sized_point_grid.hpp"
 #include "tools/tetmesh/sizing.hpp"
@@ -55,8 +57,7 @@ class SurfaceRemesher {
       : surface_(surface),
         size_(options.size),
         deviation_(options.deviation * options.unit.value_or(options.size)),
-        prepared_(surface, options.feature_angle),
-        input_(surface.points, surface.triangles) {}
+        prepared_(surface, options.feature_angle) {}
 
   RemeshResult run() {
     expected_points_ = points_on_surface(surface_, size_, most_points);
@@ -64,7 +65,9 @@ class SurfaceRemesher {
       result_.failure = "its size asks for more points than memory holds";
       return std::move(result_);
     }
-    if (!prepare()) {
+    bool prepared = false;
+    both_at_once([&] { prepared = prepare(); }, [&] { input_.emplace(surface_.points, surface_.triangles); });
+    if (!prepared) {
       result_.failure = "in double precision some of its triangles have no direction";
       return std::move(result_);
     }
@@ -98,7 +101,7 @@ class SurfaceRemesher {
   SizeField size_, deviation_;
   double expected_points_ = 0;  // on the new surface
   FeatureMesh prepared_;        // with all points inserted, and the vertices of the input
-  DistanceIndex input_;
+  std::optional<DistanceIndex> input_;
   RemeshResult result_;
 };
 
@@ -140,7 +143,7 @@ std::vector<Vertex> SurfaceRemesher::kept_vertices() const {
 
 void SurfaceRemesher::remove_vertices_of_input() {
   FeatureMesh mesh = prepared_;
-  remove_vertices(mesh, input_, removal_share * deviation_);
+  remove_vertices(mesh, *input_, removal_share * deviation_);
   set_soup(mesh);
   result_.extra_points = result_.soup.points.size() - result_.feature_points - result_.front_points;
 }
@@ -183,15 +186,21 @@ std::vector<Vec3> SurfaceRemesher::find_faults() {
   }
   result_.failure = "the new surface has triangles without an area";
   if (!faults.empty()) return faults;
-  for (const auto& pair : find_intersections(soup.points, soup.triangles, most_intersections).pairs)
-    for (const std::int32_t i : pair) faults.push_back(centre_of(static_cast<std::size_t>(i)));
+  // Both at once, for the first is seldom in vain.
+  SurfaceDistance there, back;
+  both_at_once(
+      [&] {
+        const SizeField spacing = sample_spacing * size_, limit = (1 + 1e-9) * deviation_;
+        const DistanceIndex output(soup.points, soup.triangles);
+        there = one_sided_distance(soup.points, soup.triangles, *input_, spacing, limit);
+        back = one_sided_distance(surface_.points, surface_.triangles, output, spacing, limit);
+      },
+      [&] {
+        for (const auto& pair : find_intersections(soup.points, soup.triangles, most_intersections).pairs)
+          for (const std::int32_t i : pair) faults.push_back(centre_of(static_cast<std::size_t>(i)));
+      });
   result_.failure = "the new surface intersects itself";
   if (!faults.empty()) return faults;
-
-  const SizeField spacing = sample_spacing * size_, limit = (1 + 1e-9) * deviation_;
-  const DistanceIndex output(soup.points, soup.triangles);
-  SurfaceDistance there = one_sided_distance(soup.points, soup.triangles, input_, spacing, limit);
-  const SurfaceDistance back = one_sided_distance(surface_.points, surface_.triangles, output, spacing, limit);
   result_.to_input = there.greatest;
   result_.from_input = back.greatest;
   faults = std::move(there.beyond);

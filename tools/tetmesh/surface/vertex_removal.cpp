@@ -106,11 +106,9 @@ class VertexRemover {
 void VertexRemover::add_samples(Edge e) {
   const EdgeDiamond diamond(mesh_, e);
   const double height = diamond.height(), length = norm(diamond.end_points[1] - diamond.end_points[0]);
-  if (height < least_bend * deviation_.least()) return;
-  const double deviation = deviation_.at(diamond.end_points[0]);
-  if (height < least_bend * deviation) return;
+  if (deviation_.is_at_least(height / least_bend, diamond.end_points[0])) return;
   const Face f = mesh_.face_handle(mesh_.halfedge_handle(e, 0));
-  const double parts = std::ceil(length / (sample_spacing * deviation));
+  const double parts = std::ceil(length / (sample_spacing * deviation_.at(diamond.end_points[0])));
   // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter): small whole numbers
   for (double i = 1; i < parts; ++i)
     strays_[f.idx()].push_back(diamond.end_points[0] + i / parts * (diamond.end_points[1] - diamond.end_points[0]));
