@@ -139,6 +139,23 @@ TEST(LinksAcross, AreNoneWhereOneSideIsMuchLonger) {
   EXPECT_GT(count_of(across, bar.surface, [&](std::int32_t f) { return !is_round(f); }), 20u);
 }
 
+TEST(LinksAcross, AreNoneWhereSizesDiffer) {
+  const Prepared plate(surface_of(box({0, 0, 0}, {6, 5, 3}, 6)), 1, true);
+  SizeSources sources;  // on the bottom and the top
+  for (const double z : {0.0, 3.0}) {
+    const auto first = static_cast<Vertex>(sources.points.size());
+    for (const Vec3& p : {Vec3{-9, -9, z}, Vec3{20, -9, z}, Vec3{-9, 20, z}}) {
+      sources.points.push_back(p);
+      sources.sizes.push_back(z > 0 ? 1 : 0.4);
+    }
+    sources.simplices.push_back({first, first + 1, first + 2, SizeSources::none});
+  }
+  const SurfaceLinks links(plate.surface, plate.field, SizeField(sources, 1, 0.5));
+  const LinksAcross across(links, plate.opposite);
+  const auto is_flat = [&](std::int32_t f) { return std::abs(plate.surface.normals[f].z) > 0.5; };
+  EXPECT_EQ(count_of(across, plate.surface, is_flat), 0u);
+}
+
 TEST(SurfaceLattice, PointsLieOnTheSurface) {
   const Prepared prepared(sphere({1, 2, 3}, 2, 12), 0.5);
   for (const SurfacePoint& p : prepared.points) {

@@ -40,8 +40,10 @@ SurfaceLink make_link(const SurfaceLinks& links, const FieldWalker& walker, cons
   link.neighbour = g;
   const auto here = links.field.axes(links.surface, f), there = links.field.axes(links.surface, g);
   const double trust = trust_in_match(link.match(here, there));
-  // Of the lengths of both sides, as a part of one.
-  const double difference = trust > 0 ? bend_of(links, walker, f) * opposite.distance : 1;
+  // Of the numbers of rows on both sides, as a part of one of them: by their lengths, and by what sizes are asked for.
+  const auto [finer, coarser] = std::minmax(links.sizes[f], links.sizes[g]);
+  double difference = coarser / finer - 1;
+  if (trust > 0 && difference < 1) difference += bend_of(links, walker, f) * opposite.distance;
   link.weight =
       weight_across * trust * std::max(0.0, 1 - difference) * opposite.area / std::max(1.0, opposite.distance);
   const Vec3 back = (2 / (links.sizes[f] + links.sizes[g])) * (links.surface.centres[f] - links.surface.centres[g]);

@@ -13,7 +13,8 @@ namespace hexpipe {
 // Weights are those of links beside them.
 class LinksAcross {
  public:
-  // Without those to an opposite side whose directions differ, or which is much longer or shorter because both bend.
+  // Without those to an opposite side whose directions differ, or which has many more or fewer rows, because both sides
+  // bend or sizes differ.
   LinksAcross(const SurfaceLinks& links, std::span<const OppositeSide> opposite);
 
   std::span<const SurfaceLink> of(std::int32_t triangle) const {
