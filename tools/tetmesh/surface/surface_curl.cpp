@@ -10,7 +10,7 @@ namespace {
 // The less stiff, the further from where they have to do rows stretch: at 0.005, on the fine size of
 // tests/bench/points, 0.1 % more of the volume in hexes on larger parts, 1.6 less on simp; at 0.05, 0.4 less than at
 // 0.02 on larger ones.
-constexpr CurlLimits limits{.stiffness = 0.01f, .most_iterations = 300, .tolerance = 1e-2};
+constexpr CurlLimits limits{.stiffness = 0.01f, .most_iterations = 300, .tolerance = 1e-3};
 // Of its length, what a distance may gain or lose; where more is wanted, rows have to end.
 constexpr double most_strain = 0.3;
 

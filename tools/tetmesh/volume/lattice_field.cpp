@@ -24,7 +24,7 @@ constexpr double inertia = 0.3;  // of a number's own value, against its links
 constexpr double no_step = 0.2, least_step = 0.75, greatest_step = 1.7;
 // In the volumes of blub, spot and mambo-m1, with their surfaces as before, 84.9 % of the volume in hexes without, 86.6
 // at a stiffness of 0.05, 86.8 at 0.01.
-constexpr CurlLimits curl_limits{.stiffness = 0.01f, .most_iterations = 40, .tolerance = 3e-2};
+constexpr CurlLimits curl_limits{.stiffness = 0.01f, .most_iterations = 40, .tolerance = 1e-2};
 constexpr double most_strain = 0.45;  // of its length, what a distance may gain or lose
 // How strongly the step to the next point of the lattice keeps to the frame, against what all links say.
 constexpr double rigidity = 0.1;
