@@ -32,7 +32,7 @@ struct Prepared {
   Prepared(const FeatureMesh& mesh, double size, bool knows_sides)
       : kept(kept_of(mesh)),
         surface(mesh),
-        opposite(knows_sides ? opposite_sides(surface, size) : std::vector<OppositeSide>(surface.triangles.size())),
+        opposite(knows_sides ? opposite_sides(surface, size) : std::vector<OppositeSide>()),
         field(cross_field(surface, size, opposite)),
         points(surface_lattice(surface, field, opposite, kept, size).points) {}
 

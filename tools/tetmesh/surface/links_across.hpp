@@ -10,7 +10,7 @@
 
 namespace hexpipe {
 
-// Weights are those of links beside them.
+// Weights are to be compared with those of SurfaceLinks.
 class LinksAcross {
  public:
   // Without those to an opposite side whose directions differ, or which has many more or fewer rows, because both sides
