@@ -72,11 +72,7 @@ TEST(CrossField, FollowsTheBendOfATube) {
 // A box with a line of features across its top from corner to corner, where tags meet.
 FeatureMesh with_diagonal(double height) {
   Surface surface = surface_of(box({0, 0, 0}, {9, 9, height}, 9));
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    Vec3 sum;
-    for (const Vertex v : surface.triangles[t]) sum += surface.points[v];
-    if (sum.z > 2.9 * height && sum.x > sum.y) surface.tags[t] = 2;
-  }
+  testing::tag_where(surface, 2, [&](const Vec3& c) { return c.z > 0.97 * height && c.x > c.y; });
   FeatureMesh mesh(surface, 40);
   refine_surface(mesh, 0.7, 1e-6);
   return mesh;

@@ -18,7 +18,7 @@ using testing::surface_of;
 
 // As a surface is remeshed: features sampled, triangles refined.
 struct Prepared {
-  Prepared(const Facets& facets, double size) : Prepared(surface_of(facets), size, {}) {}
+  Prepared(const Facets& facets, double size) : Prepared(surface_of(facets), size, false) {}
   // With or without what faces what.
   Prepared(const Surface& whole, double size, bool knows_sides) : Prepared(mesh_of(whole, size), size, knows_sides) {}
 
@@ -83,11 +83,7 @@ TEST(SurfaceLattice, SpreadsWhatDoesNotFit) {
 // A plate nine sizes wide whose tags meet along the middle of its top, half a size off the rows below.
 double offset_below(double height, bool knows_sides) {
   Surface plate = surface_of(box({0, 0, 0}, {9, 9, height}, 18));
-  for (std::size_t t = 0; t < plate.triangles.size(); ++t) {
-    Vec3 sum;
-    for (const Vertex v : plate.triangles[t]) sum += plate.points[v];
-    if (sum.z > 2.9 * height && sum.x > 13.5) plate.tags[t] = 2;
-  }
+  testing::tag_where(plate, 2, [&](const Vec3& c) { return c.z > 0.97 * height && c.x > 4.5; });
   const Prepared prepared(plate, 1, knows_sides);
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < prepared.points.size() / 2; ++i) {  // the more trusted ones

@@ -168,19 +168,10 @@ SizeField::SizeField(SizeSources sources, double greatest, double grading) : gre
   if (least_ < greatest_) known_ = std::make_shared<const Known>(std::move(sources), grading);
 }
 
-double SizeField::limited_at(const Vec3& p) const {
-  return known_->tree.least(p, known_->grading, greatest_, [&](std::int32_t number) {
+double SizeField::limited_at(const Vec3& p, double most) const {
+  return known_->tree.least(p, known_->grading, most, [&](std::int32_t number) {
     return least_over(known_->simplex(static_cast<std::size_t>(number)), p, known_->grading);
   });
-}
-
-bool SizeField::is_limited_below(double length, const Vec3& p) const {
-  if (!known_) return false;
-  const double least = known_->tree.least(p, known_->grading, length, [&](std::int32_t number) {
-    const double here = least_over(known_->simplex(static_cast<std::size_t>(number)), p, known_->grading);
-    return here < length ? 0 : here;  // so that nothing else is looked at
-  });
-  return least < length;
 }
 
 double SizeField::least_near(double here, double reach) const {

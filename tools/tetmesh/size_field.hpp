@@ -34,10 +34,13 @@ class SizeField {
   SizeField(double uniform) : greatest_(uniform), least_(uniform) {}
   SizeField(SizeSources sources, double greatest, double grading);
 
-  double at(const Vec3& p) const { return known_ ? factor_ * limited_at(p) : factor_ * greatest_; }
-  // length <= at(p), which is found out sooner.
+  double at(const Vec3& p) const { return known_ ? factor_ * limited_at(p, greatest_) : factor_ * greatest_; }
+  // length <= at(p), which is found out sooner: only what limits the size to less than the length is looked for.
   bool is_at_least(double length, const Vec3& p) const {
-    return length <= least() || (length <= greatest() && !is_limited_below(length / factor_, p));
+    if (length <= least()) return true;
+    if (!(length <= greatest())) return false;
+    const double unscaled = length / factor_;
+    return limited_at(p, unscaled) >= unscaled;
   }
   double greatest() const { return factor_ * greatest_; }
   // Lower bounds, everywhere and within `reach` of a place where the length is `here`.
@@ -53,8 +56,8 @@ class SizeField {
  private:
   struct Known;
 
-  double limited_at(const Vec3& p) const;
-  bool is_limited_below(double length, const Vec3& p) const;
+  // The size there, or `most` where it is no less.
+  double limited_at(const Vec3& p, double most) const;
 
   double greatest_, least_, factor_ = 1;
   std::shared_ptr<const Known> known_;  // null: the same everywhere

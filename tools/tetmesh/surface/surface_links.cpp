@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "tools/tetmesh/surface/crest_lines.hpp"
+#include "tools/tetmesh/surface/field_walk.hpp"
 
 namespace hexpipe {
 namespace {
@@ -16,13 +17,13 @@ SurfaceLink make_link(const SurfaceLinks& links, const BendStretch& stretch, Hal
   const std::int32_t f = triangle_of(h), g = triangle_of(twin);
   const auto here = links.field.axes(surface, f), there = links.field.axes(surface, g);
   const Vec3 side = surface.edge_vector(h);
-  const Vec3 along = unit(side), &inward = surface.inward(h), &beyond = surface.inward(twin);
+  const Vec3 &inward = surface.inward(h), &beyond = surface.inward(twin);
   const Vec3 middle = surface.points[start_of(surface.triangles, h)] + 0.5 * side;
   const Vec3 from = surface.centres[f] - middle, to = surface.centres[g] - middle;
   SurfaceLink link;
   link.neighbour = g;
   std::array<Vec3, 2> unfolded;
-  for (std::size_t k = 0; k < 2; ++k) unfolded[k] = dot(here[k], along) * along - dot(here[k], inward) * beyond;
+  for (std::size_t k = 0; k < 2; ++k) unfolded[k] = unfolded_beyond(surface, h, here[k]);
   const double cosine = link.match(unfolded, there);
   for (std::size_t k = 0; k < 2; ++k) {
     const Vec3 matched = link.matched(k, there);
