@@ -40,8 +40,8 @@ double worst_alignment(const FieldSurface& surface, const CrossField& field, aut
 }
 
 TEST(CrossField, IsUnitAndTangent) {
-  const FieldSurface surface(refined(sphere({1, 2, 3}, 2, 12), 0.5));
-  const CrossField field = cross_field(surface, 0.5);
+  const FieldSurface surface(refined(sphere({1, 2, 3}, 2, 12), 0.5), 0.5);
+  const CrossField field = cross_field(surface);
   ASSERT_EQ(field.directions.size(), surface.triangles.size());
   for (std::size_t f = 0; f < field.directions.size(); ++f) {
     EXPECT_NEAR(norm(field.directions[f]), 1, 1e-12);
@@ -50,8 +50,8 @@ TEST(CrossField, IsUnitAndTangent) {
 }
 
 TEST(CrossField, RunsAlongTheEdgesOfABox) {
-  const FieldSurface surface(refined(box({0, 0, 0}, {3, 2, 1}), 0.3));
-  const CrossField field = cross_field(surface, 0.3);
+  const FieldSurface surface(refined(box({0, 0, 0}, {3, 2, 1}), 0.3), 0.3);
+  const CrossField field = cross_field(surface);
   const double worst = worst_alignment(surface, field, [](const FieldSurface& s, std::size_t f) -> std::optional<Vec3> {
     return std::abs(s.normals[f].z) > 0.5 ? Vec3{1, 0, 0} : Vec3{0, 0, 1};
   });
@@ -60,8 +60,8 @@ TEST(CrossField, RunsAlongTheEdgesOfABox) {
 
 TEST(CrossField, FollowsTheBendOfATube) {
   // No triangle of the sides is as wide as the size: the curvature has to be found over several.
-  const FieldSurface surface(refined(prism(40, 1, 8), 0.3));
-  const CrossField field = cross_field(surface, 0.3);
+  const FieldSurface surface(refined(prism(40, 1, 8), 0.3), 0.3);
+  const CrossField field = cross_field(surface);
   const double worst = worst_alignment(surface, field, [](const FieldSurface& s, std::size_t f) -> std::optional<Vec3> {
     if (std::abs(s.normals[f].z) > 0.5) return std::nullopt;
     return Vec3{0, 0, 1};
@@ -80,9 +80,9 @@ FeatureMesh with_diagonal(double height) {
 
 // Of the middle of the bottom, along the diagonal.
 double alignment_below(const FeatureMesh& mesh) {
-  const FieldSurface surface(mesh);
+  const FieldSurface surface(mesh, 0.5);
   return worst_alignment(
-      surface, cross_field(surface, 0.5, opposite_sides(surface, 0.5)), [](const FieldSurface& s, std::size_t f) {
+      surface, cross_field(surface, opposite_sides(surface)), [](const FieldSurface& s, std::size_t f) {
         const Vec3& c = s.centres[f];
         const bool in_the_middle = s.normals[f].z < -0.5 && norm(c - Vec3{4.5, 4.5, 0}) < 0.8;
         return in_the_middle ? std::optional(Vec3{std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2, 0}) : std::nullopt;
@@ -95,8 +95,8 @@ TEST(CrossField, FollowsWhatIsOnTheOtherSideOfAWall) {
 }
 
 TEST(OppositeSides, AreThoseOfABox) {
-  const FieldSurface surface(refined(box({0, 0, 0}, {3, 2, 1}), 0.3));
-  const auto sides = opposite_sides(surface, 0.1);
+  const FieldSurface surface(refined(box({0, 0, 0}, {3, 2, 1}), 0.3), 0.1);
+  const auto sides = opposite_sides(surface);
   ASSERT_EQ(sides.size(), surface.triangles.size());
   for (std::size_t f = 0; f < sides.size(); ++f) {
     const Vec3& n = surface.normals[f];
@@ -115,8 +115,8 @@ TEST(OppositeSides, AreParallel) {
   Facets wedge = box({0, 0, 0}, {4, 4, 1}, 4);
   for (auto& facet : wedge)
     for (Vec3& p : facet) p.z *= 0.2 + p.x / 4;
-  const FieldSurface surface(refined(wedge, 0.3));
-  const auto sides = opposite_sides(surface, 0.1);
+  const FieldSurface surface(refined(wedge, 0.3), 0.1);
+  const auto sides = opposite_sides(surface);
   for (std::size_t f = 0; f < sides.size(); ++f) {
     if (surface.normals[f].z < -0.5) {
       ASSERT_GE(sides[f].triangle, 0) << "14 degrees";
@@ -124,8 +124,8 @@ TEST(OppositeSides, AreParallel) {
   }
   for (auto& facet : wedge)
     for (Vec3& p : facet) p.z *= 3;
-  const FieldSurface steep(refined(wedge, 0.3));
-  const auto beyond = opposite_sides(steep, 0.1);
+  const FieldSurface steep(refined(wedge, 0.3), 0.1);
+  const auto beyond = opposite_sides(steep);
   for (std::size_t f = 0; f < beyond.size(); ++f) {
     if (steep.normals[f].z < -0.5) {
       EXPECT_EQ(beyond[f].triangle, -1) << "37 degrees";
@@ -134,8 +134,8 @@ TEST(OppositeSides, AreParallel) {
 }
 
 TEST(FieldWalk, GoesStraightToTheEdgeOfABox) {
-  const FieldSurface surface(refined(box({0, 0, 0}, {3, 2, 1}), 0.3));
-  const CrossField field = cross_field(surface, 0.3);
+  const FieldSurface surface(refined(box({0, 0, 0}, {3, 2, 1}), 0.3), 0.3);
+  const CrossField field = cross_field(surface);
   const FieldWalker walker(surface, field);
   for (std::int32_t f = 0; f < static_cast<std::int32_t>(surface.triangles.size()); ++f) {
     if (surface.normals[f].z < 0.5) continue;

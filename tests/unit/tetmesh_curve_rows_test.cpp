@@ -110,9 +110,9 @@ TEST(SurfaceCurl, StretchesRowsBetweenThePointsOfFeatures) {
   std::vector<Vertex> kept;
   for (const auto v : mesh.vertices())
     if (mesh.is_kept(v)) kept.push_back(v.idx());
-  const FieldSurface surface(mesh);
-  const CrossField field = cross_field(surface, 1);
-  const SurfaceLattice lattice = surface_lattice(surface, field, {}, kept, 1);
+  const FieldSurface surface(mesh, 1);
+  const CrossField field = cross_field(surface);
+  const SurfaceLattice lattice = surface_lattice(surface, field, {}, kept);
   ASSERT_EQ(lattice.spacing.size(), surface.triangles.size());
   std::array<double, 2> sum{}, area{};  // below, above
   for (std::size_t f = 0; f < surface.triangles.size(); ++f) {

@@ -101,6 +101,30 @@ TEST(SizeField, IsLinearWhereSizesChangeSlowly) {
   EXPECT_EQ((2 * field).greatest(), 20);
 }
 
+// A prism is three tets, each with the size at all corners.
+TEST(SizeField, IsTheSameInPrismsAndInTheirTets) {
+  Random random(11);
+  SizeSources prisms, tets;
+  for (int i = 0; i < 12; ++i) {
+    const Vec3 place = random_point(random, 4);
+    const std::array<Vec3, 3> corners{place, place + random_point(random), place + random_point(random)};
+    const Vec3 across = random.uniform(-2, 2) * unit(cross(corners[1] - corners[0], corners[2] - corners[0]));
+    const double size = random.uniform(0.1, 0.8);
+    prisms.prisms.push_back({corners, across, size});
+    const auto first = static_cast<Vertex>(tets.points.size());
+    for (const Vec3& p : corners) tets.points.push_back(p);
+    for (const Vec3& p : corners) tets.points.push_back(p + across);
+    tets.sizes.resize(tets.points.size(), size);
+    for (Vertex k = first; k < first + 3; ++k) tets.simplices.push_back({k, k + 1, k + 2, k + 3});
+  }
+  const SizeField of_prisms(prisms, 0.9, 0.4), of_tets(tets, 0.9, 0.4);
+  EXPECT_EQ(of_prisms.least(), of_tets.least());
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 p = random_point(random, 5);
+    EXPECT_NEAR(of_prisms.at(p), of_tets.at(p), 1e-9);
+  }
+}
+
 TEST(SizeField, TakesFlatSimplicesForTheirCorners) {
   SizeSources sources;
   sources.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 0, 0}};

@@ -62,10 +62,12 @@ TEST(Sizing, ComplainsOfTrianglesFarFromTheSize) {
 }
 
 TEST(WallSizes, AreThePartsOfThinWalls) {
-  const SizeSources walls = wall_sizes(surface_of(box({0, 0, 0}, {9, 9, 1}, 2)), 2, 4);
+  const std::vector<SizePrism> walls = wall_sizes(surface_of(box({0, 0, 0}, {9, 9, 1}, 2)), 2, 4);
   ASSERT_FALSE(walls.empty());
-  for (const double size : walls.sizes) EXPECT_DOUBLE_EQ(size, 0.25);
-  const SizeField field(walls, 2, 0.3);
+  for (const SizePrism& wall : walls) EXPECT_DOUBLE_EQ(wall.size, 0.25);
+  SizeSources sources;
+  sources.prisms = walls;
+  const SizeField field(sources, 2, 0.3);
   for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{4, 5, 0.5}, Vec3{8.9, 8.8, 1}, Vec3{9, 4, 0.3}})
     EXPECT_NEAR(field.at(p), 0.25, 1e-9);
   EXPECT_NEAR(field.at({4, 4, 3}), 0.25 + 0.3 * 2, 1e-9);
@@ -79,15 +81,19 @@ TEST(WallSizes, DoNotGoAcrossWhatIsEmpty) {
   EXPECT_TRUE(wall_sizes(surface_of(blocks), 1, 2).empty());
 }
 
+double thinnest(std::span<const SizePrism> walls) {
+  return std::ranges::min(walls, {}, &SizePrism::size).size;
+}
+
 TEST(WallSizes, EndBeforeSharpEdges) {
   // A wedge of 20 degrees with its edge along y.
   const double top = std::tan(20 * std::numbers::pi / 180);
   testing::Facets wedge = box({0, 0, 0}, {4, 4, 1});
   for (testing::Facet& facet : wedge)
     for (Vec3& p : facet) p.z *= top * (0.01 + p.x);
-  const SizeSources walls = wall_sizes(surface_of(wedge), 0.5, 2);
+  const std::vector<SizePrism> walls = wall_sizes(surface_of(wedge), 0.5, 2);
   ASSERT_FALSE(walls.empty());
-  EXPECT_GE(std::ranges::min(walls.sizes), 0.5 / 32);
+  EXPECT_GE(thinnest(walls), 0.5 / 32);
 }
 
 // A box from x = `begin` to 4 that is as high as a wedge with its edge at x = 0 along y.
@@ -99,19 +105,20 @@ testing::Facets wedge(double degrees, double begin) {
 }
 
 TEST(WallSizes, EndBeforeVerySharpEdges) {
-  const SizeSources walls = wall_sizes(surface_of(wedge(10, 0.01)), 0.5, 2);
+  const std::vector<SizePrism> walls = wall_sizes(surface_of(wedge(10, 0.01)), 0.5, 2);
   ASSERT_FALSE(walls.empty());
-  EXPECT_GE(std::ranges::min(walls.sizes), 0.5 / 32);
+  EXPECT_GE(thinnest(walls), 0.5 / 32);
 }
 
 TEST(WallSizes, AreNoneWhereSidesMeet) {
   for (const double degrees : {20, 30, 40}) {
     // But for the last part of a size, where the edge is cut off.
-    for (const Vec3& p : wall_sizes(surface_of(wedge(degrees, 0.01)), 0.5, 2).points) EXPECT_LT(p.x, 0.3) << degrees;
-    const SizeSources walls = wall_sizes(surface_of(wedge(degrees, 0.7)), 0.5, 2);
+    for (const SizePrism& wall : wall_sizes(surface_of(wedge(degrees, 0.01)), 0.5, 2))
+      for (const Vec3& p : wall.corners) EXPECT_LT(std::max(p.x, p.x + wall.across.x), 0.3) << degrees;
+    const std::vector<SizePrism> walls = wall_sizes(surface_of(wedge(degrees, 0.7)), 0.5, 2);
     const double thickness_there = 0.7 * std::tan(degrees * std::numbers::pi / 180);
     ASSERT_FALSE(walls.empty()) << "whose sides would meet outside";
-    EXPECT_LT(std::ranges::min(walls.sizes), 0.75 * thickness_there);
+    EXPECT_LT(thinnest(walls), 0.75 * thickness_there);
   }
 }
 

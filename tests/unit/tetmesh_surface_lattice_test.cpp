@@ -31,10 +31,10 @@ struct Prepared {
  private:
   Prepared(const FeatureMesh& mesh, double size, bool knows_sides)
       : kept(kept_of(mesh)),
-        surface(mesh),
-        opposite(knows_sides ? opposite_sides(surface, size) : std::vector<OppositeSide>()),
-        field(cross_field(surface, size, opposite)),
-        points(surface_lattice(surface, field, opposite, kept, size).points) {}
+        surface(mesh, size),
+        opposite(knows_sides ? opposite_sides(surface) : std::vector<OppositeSide>()),
+        field(cross_field(surface, opposite)),
+        points(surface_lattice(surface, field, opposite, kept).points) {}
 
   static FeatureMesh mesh_of(const Surface& whole, double size) {
     FeatureMesh mesh(whole, 40);
@@ -110,7 +110,7 @@ std::size_t count_of(const LinksAcross& across, const FieldSurface& surface, aut
 
 TEST(LinksAcross, LeadToWhatLiesBehind) {
   const Prepared plate(surface_of(box({0, 0, 0}, {6, 5, 2}, 6)), 1, true);
-  const SurfaceLinks links(plate.surface, plate.field, 1);
+  const SurfaceLinks links(plate.surface, plate.field);
   const LinksAcross across(links, plate.opposite);
   const auto& surface = plate.surface;
   EXPECT_GT(count_of(across, surface, [&](std::int32_t f) { return std::abs(surface.normals[f].z) > 0.5; }), 60u);
@@ -128,7 +128,7 @@ TEST(LinksAcross, LeadToWhatLiesBehind) {
 
 TEST(LinksAcross, AreNoneWhereOneSideIsMuchLonger) {
   const Prepared bar(surface_of(prism(40, 3, 10)), 1, true);
-  const SurfaceLinks links(bar.surface, bar.field, 1);
+  const SurfaceLinks links(bar.surface, bar.field);
   const LinksAcross across(links, bar.opposite);
   const auto is_round = [&](std::int32_t f) { return std::abs(bar.surface.normals[f].z) < 0.5; };
   EXPECT_EQ(count_of(across, bar.surface, is_round), 0u);
@@ -136,17 +136,10 @@ TEST(LinksAcross, AreNoneWhereOneSideIsMuchLonger) {
 }
 
 TEST(LinksAcross, AreNoneWhereSizesDiffer) {
-  const Prepared plate(surface_of(box({0, 0, 0}, {6, 5, 3}, 6)), 1, true);
-  SizeSources sources;  // on the bottom and the top
-  for (const double z : {0.0, 3.0}) {
-    const auto first = static_cast<Vertex>(sources.points.size());
-    for (const Vec3& p : {Vec3{-9, -9, z}, Vec3{20, -9, z}, Vec3{-9, 20, z}}) {
-      sources.points.push_back(p);
-      sources.sizes.push_back(z > 0 ? 1 : 0.4);
-    }
-    sources.simplices.push_back({first, first + 1, first + 2, SizeSources::none});
-  }
-  const SurfaceLinks links(plate.surface, plate.field, SizeField(sources, 1, 0.5));
+  Prepared plate(surface_of(box({0, 0, 0}, {6, 5, 3}, 6)), 1, true);
+  for (std::size_t f = 0; f < plate.surface.sizes.size(); ++f)
+    plate.surface.sizes[f] = std::min(1.0, 0.4 + 0.5 * plate.surface.centres[f].z);
+  const SurfaceLinks links(plate.surface, plate.field);
   const LinksAcross across(links, plate.opposite);
   const auto is_flat = [&](std::int32_t f) { return std::abs(plate.surface.normals[f].z) > 0.5; };
   EXPECT_EQ(count_of(across, plate.surface, is_flat), 0u);

@@ -23,7 +23,7 @@ namespace {
 SizeField size_field(const Surface& surface, const TetmeshOptions& options, double greatest,
                      std::optional<int> layers) {
   SizeSources sources = options.size_sources;
-  if (layers) sources.add(wall_sizes(surface, greatest, *layers));
+  if (layers) sources.prisms = wall_sizes(surface, greatest, *layers);
   return {std::move(sources), greatest, options.grading};
 }
 

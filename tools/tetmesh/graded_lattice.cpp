@@ -23,11 +23,7 @@ constexpr double most_roots = 1e8;
 class GradedLattice {
  public:
   GradedLattice(const Surface& surface, const SizeField& size, const LatticeOptions& options, double most_points)
-      : surface_(surface),
-        size_(size),
-        options_(options),
-        most_points_(most_points),
-        clearance_(surface, options.clearance * size) {
+      : surface_(surface), size_(size), options_(options), most_points_(most_points), clearance_(surface) {
     Box box = Box::around(std::array{in_axes(surface.points.front())});
     for (const Vec3& p : surface.points) box.add({in_axes(p), in_axes(p)});
     low_ = box.low;
@@ -91,13 +87,14 @@ void GradedLattice::visit(const Vec3& corner, int level, bool is_new) {
 }
 
 void GradedLattice::take(const Vec3& p, int level) {
-  if (level_for(size_.at(p)) < level || !clearance_.is_clear(p) || !clearance_.is_inside(p)) return;
+  const double size = size_.at(p);
+  if (level_for(size) < level || !clearance_.is_clear(p, options_.clearance * size) || !clearance_.is_inside(p)) return;
   if (static_cast<double>(points_.size()) >= most_points_)
     throw DataError::at(surface_.name,
                         "expected sizes that make at most {:g} points inside (see --most-points), found {:g} to {:g}, "
                         "which make more",
                         most_points_, size_.least(), size_.greatest());
-  points_.push_back(p + jitter_of(points_.size(), options_.jitter * size_.at(p), options_.seed));
+  points_.push_back(p + jitter_of(points_.size(), options_.jitter * size, options_.seed));
 }
 
 }  // namespace

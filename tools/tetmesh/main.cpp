@@ -44,7 +44,7 @@ void choose_points(const std::string& points, TetmeshOptions& options) {
 SizeSources size_sources(const std::string& path, const SurfaceSoup& surface) {
   Input input = Input::open(path);
   SizeList list = on_surface(read_sizes(input), surface);
-  return {std::move(list.points), std::move(list.sizes), std::move(list.simplices)};
+  return {std::move(list.points), std::move(list.sizes), std::move(list.simplices), {}};
 }
 
 std::string summary(const TetmeshStatistics& s) {

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "tools/tetmesh/box_tree.hpp"
+#include "tools/tetmesh/triangle_distance.hpp"
 
 namespace hexpipe {
 namespace {
@@ -117,24 +118,41 @@ double least_over(const SizeSimplex& simplex, const Vec3& p, double grading) {
   return least;
 }
 
-}  // namespace
+// A prism, ready for its distance from many points.
+class PrismDistance {
+ public:
+  explicit PrismDistance(const SizePrism& prism)
+      : base_(prism.corners[0], prism.corners[1], prism.corners[2]),
+        corner_(prism.corners[0]),
+        up_(unit(prism.across)),
+        height_(norm(prism.across)) {}
 
-void SizeSources::add(const SizeSources& other) {
-  const auto offset = static_cast<Vertex>(points.size());
-  points.insert(points.end(), other.points.begin(), other.points.end());
-  sizes.insert(sizes.end(), other.sizes.begin(), other.sizes.end());
-  for (std::array<Vertex, 4> simplex : other.simplices) {
-    for (Vertex& v : simplex)
-      if (v != none) v += offset;
-    simplices.push_back(simplex);
+  double from(const Vec3& p) const {
+    const double above = std::clamp(dot(p - corner_, up_), 0.0, height_);
+    return std::sqrt(base_.squared(p - above * up_));
   }
-}
+
+ private:
+  TriangleDistance base_;
+  Vec3 corner_, up_;
+  double height_;
+};
+
+}  // namespace
 
 struct SizeField::Known {
   Known(SizeSources known_sources, double limit)
-      : sources(std::move(known_sources)), grading(limit), tree(tree_of(sources)) {}
+      : sources(std::move(known_sources)), grading(limit), tree(tree_of(sources)) {
+    distances.reserve(sources.prisms.size());
+    for (const SizePrism& prism : sources.prisms) distances.emplace_back(prism);
+  }
 
-  SizeSimplex simplex(std::size_t number) const { return simplex_of(sources, number); }
+  // What a source, by its number in the tree, allows at p.
+  double size_by(std::size_t source, const Vec3& p) const {
+    if (source < sources.simplices.size()) return least_over(simplex_of(sources, source), p, grading);
+    const std::size_t prism = source - sources.simplices.size();
+    return sources.prisms[prism].size + grading * distances[prism].from(p);
+  }
 
   static SizeSimplex simplex_of(const SizeSources& sources, std::size_t number) {
     SizeSimplex simplex;
@@ -143,15 +161,22 @@ struct SizeField::Known {
     return simplex;
   }
 
+  // Simplices come first.
   static BoxTree tree_of(const SizeSources& sources) {
     std::vector<Box> boxes;
     std::vector<double> values;
-    boxes.reserve(sources.simplices.size());
-    values.reserve(sources.simplices.size());
+    boxes.reserve(sources.simplices.size() + sources.prisms.size());
+    values.reserve(boxes.capacity());
     for (std::size_t i = 0; i < sources.simplices.size(); ++i) {
       const SizeSimplex simplex = simplex_of(sources, i);
       boxes.push_back(Box::around(std::span(simplex.corners).first(simplex.count)));
       values.push_back(std::ranges::min(std::span(simplex.sizes).first(simplex.count)));
+    }
+    for (const auto& [corners, across, size] : sources.prisms) {
+      Box box = Box::around(corners);
+      box.add(Box::around(std::array{corners[0] + across, corners[1] + across, corners[2] + across}));
+      boxes.push_back(box);
+      values.push_back(size);
     }
     return {boxes, values};
   }
@@ -159,19 +184,20 @@ struct SizeField::Known {
   SizeSources sources;
   double grading;
   BoxTree tree;
+  std::vector<PrismDistance> distances;
 };
 
 SizeField::SizeField(SizeSources sources, double greatest, double grading) : greatest_(greatest), least_(greatest) {
   for (const auto& simplex : sources.simplices)
     for (const Vertex v : simplex)
       if (v != SizeSources::none) least_ = std::min(least_, sources.sizes[v]);
+  for (const SizePrism& prism : sources.prisms) least_ = std::min(least_, prism.size);
   if (least_ < greatest_) known_ = std::make_shared<const Known>(std::move(sources), grading);
 }
 
 double SizeField::limited_at(const Vec3& p, double most) const {
-  return known_->tree.least(p, known_->grading, most, [&](std::int32_t number) {
-    return least_over(known_->simplex(static_cast<std::size_t>(number)), p, known_->grading);
-  });
+  return known_->tree.least(p, known_->grading, most,
+                            [&](std::int32_t number) { return known_->size_by(static_cast<std::size_t>(number), p); });
 }
 
 double SizeField::least_near(double here, double reach) const {

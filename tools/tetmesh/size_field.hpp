@@ -5,7 +5,7 @@
 // greatest function that has at most the known sizes where they are known, at most a greatest one elsewhere, and
 // differs by at most `grading` times their distance between any two places. That is min over y of h(y) + grading |x -
 // y| (P.-O. Persson: Mesh size functions for implicit geometries and PDE-based gradient limiting, 2006, section 3),
-// here computed exactly for sizes that are linear on points, segments, triangles and tets.
+// here computed exactly for sizes that are linear on points, segments, triangles and tets, or the same in right prisms.
 
 #include <array>
 #include <memory>
@@ -15,6 +15,13 @@
 
 namespace hexpipe {
 
+// From a triangle straight across, the same size everywhere.
+struct SizePrism {
+  std::array<Vec3, 3> corners;
+  Vec3 across;  // at right angles to the triangle
+  double size;
+};
+
 // Where sizes are known.
 struct SizeSources {
   static constexpr Vertex none = -1;
@@ -23,9 +30,9 @@ struct SizeSources {
   std::vector<double> sizes;  // at the points
   // Of one to four points each, the rest `none`; sizes are linear in between.
   std::vector<std::array<Vertex, 4>> simplices;
+  std::vector<SizePrism> prisms;
 
-  bool empty() const { return simplices.empty(); }
-  void add(const SizeSources& other);
+  bool empty() const { return simplices.empty() && prisms.empty(); }
 };
 
 class SizeField {

@@ -20,33 +20,33 @@ constexpr std::size_t most_parts = 1u << 20;
 constexpr std::int64_t triangles_at_once = 256;
 
 using Corners = std::array<Vec3, 3>;
+using Walls = std::vector<SizePrism>;
 
 class WallFinder {
  public:
   WallFinder(const Surface& surface, double size, int layers)
       : surface_(surface), size_(size), layers_(layers), tree_(tree_of_triangles(surface.points, surface.triangles)) {}
 
-  SizeSources find() const {
-    SizeSources walls;
+  Walls find() const {
+    Walls walls;
     parallel_in_order(
         static_cast<std::int64_t>(surface_.triangles.size()), triangles_at_once,
         [&](std::int64_t begin, std::int64_t end) {
-          SizeSources found;
+          Walls found;
           for (std::int64_t t = begin; t < end; ++t) look_from(static_cast<std::size_t>(t), found);
           return found;
         },
-        [&](SizeSources&& found) { walls.add(found); });
+        [&](Walls&& found) { walls.insert(walls.end(), found.begin(), found.end()); });
     return walls;
   }
 
  private:
-  void look_from(std::size_t triangle, SizeSources& walls) const;
-  void look(const Corners& corners, const Vec3& inwards, SizeSources& walls) const;
+  void look_from(std::size_t triangle, Walls& walls) const;
+  void look(const Corners& corners, const Vec3& inwards, Walls& walls) const;
   double thickness_at(const Vec3& from, const Vec3& inwards) const;
   bool is_wedge(const Vec3& from, const Vec3& inwards, double thickness, const Vec3& outwards) const;
   double first_hit(const Vec3& from, const Vec3& direction, double longest) const;
   double length_to(std::int32_t triangle, const Vec3& from, const Vec3& direction) const;
-  static void add_wall(const Corners& corners, const Vec3& across, double size, SizeSources& walls);
 
   const Surface& surface_;
   double size_;
@@ -54,7 +54,7 @@ class WallFinder {
   BoxTree tree_;
 };
 
-void WallFinder::look_from(std::size_t triangle, SizeSources& walls) const {
+void WallFinder::look_from(std::size_t triangle, Walls& walls) const {
   const auto& [a, b, c] = surface_.triangles[triangle];
   const Corners corners{surface_.points[a], surface_.points[b], surface_.points[c]};
   const Shell& shell = surface_.shells[surface_.shell_of[triangle]];
@@ -65,7 +65,7 @@ void WallFinder::look_from(std::size_t triangle, SizeSources& walls) const {
 }
 
 // In parts of a size.
-void WallFinder::look(const Corners& corners, const Vec3& inwards, SizeSources& walls) const {
+void WallFinder::look(const Corners& corners, const Vec3& inwards, Walls& walls) const {
   std::vector<Corners> parts{corners};
   for (std::size_t looked = 0; !parts.empty(); ++looked) {
     const Corners part = parts.back();
@@ -82,7 +82,7 @@ void WallFinder::look(const Corners& corners, const Vec3& inwards, SizeSources& 
     }
     const double thickness = thickness_at((part[0] + part[1] + part[2]) * (1.0 / 3), inwards);
     if (thickness < layers_ * size_)
-      add_wall(part, thickness * inwards, std::max(thickness / layers_, least_part * size_), walls);
+      walls.push_back({part, thickness * inwards, std::max(thickness / layers_, least_part * size_)});
   }
 }
 
@@ -130,18 +130,9 @@ double WallFinder::length_to(std::int32_t triangle, const Vec3& from, const Vec3
   return length > least_length * size_ ? length : std::numeric_limits<double>::infinity();
 }
 
-// The prism from the triangle across the wall, as three tets.
-void WallFinder::add_wall(const Corners& corners, const Vec3& across, double size, SizeSources& walls) {
-  const auto first = static_cast<Vertex>(walls.points.size());
-  for (const Vec3& p : corners) walls.points.push_back(p);
-  for (const Vec3& p : corners) walls.points.push_back(p + across);
-  walls.sizes.resize(walls.points.size(), size);
-  for (Vertex i = 0; i < 3; ++i) walls.simplices.push_back({first + i, first + i + 1, first + i + 2, first + i + 3});
-}
-
 }  // namespace
 
-SizeSources wall_sizes(const Surface& surface, double size, int layers) {
+std::vector<SizePrism> wall_sizes(const Surface& surface, double size, int layers) {
   return WallFinder(surface, size, layers).find();
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // Sizes that give thin walls some elements across.
 
+#include <vector>
+
 #include "tools/tetmesh/shells.hpp"
 #include "tools/tetmesh/size_field.hpp"
 
@@ -11,6 +13,6 @@ namespace hexpipe {
 // the shape diameter function, 2008, with one ray in place of a cone). Where that length is less than `layers` times
 // `size`, its part by the layers is the size of the wall, in all of it between the two sides; but at least a 32nd of
 // `size`. Sides that meet at an edge, at more than 15 degrees, are no wall. Rays start at most a size apart.
-SizeSources wall_sizes(const Surface& surface, double size, int layers);
+std::vector<SizePrism> wall_sizes(const Surface& surface, double size, int layers);
 
 }  // namespace hexpipe

@@ -58,7 +58,7 @@ Across walk_across(const FieldSurface& surface, HalfEdge start, double near, dou
 
 class CrestFinder {
  public:
-  CrestFinder(const FeatureMesh& mesh, const SizeField& size) : mesh_(mesh), size_(size), surface_(mesh) {
+  CrestFinder(const FeatureMesh& mesh, const SizeField& size) : mesh_(mesh), size_(size), surface_(mesh, size) {
     rank_.resize(mesh.n_edges());
     for (const auto e : mesh.edges()) rank_[e.idx()] = rank_of(e);
   }
@@ -152,12 +152,12 @@ std::vector<OpenMesh::EdgeHandle> crest_lines(const FeatureMesh& mesh, const Siz
   return CrestFinder(mesh, size).find();
 }
 
-BendStretch bend_stretch(const FieldSurface& surface, const SizeField& size) {
+BendStretch bend_stretch(const FieldSurface& surface) {
   BendStretch result{std::vector<double>(surface.triangles.size(), 1.0), std::vector<Vec3>(surface.triangles.size())};
   std::vector<std::int32_t> queue;
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(surface.twins.size()); ++h) {
     if (!surface.crest[h]) continue;
-    const double reach = flat_reach * size.at(surface.centres[triangle_of(h)]);
+    const double reach = flat_reach * surface.sizes[triangle_of(h)];
     const Across across = walk_across(surface, h, reach, reach);
     const Vec3& end = surface.normals[across.triangles.back()];
     const Vec3 crest = unit(surface.normals[triangle_of(h)] + surface.normals[triangle_of(surface.twins[h])]);

@@ -26,6 +26,6 @@ struct BendStretch {
 };
 
 // Beside the half-edges that are crests.
-BendStretch bend_stretch(const FieldSurface& surface, const SizeField& size);
+BendStretch bend_stretch(const FieldSurface& surface);
 
 }  // namespace hexpipe

@@ -56,13 +56,11 @@ using Factors = Eigen::SimplicialLDLT<Matrix>;
 
 class FieldSolver {
  public:
-  FieldSolver(const FieldSurface& surface, const SizeField& size, std::span<const OppositeSide> opposite)
+  FieldSolver(const FieldSurface& surface, std::span<const OppositeSide> opposite)
       : surface_(surface), opposite_(opposite) {
     const auto count = static_cast<std::int32_t>(surface.triangles.size());
     frames_.reserve(surface.triangles.size());
     for (std::int32_t f = 0; f < count; ++f) frames_.emplace_back(surface, f);
-    sizes_.reserve(surface.triangles.size());
-    for (const Vec3& centre : surface.centres) sizes_.push_back(size.at(centre));
     edges_.reserve(3 * surface.triangles.size());
     for (HalfEdge h = 0; h < 3 * count; ++h)
       edges_.push_back(angle_of(frames_[triangle_of(h)], surface.edge_vector(h)));
@@ -92,7 +90,6 @@ class FieldSolver {
 
   const FieldSurface& surface_;
   std::span<const OppositeSide> opposite_;
-  std::vector<double> sizes_;  // of triangles
   std::vector<TangentFrame> frames_;
   std::vector<Complex> edges_;  // exp(i angle) of each half-edge in its triangle's frame
 };
@@ -136,16 +133,17 @@ std::vector<Complex> FieldSolver::solve_system() const {
   };
   const std::vector<Complex> bend = curvature();
   for (std::int32_t f = 0; f < count; ++f) {
-    const double strength = std::abs(bend[f]), turned = std::min(1.0, strength * sizes_[f]);
+    const double strength = std::abs(bend[f]), turned = std::min(1.0, strength * surface_.sizes[f]);
     const Complex direction = strength > 0 ? bend[f] / strength : Complex(1);
-    const double weight = curvature_weight * surface_.areas[f] / (sizes_[f] * sizes_[f]) * turned * turned;
+    const double weight =
+        curvature_weight * surface_.areas[f] / (surface_.sizes[f] * surface_.sizes[f]) * turned * turned;
     pull(f, weight + least_weight, direction * direction);
   }
   for (HalfEdge h = 0; h < 3 * count; ++h) {
     const std::int32_t f = triangle_of(h), g = triangle_of(surface_.twins[h]);
     const double squared_length = norm_squared(surface_.edge_vector(h));
     if (surface_.feature[h]) {
-      pull(f, feature_weight * std::sqrt(squared_length) / sizes_[f], fourth_power(edges_[h]));
+      pull(f, feature_weight * std::sqrt(squared_length) / surface_.sizes[f], fourth_power(edges_[h]));
       continue;
     }
     const double weight = 1.5 * squared_length / (surface_.areas[f] + surface_.areas[g]);
@@ -193,8 +191,8 @@ Complex FieldSolver::seen_from(std::int32_t triangle, std::int32_t opposite, Com
 
 }  // namespace
 
-CrossField cross_field(const FieldSurface& surface, const SizeField& size, std::span<const OppositeSide> opposite) {
-  return FieldSolver(surface, size, opposite).solve();
+CrossField cross_field(const FieldSurface& surface, std::span<const OppositeSide> opposite) {
+  return FieldSolver(surface, opposite).solve();
 }
 
 }  // namespace hexpipe

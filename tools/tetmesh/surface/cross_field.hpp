@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/surface/field_surface.hpp"
 #include "tools/tetmesh/surface/opposite_sides.hpp"
 
@@ -22,8 +21,8 @@ struct CrossField {
   }
 };
 
-// `size` is the distance over which a full bend counts as much as smoothness. Where `opposite` is not empty, sides that
+// A full bend over the size counts as much as smoothness. Where `opposite` is not empty, sides that
 // face each other across the inside agree as far as their features let them.
-CrossField cross_field(const FieldSurface& surface, const SizeField& size, std::span<const OppositeSide> opposite = {});
+CrossField cross_field(const FieldSurface& surface, std::span<const OppositeSide> opposite = {});
 
 }  // namespace hexpipe

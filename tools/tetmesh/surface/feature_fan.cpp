@@ -29,7 +29,7 @@ std::optional<FeatureFan> feature_fan(const SurfaceLinks& links, HalfEdge first)
 
   FeatureFan fan{};
   fan.first = first;
-  fan.first_ahead = dot(onward, vertex + 0.5 * edge - surface.centres[f]) / links.sizes[f];
+  fan.first_ahead = dot(onward, vertex + 0.5 * edge - surface.centres[f]) / links.surface.sizes[f];
   fan.last = previous_in_triangle(first);
   for (; !surface.feature[fan.last]; fan.last = previous_in_triangle(surface.twins[fan.last])) {
     if (links.of[fan.last].weight <= 0) return std::nullopt;
@@ -39,9 +39,9 @@ std::optional<FeatureFan> feature_fan(const SurfaceLinks& links, HalfEdge first)
   const std::int32_t g = triangle_of(fan.last);
   const Vec3 last_edge = surface.edge_vector(fan.last), last_onward = direction_in(links, g, along);
   if (dot(last_onward, unit(last_edge)) < aligned_cosine) return std::nullopt;
-  fan.last_ahead = dot(last_onward, vertex - 0.5 * last_edge - surface.centres[g]) / links.sizes[g];
-  fan.apart = dot(inward, surface.centres[f] - vertex) / links.sizes[f] -
-              dot(direction_in(links, g, across), surface.centres[g] - vertex) / links.sizes[g];
+  fan.last_ahead = dot(last_onward, vertex - 0.5 * last_edge - surface.centres[g]) / links.surface.sizes[g];
+  fan.apart = dot(inward, surface.centres[f] - vertex) / links.surface.sizes[f] -
+              dot(direction_in(links, g, across), surface.centres[g] - vertex) / links.surface.sizes[g];
   return fan;
 }
 

@@ -2,7 +2,7 @@
 
 namespace hexpipe {
 
-FieldSurface::FieldSurface(const FeatureMesh& mesh) {
+FieldSurface::FieldSurface(const FeatureMesh& mesh, const SizeField& size) {
   points.reserve(mesh.n_vertices());
   for (const auto v : mesh.vertices()) points.push_back(mesh.position(v));
   triangles.reserve(mesh.n_faces());
@@ -20,6 +20,7 @@ FieldSurface::FieldSurface(const FeatureMesh& mesh) {
     const double length = norm(normal);
     normals.push_back(normal * (1 / length));
     areas.push_back(length / 2);
+    sizes.push_back(size.at(centres.back()));
   }
   twins = find_twins(points.size(), triangles);
   inwards.reserve(twins.size());

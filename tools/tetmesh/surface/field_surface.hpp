@@ -1,16 +1,17 @@
 #pragma once
-// A refined surface as plain arrays, for the cross field and for walks along it.
+// A refined surface as plain arrays, and what sizes are asked for on it, for the cross field and for walks along it.
 
 #include <vector>
 
 #include "tools/tetmesh/half_edges.hpp"
+#include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 
 namespace hexpipe {
 
 struct FieldSurface {
   // Faces and vertices have the numbers that they have in the mesh, which must have nothing deleted.
-  explicit FieldSurface(const FeatureMesh& mesh);
+  FieldSurface(const FeatureMesh& mesh, const SizeField& size);
 
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
@@ -20,6 +21,7 @@ struct FieldSurface {
   std::vector<Vec3> centres;
   std::vector<Vec3> normals;  // of length 1
   std::vector<double> areas;
+  std::vector<double> sizes;  // in the middle of each triangle
   std::vector<Vec3> inwards;  // of each half-edge, see inward()
 
   Vec3 edge_vector(HalfEdge h) const { return points[end_of(triangles, h)] - points[start_of(triangles, h)]; }

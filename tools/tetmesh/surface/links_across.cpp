@@ -18,12 +18,12 @@ constexpr double bend_reach = 1.5, shortest_walk = 0.5;
 // In radians by sizes, along the direction of the field in which it bends most.
 double bend_of(const SurfaceLinks& links, const FieldWalker& walker, std::int32_t f) {
   const SurfacePoint centre{links.surface.centres[f], f};
-  const double reach = bend_reach * links.sizes[f];
+  const double reach = bend_reach * links.surface.sizes[f];
   double most = 0;
   for (const Vec3& axis : links.field.axes(links.surface, f)) {
     const WalkEnd ahead = walker.walk_straight(centre, axis, reach),
                   behind = walker.walk_straight(centre, -axis, reach);
-    const double length = (ahead.length + behind.length) / links.sizes[f];
+    const double length = (ahead.length + behind.length) / links.surface.sizes[f];
     if (length < shortest_walk) continue;
     const auto& normals = links.surface.normals;
     most = std::max(most, norm(normals[ahead.point.triangle] - normals[behind.point.triangle]) / length);
@@ -41,12 +41,13 @@ SurfaceLink make_link(const SurfaceLinks& links, const FieldWalker& walker, cons
   const auto here = links.field.axes(links.surface, f), there = links.field.axes(links.surface, g);
   const double trust = trust_in_match(link.match(here, there));
   // Of the numbers of rows on both sides, as a part of one of them: by their lengths, and by what sizes are asked for.
-  const auto [finer, coarser] = std::minmax(links.sizes[f], links.sizes[g]);
+  const auto [finer, coarser] = std::minmax(links.surface.sizes[f], links.surface.sizes[g]);
   double difference = coarser / finer - 1;
   if (trust > 0 && difference < 1) difference += bend_of(links, walker, f) * opposite.distance;
   link.weight =
       weight_across * trust * std::max(0.0, 1 - difference) * opposite.area / std::max(1.0, opposite.distance);
-  const Vec3 back = (2 / (links.sizes[f] + links.sizes[g])) * (links.surface.centres[f] - links.surface.centres[g]);
+  const Vec3 back =
+      (2 / (links.surface.sizes[f] + links.surface.sizes[g])) * (links.surface.centres[f] - links.surface.centres[g]);
   for (std::size_t k = 0; k < 2; ++k)
     link.way[k] = link.distance[k] = 0.5 * dot(here[k] + link.matched(k, there), back);
   link.set_turn();
@@ -56,7 +57,7 @@ SurfaceLink make_link(const SurfaceLinks& links, const FieldWalker& walker, cons
 }  // namespace
 
 LinksAcross::LinksAcross(const SurfaceLinks& links, std::span<const OppositeSide> opposite)
-    : offsets_(links.sizes.size() + 1) {
+    : offsets_(links.surface.sizes.size() + 1) {
   const FieldWalker walker(links.surface, links.field);
   std::vector<SurfaceLink> found(opposite.size());
   parallel_for(static_cast<std::int64_t>(found.size()), 64, [&](std::int64_t i) {

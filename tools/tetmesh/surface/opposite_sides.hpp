@@ -16,6 +16,6 @@ struct OppositeSide {
 
 // Of each triangle; none where the other side is not nearly parallel, or further than 25 sizes, and of most of those
 // that are small: for these, one of several stands.
-std::vector<OppositeSide> opposite_sides(const FieldSurface& surface, const SizeField& size);
+std::vector<OppositeSide> opposite_sides(const FieldSurface& surface);
 
 }  // namespace hexpipe

@@ -102,15 +102,15 @@ void add_known_steps(const SurfaceLinks& links, const FeatureFan& fan, const std
                      Loops& loops) {
   const double first_length = step_length[fan.first], last_length = step_length[fan.last];
   const auto is_about_a_size = [&](double length, HalfEdge h) {
-    const double sizes = length / links.sizes[triangle_of(h)];
+    const double sizes = length / links.surface.sizes[triangle_of(h)];
     return sizes > shortest_step && sizes < longest_step;
   };
   if (!is_about_a_size(first_length, fan.first) || !is_about_a_size(last_length, fan.last)) return;
   const FieldSurface& surface = links.surface;
   const double steps =
       0.5 * (norm(surface.edge_vector(fan.first)) / first_length + norm(surface.edge_vector(fan.last)) / last_length);
-  const double first_ahead = fan.first_ahead * links.sizes[triangle_of(fan.first)] / first_length;
-  const double last_ahead = fan.last_ahead * links.sizes[triangle_of(fan.last)] / last_length;
+  const double first_ahead = fan.first_ahead * links.surface.sizes[triangle_of(fan.first)] / first_length;
+  const double last_ahead = fan.last_ahead * links.surface.sizes[triangle_of(fan.last)] / last_length;
   for (const LoopStep& step : fan.along) loops.add_step(step);
   loops.close(steps - first_ahead + last_ahead);
 }
@@ -140,7 +140,7 @@ void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept) {
     SurfaceLink& link = links.of[h];
     const std::int32_t f = triangle_of(h);
     const double longest =
-        most_strain * norm(links.surface.centres[f] - links.surface.centres[link.neighbour]) / links.sizes[f];
+        most_strain * norm(links.surface.centres[f] - links.surface.centres[link.neighbour]) / links.surface.sizes[f];
     for (std::size_t k = 0; k < 2; ++k)
       link.distance[k] += std::clamp<double>(correction[SurfaceLinks::number_of(h, k)], -longest, longest);
     link.set_turn();

@@ -48,6 +48,10 @@ struct Outlook {
   }
 };
 
+struct SizedPoint : SurfacePoint {
+  double size = 0;  // there
+};
+
 class SurfaceFront {
  public:
   SurfaceFront(const FieldSurface& surface, const CrossField& field, const SizeField& size)
@@ -61,7 +65,7 @@ class SurfaceFront {
   std::vector<SurfacePoint> run(const SurfaceLattice& lattice, std::span<const Vertex> kept) {
     add_kept(kept);
     spacing_ = lattice.spacing;
-    for (const SurfacePoint& p : lattice.points) take_if_free(p, {});
+    for (const SurfacePoint& p : lattice.points) take_if_free(sized(p), {});
     start_from_kept(kept);
     spread();
     fill_gaps();
@@ -74,19 +78,21 @@ class SurfaceFront {
   void start_from_corner(HalfEdge h);
   void spread();
   void fill_gaps();
-  void offer_step(const SurfacePoint& from, const Vec3& direction, const Outlook& known);
-  WalkEnd step(const SurfacePoint& from, const Vec3& direction, double sizes) const;
+  SizedPoint sized(const SurfacePoint& point) const { return {point, size_.at(point.position)}; }
+  void offer_step(const SizedPoint& from, const Vec3& direction, const Outlook& known);
+  WalkEnd step(const SizedPoint& from, const Vec3& direction, double sizes) const;
   double sizes_along(const Vec3& from, const WalkEnd& end) const;
-  Outlook look(const SurfacePoint& from, const Vec3& direction) const;
+  Outlook look(const SizedPoint& from, const Vec3& direction) const;
   // Whether no point is nearer than `distance` steps of the lattice, on the surface or off it.
-  bool is_free(const SurfacePoint& point, double distance) const;
-  void take_if_free(const SurfacePoint& point, const Outlook& outlook);
+  bool is_free(const SizedPoint& point, double distance) const;
+  void take_if_free(const SizedPoint& point, const Outlook& outlook);
 
   const FieldSurface& surface_;
   const CrossField& field_;
   FieldWalker walker_;
   const SizeField& size_;
   std::vector<SurfacePoint> points_;
+  std::vector<double> sizes_;                   // at the points
   std::vector<Outlook> outlooks_;               // of the points, along the way on which they were reached
   std::vector<std::array<double, 2>> spacing_;  // of the lattice, in each triangle
   std::size_t next_ = 0;                        // of the points, the first that has not yet offered its neighbours
@@ -122,7 +128,7 @@ void SurfaceFront::start_from_kept(std::span<const Vertex> kept) {
 void SurfaceFront::start_from_corner(HalfEdge h) {
   const std::int32_t f = triangle_of(h);
   const Vec3 left = surface_.inward(h), right = surface_.inward(previous_in_triangle(h));
-  const SurfacePoint corner{surface_.points[start_of(surface_.triangles, h)], f};
+  const SizedPoint corner = sized({surface_.points[start_of(surface_.triangles, h)], f});
   const auto [x, y] = field_.axes(surface_, f);
   for (const Vec3& direction : {x, y, -x, -y})
     if (dot(direction, left) >= 0 && dot(direction, right) > 0) offer_step(corner, direction, {});
@@ -130,7 +136,7 @@ void SurfaceFront::start_from_corner(HalfEdge h) {
 
 void SurfaceFront::spread() {
   for (; next_ < points_.size(); ++next_) {
-    const SurfacePoint from = points_[next_];
+    const SizedPoint from{points_[next_], sizes_[next_]};
     const Outlook outlook = outlooks_[next_];
     const auto [x, y] = field_.axes(surface_, from.triangle);
     for (const Vec3& direction : {x, y, -x, -y}) offer_step(from, direction, outlook);
@@ -139,27 +145,26 @@ void SurfaceFront::spread() {
 
 void SurfaceFront::fill_gaps() {
   for (std::int32_t f = 0; f < static_cast<std::int32_t>(surface_.triangles.size()); ++f) {
-    take_if_free({surface_.centres[f], f}, {});
+    take_if_free({{surface_.centres[f], f}, surface_.sizes[f]}, {});
     spread();
   }
 }
 
-void SurfaceFront::offer_step(const SurfacePoint& from, const Vec3& direction, const Outlook& known) {
+void SurfaceFront::offer_step(const SizedPoint& from, const Vec3& direction, const Outlook& known) {
   WalkEnd end = step(from, direction, 1);
   // Fitting moves the end of a step that is taken by at most a quarter of the size.
-  if (!end.at_feature && !is_free(end.point, least_distance - 0.25)) return;
-  const Outlook outlook =
-      known.holds_for(direction, least_ahead * size_.at(from.position)) ? known : look(from, direction);
+  if (!end.at_feature && !is_free(sized(end.point), least_distance - 0.25)) return;
+  const Outlook outlook = known.holds_for(direction, least_ahead * from.size) ? known : look(from, direction);
   if (outlook.steps > 0) {
     if (outlook.steps < 2) return;
     end = step(from, direction, outlook.step);
   }
-  if (!end.at_feature) take_if_free(end.point, outlook.after_step(end));
+  if (!end.at_feature) take_if_free(sized(end.point), outlook.after_step(end));
 }
 
 // As long as the mean of the sizes at its ends, times `sizes`.
-WalkEnd SurfaceFront::step(const SurfacePoint& from, const Vec3& direction, double sizes) const {
-  const double size = sizes * size_.at(from.position);
+WalkEnd SurfaceFront::step(const SizedPoint& from, const Vec3& direction, double sizes) const {
+  const double size = sizes * from.size;
   const double mean = (size + sizes * size_.at(from.position + size * direction)) / 2;
   return walker_.walk(from, direction, mean);
 }
@@ -175,21 +180,21 @@ double SurfaceFront::sizes_along(const Vec3& from, const WalkEnd& end) const {
   return end.length * sum / size_samples;
 }
 
-Outlook SurfaceFront::look(const SurfacePoint& from, const Vec3& direction) const {
-  const WalkEnd far = walker_.walk(from, direction, look_ahead * size_.at(from.position));
+Outlook SurfaceFront::look(const SizedPoint& from, const Vec3& direction) const {
+  const WalkEnd far = walker_.walk(from, direction, look_ahead * from.size);
   if (!far.at_feature) return {direction, 1, 0, far.length};
   const double sizes = sizes_along(from.position, far), steps = std::max(1.0, std::round(sizes));
   return {direction, sizes / steps, steps, 0};
 }
 
-bool SurfaceFront::is_free(const SurfacePoint& point, double distance) const {
+bool SurfaceFront::is_free(const SizedPoint& point, double distance) const {
   const auto [x, y] = field_.axes(surface_, point.triangle);
   const Vec3& n = surface_.normals[point.triangle];
   const auto [along, across] = spacing_[point.triangle];
-  const double size = size_.at(point.position), least = distance * size;
-  const double reach = std::max({1.0, distance * std::hypot(1.0, along, across)}) * size;
+  const double least = distance * point.size;
+  const double reach = std::max({1.0, distance * std::hypot(1.0, along, across)}) * point.size;
   bool is_free = true;
-  grid_.for_each_near(point.position, reach, size_.least_near(size, reach), [&](std::int32_t i) {
+  grid_.for_each_near(point.position, reach, size_.least_near(point.size, reach), [&](std::int32_t i) {
     const Vec3 d = grid_.points()[i] - point.position;
     const auto is_far = [&, off = dot(d, n)](const Vec3& axis, double wanted) {
       const double here = dot(d, axis);
@@ -202,13 +207,14 @@ bool SurfaceFront::is_free(const SurfacePoint& point, double distance) const {
   return is_free;
 }
 
-void SurfaceFront::take_if_free(const SurfacePoint& point, const Outlook& outlook) {
+void SurfaceFront::take_if_free(const SizedPoint& point, const Outlook& outlook) {
   if (taken_in_[point.triangle] == most_in_triangle || !is_free(point, least_distance)) return;
   ++taken_in_[point.triangle];
-  grid_.add(point.position, size_.at(point.position));
+  grid_.add(point.position, point.size);
   outlooks_.push_back(outlook);
   normals_.push_back({surface_.normals[point.triangle]});
   points_.push_back(point);
+  sizes_.push_back(point.size);
 }
 
 }  // namespace
@@ -216,7 +222,7 @@ void SurfaceFront::take_if_free(const SurfacePoint& point, const Outlook& outloo
 std::vector<SurfacePoint> surface_front(const FieldSurface& surface, const CrossField& field,
                                         std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
                                         const SizeField& size) {
-  return SurfaceFront(surface, field, size).run(surface_lattice(surface, field, opposite, kept, size), kept);
+  return SurfaceFront(surface, field, size).run(surface_lattice(surface, field, opposite, kept), kept);
 }
 
 }  // namespace hexpipe

@@ -56,19 +56,14 @@ struct Proposal {
 
 class LatticeMaker {
  public:
-  LatticeMaker(const FieldSurface& surface, const CrossField& field, std::span<const OppositeSide> opposite,
-               const SizeField& size)
-      : surface_(surface),
-        field_(field),
-        walker_(surface, field),
-        links_(surface, field, size),
-        across_(links_, opposite) {
+  LatticeMaker(const FieldSurface& surface, const CrossField& field, std::span<const OppositeSide> opposite)
+      : surface_(surface), field_(field), walker_(surface, field), links_(surface, field), across_(links_, opposite) {
     const std::size_t count = surface.triangles.size();
     degrees_.resize(count);
     pulls_.resize(count);
     targets_.resize(count);
     phases_.resize(count);
-    greatest_size_ = size.greatest();
+    greatest_size_ = std::ranges::max(surface.sizes);
   }
 
   SurfaceLattice make(std::span<const Vertex> kept) {
@@ -149,7 +144,7 @@ void LatticeMaker::make_anchors(std::span<const Vertex> kept) {
     const Vec3 from_start = surface_.centres[f] - surface_.points[v];
     const auto axes = directions(f);
     for (std::size_t k = 0; k < 2; ++k) {
-      const double coordinate = dot(axes[k], from_start) / links_.sizes[f];
+      const double coordinate = dot(axes[k], from_start) / surface_.sizes[f];
       if (surface_.feature[h] && std::abs(dot(axes[k], surface_.inward(h))) > aligned_cosine)
         pull(f, k, edge_weight, coordinate);
       else if (is_kept[v])
@@ -268,7 +263,7 @@ void LatticeMaker::propose(std::int32_t f, std::vector<Proposal>& proposals) con
     const double along = x * first[0] + y * second[0], across = x * first[1] + y * second[1];
     const double length = std::hypot(along, across);
     const Vec3 way = length > 0 ? (along * axes[0] + across * axes[1]) * (1 / length) : axes[0];
-    const WalkEnd end = walker_.walk_straight({surface_.centres[f], f}, way, length * links_.sizes[f]);
+    const WalkEnd end = walker_.walk_straight({surface_.centres[f], f}, way, length * surface_.sizes[f]);
     if (end.at_feature) continue;
     proposals.push_back({end.point, (distrust_begins - distance) * agreement * surface_.areas[f]});
   }
@@ -286,7 +281,7 @@ void LatticeMaker::agree() {
 
 Proposal LatticeMaker::agreed(const SizedPointGrid& grid, const Proposal& proposal) const {
   const Vec3 &place = proposal.point.position, &normal = surface_.normals[proposal.point.triangle];
-  const double reach = same_point * links_.sizes[proposal.point.triangle];
+  const double reach = same_point * surface_.sizes[proposal.point.triangle];
   Vec3 sum;
   double trust = 0;
   grid.for_each_near(place, reach, 0, [&](std::int32_t i) {
@@ -299,7 +294,7 @@ Proposal LatticeMaker::agreed(const SizedPointGrid& grid, const Proposal& propos
   });
   if (trust <= 0) return proposal;
   const Vec3 way = sum * (1 / trust) - dot(sum, normal) / trust * normal;
-  const double length = norm(way), size = links_.sizes[proposal.point.triangle];
+  const double length = norm(way), size = surface_.sizes[proposal.point.triangle];
   if (length <= 0) return {proposal.point, trust / (size * size)};
   return {walker_.walk_straight(proposal.point, unit(way), length).point, trust / (size * size)};
 }
@@ -307,9 +302,8 @@ Proposal LatticeMaker::agreed(const SizedPointGrid& grid, const Proposal& propos
 }  // namespace
 
 SurfaceLattice surface_lattice(const FieldSurface& surface, const CrossField& field,
-                               std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
-                               const SizeField& size) {
-  return LatticeMaker(surface, field, opposite, size).make(kept);
+                               std::span<const OppositeSide> opposite, std::span<const Vertex> kept) {
+  return LatticeMaker(surface, field, opposite).make(kept);
 }
 
 }  // namespace hexpipe

@@ -22,7 +22,6 @@ struct SurfaceLattice {
 // `kept` are the vertices of the surface that are points already. Of sides that face each other across the inside, so
 // that rows lead from the one to the other, `opposite` tells.
 SurfaceLattice surface_lattice(const FieldSurface& surface, const CrossField& field,
-                               std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
-                               const SizeField& size);
+                               std::span<const OppositeSide> opposite, std::span<const Vertex> kept);
 
 }  // namespace hexpipe

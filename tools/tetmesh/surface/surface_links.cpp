@@ -27,7 +27,8 @@ SurfaceLink make_link(const SurfaceLinks& links, const BendStretch& stretch, Hal
   const double cosine = link.match(unfolded, there);
   for (std::size_t k = 0; k < 2; ++k) {
     const Vec3 matched = link.matched(k, there);
-    const double size = 0.5 * (links.sizes[f] + links.sizes[g]), before = dot(here[k], from), after = dot(matched, to);
+    const double size = 0.5 * (surface.sizes[f] + surface.sizes[g]), before = dot(here[k], from),
+                 after = dot(matched, to);
     link.way[k] = (before - after) / size;
     link.distance[k] = (stretch.in_direction(f, here[k]) * before - stretch.in_direction(g, matched) * after) / size;
   }
@@ -70,11 +71,9 @@ SurfaceLink SurfaceLink::reversed(std::int32_t from) const {
   return back;
 }
 
-SurfaceLinks::SurfaceLinks(const FieldSurface& on, const CrossField& along, const SizeField& size)
+SurfaceLinks::SurfaceLinks(const FieldSurface& on, const CrossField& along)
     : surface(on), field(along), of(on.twins.size()) {
-  sizes.reserve(on.centres.size());
-  for (const Vec3& centre : on.centres) sizes.push_back(size.at(centre));
-  const BendStretch stretch = bend_stretch(on, size);
+  const BendStretch stretch = bend_stretch(on);
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(of.size()); ++h) {
     const HalfEdge twin = on.twins[h];
     if (on.feature[h] || twin < h) continue;

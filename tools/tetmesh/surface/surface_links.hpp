@@ -41,11 +41,10 @@ inline double trust_in_match(double cosine) {
 }
 
 struct SurfaceLinks {
-  SurfaceLinks(const FieldSurface& on, const CrossField& along, const SizeField& size);
+  SurfaceLinks(const FieldSurface& on, const CrossField& along);
 
   const FieldSurface& surface;
   const CrossField& field;
-  std::vector<double> sizes;    // of the triangles
   std::vector<SurfaceLink> of;  // each half-edge, to the triangle beyond it; without a neighbour where it is a feature
 
   // Calls body(h) for one half-edge of each pair with links.

@@ -123,9 +123,9 @@ bool SurfaceRemesher::prepare() {
     sample_feature_curves(prepared_, size_, deviation_);
   refine_surface(prepared_, longest, flat);
   const std::vector<Vertex> kept = kept_vertices();
-  const FieldSurface field_surface(prepared_);
-  const std::vector<OppositeSide> opposite = opposite_sides(field_surface, size_);
-  const CrossField field = cross_field(field_surface, size_, opposite);
+  const FieldSurface field_surface(prepared_, size_);
+  const std::vector<OppositeSide> opposite = opposite_sides(field_surface);
+  const CrossField field = cross_field(field_surface, opposite);
   if (!std::ranges::all_of(field.directions, is_place)) return false;
   const std::vector<SurfacePoint> points = surface_front(field_surface, field, opposite, kept, size_);
   insert_points(prepared_, points, snap * size_);

@@ -57,8 +57,7 @@ class PointPlacer {
 
  private:
   void propose();
-  void propose(std::size_t node, const std::array<double, 3>& coordinates, const std::array<Vec3, 3>& steps,
-               double agreement);
+  void propose(std::size_t node, const LatticeField& field, std::vector<Proposal>& proposals) const;
   void agree();
   Proposal agreed(const SizedPointGrid& grid, const Proposal& proposal) const;
   std::vector<Vec3> accept() const;
@@ -75,20 +74,28 @@ class PointPlacer {
 void PointPlacer::propose() {
   const LatticeField field = solve_lattice_field(nodes_, frames_);
   for (const auto& [x, y, z] : field.steps) spacing_.push_back({norm(x), norm(y), norm(z)});
-  for (std::size_t i = 0; i < nodes_.size(); ++i) propose(i, field.coordinates[i], field.steps[i], field.agreement[i]);
+  parallel_in_order(
+      static_cast<std::int64_t>(nodes_.size()), 512,
+      [&](std::int64_t begin, std::int64_t end) {
+        std::vector<Proposal> proposals;
+        for (std::int64_t i = begin; i < end; ++i) propose(static_cast<std::size_t>(i), field, proposals);
+        return proposals;
+      },
+      [&](const std::vector<Proposal>& some) { proposals_.insert(proposals_.end(), some.begin(), some.end()); });
 }
 
-void PointPlacer::propose(std::size_t i, const std::array<double, 3>& coordinates, const std::array<Vec3, 3>& steps,
-                          double agreement) {
-  const auto node = static_cast<std::int32_t>(i);
+void PointPlacer::propose(std::size_t i, const LatticeField& field, std::vector<Proposal>& proposals) const {
+  const auto& coordinates = field.coordinates[i];
+  const auto& steps = field.steps[i];
   for (int cell = 0; cell < 27; ++cell) {
     // NOLINTNEXTLINE(bugprone-integer-division): the digits of a number to base 3
     const Vec3 cells{cell % 3 - 1 - coordinates[0], cell / 3 % 3 - 1 - coordinates[1], cell / 9 - 1 - coordinates[2]};
     const double distance = std::max({std::abs(cells.x), std::abs(cells.y), std::abs(cells.z)});
     if (distance > furthest) continue;
     const Vec3 way = cells.x * steps[0] + cells.y * steps[1] + cells.z * steps[2];
-    const Vec3 point = nodes_.points[i] + options_.size.at(nodes_.points[i] + nodes_.sizes[i] / 2 * way) * way;
-    proposals_.push_back({point, options_.size.at(point), node, (distrust_begins - distance) * agreement});
+    const double here = nodes_.sizes[i], there = options_.size.at(nodes_.points[i] + here * way);
+    proposals.push_back({nodes_.points[i] + 0.5 * (here + there) * way, there, static_cast<std::int32_t>(i),
+                         (distrust_begins - distance) * field.agreement[i]});
   }
 }
 
@@ -123,12 +130,12 @@ std::vector<Vec3> PointPlacer::accept() const {
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, std::greater(), [&](std::int32_t i) { return proposals_[i].trust; });
 
-  const SurfaceClearance clearance(surface_, options_.clearance * options_.size);
+  const SurfaceClearance clearance(surface_);
   SizedPointGrid taken(surface_.points.front());
   for (const Vec3& p : surface_.points) taken.add(p, 2 * least_spacing * options_.size.at(p));
   for (const std::int32_t i : order) {
     const Proposal& p = proposals_[i];
-    if (is_free(taken, p) && clearance.is_clear(p.point) && clearance.is_inside(p.point))
+    if (is_free(taken, p) && clearance.is_clear(p.point, options_.clearance * p.size) && clearance.is_inside(p.point))
       taken.add(p.point, 2 * least_spacing * p.size);
   }
   return {taken.points().begin() + static_cast<std::ptrdiff_t>(surface_.points.size()), taken.points().end()};

@@ -8,12 +8,12 @@
 namespace hexpipe {
 
 GivenPoints usable_points(const Surface& surface, const PointList& list, double clearance) {
-  const SurfaceClearance clear(surface, clearance);
+  const SurfaceClearance clear(surface);
   SizedPointGrid taken(surface.points.front());
   std::size_t left_out = 0, first = 0;
   for (std::size_t i = 0; i < list.points.size(); ++i) {
     const Vec3& p = list.points[i];
-    bool is_usable = clear.is_inside(p) && clear.is_clear(p);
+    bool is_usable = clear.is_inside(p) && clear.is_clear(p, clearance);
     if (is_usable)
       taken.for_each_near(p, 0, 0, [&](std::int32_t other) { return is_usable = taken.points()[other] != p; });
     if (is_usable)

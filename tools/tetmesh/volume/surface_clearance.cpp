@@ -6,19 +6,17 @@
 
 namespace hexpipe {
 
-SurfaceClearance::SurfaceClearance(const Surface& surface, const SizeField& clearance)
+SurfaceClearance::SurfaceClearance(const Surface& surface)
     : surface_(surface),
-      clearance_(clearance),
       triangles_(tree_of_triangles(surface.points, surface.triangles)),
       columns_(surface.points, surface.triangles) {}
 
-bool SurfaceClearance::is_clear(const Vec3& p) const {
-  const double least = clearance_.at(p);
+bool SurfaceClearance::is_clear(const Vec3& p, double clearance) const {
   const auto distance_to = [&](std::int32_t number) {
     const auto& [a, b, c] = surface_.triangles[number];
     return std::sqrt(TriangleDistance(surface_.points[a], surface_.points[b], surface_.points[c]).squared(p));
   };
-  return triangles_.least(p, 1, least, distance_to) >= least;
+  return triangles_.least(p, 1, clearance, distance_to) >= clearance;
 }
 
 }  // namespace hexpipe
