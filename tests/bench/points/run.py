@@ -116,4 +116,5 @@ def main():
                 first = {r["model"]: r["lns"] for r in rows}
 
 
-main()
+if __name__ == "__main__":
+    main()

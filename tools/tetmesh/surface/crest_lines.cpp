@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/run/parallel.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
 
 namespace hexpipe {
@@ -60,7 +61,8 @@ class CrestFinder {
  public:
   CrestFinder(const FeatureMesh& mesh, const SizeField& size) : mesh_(mesh), size_(size), surface_(mesh, size) {
     rank_.resize(mesh.n_edges());
-    for (const auto e : mesh.edges()) rank_[e.idx()] = rank_of(e);
+    parallel_for(static_cast<std::int64_t>(rank_.size()), 512,
+                 [&](std::int64_t e) { rank_[e] = rank_of(mesh.edge_handle(static_cast<unsigned>(e))); });
   }
 
   std::vector<OpenMesh::EdgeHandle> find() {

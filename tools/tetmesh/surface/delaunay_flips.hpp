@@ -47,7 +47,8 @@ class EdgeQueue {
 };
 
 // Flips what is in the queue, and what that makes worth flipping, as long as allow(edge, diamond) agrees; it is asked
-// only about flips that are possible and do not fold the surface. done(edge) is told of each.
+// only about flips that do not fold the surface, and before anything is read but the two triangles. done(edge) is told
+// of each.
 template <class Allow, class Done>
 void flip_towards_delaunay(FeatureMesh& mesh, EdgeQueue& queue, Allow&& allow, Done&& done) {
   // Rounding must not flip the diagonal of a square back and forth, and folds are refused with some reserve.
@@ -56,8 +57,8 @@ void flip_towards_delaunay(FeatureMesh& mesh, EdgeQueue& queue, Allow&& allow, D
     const OpenMesh::EdgeHandle e = queue.pop();
     if (mesh.status(e).deleted() || mesh.is_feature(e)) continue;
     const EdgeDiamond diamond(mesh, e);
-    if (diamond.excess() <= least_excess || !mesh.is_flip_ok(e)) continue;
-    if (diamond.least_cosine_after_flip() < least_cosine || !allow(e, diamond)) continue;
+    if (diamond.excess() <= least_excess || diamond.least_cosine_after_flip() < least_cosine) continue;
+    if (!allow(e, diamond) || !mesh.is_flip_ok(e)) continue;
     mesh.flip(e);
     done(e);
     for (const int side : {0, 1}) {

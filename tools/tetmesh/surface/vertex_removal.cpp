@@ -1,13 +1,16 @@
 // Half-edge collapses in rounds, each followed by Lawson's flips around it. Faces carry the removed vertices that lie
 // nearest to them, and points on edges, so that the distance from the original surface is known at each step (Klein,
-// Liebich, Straßer 1996).
+// Liebich, Straßer 1996). First in regions at the same time, then where these meet; regions do not depend on the number
+// of threads.
 
 #include "tools/tetmesh/surface/vertex_removal.hpp"
 
 #include <algorithm>
 #include <limits>
 
+#include "common/run/parallel.hpp"
 #include "tools/tetmesh/surface/delaunay_flips.hpp"
+#include "tools/tetmesh/surface/mesh_regions.hpp"
 #include "tools/tetmesh/triangle_distance.hpp"
 
 namespace hexpipe {
@@ -26,11 +29,17 @@ constexpr double least_bend = 0.05;
 constexpr double sample_spacing = 3;
 // Removing some vertices makes others removable; more rounds found nothing.
 constexpr int most_rounds = 20;
+// Vertices of a region, about: with half as many, more are left for where regions meet.
+constexpr std::size_t region_vertices = 8000;
 
 using Corners = std::array<Vec3, 3>;
 
 Vec3 area_normal(const Corners& c) {
   return cross(c[1] - c[0], c[2] - c[0]);
+}
+
+Vec3 middle_of(const Corners& c) {
+  return (c[0] + c[1] + c[2]) * (1.0 / 3);
 }
 
 double shape_of(const Corners& c) {
@@ -43,22 +52,45 @@ struct Change {
   bool flat = false;  // what changes lies in one plane, before and after
   std::vector<Face> faces;
   std::vector<Corners> corners;
+  std::vector<Vec3> places;         // on the new faces and in the middle of each new edge, at which to measure
   std::vector<Vec3> strays;         // removed vertices of all faces concerned
   std::vector<std::size_t> target;  // of each, the index of its new face
 };
 
-class VertexRemover {
+// Of each face, the points that are to stay near it.
+using Strays = std::vector<std::vector<Vec3>>;
+
+// What is near a bent edge of the surface as it was.
+class EdgeSampler {
  public:
-  VertexRemover(FeatureMesh& mesh, const DistanceIndex& original, const SizeField& deviation)
-      : mesh_(mesh), original_(original), deviation_(deviation), strays_(mesh.n_faces()) {
-    for (const Edge e : mesh.edges()) add_samples(e);
+  EdgeSampler(const FeatureMesh& mesh, const SizeField& deviation) : mesh_(mesh), deviation_(deviation) {}
+
+  Strays sample() const {
+    Strays strays(mesh_.n_faces());
+    for (const Edge e : mesh_.edges()) add_samples(e, strays);
+    return strays;
   }
 
-  std::size_t run() {
-    std::vector<VertexH> waiting, left;
-    for (const bool on_feature : {true, false})
-      for (const VertexH v : mesh_.vertices())
-        if (!mesh_.is_kept(v) && mesh_.is_on_feature(v) == on_feature) waiting.push_back(v);
+ private:
+  void add_samples(Edge e, Strays& strays) const;
+
+  const FeatureMesh& mesh_;
+  const SizeField& deviation_;
+};
+
+class VertexRemover {
+ public:
+  VertexRemover(FeatureMesh& mesh, const DistanceIndex& original, const SizeField& deviation, Strays& strays)
+      : mesh_(mesh), original_(original), deviation_(deviation), strays_(strays) {}
+  // That changes nothing outside of a region.
+  VertexRemover(const VertexRemover& whole, const MeshRegions& regions, std::size_t region) : VertexRemover(whole) {
+    regions_ = &regions;
+    region_ = region;
+  }
+
+  // Returns what could not be removed.
+  std::vector<VertexH> remove(std::vector<VertexH> waiting) {
+    std::vector<VertexH> left;
     for (int round = 0; round < most_rounds && !waiting.empty(); ++round) {
       left.clear();
       for (const VertexH v : waiting)
@@ -67,16 +99,17 @@ class VertexRemover {
       std::swap(waiting, left);
       if (stuck) break;
     }
-    return waiting.size();
+    return waiting;
   }
 
-  void flip_all() {
-    for (const Edge e : mesh_.edges()) queue_.push(e);
+  void flip(std::span<const Edge> edges) {
+    for (const Edge e : edges) queue_.push(e);
     flip_queued();
   }
+  // Flips that were wanted, but not all inside the region.
+  std::span<const Edge> wanted() const { return wanted_; }
 
  private:
-  void add_samples(Edge e);
   struct Choice {
     double shape;
     HalfEdgeH collapse;
@@ -96,14 +129,17 @@ class VertexRemover {
   const DistanceIndex& original_;
   std::int32_t nearest_ = -1;  // triangle of the original to what was measured last
   const SizeField& deviation_;
-  std::vector<std::vector<Vec3>> strays_;  // of each face
+  Strays& strays_;
+  const MeshRegions* regions_ = nullptr;  // null: everywhere
+  std::size_t region_ = 0;
   std::vector<Choice> choices_;
   Change change_;
   EdgeQueue queue_;
+  std::vector<Edge> wanted_;
 };
 
 // Across an edge where the surface bends, a new one can leave it without a vertex nearby that would tell.
-void VertexRemover::add_samples(Edge e) {
+void EdgeSampler::add_samples(Edge e, Strays& strays) const {
   const EdgeDiamond diamond(mesh_, e);
   const double height = diamond.height(), length = norm(diamond.end_points[1] - diamond.end_points[0]);
   if (deviation_.is_at_least(height / least_bend, diamond.end_points[0])) return;
@@ -111,10 +147,11 @@ void VertexRemover::add_samples(Edge e) {
   const double parts = std::ceil(length / (sample_spacing * deviation_.at(diamond.end_points[0])));
   // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter): small whole numbers
   for (double i = 1; i < parts; ++i)
-    strays_[f.idx()].push_back(diamond.end_points[0] + i / parts * (diamond.end_points[1] - diamond.end_points[0]));
+    strays[f.idx()].push_back(diamond.end_points[0] + i / parts * (diamond.end_points[1] - diamond.end_points[0]));
 }
 
 bool VertexRemover::remove(VertexH v) {
+  if (regions_ && !regions_->has_around(region_, mesh_, v)) return false;
   choices_.clear();
   const bool on_feature = mesh_.is_on_feature(v);
   for (const HalfEdgeH h : mesh_.voh_range(v)) {
@@ -162,6 +199,7 @@ void VertexRemover::describe_collapse(HalfEdgeH collapse) {
   change_.flat = mesh_.is_flat_around(v);
   change_.faces.clear();
   change_.corners.clear();
+  change_.places.clear();
   change_.strays.assign(1, mesh_.position(v));
   for (const Face f : mesh_.vf_range(v)) {
     const auto& of_face = strays_[f.idx()];
@@ -169,9 +207,16 @@ void VertexRemover::describe_collapse(HalfEdgeH collapse) {
     const auto handles = mesh_.corners(f);
     if (std::ranges::find(handles, to) != handles.end()) continue;
     Corners after;
-    for (std::size_t i = 0; i < 3; ++i) after[i] = mesh_.position(handles[i] == v ? to : handles[i]);
+    std::size_t moved = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (handles[i] == v) moved = i;
+      after[i] = mesh_.position(handles[i] == v ? to : handles[i]);
+    }
     change_.faces.push_back(f);
     change_.corners.push_back(after);
+    // Of the two edges at the corner that moved, one is that of the next face, too, or was there before.
+    change_.places.push_back(middle_of(after));
+    change_.places.push_back(0.5 * (after[moved] + after[(moved + 1) % 3]));
   }
 }
 
@@ -194,14 +239,10 @@ bool VertexRemover::strays_fit() {
   return true;
 }
 
-// The middles of the new faces and of their edges, from the original surface.
+// From the original surface.
 bool VertexRemover::faces_fit() {
-  const auto is_near = [&](const Vec3& p) {
+  return std::ranges::all_of(change_.places, [&](const Vec3& p) {
     return deviation_.is_at_least(original_.distance(p, nearest_, deviation_.least()), p);
-  };
-  return std::ranges::all_of(change_.corners, [&](const Corners& c) {
-    return is_near((c[0] + c[1] + c[2]) * (1.0 / 3)) && is_near(0.5 * (c[0] + c[1])) && is_near(0.5 * (c[1] + c[2])) &&
-           is_near(0.5 * (c[2] + c[0]));
   });
 }
 
@@ -218,6 +259,10 @@ void VertexRemover::flip_queued() {
 }
 
 bool VertexRemover::allow_flip(Edge e, const EdgeDiamond& diamond) {
+  if (regions_ && !regions_->has(region_, diamond)) {
+    wanted_.push_back(e);
+    return false;
+  }
   if (!deviation_.is_at_least(diamond.height(), diamond.end_points[0])) return false;
   const Face left = mesh_.face_handle(mesh_.halfedge_handle(e, 0)),
              right = mesh_.face_handle(mesh_.halfedge_handle(e, 1));
@@ -227,6 +272,7 @@ bool VertexRemover::allow_flip(Edge e, const EdgeDiamond& diamond) {
   const auto [l, r] = diamond.across_points;
   change_.faces.assign({left, right});
   change_.corners.assign({Corners{a, r, l}, Corners{b, l, r}});
+  change_.places.assign({middle_of(change_.corners[0]), middle_of(change_.corners[1]), 0.5 * (l + r)});
   change_.flat = diamond.height() < plane_tolerance * norm(diamond.end_points[1] - diamond.end_points[0]);
   return fits();
 }
@@ -234,10 +280,30 @@ bool VertexRemover::allow_flip(Edge e, const EdgeDiamond& diamond) {
 }  // namespace
 
 std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, const SizeField& deviation) {
-  VertexRemover remover(mesh, original, deviation);
-  const std::size_t left = remover.run();
-  remover.flip_all();
-  return left;
+  const auto on_features_first = [&](std::vector<VertexH>& vertices) {
+    std::ranges::stable_partition(vertices, [&](VertexH v) { return mesh.is_on_feature(v); });
+  };
+  const MeshRegions regions(mesh, region_vertices);
+  std::vector<std::vector<VertexH>> waiting(regions.size());
+  for (const VertexH v : mesh.vertices())
+    if (!mesh.is_kept(v)) waiting[regions.of(v)].push_back(v);
+
+  Strays strays = EdgeSampler(mesh, deviation).sample();
+  VertexRemover everywhere(mesh, original, deviation, strays);
+  std::vector<VertexRemover> removers;
+  for (std::size_t region = 0; region < regions.size(); ++region) removers.emplace_back(everywhere, regions, region);
+  parallel_for(static_cast<std::int64_t>(regions.size()), 1, [&](std::int64_t i) {
+    on_features_first(waiting[i]);
+    waiting[i] = removers[i].remove(std::move(waiting[i]));
+  });
+
+  for (const VertexRemover& remover : removers) everywhere.flip(remover.wanted());
+  std::vector<VertexH> left;
+  for (const std::vector<VertexH>& some : waiting) left.insert(left.end(), some.begin(), some.end());
+  on_features_first(left);
+  left = everywhere.remove(std::move(left));
+  everywhere.flip(std::vector<Edge>(mesh.edges().begin(), mesh.edges().end()));
+  return left.size();
 }
 
 }  // namespace hexpipe
