@@ -30,8 +30,13 @@ SizeField size_field(const Surface& surface, const TetmeshOptions& options, doub
 // A point given by the user may come as near to the surface as TetGen can bear.
 constexpr double clearance_of_given = 1e-3;  // in sizes
 
-std::vector<Vec3> place_points(const Surface& surface, const SizeField& size, const TetmeshOptions& options,
-                               TetmeshResult& result) {
+bool is_lattice(PointKind kind) {
+  return kind != PointKind::none && kind != PointKind::given;
+}
+
+// `axes` are the part's.
+std::vector<Vec3> place_points(const Surface& surface, const SizeField& size, const Axes& axes,
+                               const TetmeshOptions& options, TetmeshResult& result) {
   if (options.points == PointKind::none) return {};
   if (options.points == PointKind::given) {
     GivenPoints given = usable_points(surface, options.given_points, clearance_of_given * size.least());
@@ -42,7 +47,7 @@ std::vector<Vec3> place_points(const Surface& surface, const SizeField& size, co
                                {.clearance = options.clearance,
                                 .jitter = options.jitter.value_or(LatticeOptions{}.jitter),
                                 .seed = options.seed,
-                                .axes = axes_of_part(surface)},
+                                .axes = axes},
                                options.most_points);
 }
 
@@ -129,14 +134,14 @@ bool frame_plainly_wins(const FramePoints& frame, const TetMesh& of_lattice, con
 }
 
 // From the mesh with the lattice's points, which stays where it is the better one.
-void try_frame_points(const Surface& surface, const SizeField& size, const TetmeshOptions& options, StepWatch& watch,
-                      BuiltMesh& built, TetmeshStatistics& statistics) {
+void try_frame_points(const Surface& surface, const SizeField& size, const Axes& axes, const TetmeshOptions& options,
+                      StepWatch& watch, BuiltMesh& built, TetmeshStatistics& statistics) {
   const FramePoints frame = frame_points(surface, built.mesh, built.adjacency,
                                          {.size = size,
                                           .clearance = options.clearance,
                                           .jitter = options.jitter.value_or(FramePointsOptions{}.jitter),
                                           .seed = options.seed,
-                                          .axes = axes_of_part(surface)});
+                                          .axes = axes});
   watch.add_to(statistics.seconds.placing);
   BuiltMesh bent = tetrahedralize(surface, frame.points, options.tetgen_timeout, watch, statistics);
   if (options.points == PointKind::best && !frame_plainly_wins(frame, built.mesh, statistics)) {
@@ -168,16 +173,16 @@ TetmeshResult fill(const Surface& given, const TetmeshOptions& options, double g
   describe(surface, statistics);
   if (options.points != PointKind::none && !statistics.remeshed && !result.warning)
     result.warning = fit_to_size(surface, size).complaint(statistics.size);
-  const std::vector<Vec3> points = place_points(surface, size, options, result);
+  const Axes axes = is_lattice(options.points) ? axes_of_part(surface) : Axes{};
+  const std::vector<Vec3> points = place_points(surface, size, axes, options, result);
   statistics.interior_points = points.size();
   watch.add_to(statistics.seconds.placing);
 
   BuiltMesh built = tetrahedralize(surface, points, options.tetgen_timeout, watch, statistics);
-  const bool is_lattice = options.points != PointKind::none && options.points != PointKind::given;
-  statistics.points_kept = is_lattice ? PointKind::lattice : options.points;
+  statistics.points_kept = is_lattice(options.points) ? PointKind::lattice : options.points;
   if (options.points == PointKind::frame || options.points == PointKind::best) {
     try {
-      try_frame_points(surface, size, options, watch, built, statistics);
+      try_frame_points(surface, size, axes, options, watch, built, statistics);
     } catch (const TetGenFailure&) {
       if (options.points == PointKind::frame) throw;
     }

@@ -12,8 +12,6 @@
 namespace hexpipe {
 namespace {
 
-using Axes = std::array<Vec3, 3>;
-
 constexpr Axes coordinate_axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
 // Directions this near are one: of an angle of 0.1 degrees, over which a lattice of 500 steps leaves a face by one.
 constexpr double same_cosine = 1 - 1.5e-6, right_angle_cosine = 1.7e-3;
@@ -178,7 +176,7 @@ class AxesFinder {
 
 }  // namespace
 
-std::array<Vec3, 3> axes_of_part(const Surface& surface) {
+Axes axes_of_part(const Surface& surface) {
   return AxesFinder(surface).find();
 }
 

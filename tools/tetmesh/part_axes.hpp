@@ -7,9 +7,11 @@
 
 namespace hexpipe {
 
+using Axes = std::array<Vec3, 3>;
+
 // Orthonormal, right-handed; each the nearest to its coordinate axis that the part allows. The coordinate axes
 // themselves where no others have more of the surface at right angles to them: on parts that are along these, and on
 // those without flat faces.
-std::array<Vec3, 3> axes_of_part(const Surface& surface);
+Axes axes_of_part(const Surface& surface);
 
 }  // namespace hexpipe

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "common/run/error.hpp"
+#include "common/run/parallel.hpp"
 #include "tools/tetmesh/exact_geometry.hpp"
 #include "tools/tetmesh/half_edges.hpp"
 
@@ -188,8 +189,7 @@ void check_vertices(const SurfaceSoup& soup, std::span<const HalfEdge> twins) {
                       count == 1 ? "1 vertex" : fmt::format("{} vertices", count), text_of(soup.points[v]));
 }
 
-void check_no_intersections(const SurfaceSoup& soup) {
-  const IntersectionReport report = find_intersections(soup.points, soup.triangles, most_intersections);
+void check_no_intersections(const SurfaceSoup& soup, const IntersectionReport& report) {
   if (report.pairs.empty()) return;
   throw DataError::at(
       soup.place_of(report.pairs.front()[0]),
@@ -202,11 +202,16 @@ void check_no_intersections(const SurfaceSoup& soup) {
 void check_surface(const SurfaceSoup& soup) {
   check_no_degenerate_triangles(soup);
   check_no_repeated_triangles(soup);
-  check_edges(soup);
-  const std::vector<HalfEdge> twins = find_twins(soup.points.size(), soup.triangles);
-  check_orientation(soup, twins);
-  check_vertices(soup, twins);
-  check_no_intersections(soup);
+  IntersectionReport report;
+  both_at_once(
+      [&] {
+        check_edges(soup);
+        const std::vector<HalfEdge> twins = find_twins(soup.points.size(), soup.triangles);
+        check_orientation(soup, twins);
+        check_vertices(soup, twins);
+      },
+      [&] { report = find_intersections(soup.points, soup.triangles, most_intersections); });
+  check_no_intersections(soup, report);
 }
 
 }  // namespace hexpipe

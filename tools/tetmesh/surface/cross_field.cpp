@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <complex>
 
+#include "common/run/parallel.hpp"
+
 namespace hexpipe {
 namespace {
 
@@ -56,8 +58,7 @@ using Factors = Eigen::SimplicialLDLT<Matrix>;
 
 class FieldSolver {
  public:
-  FieldSolver(const FieldSurface& surface, std::span<const OppositeSide> opposite)
-      : surface_(surface), opposite_(opposite) {
+  explicit FieldSolver(const FieldSurface& surface) : surface_(surface) {
     const auto count = static_cast<std::int32_t>(surface.triangles.size());
     frames_.reserve(surface.triangles.size());
     for (std::int32_t f = 0; f < count; ++f) frames_.emplace_back(surface, f);
@@ -66,11 +67,13 @@ class FieldSolver {
       edges_.push_back(angle_of(frames_[triangle_of(h)], surface.edge_vector(h)));
   }
 
-  CrossField solve() {
-    const std::vector<Complex> u = solve_system();
+  // Without what is on other sides; agree_with() changes what comes of it.
+  void solve();
+  void agree_with(std::span<const OppositeSide> opposite);
+  CrossField field() const {
     CrossField field;
     for (std::size_t f = 0; f < frames_.size(); ++f) {
-      const double angle = std::arg(u[f]) / 4;
+      const double angle = std::arg(solution_[static_cast<Eigen::Index>(f)]) / 4;
       field.directions.push_back(std::cos(angle) * frames_[f].x + std::sin(angle) * frames_[f].y);
     }
     return field;
@@ -78,9 +81,6 @@ class FieldSolver {
 
  private:
   std::vector<Complex> curvature() const;
-  std::vector<Complex> solve_system() const;
-  void agree_with_opposite_sides(Matrix matrix, const Eigen::VectorXcd& right, Factors& factors,
-                                 Eigen::VectorXcd& solution) const;
   // What a triangle's u would be if it had the directions of the one on its other side.
   Complex seen_from(std::int32_t triangle, std::int32_t opposite, Complex u) const;
 
@@ -89,9 +89,11 @@ class FieldSolver {
   Complex turn(HalfEdge h) const { return -edges_[surface_.twins[h]] / edges_[h]; }
 
   const FieldSurface& surface_;
-  std::span<const OppositeSide> opposite_;
   std::vector<TangentFrame> frames_;
   std::vector<Complex> edges_;  // exp(i angle) of each half-edge in its triangle's frame
+  Matrix matrix_;
+  Factors factors_;
+  Eigen::VectorXcd right_, solution_;  // u of the triangles
 };
 
 // Of each triangle, the difference of the principal curvatures times exp(2 i angle) of the first one's direction.
@@ -121,15 +123,15 @@ std::vector<Complex> FieldSolver::curvature() const {
   return bend;
 }
 
-std::vector<Complex> FieldSolver::solve_system() const {
+void FieldSolver::solve() {
   const auto count = static_cast<Eigen::Index>(frames_.size());
   std::vector<double> diagonal(frames_.size());
-  Eigen::VectorXcd right = Eigen::VectorXcd::Zero(count);
+  right_ = Eigen::VectorXcd::Zero(count);
   std::vector<Eigen::Triplet<Complex, int>> entries;
   entries.reserve(4 * frames_.size());
   auto pull = [&](std::int32_t f, double weight, Complex target) {
     diagonal[f] += weight;
-    right[f] += weight * target;
+    right_[f] += weight * target;
   };
   const std::vector<Complex> bend = curvature();
   for (std::int32_t f = 0; f < count; ++f) {
@@ -151,35 +153,30 @@ std::vector<Complex> FieldSolver::solve_system() const {
     if (f < g) entries.emplace_back(g, f, -weight * fourth_power(turn(h)));  // the lower triangle suffices
   }
   for (std::int32_t f = 0; f < count; ++f) entries.emplace_back(f, f, diagonal[f]);
-  Matrix matrix(count, count);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  Factors factors;
-  factors.analyzePattern(matrix);
-  factors.factorize(matrix);
-  Eigen::VectorXcd solution = factors.solve(right);
-  if (!opposite_.empty()) agree_with_opposite_sides(std::move(matrix), right, factors, solution);
-  return {solution.begin(), solution.end()};
+  matrix_.resize(count, count);
+  matrix_.setFromTriplets(entries.begin(), entries.end());
+  factors_.analyzePattern(matrix_);
+  factors_.factorize(matrix_);
+  solution_ = factors_.solve(right_);
 }
 
-// From the solution without them.
-void FieldSolver::agree_with_opposite_sides(Matrix matrix, const Eigen::VectorXcd& right, Factors& factors,
-                                            Eigen::VectorXcd& solution) const {
+void FieldSolver::agree_with(std::span<const OppositeSide> opposite) {
   const auto count = static_cast<std::int32_t>(frames_.size());
   std::vector<double> pulls(frames_.size());
   for (std::int32_t f = 0; f < count; ++f) {
-    if (opposite_[f].triangle < 0) continue;
-    const double thickness = std::max(1.0, opposite_[f].distance);
-    pulls[f] = opposite_weight * opposite_[f].area / (thickness * thickness);
-    matrix.coeffRef(f, f) += pulls[f];
+    if (opposite[f].triangle < 0) continue;
+    const double thickness = std::max(1.0, opposite[f].distance);
+    pulls[f] = opposite_weight * opposite[f].area / (thickness * thickness);
+    matrix_.coeffRef(f, f) += pulls[f];
   }
-  factors.factorize(matrix);
+  factors_.factorize(matrix_);
   for (int round = 0; round < opposite_rounds; ++round) {
-    Eigen::VectorXcd pulled = right;
+    Eigen::VectorXcd pulled = right_;
     for (std::int32_t f = 0; f < count; ++f)
       if (pulls[f] > 0)
         pulled[f] += pulls[f] * 0.5 *
-                     (bounded(solution[f]) + seen_from(f, opposite_[f].triangle, solution[opposite_[f].triangle]));
-    solution = factors.solve(pulled);
+                     (bounded(solution_[f]) + seen_from(f, opposite[f].triangle, solution_[opposite[f].triangle]));
+    solution_ = factors_.solve(pulled);
   }
 }
 
@@ -192,7 +189,18 @@ Complex FieldSolver::seen_from(std::int32_t triangle, std::int32_t opposite, Com
 }  // namespace
 
 CrossField cross_field(const FieldSurface& surface, std::span<const OppositeSide> opposite) {
-  return FieldSolver(surface, opposite).solve();
+  FieldSolver solver(surface);
+  solver.solve();
+  if (!opposite.empty()) solver.agree_with(opposite);
+  return solver.field();
+}
+
+FieldAndSides cross_field_across(const FieldSurface& surface) {
+  FieldSolver solver(surface);
+  std::vector<OppositeSide> opposite;
+  both_at_once([&] { solver.solve(); }, [&] { opposite = opposite_sides(surface); });
+  solver.agree_with(opposite);
+  return {solver.field(), std::move(opposite)};
 }
 
 }  // namespace hexpipe

@@ -25,4 +25,11 @@ struct CrossField {
 // face each other across the inside agree as far as their features let them.
 CrossField cross_field(const FieldSurface& surface, std::span<const OppositeSide> opposite = {});
 
+// That with the sides that face each other, and these; found at the same time as far as they do not need each other.
+struct FieldAndSides {
+  CrossField field;
+  std::vector<OppositeSide> opposite;  // of each triangle
+};
+FieldAndSides cross_field_across(const FieldSurface& surface);
+
 }  // namespace hexpipe

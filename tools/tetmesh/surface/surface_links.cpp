@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/run/parallel.hpp"
 #include "tools/tetmesh/surface/crest_lines.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
 
@@ -74,12 +75,12 @@ SurfaceLink SurfaceLink::reversed(std::int32_t from) const {
 SurfaceLinks::SurfaceLinks(const FieldSurface& on, const CrossField& along)
     : surface(on), field(along), of(on.twins.size()) {
   const BendStretch stretch = bend_stretch(on);
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(of.size()); ++h) {
-    const HalfEdge twin = on.twins[h];
-    if (on.feature[h] || twin < h) continue;
+  parallel_for(static_cast<std::int64_t>(of.size()), 1024, [&](std::int64_t i) {
+    const auto h = static_cast<HalfEdge>(i), twin = on.twins[h];
+    if (on.feature[h] || twin < h) return;
     of[h] = make_link(*this, stretch, h);
     of[twin] = of[h].reversed(triangle_of(h));
-  }
+  });
 }
 
 LoopStep FollowedAxis::cross(const SurfaceLinks& links, HalfEdge h) {

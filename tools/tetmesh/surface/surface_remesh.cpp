@@ -124,8 +124,7 @@ bool SurfaceRemesher::prepare() {
   refine_surface(prepared_, longest, flat);
   const std::vector<Vertex> kept = kept_vertices();
   const FieldSurface field_surface(prepared_, size_);
-  const std::vector<OppositeSide> opposite = opposite_sides(field_surface);
-  const CrossField field = cross_field(field_surface, opposite);
+  const auto [field, opposite] = cross_field_across(field_surface);
   if (!std::ranges::all_of(field.directions, is_place)) return false;
   const std::vector<SurfacePoint> points = surface_front(field_surface, field, opposite, kept, size_);
   insert_points(prepared_, points, snap * size_);
