@@ -23,6 +23,13 @@ class Loops {
     ends_.push_back(static_cast<std::int64_t>(steps_.size()));
     sums_.push_back(static_cast<float>(sum));
   }
+  // The closed ones of others after its own.
+  void append(const Loops& others) {
+    const std::int64_t before = ends_.back();
+    steps_.insert(steps_.end(), others.steps_.begin(), others.steps_.end());
+    for (std::size_t i = 1; i < others.ends_.size(); ++i) ends_.push_back(before + others.ends_[i]);
+    sums_.insert(sums_.end(), others.sums_.begin(), others.sums_.end());
+  }
   // Forgets the steps since the last close().
   void drop() { steps_.resize(static_cast<std::size_t>(ends_.back())); }
   std::size_t size() const { return ends_.size() - 1; }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/run/parallel.hpp"
 #include "tools/tetmesh/half_edges.hpp"
 
 namespace hexpipe {
@@ -28,7 +29,8 @@ class SurfaceReader {
     add_normals();
     for (SurfaceNode& node : nodes_) node.normal = normalized(node.normal);
     for_each_edge(surface_.points.size(), surface_.triangles, [&](std::span<const HalfEdge> edge) { add_edge(edge); });
-    for (std::size_t v = 0; v < nodes_.size(); ++v) creased_[v] ? finish_creased(nodes_[v]) : finish_smooth(v);
+    parallel_for(static_cast<std::int64_t>(nodes_.size()), 64,
+                 [&](std::int64_t v) { creased_[v] ? finish_creased(nodes_[v]) : finish_smooth(v); });
     find_vague();
     return std::move(nodes_);
   }
@@ -46,7 +48,7 @@ class SurfaceReader {
   void add_edge(std::span<const HalfEdge> edge);
   bool is_diagonal(HalfEdge h) const;
   void add_leg(Vertex v, const Vec3& along, double weight);
-  void finish_smooth(std::size_t v);
+  void finish_smooth(std::int64_t v);
   void finish_creased(SurfaceNode& node) const;
   void find_vague();
 
@@ -102,7 +104,7 @@ void SurfaceReader::add_leg(Vertex v, const Vec3& along, double weight) {
   legs_[v].weight += weight;
 }
 
-void SurfaceReader::finish_smooth(std::size_t v) {
+void SurfaceReader::finish_smooth(std::int64_t v) {
   const Legs& legs = legs_[v];
   nodes_[v].suggested = legs.weight > 0 ? Harmonics(legs.sum / legs.weight) : Harmonics(Harmonics::Zero());
 }
@@ -130,8 +132,9 @@ FieldNodes make_field_nodes(const Surface& surface, const TetMesh& mesh, const T
   constexpr double nearest = 0.25;  // squared; keeps a single link from ruling
   FieldNodes nodes;
   nodes.points = mesh.points;
-  nodes.sizes.reserve(nodes.points.size());
-  for (const Vec3& p : nodes.points) nodes.sizes.push_back(size.at(p));
+  nodes.sizes.resize(nodes.points.size());
+  parallel_for(static_cast<std::int64_t>(nodes.size()), 256,
+               [&](std::int64_t v) { nodes.sizes[v] = size.at(nodes.points[v]); });
   nodes.surface = SurfaceReader(surface).read();
   nodes.offsets.assign(1, 0);
   for (std::size_t v = 0; v < nodes.points.size(); ++v) {

@@ -105,6 +105,7 @@ class LatticeSolver {
   Transition make_transition(std::size_t i, const FieldLink& link) const;
   void make_anchors(std::size_t i);
   void correct_curl();
+  Loops triangles() const;
   void add_steps_on_surface(Loops& loops) const;
   void add_loops(std::int64_t ij, std::int64_t jl, std::int64_t il, Loops& loops) const;
   std::int32_t number_of(std::int64_t link, std::size_t axis) const {
@@ -112,12 +113,15 @@ class LatticeSolver {
   }
   static void turn(Transition& t);
   static Transition reversed(const Transition& t, std::int32_t from);
-  // Calls body(node, its link) for the links that lead to a later node.
+  // Calls body(node, its link) for the links that lead to a later node, of all nodes or of one.
   template <class Body>
   void for_each_pair(Body&& body) const {
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(nodes_.size()); ++i)
-      for (std::int64_t l = nodes_.offsets[i]; l < nodes_.offsets[i + 1]; ++l)
-        if (transitions_[l].node > i) body(i, l);
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(nodes_.size()); ++i) for_each_pair_of(i, body);
+  }
+  template <class Body>
+  void for_each_pair_of(std::int32_t i, Body&& body) const {
+    for (std::int64_t l = nodes_.offsets[i]; l < nodes_.offsets[i + 1]; ++l)
+      if (nodes_.links[l].node > i) body(i, l);
   }
   std::int64_t link_between(std::int32_t i, std::int32_t j) const {
     const auto links = nodes_.links_of(i);
@@ -187,22 +191,37 @@ void LatticeSolver::correct_curl() {
     pair_numbers_[ij] = static_cast<std::int32_t>(distances.size() / 3);
     for (const double distance : transitions_[ij].distance) distances.push_back(static_cast<float>(distance));
   });
-  Loops loops;
-  for_each_pair([&](std::int32_t i, std::int64_t ij) {
-    const Transition& to_j = transitions_[ij];
-    for (std::int64_t il = ij + 1; il < nodes_.offsets[i + 1]; ++il)
-      if (const std::int64_t jl = link_between(to_j.node, transitions_[il].node); jl >= 0) add_loops(ij, jl, il, loops);
-  });
+  Loops loops = triangles();
   add_steps_on_surface(loops);
   const std::vector<float> correction = curl_correction(distances, loops, curl_limits);
-  for_each_pair([&](std::int32_t i, std::int64_t ij) {
-    Transition& t = transitions_[ij];
-    const double longest = most_strain * norm(nodes_.points[i] - nodes_.points[t.node]) / nodes_.sizes[i];
-    for (std::size_t k = 0; k < 3; ++k)
-      t.distance[k] += std::clamp<double>(correction[number_of(ij, k)], -longest, longest);
-    turn(t);
-    transitions_[link_between(t.node, i)] = reversed(t, i);
+  for_each_node([&](std::size_t node) {
+    for_each_pair_of(static_cast<std::int32_t>(node), [&](std::int32_t i, std::int64_t ij) {
+      Transition& t = transitions_[ij];
+      const double longest = most_strain * norm(nodes_.points[i] - nodes_.points[t.node]) / nodes_.sizes[i];
+      for (std::size_t k = 0; k < 3; ++k)
+        t.distance[k] += std::clamp<double>(correction[number_of(ij, k)], -longest, longest);
+      turn(t);
+      transitions_[link_between(t.node, i)] = reversed(t, i);
+    });
   });
+}
+
+Loops LatticeSolver::triangles() const {
+  Loops loops;
+  parallel_in_order(
+      static_cast<std::int64_t>(nodes_.size()), 512,
+      [&](std::int64_t begin, std::int64_t end) {
+        Loops some;
+        for (std::int64_t node = begin; node < end; ++node)
+          for_each_pair_of(static_cast<std::int32_t>(node), [&](std::int32_t i, std::int64_t ij) {
+            for (std::int64_t il = ij + 1; il < nodes_.offsets[i + 1]; ++il)
+              if (const std::int64_t jl = link_between(transitions_[ij].node, transitions_[il].node); jl >= 0)
+                add_loops(ij, jl, il, some);
+          });
+        return some;
+      },
+      [&](const Loops& some) { loops.append(some); });
+  return loops;
 }
 
 // Along each axis of the first node, unless the frames say at the end that it is another one.
