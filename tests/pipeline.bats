@@ -47,6 +47,16 @@ assert reader.GetErrorCode() == 0"
   assert_success
 }
 
+@test "a plate of one and a half sizes has as many layers everywhere" {
+  for size in 8 8.4 8.8; do
+    shell "tetmesh -q '$DATA/plate-holes.stl' --size $size | findhex -q | buildgraph -q |
+      initsol -q --iterations 2000 | assemble -q --stats stats.json -o plate.vtu"
+    $PYTHON -c 'import json
+share = json.load(open("stats.json"))["cells"]["hex"]["share_of_volume"]
+assert share > 0.94, share'
+  done
+}
+
 @test "Makefile.examples drives it through files, several parts at a time" {
   make -s -j2 -f "$HEXPIPE_SOURCE/Makefile.examples" BIN="$HEXPIPE_BIN" PARTS="$DATA" SIZE=8 TIME=1 bracket.vtu bracket.msh
   mesh_is_valid bracket.vtu

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "tetmesh_surfaces.hpp"
+#include "tools/tetmesh/layers_across.hpp"
 #include "tools/tetmesh/surface/feature_curves.hpp"
 #include "tools/tetmesh/surface/links_across.hpp"
+#include "tools/tetmesh/surface/narrow_strips.hpp"
 #include "tools/tetmesh/surface/surface_refine.hpp"
 
 namespace hexpipe {
@@ -143,6 +145,44 @@ TEST(LinksAcross, AreNoneWhereSizesDiffer) {
   const LinksAcross across(links, plate.opposite);
   const auto is_flat = [&](std::int32_t f) { return std::abs(plate.surface.normals[f].z) > 0.5; };
   EXPECT_EQ(count_of(across, plate.surface, is_flat), 0u);
+}
+
+TEST(LayersAcross, AreThoseThatStretchLeast) {
+  EXPECT_EQ(layers_across(0.6), 1);
+  EXPECT_EQ(layers_across(1.41), 1);  // 1.41 sizes each, or 0.705
+  EXPECT_EQ(layers_across(1.42), 2);
+  EXPECT_EQ(layers_across(widest_to_decide), 2);
+}
+
+double sum_of(const SurfaceLinks& links, const NarrowStrip& strip) {
+  double sum = 0;
+  for (const auto& [number, backwards] : strip.across) {
+    const double distance = links.of[number / 2].distance[static_cast<std::size_t>(number % 2)];
+    sum += backwards ? -distance : distance;
+  }
+  return sum;
+}
+
+TEST(NarrowStrip, LeadsFromTheEdgesOfAPlateAcrossItsSides) {
+  const double height = 1.6;
+  const Prepared plate(surface_of(box({0, 0, 0}, {6, 5, height}, 6)), 1, true);
+  const auto& surface = plate.surface;
+  const SurfaceLinks links(surface, plate.field);
+  std::size_t found = 0;
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(surface.feature.size()); ++h) {
+    if (!surface.feature[h]) continue;
+    const bool is_on_side = std::abs(surface.normals[triangle_of(h)].z) < 0.5;
+    const bool is_upright = std::abs(unit(surface.edge_vector(h)).z) > 0.5;
+    const auto strip = narrow_strip(links, h, 1.75);
+    ASSERT_EQ(strip.has_value(), is_on_side && !is_upright);
+    if (!strip) continue;
+    ++found;
+    EXPECT_NEAR(strip->width, height, 1e-6);
+    // Distances lead back from what lies further on.
+    EXPECT_NEAR(strip->before + strip->after - sum_of(links, *strip), height, 1e-6);
+    EXPECT_FALSE(narrow_strip(links, h, 1.5)) << "it is wider";
+  }
+  EXPECT_GE(found, 2 * 2 * (6u + 5u));
 }
 
 TEST(SurfaceLattice, PointsLieOnTheSurface) {

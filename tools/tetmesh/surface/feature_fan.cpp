@@ -7,12 +7,6 @@ namespace {
 
 constexpr double aligned_cosine = 0.94;  // between an edge of the feature and a direction that runs along it
 
-// The direction that is followed, in a triangle.
-Vec3 direction_in(const SurfaceLinks& links, std::int32_t triangle, const FollowedAxis& followed) {
-  const Vec3 axis = links.field.axes(links.surface, triangle)[followed.axis];
-  return followed.flipped ? -axis : axis;
-}
-
 }  // namespace
 
 std::optional<FeatureFan> feature_fan(const SurfaceLinks& links, HalfEdge first) {
@@ -24,7 +18,7 @@ std::optional<FeatureFan> feature_fan(const SurfaceLinks& links, HalfEdge first)
   const std::size_t nearest = std::abs(dot(axes[0], edge)) > std::abs(dot(axes[1], edge)) ? 0 : 1;
   FollowedAxis along{nearest, dot(axes[nearest], edge) < 0};
   FollowedAxis across{1 - nearest, dot(axes[1 - nearest], surface.inward(first)) < 0};
-  const Vec3 onward = direction_in(links, f, along), inward = direction_in(links, f, across);
+  const Vec3 onward = along.in(links, f), inward = across.in(links, f);
   if (dot(onward, unit(edge)) < aligned_cosine) return std::nullopt;
 
   FeatureFan fan{};
@@ -37,11 +31,11 @@ std::optional<FeatureFan> feature_fan(const SurfaceLinks& links, HalfEdge first)
     fan.across.push_back(across.cross(links, fan.last));
   }
   const std::int32_t g = triangle_of(fan.last);
-  const Vec3 last_edge = surface.edge_vector(fan.last), last_onward = direction_in(links, g, along);
+  const Vec3 last_edge = surface.edge_vector(fan.last), last_onward = along.in(links, g);
   if (dot(last_onward, unit(last_edge)) < aligned_cosine) return std::nullopt;
   fan.last_ahead = dot(last_onward, vertex - 0.5 * last_edge - surface.centres[g]) / links.surface.sizes[g];
   fan.apart = dot(inward, surface.centres[f] - vertex) / links.surface.sizes[f] -
-              dot(direction_in(links, g, across), surface.centres[g] - vertex) / links.surface.sizes[g];
+              dot(across.in(links, g), surface.centres[g] - vertex) / links.surface.sizes[g];
   return fan;
 }
 

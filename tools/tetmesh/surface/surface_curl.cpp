@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "tools/tetmesh/layers_across.hpp"
 #include "tools/tetmesh/surface/feature_fan.hpp"
+#include "tools/tetmesh/surface/narrow_strips.hpp"
 
 namespace hexpipe {
 namespace {
@@ -126,6 +128,14 @@ void add_same_steps(const SurfaceLinks& links, const FeatureFan& fan, Loops& loo
   loops.close(other->first_ahead - other->last_ahead - fan.first_ahead + fan.last_ahead);
 }
 
+// Between two features that are near, rows are counted in the same way everywhere.
+void add_rows_between(const SurfaceLinks& links, HalfEdge feature, Loops& loops) {
+  const auto strip = narrow_strip(links, feature, widest_to_decide);
+  if (!strip || strip->width < shortest_step) return;
+  for (const LoopStep& step : strip->across) loops.add_step(step);
+  loops.close(strip->before + strip->after - layers_across(strip->width));
+}
+
 }  // namespace
 
 void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept) {
@@ -135,6 +145,8 @@ void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept) {
     add_row_along(fan, loops);
     add_known_steps(links, fan, step_length, loops);
   });
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(links.of.size()); ++h)
+    if (links.surface.feature[h]) add_rows_between(links, h, loops);
   const std::vector<float> correction = curl_correction(distances_of(links), loops, limits);
   links.for_each_pair([&](HalfEdge h) {
     SurfaceLink& link = links.of[h];

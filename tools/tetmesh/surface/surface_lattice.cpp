@@ -78,8 +78,14 @@ class LatticeMaker {
     SurfaceLattice lattice;
     lattice.points.reserve(proposals_.size());
     for (const Proposal& p : proposals_) lattice.points.push_back(p.point);
-    for (const auto& [first, second] : steps_)
-      lattice.spacing.push_back({std::hypot(first[0], first[1]), std::hypot(second[0], second[1])});
+    // Fillets are shorter than what rows are counted on.
+    for (std::int32_t f = 0; f < static_cast<std::int32_t>(steps_.size()); ++f) {
+      const auto axes = directions(f);
+      std::array<double, 2> spacing;
+      for (std::size_t k = 0; k < 2; ++k)
+        spacing[k] = std::hypot(steps_[f][k][0], steps_[f][k][1]) / links_.stretch.in_direction(f, axes[k]);
+      lattice.spacing.push_back(spacing);
+    }
     return lattice;
   }
 

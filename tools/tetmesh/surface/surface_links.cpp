@@ -12,7 +12,7 @@ namespace hexpipe {
 namespace {
 
 // Of the triangle of h, to that beyond it, as both lie unfolded.
-SurfaceLink make_link(const SurfaceLinks& links, const BendStretch& stretch, HalfEdge h) {
+SurfaceLink make_link(const SurfaceLinks& links, HalfEdge h) {
   const FieldSurface& surface = links.surface;
   const HalfEdge twin = surface.twins[h];
   const std::int32_t f = triangle_of(h), g = triangle_of(twin);
@@ -31,7 +31,8 @@ SurfaceLink make_link(const SurfaceLinks& links, const BendStretch& stretch, Hal
     const double size = 0.5 * (surface.sizes[f] + surface.sizes[g]), before = dot(here[k], from),
                  after = dot(matched, to);
     link.way[k] = (before - after) / size;
-    link.distance[k] = (stretch.in_direction(f, here[k]) * before - stretch.in_direction(g, matched) * after) / size;
+    link.distance[k] =
+        (links.stretch.in_direction(f, here[k]) * before - links.stretch.in_direction(g, matched) * after) / size;
   }
   link.set_turn();
   const double across = dot(from, inward) + dot(to, beyond);
@@ -73,12 +74,11 @@ SurfaceLink SurfaceLink::reversed(std::int32_t from) const {
 }
 
 SurfaceLinks::SurfaceLinks(const FieldSurface& on, const CrossField& along)
-    : surface(on), field(along), of(on.twins.size()) {
-  const BendStretch stretch = bend_stretch(on);
+    : surface(on), field(along), stretch(bend_stretch(on)), of(on.twins.size()) {
   parallel_for(static_cast<std::int64_t>(of.size()), 1024, [&](std::int64_t i) {
     const auto h = static_cast<HalfEdge>(i), twin = on.twins[h];
     if (on.feature[h] || twin < h) return;
-    of[h] = make_link(*this, stretch, h);
+    of[h] = make_link(*this, h);
     of[twin] = of[h].reversed(triangle_of(h));
   });
 }

@@ -7,6 +7,7 @@
 
 #include "tools/tetmesh/curl_correction.hpp"
 #include "tools/tetmesh/periodic_numbers.hpp"
+#include "tools/tetmesh/surface/crest_lines.hpp"
 #include "tools/tetmesh/surface/cross_field.hpp"
 
 namespace hexpipe {
@@ -45,6 +46,7 @@ struct SurfaceLinks {
 
   const FieldSurface& surface;
   const CrossField& field;
+  BendStretch stretch;
   std::vector<SurfaceLink> of;  // each half-edge, to the triangle beyond it; without a neighbour where it is a feature
 
   // Calls body(h) for one half-edge of each pair with links.
@@ -62,6 +64,10 @@ struct FollowedAxis {
   std::size_t axis;
   bool flipped = false;
 
+  Vec3 in(const SurfaceLinks& links, std::int32_t triangle) const {
+    const Vec3 along = links.field.axes(links.surface, triangle)[axis];
+    return flipped ? -along : along;
+  }
   // Goes on over a half-edge with a link; what that adds to the coordinate.
   LoopStep cross(const SurfaceLinks& links, HalfEdge h);
 };

@@ -7,6 +7,7 @@
 
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/curl_correction.hpp"
+#include "tools/tetmesh/layers_across.hpp"
 #include "tools/tetmesh/periodic_numbers.hpp"
 
 namespace hexpipe {
@@ -26,6 +27,8 @@ constexpr double no_step = 0.2, least_step = 0.75, greatest_step = 1.7;
 // at a stiffness of 0.05, 86.8 at 0.01.
 constexpr CurlLimits curl_limits{.stiffness = 0.01f, .most_iterations = 40, .tolerance = 1e-2};
 constexpr double most_strain = 0.45;  // of its length, what a distance may gain or lose
+// Between a normal and what lies along it.
+constexpr double normal_cosine = 0.9;
 // How strongly the step to the next point of the lattice keeps to the frame, against what all links say.
 constexpr double rigidity = 0.1;
 constexpr double least_determinant = 0.2;  // of the cells a step in each direction, below which frames are taken
@@ -240,16 +243,20 @@ void LatticeSolver::add_loops(std::int64_t ij, std::int64_t jl, std::int64_t il,
   }
 }
 
-// Between points of the surface, which are points of the lattice, are whole numbers of steps.
+// Between points of the surface, which are points of the lattice, are whole numbers of steps: one along it, and through
+// the part as many as go across it.
 void LatticeSolver::add_steps_on_surface(Loops& loops) const {
   for_each_pair([&](std::int32_t i, std::int64_t ij) {
     const Transition& t = transitions_[ij];
     if (!nodes_.is_on_surface(i) || !nodes_.is_on_surface(t.node) || t.weight <= 0) return;
+    const Vec3 &n = nodes_.surface[i].normal, &m = nodes_.surface[t.node].normal;
     for (std::size_t k = 0; k < 3; ++k) {
       const double length = std::abs(t.distance[k]);
       if (length > greatest_step || (length > no_step && length < least_step)) continue;
+      const bool is_through = dot(n, m) < -normal_cosine && std::abs(dot(frames_[i][k], n)) > normal_cosine;
+      const int steps = length <= no_step ? 0 : is_through ? layers_across(length) : 1;
       loops.add_step(number_of(ij, k), false);
-      loops.close(length <= no_step ? 0 : std::copysign(1, t.distance[k]));
+      loops.close(std::copysign(steps, t.distance[k]));
     }
   });
 }
@@ -257,7 +264,6 @@ void LatticeSolver::add_steps_on_surface(Loops& loops) const {
 // A surface point is one of the lattice as far as its neighbours on the surface are, seen from it; along its normal in
 // any case.
 void LatticeSolver::make_anchors(std::size_t i) {
-  constexpr double normal_cosine = 0.9;
   std::array<double, 3> sum{};
   double count = 0;
   for (const Transition& t : transitions_of(i)) {
