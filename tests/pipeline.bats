@@ -47,7 +47,7 @@ assert reader.GetErrorCode() == 0"
   assert_success
 }
 
-@test "a plate of one and a half sizes has as many layers everywhere" {
+@test "a plate of one and a half sizes becomes hexes, for it has as many layers everywhere" {
   for size in 8 8.4 8.8; do
     shell "tetmesh -q '$DATA/plate-holes.stl' --size $size | findhex -q | buildgraph -q |
       initsol -q --iterations 2000 | assemble -q --stats stats.json -o plate.vtu"

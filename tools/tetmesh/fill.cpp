@@ -30,7 +30,7 @@ SizeField size_field(const Surface& surface, const TetmeshOptions& options, doub
 // A point given by the user may come as near to the surface as TetGen can bear.
 constexpr double clearance_of_given = 1e-3;  // in sizes
 
-bool is_lattice(PointKind kind) {
+bool starts_from_lattice(PointKind kind) {
   return kind != PointKind::none && kind != PointKind::given;
 }
 
@@ -173,13 +173,13 @@ TetmeshResult fill(const Surface& given, const TetmeshOptions& options, double g
   describe(surface, statistics);
   if (options.points != PointKind::none && !statistics.remeshed && !result.warning)
     result.warning = fit_to_size(surface, size).complaint(statistics.size);
-  const Axes axes = is_lattice(options.points) ? axes_of_part(surface) : Axes{};
+  const Axes axes = starts_from_lattice(options.points) ? axes_of_part(surface) : Axes{};
   const std::vector<Vec3> points = place_points(surface, size, axes, options, result);
   statistics.interior_points = points.size();
   watch.add_to(statistics.seconds.placing);
 
   BuiltMesh built = tetrahedralize(surface, points, options.tetgen_timeout, watch, statistics);
-  statistics.points_kept = is_lattice(options.points) ? PointKind::lattice : options.points;
+  statistics.points_kept = starts_from_lattice(options.points) ? PointKind::lattice : options.points;
   if (options.points == PointKind::frame || options.points == PointKind::best) {
     try {
       try_frame_points(surface, size, axes, options, watch, built, statistics);

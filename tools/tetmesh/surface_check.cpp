@@ -203,9 +203,9 @@ void check_surface(const SurfaceSoup& soup) {
   check_no_degenerate_triangles(soup);
   check_no_repeated_triangles(soup);
   IntersectionReport report;
+  check_edges(soup);
   both_at_once(
       [&] {
-        check_edges(soup);
         const std::vector<HalfEdge> twins = find_twins(soup.points.size(), soup.triangles);
         check_orientation(soup, twins);
         check_vertices(soup, twins);

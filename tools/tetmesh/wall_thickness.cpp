@@ -80,6 +80,7 @@ void WallFinder::look(const Corners& corners, const Vec3& inwards, Walls& walls)
       parts.push_back({0.5 * (from + to), to, beside});
       continue;
     }
+    if (norm_squared(cross(part[1] - part[0], part[2] - part[0])) == 0) continue;
     const double thickness = thickness_at((part[0] + part[1] + part[2]) * (1.0 / 3), inwards);
     if (thickness < layers_ * size_)
       walls.push_back({part, thickness * inwards, std::max(thickness / layers_, least_part * size_)});

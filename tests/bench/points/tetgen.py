@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""tetgen.py [--level coarse|middle|fine] [--threads N...] [--runs N] [MODEL...] - how long tetmesh takes against TetGen.
+"""tetgen.py [MODEL...] [--level coarse|middle|fine] [--threads N...] [--runs N] - how long tetmesh takes against TetGen.
 
 Two ratios for each model of ../shared/models (or of the files named), from runs one after the other, the least time of each:
   own runs   all of tetmesh's steps against the time TetGen takes in them, which meshes tetmesh's points twice, on one thread;
   alone      the whole of tetmesh, files and all, against the program tetgen as it is run without tetmesh: -pqa on the part's own
-             triangles, with tets of at most twice the mean volume of tetmesh's, which makes about as many inside. It makes more
-             of them where the part's triangles are smaller than that.
+             triangles, with tets of at most twice the mean volume of tetmesh's. It makes more of them, many more where the part's
+             triangles are smaller than that.
 The second is left out where there is no program tetgen (Debian's package of that name). The rows over the goal come first.
 Tools are taken from build/bin, or from HEXPIPE_BIN.
 """
@@ -86,6 +86,8 @@ def main():
     parser.add_argument("--threads", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--runs", type=int, default=5)
     options = parser.parse_args()
+    if options.runs < 1 or min(options.threads) < 1:
+        parser.error("expected at least one run and one thread")
     models = options.models or [os.path.join(MODELS, name) for name in FILES]
     missing = [path for path in models if not os.path.exists(path)]
     if missing:

@@ -67,7 +67,7 @@ class FieldSolver {
       edges_.push_back(angle_of(frames_[triangle_of(h)], surface.edge_vector(h)));
   }
 
-  // Without what is on other sides; agree_with() changes what comes of it.
+  // First, without opposite sides; then agree_with(), once at most, for it adds to the matrix.
   void solve();
   void agree_with(std::span<const OppositeSide> opposite);
   CrossField field() const {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
+#include <utility>
 
 #include "tools/tetmesh/box_tree.hpp"
 
@@ -42,6 +44,7 @@ MeshRegions::MeshRegions(const FeatureMesh& mesh, std::size_t most)
   halve(halve, order, 0, size_);
 }
 
+// Whether a collapse is possible is found out with marks on the neighbours of its end, and flips follow around these.
 bool MeshRegions::has_around(std::size_t region, const FeatureMesh& mesh, OpenMesh::VertexHandle v) const {
   const auto is_in = [&](OpenMesh::VertexHandle u) { return of(u) == region; };
   // Nothing is asked of a vertex elsewhere.

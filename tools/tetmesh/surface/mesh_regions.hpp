@@ -4,6 +4,7 @@
 // Where everything that a change reads or writes belongs to faces with a corner in the region, and everything that it
 // writes to faces with all corners there, changes of two regions do not meet.
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -14,8 +15,8 @@ namespace hexpipe {
 
 class MeshRegions {
  public:
-  // Halves of halves of the vertices, cut across the longest way, until they have at most about `most` vertices; at
-  // least two where there are a quarter of that.
+  // Halves of halves of the vertices, cut across the longest way, until they have at most about `most` vertices, which
+  // must not be 0, or there are 64 of them; at least two where there are a quarter of that.
   MeshRegions(const FeatureMesh& mesh, std::size_t most);
 
   std::size_t size() const { return size_; }

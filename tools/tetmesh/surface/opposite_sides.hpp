@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/surface/field_surface.hpp"
 
 namespace hexpipe {

@@ -78,7 +78,8 @@ class LatticeMaker {
     SurfaceLattice lattice;
     lattice.points.reserve(proposals_.size());
     for (const Proposal& p : proposals_) lattice.points.push_back(p.point);
-    // Fillets are shorter than what rows are counted on.
+    // Fillets are shorter than what rows are counted on. Steps hardly say so, for links across their narrow strips
+    // count little beside those along them.
     for (std::int32_t f = 0; f < static_cast<std::int32_t>(steps_.size()); ++f) {
       const auto axes = directions(f);
       std::array<double, 2> spacing;

@@ -29,8 +29,6 @@ constexpr double least_bend = 0.05;
 constexpr double sample_spacing = 3;
 // Removing some vertices makes others removable; more rounds found nothing.
 constexpr int most_rounds = 20;
-// Vertices of a region, about: with half as many, more are left for where regions meet.
-constexpr std::size_t region_vertices = 8000;
 
 using Corners = std::array<Vec3, 3>;
 

@@ -7,6 +7,10 @@
 
 namespace hexpipe {
 
+// It is done in regions of about so many vertices at the same time: with half as many, more are left for where regions
+// meet.
+inline constexpr std::size_t region_vertices = 8000;
+
 // Feature curves stay where they are but for their removed vertices, no face turns over, every removed vertex stays
 // within `deviation` of the faces that took its place, and these within it of the original surface. What cannot be
 // removed so stays. Returns how many stayed. The

@@ -29,7 +29,7 @@ constexpr double straight_angle = 10;  // degrees
 // A point of the lattice as a node sees it.
 struct Proposal {
   Vec3 point;
-  double size = 0;  // there
+  double size = 0;  // there, as nearly as its node can tell
   std::int32_t node = 0;
   double trust = 0;
 };
@@ -135,7 +135,8 @@ std::vector<Vec3> PointPlacer::accept() const {
   for (const Vec3& p : surface_.points) taken.add(p, 2 * least_spacing * options_.size.at(p));
   for (const std::int32_t i : order) {
     const Proposal& p = proposals_[i];
-    if (is_free(taken, p) && clearance.is_clear(p.point, options_.clearance * p.size) && clearance.is_inside(p.point))
+    if (is_free(taken, p) && clearance.is_clear(p.point, options_.clearance * options_.size.at(p.point)) &&
+        clearance.is_inside(p.point))
       taken.add(p.point, 2 * least_spacing * p.size);
   }
   return {taken.points().begin() + static_cast<std::ptrdiff_t>(surface_.points.size()), taken.points().end()};

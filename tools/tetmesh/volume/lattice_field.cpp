@@ -21,7 +21,7 @@ constexpr double anchor_threshold = 0.3, weakest_anchor = 0.05;
 // 15 sweeps lose 0.1 % of the volume in hexes, 60 and 150 gain nothing.
 constexpr int smoothing_sweeps = 30;
 constexpr double inertia = 0.3;  // of a number's own value, against its links
-// Stretched links at the surface count as a step up to the second, as none up to the first, in sizes.
+// Stretched links along the surface count as a step up to the last, as none up to the first, in sizes.
 constexpr double no_step = 0.2, least_step = 0.75, greatest_step = 1.7;
 // In the volumes of blub, spot and mambo-m1, with their surfaces as before, 84.9 % of the volume in hexes without, 86.6
 // at a stiffness of 0.05, 86.8 at 0.01.
@@ -252,8 +252,9 @@ void LatticeSolver::add_steps_on_surface(Loops& loops) const {
     const Vec3 &n = nodes_.surface[i].normal, &m = nodes_.surface[t.node].normal;
     for (std::size_t k = 0; k < 3; ++k) {
       const double length = std::abs(t.distance[k]);
-      if (length > greatest_step || (length > no_step && length < least_step)) continue;
       const bool is_through = dot(n, m) < -normal_cosine && std::abs(dot(frames_[i][k], n)) > normal_cosine;
+      if (length > (is_through ? widest_to_decide : greatest_step)) continue;
+      if (length > no_step && length < least_step) continue;
       const int steps = length <= no_step ? 0 : is_through ? layers_across(length) : 1;
       loops.add_step(number_of(ij, k), false);
       loops.close(std::copysign(steps, t.distance[k]));
