@@ -40,8 +40,7 @@ std::int32_t BoxTree::build(std::span<const Box> boxes, std::span<const double> 
     nodes_[number].first = static_cast<std::int32_t>(things.data() - things_.data());
     return number;
   }
-  const Vec3 extent = centres.high - centres.low;
-  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  const int axis = centres.longest_axis();
   const std::size_t half = things.size() / 2;
   std::nth_element(things.begin(), things.begin() + static_cast<std::ptrdiff_t>(half), things.end(),
                    [&](std::int32_t a, std::int32_t b) {

@@ -26,6 +26,11 @@ struct Box {
     high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y), std::max(high.z, other.high.z)};
   }
   Vec3 centre() const { return 0.5 * (low + high); }
+  // The first of those along which it is longest.
+  int longest_axis() const {
+    const Vec3 extent = high - low;
+    return extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  }
   double distance(const Vec3& p) const {
     const auto outside = [](double x, double from, double to) { return std::max({from - x, x - to, 0.0}); };
     return norm(Vec3{outside(p.x, low.x, high.x), outside(p.y, low.y, high.y), outside(p.z, low.z, high.z)});

@@ -14,10 +14,8 @@ std::optional<FeatureFan> feature_fan(const SurfaceLinks& links, HalfEdge first)
   const std::int32_t f = triangle_of(first);
   const Vec3& vertex = surface.points[start_of(surface.triangles, first)];
   const Vec3 edge = surface.edge_vector(first);
-  const auto axes = links.field.axes(surface, f);
-  const std::size_t nearest = std::abs(dot(axes[0], edge)) > std::abs(dot(axes[1], edge)) ? 0 : 1;
-  FollowedAxis along{nearest, dot(axes[nearest], edge) < 0};
-  FollowedAxis across{1 - nearest, dot(axes[1 - nearest], surface.inward(first)) < 0};
+  FollowedAxis along = FollowedAxis::nearest(links, f, edge), across{1 - along.axis};
+  across.flipped = dot(across.in(links, f), surface.inward(first)) < 0;
   const Vec3 onward = along.in(links, f), inward = across.in(links, f);
   if (dot(onward, unit(edge)) < aligned_cosine) return std::nullopt;
 

@@ -33,8 +33,7 @@ MeshRegions::MeshRegions(const FeatureMesh& mesh, std::size_t most)
     }
     Box box{position(vertices[0]), position(vertices[0])};
     for (const int v : vertices) box.add({position(v), position(v)});
-    const Vec3 extent = box.high - box.low;
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    const int axis = box.longest_axis();
     const std::size_t half = vertices.size() / 2;
     std::ranges::nth_element(vertices, vertices.begin() + static_cast<std::ptrdiff_t>(half), {},
                              [&](int v) { return std::pair(position(v)[axis], v); });

@@ -1,7 +1,5 @@
 #include "tools/tetmesh/surface/narrow_strips.hpp"
 
-#include <cmath>
-
 #include "tools/tetmesh/surface/field_walk.hpp"
 
 namespace hexpipe {
@@ -22,10 +20,8 @@ std::optional<NarrowStrip> narrow_strip(const SurfaceLinks& links, HalfEdge from
   const FieldSurface& surface = links.surface;
   SurfacePoint point{surface.points[start_of(surface.triangles, from)] + 0.5 * surface.edge_vector(from),
                      triangle_of(from)};
-  const auto axes = links.field.axes(surface, point.triangle);
   const Vec3& inward = surface.inward(from);
-  const std::size_t nearest = std::abs(dot(axes[0], inward)) > std::abs(dot(axes[1], inward)) ? 0 : 1;
-  FollowedAxis followed{nearest, dot(axes[nearest], inward) < 0};
+  FollowedAxis followed = FollowedAxis::nearest(links, point.triangle, inward);
   Vec3 direction = followed.in(links, point.triangle), straight = direction;
   if (dot(direction, inward) < aligned_cosine) return std::nullopt;
   NarrowStrip strip{};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "tools/tetmesh/curl_correction.hpp"
@@ -64,6 +65,12 @@ struct FollowedAxis {
   std::size_t axis;
   bool flipped = false;
 
+  // That of the triangle which is nearest to a direction.
+  static FollowedAxis nearest(const SurfaceLinks& links, std::int32_t triangle, const Vec3& direction) {
+    const auto axes = links.field.axes(links.surface, triangle);
+    const std::size_t axis = std::abs(dot(axes[0], direction)) > std::abs(dot(axes[1], direction)) ? 0 : 1;
+    return {axis, dot(axes[axis], direction) < 0};
+  }
   Vec3 in(const SurfaceLinks& links, std::int32_t triangle) const {
     const Vec3 along = links.field.axes(links.surface, triangle)[axis];
     return flipped ? -along : along;

@@ -58,23 +58,21 @@ struct Change {
 // Of each face, the points that are to stay near it.
 using Strays = std::vector<std::vector<Vec3>>;
 
-// What is near a bent edge of the surface as it was.
-class EdgeSampler {
- public:
-  EdgeSampler(const FeatureMesh& mesh, const SizeField& deviation) : mesh_(mesh), deviation_(deviation) {}
-
-  Strays sample() const {
-    Strays strays(mesh_.n_faces());
-    for (const Edge e : mesh_.edges()) add_samples(e, strays);
-    return strays;
+// Points on the edges of the surface as it is where it bends: across these, a new edge can leave it without a vertex
+// nearby that would tell.
+Strays samples_of_edges(const FeatureMesh& mesh, const SizeField& deviation) {
+  Strays strays(mesh.n_faces());
+  for (const Edge e : mesh.edges()) {
+    const EdgeDiamond diamond(mesh, e);
+    const Vec3 &start = diamond.end_points[0], along = diamond.end_points[1] - start;
+    if (deviation.is_at_least(diamond.height() / least_bend, start)) continue;
+    const Face f = mesh.face_handle(mesh.halfedge_handle(e, 0));
+    const double parts = std::ceil(norm(along) / (sample_spacing * deviation.at(start)));
+    // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter): small whole numbers
+    for (double i = 1; i < parts; ++i) strays[f.idx()].push_back(start + i / parts * along);
   }
-
- private:
-  void add_samples(Edge e, Strays& strays) const;
-
-  const FeatureMesh& mesh_;
-  const SizeField& deviation_;
-};
+  return strays;
+}
 
 class VertexRemover {
  public:
@@ -135,18 +133,6 @@ class VertexRemover {
   EdgeQueue queue_;
   std::vector<Edge> wanted_;
 };
-
-// Across an edge where the surface bends, a new one can leave it without a vertex nearby that would tell.
-void EdgeSampler::add_samples(Edge e, Strays& strays) const {
-  const EdgeDiamond diamond(mesh_, e);
-  const double height = diamond.height(), length = norm(diamond.end_points[1] - diamond.end_points[0]);
-  if (deviation_.is_at_least(height / least_bend, diamond.end_points[0])) return;
-  const Face f = mesh_.face_handle(mesh_.halfedge_handle(e, 0));
-  const double parts = std::ceil(length / (sample_spacing * deviation_.at(diamond.end_points[0])));
-  // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter): small whole numbers
-  for (double i = 1; i < parts; ++i)
-    strays[f.idx()].push_back(diamond.end_points[0] + i / parts * (diamond.end_points[1] - diamond.end_points[0]));
-}
 
 bool VertexRemover::remove(VertexH v) {
   if (regions_ && !regions_->has_around(region_, mesh_, v)) return false;
@@ -286,7 +272,7 @@ std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, co
   for (const VertexH v : mesh.vertices())
     if (!mesh.is_kept(v)) waiting[regions.of(v)].push_back(v);
 
-  Strays strays = EdgeSampler(mesh, deviation).sample();
+  Strays strays = samples_of_edges(mesh, deviation);
   VertexRemover everywhere(mesh, original, deviation, strays);
   std::vector<VertexRemover> removers;
   for (std::size_t region = 0; region < regions.size(); ++region) removers.emplace_back(everywhere, regions, region);
