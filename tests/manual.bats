@@ -32,6 +32,13 @@ completions() {
   assert_equal "$(completions findhex --mesh pa)" part.mesh
   assert_equal "$(completions findhex pa)" part.mesh
   assert_equal "$(completions lns --seed '')" ""
+  # N is what the help calls its value, and false to CMake.
+  assert_equal "$(completions lns --iterations '')" ""
+  if [[ -x "$HEXPIPE_BIN/tetmesh" ]]; then
+    # [N]: a number or the next option.
+    assert_equal "$(completions tetmesh --layers '')" ""
+    assert_equal "$(completions tetmesh --layers --gr)" --grading
+  fi
 }
 
 @test "zsh's completion names every option" {
@@ -42,6 +49,17 @@ completions() {
     done
     # Every quote is closed: bash reads such words as zsh does.
     bash -n "$MANUAL/zsh/_$tool"
+  done
+}
+
+@test "zsh's completion knows which options take a value, and says of each what it does" {
+  for tool in $TOOLS; do
+    for option in $($tool --help | sed -nE 's/^  (-.,)?(--[a-z0-9-]+) \[?[A-Z].*/\2/p'); do
+      grep -qE -- "('|,)$option(\}')?\[[^]]+\]:" "$MANUAL/zsh/_$tool" || fail "$tool $option takes no value"
+    done
+    # Texts begin with a word, not with what the help says of the type.
+    run grep -E "\[(\(|in \(|x [0-9]|REQUIRED|[=:. ])" "$MANUAL/zsh/_$tool"
+    assert_output ""
   done
 }
 
