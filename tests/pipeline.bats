@@ -95,7 +95,7 @@ assert share > 0.94, share'
     lns --iterations 10 | assemble -o out.tar"
   run "$CHECKERS/bundle_check.py" out.tar
   assert_success
-  # The stage there doubles the quality of candidates near the boundary or the like: it has to have changed something.
+  # The stage there squares all qualities: it has to have changed something.
   tar xOf plain.tar candidates/quality.npy >before.npy
   tar xOf out.tar candidates/quality.npy >after.npy
   assert_different_bytes before.npy after.npy
