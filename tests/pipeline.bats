@@ -67,6 +67,26 @@ assert share > 0.94, share'
   assert_output ""
 }
 
+@test "clean of Makefile.examples takes away what the examples made, and nothing else" {
+  examples() { make -s -j2 -f "$HEXPIPE_SOURCE/Makefile.examples" BIN="$HEXPIPE_BIN" PARTS="$DATA" SIZE=8 TIME=1 "$@"; }
+  touch engine.msh backup.tar page.html bracket.stl.orig
+  mkdir engine.pieces
+  local theirs
+  theirs=$(ls)
+  examples bracket.parts.graph bracket.conflicts.tar bracket.vtk bracket.inp
+  if [[ -x "$HEXPIPE_BIN/view" ]]; then examples bracket.html bracket.png; fi
+  if [[ -x "$HEXPIPE_BIN/mesh-part" ]]; then
+    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+    # The MPI library's own leaks, as in behaviour.bats.
+    export LSAN_OPTIONS="suppressions=$HEXPIPE_SOURCE/tests/leaks_of_mpi.txt:print_suppressions=0"
+    export ASAN_OPTIONS="${ASAN_OPTIONS:-}:fast_unwind_on_malloc=0"
+    examples parts PIECES=3
+  fi
+  assert [ "$(ls | wc -l)" -gt 20 ]
+  examples clean
+  assert_equal "$(ls)" "$theirs"
+}
+
 @test "files and pipes give the same result" {
   tetmesh "$DATA/bracket.stl" --size 8 -q -o b.mesh
   findhex --mesh b.mesh -o b.cand
