@@ -384,6 +384,25 @@ PYTHON
   assert [ ! -e out.vtu ] && [ ! -e out.tar ]
 }
 
+@test "the commands of README.md split a mesh, and assemble its parts in as many rounds as they need" {
+  # readme FIRST LAST: the indented lines between two that begin so.
+  readme() { sed -n "/^    $1/,/^    $2/s/^    //p" "$HEXPIPE_SOURCE/README.md"; }
+  # Of these points parts settle in the third round.
+  cp "$DATA/random_points.mesh" engine.msh
+  readme "mesh-part engine.msh" "for i in .* buildgraph" >split.sh
+  readme "before=" "merge-parts" >assemble.sh
+  bash -e split.sh
+  merge-parts graph-*.tar | initsol -q --iterations 2000 -o whole.tar
+  # In the place of lns-mpi, whose time is in the README.
+  $PYTHON "$DATA/split_solution.py" whole.tar split graph-*.tar
+  mkdir solved
+  for part in split/*; do mv "$part" "solved/graph-${part#*-}"; done
+  bash -e assemble.sh
+  assert_equal "$(ls engine | wc -l) $(ls -d round-* | wc -l)" "16 3"
+  merge-parts round-3/*.tar -o merged.vtu
+  assert grep -qx conforming=True <<<"$(statistics merged.vtu)"
+}
+
 @test "the Slurm script's jobs run the pipeline, each when those before it have succeeded" {
   bar >bar.mesh
   mkdir bin
@@ -420,10 +439,10 @@ SEARCH
   chmod +x bin/*
   run_apart env PATH="$PWD/bin:$PATH" "$HEXPIPE_SOURCE/docs/slurm/submit.sh" bar.mesh 5 scratch
   assert_success
-  assert_equal "$output" 9
+  assert_equal "$output" 11
   assert_equal "$(ls scratch/mesh | tr '\n' ' ')" "part-0000.vtu part-0001.vtu part-0002.vtu part-0003.vtu part-0004.vtu "
   assemble -q scratch/whole.tar -o whole.vtu
-  merge-parts scratch/pieces-4/*.tar -o merged.vtu
+  merge-parts scratch/pieces-6/*.tar -o merged.vtu
   assert_equal "$(statistics merged.vtu | grep ^hex=)" "$(statistics whole.vtu | grep ^hex=)"
   assert_equal "$(cat scratch/searched | cut -d ' ' -f 1-7)" "--parts graphs/part-0000.tar graphs/part-0001.tar graphs/part-0002.tar graphs/part-0003.tar graphs/part-0004.tar --time-limit"
   run_apart "$HEXPIPE_SOURCE/docs/slurm/submit.sh" bar.mesh

@@ -20,8 +20,9 @@ mkdir -p candidates graphs logs
 
 # What a part needs, by its number of tets: docs/definitions.md 5 and formats/README.md.
 seconds=${SEARCH_SECONDS:-3600}
-# Two are enough where no cell at a seam goes back to its tets; the last job says when more are needed.
-rounds=${ROUNDS:-4}
+# Two are enough where no cell at a seam goes back to its tets; five are the most that a mesh has needed so far. A round
+# after all are settled changes nothing; the last job says when more are needed.
+rounds=${ROUNDS:-6}
 memory_to_split=${MEMORY_TO_SPLIT:-64G} memory_a_part=${MEMORY_A_PART:-8G}
 number='$(printf %04d "$SLURM_ARRAY_TASK_ID")'
 array="0-$((parts - 1))"
