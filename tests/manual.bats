@@ -1,4 +1,4 @@
-# Man pages and completion, as the build makes them beside the tools.
+# Man pages and completion, as the build makes them beside the tools, and the pages that are installed with them.
 
 load helpers
 
@@ -96,4 +96,31 @@ completions() {
   assert_success
   assert_equal "$stderr" ""
   for ending in mesh msh vtk vtu node inp tar cand graph sol stl; do assert_output --partial ".$ending"; done
+}
+
+# dead_links FOLDER PAGES...: links between pages there that lead nowhere.
+dead_links() {
+  $PYTHON - "$@" <<'PYTHON'
+import pathlib, re, sys
+root, pages = pathlib.Path(sys.argv[1]), 0
+for pattern in sys.argv[2:]:
+    for page in root.glob(pattern):
+        pages += 1
+        for link in re.findall(r"\]\(([^)#]+)", page.read_text()):
+            if not re.match("[a-z]+:", link) and not (page.parent / link).exists():
+                print(f"{page.relative_to(root)}: {link}")
+assert pages > 7, pages
+PYTHON
+}
+
+@test "links between pages lead somewhere, in the repository and where it is installed" {
+  run dead_links "$HEXPIPE_SOURCE" "*.md" "docs/**/*.md" "formats/**/*.md" "tests/**/*.md" "tools/**/*.md"
+  assert_success
+  assert_output ""
+  if [[ ! -e "$HEXPIPE_BIN/../cmake_install.cmake" ]]; then skip "not in a directory of cmake"; fi
+  cmake --install "$HEXPIPE_BIN/.." --component hexpipe --prefix "$PWD/usr" >/dev/null
+  run dead_links usr "**/*.md"
+  assert_success
+  assert_output ""
+  assert [ -x "$(find usr -name submit.sh)" ]
 }
