@@ -43,7 +43,7 @@ void read_as_solid(std::string_view bytes) {
   for (const Shell& shell : surface.shells) promise(shell.volume >= 0, "shells enclose a volume");
   if ((choice & 8u) == 0 || surface.triangles.size() > most_to_remesh) return;
   const RemeshResult remeshed = remesh_surface(surface, {.size = size * diagonal});
-  promise(!remeshed.failure.empty() || is_boundary_of_a_solid(remeshed.soup), "a new surface bounds a solid");
+  promise(!remeshed.failure.empty() || is_boundary_of_a_solid(remeshed.surface), "a new surface bounds a solid");
 }
 
 constexpr std::array targets{FuzzTarget{"surface", read_as_solid}};

@@ -22,6 +22,10 @@ using ::testing::HasSubstr;
 
 constexpr double no_timeout = std::numeric_limits<double>::infinity();
 
+ChildEnd run_in_child(const std::function<void()>& work, double timeout) {
+  return ChildProcess(work, timeout).wait();
+}
+
 bool has_children() {
   return waitpid(-1, nullptr, WNOHANG) != -1 || errno != ECHILD;
 }
@@ -77,6 +81,30 @@ TEST(ChildProcess, IsKilledAfterTheTimeout) {
   EXPECT_GE(watch.seconds(), 0.1);
   EXPECT_LT(watch.seconds(), 10);
   EXPECT_FALSE(has_children());
+}
+
+TEST(ChildProcess, IsKilledWhenItIsNotWaitedFor) {
+  const Stopwatch watch;
+  {
+    const ChildProcess child([] { sleep(100); }, no_timeout);
+  }
+  EXPECT_LT(watch.seconds(), 10);
+  EXPECT_FALSE(has_children());
+}
+
+TEST(ChildProcess, MayBeWaitedForAfterItsTime) {
+  ChildProcess quick(
+      [] {
+        std::printf("done");
+        std::fflush(stdout);
+      },
+      0.05),
+      slow([] { sleep(100); }, 0.05);
+  usleep(500'000);
+  const ChildEnd end = quick.wait();
+  EXPECT_EQ(end.kind, ChildEnd::Kind::exited);
+  EXPECT_EQ(end.said, "done");
+  EXPECT_EQ(slow.wait().kind, ChildEnd::Kind::timed_out);
 }
 
 TEST(ChildProcess, WhatItPrintsIsKeptFromOurOutput) {

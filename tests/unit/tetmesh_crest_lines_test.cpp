@@ -137,7 +137,7 @@ TEST(Remesh, TreatsASmallFilletAsAnEdge) {
   EXPECT_EQ(result.failure, "");
   EXPECT_EQ(result.extra_points, 0u);
   int on_crest = 0, on_side = 0;
-  for (const Vec3& p : result.soup.points) {
+  for (const Vec3& p : result.surface.points) {
     on_crest += std::abs(p.x - p.z) < 1e-9 && p.x < 1;
     on_side += std::abs(p.x) < 1e-9 && p.y > 0 && p.y < 8;
   }
@@ -187,7 +187,7 @@ TEST(Remesh, GivesARoundedBoxNearlyThePointsOfABox) {
   const RemeshResult result = remesh_surface(surface_of(rounded_box({5, 4, 3}, 0.5, 3)), {.size = 1});
   EXPECT_EQ(result.failure, "");
   EXPECT_EQ(result.extra_points, 0u);
-  EXPECT_NEAR(static_cast<double>(result.soup.points.size()), 11 * 9 * 7 - 9 * 7 * 5, 16);
+  EXPECT_NEAR(static_cast<double>(result.surface.points.size()), 11 * 9 * 7 - 9 * 7 * 5, 16);
 }
 
 }  // namespace

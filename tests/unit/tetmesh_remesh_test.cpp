@@ -47,8 +47,8 @@ TEST(Remesh, BoxesBecomeGrids) {
   EXPECT_EQ(result.extra_points, 0u);
   EXPECT_LT(result.from_input, 1e-9);
   EXPECT_LT(result.to_input, 1e-9);
-  EXPECT_EQ(result.soup.points.size(), 2 * (12 * 8 + 8 * 4 + 4 * 12) + 2u);
-  for (const Vec3& p : result.soup.points)
+  EXPECT_EQ(result.surface.points.size(), 2 * (12 * 8 + 8 * 4 + 4 * 12) + 2u);
+  for (const Vec3& p : result.surface.points)
     for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(p[axis] / 0.25, std::round(p[axis] / 0.25), 1e-6);
 }
 
@@ -75,7 +75,7 @@ TEST(RefineSurface, CutsFansOfSliversIntoNoMorePointsThanTheyNeed) {
 TEST(Remesh, StepsFitWhatIsThere) {
   // 2.9 / 0.25 = 11.6, 12 steps; likewise 9 and 4.
   const RemeshResult result = remesh_surface(surface_of(box({0, 0, 0}, {2.9, 2.2, 1.1})), {.size = 0.25});
-  EXPECT_EQ(result.soup.points.size(), 2 * (12 * 9 + 9 * 4 + 4 * 12) + 2u);
+  EXPECT_EQ(result.surface.points.size(), 2 * (12 * 9 + 9 * 4 + 4 * 12) + 2u);
 }
 
 TEST(Remesh, ResultIsASurfaceThatKeepsItsDistance) {
@@ -86,13 +86,14 @@ TEST(Remesh, ResultIsASurfaceThatKeepsItsDistance) {
       const Surface surface = surface_of(facets);
       const RemeshResult result = remesh_surface(surface, {.size = 0.4, .deviation = deviation});
       ASSERT_EQ(result.failure, "");
-      EXPECT_NO_THROW(check_surface(result.soup));
+      EXPECT_NO_THROW(check_surface(result.surface));
       EXPECT_LE(result.from_input, deviation * 0.4 * 1.001);
       EXPECT_LE(result.to_input, deviation * 0.4 * 1.001);
-      const DistanceIndex input(surface.points, surface.triangles), output(result.soup.points, result.soup.triangles);
-      for (const Vec3& p : result.soup.points) EXPECT_LT(input.distance(p), 1e-9);
+      const DistanceIndex input(surface.points, surface.triangles),
+          output(result.surface.points, result.surface.triangles);
+      for (const Vec3& p : result.surface.points) EXPECT_LT(input.distance(p), 1e-9);
       for (const Vec3& p : surface.points) EXPECT_LE(output.distance(p), deviation * 0.4 * 1.001);
-      const Surface found = find_shells(result.soup, ShellRule::oriented);
+      const Surface found = find_shells(result.surface, ShellRule::oriented);
       ASSERT_EQ(found.shells.size(), 2u);
       EXPECT_EQ(found.region_count, surface.region_count);
       // A sphere of the least radius, 1.2, that has lost the deviation all around.
@@ -110,10 +111,10 @@ TEST(Remesh, KeepsTagsAndTheAreaOfEach) {
   const RemeshResult result = remesh_surface(find_shells(soup, ShellRule::oriented), {.size = 0.2});
   ASSERT_EQ(result.failure, "");
   std::map<std::int32_t, double> area;
-  for (std::size_t i = 0; i < result.soup.triangles.size(); ++i) {
-    const auto [a, b, c] = result.soup.triangles[i];
-    const auto& points = result.soup.points;
-    area[result.soup.tags[i]] += norm(cross(points[b] - points[a], points[c] - points[a])) / 2;
+  for (std::size_t i = 0; i < result.surface.triangles.size(); ++i) {
+    const auto [a, b, c] = result.surface.triangles[i];
+    const auto& points = result.surface.points;
+    area[result.surface.tags[i]] += norm(cross(points[b] - points[a], points[c] - points[a])) / 2;
   }
   ASSERT_EQ(area.size(), 2u);
   EXPECT_NEAR(area[7], 5, 1e-9);
@@ -123,8 +124,8 @@ TEST(Remesh, KeepsTagsAndTheAreaOfEach) {
 TEST(Remesh, SameInputGivesTheSamePoints) {
   const Surface surface = surface_of(sphere({0, 0, 0}, 1, 14));
   const auto first = remesh_surface(surface, {.size = 0.2}), second = remesh_surface(surface, {.size = 0.2});
-  EXPECT_EQ(first.soup.points, second.soup.points);
-  EXPECT_EQ(first.soup.triangles, second.soup.triangles);
+  EXPECT_EQ(first.surface.points, second.surface.points);
+  EXPECT_EQ(first.surface.triangles, second.surface.triangles);
 }
 
 TEST(Remesh, KeepsThinWallsApart) {
@@ -136,21 +137,21 @@ TEST(Remesh, KeepsThinWallsApart) {
   }
   const RemeshResult result = remesh_surface(surface_of(shells), {.size = 0.3, .deviation = 0.5});
   if (result.failure.empty()) {
-    EXPECT_NO_THROW(check_surface(result.soup));
+    EXPECT_NO_THROW(check_surface(result.surface));
   }
 }
 
 TEST(Remesh, GivesUpBeforeMemoryDoes) {
   const RemeshResult result = remesh_surface(surface_of(cube()), {.size = 1e-6});
   EXPECT_NE(result.failure, "");
-  EXPECT_TRUE(result.soup.points.empty());
+  EXPECT_TRUE(result.surface.points.empty());
 }
 
 TEST(Remesh, LeavesAPartFarSmallerThanTheSizeItsShape) {
   const RemeshResult result = remesh_surface(surface_of(cube(0, 1, 3)), {.size = 50});
   ASSERT_EQ(result.failure, "");
-  EXPECT_EQ(result.soup.points.size(), 8u);
-  EXPECT_EQ(result.soup.triangles.size(), 12u);
+  EXPECT_EQ(result.surface.points.size(), 8u);
+  EXPECT_EQ(result.surface.triangles.size(), 12u);
 }
 
 }  // namespace

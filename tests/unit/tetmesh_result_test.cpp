@@ -6,6 +6,7 @@
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/cell_topology.hpp"
 #include "common/run/error.hpp"
+#include "common/run/parallel.hpp"
 #include "surface_samples.hpp"
 #include "tools/tetmesh/tetmesh.hpp"
 
@@ -100,6 +101,33 @@ TEST(Tetmesh, MeasuresDihedralAngles) {
   EXPECT_EQ(result.statistics.tets, 1u);
   EXPECT_NEAR(result.statistics.greatest_dihedral, 90, 1e-9);
   EXPECT_NEAR(result.statistics.least_dihedral, 54.735610317, 1e-8);
+}
+
+// A leaf: new triangles of its two sides cross each other.
+Facets leaf() {
+  Facets facets = sphere({0, 0, 0}, 1, 10);
+  for (auto& facet : facets)
+    for (Vec3& p : facet) p = {p.x, 0.15 * p.y, 0.02 * p.z + 0.3 * p.x * p.x};
+  return facets;
+}
+
+TEST(Tetmesh, FillsNoSurfaceThatTurnsOutToBeFaulty) {
+  const TetmeshOptions mended{.size = Length{0.8, false}, .deviation = 0.5};
+  const TetmeshOptions given_up{.size = Length{0.2, false}, .deviation = 0.05};
+  for (const TetmeshOptions& options : {mended, given_up}) {
+    const auto with_threads = [&](int threads) {
+      const ThreadLimit limit(threads);
+      return run(leaf(), options);
+    };
+    // On two threads it is filled before it is known to be faulty.
+    const TetmeshResult one = with_threads(1), two = with_threads(2);
+    EXPECT_GT(two.statistics.surfaces_tried, 1);
+    EXPECT_EQ(two.statistics.remeshed, options.size->value == 0.8);
+    EXPECT_EQ(two.warning.has_value(), !two.statistics.remeshed);
+    EXPECT_EQ(two.mesh.points, one.mesh.points);
+    EXPECT_EQ(two.mesh.tets, one.mesh.tets);
+    expect_triangles_bound_the_tets(two.mesh);
+  }
 }
 
 }  // namespace

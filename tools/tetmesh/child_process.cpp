@@ -6,6 +6,8 @@
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,6 +26,7 @@ namespace {
 
 constexpr std::size_t kept_output = 4096;
 constexpr int no_thread = 117;  // the exit code of a child that could not start
+constexpr pid_t reaped = -1;    // in place of a child
 
 [[noreturn]] void fail(const char* what) {
   throw DataError(fmt::format("cannot {}: {}", what, std::strerror(errno)));
@@ -61,15 +64,16 @@ void* run_work(void* work) {
   _exit(0);
 }
 
-// Keeps the last of what comes until the other end closes. False when the time is over first.
+// Keeps the last of what comes until the other end closes. False when the time is over first: what has come by then
+// counts, however late it is asked for.
 bool listen(int descriptor, const Deadline& deadline, std::string& heard) {
   char buffer[4096];
   for (;;) {
-    const double milliseconds = std::min(std::ceil(1000 * deadline.remaining()), 60'000.0);
-    if (milliseconds <= 0) return false;
+    const double milliseconds = std::clamp(std::ceil(1000 * deadline.remaining()), 0.0, 60'000.0);
     pollfd event{descriptor, POLLIN, 0};
     const int ready = poll(&event, 1, static_cast<int>(milliseconds));
     if (ready < 0 && errno != EINTR) fail("wait for a child process");
+    if (ready == 0 && milliseconds <= 0) return false;
     if (ready <= 0) continue;
     const ssize_t count = read(descriptor, buffer, sizeof buffer);
     if (count < 0 && errno == EINTR) continue;
@@ -77,13 +81,6 @@ bool listen(int descriptor, const Deadline& deadline, std::string& heard) {
     heard.append(buffer, static_cast<std::size_t>(count));
     if (heard.size() > 2 * kept_output) heard.erase(0, heard.size() - kept_output);
   }
-}
-
-int wait_for(pid_t child) {
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) fail("wait for a child process");
-  return status;
 }
 
 }  // namespace
@@ -119,22 +116,47 @@ void SharedResult::take(void* data, std::size_t bytes) {
   }
 }
 
-ChildEnd run_in_child(const std::function<void()>& work, double timeout) {
+ChildProcess::ChildProcess(const std::function<void()>& work, double timeout) : deadline_(timeout) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) fail("open a pipe");
-  const Deadline deadline(timeout);
   const pid_t parent = getpid();
   end_worker_threads();
-  const pid_t child = fork();
-  if (child < 0) fail("start a child process");
-  if (child == 0) be_the_child(work, parent, ends[1]);
+  child_ = fork();
+  if (child_ == 0) be_the_child(work, parent, ends[1]);
+  const int error = errno;
   close(ends[1]);
+  output_ = ends[0];
+  if (child_ > 0) return;
+  close(output_);
+  errno = error;
+  fail("start a child process");
+}
 
+ChildProcess::~ChildProcess() {
+  close(output_);
+  if (child_ == reaped) return;
+  kill(child_, SIGKILL);
+  ChildEnd unwanted;
+  reap(unwanted);
+}
+
+// The status that waitpid() gives.
+int ChildProcess::reap(ChildEnd& end) {
+  int status = 0;
+  rusage usage{};
+  while (wait4(child_, &status, 0, &usage) < 0 && errno == EINTR) {
+  }
+  for (const timeval& time : {usage.ru_utime, usage.ru_stime})
+    end.seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  child_ = reaped;
+  return status;
+}
+
+ChildEnd ChildProcess::wait() {
   ChildEnd end;
-  const bool in_time = listen(ends[0], deadline, end.said);
-  close(ends[0]);
-  if (!in_time) kill(child, SIGKILL);
-  const int status = wait_for(child);
+  const bool in_time = listen(output_, deadline_, end.said);
+  if (!in_time) kill(child_, SIGKILL);
+  const int status = reap(end);
   if (!in_time) {
     end.kind = ChildEnd::Kind::timed_out;
   } else if (WIFSIGNALED(status)) {

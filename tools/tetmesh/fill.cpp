@@ -1,6 +1,8 @@
 #include "tools/tetmesh/fill.hpp"
 
-#include <algorithm>
+#include <functional>
+#include <optional>
+#include <span>
 
 #include "common/mesh/adjacency.hpp"
 #include "common/run/deadline.hpp"
@@ -34,57 +36,13 @@ bool starts_from_lattice(PointKind kind) {
   return kind != PointKind::none && kind != PointKind::given;
 }
 
-// `axes` are the part's.
-std::vector<Vec3> place_points(const Surface& surface, const SizeField& size, const Axes& axes,
-                               const TetmeshOptions& options, TetmeshResult& result) {
-  if (options.points == PointKind::none) return {};
-  if (options.points == PointKind::given) {
-    GivenPoints given = usable_points(surface, options.given_points, clearance_of_given * size.least());
-    if (given.complaint) result.warning = given.complaint;
-    return given.points;
-  }
-  return graded_lattice_points(surface, size,
-                               {.clearance = options.clearance,
-                                .jitter = options.jitter.value_or(LatticeOptions{}.jitter),
-                                .seed = options.seed,
-                                .axes = axes},
-                               options.most_points);
-}
-
-void describe(const Surface& surface, TetmeshStatistics& statistics) {
-  statistics.surface_points = surface.points.size();
-  statistics.surface_triangles = surface.triangles.size();
-  statistics.shells = surface.shells.size();
-  statistics.regions = static_cast<std::size_t>(surface.region_count);
-}
-
-// Where no new surface can be made there is none, and the result says so.
-std::optional<Surface> remesh(const Surface& surface, const SizeField& size, const TetmeshOptions& options,
-                              TetmeshResult& result) {
-  TetmeshStatistics& statistics = result.statistics;
-  // What a size may take is nothing beside the part, unless that is thinner than a size.
-  const SizeField unit = options.layers ? size : size_field(surface, options, size.greatest(), 1);
-  RemeshResult remeshed = remesh_surface(surface, {size, options.feature_angle, options.deviation, unit});
-  statistics.remeshed = remeshed.failure.empty();
-  if (!statistics.remeshed) {
-    result.warning = fmt::format("the surface is kept as it is: {}", remeshed.failure);
-    return std::nullopt;
-  }
-  statistics.distance_to_input = remeshed.to_input;
-  statistics.distance_from_input = remeshed.from_input;
-  statistics.extra_points = remeshed.extra_points;
-  return find_shells(std::move(remeshed.soup), options.shells);
-}
-
-void describe(const BuiltMesh& built, TetmeshStatistics& statistics) {
-  const MeshShape shape = shape_of(built.mesh);
-  statistics.points = built.mesh.points.size();
-  statistics.tets = built.mesh.tets.size();
-  statistics.added_points = built.added_points;
-  statistics.dropped_points = built.dropped_points;
-  statistics.volume = shape.volume;
-  statistics.least_dihedral = shape.least_dihedral;
-  statistics.greatest_dihedral = shape.greatest_dihedral;
+// Whether it is plain that the frame's points give more hexes than the lattice's: where much of the part is turned out
+// of the lattice's axes. Of 31 meshes of eleven parts the lattice won only with less than a seventh of it, or with few
+// tets, where an estimate takes no time.
+constexpr double much_turned = 0.2;
+constexpr std::size_t few_tets = 8000;
+bool frame_plainly_wins(const FramePoints& frame, const TetMesh& of_lattice, const TetmeshStatistics& statistics) {
+  return statistics.remeshed && frame.turned_share > much_turned && of_lattice.tets.size() > few_tets;
 }
 
 // Adds the seconds since the last call, or since the start, to a step.
@@ -103,20 +61,165 @@ class StepWatch {
 // input and not in another. Of 36 meshes of a CAD tessellation turned out of the axes 9 failed at the first run; the
 // worst needed 6.
 constexpr int most_runs = 16;
-BuiltMesh tetrahedralize(const Surface& surface, std::span<const Vec3> points, double timeout, StepWatch& watch,
-                         TetmeshStatistics& statistics) {
-  const Deadline deadline(timeout);
+
+class Filler {
+ public:
+  Filler(const Surface& given, const TetmeshOptions& options, double greatest_size)
+      : given_(given), options_(options), size_(size_field(given, options, greatest_size, options.layers)) {
+    statistics_.size = greatest_size;
+    if (!size_.is_uniform()) statistics_.least_size = size_.least();
+  }
+
+  TetmeshResult fill(bool estimates);
+
+ private:
+  // False where no new surface can be made, and the warning says why.
+  bool fill_new_surface();
+  void fill_given_surface();
+  void place_points();
+  void try_frame_points();
+  // Called while TetGen is at work; false when its mesh is not wanted any more.
+  using Meanwhile = std::function<bool()>;
+  std::optional<BuiltMesh> tetrahedralize(std::span<const Vec3> points, const Meanwhile& meanwhile);
+  void describe(const RemeshResult& remeshed);
+  void describe_result();
+
+  const Surface& given_;
+  const TetmeshOptions& options_;
+  const SizeField size_;
+  TetmeshResult result_;
+  TetmeshStatistics& statistics_ = result_.statistics;
+  StepWatch watch_;
+
+  std::optional<RemeshResult> remeshed_;
+  const Surface* surface_ = &given_;  // that is filled
+  Axes axes_{};                       // of the part
+  std::vector<Vec3> points_;          // inside
+  std::optional<BuiltMesh> built_;
+};
+
+TetmeshResult Filler::fill(bool estimates) {
+  if (options_.surface != SurfaceKind::remesh || !fill_new_surface()) fill_given_surface();
+  statistics_.points_kept = starts_from_lattice(options_.points) ? PointKind::lattice : options_.points;
+  statistics_.interior_points = points_.size();
+  if (options_.points == PointKind::frame || options_.points == PointKind::best) {
+    try {
+      try_frame_points();
+    } catch (const TetGenFailure&) {
+      if (options_.points == PointKind::frame) throw;
+    }
+  }
+  if (estimates) {
+    const auto& known =
+        statistics_.points_kept == PointKind::frame ? statistics_.frame_hex_share : statistics_.lattice_hex_share;
+    statistics_.hex_share = known ? *known : estimate_hex_share(built_->mesh, built_->adjacency);
+    watch_.add_to(statistics_.seconds.comparing);
+  }
+  describe_result();
+  result_.mesh = std::move(built_->mesh);
+  watch_.add_to(statistics_.seconds.building);
+  return std::move(result_);
+}
+
+// TetGen is at work on the new surface while that is judged.
+bool Filler::fill_new_surface() {
+  // What a size may take is nothing beside the part, unless that is thinner than a size.
+  const SizeField unit = options_.layers ? size_ : size_field(given_, options_, size_.greatest(), 1);
+  SurfaceRemesher remesher(given_, {size_, options_.feature_angle, options_.deviation, unit});
+  while (!built_ && remesher.make()) {
+    watch_.add_to(statistics_.seconds.remeshing);
+    surface_ = &remesher.made();
+    place_points();
+    built_ = tetrahedralize(points_, [&] {
+      const bool good = remesher.judge();
+      watch_.add_to(statistics_.seconds.remeshing);
+      return good;
+    });
+  }
+  watch_.add_to(statistics_.seconds.remeshing);
+  remeshed_ = remesher.take();
+  statistics_.surfaces_tried = remeshed_->attempts;
+  if (built_) {
+    surface_ = &remeshed_->surface;
+    describe(*remeshed_);
+  } else {
+    result_.warning = fmt::format("the surface is kept as it is: {}", remeshed_->failure);
+  }
+  return built_.has_value();
+}
+
+void Filler::fill_given_surface() {
+  surface_ = &given_;
+  if (options_.points != PointKind::none && !result_.warning)
+    result_.warning = fit_to_size(given_, size_).complaint(statistics_.size);
+  place_points();
+  built_ = tetrahedralize(points_, [] { return true; });
+}
+
+void Filler::place_points() {
+  if (starts_from_lattice(options_.points)) {
+    axes_ = axes_of_part(*surface_);
+    points_ = graded_lattice_points(*surface_, size_,
+                                    {.clearance = options_.clearance,
+                                     .jitter = options_.jitter.value_or(LatticeOptions{}.jitter),
+                                     .seed = options_.seed,
+                                     .axes = axes_},
+                                    options_.most_points);
+  } else if (options_.points == PointKind::given) {
+    GivenPoints given = usable_points(*surface_, options_.given_points, clearance_of_given * size_.least());
+    if (given.complaint) result_.warning = given.complaint;
+    points_ = std::move(given.points);
+  }
+  watch_.add_to(statistics_.seconds.placing);
+}
+
+// From the mesh with the lattice's points, which stays where it is the better one.
+void Filler::try_frame_points() {
+  const FramePoints frame = frame_points(*surface_, built_->mesh, built_->adjacency,
+                                         {.size = size_,
+                                          .clearance = options_.clearance,
+                                          .jitter = options_.jitter.value_or(FramePointsOptions{}.jitter),
+                                          .seed = options_.seed,
+                                          .axes = axes_});
+  watch_.add_to(statistics_.seconds.placing);
+  const bool compares = options_.points == PointKind::best && !frame_plainly_wins(frame, built_->mesh, statistics_);
+  double lattice_share = 0;
+  std::optional<BuiltMesh> bent = tetrahedralize(frame.points, [&] {
+    if (compares) lattice_share = estimate_hex_share(built_->mesh, built_->adjacency);
+    watch_.add_to(statistics_.seconds.comparing);
+    return true;
+  });
+  if (compares) {
+    statistics_.lattice_hex_share = lattice_share;
+    statistics_.frame_hex_share = estimate_hex_share(bent->mesh, bent->adjacency);
+    watch_.add_to(statistics_.seconds.comparing);
+    if (lattice_share >= *statistics_.frame_hex_share) return;
+  }
+  built_ = std::move(bent);
+  statistics_.interior_points = frame.points.size();
+  statistics_.points_kept = PointKind::frame;
+}
+
+// Nothing where the mesh is not wanted.
+std::optional<BuiltMesh> Filler::tetrahedralize(std::span<const Vec3> points, const Meanwhile& meanwhile) {
+  // With one thread, one after the other.
+  const bool at_once = thread_count() > 1;
+  if (!at_once && !meanwhile()) return std::nullopt;
+  const Deadline deadline(options_.tetgen_timeout);
   for (int run = 0;; ++run) {
     try {
-      TetGenResult tetgen = run_tetgen({.surface_points = surface.points,
-                                        .triangles = surface.triangles,
-                                        .interior_points = points,
-                                        .shuffle = static_cast<std::uint64_t>(run)},
-                                       deadline.remaining());
-      ++statistics.tetgen_runs;
-      watch.add_to(statistics.seconds.tetgen);
-      BuiltMesh built = build_mesh(surface, points, std::move(tetgen));
-      watch.add_to(statistics.seconds.building);
+      TetGenRun tetgen({.surface_points = surface_->points,
+                        .triangles = surface_->triangles,
+                        .interior_points = points,
+                        .shuffle = static_cast<std::uint64_t>(run)},
+                       deadline.remaining());
+      if (at_once && run == 0 && !meanwhile()) return std::nullopt;
+      TetGenResult made = tetgen.wait();
+      ++statistics_.tetgen_runs;
+      statistics_.seconds.of_tetgen += made.seconds;
+      watch_.add_to(statistics_.seconds.tetgen);
+      BuiltMesh built = build_mesh(*surface_, points, std::move(made));
+      watch_.add_to(statistics_.seconds.building);
       return built;
     } catch (const TetGenFailure&) {
       if (run + 1 == most_runs || deadline.passed()) throw;
@@ -124,79 +227,32 @@ BuiltMesh tetrahedralize(const Surface& surface, std::span<const Vec3> points, d
   }
 }
 
-// Whether it is plain that the frame's points give more hexes than the lattice's: where much of the part is turned out
-// of the lattice's axes. Of 31 meshes of eleven parts the lattice won only with less than a seventh of it, or with few
-// tets, where an estimate takes no time.
-constexpr double much_turned = 0.2;
-constexpr std::size_t few_tets = 8000;
-bool frame_plainly_wins(const FramePoints& frame, const TetMesh& of_lattice, const TetmeshStatistics& statistics) {
-  return statistics.remeshed && frame.turned_share > much_turned && of_lattice.tets.size() > few_tets;
+void Filler::describe(const RemeshResult& remeshed) {
+  statistics_.remeshed = true;
+  statistics_.distance_to_input = remeshed.to_input;
+  statistics_.distance_from_input = remeshed.from_input;
+  statistics_.extra_points = remeshed.extra_points;
 }
 
-// From the mesh with the lattice's points, which stays where it is the better one.
-void try_frame_points(const Surface& surface, const SizeField& size, const Axes& axes, const TetmeshOptions& options,
-                      StepWatch& watch, BuiltMesh& built, TetmeshStatistics& statistics) {
-  const FramePoints frame = frame_points(surface, built.mesh, built.adjacency,
-                                         {.size = size,
-                                          .clearance = options.clearance,
-                                          .jitter = options.jitter.value_or(FramePointsOptions{}.jitter),
-                                          .seed = options.seed,
-                                          .axes = axes});
-  watch.add_to(statistics.seconds.placing);
-  BuiltMesh bent = tetrahedralize(surface, frame.points, options.tetgen_timeout, watch, statistics);
-  if (options.points == PointKind::best && !frame_plainly_wins(frame, built.mesh, statistics)) {
-    both_at_once([&] { statistics.lattice_hex_share = estimate_hex_share(built.mesh, built.adjacency); },
-                 [&] { statistics.frame_hex_share = estimate_hex_share(bent.mesh, bent.adjacency); });
-    watch.add_to(statistics.seconds.comparing);
-    if (*statistics.lattice_hex_share >= *statistics.frame_hex_share) return;
-  }
-  built = std::move(bent);
-  statistics.interior_points = frame.points.size();
-  statistics.points_kept = PointKind::frame;
+void Filler::describe_result() {
+  const MeshShape shape = shape_of(built_->mesh);
+  statistics_.surface_points = surface_->points.size();
+  statistics_.surface_triangles = surface_->triangles.size();
+  statistics_.shells = surface_->shells.size();
+  statistics_.regions = static_cast<std::size_t>(surface_->region_count);
+  statistics_.points = built_->mesh.points.size();
+  statistics_.tets = built_->mesh.tets.size();
+  statistics_.added_points = built_->added_points;
+  statistics_.dropped_points = built_->dropped_points;
+  statistics_.volume = shape.volume;
+  statistics_.least_dihedral = shape.least_dihedral;
+  statistics_.greatest_dihedral = shape.greatest_dihedral;
 }
 
 }  // namespace
 
 TetmeshResult fill(const Surface& given, const TetmeshOptions& options, double greatest_size, bool estimates) {
-  TetmeshResult result;
-  TetmeshStatistics& statistics = result.statistics;
-  StepWatch watch;
-  statistics.size = greatest_size;
-  const SizeField size = size_field(given, options, greatest_size, options.layers);
-  if (!size.is_uniform()) statistics.least_size = size.least();
-  std::optional<Surface> remeshed;
-  if (options.surface == SurfaceKind::remesh) {
-    remeshed = remesh(given, size, options, result);
-    watch.add_to(statistics.seconds.remeshing);
-  }
-  const Surface& surface = remeshed ? *remeshed : given;
-  describe(surface, statistics);
-  if (options.points != PointKind::none && !statistics.remeshed && !result.warning)
-    result.warning = fit_to_size(surface, size).complaint(statistics.size);
-  const Axes axes = starts_from_lattice(options.points) ? axes_of_part(surface) : Axes{};
-  const std::vector<Vec3> points = place_points(surface, size, axes, options, result);
-  statistics.interior_points = points.size();
-  watch.add_to(statistics.seconds.placing);
-
-  BuiltMesh built = tetrahedralize(surface, points, options.tetgen_timeout, watch, statistics);
-  statistics.points_kept = starts_from_lattice(options.points) ? PointKind::lattice : options.points;
-  if (options.points == PointKind::frame || options.points == PointKind::best) {
-    try {
-      try_frame_points(surface, size, axes, options, watch, built, statistics);
-    } catch (const TetGenFailure&) {
-      if (options.points == PointKind::frame) throw;
-    }
-  }
-  if (estimates) {
-    const auto& known =
-        statistics.points_kept == PointKind::frame ? statistics.frame_hex_share : statistics.lattice_hex_share;
-    statistics.hex_share = known ? *known : estimate_hex_share(built.mesh, built.adjacency);
-    watch.add_to(statistics.seconds.comparing);
-  }
-  describe(built, statistics);
-  result.mesh = std::move(built.mesh);
-  watch.add_to(statistics.seconds.building);
-  return result;
+  return Filler(given, options, greatest_size).fill(estimates);
 }
 
 }  // namespace hexpipe

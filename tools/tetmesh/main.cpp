@@ -143,6 +143,7 @@ int main(int argc, char** argv) {
     context.note(summary(result.statistics));
     context.statistics.update(to_json(result.statistics));
     context.statistics["seconds_by_step"] = times_of(result.statistics);
+    context.statistics["tetgen_seconds"] = result.statistics.seconds.of_tetgen;
     stage.write(result.mesh, to_json(result.statistics));
   };
   return tool_main(argc, argv, info, declare, run);

@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "common/run/error.hpp"
+#include "common/run/parallel.hpp"
 #include "common/run/random.hpp"
 #include "tools/tetmesh/child_process.hpp"
 
@@ -146,7 +147,7 @@ void diagnose_in_child(const TetGenInput& input, SharedResult& result) {
 
 std::vector<Triangle> find_intersecting(const TetGenInput& input, double timeout) {
   SharedResult shared;
-  const ChildEnd end = run_in_child([&] { diagnose_in_child(input, shared); }, timeout);
+  const ChildEnd end = ChildProcess([&] { diagnose_in_child(input, shared); }, timeout).wait();
   if (end.kind != ChildEnd::Kind::exited || end.code != 0) return {};
   return take_rows<Triangle>(shared);
 }
@@ -175,19 +176,32 @@ std::string failure_of(const ChildEnd& end) {
 
 }  // namespace
 
-TetGenResult run_tetgen(const TetGenInput& input, double timeout) {
-  TetGenResult result;
-  SharedResult shared;
-  const ShuffledInput shuffled = shuffle(input);
-  const ChildEnd end = run_in_child([&] { mesh_in_child(shuffled, shared); }, timeout);
+struct TetGenRun::Work {
+  TetGenInput input;
+  double timeout;
+  ShuffledInput shuffled = shuffle(input);
+  SharedResult shared = {};
+  ChildProcess child{[this] { mesh_in_child(shuffled, shared); }, timeout};
+  ThreadLimit elsewhere{std::max(1, thread_count() - 1)};
+};
+
+TetGenRun::TetGenRun(const TetGenInput& input, double timeout) : work_(new Work{input, timeout}) {}
+
+TetGenRun::~TetGenRun() = default;
+
+TetGenResult TetGenRun::wait() {
+  const std::unique_ptr<Work> work = std::move(work_);
+  const ChildEnd end = work->child.wait();
   check_system(end);
+  TetGenResult result;
+  result.seconds = end.seconds;
   result.failure = failure_of(end);
   if (result.failure.empty()) {
-    result.points = take_rows<Vec3>(shared);
-    result.tets = take_rows<Tet>(shared);
-    undo_shuffle(shuffled.original, result);
+    result.points = take_rows<Vec3>(work->shared);
+    result.tets = take_rows<Tet>(work->shared);
+    undo_shuffle(work->shuffled.original, result);
   } else if (end.kind == ChildEnd::Kind::exited && end.code == self_intersection) {
-    result.intersecting = find_intersecting(input, timeout);
+    result.intersecting = find_intersecting(work->input, work->timeout);
   }
   return result;
 }

@@ -2,6 +2,7 @@
 // TetGen behind one function: a surface that is kept and points inside it become tetrahedra.
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,11 +27,31 @@ struct TetGenResult {
   // Where it failed: what went wrong, in a sentence, and the triangles that TetGen names as intersecting.
   std::string failure;
   std::vector<Triangle> intersecting;
+  double seconds = 0;  // of the processor
 };
 
-// Runs TetGen in a child process: it ends processes, throws through frames that free twice, and prints. `timeout` is in
-// seconds. Throws DataError when no child process can be run, or when it has not enough
-// memory.
-TetGenResult run_tetgen(const TetGenInput& input, double timeout);
+// TetGen at work in a child process: it ends processes, throws through frames that free twice, and prints. Meanwhile
+// parallel loops here use one thread less, if there is more than one.
+class TetGenRun {
+ public:
+  // Starts it; what the input names has to stand until it was waited for. It may take `timeout` seconds. Throws
+  // DataError when no child process can be run.
+  TetGenRun(const TetGenInput& input, double timeout);
+  // Ends it, unless it was waited for.
+  ~TetGenRun();
+  TetGenRun(const TetGenRun&) = delete;
+  TetGenRun& operator=(const TetGenRun&) = delete;
+
+  // Once. Throws DataError when it has not enough memory.
+  TetGenResult wait();
+
+ private:
+  struct Work;
+  std::unique_ptr<Work> work_;
+};
+
+inline TetGenResult run_tetgen(const TetGenInput& input, double timeout) {
+  return TetGenRun(input, timeout).wait();
+}
 
 }  // namespace hexpipe

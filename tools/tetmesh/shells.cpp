@@ -46,6 +46,26 @@ std::vector<std::int32_t> number_components(std::size_t point_count, std::span<c
   return component;
 }
 
+// Their triangles and volumes. Returns the latter with their signs.
+std::vector<double> measure_shells(Surface& surface) {
+  for (Shell& shell : surface.shells) shell.triangle_count = 0;
+  for (std::size_t i = surface.triangles.size(); i-- > 0;) {
+    Shell& shell = surface.shells[surface.shell_of[i]];
+    shell.first_triangle = static_cast<std::int32_t>(i);
+    ++shell.triangle_count;
+  }
+  std::vector<double> volumes(surface.shells.size());
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    // Seen from a corner of the shell, so that volumes far from the origin keep their digits.
+    const std::int32_t s = surface.shell_of[i];
+    const Vec3& origin = surface.points[surface.triangles[surface.shells[s].first_triangle][0]];
+    const auto [a, b, c] = surface.triangles[i];
+    volumes[s] += det(surface.points[a] - origin, surface.points[b] - origin, surface.points[c] - origin) / 6;
+  }
+  for (std::size_t s = 0; s < volumes.size(); ++s) surface.shells[s].volume = std::abs(volumes[s]);
+  return volumes;
+}
+
 class ShellFinder {
  public:
   ShellFinder(SurfaceSoup soup, ShellRule rule) : surface_{std::move(soup), {}, {}, 0}, rule_(rule) {}
@@ -77,23 +97,8 @@ class ShellFinder {
 
 void ShellFinder::collect_shells() {
   surface_.shell_of = number_components(surface_.points.size(), surface_.triangles);
-  const std::int32_t count = std::ranges::max(surface_.shell_of) + 1;
-  surface_.shells.resize(count);
-  drafts_.resize(count);
-  for (std::size_t i = surface_.triangles.size(); i-- > 0;) {
-    Shell& shell = surface_.shells[surface_.shell_of[i]];
-    shell.first_triangle = static_cast<std::int32_t>(i);
-    ++shell.triangle_count;
-  }
-  for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
-    // Seen from a corner of the shell, so that volumes far from the origin keep their digits.
-    const std::int32_t s = surface_.shell_of[i];
-    const Vec3& origin = surface_.points[surface_.triangles[surface_.shells[s].first_triangle][0]];
-    const auto [a, b, c] = surface_.triangles[i];
-    drafts_[s].signed_volume +=
-        det(surface_.points[a] - origin, surface_.points[b] - origin, surface_.points[c] - origin) / 6;
-  }
-  for (std::int32_t s = 0; s < count; ++s) surface_.shells[s].volume = std::abs(drafts_[s].signed_volume);
+  surface_.shells.resize(std::ranges::max(surface_.shell_of) + 1);
+  for (const double volume : measure_shells(surface_)) drafts_.push_back({volume, std::nullopt, 0});
 }
 
 // Shells do not meet, so that one vertex tells which shells are around the whole of its own.
@@ -198,6 +203,12 @@ bool is_in_material(const Surface& surface, const ColumnIndex& columns, const Ve
 
 Surface find_shells(SurfaceSoup soup, ShellRule rule) {
   return ShellFinder(std::move(soup), rule).find();
+}
+
+Surface with_shells_of(const Surface& surface, SurfaceSoup soup, std::vector<std::int32_t> shell_of) {
+  Surface other{std::move(soup), std::move(shell_of), surface.shells, surface.region_count};
+  measure_shells(other);
+  return other;
 }
 
 }  // namespace hexpipe

@@ -47,4 +47,7 @@ bool is_in_material(const Surface& surface, const ColumnIndex& columns, const Ve
 // encloses nothing where ShellRule::oriented wants material.
 Surface find_shells(SurfaceSoup soup, ShellRule rule);
 
+// The same shells of other triangles, which come in the order of the shells: `shell_of` of each its number.
+Surface with_shells_of(const Surface& surface, SurfaceSoup soup, std::vector<std::int32_t> shell_of);
+
 }  // namespace hexpipe

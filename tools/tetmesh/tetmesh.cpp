@@ -21,6 +21,7 @@ StepSeconds& StepSeconds::operator+=(const StepSeconds& other) {
   tetgen += other.tetgen;
   building += other.building;
   comparing += other.comparing;
+  of_tetgen += other.of_tetgen;
   return *this;
 }
 
@@ -133,6 +134,7 @@ nlohmann::ordered_json to_json(const TetmeshStatistics& s) {
                               {"surface_points", s.surface_points},
                               {"surface_triangles", s.surface_triangles},
                               {"surface_remeshed", s.remeshed},
+                              {"surfaces_tried", s.surfaces_tried},
                               {"distance_to_input", s.distance_to_input},
                               {"distance_from_input", s.distance_from_input},
                               {"extra_points", s.extra_points},

@@ -56,7 +56,9 @@ struct TetmeshOptions {
 };
 
 struct StepSeconds {
+  // One after the other. While TetGen is at work, other steps may be, too: then only the rest of its time counts.
   double checking = 0, remeshing = 0, placing = 0, tetgen = 0, building = 0, comparing = 0;
+  double of_tetgen = 0;  // of the processor, all that TetGen took
 
   StepSeconds& operator+=(const StepSeconds& other);
 };
@@ -71,6 +73,7 @@ struct TetmeshStatistics {
   std::optional<double> least_size;  // where sizes differ
   std::size_t surface_points = 0, surface_triangles = 0;
   bool remeshed = false;
+  int surfaces_tried = 0;                                 // by remeshing, until one was as promised
   double distance_to_input = 0, distance_from_input = 0;  // Hausdorff, of the new surface and of the old one
   std::size_t extra_points = 0;                           // of the input, that remeshing could not remove
   std::size_t shells = 0, regions = 0;

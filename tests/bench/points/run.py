@@ -78,7 +78,7 @@ def measure(path, level, kind, options):
     return {"model": name, "kind": kind, "size": mesh["size"], "points": mesh["points"], "tets": mesh["tets"], "greedy": greedy,
             "lns": best, "gmsh": GMSH.get(name, (None,) * 3)[level], "candidates": candidates["candidates"] / mesh["points"],
             "least": least, "per_tets": 1e5 * sum(seconds.values()) / mesh["tets"],
-            "ratio": sum(seconds.values()) / seconds["tetgen"], "away": mesh["distance_to_input"] / mesh["size"],
+            "ratio": sum(seconds.values()) / mesh["tetgen_seconds"], "away": mesh["distance_to_input"] / mesh["size"],
             "extra": mesh["extra_points"], "remeshed": mesh["surface_remeshed"] or surface == "keep"}
 
 

@@ -47,7 +47,7 @@ def run_tetmesh(path, size, threads, folder, times):
     least(times, ("process", threads), time.perf_counter() - begin)
     result = json.load(open(stats))
     least(times, ("steps", threads), sum(result["seconds_by_step"].values()))
-    least(times, "tetgen", result["seconds_by_step"]["tetgen"])
+    least(times, "tetgen", result["tetgen_seconds"])
     return result
 
 

@@ -51,50 +51,32 @@ bool has_within(const SizedPointGrid& grid, const Vec3& place, double reach) {
   return found;
 }
 
-class SurfaceRemesher {
+}  // namespace
+
+class SurfaceRemesher::Work {
  public:
-  SurfaceRemesher(const Surface& surface, const RemeshOptions& options)
+  Work(const Surface& surface, const RemeshOptions& options)
       : surface_(surface),
         size_(options.size),
         deviation_(options.deviation * options.unit.value_or(options.size)),
         prepared_(surface, options.feature_angle) {}
 
-  RemeshResult run() {
-    expected_points_ = points_on_surface(surface_, size_, most_points);
-    if (expected_points_ > most_points) {
-      result_.failure = "its size asks for more points than memory holds";
-      return std::move(result_);
-    }
-    bool prepared = false;
-    both_at_once([&] { prepared = prepare(); }, [&] { input_.emplace(surface_.points, surface_.triangles); });
-    if (!prepared) {
-      result_.failure = "in double precision some of its triangles have no direction";
-      return std::move(result_);
-    }
-    while (result_.attempts < most_attempts) {
-      ++result_.attempts;
-      remove_vertices_of_input();
-      const std::vector<Vec3> faults = find_faults();
-      if (faults.empty()) return std::move(result_);
-      if (result_.attempts < careful_attempts)
-        keep_nearest(faults, repair_reach / result_.attempts * size_);
-      else
-        keep_around(faults, repair_reach * (result_.attempts + 1 - careful_attempts) * size_);
-    }
-    result_.soup = {};
-    return std::move(result_);
-  }
+  bool make();
+  bool judge();
+
+  RemeshResult result;
 
  private:
-  // False where triangles are too thin for a field.
   bool prepare();
+  // False where triangles are too thin for a field.
+  bool place_points();
   bool rows_go_across() const;
   void remove_vertices_of_input();
   std::vector<Vec3> find_faults();
   void keep_nearest(const std::vector<Vec3>& places, const SizeField& reach);
   void keep_around(const std::vector<Vec3>& places, const SizeField& reach);
   std::vector<Vertex> kept_vertices() const;
-  void set_soup(const FeatureMesh& mesh);
+  Surface surface_of(const FeatureMesh& mesh) const;
   Vec3 centre_of(std::size_t triangle) const;
 
   const Surface& surface_;
@@ -102,11 +84,41 @@ class SurfaceRemesher {
   double expected_points_ = 0;  // on the new surface
   FeatureMesh prepared_;        // with all points inserted, and the vertices of the input
   std::optional<DistanceIndex> input_;
-  RemeshResult result_;
 };
 
+bool SurfaceRemesher::Work::make() {
+  if (result.attempts == most_attempts || (result.attempts == 0 && !prepare())) {
+    result.surface = {};
+    return false;
+  }
+  ++result.attempts;
+  remove_vertices_of_input();
+  return true;
+}
+
+bool SurfaceRemesher::Work::judge() {
+  const std::vector<Vec3> faults = find_faults();
+  if (result.attempts < careful_attempts)
+    keep_nearest(faults, repair_reach / result.attempts * size_);
+  else
+    keep_around(faults, repair_reach * (result.attempts + 1 - careful_attempts) * size_);
+  return faults.empty();
+}
+
+bool SurfaceRemesher::Work::prepare() {
+  expected_points_ = points_on_surface(surface_, size_, most_points);
+  if (expected_points_ > most_points) {
+    result.failure = "its size asks for more points than memory holds";
+    return false;
+  }
+  bool placed = false;
+  both_at_once([&] { placed = place_points(); }, [&] { input_.emplace(surface_.points, surface_.triangles); });
+  if (!placed) result.failure = "in double precision some of its triangles have no direction";
+  return placed;
+}
+
 // Rows end where sizes are to differ. Where features are few, what counts is between them.
-bool SurfaceRemesher::rows_go_across() const {
+bool SurfaceRemesher::Work::rows_go_across() const {
   if (!size_.is_uniform()) return false;
   double steps = 0;
   for (const auto e : prepared_.edges())
@@ -114,7 +126,7 @@ bool SurfaceRemesher::rows_go_across() const {
   return steps > few_features * expected_points_;
 }
 
-bool SurfaceRemesher::prepare() {
+bool SurfaceRemesher::Work::place_points() {
   if (size_.is_uniform()) prepared_.add_crests(crest_lines(prepared_, size_));
   const SizeField longest = field_edge * size_, flat = flatness * size_;
   if (rows_go_across())
@@ -128,26 +140,26 @@ bool SurfaceRemesher::prepare() {
   if (!std::ranges::all_of(field.directions, is_place)) return false;
   const std::vector<SurfacePoint> points = surface_front(field_surface, field, opposite, kept, size_);
   insert_points(prepared_, points, snap * size_);
-  result_.feature_points = kept.size();
-  result_.front_points = points.size();
+  result.feature_points = kept.size();
+  result.front_points = points.size();
   return true;
 }
 
-std::vector<Vertex> SurfaceRemesher::kept_vertices() const {
+std::vector<Vertex> SurfaceRemesher::Work::kept_vertices() const {
   std::vector<Vertex> kept;
   for (const auto v : prepared_.vertices())
     if (prepared_.is_kept(v)) kept.push_back(v.idx());
   return kept;
 }
 
-void SurfaceRemesher::remove_vertices_of_input() {
+void SurfaceRemesher::Work::remove_vertices_of_input() {
   FeatureMesh mesh = prepared_;
   remove_vertices(mesh, *input_, removal_share * deviation_);
-  set_soup(mesh);
-  result_.extra_points = result_.soup.points.size() - result_.feature_points - result_.front_points;
+  result.surface = surface_of(mesh);
+  result.extra_points = result.surface.points.size() - result.feature_points - result.front_points;
 }
 
-void SurfaceRemesher::set_soup(const FeatureMesh& mesh) {
+Surface SurfaceRemesher::Work::surface_of(const FeatureMesh& mesh) const {
   SurfaceSoup soup;
   soup.text = surface_.text;
   soup.name = surface_.name;
@@ -156,59 +168,61 @@ void SurfaceRemesher::set_soup(const FeatureMesh& mesh) {
     number[v.idx()] = static_cast<Vertex>(soup.points.size());
     soup.points.push_back(mesh.position(v));
   }
-  // In the order of the shells, whose numbers depend on it.
+  const auto shell = [&](OpenMesh::FaceHandle f) { return surface_.shell_of[mesh.source(f)]; };
   std::vector<OpenMesh::FaceHandle> faces(mesh.faces().begin(), mesh.faces().end());
-  std::ranges::stable_sort(faces, {}, [&](auto f) { return surface_.shell_of[mesh.source(f)]; });
+  std::ranges::stable_sort(faces, {}, shell);
+  std::vector<std::int32_t> shells;
   for (const auto f : faces) {
     const auto [a, b, c] = mesh.corners(f);
     soup.triangles.push_back({number[a.idx()], number[b.idx()], number[c.idx()]});
     soup.tags.push_back(surface_.tags[mesh.source(f)]);
     soup.places.push_back(surface_.places[mesh.source(f)]);
+    shells.push_back(shell(f));
   }
-  result_.soup = std::move(soup);
+  return with_shells_of(surface_, std::move(soup), std::move(shells));
 }
 
-Vec3 SurfaceRemesher::centre_of(std::size_t triangle) const {
-  const auto [a, b, c] = result_.soup.triangles[triangle];
-  const auto& points = result_.soup.points;
+Vec3 SurfaceRemesher::Work::centre_of(std::size_t triangle) const {
+  const auto [a, b, c] = result.surface.triangles[triangle];
+  const auto& points = result.surface.points;
   return (points[a] + points[b] + points[c]) * (1.0 / 3);
 }
 
 // Places where the new surface is not what was promised. Its edges and vertices are manifold and its orientation is
 // right by construction.
-std::vector<Vec3> SurfaceRemesher::find_faults() {
-  const SurfaceSoup& soup = result_.soup;
+std::vector<Vec3> SurfaceRemesher::Work::find_faults() {
+  const Surface& made = result.surface;
   std::vector<Vec3> faults;
-  for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
-    const auto [a, b, c] = soup.triangles[i];
-    if (are_collinear(soup.points[a], soup.points[b], soup.points[c])) faults.push_back(centre_of(i));
+  for (std::size_t i = 0; i < made.triangles.size(); ++i) {
+    const auto [a, b, c] = made.triangles[i];
+    if (are_collinear(made.points[a], made.points[b], made.points[c])) faults.push_back(centre_of(i));
   }
-  result_.failure = "the new surface has triangles without an area";
+  result.failure = "the new surface has triangles without an area";
   if (!faults.empty()) return faults;
   // Both at once, for the first is seldom in vain.
   SurfaceDistance there, back;
   both_at_once(
       [&] {
         const SizeField spacing = sample_spacing * size_, limit = (1 + 1e-9) * deviation_;
-        const DistanceIndex output(soup.points, soup.triangles);
-        there = one_sided_distance(soup.points, soup.triangles, *input_, spacing, limit);
+        const DistanceIndex output(made.points, made.triangles);
+        there = one_sided_distance(made.points, made.triangles, *input_, spacing, limit);
         back = one_sided_distance(surface_.points, surface_.triangles, output, spacing, limit);
       },
       [&] {
-        for (const auto& pair : find_intersections(soup.points, soup.triangles, most_intersections).pairs)
+        for (const auto& pair : find_intersections(made.points, made.triangles, most_intersections).pairs)
           for (const std::int32_t i : pair) faults.push_back(centre_of(static_cast<std::size_t>(i)));
       });
-  result_.failure = "the new surface intersects itself";
+  result.failure = "the new surface intersects itself";
   if (!faults.empty()) return faults;
-  result_.to_input = there.greatest;
-  result_.from_input = back.greatest;
+  result.to_input = there.greatest;
+  result.from_input = back.greatest;
   faults = std::move(there.beyond);
   faults.insert(faults.end(), back.beyond.begin(), back.beyond.end());
-  result_.failure = faults.empty() ? "" : "the new surface is too far from the old one";
+  result.failure = faults.empty() ? "" : "the new surface is too far from the old one";
   return faults;
 }
 
-void SurfaceRemesher::keep_nearest(const std::vector<Vec3>& places, const SizeField& reach) {
+void SurfaceRemesher::Work::keep_nearest(const std::vector<Vec3>& places, const SizeField& reach) {
   if (places.empty()) return;
   SizedPointGrid removable(places.front()), fresh(places.front());
   std::vector<OpenMesh::VertexHandle> handles;
@@ -236,7 +250,7 @@ void SurfaceRemesher::keep_nearest(const std::vector<Vec3>& places, const SizeFi
   }
 }
 
-void SurfaceRemesher::keep_around(const std::vector<Vec3>& places, const SizeField& reach) {
+void SurfaceRemesher::Work::keep_around(const std::vector<Vec3>& places, const SizeField& reach) {
   if (places.empty()) return;
   SizedPointGrid grid(places.front());
   for (const Vec3& p : places) grid.add(p, reach.greatest());
@@ -246,10 +260,32 @@ void SurfaceRemesher::keep_around(const std::vector<Vec3>& places, const SizeFie
   }
 }
 
-}  // namespace
+SurfaceRemesher::SurfaceRemesher(const Surface& surface, const RemeshOptions& options)
+    : work_(new Work(surface, options)) {}
+
+SurfaceRemesher::~SurfaceRemesher() = default;
+
+bool SurfaceRemesher::make() {
+  return work_->make();
+}
+
+bool SurfaceRemesher::judge() {
+  return work_->judge();
+}
+
+const Surface& SurfaceRemesher::made() const {
+  return work_->result.surface;
+}
+
+RemeshResult SurfaceRemesher::take() {
+  return std::move(work_->result);
+}
 
 RemeshResult remesh_surface(const Surface& surface, const RemeshOptions& options) {
-  return SurfaceRemesher(surface, options).run();
+  SurfaceRemesher remesher(surface, options);
+  while (remesher.make() && !remesher.judge()) {
+  }
+  return remesher.take();
 }
 
 }  // namespace hexpipe

@@ -2,6 +2,7 @@
 // A surface's triangles anew, on points that merge into quads and so into hexes: along its features, and between them
 // in the directions of a cross field.
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -18,9 +19,9 @@ struct RemeshOptions {
 };
 
 struct RemeshResult {
-  // Tags and places are those of the input's triangles, shells come in its order.
-  SurfaceSoup soup;
-  std::string failure;                  // where it failed: why, in a sentence; the soup is empty
+  // Tags and places are those of the input's triangles, shells are the input's.
+  Surface surface;
+  std::string failure;                  // where it failed: why, in a sentence; the surface is empty
   double from_input = 0, to_input = 0;  // greatest distances of points of the one from the other
   std::size_t feature_points = 0, front_points = 0;
   // Of the input, that stay because the deviation, or a surface that does not intersect itself, asks for them.
@@ -28,7 +29,28 @@ struct RemeshResult {
   int attempts = 0;
 };
 
-// Never throws for what the surface is like: where no new surface keeps what is promised, it says so.
+// Makes a surface, and another one where that is not what was promised, which is seldom. For callers that go on with it
+// before it is known. Never throws for what the surface is like: where no new surface keeps what is promised, it says
+// so.
+class SurfaceRemesher {
+ public:
+  // The input stays where it is.
+  SurfaceRemesher(const Surface& surface, const RemeshOptions& options);
+  ~SurfaceRemesher();
+
+  // Makes the first surface, or the next one after one that was judged and is faulty. False where none is left to try.
+  bool make();
+  // Whether the one made last is as promised.
+  bool judge();
+  const Surface& made() const;
+  // The last one; good only where it was judged so.
+  RemeshResult take();
+
+ private:
+  class Work;
+  std::unique_ptr<Work> work_;
+};
+
 RemeshResult remesh_surface(const Surface& surface, const RemeshOptions& options);
 
 }  // namespace hexpipe
