@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "common/run/error.hpp"
 #include "tetmesh_surfaces.hpp"
@@ -165,6 +166,30 @@ TEST(GradedLattice, HasAllPointsOfItsLattices) {
         expected += std::fmod(i, sixteenths) == 0 && std::fmod(j, sixteenths) == 0 && std::fmod(k, sixteenths) == 0;
       }
   EXPECT_EQ(points.size(), expected);
+}
+
+// Halves of the part's own extent, along each axis.
+TEST(GradedLattice, IsNoFinerForAGreatestSizeBeyondThePart) {
+  SizeSources sources;
+  for (const double x : {0.0, 8.0})
+    for (const double y : {0.0, 8.0}) {
+      sources.simplices.push_back(
+          {static_cast<Vertex>(sources.points.size()), SizeSources::none, SizeSources::none, SizeSources::none});
+      sources.points.push_back({x, y, 0});
+      sources.sizes.push_back(1);
+    }
+  for (const double thickness : {0.5, 2.0, 4.0})
+    for (const double greatest : {1.0, 2.0, 7.0, 16.0, 100.0, 1e12}) {
+      const Surface plate = surface_of(box({0, 0, 0}, {8, 8, thickness}));
+      const auto points = graded_lattice_points(plate, {sources, greatest, 1e-6}, {.clearance = 0.1, .jitter = 0}, 1e6);
+      const auto levels = [](const auto& coordinate, const auto& from) {
+        std::set<double> values;
+        for (const Vec3& p : from) values.insert(coordinate(p));
+        return values.size();
+      };
+      EXPECT_EQ(levels([](const Vec3& p) { return p.x; }, points), thickness < 1 ? 0u : 7u) << thickness << greatest;
+      EXPECT_EQ(levels([](const Vec3& p) { return p.z; }, points), thickness < 1 ? 0u : thickness - 1) << greatest;
+    }
 }
 
 TEST(GradedLattice, RefusesMorePointsThanAllowed) {

@@ -28,9 +28,12 @@ class GradedLattice {
     for (const Vec3& p : surface.points) box.add({in_axes(p), in_axes(p)});
     low_ = box.low;
     const Vec3 extent = box.high - box.low;
+    outermost_ = std::min(options_.size, std::max({extent.x, extent.y, extent.z}));
     for (int axis = 0; axis < 3; ++axis) {
-      counts_[axis] = std::max(1.0, std::round(extent[axis] / options_.size));
+      counts_[axis] = std::max(1.0, std::round(extent[axis] / outermost_));
       steps_[axis] = extent[axis] / counts_[axis];
+      // Where the part is thinner than that, its one step along the axis is already that of a finer lattice.
+      whole_levels_[axis] = std::max(0, static_cast<int>(std::round(std::log2(outermost_ / steps_[axis]))));
     }
   }
 
@@ -50,13 +53,18 @@ class GradedLattice {
   Vec3 in_axes(const Vec3& p) const {
     return {dot(p, options_.axes[0]), dot(p, options_.axes[1]), dot(p, options_.axes[2])};
   }
+  // Of a cell, in steps of the outermost lattice.
+  Vec3 widths_at(int level) const {
+    const auto width = [&](int axis) { return std::exp2(-std::max(0, level - whole_levels_[axis])); };
+    return {width(0), width(1), width(2)};
+  }
   // Of lattice coordinates, in steps of the outermost lattice.
   Vec3 place_of(const Vec3& c) const {
     const Vec3 in_frame = low_ + Vec3{c.x * steps_[0], c.y * steps_[1], c.z * steps_[2]};
     return in_frame.x * options_.axes[0] + in_frame.y * options_.axes[1] + in_frame.z * options_.axes[2];
   }
   int level_for(double size) const {
-    const double halvings = std::log2(options_.size / size) - level_bias;
+    const double halvings = std::log2(outermost_ / size) - level_bias;
     return static_cast<int>(std::clamp(std::ceil(halvings), 0.0, static_cast<double>(most_levels)));
   }
 
@@ -69,20 +77,23 @@ class GradedLattice {
   double most_points_;
   SurfaceClearance clearance_;
   Vec3 low_;
+  double outermost_;  // size, of the outermost lattice: the greatest, or what the part is long
   std::array<double, 3> counts_{}, steps_{};
+  std::array<int, 3> whole_levels_{};  // along each axis, the first levels at which cells are not halved
   std::vector<Vec3> points_;
 };
 
 // `is_new`: the corner is no point of a lattice further out.
 void GradedLattice::visit(const Vec3& corner, int level, bool is_new) {
-  const double width = std::exp2(-level);
   if (is_new) take(place_of(corner), level);
-  const Vec3 centre = place_of(corner + 0.5 * width * Vec3{1, 1, 1});
-  const double reach = 0.5 * width * norm(Vec3{steps_[0], steps_[1], steps_[2]});
+  const Vec3 widths = widths_at(level), halves = widths_at(level + 1);
+  const Vec3 centre = place_of(corner + 0.5 * widths);
+  const double reach = 0.5 * norm(Vec3{widths.x * steps_[0], widths.y * steps_[1], widths.z * steps_[2]});
   if (level_for(size_.least_near(size_.at(centre), reach)) <= level) return;
   for (int child = 0; child < 8; ++child) {
-    const Vec3 offset{child & 1 ? width / 2 : 0, child & 2 ? width / 2 : 0, child & 4 ? width / 2 : 0};
-    visit(corner + offset, level + 1, child != 0);
+    const Vec3 offset{child & 1 ? halves.x : 0, child & 2 ? halves.y : 0, child & 4 ? halves.z : 0};
+    const bool is_there = offset.x < widths.x && offset.y < widths.y && offset.z < widths.z;
+    if (is_there) visit(corner + offset, level + 1, child != 0);
   }
 }
 
