@@ -113,6 +113,32 @@ TEST(Repair, FillsHolesUpToTheirLimit) {
   EXPECT_THROW(check_surface(soup), DataError);
 }
 
+// In whatever order the walk around them meets their edges.
+TEST(Repair, FillsHolesThatTouchInAVertex) {
+  const SurfaceSoup whole = soup_of(cube(0, 1, 3));
+  Random random(7);
+  int touching = 0;
+  for (std::size_t i = 0; i < whole.triangles.size(); ++i)
+    for (std::size_t j = i + 1; j < whole.triangles.size(); ++j) {
+      const Triangle &one = whole.triangles[i], &other = whole.triangles[j];
+      const auto shared =
+          std::ranges::count_if(one, [&](Vertex v) { return std::ranges::find(other, v) != other.end(); });
+      if (shared != 1) continue;
+      ++touching;
+      SurfaceSoup soup = whole;
+      for (const std::size_t t : {j, i}) {
+        soup.triangles.erase(soup.triangles.begin() + static_cast<std::ptrdiff_t>(t));
+        soup.tags.pop_back();
+        soup.places.pop_back();
+      }
+      random.shuffle(std::span(soup.triangles));
+      const RepairReport report = repaired(soup);
+      EXPECT_EQ(report.filled_holes, 2u);
+      EXPECT_NEAR(volume_of(soup), 1, 1e-12);
+    }
+  EXPECT_GT(touching, 100);
+}
+
 TEST(HoleFilling, HasTheLeastArea) {
   // An arrow: the other diagonal lies outside it.
   const std::vector<Vec3> points{{0, 0, 0}, {2, 1, 0}, {4, 0, 0}, {2, 4, 0}};

@@ -220,24 +220,36 @@ void Repairer::orient() {
   }
 }
 
-// Walks the borders, from the end of one to the one that begins there, in the sense of their triangles.
+// Walks the borders, each from its end to its start, and on along one that ends there. Where the walk comes back to a
+// vertex, it has been around a hole: holes may touch in a vertex, and are filled one by one.
 void Repairer::fill_holes() {
   find_twins_and_borders();
-  std::vector<std::vector<HalfEdge>> ending_at(borders_.empty() ? 0 : soup_.points.size());
+  if (borders_.empty()) return;
+  constexpr std::ptrdiff_t nowhere = -1;
+  std::vector<std::vector<HalfEdge>> ending_at(soup_.points.size());
   for (const HalfEdge h : borders_) ending_at[end_of(soup_.triangles, h)].push_back(h);
-  std::vector<bool> used(3 * count());
-  for (const HalfEdge first : borders_) {
-    std::vector<HalfEdge> loop;
-    for (HalfEdge h = first; h != none && !used[h];) {
-      used[h] = true;
-      loop.push_back(h);
-      const auto& before = ending_at[start_of(soup_.triangles, h)];
-      const auto next = std::ranges::find_if(before, [&](HalfEdge other) { return !used[other]; });
-      h = next == before.end() ? none : *next;
+  std::vector<std::ptrdiff_t> place_on_walk(soup_.points.size(), nowhere);  // of what ends at each vertex
+  std::vector<HalfEdge> walk;
+  const auto cut_off = [&](std::ptrdiff_t length) {
+    for (auto h = walk.begin() + length; h != walk.end(); ++h) place_on_walk[end_of(soup_.triangles, *h)] = nowhere;
+    walk.resize(static_cast<std::size_t>(length));
+  };
+  // Those of the triangles that were there: what fills holes brings no borders.
+  const std::vector<HalfEdge> borders = borders_;
+  for (const HalfEdge first : borders) {
+    for (Vertex at = end_of(soup_.triangles, first); !ending_at[at].empty();) {
+      const HalfEdge h = ending_at[at].back();
+      ending_at[at].pop_back();
+      place_on_walk[at] = std::ssize(walk);
+      walk.push_back(h);
+      at = start_of(soup_.triangles, h);
+      const std::ptrdiff_t begin = place_on_walk[at];
+      if (begin == nowhere) continue;
+      const std::vector<HalfEdge> loop(walk.begin() + begin, walk.end());
+      cut_off(begin);
+      if (loop.size() >= 3 && loop.size() <= options_.largest_hole) fill(loop);
     }
-    const bool is_closed =
-        loop.size() >= 3 && start_of(soup_.triangles, loop.back()) == end_of(soup_.triangles, loop.front());
-    if (is_closed && loop.size() <= options_.largest_hole) fill(loop);
+    cut_off(0);
   }
 }
 
