@@ -37,6 +37,8 @@ constexpr double rigidity = 0.1, least_hold = 1e-9;
 constexpr double least_determinant = 0.2;  // of the cells a step in each direction, below which the field is followed
 // Triangles see points of the lattice that far along each direction, in sizes, and trust them less with the distance.
 constexpr double furthest = 0.75, distrust_begins = 1.5;
+// Of the triangles of finer surfaces, so many speak for one square of the size.
+constexpr double most_speakers = 32;
 // Points nearer to each other, in sizes, on surfaces with normals of at least this cosine, are the same.
 constexpr double same_point = 0.3, least_normal_cosine = 0.3;
 
@@ -52,6 +54,12 @@ Complex turn_by(double sizes) {
 struct Proposal {
   SurfacePoint point;
   double trust = 0;
+};
+
+// A triangle that proposes points for an area, its own and that of triangles before it.
+struct Speaker {
+  std::int32_t triangle;
+  double area;
 };
 
 class LatticeMaker {
@@ -105,8 +113,9 @@ class LatticeMaker {
   void reach_the_rest();
   void sweep();
   Steps steps_of(std::int32_t f) const;
+  std::vector<Speaker> speakers() const;
   void propose();
-  void propose(std::int32_t f, std::vector<Proposal>& proposals) const;
+  void propose(const Speaker& speaker, std::vector<Proposal>& proposals) const;
   void agree();
   Proposal agreed(const SizedPointGrid& grid, const Proposal& proposal) const;
 
@@ -242,20 +251,41 @@ Steps LatticeMaker::steps_of(std::int32_t f) const {
   return {{{steps(0, 0), steps(1, 0)}, {steps(0, 1), steps(1, 1)}}};
 }
 
+// Every triangle, unless there are many more of them than points: each proposal looks at all that are near.
+std::vector<Speaker> LatticeMaker::speakers() const {
+  const auto squares = [&](std::size_t f) { return surface_.areas[f] / (surface_.sizes[f] * surface_.sizes[f]); };
+  const std::size_t count = surface_.areas.size();
+  double whole = 0;
+  for (std::size_t f = 0; f < count; ++f) whole += squares(f);
+  const double least = static_cast<double>(count) > most_speakers * whole ? 1 / most_speakers : 0;
+  std::vector<Speaker> speakers;
+  double area = 0, since_last = 0;
+  for (std::size_t f = 0; f < count; ++f) {
+    area += surface_.areas[f];
+    since_last += squares(f);
+    if (since_last < least) continue;
+    speakers.push_back({static_cast<std::int32_t>(f), area});
+    area = since_last = 0;
+  }
+  return speakers;
+}
+
 void LatticeMaker::propose() {
   steps_.resize(phases_.size());
   for_each_triangle([&](std::int32_t f) { steps_[f] = steps_of(f); });
+  const std::vector<Speaker> speaking = speakers();
   parallel_in_order(
-      static_cast<std::int64_t>(phases_.size()), 512,
+      static_cast<std::int64_t>(speaking.size()), 512,
       [&](std::int64_t begin, std::int64_t end) {
         std::vector<Proposal> proposals;
-        for (std::int64_t f = begin; f < end; ++f) propose(static_cast<std::int32_t>(f), proposals);
+        for (std::int64_t i = begin; i < end; ++i) propose(speaking[i], proposals);
         return proposals;
       },
       [&](const std::vector<Proposal>& some) { proposals_.insert(proposals_.end(), some.begin(), some.end()); });
 }
 
-void LatticeMaker::propose(std::int32_t f, std::vector<Proposal>& proposals) const {
+void LatticeMaker::propose(const Speaker& speaker, std::vector<Proposal>& proposals) const {
+  const std::int32_t f = speaker.triangle;
   const Phases view = view_of_neighbours(phases_, f);
   const double agreement = std::min(std::abs(view[0]), std::abs(view[1])) / degrees_[f];
   const auto axes = directions(f);
@@ -272,7 +302,7 @@ void LatticeMaker::propose(std::int32_t f, std::vector<Proposal>& proposals) con
     const Vec3 way = length > 0 ? (along * axes[0] + across * axes[1]) * (1 / length) : axes[0];
     const WalkEnd end = walker_.walk_straight({surface_.centres[f], f}, way, length * surface_.sizes[f]);
     if (end.at_feature) continue;
-    proposals.push_back({end.point, (distrust_begins - distance) * agreement * surface_.areas[f]});
+    proposals.push_back({end.point, (distrust_begins - distance) * agreement * speaker.area});
   }
 }
 

@@ -281,6 +281,10 @@ RemeshResult SurfaceRemesher::take() {
   return std::move(work_->result);
 }
 
+bool asks_for_too_many_points(const Surface& surface, const SizeField& size) {
+  return points_on_surface(surface, size, most_points) > most_points;
+}
+
 RemeshResult remesh_surface(const Surface& surface, const RemeshOptions& options) {
   SurfaceRemesher remesher(surface, options);
   while (remesher.make() && !remesher.judge()) {

@@ -6,14 +6,15 @@
 #include <optional>
 #include <string>
 
+#include "tools/tetmesh/feature_angle.hpp"
 #include "tools/tetmesh/shells.hpp"
 #include "tools/tetmesh/size_field.hpp"
 
 namespace hexpipe {
 
 struct RemeshOptions {
-  SizeField size = 1;                  // distance of the points
-  double feature_angle = 40;           // degrees
+  SizeField size = 1;  // distance of the points
+  double feature_angle = default_feature_angle;
   double deviation = 0.15;             // of either surface from the other, at the most, in units
   std::optional<SizeField> unit = {};  // nothing: the size
 };
@@ -50,6 +51,9 @@ class SurfaceRemesher {
   class Work;
   std::unique_ptr<Work> work_;
 };
+
+// More than memory holds: then no surface is made.
+bool asks_for_too_many_points(const Surface& surface, const SizeField& size);
 
 RemeshResult remesh_surface(const Surface& surface, const RemeshOptions& options);
 

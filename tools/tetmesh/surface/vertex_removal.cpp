@@ -27,6 +27,7 @@ constexpr double least_cosine = 0.3, least_shape = 1e-3;
 constexpr double least_bend = 0.05;
 // On the others, points are watched at most so many deviations apart.
 constexpr double sample_spacing = 3;
+constexpr double most_samples = 64;  // along an edge
 // Removing some vertices makes others removable; more rounds found nothing.
 constexpr int most_rounds = 20;
 
@@ -67,7 +68,7 @@ Strays samples_of_edges(const FeatureMesh& mesh, const SizeField& deviation) {
     const Vec3 &start = diamond.end_points[0], along = diamond.end_points[1] - start;
     if (deviation.is_at_least(diamond.height() / least_bend, start)) continue;
     const Face f = mesh.face_handle(mesh.halfedge_handle(e, 0));
-    const double parts = std::ceil(norm(along) / (sample_spacing * deviation.at(start)));
+    const double parts = std::min(most_samples, std::ceil(norm(along) / (sample_spacing * deviation.at(start))));
     // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter): small whole numbers
     for (double i = 1; i < parts; ++i) strays[f.idx()].push_back(start + i / parts * along);
   }
