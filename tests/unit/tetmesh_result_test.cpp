@@ -86,11 +86,11 @@ TEST(Tetmesh, RefusesAJitterThatReachesTheSurface) {
 }
 
 TEST(Tetmesh, WarnsOfASurfaceFarFromTheSize) {
-  EXPECT_TRUE(run(cube(), {.size = Length{0.2, false}, .surface = SurfaceKind::keep}).warning);
-  EXPECT_FALSE(run(cube(), {.size = Length{0.2, false}}).warning);
-  EXPECT_FALSE(run(cube(0, 1, 5), {.size = Length{0.2, false}, .surface = SurfaceKind::keep}).warning);
-  EXPECT_FALSE(
-      run(cube(), {.size = Length{0.2, false}, .surface = SurfaceKind::keep, .points = PointKind::none}).warning);
+  EXPECT_EQ(run(cube(), {.size = Length{0.2, false}, .surface = SurfaceKind::keep}).warnings.size(), 1u);
+  EXPECT_TRUE(run(cube(), {.size = Length{0.2, false}}).warnings.empty());
+  EXPECT_TRUE(run(cube(0, 1, 5), {.size = Length{0.2, false}, .surface = SurfaceKind::keep}).warnings.empty());
+  EXPECT_TRUE(run(cube(), {.size = Length{0.2, false}, .surface = SurfaceKind::keep, .points = PointKind::none})
+                  .warnings.empty());
 }
 
 TEST(Tetmesh, MeasuresDihedralAngles) {
@@ -123,7 +123,7 @@ TEST(Tetmesh, FillsNoSurfaceThatTurnsOutToBeFaulty) {
     const TetmeshResult one = with_threads(1), two = with_threads(2);
     EXPECT_GT(two.statistics.surfaces_tried, 1);
     EXPECT_EQ(two.statistics.remeshed, options.size->value == 0.8);
-    EXPECT_EQ(two.warning.has_value(), !two.statistics.remeshed);
+    EXPECT_EQ(two.warnings.empty(), two.statistics.remeshed);
     EXPECT_EQ(two.mesh.points, one.mesh.points);
     EXPECT_EQ(two.mesh.tets, one.mesh.tets);
     expect_triangles_bound_the_tets(two.mesh);

@@ -1,7 +1,6 @@
 #include "tools/tetmesh/child_process.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
 #include <pthread.h>
 #include <signal.h>
 #include <sys/mman.h>
@@ -17,14 +16,12 @@
 #include <cstring>
 #include <exception>
 
-#include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "common/run/worker_threads.hpp"
 
 namespace hexpipe {
 namespace {
 
-constexpr std::size_t kept_output = 4096;
 constexpr int no_thread = 117;  // the exit code of a child that could not start
 constexpr pid_t reaped = -1;    // in place of a child
 
@@ -48,39 +45,29 @@ void* run_work(void* work) {
   return nullptr;
 }
 
-[[noreturn]] void be_the_child(const std::function<void()>& work, pid_t parent, int output) {
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) signal(number, SIG_DFL);
+// The kernel ends the child when its time is over, whatever the parent does meanwhile.
+void set_alarm(double seconds) {
+  if (std::isinf(seconds)) return;
+  const double whole = std::floor(std::max(seconds, 0.0));
+  itimerval timer{};
+  timer.it_value.tv_sec = static_cast<time_t>(whole);
+  timer.it_value.tv_usec = std::max<suseconds_t>(1, static_cast<suseconds_t>(1e6 * (std::max(seconds, 0.0) - whole)));
+  setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+[[noreturn]] void be_the_child(const std::function<void()>& work, double timeout, pid_t parent) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGALRM}) signal(number, SIG_DFL);
+  set_alarm(timeout);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(0);  // it died before the line above
-  const int nothing = open("/dev/null", O_RDONLY);
-  dup2(nothing, STDIN_FILENO);
-  dup2(output, STDOUT_FILENO);
-  dup2(output, STDERR_FILENO);
+  const int nothing = open("/dev/null", O_RDWR);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nothing, stream);
   std::set_terminate(exit_with_exception);
   pthread_t thread;
   // A thread has no callers, and so no try blocks above it; main() and the test frameworks have.
   if (pthread_create(&thread, nullptr, run_work, const_cast<std::function<void()>*>(&work)) != 0) _exit(no_thread);
   pthread_join(thread, nullptr);
   _exit(0);
-}
-
-// Keeps the last of what comes until the other end closes. False when the time is over first: what has come by then
-// counts, however late it is asked for.
-bool listen(int descriptor, const Deadline& deadline, std::string& heard) {
-  char buffer[4096];
-  for (;;) {
-    const double milliseconds = std::clamp(std::ceil(1000 * deadline.remaining()), 0.0, 60'000.0);
-    pollfd event{descriptor, POLLIN, 0};
-    const int ready = poll(&event, 1, static_cast<int>(milliseconds));
-    if (ready < 0 && errno != EINTR) fail("wait for a child process");
-    if (ready == 0 && milliseconds <= 0) return false;
-    if (ready <= 0) continue;
-    const ssize_t count = read(descriptor, buffer, sizeof buffer);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return true;
-    heard.append(buffer, static_cast<std::size_t>(count));
-    if (heard.size() > 2 * kept_output) heard.erase(0, heard.size() - kept_output);
-  }
 }
 
 }  // namespace
@@ -116,24 +103,15 @@ void SharedResult::take(void* data, std::size_t bytes) {
   }
 }
 
-ChildProcess::ChildProcess(const std::function<void()>& work, double timeout) : deadline_(timeout) {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) fail("open a pipe");
+ChildProcess::ChildProcess(const std::function<void()>& work, double timeout) {
   const pid_t parent = getpid();
   end_worker_threads();
   child_ = fork();
-  if (child_ == 0) be_the_child(work, parent, ends[1]);
-  const int error = errno;
-  close(ends[1]);
-  output_ = ends[0];
-  if (child_ > 0) return;
-  close(output_);
-  errno = error;
-  fail("start a child process");
+  if (child_ < 0) fail("start a child process");
+  if (child_ == 0) be_the_child(work, timeout, parent);
 }
 
 ChildProcess::~ChildProcess() {
-  close(output_);
   if (child_ == reaped) return;
   kill(child_, SIGKILL);
   ChildEnd unwanted;
@@ -154,14 +132,10 @@ int ChildProcess::reap(ChildEnd& end) {
 
 ChildEnd ChildProcess::wait() {
   ChildEnd end;
-  const bool in_time = listen(output_, deadline_, end.said);
-  if (!in_time) kill(child_, SIGKILL);
   const int status = reap(end);
-  if (!in_time) {
-    end.kind = ChildEnd::Kind::timed_out;
-  } else if (WIFSIGNALED(status)) {
-    end.kind = ChildEnd::Kind::killed;
+  if (WIFSIGNALED(status)) {
     end.code = WTERMSIG(status);
+    end.kind = end.code == SIGALRM ? ChildEnd::Kind::timed_out : ChildEnd::Kind::killed;
   } else {
     end.code = WEXITSTATUS(status);
     if (end.code == no_thread) throw DataError("cannot start a thread in a child process");

@@ -6,10 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <string>
 #include <vector>
-
-#include "common/run/deadline.hpp"
 
 namespace hexpipe {
 
@@ -36,34 +33,30 @@ class SharedResult {
 struct ChildEnd {
   enum class Kind { exited, killed, timed_out } kind = Kind::exited;
   int code = 0;        // exit code, or the signal that killed it
-  std::string said;    // the last of what it printed, on either stream
   double seconds = 0;  // of the processor
 };
 
 // `work` in a forked child on a thread of its own, with nothing under it that could catch an exception: one that
 // escapes ends the child at once, without unwinding; an int is its exit code, anything else `uncaught_exception`. The
-// child has no standard input, its outputs are caught; it dies with this process, by a signal or otherwise. glibc makes
-// fork() safe for malloc and stdio in the child even where other threads run here; the work must not use other threads
-// of this process.
+// child has no standard input, its outputs lead nowhere; it dies with this process, by a signal or otherwise. glibc
+// makes fork() safe for malloc and stdio in the child even where other threads run here; the work must not use other
+// threads of this process.
 class ChildProcess {
  public:
-  // Starts the work. It may take `timeout` seconds (infinity for any). Throws DataError when the system gives no
-  // process or pipe.
+  // Starts the work, which is ended after `timeout` seconds (infinity for never). Throws DataError when the system
+  // gives no process.
   ChildProcess(const std::function<void()>& work, double timeout);
   // Kills it, unless it was waited for.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  // Once. Waits for the end, and kills the child when its time is over. Throws DataError when the system gave it no
-  // thread.
+  // Once. Throws DataError when the system gave the child no thread.
   ChildEnd wait();
 
  private:
   int reap(ChildEnd& end);
 
-  Deadline deadline_;
-  int output_;  // where what it prints comes out
   pid_t child_;
 };
 

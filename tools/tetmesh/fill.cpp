@@ -95,18 +95,21 @@ class Filler {
   const Surface* surface_ = &given_;  // that is filled
   Axes axes_{};                       // of the part
   std::vector<Vec3> points_;          // inside
+  std::optional<std::string> points_left_out_;
   std::optional<BuiltMesh> built_;
 };
 
 TetmeshResult Filler::fill(bool estimates) {
   if (options_.surface != SurfaceKind::remesh || !fill_new_surface()) fill_given_surface();
+  if (points_left_out_) result_.warnings.push_back(*points_left_out_);
   statistics_.points_kept = starts_from_lattice(options_.points) ? PointKind::lattice : options_.points;
   statistics_.interior_points = points_.size();
   if (options_.points == PointKind::frame || options_.points == PointKind::best) {
     try {
       try_frame_points();
-    } catch (const TetGenFailure&) {
+    } catch (const TetGenFailure& failure) {
       if (options_.points == PointKind::frame) throw;
+      result_.warnings.push_back(fmt::format("the points along the frame field are left out: {}", failure.what()));
     }
   }
   if (estimates) {
@@ -124,7 +127,8 @@ TetmeshResult Filler::fill(bool estimates) {
 // TetGen is at work on the new surface while that is judged.
 bool Filler::fill_new_surface() {
   // What a size may take is nothing beside the part, unless that is thinner than a size.
-  const SizeField unit = options_.layers ? size_ : size_field(given_, options_, size_.greatest(), 1);
+  const bool walls_count = !options_.layers && !asks_for_too_many_points(given_, size_);
+  const SizeField unit = walls_count ? size_field(given_, options_, size_.greatest(), 1) : size_;
   SurfaceRemesher remesher(given_, {size_, options_.feature_angle, options_.deviation, unit});
   while (!built_ && remesher.make()) {
     watch_.add_to(statistics_.seconds.remeshing);
@@ -143,22 +147,24 @@ bool Filler::fill_new_surface() {
     surface_ = &remeshed_->surface;
     describe(*remeshed_);
   } else {
-    result_.warning = fmt::format("the surface is kept as it is: {}", remeshed_->failure);
+    result_.warnings.push_back(fmt::format("the surface is kept as it is: {}", remeshed_->failure));
   }
   return built_.has_value();
 }
 
 void Filler::fill_given_surface() {
   surface_ = &given_;
-  if (options_.points != PointKind::none && !result_.warning)
-    result_.warning = fit_to_size(given_, size_).complaint(statistics_.size);
+  if (options_.points != PointKind::none && result_.warnings.empty()) {
+    const auto complaint = fit_to_size(given_, size_).complaint(statistics_.size);
+    if (complaint) result_.warnings.push_back(*complaint);
+  }
   place_points();
   built_ = tetrahedralize(points_, [] { return true; });
 }
 
 void Filler::place_points() {
   if (starts_from_lattice(options_.points)) {
-    axes_ = axes_of_part(*surface_);
+    axes_ = axes_of_part(*surface_, options_.feature_angle);
     points_ = graded_lattice_points(*surface_, size_,
                                     {.clearance = options_.clearance,
                                      .jitter = options_.jitter.value_or(LatticeOptions{}.jitter),
@@ -167,8 +173,8 @@ void Filler::place_points() {
                                     options_.most_points);
   } else if (options_.points == PointKind::given) {
     GivenPoints given = usable_points(*surface_, options_.given_points, clearance_of_given * size_.least());
-    if (given.complaint) result_.warning = given.complaint;
     points_ = std::move(given.points);
+    points_left_out_ = std::move(given.complaint);
   }
   watch_.add_to(statistics_.seconds.placing);
 }
@@ -180,6 +186,7 @@ void Filler::try_frame_points() {
                                           .clearance = options_.clearance,
                                           .jitter = options_.jitter.value_or(FramePointsOptions{}.jitter),
                                           .seed = options_.seed,
+                                          .feature_angle = options_.feature_angle,
                                           .axes = axes_});
   watch_.add_to(statistics_.seconds.placing);
   const bool compares = options_.points == PointKind::best && !frame_plainly_wins(frame, built_->mesh, statistics_);
@@ -211,7 +218,8 @@ std::optional<BuiltMesh> Filler::tetrahedralize(std::span<const Vec3> points, co
       TetGenRun tetgen({.surface_points = surface_->points,
                         .triangles = surface_->triangles,
                         .interior_points = points,
-                        .shuffle = static_cast<std::uint64_t>(run)},
+                        .shuffle = static_cast<std::uint64_t>(run),
+                        .names_intersecting = run + 1 == most_runs},
                        deadline.remaining());
       if (at_once && run == 0 && !meanwhile()) return std::nullopt;
       TetGenResult made = tetgen.wait();

@@ -121,7 +121,8 @@ int main(int argc, char** argv) {
     app.add_option("--shells", shells,
                    "Shells in shells: holes where oriented inward and regions else; all regions; or alternately holes")
         ->check(CLI::IsMember(shell_rules));
-    app.add_option("--tetgen-timeout", options.tetgen_timeout, "Seconds after which TetGen is given up")
+    app.add_option("--tetgen-timeout", options.tetgen_timeout,
+                   "Seconds after which TetGen is given up, for each mesh that it makes")
         ->check(number_between(0.001, 1e9));
   };
   const auto run = [&](RunContext& context) {
@@ -139,7 +140,7 @@ int main(int argc, char** argv) {
     const TetmeshResult result = tetmesh(std::move(surface), options);
     if (const auto& repair = result.statistics.repair; repair && repair->anything())
       context.warn(fmt::format("{}: repaired: {}", input.name(), repair->sentence()));
-    if (result.warning) context.warn(*result.warning);
+    for (const std::string& warning : result.warnings) context.warn(warning);
     context.note(summary(result.statistics));
     context.statistics.update(to_json(result.statistics));
     context.statistics["seconds_by_step"] = times_of(result.statistics);

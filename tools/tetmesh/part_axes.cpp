@@ -20,8 +20,6 @@ constexpr std::size_t most_directions = 24;
 // What another frame must have more than the coordinate axes have, of the whole surface; and an edge of length l counts
 // as an area of l times this part of the longest one.
 constexpr double least_gain = 0.01, edge_weight = 0.01;
-// An edge is a feature when its triangles' normals are this far apart.
-constexpr double feature_cosine = 0.7660444431189780;  // 40 degrees
 
 struct Direction {
   Vec3 sum;  // of the normals, all to one side, by area
@@ -63,7 +61,8 @@ class DirectionList {
 
 class AxesFinder {
  public:
-  explicit AxesFinder(const Surface& surface) : surface_(surface), faces_(area_normals()), edges_(feature_edges()) {}
+  AxesFinder(const Surface& surface, double feature_angle)
+      : surface_(surface), faces_(area_normals()), edges_(feature_edges(cosine_of_degrees(feature_angle))) {}
 
   Axes find() const {
     const auto candidates = std::span(faces_.directions()).first(std::min(faces_.directions().size(), most_directions));
@@ -97,7 +96,7 @@ class AxesFinder {
   }
 
   // Lengths weighted so that all edges together count little beside the surface.
-  std::vector<Vec3> feature_edges() const {
+  std::vector<Vec3> feature_edges(double feature_cosine) const {
     std::vector<Vec3> edges;
     double total = 0;
     for_each_edge(surface_.points.size(), surface_.triangles, [&](std::span<const HalfEdge> edge) {
@@ -176,8 +175,8 @@ class AxesFinder {
 
 }  // namespace
 
-Axes axes_of_part(const Surface& surface) {
-  return AxesFinder(surface).find();
+Axes axes_of_part(const Surface& surface, double feature_angle) {
+  return AxesFinder(surface, feature_angle).find();
 }
 
 }  // namespace hexpipe

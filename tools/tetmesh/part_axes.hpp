@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "tools/tetmesh/feature_angle.hpp"
 #include "tools/tetmesh/shells.hpp"
 
 namespace hexpipe {
@@ -11,7 +12,7 @@ using Axes = std::array<Vec3, 3>;
 
 // Orthonormal, right-handed; each the nearest to its coordinate axis that the part allows. The coordinate axes
 // themselves where no others have more of the surface at right angles to them: on parts that are along these, and on
-// those without flat faces.
-Axes axes_of_part(const Surface& surface);
+// those without flat faces. Edges where the surface turns by more than `feature_angle` degrees are features.
+Axes axes_of_part(const Surface& surface, double feature_angle = default_feature_angle);
 
 }  // namespace hexpipe

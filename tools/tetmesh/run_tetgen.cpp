@@ -10,6 +10,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
 #include "common/run/random.hpp"
@@ -178,14 +179,14 @@ std::string failure_of(const ChildEnd& end) {
 
 struct TetGenRun::Work {
   TetGenInput input;
-  double timeout;
+  Deadline deadline;
   ShuffledInput shuffled = shuffle(input);
   SharedResult shared = {};
-  ChildProcess child{[this] { mesh_in_child(shuffled, shared); }, timeout};
+  ChildProcess child{[this] { mesh_in_child(shuffled, shared); }, deadline.remaining()};
   ThreadLimit elsewhere{std::max(1, thread_count() - 1)};
 };
 
-TetGenRun::TetGenRun(const TetGenInput& input, double timeout) : work_(new Work{input, timeout}) {}
+TetGenRun::TetGenRun(const TetGenInput& input, double timeout) : work_(new Work{input, Deadline(timeout)}) {}
 
 TetGenRun::~TetGenRun() = default;
 
@@ -200,8 +201,8 @@ TetGenResult TetGenRun::wait() {
     result.points = take_rows<Vec3>(work->shared);
     result.tets = take_rows<Tet>(work->shared);
     undo_shuffle(work->shuffled.original, result);
-  } else if (end.kind == ChildEnd::Kind::exited && end.code == self_intersection) {
-    result.intersecting = find_intersecting(work->input, work->timeout);
+  } else if (work->input.names_intersecting && end.kind == ChildEnd::Kind::exited && end.code == self_intersection) {
+    result.intersecting = find_intersecting(work->input, work->deadline.remaining());
   }
   return result;
 }

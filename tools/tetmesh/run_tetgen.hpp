@@ -18,6 +18,8 @@ struct TetGenInput {
   // Other than 0: TetGen is given points and triangles in a shuffled order, this one. Where it fails on triangles that
   // are nearly in one plane, it usually succeeds in another order. The result is in the order above all the same.
   std::uint64_t shuffle = 0;
+  // Where it finds that triangles intersect, it is run once more to name them.
+  bool names_intersecting = true;
 };
 
 struct TetGenResult {

@@ -25,12 +25,11 @@ enum class SurfaceKind { remesh, keep };
 enum class PointKind {
   best,     // of lattice and frame, the one whose mesh is estimated to merge into more hexes
   frame,    // along a frame field: frame_points.hpp
-  lattice,  // along the coordinate axes: lattice.hpp
+  lattice,  // along the part's axes: lattice.hpp
   given,    // by the user
   none
 };
 
-// Sizes.
 constexpr std::size_t most_tries = 9;
 
 struct TetmeshOptions {
@@ -39,8 +38,8 @@ struct TetmeshOptions {
   double grading = 0.3;
   std::optional<int> layers = {};  // across thin walls, at least; nothing: walls do not count
   SurfaceKind surface = SurfaceKind::remesh;
-  double feature_angle = RemeshOptions{}.feature_angle;  // degrees
-  double deviation = RemeshOptions{}.deviation;          // in sizes, or in the thickness of thinner walls
+  double feature_angle = default_feature_angle;
+  double deviation = RemeshOptions{}.deviation;  // in sizes, or in the thickness of thinner walls
   PointKind points = PointKind::best;
   PointList given_points = {};  // for PointKind::given
   double clearance = LatticeOptions{}.clearance;
@@ -51,7 +50,7 @@ struct TetmeshOptions {
   bool repair = false;
   Length weld = {1e-4, true};
   std::size_t largest_hole = RepairOptions{}.largest_hole;
-  double tetgen_timeout = 3600;  // seconds
+  double tetgen_timeout = 3600;  // seconds, of all runs that make one mesh
   std::size_t tries = 1;         // sizes, up to 5 % off, of which the one with most hexes is kept; at most most_tries
 };
 
@@ -95,7 +94,7 @@ struct TetmeshStatistics {
 struct TetmeshResult {
   TetMesh mesh;
   TetmeshStatistics statistics;
-  std::optional<std::string> warning;
+  std::vector<std::string> warnings;
 };
 
 // Throws DataError for a surface that is not the boundary of a solid, and where TetGen fails; UsageError for options

@@ -1,17 +1,10 @@
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+
+#include "tools/tetmesh/feature_angle.hpp"
 
 namespace hexpipe {
-namespace {
-
-double cosine_of_degrees(double angle) {
-  return std::cos(angle * std::numbers::pi / 180);
-}
-
-}  // namespace
 
 FeatureMesh::FeatureMesh(const Surface& surface, double feature_angle)
     : corner_cosine_(cosine_of_degrees(feature_angle)) {

@@ -5,12 +5,12 @@
 #include <numbers>
 
 #include "common/run/parallel.hpp"
+#include "tools/tetmesh/feature_angle.hpp"
 #include "tools/tetmesh/half_edges.hpp"
 
 namespace hexpipe {
 namespace {
 
-constexpr double feature_cosine = 0.7660444431189780;  // of 40 degrees between the normals at an edge
 constexpr double aligned_cosine = 0.9396926207859084;  // of 20 degrees between a normal and the nearest axis
 // Squared ratio from which the longest side of a triangle is taken for the diagonal of a square, not for a side.
 constexpr double diagonal_ratio = 1.21;
@@ -22,8 +22,12 @@ Vec3 normalized(const Vec3& v) {
 
 class SurfaceReader {
  public:
-  explicit SurfaceReader(const Surface& surface)
-      : surface_(surface), nodes_(surface.points.size()), legs_(nodes_.size()), creased_(nodes_.size()) {}
+  SurfaceReader(const Surface& surface, double feature_angle)
+      : surface_(surface),
+        feature_cosine_(cosine_of_degrees(feature_angle)),
+        nodes_(surface.points.size()),
+        legs_(nodes_.size()),
+        creased_(nodes_.size()) {}
 
   std::vector<SurfaceNode> read() {
     add_normals();
@@ -53,6 +57,7 @@ class SurfaceReader {
   void find_vague();
 
   const Surface& surface_;
+  double feature_cosine_;
   std::vector<SurfaceNode> nodes_;
   std::vector<Vec3> normals_;  // of triangles
   std::vector<Legs> legs_;
@@ -83,7 +88,7 @@ bool SurfaceReader::is_diagonal(HalfEdge h) const {
 void SurfaceReader::add_edge(std::span<const HalfEdge> edge) {
   const HalfEdge h = edge[0], twin = edge[1];
   const Vec3 along = normalized(end(h) - start(h));
-  const bool is_crease = dot(normals_[triangle_of(h)], normals_[triangle_of(twin)]) < feature_cosine;
+  const bool is_crease = dot(normals_[triangle_of(h)], normals_[triangle_of(twin)]) < feature_cosine_;
   const double weight = 1 - 0.5 * is_diagonal(h) - 0.5 * is_diagonal(twin);
   for (const Vertex v : {start_of(surface_.triangles, h), end_of(surface_.triangles, h)}) {
     if (is_crease) {
@@ -128,14 +133,14 @@ void SurfaceReader::find_vague() {
 }  // namespace
 
 FieldNodes make_field_nodes(const Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency,
-                            const SizeField& size) {
+                            const SizeField& size, double feature_angle) {
   constexpr double nearest = 0.25;  // squared; keeps a single link from ruling
   FieldNodes nodes;
   nodes.points = mesh.points;
   nodes.sizes.resize(nodes.points.size());
   parallel_for(static_cast<std::int64_t>(nodes.size()), 256,
                [&](std::int64_t v) { nodes.sizes[v] = size.at(nodes.points[v]); });
-  nodes.surface = SurfaceReader(surface).read();
+  nodes.surface = SurfaceReader(surface, feature_angle).read();
   nodes.offsets.assign(1, 0);
   for (std::size_t v = 0; v < nodes.points.size(); ++v) {
     for (const Vertex u : adjacency.neighbours_of(static_cast<Vertex>(v))) {

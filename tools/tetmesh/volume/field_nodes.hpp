@@ -48,6 +48,6 @@ struct FieldNodes {
 
 // Of a mesh whose first vertices are the surface's. Weights fall with the square of the distance in sizes.
 FieldNodes make_field_nodes(const Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency,
-                            const SizeField& size);
+                            const SizeField& size, double feature_angle);
 
 }  // namespace hexpipe

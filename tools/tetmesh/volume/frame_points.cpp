@@ -45,7 +45,7 @@ class PointPlacer {
               const FramePointsOptions& options)
       : surface_(surface),
         options_(options),
-        nodes_(make_field_nodes(surface, background, adjacency, options.size)),
+        nodes_(make_field_nodes(surface, background, adjacency, options.size, options.feature_angle)),
         frames_(solve_frame_field(nodes_)) {}
 
   std::vector<Vec3> place() {

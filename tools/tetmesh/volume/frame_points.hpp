@@ -13,6 +13,7 @@
 
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/tet_mesh.hpp"
+#include "tools/tetmesh/feature_angle.hpp"
 #include "tools/tetmesh/shells.hpp"
 #include "tools/tetmesh/size_field.hpp"
 
@@ -25,6 +26,7 @@ struct FramePointsOptions {
   // three parts: 11.3 and 87.2 % at 0, 8.4 and 87.6 at 0.01, 7.4 and 87.7 at 0.02, 6.2 and 87.6 at 0.04.
   double jitter = 0.04;
   std::uint64_t seed = 1;
+  double feature_angle = default_feature_angle;
   std::array<Vec3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // of a lattice, to see how far the frames are from it
 };
 
