@@ -4,8 +4,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "common/run/deadline.hpp"
@@ -15,6 +17,14 @@ namespace hexpipe {
 namespace {
 
 constexpr int most_names_tried = 100;
+// What a pipe takes in one call of write(2): a reader that takes 22 kB/s makes progress within the time that it is
+// given.
+constexpr std::size_t most_before_wait = 1 << 16;
+
+bool is_regular(int descriptor) {
+  struct stat status {};
+  return fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+}
 
 bool is_regular_or_new(const std::string& path) {
   struct stat status {};
@@ -61,6 +71,7 @@ Output::Output(const std::string& path) {
     name_ = "stdout";
     descriptor_ = STDOUT_FILENO;
     fcntl(descriptor_, F_SETPIPE_SZ, buffer_limit);
+    may_wait_ = !is_regular(descriptor_);
     return;
   }
   name_ = path;
@@ -69,6 +80,7 @@ Output::Output(const std::string& path) {
     if (descriptor_ < 0) fail();
     return;
   }
+  may_wait_ = false;
   path_ = behind_links(path);
   open_beside();
   fchmod(descriptor_, mode_for(path_));
@@ -121,8 +133,10 @@ void Output::drain() {
 
 void Output::write_through(std::string_view bytes) {
   while (!bytes.empty()) {
-    const WaitForReader wait;
-    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    std::optional<WaitForReader> wait;
+    if (may_wait_) wait.emplace();
+    const ssize_t written =
+        ::write(descriptor_, bytes.data(), may_wait_ ? std::min(bytes.size(), most_before_wait) : bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail();
     bytes.remove_prefix(static_cast<std::size_t>(written));

@@ -49,5 +49,6 @@ class Output {
   std::string buffer_;
   bool committed_ = false;
 };
+  bool may_wait_ = true;  // for a reader: it is no file
 
 }  // namespace hexpipe

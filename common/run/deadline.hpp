@@ -65,7 +65,7 @@ class WaitForInput : WaitForOther {
 };
 
 // For room in a pipe, likewise: its reader may be at work for some seconds, but one that is stuck costs no more than
-// three.
+// three. A call that writes much is many waits for a reader that is slow: it is to be cut into several.
 class WaitForReader : WaitForOther {
  public:
   WaitForReader();
