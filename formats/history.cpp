@@ -80,7 +80,7 @@ std::string history_member(int number, const nlohmann::ordered_json& entry) {
 }
 
 void write_history_entry(BundleWriter& writer, const std::string& member, const nlohmann::ordered_json& entry) {
-  writer.add_text(member, entry.dump(2) + "\n");
+  writer.add_text(member, entry.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 void write_history(BundleWriter& writer, const std::vector<nlohmann::ordered_json>& history) {

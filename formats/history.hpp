@@ -27,6 +27,7 @@ std::string tool_of(const nlohmann::ordered_json& entry);
 
 // Of the entry that comes so many-th, from 1.
 std::string history_member(int number, const nlohmann::ordered_json& entry);
+// What is no UTF-8 in options, as a name of a file may be, is written as U+FFFD.
 void write_history_entry(BundleWriter& writer, const std::string& member, const nlohmann::ordered_json& entry);
 // All of them, from the first.
 void write_history(BundleWriter& writer, const std::vector<nlohmann::ordered_json>& history);

@@ -151,7 +151,7 @@ void write_statistics(const RunContext& context, double seconds) {
   statistics["seconds"] = seconds;
   errno = 0;
   std::ofstream file(context.common.stats_file);
-  file << statistics.dump(2) << '\n';
+  file << statistics.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
   file.close();
   if (!file) throw DataError::at(context.common.stats_file, "cannot write: {}", std::strerror(errno));
 }
