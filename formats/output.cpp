@@ -97,7 +97,7 @@ void Output::open_beside() {
     temporary_.clear();
     fail();
   }
-  remove_on_signal(temporary_.c_str());
+  removed_.set(temporary_.c_str());
 }
 
 void Output::fail() const {
@@ -108,7 +108,7 @@ Output::~Output() {
   if (descriptor_ >= 0 && descriptor_ != STDOUT_FILENO) ::close(descriptor_);
   if (!committed_ && !temporary_.empty()) {
     unlink(temporary_.c_str());
-    remove_on_signal("");
+    removed_.set("");
   }
 }
 
@@ -148,11 +148,11 @@ void Output::put_in_place(int descriptor) {
   const std::string unnamed = link_of(descriptor);
   for (int attempt = 0; temporary_.empty(); ++attempt) {
     std::string name = fmt::format("{}.{}-{}", path_, getpid(), attempt);
-    remove_on_signal(name.c_str());  // before it is there, for a signal may come with it
+    removed_.set(name.c_str());  // before it is there, for a signal may come with it
     if (linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
       temporary_ = std::move(name);  // which needs no memory
     } else {
-      remove_on_signal("");
+      removed_.set("");
       if (errno != EEXIST || attempt == most_names_tried) fail();
     }
   }
@@ -169,7 +169,7 @@ void Output::commit() {
   descriptor_ = -1;
   const bool closed = ::close(descriptor) == 0;
   committed_ = true;
-  remove_on_signal("");
+  removed_.set("");
   if (!closed && path_.empty()) fail();
 }
 

@@ -22,6 +22,7 @@
 #include "common/run/messages.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/parallel.hpp"
+#include "common/run/removed_files.hpp"
 #include "common/run/version.hpp"
 
 // Of the sanitizers, where there are any: with the name and the type that they give it.
@@ -202,7 +203,7 @@ void end_without_memory() {
     if (const std::exception_ptr current = std::current_exception()) std::rethrow_exception(current);
   } catch (const std::bad_alloc&) {
     dprintf(STDERR_FILENO, "%s: not enough memory\n", program_invocation_short_name);
-    remove_registered_file();
+    remove_registered_files();
     _exit(exit_data);
   } catch (...) {
     usual_end();
