@@ -77,6 +77,10 @@ TEST(Dimacs, NamesTheLine) {
   expect_rejected(begin + "e 1 2\n" + std::string(1, '\0') + "\n", "test.col:4: expected a line of c, n, v or e");
 }
 
+TEST(Dimacs, KeepsControlCharactersOutOfMessages) {
+  expect_rejected("p edge \x1b[31m 2\n", "test.col:1: expected the number of vertices, found '?[31m'");
+}
+
 TEST(Dimacs, IsToldByItsFirstLetter) {
   const auto told = [](const std::string& text) {
     Input input = Input::from_memory(text, "test");
