@@ -16,8 +16,7 @@ namespace {
 // Comments and empty lines may stand anywhere. Nothing marks the end of a file, so only the end of its last line tells
 // a last number from the beginning of one.
 TextScanner scanner_of(std::string_view text, std::string_view file) {
-  if (!text.ends_with('\n'))
-    throw DataError::at(file, "expected the last line to have an end, found none; is the file cut off?");
+  expect_last_line_end(text, file);
   return {text, file, '#'};
 }
 
