@@ -58,13 +58,21 @@ std::string default_value(const CLI::Option& option) {
   return text;
 }
 
+// CLI11 gives a flag that switches something off, as --no-reductions, the value that it leaves to what is switched off.
+std::vector<std::string> given_values(const CLI::Option& option) {
+  std::vector<std::string> values = option.results();
+  if (option.check_fname(option.get_lnames().front()))
+    for (std::string& value : values) value = value == "false" ? "true" : "false";
+  return values;
+}
+
 nlohmann::ordered_json options_for_history(const CLI::App& app, const ToolInfo& info) {
   nlohmann::ordered_json options = nlohmann::ordered_json::object();
   for (const CLI::Option* option : app.get_options()) {
     if (!decides_result(*option, info)) continue;
     // Not by CLI11's join: a stream without memory cuts its text off and says nothing.
     const std::string value =
-        option->count() > 0 ? fmt::format("{}", fmt::join(option->results(), ",")) : default_value(*option);
+        option->count() > 0 ? fmt::format("{}", fmt::join(given_values(*option), ",")) : default_value(*option);
     if (!value.empty()) options[option->get_lnames().front()] = value;
   }
   return options;
