@@ -236,6 +236,19 @@ TEST(Vtu, NamesTheDefect) {
          "test:4: expected an attribute NumberOfPoints, found none");
 }
 
+TEST(Vtu, CountsLinesWithinTags) {
+  const std::string three_lines = "<DataArray\n type=\"Int64\"\n Name=\"tag\" format=\"ascii\">";
+  const std::string tag = "<DataArray type=\"Int64\" Name=\"tag\" format=\"ascii\">";
+  EXPECT_EQ(message_of_reading(changed(tag + "1 7 -5", three_lines + "1 7 x")),
+            "test:10: expected a number, found 'x'");
+  std::string text = changed(tag, three_lines);
+  text.replace(text.find("9 9 9"), 5, "9 x 9");
+  EXPECT_EQ(message_of_reading(text), "test:16: expected a number, found 'x'");
+  text = changed(tag, three_lines);
+  text.replace(text.find("2 6 9"), 5, "2 6 -9");
+  EXPECT_EQ(message_of_reading(text), "test:20: expected offsets from 0 up, found -9");
+}
+
 TEST(Vtu, RefusesImpossibleCompression) {
   std::string text = LaidOut({true, false, true, true, false}).text();
   // The size of a block in the first array's header, behind the number of blocks.
