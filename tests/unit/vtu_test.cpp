@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "formats/scalar_bytes.hpp"
+#include "formats/vtu.hpp"
 #include "sample_meshes.hpp"
 
 namespace hexpipe {
@@ -247,6 +248,14 @@ TEST(Vtu, CountsLinesWithinTags) {
   text = changed(tag, three_lines);
   text.replace(text.find("2 6 9"), 5, "2 6 -9");
   EXPECT_EQ(message_of_reading(text), "test:20: expected offsets from 0 up, found -9");
+}
+
+TEST(Vtu, NamesOfPiecesAreEscaped) {
+  const std::string text = hexpipe::testing::written_bytes([](Output& output) {
+    write_pvtu({"R&D/part-0000.vtu", "a<b>\"c\"/part-0001.vtu"}, output);
+  });
+  EXPECT_THAT(text, HasSubstr("<Piece Source=\"R&amp;D/part-0000.vtu\"/>"));
+  EXPECT_THAT(text, HasSubstr("<Piece Source=\"a&lt;b&gt;&quot;c&quot;/part-0001.vtu\"/>"));
 }
 
 TEST(Vtu, RefusesImpossibleCompression) {
