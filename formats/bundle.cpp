@@ -305,7 +305,8 @@ NpyHeader BundleReader::begin_array(std::uint64_t columns) {
 void BundleReader::read_rows(const NpyHeader& header, NpyType wanted, std::size_t row_bytes,
                              const std::function<void(std::size_t)>& reserve,
                              const std::function<void*(std::size_t)>& resize) {
-  if ((header.type.kind == 'f') != (wanted.kind == 'f'))
+  const bool is_half = header.type == NpyType{'f', 2};
+  if ((header.type.kind == 'f') != (wanted.kind == 'f') || is_half)
     throw DataError::at(where(), "expected numbers of type {}{}, found {}{}", wanted.kind, wanted.bytes,
                         header.type.kind, header.type.bytes);
   const std::size_t count = header.shape[0];

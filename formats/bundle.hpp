@@ -82,7 +82,7 @@ class BundleReader {
   std::uint64_t size() const { return size_; }
 
   // The current member as an array with the rows of T (see add_array). Integers of any width are taken where they fit,
-  // floats of any width as f8. Throws DataError on a wrong shape, type, or number of bytes.
+  // f4 as f8. Throws DataError on a wrong shape, type, or number of bytes.
   template <class T>
   std::vector<T> read_array() {
     using Number = typename NpyRow<T>::Number;

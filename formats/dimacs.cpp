@@ -137,6 +137,7 @@ bool looks_like_dimacs(Input& input) {
 
 ConflictGraph read_dimacs(Input& input) {
   const std::string text = input.read_all();
+  if (!text.empty()) expect_last_line_end(text, input.name());
   return DimacsParser(text, input.name()).parse();
 }
 

@@ -17,8 +17,9 @@ bool is_history_entry(std::string_view member);
 // Of the tool that runs.
 nlohmann::ordered_json history_entry_of(const RunContext& context);
 
-// The current member, and its text where that is wanted. Throws DataError unless it is an object of at most 1 MiB of
-// which tool and version, if there, are text and the options an object.
+// The current member, and its text where that is wanted. Throws DataError unless it is an object of at most 1 MiB and
+// 64 levels of which, if there, the tool is named by a to z, 0 to 9 and '-', the version text and the options an
+// object.
 nlohmann::ordered_json read_history_entry(BundleReader& reader, std::string* text = nullptr);
 
 // "stage" where the entry does not say.
@@ -26,6 +27,7 @@ std::string tool_of(const nlohmann::ordered_json& entry);
 
 // Of the entry that comes so many-th, from 1.
 std::string history_member(int number, const nlohmann::ordered_json& entry);
+// What is no UTF-8 in options, as a name of a file may be, is written as U+FFFD.
 void write_history_entry(BundleWriter& writer, const std::string& member, const nlohmann::ordered_json& entry);
 // All of them, from the first.
 void write_history(BundleWriter& writer, const std::vector<nlohmann::ordered_json>& history);

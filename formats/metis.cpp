@@ -138,6 +138,7 @@ class MetisParser : NumberLines {
 
 ConflictGraph read_metis(Input& input) {
   const std::string text = input.read_all();
+  if (!text.empty()) expect_last_line_end(text, input.name());
   return MetisParser(text, input.name()).parse();
 }
 

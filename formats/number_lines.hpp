@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "common/run/error.hpp"
+#include "formats/text_scanner.hpp"
 
 namespace hexpipe {
 
@@ -101,7 +102,7 @@ class NumberLines {
   [[noreturn]] void fail(std::string_view message) const { throw FormatError(file_, line_, message); }
   [[noreturn]] void fail_expected(std::string_view what) const {
     const std::string_view word = peek_word();
-    const std::string found = !word.empty() ? fmt::format("'{}'", word.substr(0, 30))
+    const std::string found = !word.empty() ? quote_found(word)
                               : at_ == end_ ? "the end of the file"
                                             : "the end of the line";
     fail(fmt::format("expected {}, found {}", what, found));

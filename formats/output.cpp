@@ -4,8 +4,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "common/run/deadline.hpp"
@@ -15,6 +17,14 @@ namespace hexpipe {
 namespace {
 
 constexpr int most_names_tried = 100;
+// What a pipe takes in one call of write(2): a reader that takes 22 kB/s makes progress within the time that it is
+// given.
+constexpr std::size_t most_before_wait = 1 << 16;
+
+bool is_regular(int descriptor) {
+  struct stat status {};
+  return fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+}
 
 bool is_regular_or_new(const std::string& path) {
   struct stat status {};
@@ -61,6 +71,7 @@ Output::Output(const std::string& path) {
     name_ = "stdout";
     descriptor_ = STDOUT_FILENO;
     fcntl(descriptor_, F_SETPIPE_SZ, buffer_limit);
+    may_wait_ = !is_regular(descriptor_);
     return;
   }
   name_ = path;
@@ -69,6 +80,7 @@ Output::Output(const std::string& path) {
     if (descriptor_ < 0) fail();
     return;
   }
+  may_wait_ = false;
   path_ = behind_links(path);
   open_beside();
   fchmod(descriptor_, mode_for(path_));
@@ -85,7 +97,7 @@ void Output::open_beside() {
     temporary_.clear();
     fail();
   }
-  remove_on_signal(temporary_.c_str());
+  removed_.set(temporary_.c_str());
 }
 
 void Output::fail() const {
@@ -96,7 +108,7 @@ Output::~Output() {
   if (descriptor_ >= 0 && descriptor_ != STDOUT_FILENO) ::close(descriptor_);
   if (!committed_ && !temporary_.empty()) {
     unlink(temporary_.c_str());
-    remove_on_signal("");
+    removed_.set("");
   }
 }
 
@@ -121,8 +133,10 @@ void Output::drain() {
 
 void Output::write_through(std::string_view bytes) {
   while (!bytes.empty()) {
-    const WaitForReader wait;
-    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    std::optional<WaitForReader> wait;
+    if (may_wait_) wait.emplace();
+    const ssize_t written =
+        ::write(descriptor_, bytes.data(), may_wait_ ? std::min(bytes.size(), most_before_wait) : bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail();
     bytes.remove_prefix(static_cast<std::size_t>(written));
@@ -134,11 +148,11 @@ void Output::put_in_place(int descriptor) {
   const std::string unnamed = link_of(descriptor);
   for (int attempt = 0; temporary_.empty(); ++attempt) {
     std::string name = fmt::format("{}.{}-{}", path_, getpid(), attempt);
-    remove_on_signal(name.c_str());  // before it is there, for a signal may come with it
+    removed_.set(name.c_str());  // before it is there, for a signal may come with it
     if (linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
       temporary_ = std::move(name);  // which needs no memory
     } else {
-      remove_on_signal("");
+      removed_.set("");
       if (errno != EEXIST || attempt == most_names_tried) fail();
     }
   }
@@ -155,7 +169,7 @@ void Output::commit() {
   descriptor_ = -1;
   const bool closed = ::close(descriptor) == 0;
   committed_ = true;
-  remove_on_signal("");
+  removed_.set("");
   if (!closed && path_.empty()) fail();
 }
 

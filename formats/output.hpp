@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "common/run/removed_files.hpp"
+
 namespace hexpipe {
 
 class Output {
@@ -45,7 +47,9 @@ class Output {
 
   std::string name_, path_;
   std::string temporary_;  // the file beside path_ while it has a name
+  RemovedFile removed_;    // that file
   int descriptor_ = -1;
+  bool may_wait_ = true;  // for a reader: it is no file
   std::string buffer_;
   bool committed_ = false;
 };

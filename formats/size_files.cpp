@@ -44,6 +44,9 @@ SizeList read_text(std::string_view text, const std::string& name) {
       size = number_on_line<double>(scanner, "a size");
     }
     if (!scanner.at_line_end()) scanner.fail_expected("the end of the line", scanner.peek_word());
+    if (*has_places && !is_place(place))
+      scanner.fail(
+          fmt::format("expected coordinates up to {}, found {} {} {}", largest_coordinate, place.x, place.y, place.z));
     if (!is_size(size)) scanner.fail(fmt::format("expected a positive size, found {:g}", size));
     if (*has_places)
       add(list, place, size);
@@ -86,6 +89,7 @@ SizeList read_npy(std::string_view bytes, const std::string& name) {
 SizeList read_background(std::string_view text, const std::string& name) {
   MshNodeValues field = read_msh_node_values(text, name);
   const MixedMesh& mesh = field.mesh;
+  validate(mesh, name.c_str());
   if (!mesh.hexes.cells.empty() || !mesh.prisms.cells.empty() || !mesh.pyramids.cells.empty())
     throw DataError::at(name, "expected a background mesh of tets or triangles, found other cells");
   SizeList list{std::move(field.values), mesh.points, {}, {}};

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "formats/facet_owners.hpp"
+#include "formats/facet_table.hpp"
 #include "formats/input.hpp"
 #include "formats/scalar_bytes.hpp"
 #include "formats/text_scanner.hpp"
@@ -16,8 +16,7 @@ namespace {
 // Comments and empty lines may stand anywhere. Nothing marks the end of a file, so only the end of its last line tells
 // a last number from the beginning of one.
 TextScanner scanner_of(std::string_view text, std::string_view file) {
-  if (!text.ends_with('\n'))
-    throw DataError::at(file, "expected the last line to have an end, found none; is the file cut off?");
+  expect_last_line_end(text, file);
   return {text, file, '#'};
 }
 
@@ -113,28 +112,31 @@ class TetgenReader {
 
   // When asked for all faces, TetGen also lists those inside a region, with marker 0: they are no surface.
   void drop_inner_faces() {
-    const std::vector<FacetOwner> in_front = owners_of(false), behind = owners_of(true);
+    const std::vector<char> inside = faces_inside_regions();
     CellBlock<3> kept;
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
-      const bool inside_region =
-          in_front[i].cell != behind[i].cell && mesh_.tets.tags[static_cast<std::size_t>(in_front[i].cell)] ==
-                                                    mesh_.tets.tags[static_cast<std::size_t>(behind[i].cell)];
-      if (inside_region && mesh_.triangles.tags[i] == 0) continue;
+      if (inside[i] != 0 && mesh_.triangles.tags[i] == 0) continue;
       kept.cells.push_back(mesh_.triangles.cells[i]);
       kept.tags.push_back(mesh_.triangles.tags[i]);
     }
     mesh_.triangles = std::move(kept);
   }
 
-  // The tet of each triangle; of two, the one on the side that the triangle shows as it is listed, or turned round.
-  std::vector<FacetOwner> owners_of(bool turned) {
-    const auto turn = [&] {
-      for (Triangle& t : mesh_.triangles.cells) std::swap(t[1], t[2]);
-    };
-    if (turned) turn();
-    std::vector<FacetOwner> owners = find_facet_owners(mesh_).triangles;
-    if (turned) turn();
-    return owners;
+  // Faces that two tets of one region share. Tets may be listed in any sense, so the vertices alone say which.
+  std::vector<char> faces_inside_regions() const {
+    const FacetTable<3> faces(mesh_.triangles.cells, mesh_.points.size());
+    std::vector<char> inside(mesh_.triangles.size(), 0);
+    std::vector<std::int64_t> first_tet(mesh_.triangles.size(), -1);
+    for (std::size_t t = 0; t < mesh_.tets.size(); ++t)
+      for (const LocalTriangle& corners : TetTopology::triangles)
+        faces.visit_same(pick(mesh_.tets.cells[t], corners), [&](std::size_t face) {
+          const auto tet = static_cast<std::int64_t>(t);
+          std::int64_t& first = first_tet[face];
+          if (first < 0) first = tet;
+          if (first != tet)
+            inside[face] = mesh_.tets.tags[t] == mesh_.tets.tags[static_cast<std::size_t>(first)] ? 1 : 0;
+        });
+    return inside;
   }
 
   // Attributes are real numbers; a region's is a whole one.

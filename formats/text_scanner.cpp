@@ -26,6 +26,11 @@ std::string quote_found(std::string_view word) {
   return "'" + shown + (word.size() > longest ? "...'" : "'");
 }
 
+void expect_last_line_end(std::string_view text, std::string_view file) {
+  if (!text.ends_with('\n'))
+    throw DataError::at(file, "expected the last line to have an end, found none; is the file cut off?");
+}
+
 void TextScanner::skip_comment() {
   at_ = std::min(text_.find('\n', at_), text_.size());
 }

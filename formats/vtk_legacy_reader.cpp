@@ -71,8 +71,7 @@ class VtkLegacyReader {
     binary_ = equal_ignoring_case(kind, "BINARY");
     if (!binary_ && !equal_ignoring_case(kind, "ASCII")) scanner_.fail_expected("ASCII or BINARY", kind);
     // Nothing marks the end of such a file, so only this tells a last number from the beginning of one.
-    if (!binary_ && !text_.ends_with('\n'))
-      throw DataError::at(file_, "expected the last line to have an end, found none; is the file cut off?");
+    if (!binary_) expect_last_line_end(text_, file_);
     scanner_.expect("DATASET");
     scanner_.expect("UNSTRUCTURED_GRID");
   }

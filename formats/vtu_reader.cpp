@@ -42,6 +42,7 @@ class VtuReader {
     constexpr unsigned flags = pugi::parse_minimal | pugi::parse_escapes;
     pugi::xml_parse_result result;
     const std::size_t appended = text_.find("<AppendedData");
+    find_line_ends(std::string_view(text_).substr(0, text_.find('_', std::min(appended, text_.size()))));
     if (appended == std::string::npos) {
       result = document_.load_buffer_inplace(text_.data(), text_.size(), flags, pugi::encoding_utf8);
     } else {
@@ -51,6 +52,12 @@ class VtuReader {
     if (!result)
       throw FormatError(file_, line_at(result.offset),
                         fmt::format("expected well-formed XML, found: {}", result.description()));
+  }
+
+  // While they are all there: parsed in place, names and values end with a zero where line ends may have been.
+  void find_line_ends(std::string_view xml) {
+    for (std::size_t at = xml.find('\n'); at != std::string_view::npos; at = xml.find('\n', at + 1))
+      line_ends_.push_back(at);
   }
 
   // Sets appended_; returns where the contents of the element begin.
@@ -189,11 +196,12 @@ class VtuReader {
 
   template <class T>
   std::vector<T> read_text(const pugi::xml_node& array, std::size_t count, const std::string& where) const {
-    const std::string_view text = array.child_value();
+    const pugi::xml_node node = array.text().data();
+    const std::string_view text = node.value();
     if (count > (text.size() + 1) / 2) throw DataError::at(where, "expected {} numbers, found fewer", count);
     const ScalarType type = scalar_type(array);
     const bool through_double = type == ScalarType::float32 || type == ScalarType::float64;
-    TextScanner scanner(text, file_, '\0', line_of(array));
+    TextScanner scanner(text, file_, '\0', line_of(node ? node : array));
     std::vector<T> numbers(count);
     for (T& number : numbers) number = through_double ? read_whole<T>(scanner) : scanner.number<T>("a number");
     if (!scanner.at_end()) scanner.fail_expected(fmt::format("{} numbers only", count), scanner.peek_word());
@@ -241,13 +249,14 @@ class VtuReader {
     return line_at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)));
   }
   long line_at(std::size_t offset) const {
-    return 1 + std::ranges::count(std::string_view(text_).substr(0, offset), '\n');
+    return 1 + (std::ranges::lower_bound(line_ends_, offset) - line_ends_.begin());
   }
   [[noreturn]] void fail(const pugi::xml_node& node, const std::string& message) const {
     throw FormatError(file_, line_of(node), message);
   }
 
   std::string text_;
+  std::vector<std::size_t> line_ends_;
   std::string_view file_;
   pugi::xml_document document_;
   VtkXmlEncoding encoding_;

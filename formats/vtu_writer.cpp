@@ -79,6 +79,28 @@ Section cell_data_of(const CellData& data) {
   return section;
 }
 
+// A name of a file as the value of an attribute.
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  return result;
+}
+
 // Every array lies behind its length in the appended data, the last one of the document first: meshio rewrites offsets
 // while it looks arrays up by them, and in this order it cannot take one for another. `offset` counts from the mark
 // '_'; on the way in it is where this section's data ends, on the way out where it begins.
@@ -145,7 +167,7 @@ void write_pvtu(const std::vector<std::string>& pieces, Output& output) {
   output.print("    </PCellData>\n    <PPoints>\n");
   array("Float64", "Points", " NumberOfComponents=\"3\"");
   output.print("    </PPoints>\n");
-  for (const std::string& piece : pieces) output.print("    <Piece Source=\"{}\"/>\n", piece);
+  for (const std::string& piece : pieces) output.print("    <Piece Source=\"{}\"/>\n", escaped(piece));
   output.print("  </PUnstructuredGrid>\n</VTKFile>\n");
 }
 

@@ -239,6 +239,23 @@ product_ending() {
   done
 }
 
+@test "what is no UTF-8 in an option does not lose the run" {
+  $PYTHON - <<'PYTHON'
+import os, shutil
+shutil.copy(os.environ["STAGES"] + "/lns.in", b"part\xff.in")
+PYTHON
+  lns --iterations 5 $'part\xff.in' --stats $'stats\xff.json' -o out.tar
+  assert [ -s out.tar ]
+  if [[ -x "$HEXPIPE_BIN/tetmesh" ]]; then
+    echo '0 0 0 0.5' >$'sizes\xff.txt'
+    run_apart tetmesh "$STAGES/tetmesh.in" --size 0.5 --size-field $'sizes\xff.txt' -o mesh.tar
+    assert_success
+    assert_equal "$stderr" ""
+    run tar xOf mesh.tar history/01-tetmesh.json
+    assert_output --partial $'"size-field": "sizes\uFFFD.txt"'
+  fi
+}
+
 @test "a default of several values stands in the history as it would be typed" {
   findhex -q "$STAGES/findhex.in" -o out.tar
   run tar xOf out.tar "$(tar tf out.tar | grep 'history/.*-findhex.json')"

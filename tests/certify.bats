@@ -169,6 +169,34 @@ all_algorithms() {
     --solution good.sol --exact --iterations 0 --algorithm clique-cover -o best.sol
 }
 
+# heavy_graph HEAVIEST EDGES NAME: one vertex and disjoint edges of weights 3 and 5, with the best solution.
+heavy_graph() {
+  "$PYTHON" - "$@" <<'PYTHON'
+import sys
+heaviest, edges, name = int(sys.argv[1]), int(sys.argv[2]), sys.argv[3]
+with open(name + ".graph", "w") as graph, open(name + ".sol", "w") as solution:
+    print(1 + 2 * edges, edges, 10, file=graph)
+    print(heaviest, file=graph)
+    print(1, file=solution)
+    for v in range(2, 2 + 2 * edges, 2):
+        print(f"3 {v + 1}\n5 {v}", file=graph)
+        print(v + 1, file=solution)
+PYTHON
+}
+
+@test "weights of very different sizes overflow no bound" {
+  heavy_graph 1000000000000000 100000 first
+  heavy_graph 100000000000000000 3000 second
+  heavy_graph 4000000000000000000 300 third
+  for name in first second third; do
+    certify -q --graph $name.graph --solution $name.sol --iterations 30 --certificate proof --stats stats.json -o out.sol
+    assert_equal "$(number bound stats.json)" "$(number weight stats.json)"
+    assert_equal "$(number complete stats.json)" True
+    run "$CHECKERS/bound_check.py" $name.graph proof
+    assert_success
+  done
+}
+
 @test "extreme graphs" {
   printf '0 0 10\n' >empty.graph
   : >empty.sol

@@ -102,6 +102,56 @@ PYTHON
   refused "history/01-x.json: expected at most 1048576 bytes" long.tar
   bundle deep.tar "[('history/01-x.json', b'[' * 1000000 + b']' * 1000)]"
   refused "history/01-x.json: expected a JSON object" deep.tar
+  bundle levels.tar "[('history/01-x.json', b'{\"a\":' + b'[' * 64 + b']' * 64 + b'}')]"
+  refused "history/01-x.json: expected a JSON object of at most 64 levels, found more" levels.tar
+  bundle brackets.tar "[('history/01-x.json', b'{\"a\": \"\\\\\"' + b'[' * 100 + b'\"}')]"
+  refused "expected mesh for findhex" brackets.tar
+}
+
+# Well-formed, and with a mesh: the tools that copy and write entries go through all of their levels.
+@test "history of many levels ends no tool by a signal" {
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 2 | findhex | buildgraph -o part.tar
+  $PYTHON - <<'PYTHON'
+import io, tarfile
+with tarfile.open("part.tar") as part, tarfile.open("deep.tar", "w", format=tarfile.PAX_FORMAT) as deep:
+    for member in part:
+        deep.addfile(member, part.extractfile(member))
+    for where in ("a", "options"):
+        value = b"[" * 400000 + b"]" * 400000
+        entry = b'{"tool":"x","%s":%s}' % (where.encode(), value if where == "a" else b'{"b":%s}' % value)
+        member = tarfile.TarInfo(f"history/09-{where}.json")
+        member.size = len(entry)
+        deep.addfile(member, io.BytesIO(entry))
+PYTHON
+  local message="deep.tar: history/09-a.json: expected a JSON object of at most 64 levels, found more"
+  assert_fails_with 1 "$message" mesh-part deep.tar --parts 2 -o parts
+  assert_fails_with 1 "$message" initsol deep.tar -o out.tar
+  if [[ -x "$HEXPIPE_BIN/view" ]]; then assert_fails_with 1 "$message" view deep.tar -o out.html; fi
+}
+
+@test "a name of a tool that would lead out of the history is refused" {
+  for name in ../../evil a/b Evil 'e vil' '' "$(printf 'x%.0s' {1..65})"; do
+    bundle out.in.tar "[('history/01-x.json', b'{\"tool\": \"$name\"}')]"
+    refused "history/01-x.json: expected a tool named by 1 to 64 of a to z, 0 to 9 and '-', found " out.in.tar
+  done
+  # merge-parts makes it part of a member's name.
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 2 | mesh-part --parts 2 -o parts
+  for part in parts/*.tar; do
+    findhex "$part" -o candidates.tar
+    $PYTHON - "$(basename "$part")" <<'PYTHON'
+import io, sys, tarfile
+with tarfile.open("candidates.tar") as part, tarfile.open(sys.argv[1], "w", format=tarfile.PAX_FORMAT) as evil:
+    for member in part:
+        data = part.extractfile(member).read()
+        if member.name == "history/02-findhex.json":
+            data = b'{"tool": "../../evil"}'
+            member.size = len(data)
+        evil.addfile(member, io.BytesIO(data))
+PYTHON
+  done
+  assert_fails_with 1 "expected a tool named by .*, found '../../evil'" merge-parts part-*.tar -o out.tar
+  bundle good.tar "[('history/01-x.json', b'{\"tool\": \"$(printf 'x%.0s' {1..62})-7\"}')]"
+  refused "expected mesh for findhex" good.tar
 }
 
 @test "counts that no file of this length can hold are refused without memory for them" {

@@ -218,12 +218,10 @@ PYTHON
 @test "every truncated prefix of a graph is refused" {
   local size prefix
   size=$(stat -c %s small.graph)
-  for ((prefix = 0; prefix < size - 1; ++prefix)); do
+  for ((prefix = 0; prefix < size; ++prefix)); do
     head -c $prefix small.graph >cut.graph
     assert_fails_with 1 "^initsol: cut.graph" initsol cut.graph --iterations 1 -o out.sol
   done
-  head -c $((size - 1)) small.graph >cut.graph
-  initsol cut.graph --iterations 1 -o whole.sol  # only the end of the last line is missing
 }
 
 @test "a full disk is noticed" {

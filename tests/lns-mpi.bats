@@ -187,6 +187,25 @@ assert bound < 1.01 * single, (bound, single)
 PYTHON
 }
 
+@test "--prove on weights of very different sizes overflows no bound" {
+  "$PYTHON" - <<'PYTHON'
+with open("heavy.graph", "w") as graph, open("heavy.sol", "w") as solution:
+    print("601 300 10\n4000000000000000000", file=graph)
+    print(1, file=solution)
+    for v in range(2, 602, 2):
+        print(f"3 {v + 1}\n5 {v}", file=graph)
+        print(v + 1, file=solution)
+PYTHON
+  for ranks in 1 2; do
+    mpirun --oversubscribe -n $ranks lns-mpi --graph heavy.graph --solution heavy.sol --iterations 1 --prove 3 \
+      --certificate $ranks.proof -o out.sol
+    run "$CHECKERS/bound_check.py" heavy.graph $ranks.proof
+    assert_success
+    assert_output --regexp "^bound 4000000000000001500 "
+  done
+  assert_same_bytes 1.proof 2.proof
+}
+
 @test "SIGTERM to one rank, and SIGUSR1 to mpirun, write the best so far and end well" {
   local job
   for signal in TERM USR1; do

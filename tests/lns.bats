@@ -91,6 +91,19 @@ PYTHON
   assert [ "$(weight_of recombined.sol)" -gt "$(weight_of alone.sol)" ]
 }
 
+@test "the history says of --no-reductions what was given" {
+  initsol ring.graph --iterations 0 -o start.tar
+  lns start.tar --iterations 1 --no-reductions -o given.tar
+  run tar xOf given.tar history/02-lns.json
+  assert_output --partial '"no-reductions": "true"'
+  lns start.tar --iterations 1 -o not.tar
+  run tar xOf not.tar history/02-lns.json
+  refute_output --partial '"no-reductions": "true"'
+  lns start.tar --iterations 1 --no-reductions=false -o undone.tar
+  run tar xOf undone.tar history/02-lns.json
+  refute_output --partial '"no-reductions": "true"'
+}
+
 @test "--target-gap ends the search at a bound that is given or that certify proved" {
   initsol ring.graph --iterations 0 --greedy weight | certify -o proven.tar --stats bound.json
   lns proven.tar --no-reductions --target-gap 0.08 --time-limit 100 --stats stats.json -o bundle.sol

@@ -1,5 +1,7 @@
 #include "common/mesh/mixed_mesh.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/mesh/check_cells.hpp"
@@ -13,6 +15,10 @@ void check_block(const CellBlock<Corners>& block, std::size_t point_count, const
   if (!block.quality.empty() && block.quality.size() != block.size())
     throw DataError::at(source, "expected a quality for each of {} {} or none, found {}", block.size(), name,
                         block.quality.size());
+  const auto wrong = std::ranges::find_if(block.quality, [](double quality) { return !std::isfinite(quality); });
+  if (wrong != block.quality.end())
+    throw DataError::at(source, "{}_quality[{}]: expected a finite number, found {}", name,
+                        wrong - block.quality.begin(), *wrong);
 }
 
 }  // namespace

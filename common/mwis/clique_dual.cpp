@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/mwis/entropy_dual.hpp"
 
@@ -11,7 +12,8 @@ namespace {
 class SmoothedDual {
  public:
   SmoothedDual(const ConflictGraph& graph, const CliqueCover& cover)
-      : cover_(cover),
+      : weights_(graph.weights),
+        cover_(cover),
         prices_(static_cast<std::size_t>(cover.size()), 0.0),
         costs_(graph.weights.begin(), graph.weights.end()) {}
 
@@ -32,7 +34,7 @@ class SmoothedDual {
 
   std::vector<std::int64_t> whole_prices() const {
     std::vector<std::int64_t> whole(prices_.size());
-    std::ranges::transform(prices_, whole.begin(), [](double price) { return std::llround(price); });
+    for (std::int64_t c = 0; c < cover_.size(); ++c) whole[c] = whole_price(cover_.clique(c), prices_[c], weights_);
     return whole;
   }
 
@@ -41,12 +43,16 @@ class SmoothedDual {
     prices_[c] = step_price(cover_.clique(c), prices_[c], temperature, costs_);
   }
 
+  const std::vector<std::int64_t>& weights_;
   const CliqueCover& cover_;
   std::vector<double> prices_, costs_;
 };
 
 // Passes in branch and reduce: before the first branch, and in a node.
 constexpr std::int64_t root_passes = 900, node_passes = 60;
+
+// All weights together are no more.
+constexpr std::int64_t no_bound = std::numeric_limits<std::int64_t>::max();
 
 // Goes by the passes or by the time, whichever is further.
 double progress(std::int64_t passes, const CliqueDualOptions& options, const Deadline& deadline) {
@@ -68,9 +74,12 @@ std::vector<std::int64_t> reduced_costs(const ConflictGraph& graph, const Clique
 std::int64_t bound_of_prices(const ConflictGraph& graph, const CliqueCover& cover,
                              const std::vector<std::int64_t>& prices) {
   std::int64_t bound = 0;
-  for (const std::int64_t price : prices) bound += price;
-  for (const std::int64_t cost : reduced_costs(graph, cover, prices)) bound += std::max<std::int64_t>(0, cost);
-  return bound;
+  for (const std::int64_t price : prices)
+    if (__builtin_add_overflow(bound, price, &bound)) return no_bound;
+  // No cost is below minus the sum of the prices, and those above 0 sum up to no more than the weights do.
+  std::int64_t left = 0;
+  for (const std::int64_t cost : reduced_costs(graph, cover, prices)) left += std::max<std::int64_t>(0, cost);
+  return __builtin_add_overflow(bound, left, &bound) ? no_bound : bound;
 }
 
 CliqueDual solve_clique_dual(const ConflictGraph& graph, CliqueCover& cover, const CliqueDualOptions& options,

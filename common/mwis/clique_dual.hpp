@@ -22,12 +22,12 @@ struct CliqueDual {
   std::int64_t passes = 0;
 };
 
-// Exact, in integers.
+// Exact, in integers; the largest number of 64 bits, which bounds every graph, where the bound is no less.
 std::int64_t bound_of_prices(const ConflictGraph& graph, const CliqueCover& cover,
                              const std::vector<std::int64_t>& prices);
 
 // Weight of each vertex minus the prices of its cliques. A solution with v is at most bound + min(0, reduced cost), one
-// without v at most bound - max(0, reduced cost).
+// without v at most bound - max(0, reduced cost). The sum of the prices fits 64 bits.
 std::vector<std::int64_t> reduced_costs(const ConflictGraph& graph, const CliqueCover& cover,
                                         const std::vector<std::int64_t>& prices);
 

@@ -25,6 +25,16 @@ double step_price(std::span<const std::int32_t> members, double price, double te
   return price + change;
 }
 
+std::int64_t whole_price(std::span<const std::int32_t> members, double price, std::span<const std::int64_t> weights) {
+  // Prices that some member is worth are most of them, and told by the first ones.
+  std::int64_t heaviest = 0;
+  for (const std::int32_t v : members) {
+    heaviest = std::max(heaviest, weights[v]);
+    if (price < static_cast<double>(heaviest)) return std::llround(price);
+  }
+  return heaviest;
+}
+
 double dual_rounds(double done) {
   const double over = done - first_share;
   return over < 0 ? over / first_share : over / (1 - first_share) * rounds;

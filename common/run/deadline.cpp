@@ -4,26 +4,25 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <cstring>
 #include <limits>
+
+#include "common/run/removed_files.hpp"
 
 namespace hexpipe {
 namespace {
 
-// Only lock-free atomics and plain memory: signal handlers touch them.
+// Only lock-free atomics: signal handlers touch them.
 std::atomic<bool> stop_flag{false};
 std::atomic<bool> first_signal_stops_searches{false};
 std::atomic<bool> upstream_may_answer{false};
 std::atomic<bool> interrupted{false};
 std::atomic<unsigned> patience{0};     // seconds that the call underway may wait after a signal; 0: none waits
 std::atomic<int> impatient_signal{0};  // that stopped the search and does not let it wait
-std::atomic<bool> file_registered{false};
-char registered_file[4096];
 
 constexpr unsigned patience_with_writers = 1, patience_with_readers = 3;  // seconds
 
 void end_by(int signal_number) {
-  remove_registered_file();
+  remove_registered_files();
   signal(signal_number, SIG_DFL);
   raise(signal_number);
 }
@@ -95,18 +94,6 @@ WaitForOther::~WaitForOther() {
 
 WaitForInput::WaitForInput() : WaitForOther(patience_with_writers) {}
 WaitForReader::WaitForReader() : WaitForOther(patience_with_readers) {}
-
-void remove_on_signal(const char* path) {
-  file_registered = false;
-  const std::size_t length = std::strlen(path);
-  if (length == 0 || length >= sizeof registered_file) return;
-  std::memcpy(registered_file, path, length + 1);
-  file_registered = true;
-}
-
-void remove_registered_file() {
-  if (file_registered.load()) unlink(registered_file);
-}
 
 void install_signal_handlers() {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) handle(number, on_signal);

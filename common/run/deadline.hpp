@@ -33,8 +33,8 @@ class Deadline {
 };
 
 // After this call the first SIGINT or SIGTERM makes stop_requested() true and every Deadline pass; the second ends the
-// process as an uncaught signal would. Without it the first one already does. Either way the temporary files
-// registered with remove_on_signal are gone. SIGHUP does as SIGTERM.
+// process as an uncaught signal would. Without it the first one already does. Either way the files of
+// common/run/removed_files.hpp are gone. SIGHUP does as SIGTERM.
 void stop_searches_on_signal();
 bool stop_requested();
 // Another signal that does as SIGTERM.
@@ -65,19 +65,13 @@ class WaitForInput : WaitForOther {
 };
 
 // For room in a pipe, likewise: its reader may be at work for some seconds, but one that is stuck costs no more than
-// three.
+// three. A call that writes much is many waits for a reader that is slow: it is to be cut into several.
 class WaitForReader : WaitForOther {
  public:
   WaitForReader();
 };
 
-// Registers a file to be removed when a signal ends the process; an empty path takes the registration back.
-// One file at a time: a tool writes one output.
-void remove_on_signal(const char* path);
-// For other ends that destructors do not see.
-void remove_registered_file();
-
-// Makes SIGINT, SIGTERM and SIGHUP remove the registered file before they end the process, and SIGPIPE ignored, so that
+// Makes SIGINT, SIGTERM and SIGHUP remove registered files before they end the process, and SIGPIPE ignored, so that
 // a closed pipe is an error of write(2).
 void install_signal_handlers();
 

@@ -16,6 +16,15 @@ namespace {
 
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
+// The number behind `name` in a file of lines "name number"; 0 where there is none.
+std::uint64_t number_behind(std::string_view name, const std::string& file) {
+  std::ifstream lines(file);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with(name) && line.size() > name.size() && line[name.size()] == ' ')
+      return std::strtoull(line.c_str() + name.size(), nullptr, 10);
+  return 0;
+}
+
 // The number behind `name` in a file of lines "name: number kB", in bytes; 0 where there is none.
 std::uint64_t bytes_in(const char* file, std::string_view name) {
   std::ifstream lines(file);
@@ -26,7 +35,7 @@ std::uint64_t bytes_in(const char* file, std::string_view name) {
 }
 
 // A file of one number; `unlimited` where there is none ("max").
-std::uint64_t number_in(const char* file) {
+std::uint64_t number_in(const std::string& file) {
   std::ifstream stream(file);
   std::uint64_t number = 0;
   return stream >> number ? number : unlimited;
@@ -39,11 +48,6 @@ std::uint64_t difference(std::uint64_t limit, std::uint64_t used) {
 std::uint64_t left_on_machine() {
   const std::uint64_t available = bytes_in("/proc/meminfo", "MemAvailable");
   return available == 0 ? unlimited : available + bytes_in("/proc/meminfo", "SwapFree");
-}
-
-// Of version 2, where a container sees its own group at the root.
-std::uint64_t left_in_control_group() {
-  return difference(number_in("/sys/fs/cgroup/memory.max"), number_in("/sys/fs/cgroup/memory.current"));
 }
 
 std::uint64_t left_under_limit() {
@@ -68,8 +72,15 @@ void limit_memory(std::uint64_t bytes) {
     throw DataError(fmt::format("cannot limit memory: {}", std::strerror(errno)));
 }
 
+std::uint64_t left_in_control_group(const std::string& folder) {
+  const std::uint64_t current = number_in(folder + "/memory.current");
+  const std::string statistics = folder + "/memory.stat";
+  const std::uint64_t of_files = number_behind("active_file", statistics) + number_behind("inactive_file", statistics);
+  return difference(number_in(folder + "/memory.max"), current - std::min(current, of_files));
+}
+
 std::uint64_t memory_left() {
-  return std::min({left_under_limit(), left_in_control_group(), left_on_machine()});
+  return std::min({left_under_limit(), left_in_control_group("/sys/fs/cgroup"), left_on_machine()});
 }
 
 void expect_memory(std::uint64_t count, std::uint64_t bytes_each, std::string_view where) {

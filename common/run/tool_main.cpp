@@ -22,6 +22,7 @@
 #include "common/run/messages.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/parallel.hpp"
+#include "common/run/removed_files.hpp"
 #include "common/run/version.hpp"
 
 // Of the sanitizers, where there are any: with the name and the type that they give it.
@@ -57,13 +58,21 @@ std::string default_value(const CLI::Option& option) {
   return text;
 }
 
+// CLI11 gives a flag that switches something off, as --no-reductions, the value that it leaves to what is switched off.
+std::vector<std::string> given_values(const CLI::Option& option) {
+  std::vector<std::string> values = option.results();
+  if (option.check_fname(option.get_lnames().front()))
+    for (std::string& value : values) value = value == "false" ? "true" : "false";
+  return values;
+}
+
 nlohmann::ordered_json options_for_history(const CLI::App& app, const ToolInfo& info) {
   nlohmann::ordered_json options = nlohmann::ordered_json::object();
   for (const CLI::Option* option : app.get_options()) {
     if (!decides_result(*option, info)) continue;
     // Not by CLI11's join: a stream without memory cuts its text off and says nothing.
     const std::string value =
-        option->count() > 0 ? fmt::format("{}", fmt::join(option->results(), ",")) : default_value(*option);
+        option->count() > 0 ? fmt::format("{}", fmt::join(given_values(*option), ",")) : default_value(*option);
     if (!value.empty()) options[option->get_lnames().front()] = value;
   }
   return options;
@@ -151,7 +160,7 @@ void write_statistics(const RunContext& context, double seconds) {
   statistics["seconds"] = seconds;
   errno = 0;
   std::ofstream file(context.common.stats_file);
-  file << statistics.dump(2) << '\n';
+  file << statistics.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
   file.close();
   if (!file) throw DataError::at(context.common.stats_file, "cannot write: {}", std::strerror(errno));
 }
@@ -202,7 +211,7 @@ void end_without_memory() {
     if (const std::exception_ptr current = std::current_exception()) std::rethrow_exception(current);
   } catch (const std::bad_alloc&) {
     dprintf(STDERR_FILENO, "%s: not enough memory\n", program_invocation_short_name);
-    remove_registered_file();
+    remove_registered_files();
     _exit(exit_data);
   } catch (...) {
     usual_end();

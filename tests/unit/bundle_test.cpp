@@ -128,6 +128,17 @@ TEST(Bundle, TakesIntegersOfOtherWidthsWhereTheyFit) {
   EXPECT_THAT(reader.read_array<double>(), ElementsAre(0.5));
 }
 
+TEST(Bundle, RefusesFloatsOfHalfWidthByName) {
+  const std::string bytes = bundle_bytes([](BundleWriter& writer) {
+    writer.add_text("a.npy", npy_header({{'f', 2}, {3}}) + std::string(6, '\0'));
+  });
+  Input input = Input::from_memory(bytes, "test");
+  BundleReader reader(input);
+  reader.next();
+  EXPECT_THAT([&] { reader.read_array<double>(); },
+              ThrowsMessage<DataError>(HasSubstr("test: a.npy: expected numbers of type f8, found f2")));
+}
+
 TEST(Bundle, AnArrayThatOnlyClaimsToBeHugeIsRefusedWithoutAllocatingIt) {
   const std::string header = npy_header({{'i', 4}, {std::uint64_t{1} << 62}});
   const std::string bytes = bundle_bytes([&](BundleWriter& writer) { writer.add_text("a.npy", header + "1234"); });

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -127,6 +128,36 @@ TEST(CliqueDual, IsNearlyTightOnTrees) {
     EXPECT_GE(dual.bound, optimum);
     EXPECT_LT(static_cast<double>(dual.bound), 1.01 * static_cast<double>(optimum));
   }
+}
+
+// Temperatures are those of the heaviest vertex, and the sum of all prices at first does not fit 64 bits.
+TEST(CliqueDual, OneHeavyVertexAmongManyLightOnesOverflowsNoBound) {
+  constexpr std::int32_t edges = 1000;
+  for (const std::int64_t heaviest : {std::int64_t{1'000'000'000'000'000}, std::int64_t{4'000'000'000'000'000'000}}) {
+    std::vector<std::int64_t> weights{heaviest};
+    std::vector<std::pair<std::int32_t, std::int32_t>> ends;
+    for (std::int32_t i = 0; i < edges; ++i) {
+      weights.insert(weights.end(), {3, 5});
+      ends.emplace_back(2 * i + 1, 2 * i + 2);
+    }
+    const ConflictGraph graph = make_graph(weights, ends);
+    CliqueCover cover = greedy_edge_clique_cover(graph);
+    const CliqueDual dual = solve_clique_dual(graph, cover, {.passes = 30}, no_deadline);
+    EXPECT_EQ(dual.bound, heaviest + 5 * edges);
+    EXPECT_EQ(dual.bound, bound_of_prices(graph, cover, dual.prices));
+  }
+}
+
+TEST(CliqueDual, PricesWhoseSumOverflowsProveNothing) {
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  const ConflictGraph graph = make_graph({7, 8, 9}, {{0, 1}});
+  CliqueCover cover;
+  cover.add({0, 1});
+  cover.add({2});
+  EXPECT_EQ(bound_of_prices(graph, cover, {most, 1}), most);
+  EXPECT_EQ(bound_of_prices(graph, cover, {most, most}), most);
+  EXPECT_EQ(bound_of_prices(graph, cover, {most - 3, 3}), most) << "prices fit, what is left does not";
+  EXPECT_EQ(bound_of_prices(graph, cover, {8, 9}), 17);
 }
 
 TEST(CliqueDual, MorePassesAndMoreTimeHelp) {

@@ -10,6 +10,8 @@
 #include <string>
 #include <thread>
 
+#include "common/run/removed_files.hpp"
+
 namespace hexpipe {
 namespace {
 
@@ -40,12 +42,42 @@ TEST(SignalsDeathTest, TheFirstEndsAToolThatDoesNotSearchAndRemovesItsFile) {
   EXPECT_EXIT(
       {
         install_signal_handlers();
-        remove_on_signal(path.c_str());
+        RemovedFile file;
+        file.set(path.c_str());
         raise(SIGTERM);
         _exit(0);
       },
       testing::KilledBySignal(SIGTERM), "");
   EXPECT_FALSE(std::ifstream(path).good());
+}
+
+TEST(SignalsDeathTest, EveryRegisteredFileIsRemoved) {
+  const auto path = [](int i) { return testing::TempDir() + "signal_test_" + std::to_string(i); };
+  for (int i = 0; i < 6; ++i) std::ofstream(path(i)) << "half";
+  EXPECT_EXIT(
+      {
+        install_signal_handlers();
+        RemovedFile first;
+        RemovedFile second;
+        RemovedFile third;
+        first.set(path(0).c_str());
+        second.set(path(4).c_str());
+        second.set(path(1).c_str());  // in place of the one before
+        third.set(path(4).c_str());
+        third.set("");
+        { RemovedFile().set(path(5).c_str()); }
+        RemovedFile fourth;  // in the place of one that is gone
+        fourth.set(path(2).c_str());
+        RemovedFile fifth;
+        fifth.set(path(3).c_str());
+        raise(SIGTERM);
+        _exit(0);
+      },
+      testing::KilledBySignal(SIGTERM), "");
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_EQ(std::ifstream(path(i)).good(), i > 3) << i;
+    unlink(path(i).c_str());
+  }
 }
 
 TEST(SignalsDeathTest, TheFirstStopsASearchTheSecondEndsIt) {

@@ -28,7 +28,7 @@ const ConflictGraph path = make_graph({5, 7, 5}, {{0, 1}, {1, 2}});
 TEST(Dimacs, ReadsItsVariants) {
   EXPECT_EQ(read("c a path\np edge 3 2\nn 1 5\nn 2 7\nn 3 5\ne 1 2\ne 2 3\n"), path);
   EXPECT_EQ(read("p edge 3 2\r\nv 1 5\r\nv 2 7\r\nv 3 5\r\ne 1 2\r\ne 2 3\r\n"), path) << "weights of vertex covers";
-  EXPECT_EQ(read("\nc\n\np col 3 2\ne 3 2\nn 3 5\n\nn 1 5\nc more\ne 2 1\nn 2 7"), path) << "any order";
+  EXPECT_EQ(read("\nc\n\np col 3 2\ne 3 2\nn 3 5\n\nn 1 5\nc more\ne 2 1\nn 2 7\n"), path) << "any order";
   const ConflictGraph unweighted = make_graph({1, 1, 1}, {{0, 1}, {1, 2}});
   EXPECT_EQ(read("p td 3 2\n1 2\n2 3\n"), unweighted) << "PACE";
   EXPECT_EQ(read("p edge 3 4\ne 1 2\ne 2 1\ne 2 3\ne 3 2\n"), unweighted) << "both directions, counted twice";
@@ -75,6 +75,16 @@ TEST(Dimacs, NamesTheLine) {
   expect_rejected(begin + "e 1 2\n", "test.col:3: expected 2 edges as the problem line says, found 1");
   expect_rejected("p edge 3 1\ne 1 2\ne 2 1\ne 2 3\n", "test.col:4: expected 1 edges as the problem line says");
   expect_rejected(begin + "e 1 2\n" + std::string(1, '\0') + "\n", "test.col:4: expected a line of c, n, v or e");
+}
+
+TEST(Dimacs, RefusesAFileThatIsCutOffInItsLastNumber) {
+  const std::string text = "p edge 3 2\ne 1 2\ne 2 3\nn 1 55";
+  EXPECT_NO_THROW(read(text + "\n"));
+  expect_rejected(text, "test.col: expected the last line to have an end, found none; is the file cut off?");
+}
+
+TEST(Dimacs, KeepsControlCharactersOutOfMessages) {
+  expect_rejected("p edge \x1b[31m 2\n", "test.col:1: expected the number of vertices, found '?[31m'");
 }
 
 TEST(Dimacs, IsToldByItsFirstLetter) {

@@ -74,6 +74,12 @@ TEST(MixedMesh, EveryBlockIsChecked) {
     mesh = one_cell_of_each_kind();
     (mesh.*member).quality.resize(9);
     expect_invalid(mesh, "expected a quality for each");
+    for (const double quality : {std::nan(""), HUGE_VAL}) {
+      mesh = one_cell_of_each_kind();
+      (mesh.*member).quality = {quality};
+      (mesh.*member).quality.resize((mesh.*member).size(), 0.5);
+      expect_invalid(mesh, std::string(name) + "_quality[0]: expected a finite number, found ");
+    }
   };
   check(&MixedMesh::hexes, "hexes");
   check(&MixedMesh::prisms, "prisms");

@@ -82,7 +82,19 @@ TEST(SizeFiles, ReadABackgroundMesh) {
                "expected a positive size at every node of $NodeData, found 0");
 }
 
+// The numbers of a binary file may be any.
+TEST(SizeFiles, RefuseABackgroundMeshThatIsNone) {
+  const std::string sizes = node_data(1, "1 1\n2 1\n3 1\n4 1\n");
+  const auto expect_defect = [&](std::string_view from, std::string_view to, const std::string& message) {
+    std::string changed = msh;
+    expect_error(changed.replace(changed.find(from), from.size(), to) + sizes, message);
+  };
+  expect_defect("4 0 0 1\n", "4 0 0 1e300\n", "sizes: points[3]: expected coordinates up to 1e+50, found 0 0 1e+300");
+  expect_defect("1 1 2 3 4\n", "1 1 2 3 3\n", "sizes: tets[0]: expected 4 different vertices, found 2 twice");
+}
+
 TEST(SizeFiles, NameWhatIsWrong) {
+  expect_error("0 0 0 1\n1e300 0 0 0.5\n", "sizes:2: expected coordinates up to 1e+50, found 1e+300 0 0");
   expect_error("", "sizes: expected sizes, found none");
   expect_error("1\n0\n", "sizes:2: expected a positive size, found 0");
   expect_error("1\n-1\n", "sizes:2: expected a positive size, found -1");

@@ -23,7 +23,7 @@ void expect_rejected(const std::string& text, const char* message) {
 
 TEST(SolutionFile, ReadsNumbersFromOne) {
   EXPECT_EQ(read("2\n5\n", 5), (IndependentSet{1, 4}));
-  EXPECT_EQ(read("5\n2", 5), (IndependentSet{1, 4})) << "any order, no end of the last line";
+  EXPECT_EQ(read("5\n2\n", 5), (IndependentSet{1, 4})) << "any order";
   EXPECT_EQ(read(" 5 \r\n2\r\n\n", 5), (IndependentSet{1, 4}));
   EXPECT_EQ(read("1\n", 5), (IndependentSet{0}));
 }
@@ -59,6 +59,10 @@ TEST(SolutionFile, RejectsTruncatedLinesForEachVertex) {
   const std::string text = "0\n1\n0\n0\n1\n";
   for (std::size_t length = 0; length + 1 < text.size(); ++length)
     EXPECT_THROW(read(text.substr(0, length), 5), DataError) << length;
+}
+
+TEST(SolutionFile, RefusesAFileThatIsCutOffInItsLastNumber) {
+  expect_rejected("1\n2", "test.sol: expected the last line to have an end, found none; is the file cut off?");
 }
 
 TEST(SolutionFile, WritesNumbersFromOne) {

@@ -73,6 +73,17 @@ TEST_F(TetgenFiles, EitherFileLeadsToTheMesh) {
   EXPECT_THAT(read(".ele").triangles.tags, ElementsAre(5, 8, 0));
 }
 
+// Two tets that share a face may both be listed so that it turns the same way.
+TEST_F(TetgenFiles, AnInnerFaceIsToldInWhateverSenseTetsAreListed) {
+  ele.replace(ele.find("-20.0"), 5, "10");
+  const MixedMesh same = read(".ele");
+  ASSERT_EQ(same.triangles.size(), 2u);
+  ele.replace(ele.find("3     4     5"), 13, "3     5     4");
+  EXPECT_TRUE(read(".ele").triangles.cells == same.triangles.cells);
+  ele.replace(ele.find("3     4   10"), 12, "4     3   10");
+  EXPECT_TRUE(read(".ele").triangles.cells == same.triangles.cells);
+}
+
 TEST_F(TetgenFiles, FacesAndAttributesMayBeMissing) {
   face.clear();
   ele = "2 4\n1 1 2 3 4\n2 2 3 4 5\n";

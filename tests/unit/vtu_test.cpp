@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "formats/scalar_bytes.hpp"
+#include "formats/vtu.hpp"
 #include "sample_meshes.hpp"
 
 namespace hexpipe {
@@ -234,6 +235,27 @@ TEST(Vtu, NamesTheDefect) {
   expect("<Cells>", "<Verts/><Cells>", "");
   expect("<UnstructuredGrid>", "<UnstructuredGrid><Piece/>",
          "test:4: expected an attribute NumberOfPoints, found none");
+}
+
+TEST(Vtu, CountsLinesWithinTags) {
+  const std::string three_lines = "<DataArray\n type=\"Int64\"\n Name=\"tag\" format=\"ascii\">";
+  const std::string tag = "<DataArray type=\"Int64\" Name=\"tag\" format=\"ascii\">";
+  EXPECT_EQ(message_of_reading(changed(tag + "1 7 -5", three_lines + "1 7 x")),
+            "test:10: expected a number, found 'x'");
+  std::string text = changed(tag, three_lines);
+  text.replace(text.find("9 9 9"), 5, "9 x 9");
+  EXPECT_EQ(message_of_reading(text), "test:16: expected a number, found 'x'");
+  text = changed(tag, three_lines);
+  text.replace(text.find("2 6 9"), 5, "2 6 -9");
+  EXPECT_EQ(message_of_reading(text), "test:20: expected offsets from 0 up, found -9");
+}
+
+TEST(Vtu, NamesOfPiecesAreEscaped) {
+  const std::string text = hexpipe::testing::written_bytes([](Output& output) {
+    write_pvtu({"R&D/part-0000.vtu", "a<b>\"c\"/part-0001.vtu"}, output);
+  });
+  EXPECT_THAT(text, HasSubstr("<Piece Source=\"R&amp;D/part-0000.vtu\"/>"));
+  EXPECT_THAT(text, HasSubstr("<Piece Source=\"a&lt;b&gt;&quot;c&quot;/part-0001.vtu\"/>"));
 }
 
 TEST(Vtu, RefusesImpossibleCompression) {

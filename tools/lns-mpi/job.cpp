@@ -77,9 +77,10 @@ class Job {
  private:
   // Ranks may be started apart, each with a command line of its own; where these differ, some would wait for ever.
   void expect_same_options() {
+    const std::string options = context_.options.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     const std::string own =
-        fmt::format("{} {} parts, checkpoint '{}', certificate '{}', fragments '{}'", context_.options.dump(),
-                    options_.parts.size(), options_.checkpoint, options_.certificate, options_.fragments);
+        fmt::format("{} {} parts, checkpoint '{}', certificate '{}', fragments '{}'", options, options_.parts.size(),
+                    options_.checkpoint, options_.certificate, options_.fragments);
     Bytes first(own.begin(), own.end());
     ranks_.broadcast(first);
     ranks_.together([&] {

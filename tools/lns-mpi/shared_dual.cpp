@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
 
 #include "common/graph/clique_cover.hpp"
 #include "common/graph/subgraph.hpp"
@@ -53,24 +55,15 @@ class SharedDual {
     }
   }
 
+  // Where prices do not prove less than all weights together, which no sum of them overflows, there are none.
   std::int64_t whole_bound() {
-    std::int64_t bound = 0;
-    std::vector<std::int64_t> left = piece_.graph.weights;
-    for (BlockCliques& cliques : blocks_) {
-      cliques.whole_prices.resize(cliques.prices.size());
-      for (std::int64_t c = 0; c < cliques.cover.size(); ++c) {
-        const std::int64_t price = std::llround(cliques.prices[c]);
-        cliques.whole_prices[c] = price;
-        bound += price;
-        for (const std::int32_t i : cliques.cover.clique(c)) left[cliques.vertices[i]] -= price;
-      }
-    }
-    add_prices_of_others(left);
-    for (std::int32_t v = 0; v < piece_.vertex_count(); ++v)
-      if (piece_.owns(v)) bound += std::max<std::int64_t>(left[v], 0);
-    std::array<std::int64_t, 1> sum{bound};
-    ranks_.sum(sum);
-    return sum[0];
+    make_prices_whole();
+    const std::optional<std::int64_t> priced = sum_of_prices();
+    if (!priced) drop_prices();
+    const std::int64_t prices = priced.value_or(0), left = sum_of_costs();
+    if (prices <= std::numeric_limits<std::int64_t>::max() - left) return prices + left;
+    drop_prices();
+    return sum_of_costs();
   }
 
   void write(const std::string& path, std::int64_t bound) {
@@ -96,6 +89,47 @@ class SharedDual {
   }
 
  private:
+  void make_prices_whole() {
+    for (BlockCliques& cliques : blocks_) {
+      cliques.whole_prices.resize(cliques.prices.size());
+      for (std::int64_t c = 0; c < cliques.cover.size(); ++c)
+        cliques.whole_prices[c] = whole_price(cliques.cover.clique(c), cliques.prices[c], cliques.graph.weights);
+    }
+  }
+
+  void drop_prices() {
+    for (BlockCliques& cliques : blocks_) std::ranges::fill(cliques.whole_prices, 0);
+  }
+
+  // Of all ranks; nothing where it does not fit. Halves of numbers are summed up apart: 2^31 of them fit.
+  std::optional<std::int64_t> sum_of_prices() {
+    constexpr int half = 32;
+    std::array<std::int64_t, 2> halves{0, 0};
+    for (const BlockCliques& cliques : blocks_)
+      for (const std::int64_t price : cliques.whole_prices) {
+        halves[0] += price >> half;
+        halves[1] += price & ((std::int64_t{1} << half) - 1);
+      }
+    ranks_.sum(halves);
+    const std::int64_t high = halves[0] + (halves[1] >> half);
+    if (high > std::numeric_limits<std::int64_t>::max() >> half) return std::nullopt;
+    return (high << half) + (halves[1] & ((std::int64_t{1} << half) - 1));
+  }
+
+  // What vertices weigh beyond their prices, on all ranks.
+  std::int64_t sum_of_costs() {
+    std::vector<std::int64_t> left = piece_.graph.weights;
+    for (const BlockCliques& cliques : blocks_)
+      for (std::int64_t c = 0; c < cliques.cover.size(); ++c)
+        for (const std::int32_t i : cliques.cover.clique(c)) left[cliques.vertices[i]] -= cliques.whole_prices[c];
+    add_prices_of_others(left);
+    std::array<std::int64_t, 1> sum{0};
+    for (std::int32_t v = 0; v < piece_.vertex_count(); ++v)
+      if (piece_.owns(v)) sum[0] += std::max<std::int64_t>(left[v], 0);
+    ranks_.sum(sum);
+    return sum[0];
+  }
+
   // In the graph of the block and its neighbours, those with a vertex of the block.
   BlockCliques find_cliques(std::int32_t block) const {
     BlockCliques found;
