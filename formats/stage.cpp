@@ -213,6 +213,7 @@ struct Stage::State {
   // Where each role came from, for messages.
   std::map<Role, std::string> sources;
   std::set<Role> seen;
+  std::vector<Role> replaced;  // those that came from files of their own beside a bundle
   bool with_cover = false, with_part = false;
   std::set<Role> held_back;
 
@@ -297,7 +298,10 @@ StageData Stage::read(const std::vector<Role>& needs, const std::vector<Role>& w
 
   begin();
   StageData data;
-  if (input) state.read_bundle(*input, taken, data);
+  if (input) {
+    for (const auto& [role, file] : files) state.replaced.push_back(role);
+    state.read_bundle(*input, taken, data);
+  }
   state.read_files(files, data);
   for (const Role role : needs)
     if (!holds(data, role))
@@ -411,6 +415,7 @@ void Stage::State::check(const StageData& data) const {
 
 void Stage::State::write_history(const nlohmann::ordered_json& details) {
   nlohmann::ordered_json entry = history_entry_of(context);
+  for (const Role role : replaced) entry["replaced"].push_back(name_of(role));
   if (!details.is_null()) entry.update(details);
   write_history_entry(*bundle, history_member(history_count + 1, entry), entry);
 }

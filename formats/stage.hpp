@@ -63,7 +63,7 @@ class Stage {
   void begin();
 
   // Write the product, in the form that the command line asks for, then the history entry {tool, version, options,
-  // ...details}, and commit.
+  // replaced, ...details}, and commit; `replaced` where roles came from files beside a bundle.
   void write(const TetMesh& mesh, const nlohmann::ordered_json& details);
   // Of a part of a mesh, with their keys in a bundle; else null.
   void write(const Candidates& candidates, const CandidateKeys* keys, const nlohmann::ordered_json& details);

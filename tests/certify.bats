@@ -97,6 +97,14 @@ assert json.load(open(glob.glob("history/*assemble.json")[0]))["choice"] == choi
 assert f"the choice weighs {choice['weight']}, at most {choice['bound']} is possible" in open("log").read()
 PYTHON
   buildgraph chosen.tar --weight count -o other.graph
+  # Nor do stages behind the one that took the other graph; a bound of its own counts.
+  initsol chosen.tar --graph other.graph --iterations 10 -o swapped.tar
+  tar xOf swapped.tar history/05-initsol.json | tr -d ' \n' | grep -qF '"replaced":["graph"]'
+  assemble swapped.tar --stats stats.json -o mesh.vtu
+  assert_equal "$(grep -c '"choice"' stats.json)" 0
+  assert_fails_with 1 "lns: --target-gap needs a bound" lns swapped.tar --target-gap 0.1 -o out.tar
+  certify swapped.tar --iterations 10 --stats proven.json | assemble --stats stats.json -o mesh.vtu
+  "$PYTHON" -c 'import json; a, b = (json.load(open(f)) for f in ("stats.json", "proven.json")); assert a["choice"]["bound"] == b["bound"]'
   assemble chosen.tar --graph other.graph --stats stats.json -o mesh.vtu
   assert_equal "$(grep -c '"choice"' stats.json)" 0
 }
