@@ -214,7 +214,7 @@ struct Stage::State {
   std::map<Role, std::string> sources;
   std::set<Role> seen;
   std::vector<Role> replaced;  // those that came from files of their own beside a bundle
-  bool with_cover = false, with_part = false;
+  bool with_cover = false, with_part = false, with_weights = false;
   std::set<Role> held_back;
 
   Role product() const { return *context.info.product; }
@@ -323,6 +323,7 @@ void Stage::State::read_bundle(Input& input, const std::set<Role>& taken, StageD
       seen.insert(*role);
       sources[*role] = input.name();
       if (with_part && read_part_member(reader, data, passes ? &*bundle : nullptr)) continue;
+      if (with_weights && read_weights(reader, data, passes ? &*bundle : nullptr)) continue;
       if (taken.contains(*role) && read_member(reader, data, passes ? &*bundle : nullptr, with_cover)) continue;
     }
     if (is_history_entry(reader.name())) {
@@ -370,6 +371,10 @@ std::string Stage::State::source_of(Role role) const {
 
 void Stage::take_cover() {
   state_->with_cover = true;
+}
+
+void Stage::take_weights() {
+  state_->with_weights = true;
 }
 
 void Stage::take_part() {

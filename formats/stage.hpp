@@ -49,6 +49,9 @@ class Stage {
 
   // Before reading: takes the graph's clique cover too, where there is one, validated.
   void take_cover();
+  // Before reading: takes no more of a bundle's graph than the weights, as a graph without edges, for the edges may be
+  // most of what there is to hold. A graph from a file of its own has them.
+  void take_weights();
   // Before reading: takes what a part of a mesh has beside mesh and candidates, where it is one.
   void take_part();
   // Before reading: members of this role do not pass, for the tool writes them anew with its product.

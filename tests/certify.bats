@@ -96,6 +96,14 @@ assert json.load(open("stats.json"))["choice"] == choice
 assert json.load(open(glob.glob("history/*assemble.json")[0]))["choice"] == choice
 assert f"the choice weighs {choice['weight']}, at most {choice['bound']} is possible" in open("log").read()
 PYTHON
+  # Of the graph in the bundle it needs no more than the weights, and passes the rest on as it is.
+  "$PYTHON" "$DATA/change_array.py" chosen.tar edgeless.tar graph/neighbours.npy "a[:0]"
+  assemble edgeless.tar --stats edgeless.json -o passed.tar
+  assert_equal "$("$PYTHON" -c 'import json; print(json.load(open("edgeless.json"))["choice"])')" \
+    "$("$PYTHON" -c 'import json; print(json.load(open("stats.json"))["choice"])')"
+  for member in offsets neighbours weights; do
+    assert_same_bytes <(tar xOf edgeless.tar graph/$member.npy) <(tar xOf passed.tar graph/$member.npy)
+  done
   buildgraph chosen.tar --weight count -o other.graph
   # Nor do stages behind the one that took the other graph; a bound of its own counts.
   initsol chosen.tar --graph other.graph --iterations 10 -o swapped.tar
