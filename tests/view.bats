@@ -159,6 +159,22 @@ PYTHON
   assert_fails_with 2 "size" view result.vtu --size 0,100 --png no.png
 }
 
+@test "a solution beyond the candidates is told as assemble tells it" {
+  count=$("$PYTHON" -c 'import io, tarfile, numpy; t = tarfile.open("graph.tar")
+print(len(numpy.load(io.BytesIO(t.extractfile("candidates/kind.npy").read()))))')
+  "$PYTHON" "$DATA/change_array.py" solution.tar beyond.tar solution/chosen.npy "np.array([0, $count], '<i4')"
+  "$PYTHON" - <<'PYTHON'
+import tarfile
+with tarfile.open("beyond.tar") as old, tarfile.open("graphless.tar", "w", format=tarfile.PAX_FORMAT) as new:
+    for member in old:
+        if not member.name.startswith("graph/"):
+            new.addfile(member, old.extractfile(member))
+PYTHON
+  local message="graphless.tar: .*expected candidates from 1 to $count, found $((count + 1))$"
+  assert_fails_with 1 "^view: $message" view graphless.tar -o no.html
+  assert_fails_with 1 "^assemble: $message" assemble graphless.tar -o no.vtu
+}
+
 @test "nothing to show is one clear line" {
   cat >empty.mesh <<<$'MeshVersionFormatted 2\nDimension 3\nVertices\n1\n0 0 0 0\nEnd'
   assert_fails_with 1 "^view: empty.mesh: expected cells in the result, found none" view empty.mesh -o no.html
@@ -207,8 +223,13 @@ PYTHON
   if sanitized; then skip "the browser is not sanitized"; fi
   if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
   tetmesh "$DATA/bracket.stl" --size 5 | findhex | buildgraph | initsol --iterations 20000 |
-    certify --iterations 20 | assemble | view -o bracket.html
-  run timeout 200 "$PYTHON" "$HEXPIPE_SOURCE/tests/browser/page_test.py" bracket.html screenshots
+    certify --iterations 20 -o chosen.tar
+  assemble chosen.tar | view -o bracket.html
+  view chosen.tar --show candidates -o candidates.html
+  view chosen.tar -o chosen.html
+  findhex chosen.tar -o bracket.cand
+  run timeout 200 "$PYTHON" "$HEXPIPE_SOURCE/tests/browser/page_test.py" bracket.html screenshots bracket.cand \
+    candidates.html chosen.html
   assert_success
   assert_output "the page works"
   assert [ "$(ls screenshots | wc -l)" -ge 15 ]
