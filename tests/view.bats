@@ -129,10 +129,11 @@ PYTHON
 }
 
 @test "wrong words in --view end with 2" {
-  for state in clip=w:0.5 clip=x clip=x:2 clip=0,0,0:0.5 quality=1 quality=nan,1 peel=-1 kinds=cube colour=pink edges=maybe \
-    theme=grey camera=1,2,3 camera=0,91,1,0,0,0 zoom=1 nonsense; do
+  while read -r state; do
     assert_fails_with 2 "--view: " view result.vtu --view "$state" -o no.html
-  done
+  done <"$DATA/wrong_views.txt"
+  assert_fails_with 2 "--view: kinds: expected none or some of hex, prism, pyramid, tet, found ''" \
+    view result.vtu --view kinds= -o no.html
   assert [ ! -e no.html ]
 }
 

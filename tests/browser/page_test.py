@@ -95,6 +95,10 @@ class Page:
         assert self.browser.save_screenshot(str(self.folder / f"{name}.png"))
 
 
+# A line each what --view refuses, as view.bats checks.
+WRONG_VIEWS = (pathlib.Path(__file__).parent.parent / "data" / "wrong_views.txt").read_text().splitlines()
+
+
 def difference(one, other):
     """On average, of 255."""
     return sum(abs(a - b) for a, b in zip(one, other)) / len(one)
@@ -272,8 +276,14 @@ def check_link(page, address):
     assert page.browser.current_url == link
     assert difference(page.picture(), before) < 1, "the link shows another picture"
     page.browser.get("about:blank")
-    page.open(address + "#clip=nonsense&peel=x&colour=none&nothing")  # what is no view changes nothing
-    page.settles_with(peel="0", colour="hexes")
+    page.open(address)
+    before = page.state()
+    page.browser.get("about:blank")
+    page.open(address + "#" + "&".join(WRONG_VIEWS))  # what is no view changes nothing
+    assert page.state() == before, page.state()
+    page.browser.get("about:blank")
+    page.open(address + "#camera=1e1,-90,.5,0,0,0&clip=-x:0.25&quality=-1,0.5&peel=1.5&kinds=none&fragment=0")
+    page.settles_with(camera="10,-90,0.5,0,0,0", clip="-x:0.25", quality="-1,0.5", peel="1", kinds="none")
 
 
 def check_console(page):
