@@ -11,6 +11,7 @@ namespace hexpipe {
 namespace {
 
 constexpr const char* part_json = "mesh/part.json";
+constexpr const char* graph_weights = "graph/weights.npy";
 constexpr const char* piece_json = "result/piece.json";
 constexpr std::size_t longest_part_json = 1 << 20;
 
@@ -65,7 +66,7 @@ template <class Graph, class Visit>
 void visit_members_of_graph(Graph& graph, Visit&& visit) {
   visit("graph/offsets.npy", graph.offsets);
   visit("graph/neighbours.npy", graph.neighbours);
-  visit("graph/weights.npy", graph.weights);
+  visit(graph_weights, graph.weights);
 }
 
 template <class Cover, class Visit>
@@ -192,6 +193,15 @@ bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy, bool
       break;
   }
   return known;
+}
+
+bool read_weights(BundleReader& reader, StageData& data, BundleWriter* copy) {
+  if (reader.name() != graph_weights) return false;
+  ConflictGraph& graph = ensure(data.graph);
+  graph.weights = reader.read_array<std::int64_t>();
+  graph.offsets.assign(graph.weights.size() + 1, 0);
+  if (copy) copy->add_array(graph_weights, graph.weights);
+  return true;
 }
 
 bool is_part_title(std::string_view name) {

@@ -19,6 +19,9 @@ std::optional<Role> role_of_member(std::string_view name);
 // unread).
 bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy, bool with_cover);
 
+// The same for the weights of the graph alone, which is then one without edges.
+bool read_weights(BundleReader& reader, StageData& data, BundleWriter* copy);
+
 // Whether it says that what follows is a part of a mesh, and which.
 bool is_part_title(std::string_view name);
 // The same for what a part of a mesh has beside mesh and candidates.

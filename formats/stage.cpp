@@ -213,7 +213,8 @@ struct Stage::State {
   // Where each role came from, for messages.
   std::map<Role, std::string> sources;
   std::set<Role> seen;
-  bool with_cover = false, with_part = false;
+  std::vector<Role> replaced;  // those that came from files of their own beside a bundle
+  bool with_cover = false, with_part = false, with_weights = false;
   std::set<Role> held_back;
 
   Role product() const { return *context.info.product; }
@@ -297,7 +298,10 @@ StageData Stage::read(const std::vector<Role>& needs, const std::vector<Role>& w
 
   begin();
   StageData data;
-  if (input) state.read_bundle(*input, taken, data);
+  if (input) {
+    for (const auto& [role, file] : files) state.replaced.push_back(role);
+    state.read_bundle(*input, taken, data);
+  }
   state.read_files(files, data);
   for (const Role role : needs)
     if (!holds(data, role))
@@ -319,6 +323,7 @@ void Stage::State::read_bundle(Input& input, const std::set<Role>& taken, StageD
       seen.insert(*role);
       sources[*role] = input.name();
       if (with_part && read_part_member(reader, data, passes ? &*bundle : nullptr)) continue;
+      if (with_weights && read_weights(reader, data, passes ? &*bundle : nullptr)) continue;
       if (taken.contains(*role) && read_member(reader, data, passes ? &*bundle : nullptr, with_cover)) continue;
     }
     if (is_history_entry(reader.name())) {
@@ -368,6 +373,10 @@ void Stage::take_cover() {
   state_->with_cover = true;
 }
 
+void Stage::take_weights() {
+  state_->with_weights = true;
+}
+
 void Stage::take_part() {
   state_->with_part = true;
 }
@@ -411,6 +420,7 @@ void Stage::State::check(const StageData& data) const {
 
 void Stage::State::write_history(const nlohmann::ordered_json& details) {
   nlohmann::ordered_json entry = history_entry_of(context);
+  for (const Role role : replaced) entry["replaced"].push_back(name_of(role));
   if (!details.is_null()) entry.update(details);
   write_history_entry(*bundle, history_member(history_count + 1, entry), entry);
 }

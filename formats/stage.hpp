@@ -49,6 +49,9 @@ class Stage {
 
   // Before reading: takes the graph's clique cover too, where there is one, validated.
   void take_cover();
+  // Before reading: takes no more of a bundle's graph than the weights, as a graph without edges, for the edges may be
+  // most of what there is to hold. A graph from a file of its own has them.
+  void take_weights();
   // Before reading: takes what a part of a mesh has beside mesh and candidates, where it is one.
   void take_part();
   // Before reading: members of this role do not pass, for the tool writes them anew with its product.
@@ -63,7 +66,7 @@ class Stage {
   void begin();
 
   // Write the product, in the form that the command line asks for, then the history entry {tool, version, options,
-  // ...details}, and commit.
+  // replaced, ...details}, and commit; `replaced` where roles came from files beside a bundle.
   void write(const TetMesh& mesh, const nlohmann::ordered_json& details);
   // Of a part of a mesh, with their keys in a bundle; else null.
   void write(const Candidates& candidates, const CandidateKeys* keys, const nlohmann::ordered_json& details);

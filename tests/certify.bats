@@ -96,7 +96,23 @@ assert json.load(open("stats.json"))["choice"] == choice
 assert json.load(open(glob.glob("history/*assemble.json")[0]))["choice"] == choice
 assert f"the choice weighs {choice['weight']}, at most {choice['bound']} is possible" in open("log").read()
 PYTHON
+  # Of the graph in the bundle it needs no more than the weights, and passes the rest on as it is.
+  "$PYTHON" "$DATA/change_array.py" chosen.tar edgeless.tar graph/neighbours.npy "a[:0]"
+  assemble edgeless.tar --stats edgeless.json -o passed.tar
+  assert_equal "$("$PYTHON" -c 'import json; print(json.load(open("edgeless.json"))["choice"])')" \
+    "$("$PYTHON" -c 'import json; print(json.load(open("stats.json"))["choice"])')"
+  for member in offsets neighbours weights; do
+    assert_same_bytes <(tar xOf edgeless.tar graph/$member.npy) <(tar xOf passed.tar graph/$member.npy)
+  done
   buildgraph chosen.tar --weight count -o other.graph
+  # Nor do stages behind the one that took the other graph; a bound of its own counts.
+  initsol chosen.tar --graph other.graph --iterations 10 -o swapped.tar
+  tar xOf swapped.tar history/05-initsol.json | tr -d ' \n' | grep -qF '"replaced":["graph"]'
+  assemble swapped.tar --stats stats.json -o mesh.vtu
+  assert_equal "$(grep -c '"choice"' stats.json)" 0
+  assert_fails_with 1 "lns: --target-gap needs a bound" lns swapped.tar --target-gap 0.1 -o out.tar
+  certify swapped.tar --iterations 10 --stats proven.json | assemble --stats stats.json -o mesh.vtu
+  "$PYTHON" -c 'import json; a, b = (json.load(open(f)) for f in ("stats.json", "proven.json")); assert a["choice"]["bound"] == b["bound"]'
   assemble chosen.tar --graph other.graph --stats stats.json -o mesh.vtu
   assert_equal "$(grep -c '"choice"' stats.json)" 0
 }

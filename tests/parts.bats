@@ -344,8 +344,8 @@ PYTHON
   merge-parts k/graph-*.tar | initsol -q --iterations 50 --seed 5 -o other.tar
   $PYTHON "$DATA/split_solution.py" other.tar others k/graph-*.tar
   assert_fails_with 1 "others/part-0000.tar: expected a solution made with the version and options of k/solved/part-0001.tar" $one --neighbours others/part-0000.tar k/solved/part-000[12].tar -o out.tar
-  # A candidate of the first part that shares a tet with a chosen one of the second.
-  row=$($PYTHON - k/solved/part-0000.tar k/solved/part-0001.tar <<'PYTHON'
+  # A candidate of the first part that shares a tet with a chosen one of the second: both are told by their own numbers.
+  read -r row theirs < <($PYTHON - k/solved/part-0000.tar k/solved/part-0001.tar <<'PYTHON'
 import io, sys, tarfile
 import numpy as np
 
@@ -354,14 +354,24 @@ def arrays(path):
         return {m.name: np.load(io.BytesIO(tar.extractfile(m).read())) for m in tar if m.name.endswith(".npy")}
 
 first, second = arrays(sys.argv[1]), arrays(sys.argv[2])
-theirs = second["solution/chosen.npy"]
-theirs = second["candidates/key.npy"][theirs[second["candidates/part.npy"][theirs] == 1]]
+chosen = second["solution/chosen.npy"]
+chosen = chosen[second["candidates/part.npy"][chosen] == 1]
+theirs = second["candidates/key.npy"][chosen]
 key, part, offsets, neighbours = (first[n + ".npy"] for n in ("candidates/key", "candidates/part", "graph/offsets", "graph/neighbours"))
-print(next(v for v in np.flatnonzero(part == 0) if np.isin(key[neighbours[offsets[v]:offsets[v + 1]]], theirs).any()))
+beside = lambda v: np.isin(theirs, key[neighbours[offsets[v]:offsets[v + 1]]])
+row = next(v for v in np.flatnonzero(part == 0) if beside(v).any())
+print(row, "|".join(str(v + 1) for v in chosen[beside(row)]))
 PYTHON
   )
   $PYTHON "$DATA/change_array.py" k/solved/part-0000.tar crossing.tar solution/chosen.npy "np.array([$row], '<i4')"
-  assert_fails_with 1 "part-0001.tar: solution: expected candidates that fit together" $one --neighbours crossing.tar k/solved/part-000[12].tar -o out.tar
+  local mine="($theirs)" other="$((row + 1)) of crossing.tar"
+  assert_fails_with 1 "part-0001.tar: solution: expected candidates that fit together, found ($mine and $other|$other and $mine) which" $one --neighbours crossing.tar k/solved/part-000[12].tar -o out.tar
+  # A tet is told by its number in the bundle, a ghost too.
+  local turned='np.concatenate([a[:N], a[N:N + 1][:, [1, 0, 2, 3]], a[N + 1:]])' tet
+  for tet in 0 100; do
+    $PYTHON "$DATA/change_array.py" k/solved/part-0001.tar turned.tar mesh/tets.npy "${turned//N/$tet}"
+    assert_fails_with 1 "turned.tar: mesh: expected positively oriented tets, found tet $((tet + 1)) flat or inverted" assemble turned.tar --neighbours turned.tar k/solved/part-000[02].tar -o out.tar
+  done
   # Pieces.
   assert_fails_with 1 "k/1/part-0000.tar: expected a settled piece, found one that needs another round of assemble --before" merge-parts k/1/*.tar -o out.vtu
   mv k/1 first

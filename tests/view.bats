@@ -129,10 +129,11 @@ PYTHON
 }
 
 @test "wrong words in --view end with 2" {
-  for state in clip=w:0.5 clip=x clip=x:2 clip=0,0,0:0.5 quality=1 quality=nan,1 peel=-1 kinds=cube colour=pink edges=maybe \
-    theme=grey camera=1,2,3 camera=0,91,1,0,0,0 zoom=1 nonsense; do
+  while read -r state; do
     assert_fails_with 2 "--view: " view result.vtu --view "$state" -o no.html
-  done
+  done <"$DATA/wrong_views.txt"
+  assert_fails_with 2 "--view: kinds: expected none or some of hex, prism, pyramid, tet, found ''" \
+    view result.vtu --view kinds= -o no.html
   assert [ ! -e no.html ]
 }
 
@@ -157,6 +158,22 @@ assert len(np.unique(middle, axis=0)) > 100
 PYTHON
   assert_success
   assert_fails_with 2 "size" view result.vtu --size 0,100 --png no.png
+}
+
+@test "a solution beyond the candidates is told as assemble tells it" {
+  count=$("$PYTHON" -c 'import io, tarfile, numpy; t = tarfile.open("graph.tar")
+print(len(numpy.load(io.BytesIO(t.extractfile("candidates/kind.npy").read()))))')
+  "$PYTHON" "$DATA/change_array.py" solution.tar beyond.tar solution/chosen.npy "np.array([0, $count], '<i4')"
+  "$PYTHON" - <<'PYTHON'
+import tarfile
+with tarfile.open("beyond.tar") as old, tarfile.open("graphless.tar", "w", format=tarfile.PAX_FORMAT) as new:
+    for member in old:
+        if not member.name.startswith("graph/"):
+            new.addfile(member, old.extractfile(member))
+PYTHON
+  local message="graphless.tar: .*expected candidates from 1 to $count, found $((count + 1))$"
+  assert_fails_with 1 "^view: $message" view graphless.tar -o no.html
+  assert_fails_with 1 "^assemble: $message" assemble graphless.tar -o no.vtu
 }
 
 @test "nothing to show is one clear line" {
@@ -207,8 +224,13 @@ PYTHON
   if sanitized; then skip "the browser is not sanitized"; fi
   if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
   tetmesh "$DATA/bracket.stl" --size 5 | findhex | buildgraph | initsol --iterations 20000 |
-    certify --iterations 20 | assemble | view -o bracket.html
-  run timeout 200 "$PYTHON" "$HEXPIPE_SOURCE/tests/browser/page_test.py" bracket.html screenshots
+    certify --iterations 20 -o chosen.tar
+  assemble chosen.tar | view -o bracket.html
+  view chosen.tar --show candidates -o candidates.html
+  view chosen.tar -o chosen.html
+  findhex chosen.tar -o bracket.cand
+  run timeout 200 "$PYTHON" "$HEXPIPE_SOURCE/tests/browser/page_test.py" bracket.html screenshots bracket.cand \
+    candidates.html chosen.html
   assert_success
   assert_output "the page works"
   assert [ "$(ls screenshots | wc -l)" -ge 15 ]

@@ -6,15 +6,28 @@
 #include "common/run/error.hpp"
 
 namespace hexpipe {
+namespace {
+
+// Whether the stage made what is chosen from, or took it from a file in place of what the bundle held.
+bool brings_another_graph(const nlohmann::ordered_json& entry) {
+  const auto tool = entry.find("tool");
+  if (tool != entry.end() && (*tool == "tetmesh" || *tool == "findhex" || *tool == "buildgraph")) return true;
+  const auto replaced = entry.find("replaced");
+  return replaced != entry.end() && replaced->is_array() && std::ranges::any_of(*replaced, [](const auto& role) {
+           return role == "mesh" || role == "candidates" || role == "graph";
+         });
+}
+
+}  // namespace
 
 std::optional<std::int64_t> bound_in(const std::vector<nlohmann::ordered_json>& history) {
   std::optional<std::int64_t> lowest;
   for (const auto& entry : history) {
-    if (!entry.is_object() || !entry.contains("tool")) continue;
-    const auto& tool = entry["tool"];
-    if (tool == "tetmesh" || tool == "findhex" || tool == "buildgraph") lowest.reset();
-    const auto bound = entry.find("bound");
-    if (tool != "certify" || bound == entry.end() || !bound->is_number_integer()) continue;
+    if (!entry.is_object()) continue;
+    // Before the entry's own bound, which is that of the graph it was given.
+    if (brings_another_graph(entry)) lowest.reset();
+    const auto tool = entry.find("tool"), bound = entry.find("bound");
+    if (tool == entry.end() || *tool != "certify" || bound == entry.end() || !bound->is_number_integer()) continue;
     lowest = std::min(lowest.value_or(bound->get<std::int64_t>()), bound->get<std::int64_t>());
   }
   return lowest;

@@ -8,7 +8,7 @@
 
 namespace hexpipe {
 
-// The lowest bound that certify has proven since the graph was made, by the history of a bundle.
+// The lowest bound that certify has proven since the graph was made or came from a file, by the history of a bundle.
 std::optional<std::int64_t> bound_in(const std::vector<nlohmann::ordered_json>& history);
 
 // How far a weight is from a bound, as a share of the bound; 0 where the bound is.

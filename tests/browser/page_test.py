@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""page_test.py PAGE.html FOLDER - what a user does with a page of view, done in headless Chromium.
+"""page_test.py PAGE.html FOLDER CANDIDATES.cand CHOICE.html... - what a user does with a page, in headless Chromium.
 
 Moves the clipping plane along every axis, peels, filters, picks a cell, draws in the histogram, changes colours and theme,
 reads the history, copies a link and follows it, downloads a picture, and leaves screenshots in FOLDER. Ends with 1 and a
 line that says what was wrong, also when the console has errors or the page asks the network for something.
+Pages of candidates or of a solution give cells the numbers that they have in the .cand file.
 """
 import json
 import pathlib
@@ -94,6 +95,10 @@ class Page:
         assert self.browser.save_screenshot(str(self.folder / f"{name}.png"))
 
 
+# A line each what --view refuses, as view.bats checks.
+WRONG_VIEWS = (pathlib.Path(__file__).parent.parent / "data" / "wrong_views.txt").read_text().splitlines()
+
+
 def difference(one, other):
     """On average, of 255."""
     return sum(abs(a - b) for a, b in zip(one, other)) / len(one)
@@ -167,13 +172,26 @@ def check_peeling_and_kinds(page, cells):
     assert without == cells, without
 
 
-def check_picking(page):
+def pick(page):
+    """What the page says of the cell in the middle."""
     assert not page.find("#picked").is_displayed()
-    scene = page.find("#scene")
-    ActionChains(page.browser).move_to_element_with_offset(scene, 0, 0).click().perform()
+    ActionChains(page.browser).move_to_element_with_offset(page.find("#scene"), 0, 0).click().perform()
     page.wait(lambda: page.find("#picked").is_displayed())
-    rows = dict([td.text for td in row.find_elements(By.CSS_SELECTOR, "td")]
+    return dict([td.text for td in row.find_elements(By.CSS_SELECTOR, "td")]
                 for row in page.find("#picked").find_elements(By.CSS_SELECTOR, "tr"))
+
+
+def check_numbers(page, address, candidates):
+    page.open(address + "#kinds=hex,prism,pyramid")
+    rows = pick(page)
+    number = next(iter(rows.values()))
+    kind, *fields = candidates[int(number.removeprefix("number "))].split()
+    corners = {"hex": 8, "prism": 6, "pyramid": 5}[kind]
+    assert [int(v) - 1 for v in fields[4:4 + corners]] == [int(v) for v in rows["vertices"].split()], rows
+
+
+def check_picking(page):
+    rows, scene = pick(page), page.find("#scene")
     kind, corners = next(iter(rows)), len(rows["vertices"].split())
     assert {"hex": 8, "prism": 6, "pyramid": 5, "tet": 4}[kind] == corners, rows
     assert 0 < float(rows["scaled Jacobian"]) <= 1 and rows["layer"] == "1" and len(rows["middle"].split(",")) == 3, rows
@@ -258,8 +276,14 @@ def check_link(page, address):
     assert page.browser.current_url == link
     assert difference(page.picture(), before) < 1, "the link shows another picture"
     page.browser.get("about:blank")
-    page.open(address + "#clip=nonsense&peel=x&colour=none&nothing")  # what is no view changes nothing
-    page.settles_with(peel="0", colour="hexes")
+    page.open(address)
+    before = page.state()
+    page.browser.get("about:blank")
+    page.open(address + "#" + "&".join(WRONG_VIEWS))  # what is no view changes nothing
+    assert page.state() == before, page.state()
+    page.browser.get("about:blank")
+    page.open(address + "#camera=1e1,-90,.5,0,0,0&clip=-x:0.25&quality=-1,0.5&peel=1.5&kinds=none&fragment=0")
+    page.settles_with(camera="10,-90,0.5,0,0,0", clip="-x:0.25", quality="-1,0.5", peel="1", kinds="none")
 
 
 def check_console(page):
@@ -275,6 +299,7 @@ def check_console(page):
 def main():
     address = pathlib.Path(sys.argv[1]).resolve().as_uri()
     folder = pathlib.Path(sys.argv[2])
+    candidates = pathlib.Path(sys.argv[3]).read_text().splitlines()
     folder.mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         downloads = pathlib.Path(profile) / "downloads"
@@ -292,6 +317,8 @@ def main():
             check_history(page)
             check_png(page, downloads)
             check_link(page, address)
+            for choice in sys.argv[4:]:
+                check_numbers(page, pathlib.Path(choice).resolve().as_uri(), candidates)
             check_console(page)
         finally:
             browser.quit()

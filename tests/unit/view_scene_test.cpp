@@ -153,7 +153,7 @@ TEST(ViewState, TextAndBack) {
 }
 
 TEST(ViewState, RefusesWhatIsNone) {
-  for (const char* text : {"clip=a:1", "clip=x:nan", "quality=0", "quality=2,3", "peel=x", "colour=", "=",
+  for (const char* text : {"clip=a:1", "clip=x:nan", "quality=0", "quality=2,3", "peel=x", "colour=", "=", "kinds=",
                            "kinds=hexes", "camera=1,1,0,0,0,0", "edges=1", "theme", "fragment=-1", "clip=1,2,3:0.5"})
     EXPECT_THROW(parse_view_state(text), UsageError) << text;
 }

@@ -25,14 +25,6 @@
 namespace hexpipe {
 namespace {
 
-void check_orientation(const TetMesh& mesh, const InputNames& names) {
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    const auto& [a, b, c, d] = mesh.tets[t];
-    if (orientation(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) <= 0)
-      throw DataError::at(names.mesh, "expected positively oriented tets, found tet {} flat or inverted", t + 1);
-  }
-}
-
 void check_chosen(const IndependentSet& chosen, const Candidates& candidates, const InputNames& names) {
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     if (chosen[i] < 0 || static_cast<std::size_t>(chosen[i]) >= candidates.size())
@@ -316,6 +308,14 @@ AssembleResult Assembler::run() {
 }
 
 }  // namespace
+
+void check_orientation(const TetMesh& mesh, const InputNames& names) {
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const auto& [a, b, c, d] = mesh.tets[t];
+    if (orientation(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) <= 0)
+      throw DataError::at(names.mesh, "expected positively oriented tets, found tet {} flat or inverted", t + 1);
+  }
+}
 
 AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const IndependentSet& chosen,
                         const AssembleOptions& options, const InputNames& names, const Seam* seam) {

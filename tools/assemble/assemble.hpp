@@ -25,6 +25,9 @@ struct AssembleResult {
   IndependentSet left;  // the chosen candidates that are cells of the mesh, ascending
 };
 
+// Throws DataError, with the mesh's name and the number of the tet from 1, when one is not positively oriented.
+void check_orientation(const TetMesh& mesh, const InputNames& names);
+
 // The chosen cells and the tets that remain, with the input's regions and tagged facets; with Conformity::pyramids
 // conforming. The result is checked (self_check.hpp) before it is returned.
 //

@@ -9,8 +9,10 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <span>
 #include <utility>
 
+#include "common/mesh/orientation.hpp"
 #include "common/run/error.hpp"
 #include "formats/part_bundle.hpp"
 #include "tools/assemble/complete_surface.hpp"
@@ -82,12 +84,30 @@ std::vector<std::int64_t> point_numbers(const std::vector<Vertex>& origin, const
   return numbers;
 }
 
+// For messages about some of the view's cells, in this order.
+InputNames names_of_cells(InputNames names, const PartView& view, std::span<const std::int32_t> cells) {
+  names.bundles = view.bundles;
+  names.origins.clear();
+  for (const std::int32_t i : cells) names.origins.push_back(view.origins[i]);
+  return names;
+}
+
+IndependentSet all_of(const Candidates& cells) {
+  IndependentSet all(cells.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
 }  // namespace
 
 PartResult assemble_part(PartView view, const std::vector<std::string>& before_paths, const AssembleOptions& options,
-                         const InputNames& names) {
-  const Before before = read_round_before(view.part, before_paths, names.solution);
+                         const InputNames& bundle_names) {
+  const Before before = read_round_before(view.part, before_paths, bundle_names.solution);
+  const InputNames names = names_of_cells(bundle_names, view, all_of(view.cells));
+  // Here, for the piece's tets are not numbered as the bundle's.
+  check_orientation(view.mesh, names);
   const TetAdjacency adjacency(view.mesh, names.mesh.c_str());
+  check_sides(view.mesh, adjacency, names.mesh.c_str());
   complete_surface(view.mesh, adjacency);
   const SurfaceTags tags(view.mesh);
   const Pieces pieces = divide_tets(view, tags, adjacency, before.said, names);
@@ -104,9 +124,9 @@ PartResult assemble_part(PartView view, const std::vector<std::string>& before_p
   piece.given_back = before.said.given_back;
   for (const std::int32_t i : cells.given_back) piece.given_back.push_back(view.keys.key[i]);
   if (!input.mesh.tets.empty()) {
-    IndependentSet all(input.cells.size());
-    std::iota(all.begin(), all.end(), 0);
-    AssembleResult assembled = assemble(std::move(input.mesh), input.cells, all, options, names, &input.seam);
+    const IndependentSet all = all_of(input.cells);
+    AssembleResult assembled = assemble(std::move(input.mesh), input.cells, all, options,
+                                        names_of_cells(bundle_names, view, input.view_cells), &input.seam);
     IndependentSet given_back;
     std::ranges::set_difference(all, assembled.left, std::back_inserter(given_back));
     for (const std::int32_t c : given_back) piece.given_back.push_back(view.keys.key[input.view_cells[c]]);

@@ -67,7 +67,7 @@ double BoundaryDeviation::to_facets_at(Vertex v, const Vec3& from) const {
     const Quad corners = facet(f);
     for (int diagonal = 0; diagonal < (corners[3] == corners[2] ? 1 : 2); ++diagonal)
       for (const auto& [a, b, c] : triangles_of(corners, diagonal)) {
-        if (c == a) continue;
+        if (b == c) continue;  // the second one of a triangle
         const Vec3 at = nearest_on_triangle({mesh_.points[a], mesh_.points[b], mesh_.points[c]}, from);
         least = std::min(least, norm(at - from));
       }

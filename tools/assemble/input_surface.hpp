@@ -22,8 +22,8 @@ Vec3 nearest_on_triangle(const std::array<Vec3, 3>& triangle, const Vec3& to);
 class InputSurface {
  public:
   // Where a vertex lies: on no tagged triangle; within a smooth part of the surface; on a feature curve between two
-  // parts; or where curves meet, end or turn. An edge is a feature unless it has two triangles of one tag at less than
-  // `feature_angle` to each other.
+  // parts; or where curves meet, end or turn. An edge is a feature unless it has two triangles of one tag whose normals
+  // are less than 40 degrees apart.
   enum class Place : std::uint8_t { inside, face, curve, corner };
 
   // `mesh` must outlive this, with every facet of its boundary and interfaces among its triangles.

@@ -83,10 +83,12 @@ int main(int argc, char** argv) {
     if (!by_part && !before.empty()) throw UsageError("--before goes with --neighbours");
     Stage stage(context);
     stage.take_part();
-    if (by_part)
+    if (by_part) {
       for (const Role role : {Role::mesh, Role::candidates, Role::graph, Role::solution}) stage.hold_back(role);
-    StageData data = stage.read({Role::mesh, Role::candidates, Role::solution},
-                                by_part ? std::vector<Role>{} : std::vector<Role>{Role::graph});
+    } else {
+      stage.take_weights();  // for the gap: which cells cannot stand together is told by their tets
+    }
+    StageData data = stage.read({Role::mesh, Role::candidates, Role::solution});
     const InputNames names{.mesh = stage.source_of(Role::mesh),
                            .candidates = stage.source_of(Role::candidates),
                            .solution = stage.source_of(Role::solution)};

@@ -42,6 +42,8 @@ class ChosenCells {
   // and tets in the view's; none for a part whose numbers are the view's.
   void add(const Candidates& from, const CandidateKeys& keys, const IndependentSet& chosen, std::int32_t part,
            std::span<const std::int32_t> points, std::span<const std::int32_t> tets, const std::string& source) {
+    const auto bundle = static_cast<std::int32_t>(view_.bundles.size());
+    view_.bundles.push_back(source);
     for (const std::int32_t i : chosen) {
       if (i < 0 || static_cast<std::size_t>(i) >= from.size())
         throw DataError::at(source, "expected candidates from 1 to {} in the solution, found {}", from.size(), i + 1);
@@ -51,6 +53,7 @@ class ChosenCells {
           view_.cells, from, i, [&](Vertex v) { return points.empty() ? v : points[v]; }, tet, tet);
       view_.keys.key.push_back(keys.key[i]);
       view_.keys.part.push_back(part);
+      view_.origins.push_back({bundle, i});
     }
   }
 
@@ -60,6 +63,10 @@ class ChosenCells {
     std::ranges::sort(order, {}, [&](std::int32_t i) { return view_.keys.key[i]; });
     view_.cells = select(view_.cells, order);
     view_.keys = select(view_.keys, order);
+    std::vector<CellOrigin> origins;
+    origins.reserve(order.size());
+    for (const std::int32_t i : order) origins.push_back(view_.origins[i]);
+    view_.origins = std::move(origins);
   }
 
  private:
@@ -76,7 +83,13 @@ class ChosenCells {
 }  // namespace
 
 PartView view_part(SolvedPart own, const std::vector<std::string>& neighbours, const std::string& source) {
-  PartView view{.part = std::move(own.part), .mesh = std::move(own.mesh), .cells = {}, .keys = {}, .distance = {}};
+  PartView view{.part = std::move(own.part),
+                .mesh = std::move(own.mesh),
+                .cells = {},
+                .keys = {},
+                .origins = {},
+                .bundles = {},
+                .distance = {}};
   view.distance = distances(view.mesh, view.part);
   ChosenCells cells(view);
   cells.add(own.candidates, own.keys, own.chosen, view.part.part, {}, {}, source);

@@ -11,6 +11,7 @@
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/mesh_part.hpp"
 #include "common/mesh/tet_mesh.hpp"
+#include "tools/assemble/selection.hpp"
 
 namespace hexpipe {
 
@@ -20,6 +21,9 @@ struct PartView {
   // Chosen ones, in the order of a single run: all whose corners have all their tets here.
   Candidates cells;
   CandidateKeys keys;
+  // By cell, where it is from; the names of the bundles, of which the first is the part's own.
+  std::vector<CellOrigin> origins;
+  std::vector<std::string> bundles;
   // By point: edges from the nearest point of the part's own, at most `furthest`.
   std::vector<std::uint8_t> distance;
 };

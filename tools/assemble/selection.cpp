@@ -1,5 +1,7 @@
 #include "tools/assemble/selection.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
 
 #include "common/run/error.hpp"
@@ -13,14 +15,22 @@ struct Claims {
   std::vector<std::uint8_t> absorbed;
 };
 
+// As its bundle's user counts, from 1.
+std::string title_of(const InputNames& names, std::int32_t candidate) {
+  if (names.origins.empty()) return fmt::format("{}", candidate + 1);
+  const auto& [bundle, number] = names.origins[candidate];
+  return bundle == 0 ? fmt::format("{}", number + 1) : fmt::format("{} of {}", number + 1, names.bundles[bundle]);
+}
+
 [[noreturn]] void fail_misfit(const InputNames& names, std::int32_t candidate) {
   throw DataError::at(names.candidates,
-                      "expected candidates of this mesh, found candidate {} whose tets do not form it", candidate + 1);
+                      "expected candidates of this mesh, found candidate {} whose tets do not form it",
+                      title_of(names, candidate));
 }
 
 [[noreturn]] void fail_conflict(const InputNames& names, std::int32_t a, std::int32_t b, const char* how) {
-  throw DataError::at(names.solution, "expected candidates that fit together, found {} and {} which {}", a + 1, b + 1,
-                      how);
+  throw DataError::at(names.solution, "expected candidates that fit together, found {} and {} which {}",
+                      title_of(names, a), title_of(names, b), how);
 }
 
 void claim_interior(const InputNames& names, const Candidates& candidates, std::int32_t candidate, Claims& claims) {
@@ -157,7 +167,7 @@ void check_open_sides(const InputNames& names, const HybridMesh& mesh, const Sur
       if (tets != 2)
         throw DataError::at(names.solution,
                             "expected candidates that fit together, found {} with a quad that another crosses",
-                            candidate + 1);
+                            title_of(names, candidate));
       const auto [other, added] = diagonals.try_emplace(edge_key(quad[diagonal], quad[diagonal + 2]), candidate);
       if (!added) fail_conflict(names, other->second, candidate, "cross at an edge");
     }

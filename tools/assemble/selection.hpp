@@ -1,7 +1,9 @@
 #pragma once
 // From the chosen candidates to a mesh of cells and remaining tets, not conforming yet.
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
@@ -11,9 +13,18 @@
 
 namespace hexpipe {
 
+// A cell's bundle, of those that cells come from, and its number there, from 0.
+struct CellOrigin {
+  std::int32_t bundle, number;
+};
+
 // Where inputs came from, for messages.
 struct InputNames {
   std::string mesh = "mesh", candidates = "candidates", solution = "solution";
+  // Of cells from several bundles: by cell, where it is from, and the names of the bundles, of which the first is the
+  // one that `candidates` and `solution` are of. Empty: cells have the numbers of these.
+  std::vector<CellOrigin> origins{};
+  std::vector<std::string> bundles{};
 };
 
 // The chosen cells in place of their interior tets and of the boundary tets on their quads. A boundary tet stays where

@@ -49,8 +49,9 @@ Quad quad_of(const CellFacets::Entry& entry) {
 
 // How much further out the bilinear quad lies than its two triangles.
 double bulge_of(std::span<const Vec3> points, const Quad& quad, int diagonal) {
-  const double sixth = tet_determinant(points, quad) / 12;
-  return diagonal == 0 ? sixth : -sixth;
+  // Halfway between the two diagonals, which have a tet of this volume between them.
+  const double half_tet = tet_determinant(points, quad) / 6 / 2;
+  return diagonal == 0 ? half_tet : -half_tet;
 }
 
 // The diagonal along which two facets of one cell each, marked as used, lie under the quad.

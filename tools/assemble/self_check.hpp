@@ -10,12 +10,13 @@
 
 namespace hexpipe {
 
+// They add up: parts = skin = input + bulge + open_bulge + slide - peeled, but for rounding.
 struct CheckedVolumes {
   double input = 0;        // of the tets
   double parts = 0;        // of the cells, with bilinear sides
-  double skin = 0;         // enclosed by the facets that one cell has; equals `parts` in a conforming mesh
-  double bulge = 0;        // of boundary quads over the two triangles that they replace: skin = input + bulge
-  double open_bulge = 0;   // of non-conforming quads over the tets that they face: parts = input + bulge + open_bulge
+  double skin = 0;         // enclosed by the facets that one cell has
+  double bulge = 0;        // of boundary quads over the two triangles that they replace
+  double open_bulge = 0;   // of non-conforming quads over the tets that they face
   double slide = 0;        // what the input's triangles enclose more since vertices slid on its surface
   double peeled = 0;       // of the flat tets that were taken off the boundary
   double drift = 0;        // parts - input - bulge - open_bulge - slide + peeled: rounding

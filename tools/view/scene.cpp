@@ -79,7 +79,7 @@ void collect(const IndependentSet& chosen, const Candidates& candidates, const T
   std::vector<char> taken(mesh.tets.size());
   for (const auto i : chosen) {
     if (i < 0 || static_cast<std::size_t>(i) >= candidates.size())
-      throw DataError::at(source, "expected chosen candidates below {}, found {}", candidates.size(), i);
+      throw DataError::at(source, "expected candidates from 1 to {}, found {}", candidates.size(), std::int64_t{i} + 1);
     collect(candidates, mesh, i, cells);
     for (const auto tet : candidates.interior_tets_of(i)) taken[tet] = 1;
     for (const auto tet : candidates.boundary_tets_of(i)) taken[tet] = 1;

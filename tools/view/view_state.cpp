@@ -79,6 +79,7 @@ std::array<bool, 4> parse_kinds(std::string_view text) {
   std::array<const char*, 4> names{};
   std::transform(scene_kinds.begin(), scene_kinds.end(), names.begin(), [](CellKind kind) { return name_of(kind); });
   if (text == "none") return kinds;
+  if (text.empty()) fail("kinds", fmt::format("none or some of {}", fmt::join(names, ", ")), text);
   for (const auto part : split(text, ',')) kinds[parse_name("kinds", part, names)] = true;
   return kinds;
 }

@@ -190,7 +190,10 @@ export class Panel {
     const corners = cornersOf(scene, cell), middle = [0, 0, 0];
     for (const v of corners)
       for (let axis = 0; axis < 3; ++axis) middle[axis] += scene.points[3 * v + axis] / corners.length;
-    row(scene.content === "candidates" ? "candidate" : scene.kinds[kindOf(scene, cell)].name, `number ${scene.number[cell]}`);
+    // Candidates and the tets that they leave count from 1, as in .sol files and messages; cells of a mesh from 0.
+    const first = ["candidates", "solution"].includes(scene.content) ? 1 : 0;
+    row(scene.content === "candidates" ? "candidate" : scene.kinds[kindOf(scene, cell)].name,
+      `number ${scene.number[cell] + first}`);
     row("scaled Jacobian", scene.quality[cell].toFixed(4));
     row("region", scene.region[cell]);
     row("layer", scene.layer[cell]);

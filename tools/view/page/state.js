@@ -5,22 +5,32 @@ const kindNames = ["hex", "prism", "pyramid", "tet"];
 const colourNames = ["hexes", "quality", "kind", "region"];
 
 const rounded = number => String(Number(number.toPrecision(6)));
-const numbers = (text, count) => {
-  const list = text.split(",").map(part => part === "" ? NaN : Number(part));
-  if (list.length !== count || !list.every(Number.isFinite)) throw new Error(text);
+// Written as std::from_chars takes them.
+const number = /^-?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
+const numbers = (text, count, low, high) => {
+  const list = text.split(",").map(part => number.test(part) ? Number(part) : NaN);
+  if (list.length !== count || !list.every(value => value >= low && value <= high)) throw new Error(text);
   return list;
 };
+const integer = (text, low, high) => Math.trunc(numbers(text, 1, low, high)[0]);
 const oneOf = (text, names) => {
   if (!names.includes(text)) throw new Error(text);
   return text;
 };
 
+function parseDirection(text) {
+  const [, sign, name] = /^(-?)([xyz])$/.exec(text) ?? [];
+  if (name) return axes[name].map(n => n === 0 ? 0 : sign ? -n : n);
+  const direction = numbers(text, 3, -1, 1);
+  if (Math.hypot(...direction) < 1e-3) throw new Error(text);
+  return direction;
+}
+
 function parseClip(text) {
   if (text === "none") return null;
-  const [direction, fraction] = text.split(":");
-  const axis = axes[direction.replace("-", "")];
-  const sign = direction.startsWith("-") ? -1 : 1;
-  return {normal: axis ? axis.map(n => sign * n) : numbers(direction, 3), fraction: numbers(fraction, 1)[0]};
+  const colon = text.indexOf(":");
+  if (colon < 0) throw new Error(text);
+  return {normal: parseDirection(text.slice(0, colon)), fraction: numbers(text.slice(colon + 1), 1, 0, 1)[0]};
 }
 
 export function directionName(normal) {
@@ -30,20 +40,24 @@ export function directionName(normal) {
   return null;
 }
 
+// The bounds are those of view_state.cpp: what --view refuses, no link sets.
 const setters = {
   camera(state, text) {
-    const list = numbers(text, 6);
-    [state.azimuth, state.elevation, state.zoom] = list;
-    state.target = list.slice(3);
+    const [azimuth, elevation, zoom, ...target] = numbers(text, 6, -1e4, 1e4);
+    if (Math.abs(elevation) > 90 || zoom < 0.05) throw new Error(text);
+    Object.assign(state, {azimuth, elevation, zoom, target});
   },
   clip: (state, text) => { state.clip = parseClip(text); },
-  quality: (state, text) => { state.quality = numbers(text, 2); },
-  peel: (state, text) => { state.peel = numbers(text, 1)[0]; },
-  kinds: (state, text) => { state.kinds = kindNames.map(name => text.split(",").includes(name)); },
+  quality: (state, text) => { state.quality = numbers(text, 2, -1, 1); },
+  peel: (state, text) => { state.peel = integer(text, 0, 255); },
+  kinds(state, text) {
+    const shown = text === "none" ? [] : text.split(",").map(name => oneOf(name, kindNames));
+    state.kinds = kindNames.map(name => shown.includes(name));
+  },
   colour: (state, text) => { state.colour = oneOf(text, colourNames); },
   edges: (state, text) => { state.edges = oneOf(text, ["off", "on"]) === "on"; },
   theme: (state, text) => { state.theme = oneOf(text, ["light", "dark"]); },
-  fragment: (state, text) => { state.fragment = numbers(text, 1)[0]; },
+  fragment: (state, text) => { state.fragment = integer(text, 0, 1e9); },
 };
 
 // Changes what the text names; what it says wrongly stays as it is, for links may come from anywhere.

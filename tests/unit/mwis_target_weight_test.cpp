@@ -1,0 +1,49 @@
+// Which bound of a bundle's history is one of the graph that the bundle has now.
+
+#include "common/mwis/target_weight.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hexpipe {
+namespace {
+
+using History = std::vector<nlohmann::ordered_json>;
+
+const nlohmann::ordered_json graph{{"tool", "buildgraph"}};
+const nlohmann::ordered_json proven{{"tool", "certify"}, {"bound", 70}};
+
+nlohmann::ordered_json replacing(nlohmann::ordered_json entry, const char* role) {
+  entry["replaced"] = nlohmann::ordered_json::array({"solution", role});
+  return entry;
+}
+
+TEST(BoundIn, IsTheLowestThatCertifyHasProven) {
+  EXPECT_EQ(bound_in({graph}), std::nullopt);
+  EXPECT_EQ(bound_in({graph, {{"tool", "lns"}, {"bound", 5}}}), std::nullopt);
+  EXPECT_EQ(bound_in({graph, proven, {{"tool", "certify"}, {"bound", 80}}, {{"tool", "lns"}}}), 70);
+}
+
+TEST(BoundIn, IsForgottenWhereTheGraphIsMadeAnew) {
+  for (const char* tool : {"tetmesh", "findhex", "buildgraph"})
+    EXPECT_EQ(bound_in({graph, proven, {{"tool", tool}}}), std::nullopt) << tool;
+}
+
+TEST(BoundIn, IsForgottenWhereTheGraphCameFromAFile) {
+  for (const char* role : {"mesh", "candidates", "graph"}) {
+    EXPECT_EQ(bound_in({graph, proven, replacing({{"tool", "initsol"}}, role)}), std::nullopt) << role;
+    // What certify proves is of the graph that it was given.
+    EXPECT_EQ(bound_in({graph, proven, replacing({{"tool", "certify"}, {"bound", 90}}, role)}), 90) << role;
+  }
+  EXPECT_EQ(bound_in({graph, proven, replacing({{"tool", "lns"}}, "solution")}), 70);
+}
+
+TEST(BoundIn, TakesAnythingInEntriesOfOthers) {
+  for (const nlohmann::ordered_json& replaced : History{"graph", 3, nullptr, {{"graph", 1}}, {1, nullptr}})
+    EXPECT_EQ(bound_in({graph, proven, {{"tool", "mine"}, {"replaced", replaced}}}), 70) << replaced;
+  EXPECT_EQ(bound_in({nullptr, proven, "text", {{"version", "1"}}}), 70);
+  const nlohmann::ordered_json nameless{{"replaced", nlohmann::ordered_json::array({"graph"})}};
+  EXPECT_EQ(bound_in({graph, proven, nameless}), std::nullopt);
+}
+
+}  // namespace
+}  // namespace hexpipe
