@@ -86,8 +86,10 @@ TEST(ExactAlgorithms, RefuseWhatTheyCannotHold) {
   const ConflictGraph heavy = hexpipe::testing::make_graph({std::int64_t{1} << 60, 1}, {{0, 1}});
   for (const auto& [name, algorithm] : exact_algorithms()) {
     if (name.starts_with("branch-and-")) {
+      EXPECT_NO_THROW(expect_room_for(algorithm, large)) << name;
       EXPECT_EQ(solve_exactly(large, -1, algorithm, no_deadline).bound, 5000) << name;
     } else {
+      EXPECT_THROW(expect_room_for(algorithm, large), DataError) << name;
       EXPECT_THROW(solve_exactly(large, -1, algorithm, no_deadline), DataError) << name;
     }
     if (name == "clique-lp") {
