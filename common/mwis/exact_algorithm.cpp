@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 
 #include "common/graph/clique_cover.hpp"
 #include "common/mwis/branch_and_bound.hpp"
@@ -62,6 +63,10 @@ ConflictGraph renumbered(const ConflictGraph& graph, const std::vector<std::int3
   return result;
 }
 
+// A node of SubgradientSearch takes up to a tenth of a second, one of the others some microseconds.
+template <class Search>
+constexpr std::int64_t nodes_a_look = std::is_same_v<Search, SubgradientSearch> ? 1 : SearchBudget::usual_nodes_a_look;
+
 template <class Search>
 bool run(Search& search, const ConflictGraph& graph, std::int64_t weight, SearchBudget& budget) {
   return search.solve(dense_graph_of(graph), weight, budget);
@@ -75,7 +80,7 @@ template <class Search>
 ExactResult search_on_bits(const ConflictGraph& graph, const std::vector<std::int32_t>& order, std::int64_t weight,
                            const Deadline& deadline) {
   Search search;
-  SearchBudget budget(std::numeric_limits<std::int64_t>::max(), &deadline);
+  SearchBudget budget(std::numeric_limits<std::int64_t>::max(), &deadline, nodes_a_look<Search>);
   const bool found = run(search, renumbered(graph, order), weight, budget);
   ExactResult result;
   result.complete = !budget.exhausted();

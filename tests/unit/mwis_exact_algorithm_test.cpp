@@ -58,6 +58,12 @@ TEST_P(ExactAlgorithmTest, SaysWhenTheTimeWasTooShort) {
   EXPECT_GE(stopped.bound, 0);
 }
 
+TEST(ExactAlgorithms, LookAtTheClockInEveryNodeThatTakesLong) {
+  Random random(6);
+  const ConflictGraph graph = hexpipe::testing::random_graph(300, 0.05, 1000, random);
+  EXPECT_LE(solve_exactly(graph, -1, ExactAlgorithm::clique_lp, Deadline(0)).nodes, 1);
+}
+
 // Larger than brute force takes, and too large for what branch and reduce leaves to branch and bound at once.
 TEST(ExactAlgorithms, AgreeOnLargerGraphs) {
   Random random(3);

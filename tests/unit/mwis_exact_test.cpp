@@ -61,6 +61,14 @@ TEST(BranchAndBound, StopsAtItsBudget) {
   solver.solve(graph, -1, no_time);
   EXPECT_TRUE(no_time.out_of_time());
   EXPECT_TRUE(no_time.exhausted());
+  SearchBudget at_once(1000000, &passed, 1);
+  EXPECT_FALSE(at_once.spend());
+  EXPECT_EQ(at_once.spent(), 1);
+  SearchBudget in_a_node(1000000, &passed);
+  EXPECT_TRUE(in_a_node.spend());
+  EXPECT_FALSE(in_a_node.look_at_clock());
+  EXPECT_FALSE(in_a_node.spend());
+  EXPECT_TRUE(in_a_node.out_of_time());
 }
 
 TEST(DenseReductions, KeepTheOptimum) {
