@@ -58,6 +58,21 @@ TEST_P(ExactAlgorithmTest, SaysWhenTheTimeWasTooShort) {
   EXPECT_GE(stopped.bound, 0);
 }
 
+// Prices are those of a simplex method in floating point, so that nodes are not quite the same.
+TEST(ExactAlgorithms, ProveHugeWeights) {
+  Random random(5);
+  ConflictGraph graph = hexpipe::testing::random_graph(130, 0.1, 1000, random);
+  const ExactAlgorithm algorithm = exact_algorithms().at(default_exact_algorithm());
+  const ExactResult usual = solve_exactly(graph, -1, algorithm, no_deadline);
+  const std::int64_t optimum = total_weight(*usual.better, graph);
+  constexpr int factor_bits = 46;  // 130 * 1000 before
+  for (std::int64_t& weight : graph.weights) weight <<= factor_bits;
+  const ExactResult huge = solve_exactly(graph, -1, algorithm, Deadline(100));
+  ASSERT_TRUE(huge.complete && huge.better);
+  EXPECT_EQ(total_weight(*huge.better, graph), optimum << factor_bits);
+  EXPECT_LE(huge.nodes, 2 * usual.nodes);
+}
+
 TEST(ExactAlgorithms, LookAtTheClockInEveryNodeThatTakesLong) {
   Random random(6);
   const ConflictGraph graph = hexpipe::testing::random_graph(300, 0.05, 1000, random);
