@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <new>
 #include <set>
 
 #include "common/mwis/fragment.hpp"
@@ -328,6 +329,22 @@ TEST(Lns, RunsFreely) {
     EXPECT_GT(result.weight, none.weight);
     EXPECT_LE(result.iterations, 300);
   }
+}
+
+// A fragment is the whole graph, and takes long enough for the other threads to come and wait for it.
+TEST(Lns, EndsAFreeRunInWhichAThreadThrows) {
+  Random random(13);
+  const ConflictGraph graph = hexpipe::testing::random_graph(1000, 0.05, 1000, random);
+  const ThreadLimit limit(4);
+  const LnsOptions options{.fragment_size = 1000,
+                           .node_limit = 1000,
+                           .annealed_fragment = 0,
+                           .recombined_fragment = 0,
+                           .reduce = false,
+                           .free_running = true};
+  for (int i = 0; i < 3; ++i)
+    EXPECT_THROW(improve_by_lns(graph, {}, options, no_deadline, [](const LnsProgress&) { throw std::bad_alloc(); }),
+                 std::bad_alloc);
 }
 
 TEST(Lns, EndsAtItsTarget) {
