@@ -308,3 +308,11 @@ PYTHON
   assert_fails_with 1 "lns: /dev/full: .*No space left" ring --iterations 1 -o out.sol --log /dev/full
   assert [ ! -e out.sol ]
 }
+
+@test "vertices without conflicts do not keep the search going" {
+  { echo 60 0 10; yes 1 | head -60; } >isolated.graph
+  printf '1\n' >one.sol
+  lns --graph isolated.graph --solution one.sol --no-reductions --time-limit 100 -o out.sol --stats stats.json
+  grep -q '"complete": true' stats.json
+  assert_equal "$(wc -l <out.sol)" 60
+}

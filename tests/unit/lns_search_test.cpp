@@ -195,6 +195,17 @@ TEST(Effort, FollowsTheYield) {
   EXPECT_NEAR(share_done(1, 100), 20, 10);
 }
 
+TEST(Effort, CountsWorkThatTakesNoTime) {
+  Effort effort({Way::exact, Way::anneal});
+  int exact = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Way way = effort.next();
+    exact += way == Way::exact;
+    effort.record(way, way == Way::exact ? 5000 : 0, 0);
+  }
+  EXPECT_GT(exact, 10);
+}
+
 TEST(Effort, SharesAmongTheWaysItIsGiven) {
   Effort all, alone({Way::recombine});
   EXPECT_NEAR(all.share_of(Way::exact) + all.share_of(Way::anneal) + all.share_of(Way::recombine), 1, 1e-12);
@@ -345,6 +356,15 @@ TEST(Lns, EndsAFreeRunInWhichAThreadThrows) {
   for (int i = 0; i < 3; ++i)
     EXPECT_THROW(improve_by_lns(graph, {}, options, no_deadline, [](const LnsProgress&) { throw std::bad_alloc(); }),
                  std::bad_alloc);
+}
+
+TEST(Lns, EndsWhereVerticesAreIsolated) {
+  ConflictGraph isolated;
+  isolated.weights.assign(60, 1);
+  isolated.offsets.assign(61, 0);
+  const LnsResult result = improve_by_lns(isolated, {}, {.iterations = 5000, .reduce = false}, no_deadline);
+  EXPECT_TRUE(result.complete);
+  EXPECT_LT(result.iterations, 5000);
 }
 
 TEST(Lns, EndsAtItsTarget) {
