@@ -156,6 +156,16 @@ TEST(Schedule, AdaptsSizesWithinLimits) {
   EXPECT_LE(schedule.size_at(0), 20u);
 }
 
+TEST(Schedule, ShrinksWhatIsSmallAlready) {
+  Schedule schedule(1, 50, 5, Random(1));
+  EXPECT_EQ(schedule.size_at(0), 5u);
+  schedule.shrink(0);
+  EXPECT_EQ(schedule.size_at(0), 5u) << "no more than the largest";
+  Schedule small(1, 10, 100, Random(1));
+  small.shrink(0);
+  EXPECT_EQ(small.size_at(0), 10u) << "no more than before";
+}
+
 TEST(FragmentGrower, LetsGoOfFragmentsInAnyOrder) {
   const ConflictGraph paths = make_graph({1, 2, 1, 1, 2, 1, 1}, {{0, 1}, {1, 2}, {3, 4}, {4, 5}});
   const SolutionState state(paths, {1, 4, 6});
