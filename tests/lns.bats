@@ -309,6 +309,15 @@ PYTHON
   assert [ ! -e out.sol ]
 }
 
+@test "where the fragments are written leaves the bundle as it is" {
+  ring --iterations 30 --fragments here -o here.tar
+  ring --iterations 30 --fragments there -o there.tar
+  ring --iterations 30 -o nowhere.tar
+  assert_same_bytes here there
+  assert_same_bytes here.tar there.tar
+  assert_same_bytes here.tar nowhere.tar
+}
+
 @test "vertices without conflicts do not keep the search going" {
   { echo 60 0 10; yes 1 | head -60; } >isolated.graph
   printf '1\n' >one.sol

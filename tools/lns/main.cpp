@@ -39,7 +39,8 @@ int main(int argc, char** argv) {
       .product = Role::solution,
       .random = true,
       .searches = true,
-      .default_time_limit = 60};
+      .default_time_limit = 60,
+      .outside_history = {"fragments"}};
   LnsOptions options;
   TargetOptions target;
   std::string fragments_file;
