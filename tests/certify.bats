@@ -169,6 +169,16 @@ all_algorithms() {
     --solution good.sol --exact --iterations 0 --algorithm clique-cover -o best.sol
 }
 
+@test "what goes wrong beside the solution does not cost it" {
+  certify --graph ring.graph --solution good.sol --iterations 5 -o whole.tar
+  for side in log certificate; do
+    assert_fails_with 1 "certify: /dev/full: .*No space left" certify --graph ring.graph --solution good.sol \
+      --iterations 5 -o $side.tar --$side /dev/full
+    assert_same_bytes whole.tar $side.tar
+    assert_fails_with 1 "certify: no/such/place: .*No such file" certify missing.tar --$side no/such/place
+  done
+}
+
 @test "a graph that is too large for the algorithm is refused before the search" {
   "$PYTHON" "$DATA/ring_graph.py" 5000 2000 1 >large.graph
   assert_fails_with 1 "certify: expected a graph of at most 4096 vertices .*, found 5000" certify --graph large.graph \
