@@ -104,6 +104,7 @@ void TabuSearch::take_way_out() {
   if (options_.escape == Escape::rebuild)
     std::ranges::stable_sort(order, {}, [&](std::int32_t v) { return moved_[v]; });
   restart_at(build_in_order(order));
+  if (state_.weight() > best_weight_) note_best();
 }
 
 // Takes back what was done since, so that the cost is that of the moves and not that of the graph.
