@@ -317,9 +317,9 @@ void Stage::State::read_bundle(Input& input, const std::set<Role>& taken, StageD
   BundleReader reader(input);
   while (reader.next()) {
     const auto role = role_of_member(reader.name());
-    const bool replaced = role && context.streams.files.contains(*role);
-    const bool passes = bundle && !replaced && (!role || (*role < product() && !held_back.contains(*role)));
-    if (role && !replaced) {
+    const bool is_replaced = role && context.streams.files.contains(*role);
+    const bool passes = bundle && !is_replaced && (!role || (*role < product() && !held_back.contains(*role)));
+    if (role && !is_replaced) {
       seen.insert(*role);
       sources[*role] = input.name();
       if (with_part && read_part_member(reader, data, passes ? &*bundle : nullptr)) continue;

@@ -217,6 +217,18 @@ optimum() {
   assert_same_bytes out.vtu files.vtu
 }
 
+@test "--reduced-candidates that cannot be written cost no more than they must" {
+  local cand="$INPUTS/hexes.cand"
+  # Before anything is read.
+  assert_fails_with 1 "buildgraph: no/such/place: .*No such file" buildgraph missing.cand --reduce --reduced-candidates no/such/place -o out.graph
+  # A graph without its candidates would be of no use, a bundle has them.
+  assert_fails_with 1 "buildgraph: /dev/full: .*No space left" buildgraph "$cand" --reduce --reduced-candidates /dev/full -o out.graph
+  assert [ ! -e out.graph ]
+  assert_fails_with 1 "buildgraph: /dev/full: .*No space left" buildgraph "$cand" --reduce --reduced-candidates /dev/full -o full.tar
+  buildgraph "$cand" --reduce -o whole.tar
+  assert_same_bytes whole.tar full.tar
+}
+
 @test "options that need each other say so" {
   local cand="$INPUTS/hexes.cand"
   assert_fails_with 2 "buildgraph: --reduce to a .graph needs --reduced-candidates" buildgraph "$cand" --reduce -o out.graph

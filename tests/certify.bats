@@ -213,6 +213,27 @@ PYTHON
   done
 }
 
+@test "what goes wrong beside the solution does not cost it" {
+  certify --graph ring.graph --solution good.sol --iterations 5 -o whole.tar
+  for side in log certificate; do
+    assert_fails_with 1 "certify: /dev/full: .*No space left" certify --graph ring.graph --solution good.sol \
+      --iterations 5 -o $side.tar --$side /dev/full
+    assert_same_bytes whole.tar $side.tar
+    assert_fails_with 1 "certify: no/such/place: .*No such file" certify missing.tar --$side no/such/place
+  done
+}
+
+@test "a graph that is too large for the algorithm is refused before the search" {
+  "$PYTHON" "$DATA/ring_graph.py" 5000 2000 1 >large.graph
+  assert_fails_with 1 "certify: expected a graph of at most 4096 vertices .*, found 5000" certify --graph large.graph \
+    --solution good.sol --exact --algorithm clique-cover --log log.jsonl -o best.sol
+  printf '2 1 10\n400000000000000000 2\n400000000000000000 1\n' >heavy.graph
+  printf '1\n' >one.sol
+  assert_fails_with 1 "certify: expected weights of a sum below 2\^58 for clique-lp" certify --graph heavy.graph \
+    --solution one.sol --exact --algorithm clique-lp --log log.jsonl -o best.sol
+  assert [ ! -s log.jsonl ]
+}
+
 @test "extreme graphs" {
   printf '0 0 10\n' >empty.graph
   : >empty.sol

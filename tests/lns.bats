@@ -246,7 +246,6 @@ PYTHON
 numbers = [int(word) for line in open("reduced_parts") for word in line.split()]
 assert numbers and 1 <= min(numbers) and max(numbers) <= 6000
 PYTHON
-  assert_fails_with 1 "lns: /dev/full: .*No space left" ring --iterations 300 -o none.sol --fragments /dev/full
 }
 
 @test "a signal writes the best so far and ends with 0" {
@@ -318,6 +317,32 @@ PYTHON
 @test "a full disk is noticed" {
   assert_fails_with 1 "lns: .*No space left" \
     shell "lns --graph path.graph --solution path.sol --iterations 1 --format sol >/dev/full"
-  assert_fails_with 1 "lns: /dev/full: .*No space left" ring --iterations 1 -o out.sol --log /dev/full
-  assert [ ! -e out.sol ]
+}
+
+@test "what goes wrong beside the solution does not cost it" {
+  ring --iterations 30 -o whole.sol
+  for side in log fragments; do
+    assert_fails_with 1 "lns: /dev/full: .*No space left" ring --iterations 30 -o $side.sol --$side /dev/full
+    assert_same_bytes whole.sol $side.sol
+    assert_fails_with 1 "lns: no/such/place: .*No such file" ring -o none.sol --$side no/such/place
+    assert_fails_with 1 "lns: no/such/place: .*No such file" lns missing.tar --$side no/such/place
+    assert [ ! -e none.sol ]
+  done
+}
+
+@test "where the fragments are written leaves the bundle as it is" {
+  ring --iterations 30 --fragments here -o here.tar
+  ring --iterations 30 --fragments there -o there.tar
+  ring --iterations 30 -o nowhere.tar
+  assert_same_bytes here there
+  assert_same_bytes here.tar there.tar
+  assert_same_bytes here.tar nowhere.tar
+}
+
+@test "vertices without conflicts do not keep the search going" {
+  { echo 60 0 10; yes 1 | head -60; } >isolated.graph
+  printf '1\n' >one.sol
+  lns --graph isolated.graph --solution one.sol --no-reductions --time-limit 100 -o out.sol --stats stats.json
+  grep -q '"complete": true' stats.json
+  assert_equal "$(wc -l <out.sol)" 60
 }

@@ -16,21 +16,22 @@ void check_length(const char* source, const char* what, std::size_t expected, st
 void check_kind_and_corners(const Candidates& candidates, std::size_t i, const char* source) {
   const CellKind kind = candidates.kind[i];
   if (kind != CellKind::hex && kind != CellKind::prism && kind != CellKind::pyramid)
-    throw DataError::at(source, "expected kind 12, 13 or 14 of candidate {}, found {}", i, static_cast<int>(kind));
+    throw DataError::at(source, "expected kind 12, 13 or 14 of candidate {}, found {}", i + 1, static_cast<int>(kind));
   const auto corners = candidates.corners_of(i);
   for (std::size_t c = 0; c < 8; ++c) {
     const Vertex v = candidates.vertices[i][c];
     if (c >= corners.size() && v != -1)
-      throw DataError::at(source, "expected -1 after the {} vertices of candidate {}, found {}", corners.size(), i, v);
+      throw DataError::at(source, "expected -1 after the {} vertices of candidate {}, found {}", corners.size(), i + 1,
+                          v);
     if (c < corners.size() && v < 0)
-      throw DataError::at(source, "expected {} vertices of candidate {}, found {}", corners.size(), i, v);
+      throw DataError::at(source, "expected {} vertices of candidate {}, found {}", corners.size(), i + 1, v);
     if (c < corners.size() && std::find(corners.begin(), corners.begin() + c, v) != corners.begin() + c)
-      throw DataError::at(source, "expected different vertices of candidate {}, found {} twice", i, v);
+      throw DataError::at(source, "expected different vertices of candidate {}, found {} twice", i + 1, v);
   }
   if (!std::isfinite(candidates.quality[i]))
-    throw DataError::at(source, "expected a finite quality of candidate {}, found {}", i, candidates.quality[i]);
+    throw DataError::at(source, "expected a finite quality of candidate {}, found {}", i + 1, candidates.quality[i]);
   if (!std::isfinite(candidates.volume[i]))
-    throw DataError::at(source, "expected a finite volume of candidate {}, found {}", i, candidates.volume[i]);
+    throw DataError::at(source, "expected a finite volume of candidate {}, found {}", i + 1, candidates.volume[i]);
 }
 
 // `what`: "tets" or "boundary tets".
@@ -47,9 +48,9 @@ void check_tets(std::size_t count, const std::vector<std::int64_t>& offsets, con
   for (std::size_t i = 0; i < count; ++i) {
     const auto begin = tets.begin() + offsets[i], end = tets.begin() + offsets[i + 1];
     if (begin != end && *begin < 0)
-      throw DataError::at(source, "expected {} of candidate {}, found {}", what, i, *begin);
+      throw DataError::at(source, "expected {} of candidate {}, found {}", what, i + 1, *begin);
     if (std::adjacent_find(begin, end, std::greater_equal<>()) != end)
-      throw DataError::at(source, "expected ascending {} of candidate {}", what, i);
+      throw DataError::at(source, "expected ascending {} of candidate {}", what, i + 1);
   }
 }
 
@@ -59,7 +60,7 @@ void check_against_mesh(const std::vector<std::int64_t>& offsets, const std::vec
   if (offsets[i] == offsets[i + 1]) return;
   const std::int32_t last = tets[offsets[i + 1] - 1];
   if (static_cast<std::size_t>(last) >= mesh.tets.size())
-    throw DataError::at(source, "expected tets below {} in candidate {}, found {}", mesh.tets.size(), i, last);
+    throw DataError::at(source, "expected tets below {} in candidate {}, found {}", mesh.tets.size(), i + 1, last);
 }
 
 // Room for the whole, by what is there of it, and a little more.
@@ -119,7 +120,8 @@ void validate_against(const Candidates& candidates, const TetMesh& mesh, const c
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     for (const Vertex v : candidates.corners_of(i))
       if (static_cast<std::size_t>(v) >= mesh.points.size())
-        throw DataError::at(source, "expected vertices below {} in candidate {}, found {}", mesh.points.size(), i, v);
+        throw DataError::at(source, "expected vertices below {} in candidate {}, found {}", mesh.points.size(), i + 1,
+                            v);
     check_against_mesh(candidates.tet_offsets, candidates.tets, mesh, i, source);
     check_against_mesh(candidates.boundary_tet_offsets, candidates.boundary_tets, mesh, i, source);
   }

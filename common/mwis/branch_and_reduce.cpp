@@ -134,11 +134,7 @@ std::optional<IndependentSet> BranchAndReduce::solve_component(const Component& 
 
 void BranchAndReduce::solve_small(Component& component) {
   const ConflictGraph& graph = component.graph;
-  DenseGraph dense(graph.weights.size());
-  for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
-    dense.set_weight(v, graph.weights[v]);
-    for (const std::int32_t u : graph.neighbours_of(v)) bits::insert(dense.row(v), static_cast<std::size_t>(u));
-  }
+  DenseGraph dense = dense_graph_of(graph);
   std::vector<bits::Word> chosen(dense.words(), 0);
   SearchBudget budget(std::numeric_limits<std::int64_t>::max(), &deadline_);
   const bool complete = small_solver_.solve(dense, chosen, budget);

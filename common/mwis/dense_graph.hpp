@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "common/graph/conflict_graph.hpp"
 #include "common/mwis/bits.hpp"
 
 namespace hexpipe {
@@ -44,5 +45,8 @@ class DenseGraph {
   std::vector<std::int64_t> weights_;
   std::vector<bits::Word> rows_;
 };
+
+// With the same numbers.
+DenseGraph dense_graph_of(const ConflictGraph& graph);
 
 }  // namespace hexpipe

@@ -10,6 +10,9 @@ namespace {
 constexpr double memory = 3e8;
 // What each way keeps at least, for its time may come.
 constexpr std::array least_shares{0.2, 0.2, 0.1};
+// Growing a fragment and putting it back takes a microsecond, where there is nothing to do in between: what counted as
+// nothing would have the next turn again, for ever.
+constexpr double least_work = 1000;
 
 double least_share_of(Way way) {
   return least_shares[static_cast<std::size_t>(way)];
@@ -29,7 +32,7 @@ double Effort::share_of(Way way) const {
 }
 
 void Effort::record(Way way, double work, double gain) {
-  if (work <= 0) return;
+  work = std::max(work, least_work);
   for (const Way each : ways_) of(each).credit += work * share_of(each);
   of(way).credit -= work;
   double& yield = of(way).yield;

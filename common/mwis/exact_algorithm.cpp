@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 
 #include "common/graph/clique_cover.hpp"
 #include "common/mwis/branch_and_bound.hpp"
@@ -62,34 +63,24 @@ ConflictGraph renumbered(const ConflictGraph& graph, const std::vector<std::int3
   return result;
 }
 
-DenseGraph on_bits(const ConflictGraph& graph) {
-  if (graph.vertex_count() > most_on_bits)
-    throw DataError(fmt::format("expected a graph of at most {} vertices for an algorithm without reductions, found {}",
-                                most_on_bits, graph.vertex_count()));
-  DenseGraph dense(graph.weights.size());
-  for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
-    dense.set_weight(v, graph.weights[v]);
-    for (const std::int32_t u : graph.neighbours_of(v)) bits::insert(dense.row(v), static_cast<std::size_t>(u));
-  }
-  return dense;
-}
+// A node of SubgradientSearch takes up to a tenth of a second, one of the others some microseconds.
+template <class Search>
+constexpr std::int64_t nodes_a_look = std::is_same_v<Search, SubgradientSearch> ? 1 : SearchBudget::usual_nodes_a_look;
 
 template <class Search>
 bool run(Search& search, const ConflictGraph& graph, std::int64_t weight, SearchBudget& budget) {
-  return search.solve(on_bits(graph), weight, budget);
+  return search.solve(dense_graph_of(graph), weight, budget);
 }
 
 bool run(SubgradientSearch& search, const ConflictGraph& graph, std::int64_t weight, SearchBudget& budget) {
-  if (std::reduce(graph.weights.begin(), graph.weights.end(), std::int64_t{0}) >= heaviest_for_subgradient)
-    throw DataError("expected weights of a sum below 2^58 for clique-lp, found more");
-  return search.solve(on_bits(graph), greedy_edge_clique_cover(graph), weight, budget);
+  return search.solve(dense_graph_of(graph), greedy_edge_clique_cover(graph), weight, budget);
 }
 
 template <class Search>
 ExactResult search_on_bits(const ConflictGraph& graph, const std::vector<std::int32_t>& order, std::int64_t weight,
                            const Deadline& deadline) {
   Search search;
-  SearchBudget budget(std::numeric_limits<std::int64_t>::max(), &deadline);
+  SearchBudget budget(std::numeric_limits<std::int64_t>::max(), &deadline, nodes_a_look<Search>);
   const bool found = run(search, renumbered(graph, order), weight, budget);
   ExactResult result;
   result.complete = !budget.exhausted();
@@ -102,6 +93,10 @@ ExactResult search_on_bits(const ConflictGraph& graph, const std::vector<std::in
   result.bound = result.complete ? std::max<std::int64_t>(search.best_weight(), 0)
                                  : std::reduce(graph.weights.begin(), graph.weights.end(), std::int64_t{0});
   return result;
+}
+
+bool is_on_bits(ExactAlgorithm algorithm) {
+  return algorithm != ExactAlgorithm::branch_and_reduce && algorithm != ExactAlgorithm::branch_and_cut;
 }
 
 ExactResult search_by_reductions(const ConflictGraph& graph, std::int64_t weight, ExactAlgorithm algorithm,
@@ -141,8 +136,18 @@ Relax relaxation_of([[maybe_unused]] ExactAlgorithm algorithm) {
   return relax_by_clique_dual;
 }
 
+void expect_room_for(ExactAlgorithm algorithm, const ConflictGraph& graph) {
+  if (is_on_bits(algorithm) && graph.vertex_count() > most_on_bits)
+    throw DataError(fmt::format("expected a graph of at most {} vertices for an algorithm without reductions, found {}",
+                                most_on_bits, graph.vertex_count()));
+  if (algorithm == ExactAlgorithm::clique_lp &&
+      std::reduce(graph.weights.begin(), graph.weights.end(), std::int64_t{0}) >= heaviest_for_subgradient)
+    throw DataError("expected weights of a sum below 2^58 for clique-lp, found more");
+}
+
 ExactResult solve_exactly(const ConflictGraph& graph, std::int64_t weight, ExactAlgorithm algorithm,
                           const Deadline& deadline) {
+  expect_room_for(algorithm, graph);
   switch (algorithm) {
     case ExactAlgorithm::complete_search:
       return search_on_bits<CompleteSearch>(graph, heaviest_first(graph), weight, deadline);

@@ -37,8 +37,11 @@ struct ExactResult {
   std::int64_t nodes = 0;
 };
 
-// Looks for the heaviest set among those heavier than `weight`, until it is proven or the deadline passes. Throws
-// DataError where a graph has too many vertices for a search on bits, or weights too large for clique_lp.
+// Throws DataError where a graph has too many vertices for a search on bits, or weights too large for clique_lp.
+void expect_room_for(ExactAlgorithm algorithm, const ConflictGraph& graph);
+
+// Looks for the heaviest set among those heavier than `weight`, until it is proven or the deadline passes. Throws as
+// expect_room_for does.
 ExactResult solve_exactly(const ConflictGraph& graph, std::int64_t weight, ExactAlgorithm algorithm,
                           const Deadline& deadline);
 

@@ -64,7 +64,6 @@ void ExactSolver::find_components(const DenseGraph& graph) {
     vertices_.insert(vertices_.end(), component.begin(), component.end());
     ends_.push_back(vertices_.size());
   }
-  kernel_size_ = vertices_.size();
 }
 
 // Adds the component's solution to solution_ and returns its weight. Nothing that is not heavier than `needed` is

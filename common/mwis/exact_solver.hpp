@@ -20,9 +20,6 @@ class ExactSolver {
   // is proven to be the heaviest; false when the budget ran out before. The weights of `graph` are used up.
   bool solve(DenseGraph& graph, std::span<bits::Word> chosen, SearchBudget& budget);
 
-  // Undecided vertices that reductions left in the last graph.
-  std::size_t kernel_size() const { return kernel_size_; }
-
  private:
   void find_components(const DenseGraph& graph);
   std::int64_t solve_component(const DenseGraph& graph, std::span<const std::uint32_t> component, std::int64_t needed,
@@ -38,7 +35,6 @@ class ExactSolver {
   std::vector<std::uint32_t> order_;     // vertex of the graph for each of part_
   std::vector<bits::Word> unseen_, covered_, warm_, solution_;
   std::vector<double> crowding_;
-  std::size_t kernel_size_ = 0;
 };
 
 }  // namespace hexpipe

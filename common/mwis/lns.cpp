@@ -135,31 +135,49 @@ class Lns {
     return size;
   }
 
-  // Each thread takes a fragment, solves it beside the others, and puts it back, on its own.
-  void run_free() {
+  struct FreeRun {
     std::mutex mutex;
     std::condition_variable put_back;
+    bool failed = false;
+  };
+
+  // Each thread takes a fragment, solves it beside the others, and puts it back, on its own. What one of them throws
+  // ends all: nobody else would wake those that wait for its fragment.
+  void run_free() {
+    FreeRun run;
     parallel_for(thread_count(), 1, [&](std::int64_t) {
-      Repair repair;
-      std::unique_lock lock(mutex);
-      while (goes_on()) {
-        if (!grow(effort_.next(), repair, options_.batch)) {
-          if (begun_ == iterations_) return;
-          put_back.wait(lock);
-          continue;
-        }
-        repair.extract(grower_);
-        const std::int64_t index = begun_ - 1;
-        const std::int64_t effort = effort_for(repair);
-        lock.unlock();
-        repair.solve(effort, random_for(index), deadline_);
-        lock.lock();
-        grower_.let_go(repair.fragment());
-        apply(repair);
-        put_back.notify_all();
+      std::unique_lock lock(run.mutex);
+      try {
+        take_turns(run, lock);
+      } catch (...) {
+        if (!lock.owns_lock()) lock.lock();
+        run.failed = true;
+        run.put_back.notify_all();
+        throw;
       }
-      put_back.notify_all();
+      run.put_back.notify_all();
     });
+  }
+
+  // One thread, which holds the lock but while it solves.
+  void take_turns(FreeRun& run, std::unique_lock<std::mutex>& lock) {
+    Repair repair;
+    while (!run.failed && goes_on()) {
+      if (!grow(effort_.next(), repair, options_.batch)) {
+        if (begun_ == iterations_) return;
+        run.put_back.wait(lock);
+        continue;
+      }
+      repair.extract(grower_);
+      const std::int64_t index = begun_ - 1;
+      const std::int64_t effort = effort_for(repair);
+      lock.unlock();
+      repair.solve(effort, random_for(index), deadline_);
+      lock.lock();
+      grower_.let_go(repair.fragment());
+      apply(repair);
+      run.put_back.notify_all();
+    }
   }
 
   // Grows a fragment from the next seed that is free; false when there is none among so many.

@@ -54,7 +54,7 @@ class Reducer {
     return static_cast<std::size_t>(v) >= incomplete_.size() || incomplete_[v] == 0;
   }
   void skim(const Deadline& deadline);
-  void settle(const Deadline& deadline, std::int32_t least);
+  void settle(const Deadline& deadline, std::int32_t wanted);
   void blow_up(const Deadline& deadline);
   void try_fold(std::int32_t v, const Deadline& deadline);
   void take_back(std::size_t decided, std::int64_t offset);

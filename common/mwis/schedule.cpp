@@ -62,7 +62,8 @@ void Schedule::enlarge(std::int32_t v) {
 }
 
 void Schedule::shrink(std::int32_t v) {
-  places_[v].size = std::max<std::uint32_t>(smallest_size, places_[v].size * 3 / 4);
+  const std::uint32_t size = places_[v].size;
+  places_[v].size = std::min(size, std::max(smallest_size, size * 3 / 4));
 }
 
 }  // namespace hexpipe

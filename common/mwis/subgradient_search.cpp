@@ -51,13 +51,14 @@ void SubgradientSearch::expand(std::size_t depth, std::int64_t weight, Prices pr
 }
 
 // Steps until the prices prove that no set of candidates is heavier than `needed`, which is then true, or there have
-// been enough; leaves the best ones, and drops the candidates that they rule out.
+// been enough, or no time is left; leaves the best ones, and drops the candidates that they rule out.
 bool SubgradientSearch::improve(std::size_t depth, std::int64_t needed, Prices& prices) {
   const std::int64_t target = needed << shift_;
   Prices now = prices;
   std::int64_t least = bound(depth, now);
   double length = first_length;
-  for (int left = depth == 0 ? root_steps : node_steps; least >> shift_ > needed && left > 0; --left) {
+  for (int left = depth == 0 ? root_steps : node_steps;
+       least >> shift_ > needed && left > 0 && budget_->look_at_clock(); --left) {
     const std::int64_t before = bound(depth, now);
     step(length * static_cast<double>(before - target), now);
     length *= shortening;

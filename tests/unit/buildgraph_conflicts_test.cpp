@@ -216,6 +216,9 @@ TEST(Weights, ThatDoNotFitAreErrors) {
   c.volume = {1, -1};
   EXPECT_THAT([&] { weights_of(c, WeightKind::volume, 1, "x.cand"); },
               ThrowsMessage<DataError>("x.cand: expected no negative weight, found -1 for candidate 2"));
+  EXPECT_THAT([&] { weights_of(c, WeightKind::volume, 1e6, "x.cand"); },
+              ThrowsMessage<DataError>("x.cand: expected no negative weight, found -1 for candidate 2"))
+      << "as it is in the file";
 }
 
 TEST(Report, WarnsOfWeightsThatVanish) {

@@ -43,10 +43,10 @@ TEST(Candidates, SpoiltOnesAreRejected) {
   expect_rejected([](Candidates& c) { c.vertices.pop_back(); }, "2 rows of vertices, found 1");
   expect_rejected([](Candidates& c) { c.quality.push_back(1); }, "2 qualities, found 3");
   expect_rejected([](Candidates& c) { c.volume.clear(); }, "2 volumes, found 0");
-  expect_rejected([](Candidates& c) { c.kind[0] = CellKind::tet; }, "kind 12, 13 or 14 of candidate 0, found 10");
+  expect_rejected([](Candidates& c) { c.kind[0] = CellKind::tet; }, "kind 12, 13 or 14 of candidate 1, found 10");
   expect_rejected([](Candidates& c) { c.kind[0] = static_cast<CellKind>(99); }, "found 99");
   expect_rejected([](Candidates& c) { c.kind[0] = CellKind::prism; }, "-1 after the 6 vertices");
-  expect_rejected([](Candidates& c) { c.kind[1] = CellKind::hex; }, "8 vertices of candidate 1, found -1");
+  expect_rejected([](Candidates& c) { c.kind[1] = CellKind::hex; }, "8 vertices of candidate 2, found -1");
   expect_rejected([](Candidates& c) { c.vertices[0][3] = 1; }, "found 1 twice");
   expect_rejected([](Candidates& c) { c.quality[1] = std::numeric_limits<double>::quiet_NaN(); }, "finite quality");
   expect_rejected([](Candidates& c) { c.volume[1] = std::numeric_limits<double>::infinity(); }, "finite volume");
@@ -55,9 +55,9 @@ TEST(Candidates, SpoiltOnesAreRejected) {
   expect_rejected([](Candidates& c) { c.tet_offsets = {0, 8, 7}; }, "ascending offsets");
   expect_rejected([](Candidates& c) { c.tet_offsets = {0, 5, 1'000'000'000'000}; }, "up to 7");
   expect_rejected([](Candidates& c) { c.boundary_tet_offsets.clear(); }, "3 offsets of boundary tets, found 0");
-  expect_rejected([](Candidates& c) { std::swap(c.tets[1], c.tets[2]); }, "ascending tets of candidate 0");
-  expect_rejected([](Candidates& c) { c.tets[6] = 5; }, "ascending tets of candidate 1");
-  expect_rejected([](Candidates& c) { c.boundary_tets[0] = -1; }, "boundary tets of candidate 0, found -1");
+  expect_rejected([](Candidates& c) { std::swap(c.tets[1], c.tets[2]); }, "ascending tets of candidate 1");
+  expect_rejected([](Candidates& c) { c.tets[6] = 5; }, "ascending tets of candidate 2");
+  expect_rejected([](Candidates& c) { c.boundary_tets[0] = -1; }, "boundary tets of candidate 1, found -1");
 }
 
 TEST(Candidates, AreCheckedAgainstTheirMesh) {
@@ -68,11 +68,11 @@ TEST(Candidates, AreCheckedAgainstTheirMesh) {
   EXPECT_NO_THROW(validate_against(c, mesh, "file"));
   mesh.points.resize(8);
   EXPECT_THAT([&] { validate_against(c, mesh, "file"); },
-              ThrowsMessage<DataError>("file: expected vertices below 8 in candidate 1, found 8"));
+              ThrowsMessage<DataError>("file: expected vertices below 8 in candidate 2, found 8"));
   mesh.points.resize(9);
   mesh.tets.resize(9);
   EXPECT_THAT([&] { validate_against(c, mesh, "file"); },
-              ThrowsMessage<DataError>("file: expected tets below 9 in candidate 0, found 9"));
+              ThrowsMessage<DataError>("file: expected tets below 9 in candidate 1, found 9"));
   mesh.tets.resize(6);
   EXPECT_THAT([&] { validate_against(c, mesh, "file"); }, ThrowsMessage<DataError>(HasSubstr("found 9")));
 }

@@ -83,6 +83,18 @@ TEST(TabuSearch, FindsTheOptimumOfSmallGraphs) {
   }
 }
 
+// Every move is followed by a restart, and moves lead away from where it begins.
+TEST(TabuSearch, KeepsAStartThatIsBetterThanTheBest) {
+  Random random(13);
+  for (int i = 0; i < 100; ++i) {
+    const ConflictGraph graph = hexpipe::testing::random_graph(14, 0.4, 50, random);
+    TabuSearch search(graph, {}, {.escape = Escape::restart, .tenure = 3, .patience = 1}, Random(i));
+    search.run(3000, no_deadline);
+    EXPECT_EQ(search.best_weight(), hexpipe::testing::brute_force_weight(graph)) << "graph " << i;
+    EXPECT_EQ(total_weight(search.best(), graph), search.best_weight()) << "graph " << i;
+  }
+}
+
 TEST(TabuSearch, EndsWhereNothingCanMove) {
   for (const ConflictGraph& graph : {ConflictGraph{}, make_graph({3}, {}), make_graph({3, 4}, {})}) {
     TabuSearch search(graph, {}, {}, Random(1));

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <new>
 #include <set>
 
 #include "common/mwis/fragment.hpp"
@@ -155,6 +156,16 @@ TEST(Schedule, AdaptsSizesWithinLimits) {
   EXPECT_LE(schedule.size_at(0), 20u);
 }
 
+TEST(Schedule, ShrinksWhatIsSmallAlready) {
+  Schedule schedule(1, 50, 5, Random(1));
+  EXPECT_EQ(schedule.size_at(0), 5u);
+  schedule.shrink(0);
+  EXPECT_EQ(schedule.size_at(0), 5u) << "no more than the largest";
+  Schedule small(1, 10, 100, Random(1));
+  small.shrink(0);
+  EXPECT_EQ(small.size_at(0), 10u) << "no more than before";
+}
+
 TEST(FragmentGrower, LetsGoOfFragmentsInAnyOrder) {
   const ConflictGraph paths = make_graph({1, 2, 1, 1, 2, 1, 1}, {{0, 1}, {1, 2}, {3, 4}, {4, 5}});
   const SolutionState state(paths, {1, 4, 6});
@@ -192,6 +203,17 @@ TEST(Effort, FollowsTheYield) {
   EXPECT_NEAR(share_done(0, 0), 50, 1) << "nothing is gained";
   EXPECT_NEAR(share_done(100, 1), 80, 5);
   EXPECT_NEAR(share_done(1, 100), 20, 10);
+}
+
+TEST(Effort, CountsWorkThatTakesNoTime) {
+  Effort effort({Way::exact, Way::anneal});
+  int exact = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Way way = effort.next();
+    exact += way == Way::exact;
+    effort.record(way, way == Way::exact ? 5000 : 0, 0);
+  }
+  EXPECT_GT(exact, 10);
 }
 
 TEST(Effort, SharesAmongTheWaysItIsGiven) {
@@ -328,6 +350,31 @@ TEST(Lns, RunsFreely) {
     EXPECT_GT(result.weight, none.weight);
     EXPECT_LE(result.iterations, 300);
   }
+}
+
+// A fragment is the whole graph, and takes long enough for the other threads to come and wait for it.
+TEST(Lns, EndsAFreeRunInWhichAThreadThrows) {
+  Random random(13);
+  const ConflictGraph graph = hexpipe::testing::random_graph(1000, 0.05, 1000, random);
+  const ThreadLimit limit(4);
+  const LnsOptions options{.fragment_size = 1000,
+                           .node_limit = 1000,
+                           .annealed_fragment = 0,
+                           .recombined_fragment = 0,
+                           .reduce = false,
+                           .free_running = true};
+  for (int i = 0; i < 3; ++i)
+    EXPECT_THROW(improve_by_lns(graph, {}, options, no_deadline, [](const LnsProgress&) { throw std::bad_alloc(); }),
+                 std::bad_alloc);
+}
+
+TEST(Lns, EndsWhereVerticesAreIsolated) {
+  ConflictGraph isolated;
+  isolated.weights.assign(60, 1);
+  isolated.offsets.assign(61, 0);
+  const LnsResult result = improve_by_lns(isolated, {}, {.iterations = 5000, .reduce = false}, no_deadline);
+  EXPECT_TRUE(result.complete);
+  EXPECT_LT(result.iterations, 5000);
 }
 
 TEST(Lns, EndsAtItsTarget) {

@@ -58,6 +58,27 @@ TEST_P(ExactAlgorithmTest, SaysWhenTheTimeWasTooShort) {
   EXPECT_GE(stopped.bound, 0);
 }
 
+// Prices are those of a simplex method in floating point, so that nodes are not quite the same.
+TEST(ExactAlgorithms, ProveHugeWeights) {
+  Random random(5);
+  ConflictGraph graph = hexpipe::testing::random_graph(130, 0.1, 1000, random);
+  const ExactAlgorithm algorithm = exact_algorithms().at(default_exact_algorithm());
+  const ExactResult usual = solve_exactly(graph, -1, algorithm, no_deadline);
+  const std::int64_t optimum = total_weight(*usual.better, graph);
+  constexpr int factor_bits = 46;  // 130 * 1000 before
+  for (std::int64_t& weight : graph.weights) weight <<= factor_bits;
+  const ExactResult huge = solve_exactly(graph, -1, algorithm, Deadline(100));
+  ASSERT_TRUE(huge.complete && huge.better);
+  EXPECT_EQ(total_weight(*huge.better, graph), optimum << factor_bits);
+  EXPECT_LE(huge.nodes, 2 * usual.nodes);
+}
+
+TEST(ExactAlgorithms, LookAtTheClockInEveryNodeThatTakesLong) {
+  Random random(6);
+  const ConflictGraph graph = hexpipe::testing::random_graph(300, 0.05, 1000, random);
+  EXPECT_LE(solve_exactly(graph, -1, ExactAlgorithm::clique_lp, Deadline(0)).nodes, 1);
+}
+
 // Larger than brute force takes, and too large for what branch and reduce leaves to branch and bound at once.
 TEST(ExactAlgorithms, AgreeOnLargerGraphs) {
   Random random(3);
@@ -86,8 +107,10 @@ TEST(ExactAlgorithms, RefuseWhatTheyCannotHold) {
   const ConflictGraph heavy = hexpipe::testing::make_graph({std::int64_t{1} << 60, 1}, {{0, 1}});
   for (const auto& [name, algorithm] : exact_algorithms()) {
     if (name.starts_with("branch-and-")) {
+      EXPECT_NO_THROW(expect_room_for(algorithm, large)) << name;
       EXPECT_EQ(solve_exactly(large, -1, algorithm, no_deadline).bound, 5000) << name;
     } else {
+      EXPECT_THROW(expect_room_for(algorithm, large), DataError) << name;
       EXPECT_THROW(solve_exactly(large, -1, algorithm, no_deadline), DataError) << name;
     }
     if (name == "clique-lp") {

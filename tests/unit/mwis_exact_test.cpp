@@ -13,7 +13,6 @@ namespace hexpipe {
 namespace {
 
 using hexpipe::testing::brute_force_weight;
-using hexpipe::testing::to_dense;
 
 // Calls test(graph, index) for graphs of many densities, sizes and ties, and of cliques in a ring.
 void for_random_graphs(int count, const std::function<void(const ConflictGraph&, int)>& test) {
@@ -39,19 +38,19 @@ TEST(BranchAndBound, AgreesWithBruteForce) {
   for_random_graphs(1000, [&](const ConflictGraph& graph, int index) {
     SearchBudget budget;
     const std::int64_t expected = brute_force_weight(graph);
-    ASSERT_TRUE(solver.solve(to_dense(graph), -1, budget)) << "graph " << index;
+    ASSERT_TRUE(solver.solve(dense_graph_of(graph), -1, budget)) << "graph " << index;
     EXPECT_EQ(solver.best_weight(), expected) << "graph " << index;
     std::vector<bits::Word> chosen(bits::words_for(graph.weights.size()));
     for (const std::uint32_t v : solver.best()) bits::insert(chosen.data(), v);
     EXPECT_EQ(checked_weight(graph, chosen), expected) << "graph " << index;
-    EXPECT_FALSE(solver.solve(to_dense(graph), expected, budget)) << "nothing is heavier, graph " << index;
-    EXPECT_TRUE(solver.solve(to_dense(graph), expected - 1, budget)) << "graph " << index;
+    EXPECT_FALSE(solver.solve(dense_graph_of(graph), expected, budget)) << "nothing is heavier, graph " << index;
+    EXPECT_TRUE(solver.solve(dense_graph_of(graph), expected - 1, budget)) << "graph " << index;
   });
 }
 
 TEST(BranchAndBound, StopsAtItsBudget) {
   Random random(3);
-  const DenseGraph graph = to_dense(hexpipe::testing::random_graph(150, 0.1, 1000, random));
+  const DenseGraph graph = dense_graph_of(hexpipe::testing::random_graph(150, 0.1, 1000, random));
   BranchAndBound solver;
   SearchBudget budget(100);
   solver.solve(graph, -1, budget);
@@ -62,13 +61,21 @@ TEST(BranchAndBound, StopsAtItsBudget) {
   solver.solve(graph, -1, no_time);
   EXPECT_TRUE(no_time.out_of_time());
   EXPECT_TRUE(no_time.exhausted());
+  SearchBudget at_once(1000000, &passed, 1);
+  EXPECT_FALSE(at_once.spend());
+  EXPECT_EQ(at_once.spent(), 1);
+  SearchBudget in_a_node(1000000, &passed);
+  EXPECT_TRUE(in_a_node.spend());
+  EXPECT_FALSE(in_a_node.look_at_clock());
+  EXPECT_FALSE(in_a_node.spend());
+  EXPECT_TRUE(in_a_node.out_of_time());
 }
 
 TEST(DenseReductions, KeepTheOptimum) {
   DenseReductions reductions;
   int decided = 0, vertices = 0;
   for_random_graphs(1000, [&](const ConflictGraph& graph, int index) {
-    DenseGraph dense = to_dense(graph);
+    DenseGraph dense = dense_graph_of(graph);
     reductions.reduce(dense);
     // The kernel by brute force, on a graph of its own.
     std::vector<std::int32_t> left;
@@ -100,7 +107,7 @@ TEST(ExactSolver, AgreesWithBruteForceFromAnyStart) {
       const auto in_set = [&](std::int32_t u) { return bits::test(chosen.data(), u); };
       if (random.below(2) == 0 && std::ranges::none_of(graph.neighbours_of(v), in_set)) bits::insert(chosen.data(), v);
     }
-    DenseGraph dense = to_dense(graph);
+    DenseGraph dense = dense_graph_of(graph);
     SearchBudget budget;
     ASSERT_TRUE(solver.solve(dense, chosen, budget));
     EXPECT_EQ(checked_weight(graph, chosen), brute_force_weight(graph)) << "graph " << index;
@@ -115,7 +122,7 @@ TEST(ExactSolver, NeverReturnsLessThanItGot) {
     std::vector<bits::Word> chosen(bits::words_for(graph.weights.size()));
     std::int64_t weight = 0;
     for (const std::int64_t nodes : {0, 1, 2, 5, 20, 100000}) {
-      DenseGraph dense = to_dense(graph);
+      DenseGraph dense = dense_graph_of(graph);
       SearchBudget budget(nodes);
       const bool complete = solver.solve(dense, chosen, budget);
       const std::int64_t now = checked_weight(graph, chosen);
@@ -183,7 +190,7 @@ TEST(ExactSolver, SolvesTheExtremes) {
   ExactSolver solver;
   const auto solve = [&](const ConflictGraph& graph) {
     std::vector<bits::Word> chosen(bits::words_for(graph.weights.size()));
-    DenseGraph dense = to_dense(graph);
+    DenseGraph dense = dense_graph_of(graph);
     SearchBudget budget;
     EXPECT_TRUE(solver.solve(dense, chosen, budget));
     return checked_weight(graph, chosen);

@@ -123,7 +123,7 @@ TEST(Kernel, IsExactOnLargerGraphsToo) {
   Random random(5);
   ExactSolver solver;
   const auto optimum = [&](const ConflictGraph& graph, IndependentSet& best) {
-    DenseGraph dense = hexpipe::testing::to_dense(graph);
+    DenseGraph dense = dense_graph_of(graph);
     std::vector<bits::Word> chosen(dense.words(), 0);
     SearchBudget budget;
     EXPECT_TRUE(solver.solve(dense, chosen, budget));

@@ -67,6 +67,29 @@ TEST(Relaxation, TakesWeightsWithoutRoomForFractions) {
   EXPECT_EQ(bounds_of_prices(less, greedy_edge_clique_cover(less), {price}).bound, huge >> 4);
 }
 
+// A sum of up to 2^63, of which four times would not fit 64 bits.
+TEST(Relaxation, BoundsHugeWeightsAsWellAsOthers) {
+  Random random(4);
+  for (int i = 0; i < 100; ++i) {
+    ConflictGraph graph = nth_graph(i, random);
+    const CliqueCover cover = greedy_edge_clique_cover(graph);
+    std::vector<double> prices(static_cast<std::size_t>(cover.size()));
+    for (double& price : prices) price = random.uniform(0, 300);
+    const Relaxation relaxation = bounds_of_prices(graph, cover, prices);
+    // At most 18 * 1000 before.
+    constexpr int factor_bits = 48;
+    for (std::int64_t& weight : graph.weights) weight <<= factor_bits;
+    for (double& price : prices) price = std::ldexp(price, factor_bits);
+    const Relaxation huge = bounds_of_prices(graph, cover, prices);
+    EXPECT_EQ(huge.bound >> factor_bits, relaxation.bound) << "graph " << i;
+    EXPECT_GE(huge.bound, brute_force_weight(graph)) << "graph " << i;
+    for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
+      EXPECT_EQ(huge.with[v] >> factor_bits, relaxation.with[v]) << "graph " << i << ", vertex " << v;
+      EXPECT_EQ(huge.without[v] >> factor_bits, relaxation.without[v]) << "graph " << i << ", vertex " << v;
+    }
+  }
+}
+
 TEST(HeavyCliques, AreFoundExactlyWhereTheyExist) {
   Random random(2);
   int found = 0;

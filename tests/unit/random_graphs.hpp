@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "common/graph/conflict_graph.hpp"
-#include "common/mwis/dense_graph.hpp"
 #include "common/run/random.hpp"
 
 namespace hexpipe::testing {
@@ -79,15 +78,6 @@ inline ConflictGraph complement_of(const ConflictGraph& graph) {
     for (std::int32_t b = a + 1; b < graph.vertex_count(); ++b)
       if (!graph.has_edge(a, b)) edges.emplace_back(a, b);
   return make_graph(graph.weights, edges);
-}
-
-inline DenseGraph to_dense(const ConflictGraph& graph) {
-  DenseGraph dense(graph.weights.size());
-  for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
-    dense.set_weight(v, graph.weights[v]);
-    for (const std::int32_t u : graph.neighbours_of(v)) dense.add_edge(v, u);
-  }
-  return dense;
 }
 
 }  // namespace hexpipe::testing

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "common/run/error.hpp"
@@ -84,6 +85,8 @@ int main(int argc, char** argv) {
     check_together(options, reduced_candidates, stage.writes_bundle());
     if (options.reduce || !neighbours.empty()) stage.hold_back(Role::candidates);
     stage.take_part();
+    std::optional<Output> reduced;
+    if (!reduced_candidates.empty()) reduced.emplace(reduced_candidates);
     StageData data = stage.read({Role::candidates});
     const std::string source = stage.source_of(Role::candidates);
     phases.end("read");
@@ -97,16 +100,18 @@ int main(int argc, char** argv) {
     for (const auto& warning : warnings_about(summary)) context.warn(warning);
     for (const auto& line : summary_lines(summary)) context.note(line);
     context.statistics.update(to_json(summary));
-    if (!reduced_candidates.empty()) {
-      Output output(reduced_candidates);
-      write_cand(*result.candidates, output);
-      output.commit();
+    // A .graph is of no use without them, a bundle has them itself.
+    if (reduced && !stage.writes_bundle()) {
+      write_cand(*result.candidates, *reduced);
+      reduced->drain();
     }
     const Candidates* const candidates = !neighbours.empty() ? &of_part.candidates
                                          : result.candidates ? &*result.candidates
                                                              : nullptr;
     stage.write(result.graph, neighbours.empty() ? nullptr : &of_part.keys, candidates,
                 result.cover ? &*result.cover : nullptr, history_of(summary));
+    if (reduced && stage.writes_bundle()) write_cand(*result.candidates, *reduced);
+    if (reduced) reduced->commit();
     phases.end("write");
     context.statistics.update(phases.seconds());
   };

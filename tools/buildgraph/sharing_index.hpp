@@ -1,6 +1,6 @@
 #pragma once
-// Which candidates have something in common: a tet, two vertices, a quad. Things are filed in buckets and told apart
-// within one by a key of 32 bits.
+// Which candidates have something in common: a tet, a quad (pairs of vertices are in segment_index.hpp). Things are
+// filed in buckets and told apart within one by a key of 32 bits.
 
 #include <algorithm>
 #include <cstdint>

@@ -28,9 +28,10 @@ std::vector<std::int64_t> weights_of(const Candidates& candidates, WeightKind ki
   std::vector<std::int64_t> weights(candidates.size());
   std::int64_t sum = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    const double weight = scale * worth(candidates, i, kind);
-    if (weight < 0)
-      throw DataError::at(source, "expected no negative weight, found {} for candidate {}", weight, i + 1);
+    const double unscaled = worth(candidates, i, kind);
+    if (unscaled < 0)
+      throw DataError::at(source, "expected no negative weight, found {} for candidate {}", unscaled, i + 1);
+    const double weight = scale * unscaled;
     if (!(weight < too_large) || __builtin_add_overflow(sum, weights[i] = std::llround(weight), &sum))
       throw DataError::at(source,
                           "expected weights whose sum fits 64 bits, found too large ones up to candidate {}: "

@@ -52,6 +52,7 @@ void prove(const ConflictGraph& graph, ExactAlgorithm algorithm, const Deadline&
 CertifyResult certify(const ConflictGraph& graph, const IndependentSet& solution, KnownCliques known,
                       const CertifyOptions& options, const Deadline& deadline,
                       const std::function<void(const CliqueDual&)>& report) {
+  if (options.exact) expect_room_for(*options.exact, graph);
   CertifyResult result;
   result.solution = solution;
   result.weight = total_weight(solution, graph);

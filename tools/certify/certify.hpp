@@ -43,7 +43,8 @@ struct KnownCliques {
 };
 
 // `solution` is independent. Without known cliques they are found in the graph. Those at tets, made maximal, give as
-// good a bound with a third of the members: what they miss and the relaxation violates is added.
+// good a bound with a third of the members: what they miss and the relaxation violates is added. Throws DataError,
+// before anything else, where the graph is more than options.exact can hold.
 CertifyResult certify(const ConflictGraph& graph, const IndependentSet& solution, KnownCliques known,
                       const CertifyOptions& options, const Deadline& deadline,
                       const std::function<void(const CliqueDual&)>& report = {});

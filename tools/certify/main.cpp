@@ -43,6 +43,8 @@ int main(int argc, char** argv) {
     Stage stage(context);
     stage.take_cover();
     SearchLog log(context.common.log_file, "bound");
+    std::optional<Output> proof;
+    if (!certificate.empty()) proof.emplace(certificate);
     const StageData data = stage.read({Role::graph, Role::solution}, {Role::candidates});
     KnownCliques known{data.cover, std::nullopt};
     if (data.candidates) known.of_tets = cliques_of_tets(*data.candidates);
@@ -53,12 +55,7 @@ int main(int argc, char** argv) {
     const CertifyResult result =
         certify(*data.graph, *data.solution, std::move(known), options, deadline,
                 [&](const CliqueDual& now) { log.record(deadline.elapsed(), now.passes, now.bound); });
-    log.finish(deadline.elapsed(), result.dual.passes, result.bound);
-    if (!certificate.empty()) {
-      Output output(certificate);
-      write_certificate(result.cover, result.dual, output);
-      output.commit();
-    }
+    const double seconds = deadline.elapsed();
     context.statistics["weight"] = result.weight;
     context.statistics["bound"] = result.bound;
     context.statistics["gap"] = result.gap;
@@ -79,6 +76,11 @@ int main(int argc, char** argv) {
         result.solution,
         {{"weight", result.weight}, {"bound", result.bound}, {"gap", result.gap}, {"complete", result.complete}},
         &gaps);
+    // Behind the solution, which no full disk under them may cost.
+    log.finish(seconds, result.dual.passes, result.bound);
+    if (!proof) return;
+    write_certificate(result.cover, result.dual, *proof);
+    proof->commit();
   };
   return tool_main(argc, argv, info, declare, run);
 }

@@ -99,7 +99,7 @@ int main(int argc, char** argv) {
           log.record(deadline.elapsed(), now.iteration, now.weight);
           if (progress.due()) progress.show(fmt::format("weight {}", now.weight));
         });
-    log.finish(deadline.elapsed(), result.iterations, result.weight);
+    const double seconds = deadline.elapsed();
     context.statistics["greedy_weight"] = result.greedy_weight;
     context.statistics["weight"] = result.weight;
     context.statistics["chosen"] = result.solution.size();
@@ -107,6 +107,8 @@ int main(int argc, char** argv) {
     context.note(fmt::format("{} chosen, weight {} (greedy {}), {} moves", result.solution.size(), result.weight,
                              result.greedy_weight, result.iterations));
     stage.write(result.solution, {{"weight", result.weight}, {"iterations", result.iterations}});
+    // Behind the solution, which no full disk under it may cost.
+    log.finish(seconds, result.iterations, result.weight);
   };
   return tool_main(argc, argv, info, declare, run);
 }

@@ -13,6 +13,7 @@ TabuSearch::TabuSearch(const ConflictGraph& graph, const IndependentSet& start, 
       state_(graph),
       open_(graph.weights.size()),
       tabu_(graph.weights.size()),
+      tabu_until_(graph.weights.size(), 0),
       moved_(graph.weights.size(), 0) {
   restart_at(start);
   best_weight_ = state_.weight();
@@ -33,10 +34,11 @@ void TabuSearch::run(std::int64_t moves, const Deadline& deadline) {
 
 void TabuSearch::end_tabus() {
   while (!tabu_ends_.empty() && tabu_ends_.front().move <= moves_) {
-    const std::int32_t v = tabu_ends_.front().vertex;
+    const auto [move, v] = tabu_ends_.front();
     std::pop_heap(tabu_ends_.begin(), tabu_ends_.end());
     tabu_ends_.pop_back();
-    if (!tabu_.contains(v)) continue;  // went in by aspiration
+    // Went in by aspiration, or back to the best, and perhaps out again for longer.
+    if (!tabu_.contains(v) || tabu_until_[v] != move) continue;
     tabu_.erase(v);
     open_.insert(v, state_.push_gain(v));
   }
@@ -74,6 +76,7 @@ void TabuSearch::remove(std::int32_t v) {
   const auto end = moves_ + 1 + options_.tenure + static_cast<std::int64_t>(tenure == 0 ? 0 : random_.below(tenure));
   tabu_.insert(v, state_.push_gain(v));
   tabu_ends_.push_back({end, v});
+  tabu_until_[v] = end;
   std::push_heap(tabu_ends_.begin(), tabu_ends_.end());
 }
 
@@ -104,6 +107,7 @@ void TabuSearch::take_way_out() {
   if (options_.escape == Escape::rebuild)
     std::ranges::stable_sort(order, {}, [&](std::int32_t v) { return moved_[v]; });
   restart_at(build_in_order(order));
+  if (state_.weight() > best_weight_) note_best();
 }
 
 // Takes back what was done since, so that the cost is that of the moves and not that of the graph.
@@ -124,6 +128,7 @@ void TabuSearch::restart_at(const IndependentSet& solution) {
   open_.clear();
   tabu_.clear();
   tabu_ends_.clear();
+  std::ranges::fill(tabu_until_, 0);
   since_best_.clear();
   for (std::int32_t v = 0; v < graph_.vertex_count(); ++v)
     if (!state_.contains(v)) open_.insert(v, state_.push_gain(v));
@@ -150,7 +155,9 @@ IndependentSet TabuSearch::best() const {
 bool TabuSearch::check() const {
   if (!state_.check() || !open_.check() || !tabu_.check()) return false;
   for (std::int32_t v = 0; v < graph_.vertex_count(); ++v)
-    if (state_.contains(v) == (open_.contains(v) || tabu_.contains(v))) return false;
+    if (state_.contains(v) == (open_.contains(v) || tabu_.contains(v)) ||
+        (open_.contains(v) && tabu_until_[v] > moves_))
+      return false;
   return true;
 }
 

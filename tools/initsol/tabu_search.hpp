@@ -42,7 +42,8 @@ class TabuSearch {
   std::int64_t best_weight() const { return best_weight_; }
   IndependentSet best() const;
 
-  // The state is right, and the queues hold every vertex that is not chosen, with its gain. For tests.
+  // The state is right, the queues hold every vertex that is not chosen, with its gain, and none is open before its
+  // tabu ends. For tests.
   bool check() const;
 
  private:
@@ -69,8 +70,11 @@ class TabuSearch {
   TabuOptions options_;
   Random random_;
   SolutionState state_;
-  IndexedHeap open_, tabu_;         // gains of the vertices that are not chosen
-  std::vector<TabuEnd> tabu_ends_;  // a heap, the earliest end first
+  IndexedHeap open_, tabu_;  // gains of the vertices that are not chosen
+  // A heap, the earliest end first, with entries that are no longer true: of a vertex only that counts which is its
+  // last.
+  std::vector<TabuEnd> tabu_ends_;
+  std::vector<std::int64_t> tabu_until_;  // by vertex: its last end
   std::vector<std::int32_t> pushed_out_;
   std::vector<std::uint32_t> moved_;  // how often each vertex went in or out
 

@@ -39,7 +39,8 @@ int main(int argc, char** argv) {
       .product = Role::solution,
       .random = true,
       .searches = true,
-      .default_time_limit = 60};
+      .default_time_limit = 60,
+      .outside_history = {"fragments"}};
   LnsOptions options;
   TargetOptions target;
   std::string fragments_file;
@@ -55,6 +56,8 @@ int main(int argc, char** argv) {
     options.iterations = context.common.iterations.value_or(options.iterations);
     Stage stage(context);
     SearchLog log(context.common.log_file);
+    std::optional<Output> fragments;
+    if (!fragments_file.empty()) fragments.emplace(fragments_file);
     const StageData data = stage.read({Role::graph, Role::solution});
     const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
     if (target.gap)
@@ -62,8 +65,6 @@ int main(int argc, char** argv) {
           target_weight(*target.gap, target.bound || !graph_of_bundle ? target.bound : bound_in(data.history));
 
     if (data.gaps) options.first_places = holds_most_of_gap(data.graph->vertex_count(), *data.solution, *data.gaps);
-    std::optional<Output> fragments;
-    if (!fragments_file.empty()) fragments.emplace(fragments_file);
     const Deadline deadline = context.deadline();
     Progress progress("lns", context.common.quiet);
     const LnsResult result =
@@ -72,8 +73,7 @@ int main(int argc, char** argv) {
           if (fragments) write_fragment(*fragments, now.fragment);
           if (progress.due()) progress.show(fmt::format("weight {} after {} fragments", now.weight, now.iteration));
         });
-    log.finish(deadline.elapsed(), result.iterations, result.weight);
-    if (fragments) fragments->commit();
+    const double seconds = deadline.elapsed();
     context.statistics["weight"] = result.weight;
     context.statistics["chosen"] = result.solution.size();
     context.statistics["iterations"] = result.iterations;
@@ -86,6 +86,9 @@ int main(int argc, char** argv) {
         {"weight", result.weight}, {"iterations", result.iterations}, {"complete", result.complete}};
     if (options.free_running) details["depends_on_timing"] = true;
     stage.write(result.solution, details);
+    // Behind the solution, which no full disk under them may cost.
+    log.finish(seconds, result.iterations, result.weight);
+    if (fragments) fragments->commit();
   };
   return tool_main(argc, argv, info, declare, run);
 }
