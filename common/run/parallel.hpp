@@ -7,6 +7,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
 #include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -65,6 +66,13 @@ void parallel_for(std::int64_t count, std::int64_t grain, Body&& body) {
 template <class One, class Other>
 void both_at_once(One&& one, Other&& other) {
   tbb::parallel_invoke(std::forward<One>(one), std::forward<Other>(other));
+}
+
+// body(), whose parallel loops leave one thread to another process, if there are more. A ThreadLimit would not do:
+// where a thread cannot be started, to lift it ends the process.
+template <class Body>
+void leaving_one_thread(Body&& body) {
+  tbb::task_arena(std::max(1, thread_count() - 1)).execute(std::forward<Body>(body));
 }
 
 // Cuts [0, count) into blocks of `block` items, calls produce(begin, end) -> Product in parallel and consume(Product&&)

@@ -221,7 +221,11 @@ std::optional<BuiltMesh> Filler::tetrahedralize(std::span<const Vec3> points, co
                         .shuffle = static_cast<std::uint64_t>(run),
                         .names_intersecting = run + 1 == most_runs},
                        deadline.remaining());
-      if (at_once && run == 0 && !meanwhile()) return std::nullopt;
+      if (at_once && run == 0) {
+        bool wanted = true;
+        leaving_one_thread([&] { wanted = meanwhile(); });
+        if (!wanted) return std::nullopt;
+      }
       TetGenResult made = tetgen.wait();
       ++statistics_.tetgen_runs;
       statistics_.seconds.of_tetgen += made.seconds;

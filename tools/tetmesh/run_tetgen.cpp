@@ -12,7 +12,6 @@
 
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
-#include "common/run/parallel.hpp"
 #include "common/run/random.hpp"
 #include "tools/tetmesh/child_process.hpp"
 
@@ -183,7 +182,6 @@ struct TetGenRun::Work {
   ShuffledInput shuffled = shuffle(input);
   SharedResult shared = {};
   ChildProcess child{[this] { mesh_in_child(shuffled, shared); }, deadline.remaining()};
-  ThreadLimit elsewhere{std::max(1, thread_count() - 1)};
 };
 
 TetGenRun::TetGenRun(const TetGenInput& input, double timeout) : work_(new Work{input, Deadline(timeout)}) {}

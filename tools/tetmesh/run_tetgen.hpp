@@ -32,8 +32,7 @@ struct TetGenResult {
   double seconds = 0;  // of the processor
 };
 
-// TetGen at work in a child process: it ends processes, throws through frames that free twice, and prints. Meanwhile
-// parallel loops here use one thread less, if there is more than one.
+// TetGen at work in a child process: it ends processes, throws through frames that free twice, and prints.
 class TetGenRun {
  public:
   // Starts it; what the input names has to stand until it was waited for. It may take `timeout` seconds. Throws
