@@ -86,6 +86,25 @@ SizeList read_npy(std::string_view bytes, const std::string& name) {
   return list;
 }
 
+// Nodes that no simplex uses, which need no size, are left out.
+void keep_used_nodes(SizeList& list) {
+  std::vector<Vertex> number(list.points.size(), SizeList::none);
+  Vertex count = 0;
+  for (auto& simplex : list.simplices)
+    for (Vertex& v : simplex) {
+      if (v == SizeList::none) continue;
+      if (number[v] == SizeList::none) number[v] = count++;
+      v = number[v];
+    }
+  SizeList used{std::vector<double>(count), std::vector<Vec3>(count), std::move(list.simplices), {}};
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] == SizeList::none) continue;
+    used.points[number[v]] = list.points[v];
+    used.sizes[number[v]] = list.sizes[v];
+  }
+  list = std::move(used);
+}
+
 SizeList read_background(std::string_view text, const std::string& name) {
   MshNodeValues field = read_msh_node_values(text, name);
   const MixedMesh& mesh = field.mesh;
@@ -103,6 +122,7 @@ SizeList read_background(std::string_view text, const std::string& name) {
         throw DataError::at(name,
                             "expected a positive size at every node of $NodeData, found {:g} at ({:g}, {:g}, {:g})",
                             list.sizes[v], list.points[v].x, list.points[v].y, list.points[v].z);
+  keep_used_nodes(list);
   return list;
 }
 
