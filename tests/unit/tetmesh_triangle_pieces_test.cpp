@@ -6,6 +6,7 @@
 
 #include "common/run/random.hpp"
 #include "formats/surface_files.hpp"
+#include "tools/tetmesh/apart_test.hpp"
 #include "tools/tetmesh/column_index.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
 #include "tools/tetmesh/triangle_distance.hpp"
@@ -101,6 +102,38 @@ TEST(TrianglePieces, IndicesAndTreesOfNeedlesFindWhatIsThere) {
     EXPECT_NEAR(tree.least(p, 1, 1e9, [&](std::int32_t t) { return std::sqrt(squared(t)); }), nearest, 1e-8 * nearest);
     EXPECT_EQ(crossed, above);
   }
+}
+
+TEST(ApartTest, TrianglesThatMeetAreNeverApart) {
+  Random random(11);
+  for (int i = 0; i < 20000; ++i) {
+    // Whole numbers, so that the point in which the two meet is exact; every third pair lies in one plane.
+    const auto place = [&] {
+      const Vec3 p = place_in_cube(random, 4);
+      return Vec3{std::round(p.x), std::round(p.y), i % 3 == 0 ? 0 : std::round(p.z)};
+    };
+    const Vec3 a = place(), b = place(), c = place(), d = place(), e = place();
+    const Vec3 common = i % 2 == 0 ? 0.5 * (b + c) : 0.25 * a + 0.25 * b + 0.5 * c;
+    // In the middle between d and g, and with d and e around it.
+    const Vec3 g = 2 * common - d, f = 4 * common - 2 * d - e;
+    const std::vector<Vec3> points{a, b, c, d, e, f, g};
+    const std::vector<Triangle> triangles{{0, 1, 2}, {3, 4, 5}, {0, 3, 6}};
+    const ApartTest test(points, triangles);
+    EXPECT_FALSE(test.are_apart(0, 1)) << i;
+    EXPECT_FALSE(test.are_apart(1, 0)) << i;
+    EXPECT_FALSE(test.are_apart_beyond_corner(triangles[0], triangles[2])) << i;
+    EXPECT_FALSE(test.are_apart_beyond_corner(triangles[2], triangles[0])) << i;
+  }
+}
+
+TEST(ApartTest, TellsNeedlesThatDoNotMeet) {
+  const SurfaceSoup soup = leaning_cylinder(50);
+  const ApartTest test(soup.points, soup.triangles);
+  for (std::int32_t t = 8; t < 92; ++t) EXPECT_TRUE(test.are_apart(0, t)) << t;
+  const std::vector<Vec3> fan{{0, 0, 0}, {9, 0, 9}, {9, 1, 9}, {9, 2, 9}, {9, 3, 9}};
+  const ApartTest beside(fan, {});
+  EXPECT_TRUE(beside.are_apart_beyond_corner({0, 1, 2}, {0, 3, 4}));
+  EXPECT_FALSE(beside.are_apart_beyond_corner({0, 1, 3}, {0, 2, 4}));
 }
 
 }  // namespace
