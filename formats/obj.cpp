@@ -35,6 +35,7 @@ class ObjReader {
   TextScanner scanner_;
   SurfaceSoup soup_;
   std::vector<Vertex> corners_;
+  PolygonReader polygons_;
   std::optional<std::string> group_;
   std::optional<std::int32_t> group_tag_;  // once the group has a face
   std::map<std::string, std::int32_t> known_groups_;
@@ -43,6 +44,7 @@ class ObjReader {
 SurfaceSoup ObjReader::read() {
   while (!scanner_.at_end()) read_statement(scanner_.word("an OBJ statement"));
   check_corners();
+  polygons_.cut_concave(soup_);
   return std::move(soup_);
 }
 
@@ -80,7 +82,7 @@ void ObjReader::read_face() {
   }
   if (corners_.size() < 3)
     throw FormatError(name_, line, fmt::format("expected a face of three or more vertices, found {}", corners_.size()));
-  append_polygon(soup_, corners_, tag_of_group(), line);
+  polygons_.append(soup_, corners_, tag_of_group(), line);
 }
 
 // From 0. `word` is V, V/T, V//N or V/T/N; V counts from 1, or back from the last vertex so far when negative. Vertices

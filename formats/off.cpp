@@ -21,7 +21,8 @@ void read_header(TextScanner& scanner) {
   if (equal_ignoring_case(scanner.peek_word(), "BINARY")) scanner.fail_expected("ASCII OFF", "BINARY");
 }
 
-void read_face(TextScanner& scanner, std::size_t vertex_count, std::vector<Vertex>& corners, SurfaceSoup& soup) {
+void read_face(TextScanner& scanner, std::vector<Vertex>& corners, PolygonReader& polygons, SurfaceSoup& soup) {
+  const std::size_t vertex_count = soup.points.size();
   const std::size_t corner_count = scanner.count("the number of a face's vertices", 2);
   const long line = scanner.line();
   if (corner_count < 3) scanner.fail(fmt::format("expected a face of three or more vertices, found {}", corner_count));
@@ -33,7 +34,7 @@ void read_face(TextScanner& scanner, std::size_t vertex_count, std::vector<Verte
     corners.push_back(static_cast<Vertex>(index));
   }
   scanner.rest_of_line();  // colour
-  append_polygon(soup, corners, 0, line);
+  polygons.append(soup, corners, 0, line);
 }
 
 }  // namespace
@@ -60,9 +61,11 @@ SurfaceSoup read_off(std::string_view text, const std::string& name) {
   }
   soup.triangles.reserve(face_count);
   std::vector<Vertex> corners;
-  for (std::size_t i = 0; i < face_count; ++i) read_face(scanner, vertex_count, corners, soup);
+  PolygonReader polygons;
+  for (std::size_t i = 0; i < face_count; ++i) read_face(scanner, corners, polygons, soup);
   if (!scanner.at_end())
     scanner.fail_expected(fmt::format("the end of the file after {} faces", face_count), scanner.peek_word());
+  polygons.cut_concave(soup);
   return soup;
 }
 

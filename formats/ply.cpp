@@ -247,6 +247,7 @@ class BodyReader {
   std::uint64_t vertex_count_ = 0;  // of the header; the faces may come before the vertices
   SurfaceSoup soup_;
   std::vector<Vertex> corners_;
+  PolygonReader polygons_;
 };
 
 template <class Body>
@@ -264,6 +265,7 @@ SurfaceSoup BodyReader<Body>::read() {
     }
   }
   body_.expect_end();
+  polygons_.cut_concave(soup_);
   return std::move(soup_);
 }
 
@@ -333,7 +335,7 @@ void BodyReader<Body>::read_face(const Element& element, const Property& indices
                    fmt::format("expected a vertex index below {}, found {}", vertex_count_, vertex));
       corners_.push_back(static_cast<Vertex>(vertex));
     }
-    append_polygon(soup_, corners_, 0, place);
+    polygons_.append(soup_, corners_, 0, place);
   }
 }
 

@@ -32,7 +32,7 @@ void read_facet(TextScanner& scanner, std::int32_t tag, PointMerger& merger, Sur
   }
   scanner.expect("endloop");
   scanner.expect("endfacet");
-  append_polygon(soup, triangle, tag, line);
+  append_triangle(soup, triangle, tag, line);
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ SurfaceSoup read_binary_stl(std::string_view bytes, const std::string& name) {
                             largest_coordinate, point.x, point.y, point.z);
       triangle[corner] = merger.index_of(point);
     }
-    append_polygon(soup, triangle, attribute, static_cast<std::int64_t>(i) + 1);
+    append_triangle(soup, triangle, attribute, static_cast<std::int64_t>(i) + 1);
   }
   return soup;
 }

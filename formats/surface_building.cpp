@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/run/error.hpp"
+#include "formats/polygon_cutting.hpp"
 
 namespace hexpipe {
 
@@ -50,11 +51,23 @@ SurfaceSoup merge_equal_points(SurfaceSoup soup) {
   return soup;
 }
 
-void append_polygon(SurfaceSoup& soup, std::span<const Vertex> corners, std::int32_t tag, std::int64_t place) {
+void append_triangle(SurfaceSoup& soup, const Triangle& triangle, std::int32_t tag, std::int64_t place) {
+  soup.triangles.push_back(triangle);
+  soup.tags.push_back(tag);
+  soup.places.push_back(place);
+}
+
+void PolygonReader::append(SurfaceSoup& soup, std::span<const Vertex> corners, std::int32_t tag, std::int64_t place) {
   for (std::size_t i = 2; i < corners.size(); ++i) {
-    soup.triangles.push_back({corners[0], corners[i - 1], corners[i]});
-    soup.tags.push_back(tag);
-    soup.places.push_back(place);
+    append_triangle(soup, {corners[0], corners[i - 1], corners[i]}, tag, place);
+    goes_on_.push_back(i > 2);
+  }
+}
+
+void PolygonReader::cut_concave(SurfaceSoup& soup) const {
+  for (std::size_t begin = 0, end = 0; begin < goes_on_.size(); begin = end) {
+    for (end = begin + 1; end < goes_on_.size() && goes_on_[end];) ++end;
+    if (end - begin > 1) cut_if_concave(soup.points, std::span(soup.triangles).subspan(begin, end - begin));
   }
 }
 

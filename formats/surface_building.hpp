@@ -1,5 +1,5 @@
 #pragma once
-// What the readers of surface formats share: merging equal points, fanning polygons, reading finite coordinates.
+// What the readers of surface formats share: merging equal points, cutting polygons, reading finite coordinates.
 
 #include <tsl/robin_map.h>
 
@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "formats/surface_files.hpp"
 #include "formats/text_scanner.hpp"
@@ -33,8 +34,19 @@ SurfaceSoup merge_equal_points(SurfaceSoup soup);
 // Throws DataError where there are more points than can be numbered.
 void check_point_count(std::uint64_t count, std::string_view name);
 
-// Corner numbers must be valid already; at least three.
-void append_polygon(SurfaceSoup& soup, std::span<const Vertex> corners, std::int32_t tag, std::int64_t place);
+void append_triangle(SurfaceSoup& soup, const Triangle& triangle, std::int32_t tag, std::int64_t place);
+
+// Collects the polygons of a file that may have faces before the vertices.
+class PolygonReader {
+ public:
+  // Fans it; at least three corners.
+  void append(SurfaceSoup& soup, std::span<const Vertex> corners, std::int32_t tag, std::int64_t place);
+  // Once all points are there and corners are known to be among them: cuts concave polygons as they must be.
+  void cut_concave(SurfaceSoup& soup) const;
+
+ private:
+  std::vector<bool> goes_on_;  // whether a triangle is of the same polygon as the one before
+};
 
 // Three words as coordinates. Throws FormatError where one is missing, no number, or not finite.
 Vec3 read_coordinates(TextScanner& scanner);

@@ -13,7 +13,7 @@ namespace hexpipe {
 
 struct SurfaceSoup {
   std::vector<Vec3> points;         // one for each distinct coordinate triple (exact equality, -0 = 0)
-  std::vector<Triangle> triangles;  // polygons are fanned from their first corner
+  std::vector<Triangle> triangles;  // polygons are cut into as many as a fan would have
   std::vector<std::int32_t>
       tags;  // surface tag: number of the STL solid, STL attribute, number of the OBJ group, else 0
   std::vector<std::int64_t> places;  // line (text) or number in the file (binary) of each triangle's facet, from 1

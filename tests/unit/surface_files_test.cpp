@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 
 #include "common/run/error.hpp"
 
@@ -175,6 +176,72 @@ TEST(SurfaceFiles, FansPolygons) {
   const SurfaceSoup soup = read("OFF 5 1 0\n0 0 0\n2 0 0\n3 1 0\n2 2 0\n0 2 0\n5 0 1 2 3 4\n");
   EXPECT_THAT(soup.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}, Triangle{0, 3, 4}));
   EXPECT_THAT(soup.places, ElementsAre(7, 7, 7));
+}
+
+// Twice the area of the triangles, none of which may be turned over or flat, of points in the plane z = 0.
+double double_area(const SurfaceSoup& soup) {
+  double sum = 0;
+  for (const auto& [a, b, c] : soup.triangles) {
+    const double area = cross(soup.points[b] - soup.points[a], soup.points[c] - soup.points[a]).z;
+    EXPECT_GT(area, 0);
+    sum += area;
+  }
+  return sum;
+}
+
+std::string obj_of_polygon(const std::vector<Vec3>& corners, std::size_t first = 0) {
+  std::string vertices, face = "f";
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3& p = corners[(first + i) % corners.size()];
+    vertices += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
+    face += fmt::format(" {}", i + 1);
+  }
+  return face + "\n" + vertices;
+}
+
+TEST(SurfaceFiles, CutsConcavePolygonsWhereverTheyBegin) {
+  const std::vector<Vec3> corner{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};
+  const std::vector<Vec3> comb{{0, 0, 0}, {7, 0, 0}, {7, 5, 0}, {6, 5, 0}, {6, 1, 0}, {5, 1, 0}, {5, 5, 0},
+                               {4, 5, 0}, {4, 1, 0}, {2, 1, 0}, {2, 3, 0}, {1, 3, 0}, {1, 1, 0}, {0, 1, 0}};
+  // A square with a square hole, to which a bridge leads.
+  const std::vector<Vec3> ring{{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}, {0, 0, 0},
+                               {1, 1, 0}, {1, 2, 0}, {2, 2, 0}, {2, 1, 0}, {1, 1, 0}};
+  for (const auto& [polygon, area] : {std::pair(corner, 3.0), {comb, 17.0}, {ring, 8.0}})
+    for (std::size_t first = 0; first < polygon.size(); ++first) {
+      const SurfaceSoup soup = read(obj_of_polygon(polygon, first));
+      EXPECT_EQ(soup.triangles.size(), polygon.size() - 2) << first;
+      EXPECT_DOUBLE_EQ(double_area(soup), 2 * area) << first;
+    }
+}
+
+TEST(SurfaceFiles, CutsConcavePolygonsOfOffAndPly) {
+  const std::string points = "1 1 0\n1 2 0\n0 2 0\n0 0 0\n2 0 0\n2 1 0\n", face = "6 1 2 3 4 5 0\n";
+  const std::string header = "ply\nformat ascii 1.0\n", of_vertices =
+                                                            "element vertex 6\nproperty double x\n"
+                                                            "property double y\nproperty double z\n";
+  const std::string of_faces = "element face 1\nproperty list uchar int vertex_indices\n";
+  EXPECT_DOUBLE_EQ(double_area(read("OFF 6 1 0\n" + points + face)), 6);
+  EXPECT_DOUBLE_EQ(double_area(read(header + of_vertices + of_faces + "end_header\n" + points + face)), 6);
+  EXPECT_DOUBLE_EQ(double_area(read(header + of_faces + of_vertices + "end_header\n" + face + points)), 6);
+}
+
+TEST(SurfaceFiles, APolygonThatCrossesItselfStaysAFan) {
+  EXPECT_THAT(read(obj_of_polygon({{0, 0, 0}, {2, 2, 0}, {3, 0, 0}, {0, 2, 0}, {9, 9, 0}, {1, -9, 0}})).triangles,
+              ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}, Triangle{0, 3, 4}, Triangle{0, 4, 5}));
+}
+
+TEST(SurfaceFiles, APolygonOfThousandsOfCornersTakesNoTime) {
+  // A gear: each second corner further in, half of them concave.
+  const auto gear = [](int count) {
+    std::vector<Vec3> corners;
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2 * std::numbers::pi * i / count, radius = i % 2 == 0 ? 1 : 0.9;
+      corners.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
+    }
+    return corners;
+  };
+  EXPECT_NEAR(double_area(read(obj_of_polygon(gear(10000), 1))), 0.9 * 2 * std::numbers::pi, 1e-5);
+  EXPECT_EQ(read(obj_of_polygon(gear(200000))).triangles[7], (Triangle{0, 8, 9}));
 }
 
 TEST(SurfaceFiles, MergesEqualPointsAndDropsUnusedOnes) {

@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "tools/tetmesh/triangle_pieces.hpp"
+
 namespace hexpipe {
 
 double Box::entry(const Vec3& from, const Vec3& inverse) const {
@@ -53,11 +55,25 @@ std::int32_t BoxTree::build(std::span<const Box> boxes, std::span<const double> 
   return number;
 }
 
+BoxTree::BoxTree(std::span<const Box> boxes, std::span<const double> values, std::span<const std::int32_t> owners)
+    : BoxTree(boxes, values) {
+  for (std::int32_t& thing : things_) thing = owners[thing];
+}
+
 BoxTree tree_of_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles) {
+  const double length = length_of_pieces(points, triangles);
   std::vector<Box> boxes;
+  std::vector<std::int32_t> owners;
   boxes.reserve(triangles.size());
-  for (const auto& [a, b, c] : triangles) boxes.push_back(Box::around(std::array{points[a], points[b], points[c]}));
-  return {boxes, std::vector<double>(boxes.size(), 0.0)};
+  owners.reserve(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto& [a, b, c] = triangles[i];
+    TrianglePieces(points[a], points[b], points[c], length).for_each_box([&](const Box& box) {
+      boxes.push_back(box);
+      owners.push_back(static_cast<std::int32_t>(i));
+    });
+  }
+  return {boxes, std::vector<double>(boxes.size(), 0.0), owners};
 }
 
 }  // namespace hexpipe

@@ -44,9 +44,11 @@ class BoxTree {
  public:
   // A thing's number is that of its box. `values`, one each, are lower bounds of what least() looks for.
   BoxTree(std::span<const Box> boxes, std::span<const double> values);
+  // Things may have several boxes, which cover them: `owners` says whose each one is.
+  BoxTree(std::span<const Box> boxes, std::span<const double> values, std::span<const std::int32_t> owners);
 
   // The least of value_of(thing) over the things, to 10^-9 of it, or `most` if none is below. A value must not be less
-  // than the thing's value plus `slope` times the distance of p from its box.
+  // than the thing's value plus `slope` times the distance of p from the nearest of its boxes.
   template <class ValueOf>
   double least(const Vec3& p, double slope, double most, ValueOf&& value_of) const {
     return search(most, value_of, [&](const Node& node) { return node.value + slope * node.box.distance(p); });

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 
+#include "tools/tetmesh/apart_test.hpp"
+
 namespace hexpipe {
 namespace {
 
@@ -40,14 +42,16 @@ SharedCorners shared_corners(const Triangle& first, const Triangle& second) {
 class IntersectionTest {
  public:
   IntersectionTest(std::span<const Vec3> points, std::span<const Triangle> triangles)
-      : points_(points), triangles_(triangles) {}
+      : points_(points), triangles_(triangles), apart_(points, triangles) {}
 
   bool operator()(std::int32_t first, std::int32_t second) const {
     const SharedCorners corners = shared_corners(triangles_[first], triangles_[second]);
     switch (corners.count) {
       case 0:
+        if (apart_.are_apart(first, second)) return false;
         return CGAL::do_intersect(triangle(corners.first), triangle(corners.second));
       case 1:
+        if (apart_.are_apart_beyond_corner(corners.first, corners.second)) return false;
         return meet_beyond_vertex(corners.first, corners.second);
       case 2:
         return fold_onto_each_other(corners.first, corners.second);
@@ -74,6 +78,7 @@ class IntersectionTest {
 
   std::span<const Vec3> points_;
   std::span<const Triangle> triangles_;
+  ApartTest apart_;
 };
 
 std::vector<Box> boxes_of(std::span<const Vec3> points, std::span<const Triangle> triangles) {
@@ -108,6 +113,8 @@ IntersectionReport find_intersections(std::span<const Vec3> points, std::span<co
     if (report.pairs.size() == limit) throw LimitReached();
     report.pairs.push_back({std::min(first.info(), second.info()), std::max(first.info(), second.info())});
   };
+  // Boxes of pieces of narrow triangles would not do: of a leaning cylinder of 4,000 triangles, three times as many
+  // pairs of them meet as of whole ones.
   std::vector<Box> boxes = boxes_of(points, triangles);
   try {
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), take);
