@@ -325,3 +325,13 @@ SHELL
   assert_fails_with 2 "--parts needs a directory" lns-mpi --parts part0.tar
   assert_fails_with 2 "expected --parts or a graph" lns-mpi --parts part0.tar --graph ring.graph -o out
 }
+
+@test "what goes wrong beside the solution does not cost it" {
+  on 2 --iterations 30 -o whole.sol
+  for side in log fragments; do
+    run on 2 --iterations 30 -o $side.sol --$side /dev/full
+    assert_failure
+    assert_output --partial "/dev/full: "
+    assert_same_bytes whole.sol $side.sol
+  done
+}

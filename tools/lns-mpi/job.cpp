@@ -163,10 +163,6 @@ class Job {
     std::array<std::int64_t, 1> chosen{0};
     for (std::int32_t v = 0; v < piece.vertex_count(); ++v) chosen[0] += piece.chosen[v] != 0 && piece.owns(v) ? 1 : 0;
     ranks_.sum(chosen);
-    ranks_.together([&] {
-      log_->finish(deadline_.elapsed(), progress_.iterations, progress_.weight);
-      if (fragments_) fragments_->commit();
-    });
     context_.statistics["weight"] = progress_.weight;
     context_.statistics["chosen"] = chosen[0];
     context_.statistics["iterations"] = progress_.iterations;
@@ -181,6 +177,11 @@ class Job {
     if (bound_) details["bound"] = *bound_;
     if (options_.rounds.search.free_running) details["depends_on_timing"] = true;
     source_->write(ranks_, piece, details);
+    // Behind the solution, which a full disk here is not to cost.
+    ranks_.together([&] {
+      log_->finish(deadline_.elapsed(), progress_.iterations, progress_.weight);
+      if (fragments_) fragments_->commit();
+    });
     if (!ranks_.is_first()) context_.common.stats_file.clear();
   }
 
