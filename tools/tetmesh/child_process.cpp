@@ -70,6 +70,14 @@ void set_alarm(double seconds) {
   _exit(0);
 }
 
+// The status that waitpid() gives.
+int wait_for(pid_t child, rusage& usage) {
+  int status = 0;
+  while (wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
 }  // namespace
 
 SharedResult::SharedResult() : descriptor_(memfd_create("result", MFD_CLOEXEC)) {
@@ -114,25 +122,17 @@ ChildProcess::ChildProcess(const std::function<void()>& work, double timeout) {
 ChildProcess::~ChildProcess() {
   if (child_ == reaped) return;
   kill(child_, SIGKILL);
-  ChildEnd unwanted;
-  reap(unwanted);
-}
-
-// The status that waitpid() gives.
-int ChildProcess::reap(ChildEnd& end) {
-  int status = 0;
-  rusage usage{};
-  while (wait4(child_, &status, 0, &usage) < 0 && errno == EINTR) {
-  }
-  for (const timeval& time : {usage.ru_utime, usage.ru_stime})
-    end.seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  child_ = reaped;
-  return status;
+  rusage unwanted{};
+  wait_for(child_, unwanted);
 }
 
 ChildEnd ChildProcess::wait() {
+  rusage usage{};
+  const int status = wait_for(child_, usage);
+  child_ = reaped;
   ChildEnd end;
-  const int status = reap(end);
+  for (const timeval& time : {usage.ru_utime, usage.ru_stime})
+    end.seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
   if (WIFSIGNALED(status)) {
     end.code = WTERMSIG(status);
     end.kind = end.code == SIGALRM ? ChildEnd::Kind::timed_out : ChildEnd::Kind::killed;

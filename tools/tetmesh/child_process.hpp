@@ -5,8 +5,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <span>
-#include <vector>
 
 namespace hexpipe {
 
@@ -55,8 +53,6 @@ class ChildProcess {
   ChildEnd wait();
 
  private:
-  int reap(ChildEnd& end);
-
   pid_t child_;
 };
 

@@ -38,7 +38,7 @@ std::int64_t ColumnIndex::column_number(double value, int axis) const {
 
 template <class Visit>
 void ColumnIndex::for_each_column(const Triangle& triangle, Visit&& visit) const {
-  const auto for_each_in = [&](const Box& box, auto&& take) {
+  const auto columns_in = [&](const Box& box, auto&& take) {
     const std::int64_t last_x = column_number(box.high.x, 0), last_y = column_number(box.high.y, 1);
     for (std::int64_t y = column_number(box.low.y, 1); y <= last_y; ++y)
       for (std::int64_t x = column_number(box.low.x, 0); x <= last_x; ++x) take(y * counts_[0] + x);
@@ -46,13 +46,7 @@ void ColumnIndex::for_each_column(const Triangle& triangle, Visit&& visit) const
   const auto seen_along_z = [&](Vertex v) { return Vec3{points_[v].x, points_[v].y, 0}; };
   const TrianglePieces pieces(seen_along_z(triangle[0]), seen_along_z(triangle[1]), seen_along_z(triangle[2]),
                               std::max(width_[0], width_[1]));
-  if (pieces.count() == 1) return for_each_in(pieces.box(), visit);
-  std::vector<std::int64_t> columns;
-  pieces.for_each_box(
-      [&](const Box& box) { for_each_in(box, [&](std::int64_t column) { columns.push_back(column); }); });
-  std::ranges::sort(columns);
-  columns.erase(std::ranges::unique(columns).begin(), columns.end());
-  for (const std::int64_t column : columns) visit(column);
+  pieces.for_each_cell(columns_in, visit);
 }
 
 std::span<const std::int32_t> ColumnIndex::column_of(const Vec3& p) const {

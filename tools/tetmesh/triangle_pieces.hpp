@@ -10,6 +10,8 @@
 #include <limits>
 #include <span>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/tetmesh/box_tree.hpp"
@@ -48,6 +50,18 @@ class TrianglePieces {
       visit(within(box));
       before = after;
     }
+  }
+
+  // Calls visit(cell) once for each cell of a grid that the pieces may reach, in order where there are several;
+  // cells_in(box, take) calls take(cell) for those that a box reaches.
+  template <class CellsIn, class Visit>
+  void for_each_cell(CellsIn&& cells_in, Visit&& visit) const {
+    if (count_ == 1) return cells_in(box_, std::forward<Visit>(visit));
+    std::vector<std::int64_t> cells;
+    for_each_box([&](const Box& box) { cells_in(box, [&](std::int64_t cell) { cells.push_back(cell); }); });
+    std::ranges::sort(cells);
+    cells.erase(std::ranges::unique(cells).begin(), cells.end());
+    for (const std::int64_t cell : cells) visit(cell);
   }
 
  private:

@@ -29,6 +29,19 @@ FieldSurface::FieldSurface(const FeatureMesh& mesh, const SizeField& size) {
   }
 }
 
+std::vector<AreaSample> FieldSurface::samples(double least_squares) const {
+  std::vector<AreaSample> samples;
+  double area = 0, squares = 0;
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(triangles.size()); ++f) {
+    area += areas[f];
+    squares += squares_of_size(f);
+    if (squares < least_squares) continue;
+    samples.push_back({f, area, squares});
+    area = squares = 0;
+  }
+  return samples;
+}
+
 HalfEdge half_edge_of(const FeatureMesh& mesh, OpenMesh::HalfedgeHandle h) {
   const auto f = mesh.face_handle(h);
   HalfEdge number = 3 * f.idx();

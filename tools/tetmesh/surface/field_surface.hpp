@@ -9,6 +9,13 @@
 
 namespace hexpipe {
 
+// A triangle that stands for an area: its own and that of triangles before it.
+struct AreaSample {
+  std::int32_t triangle;
+  double area;
+  double squares;  // as many of the size
+};
+
 struct FieldSurface {
   // Faces and vertices have the numbers that they have in the mesh, which must have nothing deleted.
   FieldSurface(const FeatureMesh& mesh, const SizeField& size);
@@ -27,6 +34,10 @@ struct FieldSurface {
   Vec3 edge_vector(HalfEdge h) const { return points[end_of(triangles, h)] - points[start_of(triangles, h)]; }
   // At right angles to a half-edge in the plane of its triangle, of length 1, pointing into it.
   const Vec3& inward(HalfEdge h) const { return inwards[h]; }
+  // Of a triangle's area.
+  double squares_of_size(std::int32_t triangle) const { return areas[triangle] / (sizes[triangle] * sizes[triangle]); }
+  // Triangles that each stand for at least so many squares of the size; what the last ones lack is left out.
+  std::vector<AreaSample> samples(double least_squares) const;
 };
 
 // The half-edge of the surface that is one of the mesh's.

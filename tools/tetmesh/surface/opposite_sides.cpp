@@ -21,21 +21,13 @@ constexpr double least_area = 0.25;
 std::vector<OppositeSide> opposite_sides(const FieldSurface& surface) {
   const BoxTree tree = tree_of_triangles(surface.points, surface.triangles);
   std::vector<OppositeSide> result(surface.triangles.size());
-  std::vector<std::int32_t> samples;
-  double area = 0;
-  for (std::int32_t f = 0; f < static_cast<std::int32_t>(result.size()); ++f) {
-    const double here = surface.sizes[f];
-    area += surface.areas[f] / (here * here);
-    if (area < least_area) continue;
-    result[f].area = area;
-    samples.push_back(f);
-    area = 0;
-  }
+  const std::vector<AreaSample> samples = surface.samples(least_area);
   parallel_for(static_cast<std::int64_t>(samples.size()), 64, [&](std::int64_t i) {
-    const std::int32_t f = samples[i];
+    const std::int32_t f = samples[i].triangle;
     const Vec3 &from = surface.centres[f], inwards = -surface.normals[f];
     const double here = surface.sizes[f];
     OppositeSide& side = result[f];
+    side.area = samples[i].squares;
     double best = furthest * here;
     tree.first_hit(from, inwards, best, [&](std::int32_t triangle) {
       const auto& [a, b, c] = surface.triangles[triangle];

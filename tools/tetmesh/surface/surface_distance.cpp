@@ -103,19 +103,13 @@ DistanceIndex::Cell DistanceIndex::cell_of(const Vec3& p) const {
 
 template <class Visit>
 void DistanceIndex::for_each_cell(const Triangle& t, Visit&& visit) const {
-  const auto for_each_in = [&](const Box& box, auto&& take) {
+  const auto cells_in = [&](const Box& box, auto&& take) {
     const Cell low = cell_of(box.low), high = cell_of(box.high);
     for (std::int64_t z = low.z; z <= high.z; ++z)
       for (std::int64_t y = low.y; y <= high.y; ++y)
         for (std::int64_t x = low.x; x <= high.x; ++x) take(number_of({x, y, z}));
   };
-  const TrianglePieces pieces(points_[t[0]], points_[t[1]], points_[t[2]], width_);
-  if (pieces.count() == 1) return for_each_in(pieces.box(), visit);
-  std::vector<std::int64_t> cells;
-  pieces.for_each_box([&](const Box& box) { for_each_in(box, [&](std::int64_t cell) { cells.push_back(cell); }); });
-  std::ranges::sort(cells);
-  cells.erase(std::ranges::unique(cells).begin(), cells.end());
-  for (const std::int64_t cell : cells) visit(cell);
+  TrianglePieces(points_[t[0]], points_[t[1]], points_[t[2]], width_).for_each_cell(cells_in, visit);
 }
 
 double DistanceIndex::distance(const Vec3& p, std::int32_t& nearest, double enough) const {

@@ -56,12 +56,6 @@ struct Proposal {
   double trust = 0;
 };
 
-// A triangle that proposes points for an area, its own and that of triangles before it.
-struct Speaker {
-  std::int32_t triangle;
-  double area;
-};
-
 class LatticeMaker {
  public:
   LatticeMaker(const FieldSurface& surface, const CrossField& field, std::span<const OppositeSide> opposite)
@@ -113,9 +107,9 @@ class LatticeMaker {
   void reach_the_rest();
   void sweep();
   Steps steps_of(std::int32_t f) const;
-  std::vector<Speaker> speakers() const;
+  std::vector<AreaSample> speakers() const;
   void propose();
-  void propose(const Speaker& speaker, std::vector<Proposal>& proposals) const;
+  void propose(const AreaSample& speaker, std::vector<Proposal>& proposals) const;
   void agree();
   Proposal agreed(const SizedPointGrid& grid, const Proposal& proposal) const;
 
@@ -252,28 +246,17 @@ Steps LatticeMaker::steps_of(std::int32_t f) const {
 }
 
 // Every triangle, unless there are many more of them than points: each proposal looks at all that are near.
-std::vector<Speaker> LatticeMaker::speakers() const {
-  const auto squares = [&](std::size_t f) { return surface_.areas[f] / (surface_.sizes[f] * surface_.sizes[f]); };
-  const std::size_t count = surface_.areas.size();
-  double whole = 0;
-  for (std::size_t f = 0; f < count; ++f) whole += squares(f);
-  const double least = static_cast<double>(count) > most_speakers * whole ? 1 / most_speakers : 0;
-  std::vector<Speaker> speakers;
-  double area = 0, since_last = 0;
-  for (std::size_t f = 0; f < count; ++f) {
-    area += surface_.areas[f];
-    since_last += squares(f);
-    if (since_last < least) continue;
-    speakers.push_back({static_cast<std::int32_t>(f), area});
-    area = since_last = 0;
-  }
-  return speakers;
+std::vector<AreaSample> LatticeMaker::speakers() const {
+  const auto count = static_cast<std::int32_t>(surface_.triangles.size());
+  double squares = 0;
+  for (std::int32_t f = 0; f < count; ++f) squares += surface_.squares_of_size(f);
+  return surface_.samples(count > most_speakers * squares ? 1 / most_speakers : 0);
 }
 
 void LatticeMaker::propose() {
   steps_.resize(phases_.size());
   for_each_triangle([&](std::int32_t f) { steps_[f] = steps_of(f); });
-  const std::vector<Speaker> speaking = speakers();
+  const std::vector<AreaSample> speaking = speakers();
   parallel_in_order(
       static_cast<std::int64_t>(speaking.size()), 512,
       [&](std::int64_t begin, std::int64_t end) {
@@ -284,7 +267,7 @@ void LatticeMaker::propose() {
       [&](const std::vector<Proposal>& some) { proposals_.insert(proposals_.end(), some.begin(), some.end()); });
 }
 
-void LatticeMaker::propose(const Speaker& speaker, std::vector<Proposal>& proposals) const {
+void LatticeMaker::propose(const AreaSample& speaker, std::vector<Proposal>& proposals) const {
   const std::int32_t f = speaker.triangle;
   const Phases view = view_of_neighbours(phases_, f);
   const double agreement = std::min(std::abs(view[0]), std::abs(view[1])) / degrees_[f];
