@@ -217,7 +217,7 @@ PYTHON
   { cat points && printf '%s\n' Tetrahedra 2 "1 2 3 4 1" "1 2 3 4 1" End; } >twice.mesh
   findhex once.mesh | buildgraph | initsol -o once.tar
   assemble once.tar -o once.vtu
-  assert_fails_with 1 "^assemble: twice.mesh: .*found tets 0 and 1 on one side of that at vertices [0-3] [0-3] [0-3]$" \
+  assert_fails_with 1 "^assemble: twice.mesh: .*found tets 1 and 2 on one side of that at vertices [1-4] [1-4] [1-4]$" \
     assemble once.tar --mesh twice.mesh -o out.vtu
 }
 

@@ -209,7 +209,7 @@ OPTIONS
 @test "two copies of a tet are an error" {
   printf '%s\n' "MeshVersionFormatted 2" "Dimension 3" Vertices 4 "0 0 0 0" "1 0 0 0" "0 1 0 0" "0 0 1 0" \
     Tetrahedra 2 "1 2 3 4 1" "1 2 3 4 1" End >twice.mesh
-  assert_fails_with 1 "^findhex: twice.mesh: .*found tets 0 and 1 on one side of that at vertices [0-3] [0-3] [0-3]$" \
+  assert_fails_with 1 "^findhex: twice.mesh: .*found tets 1 and 2 on one side of that at vertices [1-4] [1-4] [1-4]$" \
     findhex --mesh twice.mesh -o out.cand
 }
 

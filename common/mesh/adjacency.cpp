@@ -73,9 +73,9 @@ std::vector<std::int32_t> match_facets(const TetMesh& mesh, const char* source, 
     if (!numbers.empty())
       for (std::int64_t& tet : tets) tet = numbers[tet];
     std::sort(tets.begin(), tets.end());
-    throw DataError::at(source,
-                        "expected at most two tets at each facet, found tets {}, {} and {} at vertices {} {} {}",
-                        tets[0], tets[1], tets[2], lowest, others >> 32, others & 0xffffffff);
+    throw DataError::at(
+        source, "expected at most two tets at each facet, found tets {}, {} and {} at vertices {} {} {}", tets[0] + 1,
+        tets[1] + 1, tets[2] + 1, lowest + 1, (others >> 32) + 1, (others & 0xffffffff) + 1);
   };
   std::vector<std::int32_t> across;
   resize_in_huge_pages(across, 4 * mesh.tets.size(), TetAdjacency::none);

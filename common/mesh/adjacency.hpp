@@ -14,8 +14,8 @@ class TetAdjacency {
  public:
   static constexpr std::int32_t none = -1;
 
-  // Throws DataError naming `source` when a facet belongs to more than two tets; `numbers`: what these are called
-  // there, if not by their places.
+  // Throws DataError naming `source`, and the tets and vertices from 1, when a facet belongs to more than two tets;
+  // `numbers`: what these are called there from 0, if not by their places.
   TetAdjacency(const TetMesh& mesh, const char* source, std::span<const std::int32_t> numbers = {});
 
   // The tet beyond a facet, or none at the boundary.

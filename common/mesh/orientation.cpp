@@ -127,7 +127,7 @@ void check_sides(const TetMesh& mesh, const TetAdjacency& adjacency, const char*
       throw DataError::at(source,
                           "expected tets on the two sides of a facet, found tets {} and {} on one side of that at "
                           "vertices {} {} {}",
-                          first, second, a, b, c);
+                          first + 1, second + 1, a + 1, b + 1, c + 1);
     }
   });
 }

@@ -31,8 +31,9 @@ TetOrientation orient_tets(TetMesh& mesh, const char* source);
 // The same where it was found before which tets are to be turned: as TetOrientation::turns.
 TetOrientation orient_tets(TetMesh& mesh, std::vector<std::int8_t> turns);
 
-// Throws DataError naming `source` where two positive tets lie on the same side of a facet that they share, as two
-// copies of a tet do; `numbers`: what tets are called there, if not by their places.
+// Throws DataError naming `source`, and the tets and vertices from 1, where two positive tets lie on the same side of a
+// facet that they share, as two copies of a tet do; `numbers`: what tets are called there from 0, if not by their
+// places.
 void check_sides(const TetMesh& mesh, const TetAdjacency& adjacency, const char* source,
                  std::span<const std::int32_t> numbers = {});
 

@@ -49,8 +49,8 @@ TEST(TetAdjacency, ThreeTetsAtAFacetAreAnError) {
   mesh.tet_tags.push_back(1);
   EXPECT_THAT(
       [&] { TetAdjacency(mesh, "m.mesh"); },
-      testing::ThrowsMessage<DataError>("m.mesh: expected at most two tets at each facet, found tets 0, 1 and 2 "
-                                        "at vertices 1 2 3"));
+      testing::ThrowsMessage<DataError>("m.mesh: expected at most two tets at each facet, found tets 1, 2 and 3 "
+                                        "at vertices 2 3 4"));
 }
 
 TEST(AddMissingBoundaryTriangles, CompletesBoundaryAndInterface) {

@@ -281,7 +281,7 @@ TEST(Findhex, ThreeTetsAtAFacetAreAnError) {
   tets.push_back({0, 1, 6, 8});
   EXPECT_THAT(
       [&] { find(mesh_of(points, tets)); },
-      ThrowsMessage<DataError>(HasSubstr("at most two tets at each facet, found tets 1, 6 and 7 at vertices 0 1 6")));
+      ThrowsMessage<DataError>(HasSubstr("at most two tets at each facet, found tets 2, 7 and 8 at vertices 1 2 7")));
 }
 
 // Tets of two regions in another order: the same cells, of the same tets under their numbers there.

@@ -100,7 +100,7 @@ TEST(CheckSides, RefusesTwoCopiesOfATet) {
   const std::vector<std::int32_t> numbers{7, 5};
   EXPECT_THAT([&] { check_sides(mesh, adjacency, "m.mesh", numbers); },
               ThrowsMessage<DataError>(StartsWith(
-                  "m.mesh: expected tets on the two sides of a facet, found tets 5 and 7 on one side of that at ")));
+                  "m.mesh: expected tets on the two sides of a facet, found tets 6 and 8 on one side of that at ")));
 }
 
 // Of a flat or inverted tet others speak.
