@@ -176,6 +176,17 @@ PYTHON
   assert_fails_with 1 "^assemble: $message" assemble graphless.tar -o no.vtu
 }
 
+@test "of the graph in a bundle no more is read than how many candidates it has" {
+  "$PYTHON" "$DATA/change_array.py" solution.tar edgeless.tar graph/neighbours.npy "a[:0]"
+  view solution.tar -o whole.html
+  view edgeless.tar -o edgeless.html
+  assert_same_bytes whole.html edgeless.html
+  count=$("$PYTHON" -c 'import io, tarfile, numpy; t = tarfile.open("solution.tar")
+print(len(numpy.load(io.BytesIO(t.extractfile("graph/weights.npy").read()))))')
+  "$PYTHON" "$DATA/change_array.py" edgeless.tar beyond.tar solution/chosen.npy "np.array([0, $count], '<i4')"
+  assert_fails_with 1 "^view: beyond.tar: " view beyond.tar -o no.html
+}
+
 @test "nothing to show is one clear line" {
   cat >empty.mesh <<<$'MeshVersionFormatted 2\nDimension 3\nVertices\n1\n0 0 0 0\nEnd'
   assert_fails_with 1 "^view: empty.mesh: expected cells in the result, found none" view empty.mesh -o no.html
