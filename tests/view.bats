@@ -255,5 +255,15 @@ PYTHON
   assert_different_bytes 1.png 2.png
   assert_fails_with 2 "--fragments: expected candidates or a solution" view result.vtu --fragments parts -o no.html
   echo "1 x" >>parts
-  assert_fails_with 1 "^view: parts:3: expected the number of a candidate, found 'x'" view graph.tar --fragments parts -o no.html
+  count=$(scene page.html kindBegin | "$PYTHON" -c 'import json, sys; print(json.load(sys.stdin)[4])')
+  assert_fails_with 1 "^view: parts:3: expected the number of a candidate, 1 to $count, found 'x'" \
+    view graph.tar --fragments parts -o no.html
+  # Those of another graph; a solution shows some of its candidates, but has no more.
+  for stage in graph solution; do
+    echo "$count $((count + 1))" >others
+    assert_fails_with 1 "^view: others:1: expected the number of a candidate, 1 to $count, found '$((count + 1))'" \
+      view $stage.tar --fragments others -o no.html
+    echo "1 $count" >others
+    view $stage.tar --fragments others -o page.html
+  done
 }

@@ -188,6 +188,7 @@ Scene make_scene(StageData data, Scene::Content content, const std::string& sour
     return scene;
   }
   expect_parts(data, content, source);
+  if (data.candidates) scene.candidate_count = static_cast<std::int32_t>(data.candidates->size());
   if (content == Scene::Content::solution) collect(*data.solution, *data.candidates, *data.mesh, source, cells);
   if (content == Scene::Content::candidates)
     for (std::size_t i = 0; i < data.candidates->size(); ++i) collect(*data.candidates, *data.mesh, i, cells);
@@ -210,9 +211,10 @@ void read_fragments(Scene& scene, Input& input) {
     for (std::string word; words >> word;) {
       std::int32_t number = 0;
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-      if (error != std::errc() || end != word.data() + word.size() || number < 1)
+      if (error != std::errc() || end != word.data() + word.size() || number < 1 || number > scene.candidate_count)
         throw FormatError(input.name(), line_number,
-                          fmt::format("expected the number of a candidate, found {}", quote_found(word)));
+                          fmt::format("expected the number of a candidate, 1 to {}, found {}", scene.candidate_count,
+                                      quote_found(word)));
       // A solution shows only those that were chosen.
       if (const auto found = cell_of.find(number - 1); found != cell_of.end()) fragment.push_back(found->second);
     }

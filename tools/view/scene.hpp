@@ -35,6 +35,7 @@ struct Scene {
   std::vector<std::int32_t> region;  // of candidates: that of their first tet
   std::vector<std::uint8_t> layer;   // 1: touches the surface; 2: touches those; ...
   std::vector<std::int32_t> number;  // in its block of the file, or as a candidate, from 0
+  std::int32_t candidate_count = 0;  // of which cells are candidates, shown or not
   // Parts of the graph that a search freed, if asked for: cells of each fragment, ascending.
   std::vector<std::vector<std::int32_t>> fragments;
   std::vector<nlohmann::ordered_json> history;
@@ -56,7 +57,8 @@ Scene::Content last_content(const StageData& data, const std::string& source);
 Scene make_scene(StageData data, Scene::Content content, const std::string& source);
 
 // Gives the scene the fragments that a text lists, the candidates of one a line, counted from 1; tells them by
-// Scene::number, of hexes, prisms and pyramids. Throws FormatError at what is no candidate.
+// Scene::number, of hexes, prisms and pyramids. Throws FormatError at what is no candidate, of those that were there to
+// choose from.
 void read_fragments(Scene& scene, Input& input);
 
 }  // namespace hexpipe

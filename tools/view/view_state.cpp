@@ -23,13 +23,12 @@ constexpr std::array axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
   throw UsageError(fmt::format("--view: {}: expected {}, found '{}'", key, expected, found));
 }
 
+// Of nothing, one part that is empty: what a separator too many leaves is refused as any other part.
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(separator), text.size());
+  for (std::size_t end; (end = text.find(separator)) != std::string_view::npos; text.remove_prefix(end + 1))
     parts.push_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
+  parts.push_back(text);
   return parts;
 }
 
@@ -44,8 +43,9 @@ double parse_number(std::string_view key, std::string_view text, double low, dou
 std::vector<double> parse_numbers(std::string_view key, std::string_view text, std::size_t count, double low,
                                   double high) {
   std::vector<double> numbers;
-  for (const auto part : split(text, ',')) numbers.push_back(parse_number(key, part, low, high));
-  if (numbers.size() != count) fail(key, fmt::format("{} numbers joined by commas", count), text);
+  const auto parts = split(text, ',');
+  if (parts.size() != count) fail(key, fmt::format("{} numbers joined by commas", count), text);
+  for (const auto part : parts) numbers.push_back(parse_number(key, part, low, high));
   return numbers;
 }
 
@@ -140,6 +140,7 @@ std::map<std::string_view, std::function<void(std::string_view)>> setters_of(Vie
 
 ViewState parse_view_state(std::string_view text) {
   ViewState state;
+  if (text.empty()) return state;
   const auto setters = setters_of(state);
   for (const auto part : split(text, '&')) {
     const std::size_t equals = std::min(part.find('='), part.size());
