@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "common/run/error.hpp"
 #include "tools/view/camera.hpp"
@@ -153,28 +155,37 @@ TEST(ViewState, TextAndBack) {
 }
 
 TEST(ViewState, RefusesWhatIsNone) {
-  for (const char* text : {"clip=a:1", "clip=x:nan", "quality=0", "quality=2,3", "peel=x", "colour=", "=", "kinds=",
-                           "kinds=hexes", "camera=1,1,0,0,0,0", "edges=1", "theme", "fragment=-1", "clip=1,2,3:0.5"})
+  for (const char* text : {"clip=a:1", "clip=x:nan", "quality=0", "quality=2,3", "peel=x", "colour=", "=",
+                           "kinds=", "kinds=hexes", "kinds=hex,", "quality=0,1,", "peel=1&", "camera=1,1,0,0,0,0",
+                           "edges=1", "theme", "fragment=-1", "clip=1,2,3:0.5"})
     EXPECT_THROW(parse_view_state(text), UsageError) << text;
 }
 
-// The scene's corners must land in the picture.
+// The corners of a box lie on the ball of radius 1.
 TEST(Camera, SeesTheWholeScene) {
-  for (const double aspect : {0.5, 1.0, 1.8}) {
-    ViewState state;
-    state.elevation = 90;
-    const Camera camera = camera_of(state, aspect);
-    for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{0.57, 0.57, 0.57}, Vec3{-0.57, 0.57, -0.57}}) {
-      std::array<double, 4> at{p.x, p.y, p.z, 1}, eye{}, clip{};
-      for (int row = 0; row < 4; ++row)
-        for (int k = 0; k < 4; ++k) eye[row] += camera.view[4 * k + row] * at[k];
-      for (int row = 0; row < 4; ++row)
-        for (int k = 0; k < 4; ++k) clip[row] += camera.projection[4 * k + row] * eye[k];
-      for (int axis = 0; axis < 3; ++axis) EXPECT_LT(std::abs(clip[axis] / clip[3]), 1);
-      EXPECT_GT(-eye[2], camera.near);
-      EXPECT_LT(-eye[2], camera.far);
+  std::vector<Vec3> places{{0, 0, 0}};
+  for (int i = 0; i < 60; ++i)
+    for (int j = -15; j <= 15; ++j) {
+      const double around = i * std::numbers::pi / 30, up = j * std::numbers::pi / 30;
+      places.push_back({std::cos(up) * std::cos(around), std::cos(up) * std::sin(around), std::sin(up)});
     }
-  }
+  for (const double aspect : {0.5, 1.0, 1.8})
+    for (const double elevation : {ViewState{}.elevation, 90.0}) {
+      ViewState state;
+      state.elevation = elevation;
+      const Camera camera = camera_of(state, aspect);
+      for (const Vec3& p : places) {
+        std::array<double, 4> at{p.x, p.y, p.z, 1}, eye{}, clip{};
+        for (int row = 0; row < 4; ++row)
+          for (int k = 0; k < 4; ++k) eye[row] += camera.view[4 * k + row] * at[k];
+        for (int row = 0; row < 4; ++row)
+          for (int k = 0; k < 4; ++k) clip[row] += camera.projection[4 * k + row] * eye[k];
+        for (int axis = 0; axis < 3; ++axis)
+          EXPECT_LT(std::abs(clip[axis] / clip[3]), 1 + 1e-6) << p.x << " " << p.y << " " << p.z;
+        EXPECT_GT(-eye[2], camera.near);
+        EXPECT_LT(-eye[2], camera.far);
+      }
+    }
 }
 
 }  // namespace

@@ -10,8 +10,8 @@ Camera camera_of(const ViewState& state, double aspect) {
   constexpr double degree = std::numbers::pi / 180;
   const double half_angle = 14 * degree, azimuth = state.azimuth * degree, elevation = state.elevation * degree;
   const double up_tangent = std::tan(half_angle), across_tangent = up_tangent * aspect;
-  // The scene's ball, of radius 1, fits the narrower way at zoom 1; most parts leave much of it empty, hence 0.96.
-  const double distance = 0.96 / (std::sin(half_angle) * std::min(1.0, aspect)) / state.zoom;
+  // The scene's ball, of radius 1, fits the narrower way at zoom 1: the corners of a box lie on it.
+  const double distance = 1 / std::sin(std::atan(up_tangent * std::min(1.0, aspect))) / state.zoom;
   const Vec3 towards{std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
                      std::sin(elevation)};
   const Vec3 right{-std::sin(azimuth), std::cos(azimuth), 0};

@@ -8,7 +8,7 @@ const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a
 export function cameraOf(state, aspect) {
   const azimuth = state.azimuth * degree, elevation = state.elevation * degree;
   const up = Math.tan(halfAngle), across = up * aspect;
-  const distance = 0.96 / (Math.sin(halfAngle) * Math.min(1, aspect)) / state.zoom;
+  const distance = 1 / Math.sin(Math.atan(up * Math.min(1, aspect))) / state.zoom;
   const towards = [
     Math.cos(elevation) * Math.cos(azimuth), Math.cos(elevation) * Math.sin(azimuth), Math.sin(elevation)];
   const right = [-Math.sin(azimuth), Math.cos(azimuth), 0];
