@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "assemble_lattice.hpp"
+#include "common/mesh/adjacency.hpp"
+#include "common/mesh/cell_topology.hpp"
 #include "tools/assemble/assemble.hpp"
 
 namespace hexpipe {
@@ -48,6 +52,39 @@ TEST(Conform, RandomChoicesOnJitteredLatticesStayConforming) {
     for (auto count : result.statistics.conformity.given_back) given_back += count;
     EXPECT_EQ(result.statistics.kinds[0].count + given_back, static_cast<std::int64_t>(chosen.size()));
     RecordProperty("given_back_" + std::to_string(seed), static_cast<int>(given_back));
+  }
+}
+
+// Tags some facets between tets of cubes that are not chosen; returns how many.
+std::int64_t tag_inner_facets(testing::Lattice& lattice, const IndependentSet& chosen, std::int32_t tag,
+                              Random& random) {
+  const TetAdjacency adjacency(lattice.mesh, "lattice");
+  const auto is_chosen = [&](std::int32_t tet) { return std::ranges::binary_search(chosen, tet / 6); };
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(lattice.mesh.tets.size()); ++t)
+    for (int facet = 0; facet < 4; ++facet) {
+      const std::int32_t beyond = adjacency.tet_beyond(t, facet);
+      if (beyond < t || is_chosen(t) || is_chosen(beyond) || random.uniform() > 0.06) continue;
+      const Tet& tet = lattice.mesh.tets[t];
+      const auto& f = TetTopology::triangles[facet];
+      lattice.mesh.triangles.push_back({tet[f[0]], tet[f[1]], tet[f[2]]});
+      lattice.mesh.triangle_tags.push_back(tag);
+    }
+  return static_cast<std::int64_t>(lattice.mesh.triangles.size());
+}
+
+TEST(Conform, TaggedTrianglesInsideStay) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    auto lattice = make_lattice(4);
+    jitter(lattice, 0.2, random);
+    const auto chosen = random_choice(lattice, random.uniform(0.1, 0.5), random);
+    const std::int64_t tagged = tag_inner_facets(lattice, chosen, 5, random);
+    for (const int smooth : {0, 5}) {
+      const AssembleResult result = assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = smooth});
+      EXPECT_EQ(std::ranges::count(result.mesh.triangles.tags, 5), tagged);
+      EXPECT_EQ(std::ranges::count(result.mesh.quads.tags, 5), 0);
+    }
   }
 }
 

@@ -141,6 +141,38 @@ TEST(Selection, CandidatesOfAnotherMeshAreAnError) {
   EXPECT_THAT(error_of(lattice, twisted, {0}), HasSubstr("candidate 1 whose tets do not form it"));
 }
 
+TEST(Selection, InvalidCandidatesAreToldByTheirNumbers) {
+  const auto lattice = make_lattice(2);
+  auto mirrored = lattice.cubes;
+  std::swap(mirrored.vertices[1][1], mirrored.vertices[1][3]);
+  std::swap(mirrored.vertices[1][5], mirrored.vertices[1][7]);
+  EXPECT_THAT(error_of(lattice, mirrored, {0, 1}),
+              HasSubstr("candidates: expected valid cells, found candidate 2 whose Jacobian"));
+  EXPECT_EQ(error_of(lattice, mirrored, {0}), "no error");
+}
+
+TEST(Selection, DiagonalsThatAreEdgesOfOthersAreAnError) {
+  // A pyramid on 0123, with the diagonal 02 between its tets, below a ring of tets around 02; and one of this ring in a
+  // pyramid on 0276, with the edge 02.
+  Lattice lattice{};
+  lattice.mesh.points = {{0, 0, 0}, {1, -1, 0}, {2, 0, 0}, {1, 1, 0}, {1, 0, -1}, {1, -1, 1}, {0, 1, 1}, {2, 1, 1.1}};
+  lattice.mesh.tets = {{0, 1, 2, 4}, {0, 2, 3, 4}, {0, 2, 1, 5}, {0, 2, 5, 6},
+                       {2, 7, 5, 6}, {0, 2, 6, 3}, {2, 7, 6, 3}};
+  for (Tet& tet : lattice.mesh.tets)
+    if (tet_determinant(lattice.mesh.points, tet) < 0) std::swap(tet[2], tet[3]);
+  lattice.mesh.tet_tags.assign(lattice.mesh.tets.size(), 1);
+  Candidates pyramids;
+  pyramids.vertices = {{0, 3, 2, 1, 4, -1, -1, -1}, {0, 2, 7, 6, 5, -1, -1, -1}};
+  pyramids.kind = {CellKind::pyramid, CellKind::pyramid};
+  pyramids.quality = pyramids.volume = {0.5, 0.5};
+  pyramids.tets = {0, 1, 3, 4};
+  pyramids.tet_offsets = {0, 2, 4};
+  pyramids.boundary_tet_offsets = {0, 0, 0};
+  EXPECT_EQ(error_of(lattice, pyramids, {0}), "no error");
+  EXPECT_EQ(error_of(lattice, pyramids, {1}), "no error");
+  EXPECT_THAT(error_of(lattice, pyramids, {0, 1}), HasSubstr("1 and 2 which cross at an edge"));
+}
+
 TEST(Selection, SolutionsOutOfRangeAreAnError) {
   const auto lattice = make_lattice(2);
   EXPECT_THAT(error_of(lattice, lattice.cubes, {8}), HasSubstr("expected candidates from 1 to 8, found 9"));

@@ -144,6 +144,7 @@ class Assembler {
   Extract smooth_and_repair(HybridMesh& hybrid);
   void improve(Extract& extracted);
   void note_cells_left(const HybridMesh& hybrid);
+  void check_cells_left(const HybridMesh& hybrid) const;
 
   const TetMesh input_;
   SurfaceTags tags_;
@@ -250,6 +251,20 @@ void Assembler::note_cells_left(const HybridMesh& hybrid) {
     if (hybrid.cell(c).alive && hybrid.cell(c).candidate != HybridCell::none) left_.push_back(hybrid.cell(c).candidate);
 }
 
+// Moving vertices leaves valid cells valid: one that is not has come so, and no other mend was found.
+void Assembler::check_cells_left(const HybridMesh& hybrid) const {
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(hybrid.cell_count()); ++c) {
+    const HybridCell& cell = hybrid.cell(c);
+    if (!cell.alive || cell.candidate == HybridCell::none) continue;
+    const std::span corners = std::span(cell.corners).first(corner_count(cell.kind));
+    const auto at = corner_points(hybrid.points, corners);
+    if (!is_valid(cell.kind, std::span(at).first(corners.size())))
+      throw DataError::at(names_.candidates,
+                          "expected valid cells, found candidate {} whose Jacobian is not positive everywhere",
+                          title_of(names_, cell.candidate));
+  }
+}
+
 // Without what is the guests'.
 Extract Assembler::own_part_of(Extract extracted) const {
   if (seam_ == nullptr) return extracted;
@@ -280,7 +295,10 @@ Extract Assembler::build() {
     move_points(extracted, hybrid);
     note_cells_left(hybrid);
     const auto poor = poor_hexes(hybrid);
-    if (!is_conforming() || options_.smooth == 0 || poor.empty() || attempt == most_attempts) return extracted;
+    if (!is_conforming() || options_.smooth == 0 || poor.empty() || attempt == most_attempts) {
+      check_cells_left(hybrid);
+      return extracted;
+    }
     give_back(poor, GivenBack::poor_elements);
   }
 }

@@ -32,7 +32,7 @@ void check_orientation(const TetMesh& mesh, const InputNames& names);
 // conforming. The result is checked (self_check.hpp) before it is returned.
 //
 // Throws DataError, with the name of the input, when a tet is not positively oriented, the candidates are not of this
-// mesh, or the chosen ones cannot stand together.
+// mesh, or the chosen ones cannot stand together or are not valid.
 //
 // Of a piece of a mesh, with its `seam`, the triangles have every facet of its boundary and interfaces; the result is
 // without the guests and without facets that have the tags of `seam`.

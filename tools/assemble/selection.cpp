@@ -15,13 +15,6 @@ struct Claims {
   std::vector<std::uint8_t> absorbed;
 };
 
-// As its bundle's user counts, from 1.
-std::string title_of(const InputNames& names, std::int32_t candidate) {
-  if (names.origins.empty()) return fmt::format("{}", candidate + 1);
-  const auto& [bundle, number] = names.origins[candidate];
-  return bundle == 0 ? fmt::format("{}", number + 1) : fmt::format("{} of {}", number + 1, names.bundles[bundle]);
-}
-
 [[noreturn]] void fail_misfit(const InputNames& names, std::int32_t candidate) {
   throw DataError::at(names.candidates,
                       "expected candidates of this mesh, found candidate {} whose tets do not form it",
@@ -182,6 +175,12 @@ void check_open_sides(const InputNames& names, const HybridMesh& mesh, const Sur
 }
 
 }  // namespace
+
+std::string title_of(const InputNames& names, std::int32_t candidate) {
+  if (names.origins.empty()) return fmt::format("{}", candidate + 1);
+  const auto& [bundle, number] = names.origins[candidate];
+  return bundle == 0 ? fmt::format("{}", number + 1) : fmt::format("{} of {}", number + 1, names.bundles[bundle]);
+}
 
 HybridMesh build_selection(const TetMesh& mesh, const SurfaceTags& tags, const Candidates& candidates,
                            const IndependentSet& chosen, const InputNames& names) {

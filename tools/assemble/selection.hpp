@@ -27,6 +27,9 @@ struct InputNames {
   std::vector<std::string> bundles{};
 };
 
+// A candidate as its bundle's user counts, from 1.
+std::string title_of(const InputNames& names, std::int32_t candidate);
+
 // The chosen cells in place of their interior tets and of the boundary tets on their quads. A boundary tet stays where
 // taking it would leave a quad half on a tagged surface.
 //
