@@ -88,6 +88,25 @@ TEST(Conform, TaggedTrianglesInsideStay) {
   }
 }
 
+// A sheared box whose sides have a tag each, so that no vertex may move.
+TEST(Conform, AHexThatStaysPoorGoesBack) {
+  auto lattice = make_lattice(1);
+  TetMesh& mesh = lattice.mesh;
+  add_missing_boundary_triangles(mesh, TetAdjacency(mesh, "lattice"), 0);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int end : {0, 1})
+        if (std::ranges::all_of(mesh.triangles[i], [&](Vertex v) { return mesh.points[v][axis] == end; }))
+          mesh.triangle_tags[i] = 2 * axis + end;
+  for (Vec3& p : mesh.points) p.x += 12 * p.z;
+  const AssembleResult result = assemble(mesh, lattice.cubes, {0}, {});
+  EXPECT_EQ(result.mesh.hexes.size(), 0u);
+  EXPECT_EQ(result.mesh.tets.size(), 6u);
+  EXPECT_EQ(result.statistics.conformity.given_back[static_cast<std::size_t>(GivenBack::poor_elements)], 1);
+  for (Vec3& p : mesh.points) p.x -= 4 * p.z;  // a scaled Jacobian of 0.12
+  EXPECT_EQ(assemble(mesh, lattice.cubes, {0}, {}).mesh.hexes.size(), 1u);
+}
+
 // Two pyramids whose common quad is a hole of the mesh: a missing tet. With a quad on one side the hole would have two
 // triangles on the other, with quads on both sides there would be no hole.
 TEST(Conform, CellsThatWouldCloseAHoleGoBack) {

@@ -42,6 +42,26 @@ TEST(InputSurface, TellsSidesEdgesAndCornersOfABox) {
   EXPECT_EQ(found, (std::array{8, 24, 24, 8}));
 }
 
+// A box stands with the middle of its underside on the middle of the other's top, and shares no more than this vertex.
+TEST(InputSurface, WhereTwoSheetsTouchIsACorner) {
+  auto lattice = make_lattice(2);
+  TetMesh& mesh = lattice.mesh;
+  const Vertex top = lattice_vertex(2, 1, 1, 2), under = lattice_vertex(2, 1, 1, 0);
+  const auto count = static_cast<Vertex>(mesh.points.size());
+  const std::vector<Vec3> points = mesh.points;
+  for (const Vec3& p : points) mesh.points.push_back(p + Vec3{0, 0, 2});
+  const std::vector<Tet> tets = mesh.tets;
+  for (Tet tet : tets) {
+    for (Vertex& v : tet) v = v == under ? top : v + count;
+    mesh.tets.push_back(tet);
+    mesh.tet_tags.push_back(1);
+  }
+  tag_boundary(mesh);
+  const InputSurface surface(mesh, TetAdjacency(mesh, "mesh"));
+  EXPECT_EQ(surface.place(top), Place::corner);
+  EXPECT_EQ(surface.place(under), Place::face);
+}
+
 TEST(InputSurface, BordersOfTagsAreFeatures) {
   auto lattice = make_lattice(4);
   TetMesh& mesh = lattice.mesh;
