@@ -415,6 +415,43 @@ PYTHON
   tetmesh -q "$FILES/fine.stl" --size 0.1 --most-points 2000 -o out.tar
 }
 
+@test "a file of no points is an error" {
+  : >none.xyz
+  assert_fails_with 1 "^tetmesh: none.xyz: expected points, found none" tetmesh "$FILES/cube.stl" --points none.xyz
+}
+
+@test "an option that does nothing beside the others ends with 2" {
+  local cube="$FILES/cube.obj"
+  echo 0.5 0.5 0.5 >own.xyz
+  echo 0 0 0 0.5 >sizes.txt
+  refused() {
+    assert_fails_with 2 "^tetmesh: $1 does nothing $2$" tetmesh "$cube" "${@:3}"
+  }
+  refused --weld "without --repair" --weld 1
+  refused --largest-hole "without --repair" --largest-hole 3
+  refused --grading "without --size-field or --layers" --grading 0.1
+  refused --deviation "with --surface keep" --surface keep --deviation 0.1
+  for points in none own.xyz; do
+    refused --jitter "with --points $points" --points $points --jitter 0.1
+    refused --clearance "with --points $points" --points $points --clearance 1
+    refused --feature-angle "with --surface keep and --points $points" --surface keep --points $points --feature-angle 9
+  done
+  refused --layers "with --surface keep and --points none" --surface keep --points none --layers
+  refused --size-field "with --surface keep and --points none" --surface keep --points none --size-field sizes.txt
+  tetmesh -q "$cube" --size 0.5 --grading 0.1 --layers -o both.mesh
+}
+
+@test "the word behind --layers is the surface where it is no number" {
+  cp "$FILES/cube.obj" part.obj
+  tetmesh -q part.obj --size 1.5 --layers 2 -o two.tar
+  tetmesh -q --size 1.5 --layers part.obj -o behind.tar
+  assert_same_bytes two.tar behind.tar
+  tetmesh -q --size 1.5 --layers - -o stdin.tar <part.obj
+  assert_same_bytes <(tar xOf two.tar mesh/tets.npy) <(tar xOf stdin.tar mesh/tets.npy)
+  assert_fails_with 2 "layers: Value 200 " tetmesh --layers 200 part.obj
+  assert_fails_with 2 "layers: Value 2.5 " tetmesh --layers 2.5 part.obj
+}
+
 @test "--repair mends what is an error without it, and says so" {
   cd "$FILES"
   for file in hole flipped duplicated degenerate inward; do

@@ -32,10 +32,6 @@ SizeField size_field(const Surface& surface, const TetmeshOptions& options, doub
 // A point given by the user may come as near to the surface as TetGen can bear.
 constexpr double clearance_of_given = 1e-3;  // in sizes
 
-bool starts_from_lattice(PointKind kind) {
-  return kind != PointKind::none && kind != PointKind::given;
-}
-
 // Whether it is plain that the frame's points give more hexes than the lattice's: where much of the part is turned out
 // of the lattice's axes. Of 31 meshes of eleven parts the lattice won only with less than a seventh of it, or with few
 // tets, where an estimate takes no time.
@@ -102,7 +98,7 @@ class Filler {
 TetmeshResult Filler::fill(bool estimates) {
   if (options_.surface != SurfaceKind::remesh || !fill_new_surface()) fill_given_surface();
   if (points_left_out_) result_.warnings.push_back(*points_left_out_);
-  statistics_.points_kept = starts_from_lattice(options_.points) ? PointKind::lattice : options_.points;
+  statistics_.points_kept = places_points(options_.points) ? PointKind::lattice : options_.points;
   statistics_.interior_points = points_.size();
   if (options_.points == PointKind::frame || options_.points == PointKind::best) {
     try {
@@ -163,7 +159,7 @@ void Filler::fill_given_surface() {
 }
 
 void Filler::place_points() {
-  if (starts_from_lattice(options_.points)) {
+  if (places_points(options_.points)) {
     axes_ = axes_of_part(*surface_, options_.feature_angle);
     points_ = graded_lattice_points(*surface_, size_,
                                     {.clearance = options_.clearance,

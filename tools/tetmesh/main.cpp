@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
@@ -13,6 +14,7 @@
 #include "formats/size_files.hpp"
 #include "formats/stage.hpp"
 #include "formats/surface_files.hpp"
+#include "tools/tetmesh/command_line.hpp"
 #include "tools/tetmesh/tetmesh.hpp"
 
 using namespace hexpipe;
@@ -39,6 +41,7 @@ void choose_points(const std::string& points, TetmeshOptions& options) {
     throw UsageError(fmt::format("expected --points best, frame, lattice, none or a file, found '{}'", points));
   Input input = Input::open(points);
   options.given_points = read_points(input);
+  if (options.given_points.points.empty()) throw DataError::at(input.name(), "expected points, found none");
 }
 
 SizeSources size_sources(const std::string& path, const SurfaceSoup& surface) {
@@ -68,9 +71,11 @@ int main(int argc, char** argv) {
       .outside_history = {"tetgen-timeout"},
       .licence = "AGPL-3.0, for it links TetGen"};
   TetmeshOptions options;
+  const CLI::App* command_line = nullptr;
   std::optional<std::string> size, sizes;
   std::string path = "-", surface_kind = "remesh", points = "best", shells = "oriented", weld = "0.0001%";
   const auto declare = [&](CLI::App& app) {
+    command_line = &app;
     app.add_option("surface", path, "A surface in any format; '-' or nothing: standard input")->type_name("FILE");
     app.add_option(
            "--size", size,
@@ -129,6 +134,7 @@ int main(int argc, char** argv) {
     if (size) options.size = parse_length(*size);
     options.surface = surface_kinds.at(surface_kind);
     choose_points(points, options);
+    refuse_idle_options([&](const char* name) { return command_line->count(name) > 0; }, options, points);
     options.shells = shell_rules.at(shells);
     options.seed = context.common.seed;
     options.weld = parse_length(weld);
@@ -147,5 +153,6 @@ int main(int argc, char** argv) {
     context.statistics["tetgen_seconds"] = result.statistics.seconds.of_tetgen;
     stage.write(result.mesh, to_json(result.statistics));
   };
-  return tool_main(argc, argv, info, declare, run);
+  std::vector<char*> words = words_for_parsing(argc, argv);
+  return tool_main(argc, words.data(), info, declare, run);
 }

@@ -32,11 +32,10 @@ namespace {
 constexpr std::array<double, most_tries> tried_sizes{1, 0.95, 1.05, 0.975, 1.025, 0.9625, 1.0375, 0.9875, 1.0125};
 
 void check_options(const TetmeshOptions& options) {
-  if (options.tries > 1 && options.surface == SurfaceKind::keep &&
-      (options.points == PointKind::none || options.points == PointKind::given))
+  if (options.tries > 1 && options.surface == SurfaceKind::keep && !places_points(options.points))
     throw UsageError("--tries has no sizes to try with --surface keep and without points to place");
   // Each coordinate moves by the jitter, a point by up to sqrt(3) times that; it must not reach the surface.
-  if (options.points == PointKind::none || options.points == PointKind::given) return;
+  if (!places_points(options.points)) return;
   const double jitter = options.jitter.value_or(FramePointsOptions{}.jitter);
   if (jitter >= options.clearance / 2)
     throw UsageError(
@@ -46,7 +45,7 @@ void check_options(const TetmeshOptions& options) {
 // Before any memory is used for them.
 void check_number_of_points(const Surface& surface, const TetmeshOptions& options, double size) {
   const double expected = points_expected(surface, size);
-  if (options.points != PointKind::none && options.points != PointKind::given && expected > options.most_points)
+  if (places_points(options.points) && expected > options.most_points)
     throw DataError::at(surface.name,
                         "expected a size that makes at most {:g} points inside (see --most-points), found {:g}, which "
                         "makes about {:.3g}",

@@ -30,6 +30,11 @@ enum class PointKind {
   none
 };
 
+// By tetmesh; else there are none, or the user's.
+constexpr bool places_points(PointKind kind) {
+  return kind != PointKind::none && kind != PointKind::given;
+}
+
 constexpr std::size_t most_tries = 9;
 
 struct TetmeshOptions {

@@ -1,0 +1,50 @@
+#include "tools/tetmesh/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <initializer_list>
+#include <string_view>
+
+#include "common/run/error.hpp"
+
+namespace hexpipe {
+namespace {
+
+// Or a number that --layers does not take, which CLI11 refuses.
+bool is_value(std::string_view word) {
+  return word != "-" && word.find_first_not_of("+-.0123456789") == std::string_view::npos;
+}
+
+bool is_option(std::string_view word) {
+  return word.size() > 1 && word.front() == '-';
+}
+
+}  // namespace
+
+std::vector<char*> words_for_parsing(int argc, char** argv) {
+  static char layers_without_value[] = "--layers=2";
+  std::vector<char*> words(argv, argv + argc);
+  for (std::size_t i = 1; i + 1 < words.size() && words[i] != std::string_view("--"); ++i)
+    if (words[i] == std::string_view("--layers") && !is_option(words[i + 1]) && !is_value(words[i + 1]))
+      words[i] = layers_without_value;
+  return words;
+}
+
+void refuse_idle_options(const std::function<bool(const char*)>& is_given, const TetmeshOptions& options,
+                         const std::string& points) {
+  const auto refuse = [&](std::initializer_list<const char*> idle, const std::string& when) {
+    for (const char* name : idle)
+      if (is_given(name)) throw UsageError(fmt::format("{} does nothing {}", name, when));
+  };
+  const bool keeps = options.surface == SurfaceKind::keep, places = places_points(options.points);
+  if (!options.repair) refuse({"--weld", "--largest-hole"}, "without --repair");
+  if (!is_given("--size-field") && !is_given("--layers")) refuse({"--grading"}, "without --size-field or --layers");
+  if (keeps) refuse({"--deviation"}, "with --surface keep");
+  if (!places) refuse({"--clearance", "--jitter"}, "with --points " + points);
+  if (keeps && !places) refuse({"--feature-angle"}, "with --surface keep and --points " + points);
+  // Of points of the user's own, --size and these say how near to the surface they may be.
+  if (keeps && options.points == PointKind::none)
+    refuse({"--size-field", "--layers"}, "with --surface keep and --points none");
+}
+
+}  // namespace hexpipe
