@@ -415,6 +415,19 @@ PYTHON
   tetmesh -q "$FILES/fine.stl" --size 0.1 --most-points 2000 -o out.tar
 }
 
+@test "far more points than --most-points are told before any is placed where sizes differ by place, too" {
+  sizes_of_cube
+  for _ in 1 2 3 4 5 6 7 8; do echo 1e-4; done >fine.txt
+  assert_fails_with 1 "^tetmesh: cube.obj: expected sizes that make at most 1e\+06 points inside .* 0.0001 to 2, which make more than 4e\+06" \
+    timeout 20 tetmesh cube.obj --size 2 --size-field fine.txt --most-points 1e6
+}
+
+@test "--most-points counts points of the user's own" {
+  printf '.2 .2 .2\n.5 .5 .5\n' >two.xyz
+  assert_fails_with 1 "^tetmesh: two.xyz: expected at most 1 points \(see --most-points\), found 2" \
+    tetmesh "$FILES/cube.stl" --points two.xyz --most-points 1
+}
+
 @test "a file of no points is an error" {
   : >none.xyz
   assert_fails_with 1 "^tetmesh: none.xyz: expected points, found none" tetmesh "$FILES/cube.stl" --points none.xyz

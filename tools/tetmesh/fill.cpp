@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "common/mesh/adjacency.hpp"
 #include "common/run/deadline.hpp"
@@ -20,14 +21,6 @@
 
 namespace hexpipe {
 namespace {
-
-// Walls count with so many layers.
-SizeField size_field(const Surface& surface, const TetmeshOptions& options, double greatest,
-                     std::optional<int> layers) {
-  SizeSources sources = options.size_sources;
-  if (layers) sources.prisms = wall_sizes(surface, greatest, *layers);
-  return {std::move(sources), greatest, options.grading};
-}
 
 // A point given by the user may come as near to the surface as TetGen can bear.
 constexpr double clearance_of_given = 1e-3;  // in sizes
@@ -60,9 +53,9 @@ constexpr int most_runs = 16;
 
 class Filler {
  public:
-  Filler(const Surface& given, const TetmeshOptions& options, double greatest_size)
-      : given_(given), options_(options), size_(size_field(given, options, greatest_size, options.layers)) {
-    statistics_.size = greatest_size;
+  Filler(const Surface& given, const TetmeshOptions& options, SizeField size)
+      : given_(given), options_(options), size_(std::move(size)) {
+    statistics_.size = size_.greatest();
     if (!size_.is_uniform()) statistics_.least_size = size_.least();
   }
 
@@ -259,8 +252,15 @@ void Filler::describe_result() {
 
 }  // namespace
 
-TetmeshResult fill(const Surface& given, const TetmeshOptions& options, double greatest_size, bool estimates) {
-  return Filler(given, options, greatest_size).fill(estimates);
+SizeField size_field(const Surface& surface, const TetmeshOptions& options, double greatest,
+                     std::optional<int> layers) {
+  SizeSources sources = options.size_sources;
+  if (layers) sources.prisms = wall_sizes(surface, greatest, *layers);
+  return {std::move(sources), greatest, options.grading};
+}
+
+TetmeshResult fill(const Surface& given, const TetmeshOptions& options, SizeField size, bool estimates) {
+  return Filler(given, options, std::move(size)).fill(estimates);
 }
 
 }  // namespace hexpipe

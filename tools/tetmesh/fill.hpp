@@ -2,13 +2,20 @@
 // From a surface that bounds a solid to a mesh: makes its triangles anew, places points inside, calls TetGen, and
 // places them again along the field that the first mesh carries.
 
+#include <optional>
+
 #include "tools/tetmesh/shells.hpp"
+#include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/tetmesh.hpp"
 
 namespace hexpipe {
 
-// `greatest_size` takes the place of options.size. With `estimates`, TetmeshStatistics::hex_share is there. Of the
-// statistics, repair and seconds.checking stay empty. Throws TetGenFailure.
-TetmeshResult fill(const Surface& given, const TetmeshOptions& options, double greatest_size, bool estimates);
+// The sizes given by place, and those of walls, if they count, for so many layers.
+SizeField size_field(const Surface& surface, const TetmeshOptions& options, double greatest, std::optional<int> layers);
+
+// `size` takes the place of options.size and is what size_field() makes of the others. With `estimates`,
+// TetmeshStatistics::hex_share is there. Of the statistics, repair and seconds.checking stay empty. Throws
+// TetGenFailure.
+TetmeshResult fill(const Surface& given, const TetmeshOptions& options, SizeField size, bool estimates);
 
 }  // namespace hexpipe

@@ -10,6 +10,7 @@
 #include "tools/tetmesh/build_mesh.hpp"
 #include "tools/tetmesh/fill.hpp"
 #include "tools/tetmesh/surface_check.hpp"
+#include "tools/tetmesh/volume/expected_points.hpp"
 #include "tools/tetmesh/volume/frame_points.hpp"
 
 namespace hexpipe {
@@ -42,14 +43,30 @@ void check_options(const TetmeshOptions& options) {
         fmt::format("expected --jitter below half of --clearance, {:g}, found {:g}", options.clearance / 2, jitter));
 }
 
-// Before any memory is used for them.
-void check_number_of_points(const Surface& surface, const TetmeshOptions& options, double size) {
-  const double expected = points_expected(surface, size);
-  if (places_points(options.points) && expected > options.most_points)
+// Before any memory is used for them, or walls are looked for.
+void check_number_of_points(const Surface& surface, const TetmeshOptions& options, double greatest_size) {
+  const double most = options.most_points;
+  const auto given = static_cast<double>(options.given_points.points.size());
+  if (given > most)
+    throw DataError::at(options.given_points.name, "expected at most {:g} points (see --most-points), found {:g}", most,
+                        given);
+  const double expected = points_expected(surface, greatest_size);
+  if (places_points(options.points) && expected > most)
     throw DataError::at(surface.name,
                         "expected a size that makes at most {:g} points inside (see --most-points), found {:g}, which "
                         "makes about {:.3g}",
-                        options.most_points, size, expected);
+                        most, greatest_size, expected);
+}
+
+// Where sizes differ by place it is told early what makes far too many; else graded_lattice_points() counts.
+void check_points_by_place(const Surface& surface, const TetmeshOptions& options, const SizeField& size) {
+  const double far_too_many = 4 * options.most_points;
+  if (places_points(options.points) && !size.is_uniform() &&
+      points_inside(surface, size, options.clearance, far_too_many) > far_too_many)
+    throw DataError::at(surface.name,
+                        "expected sizes that make at most {:g} points inside (see --most-points), found {:g} to {:g}, "
+                        "which make more than {:g}",
+                        options.most_points, size.least(), size.greatest(), far_too_many);
 }
 
 RepairReport repair(SurfaceSoup& soup, const TetmeshOptions& options) {
@@ -64,25 +81,27 @@ double greatest_size(const Surface& surface, const TetmeshOptions& options) {
   return std::ranges::max(options.size_sources.sizes);
 }
 
-TetmeshResult fill_at(double factor, const Surface& surface, TetmeshOptions options, double greatest_size) {
-  for (double& size : options.size_sources.sizes) size *= factor;
-  return fill(surface, options, factor * greatest_size, options.tries > 1);
+TetmeshResult fill_at(double factor, const Surface& surface, TetmeshOptions options, const SizeField& size) {
+  const bool estimates = options.tries > 1;
+  if (factor == 1) return fill(surface, options, size, estimates);
+  for (double& known : options.size_sources.sizes) known *= factor;
+  return fill(surface, options, size_field(surface, options, factor * size.greatest(), options.layers), estimates);
 }
 
 // The one that is estimated to have most hexes. A size at which TetGen fails is passed over, unless it does at all.
-TetmeshResult best_of_tries(const Surface& surface, const TetmeshOptions& options, double greatest_size) {
+TetmeshResult best_of_tries(const Surface& surface, const TetmeshOptions& options, const SizeField& size) {
   std::optional<TetmeshResult> best;
   std::vector<TriedSize> tried;
   StepSeconds seconds;
   std::exception_ptr failure;
   for (const double factor : std::span(tried_sizes).first(options.tries)) {
     try {
-      TetmeshResult result = fill_at(factor, surface, options, greatest_size);
+      TetmeshResult result = fill_at(factor, surface, options, size);
       tried.push_back({result.statistics.size, result.statistics.hex_share});
       seconds += result.statistics.seconds;
       if (!best || result.statistics.hex_share > best->statistics.hex_share) best = std::move(result);
     } catch (const TetGenFailure&) {
-      tried.push_back({factor * greatest_size, {}});
+      tried.push_back({factor * size.greatest(), {}});
       if (!failure) failure = std::current_exception();
     }
   }
@@ -118,11 +137,13 @@ TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
   check_surface(soup);
   const Surface surface = find_shells(std::move(soup), options.shells);
   const double greatest = greatest_size(surface, options);
-  const auto tried = std::span(tried_sizes).first(options.tries);
-  check_number_of_points(surface, options, std::ranges::min(tried) * greatest);
+  const double least_factor = std::ranges::min(std::span(tried_sizes).first(options.tries));
+  check_number_of_points(surface, options, least_factor * greatest);
+  const SizeField size = size_field(surface, options, greatest, options.layers);
+  check_points_by_place(surface, options, least_factor * size);
   const double seconds_checking = watch.seconds();
 
-  TetmeshResult result = best_of_tries(surface, options, greatest);
+  TetmeshResult result = best_of_tries(surface, options, size);
   result.statistics.repair = repaired;
   result.statistics.seconds.checking = seconds_checking;
   return result;

@@ -1,0 +1,63 @@
+// Halves boxes across their longest side until one is as wide as three sizes, or so far from the surface that all of it
+// lies on one side, with sizes that are much the same; then its centre tells what is in it.
+
+#include "tools/tetmesh/volume/expected_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tools/tetmesh/volume/surface_clearance.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr double widest = 3;  // in sizes
+// Of the size at the centre, what sizes in a box may be less.
+constexpr double most_difference = 0.6;
+// Against the box around the part; no lattice is finer (graded_lattice.cpp).
+constexpr double narrowest = 1.0 / (1 << 20);
+
+double volume_of(const Box& box) {
+  const Vec3 extent = box.high - box.low;
+  return extent.x * extent.y * extent.z;
+}
+
+double longest_side(const Box& box) {
+  return (box.high - box.low)[box.longest_axis()];
+}
+
+void add_halves(const Box& box, std::vector<Box>& boxes) {
+  const int axis = box.longest_axis();
+  const double middle = box.centre()[axis];
+  const auto with = [&](const Vec3& corner) {
+    return Vec3{axis == 0 ? middle : corner.x, axis == 1 ? middle : corner.y, axis == 2 ? middle : corner.z};
+  };
+  boxes.push_back({box.low, with(box.high)});
+  boxes.push_back({with(box.low), box.high});
+}
+
+}  // namespace
+
+double points_inside(const Surface& surface, const SizeField& size, double clearance, double enough) {
+  const SurfaceClearance clear(surface);
+  std::vector<Box> boxes{Box::around(surface.points)};
+  const double least_side = narrowest * longest_side(boxes.front());
+  double sum = 0;
+  while (!boxes.empty() && sum <= enough) {
+    const Box box = boxes.back();
+    boxes.pop_back();
+    const Vec3 centre = box.centre();
+    const double here = size.at(centre), side = longest_side(box), radius = norm(box.high - box.low) / 2;
+    const bool on_one_side = clear.is_clear(centre, radius), inside = clear.is_inside(centre);
+    if (on_one_side && !inside) continue;
+    const bool is_even = here - size.least_near(here, radius)<most_difference * here, is_wide = side> widest * here;
+    if (is_wide && side > least_side && !(on_one_side && is_even))
+      add_halves(box, boxes);
+    else if (inside && clear.is_clear(centre, clearance * here))
+      sum += is_wide && !is_even ? 1 : volume_of(box) / (here * here * here);
+  }
+  return sum;
+}
+
+}  // namespace hexpipe

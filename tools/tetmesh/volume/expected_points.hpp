@@ -1,0 +1,14 @@
+#pragma once
+// How many points a lattice will have inside a surface, before any is placed.
+
+#include "tools/tetmesh/shells.hpp"
+#include "tools/tetmesh/size_field.hpp"
+
+namespace hexpipe {
+
+// About how many points at the distances of the field lie in material and `clearance` sizes away from the surface: the
+// volume there in cubes of the size. A third of them at least, three times as many at most; stops where they come to
+// more than `enough`.
+double points_inside(const Surface& surface, const SizeField& size, double clearance, double enough);
+
+}  // namespace hexpipe
