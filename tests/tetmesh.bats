@@ -243,6 +243,40 @@ PYTHON
   assert [ "$(sort -n runs | tail -1)" -gt 1 ]
 }
 
+# on_a_cube GAP Y Z FILE: a cube of 1, and one of 0.5 beside it, GAP away.
+on_a_cube() {
+  $PYTHON - "$@" <<'PYTHON'
+import sys
+gap, y, z = (float(word) for word in sys.argv[1:4])
+corners = [(i & 1, i >> 1 & 1, i >> 2) for i in range(8)]
+quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7), (2, 0, 4, 6)]
+points = corners + [(1 + gap + 0.5 * c[0], y + 0.5 * c[1], z + 0.5 * c[2]) for c in corners]
+with open(sys.argv[4], "w") as file:
+    file.write("".join("v %r %r %r\n" % p for p in points))
+    file.write("".join("f %d %d %d %d\n" % tuple(c + first for c in q) for first in (1, 9) for q in quads))
+PYTHON
+}
+
+@test "shells that nearly touch are filled, as near as TetGen can tell them apart" {
+  for gap in 1e-8 1e-9 1e-12; do
+    on_a_cube $gap 0.25 0.25 near.obj
+    tetmesh near.obj --size 0.25 -o near.mesh --stats stats.json
+    assert_equal "$(stats surface_remeshed) $(stats regions)" "True 2"
+    run $PYTHON "$CHECKERS/meshstats.py" --json --exact near.mesh
+    assert_success
+  done
+}
+
+@test "where TetGen fails on the new surface, the given one is kept, with a warning" {
+  # New points on an edge of the one come within 4 steps of doubles to corners of the other.
+  on_a_cube 8.9e-16 0.25 0.5 near.obj
+  run_apart tetmesh near.obj --size 0.25 --points none -o near.mesh --stats stats.json
+  assert_success
+  assert_equal "$(wc -l <<<"$stderr")" 1
+  grep -q "^tetmesh: warning: the surface is kept as it is: near.obj: TetGen failed: " <<<"$stderr"
+  assert_equal "$(stats surface_remeshed) $(stats surface_points)" "False 16"
+}
+
 @test "surfaces that bound nothing are named by triangle, with how many there are" {
   cd "$FILES"
   assert_fails_with 1 "^tetmesh: hole.stl: triangle [0-9]+: expected a closed surface, found 3 edges" tetmesh hole.stl
@@ -527,6 +561,13 @@ PYTHON
   assert_fails_with 1 "^tetmesh: short.node:" tetmesh "$cube" --points short.node
   assert_fails_with 1 "^tetmesh: flat.npy: expected an array of floats with three columns" tetmesh "$cube" --points flat.npy
   assert_fails_with 2 "^tetmesh: expected --points .* or a file, found 'nowhere.xyz'" tetmesh "$cube" --points nowhere.xyz
+}
+
+@test "points of the user's own that TetGen merges are told" {
+  printf '.3 .3 .3\n.5 .5 .5\n.5 .5 .5000000001\n' >near.xyz
+  run_apart tetmesh "$FILES/cube.stl" --size 0.5 --points near.xyz -o near.mesh
+  assert_success
+  assert_equal "$stderr" "tetmesh: warning: near.xyz: TetGen left out 1 of 3 points inside, too near to others"
 }
 
 @test "best keeps the points of which more is estimated to become hexes" {

@@ -79,6 +79,22 @@ TEST(RunTetgen, AShuffledOrderChangesTetsOnly) {
   EXPECT_NE(tets[1], tets[2]);
 }
 
+TEST(RunTetgen, TellsApartWhatNearlyTouchesWhereItIsStrict) {
+  Facets beside = cube(0, 1);
+  for (auto& facet : beside)
+    for (Vec3& p : facet) p.x += 1 + 1e-9;
+  const Surface surface = surface_of(joined(cube(0, 1), beside));
+  const auto error = [&](bool strict) {
+    return error_of(
+        surface,
+        run_tetgen(
+            {.surface_points = surface.points, .triangles = surface.triangles, .interior_points = {}, .strict = strict},
+            timeout));
+  };
+  EXPECT_THAT(error(false), HasSubstr("TetGen failed"));
+  EXPECT_EQ(error(true), "no error");
+}
+
 TEST(RunTetgen, EmptiesHolesAndSeparatesRegions) {
   const Facets facets = joined(joined(cube(0, 8), inverted(cube(1, 3))), cube(5, 2));
   const Surface surface = surface_of(facets);

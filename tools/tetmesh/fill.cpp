@@ -50,6 +50,9 @@ class StepWatch {
 // input and not in another. Of 36 meshes of a CAD tessellation turned out of the axes 9 failed at the first run; the
 // worst needed 6.
 constexpr int most_runs = 16;
+// From this one on they are strict, for shells that nearly touch: two cubes on each other, 1e-9 apart, failed at all
+// others.
+constexpr int first_strict_run = 8;
 
 class Filler {
  public:
@@ -91,6 +94,9 @@ class Filler {
 TetmeshResult Filler::fill(bool estimates) {
   if (options_.surface != SurfaceKind::remesh || !fill_new_surface()) fill_given_surface();
   if (points_left_out_) result_.warnings.push_back(*points_left_out_);
+  if (options_.points == PointKind::given && built_->dropped_points > 0)
+    result_.warnings.push_back(fmt::format("{}: TetGen left out {} of {} points inside, too near to others",
+                                           options_.given_points.name, built_->dropped_points, points_.size()));
   statistics_.points_kept = places_points(options_.points) ? PointKind::lattice : options_.points;
   statistics_.interior_points = points_.size();
   if (options_.points == PointKind::frame || options_.points == PointKind::best) {
@@ -113,21 +119,27 @@ TetmeshResult Filler::fill(bool estimates) {
   return std::move(result_);
 }
 
-// TetGen is at work on the new surface while that is judged.
+// TetGen is at work on the new surface while that is judged. It may fail on that and not on the given one, whose points
+// are elsewhere.
 bool Filler::fill_new_surface() {
   // What a size may take is nothing beside the part, unless that is thinner than a size.
   const bool walls_count = !options_.layers && !asks_for_too_many_points(given_, size_);
   const SizeField unit = walls_count ? size_field(given_, options_, size_.greatest(), 1) : size_;
   SurfaceRemesher remesher(given_, {size_, options_.feature_angle, options_.deviation, unit});
-  while (!built_ && remesher.make()) {
-    watch_.add_to(statistics_.seconds.remeshing);
-    surface_ = &remesher.made();
-    place_points();
-    built_ = tetrahedralize(points_, [&] {
-      const bool good = remesher.judge();
+  std::string failure;
+  try {
+    while (!built_ && remesher.make()) {
       watch_.add_to(statistics_.seconds.remeshing);
-      return good;
-    });
+      surface_ = &remesher.made();
+      place_points();
+      built_ = tetrahedralize(points_, [&] {
+        const bool good = remesher.judge();
+        watch_.add_to(statistics_.seconds.remeshing);
+        return good;
+      });
+    }
+  } catch (const TetGenFailure& of_tetgen) {
+    failure = of_tetgen.what();
   }
   watch_.add_to(statistics_.seconds.remeshing);
   remeshed_ = remesher.take();
@@ -136,7 +148,8 @@ bool Filler::fill_new_surface() {
     surface_ = &remeshed_->surface;
     describe(*remeshed_);
   } else {
-    result_.warnings.push_back(fmt::format("the surface is kept as it is: {}", remeshed_->failure));
+    result_.warnings.push_back(
+        fmt::format("the surface is kept as it is: {}", failure.empty() ? remeshed_->failure : failure));
   }
   return built_.has_value();
 }
@@ -208,6 +221,7 @@ std::optional<BuiltMesh> Filler::tetrahedralize(std::span<const Vec3> points, co
                         .triangles = surface_->triangles,
                         .interior_points = points,
                         .shuffle = static_cast<std::uint64_t>(run),
+                        .strict = run >= first_strict_run,
                         .names_intersecting = run + 1 == most_runs},
                        deadline.remaining());
       if (at_once && run == 0) {

@@ -18,6 +18,9 @@ struct TetGenInput {
   // Other than 0: TetGen is given points and triangles in a shuffled order, this one. Where it fails on triangles that
   // are nearly in one plane, it usually succeeds in another order. The result is in the order above all the same.
   std::uint64_t shuffle = 0;
+  // TetGen takes what is very near for touching, and then fails, or merges points. With this it does only where doubles
+  // can hardly tell them apart.
+  bool strict = false;
   // Where it finds that triangles intersect, it is run once more to name them.
   bool names_intersecting = true;
 };
