@@ -156,7 +156,7 @@ TEST(BoxTree, FindsTheFirstHitOfARay) {
 
 TEST(SizedPointGrid, FindsAllNear) {
   Random random(11);
-  SizedPointGrid grid({-5, -5, -5});
+  SizedPointGrid grid(Vec3{-5, -5, -5});
   std::vector<double> lengths;
   for (int i = 0; i < 500; ++i) {
     lengths.push_back(std::exp(random.uniform(-4, 0)));
@@ -173,6 +173,24 @@ TEST(SizedPointGrid, FindsAllNear) {
       EXPECT_TRUE(seen[k] || !is_near || lengths[k] < 0.1);
     }
   }
+}
+
+// In cells as wide as that all would be in a few.
+TEST(SizedPointGrid, FindsFewWhereLengthsAreNothingBesideTheBox) {
+  Random random(7);
+  SizedPointGrid grid(Box{{-1, -1, -1}, {1, 1, 1}});
+  std::vector<Vec3> points;
+  for (int i = 0; i < 2000; ++i) points.push_back(random_point(random));
+  for (const Vec3& p : points) grid.add(p, 1e-30);
+  std::size_t visited = 0, found = 0;
+  for (const Vec3& p : points)
+    grid.for_each_near(p, 1e-30, 0, [&](std::int32_t i) {
+      ++visited;
+      found += points[static_cast<std::size_t>(i)] == p;
+      return true;
+    });
+  EXPECT_EQ(found, points.size());
+  EXPECT_LT(visited, 2 * points.size());
 }
 
 TEST(Sizing, CountsPointsOnASurfaceOfManySizes) {

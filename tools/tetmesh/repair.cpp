@@ -79,9 +79,7 @@ void Repairer::keep_only(const std::vector<bool>& kept) {
 // A point moves to the first one before it that is near and was kept.
 void Repairer::weld() {
   if (options_.tolerance <= 0 || soup_.points.empty()) return;
-  Vec3 low = soup_.points.front();
-  for (const Vec3& p : soup_.points) low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-  SizedPointGrid kept(low);
+  SizedPointGrid kept(Box::around(soup_.points));
   std::vector<Vertex> new_index;
   new_index.reserve(soup_.points.size());
   for (const Vec3& p : soup_.points) {

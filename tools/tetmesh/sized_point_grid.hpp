@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/mesh/vec3.hpp"
+#include "tools/tetmesh/box_tree.hpp"
 #include "tools/tetmesh/volume/cell_key.hpp"
 
 namespace hexpipe {
@@ -20,6 +21,9 @@ class SizedPointGrid {
  public:
   // No point may be further than 10^6 of its lengths from the origin along an axis.
   explicit SizedPointGrid(const Vec3& origin) : origin_(origin) {}
+  // For points in a box, of any lengths.
+  explicit SizedPointGrid(const Box& box)
+      : origin_(box.low), least_width_((box.high - box.low)[box.longest_axis()] / most_cells) {}
 
   // Returns the number of the point, from 0.
   std::int32_t add(const Vec3& p, double length) {
@@ -49,6 +53,7 @@ class SizedPointGrid {
 
  private:
   static constexpr std::int32_t none = -1;
+  static constexpr double most_cells = 1e6;  // along an axis
 
   struct Octave {
     double width;
@@ -57,6 +62,7 @@ class SizedPointGrid {
 
   // Widths are powers of two times the first length that came.
   Octave& octave_of(double length) {
+    length = std::max(length, least_width_);
     if (octaves_.empty()) first_ = length;
     const double width = first_ * std::exp2(std::floor(std::log2(length / first_) + 1e-6));
     const auto found = std::ranges::find(octaves_, width, &Octave::width);
@@ -86,7 +92,7 @@ class SizedPointGrid {
   }
 
   Vec3 origin_;
-  double first_ = 0;
+  double least_width_ = 0, first_ = 0;
   std::vector<Octave> octaves_;
   std::vector<Vec3> points_;
   std::vector<std::int32_t> next_;  // in the same cell

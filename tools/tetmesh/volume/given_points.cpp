@@ -9,7 +9,7 @@ namespace hexpipe {
 
 GivenPoints usable_points(const Surface& surface, const PointList& list, double clearance) {
   const SurfaceClearance clear(surface);
-  SizedPointGrid taken(surface.points.front());
+  SizedPointGrid taken(Box::around(surface.points));
   std::size_t left_out = 0, first = 0;
   for (std::size_t i = 0; i < list.points.size(); ++i) {
     const Vec3& p = list.points[i];
