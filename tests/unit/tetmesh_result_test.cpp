@@ -8,6 +8,7 @@
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
 #include "surface_samples.hpp"
+#include "tools/tetmesh/fill.hpp"
 #include "tools/tetmesh/tetmesh.hpp"
 
 namespace hexpipe {
@@ -128,6 +129,13 @@ TEST(Tetmesh, FillsNoSurfaceThatTurnsOutToBeFaulty) {
     EXPECT_EQ(two.mesh.tets, one.mesh.tets);
     expect_triangles_bound_the_tets(two.mesh);
   }
+}
+
+TEST(Fill, EstimatesUnlessMuchOfALargeMeshIsTurned) {
+  EXPECT_TRUE(frame_plainly_wins(true, 0.21, 8001));
+  EXPECT_FALSE(frame_plainly_wins(true, 0.21, 8000));
+  EXPECT_FALSE(frame_plainly_wins(true, 0.19, 100000));
+  EXPECT_FALSE(frame_plainly_wins(false, 1, 100000));
 }
 
 }  // namespace

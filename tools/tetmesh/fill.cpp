@@ -25,14 +25,10 @@ namespace {
 // A point given by the user may come as near to the surface as TetGen can bear.
 constexpr double clearance_of_given = 1e-3;  // in sizes
 
-// Whether it is plain that the frame's points give more hexes than the lattice's: where much of the part is turned out
-// of the lattice's axes. Of 31 meshes of eleven parts the lattice won only with less than a seventh of it, or with few
-// tets, where an estimate takes no time.
+// Of 31 meshes of eleven parts the lattice won only with less than a seventh of the frames turned, or with few tets,
+// where an estimate takes no time.
 constexpr double much_turned = 0.2;
 constexpr std::size_t few_tets = 8000;
-bool frame_plainly_wins(const FramePoints& frame, const TetMesh& of_lattice, const TetmeshStatistics& statistics) {
-  return statistics.remeshed && frame.turned_share > much_turned && of_lattice.tets.size() > few_tets;
-}
 
 // Adds the seconds since the last call, or since the start, to a step.
 class StepWatch {
@@ -191,7 +187,8 @@ void Filler::try_frame_points() {
                                           .feature_angle = options_.feature_angle,
                                           .axes = axes_});
   watch_.add_to(statistics_.seconds.placing);
-  const bool compares = options_.points == PointKind::best && !frame_plainly_wins(frame, built_->mesh, statistics_);
+  const bool compares = options_.points == PointKind::best &&
+                        !frame_plainly_wins(statistics_.remeshed, frame.turned_share, built_->mesh.tets.size());
   double lattice_share = 0;
   std::optional<BuiltMesh> bent = tetrahedralize(frame.points, [&] {
     if (compares) lattice_share = estimate_hex_share(built_->mesh, built_->adjacency);
@@ -265,6 +262,10 @@ void Filler::describe_result() {
 }
 
 }  // namespace
+
+bool frame_plainly_wins(bool remeshed, double turned_share, std::size_t tets) {
+  return remeshed && turned_share > much_turned && tets > few_tets;
+}
 
 SizeField size_field(const Surface& surface, const TetmeshOptions& options, double greatest,
                      std::optional<int> layers) {

@@ -13,6 +13,11 @@ namespace hexpipe {
 // The sizes given by place, and those of walls, if they count, for so many layers.
 SizeField size_field(const Surface& surface, const TetmeshOptions& options, double greatest, std::optional<int> layers);
 
+// Whether it is plain that the points along the frame field give more hexes than the lattice's, so that nothing needs
+// to be estimated: where much of the part is turned out of the lattice's axes, on a surface made anew. `tets`: of the
+// mesh with the lattice's points.
+bool frame_plainly_wins(bool remeshed, double turned_share, std::size_t tets);
+
 // `size` takes the place of options.size and is what size_field() makes of the others. With `estimates`,
 // TetmeshStatistics::hex_share is there. Of the statistics, repair and seconds.checking stay empty. Throws
 // TetGenFailure.

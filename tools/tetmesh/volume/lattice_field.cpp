@@ -251,13 +251,10 @@ void LatticeSolver::add_steps_on_surface(Loops& loops) const {
     if (!nodes_.is_on_surface(i) || !nodes_.is_on_surface(t.node) || t.weight <= 0) return;
     const Vec3 &n = nodes_.surface[i].normal, &m = nodes_.surface[t.node].normal;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double length = std::abs(t.distance[k]);
-      const bool is_through = dot(n, m) < -normal_cosine && std::abs(dot(frames_[i][k], n)) > normal_cosine;
-      if (length > (is_through ? widest_to_decide : greatest_step)) continue;
-      if (length > no_step && length < least_step) continue;
-      const int steps = length <= no_step ? 0 : is_through ? layers_across(length) : 1;
+      const auto steps = steps_on_surface(frames_[i][k], n, m, std::abs(t.distance[k]));
+      if (!steps) continue;
       loops.add_step(number_of(ij, k), false);
-      loops.close(std::copysign(steps, t.distance[k]));
+      loops.close(std::copysign(*steps, t.distance[k]));
     }
   });
 }
@@ -356,6 +353,13 @@ LatticeField LatticeSolver::result() const {
 }
 
 }  // namespace
+
+std::optional<int> steps_on_surface(const Vec3& axis, const Vec3& normal, const Vec3& other_normal, double length) {
+  const bool is_through = dot(normal, other_normal) < -normal_cosine && std::abs(dot(axis, normal)) > normal_cosine;
+  if (length > (is_through ? widest_to_decide : greatest_step)) return std::nullopt;
+  if (length > no_step && length < least_step) return std::nullopt;
+  return length <= no_step ? 0 : is_through ? layers_across(length) : 1;
+}
 
 LatticeField solve_lattice_field(const FieldNodes& nodes, const std::vector<Frame>& frames) {
   return LatticeSolver(nodes, frames).solve();

@@ -9,6 +9,7 @@
 // neighbours' views of it, over and over. Deviates in that the surface's points are known and attract the lattice.
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "tools/tetmesh/volume/field_nodes.hpp"
@@ -23,6 +24,11 @@ struct LatticeField {
   // How far the neighbours agree with that, from 0 to 1, on the axis where they do least.
   std::vector<double> agreement;
 };
+
+// Of a lattice that passes through the surface, the steps from one of its points to another along an axis of the first
+// one's frame, `length` sizes: as many as go across the part where they lie on sides that face each other along the
+// axis, else one along the surface, or none. Nothing where rows would have to stretch too much.
+std::optional<int> steps_on_surface(const Vec3& axis, const Vec3& normal, const Vec3& other_normal, double length);
 
 // The cells of the lattice are as wide as the sizes of the nodes.
 LatticeField solve_lattice_field(const FieldNodes& nodes, const std::vector<Frame>& frames);
