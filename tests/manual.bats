@@ -98,6 +98,16 @@ completions() {
   for ending in mesh msh vtk vtu node inp tar cand graph sol stl; do assert_output --partial ".$ending"; done
 }
 
+@test "the page of the formats names every member of a bundle that formats/README.md knows" {
+  local members
+  members=$(sed -nE '/^\| `(mesh|candidates|graph|solution|result)\//s/^\|([^|]*)\|.*/\1/p' "$HEXPIPE_SOURCE/formats/README.md" |
+    grep -oE '[a-z_]+\.(npy|json)' | sort -u)
+  assert [ "$(wc -l <<<"$members")" -gt 25 ]
+  for member in $members; do
+    grep -qw -- "${member%.npy}" "$HEXPIPE_SOURCE/docs/man/hexpipe-formats.5" || fail "$member is missing"
+  done
+}
+
 # dead_links FOLDER PAGES...: links between pages there that lead nowhere.
 dead_links() {
   $PYTHON - "$@" <<'PYTHON'
