@@ -365,7 +365,7 @@ assert len(stats) > 2, stats"
     local writer=$!
     $tool -o out.tar slow 2>/dev/null &
     local reader=$!
-    sleep 0.3
+    await waits_for_input $reader
     # A search reads on for a second, for a search upstream may be about to answer.
     kill -TERM $reader
     local code=0

@@ -52,6 +52,28 @@ assert_different_bytes() {
   if cmp -s "$1" "$2"; then fail "$1 and $2 are the same"; fi
 }
 
+# await COMMAND...: until it succeeds. On a machine under load, what takes a millisecond else may take seconds.
+await() {
+  local try
+  for try in $(seq 1000); do
+    if "$@" >/dev/null 2>&1; then return; fi
+    sleep 0.02
+  done
+  fail "waited for this in vain: $*"
+}
+
+# takes_signals PID: has begun so far that SIGINT reaches a handler of its own. To be awaited.
+takes_signals() {
+  local caught
+  caught=$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$1/status")
+  [[ -n "$caught" && "$(<"/proc/$1/comm")" != bash ]] && ((16#$caught & 2))
+}
+
+# waits_for_input PID: has begun, and sleeps until something comes down a pipe. To be awaited.
+waits_for_input() {
+  takes_signals "$1" && grep -q '^State:[[:space:]]*S' "/proc/$1/status"
+}
+
 sanitized() {
   [[ -n "${HEXPIPE_SANITIZE:-}" ]]
 }

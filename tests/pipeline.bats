@@ -174,7 +174,10 @@ PYTHON
   # A process group of its own, as a terminal gives to each pipeline.
   setsid bash -o pipefail -c 'echo $$ >group; initsol graph.tar --time-limit 60 | lns | assemble -o out.vtk' 2>message &
   local pipeline=$!
-  sleep 1
+  await test -s group
+  for tool in initsol lns assemble; do await pgrep -g "$(cat group)" -x $tool; done
+  await takes_signals "$(pgrep -g "$(cat group)" -x initsol)"
+  for tool in lns assemble; do await waits_for_input "$(pgrep -g "$(cat group)" -x $tool)"; done
   SECONDS=0
   kill -INT -- "-$(cat group)"
   wait $pipeline || true
@@ -193,7 +196,9 @@ PYTHON
   searches+=($!)
   certify <second >out.tar &
   searches+=($!)
-  sleep 1
+  await takes_signals "${searches[0]}"
+  await waits_for_input "${searches[1]}"
+  await waits_for_input "${searches[2]}"
   kill -TERM "${searches[@]}"
   local search
   for search in "${searches[@]}"; do wait "$search"; done
@@ -207,7 +212,7 @@ PYTHON
   local writer=$!
   findhex <pipe >out.tar 2>/dev/null &
   local reader=$!
-  sleep 0.3
+  await waits_for_input $reader
   kill -INT $reader
   sleep 0.3
   kill -0 $reader
@@ -220,7 +225,8 @@ PYTHON
 
 @test "Ctrl-C ends tetmesh once its pipe is read, and leaves no file" {
   cat "$DATA/cube.stl" | { tetmesh -q --size 0.02 -o out.tar & echo $! >tool; wait $! || echo $? >code; } &
-  sleep 0.5
+  await test -s tool
+  await pgrep -P "$(cat tool)"  # TetGen, once the surface is read
   kill -INT "$(cat tool)"
   wait
   assert_equal "$(cat code)" 130
