@@ -34,7 +34,8 @@ function(hexpipe_library name)
   target_link_libraries(${name} PUBLIC hexpipe_flags ${arg_LINK})
 endfunction()
 
-# hexpipe_tool(NAME [SOURCES...] [LINK LIBS...]): library NAME_core with the algorithms, executable NAME from main.cpp.
+# hexpipe_tool(NAME [COMPONENT PACKAGE] [SOURCES...] [LINK LIBS...]): library NAME_core with the algorithms, executable
+# NAME from main.cpp, installed with the others or as a package of its own.
 # Without sources main.cpp is all of the tool.
 function(hexpipe_tool name)
   cmake_parse_arguments(arg "" "COMPONENT" "SOURCES;LINK" ${ARGN})
@@ -46,7 +47,11 @@ function(hexpipe_tool name)
     target_link_libraries(${name} PRIVATE ${name}_core)
   endif()
   target_link_libraries(${name} PRIVATE hexpipe_formats hexpipe_common)
-  if(NOT arg_COMPONENT)
+  if(arg_COMPONENT)
+    # What is given out apart has its licences with it.
+    install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/THIRD-PARTY.md" COMPONENT ${arg_COMPONENT}
+      DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${arg_COMPONENT})
+  else()
     set(arg_COMPONENT hexpipe)
   endif()
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${arg_COMPONENT})

@@ -99,6 +99,13 @@ PYTHON
   assert_output ""
 }
 
+@test "the page has the notices that the licences of its script ask for" {
+  view result.vtu -o page.html
+  for word in "2026 The hexpipe developers" "three.js authors" "MIT License" "Permission is hereby granted"; do
+    grep -q "$word" page.html
+  done
+}
+
 @test "--title is the page's, and is not markup" {
   view result.vtu --title 'A <b> & "c"' -o page.html
   grep -q '<title>A &lt;b> &amp; "c"</title>' page.html

@@ -1,3 +1,4 @@
+import "./licences.js";
 import {cameraOf, controlCamera, rayThrough} from "./camera.js";
 import {painter, picked as pickedColour} from "./colours.js";
 import {decodeScene} from "./decode.js";
