@@ -90,6 +90,16 @@ product_ending() {
   done
 }
 
+@test "a misspelled option is answered with the one that was meant" {
+  for tool in $TOOLS; do
+    assert_fails_with 2 "^$tool: The following arguments were not expected: --thread 2 \(did you mean --threads\? see $tool --help\)$" \
+      $tool "$STAGES/$tool.in" --thread 2
+  done
+  printf 'threads=1\nthread=2\n' >near.ini
+  assert_fails_with 2 "^findhex: near.ini:2: expected the name of an option, found 'thread' \(did you mean --threads\?" \
+    findhex "$STAGES/findhex.in" --config near.ini -o out.tar
+}
+
 @test "a seed that is negative or too large for 64 bits, and a time limit of NaN, end with 2" {
   for tool in initsol lns $(grep -oE "tetmesh|lns-mpi" <<<"$TOOLS"); do
     for seed in -1 18446744073709551616 1.5 ""; do

@@ -15,6 +15,7 @@
 #include <memory>
 #include <new>
 
+#include "common/run/command_line_errors.hpp"
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "common/run/help_formatter.hpp"
@@ -219,13 +220,6 @@ void end_without_memory() {
   std::abort();
 }
 
-// CLI11's messages may run over several lines; ours are one.
-std::string one_line(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
 }  // namespace
 
 int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<void(CLI::App&)>& declare,
@@ -251,7 +245,7 @@ int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<v
   } catch (const CLI::Success& success) {  // --help, --version
     return show(app, success, info);
   } catch (const CLI::ParseError& error) {
-    return report(info.name, one_line(error.what()) + fmt::format(" (see {} --help)", info.name), exit_usage);
+    return report(info.name, explanation_of(app, error), exit_usage);
   }
   std::erase_if(context.streams.files, [](const auto& file) { return file.second.empty(); });
   context.options = options_for_history(app, info);
