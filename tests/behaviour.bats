@@ -100,6 +100,19 @@ product_ending() {
     findhex "$STAGES/findhex.in" --config near.ini -o out.tar
 }
 
+@test "two outputs in one file are refused before either is written" {
+  for tool in $TOOLS; do
+    assert_fails_with 2 "^$tool: expected different files for --output and --stats, found ./out.tar for both$" \
+      $tool $(limited $tool) "$STAGES/$tool.in" -o out.tar --stats ./out.tar
+    assert_fails_with 2 "expected different files for --output and --stats, found standard output for both$" \
+      $tool $(limited $tool) "$STAGES/$tool.in" --stats -
+    assert [ ! -e out.tar ]
+  done
+  assert_fails_with 2 "for --log and --fragments, found x for both" lns "$STAGES/lns.in" -o out.tar --log x --fragments x
+  # What goes nowhere may be much.
+  lns -q --iterations 5 "$STAGES/lns.in" -o /dev/null --log /dev/null --stats /dev/null
+}
+
 @test "a seed that is negative or too large for 64 bits, and a time limit of NaN, end with 2" {
   for tool in initsol lns $(grep -oE "tetmesh|lns-mpi" <<<"$TOOLS"); do
     for seed in -1 18446744073709551616 1.5 ""; do
