@@ -109,6 +109,9 @@ PYTHON
   # In whatever order they are asked for.
   findhex -q --mesh "$DATA/random_points.mesh" --cells pyramid,hex,prism,hex -o other.cand
   assert_same_bytes all.cand other.cand
+  # A file may follow.
+  findhex -q --cells hex,prism,pyramid "$DATA/random_points.mesh" -o other.cand
+  assert_same_bytes all.cand other.cand
 }
 
 @test "every option changes something" {

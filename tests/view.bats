@@ -147,6 +147,8 @@ PYTHON
 @test "--size is the picture's size, and the picture shows the mesh on the background" {
   view result.vtu --size 300,200 --view colour=region --png picture.png
   assert_equal "$(size picture.png)" "300 200"
+  view --size 320,240 result.vtu --png before.png  # the file may follow
+  assert_equal "$(size before.png)" "320 240"
   assert [ ! -e result.html ]
   run "$PYTHON" - <<'PYTHON'
 import numpy as np

@@ -33,7 +33,8 @@ int main(int argc, char** argv) {
   const auto declare = [&](CLI::App& app) {
     app.add_option("--cells", cells, "What to find: hex, prism, pyramid, several separated by commas")
         ->check(CLI::IsMember(kinds))
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     app.add_option("--min-quality", options.min_quality, "The scaled Jacobian that every corner has to exceed")
         ->check(number_between(0, 1));
     app.add_option("--quality", quality, "What is stored: the least scaled Jacobian of the corners or of the element")

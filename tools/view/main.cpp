@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
         ->type_name("W,H")
         ->delimiter(',')
         ->expected(2)
+        ->allow_extra_args(false)
         ->check(CLI::Range(16, 8192).description(""));
     app.add_option("--show", show, "What to show: result, solution, candidates or mesh [the last that is there]")
         ->type_name("WHAT")
