@@ -106,6 +106,13 @@ PYTHON
   done
 }
 
+@test "a page under the name of a picture, and a picture under that of a page, are refused" {
+  assert_fails_with 2 "^view: -o writes a page: .*'x.png' \(a picture: --png x.png\)" view result.vtu -o x.png
+  assert_fails_with 2 "^view: --png writes a picture: .*'x.html' \(a page: -o x.html\)" view result.vtu --png x.html
+  assert [ ! -e x.png ]
+  assert [ ! -e x.html ]
+}
+
 @test "--title is the page's, and is not markup" {
   view result.vtu --title 'A <b> & "c"' -o page.html
   grep -q '<title>A &lt;b> &amp; "c"</title>' page.html

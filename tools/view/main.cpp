@@ -19,6 +19,16 @@ struct Outputs {
   std::vector<int> size{1600, 1000};
 };
 
+// -o picture.png is soon typed, and would write a page under the name of a picture.
+void check_endings(const Outputs& outputs) {
+  if (outputs.page.ends_with(".png"))
+    throw UsageError(
+        fmt::format("-o writes a page: expected another name than '{0}' (a picture: --png {0})", outputs.page));
+  if (outputs.picture.ends_with(".html") || outputs.picture.ends_with(".htm"))
+    throw UsageError(
+        fmt::format("--png writes a picture: expected another name than '{0}' (a page: -o {0})", outputs.picture));
+}
+
 void write_outputs(const Scene& scene, const ViewState& state, const std::string& title, const Outputs& outputs) {
   if (!outputs.picture.empty()) {
     Output output(outputs.picture);
@@ -69,6 +79,7 @@ int main(int argc, char** argv) {
   };
   const auto run = [&](RunContext& context) {
     const ViewState state = parse_view_state(view);
+    check_endings(outputs);
     if (outputs.page.empty() && outputs.picture.empty() && isatty(STDOUT_FILENO))
       throw UsageError("standard output is a terminal: write the page to a file with -o, or a picture with --png");
     Stage stage(context);
