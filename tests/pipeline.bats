@@ -67,6 +67,15 @@ assert share > 0.94, share'
   assert_output ""
 }
 
+@test "Makefile.examples takes the tools on the PATH where it is installed" {
+  mkdir doc
+  cp "$HEXPIPE_SOURCE/Makefile.examples" doc
+  touch part.stl
+  run make -n -f doc/Makefile.examples part.mesh
+  assert_success
+  assert_output "$HEXPIPE_BIN/tetmesh part.stl --size 3 -o part.mesh"
+}
+
 @test "clean of Makefile.examples takes away what the examples made, and nothing else" {
   examples() { make -s -j2 -f "$HEXPIPE_SOURCE/Makefile.examples" BIN="$HEXPIPE_BIN" PARTS="$DATA" SIZE=8 TIME=1 "$@"; }
   touch engine.msh backup.tar page.html bracket.stl.orig
