@@ -63,7 +63,7 @@ product_ending() {
     assert_output --regexp "Example:.*$tool "
     assert_output --partial "--output"
     assert [ "$(wc -L <<<"$output")" -le 100 ]
-    refute_output --regexp "\{false\}|an? candidates"
+    refute_output --regexp "\{false\}|an? candidates|=\["
   done
 }
 

@@ -51,4 +51,17 @@ std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positi
   return text + "\n";
 }
 
+// CLI11 shows a default of several values in brackets, which are not to be typed, even where there is none, and a
+// default of options that have to be given.
+std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
+  std::string text = CLI::Formatter::make_option_opts(option);
+  const std::string shown = option->get_default_str();
+  const std::size_t at = text.find("=" + shown);
+  if (shown.empty() || at == std::string::npos) return text;
+  if (option->get_required() || shown == "[]") return text.erase(at, 1 + shown.size());
+  if (shown.front() == '[' && shown.back() == ']')
+    text.replace(at + 1, shown.size(), shown.substr(1, shown.size() - 2));
+  return text;
+}
+
 }  // namespace hexpipe

@@ -9,6 +9,7 @@ namespace hexpipe {
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option(const CLI::Option* option, bool is_positional) const override;
+  std::string make_option_opts(const CLI::Option* option) const override;
 };
 
 }  // namespace hexpipe
