@@ -20,11 +20,13 @@ function(hexpipe_manual tool component)
   if(HELP2MAN)
     set(page "${folder}/man/${tool}.1")
     set(extra "${PROJECT_SOURCE_DIR}/docs/man/${tool}.h2m")
-    # The date would differ from build to build.
+    # The date would differ from build to build. help2man gives the name of the executable to a shell: there is no blank in
+    # one that is looked for beside it.
     add_custom_command(OUTPUT "${page}"
       COMMAND ${CMAKE_COMMAND} -E make_directory "${folder}/man"
       COMMAND ${CMAKE_COMMAND} -E env SOURCE_DATE_EPOCH=0 ${HELP2MAN} --no-info --no-discard-stderr --section=1
-        "--source=hexpipe ${PROJECT_VERSION}" "--include=${extra}" "--output=${page}" $<TARGET_FILE:${tool}>
+        "--source=hexpipe ${PROJECT_VERSION}" "--include=${extra}" "--output=${page}" "./$<TARGET_FILE_NAME:${tool}>"
+      WORKING_DIRECTORY "$<TARGET_FILE_DIR:${tool}>"
       DEPENDS ${tool} "${extra}" VERBATIM)
     list(APPEND outputs "${page}")
     install(FILES "${page}" DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${component})

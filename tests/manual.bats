@@ -76,6 +76,27 @@ completions() {
   done
 }
 
+@test "man pages and completion are made where paths have blanks" {
+  if ! command -v help2man >/dev/null; then skip "help2man is not there"; fi
+  mkdir -p "a b/bin"
+  ln -s "$HEXPIPE_SOURCE/cmake" "$HEXPIPE_SOURCE/docs" "a b"
+  cp "$(command -v findhex)" "a b/bin"
+  cat >"a b/CMakeLists.txt" <<'CMAKE'
+cmake_minimum_required(VERSION 3.25)
+project(hexpipe VERSION 0.1.0 LANGUAGES NONE)
+set(CMAKE_INSTALL_DATADIR share)
+set(CMAKE_INSTALL_MANDIR share/man)
+include(cmake/Manual.cmake)
+add_executable(findhex IMPORTED)
+set_target_properties(findhex PROPERTIES IMPORTED_LOCATION "${PROJECT_SOURCE_DIR}/bin/findhex")
+hexpipe_manual(findhex hexpipe)
+CMAKE
+  cmake -S "a b" -B "a b/build" -G Ninja >log
+  cmake --build "a b/build" >>log || fail "$(cat log)"
+  assert [ -s "a b/build/manual/man/findhex.1" ]
+  assert [ -s "a b/build/manual/bash/findhex" ]
+}
+
 @test "the examples of the man pages are command lines that the tools take" {
   for page in "$HEXPIPE_SOURCE"/docs/man/*.h2m; do
     while read -r line; do
