@@ -50,9 +50,11 @@ MixedMesh read_by_content(std::string text, const std::string& name, const std::
   if (looks_like_binary_medit(text))
     throw DataError::at(name,
                         "expected a text, found MEDIT's binary format; transmesh of libmeshb makes a .mesh of it");
-  throw FormatError(name, 1,
-                    fmt::format("expected a mesh (MEDIT .mesh, Gmsh .msh, VTK, VTU, TetGen .node or .ele), found {}",
-                                quote_found(TextScanner(text, name).peek_word())));
+  throw FormatError(
+      name, 1,
+      fmt::format("expected a mesh (MEDIT .mesh, Gmsh .msh, VTK, VTU, TetGen .node or .ele; tetmesh makes one of a "
+                  "surface), found {}",
+                  quote_found(TextScanner(text, name).peek_word())));
 }
 
 }  // namespace

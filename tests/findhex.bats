@@ -223,6 +223,10 @@ OPTIONS
   grep -q "48 surface triangles derived, with tag 0" <<<"$stderr"
 }
 
+@test "a surface in place of a mesh is sent to tetmesh" {
+  assert_fails_with 1 "cube.stl:1: expected a mesh .*tetmesh makes one of a surface.*found 'solid'$" findhex "$DATA/cube.stl"
+}
+
 @test "a mesh of other cells is an error" {
   printf 'MeshVersionFormatted 2\nDimension 3\nVertices\n8\n' >hex.mesh
   for p in '0 0 0' '1 0 0' '1 1 0' '0 1 0' '0 0 1' '1 0 1' '1 1 1' '0 1 1'; do echo "$p 0"; done >>hex.mesh

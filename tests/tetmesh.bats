@@ -293,6 +293,18 @@ PYTHON
   assert_fails_with 1 "^tetmesh: zero.obj:4: expected a vertex index, counted from 1 .*, found '0'" tetmesh zero.obj
 }
 
+@test "a fault that --repair mends is told with it, until it is tried" {
+  cd "$FILES"
+  for name in hole flipped duplicated degenerate; do
+    assert_fails_with 1 " \(see --repair\)$" tetmesh $name.stl
+    tetmesh -q $name.stl --repair --surface keep --points none -o "$BATS_TEST_TMPDIR/out.tar"
+  done
+  assert_fails_with 1 "found [0-9]+ pairs .*[0-9]$" tetmesh intersecting.stl
+  assert_fails_with 1 "found 3 edges of .*\)$" tetmesh hole.stl --repair --largest-hole 0
+  run tetmesh hole.stl --repair --largest-hole 0
+  refute_output --partial "see --repair"
+}
+
 @test "missing, empty and other input" {
   : >empty
   assert_fails_with 1 "^tetmesh: missing.stl: .*No such file" tetmesh missing.stl

@@ -43,7 +43,7 @@ std::string list_of(const SurfaceSoup& soup, const Triangles& triangles) {
                                         : fmt::format(" and {}", places[listed - 1]));
 }
 
-void check_no_degenerate_triangles(const SurfaceSoup& soup) {
+void check_no_degenerate_triangles(const SurfaceSoup& soup, std::string_view remedy) {
   std::size_t count = 0, first = 0;
   for (std::size_t i = soup.triangles.size(); i-- > 0;) {
     const auto [a, b, c] = soup.triangles[i];
@@ -54,11 +54,11 @@ void check_no_degenerate_triangles(const SurfaceSoup& soup) {
   if (count == 0) return;
   const auto [a, b, c] = soup.triangles[first];
   throw DataError::at(soup.place_of(first),
-                      "expected triangles with an area, found {} without; the first has corners {}, {}, {}", count,
-                      text_of(soup.points[a]), text_of(soup.points[b]), text_of(soup.points[c]));
+                      "expected triangles with an area, found {} without; the first has corners {}, {}, {}{}", count,
+                      text_of(soup.points[a]), text_of(soup.points[b]), text_of(soup.points[c]), remedy);
 }
 
-void check_no_repeated_triangles(const SurfaceSoup& soup) {
+void check_no_repeated_triangles(const SurfaceSoup& soup, std::string_view remedy) {
   auto key = [&](std::int32_t i) {
     Triangle t = soup.triangles[i];
     std::ranges::sort(t);
@@ -75,8 +75,8 @@ void check_no_repeated_triangles(const SurfaceSoup& soup) {
   }
   if (count == 0) return;
   throw DataError::at(soup.place_of(first[0]),
-                      "expected distinct triangles, found {} with the corners of another; the first repeats {} {}",
-                      count, soup.place_unit(), soup.places[first[1]]);
+                      "expected distinct triangles, found {} with the corners of another; the first repeats {} {}{}",
+                      count, soup.place_unit(), soup.places[first[1]], remedy);
 }
 
 // Edges of one kind of fault: how many, and the one whose triangle comes first in the file.
@@ -89,7 +89,7 @@ struct FaultyEdges {
   }
 };
 
-void check_edges(const SurfaceSoup& soup) {
+void check_edges(const SurfaceSoup& soup, std::string_view remedy) {
   FaultyEdges open, crowded;
   for_each_edge(soup.points.size(), soup.triangles, [&](std::span<const HalfEdge> edge) {
     if (edge.size() == 1) open.add(edge);
@@ -108,8 +108,8 @@ void check_edges(const SurfaceSoup& soup) {
   }
   if (open.count > 0)
     throw DataError::at(soup.place_of(triangle_of(open.first[0])),
-                        "expected a closed surface, found {} of a single triangle; the first is {}",
-                        count_of(open.count, "edge"), edge_text(open.first[0]));
+                        "expected a closed surface, found {} of a single triangle; the first is {}{}",
+                        count_of(open.count, "edge"), edge_text(open.first[0]), remedy);
 }
 
 bool agree(std::span<const Triangle> triangles, HalfEdge h, HalfEdge twin) {
@@ -140,7 +140,7 @@ std::optional<HalfEdge> spread_sides(std::span<const Triangle> triangles, std::s
   return conflict;
 }
 
-void check_orientation(const SurfaceSoup& soup, std::span<const HalfEdge> twins) {
+void check_orientation(const SurfaceSoup& soup, std::span<const HalfEdge> twins, std::string_view remedy) {
   std::vector<std::int8_t> sides(soup.triangles.size());
   std::vector<std::int32_t> component, flipped;
   for (std::size_t start = 0; start < sides.size(); ++start) {
@@ -158,8 +158,8 @@ void check_orientation(const SurfaceSoup& soup, std::span<const HalfEdge> twins)
   }
   if (flipped.empty()) return;
   throw DataError::at(soup.place_of(std::ranges::min(flipped)),
-                      "expected neighbours with one orientation, found {} flipped against the others{}",
-                      count_of(flipped.size(), "triangle"), flipped.size() == 1 ? "" : "; the first is here");
+                      "expected neighbours with one orientation, found {} flipped against the others{}{}",
+                      count_of(flipped.size(), "triangle"), flipped.size() == 1 ? "" : "; the first is here", remedy);
 }
 
 // Every edge has two triangles by now, so that the triangles at a vertex form cycles: one each where it is manifold.
@@ -199,15 +199,15 @@ void check_no_intersections(const SurfaceSoup& soup, const IntersectionReport& r
 
 }  // namespace
 
-void check_surface(const SurfaceSoup& soup) {
-  check_no_degenerate_triangles(soup);
-  check_no_repeated_triangles(soup);
+void check_surface(const SurfaceSoup& soup, std::string_view remedy) {
+  check_no_degenerate_triangles(soup, remedy);
+  check_no_repeated_triangles(soup, remedy);
   IntersectionReport report;
-  check_edges(soup);
+  check_edges(soup, remedy);
   both_at_once(
       [&] {
         const std::vector<HalfEdge> twins = find_twins(soup.points.size(), soup.triangles);
-        check_orientation(soup, twins);
+        check_orientation(soup, twins, remedy);
         check_vertices(soup, twins);
       },
       [&] { report = find_intersections(soup.points, soup.triangles, most_intersections); });

@@ -1,6 +1,8 @@
 #pragma once
 // Whether a triangle soup is the boundary of a solid: what TetGen does not say, or says by crashing.
 
+#include <string_view>
+
 #include "formats/surface_files.hpp"
 
 namespace hexpipe {
@@ -11,6 +13,7 @@ namespace hexpipe {
 // - each edge belongs to two triangles (closed), and each vertex to one fan of them (2-manifold),
 // - neighbours agree in orientation, so that each shell is consistently oriented, outward or inward,
 // - no two triangles meet elsewhere than in the vertices and edges that they share.
-void check_surface(const SurfaceSoup& soup);
+// `remedy` ends the messages about what repair.hpp mends.
+void check_surface(const SurfaceSoup& soup, std::string_view remedy = {});
 
 }  // namespace hexpipe

@@ -134,7 +134,7 @@ TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
   const Stopwatch watch;
   std::optional<RepairReport> repaired;
   if (options.repair) repaired = repair(soup, options);
-  check_surface(soup);
+  check_surface(soup, options.repair ? "" : " (see --repair)");
   const Surface surface = find_shells(std::move(soup), options.shells);
   const double greatest = greatest_size(surface, options);
   const double least_factor = std::ranges::min(std::span(tried_sizes).first(options.tries));
