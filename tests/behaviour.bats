@@ -340,8 +340,7 @@ print((len(data.rstrip(b'\0')) + 511) // 512 * 512)" "$STAGES/$tool.in")
       # On standard output what passed on is cut off as well.
       run shell "head -c $length '$STAGES/$tool.in' | $tool $(limited $tool) >passed.tar 2>/dev/null"
       assert_equal "$status" 1
-      run "$CHECKERS/bundle_check.py" passed.tar
-      if grep -q "history.*$tool\$" <<<"$output"; then fail "looks complete: $output"; fi
+      if tar tf passed.tar 2>/dev/null | grep "history/.*-$tool.json"; then fail "looks complete: $length bytes"; fi
     done
   done
 }
