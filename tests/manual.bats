@@ -112,6 +112,17 @@ CMAKE
   done
 }
 
+@test "the man page of view explains every key of --view, with the defaults" {
+  if [[ ! -x "$HEXPIPE_BIN/view" ]]; then skip "view is not built"; fi
+  local keys key page="$HEXPIPE_SOURCE/docs/man/view.h2m"
+  keys=$(view --view none 2>&1 </dev/null | sed 's/.*a key of \(.*\), found.*/\1/; s/,//g')
+  assert [ "$(wc -w <<<"$keys")" -ge 9 ]
+  for key in $keys; do grep -qF "\fB$key=\fP" "$page" || fail "$key is missing"; done
+  view "$DATA/thin.mesh" -o plain.html
+  view "$DATA/thin.mesh" --view "$(sed -n '/^Defaults:/,/^\.fi/{//d;p}' "$page" | tr -d '\\\n')" -o defaults.html
+  assert_same_bytes plain.html defaults.html
+}
+
 @test "the page of the formats is well formed" {
   run_apart env MANWIDTH=100 man --warnings -l "$HEXPIPE_SOURCE/docs/man/hexpipe-formats.5"
   assert_success

@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
         ->check(CLI::IsMember(contents).description(""));
     app.add_option("--view", view,
                    "How the page opens and the picture is taken, as links of the page say it behind the #, for example "
-                   "'clip=y:0.5&colour=quality&theme=dark'")
+                   "'clip=y:0.5&colour=quality&theme=dark' (man view has all keys)")
         ->type_name("STATE");
     app.add_option("--fragments", fragments,
                    "Fragments to go through one by one: a line each, the numbers of its candidates, from 1")
