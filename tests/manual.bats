@@ -63,6 +63,14 @@ completions() {
   done
 }
 
+@test "packages have zsh's completion where Debian's zsh looks for it" {
+  mkdir -p "staged files/hexpipe/usr/share/zsh/site-functions" "staged files/hexpipe-none/usr/share"
+  touch "staged files/hexpipe/usr/share/zsh/site-functions/_findhex"
+  cmake -DCPACK_TEMPORARY_DIRECTORY="$PWD/staged files" -P "$HEXPIPE_SOURCE/cmake/DebianFolders.cmake"
+  assert_equal "$(find "staged files" -name '_*')" "staged files/hexpipe/usr/share/zsh/vendor-completions/_findhex"
+  grep -q "CPACK_PRE_BUILD_SCRIPTS.*/DebianFolders.cmake" "$HEXPIPE_SOURCE/cmake/Packages.cmake"
+}
+
 @test "every tool has a man page with its options and examples" {
   if ! command -v help2man >/dev/null; then skip "help2man is not there"; fi
   for tool in $TOOLS; do
