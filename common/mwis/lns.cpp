@@ -115,6 +115,7 @@ class Lns {
       });
       grower_.let_go();
       for (std::int64_t i = 0; i < size; ++i) apply(repairs[i]);
+      take_left_out();
     }
   }
 
@@ -176,6 +177,7 @@ class Lns {
       lock.lock();
       grower_.let_go(repair.fragment());
       apply(repair);
+      take_left_out();
       run.put_back.notify_all();
     }
   }
@@ -225,6 +227,7 @@ class Lns {
       if (report_) report_({iterations_, state_.weight(), repair.fragment().vertices});
       renew_around(repair);
     } else {
+      hand_over(repair);
       retire_around(repair);
     }
     effort_.record(repair.way(), repair.work(), static_cast<double>(state_.weight() - before));
@@ -235,6 +238,7 @@ class Lns {
   bool exchange(const Repair& repair) {
     const auto& vertices = repair.fragment().vertices;
     removed_.clear();
+    added_.clear();
     for (std::size_t i = 0; i < vertices.size(); ++i)
       if (state_.contains(vertices[i]) && !repair.chooses(i)) removed_.push_back(vertices[i]);
     for (const std::int32_t v : removed_) state_.remove(v);
@@ -244,11 +248,44 @@ class Lns {
         return false;
       }
     for (std::size_t i = 0; i < vertices.size(); ++i)
-      if (repair.chooses(i) && !state_.contains(vertices[i])) state_.add(vertices[i]);
+      if (repair.chooses(i) && !state_.contains(vertices[i])) add(vertices[i]);
     // What a search found before its limit need not be maximal.
     for (const std::int32_t v : vertices)
-      if (!state_.contains(v) && state_.tightness(v) == 0) state_.add(v);
+      if (!state_.contains(v) && state_.tightness(v) == 0) add(v);
+    for (const std::int32_t v : removed_)
+      for (const std::int32_t u : state_.graph().neighbours_of(v))
+        if (!state_.contains(u) && state_.tightness(u) == 0) left_out_.push_back(u);
     return true;
+  }
+
+  // What no fragment had room for may have lost its last chosen neighbour. Fragments grow from what is chosen, and
+  // would never come upon it.
+  void take_left_out() {
+    std::ranges::stable_sort(left_out_, std::ranges::greater(),
+                             [&](std::int32_t v) { return state_.graph().weights[v]; });
+    std::erase_if(left_out_, [&](std::int32_t v) {
+      if (state_.contains(v) || state_.tightness(v) != 0) return true;
+      if (!grower_.is_free(v)) return false;
+      state_.add(v);
+      renew(v);
+      return true;
+    });
+  }
+  void add(std::int32_t v) {
+    state_.add(v);
+    added_.push_back(v);
+  }
+
+  // What came in without a gain is a seed as well: a new place for the other ways, but not for the one that brought it,
+  // which would stay there for ever where weights are equal.
+  void hand_over(const Repair& repair) {
+    const std::int32_t seed = repair.fragment().released.front();
+    Schedule& own = schedule_of(repair.way());
+    const std::uint32_t tries = own.tries_at(seed) + 1;
+    for (const std::int32_t v : added_) {
+      renew(v);
+      own.recall(v, tries, static_cast<std::uint32_t>(own.size_at(seed)));
+    }
   }
 
   // Everything that could be better now, because it is in the fragment or could share one with it.
@@ -293,7 +330,7 @@ class Lns {
   FragmentGrower grower_;
   std::array<Schedule, all_ways.size()> schedules_;  // by way
   Effort effort_;
-  std::vector<std::int32_t> postponed_, removed_;
+  std::vector<std::int32_t> postponed_, removed_, added_, left_out_;
   std::int64_t begun_ = 0, iterations_ = 0;  // fragments grown, and put back
   std::int64_t improvements_ = 0;
   std::int32_t closed_ = 0;  // vertices of components that are solved to the end

@@ -377,6 +377,36 @@ TEST(Lns, EndsWhereVerticesAreIsolated) {
   EXPECT_LT(result.iterations, 5000);
 }
 
+// The first fragment takes the centre out for some of the rays; the others have nothing chosen beside them then.
+TEST(Lns, TakesWhatAFragmentLeftOut) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> spokes;
+  for (std::int32_t v = 1; v <= 6; ++v) spokes.emplace_back(0, v);
+  const ConflictGraph star = make_graph({2, 3, 3, 3, 3, 3, 3}, spokes);
+  LnsOptions options{.iterations = 200, .fragment_size = 2, .annealed_fragment = 0, .recombined_fragment = 0};
+  options.reduce = false;
+  for (const bool free_running : {false, true}) {
+    options.free_running = free_running;
+    const LnsResult result = improve_by_lns(star, {0}, options, no_deadline);
+    EXPECT_EQ(result.weight, 18);
+    EXPECT_TRUE(result.complete);
+  }
+}
+
+// Two of these are as good as the other two, and annealing comes from the hub to the first two.
+TEST(Lns, GoesOnWhereEqualWeightsChangePlaces) {
+  const ConflictGraph graph =
+      make_graph({1, 1, 1, 1, 1}, {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 3}, {1, 4}, {2, 3}, {2, 4}});
+  const LnsOptions options{.iterations = 5000,
+                           .fragment_size = 1,
+                           .largest_fragment = 1,
+                           .annealed_fragment = 0,
+                           .recombined_fragment = 5,
+                           .reduce = false};
+  const LnsResult result = improve_by_lns(graph, {3, 4}, options, no_deadline);
+  EXPECT_EQ(result.solution, (IndependentSet{1, 2}));
+  EXPECT_EQ(result.iterations, options.iterations);
+}
+
 TEST(Lns, EndsAtItsTarget) {
   Random random(12);
   const ConflictGraph graph = hexpipe::testing::random_clique_graph(2000, 1500, 1000, random);
