@@ -221,6 +221,11 @@ PYTHON
     assert_same_bytes whole.tar $side.tar
     assert_fails_with 1 "certify: no/such/place: .*No such file" certify missing.tar --$side no/such/place
   done
+  # Nor the proof.
+  assert_fails_with 1 "certify: /dev/full: .*No space left" certify --graph ring.graph --solution good.sol \
+    --iterations 5 -o out.tar --log /dev/full --certificate proof
+  run "$CHECKERS/bound_check.py" ring.graph proof
+  assert_success
 }
 
 @test "a graph that is too large for the algorithm is refused before the search" {

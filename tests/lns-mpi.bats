@@ -327,11 +327,12 @@ SHELL
 }
 
 @test "what goes wrong beside the solution does not cost it" {
-  on 2 --iterations 30 -o whole.sol
-  for side in log fragments; do
-    run on 2 --iterations 30 -o $side.sol --$side /dev/full
+  on 2 --iterations 30 --prove 2 -o whole.sol
+  for side in log fragments certificate; do
+    run on 2 --iterations 30 --prove 2 -o $side.sol --$side /dev/full
     assert_failure
     assert_output --partial "/dev/full: "
     assert_same_bytes whole.sol $side.sol
+    assert_fails_with 1 "lns-mpi: no/such/place: .*No such file" lns-mpi missing.tar --prove 2 --$side no/such/place
   done
 }

@@ -331,6 +331,23 @@ PYTHON
   done
 }
 
+@test "a disk that fills up under --fragments during the search does not cost the solution" {
+  # Each of 900 stars is improved, which makes lines of 200 numbers, more than a buffer holds.
+  "$PYTHON" - <<'PYTHON'
+stars, rays = 900, 200
+with open("stars.graph", "w") as graph, open("stars.sol", "w") as solution:
+    print(stars * (rays + 1), stars * rays, 10, file=graph)
+    for centre in range(1, stars * (rays + 1), rays + 1):
+        print(5, *range(centre + 1, centre + 1 + rays), file=graph)
+        graph.write(rays * f"2 {centre}\n")
+        print(centre, file=solution)
+PYTHON
+  assert_fails_with 1 "lns: /dev/full: .*No space left" lns --graph stars.graph --solution stars.sol --no-reductions \
+    --annealed-fragment 0 --recombined-fragment 0 --fragment-size 201 --target-gap 0 --bound 360000 \
+    --fragments /dev/full -o out.sol
+  assert_equal "$("$CHECKERS/solution_check.py" stars.graph out.sol)" "180000 chosen, weight 360000"
+}
+
 @test "where the fragments are written leaves the bundle as it is" {
   ring --iterations 30 --fragments here -o here.tar
   ring --iterations 30 --fragments there -o there.tar

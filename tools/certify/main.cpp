@@ -76,11 +76,12 @@ int main(int argc, char** argv) {
         result.solution,
         {{"weight", result.weight}, {"bound", result.bound}, {"gap", result.gap}, {"complete", result.complete}},
         &gaps);
-    // Behind the solution, which no full disk under them may cost.
+    // Behind the solution, which no full disk under them may cost; the proof first, which takes longer to have again.
+    if (proof) {
+      write_certificate(result.cover, result.dual, *proof);
+      proof->commit();
+    }
     log.finish(seconds, result.dual.passes, result.bound);
-    if (!proof) return;
-    write_certificate(result.cover, result.dual, *proof);
-    proof->commit();
   };
   return tool_main(argc, argv, info, declare, run);
 }

@@ -9,6 +9,7 @@
 #include "common/mwis/search_log.hpp"
 #include "common/mwis/target_weight.hpp"
 #include "common/run/progress.hpp"
+#include "formats/fragments_file.hpp"
 #include "formats/output.hpp"
 #include "tools/lns-mpi/checkpoint.hpp"
 #include "tools/lns-mpi/fingerprint.hpp"
@@ -45,7 +46,9 @@ class Job {
     expect_same_options();
     ranks_.together([&] {
       log_.emplace(ranks_.is_first() ? context_.common.log_file : std::string());
-      if (ranks_.is_first() && !options_.fragments.empty()) fragments_.emplace(options_.fragments);
+      if (!ranks_.is_first()) return;
+      if (!options_.fragments.empty()) fragments_.emplace(options_.fragments);
+      if (!options_.certificate.empty()) certificate_.emplace(options_.certificate);
     });
     OwnedRows rows = source_->read(ranks_);
     const BlockOwners owners(source_->blocks(), ranks_.count());
@@ -60,7 +63,7 @@ class Job {
       options_.rounds.improved = [&](std::span<const std::int32_t> fragment) {
         std::vector<std::uint64_t> numbers;
         numbers.reserve(fragment.size());
-        for (const std::int32_t v : fragment) numbers.push_back(piece.keys[v] + 1);
+        for (const std::int32_t v : fragment) numbers.push_back(piece.keys[v]);
         improved.put_all(std::span<const std::uint64_t>(numbers));
       };
     improve_in_rounds(ranks_, piece, options_.rounds, deadline_, progress_, memories_,
@@ -146,17 +149,18 @@ class Job {
         for (Unpacker unpacker(from); fragments_ && !unpacker.at_end();) {
           std::vector<std::uint64_t> numbers;
           unpacker.get_all(numbers);
-          fragments_->print("{}\n", fmt::join(numbers, " "));
+          fragments_->add(numbers);
         }
     });
   }
 
   void prove(const Piece& piece) {
-    bound_ = prove_bound(ranks_, piece, options_.passes, options_.rounds.search.seed, Deadline(), options_.certificate);
-    const double gap = gap_to(*bound_, progress_.weight);
-    context_.statistics["bound"] = *bound_;
+    proof_ = prove_bound(ranks_, piece, options_.passes, options_.rounds.search.seed, Deadline(),
+                         !options_.certificate.empty());
+    const double gap = gap_to(proof_->bound, progress_.weight);
+    context_.statistics["bound"] = proof_->bound;
     context_.statistics["gap"] = gap;
-    context_.note(fmt::format("at most {} is possible: gap {:.4f} %", *bound_, 100 * gap));
+    context_.note(fmt::format("at most {} is possible: gap {:.4f} %", proof_->bound, 100 * gap));
   }
 
   void finish(const Piece& piece) {
@@ -174,15 +178,23 @@ class Job {
                               progress_.weight, progress_.improvements, progress_.iterations, progress_.round));
     nlohmann::ordered_json details{
         {"weight", progress_.weight}, {"iterations", progress_.iterations}, {"rounds", progress_.round}};
-    if (bound_) details["bound"] = *bound_;
+    if (proof_) details["bound"] = proof_->bound;
     if (options_.rounds.search.free_running) details["depends_on_timing"] = true;
+    const double seconds = deadline_.elapsed();
     source_->write(ranks_, piece, details);
-    // Behind the solution, which a full disk here is not to cost.
+    // Behind the solution, which a full disk here is not to cost; what took longest first.
     ranks_.together([&] {
-      log_->finish(deadline_.elapsed(), progress_.iterations, progress_.weight);
+      if (certificate_) write_certificate();
       if (fragments_) fragments_->commit();
+      log_->finish(seconds, progress_.iterations, progress_.weight);
     });
     if (!ranks_.is_first()) context_.common.stats_file.clear();
+  }
+
+  void write_certificate() {
+    certificate_->print("bound {}\n", proof_->bound);
+    for (const Bytes& prices : proof_->prices) certificate_->write({prices.data(), prices.size()});
+    certificate_->commit();
   }
 
   Ranks& ranks_;
@@ -192,11 +204,12 @@ class Job {
   Progress shown_;
   std::unique_ptr<Source> source_;
   std::optional<SearchLog> log_;
-  std::optional<Output> fragments_;  // of the first rank
+  std::optional<FragmentsFile> fragments_;  // of the first rank
+  std::optional<Output> certificate_;       // likewise
   std::optional<Checkpoint> checkpoint_;
   RoundsProgress progress_;
   std::vector<BlockMemory> memories_;
-  std::optional<std::int64_t> bound_;
+  std::optional<SharedProof> proof_;
   Sent setup_;
   std::int64_t messages_ = 0, bytes_ = 0;  // of all rounds, sent by all ranks
 };

@@ -13,7 +13,6 @@
 #include "common/graph/subgraph.hpp"
 #include "common/mwis/entropy_dual.hpp"
 #include "common/run/random.hpp"
-#include "formats/output.hpp"
 
 namespace hexpipe {
 namespace {
@@ -66,7 +65,8 @@ class SharedDual {
     return sum_of_costs();
   }
 
-  void write(const std::string& path, std::int64_t bound) {
+  // To the first rank.
+  std::vector<Bytes> gather_prices() {
     std::string lines;
     for (const BlockCliques& cliques : blocks_)
       for (std::int64_t c = 0; c < cliques.cover.size(); ++c) {
@@ -78,14 +78,7 @@ class SharedDual {
       }
     std::vector<Bytes> to(static_cast<std::size_t>(ranks_.count()));
     to[0].assign(lines.begin(), lines.end());
-    const std::vector<Bytes> from = ranks_.exchange(std::move(to));
-    ranks_.together([&] {
-      if (!ranks_.is_first()) return;
-      Output output(path);
-      output.print("bound {}\n", bound);
-      for (const Bytes& bytes : from) output.write({bytes.data(), bytes.size()});
-      output.commit();
-    });
+    return ranks_.exchange(std::move(to));
   }
 
  private:
@@ -254,13 +247,14 @@ class SharedDual {
 
 }  // namespace
 
-std::int64_t prove_bound(Ranks& ranks, const Piece& piece, std::int64_t passes, std::uint64_t seed,
-                         const Deadline& deadline, const std::string& certificate) {
+SharedProof prove_bound(Ranks& ranks, const Piece& piece, std::int64_t passes, std::uint64_t seed,
+                        const Deadline& deadline, bool with_prices) {
   SharedDual dual(ranks, piece);
   dual.run(passes, seed, deadline);
-  const std::int64_t bound = dual.whole_bound();
-  if (!certificate.empty()) dual.write(certificate, bound);
-  return bound;
+  SharedProof proof;
+  proof.bound = dual.whole_bound();
+  if (with_prices) proof.prices = dual.gather_prices();
+  return proof;
 }
 
 }  // namespace hexpipe

@@ -6,8 +6,7 @@
 // is left.
 
 #include <cstdint>
-#include <functional>
-#include <string>
+#include <vector>
 
 #include "common/run/deadline.hpp"
 #include "tools/lns-mpi/piece.hpp"
@@ -15,9 +14,15 @@
 
 namespace hexpipe {
 
-// The same on all ranks and for any number of them, unless the deadline comes first. With a `certificate`, a file as
-// certify writes it, for a graph whose keys are the numbers of its vertices.
-std::int64_t prove_bound(Ranks& ranks, const Piece& piece, std::int64_t passes, std::uint64_t seed,
-                         const Deadline& deadline, const std::string& certificate);
+struct SharedProof {
+  std::int64_t bound = 0;
+  // On the first rank, from each rank in order: the lines behind the first of a certificate, as certify writes it.
+  std::vector<Bytes> prices;
+};
+
+// The same on all ranks and for any number of them, unless the deadline comes first. Prices come `with_prices` alone,
+// for a graph whose keys are the numbers of its vertices.
+SharedProof prove_bound(Ranks& ranks, const Piece& piece, std::int64_t passes, std::uint64_t seed,
+                        const Deadline& deadline, bool with_prices);
 
 }  // namespace hexpipe

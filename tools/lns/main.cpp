@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <optional>
-#include <span>
 #include <string>
+#include <vector>
 
 #include "common/mwis/gap_shares.hpp"
 #include "common/mwis/lns.hpp"
@@ -11,24 +11,10 @@
 #include "common/run/lns_options.hpp"
 #include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
-#include "formats/output.hpp"
+#include "formats/fragments_file.hpp"
 #include "formats/stage.hpp"
 
 using namespace hexpipe;
-
-namespace {
-
-// A line each, the numbers of its candidates from 1, as view reads them.
-void write_fragment(Output& output, std::span<const std::int32_t> fragment) {
-  const char* separator = "";
-  for (const std::int32_t v : fragment) {
-    output.print("{}{}", separator, v + 1);
-    separator = " ";
-  }
-  output.print("\n");
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   const ToolInfo info{
@@ -56,7 +42,7 @@ int main(int argc, char** argv) {
     options.iterations = context.common.iterations.value_or(options.iterations);
     Stage stage(context);
     SearchLog log(context.common.log_file);
-    std::optional<Output> fragments;
+    std::optional<FragmentsFile> fragments;
     if (!fragments_file.empty()) fragments.emplace(fragments_file);
     const StageData data = stage.read({Role::graph, Role::solution});
     const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
@@ -70,7 +56,7 @@ int main(int argc, char** argv) {
     const LnsResult result =
         improve_by_lns(*data.graph, *data.solution, options, deadline, [&](const LnsProgress& now) {
           log.record(deadline.elapsed(), now.iteration, now.weight);
-          if (fragments) write_fragment(*fragments, now.fragment);
+          if (fragments) fragments->add(std::vector<std::uint64_t>(now.fragment.begin(), now.fragment.end()));
           if (progress.due()) progress.show(fmt::format("weight {} after {} fragments", now.weight, now.iteration));
         });
     const double seconds = deadline.elapsed();
@@ -87,8 +73,8 @@ int main(int argc, char** argv) {
     if (options.free_running) details["depends_on_timing"] = true;
     stage.write(result.solution, details);
     // Behind the solution, which no full disk under them may cost.
-    log.finish(seconds, result.iterations, result.weight);
     if (fragments) fragments->commit();
+    log.finish(seconds, result.iterations, result.weight);
   };
   return tool_main(argc, argv, info, declare, run);
 }
