@@ -336,3 +336,39 @@ SHELL
     assert_fails_with 1 "lns-mpi: no/such/place: .*No such file" lns-mpi missing.tar --prove 2 --$side no/such/place
   done
 }
+
+@test "a run that goes on gives nothing lighter than what it was given" {
+  # Reductions leave out u, which v could replace; x keeps v out, and p comes in, one lighter than u, until the search
+  # gets there.
+  "$PYTHON" - <<'PYTHON'
+weights, adjacent, chosen = [], [], []
+def vertex(weight):
+    weights.append(weight), adjacent.append(set())
+    return len(weights)
+def join(a, b):
+    adjacent[a - 1].add(b), adjacent[b - 1].add(a)
+core = [vertex(20) for _ in range(400)]
+for i, z in enumerate(core):
+    join(z, core[i - 1]), join(z, core[i - 17])
+for z in core:
+    u, v, x, y, p = map(vertex, (2, 3, 1, 10, 1))
+    for edge in (u, v), (u, y), (u, p), (v, x), (v, y), (v, p), (y, z):
+        join(*edge)
+    chosen += [y, x, p] if adjacent[z - 1] & set(chosen) else [z, u, x]
+with open("ring.graph", "w") as file:
+    print(len(weights), sum(map(len, adjacent)) // 2, 10, file=file)
+    for weight, row in zip(weights, adjacent):
+        print(weight, *sorted(row), file=file)
+with open("start.sol", "w") as file:
+    print(*sorted(chosen), sep="\n", file=file)
+PYTHON
+  few() {
+    on "$@" --iterations 1 --round 1 --fragment-size 2 --largest-fragment 2 --annealed-fragment 0 \
+      --recombined-fragment 0 --checkpoint state
+  }
+  few 1 -o first.sol
+  few 2 -o second.sol
+  assert_same_bytes start.sol first.sol
+  assert_same_bytes start.sol second.sol
+  assert [ "$(sed -n 's/.*"weight": \([0-9]*\).*/\1/p' state/checkpoint.json)" -lt "$(weight_of start.sol)" ]
+}

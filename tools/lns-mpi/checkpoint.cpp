@@ -135,12 +135,13 @@ std::filesystem::path Checkpoint::folder_of(std::int64_t round) const {
   return directory_ / fmt::format("round-{}", round);
 }
 
-bool Checkpoint::resume(const BlockOwners& owners, OwnedRows& rows, RoundsProgress& progress,
-                        std::vector<BlockMemory>& memories) {
+std::optional<std::vector<std::uint64_t>> Checkpoint::resume(const BlockOwners& owners, RoundsProgress& progress,
+                                                             std::vector<BlockMemory>& memories) {
   const std::string path = (directory_ / "checkpoint.json").string();
   std::array<std::int64_t, 1> there{ranks_.is_first() && std::filesystem::exists(path) ? 1 : 0};
   ranks_.sum(there);
-  if (there[0] == 0) return false;
+  if (there[0] == 0) return std::nullopt;
+  std::vector<std::uint64_t> chosen;
   ranks_.together([&] {
     const Title title = read_title(path);
     if (title.fingerprint != fingerprint_ || title.blocks != owners.blocks())
@@ -148,24 +149,20 @@ bool Checkpoint::resume(const BlockOwners& owners, OwnedRows& rows, RoundsProgre
     // Another number of ranks may have written it; each has the blocks of some of them.
     const BlockOwners writers(owners.blocks(), static_cast<int>(title.ranks));
     const std::int32_t first = owners.first_of(ranks_.rank()), last = owners.first_of(ranks_.rank() + 1) - 1;
-    std::vector<std::uint8_t> chosen(rows.keys.size(), 0);
     memories.clear();
     for (int writer = writers.rank_of(first); writer <= writers.rank_of(last); ++writer) {
       const std::int32_t begin = writers.first_of(writer), end = writers.first_of(writer + 1);
       const RankState state = read_state((folder_of(title.progress.round) / fmt::format("{:04}.tar", writer)).string(),
                                          static_cast<std::size_t>(end - begin));
-      for (const std::uint64_t key : state.chosen) {
-        const auto found = std::ranges::lower_bound(rows.keys, key);
-        if (found != rows.keys.end() && *found == key) chosen[found - rows.keys.begin()] = 1;
-      }
+      chosen.insert(chosen.end(), state.chosen.begin(), state.chosen.end());
       for (std::int32_t block = std::max(first, begin); block < std::min(last + 1, end); ++block)
         memories.push_back(memory_of(block, state, state.effort[block - begin]));
     }
-    rows.chosen = std::move(chosen);
+    std::ranges::sort(chosen);
     progress = title.progress;
     round_ = title.progress.round;
   });
-  return true;
+  return chosen;
 }
 
 // The one before, and what a run left that was killed while it wrote. Where that fails it does no harm.

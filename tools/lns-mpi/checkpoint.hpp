@@ -24,9 +24,11 @@ class Checkpoint {
   // Makes the directory. `fingerprint` is of the graph. All ranks call this and all that follows together.
   Checkpoint(Ranks& ranks, std::string directory, double seconds_between, std::uint64_t fingerprint);
 
-  // Takes up where an earlier run stopped: the solution into `rows`, the rest into what else is named. False, with
-  // nothing changed, where there is no checkpoint. Throws DataError when it is damaged or of another graph.
-  bool resume(const BlockOwners& owners, OwnedRows& rows, RoundsProgress& progress, std::vector<BlockMemory>& memories);
+  // What an earlier run left: the keys of the vertices that it chose in the blocks of this rank, ascending, maybe with
+  // those of others; the rest goes into what is named. Nothing, with nothing changed, where there is no checkpoint.
+  // Throws DataError when it is damaged or of another graph.
+  std::optional<std::vector<std::uint64_t>> resume(const BlockOwners& owners, RoundsProgress& progress,
+                                                   std::vector<BlockMemory>& memories);
 
   // Whether so much time has passed since the last one.
   bool is_due();

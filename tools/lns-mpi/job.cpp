@@ -53,7 +53,7 @@ class Job {
     OwnedRows rows = source_->read(ranks_);
     const BlockOwners owners(source_->blocks(), ranks_.count());
     choose_target();
-    resume(owners, rows);
+    const std::optional<std::vector<std::uint64_t>> earlier = resume(owners, rows);
     Piece piece = make_piece(ranks_, owners, std::move(rows), options_.overlap);
     setup_ = put_together(ranks_, ranks_.traffic());
     note_size(piece);
@@ -66,7 +66,7 @@ class Job {
         for (const std::int32_t v : fragment) numbers.push_back(piece.keys[v]);
         improved.put_all(std::span<const std::uint64_t>(numbers));
       };
-    improve_in_rounds(ranks_, piece, options_.rounds, deadline_, progress_, memories_,
+    improve_in_rounds(ranks_, piece, options_.rounds, deadline_, earlier, progress_, memories_,
                       [&](const RoundsProgress&, const RoundCosts& costs, bool last) {
                         report(costs);
                         if (!options_.fragments.empty()) write_fragments(improved.take());
@@ -101,11 +101,13 @@ class Job {
     });
   }
 
-  void resume(const BlockOwners& owners, OwnedRows& rows) {
-    if (options_.checkpoint.empty()) return;
+  // What an earlier run chose.
+  std::optional<std::vector<std::uint64_t>> resume(const BlockOwners& owners, const OwnedRows& rows) {
+    if (options_.checkpoint.empty()) return std::nullopt;
     checkpoint_.emplace(ranks_, options_.checkpoint, options_.checkpoint_interval, fingerprint_of(ranks_, rows));
-    if (checkpoint_->resume(owners, rows, progress_, memories_))
-      context_.note(fmt::format("goes on after round {} of {}", progress_.round, options_.checkpoint));
+    auto earlier = checkpoint_->resume(owners, progress_, memories_);
+    if (earlier) context_.note(fmt::format("goes on after round {} of {}", progress_.round, options_.checkpoint));
+    return earlier;
   }
 
   void note_size(const Piece& piece) {

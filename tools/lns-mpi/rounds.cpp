@@ -68,16 +68,32 @@ class Rounds {
            progress_.quiet < most_quiet_rounds && vertices_ > 0;
   }
 
-  void reduce() {
+  void keep_given() {
     given_ = piece_.chosen;
     given_weight_ = progress_.weight;
+  }
+
+  void take_up(const std::vector<std::uint64_t>& keys) {
+    changed_.clear();
+    for (std::int32_t v = 0; v < piece_.vertex_count(); ++v) {
+      if (!piece_.owns(v)) continue;
+      const std::uint8_t chosen = std::ranges::binary_search(keys, piece_.keys[v]) ? 1 : 0;
+      if (chosen == piece_.chosen[v]) continue;
+      piece_.chosen[v] = chosen;
+      changed_.push_back(v);
+    }
+    tell_partners();
+    make_independent();
+  }
+
+  void reduce() {
     const double left = deadline_.remaining();
     reduce_blocks(ranks_, piece_, std::isfinite(left) ? Deadline(share_for_reductions * left) : Deadline());
     progress_.weight = total_weight(ranks_, piece_);
   }
 
   // Takes what nothing chosen is beside: what reductions left out, and what a search that ended early leaves where
-  // borders were. Then it may still be behind what reductions began with.
+  // borders were. Then it may still be behind what was given, for reductions cost weight at first.
   void complete() {
     std::ranges::fill(piece_.decided, 0);
     make_maximal();
@@ -250,7 +266,7 @@ class Rounds {
   std::vector<std::int64_t> block_sizes_;
   std::int64_t vertices_ = 0;
   double round_seconds_ = 0;
-  std::vector<std::uint8_t> given_;  // what reductions began with
+  std::vector<std::uint8_t> given_;  // the solution that the run began with
   std::int64_t given_weight_ = 0;
   std::vector<std::int32_t> changed_;  // vertices of the piece, in this round
   std::int64_t iterations_ = 0, improvements_ = 0, unproven_ = 0;
@@ -266,7 +282,8 @@ std::int64_t total_weight(Ranks& ranks, const Piece& piece) {
 }
 
 void improve_in_rounds(Ranks& ranks, Piece& piece, const RoundsOptions& options, const Deadline& deadline,
-                       RoundsProgress& progress, std::vector<BlockMemory>& memories,
+                       const std::optional<std::vector<std::uint64_t>>& earlier, RoundsProgress& progress,
+                       std::vector<BlockMemory>& memories,
                        const std::function<void(const RoundsProgress&, const RoundCosts&, bool)>& report) {
   const std::int32_t blocks = piece.owners.first_of(piece.rank + 1) - piece.owners.first_of(piece.rank);
   memories.resize(static_cast<std::size_t>(blocks));
@@ -274,6 +291,8 @@ void improve_in_rounds(Ranks& ranks, Piece& piece, const RoundsOptions& options,
   std::array<std::int64_t, 1> passed{deadline.passed() ? 1 : 0};
   ranks.maximum(passed);
   rounds.make_independent();
+  rounds.keep_given();
+  if (earlier) rounds.take_up(*earlier);
   if (options.search.reduce && passed[0] == 0 && rounds.goes_on()) rounds.reduce();
   while (passed[0] == 0 && rounds.goes_on()) {
     const RoundCosts costs = rounds.run_one();

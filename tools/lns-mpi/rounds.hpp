@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -43,12 +44,14 @@ struct RoundCosts {
   Traffic traffic;
 };
 
-// From the solution in `piece` on, where `progress` says: the same whether or not it was stopped in between. Chosen
-// vertices may be neighbours where they are in different blocks. `memories` are of the blocks of this rank, in order,
-// and empty where nothing was searched. `report` is called after every round, on all ranks, and told whether it was the
-// last one.
+// From the solution in `piece` on, or from what an `earlier` run chose (keys, ascending, of at least the vertices that
+// this rank owns), where `progress` says: the same whether or not it was stopped in between, and not lighter than what
+// is in `piece`. Chosen vertices may be neighbours where they are in different blocks. `memories` are of the blocks of
+// this rank, in order, and empty where nothing was searched. `report` is called after every round, on all ranks, and
+// told whether it was the last one.
 void improve_in_rounds(Ranks& ranks, Piece& piece, const RoundsOptions& options, const Deadline& deadline,
-                       RoundsProgress& progress, std::vector<BlockMemory>& memories,
+                       const std::optional<std::vector<std::uint64_t>>& earlier, RoundsProgress& progress,
+                       std::vector<BlockMemory>& memories,
                        const std::function<void(const RoundsProgress&, const RoundCosts&, bool)>& report);
 
 // Of the vertices that all ranks own, together.
