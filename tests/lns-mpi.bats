@@ -372,3 +372,18 @@ PYTHON
   assert_same_bytes start.sol second.sol
   assert [ "$(sed -n 's/.*"weight": \([0-9]*\).*/\1/p' state/checkpoint.json)" -lt "$(weight_of start.sol)" ]
 }
+
+@test "options that would do nothing are refused" {
+  refuse() { assert_fails_with 2 "lns-mpi: $1" lns-mpi --graph ring.graph --solution start.sol -o out.sol "${@:2}"; }
+  refuse "--certificate requires --prove" --certificate proof
+  refuse "--certificate needs a bound, of which --prove 0 proves none" --prove 0 --certificate proof
+  refuse "--checkpoint-interval requires --checkpoint" --checkpoint-interval 1
+  refuse "--round does nothing without --iterations" --round 5 --time-limit 1
+  refuse "--bound does nothing without --target-gap" --bound 5
+  assert_fails_with 2 "lns-mpi: --blocks needs a graph that is not in parts" lns-mpi --parts part0.tar --blocks 3 -o out
+}
+
+@test "parts of the same name would be written to one file" {
+  assert_fails_with 2 "lns-mpi: expected parts of different names, found a/part.tar and b/part.tar" \
+    lns-mpi --parts a/part.tar b/part.tar -o out
+}

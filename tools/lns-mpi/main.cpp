@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <signal.h>
 
+#include <filesystem>
 #include <iostream>
+#include <map>
 
 #include "common/run/lns_options.hpp"
 #include "common/run/messages.hpp"
@@ -12,6 +14,34 @@
 using namespace hexpipe;
 
 namespace {
+
+bool writes_standard_output(const RunContext& context) {
+  return context.streams.output.empty() || context.streams.output == "-";
+}
+
+// Of each part comes a bundle of its name.
+void expect_different_names(const std::vector<std::string>& parts) {
+  std::map<std::string, std::string> part_by_name;
+  for (const std::string& part : parts) {
+    const auto [other, is_new] = part_by_name.emplace(std::filesystem::path(part).filename(), part);
+    if (!is_new)
+      throw UsageError(fmt::format("expected parts of different names, found {} and {}", other->second, part));
+  }
+}
+
+// What does nothing, or cannot be done, for a graph in parts.
+void check_parts(const RunContext& context, const JobOptions& options) {
+  if (options.parts.empty()) return;
+  if (context.streams.operand || !context.streams.files.empty())
+    throw UsageError("expected --parts or a graph, found both");
+  const std::map<std::string, bool> of_whole_graphs{{"--blocks", options.blocks > 0},
+                                                    {"--certificate", !options.certificate.empty()},
+                                                    {"--fragments", !options.fragments.empty()}};
+  for (const auto& [name, is_given] : of_whole_graphs)
+    if (is_given) throw UsageError(name + " needs a graph that is not in parts");
+  if (writes_standard_output(context)) throw UsageError("--parts needs a directory to write to: -o DIR");
+  expect_different_names(options.parts);
+}
 
 // An error that all ranks throw together ends them one by one, any other one all at once.
 void run_on_all_ranks(RunContext& context, const JobOptions& options) {
@@ -47,6 +77,7 @@ int main(int argc, char** argv) {
       .outside_history = {"parts", "certificate", "fragments", "checkpoint", "checkpoint-interval"}};
   JobOptions options;
   TargetOptions target;
+  CLI::Option* round = nullptr;
   const auto declare = [&](CLI::App& app) {
     declare_lns_options(app, options.rounds.search, target);
     app.add_option("--blocks", options.blocks,
@@ -54,9 +85,9 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0, 1000000).description(""));
     app.add_option("--overlap", options.overlap, "How many edges beyond its border a block may change the solution")
         ->check(CLI::Range(1, 16).description(""));
-    app.add_option("--round", options.rounds.fragments_a_round,
-                   "Fragments in a round for a thousand vertices, under a limit of iterations")
-        ->check(CLI::Range(1, 1000000).description(""));
+    round = app.add_option("--round", options.rounds.fragments_a_round,
+                           "Fragments in a round for a thousand vertices, under a limit of iterations");
+    round->check(CLI::Range(1, 1000000).description(""));
     CLI::Option* const prove = app.add_option("--prove", options.passes,
                                               "Prove a bound after the search, in so many passes of the dual; 0: none");
     prove->check(CLI::Range(0, 1000000).description(""));
@@ -71,29 +102,26 @@ int main(int argc, char** argv) {
                    "Bundles of the parts of a graph, in their order; the solution goes into bundles of the same names "
                    "in the directory that -o names")
         ->type_name("FILE");
-    app.add_option("--checkpoint", options.checkpoint,
-                   "Keep the state of the search in this directory, and go on from what is there")
-        ->type_name("DIR");
+    CLI::Option* const checkpoint =
+        app.add_option("--checkpoint", options.checkpoint,
+                       "Keep the state of the search in this directory, and go on from what is there")
+            ->type_name("DIR");
     app.add_option("--checkpoint-interval", options.checkpoint_interval, "Seconds from one checkpoint to the next")
-        ->check(number_between(0, 1e9));
+        ->check(number_between(0, 1e9))
+        ->needs(checkpoint);
   };
   const auto run = [&](RunContext& context) {
     check(target);
-    if (!options.parts.empty() && (context.streams.operand || !context.streams.files.empty()))
-      throw UsageError("expected --parts or a graph, found both");
-    if (!options.parts.empty() && !options.certificate.empty())
-      throw UsageError("--certificate needs a graph that is not in parts");
-    if (!options.parts.empty() && !options.fragments.empty())
-      throw UsageError("--fragments needs a graph that is not in parts");
-    if (!options.parts.empty() && (context.streams.output.empty() || context.streams.output == "-"))
-      throw UsageError("--parts needs a directory to write to: -o DIR");
+    check_parts(context, options);
+    if (round->count() > 0 && !context.common.iterations) throw UsageError("--round does nothing without --iterations");
+    if (!options.certificate.empty() && options.passes == 0)
+      throw UsageError("--certificate needs a bound, of which --prove 0 proves none");
     options.rounds.search.seed = context.common.seed;
     options.rounds.search.iterations = context.common.iterations.value_or(options.rounds.search.iterations);
     options.target_gap = target.gap.value_or(-1);
     options.known_bound = target.bound.value_or(-1);
     // mpirun gives standard output as a terminal that leaves bytes as they are, and nobody sits at it.
-    if (launched_rank() && (context.streams.output.empty() || context.streams.output == "-"))
-      context.streams.output = "/dev/stdout";
+    if (launched_rank() && writes_standard_output(context)) context.streams.output = "/dev/stdout";
     run_on_all_ranks(context, options);
   };
   if (launched_rank().value_or(0) > 0) {
