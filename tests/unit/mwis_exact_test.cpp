@@ -7,6 +7,7 @@
 #include "common/mwis/dense_reductions.hpp"
 #include "common/mwis/exact_algorithm.hpp"
 #include "common/mwis/exact_solver.hpp"
+#include "common/mwis/lns.hpp"
 #include "random_graphs.hpp"
 
 namespace hexpipe {
@@ -184,6 +185,46 @@ TEST_P(BranchAndReduceTest, BranchesWhereReductionsEnd) {
   BranchAndReduce stopped(relaxation_of(GetParam().second), passed);
   EXPECT_FALSE(stopped.solve(hexpipe::testing::random_graph(70, 0.1, 1000, random), 0));
   EXPECT_FALSE(stopped.complete());
+}
+
+// Nearly equal weights leave the reduced costs and the bounds of components no room: one that is decided too much is
+// missed. Two components share what is needed.
+TEST_P(BranchAndReduceTest, MissesNothingThatIsHeavierByOne) {
+  Random random(21);
+  for (int i = 0; i < 3; ++i) {
+    const std::int32_t half = 48;
+    std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+    for (std::int32_t a = 0; a < 2 * half; ++a)
+      for (std::int32_t b = a + 1; b < (a < half ? half : 2 * half); ++b)
+        if (random.uniform() < 0.12) edges.emplace_back(a, b);
+    std::vector<std::int64_t> weights = hexpipe::testing::random_weights(2 * half, 2, random);
+    for (std::int64_t& weight : weights) weight += 10;
+    const ConflictGraph graph = hexpipe::testing::make_graph(weights, edges);
+    BranchAndReduce small = solver(100), branching = solver(10);
+    const auto expected = small.solve(graph, 0);
+    const std::int64_t optimum = total_weight(*expected, graph);
+    const auto found = branching.solve(graph, optimum - 1);
+    ASSERT_TRUE(found) << "graph " << i;
+    EXPECT_EQ(total_weight(*found, graph), optimum) << "graph " << i;
+    EXPECT_FALSE(branching.solve(graph, optimum)) << "graph " << i;
+  }
+}
+
+// Time runs out in the reductions or in the search on bits behind them, which has seen some sets alone.
+TEST_P(BranchAndReduceTest, ProvesNothingThatItHadNoTimeFor) {
+  Random random(22);
+  const ConflictGraph graph = hexpipe::testing::random_graph(250, 0.08, 1000, random);
+  const LnsResult known = improve_by_lns(graph, {}, {.iterations = 60, .annealed_fragment = 300}, never_);
+  for (const double seconds : {1e-4, 2e-4, 5e-4, 1e-3, 2e-3}) {
+    const Deadline soon(seconds);
+    BranchAndReduce solver(relaxation_of(GetParam().second), soon, 250);
+    const auto found = solver.solve(graph, 0);
+    EXPECT_FALSE(solver.complete()) << seconds;
+    EXPECT_GE(solver.bound(), known.weight) << seconds;
+    if (found) {
+      EXPECT_NO_THROW(validate(*found, graph, "found")) << seconds;
+    }
+  }
 }
 
 TEST(ExactSolver, SolvesTheExtremes) {

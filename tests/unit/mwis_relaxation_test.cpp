@@ -90,6 +90,18 @@ TEST(Relaxation, BoundsHugeWeightsAsWellAsOthers) {
   }
 }
 
+// A price that pays for more than its clique weighs brings a bound that fits no 64 bits.
+TEST(Relaxation, IsNeverAboveAllWeightsTogether) {
+  const std::int64_t unit = std::int64_t{1} << 61;
+  const ConflictGraph graph = make_graph({unit, 3 * unit - 1}, {});
+  CliqueCover cover;
+  cover.add({0});
+  const Relaxation relaxation = bounds_of_prices(graph, cover, {std::ldexp(1.0, 62)});
+  EXPECT_EQ(relaxation.bound, 4 * (unit - 1) + 3);
+  EXPECT_EQ(relaxation.with, (std::vector<std::int64_t>(2, relaxation.bound)));
+  EXPECT_EQ(relaxation.without[0], relaxation.bound);
+}
+
 TEST(HeavyCliques, AreFoundExactlyWhereTheyExist) {
   Random random(2);
   int found = 0;
