@@ -28,7 +28,8 @@ std::optional<std::int64_t> bound_in(const std::vector<nlohmann::ordered_json>& 
     if (brings_another_graph(entry)) lowest.reset();
     const auto tool = entry.find("tool"), bound = entry.find("bound");
     if (tool == entry.end() || *tool != "certify" || bound == entry.end() || !bound->is_number_integer()) continue;
-    lowest = std::min(lowest.value_or(bound->get<std::int64_t>()), bound->get<std::int64_t>());
+    const auto proven = bound->get<std::int64_t>();  // below 0 where it fits no 64 bits
+    if (proven >= 0) lowest = std::min(lowest.value_or(proven), proven);
   }
   return lowest;
 }

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace hexpipe {
 namespace {
 
@@ -43,6 +45,18 @@ TEST(BoundIn, TakesAnythingInEntriesOfOthers) {
   EXPECT_EQ(bound_in({nullptr, proven, "text", {{"version", "1"}}}), 70);
   const nlohmann::ordered_json nameless{{"replaced", nlohmann::ordered_json::array({"graph"})}};
   EXPECT_EQ(bound_in({graph, proven, nameless}), std::nullopt);
+}
+
+TEST(BoundIn, TakesNoBoundBelowNothing) {
+  for (const nlohmann::ordered_json& bound : History{-1, std::numeric_limits<std::uint64_t>::max()})
+    EXPECT_EQ(bound_in({graph, proven, {{"tool", "certify"}, {"bound", bound}}}), 70) << bound;
+}
+
+TEST(TargetWeight, IsTheLeastWhoseGapIsNoMore) {
+  EXPECT_EQ(target_weight(0, 1000), 1000);
+  EXPECT_EQ(target_weight(0.0005, 1000), 1000);
+  EXPECT_EQ(target_weight(0.0015, 1000), 999);
+  EXPECT_EQ(target_weight(1, 1000), 0);
 }
 
 }  // namespace
