@@ -377,6 +377,53 @@ TEST(Lns, EndsWhereVerticesAreIsolated) {
   EXPECT_LT(result.iterations, 5000);
 }
 
+// A fragment that is its whole component is no proof where branch and bound met its limit.
+TEST(Lns, ClaimsNoProofThatALimitCutShort) {
+  Random random(14);
+  int unproven = 0;
+  for (int i = 0; i < 100; ++i) {
+    const ConflictGraph graph = hexpipe::testing::random_graph(22, 0.3, 3, random);
+    LnsOptions options{.iterations = 3, .node_limit = 1, .annealed_fragment = 0, .recombined_fragment = 0};
+    options.reduce = false;
+    const LnsResult result = improve_by_lns(graph, {}, options, no_deadline);
+    const bool optimal = result.weight == brute_force_weight(graph);
+    EXPECT_TRUE(optimal || !result.complete) << "graph " << i;
+    unproven += optimal ? 0 : 1;
+  }
+  EXPECT_GT(unproven, 0);
+}
+
+// Reductions leave out u, which v could replace; x keeps v out, and p comes in, one lighter than u, until the search
+// gets there. 150 of these hang on a core that does not reduce.
+TEST(Lns, GivesTheStartWhereReductionsCostMoreThanIsGained) {
+  constexpr std::int32_t gadgets = 150;
+  std::vector<std::int64_t> weights(gadgets, 20);
+  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+  for (std::int32_t i = 0; i < gadgets; ++i)
+    for (const std::int32_t step : {1, 17}) edges.emplace_back(i, (i + step) % gadgets);
+  for (std::int32_t z = 0; z < gadgets; ++z) {
+    const std::int32_t u = gadgets + 5 * z, v = u + 1, x = u + 2, y = u + 3, p = u + 4;
+    for (const int weight : {2, 3, 1, 10, 1}) weights.push_back(weight);
+    edges.insert(edges.end(), {{u, v}, {u, y}, {u, p}, {v, x}, {v, y}, {v, p}, {y, z}});
+  }
+  const ConflictGraph graph = make_graph(weights, edges);
+  SolutionState core(graph);
+  for (std::int32_t z = 0; z < gadgets; ++z)
+    if (core.tightness(z) == 0) core.add(z);
+  for (std::int32_t z = 0; z < gadgets; ++z) {
+    const std::int32_t u = gadgets + 5 * z, x = u + 2, y = u + 3, p = u + 4;
+    for (const std::int32_t w : core.contains(z) ? std::vector{u, x} : std::vector{y, x, p}) core.add(w);
+  }
+  LnsOptions options{.iterations = 40, .fragment_size = 8, .annealed_fragment = 0, .recombined_fragment = 0};
+  std::int64_t last = core.weight();
+  const LnsResult result = improve_by_lns(graph, core.to_set(), options, no_deadline, [&](const LnsProgress& now) {
+    EXPECT_GT(now.weight, last);
+    last = now.weight;
+  });
+  EXPECT_EQ(result.solution, core.to_set());
+  EXPECT_GT(result.improvements, 0);
+}
+
 // The first fragment takes the centre out for some of the rays; the others have nothing chosen beside them then.
 TEST(Lns, TakesWhatAFragmentLeftOut) {
   std::vector<std::pair<std::int32_t, std::int32_t>> spokes;

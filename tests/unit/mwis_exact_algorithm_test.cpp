@@ -73,6 +73,20 @@ TEST(ExactAlgorithms, ProveHugeWeights) {
   EXPECT_LE(huge.nodes, 2 * usual.nodes);
 }
 
+// Up to the sum that clique-lp takes: its prices are then whole numbers of half a weight, and their sums just fit.
+TEST(ExactAlgorithms, CliqueLpHasRoomForItsLargestWeights) {
+  Random random(7);
+  for (int i = 0; i < 200; ++i) {
+    const auto vertices = static_cast<std::int32_t>(4 + random.below(14));
+    const std::int64_t heaviest = ((std::int64_t{1} << 58) - 1) / vertices;
+    ConflictGraph graph = hexpipe::testing::random_graph(vertices, 0.4, 3, random);
+    for (std::int64_t& weight : graph.weights) weight = heaviest - weight;
+    const ExactResult result = solve_exactly(graph, 0, ExactAlgorithm::clique_lp, no_deadline);
+    ASSERT_TRUE(result.complete && result.better) << "graph " << i;
+    EXPECT_EQ(total_weight(*result.better, graph), brute_force_weight(graph)) << "graph " << i;
+  }
+}
+
 TEST(ExactAlgorithms, LookAtTheClockInEveryNodeThatTakesLong) {
   Random random(6);
   const ConflictGraph graph = hexpipe::testing::random_graph(300, 0.05, 1000, random);

@@ -166,6 +166,19 @@ TEST(Kernel, DecidesTreesAndIntervalsAlone) {
   }
 }
 
+// A list that names a vertex that was gone before the mark is copied behind it when it is cleaned up, and comes back
+// as it was.
+TEST(ReducibleGraph, NamesNothingThatIsGoneAfterARollback) {
+  ReducibleGraph graph(hexpipe::testing::make_graph({1, 1, 1}, {{0, 1}, {1, 2}}));
+  graph.remove(0);
+  graph.mark();
+  EXPECT_EQ(graph.neighbours_of(1).size(), 1u);
+  graph.rollback();
+  EXPECT_EQ(graph.neighbours_of(1).size(), 1u);
+  std::vector<std::int32_t> vertices;
+  EXPECT_EQ(graph.compress(vertices).edge_count(), 1);
+}
+
 TEST(Kernel, StopsAtItsDeadline) {
   Random random(4);
   const ConflictGraph graph = hexpipe::testing::random_clique_graph(2000, 3000, 1000, random);
