@@ -36,7 +36,7 @@ void Schedule::renew(std::int32_t v) {
 }
 
 void Schedule::retire(std::int32_t v) {
-  ++places_[v].tries;
+  places_[v].tries = std::min(places_[v].tries + 1, most_tries);
   wait(v);
 }
 
@@ -50,7 +50,7 @@ void Schedule::wait(std::int32_t v) {
 }
 
 void Schedule::recall(std::int32_t v, std::uint32_t tries, std::uint32_t size) {
-  places_[v].tries = tries;
+  places_[v].tries = std::min(tries, most_tries);
   places_[v].size = std::min(size, static_cast<std::uint32_t>(largest_size_));
   wait(v);
 }

@@ -15,6 +15,9 @@ namespace hexpipe {
 // 2017, algorithm 12, kept per place).
 class Schedule {
  public:
+  // Places are told apart by no more tries: there is a list for each number.
+  static constexpr std::uint32_t most_tries = 1 << 16;
+
   // No seed waits at first.
   Schedule(std::size_t vertices, std::size_t first_size, std::size_t largest_size, Random random);
 

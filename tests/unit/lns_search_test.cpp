@@ -144,6 +144,18 @@ TEST(Schedule, GivesTheLeastTriedFirst) {
   EXPECT_FALSE(schedule.take());
 }
 
+// A search that can prove nothing goes on for hours around the same few places.
+TEST(Schedule, CountsNoMoreTriesThanItHasListsFor) {
+  Schedule schedule(2, 50, 200, Random(1));
+  for (std::uint32_t i = 0; i < Schedule::most_tries + 10; ++i) schedule.retire(0), schedule.take();
+  EXPECT_EQ(schedule.tries_at(0), Schedule::most_tries);
+  schedule.recall(1, Schedule::most_tries + 1, 50);
+  EXPECT_EQ(schedule.tries_at(1), Schedule::most_tries);
+  schedule.retire(0);
+  EXPECT_TRUE(schedule.take() && schedule.take());
+  EXPECT_FALSE(schedule.take());
+}
+
 TEST(Schedule, AdaptsSizesWithinLimits) {
   Schedule schedule(1, 50, 100, Random(1));
   EXPECT_EQ(schedule.size_at(0), 50u);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/mwis/lns.hpp"
+#include "common/mwis/schedule.hpp"
 #include "tools/lns-mpi/regions.hpp"
 
 namespace hexpipe {
@@ -15,7 +16,7 @@ namespace hexpipe {
 class BlockMemory {
  public:
   // Places are told apart by no more tries.
-  static constexpr std::uint32_t most_tries = 1 << 16;
+  static constexpr std::uint32_t most_tries = Schedule::most_tries;
   struct Place {
     std::uint64_t key;
     std::array<std::uint32_t, all_ways.size()> tries;
