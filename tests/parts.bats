@@ -173,6 +173,50 @@ PYTHON
   assert [ ! -e out.tar ]
 }
 
+@test "members of parts in another order are an error, not a crash" {
+  bar --length 4 >bar.mesh
+  run_parts bar.mesh 2 two --min-quality 1  # no candidates: their arrays are as long as those that are not there
+  # in_order MEMBER...: parts whose members begin so.
+  in_order() {
+    $PYTHON - "$@" <<'PYTHON'
+import glob, io, os, sys, tarfile
+first = ["mesh/part.json", *sys.argv[1:]]
+for path in glob.glob("two/graph-*"):
+    with tarfile.open(path) as old, tarfile.open(os.path.basename(path), "w", format=tarfile.PAX_FORMAT) as new:
+        members = {m.name: (m, old.extractfile(m).read()) for m in old}
+        for name in [*first, *(n for n in members if n not in first)]:
+            new.addfile(members[name][0], io.BytesIO(members[name][1]))
+PYTHON
+  }
+  in_order mesh/points.npy
+  assert_fails_with 1 "graph-0000.tar: mesh/points.npy: expected the numbers of its rows and of what they name before it" merge-parts graph-000[01].tar -o out.tar
+  in_order mesh/tet_number.npy mesh/tets.npy
+  assert_fails_with 1 "graph-0000.tar: mesh/tets.npy: expected the numbers of its rows and of what they name before it" merge-parts graph-000[01].tar -o out.tar
+  in_order candidates/part.npy candidates/kind.npy candidates/key.npy
+  run_apart merge-parts graph-000[01].tar -o out.tar
+  assert [ "$status" -le 1 ]
+}
+
+@test "parts that claim a whole of any size cost no memory for it" {
+  bar --length 1 --kuhn >small.mesh
+  mesh-part -q small.mesh --parts 2 -o two
+  for part in two/*; do
+    $PYTHON - "$part" <<'PYTHON'
+import io, json, os, sys, tarfile
+with tarfile.open(sys.argv[1]) as old, tarfile.open(os.path.basename(sys.argv[1]), "w", format=tarfile.PAX_FORMAT) as new:
+    for member in old:
+        data = old.extractfile(member).read()
+        if member.name == "mesh/part.json":
+            about = json.loads(data)
+            about["mesh"]["points"] = 2**31 - 1
+            data = json.dumps(about).encode()
+            member.size = len(data)
+        new.addfile(member, io.BytesIO(data))
+PYTHON
+  done
+  assert_fails_with 1 "expected the whole mesh in the parts, found [0-9]+ of 2147483647 points" merge-parts --memory 100M part-000[01].tar -o out.tar
+}
+
 @test "merge-parts writes to a pipe, in any order of parts, and compresses" {
   bar --length 12 >bar.mesh
   run_parts bar.mesh 3 three

@@ -12,6 +12,10 @@ constexpr std::uint16_t nowhere = std::numeric_limits<std::uint16_t>::max();
 }  // namespace
 
 Interleaving interleave(const std::vector<std::vector<std::int32_t>>& numbers, std::int64_t count, const char* what) {
+  std::int64_t rows = 0;
+  for (const auto& of_part : numbers) rows += std::ssize(of_part);
+  if (rows < count)
+    throw DataError(fmt::format("expected the whole mesh in the parts, found {} of {} {}s", rows, count, what));
   Interleaving order{std::vector<std::uint16_t>(count, nowhere), {}};
   for (std::size_t p = 0; p < numbers.size(); ++p) {
     std::vector<bool>& gives = order.gives.emplace_back(numbers[p].size());
@@ -36,6 +40,12 @@ std::int32_t list_length(PartReader& part, std::int64_t begin, std::int64_t end)
   if (begin < 0 || end < begin || end - begin > std::numeric_limits<std::int32_t>::max())
     throw DataError::at(part.bundle().where(), "expected ascending ends of lists, found {} after {}", end, begin);
   return static_cast<std::int32_t>(end - begin);
+}
+
+void check_numbers_are_there(PartReader& part, std::size_t wanted, std::size_t found) {
+  if (wanted != found)
+    throw DataError::at(part.bundle().where(),
+                        "expected the numbers of its rows and of what they name before it, found none");
 }
 
 void check_ends_are_there(PartReaders& parts, const ListLengths& lengths) {

@@ -20,7 +20,7 @@ struct Interleaving {
 };
 
 // Of rows that are numbered in the whole, ascending; one that several parts have comes from the first of them. Throws
-// DataError, which says `what` they are, when one is nowhere.
+// DataError, which says `what` they are, when one is nowhere; before it takes memory for more than the parts have.
 Interleaving interleave(const std::vector<std::vector<std::int32_t>>& numbers, std::int64_t count, const char* what);
 
 // Of the rows of an array, a block at a time.
@@ -59,6 +59,9 @@ class RowReader {
 // Throws DataError unless an array has as many rows as wanted; and unless there is a row left.
 void check_row_count(PartReader& part, std::uint64_t wanted, std::uint64_t found);
 
+// Throws DataError unless numbers of so many parts came before the member at which the part stands.
+void check_numbers_are_there(PartReader& part, std::size_t wanted, std::size_t found);
+
 template <class T>
 void RowReader<T>::check_rows(PartReader& part, std::uint64_t wanted, std::uint64_t found) {
   check_row_count(part, wanted, found);
@@ -90,6 +93,7 @@ class RowWriter {
 // Writes the member at which all parts stand: change(part, row) of each row.
 template <class T, class Change>
 void merge_rows(PartReaders& parts, const Interleaving& order, BundleWriter& out, Change&& change) {
+  check_numbers_are_there(parts.front(), parts.size(), order.gives.size());
   std::vector<RowReader<T>> readers;
   readers.reserve(parts.size());
   for (std::size_t p = 0; p < parts.size(); ++p) readers.emplace_back(parts[p], order.rows_of(p));

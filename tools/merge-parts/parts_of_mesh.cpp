@@ -24,7 +24,10 @@ constexpr auto unchanged = [](std::size_t, const auto& row) { return row; };
 // Rows of vertices, tets or candidates in the numbers of the whole; -1 stays.
 class Renumber {
  public:
-  Renumber(const PartReaders& parts, const Numbers& numbers) : parts_(parts), numbers_(numbers) {}
+  // Throws DataError when the numbers are still to come.
+  Renumber(PartReaders& parts, const Numbers& numbers) : parts_(parts), numbers_(numbers) {
+    check_numbers_are_there(parts.front(), parts.size(), numbers.size());
+  }
 
   std::int32_t operator()(std::size_t part, std::int32_t item) const {
     if (item < 0) return item;
@@ -161,7 +164,7 @@ bool Merger::merge_mesh(const std::string& name) {
 const CandidateOrder& Merger::candidates() {
   if (!candidates_) {
     candidates_ = order_by_keys(keys_, titles_, parts_);
-    keys_ = {};
+    keys_ = std::vector<CandidateKeys>(parts_.size());
   }
   return *candidates_;
 }
