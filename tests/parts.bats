@@ -96,6 +96,8 @@ PYTHON
   assert_same_bytes unpacked.tar five/part-0003.tar
   mesh-part bar.mesh --parts 5 --seed 9 -o other
   assert_different_bytes five/part-0000.tar other/part-0000.tar
+  # part-*.tar and part-*.tar.zst together would be of two runs.
+  assert_fails_with 1 "five: expected no parts but the 5 to be written, found part-000..tar: remove it" mesh-part bar.mesh --parts 5 --compress -o five
   assert_fails_with 1 "five: expected no parts but the 4 to be written, found part-0004.tar" mesh-part bar.mesh --parts 4 -o five
 }
 
@@ -435,6 +437,14 @@ PYTHON
   assert_fails_with 1 "shorter/pieces/part-0002.tar: expected a piece of the same mesh as k/pieces/part-0000.tar, found one of another" $merged shorter/pieces/part-0002.tar -o out.vtu
   $PYTHON "$DATA/change_array.py" k/pieces/part-0002.tar moved.tar result/points.npy 'a + 1e-12'
   assert_fails_with 1 "moved.tar: expected point [0-9]+ where the other pieces have it, found it elsewhere" $merged moved.tar -o out.vtu
+  assert_fails_with 1 "moved.tar: expected point" $merged moved.tar -o new.pvtu
+  assert [ ! -e new ] && [ ! -e new.pvtu ]
+  # What is there stays, all of it.
+  merge-parts k/pieces/*.tar -o whole.pvtu
+  cp -r whole before
+  $PYTHON "$DATA/change_array.py" k/pieces/part-0000.tar bent.tar result/points.npy 'a * 1.5'
+  assert_fails_with 1 "expected point [0-9]+ where the other pieces have it" merge-parts bent.tar k/pieces/part-000[12].tar -o whole.pvtu
+  diff -r before whole
   assert [ ! -e out.vtu ] && [ ! -e out.tar ]
 }
 

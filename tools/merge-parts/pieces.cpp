@@ -16,6 +16,7 @@
 #include "formats/members.hpp"
 #include "formats/mesh_files.hpp"
 #include "formats/output.hpp"
+#include "formats/output_group.hpp"
 #include "formats/part_bundle.hpp"
 #include "formats/vtu.hpp"
 #include "tools/merge-parts/seam_check.hpp"
@@ -146,21 +147,20 @@ std::string ending_of(const std::string& path) {
 
 void write_pieces(PieceReader& reader, const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).replace_extension();
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw DataError::at(folder.string(), "cannot make the directory: {}", error.message());
+  OutputGroup files;
+  files.make_directory(folder.string());
+  Output& head = files.add(path);
   std::vector<std::string> names;
-  Output head(path);
   reader.for_each([&](const PieceBundle& piece) {
     if (piece.mesh.cell_count() == 0) return;
     const std::string name = fmt::format("part-{:04}.vtu", piece.piece.part);
-    Output output((folder / name).string());
+    Output& output = files.add((folder / name).string());
     write_vtu_piece(piece.mesh, piece.piece.point_number, output);
-    output.commit();
+    output.drain();
     names.push_back((folder.filename() / name).string());
   });
   write_pvtu(names, head);
-  head.commit();
+  files.commit();
 }
 
 void write_whole(PieceReader& reader, const std::string& path, bool compress) {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "common/run/error.hpp"
-#include "common/run/open_files.hpp"
 #include "formats/bundle.hpp"
 #include "formats/history.hpp"
 #include "formats/members.hpp"
@@ -32,48 +31,30 @@ std::int32_t number_in(std::string_view name) {
 
 PartFiles::PartFiles(std::string directory, std::int32_t parts, bool compress)
     : directory_(std::move(directory)), compress_(compress) {
+  files_.make_directory(directory_);
   std::error_code error;
-  made_ = std::filesystem::create_directories(directory_, error);
-  if (error) throw DataError::at(directory_, "cannot make the directory: {}", error.message());
   for (auto entry = std::filesystem::directory_iterator(directory_, error);
        !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (number_in(name) >= parts)
+    const std::int32_t number = number_in(name);
+    if (number >= parts || (number >= 0 && name != name_of(number)))
       throw DataError::at(directory_, "expected no parts but the {} to be written, found {}: remove it", parts, name);
   }
   if (error) throw DataError::at(directory_, "cannot list the directory: {}", error.message());
-  allow_many_open_files();
 }
 
-PartFiles::~PartFiles() {
-  std::error_code ignored;
-  written_.clear();
-  for (const std::string& path : added_) std::filesystem::remove(path, ignored);
-  if (made_) std::filesystem::remove(directory_, ignored);
+std::string PartFiles::name_of(std::int32_t part) const {
+  return fmt::format("{}{:04}.tar{}", stem, part, compress_ ? ".zst" : "");
 }
 
 void PartFiles::write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history) {
-  const std::string path = fmt::format("{}/{}{:04}.tar{}", directory_, stem, part.part.part, compress_ ? ".zst" : "");
-  Output& output = *written_.emplace_back(std::make_unique<Output>(path));
+  Output& output = files_.add(fmt::format("{}/{}", directory_, name_of(part.part.part)));
   BundleWriter writer(output, compress_);
   write_members(writer, part.part);
   write_members(writer, part.mesh);
   write_history(writer, history);
   writer.close();
   output.drain();
-}
-
-void PartFiles::commit() {
-  added_.reserve(written_.size());
-  for (const auto& output : written_) {
-    std::string path = output->name();
-    std::error_code unknown;
-    const bool is_there = std::filesystem::exists(path, unknown);
-    output->commit();
-    if (!is_there) added_.push_back(std::move(path));
-  }
-  added_.clear();
-  made_ = false;
 }
 
 }  // namespace hexpipe
