@@ -355,6 +355,14 @@ print((len(data.rstrip(b'\0')) + 511) // 512 * 512)" "$STAGES/$tool.in")
   done
 }
 
+@test "a name of a file that is empty is a bad command line, not standard input or output" {
+  for tool in $READERS; do
+    assert_fails_with 2 "expected the name of a file, found none" shell "$tool '' <'$STAGES/$tool.in'"
+    assert_fails_with 2 "output: expected the name of a file, found none" shell "$tool '$STAGES/$tool.in' -o '' | cat"
+  done
+  assert_fails_with 2 "graph: expected the name of a file, found none" initsol "$STAGES/initsol.in" --graph "" -o out.tar
+}
+
 @test "a reader that goes away is an error" {
   local pipe
   for tool in $TOOLS; do

@@ -137,6 +137,7 @@ PYTHON
   assert_fails_with 1 "four/candidates-0003.tar: expected" $merged four/candidates-0003.tar -o out.tar
   assert_fails_with 1 "whole.tar: expected a part of a mesh as four/graph-0000.tar, found a whole" $merged whole.tar -o out.tar
   assert_fails_with 1 "bar.mesh: expected a bundle" $merged bar.mesh -o out.tar
+  assert_fails_with 2 "expected an output as tar, tar.zst, found 'out.graph'" $merged four/graph-0003.tar -o out.graph
   head -c 20000 four/graph-0003.tar >cut.tar
   assert_fails_with 1 "cut.tar: .*(found: |expected)" $merged cut.tar -o out.tar
   assert_fails_with 1 "strict.tar: history/.*: expected a run with the same version and options" \
@@ -425,6 +426,7 @@ PYTHON
   local merged="merge-parts k/pieces/part-0000.tar k/pieces/part-0001.tar"
   assert_fails_with 1 "expected all 3 pieces, found no piece 2" $merged -o out.pvtu
   assert_fails_with 1 "k/pieces/part-0001.tar: expected each piece once, found 1 as in k/pieces/part-0001.tar" $merged k/pieces/part-0001.tar -o out.vtu
+  assert_fails_with 2 "expected an output as mesh, .*inp, pvtu, tar, tar.zst, found 'out.vtuu'" $merged k/pieces/part-0002.tar -o out.vtuu
   assert_fails_with 1 "k/graph-0002.tar: expected a piece" $merged k/graph-0002.tar -o out.vtu
   assert_fails_with 1 "/dev/null/x: cannot make the directory" $merged k/pieces/part-0002.tar -o /dev/null/x.pvtu
   bar --length 12 --folded >folded.mesh

@@ -33,7 +33,7 @@ STAGES = {  # options, ending of the product
     "lns": (["--iterations", "5"], "sol"),
     "certify": (["--iterations", "5"], "sol"),
     "assemble": ([], "vtu"),
-    "merge-parts": ([], "cand"),
+    "merge-parts": ([], "tar.zst"),
     "mesh-part": (["--parts", "2"], ""),  # a directory
     "view": ([], "html"),
     "lns-mpi": (["--iterations", "5"], "sol"),

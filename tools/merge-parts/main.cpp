@@ -1,10 +1,12 @@
 #include <unistd.h>
 
 #include "common/run/error.hpp"
+#include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/bundle.hpp"
 #include "formats/output.hpp"
 #include "tools/merge-parts/merge_parts.hpp"
+#include "tools/merge-parts/output_name.hpp"
 #include "tools/merge-parts/pieces.hpp"
 
 using namespace hexpipe;
@@ -25,7 +27,9 @@ int main(int argc, char** argv) {
                    "Bundles of all parts of a mesh, or of all shares that --part 1/k to k/k made, these in order")
         ->required()
         ->type_name("FILE");
-    app.add_option("-o,--output", path, "Write to a file, not to standard output")->type_name("FILE");
+    app.add_option("-o,--output", path, "Write to a file, not to standard output")
+        ->type_name("FILE")
+        ->check(name_of_file());
     app.add_flag("--compress", compress, "Compress the bundle with zstd");
   };
   const auto run = [&](RunContext&) {
@@ -36,6 +40,7 @@ int main(int argc, char** argv) {
       merge_pieces(paths, path, compress);
       return;
     }
+    expect_bundle_or({}, path);
     Output output(path);
     BundleWriter writer(output, compress || path.ends_with(".zst"));
     merge_parts(paths, writer);

@@ -19,6 +19,7 @@
 #include "formats/output_group.hpp"
 #include "formats/part_bundle.hpp"
 #include "formats/vtu.hpp"
+#include "tools/merge-parts/output_name.hpp"
 #include "tools/merge-parts/seam_check.hpp"
 
 namespace hexpipe {
@@ -140,11 +141,6 @@ class Joiner {
   MixedMesh mesh_;
 };
 
-std::string ending_of(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  return ending.empty() ? ending : ending.substr(1);
-}
-
 void write_pieces(PieceReader& reader, const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).replace_extension();
   OutputGroup files;
@@ -197,6 +193,9 @@ bool is_piece(const std::string& path) {
 }
 
 void merge_pieces(const std::vector<std::string>& paths, const std::string& output, bool compress) {
+  std::vector<std::string_view> formats = mesh_format_names();
+  formats.emplace_back("pvtu");
+  expect_bundle_or(formats, output);
   PieceReader reader(paths);
   if (ending_of(output) == "pvtu")
     write_pieces(reader, output);
