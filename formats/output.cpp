@@ -12,6 +12,7 @@
 
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
+#include "common/run/links.hpp"
 
 namespace hexpipe {
 namespace {
@@ -29,20 +30,6 @@ bool is_regular(int descriptor) {
 bool is_regular_or_new(const std::string& path) {
   struct stat status {};
   return stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode);
-}
-
-// The file that a chain of symbolic links names, so that the rename replaces it and not the link.
-std::string behind_links(std::string path) {
-  char target[4096];
-  for (int depth = 0; depth < 40; ++depth) {
-    const ssize_t length = readlink(path.c_str(), target, sizeof target);
-    if (length < 0) break;
-    const std::string next(target, static_cast<std::size_t>(length));
-    const std::size_t slash = path.rfind('/');
-    path.erase(next.front() == '/' || slash == std::string::npos ? 0 : slash + 1);
-    path += next;
-  }
-  return path;
 }
 
 std::string directory_of(const std::string& path) {
@@ -75,11 +62,20 @@ Output::Output(const std::string& path) {
     return;
   }
   name_ = path;
+  if (const auto open_already = open_descriptor(path)) {
+    descriptor_ = fcntl(*open_already, F_DUPFD_CLOEXEC, 0);
+    if (descriptor_ < 0) fail();
+    may_wait_ = !is_regular(descriptor_);
+    return;
+  }
   if (!is_regular_or_new(path)) {
+    const WaitForReader wait;  // of a FIFO, to open it
     descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor_ < 0) fail();
     return;
   }
+  // A rename asks nobody: what its owner has protected is not to be replaced.
+  if (access(path.c_str(), F_OK) == 0 && access(path.c_str(), W_OK) != 0) fail();
   may_wait_ = false;
   path_ = behind_links(path);
   open_beside();

@@ -16,8 +16,9 @@ namespace hexpipe {
 
 class Output {
  public:
-  // Empty or "-" is standard output. A path to something that is no regular file (/dev/full, a FIFO) is written
-  // directly.
+  // Empty or "-" is standard output. A path to something that is no regular file (/dev/full, a FIFO), or to what is
+  // open already (/dev/stdout), is written directly. Throws DataError when it cannot be written, a file that may not be
+  // too.
   explicit Output(const std::string& path);
   // Without commit(), nothing is left of what was written.
   ~Output();

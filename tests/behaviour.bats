@@ -355,6 +355,45 @@ print((len(data.rstrip(b'\0')) + 511) // 512 * 512)" "$STAGES/$tool.in")
   done
 }
 
+@test "a file that is open already is gone on with, not replaced" {
+  local in="$STAGES/initsol.in"
+  initsol -q "$in" --iterations 20 --log initsol.log -o initsol.sol
+  {
+    echo before
+    initsol -q "$in" --iterations 20 --format sol -o /dev/stdout --stats /dev/stdout
+    echo behind
+  } >all
+  sed -n "2,$(($(wc -l <initsol.sol) + 1))p" all >found.sol
+  assert_same_bytes initsol.sol found.sol
+  assert_equal "$(sed -n '1p;$p' all | xargs)" "before behind"
+  assert grep -q '"tool": "initsol"' all
+  echo before >log
+  initsol -q "$in" --iterations 20 --log /dev/stderr -o again.sol 2>>log
+  assert_equal "$(head -1 log) $(wc -l <log)" "before $(($(wc -l <initsol.log) + 1))"
+  ln -s /dev/fd/7 link
+  echo before >old
+  exec 7>>old
+  initsol -q "$in" --iterations 20 --format sol -o link
+  exec 7>&-
+  assert_equal "$(head -1 old)" before
+  assert_same_bytes <(tail -n +2 old) initsol.sol
+}
+
+@test "a file that may not be written is not replaced either" {
+  echo precious >kept.cand
+  chmod 444 kept.cand
+  cp "$STAGES/findhex.in" findhex.tar
+  local as_nobody=()
+  if ((EUID == 0)); then
+    # Root may write everything.
+    chmod 777 .
+    as_nobody=(setpriv --reuid=65534 --clear-groups --inh-caps=-all)
+    if ! "${as_nobody[@]}" test -x "$HEXPIPE_BIN/findhex" -a -w .; then skip "nobody cannot get here"; fi
+  fi
+  assert_fails_with 1 "findhex: kept.cand: cannot write: Permission denied" "${as_nobody[@]}" findhex findhex.tar -o kept.cand
+  assert_equal "$(cat kept.cand)" precious
+}
+
 @test "a name of a file that is empty is a bad command line, not standard input or output" {
   for tool in $READERS; do
     assert_fails_with 2 "expected the name of a file, found none" shell "$tool '' <'$STAGES/$tool.in'"

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/run/error.hpp"
+#include "common/run/links.hpp"
 
 namespace hexpipe {
 
@@ -14,7 +15,8 @@ SearchLog::SearchLog(const std::string& path, std::string value_name)
     : path_(path), value_name_(std::move(value_name)) {
   if (path_.empty()) return;
   errno = 0;
-  file_.open(path_);
+  // What the caller has open already, as /dev/stderr, goes on behind what is there.
+  file_.open(path_, open_descriptor(path_) ? std::ios::app : std::ios::out);
   if (!file_) throw DataError::at(path_, "cannot write: {}", std::strerror(errno));
 }
 

@@ -38,6 +38,22 @@ void write_to_slow_reader(const std::string& path, useconds_t microseconds) {
   _exit(unlink(path.c_str()));
 }
 
+// A search that was told to stop by SIGTERM opens a FIFO that nobody reads.
+void open_without_reader(const std::string& path) {
+  install_signal_handlers();
+  stop_searches_on_signal();
+  raise(SIGTERM);
+  if (mkfifo(path.c_str(), 0600) != 0) _exit(1);
+  const Output output(path);
+  _exit(2);
+}
+
+TEST(OutputDeathTest, ASearchThatWasStoppedDoesNotWaitForAReaderThatNeverComes) {
+  const std::string path = hexpipe::testing::temporary_path("unread");
+  EXPECT_EXIT(open_without_reader(path), ::testing::KilledBySignal(SIGTERM), "");
+  unlink(path.c_str());
+}
+
 // Twenty pieces take longer than a reader that is stuck is waited for.
 TEST(OutputDeathTest, ASearchThatWasStoppedWritesAllOfItsAnswerToAReaderThatIsSlow) {
   const std::string path = hexpipe::testing::temporary_path("slow");
