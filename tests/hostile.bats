@@ -176,6 +176,9 @@ PYTHON
   local name=$'new\nline \e[31m.mesh'
   printf 'MeshVersionFormatted 2\nDimension 3\nVertices\nmany\n' >"$name"
   assert_fails_with 1 "^findhex: new\?line \?\[31m.mesh:4: expected .*, found 'many'$" findhex --mesh "$name" -o out.tar
+  # U+009B is a control character too, U+00FC is not.
+  cp "$name" $'\xc2\x9b31m\xc3\xbc.mesh'
+  assert_fails_with 1 $'^findhex: \\?31m\xc3\xbc.mesh:4: expected' findhex --mesh $'\xc2\x9b31m\xc3\xbc.mesh' -o out.tar
   $PYTHON -c "
 import io, numpy
 out = io.BytesIO(); numpy.save(out, numpy.zeros((4, 3)))

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cstdio>
 
@@ -11,13 +10,21 @@ namespace {
 
 std::atomic<bool> silent{false};
 
+// Of ASCII, and those from U+0080 to U+009F as UTF-8 has them: U+009B does as ESC and '[' do.
+std::string without_control_characters(std::string text) {
+  constexpr char lead = '\xc2';
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    if (c < ' ' || c == 0x7f) text[i] = '?';
+    if (text[i] == lead && i + 1 < text.size() && (text[i + 1] & 0xe0) == 0x80) text.replace(i, 2, "?");
+  }
+  return text;
+}
+
 }  // namespace
 
 void print_message(std::string_view tool, std::string_view text) {
-  std::string line = fmt::format("{}: {}", tool, text);
-  std::ranges::replace_if(
-      line, [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
-  print_text(line + '\n');
+  print_text(without_control_characters(fmt::format("{}: {}", tool, text)) + '\n');
 }
 
 void print_text(const std::string& text) {
