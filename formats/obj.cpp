@@ -19,19 +19,21 @@ constexpr std::array<std::string_view, 19> keywords{
 
 class ObjReader {
  public:
-  ObjReader(std::string_view text, const std::string& name) : name_(name), scanner_(text, name, '#') {}
+  ObjReader(std::string_view text, const std::string& name) : name_(name), text_(text), scanner_(text, name, '#') {}
 
   SurfaceSoup read();
 
  private:
   void read_statement(std::string_view keyword);
   void skip_statement();
+  std::string read_group_name();
   void read_face();
   Vertex vertex_index(std::string_view word) const;
   std::int32_t tag_of_group();
   void check_corners() const;
 
   const std::string& name_;
+  std::string_view text_;
   TextScanner scanner_;
   SurfaceSoup soup_;
   std::vector<Vertex> corners_;
@@ -55,7 +57,7 @@ void ObjReader::read_statement(std::string_view keyword) {
   } else if (keyword == "f") {
     read_face();
   } else if (keyword == "g" || keyword == "o") {
-    group_ = scanner_.rest_of_line();
+    group_ = read_group_name();
     group_tag_.reset();
   } else if (is_obj_keyword(keyword)) {
     skip_statement();
@@ -68,6 +70,18 @@ void ObjReader::read_statement(std::string_view keyword) {
 void ObjReader::skip_statement() {
   while (scanner_.rest_of_line().ends_with('\\') && !scanner_.at_end()) {
   }
+}
+
+// Blanks around a name say nothing. Within a word, '#' is part of the name: Face#12.
+std::string ObjReader::read_group_name() {
+  constexpr std::string_view blanks = " \t\r";
+  std::string_view line = text_.substr(scanner_.position());
+  line = line.substr(0, line.find('\n'));
+  scanner_.rest_of_line();
+  for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1))
+    if (at == 0 || blanks.find(line[at - 1]) != std::string_view::npos) line = line.substr(0, at);
+  const std::size_t first = std::min(line.find_first_not_of(blanks), line.size());
+  return std::string(line.substr(first, line.find_last_not_of(blanks) + 1 - first));
 }
 
 void ObjReader::read_face() {

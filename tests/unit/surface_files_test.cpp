@@ -172,6 +172,18 @@ TEST(SurfaceFiles, TagsAreSolidsAttributesAndGroups) {
               ElementsAre(0, 1, 2, 1));
 }
 
+TEST(SurfaceFiles, BlanksAroundTheNameOfAGroupSayNothing) {
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n", face = "\nf 1 2 3\n";
+  EXPECT_THAT(read(vertices + "g top" + face + "g  top \t" + face + "g top\r" + face + "g top # again" + face).tags,
+              ElementsAre(1, 1, 1, 1));
+}
+
+TEST(SurfaceFiles, ANumberSignWithinAWordIsPartOfTheNameOfAGroup) {
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n", face = "\nf 1 2 3\n";
+  EXPECT_THAT(read(vertices + "g Face#1" + face + "g Face#2" + face + "g Face#1 # again" + face).tags,
+              ElementsAre(1, 2, 1));
+}
+
 TEST(SurfaceFiles, FansPolygons) {
   const SurfaceSoup soup = read("OFF 5 1 0\n0 0 0\n2 0 0\n3 1 0\n2 2 0\n0 2 0\n5 0 1 2 3 4\n");
   EXPECT_THAT(soup.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}, Triangle{0, 3, 4}));
