@@ -554,6 +554,7 @@ head = "ply\nformat ascii 1.0\nelement vertex 50\nproperty double x\nproperty do
 np.savetxt("points.ply", points, "%.17g", header=head, comments="")
 np.savetxt("outside.xyz", [(.5, .5, .5), (2, 0, 0), (.5, .5, .5), (.5, .5, 0)], "%g")
 open("bad.xyz", "w").write("0.5 0.5 0.5\n0.5 0.5 x\n")
+open("cut.xyz", "w").write("0.5 0.5 0.5\n0.25 0.5 0.7")
 open("short.node", "w").write("3 3 0 0\n1 .5 .5 .5\n2 .4 .4 .4\n")
 np.save("flat.npy", points[:, :2])
 PYTHON
@@ -570,6 +571,7 @@ PYTHON
   grep -q "^tetmesh: warning: 100 % of the surface lies in triangles with edges much longer than the size" <<<"$stderr"
   grep -q "^tetmesh: warning: outside.xyz:2: 3 of 4 points are outside" <<<"$stderr"
   assert_fails_with 1 "^tetmesh: bad.xyz:2: expected a finite coordinate, found 'x'" tetmesh "$cube" --points bad.xyz
+  assert_fails_with 1 "^tetmesh: cut.xyz: expected the last line to have an end, found none; is the file cut off" tetmesh "$cube" --points cut.xyz
   assert_fails_with 1 "^tetmesh: short.node:" tetmesh "$cube" --points short.node
   assert_fails_with 1 "^tetmesh: flat.npy: expected an array of floats with three columns" tetmesh "$cube" --points flat.npy
   assert_fails_with 2 "^tetmesh: expected --points .* or a file, found 'nowhere.xyz'" tetmesh "$cube" --points nowhere.xyz

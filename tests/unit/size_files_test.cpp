@@ -94,6 +94,11 @@ TEST(SizeFiles, RefuseABackgroundMeshThatIsNone) {
   expect_defect("1 1 2 3 4\n", "1 1 2 3 3\n", "sizes: tets[0]: expected 4 different vertices, found 2 twice");
 }
 
+TEST(SizeFiles, RefuseATextThatMayBeCutOffWithinANumber) {
+  expect_error("1\n0.5", "sizes: expected the last line to have an end, found none; is the file cut off?");
+  expect_error("0 0 0 1\n1 0 0 0.5", "expected the last line to have an end");
+}
+
 TEST(SizeFiles, NameWhatIsWrong) {
   expect_error("0 0 0 1\n1e300 0 0 0.5\n", "sizes:2: expected coordinates up to 1e+50, found 1e+300 0 0");
   expect_error("", "sizes: expected sizes, found none");
