@@ -42,6 +42,7 @@ bool looks_like_binary_medit(std::string_view text) {
 }
 
 MixedMesh read_by_content(std::string text, const std::string& name, const std::string& path) {
+  text.erase(0, text.size() - without_byte_order_mark(text).size());
   if (looks_like_vtu(text)) return read_vtu(std::move(text), name);
   if (looks_like_vtk_legacy(text)) return read_vtk_legacy(text, name);
   if (looks_like_msh(text)) return read_msh(text, name);

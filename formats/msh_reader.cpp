@@ -386,7 +386,7 @@ class MshReader {
 }  // namespace
 
 bool looks_like_msh(std::string_view text) {
-  return text.starts_with('$');
+  return TextScanner(text, "").peek_word().starts_with('$');
 }
 
 MixedMesh read_msh(std::string_view text, std::string_view file) {

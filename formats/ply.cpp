@@ -105,15 +105,20 @@ Property read_property(TextScanner& scanner) {
   return property;
 }
 
+bool is_remark(std::string_view keyword) {
+  return keyword == "comment" || keyword == "obj_info";
+}
+
 Header read_header(TextScanner& scanner) {
   Header header;
   scanner.expect("ply");
+  while (is_remark(scanner.peek_word())) scanner.rest_of_line();
   scanner.expect("format");
   header.encoding = read_encoding(scanner);
   for (;;) {
     const std::string_view keyword = scanner.word("'end_header'");
     if (keyword == "end_header") break;
-    if (keyword == "comment" || keyword == "obj_info") {
+    if (is_remark(keyword)) {
       scanner.rest_of_line();
     } else if (keyword == "element") {
       Element element;

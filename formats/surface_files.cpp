@@ -28,6 +28,7 @@ SurfaceSoup read_by_content(std::string_view bytes, const std::string& name) {
     throw DataError::at(name, "expected a surface in STL, OBJ, PLY or OFF, found nothing: it is empty");
   if (is_archive(bytes))
     throw DataError::at(name, "expected a surface in STL, OBJ, PLY or OFF, found a bundle or another archive");
+  if (!is_binary_stl(bytes)) bytes = without_byte_order_mark(bytes);
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return merge_equal_points(read_ply(bytes, name));
   if (is_binary_stl(bytes)) return read_binary_stl(bytes, name);
   const std::string_view first = TextScanner(bytes, name, '#').peek_word();

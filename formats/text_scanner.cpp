@@ -26,6 +26,11 @@ std::string quote_found(std::string_view word) {
   return "'" + shown + (word.size() > longest ? "...'" : "'");
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  return text.starts_with(mark) ? text.substr(mark.size()) : text;
+}
+
 void expect_last_line_end(std::string_view text, std::string_view file) {
   if (!text.ends_with('\n'))
     throw DataError::at(file, "expected the last line to have an end, found none; is the file cut off?");

@@ -76,6 +76,9 @@ bool equal_ignoring_case(std::string_view a, std::string_view b);
 // of file" when it is empty.
 std::string quote_found(std::string_view word);
 
+// What an editor may put before a text in UTF-8 taken off.
+std::string_view without_byte_order_mark(std::string_view text);
+
 // Throws DataError unless a text ends with the end of a line: where nothing else marks the end of a file, a last number
 // may be the beginning of one.
 void expect_last_line_end(std::string_view text, std::string_view file);

@@ -270,7 +270,7 @@ class VtuReader {
 
 bool looks_like_vtu(std::string_view text) {
   // Only an XML declaration and comments come before the root.
-  return text.starts_with('<') && text.substr(0, 4096).find("<VTKFile") != std::string_view::npos;
+  return TextScanner(text, "").peek_word().starts_with('<') && text.find("<VTKFile") != std::string_view::npos;
 }
 
 MixedMesh read_vtu(std::string text, std::string_view file) {

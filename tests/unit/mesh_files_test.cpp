@@ -57,6 +57,21 @@ TEST(MeshFiles, TakesLineEndsOfAnySystem) {
   }
 }
 
+TEST(MeshFiles, TakesAByteOrderMarkBeforeText) {
+  const MixedMesh mesh = one_cell_of_each_kind();
+  for (const std::string_view format : {"mesh", "msh", "msh22", "vtk", "vtu"})
+    EXPECT_TRUE(parsed("\xef\xbb\xbf" + written(mesh, format)) == as_carried_by(format, mesh)) << format;
+}
+
+TEST(MeshFiles, TakesEmptyLinesAndLongCommentsBeforeTheBeginning) {
+  const MixedMesh mesh = one_cell_of_each_kind();
+  EXPECT_TRUE(parsed("\n\n" + written(mesh, "msh")) == mesh);
+  std::string vtu = written(mesh, "vtu");
+  vtu = vtu.substr(vtu.find("<VTKFile"));
+  EXPECT_TRUE(parsed("\n" + vtu) == mesh);
+  EXPECT_TRUE(parsed("<!-- " + std::string(5000, 'x') + " -->\n" + vtu) == mesh);
+}
+
 // A prefix that is read must be the whole mesh, but for a list that the format allows to be absent.
 TEST(MeshFiles, RejectsEveryTruncatedPrefix) {
   const MixedMesh mesh = one_cell_of_each_kind();

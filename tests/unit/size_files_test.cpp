@@ -99,6 +99,13 @@ TEST(SizeFiles, RefuseATextThatMayBeCutOffWithinANumber) {
   expect_error("0 0 0 1\n1 0 0 0.5", "expected the last line to have an end");
 }
 
+TEST(SizeFiles, TakeAByteOrderMarkBeforeText) {
+  EXPECT_EQ(sizes_of("\xef\xbb\xbf"
+                     "1\n0.5\n")
+                .sizes,
+            (std::vector<double>{1, 0.5}));
+}
+
 TEST(SizeFiles, NameWhatIsWrong) {
   expect_error("0 0 0 1\n1e300 0 0 0.5\n", "sizes:2: expected coordinates up to 1e+50, found 1e+300 0 0");
   expect_error("", "sizes: expected sizes, found none");

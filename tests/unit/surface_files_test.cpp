@@ -184,6 +184,16 @@ TEST(SurfaceFiles, ANumberSignWithinAWordIsPartOfTheNameOfAGroup) {
               ElementsAre(1, 2, 1));
 }
 
+TEST(SurfaceFiles, TakesAByteOrderMarkBeforeText) {
+  for (const std::string& text : {ascii_stl(), obj(), ascii_ply(), off()}) expect_tet(read("\xef\xbb\xbf" + text));
+}
+
+TEST(SurfaceFiles, RemarksMayComeBeforeTheFormatOfPly) {
+  std::string text = ascii_ply();
+  text.insert(text.find("format"), "comment by hand\nobj_info 1\n");
+  expect_tet(read(text));
+}
+
 TEST(SurfaceFiles, FansPolygons) {
   const SurfaceSoup soup = read("OFF 5 1 0\n0 0 0\n2 0 0\n3 1 0\n2 2 0\n0 2 0\n5 0 1 2 3 4\n");
   EXPECT_THAT(soup.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}, Triangle{0, 3, 4}));
