@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <numeric>
+#include <system_error>
 #include <utility>
 
 #include "common/mesh/candidates.hpp"
@@ -30,6 +32,9 @@ struct Shared {
 Shared look_through(const std::vector<std::string>& paths) {
   Shared shared;
   for (const std::string& path : paths) {
+    std::error_code unknown;
+    if (!std::filesystem::is_regular_file(path, unknown))
+      throw DataError::at(path, "expected a file, for shares and pieces are read twice, found a pipe or a device");
     PartReader part(path);
     std::string last;
     std::vector<std::uint8_t> kinds;
