@@ -51,7 +51,8 @@ double points_inside(const Surface& surface, const SizeField& size, double clear
     const double here = size.at(centre), side = longest_side(box), radius = norm(box.high - box.low) / 2;
     const bool on_one_side = clear.is_clear(centre, radius), inside = clear.is_inside(centre);
     if (on_one_side && !inside) continue;
-    const bool is_even = here - size.least_near(here, radius)<most_difference * here, is_wide = side> widest * here;
+    const bool is_wide = side > widest * here;
+    const bool is_even = here - size.least_near(here, radius) < most_difference * here;
     if (is_wide && side > least_side && !(on_one_side && is_even))
       add_halves(box, boxes);
     else if (inside && clear.is_clear(centre, clearance * here))
