@@ -109,8 +109,25 @@ product_ending() {
     assert [ ! -e out.tar ]
   done
   assert_fails_with 2 "for --log and --fragments, found x for both" lns "$STAGES/lns.in" -o out.tar --log x --fragments x
+  ln -s x link
+  touch x
+  assert_fails_with 2 "for --log and --fragments, found link for both" lns "$STAGES/lns.in" -o out.tar --log x --fragments link
   # What goes nowhere may be much.
   lns -q --iterations 5 "$STAGES/lns.in" -o /dev/null --log /dev/null --stats /dev/null
+}
+
+@test "what is written beside the product does not replace what is read" {
+  for tool in $TOOLS; do
+    cp "$STAGES/$tool.in" part.in
+    assert_fails_with 2 "^$tool: expected different files for [a-z]* and --stats, found ./part.in for both: it would be lost$" \
+      $tool $(limited $tool) part.in -o out.tar --stats ./part.in
+    assert_same_bytes part.in "$STAGES/$tool.in"
+  done
+  cp "$STAGES/lns.in" part.in
+  assert_fails_with 2 "for --graph and --log, found part.in for both" lns --graph part.in --solution other -o out.tar --log part.in
+  # A product has its name when everything is read.
+  cp "$STAGES/lns.in" part.tar
+  lns -q --iterations 5 part.tar -o part.tar --stats stats.json
 }
 
 @test "a seed that is negative or too large for 64 bits, and a time limit of NaN, end with 2" {

@@ -21,8 +21,8 @@
 #include "common/run/links.hpp"
 #include "common/run/memory.hpp"
 #include "common/run/messages.hpp"
+#include "common/run/named_files.hpp"
 #include "common/run/option_checks.hpp"
-#include "common/run/output_names.hpp"
 #include "common/run/parallel.hpp"
 #include "common/run/removed_files.hpp"
 #include "common/run/version.hpp"
@@ -262,7 +262,7 @@ int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<v
   context.options = options_for_history(app, info);
 
   try {
-    check_outputs_apart(app, info.product.has_value());
+    check_named_files(app, info.product.has_value());
     if (context.common.memory) limit_memory(*context.common.memory);
     ThreadLimit(context.common.threads).stay();
     check_writable(context.common.stats_file);

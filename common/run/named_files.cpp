@@ -1,0 +1,84 @@
+#include "common/run/named_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "common/run/error.hpp"
+
+namespace hexpipe {
+namespace {
+
+// What is written beside the product. view reads its --fragments: nothing may be written there either.
+constexpr std::array<std::string_view, 6> beside_product{
+    "stats", "log", "certificate", "fragments", "reduced-candidates", "png"};
+
+struct NamedFile {
+  std::string option;  // as it is typed
+  std::string file;
+};
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code none;
+  return std::filesystem::path(a).lexically_normal() == std::filesystem::path(b).lexically_normal() ||
+         std::filesystem::equivalent(a, b, none);
+}
+
+// What lies in /dev may be named twice.
+bool is_device(const std::string& file) {
+  return file.starts_with("/dev/");
+}
+
+const NamedFile* find(const std::vector<NamedFile>& files, const std::string& file) {
+  const auto found =
+      std::ranges::find_if(files, [&](const NamedFile& other) { return is_same_file(other.file, file); });
+  return found == files.end() ? nullptr : &*found;
+}
+
+bool is_written(const CLI::Option& option) {
+  return option.check_lname("output") ||
+         std::ranges::any_of(beside_product, [&](auto name) { return option.check_lname(std::string(name)); });
+}
+
+std::vector<NamedFile> inputs(const CLI::App& app) {
+  std::vector<NamedFile> files;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_type_name().find("FILE") == std::string::npos || is_written(*option)) continue;
+    for (const std::string& file : option->results())
+      if (file != "-") files.push_back({option->get_name(), file});
+  }
+  return files;
+}
+
+}  // namespace
+
+void check_named_files(const CLI::App& app, bool has_product) {
+  const std::vector<NamedFile> read = inputs(app);
+  std::vector<NamedFile> written;
+  const CLI::Option* const product = app.get_option_no_throw("--output");
+  if (product != nullptr && product->count() > 0)
+    written.push_back({"--output", product->results().front()});
+  else if (has_product)
+    written.push_back({"--output", "-"});
+  for (const std::string_view name : beside_product) {
+    const CLI::Option* const option = app.get_option_no_throw(fmt::format("--{}", name));
+    if (option == nullptr || option->count() == 0) continue;
+    NamedFile output{fmt::format("--{}", name), option->results().front()};
+    if (is_device(output.file)) continue;
+    if (const NamedFile* const other = find(written, output.file))
+      throw UsageError(fmt::format("expected different files for {} and {}, found {} for both", other->option,
+                                   output.option, output.file == "-" ? "standard output" : output.file));
+    if (const NamedFile* const input = find(read, output.file))
+      throw UsageError(fmt::format("expected different files for {} and {}, found {} for both: it would be lost",
+                                   input->option, output.option, output.file));
+    written.push_back(std::move(output));
+  }
+}
+
+}  // namespace hexpipe
