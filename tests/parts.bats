@@ -219,7 +219,10 @@ with tarfile.open(sys.argv[1]) as old, tarfile.open(os.path.basename(sys.argv[1]
         new.addfile(member, io.BytesIO(data))
 PYTHON
   done
-  assert_fails_with 1 "expected the whole mesh in the parts, found [0-9]+ of 2147483647 points" merge-parts --memory 100M part-000[01].tar -o out.tar
+  local limit=(--memory 100M)
+  if sanitized; then limit=(); fi  # the address sanitizer takes terabytes of addresses
+  assert_fails_with 1 "expected the whole mesh in the parts, found [0-9]+ of 2147483647 points" \
+    merge-parts "${limit[@]}" part-000[01].tar -o out.tar
 }
 
 @test "merge-parts writes to a pipe, in any order of parts, and compresses" {
