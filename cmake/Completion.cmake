@@ -46,12 +46,14 @@ foreach(line IN LISTS lines)
     string(REPLACE "," " " choices "${CMAKE_MATCH_1}")
     string(APPEND cases "    ${pattern}) COMPREPLY=(\$(compgen -W \"${choices}\" -- \"\$current\")); return ;;\n")
     string(APPEND spec ":value:(${choices})")
-  elseif(type MATCHES "^FILE")
+  elseif(type MATCHES "^FILE|[|]FILE")
     string(APPEND cases "    ${pattern}) COMPREPLY=(\$(compgen -f -- \"\$current\")); return ;;\n")
     string(APPEND spec ":file:_files")
+  elseif(type MATCHES "^DIR")
+    string(APPEND cases "    ${pattern}) COMPREPLY=(\$(compgen -d -- \"\$current\")); return ;;\n")
+    string(APPEND spec ":directory:_files -/")
   elseif(type MATCHES "^\\(")
-    # A value that may be left out: an option may follow as well.
-    string(APPEND cases "    ${pattern}) if [[ \$current != -* ]]; then return; fi ;;\n")
+    # A value that may be left out: a file or an option may follow as well.
     string(APPEND spec "::value: ")
   elseif(NOT type STREQUAL "") # not elseif(type): a value called N is false to CMake
     string(APPEND cases "    ${pattern}) return ;;\n")

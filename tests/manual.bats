@@ -35,9 +35,16 @@ completions() {
   # N is what the help calls its value, and false to CMake.
   assert_equal "$(completions lns --iterations '')" ""
   if [[ -x "$HEXPIPE_BIN/tetmesh" ]]; then
-    # [N]: a number or the next option.
-    assert_equal "$(completions tetmesh --layers '')" ""
+    # [N]: a number, or the surface or the next option.
+    assert_equal "$(completions tetmesh --layers pa)" part.mesh
     assert_equal "$(completions tetmesh --layers --gr)" --grading
+    # KIND|FILE
+    assert_equal "$(completions tetmesh --points pa)" part.mesh
+  fi
+  if [[ -x "$HEXPIPE_BIN/mesh-part" ]]; then
+    mkdir parts
+    assert_equal "$(completions mesh-part --output pa)" parts
+    grep -q -- "--output.*:directory:_files -/" "$MANUAL/zsh/_mesh-part"
   fi
 }
 
