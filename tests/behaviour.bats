@@ -387,6 +387,11 @@ print((len(data.rstrip(b'\0')) + 511) // 512 * 512)" "$STAGES/$tool.in")
   echo before >log
   initsol -q "$in" --iterations 20 --log /dev/stderr -o again.sol 2>>log
   assert_equal "$(head -1 log) $(wc -l <log)" "before $(($(wc -l <initsol.log) + 1))"
+  {
+    initsol -q "$in" --iterations 20 --log /dev/stdout -o again.sol
+    echo behind
+  } >all
+  assert_equal "$(tail -1 all) $(wc -l <all)" "behind $(($(wc -l <initsol.log) + 1))"
   ln -s /dev/fd/7 link
   echo before >old
   exec 7>>old

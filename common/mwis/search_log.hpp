@@ -2,10 +2,10 @@
 // The anytime curve of a search: a file of JSON objects, one a line, for --log.
 
 #include <cstdint>
-#include <fstream>
+#include <optional>
 #include <string>
 
-#include "common/run/deadline.hpp"
+#include "common/run/text_file.hpp"
 
 namespace hexpipe {
 
@@ -23,8 +23,8 @@ class SearchLog {
  private:
   void write(double seconds, std::int64_t iteration, std::int64_t value);
 
-  std::string path_, value_name_;
-  std::ofstream file_;
+  std::optional<TextFile> file_;
+  std::string value_name_;
   double next_ = 0;
 };
 

@@ -18,13 +18,13 @@
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "common/run/help_formatter.hpp"
-#include "common/run/links.hpp"
 #include "common/run/memory.hpp"
 #include "common/run/messages.hpp"
 #include "common/run/named_files.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/parallel.hpp"
 #include "common/run/removed_files.hpp"
+#include "common/run/text_file.hpp"
 #include "common/run/version.hpp"
 
 // Of the sanitizers, where there are any: with the name and the type that they give it.
@@ -158,23 +158,14 @@ void check_writable(const std::string& path) {
     throw DataError::at(path, "cannot write: {}", std::strerror(errno));
 }
 
-void write_text_file(const std::string& path, const std::string& text) {
-  errno = 0;
-  const auto open_already = open_descriptor(path);
-  const int copy = open_already ? fcntl(*open_already, F_DUPFD_CLOEXEC, 0) : -1;
-  std::FILE* const file = open_already ? fdopen(copy, "w") : std::fopen(path.c_str(), "w");
-  bool written = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  if (file != nullptr) written = std::fclose(file) == 0 && written;
-  if (!written) throw DataError::at(path, "cannot write: {}", std::strerror(errno));
-}
-
 void write_statistics(const RunContext& context, double seconds) {
   if (context.common.stats_file.empty()) return;
   nlohmann::ordered_json statistics{{"tool", context.info.name}};
   statistics.update(context.statistics);
   statistics["seconds"] = seconds;
-  write_text_file(context.common.stats_file,
-                  statistics.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
+  TextFile file(context.common.stats_file);
+  file.write(statistics.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
+  file.close();
 }
 
 // A standard stream that the caller closed would be the next file opened, and messages would land in the data. In its

@@ -1,0 +1,32 @@
+#pragma once
+// A text beside the product, as statistics and logs are.
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace hexpipe {
+
+class TextFile {
+ public:
+  // Replaces what is there; goes on behind it where the caller has the file open already, as /dev/stdout. Throws
+  // DataError where it cannot be written.
+  explicit TextFile(std::string path);
+
+  // At once, so that others can follow it. Nothing more is written after a failure.
+  void write(std::string_view text);
+  // Throws DataError when something could not be written.
+  void close();
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  std::string path_;
+  std::unique_ptr<std::FILE, Close> file_;
+  int error_ = 0;  // errno of the first failure
+};
+
+}  // namespace hexpipe
