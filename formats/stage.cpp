@@ -16,17 +16,11 @@
 #include "formats/members.hpp"
 #include "formats/mesh_files.hpp"
 #include "formats/metis.hpp"
+#include "formats/output_format.hpp"
 #include "formats/solution_file.hpp"
 
 namespace hexpipe {
 namespace {
-
-constexpr std::string_view bundle_format = "tar";
-constexpr std::string_view compressed_bundle_format = "tar.zst";
-
-bool is_bundle_format(std::string_view format) {
-  return format == bundle_format || format == compressed_bundle_format;
-}
 
 std::vector<std::string_view> product_formats(Role product) {
   switch (product) {
@@ -41,14 +35,6 @@ std::vector<std::string_view> product_formats(Role product) {
       break;
   }
   return mesh_format_names();
-}
-
-// The text after the last dot of the file's name; "tar.zst" as a whole.
-std::string_view ending_of(std::string_view path) {
-  path = path.substr(path.rfind('/') + 1);
-  if (path.ends_with(".tar.zst")) return compressed_bundle_format;
-  const std::size_t dot = path.rfind('.');
-  return dot == std::string_view::npos ? std::string_view() : path.substr(dot + 1);
 }
 
 // The format that the command line asks for. Throws UsageError when the product cannot be written so.

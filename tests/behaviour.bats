@@ -421,7 +421,11 @@ print((len(data.rstrip(b'\0')) + 511) // 512 * 512)" "$STAGES/$tool.in")
     assert_fails_with 2 "expected the name of a file, found none" shell "$tool '' <'$STAGES/$tool.in'"
     assert_fails_with 2 "output: expected the name of a file, found none" shell "$tool '$STAGES/$tool.in' -o '' | cat"
   done
+  for tool in $TOOLS; do
+    assert_fails_with 2 "stats: expected the name of a file, found none" shell "$tool '$STAGES/$tool.in' --stats '' | cat"
+  done
   assert_fails_with 2 "graph: expected the name of a file, found none" initsol "$STAGES/initsol.in" --graph "" -o out.tar
+  assert_fails_with 2 "^tetmesh: [a-z]*: expected the name of a file, found none" shell "tetmesh '' | cat"
 }
 
 @test "a reader that goes away is an error" {

@@ -46,10 +46,21 @@ bool is_written(const CLI::Option& option) {
          std::ranges::any_of(beside_product, [&](auto name) { return option.check_lname(std::string(name)); });
 }
 
+bool names_files(const CLI::Option& option) {
+  return option.get_type_name().find("FILE") != std::string::npos || option.get_type_name() == "DIR";
+}
+
+// A variable of the shell that is not set leaves a name empty.
+void check_none_is_empty(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options())
+    if (names_files(*option) && std::ranges::find(option->results(), "") != option->results().end())
+      throw UsageError(fmt::format("{}: expected the name of a file, found none", option->get_name()));
+}
+
 std::vector<NamedFile> inputs(const CLI::App& app) {
   std::vector<NamedFile> files;
   for (const CLI::Option* option : app.get_options()) {
-    if (option->get_type_name().find("FILE") == std::string::npos || is_written(*option)) continue;
+    if (!names_files(*option) || is_written(*option)) continue;
     for (const std::string& file : option->results())
       if (file != "-") files.push_back({option->get_name(), file});
   }
@@ -59,6 +70,7 @@ std::vector<NamedFile> inputs(const CLI::App& app) {
 }  // namespace
 
 void check_named_files(const CLI::App& app, bool has_product) {
+  check_none_is_empty(app);
   const std::vector<NamedFile> read = inputs(app);
   std::vector<NamedFile> written;
   const CLI::Option* const product = app.get_option_no_throw("--output");

@@ -21,15 +21,6 @@ inline CLI::Validator number_between(double low, double high) {
       "");
 }
 
-// A file's name, which a variable of the shell that is not set leaves empty.
-inline CLI::Validator name_of_file() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        return text.empty() ? std::string("expected the name of a file, found none") : std::string();
-      },
-      "");
-}
-
 // An unsigned integer of 64 bits in decimal digits.
 inline CLI::Validator whole_number_of_64_bits() {
   return CLI::Validator(

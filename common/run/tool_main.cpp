@@ -87,13 +87,11 @@ void declare_streams(CLI::App& app, RunContext& context) {
     app.add_option(
            "input", streams.operand,
            fmt::format("A bundle, or the {} in any format; '-' or nothing: standard input", name_of(reads.front())))
-        ->type_name("FILE")
-        ->check(name_of_file());
+        ->type_name("FILE");
     for (const Role role : reads)
       app.add_option(fmt::format("--{}", name_of(role)), streams.files[role],
                      fmt::format("Take the {} from this file, whatever the bundle holds", name_of(role)))
-          ->type_name("FILE")
-          ->check(name_of_file());
+          ->type_name("FILE");
   }
   if (!context.info.product) return;
   app.add_option(
@@ -101,8 +99,7 @@ void declare_streams(CLI::App& app, RunContext& context) {
          fmt::format("Write to a file: a bundle (.tar, .tar.zst), else the {} alone, in the format that the ending "
                      "names",
                      name_of(*context.info.product)))
-      ->type_name("FILE")
-      ->check(name_of_file());
+      ->type_name("FILE");
   app.add_option("--format", streams.format, "The format of the output, whatever its name")->type_name("NAME");
   app.add_flag("--compress", streams.compress, "Compress the bundle with zstd");
 }

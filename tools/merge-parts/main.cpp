@@ -1,10 +1,10 @@
 #include <unistd.h>
 
 #include "common/run/error.hpp"
-#include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/bundle.hpp"
 #include "formats/output.hpp"
+#include "formats/output_format.hpp"
 #include "tools/merge-parts/merge_parts.hpp"
 #include "tools/merge-parts/output_name.hpp"
 #include "tools/merge-parts/pieces.hpp"
@@ -27,9 +27,7 @@ int main(int argc, char** argv) {
                    "Bundles of all parts of a mesh, or of all shares that --part 1/k to k/k made, these in order")
         ->required()
         ->type_name("FILE");
-    app.add_option("-o,--output", path, "Write to a file, not to standard output")
-        ->type_name("FILE")
-        ->check(name_of_file());
+    app.add_option("-o,--output", path, "Write to a file, not to standard output")->type_name("FILE");
     app.add_flag("--compress", compress, "Compress the bundle with zstd");
   };
   const auto run = [&](RunContext&) {
@@ -42,7 +40,7 @@ int main(int argc, char** argv) {
     }
     expect_bundle_or({}, path);
     Output output(path);
-    BundleWriter writer(output, compress || path.ends_with(".zst"));
+    BundleWriter writer(output, compress || ending_of(path) == compressed_bundle_format);
     merge_parts(paths, writer);
     writer.close();
     output.commit();

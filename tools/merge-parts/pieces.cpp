@@ -16,6 +16,7 @@
 #include "formats/members.hpp"
 #include "formats/mesh_files.hpp"
 #include "formats/output.hpp"
+#include "formats/output_format.hpp"
 #include "formats/output_group.hpp"
 #include "formats/part_bundle.hpp"
 #include "formats/vtu.hpp"
@@ -160,7 +161,7 @@ void write_pieces(PieceReader& reader, const std::string& path) {
 }
 
 void write_whole(PieceReader& reader, const std::string& path, bool compress) {
-  const std::string ending = ending_of(path);
+  const std::string ending(ending_of(path));
   const auto& formats = mesh_format_names();
   Output output(path);
   Joiner joiner;
@@ -169,7 +170,7 @@ void write_whole(PieceReader& reader, const std::string& path, bool compress) {
   if (std::ranges::find(formats, ending) != formats.end()) {
     write_mixed_mesh(mesh, ending, output);
   } else {
-    BundleWriter writer(output, compress || ending == "zst");
+    BundleWriter writer(output, compress || ending == compressed_bundle_format);
     write_members(writer, mesh);
     write_history(writer, reader.settings());
     writer.close();
