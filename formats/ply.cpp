@@ -362,6 +362,10 @@ void BodyReader<Body>::skip(const Element& element, const Property& property, st
 
 }  // namespace
 
+bool looks_like_ply(std::string_view bytes) {
+  return bytes.starts_with("ply\n") || bytes.starts_with("ply\r");
+}
+
 SurfaceSoup read_ply(std::string_view bytes, const std::string& name) {
   TextScanner scanner(bytes, name);
   const Header header = read_header(scanner);

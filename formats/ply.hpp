@@ -8,6 +8,8 @@
 
 namespace hexpipe {
 
+bool looks_like_ply(std::string_view bytes);
+
 // Elements other than vertex and face, and properties other than x, y, z and vertex_indices (or vertex_index), are
 // skipped. Faces are placed by line (ASCII) or by number (binary).
 SurfaceSoup read_ply(std::string_view bytes, const std::string& name);

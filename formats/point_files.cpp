@@ -77,8 +77,8 @@ PointList read_xyz_points(std::string_view text, const std::string& name) {
 
 PointList read_by_content(std::string_view bytes, const std::string& name) {
   if (npy_header_size(bytes.substr(0, 10)) > 0) return read_npy_points(bytes, name);
-  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return {read_ply(bytes, name).points, {}, {}};
   bytes = without_byte_order_mark(bytes);
+  if (looks_like_ply(bytes)) return {read_ply(bytes, name).points, {}, {}};
   if (!bytes.empty()) expect_last_line_end(bytes, name);
   if (looks_like_node(bytes, name)) return read_node_points(bytes, name);
   return read_xyz_points(bytes, name);

@@ -128,8 +128,8 @@ SizeList read_background(std::string_view text, const std::string& name) {
 
 SizeList read_by_content(std::string_view bytes, const std::string& name) {
   if (npy_header_size(bytes.substr(0, 10)) > 0) return read_npy(bytes, name);
-  if (looks_like_msh(bytes)) return read_background(bytes, name);
   bytes = without_byte_order_mark(bytes);
+  if (looks_like_msh(bytes)) return read_background(bytes, name);
   if (!bytes.empty()) expect_last_line_end(bytes, name);
   return read_text(bytes, name);
 }

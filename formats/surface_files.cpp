@@ -28,9 +28,9 @@ SurfaceSoup read_by_content(std::string_view bytes, const std::string& name) {
     throw DataError::at(name, "expected a surface in STL, OBJ, PLY or OFF, found nothing: it is empty");
   if (is_archive(bytes))
     throw DataError::at(name, "expected a surface in STL, OBJ, PLY or OFF, found a bundle or another archive");
-  if (!is_binary_stl(bytes)) bytes = without_byte_order_mark(bytes);
-  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return merge_equal_points(read_ply(bytes, name));
   if (is_binary_stl(bytes)) return read_binary_stl(bytes, name);
+  bytes = without_byte_order_mark(bytes);
+  if (looks_like_ply(bytes)) return merge_equal_points(read_ply(bytes, name));
   const std::string_view first = TextScanner(bytes, name, '#').peek_word();
   if (is_off_keyword(first)) return merge_equal_points(read_off(bytes, name));
   if (equal_ignoring_case(first, "solid") && !has_zero_byte_in_header(bytes)) return read_ascii_stl(bytes, name);

@@ -559,7 +559,8 @@ open("short.node", "w").write("3 3 0 0\n1 .5 .5 .5\n2 .4 .4 .4\n")
 np.save("flat.npy", points[:, :2])
 PYTHON
   local cube="$FILES/cube.stl"
-  for format in npy xyz node ply; do
+  { printf '\xef\xbb\xbf' && cat points.ply; } >points.marked.ply
+  for format in npy xyz node ply marked.ply; do
     tetmesh "$cube" --surface keep --size 0.3 --points points.$format -o $format.tar -q --stats stats.json
     assert_equal "$(stats points_kept) $(stats interior_points) $(stats dropped_points)" "given 50 0"
     assert_equal "$(array $format.tar mesh/points.npy '(a[8:58] == np.load("points.npy")).all()')" True

@@ -104,6 +104,8 @@ TEST(SizeFiles, TakeAByteOrderMarkBeforeText) {
                      "1\n0.5\n")
                 .sizes,
             (std::vector<double>{1, 0.5}));
+  const std::string background = msh + node_data(1, "1 1\n2 1\n3 1\n4 1\n");
+  EXPECT_EQ(sizes_of("\xef\xbb\xbf" + background).simplices.size(), 1u);
 }
 
 TEST(SizeFiles, NameWhatIsWrong) {
