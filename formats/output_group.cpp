@@ -9,6 +9,10 @@
 
 namespace hexpipe {
 
+OutputGroup::OutputGroup() {
+  allow_many_open_files();
+}
+
 OutputGroup::~OutputGroup() {
   std::error_code ignored;
   written_.clear();
@@ -24,7 +28,6 @@ void OutputGroup::make_directory(const std::string& path) {
 }
 
 Output& OutputGroup::add(const std::string& path) {
-  allow_many_open_files();
   return *written_.emplace_back(std::make_unique<Output>(path));
 }
 

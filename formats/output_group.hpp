@@ -12,7 +12,7 @@ namespace hexpipe {
 
 class OutputGroup {
  public:
-  OutputGroup() = default;
+  OutputGroup();
   // Without commit(), nothing new is left, nor a directory that was made here.
   ~OutputGroup();
   OutputGroup(const OutputGroup&) = delete;

@@ -31,8 +31,7 @@ void BlockMemory::remember(const LnsMemory& memory, const Region& region, std::s
   places_.reserve(memory.places.size());
   for (const LnsMemory::Place& place : memory.places) {
     Place& known = places_.emplace_back(Place{keys[region.vertices[place.vertex]], place.tries, place.size});
-    for (std::uint32_t& tries : known.tries)
-      tries = is_near_edge(region, place.vertex) ? 0 : std::min(tries, most_tries);
+    if (is_near_edge(region, place.vertex)) known.tries.fill(0);
   }
 }
 

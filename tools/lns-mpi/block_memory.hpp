@@ -15,8 +15,6 @@ namespace hexpipe {
 
 class BlockMemory {
  public:
-  // Places are told apart by no more tries.
-  static constexpr std::uint32_t most_tries = Schedule::most_tries;
   struct Place {
     std::uint64_t key;
     std::array<std::uint32_t, all_ways.size()> tries;

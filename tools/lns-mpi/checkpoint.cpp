@@ -88,7 +88,7 @@ BlockMemory memory_of(std::int32_t block, const RankState& state, const std::arr
 
 bool is_sound(const RankState& state, std::size_t blocks) {
   const auto has_bounded_tries = [](const std::array<std::uint32_t, 4>& place) {
-    return std::all_of(place.begin(), place.end() - 1, [](auto tries) { return tries <= BlockMemory::most_tries; });
+    return std::all_of(place.begin(), place.end() - 1, [](auto tries) { return tries <= Schedule::most_tries; });
   };
   const auto is_finite = [](const std::array<double, 9>& row) {
     return std::ranges::all_of(row, [](double value) { return std::isfinite(value); });
