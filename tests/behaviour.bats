@@ -116,6 +116,18 @@ product_ending() {
   lns -q --iterations 5 "$STAGES/lns.in" -o /dev/null --log /dev/null --stats /dev/null
 }
 
+@test "statistics and a log go to standard output by '-', where the product does not" {
+  for tool in $TOOLS; do
+    $tool -q $(limited $tool) "$STAGES/$tool.in" -o out.tar --stats - >stats.json
+    assert_equal "$($PYTHON -c 'import json; print(json.load(open("stats.json"))["tool"])')" "$tool"
+  done
+  lns -q --iterations 5 "$STAGES/lns.in" -o out.tar --log - >log
+  assert grep -q '^{"seconds":' log
+  assert_fails_with 2 "for --stats and --log, found standard output for both" lns "$STAGES/lns.in" -o out.tar --stats - --log -
+  assert_fails_with 2 "for --output and --stats, found standard output for both" merge-parts "$STAGES/lns.in" --stats -
+  assert [ ! -e - ]
+}
+
 @test "what is written beside the product does not replace what is read" {
   for tool in $TOOLS; do
     cp "$STAGES/$tool.in" part.in

@@ -41,6 +41,11 @@ const NamedFile* find(const std::vector<NamedFile>& files, const std::string& fi
   return found == files.end() ? nullptr : &*found;
 }
 
+bool is_given(const CLI::App& app, const std::string& name) {
+  const CLI::Option* const option = app.get_option_no_throw(name);
+  return option != nullptr && option->count() > 0;
+}
+
 bool is_written(const CLI::Option& option) {
   return option.check_lname("output") ||
          std::ranges::any_of(beside_product, [&](auto name) { return option.check_lname(std::string(name)); });
@@ -69,19 +74,20 @@ std::vector<NamedFile> inputs(const CLI::App& app) {
 
 }  // namespace
 
-void check_named_files(const CLI::App& app, bool has_product) {
+void check_named_files(const CLI::App& app) {
   check_none_is_empty(app);
   const std::vector<NamedFile> read = inputs(app);
   std::vector<NamedFile> written;
-  const CLI::Option* const product = app.get_option_no_throw("--output");
-  if (product != nullptr && product->count() > 0)
-    written.push_back({"--output", product->results().front()});
-  else if (has_product)
-    written.push_back({"--output", "-"});
+  if (const CLI::Option* const product = app.get_option_no_throw("--output")) {
+    if (product->count() > 0)
+      written.push_back({"--output", product->results().front()});
+    else if (product->get_type_name() != "DIR" && !is_given(app, "--png"))
+      written.push_back({"--output", "-"});
+  }
   for (const std::string_view name : beside_product) {
-    const CLI::Option* const option = app.get_option_no_throw(fmt::format("--{}", name));
-    if (option == nullptr || option->count() == 0) continue;
-    NamedFile output{fmt::format("--{}", name), option->results().front()};
+    const std::string option = fmt::format("--{}", name);
+    if (!is_given(app, option)) continue;
+    NamedFile output{option, app.get_option(option)->results().front()};
     if (is_device(output.file)) continue;
     if (const NamedFile* const other = find(written, output.file))
       throw UsageError(fmt::format("expected different files for {} and {}, found {} for both", other->option,

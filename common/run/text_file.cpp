@@ -1,10 +1,11 @@
 #include "common/run/text_file.hpp"
 
 #include <fcntl.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
-#include <utility>
+#include <optional>
 
 #include "common/run/error.hpp"
 #include "common/run/links.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 // A copy of the caller's own descriptor shares its place in the file with it: what either writes next comes behind.
 std::FILE* open_to_write(const std::string& path) {
-  const auto open_already = open_descriptor(path);
+  const std::optional<int> open_already = path == "-" ? STDOUT_FILENO : open_descriptor(path);
   if (!open_already) return std::fopen(path.c_str(), "we");
   const int copy = fcntl(*open_already, F_DUPFD_CLOEXEC, 0);
   return copy < 0 ? nullptr : fdopen(copy, "w");
@@ -22,9 +23,8 @@ std::FILE* open_to_write(const std::string& path) {
 
 }  // namespace
 
-TextFile::TextFile(std::string path) : path_(std::move(path)) {
-  file_.reset(open_to_write(path_));
-  if (!file_) throw DataError::at(path_, "cannot write: {}", std::strerror(errno));
+TextFile::TextFile(const std::string& path) : name_(path == "-" ? "stdout" : path), file_(open_to_write(path)) {
+  if (!file_) throw DataError::at(name_, "cannot write: {}", std::strerror(errno));
 }
 
 void TextFile::write(std::string_view text) {
@@ -37,7 +37,7 @@ void TextFile::write(std::string_view text) {
 void TextFile::close() {
   errno = 0;
   if (std::fclose(file_.release()) != 0 && error_ == 0) error_ = errno;
-  if (error_ != 0) throw DataError::at(path_, "cannot write: {}", std::strerror(error_));
+  if (error_ != 0) throw DataError::at(name_, "cannot write: {}", std::strerror(error_));
 }
 
 }  // namespace hexpipe

@@ -10,9 +10,9 @@ namespace hexpipe {
 
 class TextFile {
  public:
-  // Replaces what is there; goes on behind it where the caller has the file open already, as /dev/stdout. Throws
-  // DataError where it cannot be written.
-  explicit TextFile(std::string path);
+  // "-" is standard output. Replaces what is there; goes on behind it where the caller has the file open already, as
+  // /dev/stderr. Throws DataError where it cannot be written.
+  explicit TextFile(const std::string& path);
 
   // At once, so that others can follow it. Nothing more is written after a failure.
   void write(std::string_view text);
@@ -24,7 +24,7 @@ class TextFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
-  std::string path_;
+  std::string name_;  // for messages
   std::unique_ptr<std::FILE, Close> file_;
   int error_ = 0;  // errno of the first failure
 };

@@ -129,10 +129,12 @@ void declare_common(CLI::App& app, RunContext& context) {
     app.add_option("--iterations", common.iterations, "Stop after this many iterations")
         ->type_name("N")
         ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 62).description(""));
-    app.add_option("--log", common.log_file, "Write the course of the search to a file, a JSON object a line")
+    app.add_option("--log", common.log_file,
+                   "Write the course of the search to a file, a JSON object a line; '-': to standard output")
         ->type_name("FILE");
   }
-  app.add_option("--stats", common.stats_file, "Write counts and times to a file as JSON")->type_name("FILE");
+  app.add_option("--stats", common.stats_file, "Write counts and times to a file as JSON; '-': to standard output")
+      ->type_name("FILE");
   app.add_flag("-v,--verbose", common.verbose, "Say what is done, on standard error");
   app.add_flag("-q,--quiet", common.quiet, "No warnings");
   app.set_config("--config", "", "Read options from a file (name=value)")->type_name("FILE");
@@ -147,7 +149,7 @@ std::string footer(const ToolInfo& info) {
 
 // Before the run, so that hours of work do not end in an error. What is there stays as it is.
 void check_writable(const std::string& path) {
-  if (path.empty()) return;
+  if (path.empty() || path == "-") return;
   const bool is_new = access(path.c_str(), F_OK) != 0;
   const std::size_t slash = path.rfind('/');
   const std::string directory = slash == std::string::npos ? "." : path.substr(0, slash + 1);
@@ -250,7 +252,7 @@ int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<v
   context.options = options_for_history(app, info);
 
   try {
-    check_named_files(app, info.product.has_value());
+    check_named_files(app);
     if (context.common.memory) limit_memory(*context.common.memory);
     ThreadLimit(context.common.threads).stay();
     check_writable(context.common.stats_file);
