@@ -15,6 +15,9 @@ if(HEXPIPE_SANITIZE)
   if(NOT HEXPIPE_FUZZ)
     # Left to the fuzzers, for everything compiles a quarter faster: accesses by null end in the address sanitizer anyway.
     target_compile_options(hexpipe_flags INTERFACE -fno-sanitize=null,vptr,object-size)
+    # The sanitizers' tables have 600,000 addresses, which the loader would have to fill in at every start of a tool.
+    target_compile_options(hexpipe_flags INTERFACE -fno-pie)
+    target_link_options(hexpipe_flags INTERFACE -no-pie)
   endif()
   target_link_options(hexpipe_flags INTERFACE -fsanitize=${HEXPIPE_SANITIZE})
 endif()
