@@ -23,6 +23,11 @@ if(HEXPIPE_SANITIZE)
   target_link_options(hexpipe_flags INTERFACE -fsanitize=${HEXPIPE_SANITIZE})
 endif()
 
+if(HEXPIPE_UNITY)
+  # Between the files of one unit there is nothing to see: the other builds compile each by itself and look.
+  target_compile_options(hexpipe_flags INTERFACE -Wno-shadow -Wno-subobject-linkage)
+endif()
+
 # What takes options apart has nothing to be fast at, and takes a third less time to compile so, under the sanitizers
 # half. Tests are compiled without optimization everywhere.
 set(HEXPIPE_QUICK_COMPILE -O1)
@@ -36,6 +41,13 @@ function(hexpipe_library name)
   add_library(${name} STATIC ${arg_SOURCES})
   target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PUBLIC hexpipe_flags ${arg_LINK})
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${HEXPIPE_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+endfunction()
+
+# hexpipe_not_in_unity(SOURCES...): what has names of its own, in its anonymous namespace, that another file of the library
+# has too. With HEXPIPE_UNITY they are compiled alone; a file that clashes is to be added.
+function(hexpipe_not_in_unity)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # hexpipe_tool(NAME [COMPONENT PACKAGE] [SOURCES...] [LINK LIBS...]): library NAME_core with the algorithms, executable
