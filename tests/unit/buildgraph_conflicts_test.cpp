@@ -5,14 +5,14 @@
 #include <limits>
 #include <numeric>
 
+#include "common/conflicts/conflict_rules.hpp"
+#include "common/conflicts/dense_ids.hpp"
+#include "common/conflicts/sorted_set.hpp"
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
 #include "common/run/random.hpp"
 #include "tools/buildgraph/buildgraph.hpp"
-#include "tools/buildgraph/conflict_rules.hpp"
-#include "tools/buildgraph/dense_ids.hpp"
 #include "tools/buildgraph/report.hpp"
-#include "tools/buildgraph/sorted_set.hpp"
 
 namespace hexpipe {
 namespace {
@@ -225,9 +225,9 @@ TEST(Report, WarnsOfWeightsThatVanish) {
   Candidates c;
   add(c, hex, first_hex, {0});
   c.volume = {1e-9};
-  BuildgraphOptions options{WeightKind::volume, 1e6};
+  BuildgraphOptions options{{WeightKind::volume, 1e6}};
   EXPECT_THAT(warnings_about(summarize(buildgraph(c, options, "test"))), ElementsAre(HasSubstr("1 of 1 weights")));
-  options.weight_scale = 1e12;
+  options.conflicts.weight_scale = 1e12;
   EXPECT_THAT(warnings_about(summarize(buildgraph(c, options, "test"))), IsEmpty());
 }
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/buildgraph/packed_lists.hpp"
+#include "common/conflicts/packed_lists.hpp"
 
 namespace hexpipe {
 namespace {

@@ -8,11 +8,11 @@
 #include <sstream>
 #include <vector>
 
+#include "common/candidates/findhex.hpp"
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
 #include "common/run/random.hpp"
 #include "findhex_meshes.hpp"
-#include "tools/findhex/findhex.hpp"
 #include "tools/findhex/report.hpp"
 
 namespace hexpipe {

@@ -6,11 +6,11 @@
 #include <set>
 #include <vector>
 
+#include "common/candidates/quads.hpp"
+#include "common/candidates/vertex_links.hpp"
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/quality.hpp"
 #include "findhex_meshes.hpp"
-#include "tools/findhex/quads.hpp"
-#include "tools/findhex/vertex_links.hpp"
 
 namespace hexpipe {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/findhex/search_plan.hpp"
+#include "common/candidates/search_plan.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,21 +1,18 @@
 #pragma once
-// The conflict graph of candidates: docs/definitions.md 2.
+// The conflict graph of candidates, of all or of those that are needed: docs/definitions.md 2 and 5.
 
 #include <optional>
 
+#include "common/conflicts/find_conflicts.hpp"
 #include "common/graph/clique_cover.hpp"
 #include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
-#include "common/run/part.hpp"
 #include "tools/buildgraph/neighbours.hpp"
-#include "tools/buildgraph/weights.hpp"
 
 namespace hexpipe {
 
 struct BuildgraphOptions {
-  WeightKind weight = WeightKind::quality;
-  double weight_scale = 1e6;
-  Part part{};          // only conflicts whose higher end is in this part of the candidates
+  ConflictOptions conflicts{};
   bool reduce = false;  // leave out dominated candidates
   bool cover = false;   // find an edge clique cover, from the mesh
 };
@@ -39,10 +36,5 @@ struct PartGraph {
 };
 PartGraph buildgraph_of_part(PartCandidates all, std::int32_t part, const BuildgraphOptions& options,
                              const char* source);
-
-// The graph alone, of all candidates. Those that are moved in are gone before the graph takes its memory. Where `own`
-// is not empty, conflicts between two candidates that are not own are left out.
-ConflictGraph conflict_graph(Candidates candidates, const BuildgraphOptions& options, const char* source,
-                             const std::vector<bool>& own = {});
 
 }  // namespace hexpipe

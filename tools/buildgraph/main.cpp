@@ -20,7 +20,7 @@ namespace {
 // A part of a mesh and its neighbours.
 PartGraph build_part(StageData data, const BuildgraphOptions& options, const std::vector<std::string>& neighbours,
                      const std::string& source) {
-  if (options.part.count > 1 || options.reduce || options.cover)
+  if (options.conflicts.part.count > 1 || options.reduce || options.cover)
     throw UsageError(
         fmt::format("--part, --reduce and --cover need the whole graph, not that of {}", title_of(*data.part)));
   if (!data.candidate_keys)
@@ -32,7 +32,7 @@ PartGraph build_part(StageData data, const BuildgraphOptions& options, const std
 
 // What is written has to be understood later: a graph of fewer candidates needs these beside it.
 void check_together(const BuildgraphOptions& options, const std::string& reduced_candidates, bool to_bundle) {
-  if (options.part.count > 1 && (options.reduce || options.cover))
+  if (options.conflicts.part.count > 1 && (options.reduce || options.cover))
     throw UsageError("--part does not go with --reduce and --cover: they need the whole graph");
   if (!options.reduce && !reduced_candidates.empty())
     throw UsageError("--reduced-candidates does nothing without --reduce");
@@ -62,7 +62,8 @@ int main(int argc, char** argv) {
   const auto declare = [&](CLI::App& app) {
     app.add_option("--weight", weight, "What a candidate is worth: quality, volume, count (1 each) or quality*volume")
         ->check(CLI::IsMember(weights));
-    app.add_option("--weight-scale", options.weight_scale, "Weights are rounded after multiplication with this")
+    app.add_option("--weight-scale", options.conflicts.weight_scale,
+                   "Weights are rounded after multiplication with this")
         ->check(number_between(1e-100, 1e100));
     app.add_option("--part", part,
                    "i/k: only conflicts whose higher candidate is in part i of k; see Makefile.examples");
@@ -78,8 +79,8 @@ int main(int argc, char** argv) {
                  "Add an edge clique cover to the bundle: cliques at tets, grown, then what they miss");
   };
   const auto run = [&](RunContext& context) {
-    options.weight = weights.at(weight);
-    options.part = parse_part(part);
+    options.conflicts.weight = weights.at(weight);
+    options.conflicts.part = parse_part(part);
     Phases phases;
     Stage stage(context);
     check_together(options, reduced_candidates, stage.writes_bundle());

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <map>
 
+#include "common/candidates/findhex.hpp"
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/phases.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/stage.hpp"
-#include "tools/findhex/findhex.hpp"
 #include "tools/findhex/part_search.hpp"
 #include "tools/findhex/report.hpp"
 

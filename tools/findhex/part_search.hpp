@@ -1,8 +1,8 @@
 #pragma once
 // The candidates that belong to a part of a mesh: docs/definitions.md 5.
 
+#include "common/candidates/findhex.hpp"
 #include "common/mesh/mesh_part.hpp"
-#include "tools/findhex/findhex.hpp"
 
 namespace hexpipe {
 

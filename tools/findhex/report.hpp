@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/findhex/findhex.hpp"
+#include "common/candidates/findhex.hpp"
 
 namespace hexpipe {
 

@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
+#include "common/conflicts/segment_index.hpp"
+#include "common/conflicts/sharing_index.hpp"
+#include "common/conflicts/sorted_set.hpp"
 #include "common/mesh/candidates.hpp"
-#include "tools/buildgraph/segment_index.hpp"
-#include "tools/buildgraph/sharing_index.hpp"
-#include "tools/buildgraph/sorted_set.hpp"
 
 namespace hexpipe {
 

@@ -1,4 +1,4 @@
-#include "tools/buildgraph/weights.hpp"
+#include "common/conflicts/weights.hpp"
 
 #include <cmath>
 

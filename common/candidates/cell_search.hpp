@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "common/candidates/mesh_tables.hpp"
+#include "common/candidates/quads.hpp"
+#include "common/candidates/search_plan.hpp"
 #include "common/mesh/quality.hpp"
-#include "tools/findhex/mesh_tables.hpp"
-#include "tools/findhex/quads.hpp"
-#include "tools/findhex/search_plan.hpp"
 
 namespace hexpipe {
 

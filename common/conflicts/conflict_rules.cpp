@@ -1,4 +1,4 @@
-#include "tools/buildgraph/conflict_rules.hpp"
+#include "common/conflicts/conflict_rules.hpp"
 
 #include <array>
 #include <cstdint>

@@ -4,7 +4,7 @@
 // behind a triangle that has to be on the cell's surface, and what was reached counts only if its outer facets are
 // those of the cell.
 
-#include "tools/findhex/cell_tets.hpp"
+#include "common/candidates/cell_tets.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "tools/findhex/quads.hpp"
+#include "common/candidates/quads.hpp"
 
 #include <algorithm>
 #include <array>

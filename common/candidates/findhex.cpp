@@ -1,15 +1,15 @@
-#include "tools/findhex/findhex.hpp"
+#include "common/candidates/findhex.hpp"
 
 #include <algorithm>
 #include <memory>
 
+#include "common/candidates/cell_search.hpp"
+#include "common/candidates/quads.hpp"
 #include "common/mesh/cell_measures.hpp"
 #include "common/mesh/lanes.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/run/parallel.hpp"
-#include "tools/findhex/cell_search.hpp"
-#include "tools/findhex/quads.hpp"
 
 namespace hexpipe {
 namespace {

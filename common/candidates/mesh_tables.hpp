@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include "common/candidates/vertex_links.hpp"
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/orientation.hpp"
 #include "common/mesh/tet_mesh.hpp"
-#include "tools/findhex/vertex_links.hpp"
 
 namespace hexpipe {
 

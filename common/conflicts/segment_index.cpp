@@ -1,4 +1,4 @@
-#include "tools/buildgraph/segment_index.hpp"
+#include "common/conflicts/segment_index.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "tools/findhex/vertex_links.hpp"
+#include "common/candidates/vertex_links.hpp"
 
 #include <algorithm>
 #include <array>

@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "common/candidates/rotations.hpp"
 #include "common/mesh/cell_topology.hpp"
-#include "tools/findhex/rotations.hpp"
 
 namespace hexpipe {
 

@@ -1,14 +1,14 @@
-#include "tools/findhex/mesh_tables.hpp"
+#include "common/candidates/mesh_tables.hpp"
 
 #include <algorithm>
 #include <array>
 
+#include "common/candidates/tet_order.hpp"
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/orientation.hpp"
 #include "common/mesh/reorder.hpp"
 #include "common/run/huge_pages.hpp"
 #include "common/run/parallel.hpp"
-#include "tools/findhex/tet_order.hpp"
 
 namespace hexpipe {
 namespace {

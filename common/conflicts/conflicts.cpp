@@ -5,13 +5,13 @@
 // the candidates found at a tet or at such a pair are those in conflict, but for some of those at a common quad, which
 // are compared in full.
 
-#include "tools/buildgraph/conflicts.hpp"
+#include "common/conflicts/conflicts.hpp"
 
 #include <array>
 #include <utility>
 #include <vector>
 
-#include "tools/buildgraph/conflict_rules.hpp"
+#include "common/conflicts/conflict_rules.hpp"
 
 namespace hexpipe {
 namespace {

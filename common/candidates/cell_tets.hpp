@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
+#include "common/candidates/mesh_tables.hpp"
+#include "common/candidates/quads.hpp"
+#include "common/candidates/tet_star.hpp"
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/tet_mesh.hpp"
-#include "tools/findhex/mesh_tables.hpp"
-#include "tools/findhex/quads.hpp"
-#include "tools/findhex/tet_star.hpp"
 
 namespace hexpipe {
 

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/candidates/vertex_links.hpp"
 #include "common/mesh/lanes.hpp"
 #include "common/mesh/tet_mesh.hpp"
-#include "tools/findhex/vertex_links.hpp"
 
 namespace hexpipe {
 

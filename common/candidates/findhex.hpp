@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/candidates/cell_tets.hpp"
+#include "common/candidates/mesh_tables.hpp"
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "common/run/part.hpp"
-#include "tools/findhex/cell_tets.hpp"
-#include "tools/findhex/mesh_tables.hpp"
 
 namespace hexpipe {
 

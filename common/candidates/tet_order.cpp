@@ -1,4 +1,4 @@
-#include "tools/findhex/tet_order.hpp"
+#include "common/candidates/tet_order.hpp"
 
 #include <algorithm>
 #include <numeric>

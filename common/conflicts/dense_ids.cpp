@@ -1,4 +1,4 @@
-#include "tools/buildgraph/dense_ids.hpp"
+#include "common/conflicts/dense_ids.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -5,9 +5,9 @@
 #include <array>
 #include <cstdint>
 
+#include "common/candidates/mesh_tables.hpp"
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/tet_mesh.hpp"
-#include "tools/findhex/mesh_tables.hpp"
 
 namespace hexpipe {
 

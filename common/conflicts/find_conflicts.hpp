@@ -1,0 +1,25 @@
+#pragma once
+// The conflict graph of candidates: docs/definitions.md 2.
+
+#include <vector>
+
+#include "common/conflicts/weights.hpp"
+#include "common/graph/conflict_graph.hpp"
+#include "common/mesh/candidates.hpp"
+#include "common/run/part.hpp"
+
+namespace hexpipe {
+
+struct ConflictOptions {
+  WeightKind weight = WeightKind::quality;
+  double weight_scale = 1e6;
+  Part part{};  // only conflicts whose higher end is in this part of the candidates
+};
+
+// Vertex i is candidate i. Candidates that are moved in are gone before the graph takes its memory. Where `own` is not
+// empty, conflicts between two candidates that are not own are left out. Throws DataError naming `source` when weights
+// do not fit (see weights_of) or there are 2^31 candidates or more.
+ConflictGraph conflict_graph(Candidates candidates, const ConflictOptions& options, const char* source,
+                             const std::vector<bool>& own = {});
+
+}  // namespace hexpipe
