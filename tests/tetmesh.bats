@@ -630,6 +630,88 @@ PYTHON
   assert [ ! -e out.mesh ]
 }
 
+@test "--improve finds points that become more hexes" {
+  local part="$DATA/bracket.stl" threads kind
+  tetmesh -q "$part" --size 8 -o plain.mesh
+  for threads in 1 2; do
+    tetmesh -q "$part" --size 8 --improve 12 --threads $threads -o improved$threads.mesh --stats stats.json
+  done
+  assert_same_bytes improved1.mesh improved2.mesh
+  $PYTHON - <<'PYTHON'
+import json
+found = json.load(open("stats.json"))
+improved = found["improved"]
+assert improved["rounds"] == 12 and improved["changes"] > 10, improved
+assert improved["estimated_hex_share"] > improved["estimated_hex_share_before"] + 0.005, improved
+assert found["tetgen_runs"] > 5 * 12 and found["seconds_by_step"]["improving"] > 0, found
+PYTHON
+  for kind in plain improved1; do
+    findhex -q $kind.mesh | buildgraph -q | initsol -q --iterations 5000 | assemble -q -o $kind.vtu --stats $kind.json
+    run "$CHECKERS/meshstats.py" --json $kind.vtu
+    assert_success
+  done
+  $PYTHON - <<'PYTHON'
+import json
+share = {kind: json.load(open(kind + ".json"))["cells"]["hex"]["share_of_volume"] for kind in ("plain", "improved1")}
+assert share["improved1"] > share["plain"] + 0.005, share
+PYTHON
+}
+
+@test "--improve keeps a kept surface, and every flat face of a new one where it was" {
+  tetmesh -q "$DATA/notch.stl" --surface keep --size 0.1 -o before.mesh
+  tetmesh -q "$DATA/notch.stl" --surface keep --size 0.1 --improve 5 -o kept.mesh --stats stats.json
+  tetmesh -q "$DATA/bracket.stl" --size 8 -o plain.mesh
+  tetmesh -q "$DATA/bracket.stl" --size 8 --improve 12 -o improved.mesh
+  $PYTHON - <<'PYTHON'
+import json
+import meshio
+import numpy as np
+before, kept = meshio.read("before.mesh"), meshio.read("kept.mesh")
+triangles = before.cells_dict["triangle"]
+on_surface = triangles.max() + 1
+assert np.array_equal(kept.cells_dict["triangle"], triangles)
+assert np.array_equal(kept.points[:on_surface], before.points[:on_surface])
+assert json.load(open("stats.json"))["improved"]["changes"] > 0
+
+def areas_and_volume(name):
+    mesh = meshio.read(name)
+    corners = mesh.points[mesh.cells_dict["triangle"]]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
+    volume = np.einsum("ij,ij", normals, corners[:, 0]) / 3
+    areas = np.linalg.norm(normals, axis=1)
+    return areas, areas.sum(), volume
+
+areas, area, volume = areas_and_volume("plain.mesh")
+other_areas, same_area, same_volume = areas_and_volume("improved.mesh")
+assert not np.array_equal(areas, other_areas)
+assert abs(area - same_area) < 1e-9 * area and abs(volume - same_volume) < 1e-9 * volume
+PYTHON
+}
+
+@test "--improve ends by --time-limit or a signal with the best mesh so far" {
+  rounds() { $PYTHON -c 'import json; print(json.load(open("stats.json"))["improved"]["rounds"])'; }
+  local part="$DATA/bracket.stl"
+  tetmesh -q "$part" --size 8 -o plain.mesh
+  tetmesh -q "$part" --size 8 --improve 1000000 --time-limit 0 -o at_once.mesh
+  assert_same_bytes plain.mesh at_once.mesh
+  tetmesh -q "$part" --size 8 --improve 1000000 --time-limit 2 -o limited.mesh --stats stats.json
+  assert [ "$(rounds)" -gt 0 ]
+  for signal in INT TERM; do
+    rm -f out.mesh
+    tetmesh -q "$part" --size 8 --improve 1000000 --time-limit 300 -o out.mesh --stats stats.json 3>&- &
+    local pid=$!
+    sleep 4
+    kill -s $signal $pid
+    wait $pid
+    findhex -q out.mesh -o out.cand
+    assert [ "$(rounds)" -lt 1000000 ]
+  done
+  assert_fails_with 2 "^tetmesh: --time-limit does nothing without --improve" tetmesh "$part" --time-limit 5 -o none.mesh
+  assert_fails_with 2 "^tetmesh: --improve does nothing with --points none" tetmesh "$part" --points none --improve 5 -o none.mesh
+  for rounds in -1 x 1e9; do assert_fails_with 2 "improve" tetmesh "$part" --improve $rounds -o none.mesh; done
+  assert [ ! -e none.mesh ]
+}
+
 # A cube of 10 with sizes from 0.6 at a corner: by a list, by its vertices, and on a background mesh.
 sizes_of_cube() {
   $PYTHON - <<'PYTHON'

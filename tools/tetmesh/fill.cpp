@@ -58,7 +58,7 @@ class Filler {
     if (!size_.is_uniform()) statistics_.least_size = size_.least();
   }
 
-  TetmeshResult fill(bool estimates);
+  FilledSurface fill(bool estimates);
 
  private:
   // False where no new surface can be made, and the warning says why.
@@ -70,8 +70,6 @@ class Filler {
   using Meanwhile = std::function<bool()>;
   std::optional<BuiltMesh> tetrahedralize(std::span<const Vec3> points, const Meanwhile& meanwhile);
   void describe(const RemeshResult& remeshed);
-  void describe_result();
-
   const Surface& given_;
   const TetmeshOptions& options_;
   const SizeField size_;
@@ -87,7 +85,7 @@ class Filler {
   std::optional<BuiltMesh> built_;
 };
 
-TetmeshResult Filler::fill(bool estimates) {
+FilledSurface Filler::fill(bool estimates) {
   if (options_.surface != SurfaceKind::remesh || !fill_new_surface()) fill_given_surface();
   if (points_left_out_) result_.warnings.push_back(*points_left_out_);
   if (options_.points == PointKind::given && built_->dropped_points > 0)
@@ -109,10 +107,8 @@ TetmeshResult Filler::fill(bool estimates) {
     statistics_.hex_share = known ? *known : estimate_hex_share(built_->mesh, built_->adjacency);
     watch_.add_to(statistics_.seconds.comparing);
   }
-  describe_result();
-  result_.mesh = std::move(built_->mesh);
-  watch_.add_to(statistics_.seconds.building);
-  return std::move(result_);
+  Surface filled = remeshed_ && surface_ == &remeshed_->surface ? std::move(remeshed_->surface) : *surface_;
+  return {std::move(filled), size_, *std::move(built_), std::move(result_)};
 }
 
 // TetGen is at work on the new surface while that is judged. It may fail on that and not on the given one, whose points
@@ -246,21 +242,6 @@ void Filler::describe(const RemeshResult& remeshed) {
   statistics_.extra_points = remeshed.extra_points;
 }
 
-void Filler::describe_result() {
-  const MeshShape shape = shape_of(built_->mesh);
-  statistics_.surface_points = surface_->points.size();
-  statistics_.surface_triangles = surface_->triangles.size();
-  statistics_.shells = surface_->shells.size();
-  statistics_.regions = static_cast<std::size_t>(surface_->region_count);
-  statistics_.points = built_->mesh.points.size();
-  statistics_.tets = built_->mesh.tets.size();
-  statistics_.added_points = built_->added_points;
-  statistics_.dropped_points = built_->dropped_points;
-  statistics_.volume = shape.volume;
-  statistics_.least_dihedral = shape.least_dihedral;
-  statistics_.greatest_dihedral = shape.greatest_dihedral;
-}
-
 }  // namespace
 
 bool frame_plainly_wins(bool remeshed, double turned_share, std::size_t tets) {
@@ -274,8 +255,29 @@ SizeField size_field(const Surface& surface, const TetmeshOptions& options, doub
   return {std::move(sources), greatest, options.grading};
 }
 
-TetmeshResult fill(const Surface& given, const TetmeshOptions& options, SizeField size, bool estimates) {
+FilledSurface fill(const Surface& given, const TetmeshOptions& options, SizeField size, bool estimates) {
   return Filler(given, options, std::move(size)).fill(estimates);
+}
+
+TetmeshResult finish(FilledSurface filled) {
+  const Stopwatch watch;
+  const auto& [surface, size, built, result] = filled;
+  TetmeshStatistics& s = filled.result.statistics;
+  const MeshShape shape = shape_of(built.mesh);
+  s.surface_points = surface.points.size();
+  s.surface_triangles = surface.triangles.size();
+  s.shells = surface.shells.size();
+  s.regions = static_cast<std::size_t>(surface.region_count);
+  s.points = built.mesh.points.size();
+  s.tets = built.mesh.tets.size();
+  s.added_points = built.added_points;
+  s.dropped_points = built.dropped_points;
+  s.volume = shape.volume;
+  s.least_dihedral = shape.least_dihedral;
+  s.greatest_dihedral = shape.greatest_dihedral;
+  filled.result.mesh = std::move(filled.built.mesh);
+  s.seconds.building += watch.seconds();
+  return std::move(filled.result);
 }
 
 }  // namespace hexpipe

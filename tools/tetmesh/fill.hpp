@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "tools/tetmesh/build_mesh.hpp"
 #include "tools/tetmesh/shells.hpp"
 #include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/tetmesh.hpp"
@@ -18,9 +19,20 @@ SizeField size_field(const Surface& surface, const TetmeshOptions& options, doub
 // mesh with the lattice's points.
 bool frame_plainly_wins(bool remeshed, double turned_share, std::size_t tets);
 
+// A mesh and what it was made of.
+struct FilledSurface {
+  Surface surface;  // the new one, if one was made
+  SizeField size;
+  BuiltMesh built;
+  TetmeshResult result;  // without the mesh, and what describes it
+};
+
 // `size` takes the place of options.size and is what size_field() makes of the others. With `estimates`,
 // TetmeshStatistics::hex_share is there. Of the statistics, repair and seconds.checking stay empty. Throws
 // TetGenFailure.
-TetmeshResult fill(const Surface& given, const TetmeshOptions& options, SizeField size, bool estimates);
+FilledSurface fill(const Surface& given, const TetmeshOptions& options, SizeField size, bool estimates);
+
+// Describes the mesh, and moves it to where it is wanted.
+TetmeshResult finish(FilledSurface filled);
 
 }  // namespace hexpipe

@@ -9,6 +9,7 @@
 
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
+#include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/point_files.hpp"
 #include "formats/size_files.hpp"
@@ -116,6 +117,14 @@ int main(int argc, char** argv) {
     app.add_option("--tries", options.tries,
                    "Sizes that are tried, up to 5 % off, to keep the mesh that is estimated to have most hexes")
         ->check(CLI::Range(std::size_t{1}, most_tries));
+    app.add_option("--improve", options.improve,
+                   "Rounds of a search that moves, adds and removes points inside where that brings hexes [0]; a round "
+                   "takes five runs of TetGen")
+        ->type_name("ROUNDS")
+        ->check(CLI::Range(std::size_t{0}, std::size_t{1000000}).description(""));
+    app.add_option("--time-limit", options.time_limit, "With --improve: stop it after this many seconds")
+        ->type_name("SECONDS")
+        ->check(number_between(0, 1e9));
     app.add_flag("--repair", options.repair,
                  "Weld points, remove triangles that are flat or repeated, turn them to agree, fill small holes");
     app.add_option("--weld", weld, "With --repair: points this near become one; a length, or with % of the diagonal")
@@ -143,6 +152,10 @@ int main(int argc, char** argv) {
     SurfaceSoup surface = read_surface(input);
     if (sizes) options.size_sources = size_sources(*sizes, surface);
     stage.begin();
+    Progress progress("tetmesh", context.common.quiet);
+    options.after_round = [&](std::size_t round, double share) {
+      if (progress.due()) progress.show(fmt::format("round {}, about {:.1f} % in hexes", round + 1, 100 * share));
+    };
     const TetmeshResult result = tetmesh(std::move(surface), options);
     if (const auto& repair = result.statistics.repair; repair && repair->anything())
       context.warn(fmt::format("{}: repaired: {}", input.name(), repair->sentence()));

@@ -9,6 +9,7 @@
 #include "common/run/error.hpp"
 #include "tools/tetmesh/build_mesh.hpp"
 #include "tools/tetmesh/fill.hpp"
+#include "tools/tetmesh/improve.hpp"
 #include "tools/tetmesh/surface_check.hpp"
 #include "tools/tetmesh/volume/expected_points.hpp"
 #include "tools/tetmesh/volume/frame_points.hpp"
@@ -22,6 +23,7 @@ StepSeconds& StepSeconds::operator+=(const StepSeconds& other) {
   tetgen += other.tetgen;
   building += other.building;
   comparing += other.comparing;
+  improving += other.improving;
   of_tetgen += other.of_tetgen;
   return *this;
 }
@@ -81,7 +83,7 @@ double greatest_size(const Surface& surface, const TetmeshOptions& options) {
   return std::ranges::max(options.size_sources.sizes);
 }
 
-TetmeshResult fill_at(double factor, const Surface& surface, TetmeshOptions options, const SizeField& size) {
+FilledSurface fill_at(double factor, const Surface& surface, TetmeshOptions options, const SizeField& size) {
   const bool estimates = options.tries > 1;
   if (factor == 1) return fill(surface, options, size, estimates);
   for (double& known : options.size_sources.sizes) known *= factor;
@@ -89,25 +91,26 @@ TetmeshResult fill_at(double factor, const Surface& surface, TetmeshOptions opti
 }
 
 // The one that is estimated to have most hexes. A size at which TetGen fails is passed over, unless it does at all.
-TetmeshResult best_of_tries(const Surface& surface, const TetmeshOptions& options, const SizeField& size) {
-  std::optional<TetmeshResult> best;
+FilledSurface best_of_tries(const Surface& surface, const TetmeshOptions& options, const SizeField& size) {
+  std::optional<FilledSurface> best;
   std::vector<TriedSize> tried;
   StepSeconds seconds;
   std::exception_ptr failure;
   for (const double factor : std::span(tried_sizes).first(options.tries)) {
     try {
-      TetmeshResult result = fill_at(factor, surface, options, size);
-      tried.push_back({result.statistics.size, result.statistics.hex_share});
-      seconds += result.statistics.seconds;
-      if (!best || result.statistics.hex_share > best->statistics.hex_share) best = std::move(result);
+      FilledSurface filled = fill_at(factor, surface, options, size);
+      const TetmeshStatistics& statistics = filled.result.statistics;
+      tried.push_back({statistics.size, statistics.hex_share});
+      seconds += statistics.seconds;
+      if (!best || statistics.hex_share > best->result.statistics.hex_share) best = std::move(filled);
     } catch (const TetGenFailure&) {
       tried.push_back({factor * size.greatest(), {}});
       if (!failure) failure = std::current_exception();
     }
   }
   if (!best) std::rethrow_exception(failure);
-  best->statistics.seconds = seconds;
-  if (options.tries > 1) best->statistics.tried = std::move(tried);
+  best->result.statistics.seconds = seconds;
+  if (options.tries > 1) best->result.statistics.tried = std::move(tried);
   return *std::move(best);
 }
 
@@ -143,7 +146,9 @@ TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
   check_points_by_place(surface, options, least_factor * size);
   const double seconds_checking = watch.seconds();
 
-  TetmeshResult result = best_of_tries(surface, options, size);
+  FilledSurface filled = best_of_tries(surface, options, size);
+  if (options.improve > 0) improve(filled, options);
+  TetmeshResult result = finish(std::move(filled));
   result.statistics.repair = repaired;
   result.statistics.seconds.checking = seconds_checking;
   return result;
@@ -174,6 +179,11 @@ nlohmann::ordered_json to_json(const TetmeshStatistics& s) {
   if (s.repair) json["repair"] = to_json(*s.repair);
   if (s.lattice_hex_share)
     json["estimated_hex_share"] = {{"lattice", *s.lattice_hex_share}, {"frame", *s.frame_hex_share}};
+  if (s.improved)
+    json["improved"] = {{"rounds", s.improved->rounds},
+                        {"changes", s.improved->changes},
+                        {"estimated_hex_share_before", s.improved->share_before},
+                        {"estimated_hex_share", s.improved->share}};
   for (const auto& [size, share] : s.tried)
     json["tried"].push_back(
         {{"size", size}, {"estimated_hex_share", share ? nlohmann::ordered_json(*share) : nullptr}});
@@ -182,8 +192,8 @@ nlohmann::ordered_json to_json(const TetmeshStatistics& s) {
 
 nlohmann::ordered_json times_of(const TetmeshStatistics& statistics) {
   const StepSeconds& s = statistics.seconds;
-  return {{"checking", s.checking}, {"remeshing", s.remeshing}, {"placing", s.placing},
-          {"tetgen", s.tetgen},     {"building", s.building},   {"comparing", s.comparing}};
+  return {{"checking", s.checking}, {"remeshing", s.remeshing}, {"placing", s.placing},    {"tetgen", s.tetgen},
+          {"building", s.building}, {"comparing", s.comparing}, {"improving", s.improving}};
 }
 
 }  // namespace hexpipe

@@ -2,6 +2,7 @@
 // From a surface to tetrahedra: checks it, finds its shells, places points inside, calls TetGen, judges what it made.
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -57,11 +58,14 @@ struct TetmeshOptions {
   std::size_t largest_hole = RepairOptions{}.largest_hole;
   double tetgen_timeout = 3600;  // seconds, of all runs that make one mesh
   std::size_t tries = 1;         // sizes, up to 5 % off, of which the one with most hexes is kept; at most most_tries
+  std::size_t improve = 0;       // rounds of the search for better points inside
+  std::optional<double> time_limit = {};                                  // of that search, seconds
+  std::function<void(std::size_t round, double share)> after_round = {};  // of that search
 };
 
 struct StepSeconds {
   // One after the other. While TetGen is at work, other steps may be, too: then only the rest of its time counts.
-  double checking = 0, remeshing = 0, placing = 0, tetgen = 0, building = 0, comparing = 0;
+  double checking = 0, remeshing = 0, placing = 0, tetgen = 0, building = 0, comparing = 0, improving = 0;
   double of_tetgen = 0;  // of the processor, all that TetGen took
 
   StepSeconds& operator+=(const StepSeconds& other);
@@ -70,6 +74,12 @@ struct StepSeconds {
 struct TriedSize {
   double size;
   std::optional<double> hex_share;  // nothing where TetGen failed
+};
+
+// By search/point_search.hpp.
+struct ImprovedPoints {
+  std::size_t rounds, changes;
+  double share_before, share;  // estimated
 };
 
 struct TetmeshStatistics {
@@ -93,7 +103,8 @@ struct TetmeshStatistics {
   double least_dihedral = 0, greatest_dihedral = 0;  // degrees
   std::optional<double> hex_share;  // of the mesh, estimated in the same way, where several sizes were tried
   std::vector<TriedSize> tried;     // these
-  StepSeconds seconds;              // of all tries
+  std::optional<ImprovedPoints> improved;
+  StepSeconds seconds;  // of all tries
 };
 
 struct TetmeshResult {

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""run.py [--level coarse|middle|fine] [--kind KIND...] [--tries N] [--time-limit S] [MODEL...] - how much of a part its points
+"""run.py [--level coarse|middle|fine] [--kind KIND...] [--tries N] [--improve S] [--time-limit S] [MODEL...] - how much of a part its points
 let become hexes.
 
 Runs the pipeline on models of ../shared/models (or on the files named) once for every kind of points, and prints, worst first
@@ -63,10 +63,11 @@ def share(folder, solution):
 def measure(path, level, kind, options):
     surface, points = kind.split("+")
     name = os.path.basename(path).rsplit(".", 1)[0]
+    improving = ["--improve", "1000000", "--time-limit", str(options.improve)] if options.improve else ["--threads", "1"]
     with tempfile.TemporaryDirectory() as folder:
         files = {stage: os.path.join(folder, stage + ".tar") for stage in ("mesh", "candidates", "graph", "greedy", "start", "best")}
         mesh = tool("tetmesh", folder, path, "--surface", surface, "--points", points, "--size", repr(size_of(path, level)),
-                    "--tries", str(options.tries), "--threads", "1", "-o", files["mesh"])
+                    "--tries", str(options.tries), *improving, "-o", files["mesh"])
         candidates = tool("findhex", folder, files["mesh"], "-o", files["candidates"])
         tool("buildgraph", folder, files["candidates"], "-o", files["graph"])
         tool("initsol", folder, files["graph"], "--iterations", "0", "-o", files["greedy"])
@@ -95,6 +96,7 @@ def main():
     parser.add_argument("--level", choices=LEVELS, action="append")
     parser.add_argument("--kind", action="append", help="surface+points, as the options of tetmesh name them")
     parser.add_argument("--tries", type=int, default=1, help="sizes that tetmesh tries")
+    parser.add_argument("--improve", type=float, help="seconds in which tetmesh searches for better points, on all threads")
     parser.add_argument("--time-limit", type=float, default=5, help="seconds of lns")
     options = parser.parse_args()
     models = options.models or [os.path.join(MODELS, name) for name in FILES]

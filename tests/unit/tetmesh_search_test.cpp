@@ -1,0 +1,236 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+#include "common/run/random.hpp"
+#include "surface_samples.hpp"
+#include "tools/tetmesh/run_tetgen.hpp"
+#include "tools/tetmesh/search/judged_mesh.hpp"
+#include "tools/tetmesh/search/point_search.hpp"
+#include "tools/tetmesh/search/surface_change.hpp"
+#include "tools/tetmesh/surface_check.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr int cells = 4;  // along each edge of the box, of size 1
+
+Surface box_surface() {
+  SurfaceSoup soup = testing::soup_of(testing::cube(0, cells, cells));
+  // A tag for each side, which comes after the other.
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    soup.tags[t] = static_cast<std::int32_t>(1 + t / (2 * cells * cells));
+  return find_shells(std::move(soup), ShellRule::oriented);
+}
+
+// Those of the lattice, moved at random by up to `moved` of the cells.
+std::vector<Vec3> points_inside(double moved) {
+  Random random(1);
+  std::vector<Vec3> inside;
+  for (int k = 1; k < cells; ++k)
+    for (int j = 1; j < cells; ++j)
+      for (int i = 1; i < cells; ++i)
+        inside.push_back(
+            {i + moved * random.uniform(-1, 1), j + moved * random.uniform(-1, 1), k + moved * random.uniform(-1, 1)});
+  return inside;
+}
+
+BuiltMesh fill(const Surface& surface, const std::vector<Vec3>& inside) {
+  return build_mesh(
+      surface, inside,
+      run_tetgen({.surface_points = surface.points, .triangles = surface.triangles, .interior_points = inside}, 60));
+}
+
+void fill_all(std::span<const SurfaceWithPoints> all, const TakeMesh& take) {
+  for (std::size_t i = 0; i < all.size(); ++i) take(i, fill(all[i].surface, all[i].inside));
+}
+
+Vertex vertex_at(const Surface& surface, const Vec3& place) {
+  return static_cast<Vertex>(std::ranges::find(surface.points, place) - surface.points.begin());
+}
+
+double area_of(const Surface& surface, std::size_t t) {
+  const auto [a, b, c] = surface.triangles[t];
+  const Vec3& o = surface.points[a];
+  return norm(cross(surface.points[b] - o, surface.points[c] - o)) / 2;
+}
+
+// Closed, without intersections, the same box, each side with its tag.
+void expect_same_box(const Surface& surface) {
+  SurfaceSoup soup = surface;
+  EXPECT_NO_THROW(check_surface(soup, ""));
+  EXPECT_NEAR(surface.shells[0].volume, cells * cells * cells, 1e-9);
+  std::array<double, 7> areas{};
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) areas[surface.tags[t]] += area_of(surface, t);
+  for (int side = 1; side <= 6; ++side) EXPECT_NEAR(areas[side], cells * cells, 1e-9) << side;
+}
+
+Surface with(const Surface& surface, const SurfaceChange& change) {
+  return with_changes(surface, std::vector<const SurfaceChange*>{&change});
+}
+
+TEST(FlatSurface, MovesPointsWithinFacesAlongEdgesAndNoCorners) {
+  const Surface surface = box_surface();
+  const FlatSurface flat(surface);
+  const auto moved_to = [&](const Vec3& from) -> std::optional<Vec3> {
+    const SurfaceChange change = flat.move(vertex_at(surface, from), {0.2, 0.2, 0.2}, 1);
+    return change.moved ? std::optional(change.moved->second) : std::nullopt;
+  };
+  EXPECT_EQ(moved_to({1, 1, 0}), (Vec3{1.2, 1.2, 0}));
+  EXPECT_EQ(moved_to({1, 0, 0}), (Vec3{1.2, 0, 0}));
+  EXPECT_EQ(moved_to({0, 0, 0}), std::nullopt);
+  // Over the next point, where triangles would turn over.
+  EXPECT_TRUE(flat.move(vertex_at(surface, {1, 1, 0}), {1.5, 0, 0}, 1).is_nothing());
+}
+
+TEST(FlatSurface, LeavesPointsOfBentSurfacesAndBetweenTags) {
+  const Surface round = find_shells(testing::soup_of(testing::sphere({0, 0, 0}, 1, 6)), ShellRule::oriented);
+  const FlatSurface of_sphere(round);
+  for (Vertex v = 0; v < static_cast<Vertex>(round.points.size()); ++v) {
+    EXPECT_TRUE(of_sphere.move(v, {0.01, 0.01, 0.01}, 0.1).is_nothing());
+    for (const Vertex w : of_sphere.neighbours_of(v)) EXPECT_TRUE(of_sphere.collapse(v, w, 0.1).is_nothing());
+  }
+  Surface tagged = box_surface();
+  const Vertex v = vertex_at(tagged, {1, 1, 0});
+  for (std::size_t t = 0; t < tagged.triangles.size(); ++t)
+    if (std::ranges::count(tagged.triangles[t], v) > 0 && tagged.points[tagged.triangles[t][0]].z == 0) {
+      tagged.tags[t] = 9;  // of one triangle alone: its corner is where two lines meet
+      break;
+    }
+  EXPECT_TRUE(FlatSurface(tagged).move(v, {0.2, 0.2, 0}, 1).is_nothing());
+}
+
+TEST(FlatSurface, JoinsSplitsAndFlips) {
+  const Surface surface = box_surface();
+  const FlatSurface flat(surface);
+  const Vertex a = vertex_at(surface, {1, 1, 0}), b = vertex_at(surface, {2, 1, 0});
+
+  const Surface joined = with(surface, flat.collapse(a, b, 1));
+  EXPECT_EQ(joined.points.size(), surface.points.size() - 1);
+  EXPECT_EQ(joined.triangles.size(), surface.triangles.size() - 2);
+  expect_same_box(joined);
+
+  const Surface split = with(surface, flat.split(a, b, 1));
+  EXPECT_EQ(split.points.size(), surface.points.size() + 1);
+  EXPECT_EQ(split.points.back(), (Vec3{1.5, 1, 0}));
+  expect_same_box(split);
+
+  const Vertex across = vertex_at(surface, {2, 2, 0}), beside = vertex_at(surface, {0, 1, 0});
+  const Surface flipped =
+      with(surface, flat.flip(a, across, 1).is_nothing() ? flat.flip(a, beside, 1) : flat.flip(a, across, 1));
+  EXPECT_EQ(flipped.points, surface.points);
+  EXPECT_EQ(flipped.triangles.size(), surface.triangles.size());
+  EXPECT_NE(flipped.triangles, surface.triangles);
+  expect_same_box(flipped);
+
+  // An edge of the box is no diagonal, and a point on it does not leave it.
+  const Vertex on_edge = vertex_at(surface, {1, 0, 0}), next = vertex_at(surface, {2, 0, 0});
+  EXPECT_TRUE(flat.flip(on_edge, next, 1).is_nothing());
+  EXPECT_TRUE(flat.collapse(on_edge, a, 1).is_nothing());
+  expect_same_box(with(surface, flat.collapse(on_edge, next, 1)));
+}
+
+TEST(FlatSurface, StaysTheSameBoxWhateverChanges) {
+  Surface surface = box_surface();
+  Random random(7);
+  std::array<int, 4> done{};
+  for (int i = 0; i < 400; ++i) {
+    const FlatSurface flat(surface);
+    const auto v = static_cast<Vertex>(random.below(surface.points.size()));
+    const std::vector<Vertex> neighbours = flat.neighbours_of(v);
+    const Vertex w = neighbours[random.below(neighbours.size())];
+    const std::uint64_t kind = random.below(4);
+    const Vec3 step{random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4)};
+    const SurfaceChange change = kind == 0   ? flat.move(v, step, 1)
+                                 : kind == 1 ? flat.collapse(v, w, 1)
+                                 : kind == 2 ? flat.split(v, w, 1)
+                                             : flat.flip(v, w, 1);
+    if (change.is_nothing()) continue;
+    ++done[kind];
+    surface = with(surface, change);
+  }
+  EXPECT_THAT(done, ::testing::Each(::testing::Gt(10)));
+  expect_same_box(surface);
+}
+
+TEST(ChooseHexes, KeepsWhatIsKnown) {
+  const Surface surface = box_surface();
+  const BuiltMesh built = fill(surface, points_inside(0.3));
+  const std::vector<ChosenHex> found = choose_hexes(built.mesh, {}, 20);
+  ASSERT_GT(found.size(), 10u);
+  const auto keys_of = [](std::span<const ChosenHex> hexes) {
+    std::vector<std::uint64_t> keys;
+    for (const ChosenHex& hex : hexes) keys.push_back(hex.key);
+    return keys;
+  };
+  EXPECT_EQ(keys_of(choose_hexes(built.mesh, found, 0)), keys_of(found));
+  // With other points in one corner of the box the hexes in the other one are the same.
+  std::vector<Vec3> other = points_inside(0.3);
+  other.front() += Vec3{0.1, 0.1, 0.1};
+  const BuiltMesh changed = fill(surface, other);
+  const std::vector<std::uint64_t> keys = keys_of(choose_hexes(changed.mesh, found, 0));
+  for (const ChosenHex& hex : found)
+    if (std::ranges::all_of(hex.corners, [&](Vertex v) { return norm(built.mesh.points[v]) > 4; })) {
+      EXPECT_THAT(keys, ::testing::Contains(hex.key));
+    }
+}
+
+TEST(JudgedMesh, HexesWithOpenQuadsAreWorthLess) {
+  const Surface surface = box_surface();
+  const JudgedMesh whole = judge(fill(surface, points_inside(0.01)), {}, 20);
+  EXPECT_EQ(whole.hexes.size(), static_cast<std::size_t>(cells * cells * cells));
+  EXPECT_TRUE(whole.left.empty());
+  EXPECT_NEAR(whole.total_worth(), whole.hex_volume(), 1e-9);
+  EXPECT_NEAR(whole.hex_volume(), cells * cells * cells, 1e-3);
+  const JudgedMesh partly = judge(fill(surface, points_inside(0.8)), {}, 20);
+  EXPECT_FALSE(partly.left.empty());
+  EXPECT_LT(partly.total_worth(), partly.hex_volume() - 0.1);
+  for (const std::int32_t t : partly.left) EXPECT_EQ(partly.hex_of_tet[t], JudgedMesh::none);
+}
+
+TEST(PointSearch, BringsHexesAndIsTheSameEveryTime) {
+  const Surface surface = box_surface();
+  const auto search = [&](bool changes_surface, std::size_t rounds, const Deadline& deadline) {
+    return search_points(surface, fill(surface, points_inside(0.8)),
+                         {.size = 1, .seed = 3, .rounds = rounds, .changes_surface = changes_surface}, deadline,
+                         fill_all, [](std::size_t, double) {});
+  };
+  for (const bool changes_surface : {false, true}) {
+    const PointSearchResult found = search(changes_surface, 25, Deadline()),
+                            again = search(changes_surface, 25, Deadline());
+    EXPECT_EQ(found.rounds, 25u);
+    EXPECT_GT(found.changes, 5u);
+    EXPECT_GT(found.share, found.share_before + 0.03);
+    EXPECT_LE(found.share, 1 + 1e-9);
+    EXPECT_TRUE(found.built.mesh == again.built.mesh);
+    EXPECT_EQ(found.surface.triangles == surface.triangles, !changes_surface);
+    expect_same_box(found.surface);
+    // The share is that of the mesh that comes out.
+    const JudgedMesh judged = judge(
+        fill(found.surface, {found.built.mesh.points.begin() + static_cast<std::ptrdiff_t>(found.surface.points.size()),
+                             found.built.mesh.points.end()}),
+        {}, 20);
+    EXPECT_NEAR(judged.hex_volume() / (cells * cells * cells), found.share, 0.05);
+  }
+  const PointSearchResult none = search(true, 25, Deadline(0));
+  EXPECT_EQ(none.rounds, 0u);
+  EXPECT_EQ(none.share, none.share_before);
+  EXPECT_EQ(none.built.mesh, fill(surface, points_inside(0.8)).mesh);
+}
+
+TEST(PointSearch, PassesOverMeshesThatCannotBeMade) {
+  const Surface surface = box_surface();
+  const BuiltMesh start = fill(surface, points_inside(0.8));
+  const PointSearchResult found = search_points(
+      surface, fill(surface, points_inside(0.8)), {.size = 1, .seed = 3, .rounds = 3}, Deadline(),
+      [](std::span<const SurfaceWithPoints>, const TakeMesh&) {}, [](std::size_t, double) {});
+  EXPECT_EQ(found.rounds, 3u);
+  EXPECT_EQ(found.changes, 0u);
+  EXPECT_EQ(found.built.mesh, start.mesh);
+}
+
+}  // namespace
+}  // namespace hexpipe

@@ -1,0 +1,90 @@
+#include "tools/tetmesh/improve.hpp"
+
+#include <deque>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "common/run/deadline.hpp"
+#include "common/run/parallel.hpp"
+#include "tools/tetmesh/run_tetgen.hpp"
+#include "tools/tetmesh/search/point_search.hpp"
+
+namespace hexpipe {
+namespace {
+
+// Runs TetGen on many surfaces with points, as many at a time as there are threads.
+class MeshMaker {
+ public:
+  MeshMaker(double tetgen_timeout, const Deadline& deadline, TetmeshStatistics& statistics)
+      : tetgen_timeout_(tetgen_timeout), deadline_(deadline), statistics_(statistics) {}
+
+  void make(std::span<const SurfaceWithPoints> all, const TakeMesh& take);
+
+ private:
+  void start(const SurfaceWithPoints& filled);
+
+  double tetgen_timeout_;
+  const Deadline& deadline_;
+  TetmeshStatistics& statistics_;
+  std::deque<std::unique_ptr<TetGenRun>> running_;
+};
+
+void MeshMaker::make(std::span<const SurfaceWithPoints> all, const TakeMesh& take) {
+  const auto at_once = static_cast<std::size_t>(thread_count());
+  std::size_t started = 0;
+  const auto start_more = [&] {
+    while (running_.size() < at_once && started < all.size() && !deadline_.passed()) start(all[started++]);
+  };
+  running_.clear();  // of a call that threw
+  start_more();
+  for (std::size_t number = 0; !running_.empty(); ++number) {
+    const std::unique_ptr<TetGenRun> run = std::move(running_.front());
+    running_.pop_front();
+    try {
+      TetGenResult made = run->wait();
+      ++statistics_.tetgen_runs;
+      statistics_.seconds.of_tetgen += made.seconds;
+      // While the mesh is judged here TetGen makes the next one, but with one thread.
+      if (at_once > 1) start_more();
+      take(number, build_mesh(all[number].surface, all[number].inside, std::move(made)));
+    } catch (const DataError&) {
+      // It failed, or had not enough memory: the mesh that stands is good.
+    }
+    start_more();
+  }
+}
+
+void MeshMaker::start(const SurfaceWithPoints& filled) {
+  running_.push_back(std::make_unique<TetGenRun>(TetGenInput{.surface_points = filled.surface.points,
+                                                             .triangles = filled.surface.triangles,
+                                                             .interior_points = filled.inside,
+                                                             .names_intersecting = false},
+                                                 tetgen_timeout_));
+}
+
+}  // namespace
+
+void improve(FilledSurface& filled, const TetmeshOptions& options) {
+  const Stopwatch watch;
+  stop_searches_on_signal();
+  const Deadline deadline(options.time_limit);
+  TetmeshStatistics& statistics = filled.result.statistics;
+  MeshMaker maker(options.tetgen_timeout, deadline, statistics);
+  PointSearchResult found = search_points(
+      std::move(filled.surface), std::move(filled.built),
+      {.size = filled.size, .seed = options.seed, .rounds = options.improve, .changes_surface = statistics.remeshed},
+      deadline, [&](std::span<const SurfaceWithPoints> all, const TakeMesh& take) { maker.make(all, take); },
+      [&](std::size_t round, double share) {
+        if (options.after_round) options.after_round(round, share);
+      });
+  filled.surface = std::move(found.surface);
+  filled.built = std::move(found.built);
+  statistics.improved = ImprovedPoints{found.rounds, found.changes, found.share_before, found.share};
+  statistics.hex_share = found.share;
+  statistics.interior_points =
+      filled.built.mesh.points.size() - filled.surface.points.size() - filled.built.added_points;
+  statistics.seconds.improving += watch.seconds();
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,34 @@
+#pragma once
+// A mesh with the hexes that it is estimated to give, and what they are worth.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tools/tetmesh/build_mesh.hpp"
+#include "tools/tetmesh/search/hex_choice.hpp"
+
+namespace hexpipe {
+
+struct JudgedMesh {
+  static constexpr std::int32_t none = -1;
+
+  BuiltMesh built;
+  std::vector<ChosenHex> hexes;          // chosen
+  std::vector<std::int32_t> hex_of_tet;  // or none
+  std::vector<std::int32_t> left;        // tets of no hex
+
+  // By hex: its middle, and its volume, less what it costs to close the quads on which no other hex stands and no
+  // boundary: assemble puts pyramids there, and moves vertices until these are no slivers.
+  std::vector<Vec3> middles;
+  std::vector<double> worth;
+
+  double hex_volume() const;
+  double total_worth() const;
+};
+
+// The hexes are those of choose_hexes().
+JudgedMesh judge(BuiltMesh built, std::span<const ChosenHex> known, double kicks);
+
+}  // namespace hexpipe

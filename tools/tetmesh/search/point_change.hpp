@@ -1,0 +1,58 @@
+#pragma once
+// Small changes of the points where tets are left, drawn at random.
+
+#include <utility>
+#include <vector>
+
+#include "common/run/random.hpp"
+#include "tools/tetmesh/search/judged_mesh.hpp"
+#include "tools/tetmesh/search/surface_change.hpp"
+#include "tools/tetmesh/size_field.hpp"
+#include "tools/tetmesh/volume/surface_clearance.hpp"
+
+namespace hexpipe {
+
+struct PointChange {
+  // Inside.
+  std::vector<Vertex> removed;
+  std::vector<std::pair<Vertex, Vec3>> moved;  // to where
+  std::vector<Vec3> added;
+
+  SurfaceChange on_surface;
+
+  bool is_nothing() const { return removed.empty() && moved.empty() && added.empty() && on_surface.is_nothing(); }
+};
+
+// At a tet that is left: one of its points moves, goes, or joins another, one comes to its middle, or to the middle of
+// an edge on the surface, a diagonal there is exchanged, or a hex is set on the hex beside the tet, to which near
+// points move, or come.
+class ChangeDrawer {
+ public:
+  // Vertices from `first_inside` on are inside. Without a `surface` that stays as it is. All that is given must outlive
+  // it.
+  ChangeDrawer(const JudgedMesh& judged, Vertex first_inside, const SizeField& size, const SurfaceClearance& clearance,
+               const FlatSurface* surface);
+
+  // Nothing where what it drew is too near to the surface, or outside.
+  PointChange draw(std::int32_t tet, Random& random) const;
+
+ private:
+  bool is_free(const Vec3& p, double size) const;
+  bool is_inside(Vertex v) const { return v >= first_inside_; }
+  PointChange move_one(Vertex v, double size, Random& random) const;
+  PointChange join(Vertex v, double size) const;
+  PointChange change_surface(Vertex v, double size, Random& random) const;
+  PointChange add_one(const Vec3& middle, double size, Random& random) const;
+  PointChange set_hex_on(std::int32_t tet, double size, Random& random) const;
+  Vertex nearest_to(const Vec3& place, std::span<const Vertex> around, double reach) const;
+
+  const JudgedMesh& judged_;
+  const TetMesh& mesh_;
+  const TetAdjacency& adjacency_;
+  Vertex first_inside_;
+  const SizeField& size_;
+  const SurfaceClearance& clearance_;
+  const FlatSurface* surface_;
+};
+
+}  // namespace hexpipe

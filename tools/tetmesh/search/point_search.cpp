@@ -1,0 +1,208 @@
+#include "tools/tetmesh/search/point_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "common/run/parallel.hpp"
+#include "common/run/random.hpp"
+#include "tools/tetmesh/search/judged_mesh.hpp"
+#include "tools/tetmesh/search/point_change.hpp"
+#include "tools/tetmesh/sized_point_grid.hpp"
+#include "tools/tetmesh/volume/surface_clearance.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr std::size_t tries_a_place = 4;         // changes tried at a place in a round
+constexpr double reach = 2.5;                    // of what a change may bring or cost, in sizes
+constexpr double first_kicks = 20, kicks = 0.5;  // a hex, see choose_hexes()
+constexpr double least_gain = 1e-3;              // of a cube of the size
+
+struct Place {
+  Vec3 middle;
+  double size;
+  std::int32_t tet;  // that is left
+};
+
+class PointSearch {
+ public:
+  PointSearch(Surface surface, BuiltMesh start, const PointSearchOptions& options, const MakeMeshes& make_meshes)
+      : options_(options),
+        make_meshes_(make_meshes),
+        first_surface_(std::move(surface)),
+        clearance_(first_surface_),
+        box_(Box::around(first_surface_.points)),
+        surface_(first_surface_),
+        current_(judge(std::move(start), {}, first_kicks)) {}
+
+  // Returns the number of changes that stay.
+  std::size_t run_round(std::size_t round);
+  BuiltMesh take_mesh() { return std::move(current_.built); }
+  Surface take_surface() { return std::move(surface_); }
+  double hex_volume() const { return current_.hex_volume(); }
+  bool is_complete() const { return current_.left.empty(); }
+
+ private:
+  std::vector<Place> choose_places(Random& random) const;
+  std::vector<std::vector<PointChange>> draw_changes(std::span<const Place> places, Random& random) const;
+  std::vector<const PointChange*> best_changes(std::span<const Place> places,
+                                               std::span<const std::vector<PointChange>> changes,
+                                               std::span<const std::vector<double>> worth) const;
+  std::vector<double> worth_around(std::span<const Place> places, const JudgedMesh& judged) const;
+  SurfaceWithPoints with(std::span<const PointChange* const> changes) const;
+  bool take_if_better(std::span<const PointChange* const> changes);
+
+  const PointSearchOptions& options_;
+  const MakeMeshes& make_meshes_;
+  const Surface first_surface_;
+  const SurfaceClearance clearance_;  // the same for all that come, for these lie where it does
+  const Box box_;
+  Surface surface_;
+  JudgedMesh current_;
+};
+
+std::size_t PointSearch::run_round(std::size_t round) {
+  Random random(options_.seed, round);
+  const std::vector<Place> places = choose_places(random);
+  const std::vector<std::vector<PointChange>> changes = draw_changes(places, random);
+  std::vector<SurfaceWithPoints> variants;
+  for (const std::vector<PointChange>& of_try : changes) {
+    std::vector<const PointChange*> all;
+    for (const PointChange& change : of_try) all.push_back(&change);
+    variants.push_back(with(all));
+  }
+  std::vector<std::vector<double>> worth(tries_a_place);  // as the changes; nothing where TetGen failed
+  make_meshes_(variants, [&](std::size_t number, BuiltMesh built) {
+    worth[number] = worth_around(places, judge(std::move(built), current_.hexes, kicks));
+  });
+  std::vector<const PointChange*> good = best_changes(places, changes, worth);
+  // Where all together bring nothing, those that bring most may.
+  for (int attempt = 0; attempt < 2 && !good.empty(); ++attempt) {
+    if (take_if_better(good)) return good.size();
+    good.resize(good.size() / 2);
+  }
+  return 0;
+}
+
+// By try and place.
+std::vector<std::vector<PointChange>> PointSearch::draw_changes(std::span<const Place> places, Random& random) const {
+  std::optional<FlatSurface> flat;
+  if (options_.changes_surface) flat.emplace(surface_);
+  const ChangeDrawer drawer(current_, static_cast<Vertex>(surface_.points.size()), options_.size, clearance_,
+                            flat ? &*flat : nullptr);
+  std::vector<std::vector<PointChange>> changes(tries_a_place);
+  for (std::vector<PointChange>& of_try : changes)
+    for (const Place& place : places) of_try.push_back(drawer.draw(place.tet, random));
+  return changes;
+}
+
+// At each place the one that brings most, if any does; those that bring most first.
+std::vector<const PointChange*> PointSearch::best_changes(std::span<const Place> places,
+                                                          std::span<const std::vector<PointChange>> changes,
+                                                          std::span<const std::vector<double>> worth) const {
+  const std::vector<double> before = worth_around(places, current_);
+  std::vector<std::pair<double, const PointChange*>> good;
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const double size = places[p].size;
+    std::pair<double, const PointChange*> best{least_gain * size * size * size, nullptr};
+    for (std::size_t t = 0; t < changes.size(); ++t)
+      if (!worth[t].empty() && !changes[t][p].is_nothing() && worth[t][p] - before[p] > best.first)
+        best = {worth[t][p] - before[p], &changes[t][p]};
+    if (best.second != nullptr) good.push_back(best);
+  }
+  std::ranges::stable_sort(good, std::greater(), &std::pair<double, const PointChange*>::first);
+  std::vector<const PointChange*> sorted;
+  for (const auto& [gain, change] : good) sorted.push_back(change);
+  return sorted;
+}
+
+// Of tets that are left, so that what is done at one does not reach another.
+std::vector<Place> PointSearch::choose_places(Random& random) const {
+  const TetMesh& mesh = current_.built.mesh;
+  std::vector<std::int32_t> order = current_.left;
+  random.shuffle(std::span(order));
+  std::vector<Place> places;
+  SizedPointGrid chosen(box_);
+  for (const std::int32_t t : order) {
+    const Tet& corners = mesh.tets[t];
+    const Vec3 middle =
+        0.25 * (mesh.points[corners[0]] + mesh.points[corners[1]] + mesh.points[corners[2]] + mesh.points[corners[3]]);
+    const double size = options_.size.at(middle);
+    bool is_apart = true;
+    chosen.for_each_near(middle, reach * (size + options_.size.greatest()), 0, [&](std::int32_t other) {
+      const double apart = reach * (size + places[other].size);
+      return is_apart = norm_squared(places[other].middle - middle) >= apart * apart;
+    });
+    if (!is_apart) continue;
+    chosen.add(middle, reach * size);
+    places.push_back({middle, size, t});
+  }
+  return places;
+}
+
+// What the hexes within reach of each place are worth, those on the rim less.
+std::vector<double> PointSearch::worth_around(std::span<const Place> places, const JudgedMesh& judged) const {
+  std::vector<double> worth(places.size());
+  parallel_for(static_cast<std::int64_t>(places.size()), 1, [&](std::int64_t p) {
+    const double radius = reach * places[p].size;
+    double sum = 0;
+    for (std::size_t h = 0; h < judged.middles.size(); ++h) {
+      const double squared = norm_squared(judged.middles[h] - places[p].middle);
+      if (squared < radius * radius) sum += judged.worth[h] * std::min(1.0, 2 - 2 * std::sqrt(squared) / radius);
+    }
+    worth[p] = sum;
+  });
+  return worth;
+}
+
+SurfaceWithPoints PointSearch::with(std::span<const PointChange* const> changes) const {
+  std::vector<Vec3> all = current_.built.mesh.points;
+  std::vector<bool> removed(all.size());
+  std::vector<Vec3> added;
+  std::vector<const SurfaceChange*> on_surface;
+  for (const PointChange* change : changes) {
+    for (const auto& [v, place] : change->moved) all[v] = place;
+    for (const Vertex v : change->removed) removed[v] = true;
+    added.insert(added.end(), change->added.begin(), change->added.end());
+    if (!change->on_surface.is_nothing()) on_surface.push_back(&change->on_surface);
+  }
+  SurfaceWithPoints changed{on_surface.empty() ? surface_ : with_changes(surface_, on_surface), {}};
+  for (std::size_t v = surface_.points.size(); v < all.size(); ++v)
+    if (!removed[v]) changed.inside.push_back(all[v]);
+  changed.inside.insert(changed.inside.end(), added.begin(), added.end());
+  return changed;
+}
+
+bool PointSearch::take_if_better(std::span<const PointChange* const> changes) {
+  std::optional<JudgedMesh> next;
+  std::vector<SurfaceWithPoints> changed;
+  changed.push_back(with(changes));
+  make_meshes_(changed, [&](std::size_t, BuiltMesh built) { next = judge(std::move(built), current_.hexes, kicks); });
+  if (!next || next->total_worth() <= current_.total_worth()) return false;
+  current_ = std::move(*next);
+  surface_ = std::move(changed.front().surface);
+  return true;
+}
+
+}  // namespace
+
+PointSearchResult search_points(Surface surface, BuiltMesh start, const PointSearchOptions& options,
+                                const Deadline& deadline, const MakeMeshes& make_meshes,
+                                const SearchProgress& progress) {
+  double volume = 0;
+  for (const Tet& tet : start.mesh.tets) volume += tet_determinant(start.mesh.points, tet) / 6;
+  PointSearch search(std::move(surface), std::move(start), options, make_meshes);
+  PointSearchResult result{{}, {{}, {{}, ""}, 0, 0}, 0, 0, search.hex_volume() / volume, 0};
+  for (; result.rounds < options.rounds && !search.is_complete() && !deadline.passed(); ++result.rounds) {
+    result.changes += search.run_round(result.rounds);
+    progress(result.rounds, search.hex_volume() / volume);
+  }
+  result.share = search.hex_volume() / volume;
+  result.surface = search.take_surface();
+  result.built = search.take_mesh();
+  return result;
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,55 @@
+#pragma once
+// A local search over the points: small changes where tets are left, of which those stay that bring hexes.
+//
+// A round tries changes at many places at the same time, as far from each other as what they change reaches: several
+// meshes with another change at each place, then one with the best of each. So it costs a handful of runs of TetGen
+// however large the part is, and a mesh of all changes decides, not the sum of what each would bring.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/run/deadline.hpp"
+#include "tools/tetmesh/build_mesh.hpp"
+#include "tools/tetmesh/shells.hpp"
+#include "tools/tetmesh/size_field.hpp"
+
+namespace hexpipe {
+
+struct PointSearchOptions {
+  SizeField size = 1;
+  std::uint64_t seed = 1;
+  std::size_t rounds = 0;
+  bool changes_surface = false;  // within flat faces and along straight edges
+};
+
+// What a mesh is made of.
+struct SurfaceWithPoints {
+  Surface surface;
+  std::vector<Vec3> inside;
+};
+
+struct PointSearchResult {
+  Surface surface;
+  BuiltMesh built;
+  std::size_t rounds = 0;              // that were finished
+  std::size_t changes = 0;             // that stayed
+  double share_before = 0, share = 0;  // of the volume in hexes, estimated
+};
+
+// Makes a mesh of each, in any order, and hands it over with the number of what it is made of, one at a time. Where
+// none can be made, that is passed over.
+using TakeMesh = std::function<void(std::size_t number, BuiltMesh)>;
+using MakeMeshes = std::function<void(std::span<const SurfaceWithPoints>, const TakeMesh& take)>;
+// After each round, with the share.
+using SearchProgress = std::function<void(std::size_t round, double share)>;
+
+// From a mesh of the surface, whose points come first there. The same for the same seed and number of rounds, unless
+// the deadline passes before.
+PointSearchResult search_points(Surface surface, BuiltMesh start, const PointSearchOptions& options,
+                                const Deadline& deadline, const MakeMeshes& make_meshes,
+                                const SearchProgress& progress);
+
+}  // namespace hexpipe
