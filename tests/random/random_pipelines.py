@@ -446,8 +446,10 @@ def judge_surface(directory, surface, seed):
         raise BadCase(str(failure)) from None
     volume = sum(float(np.linalg.det(np.array([points[v] for v in face], dtype=float))) for face in faces) / 6
     share, kind = rng.choice([0.15, 0.25]), rng.choice(["remesh", "keep"])
-    tool(directory, "tetmesh", "part.off", "--size", f"{100 * share:g}%", "--seed", seed, "--surface", kind, "--points",
-         rng.choice(["best", "lattice", "frame", "none"]), "-o", "part.mesh")
+    inside = rng.choice(["best", "lattice", "frame", "none"])
+    improve = [] if inside == "none" else rng.choice([[], ["--improve", "4"]])
+    tool(directory, "tetmesh", "part.off", "--size", f"{100 * share:g}%", "--seed", seed, "--surface", kind, "--points", inside,
+         *improve, "-o", "part.mesh")
     judge_remeshed(directory, surface, volume, share if kind == "remesh" else 0)
     tool(directory, "findhex", "--mesh", "part.mesh", "-o", "part.cand")
     tool(directory, "buildgraph", "--candidates", "part.cand", "-o", "part.graph")
