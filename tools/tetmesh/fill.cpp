@@ -261,7 +261,8 @@ FilledSurface fill(const Surface& given, const TetmeshOptions& options, SizeFiel
 
 TetmeshResult finish(FilledSurface filled) {
   const Stopwatch watch;
-  const auto& [surface, size, built, result] = filled;
+  const Surface& surface = filled.surface;
+  const BuiltMesh& built = filled.built;
   TetmeshStatistics& s = filled.result.statistics;
   const MeshShape shape = shape_of(built.mesh);
   s.surface_points = surface.points.size();

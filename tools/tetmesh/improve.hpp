@@ -1,5 +1,5 @@
 #pragma once
-// The points inside of a mesh that stands, made better by search: search/point_search.hpp with TetGen behind it.
+// The points of a mesh that stands, made better by search: search/point_search.hpp with TetGen behind it.
 
 #include "tools/tetmesh/fill.hpp"
 

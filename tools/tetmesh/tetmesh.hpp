@@ -58,7 +58,7 @@ struct TetmeshOptions {
   std::size_t largest_hole = RepairOptions{}.largest_hole;
   double tetgen_timeout = 3600;  // seconds, of all runs that make one mesh
   std::size_t tries = 1;         // sizes, up to 5 % off, of which the one with most hexes is kept; at most most_tries
-  std::size_t improve = 0;       // rounds of the search for better points inside
+  std::size_t improve = 0;       // rounds of the search for better points
   std::optional<double> time_limit = {};                                  // of that search, seconds
   std::function<void(std::size_t round, double share)> after_round = {};  // of that search
 };

@@ -19,6 +19,9 @@ constexpr double unevenness = 0.05;       // of the corners of a hex, along each
 constexpr double taken_within = 0.5;      // a point this near to a hex's corner becomes it
 constexpr double greatest_growth = 1.3;   // of the edges of a hex, from those of the hex that it stands on
 
+// Until one can be made: on bent surfaces most cannot.
+constexpr int most_draws = 4;
+
 Vec3 random_step(double reach, Random& random) {
   const double x = random.uniform(-reach, reach), y = random.uniform(-reach, reach), z = random.uniform(-reach, reach);
   return {x, y, z};
@@ -48,21 +51,23 @@ const QuadWithBack* quad_under(const ChosenHex& hex, const Triangle& triangle) {
 
 }  // namespace
 
-ChangeDrawer::ChangeDrawer(const JudgedMesh& judged, Vertex first_inside, const SizeField& size,
-                           const SurfaceClearance& clearance, const FlatSurface* surface)
+ChangeDrawer::ChangeDrawer(const JudgedMesh& judged, Vertex first_inside, const SurfaceClearance& clearance,
+                           const FlatSurface* surface)
     : judged_(judged),
       mesh_(judged.built.mesh),
       adjacency_(judged.built.adjacency),
       first_inside_(first_inside),
-      size_(size),
       clearance_(clearance),
       surface_(surface) {}
 
-PointChange ChangeDrawer::draw(std::int32_t tet, Random& random) const {
+PointChange ChangeDrawer::draw(std::int32_t tet, const Vec3& middle, double size, Random& random) const {
+  PointChange change;
+  for (int i = 0; i < most_draws && change.is_nothing(); ++i) change = draw_any(tet, middle, size, random);
+  return change;
+}
+
+PointChange ChangeDrawer::draw_any(std::int32_t tet, const Vec3& middle, double size, Random& random) const {
   const Tet& corners = mesh_.tets[tet];
-  const Vec3 middle = 0.25 * (mesh_.points[corners[0]] + mesh_.points[corners[1]] + mesh_.points[corners[2]] +
-                              mesh_.points[corners[3]]);
-  const double size = size_.at(middle);
   const std::uint64_t kind = random.below(8);
   if (kind < 2) return set_hex_on(tet, size, random);
   const Vertex v = corners[random.below(4)];

@@ -7,7 +7,6 @@
 #include "common/run/random.hpp"
 #include "tools/tetmesh/search/judged_mesh.hpp"
 #include "tools/tetmesh/search/surface_change.hpp"
-#include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/volume/surface_clearance.hpp"
 
 namespace hexpipe {
@@ -30,13 +29,15 @@ class ChangeDrawer {
  public:
   // Vertices from `first_inside` on are inside. Without a `surface` that stays as it is. All that is given must outlive
   // it.
-  ChangeDrawer(const JudgedMesh& judged, Vertex first_inside, const SizeField& size, const SurfaceClearance& clearance,
+  ChangeDrawer(const JudgedMesh& judged, Vertex first_inside, const SurfaceClearance& clearance,
                const FlatSurface* surface);
 
-  // Nothing where what it drew is too near to the surface, or outside.
-  PointChange draw(std::int32_t tet, Random& random) const;
+  // Where the tet's middle is `middle` and the size there `size`. Nothing where all that it drew is too near to the
+  // surface, or outside.
+  PointChange draw(std::int32_t tet, const Vec3& middle, double size, Random& random) const;
 
  private:
+  PointChange draw_any(std::int32_t tet, const Vec3& middle, double size, Random& random) const;
   bool is_free(const Vec3& p, double size) const;
   bool is_inside(Vertex v) const { return v >= first_inside_; }
   PointChange move_one(Vertex v, double size, Random& random) const;
@@ -50,7 +51,6 @@ class ChangeDrawer {
   const TetMesh& mesh_;
   const TetAdjacency& adjacency_;
   Vertex first_inside_;
-  const SizeField& size_;
   const SurfaceClearance& clearance_;
   const FlatSurface* surface_;
 };

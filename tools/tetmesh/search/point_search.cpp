@@ -90,11 +90,10 @@ std::size_t PointSearch::run_round(std::size_t round) {
 std::vector<std::vector<PointChange>> PointSearch::draw_changes(std::span<const Place> places, Random& random) const {
   std::optional<FlatSurface> flat;
   if (options_.changes_surface) flat.emplace(surface_);
-  const ChangeDrawer drawer(current_, static_cast<Vertex>(surface_.points.size()), options_.size, clearance_,
-                            flat ? &*flat : nullptr);
+  const ChangeDrawer drawer(current_, static_cast<Vertex>(surface_.points.size()), clearance_, flat ? &*flat : nullptr);
   std::vector<std::vector<PointChange>> changes(tries_a_place);
   for (std::vector<PointChange>& of_try : changes)
-    for (const Place& place : places) of_try.push_back(drawer.draw(place.tet, random));
+    for (const Place& place : places) of_try.push_back(drawer.draw(place.tet, place.middle, place.size, random));
   return changes;
 }
 
