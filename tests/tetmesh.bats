@@ -637,6 +637,8 @@ PYTHON
     tetmesh -q "$part" --size 8 --improve 12 --threads $threads -o improved$threads.mesh --stats stats.json
   done
   assert_same_bytes improved1.mesh improved2.mesh
+  run --separate-stderr tetmesh -v "$part" --size 8 --improve 2 -o two.mesh
+  assert_regex "$stderr" "tetmesh: [0-9]+ changes in 2 rounds: about [0-9.]+ % in hexes, in place of [0-9.]+"
   $PYTHON - <<'PYTHON'
 import json
 found = json.load(open("stats.json"))

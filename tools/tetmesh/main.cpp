@@ -160,6 +160,10 @@ int main(int argc, char** argv) {
     if (const auto& repair = result.statistics.repair; repair && repair->anything())
       context.warn(fmt::format("{}: repaired: {}", input.name(), repair->sentence()));
     for (const std::string& warning : result.warnings) context.warn(warning);
+    if (const auto& improved = result.statistics.improved)
+      context.note(fmt::format("{} changes in {} rounds: about {:.1f} % in hexes, in place of {:.1f}",
+                               improved->changes, improved->rounds, 100 * improved->share,
+                               100 * improved->share_before));
     context.note(summary(result.statistics));
     context.statistics.update(to_json(result.statistics));
     context.statistics["seconds_by_step"] = times_of(result.statistics);
