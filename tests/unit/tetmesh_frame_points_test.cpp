@@ -8,8 +8,7 @@
 
 #include "common/run/parallel.hpp"
 #include "common/run/random.hpp"
-#include "surface_samples.hpp"
-#include "tools/tetmesh/build_mesh.hpp"
+#include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/column_index.hpp"
 #include "tools/tetmesh/lattice.hpp"
 #include "tools/tetmesh/part_axes.hpp"
@@ -24,8 +23,9 @@ using testing::box;
 using testing::Facets;
 using testing::inverted;
 using testing::joined;
-using testing::soup_of;
+using testing::mesh_of;
 using testing::sphere;
+using testing::surface_of;
 
 Vec3 random_direction(Random& random) {
   Vec3 v;
@@ -100,16 +100,10 @@ TEST(Octahedral, TurnedOntoADirectionByTheLeastAngle) {
   }
 }
 
-Surface surface_of(const Facets& facets) {
-  return find_shells(soup_of(facets), ShellRule::oriented);
-}
-
 // On the mesh of a lattice, as tetmesh does it.
 FramePoints place(const Surface& surface, const FramePointsOptions& options) {
   const std::vector<Vec3> lattice = lattice_points(surface, {.size = options.size.greatest()});
-  TetGenResult tetgen =
-      run_tetgen({.surface_points = surface.points, .triangles = surface.triangles, .interior_points = lattice}, 60);
-  const BuiltMesh background = build_mesh(surface, lattice, std::move(tetgen));
+  const BuiltMesh background = mesh_of(surface, lattice);
   return frame_points(surface, background.mesh, background.adjacency, options);
 }
 

@@ -2,28 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include "common/run/random.hpp"
-#include "surface_samples.hpp"
-#include "tools/tetmesh/build_mesh.hpp"
+#include "tetmesh_surfaces.hpp"
 
 namespace hexpipe {
 namespace {
 
-// A box of n x n x n squares, with points inside that are those of the lattice, moved at random by up to `moved` of the
-// cells.
 double share_of_box(int n, double moved) {
-  const Surface surface =
-      find_shells(testing::soup_of(testing::cube(0, static_cast<double>(n), n)), ShellRule::oriented);
-  Random random(1);
-  std::vector<Vec3> inside;
-  for (int k = 1; k < n; ++k)
-    for (int j = 1; j < n; ++j)
-      for (int i = 1; i < n; ++i)
-        inside.push_back(
-            {i + moved * random.uniform(-1, 1), j + moved * random.uniform(-1, 1), k + moved * random.uniform(-1, 1)});
-  TetGenResult tetgen =
-      run_tetgen({.surface_points = surface.points, .triangles = surface.triangles, .interior_points = inside}, 60);
-  const BuiltMesh built = build_mesh(surface, inside, std::move(tetgen));
+  const Surface surface = testing::surface_of(testing::cube(0, n, n));
+  const BuiltMesh built = testing::mesh_of(surface, testing::lattice_in_cube(n, moved));
   return estimate_hex_share(built.mesh, built.adjacency);
 }
 

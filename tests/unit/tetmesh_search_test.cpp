@@ -6,8 +6,7 @@
 #include <optional>
 
 #include "common/run/random.hpp"
-#include "surface_samples.hpp"
-#include "tools/tetmesh/run_tetgen.hpp"
+#include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/search/judged_mesh.hpp"
 #include "tools/tetmesh/search/point_search.hpp"
 #include "tools/tetmesh/search/surface_change.hpp"
@@ -26,26 +25,12 @@ Surface box_surface() {
   return find_shells(std::move(soup), ShellRule::oriented);
 }
 
-// Those of the lattice, moved at random by up to `moved` of the cells.
 std::vector<Vec3> points_inside(double moved) {
-  Random random(1);
-  std::vector<Vec3> inside;
-  for (int k = 1; k < cells; ++k)
-    for (int j = 1; j < cells; ++j)
-      for (int i = 1; i < cells; ++i)
-        inside.push_back(
-            {i + moved * random.uniform(-1, 1), j + moved * random.uniform(-1, 1), k + moved * random.uniform(-1, 1)});
-  return inside;
-}
-
-BuiltMesh fill(const Surface& surface, const std::vector<Vec3>& inside) {
-  return build_mesh(
-      surface, inside,
-      run_tetgen({.surface_points = surface.points, .triangles = surface.triangles, .interior_points = inside}, 60));
+  return testing::lattice_in_cube(cells, moved);
 }
 
 void fill_all(std::span<const SurfaceWithPoints> all, const TakeMesh& take) {
-  for (std::size_t i = 0; i < all.size(); ++i) take(i, fill(all[i].surface, all[i].inside));
+  for (std::size_t i = 0; i < all.size(); ++i) take(i, testing::mesh_of(all[i].surface, all[i].inside));
 }
 
 Vertex vertex_at(const Surface& surface, const Vec3& place) {
@@ -158,7 +143,7 @@ TEST(FlatSurface, StaysTheSameBoxWhateverChanges) {
 
 TEST(ChooseHexes, KeepsWhatIsKnown) {
   const Surface surface = box_surface();
-  const BuiltMesh built = fill(surface, points_inside(0.3));
+  const BuiltMesh built = testing::mesh_of(surface, points_inside(0.3));
   const std::vector<ChosenHex> found = choose_hexes(built.mesh, {}, 20);
   ASSERT_GT(found.size(), 10u);
   const auto keys_of = [](std::span<const ChosenHex> hexes) {
@@ -170,7 +155,7 @@ TEST(ChooseHexes, KeepsWhatIsKnown) {
   // With other points in one corner of the box the hexes in the other one are the same.
   std::vector<Vec3> other = points_inside(0.3);
   other.front() += Vec3{0.1, 0.1, 0.1};
-  const BuiltMesh changed = fill(surface, other);
+  const BuiltMesh changed = testing::mesh_of(surface, other);
   const std::vector<std::uint64_t> keys = keys_of(choose_hexes(changed.mesh, found, 0));
   for (const ChosenHex& hex : found)
     if (std::ranges::all_of(hex.corners, [&](Vertex v) { return norm(built.mesh.points[v]) > 4; })) {
@@ -180,12 +165,12 @@ TEST(ChooseHexes, KeepsWhatIsKnown) {
 
 TEST(JudgedMesh, HexesWithOpenQuadsAreWorthLess) {
   const Surface surface = box_surface();
-  const JudgedMesh whole = judge(fill(surface, points_inside(0.01)), {}, 20);
+  const JudgedMesh whole = judge(testing::mesh_of(surface, points_inside(0.01)), {}, 20);
   EXPECT_EQ(whole.hexes.size(), static_cast<std::size_t>(cells * cells * cells));
   EXPECT_TRUE(whole.left.empty());
   EXPECT_NEAR(whole.total_worth(), whole.hex_volume(), 1e-9);
   EXPECT_NEAR(whole.hex_volume(), cells * cells * cells, 1e-3);
-  const JudgedMesh partly = judge(fill(surface, points_inside(0.8)), {}, 20);
+  const JudgedMesh partly = judge(testing::mesh_of(surface, points_inside(0.8)), {}, 20);
   EXPECT_FALSE(partly.left.empty());
   EXPECT_LT(partly.total_worth(), partly.hex_volume() - 0.1);
   for (const std::int32_t t : partly.left) EXPECT_EQ(partly.hex_of_tet[t], JudgedMesh::none);
@@ -194,41 +179,41 @@ TEST(JudgedMesh, HexesWithOpenQuadsAreWorthLess) {
 TEST(PointSearch, BringsHexesAndIsTheSameEveryTime) {
   const Surface surface = box_surface();
   const auto search = [&](bool changes_surface, std::size_t rounds, const Deadline& deadline) {
-    return search_points(surface, fill(surface, points_inside(0.8)),
+    return search_points(surface, testing::mesh_of(surface, points_inside(0.8)),
                          {.size = 1, .seed = 3, .rounds = rounds, .changes_surface = changes_surface}, deadline,
-                         fill_all, [](std::size_t, double) {});
+                         fill_all);
   };
   for (const bool changes_surface : {false, true}) {
     const PointSearchResult found = search(changes_surface, 20, Deadline()),
                             again = search(changes_surface, 20, Deadline());
-    EXPECT_EQ(found.rounds, 20u);
-    EXPECT_GE(found.changes, 5u);
-    EXPECT_GT(found.share, found.share_before + 0.02);
-    EXPECT_LE(found.share, 1 + 1e-9);
+    EXPECT_EQ(found.summary.rounds, 20u);
+    EXPECT_GE(found.summary.changes, 5u);
+    EXPECT_GT(found.summary.share, found.summary.share_before + 0.02);
+    EXPECT_LE(found.summary.share, 1 + 1e-9);
     EXPECT_TRUE(found.built.mesh == again.built.mesh);
-    EXPECT_EQ(found.surface.triangles == surface.triangles, !changes_surface);
-    expect_same_box(found.surface);
+    EXPECT_EQ(found.surface.has_value(), changes_surface);
+    const Surface& result = found.surface ? *found.surface : surface;
+    EXPECT_EQ(result.triangles == surface.triangles, !changes_surface);
+    expect_same_box(result);
     // The share is that of the mesh that comes out.
-    const JudgedMesh judged = judge(
-        fill(found.surface, {found.built.mesh.points.begin() + static_cast<std::ptrdiff_t>(found.surface.points.size()),
-                             found.built.mesh.points.end()}),
-        {}, 20);
-    EXPECT_NEAR(judged.hex_volume() / (cells * cells * cells), found.share, 0.05);
+    const JudgedMesh judged =
+        judge(testing::mesh_of(result, std::span(found.built.mesh.points).subspan(result.points.size())), {}, 20);
+    EXPECT_NEAR(judged.hex_volume() / (cells * cells * cells), found.summary.share, 0.05);
   }
   const PointSearchResult none = search(true, 20, Deadline(0));
-  EXPECT_EQ(none.rounds, 0u);
-  EXPECT_EQ(none.share, none.share_before);
-  EXPECT_EQ(none.built.mesh, fill(surface, points_inside(0.8)).mesh);
+  EXPECT_EQ(none.summary.rounds, 0u);
+  EXPECT_EQ(none.summary.share, none.summary.share_before);
+  EXPECT_EQ(none.built.mesh, testing::mesh_of(surface, points_inside(0.8)).mesh);
 }
 
 TEST(PointSearch, PassesOverMeshesThatCannotBeMade) {
   const Surface surface = box_surface();
-  const BuiltMesh start = fill(surface, points_inside(0.8));
-  const PointSearchResult found = search_points(
-      surface, fill(surface, points_inside(0.8)), {.size = 1, .seed = 3, .rounds = 3}, Deadline(),
-      [](std::span<const SurfaceWithPoints>, const TakeMesh&) {}, [](std::size_t, double) {});
-  EXPECT_EQ(found.rounds, 3u);
-  EXPECT_EQ(found.changes, 0u);
+  const BuiltMesh start = testing::mesh_of(surface, points_inside(0.8));
+  const PointSearchResult found =
+      search_points(surface, testing::mesh_of(surface, points_inside(0.8)), {.size = 1, .seed = 3, .rounds = 3},
+                    Deadline(), [](std::span<const SurfaceWithPoints>, const TakeMesh&) {});
+  EXPECT_EQ(found.summary.rounds, 3u);
+  EXPECT_EQ(found.summary.changes, 0u);
   EXPECT_EQ(found.built.mesh, start.mesh);
 }
 

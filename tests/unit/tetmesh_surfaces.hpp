@@ -4,8 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
+#include "common/run/random.hpp"
 #include "surface_samples.hpp"
+#include "tools/tetmesh/build_mesh.hpp"
+#include "tools/tetmesh/run_tetgen.hpp"
 #include "tools/tetmesh/shells.hpp"
 #include "tools/tetmesh/triangle_distance.hpp"
 
@@ -22,6 +27,24 @@ void tag_where(Surface& surface, std::int32_t tag, IsThere&& is_there) {
     const auto& [a, b, c] = surface.triangles[t];
     if (is_there((surface.points[a] + surface.points[b] + surface.points[c]) * (1.0 / 3))) surface.tags[t] = tag;
   }
+}
+
+// Points inside a cube of n x n x n unit cells: the lattice's, each moved at random by up to `moved` along each axis.
+inline std::vector<Vec3> lattice_in_cube(int n, double moved) {
+  Random random(1);
+  std::vector<Vec3> inside;
+  for (int k = 1; k < n; ++k)
+    for (int j = 1; j < n; ++j)
+      for (int i = 1; i < n; ++i)
+        inside.push_back(
+            {i + moved * random.uniform(-1, 1), j + moved * random.uniform(-1, 1), k + moved * random.uniform(-1, 1)});
+  return inside;
+}
+
+inline BuiltMesh mesh_of(const Surface& surface, std::span<const Vec3> inside) {
+  return build_mesh(
+      surface, inside,
+      run_tetgen({.surface_points = surface.points, .triangles = surface.triangles, .interior_points = inside}, 60));
 }
 
 // By a look at every triangle.

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
-#include "tools/assemble/facet_key.hpp"
+#include "common/mesh/facet_key.hpp"
 
 namespace hexpipe {
 
@@ -14,20 +13,13 @@ BoundaryDeviation::BoundaryDeviation(const MixedMesh& mesh, const InputSurface& 
       surface_(surface),
       input_points_(input_points),
       origin_(origin),
-      offsets_(mesh.points.size() + 1, 0) {
-  auto each_corner = [&](auto&& visit) {
-    const auto triangles = static_cast<std::int32_t>(mesh.triangles.size());
-    for (std::int32_t i = 0; i < triangles; ++i)
-      for (Vertex v : mesh.triangles.cells[i]) visit(v, i);
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(mesh.quads.size()); ++i)
-      for (Vertex v : mesh.quads.cells[i]) visit(v, triangles + i);
-  };
-  each_corner([&](Vertex v, std::int32_t) { ++offsets_[v + 1]; });
-  std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
-  facets_at_.resize(static_cast<std::size_t>(offsets_.back()));
-  std::vector<std::int64_t> fill(offsets_.begin(), offsets_.end() - 1);
-  each_corner([&](Vertex v, std::int32_t facet) { facets_at_[fill[v]++] = facet; });
-}
+      facets_(mesh.points.size(), [&](auto&& visit) {
+        const auto triangles = static_cast<std::int32_t>(mesh.triangles.size());
+        for (std::int32_t i = 0; i < triangles; ++i)
+          for (Vertex v : mesh.triangles.cells[i]) visit(v, i);
+        for (std::int32_t i = 0; i < static_cast<std::int32_t>(mesh.quads.size()); ++i)
+          for (Vertex v : mesh.quads.cells[i]) visit(v, triangles + i);
+      }) {}
 
 Quad BoundaryDeviation::facet(std::int32_t f) const {
   const auto triangles = static_cast<std::int32_t>(mesh_.triangles.size());
@@ -63,7 +55,7 @@ double BoundaryDeviation::from_facet(std::int32_t f, double enough) const {
 
 double BoundaryDeviation::to_facets_at(Vertex v, const Vec3& from) const {
   double least = std::numeric_limits<double>::infinity();
-  for (std::int32_t f : facets_at(v)) {
+  for (std::int32_t f : facets_.at(v)) {
     const Quad corners = facet(f);
     for (int diagonal = 0; diagonal < (corners[3] == corners[2] ? 1 : 2); ++diagonal)
       for (const auto& [a, b, c] : triangles_of(corners, diagonal)) {
@@ -79,7 +71,7 @@ double BoundaryDeviation::to_facets_at(Vertex v, const Vec3& from) const {
 double BoundaryDeviation::from_input_vertex(Vertex v, double enough) const {
   const Vec3 was = input_points_[origin_[v]];
   double least = to_facets_at(v, was);
-  for (std::int32_t f : facets_at(v))
+  for (std::int32_t f : facets_.at(v))
     for (Vertex neighbour : facet(f))
       if (least > enough && neighbour != v) least = std::min(least, to_facets_at(neighbour, was));
   return least;
@@ -87,7 +79,7 @@ double BoundaryDeviation::from_input_vertex(Vertex v, double enough) const {
 
 double BoundaryDeviation::around(Vertex v, double enough, double most) const {
   double greatest = 0;
-  for (std::int32_t f : facets_at(v)) {
+  for (std::int32_t f : facets_.at(v)) {
     greatest = std::max(greatest, from_facet(f, enough));
     if (greatest > most) return greatest;
     for (Vertex corner : facet(f))
@@ -102,7 +94,7 @@ BoundaryDeviation::Summary BoundaryDeviation::summary() const {
   for (std::int32_t f = 0; f < static_cast<std::int32_t>(mesh_.triangles.size() + mesh_.quads.size()); ++f)
     summary.greatest = std::max(summary.greatest, from_facet(f, 0));
   for (Vertex v = 0; v < static_cast<Vertex>(mesh_.points.size()); ++v) {
-    if (facets_at(v).empty() || !has_moved(v)) continue;
+    if (facets_.at(v).empty() || !has_moved(v)) continue;
     ++summary.moved;
     summary.greatest = std::max(summary.greatest, from_input_vertex(v, 0));
   }
@@ -111,7 +103,7 @@ BoundaryDeviation::Summary BoundaryDeviation::summary() const {
 
 std::optional<Vertex> BoundaryDeviation::vertex_off_surface(double tolerance) const {
   for (Vertex v = 0; v < static_cast<Vertex>(mesh_.points.size()); ++v) {
-    if (facets_at(v).empty() || !has_moved(v)) continue;
+    if (facets_.at(v).empty() || !has_moved(v)) continue;
     const Vec3 at = mesh_.points[v];
     if (surface_.distance(origin_[v], at) > tolerance && surface_.distance(at) > tolerance) return v;
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/mesh/mixed_mesh.hpp"
+#include "common/mesh/vertex_items.hpp"
 #include "tools/assemble/input_surface.hpp"
 
 namespace hexpipe {
@@ -37,9 +38,6 @@ class BoundaryDeviation {
  private:
   // As corners of the facet; a triangle repeats its last.
   Quad facet(std::int32_t f) const;
-  std::span<const std::int32_t> facets_at(Vertex v) const {
-    return std::span(facets_at_).subspan(offsets_[v], offsets_[v + 1] - offsets_[v]);
-  }
   double from_facet(std::int32_t f, double enough) const;
   double from_input_vertex(Vertex v, double enough) const;
   double to_facets_at(Vertex v, const Vec3& from) const;
@@ -49,8 +47,7 @@ class BoundaryDeviation {
   std::span<const Vec3> input_points_;
   std::span<const Vertex> origin_;
   // Triangles, then quads, at each vertex.
-  std::vector<std::int64_t> offsets_;
-  std::vector<std::int32_t> facets_at_;
+  VertexItems facets_;
 };
 
 }  // namespace hexpipe

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/assemble/facet_key.hpp"
+#include "common/mesh/facet_key.hpp"
 
 namespace hexpipe {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "common/mesh/cell_topology.hpp"
+#include "common/mesh/facet_key.hpp"
 #include "common/mesh/tet_mesh.hpp"
-#include "tools/assemble/facet_key.hpp"
 
 namespace hexpipe {
 

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "tools/assemble/facet_key.hpp"
+#include "common/mesh/facet_key.hpp"
 #include "tools/assemble/wall_thickness.hpp"
 
 namespace hexpipe {
@@ -63,22 +63,11 @@ InputSurface::InputSurface(const TetMesh& mesh, const TetAdjacency& adjacency) :
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   if (!mesh.points.empty()) diagonal_ = norm(high - low);
-  list_triangles();
+  triangles_ = triangles_at_vertices(mesh.points.size(), mesh.triangles);
   find_features();
   places_.resize(mesh.points.size());
   for (std::size_t v = 0; v < places_.size(); ++v) places_[v] = place_of(static_cast<Vertex>(v));
   find_lengths(adjacency);
-}
-
-void InputSurface::list_triangles() {
-  offsets_.assign(mesh_.points.size() + 1, 0);
-  for (const auto& triangle : mesh_.triangles)
-    for (Vertex v : triangle) ++offsets_[v + 1];
-  std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
-  triangles_at_.resize(3 * mesh_.triangles.size());
-  std::vector<std::int64_t> fill(offsets_.begin(), offsets_.end() - 1);
-  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
-    for (Vertex v : mesh_.triangles[t]) triangles_at_[fill[v]++] = static_cast<std::int32_t>(t);
 }
 
 void InputSurface::find_features() {

@@ -8,6 +8,7 @@
 
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/tet_mesh.hpp"
+#include "common/mesh/vertex_items.hpp"
 
 namespace hexpipe {
 
@@ -59,10 +60,7 @@ class InputSurface {
     Vec3 at;
     double distance_squared;
   };
-  std::span<const std::int32_t> triangles_at(Vertex v) const {
-    return std::span(triangles_at_).subspan(offsets_[v], offsets_[v + 1] - offsets_[v]);
-  }
-  void list_triangles();
+  std::span<const std::int32_t> triangles_at(Vertex v) const { return triangles_.at(v); }
   void find_features();
   void find_lengths(const TetAdjacency& adjacency);
   double edge_length(Vertex v) const;
@@ -73,8 +71,7 @@ class InputSurface {
 
   const TetMesh& mesh_;
   double diagonal_ = 0;
-  std::vector<std::int64_t> offsets_;
-  std::vector<std::int32_t> triangles_at_;
+  VertexItems triangles_;
   std::vector<std::int32_t> part_;  // by triangle: one number for what is joined without crossing a feature
   // The far ends of the feature edges at each vertex.
   std::vector<std::int64_t> feature_offsets_;

@@ -16,6 +16,7 @@
 
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
+#include "common/mesh/vertex_items.hpp"
 #include "tools/assemble/boundary_deviation.hpp"
 #include "tools/assemble/freedom.hpp"
 #include "tools/assemble/point_star.hpp"
@@ -54,7 +55,7 @@ constexpr int retreats = 4;
 // Cells at each vertex, in flat arrays.
 class Cells {
  public:
-  explicit Cells(const MixedMesh& mesh) : offsets_(mesh.points.size() + 1, 0) {
+  explicit Cells(const MixedMesh& mesh) {
     auto each = [&](CellKind kind, const auto& block) {
       for (const auto& cell : block.cells) {
         kinds_.push_back(kind);
@@ -64,28 +65,23 @@ class Cells {
     };
     each(CellKind::hex, mesh.hexes), each(CellKind::prism, mesh.prisms);
     each(CellKind::pyramid, mesh.pyramids), each(CellKind::tet, mesh.tets);
-    for (Vertex v : corners_) ++offsets_[v + 1];
-    for (std::size_t v = 1; v < offsets_.size(); ++v) offsets_[v] += offsets_[v - 1];
-    cells_at_.resize(corners_.size());
-    std::vector<std::int64_t> fill(offsets_.begin(), offsets_.end() - 1);
-    for (std::int32_t c = 0; c < static_cast<std::int32_t>(kinds_.size()); ++c)
-      for (Vertex v : corners_of(c)) cells_at_[fill[v]++] = c;
+    cells_ = VertexItems(mesh.points.size(), [&](auto&& visit) {
+      for (std::int32_t c = 0; c < static_cast<std::int32_t>(kinds_.size()); ++c)
+        for (Vertex v : corners_of(c)) visit(v, c);
+    });
   }
 
   CellKind kind(std::int32_t c) const { return kinds_[c]; }
   std::span<const Vertex> corners_of(std::int32_t c) const {
     return std::span(corners_).subspan(first_[c], corner_count(kinds_[c]));
   }
-  std::span<const std::int32_t> at(Vertex v) const {
-    return std::span(cells_at_).subspan(offsets_[v], offsets_[v + 1] - offsets_[v]);
-  }
+  std::span<const std::int32_t> at(Vertex v) const { return cells_.at(v); }
 
  private:
   std::vector<CellKind> kinds_;
   std::vector<std::int64_t> first_;
   std::vector<Vertex> corners_;
-  std::vector<std::int64_t> offsets_;
-  std::vector<std::int32_t> cells_at_;
+  VertexItems cells_;
 };
 
 class Smoother {

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "common/mesh/facet_key.hpp"
 #include "common/mesh/tet_mesh.hpp"
-#include "tools/assemble/facet_key.hpp"
 
 namespace hexpipe {
 

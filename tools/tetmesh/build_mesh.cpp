@@ -9,6 +9,7 @@
 
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/cell_topology.hpp"
+#include "common/mesh/facet_key.hpp"
 #include "common/run/error.hpp"
 
 namespace hexpipe {
@@ -18,11 +19,6 @@ constexpr std::int32_t unknown_region = -1;
 // Of the volume inside all shells; ten million tets add up to about 1e-12 of it.
 constexpr double volume_tolerance = 1e-9;
 
-std::array<Vertex, 3> sorted(std::array<Vertex, 3> triangle) {
-  std::ranges::sort(triangle);
-  return triangle;
-}
-
 template <class... Args>
 TetGenFailure failure_at(const std::string& place, fmt::format_string<Args...> text, Args&&... args) {
   return TetGenFailure(fmt::format("{}: TetGen failed: {}", place, fmt::format(text, std::forward<Args>(args)...)));
@@ -31,12 +27,12 @@ TetGenFailure failure_at(const std::string& place, fmt::format_string<Args...> t
 // What TetGen says of its failure, with places in the file where it names triangles.
 [[noreturn]] void fail(const Surface& surface, const TetGenResult& tetgen) {
   if (tetgen.intersecting.empty()) throw failure_at(surface.name, "{}", tetgen.failure);
-  std::vector<std::array<Vertex, 3>> named;
-  for (const Triangle& t : tetgen.intersecting) named.push_back(sorted(t));
-  std::ranges::sort(named);
+  KeySet<3> named;
+  for (const Triangle& t : tetgen.intersecting) named.insert(key_of(t));
   for (std::size_t i = 0; i < surface.triangles.size(); ++i)
-    if (std::ranges::binary_search(named, sorted(surface.triangles[i])))
-      throw failure_at(surface.place_of(i), "it found {} triangles that intersect; the first is here", named.size());
+    if (named.contains(key_of(surface.triangles[i])))
+      throw failure_at(surface.place_of(i), "it found {} triangles that intersect; the first is here",
+                       tetgen.intersecting.size());
   throw failure_at(surface.name, "{}", tetgen.failure);
 }
 
@@ -101,7 +97,7 @@ void RegionFinder::place_beside(std::size_t triangle) {
     for (std::size_t facet = 0; facet < 4; ++facet) {
       Triangle outward;
       for (std::size_t i = 0; i < 3; ++i) outward[i] = tet[TetTopology::triangles[facet][i]];
-      if (sorted(outward) != sorted(corners)) continue;
+      if (key_of(outward) != key_of(corners)) continue;
       std::rotate(outward.begin(), std::ranges::find(outward, corners[0]), outward.end());
       const bool is_behind = outward == corners;
       (is_behind ? found_behind : found_in_front) = true;

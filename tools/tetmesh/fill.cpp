@@ -107,8 +107,9 @@ FilledSurface Filler::fill(bool estimates) {
     statistics_.hex_share = known ? *known : estimate_hex_share(built_->mesh, built_->adjacency);
     watch_.add_to(statistics_.seconds.comparing);
   }
-  Surface filled = remeshed_ && surface_ == &remeshed_->surface ? std::move(remeshed_->surface) : *surface_;
-  return {std::move(filled), size_, *std::move(built_), std::move(result_)};
+  std::optional<Surface> made;
+  if (remeshed_ && surface_ == &remeshed_->surface) made = std::move(remeshed_->surface);
+  return {std::move(made), size_, *std::move(built_), std::move(result_)};
 }
 
 // TetGen is at work on the new surface while that is judged. It may fail on that and not on the given one, whose points
@@ -259,9 +260,9 @@ FilledSurface fill(const Surface& given, const TetmeshOptions& options, SizeFiel
   return Filler(given, options, std::move(size)).fill(estimates);
 }
 
-TetmeshResult finish(FilledSurface filled) {
+TetmeshResult finish(FilledSurface filled, const Surface& given) {
   const Stopwatch watch;
-  const Surface& surface = filled.surface;
+  const Surface& surface = filled.surface(given);
   const BuiltMesh& built = filled.built;
   TetmeshStatistics& s = filled.result.statistics;
   const MeshShape shape = shape_of(built.mesh);

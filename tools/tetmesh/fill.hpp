@@ -21,10 +21,12 @@ bool frame_plainly_wins(bool remeshed, double turned_share, std::size_t tets);
 
 // A mesh and what it was made of.
 struct FilledSurface {
-  Surface surface;  // the new one, if one was made
+  std::optional<Surface> made_surface;  // nothing: the given one
   SizeField size;
   BuiltMesh built;
   TetmeshResult result;  // without the mesh, and what describes it
+
+  const Surface& surface(const Surface& given) const { return made_surface ? *made_surface : given; }
 };
 
 // `size` takes the place of options.size and is what size_field() makes of the others. With `estimates`,
@@ -33,6 +35,6 @@ struct FilledSurface {
 FilledSurface fill(const Surface& given, const TetmeshOptions& options, SizeField size, bool estimates);
 
 // Describes the mesh, and moves it to where it is wanted.
-TetmeshResult finish(FilledSurface filled);
+TetmeshResult finish(FilledSurface filled, const Surface& given);
 
 }  // namespace hexpipe

@@ -65,25 +65,25 @@ void MeshMaker::start(const SurfaceWithPoints& filled) {
 
 }  // namespace
 
-void improve(FilledSurface& filled, const TetmeshOptions& options) {
+void improve(FilledSurface& filled, const Surface& given, const TetmeshOptions& options) {
   const Stopwatch watch;
   stop_searches_on_signal();
   const Deadline deadline(options.time_limit);
   TetmeshStatistics& statistics = filled.result.statistics;
   MeshMaker maker(options.tetgen_timeout, deadline, statistics);
   PointSearchResult found = search_points(
-      std::move(filled.surface), std::move(filled.built),
-      {.size = filled.size, .seed = options.seed, .rounds = options.improve, .changes_surface = statistics.remeshed},
-      deadline, [&](std::span<const SurfaceWithPoints> all, const TakeMesh& take) { maker.make(all, take); },
-      [&](std::size_t round, double share) {
-        if (options.after_round) options.after_round(round, share);
-      });
-  filled.surface = std::move(found.surface);
+      filled.surface(given), std::move(filled.built),
+      {.size = filled.size,
+       .seed = options.seed,
+       .rounds = options.improve,
+       .changes_surface = filled.made_surface.has_value(),
+       .after_round = options.after_round},
+      deadline, [&](std::span<const SurfaceWithPoints> all, const TakeMesh& take) { maker.make(all, take); });
+  if (found.surface) filled.made_surface = std::move(found.surface);
   filled.built = std::move(found.built);
-  statistics.improved = ImprovedPoints{found.rounds, found.changes, found.share_before, found.share};
-  statistics.hex_share = found.share;
+  statistics.improved = found.summary;
   statistics.interior_points =
-      filled.built.mesh.points.size() - filled.surface.points.size() - filled.built.added_points;
+      filled.built.mesh.points.size() - filled.surface(given).points.size() - filled.built.added_points;
   statistics.seconds.improving += watch.seconds();
 }
 

@@ -7,6 +7,6 @@ namespace hexpipe {
 
 // From here on a first SIGINT or SIGTERM ends the search and not the process. Statistics of the search and of TetGen's
 // time are added to those that are there.
-void improve(FilledSurface& filled, const TetmeshOptions& options);
+void improve(FilledSurface& filled, const Surface& given, const TetmeshOptions& options);
 
 }  // namespace hexpipe

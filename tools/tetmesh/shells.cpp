@@ -193,6 +193,12 @@ std::vector<double> Surface::region_volumes() const {
   return volumes;
 }
 
+double Surface::volume() const {
+  double volume = 0;
+  for (const double region : region_volumes()) volume += region;
+  return volume;
+}
+
 bool is_in_material(const Surface& surface, const ColumnIndex& columns, const Vec3& p) {
   bool inside = false;
   columns.for_each_crossing(p, [&](std::int32_t t) {

@@ -36,6 +36,8 @@ struct Surface : SurfaceSoup {
 
   // The volume of each region from its shells; entry 0 is zero.
   std::vector<double> region_volumes() const;
+  // Of all regions.
+  double volume() const;
 };
 
 class ColumnIndex;

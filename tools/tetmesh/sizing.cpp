@@ -60,9 +60,9 @@ double bounding_box_diagonal(const SurfaceSoup& surface) {
 
 double element_size(const Surface& surface, const std::optional<Length>& length, bool triangles_stay) {
   if (length) return length->percent_of_diagonal ? length->value / 100 * bounding_box_diagonal(surface) : length->value;
-  double area = 0, volume = 0;
+  double area = 0;
   for (const Triangle& t : surface.triangles) area += area_of(surface, t);
-  for (const double region : surface.region_volumes()) volume += region;
+  const double volume = surface.volume();
   const double spacing = std::sqrt(area / static_cast<double>(surface.points.size()));
   const double thickness = 2 * volume / area;
   const double longest = std::min(longest_default * bounding_box_diagonal(surface), layers_default * thickness);
@@ -93,9 +93,7 @@ double points_on_surface(const Surface& surface, const SizeField& size, double e
 }
 
 double points_expected(const Surface& surface, double size) {
-  double volume = 0;
-  for (const double region : surface.region_volumes()) volume += region;
-  return volume / size / size / size;
+  return surface.volume() / size / size / size;
 }
 
 SizeFit fit_to_size(const Surface& surface, const SizeField& size) {

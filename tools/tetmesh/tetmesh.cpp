@@ -147,8 +147,8 @@ TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
   const double seconds_checking = watch.seconds();
 
   FilledSurface filled = best_of_tries(surface, options, size);
-  if (options.improve > 0) improve(filled, options);
-  TetmeshResult result = finish(std::move(filled));
+  if (options.improve > 0) improve(filled, surface, options);
+  TetmeshResult result = finish(std::move(filled), surface);
   result.statistics.repair = repaired;
   result.statistics.seconds.checking = seconds_checking;
   return result;

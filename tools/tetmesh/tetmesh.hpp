@@ -13,6 +13,7 @@
 #include "formats/surface_files.hpp"
 #include "tools/tetmesh/lattice.hpp"
 #include "tools/tetmesh/repair.hpp"
+#include "tools/tetmesh/search/point_search.hpp"
 #include "tools/tetmesh/shells.hpp"
 #include "tools/tetmesh/size_field.hpp"
 #include "tools/tetmesh/sizing.hpp"
@@ -76,12 +77,6 @@ struct TriedSize {
   std::optional<double> hex_share;  // nothing where TetGen failed
 };
 
-// By search/point_search.hpp.
-struct ImprovedPoints {
-  std::size_t rounds, changes;
-  double share_before, share;  // estimated
-};
-
 struct TetmeshStatistics {
   double size = 0;                   // the greatest
   std::optional<double> least_size;  // where sizes differ
@@ -103,7 +98,7 @@ struct TetmeshStatistics {
   double least_dihedral = 0, greatest_dihedral = 0;  // degrees
   std::optional<double> hex_share;  // of the mesh, estimated in the same way, where several sizes were tried
   std::vector<TriedSize> tried;     // these
-  std::optional<ImprovedPoints> improved;
+  std::optional<PointSearchSummary> improved;
   StepSeconds seconds;  // of all tries
 };
 

@@ -14,15 +14,15 @@ namespace {
 constexpr double temperature = 0;  // nothing that loses stays: two meshes are to differ by their points alone
 constexpr const char* source = "the mesh of changed points";
 
-std::uint64_t key_of(const Vec3& p) {
+std::uint64_t hash_of(const Vec3& p) {
   std::uint64_t key = 0;
   for (int axis = 0; axis < 3; ++axis) key = mix(key ^ std::bit_cast<std::uint64_t>(p[axis] + 0.0));
   return key;
 }
 
-std::uint64_t key_of(std::span<const Vertex> corners, std::span<const Vec3> points) {
+std::uint64_t hash_of(std::span<const Vertex> corners, std::span<const Vec3> points) {
   std::uint64_t key = 0;
-  for (const Vertex v : corners) key += key_of(points[v]);  // in any order
+  for (const Vertex v : corners) key += hash_of(points[v]);  // in any order
   return key;
 }
 
@@ -47,7 +47,7 @@ std::vector<ChosenHex> choose_hexes(const TetMesh& mesh, std::span<const ChosenH
   const Candidates found = findhex(mesh, {}, source).candidates;
   const ConflictGraph graph = conflict_graph(found, {}, source);
   std::vector<std::uint64_t> keys;
-  for (std::size_t i = 0; i < found.size(); ++i) keys.push_back(key_of(found.corners_of(i), mesh.points));
+  for (std::size_t i = 0; i < found.size(); ++i) keys.push_back(hash_of(found.corners_of(i), mesh.points));
   Annealing annealing(graph, independent_of(graph, keys, known), Random(1));
   const auto chosen_at_first = static_cast<double>(annealing.best().size());
   annealing.run(static_cast<std::int64_t>(kicks * chosen_at_first), temperature, Deadline());

@@ -1,15 +1,13 @@
 #include "tools/tetmesh/search/judged_mesh.hpp"
 
-#include <tsl/robin_map.h>
-
 #include <algorithm>
 #include <array>
 #include <span>
 #include <utility>
 
 #include "common/mesh/cell_topology.hpp"
+#include "common/mesh/facet_key.hpp"
 #include "common/mesh/quality.hpp"
-#include "common/run/random.hpp"
 #include "tools/tetmesh/search/hex_choice.hpp"
 
 namespace hexpipe {
@@ -19,40 +17,17 @@ namespace {
 // of them, a twentieth of a hex for each. After as long a search simp had 0.4 % less of its volume in hexes at 0.1.
 constexpr double price_of_open_quad = 0.07;
 
-struct QuadHash {
-  std::size_t operator()(const Quad& quad) const {
-    std::uint64_t hash = 0;
-    for (const Vertex v : quad) hash = mix(hash ^ static_cast<std::uint64_t>(v));
-    return hash;
-  }
-};
-
-using QuadCounts = tsl::robin_map<Quad, int, QuadHash>;  // by corners ascending: how many hexes stand on it
-
-Quad sorted_quad(const ChosenHex& hex, const LocalQuad& local) {
+Quad quad_of(const ChosenHex& hex, const LocalQuad& local) {
   Quad quad;
   for (std::size_t i = 0; i < 4; ++i) quad[i] = hex.corners[local[i]];
-  std::ranges::sort(quad);
   return quad;
 }
 
-bool is_on(std::span<const Triangle> boundary, const Quad& quad) {
+bool is_on(const KeySet<3>& boundary, const Quad& quad) {
   int triangles = 0;
-  for (std::size_t left_out = 0; left_out < 4; ++left_out) {
-    Triangle triangle;
-    for (std::size_t i = 0, to = 0; i < 4; ++i)
-      if (i != left_out) triangle[to++] = quad[i];
-    triangles += std::ranges::binary_search(boundary, triangle);
-  }
+  for (int diagonal = 0; diagonal < 2; ++diagonal)
+    for (const Triangle& triangle : triangles_of(quad, diagonal)) triangles += boundary.contains(key_of(triangle));
   return triangles >= 2;
-}
-
-// With corners ascending, in ascending order.
-std::vector<Triangle> sorted_triangles(std::span<const Triangle> triangles) {
-  std::vector<Triangle> sorted(triangles.begin(), triangles.end());
-  for (Triangle& triangle : sorted) std::ranges::sort(triangle);
-  std::ranges::sort(sorted);
-  return sorted;
 }
 
 }  // namespace
@@ -74,19 +49,20 @@ JudgedMesh judge(BuiltMesh built, std::span<const ChosenHex> known, double kicks
   const TetMesh& mesh = judged.built.mesh;
   judged.hexes = choose_hexes(mesh, known, kicks);
   judged.hex_of_tet.assign(mesh.tets.size(), JudgedMesh::none);
-  const std::vector<Triangle> boundary = sorted_triangles(mesh.triangles);
-  QuadCounts quads;
+  KeySet<3> boundary;
+  for (const Triangle& triangle : mesh.triangles) boundary.insert(key_of(triangle));
+  KeyMap<4, int> hexes_on;
   for (std::size_t h = 0; h < judged.hexes.size(); ++h) {
     for (const std::int32_t t : judged.hexes[h].tets) judged.hex_of_tet[t] = static_cast<std::int32_t>(h);
-    for (const LocalQuad& local : HexTopology::quads) ++quads[sorted_quad(judged.hexes[h], local)];
+    for (const LocalQuad& local : HexTopology::quads) ++hexes_on[key_of(quad_of(judged.hexes[h], local))];
   }
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
     if (judged.hex_of_tet[t] == JudgedMesh::none) judged.left.push_back(static_cast<std::int32_t>(t));
   for (const ChosenHex& hex : judged.hexes) {
     int open = 0;
     for (const LocalQuad& local : HexTopology::quads) {
-      const Quad quad = sorted_quad(hex, local);
-      open += quads.at(quad) == 1 && !is_on(boundary, quad);
+      const Quad quad = quad_of(hex, local);
+      open += hexes_on.at(key_of(quad)) == 1 && !is_on(boundary, quad);
     }
     Vec3 middle{};
     for (const Vertex v : hex.corners) middle = middle + mesh.points[v];

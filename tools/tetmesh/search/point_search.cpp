@@ -28,19 +28,19 @@ struct Place {
 
 class PointSearch {
  public:
-  PointSearch(Surface surface, BuiltMesh start, const PointSearchOptions& options, const MakeMeshes& make_meshes)
+  PointSearch(const Surface& surface, BuiltMesh start, const PointSearchOptions& options, const MakeMeshes& make_meshes)
       : options_(options),
         make_meshes_(make_meshes),
-        first_surface_(std::move(surface)),
-        clearance_(first_surface_),
-        box_(Box::around(first_surface_.points)),
-        surface_(first_surface_),
+        given_surface_(surface),
+        clearance_(surface),
+        box_(Box::around(surface.points)),
         current_(judge(std::move(start), {}, first_kicks)) {}
 
   // Returns the number of changes that stay.
   std::size_t run_round(std::size_t round);
   BuiltMesh take_mesh() { return std::move(current_.built); }
-  Surface take_surface() { return std::move(surface_); }
+  // Nothing where it is as it was given.
+  std::optional<Surface> take_surface() { return std::move(changed_surface_); }
   double hex_volume() const { return current_.hex_volume(); }
   bool is_complete() const { return current_.left.empty(); }
 
@@ -51,15 +51,16 @@ class PointSearch {
                                                std::span<const std::vector<PointChange>> changes,
                                                std::span<const std::vector<double>> worth) const;
   std::vector<double> worth_around(std::span<const Place> places, const JudgedMesh& judged) const;
+  const Surface& surface() const { return changed_surface_ ? *changed_surface_ : given_surface_; }
   SurfaceWithPoints with(std::span<const PointChange* const> changes) const;
   bool take_if_better(std::span<const PointChange* const> changes);
 
   const PointSearchOptions& options_;
   const MakeMeshes& make_meshes_;
-  const Surface first_surface_;
+  const Surface& given_surface_;
   const SurfaceClearance clearance_;  // the same for all that come, for these lie where it does
   const Box box_;
-  Surface surface_;
+  std::optional<Surface> changed_surface_;
   JudgedMesh current_;
 };
 
@@ -89,8 +90,9 @@ std::size_t PointSearch::run_round(std::size_t round) {
 // By try and place.
 std::vector<std::vector<PointChange>> PointSearch::draw_changes(std::span<const Place> places, Random& random) const {
   std::optional<FlatSurface> flat;
-  if (options_.changes_surface) flat.emplace(surface_);
-  const ChangeDrawer drawer(current_, static_cast<Vertex>(surface_.points.size()), clearance_, flat ? &*flat : nullptr);
+  if (options_.changes_surface) flat.emplace(surface());
+  const ChangeDrawer drawer(current_, static_cast<Vertex>(surface().points.size()), clearance_,
+                            flat ? &*flat : nullptr);
   std::vector<std::vector<PointChange>> changes(tries_a_place);
   for (std::vector<PointChange>& of_try : changes)
     for (const Place& place : places) of_try.push_back(drawer.draw(place.tet, place.middle, place.size, random));
@@ -167,8 +169,8 @@ SurfaceWithPoints PointSearch::with(std::span<const PointChange* const> changes)
     added.insert(added.end(), change->added.begin(), change->added.end());
     if (!change->on_surface.is_nothing()) on_surface.push_back(&change->on_surface);
   }
-  SurfaceWithPoints changed{on_surface.empty() ? surface_ : with_changes(surface_, on_surface), {}};
-  for (std::size_t v = surface_.points.size(); v < all.size(); ++v)
+  SurfaceWithPoints changed{on_surface.empty() ? surface() : with_changes(surface(), on_surface), {}};
+  for (std::size_t v = surface().points.size(); v < all.size(); ++v)
     if (!removed[v]) changed.inside.push_back(all[v]);
   changed.inside.insert(changed.inside.end(), added.begin(), added.end());
   return changed;
@@ -181,27 +183,23 @@ bool PointSearch::take_if_better(std::span<const PointChange* const> changes) {
   make_meshes_(changed, [&](std::size_t, BuiltMesh built) { next = judge(std::move(built), current_.hexes, kicks); });
   if (!next || next->total_worth() <= current_.total_worth()) return false;
   current_ = std::move(*next);
-  surface_ = std::move(changed.front().surface);
+  if (options_.changes_surface) changed_surface_ = std::move(changed.front().surface);
   return true;
 }
 
 }  // namespace
 
-PointSearchResult search_points(Surface surface, BuiltMesh start, const PointSearchOptions& options,
-                                const Deadline& deadline, const MakeMeshes& make_meshes,
-                                const SearchProgress& progress) {
-  double volume = 0;
-  for (const Tet& tet : start.mesh.tets) volume += tet_determinant(start.mesh.points, tet) / 6;
-  PointSearch search(std::move(surface), std::move(start), options, make_meshes);
-  PointSearchResult result{{}, {{}, {{}, ""}, 0, 0}, 0, 0, search.hex_volume() / volume, 0};
-  for (; result.rounds < options.rounds && !search.is_complete() && !deadline.passed(); ++result.rounds) {
-    result.changes += search.run_round(result.rounds);
-    progress(result.rounds, search.hex_volume() / volume);
+PointSearchResult search_points(const Surface& surface, BuiltMesh start, const PointSearchOptions& options,
+                                const Deadline& deadline, const MakeMeshes& make_meshes) {
+  const double volume = surface.volume();
+  PointSearch search(surface, std::move(start), options, make_meshes);
+  PointSearchSummary summary{.share_before = search.hex_volume() / volume};
+  for (; summary.rounds < options.rounds && !search.is_complete() && !deadline.passed(); ++summary.rounds) {
+    summary.changes += search.run_round(summary.rounds);
+    if (options.after_round) options.after_round(summary.rounds, search.hex_volume() / volume);
   }
-  result.share = search.hex_volume() / volume;
-  result.surface = search.take_surface();
-  result.built = search.take_mesh();
-  return result;
+  summary.share = search.hex_volume() / volume;
+  return {search.take_surface(), search.take_mesh(), summary};
 }
 
 }  // namespace hexpipe

@@ -23,6 +23,8 @@ struct PointSearchOptions {
   std::uint64_t seed = 1;
   std::size_t rounds = 0;
   bool changes_surface = false;  // within flat faces and along straight edges
+  // If there: called after each round, with the estimated share of the volume in hexes.
+  std::function<void(std::size_t round, double share)> after_round = {};
 };
 
 // What a mesh is made of.
@@ -31,25 +33,26 @@ struct SurfaceWithPoints {
   std::vector<Vec3> inside;
 };
 
-struct PointSearchResult {
-  Surface surface;
-  BuiltMesh built;
+struct PointSearchSummary {
   std::size_t rounds = 0;              // that were finished
   std::size_t changes = 0;             // that stayed
   double share_before = 0, share = 0;  // of the volume in hexes, estimated
+};
+
+struct PointSearchResult {
+  std::optional<Surface> surface;  // where it changed
+  BuiltMesh built;
+  PointSearchSummary summary;
 };
 
 // Makes a mesh of each, in any order, and hands it over with the number of what it is made of, one at a time. Where
 // none can be made, that is passed over.
 using TakeMesh = std::function<void(std::size_t number, BuiltMesh)>;
 using MakeMeshes = std::function<void(std::span<const SurfaceWithPoints>, const TakeMesh& take)>;
-// After each round, with the share.
-using SearchProgress = std::function<void(std::size_t round, double share)>;
 
 // From a mesh of the surface, whose points come first there. The same for the same seed and number of rounds, unless
 // the deadline passes before.
-PointSearchResult search_points(Surface surface, BuiltMesh start, const PointSearchOptions& options,
-                                const Deadline& deadline, const MakeMeshes& make_meshes,
-                                const SearchProgress& progress);
+PointSearchResult search_points(const Surface& surface, BuiltMesh start, const PointSearchOptions& options,
+                                const Deadline& deadline, const MakeMeshes& make_meshes);
 
 }  // namespace hexpipe

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 namespace hexpipe {
 namespace {
@@ -18,19 +17,12 @@ Vertex third_corner(const Triangle& t, Vertex a, Vertex b) {
 
 }  // namespace
 
-FlatSurface::FlatSurface(const Surface& surface) : surface_(surface), offsets_(surface.points.size() + 1) {
-  for (const Triangle& t : surface.triangles)
-    for (const Vertex v : t) ++offsets_[v + 1];
-  std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
-  triangles_at_.resize(static_cast<std::size_t>(offsets_.back()));
-  std::vector<std::int64_t> next(offsets_.begin(), offsets_.end() - 1);
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-    for (const Vertex v : surface.triangles[t]) triangles_at_[next[v]++] = static_cast<std::int32_t>(t);
-}
+FlatSurface::FlatSurface(const Surface& surface)
+    : surface_(surface), triangles_(triangles_at_vertices(surface.points.size(), surface.triangles)) {}
 
 std::vector<Vertex> FlatSurface::neighbours_of(Vertex v) const {
   std::vector<Vertex> neighbours;
-  for (const std::int32_t t : triangles_at(v))
+  for (const std::int32_t t : triangles_.at(v))
     for (const Vertex w : surface_.triangles[t])
       if (w != v) neighbours.push_back(w);
   std::ranges::sort(neighbours);
@@ -41,7 +33,7 @@ std::vector<Vertex> FlatSurface::neighbours_of(Vertex v) const {
 
 std::vector<std::int32_t> FlatSurface::triangles_of_edge(Vertex a, Vertex b) const {
   std::vector<std::int32_t> found;
-  for (const std::int32_t t : triangles_at(a))
+  for (const std::int32_t t : triangles_.at(a))
     if (std::ranges::find(surface_.triangles[t], b) != surface_.triangles[t].end()) found.push_back(t);
   return found;
 }
@@ -64,7 +56,7 @@ FlatSurface::Freedom FlatSurface::freedom_of(Vertex v) const {
     if (beside.size() != 2) return {};
     if (!is_of_one_face(beside[0], beside[1])) creases.push_back(w);
   }
-  if (creases.empty()) return {2, unit(normal_of(surface_.triangles[triangles_at(v)[0]])), {}};
+  if (creases.empty()) return {2, unit(normal_of(surface_.triangles[triangles_.at(v)[0]])), {}};
   if (creases.size() != 2) return {};
   const Vec3 to_one = unit(surface_.points[creases[0]] - surface_.points[v]);
   const Vec3 to_other = unit(surface_.points[creases[1]] - surface_.points[v]);
@@ -83,7 +75,7 @@ SurfaceChange FlatSurface::move(Vertex v, const Vec3& step, double size) const {
   if (freedom.dimensions == 0) return {};
   const Vec3 along = dot(step, freedom.direction) * freedom.direction;
   const Vec3 place = surface_.points[v] + (freedom.dimensions == 1 ? along : step - along);
-  for (const std::int32_t t : triangles_at(v)) {
+  for (const std::int32_t t : triangles_.at(v)) {
     std::array<Vec3, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vertex w = surface_.triangles[t][i];
@@ -107,7 +99,7 @@ SurfaceChange FlatSurface::collapse(Vertex v, Vertex to, double size) const {
   if (common.size() != 2) return {};
   SurfaceChange change;
   change.removed = v;
-  for (const std::int32_t t : triangles_at(v)) {
+  for (const std::int32_t t : triangles_.at(v)) {
     Triangle corners = surface_.triangles[t];
     change.removed_triangles.push_back(t);
     if (std::ranges::find(corners, to) != corners.end()) continue;

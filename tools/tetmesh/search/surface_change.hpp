@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/mesh/vertex_items.hpp"
 #include "tools/tetmesh/shells.hpp"
 
 namespace hexpipe {
@@ -53,9 +54,6 @@ class FlatSurface {
     std::pair<Vertex, Vertex> along{-1, -1};  // the neighbours on the line
   };
 
-  std::span<const std::int32_t> triangles_at(Vertex v) const {
-    return std::span(triangles_at_).subspan(offsets_[v], offsets_[v + 1] - offsets_[v]);
-  }
   std::vector<std::int32_t> triangles_of_edge(Vertex a, Vertex b) const;
   bool is_of_one_face(std::int32_t t, std::int32_t u) const;
   Freedom freedom_of(Vertex v) const;
@@ -63,8 +61,7 @@ class FlatSurface {
   bool keeps(std::int32_t triangle, const Vec3& a, const Vec3& b, const Vec3& c, double size) const;
 
   const Surface& surface_;
-  std::vector<std::int64_t> offsets_;
-  std::vector<std::int32_t> triangles_at_;  // by vertex
+  VertexItems triangles_;
 };
 
 // With changes that have no triangle in common. Vertices that stay keep their order; those that come are last.

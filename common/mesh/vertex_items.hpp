@@ -1,0 +1,44 @@
+#pragma once
+// Which items, say triangles or cells, are at each vertex, in flat arrays.
+
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "common/mesh/tet_mesh.hpp"
+
+namespace hexpipe {
+
+class VertexItems {
+ public:
+  VertexItems() = default;
+
+  // each_corner(visit) calls visit(vertex, item) for every corner of every item, items ascending; twice the same.
+  template <class EachCorner>
+  VertexItems(std::size_t vertex_count, EachCorner&& each_corner) : offsets_(vertex_count + 1) {
+    each_corner([&](Vertex v, std::int32_t) { ++offsets_[v + 1]; });
+    std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
+    items_.resize(static_cast<std::size_t>(offsets_.back()));
+    std::vector<std::int64_t> next(offsets_.begin(), offsets_.end() - 1);
+    each_corner([&](Vertex v, std::int32_t item) { items_[next[v]++] = item; });
+  }
+
+  // Ascending.
+  std::span<const std::int32_t> at(Vertex v) const {
+    return std::span(items_).subspan(offsets_[v], offsets_[v + 1] - offsets_[v]);
+  }
+
+ private:
+  std::vector<std::int64_t> offsets_;
+  std::vector<std::int32_t> items_;
+};
+
+inline VertexItems triangles_at_vertices(std::size_t vertex_count, std::span<const Triangle> triangles) {
+  return VertexItems(vertex_count, [&](auto&& visit) {
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (const Vertex v : triangles[t]) visit(v, static_cast<std::int32_t>(t));
+  });
+}
+
+}  // namespace hexpipe
