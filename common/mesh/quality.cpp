@@ -201,4 +201,22 @@ double cell_volume(CellKind kind, std::span<const Vec3> corners) {
   return with_topology(kind, [&]<class Topology>(Topology) { return cell_volume_of<Topology>(corners); });
 }
 
+Vec3 cell_volume_gradient(CellKind kind, std::span<const Vec3> corners, int corner) {
+  Vec3 triangles{}, quads{};
+  // The facet's other corners, in its order, as the corner sees them.
+  const auto at = [&](const auto& facet, std::size_t i) { return corners[facet[i % facet.size()]] - corners[corner]; };
+  with_topology(kind, [&]<class Topology>(Topology) {
+    for (const LocalTriangle& t : Topology::triangles)
+      for (std::size_t i = 0; i < t.size(); ++i)
+        if (t[i] == corner) triangles += cross(at(t, i + 1), at(t, i + 2));
+    for (const LocalQuad& q : Topology::quads)
+      for (std::size_t i = 0; i < q.size(); ++i) {
+        if (q[i] != corner) continue;
+        const Vec3 b = at(q, i + 1), c = at(q, i + 2), d = at(q, i + 3);
+        quads += cross(b, c + d) + cross(c, d);
+      }
+  });
+  return (1.0 / 6) * triangles + (1.0 / 12) * quads;
+}
+
 }  // namespace hexpipe

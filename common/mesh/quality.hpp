@@ -44,5 +44,7 @@ double least_scaled_jacobian(CellKind kind, std::span<const Vec3> corners);
 
 // The signed volume, exact but for rounding; quads are bilinear.
 double cell_volume(CellKind kind, std::span<const Vec3> corners);
+// How it grows as one corner moves: it is linear in the place of each.
+Vec3 cell_volume_gradient(CellKind kind, std::span<const Vec3> corners, int corner);
 
 }  // namespace hexpipe

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "assemble_lattice.hpp"
+#include "cell_shapes.hpp"
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/quality.hpp"
 #include "tools/assemble/assemble.hpp"
@@ -70,6 +71,34 @@ TEST(PointStar, KeepsFloors) {
   EXPECT_FALSE(star.keeps_floors(far, further));
   EXPECT_TRUE(star.keeps_floors(further, far));  // better, though not good
   EXPECT_TRUE(free.keeps_floors(home, far));
+}
+
+// The corner of a cube between seven others goes where it is pulled, and no further than the floor lets it.
+TEST(PointStar, ScoreCountsThePull) {
+  PointStar star;
+  for (int octant = 0; octant < 8; ++octant) {
+    std::vector<Vec3> cube;
+    for (const Vec3& p : unit_cell(CellKind::hex))
+      cube.push_back(p - Vec3{octant & 1 ? 1. : 0., octant & 2 ? 1. : 0., octant & 4 ? 1. : 0.});
+    const auto middle = std::ranges::find(cube, Vec3{}) - cube.begin();
+    star.add(CellKind::hex, cube, static_cast<int>(middle));
+  }
+  ASSERT_EQ(star.worst({}), 1);
+  EXPECT_EQ(star.score({}), 1);
+  EXPECT_EQ(raise_score(star, {}, 5, 0.5).at, Vec3{});
+  star.set_pull({}, {0.1, 0, 0});
+  EXPECT_EQ(star.score({}), 1);
+  const Placement slight = raise_score(star, {}, 5, 0.5);
+  EXPECT_GT(slight.at.x, 0.01);
+  EXPECT_GT(star.score(slight.at), 1);
+  star.set_pull({}, {10, 0, 0});
+  for (const double floor : {0.5, 0.8, 0.9}) {
+    const Placement far = raise_score(star, {}, 200, floor);
+    EXPECT_GE(far.worst, floor);
+    EXPECT_LT(far.worst, floor + 0.1);
+    EXPECT_EQ(far.worst, star.worst(far.at));
+  }
+  EXPECT_EQ(raise_score(star, {}, 20, 0.5, {Freedom::Kind::plane, {1, 0, 0}}).at, Vec3{});
 }
 
 TEST(PointStar, ShortestVectorOfAHull) {
@@ -172,6 +201,37 @@ TEST(Smooth, TheWorstCellsBecomeBetterAndTheBoxStays) {
         }
       }
   }
+}
+
+// What is between hexes becomes thin for them, but nothing becomes poor.
+TEST(Smooth, HexesGrowAndTheRestStaysGoodEnough) {
+  constexpr double good_enough = 0.12;
+  double grown = 0, thinner = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    auto lattice = make_lattice(5);
+    jitter(lattice, 0.1, random);
+    MixedMesh mesh = assemble(lattice.mesh, lattice.cubes, random_choice(lattice, 0.7, random), {.smooth = 0}).mesh;
+    const auto volume_of_hexes = [&] {
+      double volume = 0;
+      for (const auto& hex : mesh.hexes.cells) volume += cell_volume(CellKind::hex, corner_points(mesh.points, hex));
+      return volume;
+    };
+    untangle(mesh, 20);
+    compute_quality(mesh);
+    const std::vector<double> before = mesh.pyramids.quality;
+    const double volume_before = volume_of_hexes();
+    smooth(mesh, 5);
+    compute_quality(mesh);
+    grown += volume_of_hexes() - volume_before;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      EXPECT_GE(mesh.pyramids.quality[i], std::min(before[i], good_enough) - 2 * quality_tolerance);
+      thinner += mesh.pyramids.quality[i] < before[i] - 0.02;
+    }
+  }
+  EXPECT_GT(grown, 1);
+  EXPECT_GT(thinner, 0);
 }
 
 // Pyramids and tets beside them become better at the cost of hexes, but not below what findhex asks of these.

@@ -124,6 +124,18 @@ double integrated_volume(CellKind kind, const std::vector<Vec3>& p) {
   return kind == CellKind::pyramid ? volume / 3 : volume;
 }
 
+TEST(Volume, GrowsByItsGradientAsACornerMoves) {
+  Random random(4);
+  for (const CellKind kind : all_kinds)
+    for (int corner = 0; corner < corner_count(kind); ++corner) {
+      auto corners = shaken_cell(kind, 0.4, random);
+      const double before = cell_volume(kind, corners);
+      const Vec3 gradient = cell_volume_gradient(kind, corners, corner), step{0.3, -0.7, 0.2};
+      corners[corner] += step;
+      EXPECT_NEAR(cell_volume(kind, corners), before + dot(gradient, step), 1e-14) << name_of(kind);
+    }
+}
+
 TEST(Volume, IsTheIntegralOfTheJacobian) {
   Random random(3);
   for (const CellKind kind : {CellKind::hex, CellKind::prism, CellKind::pyramid})

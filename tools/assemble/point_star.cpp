@@ -24,6 +24,8 @@ constexpr double narrowest_band = 1e-3;
 // A gain below this is not worth another step.
 constexpr double least_gain = 1e-5;
 constexpr int halvings = 5;
+// Of the score, that a first step is to bring at least.
+constexpr double least_rise = 0.2;
 
 double product_of_norms(const Vec3& a, const Vec3& b, const Vec3& c) {
   return std::sqrt(norm_squared(a) * norm_squared(b) * norm_squared(c));
@@ -101,13 +103,13 @@ double PointStar::worst_unweighted(const Vec3& at) const {
   return least;
 }
 
-double PointStar::mean(const Vec3& at) const {
+double PointStar::score(const Vec3& at) const {
   double sum = 0, shares = 0;
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     sum += mean_share(i) * std::min(value(i, at) / weight(i), terms_[i].standing.enough);
     shares += mean_share(i);
   }
-  return terms_.empty() ? 0 : sum / shares;
+  return (terms_.empty() ? 0 : sum / shares) + dot(pull_, at - start_);
 }
 
 bool PointStar::exceeds(const Vec3& at, double bound) const {
@@ -265,35 +267,36 @@ Vec3 deepest_point(std::span<const Plane> planes, const Vec3& start) {
   return at;
 }
 
-Placement raise_mean(const PointStar& star, const Vec3& start, int steps, const Freedom& freedom) {
+Placement raise_score(const PointStar& star, const Vec3& start, int steps, double floor, const Freedom& freedom) {
   Placement best{start, star.worst(start)};
-  const double floor = best.worst, unweighted_floor = star.worst_unweighted(start);
-  double mean = star.mean(start);
+  const double weighted_floor = std::min(floor, best.worst),
+               unweighted_floor = std::min(floor, star.worst_unweighted(start));
+  double score = star.score(start);
   std::vector<Vec3> gradients;
   for (int step = 0; step < steps; ++step) {
-    gradients.clear();
-    Vec3 sum{};
+    gradients = {star.pull()};
+    Vec3 sum = star.pull();
     double shares = 0;
+    for (std::size_t i = 0; i < star.size(); ++i) shares += star.mean_share(i);
     for (std::size_t i = 0; i < star.size(); ++i) {
-      shares += star.mean_share(i);
       if (star.is_enough(i, best.at)) continue;
-      gradients.push_back(star.gradient(i, best.at) * (star.mean_share(i) / star.weight(i)));
+      gradients.push_back(star.gradient(i, best.at) * (star.mean_share(i) / star.weight(i) / shares));
       sum += gradients.back();
     }
-    const Vec3 direction = freedom.allowed(freedom.allowed(sum * (1 / shares)));
+    const Vec3 direction = freedom.allowed(freedom.allowed(sum));
     const double slope = norm_squared(direction);
     if (!is_direction(direction, gradients)) break;
-    // Full step: where the linear model of the mean would reach 1.
-    double length = (1 - mean) / slope;
+    // Full step: where the linear model of the score would reach 1, or, with a pull, a little more than it has.
+    double length = std::max(1 - score, least_rise) / slope;
     bool moved = false;
     for (int i = 0; i <= 2 * halvings && !moved; ++i, length /= 2) {
       const Vec3 at = best.at + direction * length;
-      const double there = star.mean(at);
-      if (!(there > mean + least_gain)) continue;
+      const double there = star.score(at);
+      if (!(there > score + least_gain)) continue;
       const double worst = star.worst(at);
-      if (worst < floor || star.worst_unweighted(at) < unweighted_floor) continue;
+      if (worst < weighted_floor || star.worst_unweighted(at) < unweighted_floor) continue;
       best = {at, worst};
-      mean = there;
+      score = there;
       moved = true;
     }
     if (!moved) break;

@@ -17,14 +17,18 @@ struct Standing {
   double floor = -1;  // values that keep_floors() guards: they do not fall below it
 };
 
-// The corners of elements whose scaled Jacobian depends on one vertex. A corner at o with edges to a, b, c has
-// det(a-o, b-o, c-o) / (|a-o| |b-o| |c-o|); for a tet times the square root of 2, so that the regular tet has 1.
+// The corners of elements whose scaled Jacobian depends on one vertex, and what else tells its places apart. A corner
+// at o with edges to a, b, c has det(a-o, b-o, c-o) / (|a-o| |b-o| |c-o|); for a tet times the square root of 2, so
+// that the regular tet has 1.
 class PointStar {
  public:
-  void clear() { terms_.clear(); }
+  void clear() { terms_.clear(), pull_ = {}; }
   bool empty() const { return terms_.empty(); }
   // The corners of an element that involve its corner `moving`; the position given for it is not used.
   void add(CellKind kind, std::span<const Vec3> corners, int moving, const Standing& standing = {});
+  // The score rises by `pull` for each unit of length away from `start` along it.
+  void set_pull(const Vec3& start, const Vec3& pull) { start_ = start, pull_ = pull; }
+  const Vec3& pull() const { return pull_; }
 
   std::size_t size() const { return terms_.size(); }
   double value(std::size_t term, const Vec3& at) const;
@@ -39,8 +43,8 @@ class PointStar {
   // Least over all corners, weighted and not.
   double worst(const Vec3& at) const;
   double worst_unweighted(const Vec3& at) const;
-  // Of the unweighted values, by share.
-  double mean(const Vec3& at) const;
+  // The mean of the unweighted values, by share, and what the pull adds.
+  double score(const Vec3& at) const;
   // True when worst(at) > bound; stops at the first corner that is not.
   bool exceeds(const Vec3& at, double bound) const;
   // False when a value that the move changes falls below its floor, or further below it.
@@ -59,6 +63,7 @@ class PointStar {
   void add_corner(std::span<const Vec3> corners, const LocalCorner& corner, int moving, const Term& model);
 
   std::vector<Term> terms_;
+  Vec3 start_{}, pull_{};
 };
 
 // Where a vertex may go from where it is: anywhere, in a plane with this normal, along a line, or nowhere.
@@ -79,8 +84,8 @@ struct Placement {
 // (locally) greatest. Elements may be inverted at the start.
 Placement raise_worst(const PointStar& star, const Vec3& start, int steps, const Freedom& freedom = {});
 
-// Takes at most `steps` steps that raise the mean without lowering the least, weighted or not.
-Placement raise_mean(const PointStar& star, const Vec3& start, int steps, const Freedom& freedom = {});
+// Takes at most `steps` steps that raise the score, and lower the least, weighted or not, no further than to `floor`.
+Placement raise_score(const PointStar& star, const Vec3& start, int steps, double floor, const Freedom& freedom = {});
 
 // A plane with its unit normal; points on the normal's side have positive distance.
 struct Plane {
