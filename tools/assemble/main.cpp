@@ -64,8 +64,9 @@ int main(int argc, char** argv) {
                    "pyramids: every quad gets a cell on its other side; none: quads may face two triangles")
         ->check(CLI::IsMember(conformities))
         ->capture_default_str();
-    app.add_option("--smooth", smooth,
-                   "rounds of moving vertices and exchanging tets to make the worst cells better; 0: none")
+    app.add_option(
+           "--smooth", smooth,
+           "rounds of moving vertices and exchanging tets to make the worst cells better and hexes larger; 0: none")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
     app.add_option("--neighbours", neighbours,
