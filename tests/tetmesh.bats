@@ -690,6 +690,17 @@ assert abs(area - same_area) < 1e-9 * area and abs(volume - same_volume) < 1e-9 
 PYTHON
 }
 
+@test "--improve gives up a run of TetGen that does not end" {
+  # In the third round.
+  tetmesh -q "$DATA/endless.off" --size 15% --seed 77345 --points frame --improve 4 -o improved.mesh --stats stats.json
+  $PYTHON - <<'PYTHON'
+import json
+stats = json.load(open("stats.json"))
+assert stats["improved"]["rounds"] == 4, stats
+assert stats["seconds"] < 60, stats
+PYTHON
+}
+
 @test "--improve ends by --time-limit or a signal with the best mesh so far" {
   rounds() { $PYTHON -c 'import json; print(json.load(open("stats.json"))["improved"]["rounds"])'; }
   local part="$DATA/bracket.stl"

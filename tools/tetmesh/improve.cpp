@@ -1,5 +1,6 @@
 #include "tools/tetmesh/improve.hpp"
 
+#include <algorithm>
 #include <deque>
 #include <memory>
 #include <utility>
@@ -13,6 +14,11 @@
 namespace hexpipe {
 namespace {
 
+// TetGen goes on for ever on a few meshes, and the others take about as long as each other: one that takes this many
+// times the mean of those before, and this many seconds, is given up.
+constexpr double most_times_the_mean = 50;
+constexpr double least_limit = 5;
+
 // Runs TetGen on many surfaces with points, as many at a time as there are threads.
 class MeshMaker {
  public:
@@ -23,6 +29,7 @@ class MeshMaker {
 
  private:
   void start(const SurfaceWithPoints& filled);
+  double seconds_for_a_run() const;
 
   double tetgen_timeout_;
   const Deadline& deadline_;
@@ -60,7 +67,13 @@ void MeshMaker::start(const SurfaceWithPoints& filled) {
                                                              .triangles = filled.surface.triangles,
                                                              .interior_points = filled.inside,
                                                              .names_intersecting = false},
-                                                 tetgen_timeout_));
+                                                 seconds_for_a_run()));
+}
+
+double MeshMaker::seconds_for_a_run() const {
+  const double mean = statistics_.seconds.of_tetgen / std::max(1, statistics_.tetgen_runs);
+  const double limit = std::max(least_limit, most_times_the_mean * mean);
+  return std::min({limit, tetgen_timeout_, deadline_.remaining()});
 }
 
 }  // namespace
