@@ -62,6 +62,29 @@ assert eval(sys.argv[2]), (sys.argv[2], s)" "$(stats_of "$1")" "$2"
   grep -q " $found quads non-conforming" summary
 }
 
+@test "--fill makes prisms of tets between hexes: fewer quads face tets, hexes stay" {
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 5 >kuhn.mesh
+  findhex --mesh kuhn.mesh -o kuhn.cand
+  findhex --mesh kuhn.mesh | buildgraph | initsol --iterations 0 -o full.sol
+  awk '!(NR <= 5 || NR % 17 == 0)' full.sol >kuhn.sol  # without a column at an edge, and some more
+  local files="--mesh kuhn.mesh --candidates kuhn.cand --solution kuhn.sol"
+  assemble $files --fill none --stats none.json -o none.vtu
+  assemble $files -v --stats prisms.json -o prisms.vtu 2>summary
+  expect prisms.vtu 's["conforming"] and s["nonconf_quads"] == 0 and s["hexbad"] == s["inv"] == s["orphan_nodes"] == 0'
+  expect prisms.vtu 'abs(s["volgap"]) < 1e-12 and abs(s["vol"] - 125) < 1e-9'
+  $PYTHON - <<PYTHON
+import json
+none, prisms = (json.load(open(f)) for f in ("none.json", "prisms.json"))
+made = prisms["conformity"]["prisms_between_cells"]
+assert made >= 5 and none["conformity"]["prisms_between_cells"] == none["cells"]["prism"]["count"] == 0, made
+assert f" {made} prisms made of tets between the cells" in open("summary").read()
+assert prisms["cells"]["hex"]["count"] >= none["cells"]["hex"]["count"]
+assert prisms["conformity"]["quads_against_tets"] < none["conformity"]["quads_against_tets"]
+PYTHON
+  assemble $files --fill prisms -o default.vtu
+  assert_same_bytes prisms.vtu default.vtu
+}
+
 @test "--smooth moves vertices, more rounds more" {
   for rounds in 0 1 5; do assemble $FILES --smooth $rounds -o $rounds.vtu; done
   assert_different_bytes 0.vtu 1.vtu
@@ -236,6 +259,8 @@ PYTHON
 @test "a command line that makes no sense ends with 2" {
   assert_fails_with 2 "assemble: .*conformity" assemble $FILES --conformity maybe -o x.vtu
   assert_fails_with 2 "assemble: .*smooth" assemble $FILES --smooth -1 -o x.vtu
+  assert_fails_with 2 "assemble: .*fill" assemble $FILES --fill tets -o x.vtu
+  assert_fails_with 2 "fill prisms goes with --conformity pyramids" assemble $FILES --fill prisms --conformity none -o x.vtu
 }
 
 # lattice_mesh N FORMAT FILE: a conforming mesh of all kinds of cells on a lattice of N cubes along each axis.

@@ -161,7 +161,7 @@ def check_peeling_and_kinds(page, cells):
     page.slide("peel", 0)
     page.settles_with(peel="0")
     without = 0
-    for kind in "hex", "pyramid", "tet":
+    for kind in "hex", "prism", "pyramid", "tet":
         button = page.find(f"#counts button[data-kind={kind}]")
         button.click()
         page.wait(lambda: kind not in page.state()["kinds"])

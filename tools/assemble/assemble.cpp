@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <optional>
 
 #include "common/mesh/adjacency.hpp"
@@ -13,6 +14,7 @@
 #include "tools/assemble/complete_surface.hpp"
 #include "tools/assemble/conform.hpp"
 #include "tools/assemble/extract.hpp"
+#include "tools/assemble/fill.hpp"
 #include "tools/assemble/input_surface.hpp"
 #include "tools/assemble/peel.hpp"
 #include "tools/assemble/reconnect.hpp"
@@ -335,6 +337,29 @@ void check_orientation(const TetMesh& mesh, const InputNames& names) {
   }
 }
 
+namespace {
+
+// With prisms between the chosen cells.
+AssembleResult assemble_filled(TetMesh mesh, std::optional<TetAdjacency>& adjacency, const Candidates& candidates,
+                               const IndependentSet& chosen, const AssembleOptions& options, const InputNames& names) {
+  const SurfaceTags tags(mesh);
+  Candidates cells = select(candidates, chosen);
+  const std::int64_t prisms =
+      append_filling_prisms(mesh, tags, build_selection(mesh, tags, candidates, chosen, names), cells);
+  InputNames names_of_cells = names;
+  if (names.origins.empty())
+    for (const std::int32_t candidate : chosen) names_of_cells.origins.push_back({0, candidate});
+  IndependentSet all(cells.size());
+  std::iota(all.begin(), all.end(), 0);
+  Assembler assembler(std::move(mesh), *adjacency, cells, all, options, names_of_cells, nullptr);
+  adjacency.reset();  // for it takes much memory and has done its work
+  AssembleResult result = assembler.run();
+  result.statistics.filling_prisms = prisms;
+  return result;
+}
+
+}  // namespace
+
 AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const IndependentSet& chosen,
                         const AssembleOptions& options, const InputNames& names, const Seam* seam) {
   validate_against(candidates, mesh, names.candidates.c_str());
@@ -343,6 +368,9 @@ AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const Indepe
   std::optional<TetAdjacency> adjacency(std::in_place, mesh, names.mesh.c_str());
   check_sides(mesh, *adjacency, names.mesh.c_str());
   if (seam == nullptr) complete_surface(mesh, *adjacency);
+  if (seam == nullptr && options.fill == AssembleOptions::Fill::prisms &&
+      options.conformity == AssembleOptions::Conformity::pyramids)
+    return assemble_filled(std::move(mesh), adjacency, candidates, chosen, options, names);
   Assembler assembler(std::move(mesh), *adjacency, candidates, chosen, options, names, seam);
   adjacency.reset();  // for it takes much memory and has done its work
   return assembler.run();

@@ -14,6 +14,9 @@ namespace hexpipe {
 struct AssembleOptions {
   enum class Conformity { pyramids, none };
   Conformity conformity = Conformity::pyramids;
+  // Prisms are made of the tets between the chosen cells, where the result is to conform and no piece of a mesh.
+  enum class Fill { prisms, none };
+  Fill fill = Fill::prisms;
   int smooth = 5;  // rounds over all vertices
 };
 
@@ -22,7 +25,7 @@ struct AssembleResult {
   AssembleStatistics statistics;
   // By point the input's vertex that it was, or a number from theirs on for one that was added.
   std::vector<Vertex> origin;
-  IndependentSet left;  // the chosen candidates that are cells of the mesh, ascending
+  IndependentSet left;  // of a piece: the chosen candidates that are cells of the mesh, ascending
 };
 
 // Throws DataError, with the mesh's name and the number of the tet from 1, when one is not positively oriented.

@@ -57,13 +57,21 @@ int main(int argc, char** argv) {
       .outside_history = {"neighbours", "before"},
   };
   std::vector<std::string> neighbours, before;
-  std::string conformity = "pyramids";
+  const std::map<std::string, AssembleOptions::Fill> fills{{"prisms", AssembleOptions::Fill::prisms},
+                                                           {"none", AssembleOptions::Fill::none}};
+  std::string conformity = "pyramids", fill = "prisms";
+  const CLI::Option* fill_option = nullptr;
   int smooth = AssembleOptions{}.smooth;
   auto declare = [&](CLI::App& app) {
     app.add_option("--conformity", conformity,
                    "pyramids: every quad gets a cell on its other side; none: quads may face two triangles")
         ->check(CLI::IsMember(conformities))
         ->capture_default_str();
+    fill_option = app.add_option("--fill", fill,
+                                 "prisms: tets between the cells become prisms where these close as many quads as they "
+                                 "open; none: they stay, as always with --conformity none and with --neighbours")
+                      ->check(CLI::IsMember(fills))
+                      ->capture_default_str();
     app.add_option(
            "--smooth", smooth,
            "rounds of moving vertices and exchanging tets to make the worst cells better and hexes larger; 0: none")
@@ -75,10 +83,15 @@ int main(int argc, char** argv) {
     app.add_option("--before", before, "With --neighbours: the pieces that the round before made")->type_name("FILE");
   };
   auto run = [&](RunContext& context) {
-    const AssembleOptions options{.conformity = conformities.at(conformity), .smooth = smooth};
-    context.options["conformity"] = conformity;
-    context.options["smooth"] = smooth;
     const bool by_part = !neighbours.empty();
+    const bool may_fill = !by_part && conformity == "pyramids";
+    if (!may_fill && fill_option->count() > 0 && fill == "prisms")
+      throw UsageError("--fill prisms goes with --conformity pyramids, without --neighbours");
+    if (!may_fill) fill = "none";
+    const AssembleOptions options{.conformity = conformities.at(conformity), .fill = fills.at(fill), .smooth = smooth};
+    context.options["conformity"] = conformity;
+    context.options["fill"] = fill;
+    context.options["smooth"] = smooth;
     if (by_part && options.conformity == AssembleOptions::Conformity::none)
       throw UsageError("--conformity none does not go with --neighbours: pieces fit because they conform");
     if (!by_part && !before.empty()) throw UsageError("--before goes with --neighbours");

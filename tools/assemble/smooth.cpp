@@ -1,10 +1,10 @@
 // One vertex after the other goes where the worst cell around it is best, or, where that one is good enough, to where
-// the cells around it are better on average, the cells that were chosen have more of the volume, and the worst is still
-// good enough. L. A. Freitag, C. Ollivier-Gooch, "Tetrahedral
-// mesh improvement using swapping and smoothing" (1997), sections 3 and 5: optimization where a smart average does not
-// suffice. The average here is ascended by its gradient, because the centre of the neighbours means little to a hex.
-// Vertices on curved surfaces step in the tangent plane and return to the nearest point of the input's surface; facets
-// between them leave it, so they move only for poor cells and within a bound.
+// the cells around it are better on average, hexes have more of the volume, and the worst is still good enough. L. A.
+// Freitag, C. Ollivier-Gooch, "Tetrahedral mesh improvement using swapping and smoothing" (1997), sections 3 and 5:
+// optimization where a smart average does not suffice. The average here is ascended by its gradient, because the centre
+// of the neighbours means little to a hex. Vertices on curved surfaces step in the tangent plane and return to the
+// nearest point of the input's surface; facets between them leave it, so they move only for poor cells and within a
+// bound.
 
 #include "tools/assemble/smooth.hpp"
 
@@ -36,9 +36,9 @@ constexpr double least_hex = 0.3;
 // Better than this, cells other than hexes gain nothing in the mean: pyramids would grow tall and press hexes flat.
 constexpr double good_beside_hexes = 0.25;
 constexpr double good_prism = 0.5;
-// What chosen cells gain by growth: the mean scaled Jacobian of all cells at the vertex may fall by this for a growth
-// of a cell's volume. Tets and pyramids between hexes come out as thin as good_enough lets them, with as good hexes as
-// without: at 0.5 hexes are 0.02 worse on average, at 0.1 they take half as much from the tets.
+// What hexes gain by growth: the mean scaled Jacobian of all cells at the vertex may fall by this for a growth of a
+// hex's volume. What lies between hexes comes out as thin as good_enough lets it, with as good hexes as without: at 0.5
+// hexes are 0.02 worse on average, at 0.1 they take half as much from the tets.
 constexpr double worth_of_growth = 0.2;
 // Where the worst cell, so weighted, is better than this, the average counts, and growth.
 constexpr double good_enough = 0.12;
@@ -57,11 +57,6 @@ constexpr double most_uneven = 5e-7;
 constexpr double shortest_edge = 0.1;
 // A move that leaves a hex invalid is halved this often.
 constexpr int retreats = 4;
-
-// From among candidates, not made of what was left.
-bool is_chosen(CellKind kind) {
-  return kind == CellKind::hex || kind == CellKind::prism;
-}
 
 // Cells at each vertex, in flat arrays.
 class Cells {
@@ -168,24 +163,24 @@ Standing Smoother::standing_of(CellKind kind) const {
   }
 }
 
-// By how much of a cell's volume the chosen cells at v, together, grow as it moves, for each unit of length.
+// By how much of a hex's volume the hexes at v, together, grow as it moves, for each unit of length.
 Vec3 Smoother::growth_at(Vertex v) const {
   Vec3 growth{};
   double volume = 0;
-  int chosen = 0;
+  int hexes = 0;
   for (std::int32_t c : cells_.at(v)) {
-    if (!is_chosen(cells_.kind(c))) continue;
+    if (cells_.kind(c) != CellKind::hex) continue;
     const auto corners = cells_.corners_of(c);
     const auto at = corner_points(points_, corners);
     const auto cell = std::span<const Vec3>(at).first(corners.size());
     const auto moving = static_cast<int>(std::ranges::find(corners, v) - corners.begin());
     growth += cell_volume_gradient(cells_.kind(c), cell, moving);
     volume += cell_volume(cells_.kind(c), cell);
-    ++chosen;
+    ++hexes;
   }
-  // Among chosen cells alone what one gains another loses.
-  const bool among_others = chosen > 0 && chosen < static_cast<int>(cells_.at(v).size());
-  return among_others && volume > 0 ? growth * (chosen / volume) : Vec3{};
+  // Among hexes alone what one gains another loses.
+  const bool among_others = hexes > 0 && hexes < static_cast<int>(cells_.at(v).size());
+  return among_others && volume > 0 ? growth * (hexes / volume) : Vec3{};
 }
 
 bool Smoother::is_valid_cell(std::int32_t c) const {

@@ -161,9 +161,13 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
   auto given_back = nlohmann::ordered_json::object();
   for (GivenBack reason : all_reasons)
     given_back[name_of(reason)] = counts.given_back[static_cast<std::size_t>(reason)];
-  json["conformity"] = {{"quads_against_tets", counts.open_quads}, {"pyramids_merged", counts.merged},
-                        {"vertices_added", counts.split},          {"slivers_absorbed", counts.absorbed},
-                        {"cells_given_back", given_back},          {"hex_volume_given_back", counts.volume_given_back}};
+  json["conformity"] = {{"prisms_between_cells", statistics.filling_prisms},
+                        {"quads_against_tets", counts.open_quads},
+                        {"pyramids_merged", counts.merged},
+                        {"vertices_added", counts.split},
+                        {"slivers_absorbed", counts.absorbed},
+                        {"cells_given_back", given_back},
+                        {"hex_volume_given_back", counts.volume_given_back}};
   json["poor_cells"] = nlohmann::ordered_json::array();
   for (const auto& cell : statistics.poor)
     json["poor_cells"].push_back({{"kind", name_of(cell.kind)},
@@ -191,6 +195,8 @@ std::vector<std::string> summary_lines(const AssembleStatistics& statistics) {
   lines.push_back(
       fmt::format("{} points, boundary and interfaces of {} quads and {} triangles, {} quads non-conforming",
                   statistics.points, statistics.quads, statistics.triangles, statistics.volumes.nonconforming_quads));
+  if (statistics.filling_prisms > 0)
+    lines.push_back(fmt::format("{} prisms made of tets between the cells", statistics.filling_prisms));
   if (counts.open_quads > 0)
     lines.push_back(fmt::format(
         "{} quads faced tets: {} pyramids merged, {} vertices added, {} cells given back "

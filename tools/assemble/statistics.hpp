@@ -37,6 +37,7 @@ struct AssembleStatistics {
   std::int64_t points = 0, triangles = 0, quads = 0;
   CheckedVolumes volumes;
   ConformityCounts conformity;
+  std::int64_t filling_prisms = 0;  // made of the tets between the chosen cells; some may have gone back since
   SmoothCounts smoothing;
   std::vector<PoorCell> poor;                                     // all that are left
   std::int64_t exchanges = 0;                                     // of poor tets for others on the same vertices
