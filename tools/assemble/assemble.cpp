@@ -342,13 +342,17 @@ namespace {
 // With prisms between the chosen cells.
 AssembleResult assemble_filled(TetMesh mesh, std::optional<TetAdjacency>& adjacency, const Candidates& candidates,
                                const IndependentSet& chosen, const AssembleOptions& options, const InputNames& names) {
-  const SurfaceTags tags(mesh);
   Candidates cells = select(candidates, chosen);
-  const std::int64_t prisms =
-      append_filling_prisms(mesh, tags, build_selection(mesh, tags, candidates, chosen, names), cells);
+  std::int64_t prisms = 0;
+  {
+    const SurfaceTags tags(mesh);
+    prisms = append_filling_prisms(mesh, tags, build_selection(mesh, tags, candidates, chosen, names), cells);
+  }
   InputNames names_of_cells = names;
-  if (names.origins.empty())
-    for (const std::int32_t candidate : chosen) names_of_cells.origins.push_back({0, candidate});
+  for (const std::int32_t candidate : chosen) names_of_cells.origins.push_back({0, candidate});
+  // Prisms have no number that a user could know: they come behind all candidates.
+  for (std::int64_t i = 0; i < prisms; ++i)
+    names_of_cells.origins.push_back({0, static_cast<std::int32_t>(static_cast<std::int64_t>(candidates.size()) + i)});
   IndependentSet all(cells.size());
   std::iota(all.begin(), all.end(), 0);
   Assembler assembler(std::move(mesh), *adjacency, cells, all, options, names_of_cells, nullptr);

@@ -107,7 +107,7 @@ class Filling {
     HybridCell cell;
     cell.kind = all_.kind[i];
     cell.corners = all_.vertices[i];
-    for (int k = 0; k < cell.quad_count(); ++k) ++cells_at_[key_of(cell.quad(k))];
+    for (int k = 0; k < cell.quad_count(); ++k) quads_.insert(key_of(cell.quad(k)));
     barred_[i] = true;
     for (const std::int32_t other : graph_.neighbours_of(i)) barred_[other] = true;
   }
@@ -123,7 +123,7 @@ class Filling {
   int gain_of(std::int32_t prism) const {
     int gain = 0;
     for (const Quad& quad : quads_of_prism(all_, prism)) {
-      if (cells_at_.contains(key_of(quad)))
+      if (quads_.contains(key_of(quad)))
         ++gain;
       else if (!is_on_boundary(quad))
         --gain;
@@ -141,7 +141,7 @@ class Filling {
   const Candidates& all_;
   const ConflictGraph& graph_;
   std::vector<bool> barred_;  // taken, or in conflict with what is
-  KeyMap<4, int> cells_at_;   // by quad: how many have it of those that stand
+  KeySet<4> quads_;           // of all that stand
   KeyMap<4, std::vector<std::int32_t>> prisms_at_;
   std::priority_queue<Offer> offers_;
 };
