@@ -691,13 +691,13 @@ PYTHON
 }
 
 @test "--improve gives up a run of TetGen that does not end" {
-  # In the third round.
-  tetmesh -q "$DATA/endless.off" --size 15% --seed 77345 --points frame --improve 4 -o improved.mesh --stats stats.json
+  tetmesh -q "$DATA/endless.off" --size 15% --seed 11 --points frame --improve 8 -o improved.mesh --stats stats.json
   $PYTHON - <<'PYTHON'
 import json
 stats = json.load(open("stats.json"))
-assert stats["improved"]["rounds"] == 4, stats
-assert stats["seconds"] < 60, stats
+assert stats["improved"]["rounds"] == 8, stats
+# Less: no run went on for ever. One seed in ten to twenty meets one.
+assert 4 < stats["seconds"] < 60, stats
 PYTHON
 }
 

@@ -2,12 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <numeric>
 #include <optional>
 
 #include "common/run/random.hpp"
 #include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/search/judged_mesh.hpp"
+#include "tools/tetmesh/search/mesh_change.hpp"
 #include "tools/tetmesh/search/point_search.hpp"
 #include "tools/tetmesh/search/surface_change.hpp"
 #include "tools/tetmesh/surface_check.hpp"
@@ -141,36 +144,144 @@ TEST(FlatSurface, StaysTheSameBoxWhateverChanges) {
   expect_same_box(surface);
 }
 
-TEST(ChooseHexes, KeepsWhatIsKnown) {
+// The point nearest to a corner of the box moves.
+std::vector<Vec3> one_moved(std::vector<Vec3> points, const Vec3& step) {
+  points.front() += step;
+  return points;
+}
+
+double distance_to_moved(const TetMesh& mesh, std::span<const Vertex> corners) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vertex v : corners) least = std::min(least, norm(mesh.points[v] - Vec3{1, 1, 1}));
+  return least;
+}
+
+TEST(MeshChange, NothingIsTouchedWhereNothingChanged) {
+  const TetMesh mesh = testing::mesh_of(box_surface(), points_inside(0.3)).mesh;
+  const MeshChange change(MeshIndex(mesh), mesh);
+  EXPECT_THAT(change.is_touched, ::testing::Each(false));
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) EXPECT_EQ(change.vertex_now[v], static_cast<Vertex>(v));
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) EXPECT_EQ(change.tet_now[t], static_cast<std::int32_t>(t));
+}
+
+TEST(MeshChange, FindsWhatStaysAndWhatIsTouched) {
   const Surface surface = box_surface();
-  const BuiltMesh built = testing::mesh_of(surface, points_inside(0.3));
-  const std::vector<ChosenHex> found = choose_hexes(built.mesh, {}, 20);
-  ASSERT_GT(found.size(), 10u);
-  const auto keys_of = [](std::span<const ChosenHex> hexes) {
-    std::vector<std::uint64_t> keys;
-    for (const ChosenHex& hex : hexes) keys.push_back(hex.key);
-    return keys;
-  };
-  EXPECT_EQ(keys_of(choose_hexes(built.mesh, found, 0)), keys_of(found));
-  // With other points in one corner of the box the hexes in the other one are the same.
-  std::vector<Vec3> other = points_inside(0.3);
-  other.front() += Vec3{0.1, 0.1, 0.1};
-  const BuiltMesh changed = testing::mesh_of(surface, other);
-  const std::vector<std::uint64_t> keys = keys_of(choose_hexes(changed.mesh, found, 0));
-  for (const ChosenHex& hex : found)
-    if (std::ranges::all_of(hex.corners, [&](Vertex v) { return norm(built.mesh.points[v]) > 4; })) {
-      EXPECT_THAT(keys, ::testing::Contains(hex.key));
+  std::vector<Vec3> inside = points_inside(0.3);
+  const TetMesh before = testing::mesh_of(surface, inside).mesh;
+  // One moves, one goes: those behind it have another number.
+  inside = one_moved(std::move(inside), {0.1, 0.1, 0.1});
+  inside.erase(inside.begin() + 1);
+  const TetMesh now = testing::mesh_of(surface, inside).mesh;
+  const MeshChange change(MeshIndex(before), now);
+  ASSERT_EQ(change.vertex_now.size(), before.points.size());
+  EXPECT_EQ(std::ranges::count(change.vertex_now, MeshChange::none), 2);
+  for (std::size_t v = 0; v < before.points.size(); ++v)
+    if (change.vertex_now[v] != MeshChange::none) {
+      EXPECT_EQ(now.points[change.vertex_now[v]], before.points[v]);
     }
+  std::vector<bool> is_old(now.tets.size());
+  for (std::size_t t = 0; t < before.tets.size(); ++t) {
+    if (change.tet_now[t] == MeshChange::none) continue;
+    is_old[change.tet_now[t]] = true;
+    for (const Vertex v : before.tets[t])
+      EXPECT_THAT(now.tets[change.tet_now[t]], ::testing::Contains(change.vertex_now[v]));
+  }
+  std::vector<bool> is_touched(now.points.size());
+  for (std::size_t t = 0; t < now.tets.size(); ++t)
+    for (const Vertex v : now.tets[t])
+      if (!is_old[t]) is_touched[v] = true;
+  EXPECT_EQ(change.is_touched, is_touched);
+  const auto touched = std::ranges::count(is_touched, true);
+  EXPECT_GT(touched, 10);
+  EXPECT_LT(touched, static_cast<std::ptrdiff_t>(now.points.size() / 2));
+}
+
+using Places = std::vector<std::array<double, 3>>;
+
+// What tells a hex of one mesh from those of another.
+Places places_of(const ChosenHex& hex, const TetMesh& mesh) {
+  Places places;
+  for (const Vertex v : hex.corners) places.push_back({mesh.points[v].x, mesh.points[v].y, mesh.points[v].z});
+  std::ranges::sort(places);
+  return places;
+}
+
+std::vector<Places> places_of(std::span<const ChosenHex> hexes, const TetMesh& mesh) {
+  std::vector<Places> places;
+  for (const ChosenHex& hex : hexes) places.push_back(places_of(hex, mesh));
+  std::ranges::sort(places);
+  return places;
+}
+
+// Hexes that share no tet, whose tets have their volume but for slivers.
+void expect_hexes_of(const TetMesh& mesh, std::span<const ChosenHex> hexes) {
+  std::vector<int> uses(mesh.tets.size());
+  for (const ChosenHex& hex : hexes) {
+    double volume = 0;
+    ASSERT_GE(hex.interior_tets.size(), 5u);
+    for (const std::int32_t t : hex.interior_tets) {
+      ++uses[t];
+      volume += tet_determinant(mesh.points, mesh.tets[t]) / 6;
+      for (const Vertex v : mesh.tets[t])
+        EXPECT_TRUE(std::ranges::count(hex.corners, v) == 1 || hex.interior_tets.size() > 15);
+    }
+    EXPECT_NEAR(volume, hex.volume, 0.3 * hex.volume);
+    EXPECT_GT(hex.quality, 0.3);
+  }
+  EXPECT_THAT(uses, ::testing::Each(::testing::Le(1)));
+}
+
+TEST(ChooseHexes, ChoosesTheSameAgainWhereNothingChanged) {
+  const TetMesh mesh = testing::mesh_of(box_surface(), points_inside(0.3)).mesh;
+  const std::vector<ChosenHex> found = choose_hexes(mesh, 20);
+  ASSERT_GT(found.size(), 10u);
+  expect_hexes_of(mesh, found);
+  const std::vector<ChosenHex> again = choose_hexes_again(mesh, MeshChange(MeshIndex(mesh), mesh), found, 1);
+  EXPECT_EQ(places_of(again, mesh), places_of(found, mesh));
+  expect_hexes_of(mesh, again);
+}
+
+TEST(ChooseHexes, KeepsWhatIsFarFromAChange) {
+  const Surface surface = box_surface();
+  const TetMesh mesh = testing::mesh_of(surface, points_inside(0.3)).mesh;
+  const std::vector<ChosenHex> found = choose_hexes(mesh, 20);
+  const TetMesh changed = testing::mesh_of(surface, one_moved(points_inside(0.3), {0.1, 0.1, 0.1})).mesh;
+  const std::vector<ChosenHex> again = choose_hexes_again(changed, MeshChange(MeshIndex(mesh), changed), found, 1);
+  expect_hexes_of(changed, again);
+  const std::vector<Places> places = places_of(again, changed);
+  int far = 0;
+  for (const ChosenHex& hex : found) {
+    if (distance_to_moved(mesh, hex.corners) <= 3) continue;
+    ++far;
+    EXPECT_THAT(places, ::testing::Contains(places_of(hex, mesh)));
+  }
+  EXPECT_GT(far, 0);
+}
+
+// As good as from nothing, but for chance: on the whole box, most of which is touched by so many changes.
+TEST(ChooseHexes, FindsTheHexesOfWhatChanged) {
+  const Surface surface = box_surface();
+  const TetMesh mesh = testing::mesh_of(surface, points_inside(0.8)).mesh;
+  const std::vector<ChosenHex> found = choose_hexes(mesh, 20);
+  const TetMesh changed = testing::mesh_of(surface, points_inside(0.01)).mesh;
+  const std::vector<ChosenHex> again = choose_hexes_again(changed, MeshChange(MeshIndex(mesh), changed), found, 1);
+  EXPECT_EQ(again.size(), static_cast<std::size_t>(cells * cells * cells));
+  EXPECT_EQ(places_of(again, changed), places_of(choose_hexes(changed, 20), changed));
+}
+
+JudgedMesh judged(BuiltMesh built) {
+  std::vector<ChosenHex> hexes = choose_hexes(built.mesh, 20);
+  return judge(std::move(built), std::move(hexes));
 }
 
 TEST(JudgedMesh, HexesWithOpenQuadsAreWorthLess) {
   const Surface surface = box_surface();
-  const JudgedMesh whole = judge(testing::mesh_of(surface, points_inside(0.01)), {}, 20);
+  const JudgedMesh whole = judged(testing::mesh_of(surface, points_inside(0.01)));
   EXPECT_EQ(whole.hexes.size(), static_cast<std::size_t>(cells * cells * cells));
   EXPECT_TRUE(whole.left.empty());
   EXPECT_NEAR(whole.total_worth(), whole.hex_volume(), 1e-9);
   EXPECT_NEAR(whole.hex_volume(), cells * cells * cells, 1e-3);
-  const JudgedMesh partly = judge(testing::mesh_of(surface, points_inside(0.8)), {}, 20);
+  const JudgedMesh partly = judged(testing::mesh_of(surface, points_inside(0.8)));
   EXPECT_FALSE(partly.left.empty());
   EXPECT_LT(partly.total_worth(), partly.hex_volume() - 0.1);
   for (const std::int32_t t : partly.left) EXPECT_EQ(partly.hex_of_tet[t], JudgedMesh::none);
@@ -193,12 +304,12 @@ TEST(PointSearch, BringsHexesAndIsTheSameEveryTime) {
     EXPECT_TRUE(found.built.mesh == again.built.mesh);
     EXPECT_EQ(found.surface.has_value(), changes_surface);
     const Surface& result = found.surface ? *found.surface : surface;
-    EXPECT_EQ(result.triangles == surface.triangles, !changes_surface);
+    EXPECT_EQ(result.points == surface.points && result.triangles == surface.triangles, !changes_surface);
     expect_same_box(result);
     // The share is that of the mesh that comes out.
-    const JudgedMesh judged =
-        judge(testing::mesh_of(result, std::span(found.built.mesh.points).subspan(result.points.size())), {}, 20);
-    EXPECT_NEAR(judged.hex_volume() / (cells * cells * cells), found.summary.share, 0.05);
+    const JudgedMesh from_nothing =
+        judged(testing::mesh_of(result, std::span(found.built.mesh.points).subspan(result.points.size())));
+    EXPECT_NEAR(from_nothing.hex_volume() / (cells * cells * cells), found.summary.share, 0.05);
   }
   const PointSearchResult none = search(true, 20, Deadline(0));
   EXPECT_EQ(none.summary.rounds, 0u);

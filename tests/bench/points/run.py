@@ -1,12 +1,13 @@
 #!/usr/bin/python3
-"""run.py [--level coarse|middle|fine] [--kind KIND...] [--tries N] [--improve S] [--time-limit S] [MODEL...] - how much of a part its points
+"""run.py [--level coarse|middle|fine] [--kind KIND...] [--tries N] [--seconds S] [--time-limit S] [MODEL...] - how much of a part its points
 let become hexes.
 
 Runs the pipeline on models of ../shared/models (or on the files named) once for every kind of points, and prints, worst first
 within each kind, the share of the volume in hexes after a greedy choice and after lns, candidates per vertex, the least scaled
 Jacobian, and the time of tetmesh per 100,000 tets and against TetGen's own in the same run. The rows of Gmsh stand beside.
-The kinds are surface+points: keep+lattice is the reference that every other has to beat. Tools are taken from build/bin, or from
-HEXPIPE_BIN; results are checked by tests/checkers/meshstats.py.
+The kinds are surface+points: keep+lattice is the reference that every other has to beat. With +improve behind them tetmesh searches
+for better points for --seconds, on all threads; without, it has one thread. Tools are taken from build/bin, or from HEXPIPE_BIN;
+results are checked by tests/checkers/meshstats.py.
 """
 import argparse
 import json
@@ -28,7 +29,7 @@ FRACTIONS = (1 / 16, 1 / 28, 1 / 40)
 GMSH = {"mambo-s1": (77.8, 89.9, 92.7), "mambo-s27": (71.8, 84.8, 86.5), "mambo-m1": (74.7, 79.9, 85.5), "mambo-m6": (None, None, 94.5)}
 FILES = ("simp.stl", "plate-holes.stl", "blub.off", "spot.obj", "bridge.stl", "notch.stl", "mambo-s1.stl", "mambo-s22.stl",
          "mambo-s27.stl", "mambo-m1.stl", "mambo-m6.stl")
-KINDS = ("keep+lattice", "remesh+lattice", "remesh+frame", "remesh+best")
+KINDS = ("keep+lattice", "remesh+lattice", "remesh+frame", "remesh+best", "remesh+best+improve")
 
 
 def size_of(path, level):
@@ -61,9 +62,9 @@ def share(folder, solution):
 
 
 def measure(path, level, kind, options):
-    surface, points = kind.split("+")
+    surface, points, *improve = kind.split("+")
     name = os.path.basename(path).rsplit(".", 1)[0]
-    improving = ["--improve", "1000000", "--time-limit", str(options.improve)] if options.improve else ["--threads", "1"]
+    improving = ["--improve", "1000000", "--time-limit", str(options.seconds)] if improve else ["--threads", "1"]
     with tempfile.TemporaryDirectory() as folder:
         files = {stage: os.path.join(folder, stage + ".tar") for stage in ("mesh", "candidates", "graph", "greedy", "start", "best")}
         mesh = tool("tetmesh", folder, path, "--surface", surface, "--points", points, "--size", repr(size_of(path, level)),
@@ -94,9 +95,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("models", nargs="*")
     parser.add_argument("--level", choices=LEVELS, action="append")
-    parser.add_argument("--kind", action="append", help="surface+points, as the options of tetmesh name them")
+    parser.add_argument("--kind", action="append", help="surface+points, as the options of tetmesh name them, or surface+points+improve")
     parser.add_argument("--tries", type=int, default=1, help="sizes that tetmesh tries")
-    parser.add_argument("--improve", type=float, help="seconds in which tetmesh searches for better points, on all threads")
+    parser.add_argument("--seconds", type=float, default=60, help="in which tetmesh searches for better points, for kinds with +improve")
     parser.add_argument("--time-limit", type=float, default=5, help="seconds of lns")
     options = parser.parse_args()
     models = options.models or [os.path.join(MODELS, name) for name in FILES]

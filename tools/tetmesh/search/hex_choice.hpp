@@ -9,18 +9,23 @@
 #include <vector>
 
 #include "common/mesh/tet_mesh.hpp"
+#include "tools/tetmesh/search/mesh_change.hpp"
 
 namespace hexpipe {
 
 struct ChosenHex {
-  std::uint64_t key;  // of the places of its corners: the same in two meshes that both have it
-  double volume;
+  double volume, quality;  // quality: the least scaled Jacobian of the corners
   std::array<Vertex, 8> corners;
-  std::vector<std::int32_t> tets;  // interior, and slivers on its quads
+  std::vector<std::int32_t> interior_tets, boundary_tets;  // boundary tets: slivers on its quads
 };
 
-// Starts from those of `known` that the mesh has, so that what two meshes have in common is chosen alike in both. Then
-// `kicks` for each hex, see common/mwis/annealing.hpp.
-std::vector<ChosenHex> choose_hexes(const TetMesh& mesh, std::span<const ChosenHex> known, double kicks);
+// With `kicks` for each hex, see common/mwis/annealing.hpp.
+std::vector<ChosenHex> choose_hexes(const TetMesh& mesh, double kicks);
+
+// From those that were chosen before the mesh changed: only hexes at vertices that the change touched are chosen anew,
+// so that what two meshes have in common is chosen alike in both, and in a fraction of the time. `kicks` for each hex
+// at these and beside.
+std::vector<ChosenHex> choose_hexes_again(const TetMesh& mesh, const MeshChange& change,
+                                          std::span<const ChosenHex> before, double kicks);
 
 }  // namespace hexpipe

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <utility>
 
 #include "common/mesh/cell_topology.hpp"
@@ -45,16 +44,16 @@ double JudgedMesh::total_worth() const {
   return total;
 }
 
-JudgedMesh judge(BuiltMesh built, std::span<const ChosenHex> known, double kicks) {
-  JudgedMesh judged{std::move(built), {}, {}, {}, {}, {}};
+JudgedMesh judge(BuiltMesh built, std::vector<ChosenHex> hexes) {
+  JudgedMesh judged{std::move(built), std::move(hexes), {}, {}, {}, {}};
   const TetMesh& mesh = judged.built.mesh;
-  judged.hexes = choose_hexes(mesh, known, kicks);
   judged.hex_of_tet.assign(mesh.tets.size(), JudgedMesh::none);
   KeySet<3> boundary;
   for (const Triangle& triangle : mesh.triangles) boundary.insert(key_of(triangle));
   KeyMap<4, int> hexes_on;
   for (std::size_t h = 0; h < judged.hexes.size(); ++h) {
-    for (const std::int32_t t : judged.hexes[h].tets) judged.hex_of_tet[t] = static_cast<std::int32_t>(h);
+    for (const auto* tets : {&judged.hexes[h].interior_tets, &judged.hexes[h].boundary_tets})
+      for (const std::int32_t t : *tets) judged.hex_of_tet[t] = static_cast<std::int32_t>(h);
     for (const LocalQuad& local : HexTopology::quads) ++hexes_on[key_of(quad_of(judged.hexes[h], local))];
   }
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "tools/tetmesh/build_mesh.hpp"
@@ -28,7 +27,7 @@ struct JudgedMesh {
   double total_worth() const;
 };
 
-// The hexes are those of choose_hexes().
-JudgedMesh judge(BuiltMesh built, std::span<const ChosenHex> known, double kicks);
+// Of a mesh with hexes that stand together.
+JudgedMesh judge(BuiltMesh built, std::vector<ChosenHex> hexes);
 
 }  // namespace hexpipe

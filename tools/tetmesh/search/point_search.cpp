@@ -34,7 +34,8 @@ class PointSearch {
         given_surface_(surface),
         clearance_(surface),
         box_(Box::around(surface.points)),
-        current_(judge(std::move(start), {}, first_kicks)) {}
+        current_(judged(std::move(start))),
+        index_(current_.built.mesh) {}
 
   // Returns the number of changes that stay.
   std::size_t run_round(std::size_t round);
@@ -54,6 +55,8 @@ class PointSearch {
   const Surface& surface() const { return changed_surface_ ? *changed_surface_ : given_surface_; }
   SurfaceWithPoints with(std::span<const PointChange* const> changes) const;
   bool take_if_better(std::span<const PointChange* const> changes);
+  static JudgedMesh judged(BuiltMesh start);
+  JudgedMesh judged_from_current(BuiltMesh built) const;
 
   const PointSearchOptions& options_;
   const MakeMeshes& make_meshes_;
@@ -62,6 +65,7 @@ class PointSearch {
   const Box box_;
   std::optional<Surface> changed_surface_;
   JudgedMesh current_;
+  MeshIndex index_;  // of its mesh
 };
 
 std::size_t PointSearch::run_round(std::size_t round) {
@@ -76,7 +80,7 @@ std::size_t PointSearch::run_round(std::size_t round) {
   }
   std::vector<std::vector<double>> worth(tries_a_place);  // as the changes; nothing where TetGen failed
   make_meshes_(variants, [&](std::size_t number, BuiltMesh built) {
-    worth[number] = worth_around(places, judge(std::move(built), current_.hexes, kicks));
+    worth[number] = worth_around(places, judged_from_current(std::move(built)));
   });
   std::vector<const PointChange*> good = best_changes(places, changes, worth);
   // Where all together bring nothing, those that bring most may.
@@ -180,11 +184,23 @@ bool PointSearch::take_if_better(std::span<const PointChange* const> changes) {
   std::optional<JudgedMesh> next;
   std::vector<SurfaceWithPoints> changed;
   changed.push_back(with(changes));
-  make_meshes_(changed, [&](std::size_t, BuiltMesh built) { next = judge(std::move(built), current_.hexes, kicks); });
+  make_meshes_(changed, [&](std::size_t, BuiltMesh built) { next = judged_from_current(std::move(built)); });
   if (!next || next->total_worth() <= current_.total_worth()) return false;
   current_ = std::move(*next);
+  index_ = MeshIndex(current_.built.mesh);
   if (options_.changes_surface) changed_surface_ = std::move(changed.front().surface);
   return true;
+}
+
+JudgedMesh PointSearch::judged(BuiltMesh start) {
+  std::vector<ChosenHex> hexes = choose_hexes(start.mesh, first_kicks);
+  return judge(std::move(start), std::move(hexes));
+}
+
+JudgedMesh PointSearch::judged_from_current(BuiltMesh built) const {
+  const MeshChange change(index_, built.mesh);
+  std::vector<ChosenHex> hexes = choose_hexes_again(built.mesh, change, current_.hexes, kicks);
+  return judge(std::move(built), std::move(hexes));
 }
 
 }  // namespace

@@ -1,0 +1,37 @@
+#pragma once
+// What two meshes of nearly the same points have in common: most tets stay when a few points move, come or go.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/mesh/facet_key.hpp"
+#include "common/mesh/tet_mesh.hpp"
+
+namespace hexpipe {
+
+// A mesh as the one after it looks things up there.
+class MeshIndex {
+ public:
+  explicit MeshIndex(const TetMesh& mesh);
+
+ private:
+  friend struct MeshChange;
+  struct PlaceHash {
+    std::size_t operator()(const Vec3& p) const;
+  };
+  std::size_t tet_count_;
+  tsl::robin_map<Vec3, Vertex, PlaceHash> vertex_at_;
+  KeyMap<4, std::int32_t> tet_of_;
+};
+
+struct MeshChange {
+  static constexpr std::int32_t none = -1;
+
+  MeshChange(const MeshIndex& before, const TetMesh& now);
+
+  std::vector<Vertex> vertex_now;     // by vertex before, or none
+  std::vector<std::int32_t> tet_now;  // by tet before, or none
+  std::vector<bool> is_touched;       // by vertex now: it has a tet that was not there before
+};
+
+}  // namespace hexpipe
