@@ -11,6 +11,7 @@
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/run/error.hpp"
+#include "tools/assemble/boundary_quads.hpp"
 #include "tools/assemble/complete_surface.hpp"
 #include "tools/assemble/conform.hpp"
 #include "tools/assemble/extract.hpp"
@@ -346,7 +347,8 @@ AssembleResult assemble_filled(TetMesh mesh, std::optional<TetAdjacency>& adjace
   std::int64_t prisms = 0;
   {
     const SurfaceTags tags(mesh);
-    prisms = append_filling_prisms(mesh, tags, build_selection(mesh, tags, candidates, chosen, names), cells);
+    const BoundaryQuads boundary(mesh, *adjacency, tags);
+    prisms = append_filling_prisms(mesh, boundary, build_selection(mesh, tags, candidates, chosen, names), cells);
   }
   InputNames names_of_cells = names;
   for (const std::int32_t candidate : chosen) names_of_cells.origins.push_back({0, candidate});

@@ -64,10 +64,9 @@ std::array<Quad, PrismTopology::quads.size()> quads_of_prism(const Candidates& c
 // of those that close as many as they open, too, for a prism is better than its tets.
 class Filling {
  public:
-  // `standing`: with the cells only; `all`: cells, and from `first` on the prisms; `graph`: their conflicts.
-  Filling(const HybridMesh& standing, const SurfaceTags& tags, const Candidates& all, const ConflictGraph& graph,
-          std::int32_t first)
-      : standing_(standing), tags_(tags), all_(all), graph_(graph), barred_(all.size()) {
+  // `all`: cells, and from `first` on the prisms; `graph`: their conflicts.
+  Filling(const BoundaryQuads& boundary, const Candidates& all, const ConflictGraph& graph, std::int32_t first)
+      : boundary_(boundary), all_(all), graph_(graph), barred_(all.size()) {
     for (std::int32_t i = 0; i < first; ++i) take(i);
     for (std::int32_t i = first; i < static_cast<std::int32_t>(all.size()); ++i)
       for (const Quad& quad : quads_of_prism(all, i)) prisms_at_[key_of(quad)].push_back(i);
@@ -112,20 +111,12 @@ class Filling {
     for (const std::int32_t other : graph_.neighbours_of(i)) barred_[other] = true;
   }
 
-  // Tagged triangles inside have a tet on their other side.
-  bool is_on_boundary(const Quad& quad) const {
-    const auto cover = tags_.cover_of(quad);
-    if (!cover) return false;
-    const Triangle& half = tags_.triangle(cover->triangles[0]);
-    return standing_.tet_at(half, standing_.tet_at(half)) == HybridMesh::none;
-  }
-
   int gain_of(std::int32_t prism) const {
     int gain = 0;
     for (const Quad& quad : quads_of_prism(all_, prism)) {
       if (quads_.contains(key_of(quad)))
         ++gain;
-      else if (!is_on_boundary(quad))
+      else if (!boundary_.contains(quad))
         --gain;
     }
     return gain;
@@ -136,8 +127,7 @@ class Filling {
     if (const int gain = gain_of(prism); gain >= 0) offers_.push({gain, all_.quality[prism], prism});
   }
 
-  const HybridMesh& standing_;
-  const SurfaceTags& tags_;
+  const BoundaryQuads& boundary_;
   const Candidates& all_;
   const ConflictGraph& graph_;
   std::vector<bool> barred_;  // taken, or in conflict with what is
@@ -148,14 +138,14 @@ class Filling {
 
 }  // namespace
 
-std::int64_t append_filling_prisms(const TetMesh& mesh, const SurfaceTags& tags, const HybridMesh& standing,
+std::int64_t append_filling_prisms(const TetMesh& mesh, const BoundaryQuads& boundary, const HybridMesh& standing,
                                    Candidates& cells) {
   const Candidates prisms = prisms_between(mesh, standing);
   if (prisms.size() == 0) return 0;
   Candidates all = cells;
   append(all, prisms);
   const ConflictGraph graph = conflict_graph(all, {}, source);
-  const auto taken = Filling(standing, tags, all, graph, static_cast<std::int32_t>(cells.size())).run();
+  const auto taken = Filling(boundary, all, graph, static_cast<std::int32_t>(cells.size())).run();
   append(cells, select(all, taken));
   return static_cast<std::int64_t>(taken.size());
 }

@@ -4,16 +4,15 @@
 #include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/tet_mesh.hpp"
+#include "tools/assemble/boundary_quads.hpp"
 #include "tools/assemble/hybrid_mesh.hpp"
-#include "tools/assemble/surface_tags.hpp"
 
 namespace hexpipe {
 
 // Merges tets that cells leave into prisms that close as many quads as they open or more: each quad against tets costs
 // a pyramid, and pyramids take room from the hexes beside them. Puts the prisms, which fit together and with the cells,
-// behind `cells` and returns their number. `standing`: what build_selection made of `mesh`, with `tags`, and all of
-// `cells`.
-std::int64_t append_filling_prisms(const TetMesh& mesh, const SurfaceTags& tags, const HybridMesh& standing,
+// behind `cells` and returns their number. `standing`: what build_selection made of `mesh` and all of `cells`.
+std::int64_t append_filling_prisms(const TetMesh& mesh, const BoundaryQuads& boundary, const HybridMesh& standing,
                                    Candidates& cells);
 
 }  // namespace hexpipe
