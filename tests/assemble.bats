@@ -62,6 +62,38 @@ assert eval(sys.argv[2]), (sys.argv[2], s)" "$(stats_of "$1")" "$2"
   grep -q " $found quads non-conforming" summary
 }
 
+@test "--exchange lets hexes give way to others: fewer quads face tets, fewer pyramids" {
+  if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
+  tetmesh "$DATA/bracket.stl" --size 5 | findhex | buildgraph | initsol --iterations 20000 -o bracket.tar
+  assemble bracket.tar --exchange none --stats none.json -o none.vtu
+  assemble bracket.tar -v --stats quads.json -o quads.vtu 2>summary
+  expect quads.vtu 's["conforming"] and s["nonconf_quads"] == 0 and s["hexbad"] == s["inv"] == s["orphan_nodes"] == 0'
+  $PYTHON - "$(stats_of none.vtu)" "$(stats_of quads.vtu)" <<PYTHON
+import json, sys
+none, quads = (json.load(open(f)) for f in ("none.json", "quads.json"))
+made = quads["exchange"]
+assert none["exchange"]["hexes_in"] == none["exchange"]["hexes_out"] == 0 < made["hexes_in"], made
+assert made["open_quads_after"] < made["open_quads_before"], made
+said = "{hexes_out} hexes exchanged for {hexes_in} others: {open_quads_after} open quads".format(**made)
+assert said in open("summary").read(), said
+without, withal = map(json.loads, sys.argv[1:])
+assert withal["pyr"] < without["pyr"], (withal, without)
+assert quads["cells"]["hex"]["share_of_volume"] > none["cells"]["hex"]["share_of_volume"]
+PYTHON
+  assemble bracket.tar --exchange quads -o default.vtu
+  assert_same_bytes quads.vtu default.vtu
+}
+
+@test "--exchange does not fill a solution of three hexes up" {
+  awk 'NR <= 2 || NR == 9' "$WORK/full.sol" >three.sol
+  assemble --mesh "$WORK/moved.mesh" --candidates "$WORK/moved.cand" --solution three.sol --fill none --stats three.json -o three.vtu
+  $PYTHON - <<PYTHON
+import json
+three = json.load(open("three.json"))
+assert three["cells"]["hex"]["count"] + three["cells"]["prism"]["count"] <= 3, three["cells"]
+PYTHON
+}
+
 @test "--fill makes prisms of tets between hexes: fewer quads face tets, hexes stay" {
   $PYTHON "$DATA/lattices/lattice.py" kuhn 5 >kuhn.mesh
   findhex --mesh kuhn.mesh -o kuhn.cand
@@ -259,6 +291,8 @@ PYTHON
 @test "a command line that makes no sense ends with 2" {
   assert_fails_with 2 "assemble: .*conformity" assemble $FILES --conformity maybe -o x.vtu
   assert_fails_with 2 "assemble: .*smooth" assemble $FILES --smooth -1 -o x.vtu
+  assert_fails_with 2 "assemble: .*exchange" assemble $FILES --exchange hexes -o x.vtu
+  assert_fails_with 2 "exchange quads goes with --conformity pyramids" assemble $FILES --exchange quads --conformity none -o x.vtu
   assert_fails_with 2 "assemble: .*fill" assemble $FILES --fill tets -o x.vtu
   assert_fails_with 2 "fill prisms goes with --conformity pyramids" assemble $FILES --fill prisms --conformity none -o x.vtu
 }

@@ -386,6 +386,7 @@ PYTHON
   assert_fails_with 1 "expected the neighbours of part 1 of 3 with --neighbours, found no part 2" $one --neighbours k/solved/part-000[01].tar -o out.tar
   assert_fails_with 1 "k/graph-0000.tar: expected a solution, found none" $one --neighbours k/graph-0000.tar k/solved/part-000[12].tar -o out.tar
   assert_fails_with 2 "before goes with --neighbours" $one --before k/1/*.tar -o out.tar
+  assert_fails_with 2 "exchange quads goes with --conformity pyramids, without --neighbours" $one --exchange quads --neighbours k/solved/*.tar -o out.tar
   assert_fails_with 2 "fill prisms goes with --conformity pyramids, without --neighbours" $one --fill prisms --neighbours k/solved/*.tar -o out.tar
   assert_fails_with 2 "conformity none does not go with --neighbours" $one --conformity none --neighbours k/solved/*.tar -o out.tar
   assert_fails_with 2 "neighbours goes with a part of a mesh" assemble k/solved.tar --neighbours k/solved/*.tar -o out.tar

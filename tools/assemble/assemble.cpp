@@ -14,6 +14,7 @@
 #include "tools/assemble/boundary_quads.hpp"
 #include "tools/assemble/complete_surface.hpp"
 #include "tools/assemble/conform.hpp"
+#include "tools/assemble/exchange.hpp"
 #include "tools/assemble/extract.hpp"
 #include "tools/assemble/fill.hpp"
 #include "tools/assemble/input_surface.hpp"
@@ -340,6 +341,15 @@ void check_orientation(const TetMesh& mesh, const InputNames& names) {
 
 namespace {
 
+// The cells as they are. `adjacency` takes much memory: it is gone when it has done its work.
+AssembleResult assemble_cells(TetMesh mesh, std::optional<TetAdjacency>& adjacency, const Candidates& cells,
+                              const IndependentSet& chosen, const AssembleOptions& options, const InputNames& names,
+                              const Seam* seam) {
+  Assembler assembler(std::move(mesh), *adjacency, cells, chosen, options, names, seam);
+  adjacency.reset();
+  return assembler.run();
+}
+
 // With prisms between the chosen cells.
 AssembleResult assemble_filled(TetMesh mesh, std::optional<TetAdjacency>& adjacency, const Candidates& candidates,
                                const IndependentSet& chosen, const AssembleOptions& options, const InputNames& names) {
@@ -357,9 +367,7 @@ AssembleResult assemble_filled(TetMesh mesh, std::optional<TetAdjacency>& adjace
     names_of_cells.origins.push_back({0, static_cast<std::int32_t>(static_cast<std::int64_t>(candidates.size()) + i)});
   IndependentSet all(cells.size());
   std::iota(all.begin(), all.end(), 0);
-  Assembler assembler(std::move(mesh), *adjacency, cells, all, options, names_of_cells, nullptr);
-  adjacency.reset();  // for it takes much memory and has done its work
-  AssembleResult result = assembler.run();
+  AssembleResult result = assemble_cells(std::move(mesh), adjacency, cells, all, options, names_of_cells, nullptr);
   result.statistics.filling_prisms = prisms;
   return result;
 }
@@ -373,13 +381,21 @@ AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const Indepe
   check_orientation(mesh, names);
   std::optional<TetAdjacency> adjacency(std::in_place, mesh, names.mesh.c_str());
   check_sides(mesh, *adjacency, names.mesh.c_str());
-  if (seam == nullptr) complete_surface(mesh, *adjacency);
-  if (seam == nullptr && options.fill == AssembleOptions::Fill::prisms &&
-      options.conformity == AssembleOptions::Conformity::pyramids)
-    return assemble_filled(std::move(mesh), adjacency, candidates, chosen, options, names);
-  Assembler assembler(std::move(mesh), *adjacency, candidates, chosen, options, names, seam);
-  adjacency.reset();  // for it takes much memory and has done its work
-  return assembler.run();
+  if (seam != nullptr) return assemble_cells(std::move(mesh), adjacency, candidates, chosen, options, names, seam);
+  complete_surface(mesh, *adjacency);
+  if (options.conformity != AssembleOptions::Conformity::pyramids)
+    return assemble_cells(std::move(mesh), adjacency, candidates, chosen, options, names, nullptr);
+  Exchange exchange{chosen, {}};
+  if (options.exchange == AssembleOptions::Exchange::quads) {
+    const SurfaceTags tags(mesh);
+    exchange = exchange_hexes(mesh, BoundaryQuads(mesh, *adjacency, tags), candidates, chosen);
+  }
+  AssembleResult result =
+      options.fill == AssembleOptions::Fill::prisms
+          ? assemble_filled(std::move(mesh), adjacency, candidates, exchange.chosen, options, names)
+          : assemble_cells(std::move(mesh), adjacency, candidates, exchange.chosen, options, names, nullptr);
+  result.statistics.exchange = exchange.counts;
+  return result;
 }
 
 }  // namespace hexpipe

@@ -14,7 +14,11 @@ namespace hexpipe {
 struct AssembleOptions {
   enum class Conformity { pyramids, none };
   Conformity conformity = Conformity::pyramids;
-  // Prisms are made of the tets between the chosen cells, where the result is to conform and no piece of a mesh.
+  // Chosen hexes are exchanged for others that leave fewer quads open (exchange.hpp), where the result is to conform
+  // and is no piece of a mesh.
+  enum class Exchange { quads, none };
+  Exchange exchange = Exchange::quads;
+  // Then prisms are made of the tets between the chosen cells, in the same case.
   enum class Fill { prisms, none };
   Fill fill = Fill::prisms;
   int smooth = 5;  // rounds over all vertices
@@ -31,8 +35,8 @@ struct AssembleResult {
 // Throws DataError, with the mesh's name and the number of the tet from 1, when one is not positively oriented.
 void check_orientation(const TetMesh& mesh, const InputNames& names);
 
-// The chosen cells and the tets that remain, with the input's regions and tagged facets; with Conformity::pyramids
-// conforming. The result is checked (self_check.hpp) before it is returned.
+// The chosen cells, or what they are exchanged for, and the tets that remain, with the input's regions and tagged
+// facets; with Conformity::pyramids conforming. The result is checked (self_check.hpp) before it is returned.
 //
 // Throws DataError, with the name of the input, when a tet is not positively oriented, the candidates are not of this
 // mesh, or the chosen ones cannot stand together or are not valid.

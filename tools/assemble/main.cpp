@@ -59,14 +59,22 @@ int main(int argc, char** argv) {
   std::vector<std::string> neighbours, before;
   const std::map<std::string, AssembleOptions::Fill> fills{{"prisms", AssembleOptions::Fill::prisms},
                                                            {"none", AssembleOptions::Fill::none}};
-  std::string conformity = "pyramids", fill = "prisms";
-  const CLI::Option* fill_option = nullptr;
+  const std::map<std::string, AssembleOptions::Exchange> exchanges{{"quads", AssembleOptions::Exchange::quads},
+                                                                   {"none", AssembleOptions::Exchange::none}};
+  std::string conformity = "pyramids", exchange = "quads", fill = "prisms";
+  const CLI::Option *exchange_option = nullptr, *fill_option = nullptr;
   int smooth = AssembleOptions{}.smooth;
   auto declare = [&](CLI::App& app) {
     app.add_option("--conformity", conformity,
                    "pyramids: every quad gets a cell on its other side; none: quads may face two triangles")
         ->check(CLI::IsMember(conformities))
         ->capture_default_str();
+    exchange_option =
+        app.add_option("--exchange", exchange,
+                       "quads: chosen hexes give way to other candidates where fewer quads face tets then; none: the "
+                       "choice stays, as always with --conformity none and with --neighbours")
+            ->check(CLI::IsMember(exchanges))
+            ->capture_default_str();
     fill_option = app.add_option("--fill", fill,
                                  "prisms: tets between the cells become prisms where these close as many quads as they "
                                  "open; none: they stay, as always with --conformity none and with --neighbours")
@@ -84,12 +92,18 @@ int main(int argc, char** argv) {
   };
   auto run = [&](RunContext& context) {
     const bool by_part = !neighbours.empty();
-    const bool may_fill = !by_part && conformity == "pyramids";
-    if (!may_fill && fill_option->count() > 0 && fill == "prisms")
+    const bool may_change_cells = !by_part && conformity == "pyramids";
+    if (!may_change_cells && exchange_option->count() > 0 && exchange == "quads")
+      throw UsageError("--exchange quads goes with --conformity pyramids, without --neighbours");
+    if (!may_change_cells && fill_option->count() > 0 && fill == "prisms")
       throw UsageError("--fill prisms goes with --conformity pyramids, without --neighbours");
-    if (!may_fill) fill = "none";
-    const AssembleOptions options{.conformity = conformities.at(conformity), .fill = fills.at(fill), .smooth = smooth};
+    if (!may_change_cells) exchange = fill = "none";
+    const AssembleOptions options{.conformity = conformities.at(conformity),
+                                  .exchange = exchanges.at(exchange),
+                                  .fill = fills.at(fill),
+                                  .smooth = smooth};
     context.options["conformity"] = conformity;
+    context.options["exchange"] = exchange;
     context.options["fill"] = fill;
     context.options["smooth"] = smooth;
     if (by_part && options.conformity == AssembleOptions::Conformity::none)

@@ -9,6 +9,7 @@
 
 #include "common/mesh/mixed_mesh.hpp"
 #include "tools/assemble/conform.hpp"
+#include "tools/assemble/exchange.hpp"
 #include "tools/assemble/self_check.hpp"
 #include "tools/assemble/smooth.hpp"
 
@@ -36,6 +37,7 @@ struct AssembleStatistics {
   std::array<KindStatistics, all_kinds.size()> kinds;  // as in all_kinds
   std::int64_t points = 0, triangles = 0, quads = 0;
   CheckedVolumes volumes;
+  ExchangeCounts exchange;
   ConformityCounts conformity;
   std::int64_t filling_prisms = 0;  // made of the tets between the chosen cells; some may have gone back since
   SmoothCounts smoothing;
