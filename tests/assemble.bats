@@ -72,7 +72,7 @@ assert eval(sys.argv[2]), (sys.argv[2], s)" "$(stats_of "$1")" "$2"
 import json, sys
 none, quads = (json.load(open(f)) for f in ("none.json", "quads.json"))
 made = quads["exchange"]
-assert none["exchange"]["hexes_in"] == none["exchange"]["hexes_out"] == 0 < made["hexes_in"], made
+assert "exchange" not in none and made["hexes_in"] > 0, made
 assert made["open_quads_after"] < made["open_quads_before"], made
 said = "{hexes_out} hexes exchanged for {hexes_in} others: {open_quads_after} open quads".format(**made)
 assert said in open("summary").read(), said

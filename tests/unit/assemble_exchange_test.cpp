@@ -9,6 +9,7 @@
 #include "common/conflicts/find_conflicts.hpp"
 #include "common/mesh/adjacency.hpp"
 #include "common/mwis/solution_state.hpp"
+#include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
 #include "tools/assemble/assemble.hpp"
 #include "tools/assemble/complete_surface.hpp"
@@ -25,11 +26,11 @@ using testing::make_lattice;
 // A lattice with all cells that findhex sees in it, cubes and cells across these, and their conflicts.
 class Scene {
  public:
-  explicit Scene(Lattice lattice, const std::vector<CellKind>& kinds = {CellKind::hex})
+  explicit Scene(Lattice lattice, const std::vector<CellKind>& kinds = {CellKind::hex}, double min_quality = 0.3)
       : mesh(std::move(lattice.mesh)) {
     const TetAdjacency adjacency(mesh, "lattice");
     complete_surface(mesh, adjacency);
-    candidates = findhex(mesh, {.kinds = kinds}, "lattice").candidates;
+    candidates = findhex(mesh, {.kinds = kinds, .min_quality = min_quality}, "lattice").candidates;
     graph = conflict_graph(candidates, {.weight = WeightKind::count, .weight_scale = 1}, "lattice");
     tags.emplace(mesh);
     boundary.emplace(mesh, adjacency, *tags);
@@ -175,10 +176,69 @@ TEST(Exchange, PrismsAndPyramidsStay) {
   EXPECT_GT(others, 0);
 }
 
-TEST(Exchange, CellsThatCannotStandTogetherAreLeftAsTheyAre) {
+// The second is pushed out by any third, if nobody looks before.
+TEST(Exchange, CellsThatCannotStandTogetherAreAnError) {
   const Scene scene(make_lattice(3));
-  const std::int32_t first = 0, second = scene.graph.neighbours_of(0).front();
-  EXPECT_EQ(scene.exchange({first, second}).chosen, (IndependentSet{first, second}));
+  Random random(1);
+  for (int i = 0; i < 50; ++i) {
+    const auto first = static_cast<std::int32_t>(random.below(scene.candidates.size()));
+    const auto beside = scene.graph.neighbours_of(first);
+    const std::int32_t second = beside[random.below(beside.size())];
+    const IndependentSet pair{std::min(first, second), std::max(first, second)};
+    EXPECT_THROW(assemble(scene.mesh, scene.candidates, pair, {.smooth = 0}), DataError) << first << ' ' << second;
+  }
+}
+
+// Candidates of another program, of which the chosen ones are good.
+TEST(Exchange, WhatNobodyChoseMayBeAnything) {
+  Random random(3);
+  auto lattice = make_lattice(4);
+  jitter(lattice, 0.1, random);
+  const Scene scene(std::move(lattice));
+  const auto chosen = scene.maximal_choice({}, random);
+  const auto chosen_or = [&](auto&& change) {
+    Candidates changed;
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(scene.candidates.size()); ++i) {
+      append(changed, select(scene.candidates, std::vector<std::int32_t>{i}));
+      if (!std::ranges::binary_search(chosen, i)) change(changed);
+    }
+    return changed;
+  };
+  const auto without_last_tet = chosen_or([](Candidates& c) { c.tets.pop_back(), --c.tet_offsets.back(); });
+  const auto without_slivers = chosen_or([](Candidates& c) {
+    c.boundary_tets.resize(c.boundary_tet_offsets[c.size() - 1]);
+    c.boundary_tet_offsets.back() = static_cast<std::int64_t>(c.boundary_tets.size());
+  });
+  const auto inverted = chosen_or([](Candidates& c) {
+    auto& v = c.vertices.back();
+    std::swap_ranges(v.begin(), v.begin() + 4, v.begin() + 4);
+  });
+  const auto huge = chosen_or([](Candidates& c) { c.quality.back() = 1e300, c.volume.back() = 1e308; });
+  const auto negative = chosen_or([](Candidates& c) { c.quality.back() = -1e300, c.volume.back() = -1e308; });
+  for (const Candidates* candidates : {&without_last_tet, &without_slivers, &inverted, &huge, &negative}) {
+    const AssembleResult made = assemble(scene.mesh, *candidates, chosen, {.smooth = 0});
+    ASSERT_TRUE(made.statistics.exchange);
+    EXPECT_LE(made.statistics.exchange->open_quads_after, made.statistics.exchange->open_quads_before);
+  }
+}
+
+// Than 0.3, and than the poorest that is chosen.
+TEST(Exchange, NothingPoorerComesIn) {
+  Random random(3);
+  auto lattice = make_lattice(4);
+  jitter(lattice, 0.1, random);
+  Scene scene(std::move(lattice));
+  const auto chosen = scene.maximal_choice({}, random);
+  const auto exchanged_where = [&](double poorest_chosen, double others) {
+    for (std::int32_t i = 0; i < scene.graph.vertex_count(); ++i)
+      scene.candidates.quality[i] = std::ranges::binary_search(chosen, i) ? 0.5 : others;
+    scene.candidates.quality[chosen.front()] = poorest_chosen;
+    return scene.exchange(chosen).counts.hexes_in;
+  };
+  EXPECT_GT(exchanged_where(0.5, 0.31), 0);
+  EXPECT_EQ(exchanged_where(0.5, 0.29), 0);
+  EXPECT_GT(exchanged_where(0.2, 0.29), 0);
+  EXPECT_EQ(exchanged_where(0.2, 0.19), 0);
 }
 
 TEST(Exchange, IsTheSameForAnyNumberOfThreads) {
@@ -206,12 +266,13 @@ TEST(Exchange, IsAnOptionOfAssemble) {
   };
   const AssembleResult with = assembled({.smooth = 0});
   const AssembleResult without = assembled({.exchange = AssembleOptions::Exchange::none, .smooth = 0});
-  EXPECT_EQ(with.statistics.exchange.open_quads_before, scene.open_quads(chosen));
-  EXPECT_GT(with.statistics.exchange.hexes_in, 0);
-  EXPECT_EQ(without.statistics.exchange.hexes_in, 0);
+  ASSERT_TRUE(with.statistics.exchange);
+  EXPECT_EQ(with.statistics.exchange->open_quads_before, scene.open_quads(chosen));
+  EXPECT_GT(with.statistics.exchange->hexes_in, 0);
+  EXPECT_FALSE(without.statistics.exchange);
   EXPECT_LT(with.mesh.pyramids.size(), without.mesh.pyramids.size());
   const AssembleResult open = assembled({.conformity = AssembleOptions::Conformity::none, .smooth = 0});
-  EXPECT_EQ(open.statistics.exchange.hexes_in, 0);
+  EXPECT_FALSE(open.statistics.exchange);
 }
 
 // Graphs with random edges, weights and quads, each quad at most two candidates'.

@@ -190,6 +190,10 @@ TEST(MeshChange, FindsWhatStaysAndWhatIsTouched) {
   for (std::size_t t = 0; t < now.tets.size(); ++t)
     for (const Vertex v : now.tets[t])
       if (!is_old[t]) is_touched[v] = true;
+  for (std::size_t t = 0; t < before.tets.size(); ++t)
+    for (const Vertex v : before.tets[t])
+      if (change.tet_now[t] == MeshChange::none && change.vertex_now[v] != MeshChange::none)
+        is_touched[change.vertex_now[v]] = true;
   EXPECT_EQ(change.is_touched, is_touched);
   const auto touched = std::ranges::count(is_touched, true);
   EXPECT_GT(touched, 10);
@@ -256,6 +260,28 @@ TEST(ChooseHexes, KeepsWhatIsFarFromAChange) {
     EXPECT_THAT(places, ::testing::Contains(places_of(hex, mesh)));
   }
   EXPECT_GT(far, 0);
+}
+
+// A cube of six tets with a sliver on its top, which goes without any tet in its place.
+TEST(ChooseHexes, ForgetsASliverThatGoes) {
+  TetMesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1.001}, {1, 1, 1}, {0, 1, 1.001}};
+  mesh.tets = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}, {4, 6, 5, 7}};
+  for (Tet& tet : mesh.tets)
+    if (tet_determinant(mesh.points, tet) < 0) std::swap(tet[0], tet[1]);
+  mesh.tet_tags.assign(mesh.tets.size(), 1);
+  const std::vector<ChosenHex> with_sliver = choose_hexes(mesh, 1);
+  ASSERT_EQ(with_sliver.size(), 1u);
+  ASSERT_EQ(with_sliver.front().boundary_tets, (std::vector<std::int32_t>{6}));
+  TetMesh without = mesh;
+  without.tets.pop_back();
+  without.tet_tags.pop_back();
+  const MeshChange change(MeshIndex(mesh), without);
+  EXPECT_EQ(change.is_touched, (std::vector<bool>{false, false, false, false, true, true, true, true}));
+  const std::vector<ChosenHex> again = choose_hexes_again(without, change, with_sliver, 1);
+  ASSERT_EQ(again.size(), 1u);
+  EXPECT_TRUE(again.front().boundary_tets.empty());
+  EXPECT_EQ(again.front().interior_tets.size(), 6u);
 }
 
 // As good as from nothing, but for chance: on the whole box, most of which is touched by so many changes.

@@ -350,6 +350,22 @@ AssembleResult assemble_cells(TetMesh mesh, std::optional<TetAdjacency>& adjacen
   return assembler.run();
 }
 
+// Throws what is wrong with the choice as it came.
+Exchange exchanged(const TetMesh& mesh, const TetAdjacency& adjacency, const Candidates& candidates,
+                   const IndependentSet& chosen, const InputNames& names) {
+  const SurfaceTags tags(mesh);
+  build_selection(mesh, tags, candidates, chosen, names);
+  Exchange exchange = exchange_hexes(mesh, BoundaryQuads(mesh, adjacency, tags), candidates, chosen);
+  try {
+    build_selection(mesh, tags, candidates, exchange.chosen, names);
+  } catch (const DataError&) {
+    // Candidates of another program may lack slivers on their quads, by which two of them overlap.
+    const std::int64_t open = exchange.counts.open_quads_before;
+    return {chosen, {.open_quads_before = open, .open_quads_after = open}};
+  }
+  return exchange;
+}
+
 // With prisms between the chosen cells.
 AssembleResult assemble_filled(TetMesh mesh, std::optional<TetAdjacency>& adjacency, const Candidates& candidates,
                                const IndependentSet& chosen, const AssembleOptions& options, const InputNames& names) {
@@ -385,16 +401,14 @@ AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const Indepe
   complete_surface(mesh, *adjacency);
   if (options.conformity != AssembleOptions::Conformity::pyramids)
     return assemble_cells(std::move(mesh), adjacency, candidates, chosen, options, names, nullptr);
-  Exchange exchange{chosen, {}};
-  if (options.exchange == AssembleOptions::Exchange::quads) {
-    const SurfaceTags tags(mesh);
-    exchange = exchange_hexes(mesh, BoundaryQuads(mesh, *adjacency, tags), candidates, chosen);
-  }
-  AssembleResult result =
-      options.fill == AssembleOptions::Fill::prisms
-          ? assemble_filled(std::move(mesh), adjacency, candidates, exchange.chosen, options, names)
-          : assemble_cells(std::move(mesh), adjacency, candidates, exchange.chosen, options, names, nullptr);
-  result.statistics.exchange = exchange.counts;
+  std::optional<Exchange> exchange;
+  if (options.exchange == AssembleOptions::Exchange::quads)
+    exchange = exchanged(mesh, *adjacency, candidates, chosen, names);
+  const IndependentSet& cells = exchange ? exchange->chosen : chosen;
+  AssembleResult result = options.fill == AssembleOptions::Fill::prisms
+                              ? assemble_filled(std::move(mesh), adjacency, candidates, cells, options, names)
+                              : assemble_cells(std::move(mesh), adjacency, candidates, cells, options, names, nullptr);
+  if (exchange) result.statistics.exchange = exchange->counts;
   return result;
 }
 

@@ -7,14 +7,18 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "common/conflicts/find_conflicts.hpp"
 #include "common/mesh/facet_key.hpp"
+#include "common/mesh/quality.hpp"
+#include "common/mesh/validity.hpp"
 #include "tools/assemble/exchange_search.hpp"
 #include "tools/assemble/hybrid_mesh.hpp"
+#include "tools/assemble/selection.hpp"
 
 namespace hexpipe {
 namespace {
@@ -43,6 +47,9 @@ constexpr std::uint64_t seed = 1;
 // and far from the limit.
 constexpr double worth_of_all = 0x1p52;
 
+// What findhex takes where it is not told otherwise.
+constexpr double good_quality = 0.3;
+
 // Calls visit(key) for the quads of a candidate that are not on the boundary.
 template <class Visit>
 void for_inner_quads(const BoundaryQuads& boundary, const Candidates& candidates, std::int32_t i, Visit&& visit) {
@@ -62,6 +69,20 @@ KeySet<4> open_quads(const BoundaryQuads& boundary, const Candidates& candidates
   return open;
 }
 
+// A candidate that nobody chose may be anything.
+bool can_come_in(const TetMesh& mesh, const Candidates& candidates, std::int32_t i, double least_quality) {
+  if (candidates.quality[i] < least_quality || !is_formed_by_its_tets(mesh, candidates, i)) return false;
+  const auto corners = corner_points(mesh.points, candidates.vertices[i]);
+  return is_valid(CellKind::hex, corners);
+}
+
+double least_quality_of(const Candidates& candidates, const IndependentSet& chosen) {
+  double least = good_quality;
+  for (const std::int32_t i : chosen)
+    if (candidates.kind[i] == CellKind::hex) least = std::min(least, candidates.quality[i]);
+  return least;
+}
+
 // Candidates, ascending: hexes at open quads, and every chosen cell that has a vertex of these, as cells in conflict
 // and cells at one quad have.
 std::vector<std::int32_t> those_that_take_part(const TetMesh& mesh, const Candidates& candidates,
@@ -69,11 +90,13 @@ std::vector<std::int32_t> those_that_take_part(const TetMesh& mesh, const Candid
   std::vector<bool> is_at_open(mesh.points.size()), is_at_part(mesh.points.size());
   for (const auto& quad : open)
     for (const Vertex v : quad) is_at_open[v] = true;
+  const double least_quality = least_quality_of(candidates, chosen);
   std::vector<std::int32_t> part;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(candidates.size()); ++i) {
     const auto corners = candidates.corners_of(i);
     if (candidates.kind[i] != CellKind::hex || std::ranges::binary_search(chosen, i)) continue;
     if (std::ranges::count_if(corners, [&](Vertex v) { return is_at_open[v]; }) < least_at_open_quads) continue;
+    if (!can_come_in(mesh, candidates, i, least_quality)) continue;
     part.push_back(i);
     for (const Vertex v : corners) is_at_part[v] = true;
   }
@@ -84,14 +107,23 @@ std::vector<std::int32_t> those_that_take_part(const TetMesh& mesh, const Candid
   return part;
 }
 
+// Of hexes, by the mesh's points, for what a file says may be anything; 0 for other cells.
+std::vector<double> volumes_of(const Candidates& candidates, std::span<const Vec3> points) {
+  std::vector<double> volumes(candidates.size());
+  for (std::size_t i = 0; i < volumes.size(); ++i)
+    if (candidates.kind[i] == CellKind::hex)
+      volumes[i] = std::max(0.0, cell_volume(CellKind::hex, corner_points(points, candidates.vertices[i])));
+  return volumes;
+}
+
 // By vertex: the mean volume of the hexes there, 0 where there are none.
-std::vector<double> mean_volumes(const Candidates& candidates, std::size_t points) {
+std::vector<double> mean_volumes(const Candidates& candidates, const std::vector<double>& volumes, std::size_t points) {
   std::vector<double> mean(points);
   std::vector<std::int32_t> hexes(points);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (candidates.kind[i] != CellKind::hex) continue;
     for (const Vertex v : candidates.corners_of(i)) {
-      mean[v] += candidates.volume[i];
+      mean[v] += volumes[i];
       ++hexes[v];
     }
   }
@@ -109,21 +141,28 @@ double mean_at(const std::vector<double>& by_vertex, std::span<const Vertex> ver
 // What the candidates that take part are worth, and what quads cost, as integers, so that sums are exact.
 class Worth {
  public:
-  Worth(const Candidates& part, std::size_t points) : mean_volumes_(mean_volumes(part, points)) {
-    double sum = 0;
-    for (const double volume : part.volume) sum += std::max(volume, 0.0);
-    scale_ = sum > 0 ? worth_of_all / sum : 0;
+  Worth(const Candidates& part, std::span<const Vec3> points)
+      : part_(part), volumes_(volumes_of(part, points)), mean_volumes_(mean_volumes(part, volumes_, points.size())) {
+    const double sum = std::accumulate(volumes_.begin(), volumes_.end(), 0.0);
+    scale_ = worth_of_all / sum;
+    if (std::isfinite(sum) && std::isfinite(scale_)) return;
+    // Too large or too small for numbers: nothing is worth anything, and the choice stays.
+    scale_ = 0;
+    std::ranges::fill(volumes_, 0);
+    std::ranges::fill(mean_volumes_, 0);
   }
 
-  std::int64_t of_hex(double volume, double quality) const {
-    return std::llround(scale_ * std::max(volume, 0.0) * std::pow(std::max(quality, 0.0), power_of_quality));
+  std::int64_t of(std::size_t i) const {
+    return std::llround(scale_ * volumes_[i] * std::pow(std::clamp(part_.quality[i], 0.0, 1.0), power_of_quality));
   }
   std::int64_t cost_of(const VertexKey<4>& quad) const {
-    return std::llround(cost_of_open_quad * scale_ * std::max(mean_at(mean_volumes_, quad), 0.0));
+    return std::llround(cost_of_open_quad * scale_ * mean_at(mean_volumes_, quad));
   }
-  double usual_of(std::span<const Vertex> corners) const { return scale_ * mean_at(mean_volumes_, corners); }
+  double usual_around(std::size_t i) const { return scale_ * mean_at(mean_volumes_, part_.corners_of(i)); }
 
  private:
+  const Candidates& part_;
+  std::vector<double> volumes_;
   std::vector<double> mean_volumes_;
   double scale_ = 0;
 };
@@ -155,12 +194,12 @@ ExchangeProblem problem_of(const TetMesh& mesh, const BoundaryQuads& boundary, c
                            const IndependentSet& chosen, std::span<const std::int32_t> part) {
   ExchangeProblem problem;
   Candidates cells = select(candidates, part);
-  const Worth worth(cells, mesh.points.size());
+  const Worth worth(cells, mesh.points);
   number_quads(boundary, candidates, chosen, part, worth, problem);
   std::vector<std::int64_t> weights(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (cells.kind[i] == CellKind::hex) weights[i] = worth.of_hex(cells.volume[i], cells.quality[i]);
-    problem.usual.push_back(worth.usual_of(cells.corners_of(i)));
+    weights[i] = worth.of(i);
+    problem.usual.push_back(worth.usual_around(i));
   }
   problem.graph = conflict_graph(std::move(cells), {.weight = WeightKind::count, .weight_scale = 1}, "candidates");
   problem.graph.weights = std::move(weights);

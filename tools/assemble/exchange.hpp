@@ -1,5 +1,5 @@
 #pragma once
-// Chosen hexes exchanged for other candidates, so that fewer quads stand open against tets.
+// Chosen hexes exchanged for other candidates, where hexes gain, or fewer quads stand open against tets.
 
 #include <cstdint>
 
@@ -24,9 +24,10 @@ struct Exchange {
 // A choice that is worth more than `chosen`, or this: what is summed up is the volume of hexes times a power of their
 // quality, less what open quads cost, for each takes a pyramid, and pyramids take room from the hexes beside them.
 //
-// Hexes come in where they push chosen ones out, or into the room of these. What could stand beside `chosen` as it is
-// was left out on purpose: neither it nor what would take its room comes in. Chosen cells of other kinds stay. A choice
-// of cells that cannot stand together is returned as it is.
+// Hexes come in where they push chosen ones out, or into the room of these: those that their tets form, that are valid,
+// and not poorer than both the poorest of `chosen` and what findhex takes where it is not told otherwise. What could
+// stand beside `chosen` at its open quads was left out on purpose: neither it nor what would take its room comes in.
+// Chosen cells of other kinds stay. `chosen` can be built (build_selection).
 Exchange exchange_hexes(const TetMesh& mesh, const BoundaryQuads& boundary, const Candidates& candidates,
                         const IndependentSet& chosen);
 

@@ -71,8 +71,9 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     exchange_option =
         app.add_option("--exchange", exchange,
-                       "quads: chosen hexes give way to other candidates where fewer quads face tets then; none: the "
-                       "choice stays, as always with --conformity none and with --neighbours")
+                       "quads: chosen hexes give way to other candidates by volume and quality, less a price for each "
+                       "quad that faces tets; none: the choice stays, as always with --conformity none and with "
+                       "--neighbours")
             ->check(CLI::IsMember(exchanges))
             ->capture_default_str();
     fill_option = app.add_option("--fill", fill,

@@ -15,12 +15,6 @@ struct Claims {
   std::vector<std::uint8_t> absorbed;
 };
 
-[[noreturn]] void fail_misfit(const InputNames& names, std::int32_t candidate) {
-  throw DataError::at(names.candidates,
-                      "expected candidates of this mesh, found candidate {} whose tets do not form it",
-                      title_of(names, candidate));
-}
-
 [[noreturn]] void fail_conflict(const InputNames& names, std::int32_t a, std::int32_t b, const char* how) {
   throw DataError::at(names.solution, "expected candidates that fit together, found {} and {} which {}",
                       title_of(names, a), title_of(names, b), how);
@@ -78,24 +72,23 @@ int quad_with_vertices(const HybridCell& cell, const VertexKey<4>& key) {
   return -1;
 }
 
-HybridCell make_cell(const InputNames& names, const TetMesh& mesh, const Candidates& candidates,
-                     std::int32_t candidate) {
+// Nothing where the tets do not form it.
+std::optional<HybridCell> cell_of(const TetMesh& mesh, const Candidates& candidates, std::int32_t candidate) {
   const auto interior = candidates.interior_tets_of(candidate);
-  if (interior.empty() || candidates.kind[candidate] == CellKind::tet) fail_misfit(names, candidate);
+  if (interior.empty() || candidates.kind[candidate] == CellKind::tet) return std::nullopt;
   HybridCell cell;
   cell.kind = candidates.kind[candidate];
   cell.corners = candidates.vertices[candidate];
   cell.candidate = candidate;
   cell.region = mesh.tet_tags[interior.front()];
   for (std::int32_t t : interior)
-    if (mesh.tet_tags[t] != cell.region) fail_misfit(names, candidate);
+    if (mesh.tet_tags[t] != cell.region) return std::nullopt;
   const auto skin = skin_of(mesh, interior);
   if (!with_topology(cell.kind, [&](auto topology) { return match_skin<decltype(topology)>(skin, cell); }))
-    fail_misfit(names, candidate);
+    return std::nullopt;
   for (std::int32_t t : candidates.boundary_tets_of(candidate)) {
     const int quad = quad_with_vertices(cell, key_of(mesh.tets[t]));
-    if (quad < 0 || cell.sliver[quad] != HybridCell::none || mesh.tet_tags[t] != cell.region)
-      fail_misfit(names, candidate);
+    if (quad < 0 || cell.sliver[quad] != HybridCell::none || mesh.tet_tags[t] != cell.region) return std::nullopt;
     cell.sliver[quad] = t;
   }
   return cell;
@@ -182,6 +175,10 @@ std::string title_of(const InputNames& names, std::int32_t candidate) {
   return bundle == 0 ? fmt::format("{}", number + 1) : fmt::format("{} of {}", number + 1, names.bundles[bundle]);
 }
 
+bool is_formed_by_its_tets(const TetMesh& mesh, const Candidates& candidates, std::int32_t candidate) {
+  return cell_of(mesh, candidates, candidate).has_value();
+}
+
 HybridMesh build_selection(const TetMesh& mesh, const SurfaceTags& tags, const Candidates& candidates,
                            const IndependentSet& chosen, const InputNames& names) {
   Claims claims{std::vector<std::int32_t>(mesh.tets.size(), HybridCell::none),
@@ -190,7 +187,12 @@ HybridMesh build_selection(const TetMesh& mesh, const SurfaceTags& tags, const C
   cells.reserve(chosen.size());
   for (std::int32_t candidate : chosen) {
     claim_interior(names, candidates, candidate, claims);
-    cells.push_back(make_cell(names, mesh, candidates, candidate));
+    const auto cell = cell_of(mesh, candidates, candidate);
+    if (!cell)
+      throw DataError::at(names.candidates,
+                          "expected candidates of this mesh, found candidate {} whose tets do not form it",
+                          title_of(names, candidate));
+    cells.push_back(*cell);
   }
   KeyMap<4, QuadOwner> owners;
   owners.reserve(4 * cells.size());

@@ -30,6 +30,9 @@ struct InputNames {
 // A candidate as its bundle's user counts, from 1.
 std::string title_of(const InputNames& names, std::int32_t candidate);
 
+// False for a candidate of another mesh.
+bool is_formed_by_its_tets(const TetMesh& mesh, const Candidates& candidates, std::int32_t candidate);
+
 // The chosen cells in place of their interior tets and of the boundary tets on their quads. A boundary tet stays where
 // taking it would leave a quad half on a tagged surface.
 //

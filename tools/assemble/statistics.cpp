@@ -157,11 +157,11 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
                        {"vertices_added_at_flat_tets", statistics.repaired},
                        {"flat_tets_taken_off", statistics.peeled}};
   json["nonconforming_quads"] = volumes.nonconforming_quads;
-  const auto& exchange = statistics.exchange;
-  json["exchange"] = {{"hexes_out", exchange.hexes_out},
-                      {"hexes_in", exchange.hexes_in},
-                      {"open_quads_before", exchange.open_quads_before},
-                      {"open_quads_after", exchange.open_quads_after}};
+  if (const auto& exchange = statistics.exchange)
+    json["exchange"] = {{"hexes_out", exchange->hexes_out},
+                        {"hexes_in", exchange->hexes_in},
+                        {"open_quads_before", exchange->open_quads_before},
+                        {"open_quads_after", exchange->open_quads_after}};
   const auto& counts = statistics.conformity;
   auto given_back = nlohmann::ordered_json::object();
   for (GivenBack reason : all_reasons)
@@ -200,10 +200,10 @@ std::vector<std::string> summary_lines(const AssembleStatistics& statistics) {
   lines.push_back(
       fmt::format("{} points, boundary and interfaces of {} quads and {} triangles, {} quads non-conforming",
                   statistics.points, statistics.quads, statistics.triangles, statistics.volumes.nonconforming_quads));
-  if (const auto& exchange = statistics.exchange; exchange.hexes_in > 0)
+  if (const auto& exchange = statistics.exchange; exchange && exchange->hexes_in > 0)
     lines.push_back(fmt::format("{} hexes exchanged for {} others: {} open quads between cells and tets instead of {}",
-                                exchange.hexes_out, exchange.hexes_in, exchange.open_quads_after,
-                                exchange.open_quads_before));
+                                exchange->hexes_out, exchange->hexes_in, exchange->open_quads_after,
+                                exchange->open_quads_before));
   if (statistics.filling_prisms > 0)
     lines.push_back(fmt::format("{} prisms made of tets between the cells", statistics.filling_prisms));
   if (counts.open_quads > 0)

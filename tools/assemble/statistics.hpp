@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,7 @@ struct AssembleStatistics {
   std::array<KindStatistics, all_kinds.size()> kinds;  // as in all_kinds
   std::int64_t points = 0, triangles = 0, quads = 0;
   CheckedVolumes volumes;
-  ExchangeCounts exchange;
+  std::optional<ExchangeCounts> exchange;  // where hexes may be exchanged
   ConformityCounts conformity;
   std::int64_t filling_prisms = 0;  // made of the tets between the chosen cells; some may have gone back since
   SmoothCounts smoothing;

@@ -40,6 +40,12 @@ MeshChange::MeshChange(const MeshIndex& before, const TetMesh& now)
     else
       for (const Vertex v : now.tets[t]) is_touched[v] = true;
   }
+  // A sliver on the boundary goes without another in its place where the surface exchanges the diagonal under it.
+  for (const auto& [corners, t] : before.tet_of_) {
+    if (tet_now[t] != none) continue;
+    for (const Vertex v : corners)
+      if (vertex_now[v] != none) is_touched[vertex_now[v]] = true;
+  }
 }
 
 }  // namespace hexpipe

@@ -31,7 +31,7 @@ struct MeshChange {
 
   std::vector<Vertex> vertex_now;     // by vertex before, or none
   std::vector<std::int32_t> tet_now;  // by tet before, or none
-  std::vector<bool> is_touched;       // by vertex now: it has a tet that was not there before
+  std::vector<bool> is_touched;       // by vertex now: a tet has come or gone there
 };
 
 }  // namespace hexpipe

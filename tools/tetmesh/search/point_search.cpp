@@ -15,10 +15,10 @@
 namespace hexpipe {
 namespace {
 
-constexpr std::size_t tries_a_place = 4;         // changes tried at a place in a round
-constexpr double reach = 2.5;                    // of what a change may bring or cost, in sizes
+constexpr std::size_t tries_a_place = 4;        // changes tried at a place in a round
+constexpr double reach = 2.5;                   // of what a change may bring or cost, in sizes
 constexpr double first_kicks = 5, kicks = 0.5;  // a hex, see choose_hexes()
-constexpr double least_gain = 1e-3;              // of a cube of the size
+constexpr double least_gain = 1e-3;             // of a cube of the size
 
 struct Place {
   Vec3 middle;
