@@ -144,7 +144,7 @@ std::int64_t append_filling_prisms(const TetMesh& mesh, const BoundaryQuads& bou
   if (prisms.size() == 0) return 0;
   Candidates all = cells;
   append(all, prisms);
-  const ConflictGraph graph = conflict_graph(all, {}, source);
+  const ConflictGraph graph = conflict_graph(all, {.weight = WeightKind::count, .weight_scale = 1}, source);
   const auto taken = Filling(boundary, all, graph, static_cast<std::int32_t>(cells.size())).run();
   append(cells, select(all, taken));
   return static_cast<std::int64_t>(taken.size());
