@@ -26,11 +26,11 @@ using testing::make_lattice;
 // A lattice with all cells that findhex sees in it, cubes and cells across these, and their conflicts.
 class Scene {
  public:
-  explicit Scene(Lattice lattice, const std::vector<CellKind>& kinds = {CellKind::hex}, double min_quality = 0.3)
+  explicit Scene(Lattice lattice, const std::vector<CellKind>& kinds = {CellKind::hex})
       : mesh(std::move(lattice.mesh)) {
     const TetAdjacency adjacency(mesh, "lattice");
     complete_surface(mesh, adjacency);
-    candidates = findhex(mesh, {.kinds = kinds, .min_quality = min_quality}, "lattice").candidates;
+    candidates = findhex(mesh, {.kinds = kinds}, "lattice").candidates;
     graph = conflict_graph(candidates, {.weight = WeightKind::count, .weight_scale = 1}, "lattice");
     tags.emplace(mesh);
     boundary.emplace(mesh, adjacency, *tags);
@@ -70,6 +70,13 @@ class Scene {
   std::optional<SurfaceTags> tags;
   std::optional<BoundaryQuads> boundary;
 };
+
+// A lattice whose points are moved at random.
+Scene jittered_scene(int cubes, Random& random) {
+  Lattice lattice = make_lattice(cubes);
+  jitter(lattice, 0.1, random);
+  return Scene(std::move(lattice));
+}
 
 bool is_cube(const Candidates& candidates, std::int32_t i) {
   return candidates.kind[i] == CellKind::hex && candidates.quality[i] > 0.999;
@@ -192,9 +199,7 @@ TEST(Exchange, CellsThatCannotStandTogetherAreAnError) {
 // Candidates of another program, of which the chosen ones can stand together.
 TEST(Exchange, WhatNobodyChoseMayBeAnything) {
   Random random(3);
-  auto lattice = make_lattice(4);
-  jitter(lattice, 0.1, random);
-  const Scene scene(std::move(lattice));
+  const Scene scene = jittered_scene(4, random);
   const auto chosen = scene.maximal_choice({}, random);
   const auto chosen_or = [&](auto&& change) {
     Candidates changed;
@@ -228,9 +233,7 @@ TEST(Exchange, WhatNobodyChoseMayBeAnything) {
 // Than 0.3, and than the poorest that is chosen.
 TEST(Exchange, NothingPoorerComesIn) {
   Random random(3);
-  auto lattice = make_lattice(4);
-  jitter(lattice, 0.1, random);
-  Scene scene(std::move(lattice));
+  Scene scene = jittered_scene(4, random);
   const auto chosen = scene.maximal_choice({}, random);
   const auto exchanged_where = [&](double poorest_chosen, double others) {
     for (std::int32_t i = 0; i < scene.graph.vertex_count(); ++i)
@@ -246,9 +249,7 @@ TEST(Exchange, NothingPoorerComesIn) {
 
 TEST(Exchange, IsTheSameForAnyNumberOfThreads) {
   Random random(3);
-  auto lattice = make_lattice(5);
-  jitter(lattice, 0.1, random);
-  const Scene scene(std::move(lattice));
+  const Scene scene = jittered_scene(5, random);
   const auto chosen = scene.maximal_choice({}, random);
   std::vector<IndependentSet> results;
   for (const int threads : {1, 4}) {
@@ -260,9 +261,7 @@ TEST(Exchange, IsTheSameForAnyNumberOfThreads) {
 
 TEST(Exchange, IsAnOptionOfAssemble) {
   Random random(3);
-  auto lattice = make_lattice(4);
-  jitter(lattice, 0.1, random);
-  const Scene scene(std::move(lattice));
+  const Scene scene = jittered_scene(4, random);
   const auto chosen = scene.maximal_choice({}, random);
   const auto assembled = [&](AssembleOptions options) {
     return assemble(scene.mesh, scene.candidates, chosen, options);

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/candidates/findhex.hpp"
 #include "common/conflicts/find_conflicts.hpp"
 #include "common/mesh/facet_key.hpp"
 #include "common/mesh/quality.hpp"
@@ -47,9 +48,6 @@ constexpr std::uint64_t seed = 1;
 // and far from the limit.
 constexpr double worth_of_all = 0x1p52;
 
-// What findhex takes where it is not told otherwise.
-constexpr double good_quality = 0.3;
-
 // Calls visit(key) for the quads of a candidate that are not on the boundary.
 template <class Visit>
 void for_inner_quads(const BoundaryQuads& boundary, const Candidates& candidates, std::int32_t i, Visit&& visit) {
@@ -77,7 +75,7 @@ bool can_come_in(const TetMesh& mesh, const Candidates& candidates, std::int32_t
 }
 
 double least_quality_of(const Candidates& candidates, const IndependentSet& chosen) {
-  double least = good_quality;
+  double least = FindhexOptions{}.min_quality;
   for (const std::int32_t i : chosen)
     if (candidates.kind[i] == CellKind::hex) least = std::min(least, candidates.quality[i]);
   return least;
