@@ -12,7 +12,7 @@ namespace hexpipe {
 // Facet i of a tet lies opposite its corner i (TetTopology::triangles).
 class TetAdjacency {
  public:
-  static constexpr std::int32_t none = -1;
+  static constexpr std::int32_t none = no_index;
 
   // Throws DataError naming `source`, and the tets and vertices from 1, when a facet belongs to more than two tets;
   // `numbers`: what these are called there from 0, if not by their places.

@@ -33,6 +33,10 @@ inline std::array<Vec3, 8> corner_points(std::span<const Vec3> points, std::span
   return result;
 }
 
+// What a hex should have at every corner: findhex takes no poorer one unless it is told to, assemble lets no other in
+// and presses none below it, and tetmesh counts hexes above it.
+inline constexpr double least_hex_quality = 0.3;
+
 // The least scaled Jacobian over the corners; of a pyramid, over the four of its base.
 double least_corner_scaled_jacobian(CellKind kind, std::span<const Vec3> corners);
 

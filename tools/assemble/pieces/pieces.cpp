@@ -9,10 +9,10 @@
 namespace hexpipe::assemble::pieces {
 namespace {
 
-// Tets that hang together by open quads are few; where they are more than this, all stay at home.
+// Open quads join only few tets. A group of more than this stays at home.
 constexpr std::size_t most_together = 200;
-// How far, in edges, a tet may be from the nearest point of the part that builds it: its points are then at most three
-// edges away, a cell at one of its facets at most six, and so within the view.
+// A part builds a tet only if one of its points is at most this many edges away. All points of the tet are then at most
+// three edges away, a cell at one of its facets at most six, and so within the view.
 constexpr int furthest_moved = 2;
 
 // The open quads of some cells and the tets around their diagonals.
@@ -88,7 +88,7 @@ class Division {
     }
   }
 
-  // What the tets' homes have said counts.
+  // Tets go where their homes have said.
   void hear(const RoundBefore& before) {
     for (std::int32_t t = 0; t < static_cast<std::int32_t>(pieces_.of_tet.size()); ++t) {
       const std::int32_t home = home_of(view_, t);
@@ -107,7 +107,7 @@ class Division {
     }
   }
 
-  // Of slivers between two cells the lower part.
+  // A sliver between two cells goes to the lower part.
   void take_cells() {
     const Candidates& cells = view_.cells;
     for (std::size_t i = 0; i < cells.size(); ++i)
@@ -134,7 +134,7 @@ class Division {
     }
   }
 
-  // To the part with the most of the group's tets and quads, of those that are near enough; the lowest of several.
+  // Moves the group to the part with the most of its tets and quads among those near enough; the lowest of several.
   void move(const std::vector<std::int32_t>& group, const std::map<std::int32_t, int>& shares) {
     std::vector<std::pair<int, std::int32_t>> order;
     order.reserve(shares.size());
@@ -164,8 +164,8 @@ graph::IndependentSet all_but(const PartView& view, std::span<const std::uint64_
 
 Pieces divide_tets(const PartView& view, const hybrid::SurfaceTags& tags, const TetAdjacency& adjacency,
                    const RoundBefore& before, const choice::InputNames& names) {
-  const hybrid::HybridMesh chosen = choice::build_selection(view.mesh, tags, view.cells, all_but(view, {}), names);
-  Division division(view, adjacency, chosen);
+  const choice::Selection selection(view.mesh, tags, view.cells, choice::all_of(view.cells), names);
+  Division division(view, adjacency, selection.mesh());
   division.move_groups();
   division.note_moved();
   division.hear(before);
@@ -182,9 +182,9 @@ SeamCells cells_at_seams(const PartView& view, const hybrid::SurfaceTags& tags, 
   for (bool changed = true; changed;) {
     changed = false;
     result.guests.clear();
-    const hybrid::HybridMesh chosen = choice::build_selection(view.mesh, tags, view.cells, left, names);
+    const choice::Selection selection(view.mesh, tags, view.cells, left, names);
     std::set<std::int32_t> torn, guests;
-    for (const OpenRing& ring : open_rings(chosen)) {
+    for (const OpenRing& ring : open_rings(selection.mesh())) {
       const std::int32_t piece = pieces.of_tet[ring.tets.front()];
       const bool in_one = std::ranges::all_of(ring.tets, [&](std::int32_t t) { return pieces.of_tet[t] == piece; });
       if (!in_one)

@@ -1,8 +1,8 @@
-// What lies between two sheets of hexes that end against each other is often a row of wedges. As tets these take two
-// pyramids each, as prisms none. The tets that are left are a mesh of their own, small beside the whole, so that the
-// search for prisms among them and the conflict graph cost little.
+// Where two sheets of hexes end against each other, there is often a row of wedges between them. A wedge of tets takes
+// two pyramids, a prism none. The tets that are left are a mesh of their own, small beside the whole, so that the
+// search for prisms in it and the conflict graph take little time.
 
-#include "tools/assemble/choice/fill.hpp"
+#include "tools/assemble/choice/prism_filling.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,19 +21,19 @@ namespace {
 
 constexpr const char* source = "tets between cells";
 
-// The tets that no cell has replaced or absorbed, and the numbers that they have in `mesh`.
+// The tets that no cell replaces or absorbs, and their numbers in `mesh`.
 struct LeftTets {
   TetMesh mesh;
   std::vector<std::int32_t> number;
 };
 
-LeftTets left_tets(const TetMesh& mesh, const hybrid::HybridMesh& standing) {
+LeftTets left_tets(const TetMesh& mesh, const hybrid::HybridMesh& selected) {
   LeftTets left;
   left.mesh.points = mesh.points;
   left.mesh.triangles = mesh.triangles;
   left.mesh.triangle_tags = mesh.triangle_tags;
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tets.size()); ++t) {
-    if (!standing.is_alive(t)) continue;
+    if (!selected.is_alive(t)) continue;
     left.mesh.tets.push_back(mesh.tets[t]);
     left.mesh.tet_tags.push_back(mesh.tet_tags[t]);
     left.number.push_back(t);
@@ -41,9 +41,9 @@ LeftTets left_tets(const TetMesh& mesh, const hybrid::HybridMesh& standing) {
   return left;
 }
 
-// Prisms of the tets that are left, in the numbers of `mesh`.
-Candidates prisms_between(const TetMesh& mesh, const hybrid::HybridMesh& standing) {
-  LeftTets left = left_tets(mesh, standing);
+// All prisms that the tets left could become, with the numbers of `mesh`.
+Candidates prisms_between(const TetMesh& mesh, const hybrid::HybridMesh& selected) {
+  LeftTets left = left_tets(mesh, selected);
   Candidates prisms;
   if (left.number.empty()) return prisms;
   const Candidates found = candidates::findhex(std::move(left.mesh), {.kinds = {CellKind::prism}}, source).candidates;
@@ -60,11 +60,12 @@ std::array<Quad, PrismTopology::quads.size()> quads_of_prism(const Candidates& c
   return {cell.quad(0), cell.quad(1), cell.quad(2)};
 }
 
-// Takes one prism after the other, always the one that closes most quads less those that it opens, the best of several;
-// of those that close as many as they open, too, for a prism is better than its tets.
+// Takes prisms one by one: always the one that closes the most quads, less the quads that it opens, and the one of the
+// best quality among several. Also takes prisms that close as many as they open, because a prism is better than its
+// tets.
 class Filling {
  public:
-  // `all`: cells, and from `first` on the prisms; `graph`: their conflicts.
+  // `all` holds the chosen cells and, from `first` on, the prisms; `graph` their conflicts.
   Filling(const hybrid::BoundaryQuads& boundary, const Candidates& all, const graph::ConflictGraph& graph,
           std::int32_t first)
       : boundary_(boundary), all_(all), graph_(graph), barred_(all.size()) {
@@ -80,7 +81,7 @@ class Filling {
     while (!offers_.empty()) {
       const Offer best = offers_.top();
       offers_.pop();
-      // What it would bring may have changed; then it was offered anew.
+      // If its gain has changed since, it was offered again.
       if (barred_[best.prism] || best.gain != gain_of(best.prism)) continue;
       take(best.prism);
       taken.push_back(best.prism);
@@ -131,25 +132,27 @@ class Filling {
   const hybrid::BoundaryQuads& boundary_;
   const Candidates& all_;
   const graph::ConflictGraph& graph_;
-  std::vector<bool> barred_;  // taken, or in conflict with what is
-  KeySet<4> quads_;           // of all that stand
+  std::vector<bool> barred_;  // taken, or in conflict with one that is
+  KeySet<4> quads_;           // of all cells taken
   KeyMap<4, std::vector<std::int32_t>> prisms_at_;
   std::priority_queue<Offer> offers_;
 };
 
 }  // namespace
 
-std::int64_t append_filling_prisms(const TetMesh& mesh, const hybrid::BoundaryQuads& boundary,
-                                   const hybrid::HybridMesh& standing, Candidates& cells) {
-  const Candidates prisms = prisms_between(mesh, standing);
-  if (prisms.size() == 0) return 0;
-  Candidates all = cells;
+PrismFilling fill_with_prisms(const TetMesh& mesh, const hybrid::BoundaryQuads& boundary, const Candidates& candidates,
+                              const Selection& selection) {
+  PrismFilling result{select(candidates, selection.chosen())};
+  const Candidates prisms = prisms_between(mesh, selection.mesh());
+  if (prisms.size() == 0) return result;
+  Candidates all = result.cells;
   append(all, prisms);
   const graph::ConflictGraph graph =
       conflicts::conflict_graph(all, {.weight = conflicts::WeightKind::count, .weight_scale = 1}, source);
-  const auto taken = Filling(boundary, all, graph, static_cast<std::int32_t>(cells.size())).run();
-  append(cells, select(all, taken));
-  return static_cast<std::int64_t>(taken.size());
+  const auto taken = Filling(boundary, all, graph, static_cast<std::int32_t>(result.cells.size())).run();
+  append(result.cells, select(all, taken));
+  result.prisms = static_cast<std::int64_t>(taken.size());
+  return result;
 }
 
 }  // namespace hexpipe::assemble::choice
