@@ -18,6 +18,8 @@
 #include "tools/assemble/extract.hpp"
 #include "tools/assemble/fill.hpp"
 #include "tools/assemble/input_surface.hpp"
+#include "tools/assemble/merge_vertices.hpp"
+#include <fmt/format.h>
 #include "tools/assemble/peel.hpp"
 #include "tools/assemble/reconnect.hpp"
 #include "tools/assemble/repair.hpp"
@@ -211,6 +213,17 @@ Extract Assembler::smooth_and_repair(HybridMesh& hybrid) {
   if (options_.smooth == 0) return extracted;
   compute_quality(extracted.mesh);
   statistics_.before_smoothing = kind_statistics(seam_ == nullptr ? extracted.mesh : own_part_of(extracted).mesh);
+  const int rounds = getenv("MR") ? atoi(getenv("MR")) : 3;
+  for (int pass = 0; pass < rounds; ++pass) {
+    GapMesh gap(hybrid, tags_, is_shared_);
+    const std::int64_t merged = merge_vertices(gap);
+    gap.write_to(hybrid);
+    fmt::print(stderr, "merged {}\n", merged);
+    if (merged == 0) break;
+    extracted = extract(hybrid, tags_);
+    if (pass + 1 < rounds) improve(extracted);
+    if (pass + 1 < rounds) move_points(extracted, hybrid);
+  }
   improve(extracted);
   for (int pass = 0; pass < most_repairs; ++pass) {
     move_points(extracted, hybrid);
