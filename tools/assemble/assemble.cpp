@@ -23,6 +23,7 @@
 #include "tools/assemble/peel.hpp"
 #include "tools/assemble/reconnect.hpp"
 #include "tools/assemble/repair.hpp"
+#include "tools/assemble/rooms.hpp"
 #include "tools/assemble/selection.hpp"
 #include "tools/assemble/self_check.hpp"
 #include "tools/assemble/smooth.hpp"
@@ -217,9 +218,11 @@ Extract Assembler::smooth_and_repair(HybridMesh& hybrid) {
   for (int pass = 0; pass < rounds; ++pass) {
     GapMesh gap(hybrid, tags_, is_shared_);
     const std::int64_t merged = merge_vertices(gap);
+    RoomCounts rooms;
+    clock_t t0=clock();
+    if (!getenv("NOROOM") && (pass>0 || getenv("ROOM0"))) rooms = refill_rooms(gap);
+    fmt::print(stderr, "merged {} {} {} {}s\n", merged, rooms.vertices, rooms.edges, double(clock()-t0)/CLOCKS_PER_SEC);
     gap.write_to(hybrid);
-    fmt::print(stderr, "merged {}\n", merged);
-    if (merged == 0) break;
     extracted = extract(hybrid, tags_);
     if (pass + 1 < rounds) improve(extracted);
     if (pass + 1 < rounds) move_points(extracted, hybrid);

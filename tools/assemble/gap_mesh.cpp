@@ -12,15 +12,20 @@ bool GapCell::has(Vertex v) const {
 }
 
 GapMesh::GapMesh(const HybridMesh& mesh, const SurfaceTags& tags, std::span<const std::uint8_t> is_shared)
-    : points_(mesh.points), at_(mesh.points.size()), fixed_(mesh.points.size()) {
+    : points_(mesh.points), tags_(tags), at_(mesh.points.size()), fixed_(mesh.points.size()) {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tet_count()); ++t)
-    if (mesh.is_alive(t)) add(make_tet(mesh.tet(t), mesh.region_of(t)), t);
+    if (mesh.is_alive(t)) {
+      const auto& [a, b, c, d] = mesh.tet(t);
+      add(make(CellKind::tet, {a, b, c, d}, mesh.region_of(t)), t);
+    }
   for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
     const HybridCell& cell = mesh.cell(c);
     if (!cell.alive) continue;
     const std::span corners = std::span(cell.corners).first(corner_count(cell.kind));
-    if (cell.kind == CellKind::pyramid && cell.candidate == HybridCell::none) {
-      add(make_pyramid({corners[0], corners[1], corners[2], corners[3], corners[4]}, cell.region), c);
+    if (cell.candidate == HybridCell::none) {
+      std::array<Vertex, 6> six{};
+      std::ranges::copy(corners, six.begin());
+      add(make(cell.kind, six, cell.region), c);
     } else {
       for (const Vertex v : corners) fixed_[v] = true;
     }
@@ -31,12 +36,10 @@ GapMesh::GapMesh(const HybridMesh& mesh, const SurfaceTags& tags, std::span<cons
     if (is_shared[v] != 0) fixed_[v] = true;
 }
 
-GapCell GapMesh::make_tet(const Tet& tet, std::int32_t region) const {
-  return {CellKind::tet, {tet[0], tet[1], tet[2], tet[3], none}, region, tet_quality(points_, tet)};
-}
-
-GapCell GapMesh::make_pyramid(const std::array<Vertex, 5>& corners, std::int32_t region) const {
-  return {CellKind::pyramid, corners, region, pyramid_quality(points_, corners)};
+GapCell GapMesh::make(CellKind kind, const std::array<Vertex, 6>& corners, std::int32_t region) const {
+  GapCell cell{kind, corners, region};
+  cell.quality = gap_quality(kind, points_, cell.vertices());
+  return cell;
 }
 
 std::int32_t GapMesh::add(const GapCell& cell, std::int32_t source) {
@@ -71,12 +74,12 @@ void GapMesh::write_to(HybridMesh& mesh) const {
       mesh.add_tet({cell.corners[0], cell.corners[1], cell.corners[2], cell.corners[3]}, cell.region);
       continue;
     }
-    HybridCell pyramid;
-    pyramid.kind = CellKind::pyramid;
-    std::ranges::copy(cell.corners, pyramid.corners.begin());
-    std::fill(pyramid.corners.begin() + 5, pyramid.corners.end(), none);
-    pyramid.region = cell.region;
-    mesh.add_cell(pyramid);
+    HybridCell made;
+    made.kind = cell.kind;
+    made.corners.fill(none);
+    std::ranges::copy(cell.vertices(), made.corners.begin());
+    made.region = cell.region;
+    mesh.add_cell(made);
   }
 }
 

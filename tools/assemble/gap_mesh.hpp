@@ -1,5 +1,5 @@
 #pragma once
-// The tets and the pyramids between the cells that were chosen, as one mesh that can be changed; and what of it may not.
+// The tets between the chosen cells, and the pyramids and prisms made of such, as one mesh that can be changed; and what of it may not.
 
 #include <array>
 #include <cstdint>
@@ -13,11 +13,11 @@ namespace hexpipe {
 
 struct GapCell {
   CellKind kind = CellKind::tet;
-  std::array<Vertex, 5> corners{};  // of a tet the last is none
+  std::array<Vertex, 6> corners{};
   std::int32_t region = 0;
   double quality = 0;  // objective.hpp
 
-  std::span<const Vertex> vertices() const { return std::span(corners).first(kind == CellKind::tet ? 4 : 5); }
+  std::span<const Vertex> vertices() const { return std::span(corners).first(static_cast<std::size_t>(corner_count(kind))); }
   bool has(Vertex v) const;
 };
 
@@ -34,11 +34,12 @@ class GapMesh {
   const GapCell& cell(std::int32_t c) const { return cells_[c]; }
   bool is_alive(std::int32_t c) const { return alive_[c] != 0; }
   std::span<const std::int32_t> cells_at(Vertex v) const { return at_[v]; }
-  // True where only tets and pyramids of the gap are at v, and v lies on no tagged facet and at no seam.
+  // True where only cells of the gap are at v, and v lies on no tagged facet and at no seam.
   bool is_free(Vertex v) const { return !fixed_[v] && !at_[v].empty(); }
 
-  GapCell make_tet(const Tet& tet, std::int32_t region) const;
-  GapCell make_pyramid(const std::array<Vertex, 5>& corners, std::int32_t region) const;
+  bool is_tagged(const Triangle& triangle) const { return tags_.contains(triangle); }
+
+  GapCell make(CellKind kind, const std::array<Vertex, 6>& corners, std::int32_t region) const;
 
   // Replaces cells by others that fill the same room.
   void replace(std::span<const std::int32_t> out, std::span<const GapCell> in);
@@ -53,6 +54,7 @@ class GapMesh {
   std::int32_t add(const GapCell& cell, std::int32_t source);
 
   std::span<const Vec3> points_;
+  const SurfaceTags& tags_;
   std::vector<GapCell> cells_;
   std::vector<std::uint8_t> alive_;
   std::vector<std::int32_t> source_;  // the tet or the cell of the hybrid mesh, or none

@@ -16,6 +16,7 @@
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "tools/assemble/objective.hpp"
+#include "tools/assemble/refill.hpp"
 
 namespace hexpipe {
 namespace {
@@ -72,7 +73,7 @@ bool Merger::may_leave(Vertex v) const {
   if (!gap_.is_free(v)) return false;
   return std::ranges::all_of(gap_.cells_at(v), [&](std::int32_t c) {
     const GapCell& cell = gap_.cell(c);
-    return cell.quality > surely_valid && (cell.kind == CellKind::tet || cell.corners[4] == v);
+    return cell.quality > surely_valid && (cell.kind == CellKind::tet || (cell.kind == CellKind::pyramid && cell.corners[4] == v));
   });
 }
 
@@ -95,8 +96,7 @@ void Merger::collect_goals(Vertex v) {
 GapCell Merger::moved(const GapCell& cell, Vertex from, Vertex into) const {
   auto corners = cell.corners;
   std::ranges::replace(corners, from, into);
-  if (cell.kind == CellKind::pyramid) return gap_.make_pyramid(corners, cell.region);
-  return gap_.make_tet({corners[0], corners[1], corners[2], corners[3]}, cell.region);
+  return gap_.make(cell.kind, corners, cell.region);
 }
 
 // Of the cells that the merge leaves; more than `most` where one is below the floor, or it is not worth counting on.

