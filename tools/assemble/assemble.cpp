@@ -221,7 +221,7 @@ Extract Assembler::smooth_and_repair(HybridMesh& hybrid) {
     RoomCounts rooms;
     clock_t t0=clock();
     if (!getenv("NOROOM") && (pass>0 || getenv("ROOM0"))) rooms = refill_rooms(gap);
-    fmt::print(stderr, "merged {} {} {} {}s\n", merged, rooms.vertices, rooms.edges, double(clock()-t0)/CLOCKS_PER_SEC);
+    fmt::print(stderr, "merged {} {} {} f{} g{} a{} p{} prisms{} rings{} {}s\n", merged, rooms.vertices, rooms.edges, rooms.fixedv,rooms.grown,rooms.around,rooms.pairs,rooms.prisms,rooms.rings, double(clock()-t0)/CLOCKS_PER_SEC);
     gap.write_to(hybrid);
     extracted = extract(hybrid, tags_);
     if (pass + 1 < rounds) improve(extracted);

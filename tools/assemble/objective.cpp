@@ -9,7 +9,7 @@ namespace hexpipe {
 namespace {
 
 // Cells that are better cost no less.
-const double good_quality = getenv("GQ")?atof(getenv("GQ")):0.3;
+const double good_quality = getenv("GQ")?atof(getenv("GQ")):0.5;
 // The cost of a cell without any quality, above that of a good one.
 const double price_of_poverty = getenv("PP")?atof(getenv("PP")):1.0;
 

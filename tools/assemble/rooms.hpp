@@ -9,6 +9,7 @@ namespace hexpipe {
 
 struct RoomCounts {
   std::int64_t vertices = 0;  // that went with the cells around them
+  std::int64_t fixedv=0, pairs=0, prisms=0, rings=0, grown=0, around=0;
   std::int64_t edges = 0;     // whose cells became fewer
 };
 
