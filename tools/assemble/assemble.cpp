@@ -19,6 +19,7 @@
 #include "tools/assemble/fill.hpp"
 #include "tools/assemble/input_surface.hpp"
 #include "tools/assemble/merge_vertices.hpp"
+#include "tools/assemble/merge_stars.hpp"
 #include <fmt/format.h>
 #include "tools/assemble/peel.hpp"
 #include "tools/assemble/reconnect.hpp"
@@ -219,8 +220,9 @@ Extract Assembler::smooth_and_repair(HybridMesh& hybrid) {
     GapMesh gap(hybrid, tags_, is_shared_);
     const std::int64_t merged = merge_vertices(gap);
     RoomCounts rooms;
-    clock_t t0=clock();
+    clock_t t0=clock(); std::int64_t stars=0; if (pass>0 && getenv("STARS")) stars=merge_stars(gap); clock_t t1=clock(); fmt::print(stderr,"stars {} {}s\n",stars,double(t1-t0)/CLOCKS_PER_SEC); t0=t1;
     if (!getenv("NOROOM") && (pass>0 || getenv("ROOM0"))) rooms = refill_rooms(gap);
+    if (pass>0 && getenv("STARS")) {stars=merge_stars(gap); fmt::print(stderr,"stars again {}\n",stars);}
     fmt::print(stderr, "merged {} {} {} f{} g{} a{} p{} prisms{} rings{} {}s\n", merged, rooms.vertices, rooms.edges, rooms.fixedv,rooms.grown,rooms.around,rooms.pairs,rooms.prisms,rooms.rings, double(clock()-t0)/CLOCKS_PER_SEC);
     gap.write_to(hybrid);
     extracted = extract(hybrid, tags_);

@@ -11,7 +11,7 @@ bool GapCell::has(Vertex v) const {
   return std::ranges::find(vertices(), v) != vertices().end();
 }
 
-GapMesh::GapMesh(const HybridMesh& mesh, const SurfaceTags& tags, std::span<const std::uint8_t> is_shared)
+GapMesh::GapMesh(HybridMesh& mesh, const SurfaceTags& tags, std::span<const std::uint8_t> is_shared)
     : points_(mesh.points), tags_(tags), at_(mesh.points.size()), fixed_(mesh.points.size()) {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tet_count()); ++t)
     if (mesh.is_alive(t)) {

@@ -26,9 +26,10 @@ class GapMesh {
   static constexpr std::int32_t none = -1;
 
   // `is_shared`: as in Seam, empty without one.
-  GapMesh(const HybridMesh& mesh, const SurfaceTags& tags, std::span<const std::uint8_t> is_shared);
+  GapMesh(HybridMesh& mesh, const SurfaceTags& tags, std::span<const std::uint8_t> is_shared);
 
   std::span<const Vec3> points() const { return points_; }
+  std::span<Vec3> points() { return points_; }
   std::size_t vertex_count() const { return at_.size(); }
   std::size_t cell_count() const { return cells_.size(); }  // with those that are gone
   const GapCell& cell(std::int32_t c) const { return cells_[c]; }
@@ -53,7 +54,7 @@ class GapMesh {
  private:
   std::int32_t add(const GapCell& cell, std::int32_t source);
 
-  std::span<const Vec3> points_;
+  std::span<Vec3> points_;
   const SurfaceTags& tags_;
   std::vector<GapCell> cells_;
   std::vector<std::uint8_t> alive_;
