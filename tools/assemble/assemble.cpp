@@ -6,29 +6,29 @@
 #include <numeric>
 #include <optional>
 
+#include <fmt/format.h>
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/orientation.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/run/error.hpp"
-#include "tools/assemble/boundary_quads.hpp"
-#include "tools/assemble/complete_surface.hpp"
-#include "tools/assemble/conform.hpp"
-#include "tools/assemble/exchange.hpp"
-#include "tools/assemble/extract.hpp"
-#include "tools/assemble/fill.hpp"
-#include "tools/assemble/input_surface.hpp"
-#include "tools/assemble/merge_vertices.hpp"
+#include "tools/assemble/choice/exchange.hpp"
+#include "tools/assemble/choice/fill.hpp"
+#include "tools/assemble/choice/selection.hpp"
+#include "tools/assemble/conform/conform.hpp"
+#include "tools/assemble/conform/peel.hpp"
+#include "tools/assemble/conform/reconnect.hpp"
+#include "tools/assemble/conform/repair.hpp"
+#include "tools/assemble/hybrid/boundary_quads.hpp"
+#include "tools/assemble/hybrid/complete_surface.hpp"
+#include "tools/assemble/hybrid/extract.hpp"
+#include "tools/assemble/hybrid/surface_tags.hpp"
 #include "tools/assemble/merge_stars.hpp"
-#include <fmt/format.h>
-#include "tools/assemble/peel.hpp"
-#include "tools/assemble/reconnect.hpp"
-#include "tools/assemble/repair.hpp"
+#include "tools/assemble/merge_vertices.hpp"
 #include "tools/assemble/rooms.hpp"
-#include "tools/assemble/selection.hpp"
 #include "tools/assemble/self_check.hpp"
-#include "tools/assemble/smooth.hpp"
-#include "tools/assemble/surface_tags.hpp"
+#include "tools/assemble/shape/input_surface.hpp"
+#include "tools/assemble/shape/smooth.hpp"
 
 namespace hexpipe {
 namespace {
@@ -220,10 +220,20 @@ Extract Assembler::smooth_and_repair(HybridMesh& hybrid) {
     GapMesh gap(hybrid, tags_, is_shared_);
     const std::int64_t merged = merge_vertices(gap);
     RoomCounts rooms;
-    clock_t t0=clock(); std::int64_t stars=0; if (pass>0 && getenv("STARS")) stars=merge_stars(gap); clock_t t1=clock(); fmt::print(stderr,"stars {} {}s\n",stars,double(t1-t0)/CLOCKS_PER_SEC); t0=t1;
-    if (!getenv("NOROOM") && (pass>0 || getenv("ROOM0"))) rooms = refill_rooms(gap);
-    if (pass>0 && getenv("STARS")) {stars=merge_stars(gap); fmt::print(stderr,"stars again {}\n",stars);}
-    fmt::print(stderr, "merged {} {} {} f{} g{} a{} p{} prisms{} rings{} {}s\n", merged, rooms.vertices, rooms.edges, rooms.fixedv,rooms.grown,rooms.around,rooms.pairs,rooms.prisms,rooms.rings, double(clock()-t0)/CLOCKS_PER_SEC);
+    clock_t t0 = clock();
+    std::int64_t stars = 0;
+    if (pass > 0 && getenv("STARS")) stars = merge_stars(gap);
+    clock_t t1 = clock();
+    fmt::print(stderr, "stars {} {}s\n", stars, double(t1 - t0) / CLOCKS_PER_SEC);
+    t0 = t1;
+    if (!getenv("NOROOM") && (pass > 0 || getenv("ROOM0"))) rooms = refill_rooms(gap);
+    if (pass > 0 && getenv("STARS")) {
+      stars = merge_stars(gap);
+      fmt::print(stderr, "stars again {}\n", stars);
+    }
+    fmt::print(stderr, "merged {} {} {} f{} g{} a{} p{} prisms{} rings{} {}s\n", merged, rooms.vertices, rooms.edges,
+               rooms.fixedv, rooms.grown, rooms.around, rooms.pairs, rooms.prisms, rooms.rings,
+               double(clock() - t0) / CLOCKS_PER_SEC);
     gap.write_to(hybrid);
     extracted = extract(hybrid, tags_);
     if (pass + 1 < rounds) improve(extracted);

@@ -1,13 +1,14 @@
 #pragma once
-// The tets between the chosen cells, and the pyramids and prisms made of such, as one mesh that can be changed; and what of it may not.
+// The tets between the chosen cells, and the pyramids and prisms made of such, as one mesh that can be changed; and
+// what of it may not.
 
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "tools/assemble/hybrid_mesh.hpp"
-#include "tools/assemble/surface_tags.hpp"
+#include "tools/assemble/hybrid/hybrid_mesh.hpp"
+#include "tools/assemble/hybrid/surface_tags.hpp"
 
 namespace hexpipe {
 
@@ -17,7 +18,9 @@ struct GapCell {
   std::int32_t region = 0;
   double quality = 0;  // objective.hpp
 
-  std::span<const Vertex> vertices() const { return std::span(corners).first(static_cast<std::size_t>(corner_count(kind))); }
+  std::span<const Vertex> vertices() const {
+    return std::span(corners).first(static_cast<std::size_t>(corner_count(kind)));
+  }
   bool has(Vertex v) const;
 };
 

@@ -11,7 +11,7 @@
 
 #include "common/mesh/quality.hpp"
 #include "tools/assemble/objective.hpp"
-#include "tools/assemble/point_star.hpp"
+#include "tools/assemble/shape/point_star.hpp"
 
 namespace hexpipe {
 namespace {
@@ -135,9 +135,8 @@ bool StarMerger::collect_room(Vertex a, Vertex b) {
     if (blocked) return false;
   }
   // A quad or triangle at one of the two is none of the room's skin.
-  return std::ranges::none_of(skin_, [&](const Facet& f) {
-    return std::ranges::find(f, a) != f.end() || std::ranges::find(f, b) != f.end();
-  });
+  return std::ranges::none_of(
+      skin_, [&](const Facet& f) { return std::ranges::find(f, a) != f.end() || std::ranges::find(f, b) != f.end(); });
 }
 
 GapCell StarMerger::cone(const Facet& f, Vertex apex, std::int32_t region) const {
