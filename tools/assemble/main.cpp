@@ -11,18 +11,19 @@
 #include "tools/assemble/assemble_part.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::assemble;
 
 namespace {
 
 // How good the choice is, where certify has proven a bound for its graph: weight, bound and gap.
-nlohmann::ordered_json proven_gap(const StageData& data) {
-  const auto bound = bound_in(data.history);
+nlohmann::ordered_json proven_gap(const pipeline::StageData& data) {
+  const auto bound = mwis::ground::bound_in(data.history);
   if (!data.graph || !bound) return nullptr;
-  const std::int64_t weight = total_weight(*data.solution, *data.graph);
-  return {{"weight", weight}, {"bound", *bound}, {"gap", gap_to(*bound, weight)}};
+  const std::int64_t weight = graph::total_weight(*data.solution, *data.graph);
+  return {{"weight", weight}, {"bound", *bound}, {"gap", mwis::ground::gap_to(*bound, weight)}};
 }
 
-SolvedPart solved_part(StageData data, const InputNames& names) {
+pieces::SolvedPart solved_part(pipeline::StageData data, const choice::InputNames& names) {
   if (!data.part) throw UsageError("--neighbours goes with a part of a mesh, as mesh-part makes them");
   if (!data.candidate_keys)
     throw DataError::at(names.candidates,
@@ -35,11 +36,11 @@ SolvedPart solved_part(StageData data, const InputNames& names) {
           .history = std::move(data.history)};
 }
 
-PartResult assemble_whole(StageData data, const AssembleOptions& options, const InputNames& names) {
+PartResult assemble_whole(pipeline::StageData data, const AssembleOptions& options, const choice::InputNames& names) {
   if (data.part && !data.part->neighbours.empty())
     throw DataError::at(names.mesh, "expected the neighbours of {} with --neighbours, found none",
                         title_of(*data.part));
-  AssembleResult result = assemble(std::move(*data.mesh), *data.candidates, *data.solution, options, names);
+  AssembleResult result = assemble::assemble(std::move(*data.mesh), *data.candidates, *data.solution, options, names);
   return {std::move(result.mesh), std::move(result.statistics), {}};
 }
 
@@ -61,8 +62,10 @@ int main(int argc, char** argv) {
                                                            {"none", AssembleOptions::Fill::none}};
   const std::map<std::string, AssembleOptions::Exchange> exchanges{{"quads", AssembleOptions::Exchange::quads},
                                                                    {"none", AssembleOptions::Exchange::none}};
-  std::string conformity = "pyramids", exchange = "quads", fill = "prisms";
-  const CLI::Option *exchange_option = nullptr, *fill_option = nullptr;
+  const std::map<std::string, AssembleOptions::Merge> merges{{"vertices", AssembleOptions::Merge::vertices},
+                                                             {"none", AssembleOptions::Merge::none}};
+  std::string conformity = "pyramids", exchange = "quads", fill = "prisms", merge = "vertices";
+  const CLI::Option *exchange_option = nullptr, *fill_option = nullptr, *merge_option = nullptr;
   int smooth = AssembleOptions{}.smooth;
   auto declare = [&](CLI::App& app) {
     app.add_option("--conformity", conformity,
@@ -81,6 +84,13 @@ int main(int argc, char** argv) {
                                  "open; none: they stay, as always with --conformity none and with --neighbours")
                       ->check(CLI::IsMember(fills))
                       ->capture_default_str();
+    merge_option =
+        app.add_option("--merge", merge,
+                       "vertices: vertices that no hex uses merge, and rooms between the hexes are filled anew, where "
+                       "this leaves fewer or better cells; none: they stay, as always with --conformity none and with "
+                       "--smooth 0")
+            ->check(CLI::IsMember(merges))
+            ->capture_default_str();
     app.add_option(
            "--smooth", smooth,
            "rounds of moving vertices and exchanging tets to make the worst cells better and hexes larger; 0: none")
@@ -99,33 +109,39 @@ int main(int argc, char** argv) {
     if (!may_change_cells && fill_option->count() > 0 && fill == "prisms")
       throw UsageError("--fill prisms goes with --conformity pyramids, without --neighbours");
     if (!may_change_cells) exchange = fill = "none";
+    const bool may_merge = conformity == "pyramids" && smooth > 0;
+    if (!may_merge && merge_option->count() > 0 && merge == "vertices")
+      throw UsageError("--merge vertices goes with --conformity pyramids, and with --smooth of 1 or more");
+    if (!may_merge) merge = "none";
     const AssembleOptions options{.conformity = conformities.at(conformity),
                                   .exchange = exchanges.at(exchange),
                                   .fill = fills.at(fill),
+                                  .merge = merges.at(merge),
                                   .smooth = smooth};
     context.options["conformity"] = conformity;
     context.options["exchange"] = exchange;
     context.options["fill"] = fill;
+    context.options["merge"] = merge;
     context.options["smooth"] = smooth;
     if (by_part && options.conformity == AssembleOptions::Conformity::none)
       throw UsageError("--conformity none does not go with --neighbours: pieces fit because they conform");
     if (!by_part && !before.empty()) throw UsageError("--before goes with --neighbours");
-    Stage stage(context);
+    pipeline::Stage stage(context);
     stage.take_part();
     if (by_part) {
       for (const Role role : {Role::mesh, Role::candidates, Role::graph, Role::solution}) stage.hold_back(role);
     } else {
       stage.take_weights();  // for the gap: which cells cannot stand together is told by their tets
     }
-    StageData data = stage.read({Role::mesh, Role::candidates, Role::solution});
-    const InputNames names{.mesh = stage.source_of(Role::mesh),
-                           .candidates = stage.source_of(Role::candidates),
-                           .solution = stage.source_of(Role::solution)};
+    pipeline::StageData data = stage.read({Role::mesh, Role::candidates, Role::solution});
+    const choice::InputNames names{.mesh = stage.source_of(Role::mesh),
+                                   .candidates = stage.source_of(Role::candidates),
+                                   .solution = stage.source_of(Role::solution)};
     const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
     const auto choice = graph_of_bundle ? proven_gap(data) : nullptr;
     const PartResult result =
-        by_part ? assemble_part(view_part(solved_part(std::move(data), names), neighbours, names.solution), before,
-                                options, names)
+        by_part ? assemble_part(pieces::view_part(solved_part(std::move(data), names), neighbours, names.solution),
+                                before, options, names)
                 : assemble_whole(std::move(data), options, names);
     context.statistics = to_json(result.statistics);
     for (const auto& line : summary_lines(result.statistics)) context.note(line);

@@ -7,7 +7,7 @@
 
 #include "common/mesh/quality.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble {
 namespace {
 
 template <class Visit>
@@ -84,7 +84,7 @@ std::array<double, all_kinds.size()> least_inside(const MixedMesh& mesh) {
 std::vector<PoorCell> poor_cells(const MixedMesh& mesh) {
   std::vector<PoorCell> result;
   for_each_block(mesh, [&](CellKind kind, const auto& block) {
-    const double limit = kind == CellKind::hex ? poor_hex : poor_quality;
+    const double limit = kind == CellKind::hex ? shape::poor_hex : shape::poor_quality;
     const double scale = kind == CellKind::tet ? std::sqrt(2.0) : 1;
     for (std::size_t i = 0; i < block.size(); ++i) {
       if (scale * block.quality[i] >= limit) continue;
@@ -156,6 +156,7 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
                        {"exchanges_of_tets", statistics.exchanges},
                        {"vertices_added_at_flat_tets", statistics.repaired},
                        {"flat_tets_taken_off", statistics.peeled}};
+  json["merging"] = {{"vertices_gone", statistics.fewer.merged}, {"rooms_filled_anew", statistics.fewer.refilled}};
   json["nonconforming_quads"] = volumes.nonconforming_quads;
   if (const auto& exchange = statistics.exchange)
     json["exchange"] = {{"hexes_out", exchange->hexes_out},
@@ -164,8 +165,8 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
                         {"open_quads_after", exchange->open_quads_after}};
   const auto& counts = statistics.conformity;
   auto given_back = nlohmann::ordered_json::object();
-  for (GivenBack reason : all_reasons)
-    given_back[name_of(reason)] = counts.given_back[static_cast<std::size_t>(reason)];
+  for (conform::GivenBack reason : conform::all_reasons)
+    given_back[conform::name_of(reason)] = counts.given_back[static_cast<std::size_t>(reason)];
   json["conformity"] = {{"prisms_between_cells", statistics.filling_prisms},
                         {"quads_against_tets", counts.open_quads},
                         {"pyramids_merged", counts.merged},
@@ -211,6 +212,10 @@ std::vector<std::string> summary_lines(const AssembleStatistics& statistics) {
         "{} quads faced tets: {} pyramids merged, {} vertices added, {} cells given back "
         "({:.2f} % of the volume in hexes)",
         counts.open_quads, counts.merged, counts.split, given_back, 100 * share(counts.volume_given_back, volume)));
+  if (statistics.fewer.any())
+    lines.push_back(
+        fmt::format("{} vertices between the hexes merged into others, {} rooms there filled with better cells",
+                    statistics.fewer.merged, statistics.fewer.refilled));
   if (!statistics.poor.empty())
     lines.push_back(fmt::format("{} poor cells are left (hexes below 0.1, others below 0.02); --stats lists them",
                                 statistics.poor.size()));
@@ -221,4 +226,4 @@ std::vector<std::string> summary_lines(const AssembleStatistics& statistics) {
   return lines;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble

@@ -10,7 +10,7 @@
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
 #include "tools/assemble/hybrid/surface_tags.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::gap {
 
 struct GapCell {
   CellKind kind = CellKind::tet;
@@ -28,42 +28,48 @@ class GapMesh {
  public:
   static constexpr std::int32_t none = -1;
 
+  // Both have to outlive this; points move in `mesh` at once, cells change there by write_back().
   // `is_shared`: as in Seam, empty without one.
-  GapMesh(HybridMesh& mesh, const SurfaceTags& tags, std::span<const std::uint8_t> is_shared);
+  GapMesh(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std::span<const std::uint8_t> is_shared);
 
-  std::span<const Vec3> points() const { return points_; }
-  std::span<Vec3> points() { return points_; }
+  std::span<const Vec3> points() const { return mesh_.points; }
   std::size_t vertex_count() const { return at_.size(); }
   std::size_t cell_count() const { return cells_.size(); }  // with those that are gone
   const GapCell& cell(std::int32_t c) const { return cells_[c]; }
   bool is_alive(std::int32_t c) const { return alive_[c] != 0; }
   std::span<const std::int32_t> cells_at(Vertex v) const { return at_[v]; }
-  // True where only cells of the gap are at v, and v lies on no tagged facet and at no seam.
+  // True where v may move and go: only cells of the gap are there, no tagged facet and no seam.
   bool is_free(Vertex v) const { return !fixed_[v] && !at_[v].empty(); }
-
   bool is_tagged(const Triangle& triangle) const { return tags_.contains(triangle); }
+  // Rises whenever a cell at v changes.
+  std::uint32_t age_of(Vertex v) const { return age_[v]; }
+  // True when the Jacobian of each cell is positive everywhere, without any doubt.
+  bool is_valid() const;
 
   GapCell make(CellKind kind, const std::array<Vertex, 6>& corners, std::int32_t region) const;
+  GapCell make_tet(const Tet& corners, std::int32_t region) const;
 
   // Replaces cells by others that fill the same room.
   void replace(std::span<const std::int32_t> out, std::span<const GapCell> in);
+  // To be followed by replace() of all cells at v.
+  void move(Vertex v, const Vec3& to) { mesh_.points[v] = to; }
 
-  // Brings the mesh that this was made of to the same state. To be called once.
-  void write_to(HybridMesh& mesh) const;
-
-  // Throws std::logic_error where the lists of cells at vertices are not those of the cells. For tests.
-  void check() const;
+  void write_back();
 
  private:
-  std::int32_t add(const GapCell& cell, std::int32_t source);
+  void add(const GapCell& cell, std::int32_t source);
 
-  std::span<Vec3> points_;
-  const SurfaceTags& tags_;
+  hybrid::HybridMesh& mesh_;
+  const hybrid::SurfaceTags& tags_;
   std::vector<GapCell> cells_;
   std::vector<std::uint8_t> alive_;
-  std::vector<std::int32_t> source_;  // the tet or the cell of the hybrid mesh, or none
+  std::vector<std::int32_t> source_;  // the tet or the cell of `mesh` that it was, or none
   std::vector<std::vector<std::int32_t>> at_;
+  std::vector<std::uint32_t> age_;
   std::vector<bool> fixed_;
 };
 
-}  // namespace hexpipe
+// Whether the Jacobian of a cell is positive everywhere.
+bool is_valid(const GapMesh& gap, const GapCell& cell);
+
+}  // namespace hexpipe::assemble::gap

@@ -1,0 +1,143 @@
+// The best cells for a small room, by branch and bound: J. Liu, S. Sun, D. Wang, "Optimal tetrahedralization for small
+// polyhedron: a new local transformation strategy for 3-D mesh generation and mesh improvement" (2006), with pyramids
+// and prisms, and with the number of cells as what is to be small. It holds flips of all kinds, three tets to two among
+// them. Cells are put on facets that still need one until none does. No two of them are tested for overlap: they are
+// positive everywhere, and the signed sum of their skins is the skin of the room, so that each point of the room lies
+// in exactly one of them (its winding number is 1), and none has the diagonal of a quad for its edge.
+
+#include "tools/assemble/gap/refill.hpp"
+
+#include <algorithm>
+
+#include "common/mesh/quality.hpp"
+#include "tools/assemble/gap/objective.hpp"
+
+namespace hexpipe::assemble::gap {
+namespace {
+
+// Rooms with more corners or facets take long, and seldom have a filling without a vertex inside.
+constexpr std::size_t most_corners = 12;
+constexpr std::size_t most_facets = 20;
+constexpr int most_steps = 400;
+// No cell closes more.
+constexpr std::size_t most_closed = 5;
+
+double volume_of(const GapMesh& gap, const GapCell& cell) {
+  const auto at = corner_points(gap.points(), cell.vertices());
+  return cell_volume(cell.kind, std::span<const Vec3>(at).first(cell.vertices().size()));
+}
+
+}  // namespace
+
+// Takes the piece into the list where it is good enough, and no facet of it is in the front the wrong way round: there
+// another piece is on that side.
+void Refill::offer(CellKind kind, const std::array<Vertex, 6>& corners, std::vector<Piece>& pieces) const {
+  Piece piece;
+  bool fits = true;
+  for_facets(kind, corners, [&](const Facet& facet) {
+    const bool closes = std::ranges::find(front_, facet) != front_.end();
+    piece.closes += closes ? 1 : -1;
+    fits = fits && (closes || std::ranges::find(front_, facet.reversed()) == front_.end());
+  });
+  if (!fits) return;
+  piece.cell = gap_.make(kind, corners, room_.region);
+  if (piece.cell.quality < floor_) return;
+  piece.cost = cost_of(piece.cell.quality);
+  piece.volume = volume_of(gap_, piece.cell);
+  pieces.push_back(piece);
+}
+
+// On two quads of the front that have an edge in common.
+void Refill::collect_prisms(const Facet& facet, std::vector<Piece>& pieces) const {
+  for (const Facet& other : front_) {
+    if (!other.is_quad() || other == facet) continue;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t k = 0; k < 4; ++k) {
+        auto one = [&](std::size_t n) { return facet.corners[(i + n) % 4]; };
+        auto two = [&](std::size_t n) { return other.corners[(k + n) % 4]; };
+        // Quads 0143 and 1254 of the prism.
+        if (one(1) == two(0) && one(2) == two(3) && one(0) != two(1) && one(3) != two(2))
+          offer(CellKind::prism, {one(0), one(1), two(1), one(3), one(2), two(2)}, pieces);
+      }
+  }
+}
+
+void Refill::collect_pieces(const Facet& facet, std::vector<Piece>& pieces) const {
+  pieces.clear();
+  const auto& f = facet.corners;
+  for (const Vertex apex : room_.vertices) {
+    if (std::ranges::find(f, apex) != f.end()) continue;
+    if (facet.is_quad())
+      offer(CellKind::pyramid, {f[0], f[3], f[2], f[1], apex}, pieces);
+    else
+      offer(CellKind::tet, {f[0], f[2], f[1], apex}, pieces);
+  }
+  if (facet.is_quad()) collect_prisms(facet, pieces);
+}
+
+// Those on the facet with the fewest choices, quads first, because what goes on them closes triangles, too; none where
+// a facet has no choice.
+std::vector<Refill::Piece> Refill::fewest_pieces(double space) const {
+  const bool has_quads = std::ranges::any_of(front_, &Facet::is_quad);
+  std::vector<Piece> fewest, pieces;
+  bool first = true;
+  for (const Facet& facet : front_) {
+    if (facet.is_quad() != has_quads) continue;
+    collect_pieces(facet, pieces);
+    std::erase_if(pieces, [&](const Piece& piece) { return piece.volume > space + rounding_; });
+    if (first || pieces.size() < fewest.size()) fewest.swap(pieces);
+    first = false;
+    if (fewest.size() <= 1) break;
+  }
+  std::ranges::stable_sort(fewest, [](const Piece& a, const Piece& b) {
+    return a.closes != b.closes ? a.closes > b.closes : a.cost < b.cost;
+  });
+  return fewest;
+}
+
+void Refill::place(const Piece& piece) {
+  placed_.push_back(piece.cell);
+  for_facets(piece.cell.kind, piece.cell.corners, [&](const Facet& facet) {
+    const auto found = std::ranges::find(front_, facet);
+    if (found != front_.end())
+      front_.erase(found);
+    else
+      front_.push_back(facet.reversed());
+  });
+}
+
+void Refill::search(double cost, double space) {
+  if (front_.empty()) {
+    most_ = cost, best_ = placed_;
+    return;
+  }
+  const auto to_come = static_cast<double>((front_.size() + most_closed - 1) / most_closed);
+  if (steps_left_-- <= 0 || cost + to_come >= most_) return;
+  for (const Piece& piece : fewest_pieces(space)) {
+    if (cost + piece.cost >= most_) continue;
+    const std::vector<Facet> front = front_;
+    place(piece);
+    search(cost + piece.cost, space - piece.volume);
+    placed_.pop_back();
+    front_ = front;
+  }
+}
+
+std::optional<std::vector<GapCell>> Refill::find(std::span<const std::int32_t> out) {
+  auto room = room_of(gap_, out, most_facets);
+  if (!room || room->vertices.size() > most_corners) return std::nullopt;
+  room_ = std::move(*room);
+  front_ = room_.skin;
+  const Worth now = worth_of(gap_, out);
+  floor_ = now.floor, most_ = now.cost - least_gain, steps_left_ = most_steps;
+  placed_.clear(), best_.clear();
+  double space = 0;
+  for (const std::int32_t c : out) space += volume_of(gap_, gap_.cell(c));
+  rounding_ = 1e-9 * space;
+  search(0, space);
+  if (best_.empty() || !std::ranges::all_of(best_, [&](const GapCell& cell) { return is_valid(gap_, cell); }))
+    return std::nullopt;
+  return best_;
+}
+
+}  // namespace hexpipe::assemble::gap
