@@ -243,7 +243,7 @@ hybrid::Extract Assembler::smooth_and_repair(hybrid::HybridMesh& hybrid) {
     const std::int64_t peeled = conform::peel_flat_tets(hybrid, tags_, surface_, is_shared_, worth_peeling);
     if (exchanges + repaired + peeled == 0) break;
     // New tets let more vertices merge.
-    if (merges()) statistics_.fewer += gap::make_fewer_cells(hybrid, tags_, is_shared_, false);
+    if (merges()) statistics_.fewer += gap::make_fewer_cells(hybrid, tags_, is_shared_, true);
     statistics_.exchanges += exchanges;
     statistics_.repaired += repaired;
     statistics_.peeled += peeled;

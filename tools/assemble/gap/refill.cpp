@@ -8,6 +8,7 @@
 #include "tools/assemble/gap/refill.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "common/mesh/quality.hpp"
 #include "tools/assemble/gap/objective.hpp"
@@ -19,8 +20,8 @@ namespace {
 constexpr std::size_t most_corners = 12;
 constexpr std::size_t most_facets = 20;
 constexpr int most_steps = 400;
-// No cell closes more.
-constexpr std::size_t most_closed = 5;
+// Part of a room's volume.
+constexpr double rounding = 1e-9;
 
 double volume_of(const GapMesh& gap, const GapCell& cell) {
   const auto at = corner_points(gap.points(), cell.vertices());
@@ -29,10 +30,12 @@ double volume_of(const GapMesh& gap, const GapCell& cell) {
 
 }  // namespace
 
-// Takes the piece into the list where it is good enough, and no facet of it is in the front the wrong way round: there
-// another piece is on that side.
+// Takes the piece into the list where it is good enough, not larger than what is left, and no facet of it is in the
+// front the wrong way round: there another piece is on that side.
 void Refill::offer(CellKind kind, const std::array<Vertex, 6>& corners, std::vector<Piece>& pieces) const {
   Piece piece;
+  piece.cell = gap_.make(kind, corners, room_.region);
+  if (piece.cell.quality < floor_) return;
   bool fits = true;
   for_facets(kind, corners, [&](const Facet& facet) {
     const bool closes = std::ranges::find(front_, facet) != front_.end();
@@ -40,10 +43,9 @@ void Refill::offer(CellKind kind, const std::array<Vertex, 6>& corners, std::vec
     fits = fits && (closes || std::ranges::find(front_, facet.reversed()) == front_.end());
   });
   if (!fits) return;
-  piece.cell = gap_.make(kind, corners, room_.region);
-  if (piece.cell.quality < floor_) return;
-  piece.cost = cost_of(piece.cell.quality);
   piece.volume = volume_of(gap_, piece.cell);
+  if (piece.volume > space_) return;
+  piece.cost = cost_of(piece.cell.quality);
   pieces.push_back(piece);
 }
 
@@ -62,10 +64,12 @@ void Refill::collect_prisms(const Facet& facet, std::vector<Piece>& pieces) cons
   }
 }
 
-void Refill::collect_pieces(const Facet& facet, std::vector<Piece>& pieces) const {
+// At most about `most` of them.
+void Refill::collect_pieces(const Facet& facet, std::size_t most, std::vector<Piece>& pieces) const {
   pieces.clear();
   const auto& f = facet.corners;
   for (const Vertex apex : room_.vertices) {
+    if (pieces.size() >= most) return;
     if (std::ranges::find(f, apex) != f.end()) continue;
     if (facet.is_quad())
       offer(CellKind::pyramid, {f[0], f[3], f[2], f[1], apex}, pieces);
@@ -77,17 +81,17 @@ void Refill::collect_pieces(const Facet& facet, std::vector<Piece>& pieces) cons
 
 // Those on the facet with the fewest choices, quads first, because what goes on them closes triangles, too; none where
 // a facet has no choice.
-std::vector<Refill::Piece> Refill::fewest_pieces(double space) const {
+std::vector<Refill::Piece> Refill::fewest_pieces() const {
   const bool has_quads = std::ranges::any_of(front_, &Facet::is_quad);
   std::vector<Piece> fewest, pieces;
-  bool first = true;
+  std::size_t least = std::numeric_limits<std::size_t>::max();
   for (const Facet& facet : front_) {
     if (facet.is_quad() != has_quads) continue;
-    collect_pieces(facet, pieces);
-    std::erase_if(pieces, [&](const Piece& piece) { return piece.volume > space + rounding_; });
-    if (first || pieces.size() < fewest.size()) fewest.swap(pieces);
-    first = false;
-    if (fewest.size() <= 1) break;
+    collect_pieces(facet, least, pieces);
+    if (pieces.size() >= least) continue;
+    least = pieces.size();
+    fewest.swap(pieces);
+    if (least <= 1) break;
   }
   std::ranges::stable_sort(fewest, [](const Piece& a, const Piece& b) {
     return a.closes != b.closes ? a.closes > b.closes : a.cost < b.cost;
@@ -106,18 +110,21 @@ void Refill::place(const Piece& piece) {
   });
 }
 
-void Refill::search(double cost, double space) {
+void Refill::search(double cost) {
   if (front_.empty()) {
     most_ = cost, best_ = placed_;
     return;
   }
+  const std::size_t most_closed = std::ranges::any_of(front_, &Facet::is_quad) ? 5 : 4;  // by one cell
   const auto to_come = static_cast<double>((front_.size() + most_closed - 1) / most_closed);
   if (steps_left_-- <= 0 || cost + to_come >= most_) return;
-  for (const Piece& piece : fewest_pieces(space)) {
+  for (const Piece& piece : fewest_pieces()) {
     if (cost + piece.cost >= most_) continue;
     const std::vector<Facet> front = front_;
     place(piece);
-    search(cost + piece.cost, space - piece.volume);
+    space_ -= piece.volume;
+    search(cost + piece.cost);
+    space_ += piece.volume;
     placed_.pop_back();
     front_ = front;
   }
@@ -131,10 +138,10 @@ std::optional<std::vector<GapCell>> Refill::find(std::span<const std::int32_t> o
   const Worth now = worth_of(gap_, out);
   floor_ = now.floor, most_ = now.cost - least_gain, steps_left_ = most_steps;
   placed_.clear(), best_.clear();
-  double space = 0;
-  for (const std::int32_t c : out) space += volume_of(gap_, gap_.cell(c));
-  rounding_ = 1e-9 * space;
-  search(0, space);
+  space_ = 0;
+  for (const std::int32_t c : out) space_ += volume_of(gap_, gap_.cell(c));
+  space_ *= 1 + rounding;
+  search(0);
   if (best_.empty() || !std::ranges::all_of(best_, [&](const GapCell& cell) { return is_valid(gap_, cell); }))
     return std::nullopt;
   return best_;

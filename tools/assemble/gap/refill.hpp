@@ -29,17 +29,18 @@ class Refill {
   };
 
   void offer(CellKind kind, const std::array<Vertex, 6>& corners, std::vector<Piece>& pieces) const;
-  void collect_pieces(const Facet& facet, std::vector<Piece>& pieces) const;
+  void collect_pieces(const Facet& facet, std::size_t most, std::vector<Piece>& pieces) const;
   void collect_prisms(const Facet& facet, std::vector<Piece>& pieces) const;
-  std::vector<Piece> fewest_pieces(double space) const;
+  std::vector<Piece> fewest_pieces() const;
   void place(const Piece& piece);
-  void search(double cost, double space);
+  void search(double cost);
 
   const GapMesh& gap_;
   Room room_;
   std::vector<Facet> front_;  // facets that still need a cell
   std::vector<GapCell> placed_, best_;
-  double floor_ = 0, most_ = 0, rounding_ = 0;
+  double floor_ = 0, most_ = 0;
+  double space_ = 0;  // the volume that is left, and a little for rounding
   int steps_left_ = 0;
 };
 

@@ -19,7 +19,11 @@ struct Facet {
   bool is_quad() const { return corners[3] != GapMesh::none; }
   std::span<const Vertex> vertices() const { return std::span(corners).first(is_quad() ? 4 : 3); }
   Facet reversed() const;
-  bool operator==(const Facet&) const = default;
+  // Most differ in the first: a call of memcmp for each took a third of the time.
+  bool operator==(const Facet& other) const {
+    return corners[0] == other.corners[0] && corners[1] == other.corners[1] && corners[2] == other.corners[2] &&
+           corners[3] == other.corners[3];
+  }
 };
 
 // visit(facet) for each facet of a cell of six corners at most.
