@@ -305,8 +305,10 @@ TEST(Smooth, RoundsChangeTheResult) {
   auto lattice = make_lattice(4);
   jitter(lattice, 0.2, random);
   const auto chosen = random_choice(lattice, 0.7, random);
-  const auto once = assemble::assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = 1});
-  const auto often = assemble::assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = 5});
+  const auto once =
+      assemble::assemble(lattice.mesh, lattice.cubes, chosen, {.merge = AssembleOptions::Merge::none, .smooth = 1});
+  const auto often =
+      assemble::assemble(lattice.mesh, lattice.cubes, chosen, {.merge = AssembleOptions::Merge::none, .smooth = 5});
   EXPECT_NE(once.mesh.points, often.mesh.points);
   EXPECT_EQ(once.statistics.smoothing.rounds, 1);
   EXPECT_GT(often.statistics.kinds[3].least, often.statistics.before_smoothing[3].least);
