@@ -117,6 +117,37 @@ PYTHON
   assert_same_bytes prisms.vtu default.vtu
 }
 
+@test "--merge makes the cells between hexes fewer and better, with two regions" {
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 6 >kuhn.mesh
+  awk '/Tetrahedra/ {tets = 1} tets && NF == 5 {$5 = 1 + (++n > 600)} {print}' kuhn.mesh >regions.mesh
+  findhex --mesh regions.mesh -o regions.cand
+  findhex --mesh regions.mesh | buildgraph | initsol --iterations 0 -o full.sol
+  awk 'NR % 5' full.sol >regions.sol
+  local files="--mesh regions.mesh --candidates regions.cand --solution regions.sol"
+  assemble $files --merge none --stats none.json -o none.vtu
+  assemble $files -v --stats vertices.json -o vertices.vtu 2>summary
+  expect vertices.vtu 's["conforming"] and s["nonconf_quads"] == 0 and s["hexbad"] == s["inv"] == s["orphan_nodes"] == 0'
+  expect vertices.vtu 'abs(s["volgap"]) < 1e-12 and abs(s["vol"] - 216) < 1e-9'
+  $PYTHON - <<PYTHON
+import json
+none, merged = (json.load(open(f)) for f in ("none.json", "vertices.json"))
+gone = merged["merging"]["vertices_gone"]
+assert gone > 10 and none["merging"] == {"vertices_gone": 0, "rooms_filled_anew": 0}, (none["merging"], gone)
+assert f" {gone} vertices between the hexes merged into others" in " " + open("summary").read()
+assert merged["points"] < none["points"]
+before, after = none["cells"], merged["cells"]
+assert after["hex"]["count"] == before["hex"]["count"]
+# Around a hole of one cube six pyramids stay, which hexes cannot press as thin as tets.
+assert after["hex"]["share_of_volume"] > before["hex"]["share_of_volume"] - 0.005
+assert after["tet"]["count"] < 0.8 * before["tet"]["count"], (before, after)
+for kind in ("tet", "pyramid"):
+    for what in ("least", "mean"):
+        assert after[kind]["scaled_jacobian"][what] >= before[kind]["scaled_jacobian"][what] - 1e-9, (kind, what)
+PYTHON
+  assemble $files --merge vertices --threads 2 -o default.vtu
+  assert_same_bytes vertices.vtu default.vtu
+}
+
 @test "--smooth moves vertices, more rounds more" {
   for rounds in 0 1 5; do assemble $FILES --smooth $rounds -o $rounds.vtu; done
   assert_different_bytes 0.vtu 1.vtu
@@ -295,6 +326,9 @@ PYTHON
   assert_fails_with 2 "exchange quads goes with --conformity pyramids" assemble $FILES --exchange quads --conformity none -o x.vtu
   assert_fails_with 2 "assemble: .*fill" assemble $FILES --fill tets -o x.vtu
   assert_fails_with 2 "fill prisms goes with --conformity pyramids" assemble $FILES --fill prisms --conformity none -o x.vtu
+  assert_fails_with 2 "assemble: .*merge" assemble $FILES --merge tets -o x.vtu
+  assert_fails_with 2 "merge vertices goes with --conformity pyramids" assemble $FILES --merge vertices --conformity none -o x.vtu
+  assert_fails_with 2 "merge vertices goes with .*--smooth of 1 or more" assemble $FILES --merge vertices --smooth 0 -o x.vtu
 }
 
 # lattice_mesh N FORMAT FILE: a conforming mesh of all kinds of cells on a lattice of N cubes along each axis.

@@ -375,6 +375,13 @@ PYTHON
   assert_same_bytes again.tar k/pieces/part-0001.tar
   assemble -q k/solved/part-0001.tar --neighbours k/solved/*.tar --smooth 0 -o rough.tar
   assert_different_bytes rough.tar k/1/part-0001.tar
+  # Vertices that no hex uses and no other piece has merge in a piece, too.
+  local gone=0 i
+  for i in k/solved/part-*.tar; do
+    assemble -q "$i" --neighbours k/solved/*.tar --stats piece.json -o again.tar
+    gone=$((gone + $($PYTHON -c 'import json; print(json.load(open("piece.json"))["merging"]["vertices_gone"])')))
+  done
+  assert [ "$gone" -gt 0 ]
 }
 
 @test "assemble of a part, and merge-parts of pieces, say what is wrong in a line" {
