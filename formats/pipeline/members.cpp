@@ -305,7 +305,7 @@ void write_members(BundleWriter& writer, const CliqueCover& cover) {
 void write_members(BundleWriter& writer, const IndependentSet& solution) {
   visit_members_of_solution(solution, writing_to(writer));
 }
-void write_gap_members(BundleWriter& writer, const std::vector<std::int64_t>& gaps) {
+void write_gap_members(BundleWriter& writer, const SolutionGaps& gaps) {
   visit_members_of_gaps(gaps, writing_to(writer));
 }
 void write_members(BundleWriter& writer, const MixedMesh& result) {

@@ -7,7 +7,7 @@
 #include "common/mesh/mesh_piece.hpp"
 #include "common/run/stream_options.hpp"
 #include "formats/pipeline/bundle.hpp"
-#include "formats/pipeline/stage.hpp"
+#include "formats/pipeline/stage_data.hpp"
 
 namespace hexpipe {
 
@@ -38,8 +38,7 @@ void write_members(BundleWriter& writer, const Candidates& candidates);
 void write_members(BundleWriter& writer, const ConflictGraph& graph);
 void write_members(BundleWriter& writer, const CliqueCover& cover);
 void write_members(BundleWriter& writer, const IndependentSet& solution);
-// StageData::gaps.
-void write_gap_members(BundleWriter& writer, const std::vector<std::int64_t>& gaps);
+void write_gap_members(BundleWriter& writer, const SolutionGaps& gaps);
 void write_members(BundleWriter& writer, const MixedMesh& result);
 void write_members(BundleWriter& writer, const MeshPiece& piece);
 

@@ -135,9 +135,7 @@ void read_as_stage(std::string_view bytes) {
   context.info.reads = {Role::mesh, Role::candidates, Role::graph, Role::solution, Role::result};
   context.common.quiet = true;
   context.streams.operand = scratch().write("stage.tar", bytes);
-  Stage stage(context);
-  stage.take_cover();
-  stage.read({}, context.info.reads);
+  Stage(context).read({.wants = context.info.reads, .cover = true});
 }
 
 void read_bundle(std::string_view bytes) {

@@ -6,6 +6,7 @@
 #include "common/graph/tet_cliques.hpp"
 #include "common/mwis/bounds/gap_shares.hpp"
 #include "common/mwis/ground/search_log.hpp"
+#include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "tools/certify/certificate.hpp"
@@ -20,14 +21,14 @@ int main(int argc, char** argv) {
       .example = "certify --graph part.graph --solution part.sol -v -o part.sol",
       .reads = {Role::graph, Role::solution},
       .product = Role::solution,
-      .searches = true,
-      .outside_history = {"certificate"}};
+      .searches = true};
   CertifyOptions options;
   std::string certificate;
   bool exact = false;
   std::string algorithm = default_exact_algorithm();
   const auto declare = [&](CLI::App& app) {
-    app.add_option("--certificate", certificate, "Write the proof of the bound to a file: prices of cliques")
+    outside_history(
+        app.add_option("--certificate", certificate, "Write the proof of the bound to a file: prices of cliques"))
         ->type_name("FILE");
     CLI::Option* const with_exact =
         app.add_flag("--exact", exact, "Go on to a proof of optimality; its bound has no certificate");
@@ -41,18 +42,18 @@ int main(int argc, char** argv) {
       options.dual.passes = passes_before_proof;
     }
     Stage stage(context);
-    stage.take_cover();
     SearchLog log(context.common.log_file, "bound");
     std::optional<Output> proof;
     if (!certificate.empty()) proof.emplace(certificate);
-    const StageData data = stage.read({Role::graph, Role::solution}, {Role::candidates});
+    const StageData data =
+        stage.read({.needs = {Role::graph, Role::solution}, .wants = {Role::candidates}, .cover = true});
     KnownCliques known{data.cover, std::nullopt};
     if (data.candidates) known.of_tets = cliques_of_tets(*data.candidates);
     // Cliques at tets are fewer, and a pass over them is that much quicker.
     if (known.of_tets && !known.cover) options.dual.passes *= 2;
     options.dual.passes = context.common.iterations.value_or(options.dual.passes);
     const Deadline deadline = context.deadline();
-    const CertifyResult result =
+    CertifyResult result =
         certify(*data.graph, *data.solution, std::move(known), options, deadline,
                 [&](const CliqueDual& now) { log.record(deadline.elapsed(), now.passes, now.bound); });
     const double seconds = deadline.elapsed();
@@ -69,13 +70,12 @@ int main(int argc, char** argv) {
     context.note(fmt::format("weight {}, at most {} is possible: gap {:.4f} %{}{}", result.weight, result.bound,
                              100 * result.gap, result.complete ? ", optimal" : "",
                              result.maximal ? "" : ", not maximal"));
-    const std::vector<std::int64_t> gaps =
-        stage.writes_bundle() ? gap_shares(*data.graph, result.cover, result.dual.prices, result.solution)
-                              : std::vector<std::int64_t>();
+    SolutionProduct product{.solution = std::move(result.solution)};
+    if (stage.writes_bundle())
+      product.gaps = gap_shares(*data.graph, result.cover, result.dual.prices, product.solution);
     stage.write(
-        result.solution,
-        {{"weight", result.weight}, {"bound", result.bound}, {"gap", result.gap}, {"complete", result.complete}},
-        &gaps);
+        product,
+        {{"weight", result.weight}, {"bound", result.bound}, {"gap", result.gap}, {"complete", result.complete}});
     // Behind the solution, which no full disk under them may cost; the proof first, which takes longer to have again.
     if (proof) {
       write_certificate(result.cover, result.dual, *proof);

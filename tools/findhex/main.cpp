@@ -64,23 +64,22 @@ int main(int argc, char** argv) {
 
     Phases phases;
     Stage stage(context);
-    stage.take_part();
-    StageData data = stage.read({Role::mesh});
+    StageData data = stage.read({.needs = {Role::mesh}, .part = true});
     const std::string source = stage.source_of(Role::mesh);
     phases.end("read");
     if (data.mesh->tets.empty())
       throw DataError::at(source, "expected tets, found none (tetmesh makes them from a surface)");
     if (data.part && options.part.count > 1)
       throw UsageError(fmt::format("--part does not go with a mesh that is {} already", title_of(*data.part)));
-    const FindhexResult result = data.part ? findhex_of_part(*data.mesh, *data.part, options, source.c_str())
-                                           : findhex(std::move(*data.mesh), options, source.c_str());
+    FindhexResult result = data.part ? findhex_of_part(*data.mesh, *data.part, options, source.c_str())
+                                     : findhex(std::move(*data.mesh), options, source.c_str());
     phases.end("find");
     for (const auto& warning : warnings_about(result.findings)) context.warn(warning);
     for (const auto& line : summary_lines(result)) context.note(line);
     context.statistics.update(statistics_of(result));
-    CandidateKeys keys;
-    if (data.part) keys = keys_of_own(result.candidates, *data.part, source.c_str());
-    stage.write(result.candidates, data.part ? &keys : nullptr, {{"candidates", candidate_counts(result)}});
+    CandidatesProduct product{.candidates = std::move(result.candidates)};
+    if (data.part) product.keys = keys_of_own(product.candidates, *data.part, source.c_str());
+    stage.write(product, {{"candidates", candidate_counts(result)}});
     phases.end("write");
     context.statistics.update(phases.seconds());
   };

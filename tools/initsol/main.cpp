@@ -89,7 +89,8 @@ int main(int argc, char** argv) {
     Stage stage(context);
     SearchLog log(context.common.log_file);
     const bool by_quality = options.order == GreedyOrder::quality;
-    const StageData data = stage.read({Role::graph}, by_quality ? std::vector{Role::candidates} : std::vector<Role>{});
+    const StageData data =
+        stage.read({.needs = {Role::graph}, .wants = by_quality ? std::vector{Role::candidates} : std::vector<Role>{}});
     const std::vector<double> quality = by_quality ? quality_for(data) : std::vector<double>{};
 
     const Deadline deadline = context.deadline();
@@ -106,7 +107,7 @@ int main(int argc, char** argv) {
     context.statistics["iterations"] = result.iterations;
     context.note(fmt::format("{} chosen, weight {} (greedy {}), {} moves", result.solution.size(), result.weight,
                              result.greedy_weight, result.iterations));
-    stage.write(result.solution, {{"weight", result.weight}, {"iterations", result.iterations}});
+    stage.write(SolutionProduct{result.solution}, {{"weight", result.weight}, {"iterations", result.iterations}});
     // Behind the solution, which no full disk under it may cost.
     log.finish(seconds, result.iterations, result.weight);
   };

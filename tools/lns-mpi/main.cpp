@@ -73,8 +73,7 @@ int main(int argc, char** argv) {
       .product = Role::solution,
       .random = true,
       .searches = true,
-      .default_time_limit = 60,
-      .outside_history = {"parts", "certificate", "fragments", "checkpoint", "checkpoint-interval"}};
+      .default_time_limit = 60};
   JobOptions options;
   TargetOptions target;
   CLI::Option* round = nullptr;
@@ -91,22 +90,27 @@ int main(int argc, char** argv) {
     CLI::Option* const prove = app.add_option("--prove", options.passes,
                                               "Prove a bound after the search, in so many passes of the dual; 0: none");
     prove->check(CLI::Range(0, 1000000).description(""));
-    app.add_option("--certificate", options.certificate,
-                   "Write the proof to a file, as certify does; for a graph that is not in parts")
+    outside_history(app.add_option("--certificate", options.certificate,
+                                   "Write the proof to a file, as certify does; for a graph that is not in parts"))
         ->type_name("FILE")
         ->needs(prove);
-    app.add_option("--fragments", options.fragments,
-                   "Write the fragments that were improved to a file, as lns does; for a graph that is not in parts")
+    outside_history(
+        app.add_option(
+            "--fragments", options.fragments,
+            "Write the fragments that were improved to a file, as lns does; for a graph that is not in parts"))
         ->type_name("FILE");
-    app.add_option("--parts", options.parts,
-                   "Bundles of the parts of a graph, in their order; the solution goes into bundles of the same names "
-                   "in the directory that -o names")
+    outside_history(
+        app.add_option(
+            "--parts", options.parts,
+            "Bundles of the parts of a graph, in their order; the solution goes into bundles of the same names in the "
+            "directory that -o names"))
         ->type_name("FILE");
     CLI::Option* const checkpoint =
-        app.add_option("--checkpoint", options.checkpoint,
-                       "Keep the state of the search in this directory, and go on from what is there")
+        outside_history(app.add_option("--checkpoint", options.checkpoint,
+                                       "Keep the state of the search in this directory, and go on from what is there"))
             ->type_name("DIR");
-    app.add_option("--checkpoint-interval", options.checkpoint_interval, "Seconds from one checkpoint to the next")
+    outside_history(
+        app.add_option("--checkpoint-interval", options.checkpoint_interval, "Seconds from one checkpoint to the next"))
         ->check(number_between(0, 1e9))
         ->needs(checkpoint);
   };

@@ -88,7 +88,7 @@ class WholeGraph : public Source {
     ranks.together([&] {
       if (!ranks.is_first()) return;
       stage_.emplace(context_);
-      data = stage_->read({Role::graph, Role::solution});
+      data = stage_->read({.needs = {Role::graph, Role::solution}});
       if (blocks_ == 0) blocks_ = usual_blocks(data.graph->vertex_count());
       if (blocks_ < ranks.count())
         throw DataError(
@@ -109,9 +109,9 @@ class WholeGraph : public Source {
   }
 
   void write(Ranks& ranks, const Piece& piece, const nlohmann::ordered_json& details) override {
-    const IndependentSet solution = gather_solution(ranks, piece);
+    const SolutionProduct product{gather_solution(ranks, piece)};
     ranks.together([&] {
-      if (ranks.is_first()) stage_->write(solution, details);
+      if (ranks.is_first()) stage_->write(product, details);
     });
   }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "common/run/option_checks.hpp"
 #include "common/run/phases.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/pipeline/history.hpp"
@@ -17,7 +18,6 @@ int main(int argc, char** argv) {
       .reads = {Role::mesh},
       .product = std::nullopt,
       .random = true,
-      .outside_history = {},
   };
   SplitOptions options;
   std::string directory;
@@ -26,16 +26,16 @@ int main(int argc, char** argv) {
     app.add_option("--parts", options.parts, "How many parts of about as many tets")
         ->required()
         ->check(CLI::Range(1, most_parts));
-    app.add_option("-o,--output", directory, "The directory for part-0000.tar and so on; it is made")
+    outside_history(app.add_option("-o,--output", directory, "The directory for part-0000.tar and so on; it is made"))
         ->required()
         ->type_name("DIR");
-    app.add_flag("--compress", compress, "Compress the bundles with zstd");
+    outside_history(app.add_flag("--compress", compress, "Compress the bundles with zstd"));
   };
   const auto run = [&](RunContext& context) {
     options.seed = context.common.seed;
     Phases phases;
     Stage stage(context);
-    StageData data = stage.read({Role::mesh});
+    StageData data = stage.read({.needs = {Role::mesh}});
     const std::string source = stage.source_of(Role::mesh);
     phases.end("read");
     data.history.push_back(history_entry_of(context));

@@ -83,8 +83,9 @@ int main(int argc, char** argv) {
     if (outputs.page.empty() && outputs.picture.empty() && isatty(STDOUT_FILENO))
       throw UsageError("standard output is a terminal: write the page to a file with -o, or a picture with --png");
     Stage stage(context);
-    stage.take_weights();  // for their number: a solution chooses among as many
-    StageData data = stage.read({}, {Role::mesh, Role::candidates, Role::solution, Role::result});
+    // The number of weights: a solution chooses among as many.
+    StageData data =
+        stage.read({.wants = {Role::mesh, Role::candidates, Role::solution, Role::result}, .weights_only = true});
     const std::string source = !context.streams.operand || context.streams.operand == "-"
                                    ? context.streams.files.empty() ? "stdin" : "the files"
                                    : *context.streams.operand;

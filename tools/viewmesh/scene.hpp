@@ -10,7 +10,7 @@
 
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/vec3.hpp"
-#include "formats/pipeline/stage.hpp"
+#include "formats/pipeline/stage_data.hpp"
 #include "formats/streams/input.hpp"
 
 namespace hexpipe {
