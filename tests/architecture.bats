@@ -78,14 +78,14 @@ assert_floors() {
   done
   for room in "${rooms[@]}"; do
     below+="${below:+|}$room"
-    if [[ $room == . ]]; then here="$folder/[^/]+"; else here="$folder/$room/[^:]+"; fi
+    if [[ $room == . ]]; then here="$folder/[^/]+"; else here="$folder/$room/[^:/]+"; fi
     includes_of "$folder" | grep -E "^$here:$folder/" | grep -vE ":$folder/(${below//./[^/]+\\.hpp\$})(/[^/]*)?$" |
       assert_none "$folder/$room includes a room above it"
   done
 }
 
 @test "rooms stand on floors: mwis, formats, tetmesh, assemble" {
-  assert_floors common/mwis ground bounds reduce exact local_search .
+  assert_floors common/mwis ground bounds reduce exact exact/historical local_search .
   assert_floors formats streams surfaces meshes choice pipeline points
   assert_floors tools/tetmesh geometry fields solid sizing surface volume tetgen search .
   assert_floors tools/assemble hybrid choice shape conform pieces .

@@ -376,7 +376,7 @@ PYTHON
 @test "options that would do nothing are refused" {
   refuse() { assert_fails_with 2 "lns-mpi: $1" lns-mpi --graph ring.graph --solution start.sol -o out.sol "${@:2}"; }
   refuse "--certificate requires --prove" --certificate proof
-  refuse "--certificate needs a bound, of which --prove 0 proves none" --prove 0 --certificate proof
+  refuse "--certificate needs a bound, and --prove 0 proves none" --prove 0 --certificate proof
   refuse "--checkpoint-interval requires --checkpoint" --checkpoint-interval 1
   refuse "--round does nothing without --iterations" --round 5 --time-limit 1
   refuse "--bound does nothing without --target-gap" --bound 5

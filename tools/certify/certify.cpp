@@ -1,5 +1,7 @@
 #include "tools/certify/certify.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,6 +11,16 @@
 
 namespace hexpipe {
 namespace {
+
+// Passes of the dual; a third of them where a proof follows, whose bound is better.
+constexpr std::int64_t usual_passes = 300, passes_before_proof = 100;
+
+// Cliques at tets are fewer than those of a cover, and a pass over them takes less time accordingly.
+std::int64_t passes_for(const CertifyOptions& options, const KnownCliques& known) {
+  if (options.passes) return *options.passes;
+  const std::int64_t passes = options.exact ? passes_before_proof : usual_passes;
+  return known.of_tets && !known.cover ? 2 * passes : passes;
+}
 
 bool is_maximal(const ConflictGraph& graph, const IndependentSet& solution) {
   const SolutionState state(graph, solution);
@@ -25,7 +37,7 @@ void count_fixed(const ConflictGraph& graph, CertifyResult& result) {
   }
 }
 
-// The dual takes all the time there is, so of what a proof has it gets a fifth.
+// The dual takes all the time that it gets. Before a proof, that is a fifth.
 Deadline share_for_dual(const Deadline& deadline) {
   return std::isfinite(deadline.remaining()) ? Deadline(0.2 * deadline.remaining()) : Deadline();
 }
@@ -35,7 +47,7 @@ CliqueCover cliques_to_price(const ConflictGraph& graph, KnownCliques known) {
   return known.of_tets ? maximal_cliques(graph, *known.of_tets) : greedy_edge_clique_cover(graph);
 }
 
-// Looks for something better until nothing can be.
+// Looks for a better solution until none is possible.
 void prove(const ConflictGraph& graph, ExactAlgorithm algorithm, const Deadline& deadline, CertifyResult& result) {
   ExactResult exact = solve_exactly(graph, result.weight, algorithm, deadline);
   result.nodes = exact.nodes;
@@ -54,12 +66,11 @@ CertifyResult certify(const ConflictGraph& graph, const IndependentSet& solution
                       const std::function<void(const CliqueDual&)>& report) {
   if (options.exact) expect_room_for(*options.exact, graph);
   CertifyResult result;
+  const CliqueDualOptions dual{.passes = passes_for(options, known), .target = total_weight(solution, graph)};
   result.solution = solution;
-  result.weight = total_weight(solution, graph);
+  result.weight = dual.target;
   result.maximal = is_maximal(graph, solution);
   result.cover = cliques_to_price(graph, std::move(known));
-  CliqueDualOptions dual = options.dual;
-  dual.target = result.weight;
   const Deadline dual_deadline = options.exact ? share_for_dual(deadline) : deadline;
   result.dual = solve_clique_dual(graph, result.cover, dual, dual_deadline, report);
   result.bound = result.dual.bound;
@@ -68,6 +79,28 @@ CertifyResult certify(const ConflictGraph& graph, const IndependentSet& solution
   result.gap = gap_to(result.bound, result.weight);
   count_fixed(graph, result);
   return result;
+}
+
+nlohmann::ordered_json to_json(const CertifyResult& result) {
+  return {{"weight", result.weight},          {"bound", result.bound},     {"gap", result.gap},
+          {"complete", result.complete},      {"maximal", result.maximal}, {"cliques", result.cover.size()},
+          {"iterations", result.dual.passes}, {"nodes", result.nodes},     {"fixed_out", result.fixed_out},
+          {"fixed_in", result.fixed_in}};
+}
+
+std::string summary(const CertifyResult& result) {
+  return fmt::format("weight {}, at most {} is possible: gap {:.4f} %{}{}", result.weight, result.bound,
+                     100 * result.gap, result.complete ? ", optimal" : "", result.maximal ? "" : ", not maximal");
+}
+
+void write_certificate(const CliqueCover& cover, const CliqueDual& dual, Output& output) {
+  output.print("bound {}\n", dual.bound);
+  for (std::int64_t c = 0; c < cover.size(); ++c) {
+    if (dual.prices[c] == 0) continue;
+    output.print("{}", dual.prices[c]);
+    for (const std::int32_t v : cover.clique(c)) output.print(" {}", v + 1);
+    output.print("\n");
+  }
 }
 
 }  // namespace hexpipe

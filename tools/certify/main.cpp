@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <optional>
 #include <utility>
 
@@ -9,7 +7,6 @@
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/pipeline/stage.hpp"
-#include "tools/certify/certificate.hpp"
 #include "tools/certify/certify.hpp"
 
 using namespace hexpipe;
@@ -23,12 +20,11 @@ int main(int argc, char** argv) {
       .product = Role::solution,
       .searches = true};
   CertifyOptions options;
-  std::string certificate;
   bool exact = false;
   std::string algorithm = default_exact_algorithm();
   const auto declare = [&](CLI::App& app) {
-    outside_history(
-        app.add_option("--certificate", certificate, "Write the proof of the bound to a file: prices of cliques"))
+    outside_history(app.add_option("--certificate", options.certificate,
+                                   "Write the proof of the bound to a file: prices of cliques"))
         ->type_name("FILE");
     CLI::Option* const with_exact =
         app.add_flag("--exact", exact, "Go on to a proof of optimality; its bound has no certificate");
@@ -37,46 +33,31 @@ int main(int argc, char** argv) {
         ->needs(with_exact);
   };
   const auto run = [&](RunContext& context) {
-    if (exact) {
-      options.exact = exact_algorithms().at(algorithm);
-      options.dual.passes = passes_before_proof;
-    }
+    if (exact) options.exact = exact_algorithms().at(algorithm);
+    options.passes = context.common.iterations;
     Stage stage(context);
     SearchLog log(context.common.log_file, "bound");
     std::optional<Output> proof;
-    if (!certificate.empty()) proof.emplace(certificate);
+    if (!options.certificate.empty()) proof.emplace(options.certificate);
     const StageData data =
         stage.read({.needs = {Role::graph, Role::solution}, .wants = {Role::candidates}, .cover = true});
     KnownCliques known{data.cover, std::nullopt};
     if (data.candidates) known.of_tets = cliques_of_tets(*data.candidates);
-    // Cliques at tets are fewer, and a pass over them is that much quicker.
-    if (known.of_tets && !known.cover) options.dual.passes *= 2;
-    options.dual.passes = context.common.iterations.value_or(options.dual.passes);
     const Deadline deadline = context.deadline();
     CertifyResult result =
         certify(*data.graph, *data.solution, std::move(known), options, deadline,
                 [&](const CliqueDual& now) { log.record(deadline.elapsed(), now.passes, now.bound); });
     const double seconds = deadline.elapsed();
-    context.statistics["weight"] = result.weight;
-    context.statistics["bound"] = result.bound;
-    context.statistics["gap"] = result.gap;
-    context.statistics["complete"] = result.complete;
-    context.statistics["maximal"] = result.maximal;
-    context.statistics["cliques"] = result.cover.size();
-    context.statistics["iterations"] = result.dual.passes;
-    context.statistics["nodes"] = result.nodes;
-    context.statistics["fixed_out"] = result.fixed_out;
-    context.statistics["fixed_in"] = result.fixed_in;
-    context.note(fmt::format("weight {}, at most {} is possible: gap {:.4f} %{}{}", result.weight, result.bound,
-                             100 * result.gap, result.complete ? ", optimal" : "",
-                             result.maximal ? "" : ", not maximal"));
+    context.statistics.update(to_json(result));
+    context.note(summary(result));
     SolutionProduct product{.solution = std::move(result.solution)};
     if (stage.writes_bundle())
       product.gaps = gap_shares(*data.graph, result.cover, result.dual.prices, product.solution);
     stage.write(
         product,
         {{"weight", result.weight}, {"bound", result.bound}, {"gap", result.gap}, {"complete", result.complete}});
-    // Behind the solution, which no full disk under them may cost; the proof first, which takes longer to have again.
+    // After the solution, so that a full disk under them does not cost it; the proof, which takes longer to make again,
+    // comes first.
     if (proof) {
       write_certificate(result.cover, result.dual, *proof);
       proof->commit();

@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 
-#include <filesystem>
 #include <iostream>
-#include <map>
 
 #include "common/mwis/lns_options.hpp"
 #include "common/run/messages.hpp"
@@ -15,36 +13,8 @@ using namespace hexpipe;
 
 namespace {
 
-bool writes_standard_output(const RunContext& context) {
-  return context.streams.output.empty() || context.streams.output == "-";
-}
-
-// Of each part comes a bundle of its name.
-void expect_different_names(const std::vector<std::string>& parts) {
-  std::map<std::string, std::string> part_by_name;
-  for (const std::string& part : parts) {
-    const auto [other, is_new] = part_by_name.emplace(std::filesystem::path(part).filename(), part);
-    if (!is_new)
-      throw UsageError(fmt::format("expected parts of different names, found {} and {}", other->second, part));
-  }
-}
-
-// What does nothing, or cannot be done, for a graph in parts.
-void check_parts(const RunContext& context, const JobOptions& options) {
-  if (options.parts.empty()) return;
-  if (context.streams.operand || !context.streams.files.empty())
-    throw UsageError("expected --parts or a graph, found both");
-  const std::map<std::string, bool> of_whole_graphs{{"--blocks", options.blocks > 0},
-                                                    {"--certificate", !options.certificate.empty()},
-                                                    {"--fragments", !options.fragments.empty()}};
-  for (const auto& [name, is_given] : of_whole_graphs)
-    if (is_given) throw UsageError(name + " needs a graph that is not in parts");
-  if (writes_standard_output(context)) throw UsageError("--parts needs a directory to write to: -o DIR");
-  expect_different_names(options.parts);
-}
-
-// An error that all ranks throw together ends them one by one, any other one all at once.
-void run_on_all_ranks(RunContext& context, const JobOptions& options) {
+// An error that all ranks throw together ends them one by one; any other error ends all of them at once.
+void run_on_all_ranks(RunContext& context, const LnsMpiOptions& options) {
   Ranks ranks;
   try {
     run_job(ranks, context, options);
@@ -74,7 +44,7 @@ int main(int argc, char** argv) {
       .random = true,
       .searches = true,
       .default_time_limit = 60};
-  JobOptions options;
+  LnsMpiOptions options;
   TargetOptions target;
   CLI::Option* round = nullptr;
   const auto declare = [&](CLI::App& app) {
@@ -116,14 +86,11 @@ int main(int argc, char** argv) {
   };
   const auto run = [&](RunContext& context) {
     check(target);
-    check_parts(context, options);
-    if (round->count() > 0 && !context.common.iterations) throw UsageError("--round does nothing without --iterations");
-    if (!options.certificate.empty() && options.passes == 0)
-      throw UsageError("--certificate needs a bound, of which --prove 0 proves none");
+    check(options, round->count() > 0, context);
     options.rounds.search.seed = context.common.seed;
     options.rounds.search.iterations = context.common.iterations.value_or(options.rounds.search.iterations);
-    options.target_gap = target.gap.value_or(-1);
-    options.known_bound = target.bound.value_or(-1);
+    options.target_gap = target.gap;
+    options.known_bound = target.bound;
     // mpirun gives standard output as a terminal that leaves bytes as they are, and nobody sits at it.
     if (launched_rank() && writes_standard_output(context)) context.streams.output = "/dev/stdout";
     run_on_all_ranks(context, options);
@@ -132,7 +99,7 @@ int main(int argc, char** argv) {
     silence_messages(true);
     std::cout.setstate(std::ios::failbit);
   }
-  // mpirun passes this one on to its processes; of SIGTERM it ends them a second later.
+  // mpirun passes this signal on to its processes; after SIGTERM, it ends them within a second.
   stop_searches_also_on(SIGUSR1);
   return tool_main(argc, argv, info, declare, run);
 }

@@ -54,7 +54,7 @@ OwnedRows scatter_rows(Ranks& ranks, const BlockOwners& owners, const ConflictGr
   return rows_of(0);
 }
 
-// On the others.
+// On the other ranks.
 OwnedRows receive_rows(Ranks& ranks) {
   const Bytes bytes = ranks.receive(0);
   OwnedRows rows;
@@ -78,6 +78,9 @@ IndependentSet gather_solution(Ranks& ranks, const Piece& piece) {
   return solution;
 }
 
+// As it is sent; a bound is never below 0.
+constexpr std::int64_t unknown_bound = -1;
+
 class WholeGraph : public Source {
  public:
   WholeGraph(const RunContext& context, std::int32_t blocks) : context_(context) { blocks_ = blocks; }
@@ -94,16 +97,16 @@ class WholeGraph : public Source {
         throw DataError(
             fmt::format("expected at least a block for each of {} ranks, found {}", ranks.count(), blocks_));
       cut = cut_into_blocks(*data.graph, blocks_);
-      if (!context_.streams.files.contains(Role::graph)) bound_ = bound_in(data.history).value_or(-1);
+      if (!context_.streams.files.contains(Role::graph)) bound_ = bound_in(data.history);
     });
     Packer packer;
     packer.put(blocks_);
-    packer.put(bound_);
+    packer.put(bound_.value_or(unknown_bound));
     Bytes facts = packer.take();
     ranks.broadcast(facts);
     Unpacker unpacker(facts);
     blocks_ = unpacker.get<std::int32_t>();
-    bound_ = unpacker.get<std::int64_t>();
+    if (const auto bound = unpacker.get<std::int64_t>(); bound != unknown_bound) bound_ = bound;
     if (!ranks.is_first()) return receive_rows(ranks);
     return scatter_rows(ranks, BlockOwners(blocks_, ranks.count()), *data.graph, *data.solution, cut);
   }

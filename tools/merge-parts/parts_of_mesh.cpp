@@ -1,4 +1,4 @@
-#include "tools/merge-parts/parts_of_mesh.hpp"
+#include "tools/merge-parts/merges.hpp"
 
 #include <algorithm>
 #include <array>

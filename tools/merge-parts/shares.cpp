@@ -1,4 +1,4 @@
-#include "tools/merge-parts/shares.hpp"
+#include "tools/merge-parts/merges.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

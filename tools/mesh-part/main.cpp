@@ -6,6 +6,7 @@
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "tools/mesh-part/mesh_part.hpp"
+#include "tools/mesh-part/options.hpp"
 #include "tools/mesh-part/part_files.hpp"
 
 using namespace hexpipe;
@@ -19,17 +20,16 @@ int main(int argc, char** argv) {
       .product = std::nullopt,
       .random = true,
   };
-  SplitOptions options;
-  std::string directory;
-  bool compress = false;
+  MeshPartOptions options;
   const auto declare = [&](CLI::App& app) {
     app.add_option("--parts", options.parts, "How many parts of about as many tets")
         ->required()
         ->check(CLI::Range(1, most_parts));
-    outside_history(app.add_option("-o,--output", directory, "The directory for part-0000.tar and so on; it is made"))
+    outside_history(
+        app.add_option("-o,--output", options.directory, "The directory for part-0000.tar and so on; it is made"))
         ->required()
         ->type_name("DIR");
-    outside_history(app.add_flag("--compress", compress, "Compress the bundles with zstd"));
+    outside_history(app.add_flag("--compress", options.compress, "Compress the bundles with zstd"));
   };
   const auto run = [&](RunContext& context) {
     options.seed = context.common.seed;
@@ -39,8 +39,8 @@ int main(int argc, char** argv) {
     const std::string source = stage.source_of(Role::mesh);
     phases.end("read");
     data.history.push_back(history_entry_of(context));
-    PartFiles files(directory, options.parts, compress);
-    const SplitCounts counts = split(std::move(*data.mesh), options, source.c_str(),
+    PartFiles files(options.directory, options.parts, options.compress);
+    const SplitCounts counts = split(std::move(*data.mesh), options.parts, options.seed, source.c_str(),
                                      [&](const PartOfMesh& part) { files.write(part, data.history); });
     files.commit();
     phases.end("split");

@@ -1,4 +1,4 @@
-#include "common/mwis/exact/partition_search.hpp"
+#include "common/mwis/exact/historical/partition_search.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "common/mwis/exact/subgradient_search.hpp"
+#include "common/mwis/exact/historical/subgradient_search.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "common/mwis/exact/complete_search.hpp"
+#include "common/mwis/exact/historical/complete_search.hpp"
 
 namespace hexpipe {
 
