@@ -1,6 +1,6 @@
 #pragma once
-// A priority queue of vertices whose keys change: the highest key first, among equal ones the lowest vertex, so that
-// the order does not depend on the history.
+// A priority queue of vertices whose keys change. The highest key comes first, and among equal keys the lowest vertex,
+// so that the order does not depend on the history.
 
 #include <cstddef>
 #include <cstdint>

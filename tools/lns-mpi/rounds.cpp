@@ -13,12 +13,12 @@
 namespace hexpipe {
 namespace {
 
-// Under a time limit: a quarter of it, so that borders move; and no more than a minute, so that ranks do not go on for
-// long after one of them was told to stop.
+// Under a time limit, a round takes a quarter of it, so that borders move, and no more than a minute, so that ranks do
+// not go on for long after one of them was told to stop.
 constexpr double round_share = 1.0 / 4, longest_round = 60;
-// Of a time limit, as in lns.
+// The share of a time limit, as in lns.
 constexpr double share_for_reductions = 0.1;
-// Then what no region could improve is left as it is.
+// The search ends after this many rounds in which no region was improved.
 constexpr std::int64_t most_quiet_rounds = 10;
 
 std::int64_t own_weight(const Piece& piece) {
@@ -47,7 +47,7 @@ class Rounds {
                                                          : std::numeric_limits<double>::infinity();
   }
 
-  // What parts chose apart need not fit together: of two neighbours the heavier one stays.
+  // Parts that chose separately may have chosen neighbours: the heavier of two stays.
   void make_independent() {
     changed_.clear();
     const auto outweighs = [&](std::int32_t u, std::int32_t v) {

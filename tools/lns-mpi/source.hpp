@@ -32,8 +32,8 @@ class Source {
   std::optional<std::int64_t> bound_;
 };
 
-// The first rank reads the graph and cuts it into `blocks` blocks (0: as many as its size asks for), and sends the other
-// ranks theirs.
+// The first rank reads the graph and cuts it into `blocks` blocks (0: as many as its size asks for), and sends the
+// other ranks theirs.
 std::unique_ptr<Source> whole_graph(const RunContext& context, std::int32_t blocks);
 
 // `files` has a bundle for each part, in the parts' order, as buildgraph makes them. The solution goes into bundles of
