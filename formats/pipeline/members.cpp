@@ -210,7 +210,7 @@ bool is_part_title(std::string_view name) {
 
 namespace {
 
-// What says which part or piece of which mesh it is: `parse` throws what the library for JSON throws.
+// Parses the member that says which part or piece of which mesh this is; `parse` throws the exceptions of nlohmann.
 template <class Parse>
 void parse_title(const BundleReader& reader, const char* of, Parse&& parse) {
   try {

@@ -198,7 +198,7 @@ struct Stage::State {
   // Where each role came from, for messages.
   std::map<Role, std::string> sources;
   std::set<Role> seen;
-  std::vector<Role> replaced;  // those that came from files of their own beside a bundle
+  std::vector<Role> replaced;  // roles that came from files beside a bundle
   StageRequest request;
 
   Role product() const { return *context.info.product; }

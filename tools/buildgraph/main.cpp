@@ -27,15 +27,14 @@ int main(int argc, char** argv) {
   BuildgraphOptions options;
   std::string weight = "quality", part = "1/1";
   const auto declare = [&](CLI::App& app) {
-    app.add_option("--weight", weight, "What a candidate is worth: quality, volume, count (1 each) or quality*volume")
+    app.add_option("--weight", weight, "The weight of a candidate: quality, volume, count (1 each) or quality*volume")
         ->check(CLI::IsMember(weights));
-    app.add_option("--weight-scale", options.conflicts.weight_scale,
-                   "Weights are rounded after multiplication with this")
+    app.add_option("--weight-scale", options.conflicts.weight_scale, "Weights are multiplied by this, then rounded")
         ->check(number_between(1e-100, 1e100));
     app.add_option("--part", part,
                    "i/k: only conflicts whose higher candidate is in part i of k; see Makefile.examples");
     app.add_flag("--reduce", options.reduce,
-                 "Leave out candidates that no choice needs: another one has no conflict more and weighs no less");
+                 "Leave out candidates that no choice needs: another one has no more conflicts and weighs no less");
     outside_history(app.add_option("--reduced-candidates", options.reduced_candidates,
                                    "With --reduce: write the candidates that are left, vertex by vertex, to a .cand"))
         ->type_name("FILE");
@@ -44,8 +43,9 @@ int main(int argc, char** argv) {
             "--neighbours", options.neighbours,
             "With a part of a mesh: bundles of the other parts' candidates; those beside this part are read"))
         ->type_name("FILE");
-    app.add_flag("--cover", options.cover,
-                 "Add an edge clique cover to the bundle: cliques at tets, grown, then what they miss");
+    app.add_flag(
+        "--cover", options.cover,
+        "Add an edge clique cover to the bundle: the cliques at tets, grown, and cliques for the edges that they miss");
   };
   const auto run = [&](RunContext& context) {
     options.conflicts.weight = weights.at(weight);

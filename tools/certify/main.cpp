@@ -27,8 +27,8 @@ int main(int argc, char** argv) {
                                    "Write the proof of the bound to a file: prices of cliques"))
         ->type_name("FILE");
     CLI::Option* const with_exact =
-        app.add_flag("--exact", exact, "Go on to a proof of optimality; its bound has no certificate");
-    app.add_option("--algorithm", algorithm, "How --exact proves it")
+        app.add_flag("--exact", exact, "Go on to prove optimality; that bound has no certificate");
+    app.add_option("--algorithm", algorithm, "The algorithm of --exact")
         ->check(CLI::IsMember(exact_algorithms()))
         ->needs(with_exact);
   };

@@ -50,24 +50,23 @@ int main(int argc, char** argv) {
   const auto declare = [&](CLI::App& app) {
     declare_lns_options(app, options.rounds.search, target);
     app.add_option("--blocks", options.blocks,
-                   "Blocks to cut the graph into, at least one a rank; 0: one for 50000 vertices")
+                   "Blocks to cut the graph into, at least one for each rank; 0: one for each 50000 vertices")
         ->check(CLI::Range(0, 1000000).description(""));
     app.add_option("--overlap", options.overlap, "How many edges beyond its border a block may change the solution")
         ->check(CLI::Range(1, 16).description(""));
     round = app.add_option("--round", options.rounds.fragments_a_round,
-                           "Fragments in a round for a thousand vertices, under a limit of iterations");
+                           "Fragments of a round for each thousand vertices, with --iterations");
     round->check(CLI::Range(1, 1000000).description(""));
-    CLI::Option* const prove = app.add_option("--prove", options.passes,
-                                              "Prove a bound after the search, in so many passes of the dual; 0: none");
+    CLI::Option* const prove = app.add_option(
+        "--prove", options.passes, "Prove a bound after the search, in this many passes of the dual; 0: no bound");
     prove->check(CLI::Range(0, 1000000).description(""));
     outside_history(app.add_option("--certificate", options.certificate,
                                    "Write the proof to a file, as certify does; for a graph that is not in parts"))
         ->type_name("FILE")
         ->needs(prove);
     outside_history(
-        app.add_option(
-            "--fragments", options.fragments,
-            "Write the fragments that were improved to a file, as lns does; for a graph that is not in parts"))
+        app.add_option("--fragments", options.fragments,
+                       "Write the improved fragments to a file, as lns does; for a graph that is not in parts"))
         ->type_name("FILE");
     outside_history(
         app.add_option(
@@ -76,8 +75,9 @@ int main(int argc, char** argv) {
             "directory that -o names"))
         ->type_name("FILE");
     CLI::Option* const checkpoint =
-        outside_history(app.add_option("--checkpoint", options.checkpoint,
-                                       "Keep the state of the search in this directory, and go on from what is there"))
+        outside_history(
+            app.add_option("--checkpoint", options.checkpoint,
+                           "Keep the state of the search in this directory, and go on from the state that is there"))
             ->type_name("DIR");
     outside_history(
         app.add_option("--checkpoint-interval", options.checkpoint_interval, "Seconds from one checkpoint to the next"))

@@ -92,8 +92,8 @@ class Rounds {
     progress_.weight = total_weight(ranks_, piece_);
   }
 
-  // Takes what nothing chosen is beside: what reductions left out, and what a search that ended early leaves where
-  // borders were. Then it may still be behind what was given, for reductions cost weight at first.
+  // Takes vertices that have no chosen neighbour: reductions left them out, or a search that ended early left them
+  // where borders were. The solution may then still be lighter than the given one, as reductions cost weight at first.
   void complete() {
     std::ranges::fill(piece_.decided, 0);
     make_maximal();
@@ -191,7 +191,7 @@ class Rounds {
     LnsOptions options = options_.search;
     options.iterations = fragments;
     options.target = std::numeric_limits<std::int64_t>::max();
-    // Of places that came to this block with the round: as large as they have become elsewhere in it.
+    // Places that came to this block with the round begin with the size that fragments have reached elsewhere in it.
     if (known.usual_size() > 0) options.fragment_size = known.usual_size();
     // Another number for every region.
     options.seed =
@@ -221,7 +221,7 @@ class Rounds {
     }
   }
 
-  // What changed, by its place in the list that both have.
+  // Sends partners the changes, by place in the list that both have.
   void tell_partners() {
     std::ranges::sort(changed_);
     std::vector<int> to;

@@ -33,9 +33,8 @@ int main(int argc, char** argv) {
   const auto declare = [&](CLI::App& app) {
     declare_lns_options(app, options, target);
     outside_history(
-        app.add_option(
-            "--fragments", fragments_file,
-            "Write the fragments that were improved to a file, a line each, to look at with viewmesh --fragments"))
+        app.add_option("--fragments", fragments_file,
+                       "Write each improved fragment as a line of a file, to look at with viewmesh --fragments"))
         ->type_name("FILE");
   };
   const auto run = [&](RunContext& context) {
@@ -74,7 +73,7 @@ int main(int argc, char** argv) {
         {"weight", result.weight}, {"iterations", result.iterations}, {"complete", result.complete}};
     if (options.free_running) details["depends_on_timing"] = true;
     stage.write(SolutionProduct{result.solution}, details);
-    // Behind the solution, which no full disk under them may cost.
+    // After the solution, so that a full disk under them does not cost it.
     if (fragments) fragments->commit();
     log.finish(seconds, result.iterations, result.weight);
   };

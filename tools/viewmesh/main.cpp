@@ -50,15 +50,15 @@ int main(int argc, char** argv) {
         ->allow_extra_args(false)
         ->check(CLI::Range(16, 8192).description(""));
     app.add_option("--show", options.show,
-                   "What to show: result, solution, candidates or mesh [the last that is there]")
+                   "The stage to show: result, solution, candidates or mesh [the last one that is there]")
         ->type_name("WHAT")
         ->check(CLI::IsMember(contents).description(""));
     app.add_option("--view", options.view,
-                   "How the page opens and the picture is taken, as links of the page say it behind the #, for example "
+                   "The view of page and picture, as links of the page have it after the #, for example "
                    "'clip=y:0.5&colour=quality&theme=dark' (man viewmesh has all keys)")
         ->type_name("STATE");
     app.add_option("--fragments", options.fragments,
-                   "Fragments to go through one by one: a line each, the numbers of its candidates, from 1")
+                   "Fragments to go through one by one: each line has the numbers of a fragment's candidates, from 1")
         ->type_name("FILE");
     app.add_option("--title", options.title, "The page's title")->type_name("TEXT");
   };
