@@ -8,17 +8,17 @@
 #include "common/mwis/exact/cutting_planes.hpp"
 #endif
 
-namespace hexpipe {
+namespace hexpipe::mwis {
 namespace {
 
 bool is_on_bits(ExactAlgorithm algorithm) {
   return algorithm != ExactAlgorithm::branch_and_reduce && algorithm != ExactAlgorithm::branch_and_cut;
 }
 
-ExactResult search_by_reductions(const ConflictGraph& graph, std::int64_t weight, ExactAlgorithm algorithm,
-                                 const Deadline& deadline) {
-  BranchAndReduce search(relaxation_of(algorithm), deadline);
-  ExactResult result;
+exact::ExactResult search_by_reductions(const graph::ConflictGraph& graph, std::int64_t weight,
+                                        ExactAlgorithm algorithm, const Deadline& deadline) {
+  exact::BranchAndReduce search(relaxation_of(algorithm), deadline);
+  exact::ExactResult result;
   result.better = search.solve(graph, weight);
   result.complete = search.complete();
   result.bound = search.bound();
@@ -44,31 +44,31 @@ std::string default_exact_algorithm() {
   return exact_algorithms().contains("branch-and-cut") ? "branch-and-cut" : "branch-and-reduce";
 }
 
-Relax relaxation_of([[maybe_unused]] ExactAlgorithm algorithm) {
+bounds::Relax relaxation_of([[maybe_unused]] ExactAlgorithm algorithm) {
 #ifdef HEXPIPE_WITH_CLP
-  if (algorithm == ExactAlgorithm::branch_and_cut) return relax_by_cutting_planes;
+  if (algorithm == ExactAlgorithm::branch_and_cut) return exact::relax_by_cutting_planes;
 #endif
   assert(algorithm == ExactAlgorithm::branch_and_reduce);
-  return relax_by_clique_dual;
+  return bounds::relax_by_clique_dual;
 }
 
-void expect_room_for(ExactAlgorithm algorithm, const ConflictGraph& graph) {
-  if (is_on_bits(algorithm)) expect_room_on_bits(graph);
-  if (algorithm == ExactAlgorithm::clique_lp) expect_room_for_clique_lp(graph);
+void expect_room_for(ExactAlgorithm algorithm, const graph::ConflictGraph& graph) {
+  if (is_on_bits(algorithm)) exact::historical::expect_room_on_bits(graph);
+  if (algorithm == ExactAlgorithm::clique_lp) exact::historical::expect_room_for_clique_lp(graph);
 }
 
-ExactResult solve_exactly(const ConflictGraph& graph, std::int64_t weight, ExactAlgorithm algorithm,
-                          const Deadline& deadline) {
+exact::ExactResult solve_exactly(const graph::ConflictGraph& graph, std::int64_t weight, ExactAlgorithm algorithm,
+                                 const Deadline& deadline) {
   expect_room_for(algorithm, graph);
   switch (algorithm) {
     case ExactAlgorithm::complete_search:
-      return search_completely(graph, weight, deadline);
+      return exact::historical::search_completely(graph, weight, deadline);
     case ExactAlgorithm::clique_partition:
-      return search_by_clique_partition(graph, weight, deadline);
+      return exact::historical::search_by_clique_partition(graph, weight, deadline);
     case ExactAlgorithm::clique_cover:
-      return search_by_clique_cover(graph, weight, deadline);
+      return exact::historical::search_by_clique_cover(graph, weight, deadline);
     case ExactAlgorithm::clique_lp:
-      return search_by_clique_lp(graph, weight, deadline);
+      return exact::historical::search_by_clique_lp(graph, weight, deadline);
     case ExactAlgorithm::branch_and_reduce:
     case ExactAlgorithm::branch_and_cut:
       break;
@@ -76,4 +76,4 @@ ExactResult solve_exactly(const ConflictGraph& graph, std::int64_t weight, Exact
   return search_by_reductions(graph, weight, algorithm, deadline);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis

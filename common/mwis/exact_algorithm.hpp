@@ -10,7 +10,7 @@
 #include "common/mwis/exact/branch_and_reduce.hpp"
 #include "common/run/deadline.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis {
 
 enum class ExactAlgorithm {
   branch_and_reduce,
@@ -28,15 +28,15 @@ const std::map<std::string, ExactAlgorithm>& exact_algorithms();
 std::string default_exact_algorithm();
 
 // The relaxation by which branch and reduce, or branch and cut, bounds a reduced graph.
-Relax relaxation_of(ExactAlgorithm algorithm);
+bounds::Relax relaxation_of(ExactAlgorithm algorithm);
 
 // Throws DataError where a graph has too many vertices for a search without reductions, or weights too large for
 // clique_lp.
-void expect_room_for(ExactAlgorithm algorithm, const ConflictGraph& graph);
+void expect_room_for(ExactAlgorithm algorithm, const graph::ConflictGraph& graph);
 
 // Looks for the heaviest set among those heavier than `weight`, until it is proven or the deadline passes. Throws as
 // expect_room_for does.
-ExactResult solve_exactly(const ConflictGraph& graph, std::int64_t weight, ExactAlgorithm algorithm,
-                          const Deadline& deadline);
+exact::ExactResult solve_exactly(const graph::ConflictGraph& graph, std::int64_t weight, ExactAlgorithm algorithm,
+                                 const Deadline& deadline);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis

@@ -5,7 +5,7 @@
 #include "common/graph/conflict_graph.hpp"
 #include "formats/streams/input.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // True when the text begins with a DIMACS comment or problem line. Takes nothing from the input.
 bool looks_like_dimacs(Input& input);
@@ -14,6 +14,6 @@ bool looks_like_dimacs(Input& input);
 // edges stand as `e U V` or `U V`. An edge may come twice, as in many colouring files. Throws FormatError with the line
 // for loops, numbers out of range, weights given twice, unknown lines, and fewer or more edges than the problem line
 // says.
-ConflictGraph read_dimacs(Input& input);
+graph::ConflictGraph read_dimacs(Input& input);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -9,18 +9,18 @@
 #include "formats/streams/input.hpp"
 #include "formats/streams/output.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // Reads fmt 0, 1, 10 and 11. Without vertex weights every weight is 1; edge weights are dropped. '%' begins a comment
 // line, an empty line is a vertex without neighbours, and neighbours may come in any order. Throws FormatError with the
 // line for loops, repeated and one-sided edges, numbers out of range, and counts that disagree with the header.
-ConflictGraph read_metis(Input& input);
+graph::ConflictGraph read_metis(Input& input);
 
 // Writes `n m 10`, neighbours ascending.
-void write_metis(const ConflictGraph& graph, Output& output);
+void write_metis(const graph::ConflictGraph& graph, Output& output);
 
 // A warning when other programs cannot hold these weights: METIS itself holds them in 31 bits, KaMIS sums them in 32,
 // and neither reports an overflow. It names the --weight-scale that would fit, as a factor of the present one.
-std::optional<std::string> metis_weight_warning(const ConflictGraph& graph);
+std::optional<std::string> metis_weight_warning(const graph::ConflictGraph& graph);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -19,7 +19,7 @@
 #include "formats/pipeline/members.hpp"
 #include "formats/pipeline/output_format.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 namespace {
 
 std::vector<std::string_view> product_formats(Role product) {
@@ -34,7 +34,7 @@ std::vector<std::string_view> product_formats(Role product) {
     case Role::result:
       break;
   }
-  return mesh_format_names();
+  return formats::mesh_format_names();
 }
 
 // The format that the command line asks for. Throws UsageError when the product cannot be written so.
@@ -94,22 +94,22 @@ std::int64_t vertex_count_for_solution(const StageData& data, const std::string&
   throw DataError::at(source, "expected a graph or candidates beside the solution, found neither");
 }
 
-void read_role_file(Role role, Input& input, StageData& data) {
+void read_role_file(Role role, formats::Input& input, StageData& data) {
   switch (role) {
     case Role::mesh:
-      data.mesh = to_tet_mesh(read_mixed_mesh(input), input.name().c_str());
+      data.mesh = to_tet_mesh(formats::read_mixed_mesh(input), input.name().c_str());
       break;
     case Role::candidates:
-      data.candidates = read_cand(input);
+      data.candidates = formats::read_cand(input);
       break;
     case Role::graph:
-      data.graph = looks_like_dimacs(input) ? read_dimacs(input) : read_metis(input);
+      data.graph = formats::looks_like_dimacs(input) ? formats::read_dimacs(input) : formats::read_metis(input);
       break;
     case Role::solution:
-      data.solution = read_solution(input, vertex_count_for_solution(data, input.name()));
+      data.solution = formats::read_solution(input, vertex_count_for_solution(data, input.name()));
       break;
     case Role::result:
-      data.result = read_mixed_mesh(input);
+      data.result = formats::read_mixed_mesh(input);
       break;
   }
 }
@@ -192,7 +192,7 @@ void fill_defaults(StageData& data) {
 struct Stage::State {
   RunContext context;
   std::string format;
-  std::optional<Output> output;
+  std::optional<formats::Output> output;
   std::optional<BundleWriter> bundle;
   int history_count = 0;
   // Where each role came from, for messages.
@@ -208,9 +208,9 @@ struct Stage::State {
   // is void.
   bool passes(Role role) const { return bundle && role < product() && !contains(request.hold_back, role); }
 
-  std::optional<Input> open_inputs(std::map<Role, Input>& files) const;
-  void read_bundle(Input& input, StageData& data);
-  void read_files(std::map<Role, Input>& files, StageData& data);
+  std::optional<formats::Input> open_inputs(std::map<Role, formats::Input>& files) const;
+  void read_bundle(formats::Input& input, StageData& data);
+  void read_files(std::map<Role, formats::Input>& files, StageData& data);
   void orient(TetMesh& mesh, const std::string& name) const;
   void check(const StageData& data) const;
   std::string source_of(Role role) const;
@@ -251,15 +251,15 @@ void Stage::begin() {
 
 // The bundle that is read, if any, and the files of single roles. Files may cover all that is needed; otherwise there
 // must be an operand or a stream.
-std::optional<Input> Stage::State::open_inputs(std::map<Role, Input>& files) const {
-  for (const auto& [role, path] : context.streams.files) files.emplace(role, Input::open(path));
+std::optional<formats::Input> Stage::State::open_inputs(std::map<Role, formats::Input>& files) const {
+  for (const auto& [role, path] : context.streams.files) files.emplace(role, formats::Input::open(path));
   const bool covered =
       !files.empty() && std::ranges::all_of(request.needs, [&](Role role) { return files.contains(role); });
   if (!context.streams.operand && covered) return std::nullopt;
   if (!context.streams.operand && isatty(STDIN_FILENO))
     throw UsageError(fmt::format("nothing to read: name a file, or pipe a bundle to standard input (see {} --help)",
                                  context.info.name));
-  Input input = Input::open(context.streams.operand.value_or("-"));
+  formats::Input input = formats::Input::open(context.streams.operand.value_or("-"));
   if (looks_like_bundle(input)) return input;
   const Role primary = context.info.reads.front();
   if (input.peek(1).empty())
@@ -291,7 +291,7 @@ StageData Stage::read(const StageRequest& request) {
   return data;
 }
 
-void Stage::State::read_bundle(Input& input, StageData& data) {
+void Stage::State::read_bundle(formats::Input& input, StageData& data) {
   BundleReader reader(input);
   while (reader.next()) {
     const auto role = role_of_member(reader.name());
@@ -322,7 +322,7 @@ void Stage::State::orient(TetMesh& mesh, const std::string& name) const {
 }
 
 // In the order of the pipeline: a solution needs to know its graph.
-void Stage::State::read_files(std::map<Role, Input>& files, StageData& data) {
+void Stage::State::read_files(std::map<Role, formats::Input>& files, StageData& data) {
   for (auto& [role, input] : files) {
     seen.insert(role);
     sources[role] = input.name();
@@ -369,13 +369,13 @@ void Stage::State::check(const StageData& data) const {
   if (data.candidates && data.candidate_keys)
     validate(*data.candidate_keys, data.candidates->size(), source_of(Role::candidates).c_str());
   if (data.graph) {
-    validate(*data.graph, source_of(Role::graph).c_str());
+    graph::validate(*data.graph, source_of(Role::graph).c_str());
     if (data.candidates && data.candidates->size() != data.graph->weights.size())
       throw DataError::at(source_of(Role::graph), "expected a vertex for each of the {} candidates, found {}",
                           data.candidates->size(), data.graph->weights.size());
   }
-  if (data.cover) validate(*data.cover, *data.graph, source_of(Role::graph).c_str());
-  if (data.solution && data.graph) validate(*data.solution, *data.graph, source_of(Role::solution).c_str());
+  if (data.cover) graph::validate(*data.cover, *data.graph, source_of(Role::graph).c_str());
+  if (data.solution && data.graph) graph::validate(*data.solution, *data.graph, source_of(Role::solution).c_str());
   if (data.gaps) validate_gaps(data, source_of(Role::solution).c_str());
   if (data.result) validate(*data.result, source_of(Role::result).c_str());
 }
@@ -400,27 +400,29 @@ void Stage::State::write(const Product& product, const nlohmann::ordered_json& d
 }
 
 void Stage::write(const MeshProduct& product, const nlohmann::ordered_json& details) {
-  state_->write(product, details,
-                [&](Output& output) { write_mixed_mesh(to_mixed_mesh(product.mesh), state_->format, output); });
+  state_->write(product, details, [&](formats::Output& output) {
+    formats::write_mixed_mesh(to_mixed_mesh(product.mesh), state_->format, output);
+  });
 }
 
 void Stage::write(const CandidatesProduct& product, const nlohmann::ordered_json& details) {
-  state_->write(product, details, [&](Output& output) { write_cand(product.candidates, output); });
+  state_->write(product, details, [&](formats::Output& output) { formats::write_cand(product.candidates, output); });
 }
 
 void Stage::write(const GraphProduct& product, const nlohmann::ordered_json& details) {
-  state_->write(product, details, [&](Output& output) {
-    if (const auto warning = metis_weight_warning(product.graph)) state_->context.warn(*warning);
-    write_metis(product.graph, output);
+  state_->write(product, details, [&](formats::Output& output) {
+    if (const auto warning = formats::metis_weight_warning(product.graph)) state_->context.warn(*warning);
+    formats::write_metis(product.graph, output);
   });
 }
 
 void Stage::write(const SolutionProduct& product, const nlohmann::ordered_json& details) {
-  state_->write(product, details, [&](Output& output) { write_solution(product.solution, output); });
+  state_->write(product, details, [&](formats::Output& output) { formats::write_solution(product.solution, output); });
 }
 
 void Stage::write(const ResultProduct& product, const nlohmann::ordered_json& details) {
-  state_->write(product, details, [&](Output& output) { write_mixed_mesh(product.mesh, state_->format, output); });
+  state_->write(product, details,
+                [&](formats::Output& output) { formats::write_mixed_mesh(product.mesh, state_->format, output); });
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

@@ -10,7 +10,7 @@
 #include "common/run/run_context.hpp"
 #include "formats/pipeline/stage_data.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 
 // What a stage wants of its input.
 struct StageRequest {
@@ -59,4 +59,4 @@ class Stage {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

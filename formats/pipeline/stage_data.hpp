@@ -15,7 +15,7 @@
 #include "common/mesh/mixed_mesh.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 
 // For each vertex of a solution, certify's share of the gap to its bound (gap_shares.hpp).
 using SolutionGaps = std::vector<std::int64_t>;
@@ -24,9 +24,9 @@ using SolutionGaps = std::vector<std::int64_t>;
 struct StageData {
   std::optional<TetMesh> mesh;
   std::optional<Candidates> candidates;
-  std::optional<ConflictGraph> graph;
-  std::optional<CliqueCover> cover;  // with StageRequest::cover
-  std::optional<IndependentSet> solution;
+  std::optional<graph::ConflictGraph> graph;
+  std::optional<graph::CliqueCover> cover;  // with StageRequest::cover
+  std::optional<graph::IndependentSet> solution;
   std::optional<SolutionGaps> gaps;
   std::optional<MixedMesh> result;
   std::optional<MeshPart> part;                 // with StageRequest::part, where the mesh is a part of another
@@ -46,13 +46,13 @@ struct CandidatesProduct {
 };
 
 struct GraphProduct {
-  ConflictGraph graph;
-  std::optional<CliqueCover> cover{};
+  graph::ConflictGraph graph;
+  std::optional<graph::CliqueCover> cover{};
   std::optional<CandidatesProduct> candidates{};  // in place of those that the stage held back
 };
 
 struct SolutionProduct {
-  IndependentSet solution;
+  graph::IndependentSet solution;
   std::optional<SolutionGaps> gaps{};
 };
 
@@ -61,4 +61,4 @@ struct ResultProduct {
   std::optional<MeshPiece> piece{};  // of a part of a mesh
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

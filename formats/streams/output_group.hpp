@@ -8,7 +8,7 @@
 
 #include "formats/streams/output.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 class OutputGroup {
  public:
@@ -33,4 +33,4 @@ class OutputGroup {
   std::vector<std::string> added_;  // in place now, where there was no file before
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -9,7 +9,7 @@
 
 #include "formats/surfaces/surface_building.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 // The statements of polygonal OBJ. The first statement of a free-form curve or surface is an error.
@@ -139,4 +139,4 @@ SurfaceSoup read_obj(std::string_view text, const std::string& name) {
   return ObjReader(text, name).read();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -6,7 +6,7 @@
 
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // `fan` has the triangles of one polygon, fanned from its first corner. If one of them is turned against the polygon,
 // as happens where this is concave, cuts the polygon anew into as many triangles: by cutting off ears, in the
@@ -14,4 +14,4 @@ namespace hexpipe {
 // itself, or that has more than 10,000 corners, stays a fan. The time grows with the square of the number of corners.
 void cut_if_concave(std::span<const Vec3> points, std::span<Triangle> fan);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

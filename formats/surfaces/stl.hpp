@@ -6,7 +6,7 @@
 
 #include "formats/surfaces/surface_files.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // True when the length fits the count in a binary header. ASCII cannot match by accident: four letters, read as a
 // count, are hundreds of millions of facets.
@@ -19,4 +19,4 @@ SurfaceSoup read_ascii_stl(std::string_view text, const std::string& name);
 // finite.
 SurfaceSoup read_binary_stl(std::string_view bytes, const std::string& name);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

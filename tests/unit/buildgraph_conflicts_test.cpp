@@ -15,6 +15,9 @@
 #include "tools/buildgraph/report.hpp"
 
 namespace hexpipe {
+using namespace buildgraph;
+using namespace conflicts;
+using namespace graph;
 namespace {
 
 using ::testing::ElementsAre;

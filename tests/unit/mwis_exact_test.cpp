@@ -4,13 +4,19 @@
 
 #include "common/mwis/exact/branch_and_bound.hpp"
 #include "common/mwis/exact/branch_and_reduce.hpp"
-#include "common/mwis/exact_algorithm.hpp"
 #include "common/mwis/exact/exact_solver.hpp"
+#include "common/mwis/exact_algorithm.hpp"
 #include "common/mwis/local_search/lns.hpp"
 #include "common/mwis/reduce/dense_reductions.hpp"
 #include "random_graphs.hpp"
 
 namespace hexpipe {
+using namespace mwis;
+using namespace graph;
+using namespace mwis::exact;
+using namespace mwis::ground;
+using namespace mwis::local_search;
+using namespace mwis::reduce;
 namespace {
 
 using hexpipe::testing::brute_force_weight;

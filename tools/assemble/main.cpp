@@ -12,18 +12,19 @@
 #include "tools/assemble/assemble_part.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::assemble;
 
 namespace {
 
 // How good the choice is, where certify has proven a bound for its graph: weight, bound and gap.
-nlohmann::ordered_json proven_gap(const StageData& data) {
-  const auto bound = bound_in(data.history);
+nlohmann::ordered_json proven_gap(const pipeline::StageData& data) {
+  const auto bound = mwis::ground::bound_in(data.history);
   if (!data.graph || !bound) return nullptr;
-  const std::int64_t weight = total_weight(*data.solution, *data.graph);
-  return {{"weight", weight}, {"bound", *bound}, {"gap", gap_to(*bound, weight)}};
+  const std::int64_t weight = graph::total_weight(*data.solution, *data.graph);
+  return {{"weight", weight}, {"bound", *bound}, {"gap", mwis::ground::gap_to(*bound, weight)}};
 }
 
-SolvedPart solved_part(StageData data, const InputNames& names) {
+pieces::SolvedPart solved_part(pipeline::StageData data, const choice::InputNames& names) {
   if (!data.part) throw UsageError("--neighbours goes with a part of a mesh, as mesh-part makes them");
   if (!data.candidate_keys)
     throw DataError::at(names.candidates,
@@ -36,11 +37,11 @@ SolvedPart solved_part(StageData data, const InputNames& names) {
           .history = std::move(data.history)};
 }
 
-PartResult assemble_whole(StageData data, const AssembleOptions& options, const InputNames& names) {
+PartResult assemble_whole(pipeline::StageData data, const AssembleOptions& options, const choice::InputNames& names) {
   if (data.part && !data.part->neighbours.empty())
     throw DataError::at(names.mesh, "expected the neighbours of {} with --neighbours, found none",
                         title_of(*data.part));
-  AssembleResult result = assemble(std::move(*data.mesh), *data.candidates, *data.solution, options, names);
+  AssembleResult result = assemble::assemble(std::move(*data.mesh), *data.candidates, *data.solution, options, names);
   return {std::move(result.mesh), std::move(result.statistics), {}};
 }
 
@@ -112,22 +113,22 @@ int main(int argc, char** argv) {
     if (by_part && options.conformity == AssembleOptions::Conformity::none)
       throw UsageError("--conformity none does not go with --neighbours: pieces fit because they conform");
     if (!by_part && !before.empty()) throw UsageError("--before goes with --neighbours");
-    Stage stage(context);
-    StageRequest request{.needs = {Role::mesh, Role::candidates, Role::solution}, .part = true};
+    pipeline::Stage stage(context);
+    pipeline::StageRequest request{.needs = {Role::mesh, Role::candidates, Role::solution}, .part = true};
     if (by_part)
       request.hold_back = {Role::mesh, Role::candidates, Role::graph, Role::solution};
     else
       request.weights_only = true;  // for the gap: the tets of cells tell which cannot stand together
-    StageData data = stage.read(request);
-    const InputNames names{.mesh = stage.source_of(Role::mesh),
-                           .candidates = stage.source_of(Role::candidates),
-                           .solution = stage.source_of(Role::solution)};
+    pipeline::StageData data = stage.read(request);
+    const choice::InputNames names{.mesh = stage.source_of(Role::mesh),
+                                   .candidates = stage.source_of(Role::candidates),
+                                   .solution = stage.source_of(Role::solution)};
     const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
     const auto choice = graph_of_bundle ? proven_gap(data) : nullptr;
-    PartResult result = by_part
-                            ? assemble_part(view_part(solved_part(std::move(data), names), neighbours, names.solution),
-                                            before, options, names)
-                            : assemble_whole(std::move(data), options, names);
+    PartResult result =
+        by_part ? assemble_part(pieces::view_part(solved_part(std::move(data), names), neighbours, names.solution),
+                                before, options, names)
+                : assemble_whole(std::move(data), options, names);
     context.statistics = to_json(result.statistics);
     for (const auto& line : summary_lines(result.statistics)) context.note(line);
     nlohmann::ordered_json details{{"counts", context.statistics["cells"]}};
@@ -140,7 +141,7 @@ int main(int argc, char** argv) {
     if (by_part)
       context.note(result.piece.settled ? "this piece is settled"
                                         : "this piece has something new to say: another round has to follow");
-    ResultProduct product{.mesh = std::move(result.mesh)};
+    pipeline::ResultProduct product{.mesh = std::move(result.mesh)};
     if (by_part) product.piece = std::move(result.piece);
     stage.write(product, details);
   };

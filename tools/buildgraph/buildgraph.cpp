@@ -10,53 +10,55 @@
 #include "tools/buildgraph/neighbours.hpp"
 #include "tools/buildgraph/reduce.hpp"
 
-namespace hexpipe {
+namespace hexpipe::buildgraph {
 namespace {
 
-BuildgraphResult reduced_graph(Candidates candidates, const ConflictOptions& conflicts, bool with_cover,
+BuildgraphResult reduced_graph(Candidates candidates, const conflicts::ConflictOptions& conflicts, bool with_cover,
                                const char* source) {
-  BuildgraphResult result{.product = {.graph = conflict_graph(candidates, conflicts, source)}};
-  ConflictGraph& graph = result.product.graph;
+  BuildgraphResult result{.product = {.graph = conflicts::conflict_graph(candidates, conflicts, source)}};
+  graph::ConflictGraph& graph = result.product.graph;
   result.dominated = reduce(candidates, graph);
-  if (with_cover) result.product.cover = greedy_edge_clique_cover(graph, cliques_of_tets(candidates));
-  result.product.candidates = CandidatesProduct{.candidates = std::move(candidates)};
+  if (with_cover) result.product.cover = graph::greedy_edge_clique_cover(graph, graph::cliques_of_tets(candidates));
+  result.product.candidates = pipeline::CandidatesProduct{.candidates = std::move(candidates)};
   return result;
 }
 
-BuildgraphResult whole_graph(Candidates candidates, const ConflictOptions& conflicts, bool with_cover,
+BuildgraphResult whole_graph(Candidates candidates, const conflicts::ConflictOptions& conflicts, bool with_cover,
                              const char* source) {
-  const CliqueCover known = with_cover ? cliques_of_tets(candidates) : CliqueCover();
-  BuildgraphResult result{.product = {.graph = conflict_graph(std::move(candidates), conflicts, source)}};
-  if (with_cover) result.product.cover = greedy_edge_clique_cover(result.product.graph, known);
+  const graph::CliqueCover known = with_cover ? graph::cliques_of_tets(candidates) : graph::CliqueCover();
+  BuildgraphResult result{.product = {.graph = conflicts::conflict_graph(std::move(candidates), conflicts, source)}};
+  if (with_cover) result.product.cover = graph::greedy_edge_clique_cover(result.product.graph, known);
   return result;
 }
 
 // `all`: the candidates of a part and those of its neighbours. A neighbour's stays where it is in conflict with one of
 // the part's own, and an edge joins at least one of its own.
-GraphProduct graph_of_part(PartCandidates all, std::int32_t part, const ConflictOptions& conflicts,
-                           const char* source) {
+pipeline::GraphProduct graph_of_part(PartCandidates all, std::int32_t part, const conflicts::ConflictOptions& conflicts,
+                                     const char* source) {
   std::vector<bool> own(all.keys.part.size());
   for (std::size_t i = 0; i < own.size(); ++i) own[i] = all.keys.part[i] == part;
-  GraphProduct product{.graph = conflict_graph(all.candidates, conflicts, source, own)};
-  ConflictGraph& graph = product.graph;
+  pipeline::GraphProduct product{.graph = conflicts::conflict_graph(all.candidates, conflicts, source, own)};
+  graph::ConflictGraph& graph = product.graph;
   std::vector<std::int32_t> kept;
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v)
     if (own[v] || graph.degree(v) > 0) kept.push_back(v);
   keep_only(graph, kept);
   keep_only(all.candidates, kept);
   keep_only(all.keys, kept);
-  product.candidates = CandidatesProduct{.candidates = std::move(all.candidates), .keys = std::move(all.keys)};
+  product.candidates =
+      pipeline::CandidatesProduct{.candidates = std::move(all.candidates), .keys = std::move(all.keys)};
   return product;
 }
 
-GraphProduct read_graph_of_part(StageData data, const BuildgraphOptions& options, const std::string& source) {
+pipeline::GraphProduct read_graph_of_part(pipeline::StageData data, const BuildgraphOptions& options,
+                                          const std::string& source) {
   if (options.conflicts.part.count > 1 || options.reduce || options.cover)
     throw UsageError(
         fmt::format("--part, --reduce and --cover need the whole graph, not that of {}", title_of(*data.part)));
   if (!data.candidate_keys)
     throw DataError::at(source, "expected candidates with their keys, as findhex makes them of a part, found none");
   PartCandidates own{std::move(*data.candidates), std::move(*data.candidate_keys)};
-  GraphProduct product =
+  pipeline::GraphProduct product =
       graph_of_part(with_neighbours(std::move(own), *data.part, data.history, options.neighbours, source),
                     data.part->part, options.conflicts, source.c_str());
   // Without neighbours, the candidates are those of the input, which pass.
@@ -66,7 +68,7 @@ GraphProduct read_graph_of_part(StageData data, const BuildgraphOptions& options
 
 }  // namespace
 
-BuildgraphResult buildgraph(StageData data, const BuildgraphOptions& options, const std::string& source) {
+BuildgraphResult buildgraph(pipeline::StageData data, const BuildgraphOptions& options, const std::string& source) {
   if (data.part) return {.product = read_graph_of_part(std::move(data), options, source)};
   if (!options.neighbours.empty())
     throw UsageError("--neighbours goes with the candidates of a part of a mesh, as mesh-part makes them");
@@ -74,4 +76,4 @@ BuildgraphResult buildgraph(StageData data, const BuildgraphOptions& options, co
   return build(std::move(*data.candidates), options.conflicts, options.cover, source.c_str());
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::buildgraph

@@ -8,17 +8,17 @@
 #include "formats/pipeline/stage_data.hpp"
 #include "tools/buildgraph/options.hpp"
 
-namespace hexpipe {
+namespace hexpipe::buildgraph {
 
 // Vertex i is candidate i: of the product's candidates where it has some, otherwise of those that were given.
 struct BuildgraphResult {
-  GraphProduct product;
+  pipeline::GraphProduct product;
   std::optional<std::int64_t> dominated{};  // how many candidates BuildgraphOptions::reduce left out
 };
 
 // Builds the graph of the candidates that a stage read from `source`, whole or a part of a mesh. Throws UsageError when
 // options do not go with the input, and DataError naming `source` when a part lacks keys, weights do not fit (see
 // weights_of), or there are 2^31 candidates or more.
-BuildgraphResult buildgraph(StageData data, const BuildgraphOptions& options, const std::string& source);
+BuildgraphResult buildgraph(pipeline::StageData data, const BuildgraphOptions& options, const std::string& source);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::buildgraph

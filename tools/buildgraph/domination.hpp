@@ -8,10 +8,10 @@
 
 #include "common/graph/conflict_graph.hpp"
 
-namespace hexpipe {
+namespace hexpipe::buildgraph {
 
 // The vertices that stay, ascending, when dominated ones are left out one after another until there are none. If two
 // dominate each other, the higher one stays.
-std::vector<std::int32_t> undominated_vertices(const ConflictGraph& graph);
+std::vector<std::int32_t> undominated_vertices(const graph::ConflictGraph& graph);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::buildgraph

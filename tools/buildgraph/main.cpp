@@ -11,12 +11,13 @@
 #include "tools/buildgraph/report.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::buildgraph;
 
 int main(int argc, char** argv) {
-  const std::map<std::string, WeightKind> weights{{"quality", WeightKind::quality},
-                                                  {"volume", WeightKind::volume},
-                                                  {"count", WeightKind::count},
-                                                  {"quality*volume", WeightKind::quality_volume}};
+  const std::map<std::string, conflicts::WeightKind> weights{{"quality", conflicts::WeightKind::quality},
+                                                             {"volume", conflicts::WeightKind::volume},
+                                                             {"count", conflicts::WeightKind::count},
+                                                             {"quality*volume", conflicts::WeightKind::quality_volume}};
   const ToolInfo info{
       .name = "buildgraph",
       .summary = "Compare candidates: the graph of those that cannot both be chosen.",
@@ -51,22 +52,22 @@ int main(int argc, char** argv) {
     options.conflicts.weight = weights.at(weight);
     options.conflicts.part = parse_part(part);
     Phases phases;
-    Stage stage(context);
+    pipeline::Stage stage(context);
     check(options, stage.writes_bundle());
-    std::optional<Output> reduced;
+    std::optional<formats::Output> reduced;
     if (!options.reduced_candidates.empty()) reduced.emplace(options.reduced_candidates);
-    StageRequest request{.needs = {Role::candidates}, .part = true};
+    pipeline::StageRequest request{.needs = {Role::candidates}, .part = true};
     if (options.reduce || !options.neighbours.empty()) request.hold_back = {Role::candidates};
-    StageData data = stage.read(request);
+    pipeline::StageData data = stage.read(request);
     phases.end("read");
-    const BuildgraphResult result = buildgraph(std::move(data), options, stage.source_of(Role::candidates));
+    const BuildgraphResult result = buildgraph::buildgraph(std::move(data), options, stage.source_of(Role::candidates));
     phases.end("build");
     const GraphSummary summary = summarize(result);
     for (const auto& warning : warnings_about(summary)) context.warn(warning);
     for (const auto& line : summary_lines(summary)) context.note(line);
     context.statistics.update(to_json(summary));
     // The candidates come first beside a .graph, which is of no use without them; a bundle has them itself.
-    const auto write_reduced = [&] { write_cand(result.product.candidates->candidates, *reduced); };
+    const auto write_reduced = [&] { formats::write_cand(result.product.candidates->candidates, *reduced); };
     if (reduced && !stage.writes_bundle()) {
       write_reduced();
       reduced->drain();

@@ -2,7 +2,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::buildgraph {
 
 void check(const BuildgraphOptions& options, bool to_bundle) {
   if (options.conflicts.part.count > 1 && (options.reduce || options.cover))
@@ -14,4 +14,4 @@ void check(const BuildgraphOptions& options, bool to_bundle) {
   if (options.cover && !to_bundle) throw UsageError("--cover needs a bundle to be written to: a .tar, or a pipe");
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::buildgraph

@@ -6,10 +6,10 @@
 
 #include "common/conflicts/find_conflicts.hpp"
 
-namespace hexpipe {
+namespace hexpipe::buildgraph {
 
 struct BuildgraphOptions {
-  ConflictOptions conflicts{};
+  conflicts::ConflictOptions conflicts{};
   bool reduce = false;                  // leave out dominated candidates
   bool cover = false;                   // find an edge clique cover, starting from the cliques at tets
   std::string reduced_candidates;       // a .cand of the candidates that `reduce` leaves; empty: no such file
@@ -20,4 +20,4 @@ struct BuildgraphOptions {
 // vertices stand for.
 void check(const BuildgraphOptions& options, bool to_bundle);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::buildgraph

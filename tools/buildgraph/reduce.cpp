@@ -5,7 +5,7 @@
 
 #include "tools/buildgraph/domination.hpp"
 
-namespace hexpipe {
+namespace hexpipe::buildgraph {
 
 namespace {
 
@@ -45,7 +45,7 @@ void keep_only(CandidateKeys& keys, std::span<const std::int32_t> kept) {
   keep_items(keys.part, kept);
 }
 
-void keep_only(ConflictGraph& graph, std::span<const std::int32_t> kept) {
+void keep_only(graph::ConflictGraph& graph, std::span<const std::int32_t> kept) {
   constexpr std::int32_t none = -1;
   std::vector<std::int32_t> numbers(graph.weights.size(), none);
   for (std::size_t i = 0; i < kept.size(); ++i) numbers[kept[i]] = static_cast<std::int32_t>(i);
@@ -54,7 +54,8 @@ void keep_only(ConflictGraph& graph, std::span<const std::int32_t> kept) {
     const std::int64_t read_end = graph.offsets[v + 1];
     if (numbers[v] != none) {
       for (; read < read_end; ++read)
-        if (const std::int32_t number = numbers[graph.neighbours[read]]; number != none) graph.neighbours[end++] = number;
+        if (const std::int32_t number = numbers[graph.neighbours[read]]; number != none)
+          graph.neighbours[end++] = number;
       graph.weights[numbers[v]] = graph.weights[v];
       graph.offsets[numbers[v] + 1] = end;
     }
@@ -65,7 +66,7 @@ void keep_only(ConflictGraph& graph, std::span<const std::int32_t> kept) {
   graph.offsets.resize(kept.size() + 1);
 }
 
-std::int64_t reduce(Candidates& candidates, ConflictGraph& graph) {
+std::int64_t reduce(Candidates& candidates, graph::ConflictGraph& graph) {
   const std::vector<std::int32_t> kept = undominated_vertices(graph);
   const auto dropped = static_cast<std::int64_t>(graph.weights.size() - kept.size());
   if (dropped == 0) return 0;
@@ -74,4 +75,4 @@ std::int64_t reduce(Candidates& candidates, ConflictGraph& graph) {
   return dropped;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::buildgraph

@@ -8,16 +8,16 @@
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/mesh_part.hpp"
 
-namespace hexpipe {
+namespace hexpipe::buildgraph {
 
 // Keep only the items of `kept`, which ascends. They work in place, as large data have no room for a copy.
 void keep_only(Candidates& candidates, std::span<const std::int32_t> kept);
 void keep_only(CandidateKeys& keys, std::span<const std::int32_t> kept);
 // The graph that `kept` induces.
-void keep_only(ConflictGraph& graph, std::span<const std::int32_t> kept);
+void keep_only(graph::ConflictGraph& graph, std::span<const std::int32_t> kept);
 
 // Leaves out dominated candidates (domination.hpp). A solution of the remaining graph is a solution of the whole graph,
 // and the heaviest one weighs the same. Returns how many candidates were left out.
-std::int64_t reduce(Candidates& candidates, ConflictGraph& graph);
+std::int64_t reduce(Candidates& candidates, graph::ConflictGraph& graph);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::buildgraph

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <numeric>
 
-namespace hexpipe {
+namespace hexpipe::buildgraph {
 
 GraphSummary summarize(const BuildgraphResult& result) {
-  const ConflictGraph& graph = result.product.graph;
+  const graph::ConflictGraph& graph = result.product.graph;
   GraphSummary summary;
   summary.dominated = result.dominated;
   if (const auto& cover = result.product.cover) {
@@ -65,4 +65,4 @@ nlohmann::ordered_json to_json(const GraphSummary& summary) {
   return all;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::buildgraph

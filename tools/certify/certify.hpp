@@ -14,12 +14,12 @@
 #include "formats/streams/output.hpp"
 #include "tools/certify/options.hpp"
 
-namespace hexpipe {
+namespace hexpipe::certify {
 
 struct CertifyResult {
-  CliqueCover cover;
-  CliqueDual dual;
-  IndependentSet solution;  // the given one, or a better one that the proof found
+  graph::CliqueCover cover;
+  mwis::bounds::CliqueDual dual;
+  graph::IndependentSet solution;  // the given one, or a better one that the proof found
   std::int64_t weight = 0;
   std::int64_t bound = 0;  // the dual's, or a lower one that the proof found, which has no certificate
   bool maximal = false;
@@ -32,16 +32,16 @@ struct CertifyResult {
 
 // Cliques that are known before the dual begins.
 struct KnownCliques {
-  std::optional<CliqueCover> cover;    // an edge clique cover
-  std::optional<CliqueCover> of_tets;  // candidates that share a tet
+  std::optional<graph::CliqueCover> cover;    // an edge clique cover
+  std::optional<graph::CliqueCover> of_tets;  // candidates that share a tet
 };
 
 // `solution` is independent. Without known cliques, they are found in the graph. The cliques at tets, made maximal,
 // give as good a bound with a third of the members; cliques that they miss and the relaxation violates are added.
 // Throws DataError, before anything else, where the graph is too large for options.exact.
-CertifyResult certify(const ConflictGraph& graph, const IndependentSet& solution, KnownCliques known,
+CertifyResult certify(const graph::ConflictGraph& graph, const graph::IndependentSet& solution, KnownCliques known,
                       const CertifyOptions& options, const Deadline& deadline,
-                      const std::function<void(const CliqueDual&)>& report = {});
+                      const std::function<void(const mwis::bounds::CliqueDual&)>& report = {});
 
 nlohmann::ordered_json to_json(const CertifyResult& result);
 std::string summary(const CertifyResult& result);
@@ -49,6 +49,6 @@ std::string summary(const CertifyResult& result);
 // Writes the proof of the dual's bound as a text that others can check: a line `bound B`, then a line for each clique
 // with a price, the price and the vertices counted from 1. The bound is the sum of the prices and of what each vertex
 // weighs beyond the prices of its cliques.
-void write_certificate(const CliqueCover& cover, const CliqueDual& dual, Output& output);
+void write_certificate(const graph::CliqueCover& cover, const mwis::bounds::CliqueDual& dual, formats::Output& output);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::certify

@@ -10,6 +10,7 @@
 #include "tools/certify/certify.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::certify;
 
 int main(int argc, char** argv) {
   const ToolInfo info{
@@ -21,7 +22,7 @@ int main(int argc, char** argv) {
       .searches = true};
   CertifyOptions options;
   bool exact = false;
-  std::string algorithm = default_exact_algorithm();
+  std::string algorithm = mwis::default_exact_algorithm();
   const auto declare = [&](CLI::App& app) {
     outside_history(app.add_option("--certificate", options.certificate,
                                    "Write the proof of the bound to a file: prices of cliques"))
@@ -29,30 +30,30 @@ int main(int argc, char** argv) {
     CLI::Option* const with_exact =
         app.add_flag("--exact", exact, "Go on to prove optimality; that bound has no certificate");
     app.add_option("--algorithm", algorithm, "The algorithm of --exact")
-        ->check(CLI::IsMember(exact_algorithms()))
+        ->check(CLI::IsMember(mwis::exact_algorithms()))
         ->needs(with_exact);
   };
   const auto run = [&](RunContext& context) {
-    if (exact) options.exact = exact_algorithms().at(algorithm);
+    if (exact) options.exact = mwis::exact_algorithms().at(algorithm);
     options.passes = context.common.iterations;
-    Stage stage(context);
-    SearchLog log(context.common.log_file, "bound");
-    std::optional<Output> proof;
+    pipeline::Stage stage(context);
+    mwis::ground::SearchLog log(context.common.log_file, "bound");
+    std::optional<formats::Output> proof;
     if (!options.certificate.empty()) proof.emplace(options.certificate);
-    const StageData data =
+    const pipeline::StageData data =
         stage.read({.needs = {Role::graph, Role::solution}, .wants = {Role::candidates}, .cover = true});
     KnownCliques known{data.cover, std::nullopt};
-    if (data.candidates) known.of_tets = cliques_of_tets(*data.candidates);
+    if (data.candidates) known.of_tets = graph::cliques_of_tets(*data.candidates);
     const Deadline deadline = context.deadline();
-    CertifyResult result =
-        certify(*data.graph, *data.solution, std::move(known), options, deadline,
-                [&](const CliqueDual& now) { log.record(deadline.elapsed(), now.passes, now.bound); });
+    CertifyResult result = certify::certify(
+        *data.graph, *data.solution, std::move(known), options, deadline,
+        [&](const mwis::bounds::CliqueDual& now) { log.record(deadline.elapsed(), now.passes, now.bound); });
     const double seconds = deadline.elapsed();
     context.statistics.update(to_json(result));
     context.note(summary(result));
-    SolutionProduct product{.solution = std::move(result.solution)};
+    pipeline::SolutionProduct product{.solution = std::move(result.solution)};
     if (stage.writes_bundle())
-      product.gaps = gap_shares(*data.graph, result.cover, result.dual.prices, product.solution);
+      product.gaps = mwis::bounds::gap_shares(*data.graph, result.cover, result.dual.prices, product.solution);
     stage.write(
         product,
         {{"weight", result.weight}, {"bound", result.bound}, {"gap", result.gap}, {"complete", result.complete}});

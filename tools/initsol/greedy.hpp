@@ -8,7 +8,7 @@
 
 #include "common/graph/conflict_graph.hpp"
 
-namespace hexpipe {
+namespace hexpipe::initsol {
 
 enum class GreedyOrder {
   weight,
@@ -17,9 +17,9 @@ enum class GreedyOrder {
 };
 
 // The merit of every vertex; only GreedyOrder::quality needs `quality`.
-std::vector<double> merits(const ConflictGraph& graph, GreedyOrder order, std::span<const double> quality);
+std::vector<double> merits(const graph::ConflictGraph& graph, GreedyOrder order, std::span<const double> quality);
 
 // Takes the highest merit first, equal merits in the order of their vertices. The set is maximal.
-IndependentSet greedy(const ConflictGraph& graph, std::span<const double> merits);
+graph::IndependentSet greedy(const graph::ConflictGraph& graph, std::span<const double> merits);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::initsol

@@ -9,7 +9,7 @@
 #include "common/run/deadline.hpp"
 #include "tools/initsol/options.hpp"
 
-namespace hexpipe {
+namespace hexpipe::initsol {
 
 struct InitsolProgress {
   std::int64_t iteration;
@@ -17,7 +17,7 @@ struct InitsolProgress {
 };
 
 struct InitsolResult {
-  IndependentSet solution;
+  graph::IndependentSet solution;
   std::int64_t weight = 0;
   std::int64_t greedy_weight = 0;
   std::int64_t iterations = 0;  // moves or kicks of all starts
@@ -26,8 +26,8 @@ struct InitsolResult {
 // `quality` has an entry for each vertex when the order needs it. The first start is the greedy solution, the others
 // are greedy with merits changed at random. Annealing cools from the first iteration to the last, or over the seconds
 // where these end sooner. `report` is called for improvements.
-InitsolResult find_initial_solution(const ConflictGraph& graph, std::span<const double> quality,
+InitsolResult find_initial_solution(const graph::ConflictGraph& graph, std::span<const double> quality,
                                     const InitsolOptions& options, const Deadline& deadline,
                                     const std::function<void(const InitsolProgress&)>& report = {});
 
-}  // namespace hexpipe
+}  // namespace hexpipe::initsol

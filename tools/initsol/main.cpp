@@ -11,6 +11,7 @@
 #include "tools/initsol/initsol.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::initsol;
 
 namespace {
 
@@ -21,7 +22,7 @@ const std::map<std::string, Method> methods{
 const std::map<std::string, Escape> escapes{
     {"restart", Escape::restart}, {"rebuild", Escape::rebuild}, {"best", Escape::best}};
 
-std::vector<double> quality_for(const StageData& data) {
+std::vector<double> quality_for(const pipeline::StageData& data) {
   if (!data.candidates)
     throw DataError("--greedy quality needs candidates: found none in the bundle, give --candidates");
   if (data.candidates->size() != data.graph->weights.size())
@@ -38,7 +39,7 @@ struct CommandLine {
 };
 
 void declare_annealing(CLI::App& app, CommandLine& line) {
-  Cooling& cooling = line.options.cooling;
+  mwis::local_search::Cooling& cooling = line.options.cooling;
   line.of_annealing = {
       app.add_option("--hot", cooling.hot, "Annealing: the first temperature, in mean weights of a chosen vertex")
           ->check(number_between(1e-6, 1e6)),
@@ -93,10 +94,10 @@ InitsolOptions checked_options(const CommandLine& line, const CommonOptions& com
 }
 
 void run(RunContext& context, const InitsolOptions& options) {
-  Stage stage(context);
-  SearchLog log(context.common.log_file);
+  pipeline::Stage stage(context);
+  mwis::ground::SearchLog log(context.common.log_file);
   const bool by_quality = options.order == GreedyOrder::quality;
-  const StageData data =
+  const pipeline::StageData data =
       stage.read({.needs = {Role::graph}, .wants = by_quality ? std::vector{Role::candidates} : std::vector<Role>{}});
   const std::vector<double> quality = by_quality ? quality_for(data) : std::vector<double>{};
 
@@ -114,7 +115,8 @@ void run(RunContext& context, const InitsolOptions& options) {
                                                    {"iterations", result.iterations}});
   context.note(fmt::format("{} chosen, weight {} (greedy {}), {} moves", result.solution.size(), result.weight,
                            result.greedy_weight, result.iterations));
-  stage.write(SolutionProduct{result.solution}, {{"weight", result.weight}, {"iterations", result.iterations}});
+  stage.write(pipeline::SolutionProduct{result.solution},
+              {{"weight", result.weight}, {"iterations", result.iterations}});
   // After the solution, so that a full disk under the log does not cost it.
   log.finish(seconds, result.iterations, result.weight);
 }

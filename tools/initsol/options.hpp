@@ -8,7 +8,7 @@
 #include "tools/initsol/greedy.hpp"
 #include "tools/initsol/tabu_search.hpp"
 
-namespace hexpipe {
+namespace hexpipe::initsol {
 
 enum class Method {
   anneal,   // simulated annealing over local optima; the slower it cools, the better the result
@@ -19,11 +19,11 @@ enum class Method {
 struct InitsolOptions {
   GreedyOrder order = GreedyOrder::weight_degree;
   Method method = Method::anneal;
-  Cooling cooling{};
+  mwis::local_search::Cooling cooling{};
   TabuOptions tabu{};
   int starts = 1;
   std::uint64_t seed = 1;
   std::int64_t iterations = std::numeric_limits<std::int64_t>::max();  // moves or kicks of each start
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::initsol

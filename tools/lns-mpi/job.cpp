@@ -16,7 +16,7 @@
 #include "tools/lns-mpi/shared_dual.hpp"
 #include "tools/lns-mpi/source.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 namespace {
 
 // How much all ranks together sent, and how much the rank that sent most.
@@ -96,7 +96,7 @@ class Job {
   void choose_target() {
     if (!options_.target_gap) return;
     const std::optional<std::int64_t> bound = options_.known_bound ? options_.known_bound : source_->bound();
-    ranks_.together([&] { rounds_.search.target = target_weight(*options_.target_gap, bound); });
+    ranks_.together([&] { rounds_.search.target = mwis::ground::target_weight(*options_.target_gap, bound); });
   }
 
   // The keys that an earlier run chose.
@@ -157,7 +157,7 @@ class Job {
   void prove(const Piece& piece) {
     proof_ =
         prove_bound(ranks_, piece, options_.passes, rounds_.search.seed, Deadline(), !options_.certificate.empty());
-    const double gap = gap_to(proof_->bound, progress_.weight);
+    const double gap = mwis::ground::gap_to(proof_->bound, progress_.weight);
     context_.statistics["bound"] = proof_->bound;
     context_.statistics["gap"] = gap;
     context_.note(fmt::format("at most {} is possible: gap {:.4f} %", proof_->bound, 100 * gap));
@@ -204,9 +204,9 @@ class Job {
   Deadline deadline_;
   Progress shown_;
   std::unique_ptr<Source> source_;
-  std::optional<SearchLog> log_;
-  std::optional<FragmentsFile> fragments_;  // of the first rank
-  std::optional<Output> certificate_;       // of the first rank, too
+  std::optional<mwis::ground::SearchLog> log_;
+  std::optional<formats::FragmentsFile> fragments_;  // of the first rank
+  std::optional<formats::Output> certificate_;       // of the first rank, too
   std::optional<Checkpoint> checkpoint_;
   RoundsProgress progress_;
   std::vector<BlockMemory> memories_;
@@ -221,4 +221,4 @@ void run_job(Ranks& ranks, RunContext& context, const LnsMpiOptions& options) {
   Job(ranks, context, options).run();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

@@ -5,9 +5,9 @@
 #include "tools/lns-mpi/options.hpp"
 #include "tools/lns-mpi/ranks.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 
 // Throws ErrorOfAll on all ranks when one of them cannot go on.
 void run_job(Ranks& ranks, RunContext& context, const LnsMpiOptions& options);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

@@ -10,6 +10,7 @@
 #include "tools/lns-mpi/job.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::lns_mpi;
 
 namespace {
 
@@ -45,10 +46,10 @@ int main(int argc, char** argv) {
       .searches = true,
       .default_time_limit = 60};
   LnsMpiOptions options;
-  TargetOptions target;
+  mwis::TargetOptions target;
   CLI::Option* round = nullptr;
   const auto declare = [&](CLI::App& app) {
-    declare_lns_options(app, options.rounds.search, target);
+    mwis::declare_lns_options(app, options.rounds.search, target);
     app.add_option("--blocks", options.blocks,
                    "Blocks to cut the graph into, at least one for each rank; 0: one for each 50000 vertices")
         ->check(CLI::Range(0, 1000000).description(""));
@@ -85,8 +86,8 @@ int main(int argc, char** argv) {
         ->needs(checkpoint);
   };
   const auto run = [&](RunContext& context) {
-    check(target);
-    check(options, round->count() > 0, context);
+    mwis::check(target);
+    mwis::check(options, round->count() > 0, context);
     options.rounds.search.seed = context.common.seed;
     options.rounds.search.iterations = context.common.iterations.value_or(options.rounds.search.iterations);
     options.target_gap = target.gap;

@@ -8,7 +8,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 namespace {
 
 // Each part gives a bundle of its own name.
@@ -46,4 +46,4 @@ void check(const LnsMpiOptions& options, bool round_is_given, const RunContext& 
     throw UsageError("--certificate needs a bound, and --prove 0 proves none");
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

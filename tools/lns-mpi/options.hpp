@@ -9,7 +9,7 @@
 #include "common/run/run_context.hpp"
 #include "tools/lns-mpi/rounds.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 
 struct LnsMpiOptions {
   RoundsOptions rounds;
@@ -30,4 +30,4 @@ void check(const LnsMpiOptions& options, bool round_is_given, const RunContext& 
 
 bool writes_standard_output(const RunContext& context);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

@@ -5,10 +5,10 @@
 #include "tools/lns-mpi/piece.hpp"
 #include "tools/lns-mpi/ranks.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 
 // In each block alone, takes or leaves out the vertices that can be decided without search, so that some heaviest
 // solution agrees. The solution may lose a little until the search has caught up. All ranks call this together.
 void reduce_blocks(Ranks& ranks, Piece& piece, const Deadline& deadline);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

@@ -11,7 +11,7 @@
 #include "formats/pipeline/bundle.hpp"
 #include "tools/merge-parts/part_reader.hpp"
 
-namespace hexpipe {
+namespace hexpipe::merge_parts {
 
 // The counts of a single run.
 struct MergedCounts {
@@ -24,22 +24,22 @@ class MergedHistory {
   // version and options.
   void take(PartReaders& parts);
   // Writes the entries that come before the members of this role; without a role, writes all entries.
-  void write_before(std::optional<Role> role, const MergedCounts& counts, BundleWriter& out);
+  void write_before(std::optional<Role> role, const MergedCounts& counts, pipeline::BundleWriter& out);
   // The same for shares (--part i/k); returns which shares they are.
   std::vector<std::string> take_shares(PartReaders& parts);
   // Writes the only entry, under this name.
-  void write_last(const std::string& name, const MergedCounts& counts, BundleWriter& out);
+  void write_last(const std::string& name, const MergedCounts& counts, pipeline::BundleWriter& out);
 
  private:
   struct Entry {
     nlohmann::ordered_json json;
     Role made;  // the role of what the tool writes
   };
-  static void write(Entry& entry, const std::string& name, const MergedCounts& counts, BundleWriter& out);
+  static void write(Entry& entry, const std::string& name, const MergedCounts& counts, pipeline::BundleWriter& out);
 
   std::vector<Entry> entries_;  // not written yet
   int written_ = 0;
   Role latest_ = Role::mesh;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::merge_parts

@@ -5,6 +5,7 @@
 #include "tools/merge-parts/merge_parts.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::merge_parts;
 
 int main(int argc, char** argv) {
   const ToolInfo info{
@@ -27,7 +28,7 @@ int main(int argc, char** argv) {
     const bool to_stdout = options.output.empty() || options.output == "-";
     if (to_stdout && isatty(STDOUT_FILENO))
       throw UsageError("standard output is a terminal: pipe it to the next tool, or write a file with -o");
-    merge_parts(options);
+    merge_parts::merge_parts(options);
   };
   return tool_main(argc, argv, info, declare, run);
 }

@@ -14,26 +14,26 @@
 #include "formats/streams/output.hpp"
 #include "tools/merge-parts/merges.hpp"
 
-namespace hexpipe {
+namespace hexpipe::merge_parts {
 namespace {
 
 // Throws UsageError where the ending names neither a bundle nor one of `others`; a name may have no ending.
 void expect_bundle_or(std::vector<std::string_view> others, const std::string& path) {
-  const std::string_view ending = ending_of(path);
-  if (ending.empty() || is_bundle_format(ending)) return;
-  others.insert(others.end(), {bundle_format, compressed_bundle_format});
+  const std::string_view ending = pipeline::ending_of(path);
+  if (ending.empty() || pipeline::is_bundle_format(ending)) return;
+  others.insert(others.end(), {pipeline::bundle_format, pipeline::compressed_bundle_format});
   if (std::ranges::find(others, ending) == others.end())
     throw UsageError(fmt::format("expected an output as {}, found '{}'", fmt::join(others, ", "), path));
 }
 
 // Arrays may be larger than the memory: the bundles are read side by side, once or twice from front to back, a block at
 // a time. That takes four bytes for each point, tet and candidate of each part, and eight more for each candidate.
-void merge_side_by_side(const std::vector<std::string>& paths, BundleWriter& out) {
+void merge_side_by_side(const std::vector<std::string>& paths, pipeline::BundleWriter& out) {
   allow_many_open_files();
   PartReaders parts;
   parts.reserve(paths.size());
   for (const std::string& path : paths) parts.emplace_back(path);
-  if (parts.front().at_member() && is_part_title(parts.front().name()))
+  if (parts.front().at_member() && pipeline::is_part_title(parts.front().name()))
     merge_parts_of_mesh(parts, out);
   else
     merge_shares(parts, paths, out);
@@ -43,18 +43,19 @@ void merge_side_by_side(const std::vector<std::string>& paths, BundleWriter& out
 
 void merge_parts(const MergePartsOptions& options) {
   if (is_piece(options.paths.front())) {
-    std::vector<std::string_view> formats = mesh_format_names();
+    std::vector<std::string_view> formats = formats::mesh_format_names();
     formats.emplace_back("pvtu");
     expect_bundle_or(formats, options.output);
     merge_pieces(options.paths, options.output, options.compress);
     return;
   }
   expect_bundle_or({}, options.output);
-  Output output(options.output);
-  BundleWriter writer(output, options.compress || ending_of(options.output) == compressed_bundle_format);
+  formats::Output output(options.output);
+  pipeline::BundleWriter writer(
+      output, options.compress || pipeline::ending_of(options.output) == pipeline::compressed_bundle_format);
   merge_side_by_side(options.paths, writer);
   writer.close();
   output.commit();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::merge_parts

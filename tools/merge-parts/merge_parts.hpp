@@ -3,11 +3,11 @@
 
 #include "tools/merge-parts/options.hpp"
 
-namespace hexpipe {
+namespace hexpipe::merge_parts {
 
 // The first bundle tells what they are: pieces that assemble made, parts of a mesh, or shares (merges.hpp). Throws
 // UsageError when the output cannot be written in the form that its name asks for, and DataError when the bundles do
 // not belong together.
 void merge_parts(const MergePartsOptions& options);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::merge_parts

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::merge_parts {
 
 struct MergePartsOptions {
   std::vector<std::string> paths;  // bundles
@@ -12,4 +12,4 @@ struct MergePartsOptions {
   bool compress = false;           // write the bundle with zstd
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::merge_parts

@@ -9,7 +9,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/mesh-part/mesh_cutter.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mesh_part {
 
 struct SplitCounts {
   std::int64_t tets = 0, ghosts = 0;  // ghosts: of all parts together
@@ -26,4 +26,4 @@ SplitCounts split(TetMesh mesh, std::int32_t part_count, std::uint64_t seed, con
 std::string summary(const SplitCounts& counts);
 nlohmann::ordered_json to_json(const SplitCounts& counts);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mesh_part

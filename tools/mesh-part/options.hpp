@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace hexpipe {
+namespace hexpipe::mesh_part {
 
 // As many as files of four digits name.
 constexpr std::int32_t most_parts = 10000;
@@ -16,4 +16,4 @@ struct MeshPartOptions {
   bool compress = false;  // write the bundles with zstd
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mesh_part

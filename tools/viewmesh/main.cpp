@@ -11,17 +11,18 @@
 #include "tools/viewmesh/picture.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::viewmesh;
 
 namespace {
 
 void write_outputs(const Scene& scene, const ViewState& state, const ViewmeshOptions& options) {
   if (!options.picture.empty()) {
-    Output output(options.picture);
+    formats::Output output(options.picture);
     write_png(draw_picture(scene, state, options.size[0], options.size[1]), output);
     output.commit();
   }
   if (options.page.empty() && !options.picture.empty()) return;
-  Output output(options.page);
+  formats::Output output(options.page);
   write_page(scene, state, options.title, output);
   output.commit();
 }
@@ -65,9 +66,9 @@ int main(int argc, char** argv) {
   const auto run = [&](RunContext& context) {
     const ViewState state = parse_view_state(options.view);
     check(options);
-    Stage stage(context);
+    pipeline::Stage stage(context);
     // The number of weights: a solution chooses among as many.
-    StageData data =
+    pipeline::StageData data =
         stage.read({.wants = {Role::mesh, Role::candidates, Role::solution, Role::result}, .weights_only = true});
     const std::string source = !context.streams.operand || context.streams.operand == "-"
                                    ? context.streams.files.empty() ? "stdin" : "the files"
@@ -77,7 +78,7 @@ int main(int argc, char** argv) {
     if (!options.fragments.empty()) {
       if (content != Scene::Content::candidates && content != Scene::Content::solution)
         throw UsageError("--fragments: expected candidates or a solution to show them in (see --show)");
-      Input input = Input::open(options.fragments);
+      formats::Input input = formats::Input::open(options.fragments);
       read_fragments(scene, input);
     }
     for (std::size_t k = 0; k < scene_kinds.size(); ++k)

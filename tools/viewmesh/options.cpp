@@ -5,7 +5,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::viewmesh {
 
 void check(const ViewmeshOptions& options) {
   // -o picture.png is easily typed, and would write a page under the name of a picture.
@@ -19,4 +19,4 @@ void check(const ViewmeshOptions& options) {
     throw UsageError("standard output is a terminal: write the page to a file with -o, or a picture with --png");
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::viewmesh

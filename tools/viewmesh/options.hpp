@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::viewmesh {
 
 struct ViewmeshOptions {
   std::string page, picture;          // files; without both, the page goes to standard output
@@ -18,4 +18,4 @@ struct ViewmeshOptions {
 // Throws UsageError where a name's ending belongs to the other kind of output, or the page would go to a terminal.
 void check(const ViewmeshOptions& options);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::viewmesh

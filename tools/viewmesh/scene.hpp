@@ -14,7 +14,7 @@
 #include "formats/pipeline/stage_data.hpp"
 #include "formats/streams/input.hpp"
 
-namespace hexpipe {
+namespace hexpipe::viewmesh {
 
 // Kinds in the order in which a scene lists its cells.
 inline constexpr std::array scene_kinds{CellKind::hex, CellKind::prism, CellKind::pyramid, CellKind::tet};
@@ -54,12 +54,12 @@ const char* name_of(Scene::Content content);
 
 // The last one that is there of mesh, candidates, solution and result. Throws DataError naming `source` when none is
 // there, there are no cells, or candidates come without the mesh that has their points.
-Scene::Content last_content(const StageData& data, const std::string& source);
-Scene make_scene(StageData data, Scene::Content content, const std::string& source);
+Scene::Content last_content(const pipeline::StageData& data, const std::string& source);
+Scene make_scene(pipeline::StageData data, Scene::Content content, const std::string& source);
 
 // Gives the scene the fragments of a text, whose lines have the candidates of one fragment each, counted from 1. It
 // finds them by Scene::number among hexes, prisms and pyramids. Throws FormatError at a number that is not a
 // candidate's.
-void read_fragments(Scene& scene, Input& input);
+void read_fragments(Scene& scene, formats::Input& input);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::viewmesh
