@@ -273,8 +273,8 @@ std::optional<formats::Input> Stage::State::open_inputs(std::map<Role, formats::
 StageData Stage::read(const StageRequest& request) {
   State& state = *state_;
   state.request = request;
-  std::map<Role, Input> files;
-  std::optional<Input> input = state.open_inputs(files);
+  std::map<Role, formats::Input> files;
+  std::optional<formats::Input> input = state.open_inputs(files);
   begin();
   StageData data;
   if (input) {

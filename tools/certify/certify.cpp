@@ -13,7 +13,7 @@ namespace hexpipe::certify {
 namespace {
 
 // Passes of the dual; a third of them where a proof follows, whose bound is better.
-constexpr std::int64_t usual_passes = 300, passes_before_proof = 100;
+constexpr std::int64_t usual_passes = mwis::bounds::CliqueDualOptions{}.passes, passes_before_proof = 100;
 
 // Cliques at tets are fewer than those of a cover, and a pass over them takes less time accordingly.
 std::int64_t passes_for(const CertifyOptions& options, const KnownCliques& known) {
