@@ -81,7 +81,7 @@ class GraphParts : public Source {
   void write(Ranks& ranks, const Piece& piece, const nlohmann::ordered_json& details) override {
     ranks.together([&] {
       for (Part& part : own_) {
-        SolutionProduct product;
+        pipeline::SolutionProduct product;
         for (std::size_t v = 0; v < part.keys.size(); ++v) {
           const auto found = std::ranges::lower_bound(piece.keys, part.keys[v]);
           const bool is_held = found != piece.keys.end() && *found == part.keys[v];

@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
   };
   const auto run = [&](RunContext& context) {
     mwis::check(target);
-    mwis::check(options, round->count() > 0, context);
+    check(options, round->count() > 0, context);
     options.rounds.search.seed = context.common.seed;
     options.rounds.search.iterations = context.common.iterations.value_or(options.rounds.search.iterations);
     options.target_gap = target.gap;

@@ -112,7 +112,7 @@ class WholeGraph : public Source {
   }
 
   void write(Ranks& ranks, const Piece& piece, const nlohmann::ordered_json& details) override {
-    const SolutionProduct product{gather_solution(ranks, piece)};
+    const pipeline::SolutionProduct product{gather_solution(ranks, piece)};
     ranks.together([&] {
       if (ranks.is_first()) stage_->write(product, details);
     });
