@@ -228,7 +228,8 @@ TEST(Report, WarnsOfWeightsThatVanish) {
   Candidates c;
   add(c, hex, first_hex, {0});
   c.volume = {1e-9};
-  const pipeline::StageData data{.candidates = c};
+  pipeline::StageData data;
+  data.candidates = c;
   BuildgraphOptions options{{WeightKind::volume, 1e6}};
   EXPECT_THAT(warnings_about(summarize(buildgraph::buildgraph(data, options, "test"))),
               ElementsAre(HasSubstr("1 of 1 weights")));

@@ -157,7 +157,7 @@ int main(int argc, char** argv) {
     options.after_round = [&](std::size_t round, double share) {
       if (progress.due()) progress.show(fmt::format("round {}, about {:.1f} % in hexes", round + 1, 100 * share));
     };
-    TetmeshResult result = tetmesh(std::move(surface), options);
+    TetmeshResult result = tetmesh::tetmesh(std::move(surface), options);
     if (const auto& repair = result.statistics.repair; repair && repair->anything())
       context.warn(fmt::format("{}: repaired: {}", input.name(), repair->sentence()));
     for (const std::string& warning : result.warnings) context.warn(warning);
