@@ -78,8 +78,8 @@ def print_tables(rows):
     for r in rows:
         mesh, tetmesh = r["mesh"], r["tetmesh stats"]
         print(f"| {r['model']} | {r['size']} | {tetmesh['points']} | {tetmesh['tets']} | {r['findhex stats']['candidates']} | "
-              f"{r['buildgraph stats']['edges']} | {mesh['hex']} | {mesh['hexvol%']} | {mesh['hex#%']} | {mesh['SJmin']} / "
-              f"{mesh['SJmean']} | {mesh['hexbad'] + mesh['inv']} | {mesh['nonconf_quads']} |")
+              f"{r['buildgraph stats']['edges']} | {mesh['hexes']} | {mesh['hex_volume_percent']} | {mesh['hex_number_percent']} | {mesh['least_hex_jacobian']} / "
+              f"{mesh['mean_hex_jacobian']} | {mesh['invalid_hexes'] + mesh['inverted_cells']} | {mesh['open_quads']} |")
     print()
     print("| model | " + " | ".join(f"{stage} s / MiB" for stage in STAGES) + " |")
     print("|---" * (len(STAGES) + 1) + "|")
