@@ -551,7 +551,7 @@ regions() {
 @test "--layers gives a thin wall as many elements across" {
   $SURFACES box 6 4.9 1 >plate.obj
   # Levels of points, in steps of a tenth. TetGen puts points of its own into some walls of one layer
-  # (tests/bench/points/README.md); they come last.
+  # (docs/log/points.md); they come last.
   levels() {
     tetmesh -q plate.obj --size 1.5 "$@" -o out.tar --stats stats.json
     array out.tar mesh/points.npy "len(np.unique(a[:len(a) - $(stats added_points), 2].round(1))) - 1"
