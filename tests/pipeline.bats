@@ -55,12 +55,12 @@ assert share > 0.94, share'
 }
 
 @test "Makefile.examples drives it through files, several parts at a time" {
-  make -s -j2 -f "$HEXPIPE_SOURCE/Makefile.examples" BIN="$HEXPIPE_BIN" PARTS="$DATA" SIZE=8 TIME=1 bracket.vtu bracket.msh
+  make -s -j2 -f "$HEXPIPE_SOURCE/Makefile.examples" BIN="$HEXPIPE_BIN" MODELS="$DATA" SIZE=8 TIME=1 bracket.vtu bracket.msh
   mesh_is_valid bracket.vtu
   mesh_is_valid bracket.msh
   for file in bracket.mesh bracket.cand bracket.graph bracket.start.sol bracket.sol bracket.lns.jsonl; do assert [ -s $file ]; done
   # Nothing is made twice.
-  run make -s -f "$HEXPIPE_SOURCE/Makefile.examples" BIN="$HEXPIPE_BIN" PARTS="$DATA" bracket.vtu
+  run make -s -f "$HEXPIPE_SOURCE/Makefile.examples" BIN="$HEXPIPE_BIN" MODELS="$DATA" bracket.vtu
   assert_output ""
 }
 
