@@ -1,4 +1,4 @@
-# What every tool of the pipeline does alike: help, exit codes, messages, streams, files, limits.
+# What all tools of the pipeline have in common: help, exit codes, messages, streams, files, limits.
 
 load helpers
 
@@ -112,7 +112,7 @@ product_ending() {
   ln -s x link
   touch x
   assert_fails_with 2 "for --log and --fragments, found link for both" lns "$STAGES/lns.in" -o out.tar --log x --fragments link
-  # What goes nowhere may be much.
+  # Several outputs may go to /dev/null.
   lns -q --iterations 5 "$STAGES/lns.in" -o /dev/null --log /dev/null --stats /dev/null
 }
 

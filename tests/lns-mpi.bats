@@ -311,7 +311,7 @@ parts_of() {
   refuse 3 "part2.tar: expected part 1 of 3, found part 2 of 3" part0.tar part2.tar part1.tar
   refuse 4 "expected at least a part for each of 4 ranks, found 3" part0.tar part1.tar part2.tar
   refuse 2 "part.candidates0.tar: expected graph" part.candidates0.tar part1.tar part2.tar
-  # Of the same mesh, but with other candidates; and so that one rank alone is given it.
+  # Parts of the same mesh, but with other candidates; only one rank gets them.
   parts_of fewer lattice.mesh 0.7
   refuse 2 "parts 0 and 1 disagree about the conflicts between them" part0.tar fewer1.tar part2.tar
   cat >wrapper <<'SHELL'

@@ -448,7 +448,7 @@ PYTHON
   assert_fails_with 1 "moved.tar: expected point [0-9]+ where the other pieces have it, found it elsewhere" $merged moved.tar -o out.vtu
   assert_fails_with 1 "moved.tar: expected point" $merged moved.tar -o new.pvtu
   assert [ ! -e new ] && [ ! -e new.pvtu ]
-  # What is there stays, all of it.
+  # The earlier files stay, all of them.
   merge-parts k/pieces/*.tar -o whole.pvtu
   cp -r whole before
   $PYTHON "$DATA/change_array.py" k/pieces/part-0000.tar bent.tar result/points.npy 'a * 1.5'

@@ -175,7 +175,7 @@ regions() {
   for file in cube.stl solid.stl cube.ascii.stl cube.obj cube.off cube.ascii.ply cube.binary_little_endian.ply cube.binary_big_endian.ply; do
     local size length
     size=$(stat -c %s "$FILES/$file")
-    # What a text may lose: its last line end; ASCII STL also the name behind endsolid.
+    # A text may lose its last line end, ASCII STL also the name after endsolid.
     case $file in
       *.ascii.stl) size=$((size - 4)) ;;
       *.obj | *.off | *.ascii.ply) size=$((size - 1)) ;;

@@ -78,8 +78,8 @@ def require(condition, message):
 # ---- what became of a part, from the files alone
 
 MESHSTATS = runpy.run_path(str(CHECKERS / "meshstats.py"))
-# What the tools promise: smoothing moves the boundary by no more than 0.03 of the part's thickness, or of an edge where it
-# is thicker, and remeshing by no more than 0.15 of it, or of the size. Moved by so much on both sides a part loses twice
+# The promises of the tools: smoothing moves the boundary by no more than 0.03 of the wall thickness, or of an edge where the wall
+# is thicker, and remeshing by no more than 0.15 of it, or of the size. Moved this far on both sides, a model loses twice
 # these shares of its volume.
 SMOOTHING, REMESHING = 0.03, 0.15
 
