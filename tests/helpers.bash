@@ -71,14 +71,13 @@ assert_conforming() {
   rm conforming.json
 }
 
-# await COMMAND...: tries until it succeeds. Under load, what usually takes a millisecond may take seconds.
+# await COMMAND...: tries until it succeeds. Under load and sanitizers, what usually takes a moment may take minutes.
 await() {
-  local try
-  for try in $(seq 1000); do
-    if "$@" >/dev/null 2>&1; then return; fi
+  local end=$((SECONDS + 300))
+  until "$@" >/dev/null 2>&1; do
+    if ((SECONDS > end)); then fail "waited for this in vain: $*"; fi
     sleep 0.02
   done
-  fail "waited for this in vain: $*"
 }
 
 # takes_signals PID: the tool has begun, and SIGINT reaches its own handler. To be awaited.

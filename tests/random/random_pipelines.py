@@ -441,7 +441,7 @@ def judge_surface(directory, surface, seed):
     points, faces = surface
     write_surface(directory / "part.off", surface)
     try:
-        require("OK" in check(directory, "surfcheck.py", "part.off"), "the surface itself is bad")
+        require("is_solid=True" in check(directory, "surfcheck.py", "part.off"), "the surface itself is bad")
     except Failure as failure:
         raise BadCase(str(failure)) from None
     volume = sum(float(np.linalg.det(np.array([points[v] for v in face], dtype=float))) for face in faces) / 6
