@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""assemble.py [--models DIR] [--size coarse|middle|fine] [--seeds N [--first SEED]] [--million] [MODEL...] - is what assemble makes valid, how good, and how fast.
+"""assemble.py [--models DIR] [--size coarse|middle|fine] [--seeds N [--first SEED]] [--million] [MODEL...] - are assemble's meshes valid, how good are they, and how fast.
 
-Three parts, each checked by tests/checkers/meshstats.py --exact:
+Three sections, each checked by tests/checkers/meshstats.py --exact:
   models    the surfaces of ../shared/models (or --models DIR, or the files named): share of the volume in hexes before and
             after conformity, cells given back by reason, least scaled Jacobians, seconds. Skipped where they are not.
   random    N meshes of uniform points, seeds from SEED on: nothing may ever break an invariant.
@@ -25,7 +25,7 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "checkers"))
 import meshstats  # noqa: E402
 import surfcheck  # noqa: E402
 
-# Edge lengths as in the models' README: for the MAMBO models, else parts of the longest side of the bounding box.
+# Edge lengths as in the models' README: for the MAMBO models, otherwise shares of the longest side of the bounding box.
 SIZES = {"mambo-s1.stl": (5.2, 3.3, 2.3), "mambo-s22.stl": (5.2, 3.3, 2.3), "mambo-s27.stl": (3.2, 2.05, 1.42),
          "mambo-m1.stl": (5.1, 3.2, 2.2), "mambo-m6.stl": (3.2, 2.1, 1.45)}
 PARTS = (16, 28, 40)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""pipeline.py [--size coarse|middle|fine] [--time-limit S] [--threads N] [MODEL...] - what every stage does on real parts.
+"""pipeline.py [--size coarse|middle|fine] [--time-limit S] [--threads N] [MODEL...] - what every stage does on real models.
 
 Runs the whole pipeline on models of ../shared/models (or on the files named), one stage after another through bundles, and
 prints two tables: the sizes and the result, and wall seconds and peak memory of every stage. The tools are taken from

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""run.py [--level coarse|middle|fine] [--kind KIND...] [--tries N] [--seconds S] [--time-limit S] [MODEL...] - how much of a part its points
+"""run.py [--level coarse|middle|fine] [--kind KIND...] [--tries N] [--seconds S] [--time-limit S] [MODEL...] - how much of a model its points
 let become hexes.
 
 Runs the pipeline on models of ../shared/models (or on the files named) once for every kind of points, and prints, worst first
