@@ -117,3 +117,15 @@ namespace_of() {
     grep -qxF "$expected" "$HEXPIPE_SOURCE/$file" || fail "$file: expected '$expected'"
   done
 }
+
+@test "every room has a README, which names files that are there" {
+  local room page name
+  for room in $(cd "$HEXPIPE_SOURCE" && ls -d common/*/ common/mwis/*/ formats/*/ tools/{tetmesh,assemble}{,/*}/); do
+    page="$HEXPIPE_SOURCE/${room%/}/README.md"
+    assert [ -e "$page" ]
+    grep -q '^| read in this order ' "$page" || fail "$page does not say in which order to read its files"
+    for name in $(sed -n '/^| read in this order /,/^$/p' "$page" | cut -d'|' -f2 | grep -oE '`[^`]+`' | tr -d '`'); do
+      [[ -e "$(dirname "$page")/$name" ]] || fail "$page names $name, which is not there"
+    done
+  done
+}

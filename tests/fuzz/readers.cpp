@@ -37,7 +37,7 @@ Input memory(std::string_view bytes) {
   return Input::from_memory(std::string(bytes), "fuzzed");
 }
 
-// What `write` makes, as a file that is open again.
+// The output of `write`, as a file that is open again.
 template <class Write>
 Input written(const char* name, Write&& write) {
   const std::string path = scratch().path(name);
