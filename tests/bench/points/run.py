@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""run.py [--level coarse|middle|fine] [--kind KIND...] [--tries N] [--seconds S] [--time-limit S] [MODEL...] - how much of a part its points
+"""run.py [--level coarse|middle|fine] [--kind KIND...] [--tries N] [--seconds S] [--time-limit S] [MODEL...] - how much of a model its points
 let become hexes.
 
 Runs the pipeline on models of ../shared/models (or on the files named) once for every kind of points, and prints, worst first
@@ -55,8 +55,8 @@ def share(folder, solution):
     check = subprocess.run([os.path.join(ROOT, "tests", "checkers", "meshstats.py"), "--json", mesh], check=True,
                            capture_output=True, text=True)
     check = json.loads(check.stdout)
-    if check["inv"] or check["nonconf_quads"]:
-        sys.exit(f"{solution}: {check['inv']} inverted cells, {check['nonconf_quads']} quads against triangles")
+    if check["inverted_cells"] or check["open_quads"]:
+        sys.exit(f"{solution}: {check['inverted_cells']} inverted cells, {check['open_quads']} quads against triangles")
     hexes = stats["cells"]["hex"]
     return 100 * hexes["share_of_volume"], hexes["scaled_jacobian"]["least"]
 
