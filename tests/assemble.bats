@@ -126,8 +126,8 @@ PYTHON
   local files="--mesh regions.mesh --candidates regions.cand --solution regions.sol"
   assemble $files --merge none --stats none.json -o none.vtu
   assemble $files -v --stats vertices.json -o vertices.vtu 2>summary
-  expect vertices.vtu 's["conforming"] and s["nonconf_quads"] == 0 and s["hexbad"] == s["inv"] == s["orphan_nodes"] == 0'
-  expect vertices.vtu 'abs(s["volgap"]) < 1e-12 and abs(s["vol"] - 216) < 1e-9'
+  expect vertices.vtu 's["is_conforming"] and s["open_quads"] == 0 and s["invalid_hexes"] == s["inverted_cells"] == s["unused_points"] == 0'
+  expect vertices.vtu 'abs(s["volume_gap"]) < 1e-12 and abs(s["volume"] - 216) < 1e-9'
   $PYTHON - <<PYTHON
 import json
 none, merged = (json.load(open(f)) for f in ("none.json", "vertices.json"))

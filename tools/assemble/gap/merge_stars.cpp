@@ -19,15 +19,15 @@ namespace {
 
 constexpr int steps_to_place = 8;
 // Rooms with more facets are not merged: hardly any has a place that sees all of them.
-constexpr std::size_t most_facets = 60;
+constexpr std::size_t most_facets_of_two = 60;
 
-struct Merge {
+struct StarMerge {
   double gain = 0;
   Vertex from = 0, into = 0;
   std::array<std::uint32_t, 2> ages{};  // of both when this was found
   Vec3 at{};
 
-  bool operator<(const Merge& other) const {
+  bool operator<(const StarMerge& other) const {
     if (gain != other.gain) return gain < other.gain;
     if (from != other.from) return from > other.from;
     return into > other.into;
@@ -43,7 +43,7 @@ class StarMerger {
       offer(v, [&](Vertex other) { return other > v; });
     std::int64_t merged = 0;
     while (!offers_.empty()) {
-      const Merge best = offers_.top();
+      const StarMerge best = offers_.top();
       offers_.pop();
       if (best.ages == std::array{gap_.age_of(best.from), gap_.age_of(best.into)}) merged += carry_out(best) ? 1 : 0;
     }
@@ -56,10 +56,10 @@ class StarMerger {
   template <class Wanted>
   void offer(Vertex v, Wanted&& is_wanted);
   void offer_pair(Vertex from, Vertex into);
-  bool carry_out(const Merge& merge);
+  bool carry_out(const StarMerge& merge);
 
   GapMesh& gap_;
-  std::priority_queue<Merge> offers_;
+  std::priority_queue<StarMerge> offers_;
   std::vector<std::int32_t> cells_;
 };
 
@@ -103,7 +103,7 @@ void StarMerger::offer(Vertex v, Wanted&& is_wanted) {
 
 void StarMerger::offer_pair(Vertex from, Vertex into) {
   collect_cells(from, into);
-  const auto room = room_of(gap_, cells_, most_facets);
+  const auto room = room_of(gap_, cells_, most_facets_of_two);
   if (!room) return;
   const Worth now = worth_of(gap_, cells_);
   if (static_cast<double>(room->skin.size()) > now.cost - least_gain) return;
@@ -125,9 +125,9 @@ void StarMerger::offer_pair(Vertex from, Vertex into) {
     offers_.push({now.cost - after, from, into, {gap_.age_of(from), gap_.age_of(into)}, place.at});
 }
 
-bool StarMerger::carry_out(const Merge& merge) {
+bool StarMerger::carry_out(const StarMerge& merge) {
   collect_cells(merge.from, merge.into);
-  const auto room = room_of(gap_, cells_, most_facets);
+  const auto room = room_of(gap_, cells_, most_facets_of_two);
   if (!room) return false;
   const Vec3 before = gap_.points()[merge.into];
   gap_.move(merge.into, merge.at);
