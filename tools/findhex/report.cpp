@@ -15,6 +15,7 @@ constexpr std::pair<TetVerdict, const char*> rejections[] = {
     {TetVerdict::half_on_surface, "rule 7, a quad half on a surface"},
     {TetVerdict::inner_vertex, "an inner vertex"},
     {TetVerdict::flat_corner, "rule 9, a flat corner left at the surface"},
+    {TetVerdict::sharp_edge, "rule 10, a quad over a sharp edge of the surface"},
 };
 
 std::int64_t count_of(const CellCounts& counts, TetVerdict verdict) {

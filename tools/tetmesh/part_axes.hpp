@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "tools/tetmesh/feature_angle.hpp"
+#include "common/mesh/feature_angle.hpp"
 #include "tools/tetmesh/shells.hpp"
 
 namespace hexpipe {

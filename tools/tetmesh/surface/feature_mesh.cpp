@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tools/tetmesh/feature_angle.hpp"
+#include "common/mesh/feature_angle.hpp"
 
 namespace hexpipe {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "tools/tetmesh/feature_angle.hpp"
+#include "common/mesh/feature_angle.hpp"
 #include "tools/tetmesh/shells.hpp"
 #include "tools/tetmesh/size_field.hpp"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/feature_angle.hpp"
+#include "common/mesh/feature_angle.hpp"
 #include "tools/tetmesh/half_edges.hpp"
 
 namespace hexpipe {

@@ -13,7 +13,7 @@
 
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/tet_mesh.hpp"
-#include "tools/tetmesh/feature_angle.hpp"
+#include "common/mesh/feature_angle.hpp"
 #include "tools/tetmesh/shells.hpp"
 #include "tools/tetmesh/size_field.hpp"
 
