@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/output_group.hpp"
+#include "formats/streams/output_group.hpp"
 #include "tools/mesh-part/mesh_cutter.hpp"
 
 namespace hexpipe {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "common/mesh/feature_angle.hpp"
-#include "tools/tetmesh/shells.hpp"
-#include "tools/tetmesh/size_field.hpp"
+#include "tools/tetmesh/sizing/size_field.hpp"
+#include "tools/tetmesh/solid/shells.hpp"
 
 namespace hexpipe {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/run/parallel.hpp"
 #include "common/mesh/feature_angle.hpp"
-#include "tools/tetmesh/half_edges.hpp"
+#include "common/run/parallel.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
 
 namespace hexpipe {
 namespace {

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "common/mesh/adjacency.hpp"
-#include "common/mesh/tet_mesh.hpp"
 #include "common/mesh/feature_angle.hpp"
-#include "tools/tetmesh/shells.hpp"
-#include "tools/tetmesh/size_field.hpp"
+#include "common/mesh/tet_mesh.hpp"
+#include "tools/tetmesh/sizing/size_field.hpp"
+#include "tools/tetmesh/solid/shells.hpp"
 
 namespace hexpipe {
 
