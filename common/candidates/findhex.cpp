@@ -11,7 +11,7 @@
 #include "common/mesh/validity.hpp"
 #include "common/run/parallel.hpp"
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 namespace {
 
 constexpr std::int64_t vertices_a_block = 64;
@@ -27,8 +27,8 @@ void append_tets(std::span<const std::int32_t> added, std::vector<std::int32_t>&
   offsets.push_back(static_cast<std::int64_t>(tets.size()));
 }
 
-// Rules 4 to 7, 9 and 10 for cells that the search has completed; keeps those that hold them all. A few cells are measured
-// side by side.
+// Rules 4 to 7, 9 and 10 for cells that the search has completed; keeps those that hold them all. A few cells are
+// measured side by side.
 template <class Topology>
 class CandidateCollector {
  public:
@@ -193,4 +193,4 @@ FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* s
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

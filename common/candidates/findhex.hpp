@@ -11,7 +11,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "common/run/part.hpp"
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 
 enum class CandidateQuality { corner, element };
 
@@ -22,7 +22,7 @@ struct FindhexOptions {
   bool drop_folded_quads = true;  // rule 8
   CellTetRules tet_rules{};
   double feature_angle = default_feature_angle;  // rule 10, in degrees
-  Part part{};  // only cells whose corner 0 is in this part of the vertices
+  Part part{};                                   // only cells whose corner 0 is in this part of the vertices
 };
 
 // How many cells of a kind got how far.
@@ -57,4 +57,4 @@ struct SearchScope {
 // Throws DataError naming `source` when a facet of the mesh belongs to more than two tets.
 FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* source, const SearchScope& scope = {});
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

@@ -13,7 +13,7 @@
 #include "common/mesh/orientation.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 
 // What the mesh needed before it could be searched.
 struct MeshFindings {
@@ -81,4 +81,4 @@ class MeshTables {
   std::vector<Wall> walls_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

@@ -41,7 +41,7 @@ TetMesh to_tet_mesh(MixedMesh mesh, const char* source) {
                                                         {"quads", mesh.quads.size()}};
   for (const auto& [name, count] : others)
     if (count > 0) throw DataError::at(source, "expected tets and triangles only, found {} {}", count, name);
-  return {std::move(mesh.points), std::move(mesh.tets.cells), std::move(mesh.tets.tags),
+  return {std::move(mesh.points),          std::move(mesh.tets.cells),     std::move(mesh.tets.tags),
           std::move(mesh.triangles.cells), std::move(mesh.triangles.tags), std::move(mesh.ridges)};
 }
 

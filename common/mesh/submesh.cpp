@@ -34,7 +34,7 @@ std::vector<std::int32_t> where_true(const std::vector<bool>& marked) {
 
 // Those with both ends among the points, `places` being the numbers there of these points.
 std::vector<Ridge> ridges_among(const std::vector<Ridge>& ridges, std::span<const std::int32_t> points,
-                               std::span<const std::int32_t> places) {
+                                std::span<const std::int32_t> places) {
   std::vector<Ridge> selected;
   const auto is_among = [&](Vertex v) {
     const auto place = static_cast<std::size_t>(places[v]);

@@ -16,6 +16,8 @@
 #include "tools/findhex/report.hpp"
 
 namespace hexpipe {
+using namespace findhex;
+using namespace candidates;
 namespace {
 
 using testing::cube_points;
@@ -31,7 +33,7 @@ using testing::six_tets;
 using ::testing::ThrowsMessage;
 
 Candidates find(const TetMesh& mesh, const FindhexOptions& options = {}) {
-  Candidates found = findhex(mesh, options, "test").candidates;
+  Candidates found = candidates::findhex(mesh, options, "test").candidates;
   validate(found, "candidates");
   validate_against(found, mesh, "candidates");
   return found;
@@ -88,6 +90,7 @@ TEST(Findhex, CountsOfLatticesArePublishedOnes) {
     options.min_quality = std::stod(row[4]);
     options.quality = CandidateQuality::corner;
     options.drop_folded_quads = false;
+    options.tet_rules.sharp_edges = true;
     options.tet_rules.max_boundary_tets = 5;
     options.tet_rules.flat_corners = true;
     EXPECT_EQ(find(kuhn_lattice(std::stoi(row[1])), options).size(), std::stoul(row[5])) << line;
@@ -199,10 +202,31 @@ TEST(Findhex, FoldedQuadsAreDroppedOrKept) {
   auto points = cube_points();
   points[5].z = points[7].z = 2;
   const TetMesh mesh = mesh_of(points, six_tets());
-  EXPECT_EQ(find(mesh).size(), 0u);
-  EXPECT_EQ(find(mesh, with([](FindhexOptions& o) { o.drop_folded_quads = false; })).size(), 1u);
+  const auto on_surfaces = [](FindhexOptions& o) { o.tet_rules.sharp_edges = true; };
+  EXPECT_EQ(find(mesh, with(on_surfaces)).size(), 0u);
+  EXPECT_EQ(find(mesh, with([](FindhexOptions& o) {
+                   o.tet_rules.sharp_edges = true;
+                   o.drop_folded_quads = false;
+                 }))
+                .size(),
+            1u);
   points[5].z = points[7].z = 1.5;
+  EXPECT_EQ(find(mesh_of(points, six_tets()), with(on_surfaces)).size(), 1u);
+}
+
+// Rule 10 for a top that turns by 2 atan(sqrt(2) h): 38.9 degrees at h = 0.25, 43.2 at 0.28.
+TEST(Findhex, NoQuadLiesOverASharpEdge) {
+  auto points = cube_points();
+  points[5].z = points[7].z = 1.25;
   EXPECT_EQ(find(mesh_of(points, six_tets())).size(), 1u);
+  points[5].z = points[7].z = 1.28;
+  TetMesh mesh = mesh_of(points, six_tets());
+  EXPECT_EQ(find(mesh).size(), 0u);
+  EXPECT_EQ(find(mesh, with([](FindhexOptions& o) { o.feature_angle = 45; })).size(), 1u);
+  mesh.ridges = {{4, 6}};
+  EXPECT_EQ(find(mesh, with([](FindhexOptions& o) { o.feature_angle = 180; })).size(), 0u);
+  mesh.ridges = {{5, 7}};
+  EXPECT_EQ(find(mesh, with([](FindhexOptions& o) { o.feature_angle = 180; })).size(), 1u);
 }
 
 // The quad on top is folded at 46, but a tet on it has triangles at 57 as well, which are not.
@@ -211,7 +235,10 @@ TEST(Findhex, AQuadIsNotFoldedWhereOneOfItsDiagonalsIsNot) {
   points[5] = {0.7, 0.3, 1.5};
   points[7] = {0.3, 0.7, 1.5};
   auto tets = six_tets();
-  const FindhexOptions low = with([](FindhexOptions& o) { o.min_quality = 0.1; });
+  const FindhexOptions low = with([](FindhexOptions& o) {
+    o.min_quality = 0.1;
+    o.tet_rules.sharp_edges = true;
+  });
   EXPECT_EQ(find(mesh_of(points, tets), low).size(), 0u);
   tets.push_back({4, 5, 6, 7});
   const Candidates found = find(mesh_of(points, tets), low);
@@ -230,7 +257,7 @@ TEST(Findhex, OnlyValidHexesAreCandidates) {
   for (int n = 0; n < 10; ++n) {
     TetMesh moved = mesh;
     for (Vec3& p : moved.points) p += {random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2)};
-    invalid += findhex(moved, options, "test").counts[0].counts.invalid;
+    invalid += candidates::findhex(moved, options, "test").counts[0].counts.invalid;
   }
   EXPECT_GT(invalid, 0);
 }
@@ -240,7 +267,7 @@ TEST(Findhex, InvertedAndFlatTetsAreCountedAndNotUsed) {
   const std::size_t all = find(mesh).size();
   // An inner vertex pushed through its neighbourhood inverts some tets; two at the same place flatten some.
   mesh.points[21] = {2.2, 1, 0.7};
-  FindhexResult result = findhex(mesh, {}, "test");
+  FindhexResult result = candidates::findhex(mesh, {}, "test");
   EXPECT_GT(result.findings.orientation.inverted, 0);
   EXPECT_LT(result.candidates.size(), all);
   EXPECT_GT(result.candidates.size(), 0u);
@@ -251,7 +278,7 @@ TEST(Findhex, InvertedAndFlatTetsAreCountedAndNotUsed) {
 
   mesh = kuhn_lattice(3);
   mesh.points[21] = mesh.points[42] = {1.5, 1.5, 1.5};
-  result = findhex(mesh, {}, "test");
+  result = candidates::findhex(mesh, {}, "test");
   EXPECT_GT(result.findings.orientation.flat, 0);
   EXPECT_THAT(warnings_about(result.findings), ElementsAre(HasSubstr("flat")));
 }
@@ -260,14 +287,14 @@ TEST(Findhex, ListedInsideOutIsNotInverted) {
   const TetMesh mesh = kuhn_lattice(2);
   TetMesh turned = mesh;
   for (Tet& tet : turned.tets) std::swap(tet[0], tet[1]);
-  FindhexResult result = findhex(turned, {}, "test");
+  FindhexResult result = candidates::findhex(turned, {}, "test");
   EXPECT_EQ(result.candidates, find(mesh));
   EXPECT_EQ(result.findings.orientation.turned, 48);
   EXPECT_THAT(warnings_about(result.findings), IsEmpty());
 
   turned = mesh;
   std::swap(turned.tets[5][0], turned.tets[5][1]);
-  result = findhex(turned, {}, "test");
+  result = candidates::findhex(turned, {}, "test");
   EXPECT_EQ(result.candidates, find(mesh));
   EXPECT_EQ(result.findings.orientation.inverted, 0);
   EXPECT_THAT(warnings_about(result.findings), ElementsAre(HasSubstr("1 of 48 tets")));
@@ -339,7 +366,7 @@ TEST(Findhex, ComesByCornerZeroTheSameForAnyThreads) {
   });
   auto with_threads = [&](int threads) {
     const ThreadLimit limit(threads);
-    return findhex(mesh, options, "test");
+    return candidates::findhex(mesh, options, "test");
   };
   const FindhexResult one = with_threads(1), two = with_threads(2);
   EXPECT_EQ(one.candidates, two.candidates);
@@ -351,7 +378,7 @@ TEST(Findhex, ComesByCornerZeroTheSameForAnyThreads) {
 }
 
 TEST(Findhex, CountsAddUp) {
-  const FindhexResult result = findhex(kuhn_lattice(4), {}, "test");
+  const FindhexResult result = candidates::findhex(kuhn_lattice(4), {}, "test");
   const CellCounts& counts = result.counts[0].counts;
   std::int64_t judged = counts.invalid;
   for (const std::int64_t n : counts.by_verdict) judged += n;

@@ -103,10 +103,10 @@ TEST(Medit, RidgesAreEdgesByTheirVertices) {
   const MixedMesh mesh = parsed(text);
   ASSERT_TRUE(mesh.ridges);
   EXPECT_EQ(*mesh.ridges, (std::vector<Ridge>{{0, 3}, {1, 2}}));
-  EXPECT_EQ(round_trip(mesh), mesh);
+  EXPECT_TRUE(parsed(written(mesh, "mesh")) == mesh);
   EXPECT_FALSE(parsed(changed("End", "Edges 1 4 1 0 End")).ridges);
   EXPECT_EQ(message_of_reading(changed("End", "Ridges 1 2 Edges 1 4 1 0 End")),
-            "test:15: expected Ridges of edges from 1 to 1, found 2");
+            "test:16: expected Ridges of edges from 1 to 1, found 2");
 }
 
 TEST(Medit, NamesTheLineOfADefect) {

@@ -6,7 +6,7 @@
 #include "common/mesh/feature_angle.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::solid {
 
 using Axes = std::array<Vec3, 3>;
 
@@ -15,4 +15,4 @@ using Axes = std::array<Vec3, 3>;
 // those without flat faces. Edges where the surface turns by more than `feature_angle` degrees are features.
 Axes axes_of_part(const Surface& surface, double feature_angle = default_feature_angle);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::solid
