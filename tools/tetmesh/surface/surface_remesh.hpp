@@ -17,6 +17,7 @@ struct RemeshOptions {
   double feature_angle = default_feature_angle;
   double deviation = 0.15;                     // of either surface from the other, at the most, in units
   std::optional<sizing::SizeField> unit = {};  // nothing: the size
+  double row_stretch = 0;                      // in sizes: surface_lattice.hpp
 };
 
 struct RemeshResult {
