@@ -270,7 +270,7 @@ OPTIONS
   grep -q "48 surface triangles derived, with tag 0" <<<"$stderr"
 }
 
-@test "a surface in place of a mesh is sent to tetmesh" {
+@test "the message about a surface instead of a mesh names tetmesh" {
   assert_fails_with 1 "cube.stl:1: expected a mesh .*tetmesh makes one of a surface.*found 'solid'$" findhex "$DATA/cube.stl"
 }
 

@@ -50,11 +50,11 @@ assert_contents() {
 }
 
 @test "Gmsh finds in .mesh and .vtk what it reads of them" {
-  # Of MEDIT files it takes no prisms and pyramids.
+  # Gmsh drops prisms and pyramids of MEDIT files.
   grep -vE '^(prism|pyramid)' "$CONTENTS" >expected.txt
   mesh_convert "$MESH" mesh out.mesh
   assert_contents expected.txt gmsh out.mesh
-  # Of VTK files it takes no tags, and wedges as they are, though it writes them turned.
+  # Gmsh drops tags of VTK files, and reads wedges unturned, though it writes them turned.
   contents gmsh --no-tags "$MESH" |
     sed -E 's/^(prism -) (\S+) (\S+) (\S+) (\S+) (\S+) (\S+)$/\1 \2 \4 \3 \5 \7 \6/' >expected.txt
   mesh_convert "$MESH" vtk out.vtk

@@ -258,7 +258,7 @@ PYTHON
   for signal in INT TERM; do
     lns --graph hard.graph --solution hard.sol --time-limit 60 -o out.sol --log log.jsonl 3>&- &
     local pid=$!
-    for _ in $(seq 400); do [ -s log.jsonl ] || sleep 0.05; done
+    await test -s log.jsonl
     kill -s $signal $pid
     wait $pid
     run "$CHECKERS/solution_check.py" hard.graph out.sol

@@ -40,7 +40,8 @@ class DimacsParser : NumberLines {
     end_line("the end of the problem line");
     if (vertices > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max()))
       fail(fmt::format("expected fewer than 2^31 vertices, found {}", vertices));
-    // Vertices without edges take no room in the file, so that its size says little; no real graph has so many.
+    // Vertices without edges take no room in the file, so its size is no bound for them; no real graph has more than
+    // this.
     constexpr std::uint64_t isolated = 1000000;
     if (vertices > bytes_left() + isolated)
       fail(fmt::format("expected at most {} vertices in a file of this size, found {}", bytes_left() + isolated,

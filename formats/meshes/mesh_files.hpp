@@ -1,5 +1,5 @@
 #pragma once
-// The mesh formats behind one reader and one writer. Each format has a file pair of its own; this one tells them apart.
+// One reader and one writer for all mesh formats. Each format has its own pair of files; this pair tells them apart.
 
 #include <string>
 #include <string_view>
@@ -11,8 +11,8 @@
 
 namespace hexpipe::formats {
 
-// The format is told by content: MEDIT .mesh, Gmsh .msh 2.2 and 4.1 (ASCII, binary), VTK legacy, VTU, TetGen .node with
-// its .ele (and .face) beside it. Vertices that no cell uses are kept. Throws FormatError or DataError.
+// Recognises the format by the content: MEDIT .mesh, Gmsh .msh 2.2 and 4.1 (ASCII, binary), VTK legacy, VTU, TetGen
+// .node with its .ele (and .face) beside it. Keeps vertices that no cell uses. Throws FormatError or DataError.
 MixedMesh read_mixed_mesh(Input& input);
 
 // Writes in the named format: mesh, msh (4.1 ASCII), msh-binary, msh22, msh22-binary, vtk, vtu, inp.

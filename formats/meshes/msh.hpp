@@ -14,20 +14,20 @@ enum class MshCoding { ascii, binary };
 
 bool looks_like_msh(std::string_view text);
 
-// Physical groups become tags; where a dimension has none, its elementary entities do. Elements come in the order of
-// their numbers, nodes in that of the file. Throws FormatError or DataError.
+// Physical groups become tags; in a dimension without groups, elementary entities do. Elements come in the order of
+// their numbers, nodes in the order of the file. Throws FormatError or DataError.
 MixedMesh read_msh(std::string_view text, std::string_view file);
 
-// A mesh with a number at each of its points: those of the first $NodeData section of one component; NaN where it has
-// none. Throws also where there is no such section.
+// A mesh with a value at each of its points, from the first $NodeData section of one component; NaN at points without a
+// value. Reading it also throws when there is no such section.
 struct MshNodeValues {
   MixedMesh mesh;
   std::vector<double> values;
 };
 MshNodeValues read_msh_node_values(std::string_view text, std::string_view file);
 
-// Regions and surfaces are physical groups. The quality is a post-processing view; version 2.2 goes without, for meshio
-// cannot open mixed meshes with one.
+// Regions and surfaces become physical groups, the quality a post-processing view. Version 2.2 has no such view,
+// because meshio cannot open mixed meshes with one.
 void write_msh(const MixedMesh& mesh, MshVersion version, MshCoding coding, Output& output);
 
 }  // namespace hexpipe::formats

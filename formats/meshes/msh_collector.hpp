@@ -1,5 +1,5 @@
 #pragma once
-// What a .msh file says, in either version, put together to a mesh.
+// Collects what a .msh file of either version says, and makes a mesh of it.
 
 #include <cstdint>
 #include <cstdlib>
@@ -16,15 +16,15 @@
 
 namespace hexpipe::formats {
 
-// The numbers that an element has besides its corners. 0 as physical group: none.
+// The numbers of an element beside its corners. Physical group 0: it is in no group.
 struct MshElementNumbers {
   std::int64_t element = 0;
   std::int32_t physical = 0;
   std::int32_t elementary = 0;
 };
 
-// A group that we write for a tag that is no positive number, and so cannot be the group's number, has the tag in its
-// name: `region -1`, `surface 0`.
+// A tag that is not positive cannot be the number of a group. The group that we write for it has the tag in its name:
+// `region -1`, `surface 0`.
 const char* msh_group_word(int dimension);
 std::optional<std::int32_t> tag_in_group_name(std::string_view name, int dimension);
 
@@ -33,13 +33,13 @@ class MshCollector {
   void reserve_nodes(std::size_t count);
   void add_node(std::int64_t number, const Vec3& point);
   std::size_t node_count() const { return mesh_.points.size(); }
-  // Ends the nodes. Returns a number that two of them have.
+  // Call it after the last node. Returns a number that two nodes have, if any.
   std::optional<std::int64_t> number_nodes();
-  // The vertex of a node, NumberMap::none when there is no such node.
+  // The vertex of a node; NumberMap::none: there is no such node.
   Vertex vertex(std::int64_t node) const { return nodes_.find(node); }
 
-  // Calls visit(block, add) for the block of a Gmsh element type, where add(corners, numbers) adds an element to it.
-  // False when we have no such elements.
+  // Calls visit(block, add) for the block of a Gmsh element type; add(corners, numbers) adds an element to it. False
+  // when we have no such elements.
   template <class Visitor>
   bool with_block(int type, Visitor&& visit);
 

@@ -17,7 +17,7 @@ namespace {
 // A physical group and the entity with the same number: all cells or all facets with one tag.
 struct Group {
   std::int32_t tag;
-  std::int32_t number;  // positive: the tag, or else a number that no tag has
+  std::int32_t number;  // positive: the tag, or a number that no tag has
   Vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
            std::numeric_limits<double>::infinity()};
   Vec3 high = -1.0 * low;

@@ -212,7 +212,7 @@ bool is_part_title(std::string_view name) {
 
 namespace {
 
-// What says which part or piece of which mesh it is: `parse` throws what the library for JSON throws.
+// Parses the member that says which part or piece of which mesh this is; `parse` throws the exceptions of nlohmann.
 template <class Parse>
 void parse_title(const BundleReader& reader, const char* of, Parse&& parse) {
   try {
@@ -308,7 +308,7 @@ void write_members(BundleWriter& writer, const graph::CliqueCover& cover) {
 void write_members(BundleWriter& writer, const graph::IndependentSet& solution) {
   visit_members_of_solution(solution, writing_to(writer));
 }
-void write_gap_members(BundleWriter& writer, const std::vector<std::int64_t>& gaps) {
+void write_gap_members(BundleWriter& writer, const SolutionGaps& gaps) {
   visit_members_of_gaps(gaps, writing_to(writer));
 }
 void write_members(BundleWriter& writer, const MixedMesh& result) {

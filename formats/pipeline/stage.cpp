@@ -60,6 +60,10 @@ const char* maker_of(Role role) {
   return tools[static_cast<int>(role)];
 }
 
+bool contains(const std::vector<Role>& roles, Role role) {
+  return std::ranges::find(roles, role) != roles.end();
+}
+
 std::string list_of(const std::set<Role>& roles) {
   std::vector<std::string_view> names;
   names.reserve(roles.size());
@@ -134,34 +138,29 @@ void write_role(Role role, const StageData& data, BundleWriter& writer) {
   }
 }
 
-struct KeysAndCandidates {
-  const CandidateKeys* keys;
-  const Candidates& candidates;
-};
+void write_members(BundleWriter& writer, const MeshProduct& product) {
+  write_members(writer, product.mesh);
+}
 
-void write_members(BundleWriter& writer, const KeysAndCandidates& product) {
-  if (product.keys != nullptr) write_members(writer, *product.keys);
+void write_members(BundleWriter& writer, const CandidatesProduct& product) {
+  if (product.keys) write_members(writer, *product.keys);
   write_members(writer, product.candidates);
 }
 
-struct GraphAndCover {
-  const graph::ConflictGraph& graph;
-  const graph::CliqueCover* cover;
-};
-
-void write_members(BundleWriter& writer, const GraphAndCover& product) {
+void write_members(BundleWriter& writer, const GraphProduct& product) {
+  if (product.candidates) write_members(writer, *product.candidates);
   write_members(writer, product.graph);
-  if (product.cover != nullptr) write_members(writer, *product.cover);
+  if (product.cover) write_members(writer, *product.cover);
 }
 
-struct SolutionAndGaps {
-  const graph::IndependentSet& solution;
-  const std::vector<std::int64_t>* gaps;
-};
-
-void write_members(BundleWriter& writer, const SolutionAndGaps& product) {
+void write_members(BundleWriter& writer, const SolutionProduct& product) {
   write_members(writer, product.solution);
-  if (product.gaps != nullptr) write_gap_members(writer, *product.gaps);
+  if (product.gaps) write_gap_members(writer, *product.gaps);
+}
+
+void write_members(BundleWriter& writer, const ResultProduct& product) {
+  if (product.piece) write_members(writer, *product.piece);
+  write_members(writer, product.mesh);
 }
 
 void validate_gaps(const StageData& data, const char* name) {
@@ -199,18 +198,18 @@ struct Stage::State {
   // Where each role came from, for messages.
   std::map<Role, std::string> sources;
   std::set<Role> seen;
-  std::vector<Role> replaced;  // those that came from files of their own beside a bundle
-  bool with_cover = false, with_part = false, with_weights = false;
-  std::set<Role> held_back;
+  std::vector<Role> replaced;  // roles that came from files beside a bundle
+  StageRequest request;
 
   Role product() const { return *context.info.product; }
-  bool reads(Role role) const {
-    const auto& roles = context.info.reads;
-    return std::find(roles.begin(), roles.end(), role) != roles.end();
-  }
-
   void choose_output();
-  void read_bundle(formats::Input& input, const std::set<Role>& taken, StageData& data);
+  bool takes(Role role) const { return contains(request.needs, role) || contains(request.wants, role); }
+  // Whether members of this role go on to the output: the tool makes its product anew, and what depended on the old one
+  // is void.
+  bool passes(Role role) const { return bundle && role < product() && !contains(request.hold_back, role); }
+
+  std::optional<formats::Input> open_inputs(std::map<Role, formats::Input>& files) const;
+  void read_bundle(formats::Input& input, StageData& data);
   void read_files(std::map<Role, formats::Input>& files, StageData& data);
   void orient(TetMesh& mesh, const std::string& name) const;
   void check(const StageData& data) const;
@@ -250,46 +249,40 @@ void Stage::begin() {
                            state_->context.streams.compress || state_->format == compressed_bundle_format);
 }
 
-StageData Stage::read(const std::vector<Role>& needs, const std::vector<Role>& wants) {
-  State& state = *state_;
-  const StreamOptions& streams = state.context.streams;
-  std::set<Role> taken(needs.begin(), needs.end());
-  taken.insert(wants.begin(), wants.end());
-
-  std::map<Role, formats::Input> files;
-  for (const auto& [role, path] : streams.files) files.emplace(role, formats::Input::open(path));
-
-  // Files may cover all that is needed; otherwise there must be an operand or a stream.
+// The bundle that is read, if any, and the files of single roles. Files may cover all that is needed; otherwise there
+// must be an operand or a stream.
+std::optional<formats::Input> Stage::State::open_inputs(std::map<Role, formats::Input>& files) const {
+  for (const auto& [role, path] : context.streams.files) files.emplace(role, formats::Input::open(path));
   const bool covered =
-      !files.empty() && std::all_of(needs.begin(), needs.end(), [&](Role role) { return files.contains(role); });
-  std::optional<formats::Input> input;
-  if (streams.operand) {
-    input = formats::Input::open(*streams.operand);
-  } else if (!covered) {
-    if (isatty(STDIN_FILENO))
-      throw UsageError(fmt::format("nothing to read: name a file, or pipe a bundle to standard input (see {} --help)",
-                                   state.context.info.name));
-    input = formats::Input::open("-");
-  }
-  if (input && !looks_like_bundle(*input)) {
-    if (input->peek(1).empty())
-      throw DataError::at(input->name(), "expected a bundle or the {}, found nothing: it is empty",
-                          name_of(state.context.info.reads.front()));
-    const Role primary = state.context.info.reads.front();
-    if (files.contains(primary))
-      throw DataError::at(input->name(), "expected a bundle beside --{}, found another file", name_of(primary));
-    files.emplace(primary, std::move(*input));
-    input.reset();
-  }
+      !files.empty() && std::ranges::all_of(request.needs, [&](Role role) { return files.contains(role); });
+  if (!context.streams.operand && covered) return std::nullopt;
+  if (!context.streams.operand && isatty(STDIN_FILENO))
+    throw UsageError(fmt::format("nothing to read: name a file, or pipe a bundle to standard input (see {} --help)",
+                                 context.info.name));
+  formats::Input input = formats::Input::open(context.streams.operand.value_or("-"));
+  if (looks_like_bundle(input)) return input;
+  const Role primary = context.info.reads.front();
+  if (input.peek(1).empty())
+    throw DataError::at(input.name(), "expected a bundle or the {}, found nothing: it is empty", name_of(primary));
+  if (files.contains(primary))
+    throw DataError::at(input.name(), "expected a bundle beside --{}, found another file", name_of(primary));
+  files.emplace(primary, std::move(input));
+  return std::nullopt;
+}
 
+StageData Stage::read(const StageRequest& request) {
+  State& state = *state_;
+  state.request = request;
+  std::map<Role, formats::Input> files;
+  std::optional<formats::Input> input = state.open_inputs(files);
   begin();
   StageData data;
   if (input) {
     for (const auto& [role, file] : files) state.replaced.push_back(role);
-    state.read_bundle(*input, taken, data);
+    state.read_bundle(*input, data);
   }
   state.read_files(files, data);
-  for (const Role role : needs)
+  for (const Role role : request.needs)
     if (!holds(data, role))
       throw DataError::at(input ? input->name() : std::string("the files"), "expected {} for {}, found {}; {} makes it",
                           name_of(role), state.context.info.name, list_of(state.seen), maker_of(role));
@@ -298,28 +291,27 @@ StageData Stage::read(const std::vector<Role>& needs, const std::vector<Role>& w
   return data;
 }
 
-// What the tool makes anew, and what depended on the old one, does not pass.
-void Stage::State::read_bundle(formats::Input& input, const std::set<Role>& taken, StageData& data) {
+void Stage::State::read_bundle(formats::Input& input, StageData& data) {
   BundleReader reader(input);
   while (reader.next()) {
     const auto role = role_of_member(reader.name());
     const bool is_replaced = role && context.streams.files.contains(*role);
-    const bool passes = bundle && !is_replaced && (!role || (*role < product() && !held_back.contains(*role)));
+    BundleWriter* const copy = bundle && !is_replaced && (!role || passes(*role)) ? &*bundle : nullptr;
     if (role && !is_replaced) {
       seen.insert(*role);
       sources[*role] = input.name();
-      if (with_part && read_part_member(reader, data, passes ? &*bundle : nullptr)) continue;
-      if (with_weights && read_weights(reader, data, passes ? &*bundle : nullptr)) continue;
-      if (taken.contains(*role) && read_member(reader, data, passes ? &*bundle : nullptr, with_cover)) continue;
+      if (request.part && read_part_member(reader, data, copy)) continue;
+      if (request.weights_only && read_weights(reader, data, copy)) continue;
+      if (takes(*role) && read_member(reader, data, copy, request.cover)) continue;
     }
     if (is_history_entry(reader.name())) {
       std::string text;
       data.history.push_back(read_history_entry(reader, &text));
       ++history_count;
-      if (passes) bundle->add_text(reader.name(), text);
+      if (copy) copy->add_text(reader.name(), text);
       continue;
     }
-    if (passes) reader.copy_to(*bundle);
+    if (copy) reader.copy_to(*copy);
   }
 }
 
@@ -337,8 +329,8 @@ void Stage::State::read_files(std::map<Role, formats::Input>& files, StageData& 
     if (looks_like_bundle(input)) {
       BundleReader reader(input);
       while (reader.next())
-        if (role_of_member(reader.name()) == role && !(with_part && read_part_member(reader, data, nullptr)))
-          read_member(reader, data, nullptr, with_cover || bundle);
+        if (role_of_member(reader.name()) == role && !(request.part && read_part_member(reader, data, nullptr)))
+          read_member(reader, data, nullptr, request.cover || bundle);
       if (!holds(data, role))
         throw DataError::at(input.name(), "expected {} in this bundle, found none", name_of(role));
       fill_defaults(data);
@@ -346,29 +338,13 @@ void Stage::State::read_files(std::map<Role, formats::Input>& files, StageData& 
       read_role_file(role, input, data);
       if (role == Role::mesh) orient(*data.mesh, input.name());
     }
-    if (bundle && role < product() && !held_back.contains(role)) write_role(role, data, *bundle);
+    if (passes(role)) write_role(role, data, *bundle);
   }
 }
 
 std::string Stage::State::source_of(Role role) const {
   const auto found = sources.find(role);
   return found == sources.end() ? std::string(name_of(role)) : fmt::format("{}: {}", found->second, name_of(role));
-}
-
-void Stage::take_cover() {
-  state_->with_cover = true;
-}
-
-void Stage::take_weights() {
-  state_->with_weights = true;
-}
-
-void Stage::take_part() {
-  state_->with_part = true;
-}
-
-void Stage::hold_back(Role role) {
-  state_->held_back.insert(role);
 }
 
 bool Stage::writes_bundle() const {
@@ -423,36 +399,30 @@ void Stage::State::write(const Product& product, const nlohmann::ordered_json& d
   output->commit();
 }
 
-void Stage::write(const TetMesh& mesh, const nlohmann::ordered_json& details) {
-  state_->write(mesh, details, [&](formats::Output& output) {
-    formats::write_mixed_mesh(to_mixed_mesh(mesh), state_->format, output);
+void Stage::write(const MeshProduct& product, const nlohmann::ordered_json& details) {
+  state_->write(product, details, [&](formats::Output& output) {
+    formats::write_mixed_mesh(to_mixed_mesh(product.mesh), state_->format, output);
   });
 }
 
-void Stage::write(const Candidates& candidates, const CandidateKeys* keys, const nlohmann::ordered_json& details) {
-  state_->write(KeysAndCandidates{keys, candidates}, details,
-                [&](formats::Output& output) { formats::write_cand(candidates, output); });
+void Stage::write(const CandidatesProduct& product, const nlohmann::ordered_json& details) {
+  state_->write(product, details, [&](formats::Output& output) { formats::write_cand(product.candidates, output); });
 }
 
-void Stage::write(const graph::ConflictGraph& graph, const CandidateKeys* keys, const Candidates* candidates,
-                  const graph::CliqueCover* cover, const nlohmann::ordered_json& details) {
-  if (state_->bundle && candidates != nullptr) write_members(*state_->bundle, KeysAndCandidates{keys, *candidates});
-  state_->write(GraphAndCover{graph, cover}, details, [&](formats::Output& output) {
-    if (const auto warning = formats::metis_weight_warning(graph)) state_->context.warn(*warning);
-    formats::write_metis(graph, output);
+void Stage::write(const GraphProduct& product, const nlohmann::ordered_json& details) {
+  state_->write(product, details, [&](formats::Output& output) {
+    if (const auto warning = formats::metis_weight_warning(product.graph)) state_->context.warn(*warning);
+    formats::write_metis(product.graph, output);
   });
 }
 
-void Stage::write(const graph::IndependentSet& solution, const nlohmann::ordered_json& details,
-                  const std::vector<std::int64_t>* gaps) {
-  state_->write(SolutionAndGaps{solution, gaps}, details,
-                [&](formats::Output& output) { formats::write_solution(solution, output); });
+void Stage::write(const SolutionProduct& product, const nlohmann::ordered_json& details) {
+  state_->write(product, details, [&](formats::Output& output) { formats::write_solution(product.solution, output); });
 }
 
-void Stage::write(const MixedMesh& result, const MeshPiece* piece, const nlohmann::ordered_json& details) {
-  if (state_->bundle && piece != nullptr) write_members(*state_->bundle, *piece);
-  state_->write(result, details,
-                [&](formats::Output& output) { formats::write_mixed_mesh(result, state_->format, output); });
+void Stage::write(const ResultProduct& product, const nlohmann::ordered_json& details) {
+  state_->write(product, details,
+                [&](formats::Output& output) { formats::write_mixed_mesh(product.mesh, state_->format, output); });
 }
 
 }  // namespace hexpipe::pipeline

@@ -1,6 +1,6 @@
 #pragma once
-// Lines of whole numbers, for the readers of graphs. They go over a text once, byte by byte: these files have hundreds
-// of megabytes of short numbers, for which finding words first and reading them afterwards takes several times as long.
+// Lines of whole numbers, for the readers of graphs. They read a text once, byte by byte: these files have hundreds of
+// megabytes of short numbers, and to find words first and read them afterwards takes several times as long.
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ namespace hexpipe::formats {
 
 class NumberLines {
  public:
-  // Lines that begin with `comment` are skipped. Both texts must outlive the reader.
+  // The reader skips lines that begin with `comment`. Both texts must outlive it.
   NumberLines(std::string_view text, std::string_view file, char comment)
       : at_(text.data()), begin_(text.data()), end_(text.data() + text.size()), file_(file), comment_(comment) {}
 
@@ -76,7 +76,7 @@ class NumberLines {
     at_ = word;
     fail_expected(fmt::format("{} that fits 64 bits", what));
   }
-  // Counted from 1 in the text, from 0 in the result.
+  // Vertices count from 1 in the text, from 0 in the result.
   std::int32_t vertex_number(std::string_view what, std::int32_t vertex_count) {
     const char* const word = at_;
     const std::uint64_t from_one = number(what);

@@ -12,7 +12,7 @@
 namespace hexpipe::formats {
 namespace {
 
-// What polygonal OBJ consists of. Free-form curves and surfaces are not: their first statement is an error.
+// The statements of polygonal OBJ. The first statement of a free-form curve or surface is an error.
 constexpr std::array<std::string_view, 19> keywords{
     "v",  "vt",  "vn",       "vp",       "f",      "g",      "o",      "s",      "l",    "p",
     "mg", "lod", "c_interp", "d_interp", "usemtl", "mtllib", "usemap", "maplib", "bevel"};

@@ -1,6 +1,6 @@
 #pragma once
-// Surfaces as they come: triangle soups from STL, OBJ, PLY and OFF, with the line or the number of every triangle, so
-// that later checks can name a place.
+// Reads surfaces from STL, OBJ, PLY and OFF as triangle soups, with the line or the number of every triangle, so that
+// later checks can name a place.
 
 #include <cstdint>
 #include <string>
@@ -15,11 +15,11 @@ struct SurfaceSoup {
   std::vector<Vec3> points;         // one for each distinct coordinate triple (exact equality, -0 = 0)
   std::vector<Triangle> triangles;  // polygons are cut into as many as a fan would have
   std::vector<std::int32_t>
-      tags;  // surface tag: number of the STL solid, STL attribute, number of the OBJ group, else 0
+      tags;  // surface tag: number of the STL solid, STL attribute, number of the OBJ group, otherwise 0
   std::vector<std::int64_t> places;  // line (text) or number in the file (binary) of each triangle's facet, from 1
   bool text = true;                  // what `places` counts
-  // Of each point, its vertex in the file, the first of those that are equal, and how many the file has. Empty in
-  // formats that repeat the coordinates in every triangle, and once points have been changed.
+  // By point, its vertex in the file (the first of equal ones), and how many vertices the file has. Empty for formats
+  // that repeat the coordinates in every triangle, and when points have been changed.
   std::vector<Vertex> file_vertices = {};
   std::size_t file_vertex_count = 0;
   std::string name;  // of the input, for messages
@@ -30,7 +30,7 @@ struct SurfaceSoup {
   const char* place_unit() const { return text ? "line" : "triangle"; }
 };
 
-// The format is told by content. Throws FormatError or DataError naming line or facet.
+// Recognises the format by the content. Throws FormatError or DataError that names the line or the facet.
 SurfaceSoup read_surface(Input& input);
 
 }  // namespace hexpipe::formats

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""assemble.py [--models DIR] [--size coarse|middle|fine] [--seeds N [--first SEED]] [--million] [MODEL...] - is what assemble makes valid, how good, and how fast.
+"""assemble.py [--models DIR] [--size coarse|middle|fine] [--seeds N [--first SEED]] [--million] [MODEL...] - are assemble's meshes valid, how good are they, and how fast.
 
-Three parts, each checked by tests/checkers/meshstats.py --exact:
+Three sections, each checked by tests/checkers/meshstats.py --exact:
   models    the surfaces of ../shared/models (or --models DIR, or the files named): share of the volume in hexes before and
             after conformity, cells given back by reason, least scaled Jacobians, seconds. Skipped where they are not.
   random    N meshes of uniform points, seeds from SEED on: nothing may ever break an invariant.
@@ -25,12 +25,13 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "checkers"))
 import meshstats  # noqa: E402
 import surfcheck  # noqa: E402
 
-# Edge lengths as in the models' README: for the MAMBO models, else parts of the longest side of the bounding box.
+# Edge lengths as in the models' README: for the MAMBO models, otherwise shares of the longest side of the bounding box.
 SIZES = {"mambo-s1.stl": (5.2, 3.3, 2.3), "mambo-s22.stl": (5.2, 3.3, 2.3), "mambo-s27.stl": (3.2, 2.05, 1.42),
          "mambo-m1.stl": (5.1, 3.2, 2.2), "mambo-m6.stl": (3.2, 2.1, 1.45)}
 PARTS = (16, 28, 40)
 LEVELS = ("coarse", "middle", "fine")
-NEVER = ("f>2", "perm", "ncq", "nonconf_quads", "inv", "hexbad", "bedge_odd", "dupcells", "orphan_nodes", "negvol")
+NEVER = ("facets_of_three_cells", "twisted_quads", "quads_against_triangles", "open_quads", "inverted_cells",
+         "invalid_hexes", "odd_boundary_edges", "duplicate_cells", "unused_points", "negative_volumes")
 # Scaled Jacobians after smoothing, and points of volume lost to conformity.
 LEAST_HEX, LEAST_OTHER, MOST_LOST = 0.1, 0.02, 0.5
 
@@ -50,8 +51,8 @@ def assemble(source, *arguments):
 
 
 def broken(found):
-    faults = [key for key in NEVER if found.get(key, 0)]
-    return faults + (["volgap"] if abs(found["volgap"]) > 1e-9 else [])
+    faults = [key for key in NEVER if found[key]]
+    return faults + (["volume_gap"] if abs(found["volume_gap"]) > 1e-9 else [])
 
 
 def bench_model(path, level):
@@ -74,7 +75,7 @@ def bench_model(path, level):
     missed += [f"{kind} {value:.4f}" for kind, value in least.items() if kind != "hex" and value < LEAST_OTHER]
     missed += [f"lost {lost:.2f}"] if lost > MOST_LOST else []
     reasons = {k: v for k, v in stats["conformity"]["cells_given_back"].items() if v}
-    print(f"{name:16} {size:7.3g} {found['hex']:7} {share[0]:6.2f} {share[1]:6.2f} {lost:5.2f} "
+    print(f"{name:16} {size:7.3g} {found['hexes']:7} {share[0]:6.2f} {share[1]:6.2f} {lost:5.2f} "
           f"{least.get('hex', 0):6.3f} {least.get('pyramid', 0):6.3f} {least.get('tet', 0):7.4f} {seconds:6.1f}  "
           f"{reasons or ''} {'MISSED: ' + ', '.join(missed) if missed else ''}", flush=True)
     return missed

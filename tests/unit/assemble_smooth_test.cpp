@@ -208,7 +208,7 @@ TEST(Smooth, TheWorstCellsBecomeBetterAndTheBoxStays) {
   }
 }
 
-// What is between hexes becomes thin for them, but nothing becomes poor.
+// Cells between hexes become thin to make room for them, but none becomes poor.
 TEST(Smooth, HexesGrowAndTheRestStaysGoodEnough) {
   constexpr double good_enough = 0.12;
   double grown = 0, thinner = 0;

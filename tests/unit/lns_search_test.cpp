@@ -22,7 +22,7 @@ using hexpipe::testing::make_graph;
 
 const Deadline no_deadline;
 
-// What the definition says is free once `released` are no longer chosen.
+// The vertices that are free by the definition once `released` are no longer chosen.
 std::set<std::int32_t> free_vertices(const SolutionState& state, const std::vector<std::int32_t>& released) {
   const std::set<std::int32_t> gone(released.begin(), released.end());
   std::set<std::int32_t> free;
@@ -517,7 +517,7 @@ TEST(Lns, GoesOnFromWhatItRemembers) {
   }
   EXPECT_GT(tried, 50);
   EXPECT_GT(grown, 50);
-  // What was tried comes last: so as many fragments again leave fewer places untried than they do without memory.
+  // Places that were tried come last, so as many fragments again leave fewer places untried than without memory.
   const auto untried_after = [&](LnsMemory known) {
     continue_lns(graph, first.solution, options, no_deadline, known);
     return std::ranges::count_if(known.places, [](const auto& place) { return place.tries.front() == 0; });

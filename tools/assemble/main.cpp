@@ -5,6 +5,7 @@
 
 #include "common/mwis/ground/target_weight.hpp"
 #include "common/run/error.hpp"
+#include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "tools/assemble/assemble.hpp"
@@ -55,7 +56,6 @@ int main(int argc, char** argv) {
       .example = "tetmesh bracket.stl --size 3 | findhex | buildgraph | initsol | assemble -v -o bracket.vtu",
       .reads = {Role::mesh, Role::candidates, Role::graph, Role::solution},
       .product = Role::result,
-      .outside_history = {"neighbours", "before"},
   };
   std::vector<std::string> neighbours, before;
   const std::map<std::string, AssembleOptions::Fill> fills{{"prisms", AssembleOptions::Fill::prisms},
@@ -87,10 +87,12 @@ int main(int argc, char** argv) {
            "rounds of moving vertices and exchanging tets to make the worst cells better and hexes larger; 0: none")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
-    app.add_option("--neighbours", neighbours,
-                   "With a part of a mesh: bundles of the other parts' solutions, of which those beside it are read")
+    outside_history(
+        app.add_option("--neighbours", neighbours,
+                       "With a part of a mesh: bundles of the other parts' solutions; those beside this part are read"))
         ->type_name("FILE");
-    app.add_option("--before", before, "With --neighbours: the pieces that the round before made")->type_name("FILE");
+    outside_history(app.add_option("--before", before, "With --neighbours: the pieces that the round before made"))
+        ->type_name("FILE");
   };
   auto run = [&](RunContext& context) {
     const bool by_part = !neighbours.empty();
@@ -112,19 +114,18 @@ int main(int argc, char** argv) {
       throw UsageError("--conformity none does not go with --neighbours: pieces fit because they conform");
     if (!by_part && !before.empty()) throw UsageError("--before goes with --neighbours");
     pipeline::Stage stage(context);
-    stage.take_part();
-    if (by_part) {
-      for (const Role role : {Role::mesh, Role::candidates, Role::graph, Role::solution}) stage.hold_back(role);
-    } else {
-      stage.take_weights();  // for the gap: which cells cannot stand together is told by their tets
-    }
-    pipeline::StageData data = stage.read({Role::mesh, Role::candidates, Role::solution});
+    pipeline::StageRequest request{.needs = {Role::mesh, Role::candidates, Role::solution}, .part = true};
+    if (by_part)
+      request.hold_back = {Role::mesh, Role::candidates, Role::graph, Role::solution};
+    else
+      request.weights_only = true;  // for the gap: the tets of cells tell which cannot stand together
+    pipeline::StageData data = stage.read(request);
     const choice::InputNames names{.mesh = stage.source_of(Role::mesh),
                                    .candidates = stage.source_of(Role::candidates),
                                    .solution = stage.source_of(Role::solution)};
     const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
     const auto choice = graph_of_bundle ? proven_gap(data) : nullptr;
-    const PartResult result =
+    PartResult result =
         by_part ? assemble_part(pieces::view_part(solved_part(std::move(data), names), neighbours, names.solution),
                                 before, options, names)
                 : assemble_whole(std::move(data), options, names);
@@ -140,7 +141,9 @@ int main(int argc, char** argv) {
     if (by_part)
       context.note(result.piece.settled ? "this piece is settled"
                                         : "this piece has something new to say: another round has to follow");
-    stage.write(result.mesh, by_part ? &result.piece : nullptr, details);
+    pipeline::ResultProduct product{.mesh = std::move(result.mesh)};
+    if (by_part) product.piece = std::move(result.piece);
+    stage.write(product, details);
   };
   return tool_main(argc, argv, info, declare, run);
 }

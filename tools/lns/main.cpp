@@ -9,6 +9,7 @@
 #include "common/mwis/ground/target_weight.hpp"
 #include "common/mwis/lns_options.hpp"
 #include "common/mwis/local_search/lns.hpp"
+#include "common/run/option_checks.hpp"
 #include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/choice/fragments_file.hpp"
@@ -25,16 +26,15 @@ int main(int argc, char** argv) {
       .product = Role::solution,
       .random = true,
       .searches = true,
-      .default_time_limit = 60,
-      .outside_history = {"fragments"}};
+      .default_time_limit = 60};
   mwis::local_search::LnsOptions options;
   mwis::TargetOptions target;
   std::string fragments_file;
   const auto declare = [&](CLI::App& app) {
     mwis::declare_lns_options(app, options, target);
-    app.add_option(
-           "--fragments", fragments_file,
-           "Write the fragments that were improved to a file, a line each, to look at with viewmesh --fragments")
+    outside_history(
+        app.add_option("--fragments", fragments_file,
+                       "Write each improved fragment as a line of a file, to look at with viewmesh --fragments"))
         ->type_name("FILE");
   };
   const auto run = [&](RunContext& context) {
@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
     mwis::ground::SearchLog log(context.common.log_file);
     std::optional<formats::FragmentsFile> fragments;
     if (!fragments_file.empty()) fragments.emplace(fragments_file);
-    const pipeline::StageData data = stage.read({Role::graph, Role::solution});
+    const pipeline::StageData data = stage.read({.needs = {Role::graph, Role::solution}});
     const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
     if (target.gap)
       options.target = mwis::ground::target_weight(
@@ -73,8 +73,8 @@ int main(int argc, char** argv) {
     nlohmann::ordered_json details{
         {"weight", result.weight}, {"iterations", result.iterations}, {"complete", result.complete}};
     if (options.free_running) details["depends_on_timing"] = true;
-    stage.write(result.solution, details);
-    // Behind the solution, which no full disk under them may cost.
+    stage.write(pipeline::SolutionProduct{result.solution}, details);
+    // After the solution, so that a full disk under them does not cost it.
     if (fragments) fragments->commit();
     log.finish(seconds, result.iterations, result.weight);
   };

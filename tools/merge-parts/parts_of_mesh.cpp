@@ -1,4 +1,4 @@
-#include "tools/merge-parts/parts_of_mesh.hpp"
+#include "tools/merge-parts/merges.hpp"
 
 #include <algorithm>
 #include <array>
@@ -99,7 +99,7 @@ class Merger {
                           "expected members of mesh, candidates, graph and solution, found one that cannot be merged");
   }
 
-  // What only parts have. True where it is that.
+  // Takes a member that only parts have; false when it is another one.
   bool take_about_part(const std::string& name);
   bool merge_mesh(const std::string& name);
   void merge_ridges();
@@ -219,7 +219,7 @@ bool Merger::merge_graph(const std::string& name) {
   return true;
 }
 
-// What a part chooses of others' candidates is theirs to say.
+// A part counts only for its own candidates.
 bool Merger::merge_solution(const std::string& name) {
   if (name != "solution/chosen.npy") return false;
   const CandidateOrder& order = candidates();

@@ -1,4 +1,4 @@
-#include "tools/merge-parts/pieces.hpp"
+#include "tools/merge-parts/merges.hpp"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,6 @@
 #include "formats/streams/input.hpp"
 #include "formats/streams/output.hpp"
 #include "formats/streams/output_group.hpp"
-#include "tools/merge-parts/output_name.hpp"
 #include "tools/merge-parts/seam_check.hpp"
 
 namespace hexpipe::merge_parts {
@@ -28,7 +27,7 @@ namespace {
 
 using History = std::vector<nlohmann::ordered_json>;
 
-// Entries as far as all pieces have them in common.
+// The entries, reduced to what all pieces have in common.
 History settings_in(const History& history) {
   History result;
   for (const auto& entry : history)
@@ -181,22 +180,19 @@ void write_whole(PieceReader& reader, const std::string& path, bool compress) {
 }  // namespace
 
 bool is_piece(const std::string& path) {
-  // What comes from a pipe can be read only once; pieces are read more often.
+  // A pipe can be read only once; pieces are read more often.
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;
   formats::Input input = formats::Input::open(path);
   if (!pipeline::looks_like_bundle(input)) return false;
   pipeline::BundleReader reader(input);
-  // Histories may come before it.
+  // History entries may come before the title.
   while (reader.next())
     if (!pipeline::is_history_entry(reader.name())) return pipeline::is_piece_title(reader.name());
   return false;
 }
 
 void merge_pieces(const std::vector<std::string>& paths, const std::string& output, bool compress) {
-  std::vector<std::string_view> formats = formats::mesh_format_names();
-  formats.emplace_back("pvtu");
-  expect_bundle_or(formats, output);
   PieceReader reader(paths);
   if (pipeline::ending_of(output) == "pvtu")
     write_pieces(reader, output);

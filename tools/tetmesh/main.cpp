@@ -71,7 +71,6 @@ int main(int argc, char** argv) {
       .reads = {},
       .product = Role::mesh,
       .random = true,
-      .outside_history = {"tetgen-timeout"},
       .licence = "AGPL-3.0, for it links TetGen"};
   TetmeshOptions options;
   const CLI::App* command_line = nullptr;
@@ -142,8 +141,8 @@ int main(int argc, char** argv) {
     app.add_option("--shells", shells,
                    "Shells in shells: holes where oriented inward and regions else; all regions; or alternately holes")
         ->check(CLI::IsMember(shell_rules));
-    app.add_option("--tetgen-timeout", options.tetgen_timeout,
-                   "Seconds after which TetGen is given up, for each mesh that it makes")
+    outside_history(app.add_option("--tetgen-timeout", options.tetgen_timeout,
+                                   "Seconds after which TetGen is given up, for each mesh that it makes"))
         ->check(number_between(0.001, 1e9));
   };
   const auto run = [&](RunContext& context) {
@@ -163,7 +162,7 @@ int main(int argc, char** argv) {
     options.after_round = [&](std::size_t round, double share) {
       if (progress.due()) progress.show(fmt::format("round {}, about {:.1f} % in hexes", round + 1, 100 * share));
     };
-    const TetmeshResult result = tetmesh::tetmesh(std::move(surface), options);
+    TetmeshResult result = tetmesh::tetmesh(std::move(surface), options);
     if (const auto& repair = result.statistics.repair; repair && repair->anything())
       context.warn(fmt::format("{}: repaired: {}", input.name(), repair->sentence()));
     for (const std::string& warning : result.warnings) context.warn(warning);
@@ -175,7 +174,7 @@ int main(int argc, char** argv) {
     context.statistics.update(to_json(result.statistics));
     context.statistics["seconds_by_step"] = times_of(result.statistics);
     context.statistics["tetgen_seconds"] = result.statistics.seconds.of_tetgen;
-    stage.write(result.mesh, to_json(result.statistics));
+    stage.write(pipeline::MeshProduct{std::move(result.mesh)}, to_json(result.statistics));
   };
   std::vector<char*> words = words_for_parsing(argc, argv);
   return tool_main(argc, words.data(), info, declare, run);

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""run.py [--level coarse|middle|fine] [--kind KIND...] [--tries N] [--stretch X] [--seconds S] [--time-limit S] [MODEL...] - how much of a part its points
+"""run.py [--level coarse|middle|fine] [--kind KIND...] [--tries N] [--stretch X] [--seconds S] [--time-limit S] [MODEL...] - how much of a model its points
 let become hexes.
 
 Runs the pipeline on models of ../shared/models (or on the files named) once for every kind of points, and prints, worst first
-within each kind, the share of the volume in hexes after a greedy choice and after lns, that of the number of cells, candidates per vertex, the least scaled
+within each kind, the share of the volume in hexes after a greedy choice and after lns, candidates per vertex, the least scaled
 Jacobian, and the time of tetmesh per 100,000 tets and against TetGen's own in the same run. The rows of Gmsh stand beside.
 The kinds are surface+points: keep+lattice is the reference that every other has to beat. With +improve behind them tetmesh searches
 for better points for --seconds, on all threads; without, it has one thread. Tools are taken from build/bin, or from HEXPIPE_BIN;
@@ -49,15 +49,14 @@ def tool(name, folder, *arguments):
 
 
 def share(folder, solution):
-    """Percent of the volume in hexes, percent of the number of cells, and the least scaled Jacobian of hexes; the mesh has to be whole and
-    conforming."""
+    """Percent of the volume in hexes, percent of the number of cells, and the least scaled Jacobian of them; the mesh has to be whole and conforming."""
     mesh = os.path.join(folder, "mesh.vtu")
     stats = tool("assemble", folder, solution, "-o", mesh)
     check = subprocess.run([os.path.join(ROOT, "tests", "checkers", "meshstats.py"), "--json", mesh], check=True,
                            capture_output=True, text=True)
     check = json.loads(check.stdout)
-    if check["inv"] or check["nonconf_quads"]:
-        sys.exit(f"{solution}: {check['inv']} inverted cells, {check['nonconf_quads']} quads against triangles")
+    if check["inverted_cells"] or check["open_quads"]:
+        sys.exit(f"{solution}: {check['inverted_cells']} inverted cells, {check['open_quads']} quads against triangles")
     hexes = stats["cells"]["hex"]
     number = 100 * hexes["count"] / sum(cells["count"] for cells in stats["cells"].values())
     return 100 * hexes["share_of_volume"], number, hexes["scaled_jacobian"]["least"]
