@@ -44,9 +44,10 @@ int main(int argc, char** argv) {
         ->check(CLI::IsMember(qualities));
     app.add_option("--inner-vertices", inner_vertices, "allow or forbid: vertices of the mesh strictly inside a cell")
         ->check(CLI::IsMember({"allow", "forbid"}));
-    app.add_option("--folded-quads", folded_quads,
-                   "drop or keep: quads whose two triangles in the mesh fold over each other, or lie on both sides of a "
-                   "sharp edge of the surface")
+    app.add_option(
+           "--folded-quads", folded_quads,
+           "drop or keep: quads whose two triangles in the mesh fold over each other, or lie on both sides of a "
+           "sharp edge of the surface")
         ->check(CLI::IsMember({"drop", "keep"}));
     feature_angle =
         app.add_option("--feature-angle", options.feature_angle,
