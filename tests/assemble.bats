@@ -64,7 +64,7 @@ assert eval(sys.argv[2]), (sys.argv[2], s)" "$(stats_of "$1")" "$2"
 
 @test "--exchange lets hexes give way to others: fewer quads face tets, fewer pyramids" {
   if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
-  tetmesh "$DATA/bracket.stl" --size 5 | findhex | buildgraph | initsol --iterations 20000 -o bracket.tar
+  tetmesh "$DATA/bracket.stl" --size 5.5 | findhex | buildgraph | initsol --iterations 20000 -o bracket.tar
   assemble bracket.tar --exchange none --stats none.json -o none.vtu
   assemble bracket.tar -v --stats quads.json -o quads.vtu 2>summary
   expect quads.vtu 's["is_conforming"] and s["open_quads"] == 0 and s["invalid_hexes"] == s["inverted_cells"] == s["unused_points"] == 0'

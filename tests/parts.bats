@@ -56,6 +56,30 @@ ALL="--cells hex,prism,pyramid --min-quality 0.1"
   parts_equal_whole folded "7" $ALL
 }
 
+@test "so do those of a mesh with ridges, which some parts have none of" {
+  bar --kuhn >plain.mesh
+  $PYTHON - >ridges.mesh <<'PYTHON'
+import itertools
+text = open("plain.mesh").read().replace("End\n", "")
+words = text.split()
+at = words.index("Tetrahedra")
+tets = [words[at + 2 + 5 * i:at + 6 + 5 * i] for i in range(60)]
+edges = sorted({tuple(sorted(map(int, edge))) for tet in tets for edge in itertools.combinations(tet, 2)})
+print(text + f"Edges\n{len(edges)}")
+for a, b in edges:
+    print(a, b, 0)
+print(f"Ridges\n{len(edges)}")
+print(*range(1, len(edges) + 1), sep="\n")
+print("End")
+PYTHON
+  parts_equal_whole ridges "3 16" $ALL
+  tar tf "$(ls ridges.16/candidates-*.tar | tail -1)" >members.txt
+  assert_equal "$(grep -c '^mesh/ridges.npy$' members.txt)" 1
+  findhex -q --mesh plain.mesh $ALL -o plain.candidates.cand
+  findhex -q --mesh ridges.mesh $ALL -o ridges.candidates.cand
+  assert [ "$(wc -l <ridges.candidates.cand)" -lt "$(wc -l <plain.candidates.cand)" ]
+}
+
 @test "so do parts as small as a tet, and a mesh that is one" {
   bar --length 1 --kuhn >small.mesh
   parts_equal_whole small 54 $ALL

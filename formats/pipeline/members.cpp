@@ -11,6 +11,7 @@ namespace hexpipe::pipeline {
 namespace {
 
 constexpr const char* part_json = "mesh/part.json";
+constexpr const char* mesh_ridges = "mesh/ridges.npy";
 constexpr const char* graph_weights = "graph/weights.npy";
 constexpr const char* piece_json = "result/piece.json";
 constexpr std::size_t longest_part_json = 1 << 20;
@@ -176,6 +177,7 @@ bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy, bool
   switch (*role) {
     case Role::mesh:
       visit_members_of_mesh(ensure(data.mesh), take);
+      if (reader.name() == mesh_ridges) take(mesh_ridges, ensure(data.mesh->ridges));
       break;
     case Role::candidates:
       visit_members_of_candidates(ensure(data.candidates), take);
@@ -292,6 +294,7 @@ void write_members(BundleWriter& writer, const CandidateKeys& keys) {
 
 void write_members(BundleWriter& writer, const TetMesh& mesh) {
   visit_members_of_mesh(mesh, writing_to(writer));
+  if (mesh.ridges) writer.add_array(mesh_ridges, *mesh.ridges);
 }
 void write_members(BundleWriter& writer, const Candidates& candidates) {
   visit_members_of_candidates(candidates, writing_to(writer));

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
       .product = Role::candidates,
   };
   candidates::FindhexOptions options;
+  CLI::Option* feature_angle = nullptr;
   std::vector<std::string> cells{"hex"};
   std::string quality = "element", inner_vertices = "allow", folded_quads = "drop", flat_corners = "reject",
               part = "1/1";
@@ -43,9 +44,15 @@ int main(int argc, char** argv) {
         ->check(CLI::IsMember(qualities));
     app.add_option("--inner-vertices", inner_vertices, "allow or forbid: vertices of the mesh strictly inside a cell")
         ->check(CLI::IsMember({"allow", "forbid"}));
-    app.add_option("--folded-quads", folded_quads,
-                   "drop or keep: quads whose two triangles in the mesh fold over each other")
+    app.add_option(
+           "--folded-quads", folded_quads,
+           "drop or keep: quads whose two triangles in the mesh fold over each other, or lie on both sides of a "
+           "sharp edge of the surface")
         ->check(CLI::IsMember({"drop", "keep"}));
+    feature_angle =
+        app.add_option("--feature-angle", options.feature_angle,
+                       "Edges of the surface are sharp where it turns by more; MEDIT's Ridges are so anyway")
+            ->check(number_between(0, 180));
     app.add_option("--flat-corners", flat_corners,
                    "reject or keep: cells that would leave a flat pyramid at the surface")
         ->check(CLI::IsMember({"reject", "keep"}));
@@ -55,6 +62,8 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0, 6).description(""));
   };
   const auto run = [&](RunContext& context) {
+    if (folded_quads == "keep" && feature_angle->count() > 0)
+      throw UsageError("--feature-angle does nothing with --folded-quads keep");
     options.part = parse_part(part);
     options.kinds.clear();
     for (const auto& [name, kind] : kinds)
@@ -63,6 +72,7 @@ int main(int argc, char** argv) {
     options.tet_rules.inner_vertices = inner_vertices == "allow";
     options.tet_rules.flat_corners = flat_corners == "keep";
     options.drop_folded_quads = folded_quads == "drop";
+    options.tet_rules.sharp_edges = folded_quads == "keep";
 
     Phases phases;
     pipeline::Stage stage(context);

@@ -102,6 +102,7 @@ class Merger {
   // Takes a member that only parts have; false when it is another one.
   bool take_about_part(const std::string& name);
   bool merge_mesh(const std::string& name);
+  void merge_ridges();
   bool merge_candidates(const std::string& name);
   bool merge_graph(const std::string& name);
   bool merge_solution(const std::string& name);
@@ -156,9 +157,22 @@ bool Merger::merge_mesh(const std::string& name) {
     merge_rows<Triangle>(parts_, triangles_, out_, to_points());
   else if (name == "mesh/triangle_tags.npy")
     merge_rows<std::int32_t>(parts_, triangles_, out_, unchanged);
+  else if (name == "mesh/ridges.npy")
+    merge_ridges();
   else
     return false;
   return true;
+}
+
+// A part has those between its points; the whole lists them by their vertices (medit.cpp).
+void Merger::merge_ridges() {
+  const Renumber renumber = to_points();
+  std::vector<Ridge> ridges;
+  for (std::size_t p = 0; p < parts_.size(); ++p)
+    for (const Ridge& ridge : parts_[p].bundle().read_array<Ridge>()) ridges.push_back(renumber(p, ridge));
+  std::ranges::sort(ridges);
+  ridges.erase(std::ranges::unique(ridges).begin(), ridges.end());
+  out_.add_array("mesh/ridges.npy", ridges);
 }
 
 const CandidateOrder& Merger::candidates() {

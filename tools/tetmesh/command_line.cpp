@@ -40,7 +40,7 @@ void refuse_idle_options(const std::function<bool(const char*)>& is_given, const
   if (!options.repair) refuse({"--weld", "--largest-hole"}, "without --repair");
   if (!is_given("--size-field") && !is_given("--layers")) refuse({"--grading"}, "without --size-field or --layers");
   if (options.improve == 0) refuse({"--time-limit"}, "without --improve");
-  if (keeps) refuse({"--deviation"}, "with --surface keep");
+  if (keeps) refuse({"--deviation", "--stretch"}, "with --surface keep");
   if (!places) refuse({"--clearance", "--jitter", "--improve"}, "with --points " + points);
   if (keeps && !places) refuse({"--feature-angle"}, "with --surface keep and --points " + points);
   // Of points of the user's own, --size and these say how near to the surface they may be.

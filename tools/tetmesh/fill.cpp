@@ -118,7 +118,8 @@ bool Filler::fill_new_surface() {
   // What a size may take is nothing beside the part, unless that is thinner than a size.
   const bool walls_count = !options_.layers && !surface::asks_for_too_many_points(given_, size_);
   const sizing::SizeField unit = walls_count ? size_field(given_, options_, size_.greatest(), 1) : size_;
-  surface::SurfaceRemesher remesher(given_, {size_, options_.feature_angle, options_.deviation, unit});
+  surface::SurfaceRemesher remesher(given_,
+                                    {size_, options_.feature_angle, options_.deviation, unit, options_.row_stretch});
   std::string failure;
   try {
     while (!built_ && remesher.make()) {

@@ -104,6 +104,11 @@ int main(int argc, char** argv) {
     app.add_option("--deviation", options.deviation,
                    "How far the new surface may be from the old one, in sizes, or in thicknesses of a thinner wall")
         ->check(number_between(1e-6, 1));
+    app.add_option(
+           "--stretch", options.row_stretch,
+           "How much rows of points may stretch, from one triangle of their field to the next, in sizes, so that "
+           "none has to end on a face; 0: not for that")
+        ->check(number_between(0, 10));
     app.add_option("--points", points,
                    "Points inside: best, frame (along a frame field that follows the surface), lattice (along the "
                    "part's own axes), none, or a file of your own (.xyz, .node, .npy, .ply)")

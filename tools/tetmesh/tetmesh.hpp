@@ -45,8 +45,9 @@ struct TetmeshOptions {
   double grading = 0.3;
   std::optional<int> layers = {};  // across thin walls, at least; nothing: walls do not count
   SurfaceKind surface = SurfaceKind::remesh;
-  double feature_angle = geometry::default_feature_angle;
-  double deviation = surface::RemeshOptions{}.deviation;  // in sizes, or in the thickness of thinner walls
+  double feature_angle = default_feature_angle;
+  double deviation = surface::RemeshOptions{}.deviation;      // in sizes, or in the thickness of thinner walls
+  double row_stretch = surface::RemeshOptions{}.row_stretch;  // in sizes
   PointKind points = PointKind::best;
   formats::PointList given_points = {};  // for PointKind::given
   double clearance = volume::LatticeOptions{}.clearance;

@@ -24,7 +24,7 @@ class InputSurface {
  public:
   // Where a vertex lies: on no tagged triangle; within a smooth part of the surface; on a feature curve between two
   // parts; or where curves meet, end or turn. An edge is a feature unless it has two triangles of one tag whose normals
-  // are less than 40 degrees apart.
+  // are less than 40 degrees apart, and is no ridge.
   enum class Place : std::uint8_t { inside, face, curve, corner };
 
   // `mesh` must outlive this, with every facet of its boundary and interfaces among its triangles.
