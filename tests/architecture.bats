@@ -95,3 +95,25 @@ assert_floors() {
   includes_of common/run | grep -E ':common/' | grep -vE ':common/run/' | assert_none "common/run includes its neighbours"
   includes_of common/mesh | grep -E ':common/' | grep -vE ':common/(run|mesh)/' | assert_none "common/mesh includes rooms above it"
 }
+
+# namespace_of FILE: the one that its room has. common/mesh and common/run speak the language of all rooms.
+namespace_of() {
+  local room=${1%/*}
+  case $room in
+    common/mesh | common/run) echo hexpipe ;;
+    common/*) echo "hexpipe::${room#common/}" ;;
+    formats/pipeline) echo hexpipe::pipeline ;;
+    formats/*) echo hexpipe::formats ;;
+    tools/viewmesh) echo hexpipe::viewmesh ;;
+    tools/*) echo "hexpipe::${room#tools/}" ;;
+  esac | sed 's|/|::|g; s|-|_|g'
+}
+
+@test "each file is in the namespace of its room" {
+  local file expected
+  for file in $(cd "$HEXPIPE_SOURCE" && find common formats tools -name '*.hpp'); do
+    [[ $file == tools/viewmesh/resources.hpp || $file == common/mwis/ground/bits.hpp ]] && continue
+    expected="namespace $(namespace_of "$file") {"
+    grep -qxF "$expected" "$HEXPIPE_SOURCE/$file" || fail "$file: expected '$expected'"
+  done
+}

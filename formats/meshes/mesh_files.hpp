@@ -9,7 +9,7 @@
 #include "formats/streams/input.hpp"
 #include "formats/streams/output.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // The format is told by content: MEDIT .mesh, Gmsh .msh 2.2 and 4.1 (ASCII, binary), VTK legacy, VTU, TetGen .node with
 // its .ele (and .face) beside it. Vertices that no cell uses are kept. Throws FormatError or DataError.
@@ -21,4 +21,4 @@ void write_mixed_mesh(const MixedMesh& mesh, std::string_view format, Output& ou
 // All format names that write_mixed_mesh knows; the ending of a file is one of mesh, msh, vtk, vtu, inp.
 const std::vector<std::string_view>& mesh_format_names();
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

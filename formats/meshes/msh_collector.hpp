@@ -14,7 +14,7 @@
 #include "formats/meshes/mesh_blocks.hpp"
 #include "formats/streams/number_map.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // The numbers that an element has besides its corners. 0 as physical group: none.
 struct MshElementNumbers {
@@ -82,4 +82,4 @@ bool MshCollector::with_block(int type, Visitor&& visit) {
   return found;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

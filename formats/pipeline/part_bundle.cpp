@@ -10,10 +10,10 @@
 #include "formats/pipeline/members.hpp"
 #include "formats/streams/input.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 
 PartHead read_part_bundle(const std::string& path, const std::function<bool(const MeshPart&)>& wanted) {
-  Input input = Input::open(path);
+  formats::Input input = formats::Input::open(path);
   if (!looks_like_bundle(input)) throw DataError::at(path, "expected a bundle of a part, found another file");
   BundleReader reader(input);
   StageData data;
@@ -74,7 +74,7 @@ void for_each_neighbour(const MeshPart& part, const std::vector<std::string>& pa
 }
 
 PieceBundle read_piece_bundle(const std::string& path, bool with_mesh) {
-  Input input = Input::open(path);
+  formats::Input input = formats::Input::open(path);
   if (!looks_like_bundle(input)) throw DataError::at(path, "expected a bundle of a piece, found another file");
   BundleReader reader(input);
   StageData data;
@@ -94,4 +94,4 @@ PieceBundle read_piece_bundle(const std::string& path, bool with_mesh) {
   return {path, std::move(*piece), std::move(mesh), std::move(data.history)};
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

@@ -14,14 +14,14 @@
 #include "common/mesh/mesh_piece.hpp"
 #include "common/mesh/mixed_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 
 struct PartBundle {
   std::string name;
   MeshPart part;
   Candidates candidates;
   CandidateKeys keys;
-  std::optional<IndependentSet> chosen;  // where there is a solution
+  std::optional<graph::IndependentSet> chosen;  // where there is a solution
   std::vector<nlohmann::ordered_json> history;
 };
 
@@ -49,4 +49,4 @@ struct PieceBundle {
 };
 PieceBundle read_piece_bundle(const std::string& path, bool with_mesh);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

@@ -17,15 +17,15 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "common/run/run_context.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 
 // What a stage has read; a role that was not asked for or not there stays empty.
 struct StageData {
   std::optional<TetMesh> mesh;
   std::optional<Candidates> candidates;
-  std::optional<ConflictGraph> graph;
-  std::optional<CliqueCover> cover;  // of the graph, for a stage that asked for it
-  std::optional<IndependentSet> solution;
+  std::optional<graph::ConflictGraph> graph;
+  std::optional<graph::CliqueCover> cover;  // of the graph, for a stage that asked for it
+  std::optional<graph::IndependentSet> solution;
   // Of the solution's vertices, what certify found of the gap to its bound at each (gap_shares.hpp).
   std::optional<std::vector<std::int64_t>> gaps;
   std::optional<MixedMesh> result;
@@ -71,10 +71,10 @@ class Stage {
   // Of a part of a mesh, with their keys in a bundle; else null.
   void write(const Candidates& candidates, const CandidateKeys* keys, const nlohmann::ordered_json& details);
   // With what belongs to it, in a bundle only: candidates that were held back and their keys, a clique cover.
-  void write(const ConflictGraph& graph, const CandidateKeys* keys, const Candidates* candidates,
-             const CliqueCover* cover, const nlohmann::ordered_json& details);
+  void write(const graph::ConflictGraph& graph, const CandidateKeys* keys, const Candidates* candidates,
+             const graph::CliqueCover* cover, const nlohmann::ordered_json& details);
   // With the gap at its vertices in a bundle, where that is known.
-  void write(const IndependentSet& solution, const nlohmann::ordered_json& details,
+  void write(const graph::IndependentSet& solution, const nlohmann::ordered_json& details,
              const std::vector<std::int64_t>* gaps = nullptr);
   // With what a piece of a result has beside it, in a bundle only; else null.
   void write(const MixedMesh& result, const MeshPiece* piece, const nlohmann::ordered_json& details);
@@ -84,4 +84,4 @@ class Stage {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

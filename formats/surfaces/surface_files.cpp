@@ -10,7 +10,7 @@
 #include "formats/surfaces/stl.hpp"
 #include "formats/surfaces/surface_building.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 // An ASCII STL begins like some binary ones: "solid". The high byte of a binary header's count is zero in any file
@@ -76,4 +76,4 @@ SurfaceSoup read_surface(Input& input) {
   return soup;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

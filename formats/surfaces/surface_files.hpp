@@ -9,7 +9,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "formats/streams/input.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 struct SurfaceSoup {
   std::vector<Vec3> points;         // one for each distinct coordinate triple (exact equality, -0 = 0)
@@ -33,4 +33,4 @@ struct SurfaceSoup {
 // The format is told by content. Throws FormatError or DataError naming line or facet.
 SurfaceSoup read_surface(Input& input);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

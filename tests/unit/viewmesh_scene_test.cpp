@@ -15,6 +15,8 @@
 #include "tools/viewmesh/view_state.hpp"
 
 namespace hexpipe {
+using namespace pipeline;
+using namespace viewmesh;
 namespace {
 
 // n x n x n unit hexes.

@@ -9,7 +9,7 @@
 #include "formats/streams/output_group.hpp"
 #include "tools/mesh-part/mesh_cutter.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mesh_part {
 
 class PartFiles {
  public:
@@ -27,7 +27,7 @@ class PartFiles {
 
   std::string directory_;
   bool compress_;
-  OutputGroup files_;
+  formats::OutputGroup files_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mesh_part

@@ -11,6 +11,7 @@
 #include "tools/viewmesh/picture.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::viewmesh;
 
 namespace {
 
@@ -31,12 +32,12 @@ void check_endings(const Outputs& outputs) {
 
 void write_outputs(const Scene& scene, const ViewState& state, const std::string& title, const Outputs& outputs) {
   if (!outputs.picture.empty()) {
-    Output output(outputs.picture);
+    formats::Output output(outputs.picture);
     write_png(draw_picture(scene, state, outputs.size[0], outputs.size[1]), output);
     output.commit();
   }
   if (outputs.page.empty() && !outputs.picture.empty()) return;
-  Output output(outputs.page);
+  formats::Output output(outputs.page);
   write_page(scene, state, title, output);
   output.commit();
 }
@@ -82,9 +83,9 @@ int main(int argc, char** argv) {
     check_endings(outputs);
     if (outputs.page.empty() && outputs.picture.empty() && isatty(STDOUT_FILENO))
       throw UsageError("standard output is a terminal: write the page to a file with -o, or a picture with --png");
-    Stage stage(context);
+    pipeline::Stage stage(context);
     stage.take_weights();  // for their number: a solution chooses among as many
-    StageData data = stage.read({}, {Role::mesh, Role::candidates, Role::solution, Role::result});
+    pipeline::StageData data = stage.read({}, {Role::mesh, Role::candidates, Role::solution, Role::result});
     const std::string source = !context.streams.operand || context.streams.operand == "-"
                                    ? context.streams.files.empty() ? "stdin" : "the files"
                                    : *context.streams.operand;
@@ -93,7 +94,7 @@ int main(int argc, char** argv) {
     if (!fragments.empty()) {
       if (content != Scene::Content::candidates && content != Scene::Content::solution)
         throw UsageError("--fragments: expected candidates or a solution to show them in (see --show)");
-      Input input = Input::open(fragments);
+      formats::Input input = formats::Input::open(fragments);
       read_fragments(scene, input);
     }
     for (std::size_t k = 0; k < scene_kinds.size(); ++k)
