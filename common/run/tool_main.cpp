@@ -122,7 +122,8 @@ void declare_common(CLI::App& app, RunContext& context) {
   if (info.searches) {
     const std::string note = info.default_time_limit
                                  ? fmt::format(" [{:g} unless --iterations is given]", *info.default_time_limit)
-                                 : std::string();
+                             : info.ends_by_itself.empty() ? std::string()
+                                                           : fmt::format(" [else it ends {}]", info.ends_by_itself);
     app.add_option("--time-limit", common.time_limit, "Stop after this many seconds" + note)
         ->type_name("SECONDS")
         ->check(number_between(0, 1e9));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "common/graph/conflict_graph.hpp"
@@ -23,11 +24,15 @@ enum class Method {
 struct InitsolOptions {
   GreedyOrder order = GreedyOrder::weight_degree;
   Method method = Method::anneal;
-  mwis::local_search::Cooling cooling{};
+  // Temperatures in mean weights of a chosen vertex; what suits the graph, where they are not given.
+  std::optional<double> hot, cold;
   TabuOptions tabu{};
   int starts = 1;
   std::uint64_t seed = 1;
   std::int64_t iterations = std::numeric_limits<std::int64_t>::max();  // moves or kicks of each start
+  // Likewise for each vertex that reductions leave; a search that cools more slowly gains little.
+  std::int64_t iterations_a_vertex = std::numeric_limits<std::int64_t>::max();
+  bool reduce = true;  // search what exact reductions leave
 };
 
 struct InitsolProgress {
@@ -40,11 +45,12 @@ struct InitsolResult {
   std::int64_t weight = 0;
   std::int64_t greedy_weight = 0;
   std::int64_t iterations = 0;  // moves or kicks of all starts
+  bool complete = false;        // the solution is optimal: reductions and exact search of small components left nothing
 };
 
 // `quality` has an entry for each vertex when the order needs it. The first start is the greedy solution, the others
 // are greedy with merits changed at random. Annealing cools from the first to the last of the iterations, or of the
-// seconds where these end sooner. `report` is called for improvements.
+// seconds where these end sooner. Where nothing is left to search it ends at once. `report` is called for improvements.
 InitsolResult find_initial_solution(const graph::ConflictGraph& graph, std::span<const double> quality,
                                     const InitsolOptions& options, const Deadline& deadline,
                                     const std::function<void(const InitsolProgress&)>& report = {});

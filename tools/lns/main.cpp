@@ -9,12 +9,21 @@
 #include "common/mwis/ground/target_weight.hpp"
 #include "common/mwis/lns_options.hpp"
 #include "common/mwis/local_search/lns.hpp"
+#include "common/run/option_checks.hpp"
 #include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/choice/fragments_file.hpp"
 #include "formats/pipeline/stage.hpp"
 
 using namespace hexpipe;
+
+namespace {
+
+// Of a search that nobody limits. What each doubling of the time gains falls by half or more, so that what is left to
+// gain when it ends is about as much.
+constexpr double usual_worth = 5e-5;
+
+}  // namespace
 
 int main(int argc, char** argv) {
   const ToolInfo info{
@@ -25,13 +34,19 @@ int main(int argc, char** argv) {
       .product = Role::solution,
       .random = true,
       .searches = true,
-      .default_time_limit = 60,
+      .ends_by_itself = "when --worth says so",
       .outside_history = {"fragments"}};
   mwis::local_search::LnsOptions options;
   mwis::TargetOptions target;
   std::string fragments_file;
+  std::optional<double> worth;
   const auto declare = [&](CLI::App& app) {
     mwis::declare_lns_options(app, options, target);
+    app.add_option("--worth", worth,
+                   "End when the last half of the search gained less than this share of the weight [5e-5 where neither "
+                   "--time-limit nor --iterations is given, else 0: go on to the limit]")
+        ->type_name("SHARE")
+        ->check(number_between(0, 1));
     app.add_option(
            "--fragments", fragments_file,
            "Write the fragments that were improved to a file, a line each, to look at with viewmesh --fragments")
@@ -41,6 +56,8 @@ int main(int argc, char** argv) {
     mwis::check(target);
     options.seed = context.common.seed;
     options.iterations = context.common.iterations.value_or(options.iterations);
+    const bool is_limited = context.common.iterations || context.common.time_limit;
+    options.worth = worth.value_or(is_limited ? 0 : usual_worth);
     pipeline::Stage stage(context);
     mwis::ground::SearchLog log(context.common.log_file);
     std::optional<formats::FragmentsFile> fragments;

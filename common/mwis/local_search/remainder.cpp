@@ -7,7 +7,7 @@
 #include "common/graph/subgraph.hpp"
 #include "common/mwis/exact/exact_solver.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::local_search {
 namespace {
 
 // Reductions of sparse graphs bring more than any search of the same time, on others they decide little.
@@ -18,7 +18,7 @@ constexpr std::int64_t most_nodes = 5000;
 // So many components of similar size that take too long show that the larger ones would, too.
 constexpr int most_failures = 3;
 
-Deadline share_of(const Deadline& deadline, const ConflictGraph& graph) {
+Deadline share_of(const Deadline& deadline, const graph::ConflictGraph& graph) {
   if (!std::isfinite(deadline.remaining())) return Deadline();
   const auto vertices = static_cast<double>(std::max(1, graph.vertex_count()));
   const bool sparse = static_cast<double>(graph.neighbours.size()) / vertices <= sparse_degree;
@@ -27,22 +27,22 @@ Deadline share_of(const Deadline& deadline, const ConflictGraph& graph) {
 
 }  // namespace
 
-Remainder::Remainder(const ConflictGraph& graph, const Deadline& deadline)
-    : kernel_(graph, share_of(deadline, graph), ReductionEffort::worth) {
+Remainder::Remainder(const graph::ConflictGraph& graph, const Deadline& deadline)
+    : kernel_(graph, share_of(deadline, graph), reduce::ReductionEffort::worth) {
   solve_components(share_of(deadline, graph));
 }
 
 void Remainder::solve_components(const Deadline& deadline) {
-  const ConflictGraph& kernel = kernel_.graph();
-  ExactSolver solver;
+  const graph::ConflictGraph& kernel = kernel_.graph();
+  exact::ExactSolver solver;
   std::vector<bits::Word> chosen;
   int failures = 0;
-  for (const auto& component : connected_components(kernel)) {
+  for (const auto& component : graph::connected_components(kernel)) {
     bool solved = false;
     if (component.size() <= most_solved && failures < most_failures && !deadline.passed()) {
-      DenseGraph dense = dense_graph_of(induced_subgraph(kernel, component));
+      ground::DenseGraph dense = dense_graph_of(graph::induced_subgraph(kernel, component));
       chosen.assign(dense.words(), 0);
-      SearchBudget budget(most_nodes, &deadline);
+      ground::SearchBudget budget(most_nodes, &deadline);
       solved = solver.solve(dense, chosen, budget);
       failures += solved ? 0 : 1;
     }
@@ -56,7 +56,7 @@ void Remainder::solve_components(const Deadline& deadline) {
     });
   }
   std::ranges::sort(vertices_);
-  graph_ = induced_subgraph(kernel, vertices_);
+  graph_ = graph::induced_subgraph(kernel, vertices_);
 }
 
 std::vector<std::int32_t> Remainder::in_kernel(std::span<const std::int32_t> of_remainder) const {
@@ -66,8 +66,8 @@ std::vector<std::int32_t> Remainder::in_kernel(std::span<const std::int32_t> of_
   return result;
 }
 
-IndependentSet Remainder::lift(const IndependentSet& of_remainder) const {
-  IndependentSet of_kernel = in_kernel(of_remainder);
+graph::IndependentSet Remainder::lift(const graph::IndependentSet& of_remainder) const {
+  graph::IndependentSet of_kernel = in_kernel(of_remainder);
   of_kernel.insert(of_kernel.end(), solved_.begin(), solved_.end());
   std::ranges::sort(of_kernel);
   return kernel_.lift(of_kernel);
@@ -77,9 +77,9 @@ std::vector<std::int32_t> Remainder::originals(std::span<const std::int32_t> of_
   return kernel_.originals(in_kernel(of_remainder));
 }
 
-IndependentSet Remainder::project(const IndependentSet& of_whole) const {
-  const IndependentSet of_kernel = kernel_.project(of_whole);
-  IndependentSet result;
+graph::IndependentSet Remainder::project(const graph::IndependentSet& of_whole) const {
+  const graph::IndependentSet of_kernel = kernel_.project(of_whole);
+  graph::IndependentSet result;
   auto at = vertices_.begin();
   for (const std::int32_t v : of_kernel) {
     at = std::lower_bound(at, vertices_.end(), v);
@@ -88,4 +88,4 @@ IndependentSet Remainder::project(const IndependentSet& of_whole) const {
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::local_search

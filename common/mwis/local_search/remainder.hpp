@@ -10,23 +10,23 @@
 #include "common/mwis/reduce/kernel.hpp"
 #include "common/run/deadline.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::local_search {
 
 class Remainder {
  public:
   // Takes a share of the time that is left, all that it wants where there is no limit.
-  Remainder(const ConflictGraph& graph, const Deadline& deadline);
+  Remainder(const graph::ConflictGraph& graph, const Deadline& deadline);
 
-  const ConflictGraph& graph() const { return graph_; }
+  const graph::ConflictGraph& graph() const { return graph_; }
   // lift() of the empty set is optimal.
   bool is_solved() const { return graph_.vertex_count() == 0; }
   // How much heavier a solution of the remainder becomes by lift, at least.
   std::int64_t offset() const { return kernel_.offset() + solved_weight_; }
 
   // A maximal independent set of the whole graph from one of the remainder.
-  IndependentSet lift(const IndependentSet& of_remainder) const;
+  graph::IndependentSet lift(const graph::IndependentSet& of_remainder) const;
   // What a set of the whole graph chooses in the remainder; not maximal in general.
-  IndependentSet project(const IndependentSet& of_whole) const;
+  graph::IndependentSet project(const graph::IndependentSet& of_whole) const;
   // The whole graph's numbers of these, without those that reductions made of several vertices.
   std::vector<std::int32_t> originals(std::span<const std::int32_t> of_remainder) const;
 
@@ -34,11 +34,11 @@ class Remainder {
   void solve_components(const Deadline& deadline);
   std::vector<std::int32_t> in_kernel(std::span<const std::int32_t> of_remainder) const;
 
-  Kernel kernel_;
-  ConflictGraph graph_;
+  reduce::Kernel kernel_;
+  graph::ConflictGraph graph_;
   std::vector<std::int32_t> vertices_;  // of the kernel, ascending, by vertex of the remainder
-  IndependentSet solved_;               // of the kernel, in components that are solved
+  graph::IndependentSet solved_;        // of the kernel, in components that are solved
   std::int64_t solved_weight_ = 0;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::local_search

@@ -27,12 +27,13 @@ constexpr std::int32_t least_yield = 16;
 // Sets are enumerated around vertices up to this degree, and up to so many more sets than neighbours.
 constexpr std::size_t largest_folded = 96;
 constexpr std::size_t most_added = 256;
-// Reductions that have to be worth their work. A vertex fewer saves a search of sparse graphs little, but they often end
-// with no vertex at all: what decides a vertex takes 3 to 50 us of roads and 190 us of a finite element mesh, whose
+// Reductions that have to be worth their work. A vertex fewer saves a search of sparse graphs little, but they often
+// end with no vertex at all: what decides a vertex takes 3 to 50 us of roads and 190 us of a finite element mesh, whose
 // kernels are (nearly) empty then. Graphs of hexes have a degree of 50 to 80; all but the quick rules take 6 ms for a
 // vertex there before they come to folds that add vertices, and 250 us then.
 constexpr double sparse_degree = 16, pay_in_sparse = 3e5, pay_in_dense = 1e5;
-// What is spent before anything is decided: a fiftieth of a short search, or what small graphs of hexes take to the end.
+// What is spent before anything is decided: a fiftieth of a short search, or what small graphs of hexes take to the
+// end.
 constexpr double first_in_sparse = 3e8, first_in_dense = 1.5e7, first_in_small = 4e8;
 constexpr std::int32_t small_count = 4096;
 constexpr double small_degree = 100;
