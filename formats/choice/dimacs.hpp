@@ -3,6 +3,7 @@
 // V` lines. formats/README.md shows one.
 
 #include "common/graph/conflict_graph.hpp"
+#include "formats/choice/graph_reading.hpp"
 #include "formats/streams/input.hpp"
 
 namespace hexpipe::formats {
@@ -13,6 +14,8 @@ bool looks_like_dimacs(Input& input);
 // `p` names the problem in any word (edge, col, td, vc, ...), weights come as `n V W` or `v V W` and are 1 elsewhere,
 // edges as `e U V` or `U V`. An edge may come twice, as in many colouring files. Throws FormatError with the line for
 // loops, numbers out of range, weights given twice, unknown lines, and fewer or more edges than the problem line says.
+// A tolerant reading leaves out loops.
 graph::ConflictGraph read_dimacs(Input& input);
+graph::ConflictGraph read_dimacs(Input& input, const GraphReading& reading, LeftOut& left_out);
 
 }  // namespace hexpipe::formats

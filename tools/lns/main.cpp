@@ -75,7 +75,8 @@ int main(int argc, char** argv) {
     const mwis::local_search::LnsResult result = mwis::local_search::improve_by_lns(
         *data.graph, *data.solution, options, deadline, [&](const mwis::local_search::LnsProgress& now) {
           log.record(deadline.elapsed(), now.iteration, now.weight);
-          if (fragments) fragments->add(std::vector<std::uint64_t>(now.fragment.begin(), now.fragment.end()));
+          if (fragments && !now.fragment.empty())
+            fragments->add(std::vector<std::uint64_t>(now.fragment.begin(), now.fragment.end()));
           if (progress.due()) progress.show(fmt::format("weight {} after {} fragments", now.weight, now.iteration));
         });
     const double seconds = deadline.elapsed();

@@ -40,7 +40,7 @@ void Remainder::solve_components(const Deadline& deadline) {
   for (const auto& component : graph::connected_components(kernel)) {
     bool solved = false;
     if (component.size() <= most_solved && failures < most_failures && !deadline.passed()) {
-      ground::DenseGraph dense = dense_graph_of(graph::induced_subgraph(kernel, component));
+      ground::DenseGraph dense = ground::dense_graph_of(graph::induced_subgraph(kernel, component));
       chosen.assign(dense.words(), 0);
       ground::SearchBudget budget(most_nodes, &deadline);
       solved = solver.solve(dense, chosen, budget);
