@@ -245,12 +245,12 @@ start, end = ({int(line) for line in open(name)} for name in ("start.sol", "out.
 assert start != end and start ^ end <= set().union(*parts), "what changed lies in no fragment"
 PYTHON
   # Of a graph that reductions make smaller, the numbers are those of the whole.
-  "$PYTHON" "$DATA/ring_graph.py" 9000 1500 1 >dense.graph
+  "$PYTHON" "$DATA/random_graph.py" 1500 >dense.graph
   initsol dense.graph --iterations 0 --greedy weight -o dense.sol
   lns --graph dense.graph --solution dense.sol --iterations 300 -o reduced.sol --fragments reduced_parts
   "$PYTHON" - <<'PYTHON'
 numbers = [int(word) for line in open("reduced_parts") for word in line.split()]
-assert numbers and 1 <= min(numbers) and max(numbers) <= 9000
+assert numbers and 1 <= min(numbers) and max(numbers) <= 1500
 PYTHON
 }
 

@@ -85,7 +85,7 @@ class DimacsParser : NumberLines {
     const std::int32_t b = vertex_number("a vertex", graph_.vertex_count());
     if (a == b) {
       if (!reading_.tolerant)
-        fail(fmt::format("expected no loops (--tolerant leaves them out), found vertex {} beside itself", a + 1));
+        fail(fmt::format("expected no loops, found vertex {} beside itself (--tolerant leaves them out)", a + 1));
       return static_cast<void>(++left_out_.loops);
     }
     if (ends_.size() == 4 * edge_count_)

@@ -15,10 +15,10 @@ enum class GraphFormat { metis, dimacs, matrix_market, edges };
 const std::map<std::string, GraphFormat>& graph_formats();
 
 struct GraphReading {
-  std::optional<GraphFormat> format;   // by the first bytes, where it is not given
-  std::optional<double> weight_scale;  // weights may be any numbers, and are rounded after multiplication by this
-  bool tolerant = false;               // repeated edges count once, loops are left out
-  bool complement = false;             // the edges are those that the file does not have
+  std::optional<GraphFormat> format{};   // by the first bytes, where it is not given
+  std::optional<double> weight_scale{};  // weights may be any numbers, and are rounded after multiplication by this
+  bool tolerant = false;                 // repeated edges count once, loops are left out
+  bool complement = false;               // the edges are those that the file does not have
 };
 
 // What was left out, to be told to the user.

@@ -86,7 +86,7 @@ class MetisParser : NumberLines {
     const std::int32_t u = vertex_number("a neighbour", vertex_count_);
     if (u == v) {
       if (!reading_.tolerant)
-        fail(fmt::format("expected no loops (--tolerant leaves them out), found vertex {} beside itself", v + 1));
+        fail(fmt::format("expected no loops, found vertex {} beside itself (--tolerant leaves them out)", v + 1));
       ++left_out_.loops;
       return u;
     }
@@ -101,8 +101,7 @@ class MetisParser : NumberLines {
     const auto repeated = std::ranges::adjacent_find(list);
     if (repeated == list.end()) return;
     if (!reading_.tolerant)
-      fail(fmt::format("expected each neighbour once (--tolerant takes repeated ones), found {} repeated",
-                       *repeated + 1));
+      fail(fmt::format("expected each neighbour once, found {} repeated (--tolerant takes it once)", *repeated + 1));
     const auto rest = std::ranges::unique(list);
     repeated_ends_ += rest.size();
     graph_.neighbours.resize(graph_.neighbours.size() - rest.size());
@@ -143,7 +142,7 @@ class MetisParser : NumberLines {
   void check_last_number() const {
     if (has_last_end_ || !vertex_weights_ || vertex_count_ == 0 || graph_.degree(vertex_count_ - 1) > 0) return;
     throw DataError::at(file(),
-                        "expected the last line to have an end after a weight, found none; is the file cut off?");
+                        "expected the last line to have an end, found none; is the file cut off in its last weight?");
   }
 
   void check_both_ends() {

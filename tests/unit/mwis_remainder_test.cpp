@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/mwis/ground/solution_state.hpp"
 #include "random_graphs.hpp"
 
 namespace hexpipe {

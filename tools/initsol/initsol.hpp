@@ -25,7 +25,7 @@ struct InitsolOptions {
   GreedyOrder order = GreedyOrder::weight_degree;
   Method method = Method::anneal;
   // Temperatures in mean weights of a chosen vertex; what suits the graph, where they are not given.
-  std::optional<double> hot, cold;
+  std::optional<double> hot{}, cold{};
   TabuOptions tabu{};
   int starts = 1;
   std::uint64_t seed = 1;
