@@ -22,8 +22,9 @@ const std::map<std::string, Method> methods{
 const std::map<std::string, Escape> escapes{
     {"restart", Escape::restart}, {"rebuild", Escape::rebuild}, {"best", Escape::best}};
 
-// Of a search that nobody limits. On random-33k 27 find all that cooling more slowly does (tests/bench/mwis/README.md).
-constexpr std::int64_t usual_iterations_a_vertex = 40;
+// Of a search that nobody limits. On random-33k 27 find all that cooling more slowly does (tests/bench/mwis/README.md);
+// half of that leaves the rest to lns, and a lattice of 6 x 6 x 6 hexes takes half a second.
+constexpr std::int64_t usual_iterations_a_vertex = 15;
 
 std::vector<double> quality_for(const pipeline::StageData& data) {
   if (!data.candidates)
