@@ -181,7 +181,7 @@ PYTHON
   $PYTHON "$DATA/lattices/lattice.py" kuhn 3 >lattice.mesh
   findhex --mesh lattice.mesh | buildgraph -o graph.tar
   # A process group of its own, as a terminal gives to each pipeline.
-  setsid bash -o pipefail -c 'echo $$ >group; initsol graph.tar --time-limit 60 | lns | assemble -o out.vtk' 2>message &
+  setsid bash -o pipefail -c 'echo $$ >group; initsol graph.tar --no-reductions --time-limit 60 | lns | assemble -o out.vtk' 2>message &
   local pipeline=$!
   await test -s group
   for tool in initsol lns assemble; do await pgrep -g "$(cat group)" -x $tool; done

@@ -21,6 +21,7 @@ struct ToolInfo {
   bool random = false;          // has --seed
   bool searches = false;        // has --time-limit, --iterations and --log, and stops gracefully on signals
   std::optional<double> default_time_limit{};  // of a search that is given neither limit, seconds
+  std::string ends_by_itself{};  // or when a search ends that is given neither limit
   std::string licence{"MIT"};                  // of the executable as a whole, for --version
 };
 

@@ -64,6 +64,18 @@ nlohmann::ordered_json options_for_history(CLI::App& app) {
   return options;
 }
 
+void declare_graph_file(CLI::App& app, GraphFileOptions& options) {
+  app.add_option("--graph-format", options.format,
+                 "What a graph file is [told by its first bytes, METIS where these say nothing]")
+      ->check(CLI::IsMember({"metis", "dimacs", "matrix-market", "edges"}));
+  app.add_option("--weight-scale", options.weight_scale,
+                 "Weights in a graph file are any numbers: multiply them by this, then round")
+      ->check(number_between(1e-300, 1e300));
+  app.add_flag("--complement", options.complement,
+               "Take the edges that a graph file does not have: its cliques are the independent sets then");
+  app.add_flag("--tolerant", options.tolerant, "Leave out loops and repeated edges of a graph file, with a warning");
+}
+
 void declare_streams(CLI::App& app, RunContext& context) {
   StreamOptions& streams = context.streams;
   const auto& reads = context.info.reads;
@@ -78,6 +90,7 @@ void declare_streams(CLI::App& app, RunContext& context) {
                          fmt::format("Take the {} from this file, whatever the bundle holds", name_of(role))))
           ->type_name("FILE");
   }
+  if (std::ranges::find(reads, Role::graph) != reads.end()) declare_graph_file(app, streams.graph_file);
   if (!context.info.product) return;
   outside_history(
       app.add_option("-o,--output", streams.output,
@@ -109,7 +122,8 @@ void declare_common(CLI::App& app, RunContext& context) {
   if (info.searches) {
     const std::string note = info.default_time_limit
                                  ? fmt::format(" [{:g} unless --iterations is given]", *info.default_time_limit)
-                                 : std::string();
+                             : info.ends_by_itself.empty() ? std::string()
+                                                           : fmt::format(" [else it ends {}]", info.ends_by_itself);
     app.add_option("--time-limit", common.time_limit, "Stop after this many seconds" + note)
         ->type_name("SECONDS")
         ->check(number_between(0, 1e9));

@@ -3,6 +3,7 @@
 // WEIGHT` and `e U V` lines. formats/README.md shows one.
 
 #include "common/graph/conflict_graph.hpp"
+#include "formats/choice/graph_reading.hpp"
 #include "formats/streams/input.hpp"
 
 namespace hexpipe::formats {
@@ -13,7 +14,8 @@ bool looks_like_dimacs(Input& input);
 // The problem may have any name (edge, col, td, vc, ...). Weights stand as `n V W` or `v V W`, and are 1 otherwise;
 // edges stand as `e U V` or `U V`. An edge may come twice, as in many colouring files. Throws FormatError with the line
 // for loops, numbers out of range, weights given twice, unknown lines, and fewer or more edges than the problem line
-// says.
+// says. A tolerant reading leaves out loops.
 graph::ConflictGraph read_dimacs(Input& input);
+graph::ConflictGraph read_dimacs(Input& input, const GraphReading& reading, LeftOut& left_out);
 
 }  // namespace hexpipe::formats

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/graph/conflict_graph.hpp"
+#include "formats/choice/graph_reading.hpp"
 #include "formats/streams/input.hpp"
 #include "formats/streams/output.hpp"
 
@@ -13,8 +14,10 @@ namespace hexpipe::formats {
 
 // Reads fmt 0, 1, 10 and 11. Without vertex weights every weight is 1; edge weights are dropped. '%' begins a comment
 // line, an empty line is a vertex without neighbours, and neighbours may come in any order. Throws FormatError with the
-// line for loops, repeated and one-sided edges, numbers out of range, and counts that disagree with the header.
+// line for loops, repeated and one-sided edges, numbers out of range, and counts that disagree with the header. A
+// tolerant reading leaves out loops and repeated edges, which the header may count or not.
 graph::ConflictGraph read_metis(Input& input);
+graph::ConflictGraph read_metis(Input& input, const GraphReading& reading, LeftOut& left_out);
 
 // Writes `n m 10`, neighbours ascending.
 void write_metis(const graph::ConflictGraph& graph, Output& output);

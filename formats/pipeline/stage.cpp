@@ -10,7 +10,7 @@
 #include "common/mesh/orientation.hpp"
 #include "common/run/error.hpp"
 #include "formats/choice/cand.hpp"
-#include "formats/choice/dimacs.hpp"
+#include "formats/choice/graph_reading.hpp"
 #include "formats/choice/metis.hpp"
 #include "formats/choice/solution_file.hpp"
 #include "formats/meshes/mesh_files.hpp"
@@ -94,7 +94,22 @@ std::int64_t vertex_count_for_solution(const StageData& data, const std::string&
   throw DataError::at(source, "expected a graph or candidates beside the solution, found neither");
 }
 
-void read_role_file(Role role, formats::Input& input, StageData& data) {
+graph::ConflictGraph read_graph_file(formats::Input& input, const RunContext& context) {
+  const GraphFileOptions& options = context.streams.graph_file;
+  formats::GraphReading reading{.format = {},
+                                .weight_scale = options.weight_scale,
+                                .tolerant = options.tolerant,
+                                .complement = options.complement};
+  if (!options.format.empty()) reading.format = formats::graph_formats().at(options.format);
+  formats::LeftOut left_out;
+  graph::ConflictGraph graph = formats::read_graph(input, reading, &left_out);
+  if (left_out.loops + left_out.repeated > 0)
+    context.warn(
+        fmt::format("{}: left out {} loops and {} repeated edges", input.name(), left_out.loops, left_out.repeated));
+  return graph;
+}
+
+void read_role_file(Role role, formats::Input& input, const RunContext& context, StageData& data) {
   switch (role) {
     case Role::mesh:
       data.mesh = to_tet_mesh(formats::read_mixed_mesh(input), input.name().c_str());
@@ -103,7 +118,7 @@ void read_role_file(Role role, formats::Input& input, StageData& data) {
       data.candidates = formats::read_cand(input);
       break;
     case Role::graph:
-      data.graph = formats::looks_like_dimacs(input) ? formats::read_dimacs(input) : formats::read_metis(input);
+      data.graph = read_graph_file(input, context);
       break;
     case Role::solution:
       data.solution = formats::read_solution(input, vertex_count_for_solution(data, input.name()));
@@ -199,6 +214,7 @@ struct Stage::State {
   std::map<Role, std::string> sources;
   std::set<Role> seen;
   std::vector<Role> replaced;  // roles that came from files beside a bundle
+  bool read_graph = false;     // from a file
   StageRequest request;
 
   Role product() const { return *context.info.product; }
@@ -282,6 +298,8 @@ StageData Stage::read(const StageRequest& request) {
     state.read_bundle(*input, data);
   }
   state.read_files(files, data);
+  if (state.context.streams.graph_file.any() && !state.read_graph)
+    throw UsageError("--graph-format, --weight-scale, --complement and --tolerant do nothing without a graph file");
   for (const Role role : request.needs)
     if (!holds(data, role))
       throw DataError::at(input ? input->name() : std::string("the files"), "expected {} for {}, found {}; {} makes it",
@@ -335,7 +353,8 @@ void Stage::State::read_files(std::map<Role, formats::Input>& files, StageData& 
         throw DataError::at(input.name(), "expected {} in this bundle, found none", name_of(role));
       fill_defaults(data);
     } else {
-      read_role_file(role, input, data);
+      read_role_file(role, input, context, data);
+      read_graph = read_graph || role == Role::graph;
       if (role == Role::mesh) orient(*data.mesh, input.name());
     }
     if (passes(role)) write_role(role, data, *bundle);

@@ -6,20 +6,21 @@
 #include <vector>
 
 #include "common/mwis/local_search/recombination.hpp"
+#include "common/mwis/local_search/remainder.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe::initsol {
 namespace {
 
-// Moves of a round, after which progress is reported: some milliseconds.
+// Moves between two looks at which start is ahead; some milliseconds.
 constexpr std::int64_t most_moves_a_round = 1000;
-// A short search cools down in as many steps as it has iterations, a longer one in at least this many.
+// Few iterations cool down in as many steps.
 constexpr std::int64_t least_rounds = 100;
 
-graph::IndependentSet start_solution(const graph::ConflictGraph& graph, std::vector<double> merits, std::uint64_t seed,
-                                     std::int64_t index) {
+graph::IndependentSet start_solution(const graph::ConflictGraph& graph, std::vector<double> merits,
+                                     const InitsolOptions& options, std::int64_t index) {
   if (index > 0) {
-    Random random(seed, static_cast<std::uint64_t>(2 * index));
+    Random random(options.seed, static_cast<std::uint64_t>(2 * index));
     for (double& merit : merits) merit *= random.uniform(0.8, 1.2);
   }
   return greedy(graph, merits);
@@ -28,7 +29,7 @@ graph::IndependentSet start_solution(const graph::ConflictGraph& graph, std::vec
 class Search {
  public:
   virtual ~Search() = default;
-  // `progress`: the share of the iterations or of the time that was used, from 0 to 1.
+  // `progress` from 0 to 1 is what was used of the iterations or of the time.
   virtual void run(std::int64_t moves, double progress, const Deadline& deadline) = 0;
   virtual std::int64_t moves() const = 0;
   virtual std::int64_t best_weight() const = 0;
@@ -37,9 +38,9 @@ class Search {
 
 class TabuStart : public Search {
  public:
-  TabuStart(const graph::ConflictGraph& graph, const graph::IndependentSet& start, const TabuOptions& options,
+  TabuStart(const graph::ConflictGraph& graph, const graph::IndependentSet& start, const InitsolOptions& options,
             Random random)
-      : search_(graph, start, options, random) {}
+      : search_(graph, start, options.tabu, random) {}
   void run(std::int64_t moves, double, const Deadline& deadline) override { search_.run(moves, deadline); }
   std::int64_t moves() const override { return search_.moves(); }
   std::int64_t best_weight() const override { return search_.best_weight(); }
@@ -51,9 +52,13 @@ class TabuStart : public Search {
 
 class AnnealedStart : public Search {
  public:
-  AnnealedStart(const graph::ConflictGraph& graph, const graph::IndependentSet& start,
-                const mwis::local_search::Cooling& cooling, Random random, const Deadline& deadline)
-      : cooling_(cooling), search_(graph, start, random, deadline), unit_(search_.mean_weight()) {}
+  AnnealedStart(const graph::ConflictGraph& graph, const graph::IndependentSet& start, const InitsolOptions& options,
+                Random random, const Deadline& deadline)
+      : search_(graph, start, random, deadline), unit_(search_.mean_weight()) {
+    cooling_ = mwis::local_search::Cooling::for_chosen(search_.chosen_count());
+    cooling_.hot = options.hot.value_or(cooling_.hot);
+    cooling_.cold = options.cold.value_or(cooling_.cold);
+  }
   void run(std::int64_t moves, double progress, const Deadline& deadline) override {
     search_.run(moves, unit_ * cooling_.at(progress), deadline);
   }
@@ -67,38 +72,15 @@ class AnnealedStart : public Search {
   double unit_;
 };
 
-using Searches = std::vector<std::unique_ptr<Search>>;
-
-Searches make_searches(const graph::ConflictGraph& graph, const std::vector<double>& merits,
-                       const InitsolOptions& options, const Deadline& deadline) {
-  Searches searches(static_cast<std::size_t>(options.starts));
-  parallel_for(options.starts, 1, [&](std::int64_t i) {
-    const graph::IndependentSet start = start_solution(graph, merits, options.seed, i);
-    // Even streams of the seed make the starts, odd ones search.
-    const Random random(options.seed, static_cast<std::uint64_t>(2 * i + 1));
-    if (options.method == Method::tabu)
-      searches[i] = std::make_unique<TabuStart>(graph, start, options.tabu, random);
-    else
-      searches[i] = std::make_unique<AnnealedStart>(graph, start, options.cooling, random, deadline);
-  });
-  return searches;
+std::unique_ptr<Search> make_search(const graph::ConflictGraph& graph, const graph::IndependentSet& start,
+                                    const InitsolOptions& options, Random random, const Deadline& deadline) {
+  if (options.method == Method::tabu) return std::make_unique<TabuStart>(graph, start, options, random);
+  return std::make_unique<AnnealedStart>(graph, start, options, random, deadline);
 }
 
-// A search whose time runs out makes fewer moves in its last round.
-std::int64_t moves_made(const Searches& searches) {
-  std::int64_t sum = 0;
-  for (const auto& search : searches) sum += search->moves();
-  return sum;
-}
-
-std::int64_t best_weight(const Searches& searches) {
-  std::int64_t best = 0;
-  for (const auto& search : searches) best = std::max(best, search->best_weight());
-  return best;
-}
-
-// Takes the best parts of all searches. Two starts of random-33k differ by 0.1 to 0.3 %; recombined, they gain 0.1 %.
-graph::IndependentSet recombined(const graph::ConflictGraph& graph, const Searches& searches) {
+// The best parts of all: two starts of random-33k differ by 0.1 to 0.3 %, and together gain 0.1 %.
+graph::IndependentSet recombined(const graph::ConflictGraph& graph,
+                                 const std::vector<std::unique_ptr<Search>>& searches) {
   graph::IndependentSet set = searches.front()->best();
   for (std::size_t i = 1; i < searches.size(); ++i)
     set = mwis::local_search::recombine(graph, searches[i]->best(), set);
@@ -112,44 +94,94 @@ double progress_of(std::int64_t done, std::int64_t iterations, const Deadline& d
   return std::min(1.0, std::max(by_iterations, by_time));
 }
 
-// All searches side by side, in rounds, until the iterations or the time are used up, or none of them can move.
-void run_searches(Searches& searches, std::int64_t iterations, const Deadline& deadline,
-                  const std::function<void()>& after_round) {
+std::int64_t iterations_for(const graph::ConflictGraph& graph, const InitsolOptions& options) {
+  if (options.method == Method::descend) return 0;
+  std::int64_t by_vertices = 0;
+  if (__builtin_mul_overflow(options.iterations_a_vertex, std::max(1, graph.vertex_count()), &by_vertices))
+    return options.iterations;
+  return std::min(options.iterations, by_vertices);
+}
+
+using Report = std::function<void(const InitsolProgress&)>;
+
+// From start(i) for each i.
+InitsolResult search(const graph::ConflictGraph& graph, const std::function<graph::IndependentSet(std::int64_t)>& start,
+                     const InitsolOptions& options, const Deadline& deadline, const Report& report) {
+  InitsolResult result;
+  std::vector<std::unique_ptr<Search>> searches(static_cast<std::size_t>(options.starts));
+  parallel_for(options.starts, 1, [&](std::int64_t i) {
+    // Even streams of the seed make the starts, odd ones search.
+    const Random random(options.seed, static_cast<std::uint64_t>(2 * i + 1));
+    searches[i] = make_search(graph, start(i), options, random, deadline);
+  });
+  const auto leader = [&] {
+    return std::ranges::max_element(searches, {}, [](const auto& search) { return search->best_weight(); })->get();
+  };
+  // Of the last round only some, where time ran out in it.
+  const auto moves_made = [&] {
+    std::int64_t sum = 0;
+    for (const auto& search : searches) sum += search->moves();
+    return sum;
+  };
+  const std::int64_t iterations = iterations_for(graph, options);
   const std::int64_t round = std::clamp<std::int64_t>(iterations / least_rounds, 1, most_moves_a_round);
   for (std::int64_t done = 0; done < iterations && !deadline.passed();) {
     const std::int64_t moves = std::min(round, iterations - done);
     const double progress = progress_of(done, iterations, deadline);
-    parallel_for(static_cast<std::int64_t>(searches.size()), 1,
-                 [&](std::int64_t i) { searches[i]->run(moves, progress, deadline); });
+    parallel_for(options.starts, 1, [&](std::int64_t i) { searches[i]->run(moves, progress, deadline); });
     done += moves;
-    after_round();
+    if (leader()->best_weight() > result.weight) {
+      result.weight = leader()->best_weight();
+      report({moves_made(), result.weight});
+    }
     if (std::ranges::all_of(searches, [&](const auto& search) { return search->moves() < done; })) break;
   }
+  result.iterations = moves_made();
+  result.solution = recombined(graph, searches);
+  return result;
+}
+
+InitsolResult search_remainder(const graph::ConflictGraph& graph,
+                               const std::function<graph::IndependentSet(std::int64_t)>& start,
+                               const InitsolOptions& options, const Deadline& deadline, const Report& report) {
+  const mwis::local_search::Remainder rest(graph, deadline);
+  InitsolResult result;
+  result.complete = rest.is_solved();
+  if (!result.complete)
+    result = search(
+        rest.graph(), [&](std::int64_t i) { return rest.project(start(i)); }, options, deadline,
+        [&](const InitsolProgress& now) {
+          report({now.iteration, now.weight + rest.offset()});
+        });
+  result.solution = rest.lift(result.solution);
+  if (result.complete) report({0, graph::total_weight(result.solution, graph)});
+  return result;
 }
 
 }  // namespace
 
 InitsolResult find_initial_solution(const graph::ConflictGraph& graph, std::span<const double> quality,
-                                    const InitsolOptions& options, const Deadline& deadline,
-                                    const std::function<void(const InitsolProgress&)>& report) {
+                                    const InitsolOptions& options, const Deadline& deadline, const Report& report) {
   const std::vector<double> vertex_merits = merits(graph, options.order, quality);
+  const auto start = [&](std::int64_t i) { return start_solution(graph, vertex_merits, options, i); };
+  const graph::IndependentSet first = start(0);
+  const std::int64_t greedy_weight = graph::total_weight(first, graph);
+  std::int64_t reported = greedy_weight;
+  const Report report_better = [&](const InitsolProgress& now) {
+    if (!report || now.weight <= reported) return;
+    reported = now.weight;
+    report(now);
+  };
   InitsolResult result;
-  result.solution = greedy(graph, vertex_merits);
-  result.greedy_weight = result.weight = graph::total_weight(result.solution, graph);
-  if (options.iterations == 0 || deadline.passed() || graph.edge_count() == 0) return result;
-
-  Searches searches = make_searches(graph, vertex_merits, options, deadline);
-  if (options.method != Method::descend)
-    run_searches(searches, options.iterations, deadline, [&] {
-      if (!report || best_weight(searches) <= result.weight) return;
-      result.weight = best_weight(searches);
-      report({moves_made(searches), result.weight});
-    });
-  result.iterations = moves_made(searches);
-  mwis::ground::SolutionState best(graph, recombined(graph, searches));
+  if (options.iterations > 0 && !deadline.passed() && graph.edge_count() > 0)
+    result = options.reduce ? search_remainder(graph, start, options, deadline, report_better)
+                            : search(graph, start, options, deadline, report_better);
+  mwis::ground::SolutionState best(graph, result.solution);
   best.make_maximal();  // with vertices of weight 0
-  result.solution = best.to_set();
-  result.weight = best.weight();
+  const bool better = best.weight() > greedy_weight;
+  result.solution = better ? best.to_set() : first;
+  result.weight = better ? best.weight() : greedy_weight;
+  result.greedy_weight = greedy_weight;
   return result;
 }
 

@@ -21,11 +21,12 @@ struct InitsolResult {
   std::int64_t weight = 0;
   std::int64_t greedy_weight = 0;
   std::int64_t iterations = 0;  // moves or kicks of all starts
+  bool complete = false;        // the solution is optimal: reductions and exact search of small components left nothing
 };
 
 // `quality` has an entry for each vertex when the order needs it. The first start is the greedy solution, the others
 // are greedy with merits changed at random. Annealing cools from the first iteration to the last, or over the seconds
-// where these end sooner. `report` is called for improvements.
+// where these end sooner. Where nothing is left to search it ends at once. `report` is called for improvements.
 InitsolResult find_initial_solution(const graph::ConflictGraph& graph, std::span<const double> quality,
                                     const InitsolOptions& options, const Deadline& deadline,
                                     const std::function<void(const InitsolProgress&)>& report = {});

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 
-#include "common/mwis/local_search/annealing.hpp"
 #include "tools/initsol/greedy.hpp"
 #include "tools/initsol/tabu_search.hpp"
 
@@ -19,11 +19,15 @@ enum class Method {
 struct InitsolOptions {
   GreedyOrder order = GreedyOrder::weight_degree;
   Method method = Method::anneal;
-  mwis::local_search::Cooling cooling{};
+  // Temperatures in mean weights of a chosen vertex; what suits the graph, where they are not given.
+  std::optional<double> hot{}, cold{};
   TabuOptions tabu{};
   int starts = 1;
   std::uint64_t seed = 1;
   std::int64_t iterations = std::numeric_limits<std::int64_t>::max();  // moves or kicks of each start
+  // Likewise for each vertex that reductions leave; a search that cools more slowly gains little.
+  std::int64_t iterations_a_vertex = std::numeric_limits<std::int64_t>::max();
+  bool reduce = true;  // search what exact reductions leave
 };
 
 }  // namespace hexpipe::initsol

@@ -17,6 +17,14 @@
 
 using namespace hexpipe;
 
+namespace {
+
+// Of a search that nobody limits. What each doubling of the time gains falls by half or more, so that what is left to
+// gain when it ends is about as much.
+constexpr double usual_worth = 5e-5;
+
+}  // namespace
+
 int main(int argc, char** argv) {
   const ToolInfo info{
       .name = "lns",
@@ -26,12 +34,18 @@ int main(int argc, char** argv) {
       .product = Role::solution,
       .random = true,
       .searches = true,
-      .default_time_limit = 60};
+      .ends_by_itself = "when --worth says so"};
   mwis::local_search::LnsOptions options;
   mwis::TargetOptions target;
   std::string fragments_file;
+  std::optional<double> worth;
   const auto declare = [&](CLI::App& app) {
     mwis::declare_lns_options(app, options, target);
+    app.add_option("--worth", worth,
+                   "End when the last half of the search gained less than this share of the weight [5e-5 where neither "
+                   "--time-limit nor --iterations is given, else 0: go on to the limit]")
+        ->type_name("SHARE")
+        ->check(number_between(0, 1));
     outside_history(
         app.add_option("--fragments", fragments_file,
                        "Write each improved fragment as a line of a file, to look at with viewmesh --fragments"))
@@ -41,6 +55,8 @@ int main(int argc, char** argv) {
     mwis::check(target);
     options.seed = context.common.seed;
     options.iterations = context.common.iterations.value_or(options.iterations);
+    const bool is_limited = context.common.iterations || context.common.time_limit;
+    options.worth = worth.value_or(is_limited ? 0 : usual_worth);
     pipeline::Stage stage(context);
     mwis::ground::SearchLog log(context.common.log_file);
     std::optional<formats::FragmentsFile> fragments;
@@ -58,7 +74,8 @@ int main(int argc, char** argv) {
     const mwis::local_search::LnsResult result = mwis::local_search::improve_by_lns(
         *data.graph, *data.solution, options, deadline, [&](const mwis::local_search::LnsProgress& now) {
           log.record(deadline.elapsed(), now.iteration, now.weight);
-          if (fragments) fragments->add(std::vector<std::uint64_t>(now.fragment.begin(), now.fragment.end()));
+          if (fragments && !now.fragment.empty())
+            fragments->add(std::vector<std::uint64_t>(now.fragment.begin(), now.fragment.end()));
           if (progress.due()) progress.show(fmt::format("weight {} after {} fragments", now.weight, now.iteration));
         });
     const double seconds = deadline.elapsed();
