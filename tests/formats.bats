@@ -80,9 +80,9 @@ assert_contents() {
         print(name, [(block.type, len(cells)) for block, cells in zip(mesh.cells, lists) if len(cells)])'
   assert_success
   assert_output "EALL [('hexahedron', 1), ('wedge', 1), ('tetra', 1)]
-REGION_1 [('hexahedron', 1)]
-REGION_2 [('wedge', 1)]
-REGION_4 [('tetra', 1)]"
+region_1 [('hexahedron', 1)]
+region_2 [('wedge', 1)]
+region_4 [('tetra', 1)]"
 }
 
 @test "what meshio writes is read" {
@@ -181,7 +181,7 @@ END
 @test "the examples in formats/README.md are what we write" {
   extract_examples
   cp tet.msh source.msh
-  for format in mesh msh msh22 vtk inp; do
+  for format in mesh msh msh22 vtk inp su2 bdf; do
     mesh_convert source.msh "$format" "written.$format"
     assert_same_bytes "tet.$format" "written.$format"
   done
@@ -218,7 +218,7 @@ print(points[1], *cells, *(arrays[name] for name in ("types", "region", "surface
 }
 
 @test "a full disk is noticed in every format" {
-  for format in mesh msh msh-binary msh22 msh22-binary vtk vtu inp; do
+  for format in mesh msh msh-binary msh22 msh22-binary vtk vtu inp su2 bdf; do
     assert_fails_with 1 'cannot write: No space left' mesh_convert "$MESH" "$format" /dev/full
   done
 }

@@ -40,8 +40,9 @@ constexpr int exit_usage = 2;
 // Options that say where things are or how to run, but not what comes out: they stay out of the history, so that the
 // same input and options give the same bytes.
 bool decides_result(const CLI::Option& option, const ToolInfo& info) {
-  static const std::vector<std::string> common_ones{"help", "version", "config", "threads", "memory", "stats",
-                                                    "log",  "verbose", "quiet",  "output",  "format", "compress"};
+  static const std::vector<std::string> common_ones{
+      "help",  "version", "config", "threads",  "memory", "stats",    "log",         "verbose",
+      "quiet", "output",  "format", "compress", "solver", "pyramids", "hex-element", "no-facets"};
   if (option.get_lnames().empty()) return false;
   const std::string& long_name = option.get_lnames().front();
   for (const Role role : all_roles)
@@ -80,6 +81,25 @@ nlohmann::ordered_json options_for_history(const CLI::App& app, const ToolInfo& 
   return options;
 }
 
+// Of tools that write meshes. None of them changes a bundle.
+void declare_mesh_output(CLI::App& app, MeshOptions& mesh) {
+  app.add_option("--solver", mesh.solver,
+                 "Write a mesh as this program takes it best: its pyramids, hexes and facets; calculix: pyramids "
+                 "collapsed, C3D8I; abaqus: C3D8I; openfoam, su2, nastran: their format is checked")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"calculix", "abaqus", "openfoam", "su2", "nastran", "mfem"}).description(""));
+  app.add_option("--pyramids", mesh.pyramids,
+                 "In files of other programs: keep; collapsed: as hexes with the apex four times (.inp); split: as two "
+                 "tets each")
+      ->type_name("FORM")
+      ->check(CLI::IsMember({"keep", "collapsed", "split"}).description(""));
+  app.add_option("--hex-element", mesh.hex_element, "The type of hexes in .inp: C3D8, C3D8I or C3D8R")
+      ->type_name("TYPE")
+      ->check(CLI::IsMember({"C3D8", "C3D8I", "C3D8R"}).description(""));
+  app.add_flag("--no-facets", mesh.no_facets,
+               "In files of other programs: cells alone, for readers that take no facets among them");
+}
+
 void declare_streams(CLI::App& app, RunContext& context) {
   StreamOptions& streams = context.streams;
   const auto& reads = context.info.reads;
@@ -102,6 +122,8 @@ void declare_streams(CLI::App& app, RunContext& context) {
       ->type_name("FILE");
   app.add_option("--format", streams.format, "The format of the output, whatever its name")->type_name("NAME");
   app.add_flag("--compress", streams.compress, "Compress the bundle with zstd");
+  if (*context.info.product == Role::mesh || *context.info.product == Role::result)
+    declare_mesh_output(app, streams.mesh);
 }
 
 void declare_common(CLI::App& app, RunContext& context) {

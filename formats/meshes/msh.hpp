@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/mesh/mixed_mesh.hpp"
+#include "formats/meshes/mesh_writing.hpp"
 #include "formats/streams/output.hpp"
 
 namespace hexpipe::formats {
@@ -26,8 +27,9 @@ struct MshNodeValues {
 };
 MshNodeValues read_msh_node_values(std::string_view text, std::string_view file);
 
-// Regions and surfaces are physical groups. The quality is a post-processing view; version 2.2 goes without, for meshio
+// Regions and surfaces are physical groups, in version 2.2 with numbers apart, because its readers mix up a surface and
+// a region of one number. The quality is a post-processing view; version 2.2 goes without, for meshio
 // cannot open mixed meshes with one.
-void write_msh(const MixedMesh& mesh, MshVersion version, MshCoding coding, Output& output);
+void write_msh(const MixedMesh& mesh, MshVersion version, MshCoding coding, const MeshWriting& writing, Output& output);
 
 }  // namespace hexpipe::formats

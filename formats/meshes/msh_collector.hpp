@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,8 +24,9 @@ struct MshElementNumbers {
   std::int32_t elementary = 0;
 };
 
-// A group that we write for a tag that is no positive number, and so cannot be the group's number, has the tag in its
-// name: `region -1`, `surface 0`.
+// A group that we write for a tag that cannot be the group's number, as it is not positive or a group of the other
+// dimension has it, has the tag in its name: `region_-1`, `surface_0`. With a blank for the line below, as older files
+// have it, only tags that are not positive count.
 const char* msh_group_word(int dimension);
 std::optional<std::int32_t> tag_in_group_name(std::string_view name, int dimension);
 
@@ -63,6 +65,7 @@ class MshCollector {
   NumberMap nodes_;
   std::vector<MshElementNumbers> numbers_[block_count];  // in the order of for_each_block
   std::map<std::pair<int, std::int32_t>, std::int32_t> tags_in_names_;
+  std::set<std::pair<int, std::int32_t>> numbers_of_groups_;  // that have names
   std::vector<std::pair<std::int64_t, double>> quality_;
 };
 
