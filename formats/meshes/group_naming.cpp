@@ -141,9 +141,10 @@ GroupNamings::GroupNamings(const MixedMesh& mesh, const MeshWriting& writing, co
 namespace {
 
 // `taken`: numbers that none of these tags may have.
-std::map<std::int32_t, std::int32_t> number_tags(const std::set<std::int32_t>& tags, std::set<std::int32_t> taken) {
+std::map<std::int32_t, std::int32_t> number_tags(const std::set<std::int32_t>& tags, std::set<std::int32_t> taken,
+                                                 std::int32_t most) {
   std::map<std::int32_t, std::int32_t> numbers;
-  const auto keeps = [&](std::int32_t tag) { return tag > 0 && !taken.contains(tag); };
+  const auto keeps = [&](std::int32_t tag) { return tag > 0 && tag <= most && !taken.contains(tag); };
   for (const std::int32_t tag : tags)
     if (keeps(tag)) numbers[tag] = tag;
   taken.insert(tags.begin(), tags.end());
@@ -158,12 +159,12 @@ std::map<std::int32_t, std::int32_t> number_tags(const std::set<std::int32_t>& t
 
 }  // namespace
 
-GroupNumbers group_numbers(const MixedMesh& mesh, bool apart) {
-  GroupNumbers numbers{number_tags(tags_of(mesh, GroupKind::surface), {}), {}};
+GroupNumbers group_numbers(const MixedMesh& mesh, bool apart, std::int32_t most) {
+  GroupNumbers numbers{number_tags(tags_of(mesh, GroupKind::surface), {}, most), {}};
   std::set<std::int32_t> taken;
   if (apart)
     for (const auto& [tag, number] : numbers.surfaces) taken.insert(number);
-  numbers.regions = number_tags(tags_of(mesh, GroupKind::region), std::move(taken));
+  numbers.regions = number_tags(tags_of(mesh, GroupKind::region), std::move(taken), most);
   return numbers;
 }
 

@@ -2,6 +2,7 @@
 // Names of groups as a format can hold them.
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -63,6 +64,8 @@ struct GroupNumbers {
 };
 // `apart`: no number is one of a surface and one of a region. Then regions give way: theirs is mostly a single one, and
 // boundary conditions are given to surfaces.
-GroupNumbers group_numbers(const MixedMesh& mesh, bool apart);
+// Tags above `most` get another number, too.
+GroupNumbers group_numbers(const MixedMesh& mesh, bool apart,
+                           std::int32_t most = std::numeric_limits<std::int32_t>::max());
 
 }  // namespace hexpipe::formats

@@ -24,7 +24,7 @@ namespace {
 
 constexpr NameRules rules{
     .format = "Nastran", .longest = 72, .others = "!#$%&'()*+,-./:;<=>?@[]^`{|}~ ", .ascii_only = false};
-constexpr std::size_t most_numbers = 99999999;  // 8 digits
+constexpr std::int32_t most_numbers = 99999999;  // 8 digits
 constexpr int real_width = 16;
 constexpr std::string_view name_comment = "$HMNAME COMP";
 
@@ -308,13 +308,10 @@ class NastranReader {
 class NastranWriter {
  public:
   NastranWriter(const MixedMesh& mesh, const MeshWriting& writing, Output& output)
-      : mesh_(mesh), output_(output), names_(mesh, writing, rules), numbers_(group_numbers(mesh, true)) {}
+      : mesh_(mesh), output_(output), names_(mesh, writing, rules), numbers_(group_numbers(mesh, true, most_numbers)) {}
 
   void write() {
     check_numbers(std::max(mesh_.points.size(), element_count(mesh_)), most_numbers, output_.name());
-    for (const auto* numbers : {&numbers_.surfaces, &numbers_.regions})
-      for (const auto& [tag, number] : *numbers)
-        check_numbers(static_cast<std::size_t>(number), most_numbers, output_.name());
     output_.print("$ hexpipe mesh\nBEGIN BULK\n");
     write_names(names_.surfaces, numbers_.surfaces);
     write_names(names_.regions, numbers_.regions);

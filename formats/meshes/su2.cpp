@@ -13,6 +13,7 @@
 #include "formats/meshes/facet_owners.hpp"
 #include "formats/meshes/group_naming.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
+#include "formats/meshes/vtk_grid.hpp"
 #include "formats/streams/number_writer.hpp"
 #include "formats/streams/text_scanner.hpp"
 
@@ -126,6 +127,7 @@ class Su2Reader {
         if (v < 0) scanner_.fail_expected("a point from 0", std::to_string(v));
         greatest_ = std::max(greatest_, std::int64_t{v});
       }
+      cell = swap_vtk_order(cell);
       set_tag(block);
     });
     if (!known)
@@ -215,7 +217,7 @@ class Su2Writer {
   template <class Cell>
   void write_element(const ElementNames& names, const Cell& cell, std::size_t number) {
     line_ << int{names.vtk};
-    for (const Vertex v : cell) line_ << v;
+    for (const Vertex v : swap_vtk_order(cell)) line_ << v;
     line_ << number;
     line_.end_line();
   }

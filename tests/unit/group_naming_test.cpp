@@ -82,6 +82,8 @@ TEST(GroupNaming, NumbersSurfacesAndRegionsApartWhereAskedFor) {
               ElementsAre(Pair(0, 3), Pair(1, 1), Pair(2, 2), Pair(10, 10), Pair(20, 20), Pair(30, 30)));
   EXPECT_THAT(group_numbers(mesh, false).regions, ElementsAre(Pair(-5, 1), Pair(2, 2), Pair(3, 3), Pair(4, 4)));
   EXPECT_THAT(group_numbers(mesh, true).regions, ElementsAre(Pair(-5, 5), Pair(2, 6), Pair(3, 7), Pair(4, 4)));
+  EXPECT_THAT(group_numbers(mesh, false, 9).surfaces,
+              ElementsAre(Pair(0, 3), Pair(1, 1), Pair(2, 2), Pair(10, 4), Pair(20, 5), Pair(30, 6)));
 }
 
 }  // namespace
