@@ -43,6 +43,25 @@ inp_fields() {
                END { print field, line }' <(grep -v '^\*' "$1")
 }
 
+# volume_of FILE.inp: of all elements together, as CalculiX measures it.
+volume_of() {
+  echo "*INCLUDE, INPUT=$1
+*MATERIAL, NAME=STEEL
+*ELASTIC
+210000, 0.3
+*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL
+*STEP
+*STATIC
+*BOUNDARY
+NALL, 1, 3, 0
+*EL PRINT, ELSET=EALL, TOTALS=ONLY
+EVOL
+*END STEP" >case.inp
+  rm -f case.dat
+  timeout 60 ccx case >ccx.log || return 1
+  awk '/total volume/ { getline; getline; printf "%.3f\n", $1 }' case.dat
+}
+
 @test "CalculiX reads coordinates of many digits as they are meant" {
   mesh_convert "$DATA/meshes/long_numbers.mesh" inp long.inp
   run sed -n 4p long.inp
@@ -61,21 +80,7 @@ inp_fields() {
   done
   need_calculix
   for name in long longer; do
-    echo "*INCLUDE, INPUT=$name.inp
-*MATERIAL, NAME=STEEL
-*ELASTIC
-210000, 0.3
-*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL
-*STEP
-*STATIC
-*BOUNDARY
-NALL, 1, 3, 0
-*EL PRINT, ELSET=EALL, TOTALS=ONLY
-EVOL
-*END STEP" >case.inp
-    run timeout 60 ccx case
-    assert_success
-    run awk '/total volume/ { getline; getline; printf "%.3f", $1 }' case.dat
+    run volume_of $name.inp
     assert_output "1.000"
   done
 }
@@ -127,23 +132,37 @@ for number, *by in moved:
 PYTHON
 }
 
-@test "CalculiX presses all kinds of cells alike, with collapsed and with split pyramids" {
+@test "CalculiX presses all kinds of cells alike, with collapsed pyramids" {
   need_calculix
+  # With flat faces: on warped ones its prisms are not integrated exactly.
   whole_mesh
+  sed -i 's/^11 1.0 0.5 2.1$/11 1 0.5 2/' whole.msh
   mesh_convert whole.msh inp collapsed.inp "" collapsed
+  grep -q '^11, 1, 0.5, 2$' collapsed.inp
   grep -q '^3, 2, 3, 7, 6, 9, 9, 9, 9$' collapsed.inp
   pressed collapsed.inp
   mesh_convert whole.msh inp incompatible.inp "" collapsed C3D8I
   grep -A1 -n 'TYPE=C3D8I' incompatible.inp | grep -q '1, 1, 2, 3, 4, 5, 6, 7, 8'
   pressed incompatible.inp
-  mesh_convert whole.msh inp split.inp "" split 2>said
-  assert_equal "$(<said)" "mesh_convert: 1 pyramids are written as two tets each: their quads face two triangles"
-  assert_equal "$(grep -c 'C3D5\|, 9, 9' split.inp)" 0
-  pressed split.inp
   # As they are, it has no such cells.
   mesh_convert whole.msh inp kept.inp
   grep -q 'TYPE=C3D5' kept.inp
   run pressed kept.inp
+  assert_failure
+}
+
+@test "CalculiX takes split pyramids for what they are, but quads against triangles do not balance" {
+  need_calculix
+  whole_mesh
+  sed -i 's/^11 1.0 0.5 2.1$/11 1 0.5 2/' whole.msh
+  mesh_convert whole.msh inp collapsed.inp "" collapsed
+  mesh_convert whole.msh inp split.inp "" split 2>said
+  assert_equal "$(<said)" "mesh_convert: 1 pyramids are written as two tets each: their quads face two triangles"
+  assert_equal "$(grep -c 'C3D5\|, 9, 9' split.inp)" 0
+  assert_equal "$(volume_of split.inp)" "$(volume_of collapsed.inp)"
+  assert_equal "$(volume_of split.inp)" 2.000
+  # docs/solvers.md advises against it.
+  run pressed split.inp
   assert_failure
 }
 
@@ -279,7 +298,7 @@ MESH
   for name in main_inlet_2 water region_3 region_4; do assert_output --partial "$name"; done
   # The facet looks as its face does, from the hex to the pyramid.
   run bash -c 'tr -s "\n" " " <case/constant/polyMesh/faceZones | grep -o "surface_7.*"'
-  assert_output --partial "surface_7 { type faceZone; faceLabels List<label> 1 ( 0 ) ; flipMap List<bool> 1 ( 0 ) ; }"
+  assert_output --partial "surface_7 { type faceZone; faceLabels List<label> 1 ( 1 ) ; flipMap List<bool> 1 ( 0 ) ; }"
 }
 
 @test "OpenFOAM conducts heat through a mesh of hexes and tets exactly" {
@@ -389,6 +408,10 @@ PYTHON
   for format in su2 bdf; do
     gmsh -3 -v 2 "$DATA/meshes/all_kinds.geo" -string 'Mesh.BdfFieldFormat=2;' -format $format -o all.$format
     mesh_convert all.$format msh22 back.msh
+    # With fewer digits in .bdf, as Gmsh itself reads them.
+    if [[ $format == bdf ]]; then
+      "$PYTHON" "$CHECKERS/mesh_contents.py" gmsh --no-tags all.bdf | grep -E '^(hex|prism|pyramid|tet) ' >expected.txt
+    fi
     "$PYTHON" "$CHECKERS/mesh_contents.py" meshio --no-tags back.msh 2>/dev/null | grep -E '^(hex|prism|pyramid|tet) ' >found.txt
     assert [ "$(wc -l <found.txt)" -gt 10 ]
     diff expected.txt found.txt || fail "$format"

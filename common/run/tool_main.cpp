@@ -87,7 +87,7 @@ void declare_mesh_output(CLI::App& app, MeshOptions& mesh) {
                  "Write a mesh as this program takes it best: its pyramids, hexes and facets; calculix: pyramids "
                  "collapsed, C3D8I; abaqus: C3D8I; openfoam, su2, nastran: their format is checked")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"calculix", "abaqus", "openfoam", "su2", "nastran", "mfem"}).description(""));
+      ->check(CLI::IsMember({"calculix", "abaqus", "openfoam", "su2", "nastran"}).description(""));
   app.add_option("--pyramids", mesh.pyramids,
                  "In files of other programs: keep; collapsed: as hexes with the apex four times (.inp); split: as two "
                  "tets each")

@@ -29,7 +29,8 @@ struct MeshWriting {
 
 // With two tets for each pyramid. The diagonal of a base begins at its lowest vertex, so that two pyramids on one base
 // agree. A facet that only pyramids have becomes two triangles; beside a hex or a prism it stays a quad, whose other
-// side is two triangles now: vertices fit, but the mesh no longer conforms there.
+// side is two triangles now: vertices fit, but the mesh no longer conforms there, and finite elements do not pass the
+// patch test.
 MixedMesh with_split_pyramids(const MixedMesh& mesh);
 
 // Throws DataError, beginning with `name`, where a format has too few numbers for so many points or elements.

@@ -272,8 +272,18 @@ class NastranReader {
     });
   }
 
-  // Properties that tell a tag in their names have it, unless another property has that number.
+  // Properties of a dimension that elements have.
+  std::set<std::int32_t> properties(int dimension) const {
+    std::set<std::int32_t> result;
+    for_each_block(mesh_, [&](const ElementNames& names, const auto& block) {
+      if (names.dimension == dimension) result.insert(block.tags.begin(), block.tags.end());
+    });
+    return result;
+  }
+
+  // Properties that tell a tag in their names have it, unless another property of the dimension has that number.
   void set_tags(GroupNames* names) {
+    const std::array<std::set<std::int32_t>, 2> used{properties(2), properties(3)};
     for_each_block(mesh_, [&](const ElementNames& of_block, auto& block) {
       const GroupKind kind = of_block.dimension == 3 ? GroupKind::region : GroupKind::surface;
       std::map<std::int32_t, std::int32_t> tag_of;
@@ -282,7 +292,7 @@ class NastranReader {
         if (is_new) {
           const auto name = names_.find(tag);
           const auto told = name == names_.end() ? std::nullopt : told_tag(name->second, kind);
-          if (told && !names_.contains(*told))
+          if (told && !used[static_cast<std::size_t>(of_block.dimension - 2)].contains(*told))
             place->second = *told;
           else if (name != names_.end() && told != tag && names != nullptr)
             (kind == GroupKind::region ? names->regions : names->surfaces)[tag] = name->second;

@@ -26,8 +26,6 @@ const std::vector<Solver>& solvers() {
       {"openfoam", {"polyMesh", "msh22"}, PyramidForm::keep, "C3D8"},
       {"su2", {"su2"}, PyramidForm::keep, "C3D8"},
       {"nastran", {"bdf", "nas"}, PyramidForm::keep, "C3D8"},
-      // Its reader of .vtu refuses facets among cells; it reads names from .msh.
-      {"mfem", {"msh22", "msh22-binary"}, PyramidForm::keep, "C3D8"},
   };
   return list;
 }
