@@ -379,8 +379,10 @@ PYTHON
 
 @test "quads against two triangles are no polyMesh" {
   whole_mesh
-  assert_fails_with 1 "cannot write cell 1: a quad of it faces two triangles" \
-    shell 'mesh_convert whole.msh polyMesh polyMesh "" split 2> >(grep -v "two tets each" >&2)'
+  run mesh_convert whole.msh polyMesh polyMesh "" split
+  assert_failure 1
+  assert_line "mesh_convert: polyMesh: cannot write cell 1: a quad of it faces two triangles"
+  assert [ ! -e polyMesh ]
 }
 
 @test "Gmsh and meshio find the same mesh in SU2 and Nastran files" {
