@@ -226,6 +226,15 @@ PYTHON
   assemble solved.tar --solver calculix --pyramids keep --hex-element C3D8 -o b.inp
   assemble solved.tar -o c.inp
   assert_same_bytes b.inp c.inp
+  # The other commands of docs/solvers.md.
+  grep -oE 'assemble stages.tar --solver [a-z0-9]+ -o part[.][a-z0-9]+' "$HEXPIPE_SOURCE/docs/solvers.md" >commands
+  assert_equal "$(wc -l <commands)" 4
+  cp solved.tar stages.tar
+  while read -r command; do
+    rm -f part.*
+    $command
+    assert [ -s part.* ]
+  done <commands
   assemble solved.tar --no-facets -o cells.vtu
   assemble solved.tar -o all.vtu
   assert_different_bytes cells.vtu all.vtu
