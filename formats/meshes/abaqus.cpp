@@ -22,7 +22,7 @@ constexpr int field_width = 20;
 // CalculiX reads lines of 132 characters, Abaqus of 256; both take 16 numbers a line.
 constexpr std::size_t line_width = 80;
 
-constexpr NameRules rules{
+constexpr NameRules abaqus_rules{
     .format = "Abaqus", .longest = 80, .others = "", .folds_case = true, .begins_with_letter = true};
 
 struct AbaqusNames {
@@ -45,7 +45,7 @@ constexpr AbaqusNames collapsed_pyramid{CellKind::pyramid, "C3D8", {3, 4, 5, 6},
 class AbaqusWriter {
  public:
   AbaqusWriter(const MixedMesh& mesh, const MeshWriting& writing, Output& output)
-      : mesh_(mesh), writing_(writing), output_(output), names_(mesh, writing, rules, {"EALL", "NALL"}) {}
+      : mesh_(mesh), writing_(writing), output_(output), names_(mesh, writing, abaqus_rules, {"EALL", "NALL"}) {}
 
   void write() {
     check_numbers(std::max(mesh_.points.size(), element_count(mesh_)), most_of_31_bits, output_.name());

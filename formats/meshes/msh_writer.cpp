@@ -16,7 +16,7 @@ namespace hexpipe::formats {
 namespace {
 
 // Netgen cuts names at blanks, and quotes end them.
-constexpr NameRules rules{
+constexpr NameRules msh_rules{
     .format = ".msh", .longest = 127, .others = "!#$%&'()*+,-./:;<=>?@[]^`{|}~", .ascii_only = false};
 
 // A physical group and the entity with the same number: all cells or all facets with one tag.
@@ -100,7 +100,7 @@ class MshWriter {
         version_(version),
         output_(output),
         sink_(output, coding),
-        names_(mesh, writing, rules),
+        names_(mesh, writing, msh_rules),
         numbers_(group_numbers(mesh, version == MshVersion::v2_2)),
         surfaces_(mesh, 2, version, numbers_.surfaces),
         regions_(mesh, 3, version, numbers_.regions) {}

@@ -22,7 +22,7 @@
 namespace hexpipe::formats {
 namespace {
 
-constexpr NameRules rules{
+constexpr NameRules nastran_rules{
     .format = "Nastran", .longest = 72, .others = "!#$%&'()*+,-./:;<=>?@[]^`{|}~ ", .ascii_only = false};
 constexpr std::int32_t most_numbers = 99999999;  // 8 digits
 constexpr int real_width = 16;
@@ -318,7 +318,10 @@ class NastranReader {
 class NastranWriter {
  public:
   NastranWriter(const MixedMesh& mesh, const MeshWriting& writing, Output& output)
-      : mesh_(mesh), output_(output), names_(mesh, writing, rules), numbers_(group_numbers(mesh, true, most_numbers)) {}
+      : mesh_(mesh),
+        output_(output),
+        names_(mesh, writing, nastran_rules),
+        numbers_(group_numbers(mesh, true, most_numbers)) {}
 
   void write() {
     check_numbers(std::max(mesh_.points.size(), element_count(mesh_)), most_numbers, output_.name());

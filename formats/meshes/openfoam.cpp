@@ -23,7 +23,7 @@ namespace hexpipe::formats {
 namespace {
 
 // Other characters end a word of a dictionary, or mean a pattern.
-constexpr NameRules rules{.format = "OpenFOAM", .longest = 255, .others = "-.:+%@~^"};
+constexpr NameRules openfoam_rules{.format = "OpenFOAM", .longest = 255, .others = "-.:+%@~^"};
 constexpr const char* untagged_patch = "defaultFaces";
 constexpr Vertex no_corner = -1;
 
@@ -66,7 +66,7 @@ bool same_cycle(const Corners& a, const Corners& b) {
 class PolyMesh {
  public:
   PolyMesh(const MixedMesh& mesh, const MeshWriting& writing, OutputFolder& folder)
-      : mesh_(mesh), writing_(writing), folder_(folder), names_(mesh, writing, rules, {untagged_patch}) {
+      : mesh_(mesh), writing_(writing), folder_(folder), names_(mesh, writing, openfoam_rules, {untagged_patch}) {
     surface_names_ = names_.surfaces.list();
     check_numbers(mesh.cell_count() * 6, most_of_31_bits, folder.name());
     collect_faces();

@@ -21,7 +21,7 @@ namespace hexpipe::formats {
 namespace {
 
 // Markers stand in lists of configurations: ( inlet, outlet ).
-constexpr NameRules rules{.format = "SU2", .longest = 255, .others = "-.:+"};
+constexpr NameRules su2_rules{.format = "SU2", .longest = 255, .others = "-.:+"};
 
 std::string upper(std::string_view word) {
   std::string text(word);
@@ -189,7 +189,7 @@ class Su2Writer {
         writing_(writing),
         output_(output),
         line_(output),
-        names_(mesh, GroupKind::surface, writing, rules) {}
+        names_(mesh, GroupKind::surface, writing, su2_rules) {}
 
   void write() {
     tell_of_regions();
@@ -210,7 +210,7 @@ class Su2Writer {
 
  private:
   void tell_of_regions() {
-    const std::size_t regions = GroupNaming(mesh_, GroupKind::region, writing_, rules).list().size();
+    const std::size_t regions = GroupNaming(mesh_, GroupKind::region, writing_, su2_rules).list().size();
     if (regions > 1) writing_.say(fmt::format("SU2 has no regions: the cells of {} are written as one", regions));
   }
 
