@@ -464,7 +464,7 @@ PYTHON
   local merged="merge-parts k/pieces/part-0000.tar k/pieces/part-0001.tar"
   assert_fails_with 1 "expected all 3 pieces, found no piece 2" $merged -o out.pvtu
   assert_fails_with 1 "k/pieces/part-0001.tar: expected each piece once, found 1 as in k/pieces/part-0001.tar" $merged k/pieces/part-0001.tar -o out.vtu
-  assert_fails_with 2 "expected an output as mesh, .*inp, pvtu, tar, tar.zst, found 'out.vtuu'" $merged k/pieces/part-0002.tar -o out.vtuu
+  assert_fails_with 2 "expected an output as mesh, .*inp, .*pvtu, tar, tar.zst, found 'out.vtuu'" $merged k/pieces/part-0002.tar -o out.vtuu
   assert_fails_with 1 "k/graph-0002.tar: expected a piece" $merged k/graph-0002.tar -o out.vtu
   assert_fails_with 1 "/dev/null/x: cannot make the directory" $merged k/pieces/part-0002.tar -o /dev/null/x.pvtu
   bar --length 12 --folded >folded.mesh

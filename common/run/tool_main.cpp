@@ -76,6 +76,28 @@ void declare_graph_file(CLI::App& app, GraphFileOptions& options) {
   app.add_flag("--tolerant", options.tolerant, "Leave out loops and repeated edges of a graph file, with a warning");
 }
 
+// Of tools that write meshes. None of them changes a bundle.
+void declare_mesh_output(CLI::App& app, MeshOptions& mesh) {
+  outside_history(
+      app.add_option("--solver", mesh.solver,
+                     "Write a mesh as this program takes it best: its pyramids, hexes and facets; calculix: pyramids "
+                     "collapsed, C3D8I; abaqus: C3D8I; openfoam, su2, nastran: their format is checked"))
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"calculix", "abaqus", "openfoam", "su2", "nastran"}).description(""));
+  outside_history(
+      app.add_option(
+          "--pyramids", mesh.pyramids,
+          "In files of other programs: keep; collapsed: as hexes with the apex four times (.inp); split: as two "
+          "tets each"))
+      ->type_name("FORM")
+      ->check(CLI::IsMember({"keep", "collapsed", "split"}).description(""));
+  outside_history(app.add_option("--hex-element", mesh.hex_element, "The type of hexes in .inp: C3D8, C3D8I or C3D8R"))
+      ->type_name("TYPE")
+      ->check(CLI::IsMember({"C3D8", "C3D8I", "C3D8R"}).description(""));
+  outside_history(app.add_flag("--no-facets", mesh.no_facets,
+                               "In files of other programs: cells alone, for readers that take no facets among them"));
+}
+
 void declare_streams(CLI::App& app, RunContext& context) {
   StreamOptions& streams = context.streams;
   const auto& reads = context.info.reads;
@@ -101,6 +123,8 @@ void declare_streams(CLI::App& app, RunContext& context) {
   outside_history(app.add_option("--format", streams.format, "The format of the output, whatever its name"))
       ->type_name("NAME");
   outside_history(app.add_flag("--compress", streams.compress, "Compress the bundle with zstd"));
+  if (*context.info.product == Role::mesh || *context.info.product == Role::result)
+    declare_mesh_output(app, streams.mesh);
 }
 
 void declare_common(CLI::App& app, RunContext& context) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/mesh/mixed_mesh.hpp"
+#include "formats/meshes/mesh_writing.hpp"
 #include "formats/streams/output.hpp"
 
 namespace hexpipe::formats {
@@ -26,8 +27,9 @@ struct MshNodeValues {
 };
 MshNodeValues read_msh_node_values(std::string_view text, std::string_view file);
 
-// Regions and surfaces become physical groups, the quality a post-processing view. Version 2.2 has no such view,
-// because meshio cannot open mixed meshes with one.
-void write_msh(const MixedMesh& mesh, MshVersion version, MshCoding coding, Output& output);
+// Regions and surfaces become physical groups. In version 2.2 no surface has the number of a region, because its readers
+// mix them up. The quality becomes a post-processing view; version 2.2 has none, because meshio cannot open mixed meshes
+// with one.
+void write_msh(const MixedMesh& mesh, MshVersion version, MshCoding coding, const MeshWriting& writing, Output& output);
 
 }  // namespace hexpipe::formats

@@ -52,11 +52,13 @@ const char* msh_group_word(int dimension) {
 
 std::optional<std::int32_t> tag_in_group_name(std::string_view name, int dimension) {
   const std::string_view word = msh_group_word(dimension);
-  if (!name.starts_with(word) || name.size() <= word.size() || name[word.size()] != ' ') return std::nullopt;
+  if (!name.starts_with(word) || name.size() <= word.size()) return std::nullopt;
+  const char separator = name[word.size()];
+  if (separator != ' ' && separator != '_') return std::nullopt;
   const char* const end = name.data() + name.size();
   std::int32_t tag = 0;
   const auto [stop, error] = std::from_chars(name.data() + word.size() + 1, end, tag);
-  if (error != std::errc{} || stop != end || tag > 0) return std::nullopt;
+  if (error != std::errc{} || stop != end || (tag > 0 && separator == ' ')) return std::nullopt;
   return tag;
 }
 
@@ -77,6 +79,7 @@ std::optional<std::int64_t> MshCollector::number_nodes() {
 }
 
 void MshCollector::name_group(int dimension, std::int32_t number, std::string_view name) {
+  numbers_of_groups_.insert({dimension, number});
   if (const auto tag = tag_in_group_name(name, dimension)) tags_in_names_[{dimension, number}] = *tag;
 }
 
@@ -147,7 +150,9 @@ std::int32_t MshCollector::tag_of_group(int dimension, std::int32_t physical) co
       physical < 0 && physical != std::numeric_limits<std::int32_t>::min() ? -physical : physical;
   if (tags_in_names_.empty()) return group;
   const auto named = tags_in_names_.find({dimension, group});
-  return named == tags_in_names_.end() ? group : named->second;
+  if (named == tags_in_names_.end()) return group;
+  // A group of another program may have the number that this name tells.
+  return numbers_of_groups_.contains({dimension, named->second}) ? group : named->second;
 }
 
 void MshCollector::set_qualities() {

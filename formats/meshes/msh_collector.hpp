@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,8 +24,9 @@ struct MshElementNumbers {
   std::int32_t elementary = 0;
 };
 
-// A tag that is not positive cannot be the number of a group. The group that we write for it has the tag in its name:
-// `region -1`, `surface 0`.
+// A tag cannot be the number of a group if it is not positive, or if a group of the other dimension has the number. The
+// group that we write for it has the tag in its name: `region_-1`, `surface_0`. Older files have a blank for the line
+// below; there only tags that are not positive count.
 const char* msh_group_word(int dimension);
 std::optional<std::int32_t> tag_in_group_name(std::string_view name, int dimension);
 
@@ -63,6 +65,7 @@ class MshCollector {
   NumberMap nodes_;
   std::vector<MshElementNumbers> numbers_[block_count];  // in the order of for_each_block
   std::map<std::pair<int, std::int32_t>, std::int32_t> tags_in_names_;
+  std::set<std::pair<int, std::int32_t>> numbers_of_groups_;  // that have names
   std::vector<std::pair<std::int64_t, double>> quality_;
 };
 

@@ -14,6 +14,7 @@
 #include "formats/choice/metis.hpp"
 #include "formats/choice/solution_file.hpp"
 #include "formats/meshes/mesh_files.hpp"
+#include "formats/meshes/solvers.hpp"
 #include "formats/pipeline/bundle.hpp"
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/members.hpp"
@@ -34,7 +35,15 @@ std::vector<std::string_view> product_formats(Role product) {
     case Role::result:
       break;
   }
-  return formats::mesh_format_names();
+  std::vector<std::string_view> names = formats::mesh_format_names();
+  names.push_back(formats::poly_mesh_format);
+  return names;
+}
+
+// "case/constant/polyMesh/" to "polyMesh".
+std::string_view last_of_path(std::string_view path) {
+  while (path.size() > 1 && path.ends_with('/')) path.remove_suffix(1);
+  return path.substr(path.rfind('/') + 1);
 }
 
 // The format that the command line asks for. Throws UsageError when the product cannot be written so.
@@ -42,7 +51,11 @@ std::string choose_format(const StreamOptions& streams, Role product) {
   const bool to_file = !streams.output.empty() && streams.output != "-";
   const bool to_device = streams.output.starts_with("/dev/");
   std::string_view format = streams.format;
+  const bool is_poly_mesh = last_of_path(streams.output) == formats::poly_mesh_format;
+  if (format.empty() && is_poly_mesh) format = formats::poly_mesh_format;
   if (format.empty()) format = to_file && !to_device ? ending_of(streams.output) : bundle_format;
+  if (format == formats::poly_mesh_format && (!to_file || to_device))
+    throw UsageError("polyMesh is a folder of files: name it with -o");
   const auto known = product_formats(product);
   if (is_bundle_format(format) || std::find(known.begin(), known.end(), format) != known.end())
     return std::string(format);
@@ -207,7 +220,9 @@ void fill_defaults(StageData& data) {
 struct Stage::State {
   RunContext context;
   std::string format;
+  formats::MeshWriting writing;
   std::optional<formats::Output> output;
+  std::unique_ptr<formats::OutputFolder> folder;  // in place of `output`
   std::optional<BundleWriter> bundle;
   int history_count = 0;
   // Where each role came from, for messages.
@@ -231,6 +246,7 @@ struct Stage::State {
   void check(const StageData& data) const;
   std::string source_of(Role role) const;
   void write_history(const nlohmann::ordered_json& details);
+  void write_mesh_to_folder(const MixedMesh& mesh);
   template <class Product, class WriteFile>
   void write(const Product& product, const nlohmann::ordered_json& details, WriteFile&& write_file);
 };
@@ -248,6 +264,12 @@ void Stage::State::choose_output() {
   const StreamOptions& streams = context.streams;
   format = choose_format(streams, product());
   const bool to_stdout = streams.output.empty() || streams.output == "-";
+  if (product() == Role::mesh || product() == Role::result) {
+    writing = formats::mesh_writing(streams.mesh, format);
+    writing.tell = [this](const std::string& line) { context.warn(line); };
+    if (const std::string summary = formats::solver_summary(streams.mesh, writing); !summary.empty())
+      context.note(summary);
+  }
   if (to_stdout && !is_text_format(format) && isatty(STDOUT_FILENO))
     throw UsageError(
         fmt::format("standard output is a terminal: pipe it to the next tool, or write a file with -o, or text "
@@ -259,6 +281,10 @@ Stage::~Stage() = default;
 
 void Stage::begin() {
   if (!state_->context.info.product) return;
+  if (state_->format == formats::poly_mesh_format) {
+    state_->folder = formats::open_mesh_folder(state_->context.streams.output);
+    return;
+  }
   state_->output.emplace(state_->context.streams.output);
   if (is_bundle_format(state_->format))
     state_->bundle.emplace(*state_->output,
@@ -418,9 +444,15 @@ void Stage::State::write(const Product& product, const nlohmann::ordered_json& d
   output->commit();
 }
 
+void Stage::State::write_mesh_to_folder(const MixedMesh& mesh) {
+  formats::write_mesh_folder(mesh, *folder, writing);
+  folder->commit();
+}
+
 void Stage::write(const MeshProduct& product, const nlohmann::ordered_json& details) {
+  if (state_->folder) return state_->write_mesh_to_folder(to_mixed_mesh(product.mesh));
   state_->write(product, details, [&](formats::Output& output) {
-    formats::write_mixed_mesh(to_mixed_mesh(product.mesh), state_->format, output);
+    formats::write_mixed_mesh(to_mixed_mesh(product.mesh), state_->format, output, state_->writing);
   });
 }
 
@@ -440,8 +472,10 @@ void Stage::write(const SolutionProduct& product, const nlohmann::ordered_json& 
 }
 
 void Stage::write(const ResultProduct& product, const nlohmann::ordered_json& details) {
-  state_->write(product, details,
-                [&](formats::Output& output) { formats::write_mixed_mesh(product.mesh, state_->format, output); });
+  if (state_->folder) return state_->write_mesh_to_folder(product.mesh);
+  state_->write(product, details, [&](formats::Output& output) {
+    formats::write_mixed_mesh(product.mesh, state_->format, output, state_->writing);
+  });
 }
 
 }  // namespace hexpipe::pipeline

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "common/mesh/adjacency.hpp"
+#include "common/mesh/face_view.hpp"
 #include "common/mesh/orientation.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
@@ -67,6 +68,14 @@ bool is_worse(const hybrid::HybridMesh& mesh, CellKind kind, std::span<const Ver
   const auto at = corner_points(mesh.points, corners);
   const double scale = kind == CellKind::tet ? std::sqrt(2.0) : 1;
   return scale * least_corner_scaled_jacobian(kind, std::span<const Vec3>(at).first(corners.size())) < limit;
+}
+
+// Whether a reader that judges by averages of vertices takes the prism for inverted, though it is valid. Pyramids over
+// warped bases often look so, but no reader is known that turns them; hexes this warped are poor.
+bool looks_inverted(const hybrid::HybridMesh& mesh, const hybrid::HybridCell& cell) {
+  if (cell.kind != CellKind::prism) return false;
+  const auto at = corner_points(mesh.points, std::span(cell.corners).first(6));
+  return least_face_view(cell.kind, std::span<const Vec3>(at).first(6)) <= 0;
 }
 
 // Whether a quad of the candidate has tagged triangles along both diagonals: it stands at a hole, or an interface
@@ -148,7 +157,7 @@ class Assembler {
   hybrid::Extract build();
   hybrid::HybridMesh select();
   hybrid::HybridMesh conform();
-  std::vector<std::int32_t> poor_hexes(const hybrid::HybridMesh& hybrid) const;
+  std::vector<std::int32_t> poor_candidates(const hybrid::HybridMesh& hybrid) const;
   void untangle_in_place(hybrid::HybridMesh& hybrid) const;
   void give_back(const std::vector<std::int32_t>& owners, conform::GivenBack reason);
   hybrid::Extract merge_and_smooth(hybrid::HybridMesh& hybrid);
@@ -263,13 +272,15 @@ void Assembler::improve(hybrid::Extract& extracted) {
   shape::untangle(extracted.mesh, untangling_rounds, &sliding);
 }
 
-// Candidates that are poor hexes after all.
-std::vector<std::int32_t> Assembler::poor_hexes(const hybrid::HybridMesh& hybrid) const {
+// Candidates that are poor hexes after all, and prisms that readers would turn round.
+std::vector<std::int32_t> Assembler::poor_candidates(const hybrid::HybridMesh& hybrid) const {
   std::vector<std::int32_t> result;
   for (std::int32_t c = 0; c < static_cast<std::int32_t>(hybrid.cell_count()); ++c) {
     const hybrid::HybridCell& cell = hybrid.cell(c);
-    if (!cell.alive || cell.kind != CellKind::hex || is_guest(cell.candidate)) continue;
-    if (is_worse(hybrid, cell.kind, cell.corners, shape::poor_hex)) result.push_back(cell.candidate);
+    if (!cell.alive || cell.candidate == hybrid::HybridCell::none || is_guest(cell.candidate)) continue;
+    const bool is_poor_hex =
+        cell.kind == CellKind::hex && options_.smooth > 0 && is_worse(hybrid, cell.kind, cell.corners, shape::poor_hex);
+    if (is_poor_hex || looks_inverted(hybrid, cell)) result.push_back(cell.candidate);
   }
   std::sort(result.begin(), result.end());
   return result;
@@ -316,7 +327,7 @@ TetMesh Assembler::own_input() const {
   return own;
 }
 
-// All of it, anew without the hexes that stay poor.
+// All of it, anew without the hexes that stay poor and the prisms that look inverted.
 hybrid::Extract Assembler::build() {
   for (int attempt = 1;; ++attempt) {
     statistics_.smoothing = {};
@@ -326,8 +337,8 @@ hybrid::Extract Assembler::build() {
     hybrid::Extract extracted = smooth_and_repair(hybrid);
     move_points(extracted, hybrid);
     note_cells_left(hybrid);
-    const auto poor = poor_hexes(hybrid);
-    if (!is_conforming() || options_.smooth == 0 || poor.empty() || attempt == most_attempts) {
+    const auto poor = poor_candidates(hybrid);
+    if (!is_conforming() || poor.empty() || attempt == most_attempts) {
       check_cells_left(hybrid);
       return extracted;
     }

@@ -8,12 +8,15 @@
 #include <array>
 #include <cstdint>
 #include <queue>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "common/candidates/findhex.hpp"
 #include "common/conflicts/find_conflicts.hpp"
+#include "common/mesh/face_view.hpp"
 #include "common/mesh/facet_key.hpp"
+#include "common/mesh/quality.hpp"
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
 
 namespace hexpipe::assemble::choice {
@@ -41,6 +44,12 @@ LeftTets left_tets(const TetMesh& mesh, const hybrid::HybridMesh& standing) {
   return left;
 }
 
+// A prism that readers would turn round (face_view.hpp) is not worth making.
+bool looks_upright(const TetMesh& mesh, const std::array<Vertex, 8>& prism) {
+  const auto at = corner_points(mesh.points, std::span(prism).first(6));
+  return least_face_view(CellKind::prism, std::span<const Vec3>(at).first(6)) > 0;
+}
+
 // Prisms of the tets that are left, in the numbers of `mesh`.
 Candidates prisms_between(const TetMesh& mesh, const hybrid::HybridMesh& standing) {
   LeftTets left = left_tets(mesh, standing);
@@ -49,7 +58,8 @@ Candidates prisms_between(const TetMesh& mesh, const hybrid::HybridMesh& standin
   const Candidates found = candidates::findhex(std::move(left.mesh), {.kinds = {CellKind::prism}}, source).candidates;
   const auto same = [](Vertex v) { return v; };
   const auto in_mesh = [&](std::int32_t t) { return left.number[t]; };
-  for (std::size_t i = 0; i < found.size(); ++i) append_candidate(prisms, found, i, same, in_mesh, in_mesh);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (looks_upright(mesh, found.vertices[i])) append_candidate(prisms, found, i, same, in_mesh, in_mesh);
   return prisms;
 }
 

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/mesh/face_view.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/mesh/vertex_items.hpp"
@@ -130,6 +131,7 @@ class Smoother {
   void look_around(Vertex v);
   Standing standing_of(CellKind kind) const;
   bool is_valid_cell(std::int32_t c) const;
+  bool looks_inverted(std::int32_t c) const;
   Vec3 growth_at(Vertex v) const;
 
   double weight_of_hexes_;
@@ -187,6 +189,13 @@ bool Smoother::is_valid_cell(std::int32_t c) const {
   const auto corners = cells_.corners_of(c);
   const auto at = corner_points(points_, corners);
   return is_valid(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()));
+}
+
+// Prisms only, the kind that readers turn round (face_view.hpp).
+bool Smoother::looks_inverted(std::int32_t c) const {
+  if (cells_.kind(c) != CellKind::prism) return false;
+  const auto at = corner_points(points_, cells_.corners_of(c));
+  return least_face_view(CellKind::prism, std::span<const Vec3>(at).first(6)) <= 0;
 }
 
 // On a curved surface or curve: there is no plane or line for it.
@@ -251,6 +260,9 @@ bool Smoother::improve(Vertex v, double only_below, bool weighted) {
   const Placement goal = poor ? raise_worst(star_, before, steps_for_worst, freedom(v))
                               : raise_score(star_, before, steps_for_score, good_enough, freedoms_[v]);
   if (goal.at == before) return false;
+  std::vector<std::int32_t> upright_before;
+  for (const std::int32_t c : cells_.at(v))
+    if (cells_.kind(c) == CellKind::prism && !looks_inverted(c)) upright_before.push_back(c);
   std::vector<std::int32_t> valid_before(cells_.at(v).begin(), cells_.at(v).end());
   // Only untangle() meets invalid cells.
   if (worst <= 0) std::erase_if(valid_before, [&](std::int32_t c) { return !is_valid_cell(c); });
@@ -265,7 +277,9 @@ bool Smoother::improve(Vertex v, double only_below, bool weighted) {
     if (!better || leaves_surface(v, at) || (worst > 0 && !keeps_edges_long(v, at)) || (slide && !stays_close(v, at)))
       continue;
     points_[v] = at;
-    if (std::ranges::all_of(valid_before, [&](std::int32_t c) { return is_valid_cell(c); })) return true;
+    if (std::ranges::all_of(valid_before, [&](std::int32_t c) { return is_valid_cell(c); }) &&
+        std::ranges::none_of(upright_before, [&](std::int32_t c) { return looks_inverted(c); }))
+      return true;
     points_[v] = before;
   }
   return false;
