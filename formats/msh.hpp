@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/mesh/mixed_mesh.hpp"
+#include "formats/group_names.hpp"
 #include "formats/output.hpp"
 
 namespace hexpipe {
@@ -15,8 +16,8 @@ enum class MshCoding { ascii, binary };
 bool looks_like_msh(std::string_view text);
 
 // Physical groups become tags; where a dimension has none, its elementary entities do. Elements come in the order of
-// their numbers, nodes in that of the file. Throws FormatError or DataError.
-MixedMesh read_msh(std::string_view text, std::string_view file);
+// their numbers, nodes in that of the file. `names`, if not null, gets those of groups. Throws FormatError or DataError.
+MixedMesh read_msh(std::string_view text, std::string_view file, GroupNames* names = nullptr);
 
 // A mesh with a number at each of its points: those of the first $NodeData section of one component; NaN where it has
 // none. Throws also where there is no such section.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "common/mesh/orientation.hpp"
 #include "common/run/error.hpp"
@@ -18,6 +19,7 @@
 #include "formats/metis.hpp"
 #include "formats/output_format.hpp"
 #include "formats/solution_file.hpp"
+#include "formats/surface_bundle.hpp"
 
 namespace hexpipe {
 namespace {
@@ -93,7 +95,7 @@ std::int64_t vertex_count_for_solution(const StageData& data, const std::string&
 void read_role_file(Role role, Input& input, StageData& data) {
   switch (role) {
     case Role::mesh:
-      data.mesh = to_tet_mesh(read_mixed_mesh(input), input.name().c_str());
+      data.mesh = to_tet_mesh(read_mixed_mesh(input, &data.names), input.name().c_str());
       break;
     case Role::candidates:
       data.candidates = read_cand(input);
@@ -105,7 +107,7 @@ void read_role_file(Role role, Input& input, StageData& data) {
       data.solution = read_solution(input, vertex_count_for_solution(data, input.name()));
       break;
     case Role::result:
-      data.result = read_mixed_mesh(input);
+      data.result = read_mixed_mesh(input, &data.names);
       break;
   }
 }
@@ -196,6 +198,8 @@ struct Stage::State {
   std::optional<Output> output;
   std::optional<BundleWriter> bundle;
   int history_count = 0;
+  GroupNames names;               // of the tags of the product
+  bool names_are_written = false;
   // Where each role came from, for messages.
   std::map<Role, std::string> sources;
   std::set<Role> seen;
@@ -211,6 +215,8 @@ struct Stage::State {
 
   void choose_output();
   void read_bundle(Input& input, const std::set<Role>& taken, StageData& data);
+  void pass_history_entry(BundleReader& reader, std::vector<nlohmann::ordered_json>& history);
+  void write_names();
   void read_files(std::map<Role, Input>& files, StageData& data);
   void orient(TetMesh& mesh, const std::string& name) const;
   void check(const StageData& data) const;
@@ -289,6 +295,8 @@ StageData Stage::read(const std::vector<Role>& needs, const std::vector<Role>& w
     state.read_bundle(*input, taken, data);
   }
   state.read_files(files, data);
+  state.names = data.names;
+  state.write_names();
   for (const Role role : needs)
     if (!holds(data, role))
       throw DataError::at(input ? input->name() : std::string("the files"), "expected {} for {}, found {}; {} makes it",
@@ -301,9 +309,11 @@ StageData Stage::read(const std::vector<Role>& needs, const std::vector<Role>& w
 // What the tool makes anew, and what depended on the old one, does not pass.
 void Stage::State::read_bundle(Input& input, const std::set<Role>& taken, StageData& data) {
   BundleReader reader(input);
+  const bool has_other_mesh = context.streams.files.contains(Role::mesh);
   while (reader.next()) {
     const auto role = role_of_member(reader.name());
-    const bool is_replaced = role && context.streams.files.contains(*role);
+    const bool is_replaced = role ? context.streams.files.contains(*role)
+                                  : has_other_mesh && (is_surface_member(reader.name()) || reader.name() == names_member);
     const bool passes = bundle && !is_replaced && (!role || (*role < product() && !held_back.contains(*role)));
     if (role && !is_replaced) {
       seen.insert(*role);
@@ -313,14 +323,26 @@ void Stage::State::read_bundle(Input& input, const std::set<Role>& taken, StageD
       if (taken.contains(*role) && read_member(reader, data, passes ? &*bundle : nullptr, with_cover)) continue;
     }
     if (is_history_entry(reader.name())) {
-      std::string text;
-      data.history.push_back(read_history_entry(reader, &text));
-      ++history_count;
-      if (passes) bundle->add_text(reader.name(), text);
-      continue;
+      pass_history_entry(reader, data.history);
+    } else if (reader.name() == names_member && !is_replaced) {
+      data.names = parse_group_names(reader.read_text(), reader.where());
+    } else if (passes) {
+      reader.copy_to(*bundle);
     }
-    if (passes) reader.copy_to(*bundle);
   }
+}
+
+void Stage::State::pass_history_entry(BundleReader& reader, std::vector<nlohmann::ordered_json>& history) {
+  std::string text;
+  history.push_back(read_history_entry(reader, &text));
+  ++history_count;
+  if (bundle) bundle->add_text(reader.name(), text);
+}
+
+// Once: with what was read, or with the product where the tool sets them.
+void Stage::State::write_names() {
+  if (!bundle || names.empty() || std::exchange(names_are_written, true)) return;
+  bundle->add_text(std::string(names_member), text_of(names));
 }
 
 // Files of other programs list tets in any sense; bundles hold them positively oriented.
@@ -336,8 +358,11 @@ void Stage::State::read_files(std::map<Role, Input>& files, StageData& data) {
     sources[role] = input.name();
     if (looks_like_bundle(input)) {
       BundleReader reader(input);
+      const bool has_tags = role == Role::mesh || role == Role::result;
       while (reader.next())
-        if (role_of_member(reader.name()) == role && !(with_part && read_part_member(reader, data, nullptr)))
+        if (has_tags && reader.name() == names_member)
+          data.names = parse_group_names(reader.read_text(), reader.where());
+        else if (role_of_member(reader.name()) == role && !(with_part && read_part_member(reader, data, nullptr)))
           read_member(reader, data, nullptr, with_cover || bundle);
       if (!holds(data, role))
         throw DataError::at(input.name(), "expected {} in this bundle, found none", name_of(role));
@@ -353,6 +378,28 @@ void Stage::State::read_files(std::map<Role, Input>& files, StageData& data) {
 std::string Stage::State::source_of(Role role) const {
   const auto found = sources.find(role);
   return found == sources.end() ? std::string(name_of(role)) : fmt::format("{}: {}", found->second, name_of(role));
+}
+
+SurfaceSoup Stage::read_surface(Input& input) {
+  State& state = *state_;
+  if (!looks_like_bundle(input)) {
+    SurfaceSoup surface = hexpipe::read_surface(input);
+    begin();
+    return surface;
+  }
+  begin();
+  std::vector<nlohmann::ordered_json> history;
+  const auto pass = [&](BundleReader& reader) {
+    if (is_history_entry(reader.name()))
+      state.pass_history_entry(reader, history);
+    else if (state.bundle && !role_of_member(reader.name()))
+      reader.copy_to(*state.bundle);
+  };
+  return read_surface_bundle(input, pass, state.bundle ? &*state.bundle : nullptr);
+}
+
+void Stage::set_names(GroupNames names) {
+  state_->names = std::move(names);
 }
 
 void Stage::take_cover() {
@@ -414,6 +461,7 @@ void Stage::State::write_history(const nlohmann::ordered_json& details) {
 template <class Product, class WriteFile>
 void Stage::State::write(const Product& product, const nlohmann::ordered_json& details, WriteFile&& write_file) {
   if (bundle) {
+    write_names();
     write_members(*bundle, product);
     write_history(details);
     bundle->close();

@@ -16,6 +16,8 @@
 #include "common/mesh/mixed_mesh.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "common/run/run_context.hpp"
+#include "formats/group_names.hpp"
+#include "formats/surface_files.hpp"
 
 namespace hexpipe {
 
@@ -32,6 +34,7 @@ struct StageData {
   // Where the mesh is a part of another, for a stage that asked for it.
   std::optional<MeshPart> part;
   std::optional<CandidateKeys> candidate_keys;
+  GroupNames names;  // of the tags of mesh and result
   std::vector<nlohmann::ordered_json> history;
 };
 
@@ -62,8 +65,11 @@ class Stage {
   // The file (or stream) that a role was read from, for messages about it.
   std::string source_of(Role role) const;
 
-  // For a tool without StageData input (tetmesh): nothing is read, the bundle starts empty.
-  void begin();
+  // For tetmesh: reads a surface of any format. What else a bundle has passes, but for the stages behind. Begins the
+  // output.
+  SurfaceSoup read_surface(Input& input);
+  // Before writing: names that go into the bundle, or the file, with the product.
+  void set_names(GroupNames names);
 
   // Write the product, in the form that the command line asks for, then the history entry {tool, version, options,
   // replaced, ...details}, and commit; `replaced` where roles came from files beside a bundle.
@@ -80,6 +86,9 @@ class Stage {
   void write(const MixedMesh& result, const MeshPiece* piece, const nlohmann::ordered_json& details);
 
  private:
+  // Makes the output; the bundle starts empty.
+  void begin();
+
   struct State;
   std::unique_ptr<State> state_;
 };

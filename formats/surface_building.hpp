@@ -28,7 +28,8 @@ class PointMerger {
   tsl::robin_map<Vec3, Vertex, Hash> indices_;
 };
 
-// The soup with one point for those that are equal, in the order of first use, and none that no triangle uses.
+// The soup with one point for those that are equal, in the order of first use, and none that no triangle uses. Curves
+// are edges of triangles.
 SurfaceSoup merge_equal_points(SurfaceSoup soup);
 
 // Throws DataError where there are more points than can be numbered.

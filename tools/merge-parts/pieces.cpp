@@ -72,6 +72,9 @@ class PieceReader {
       PieceBundle piece = read_piece_bundle(path, true);
       History settings = settings_in(piece.history);
       if (path == order_.front()) settings_ = settings;
+      if (path == order_.front()) names_ = piece.names;
+      if (piece.names != names_)
+        throw DataError::at(path, "expected a piece with the names of {}, found others", order_.front());
       if (settings != settings_)
         throw DataError::at(path, "expected a piece made with the versions and options of {}, found another",
                             order_.front());
@@ -82,6 +85,7 @@ class PieceReader {
   }
 
   const History& settings() const { return settings_; }
+  const GroupNames& names() const { return names_; }
   std::size_t size() const { return order_.size(); }
 
  private:
@@ -89,6 +93,7 @@ class PieceReader {
   MeshPiece first_;
   std::vector<std::string> order_;
   History settings_;
+  GroupNames names_;
 };
 
 class Joiner {
@@ -173,6 +178,7 @@ void write_whole(PieceReader& reader, const std::string& path, bool compress) {
     BundleWriter writer(output, compress || ending == compressed_bundle_format);
     write_members(writer, mesh);
     write_history(writer, reader.settings());
+    if (!reader.names().empty()) writer.add_text(std::string(names_member), text_of(reader.names()));
     writer.close();
   }
   output.commit();
@@ -187,9 +193,9 @@ bool is_piece(const std::string& path) {
   Input input = Input::open(path);
   if (!looks_like_bundle(input)) return false;
   BundleReader reader(input);
-  // Histories may come before it.
+  // Histories and names may come before it.
   while (reader.next())
-    if (!is_history_entry(reader.name())) return is_piece_title(reader.name());
+    if (role_of_member(reader.name())) return is_piece_title(reader.name());
   return false;
 }
 

@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
     data.history.push_back(history_entry_of(context));
     PartFiles files(directory, options.parts, compress);
     const SplitCounts counts = split(std::move(*data.mesh), options, source.c_str(),
-                                     [&](const PartOfMesh& part) { files.write(part, data.history); });
+                                     [&](const PartOfMesh& part) { files.write(part, data.history, data.names); });
     files.commit();
     phases.end("split");
     context.note(summary(counts));

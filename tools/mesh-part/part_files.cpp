@@ -47,12 +47,14 @@ std::string PartFiles::name_of(std::int32_t part) const {
   return fmt::format("{}{:04}.tar{}", stem, part, compress_ ? ".zst" : "");
 }
 
-void PartFiles::write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history) {
+void PartFiles::write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history,
+                      const GroupNames& names) {
   Output& output = files_.add(fmt::format("{}/{}", directory_, name_of(part.part.part)));
   BundleWriter writer(output, compress_);
   write_members(writer, part.part);
   write_members(writer, part.mesh);
   write_history(writer, history);
+  if (!names.empty()) writer.add_text(std::string(names_member), text_of(names));
   writer.close();
   output.drain();
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/group_names.hpp"
 #include "formats/output_group.hpp"
 #include "tools/mesh-part/mesh_cutter.hpp"
 
@@ -17,8 +18,8 @@ class PartFiles {
   // replaced, left by a run with more, or compressed otherwise.
   PartFiles(std::string directory, std::int32_t parts, bool compress);
 
-  // `history`: the entries that the part begins with.
-  void write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history);
+  // `history`: the entries that the part begins with; `names`: those of the whole mesh.
+  void write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history, const GroupNames& names);
   // Without it, nothing new is left. Throws DataError where a part cannot be put in place; those before it are.
   void commit() { files_.commit(); }
 

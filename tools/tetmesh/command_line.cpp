@@ -10,7 +10,7 @@
 namespace hexpipe {
 namespace {
 
-// Or a number that --layers does not take, which CLI11 refuses.
+// Or a number that the option does not take, which CLI11 refuses.
 bool is_value(std::string_view word) {
   return word != "-" && word.find_first_not_of("+-.0123456789") == std::string_view::npos;
 }
@@ -22,11 +22,13 @@ bool is_option(std::string_view word) {
 }  // namespace
 
 std::vector<char*> words_for_parsing(int argc, char** argv) {
-  static char layers_without_value[] = "--layers=2";
+  static char layers_without_value[] = "--layers=2", angle_without_value[] = "--tags-by-angle=40";
   std::vector<char*> words(argv, argv + argc);
   for (std::size_t i = 1; i + 1 < words.size() && words[i] != std::string_view("--"); ++i)
-    if (words[i] == std::string_view("--layers") && !is_option(words[i + 1]) && !is_value(words[i + 1]))
-      words[i] = layers_without_value;
+    for (char* with_value : {layers_without_value, angle_without_value}) {
+      const std::string_view option = std::string_view(with_value).substr(0, std::string_view(with_value).find('='));
+      if (words[i] == option && !is_option(words[i + 1]) && !is_value(words[i + 1])) words[i] = with_value;
+    }
   return words;
 }
 

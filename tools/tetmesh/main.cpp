@@ -64,7 +64,7 @@ std::string summary(const TetmeshStatistics& s) {
 int main(int argc, char** argv) {
   const ToolInfo info{
       .name = "tetmesh",
-      .summary = "Fill a closed surface (STL, OBJ, PLY, OFF) with tetrahedra that merge well into hexes.",
+      .summary = "Fill a closed surface (STL, OBJ, PLY, OFF, or a bundle of tessellate) with tetrahedra that merge well into hexes.",
       .example = "tetmesh bracket.stl --size 3 | findhex | buildgraph | initsol | assemble -o bracket.vtu",
       .reads = {},
       .product = Role::mesh,
@@ -74,6 +74,7 @@ int main(int argc, char** argv) {
   TetmeshOptions options;
   const CLI::App* command_line = nullptr;
   std::optional<std::string> size, sizes;
+  std::vector<std::string> tag_names;
   std::string path = "-", surface_kind = "remesh", points = "best", shells = "oriented", weld = "0.0001%";
   const auto declare = [&](CLI::App& app) {
     command_line = &app;
@@ -135,6 +136,15 @@ int main(int argc, char** argv) {
     app.add_option("--shells", shells,
                    "Shells in shells: holes where oriented inward and regions else; all regions; or alternately holes")
         ->check(CLI::IsMember(shell_rules));
+    app.add_option("--tags-by-angle", options.tag_angle,
+                   "If given: where nothing is named, pieces of the surface within edges that turn by more than so many "
+                   "degrees get tags, or than 40")
+        ->expected(0, 1)
+        ->default_str("40")
+        ->check(number_between(1, 180))
+        ->type_name("[ANGLE]");
+    app.add_option("--name", tag_names, "Name a surface by its tag, or a region: 3=inlet, 'region 1=steel'; repeatable")
+        ->type_name("TAG=NAME");
     app.add_option("--tetgen-timeout", options.tetgen_timeout,
                    "Seconds after which TetGen is given up, for each mesh that it makes")
         ->check(number_between(0.001, 1e9));
@@ -145,13 +155,13 @@ int main(int argc, char** argv) {
     choose_points(points, options);
     refuse_idle_options([&](const char* name) { return command_line->count(name) > 0; }, options, points);
     options.shells = shell_rules.at(shells);
+    for (const std::string& text : tag_names) options.tag_names.push_back(parse_tag_name(text));
     options.seed = context.common.seed;
     options.weld = parse_length(weld);
     Stage stage(context);
     Input input = open_surface(path);
-    SurfaceSoup surface = read_surface(input);
+    SurfaceSoup surface = stage.read_surface(input);
     if (sizes) options.size_sources = size_sources(*sizes, surface);
-    stage.begin();
     Progress progress("tetmesh", context.common.quiet);
     options.after_round = [&](std::size_t round, double share) {
       if (progress.due()) progress.show(fmt::format("round {}, about {:.1f} % in hexes", round + 1, 100 * share));
@@ -168,6 +178,7 @@ int main(int argc, char** argv) {
     context.statistics.update(to_json(result.statistics));
     context.statistics["seconds_by_step"] = times_of(result.statistics);
     context.statistics["tetgen_seconds"] = result.statistics.seconds.of_tetgen;
+    stage.set_names(result.names);
     stage.write(result.mesh, to_json(result.statistics));
   };
   std::vector<char*> words = words_for_parsing(argc, argv);

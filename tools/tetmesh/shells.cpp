@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -73,8 +74,12 @@ class ShellFinder {
   Surface find() {
     collect_shells();
     find_parents();
-    number_regions();
-    assign_sides();
+    if (surface_.sides.empty()) {
+      number_regions();
+      assign_sides();
+    } else {
+      take_given_sides();
+    }
     orient_triangles();
     choose_tags();
     return std::move(surface_);
@@ -84,10 +89,12 @@ class ShellFinder {
   void collect_shells();
   void find_parents();
   void number_regions();
+  void take_given_sides();
   bool encloses_material(const Draft& shell) const;
   void assign_sides();
   void assign_sides(std::int32_t shell);
   void orient_triangles();
+  void rename_only_tag();
   void choose_tags();
 
   Surface surface_;
@@ -133,6 +140,29 @@ void ShellFinder::number_regions() {
   }
 }
 
+// What is on the sides of a shell, the surface says of each of its triangles.
+void ShellFinder::take_given_sides() {
+  for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
+    const std::int32_t s = surface_.shell_of[i];
+    const std::int32_t first = surface_.shells[s].first_triangle;
+    if (surface_.sides[i] != surface_.sides[first])
+      throw DataError::at(surface_.place_of(i),
+                          "expected regions {} and {} on its sides, as of other triangles of its shell, found {} and {}",
+                          surface_.sides[first][0], surface_.sides[first][1], surface_.sides[i][0],
+                          surface_.sides[i][1]);
+  }
+  for (std::size_t s = 0; s < drafts_.size(); ++s) {
+    Shell& shell = surface_.shells[s];
+    const auto [behind, before] = surface_.sides[shell.first_triangle];
+    const bool points_outward = drafts_[s].signed_volume > 0;
+    const std::int32_t inside = points_outward ? behind : before, around = points_outward ? before : behind;
+    shell.has_material = inside != outside_region;
+    shell.behind = shell.has_material ? inside : around;
+    shell.in_front = shell.has_material ? around : inside;
+    surface_.region_count = std::max({surface_.region_count, behind, before});
+  }
+}
+
 bool ShellFinder::encloses_material(const Draft& shell) const {
   switch (rule_) {
     case ShellRule::oriented:
@@ -175,9 +205,19 @@ void ShellFinder::orient_triangles() {
   }
 }
 
+// The name of the whole surface, where the file has one, stays where the whole gets one tag again.
+void ShellFinder::rename_only_tag() {
+  const auto found = surface_.names.surfaces.find(surface_.tags.front());
+  std::map<std::int32_t, std::string> names;
+  if (found != surface_.names.surfaces.end() && surface_.shells.size() == 1) names[1] = found->second;
+  surface_.names.surfaces = std::move(names);
+}
+
 void ShellFinder::choose_tags() {
-  const bool file_tells = std::ranges::adjacent_find(surface_.tags, std::not_equal_to()) != surface_.tags.end();
+  const bool file_tells = surface_.has_own_tags || std::ranges::adjacent_find(surface_.tags, std::not_equal_to()) !=
+                                                        surface_.tags.end();
   if (file_tells) return;
+  rename_only_tag();
   for (std::size_t i = 0; i < surface_.tags.size(); ++i) surface_.tags[i] = surface_.shell_of[i] + 1;
 }
 

@@ -138,7 +138,10 @@ TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
   std::optional<RepairReport> repaired;
   if (options.repair) repaired = repair(soup, options);
   check_surface(soup, options.repair ? "" : " (see --repair)");
-  const Surface surface = find_shells(std::move(soup), options.shells);
+  Surface given = find_shells(std::move(soup), options.shells);
+  if (options.tag_angle) tag_by_angle(given, *options.tag_angle);
+  name_tags(given, options.tag_names);
+  const Surface surface = std::move(given);
   const double greatest = greatest_size(surface, options);
   const double least_factor = std::ranges::min(std::span(tried_sizes).first(options.tries));
   check_number_of_points(surface, options, least_factor * greatest);
@@ -149,6 +152,7 @@ TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
   FilledSurface filled = best_of_tries(surface, options, size);
   if (options.improve > 0) improve(filled, surface, options);
   TetmeshResult result = finish(std::move(filled), surface);
+  result.names = surface.names;
   result.statistics.repair = repaired;
   result.statistics.seconds.checking = seconds_checking;
   return result;

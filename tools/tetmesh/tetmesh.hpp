@@ -11,6 +11,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "formats/point_files.hpp"
 #include "formats/surface_files.hpp"
+#include "tools/tetmesh/group_tags.hpp"
 #include "tools/tetmesh/lattice.hpp"
 #include "tools/tetmesh/repair.hpp"
 #include "tools/tetmesh/search/point_search.hpp"
@@ -52,6 +53,8 @@ struct TetmeshOptions {
   double clearance = LatticeOptions{}.clearance;
   std::optional<double> jitter = {};  // nothing: that of the kind of points
   ShellRule shells = ShellRule::oriented;
+  std::optional<double> tag_angle = {};  // nothing: the file's tags
+  std::vector<TagName> tag_names = {};
   std::uint64_t seed = 1;
   double most_points = 2e7;  // inside
   bool repair = false;
@@ -104,6 +107,7 @@ struct TetmeshStatistics {
 
 struct TetmeshResult {
   TetMesh mesh;
+  GroupNames names;
   TetmeshStatistics statistics;
   std::vector<std::string> warnings;
 };
