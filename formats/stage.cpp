@@ -296,7 +296,6 @@ StageData Stage::read(const std::vector<Role>& needs, const std::vector<Role>& w
   }
   state.read_files(files, data);
   state.names = data.names;
-  state.write_names();
   for (const Role role : needs)
     if (!holds(data, role))
       throw DataError::at(input ? input->name() : std::string("the files"), "expected {} for {}, found {}; {} makes it",
@@ -325,7 +324,8 @@ void Stage::State::read_bundle(Input& input, const std::set<Role>& taken, StageD
     if (is_history_entry(reader.name())) {
       pass_history_entry(reader, data.history);
     } else if (reader.name() == names_member && !is_replaced) {
-      data.names = parse_group_names(reader.read_text(), reader.where());
+      names = data.names = parse_group_names(reader.read_text(), reader.where());
+      write_names();
     } else if (passes) {
       reader.copy_to(*bundle);
     }
@@ -339,7 +339,7 @@ void Stage::State::pass_history_entry(BundleReader& reader, std::vector<nlohmann
   if (bundle) bundle->add_text(reader.name(), text);
 }
 
-// Once: with what was read, or with the product where the tool sets them.
+// Once: where they were read, or behind the product where the tool sets them.
 void Stage::State::write_names() {
   if (!bundle || names.empty() || std::exchange(names_are_written, true)) return;
   bundle->add_text(std::string(names_member), text_of(names));
@@ -371,7 +371,11 @@ void Stage::State::read_files(std::map<Role, Input>& files, StageData& data) {
       read_role_file(role, input, data);
       if (role == Role::mesh) orient(*data.mesh, input.name());
     }
-    if (bundle && role < product() && !held_back.contains(role)) write_role(role, data, *bundle);
+    if (bundle && role < product() && !held_back.contains(role)) {
+      write_role(role, data, *bundle);
+      if (role == Role::mesh) names = data.names;
+      write_names();
+    }
   }
 }
 
@@ -461,8 +465,8 @@ void Stage::State::write_history(const nlohmann::ordered_json& details) {
 template <class Product, class WriteFile>
 void Stage::State::write(const Product& product, const nlohmann::ordered_json& details, WriteFile&& write_file) {
   if (bundle) {
-    write_names();
     write_members(*bundle, product);
+    write_names();
     write_history(details);
     bundle->close();
   } else {

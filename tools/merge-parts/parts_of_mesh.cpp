@@ -146,7 +146,7 @@ bool Merger::take_about_part(const std::string& name) {
   return true;
 }
 
-// All parts have those of the whole, behind the history of what they were made of.
+// All parts have those of the whole.
 bool Merger::merge_names(const std::string& name) {
   if (name != names_member) return false;
   const std::string text = parts_.front().bundle().read_text();
@@ -154,7 +154,6 @@ bool Merger::merge_names(const std::string& name) {
     if (parts_[p].bundle().read_text() != text)
       throw DataError::at(parts_[p].bundle().where(), "expected the same names as in {}, found others",
                           parts_.front().bundle_name());
-  history_.write_before(std::nullopt, counts_, out_);
   out_.add_text(name, text);
   return true;
 }

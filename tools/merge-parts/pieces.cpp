@@ -177,8 +177,8 @@ void write_whole(PieceReader& reader, const std::string& path, bool compress) {
   } else {
     BundleWriter writer(output, compress || ending == compressed_bundle_format);
     write_members(writer, mesh);
-    write_history(writer, reader.settings());
     if (!reader.names().empty()) writer.add_text(std::string(names_member), text_of(reader.names()));
+    write_history(writer, reader.settings());
     writer.close();
   }
   output.commit();

@@ -53,8 +53,8 @@ void PartFiles::write(const PartOfMesh& part, const std::vector<nlohmann::ordere
   BundleWriter writer(output, compress_);
   write_members(writer, part.part);
   write_members(writer, part.mesh);
-  write_history(writer, history);
   if (!names.empty()) writer.add_text(std::string(names_member), text_of(names));
+  write_history(writer, history);
   writer.close();
   output.drain();
 }
