@@ -120,8 +120,9 @@ class BodyCollector {
 
 std::string cad_name(const std::string& text) {
   std::string name = clean_name(text);
-  // OpenCASCADE's own name for a label without one, and what NX writes.
-  return name == "NONE" || name.starts_with("=>[") ? std::string() : name;
+  // What OpenCASCADE and NX write where there is none.
+  const bool is_none = name == "NONE" || name.starts_with("=>[") || name.starts_with("Open CASCADE STEP translator");
+  return is_none ? std::string() : name;
 }
 
 std::string name_of_label(const TDF_Label& label) {
