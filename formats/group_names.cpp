@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "common/run/error.hpp"
-#include "formats/text_scanner.hpp"
+#include "formats/streams/text_scanner.hpp"
 
 namespace hexpipe {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "common/mesh/facet_key.hpp"
 #include "common/run/error.hpp"
-#include "formats/surface_building.hpp"
+#include "formats/surfaces/surface_building.hpp"
 
 namespace hexpipe {
 namespace {
@@ -136,8 +136,8 @@ SurfaceSoup read_surface_bundle(Input& input, const std::function<void(BundleRea
 
 void write_surface_members(BundleWriter& writer, const SurfaceSoup& surface) {
   visit_members(surface, [&](const char* name, const auto& array) {
-    const bool may_be_missing = name != std::string_view("surface/points.npy") &&
-                                name != std::string_view("surface/triangles.npy");
+    const bool may_be_missing =
+        name != std::string_view("surface/points.npy") && name != std::string_view("surface/triangles.npy");
     if (!array.empty() || !may_be_missing) writer.add_array(name, array);
   });
 }

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string_view>
 
-#include "formats/bundle.hpp"
-#include "formats/surface_files.hpp"
+#include "formats/pipeline/bundle.hpp"
+#include "formats/surfaces/surface_files.hpp"
 
 namespace hexpipe {
 

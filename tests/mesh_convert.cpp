@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "formats/mesh_files.hpp"
+#include "formats/meshes/mesh_files.hpp"
 
 int main(int argc, char** argv) {
   using namespace hexpipe;

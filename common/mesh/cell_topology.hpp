@@ -1,7 +1,7 @@
 #pragma once
 /* The one numbering of corners, edges and facets that everything in hexpipe uses. Hex, pyramid and tet are as in VTK,
    Gmsh and MEDIT; the prism is Gmsh's and MEDIT's (det(01, 02, 03) > 0); VTK's files list its triangles the
-   other way round, see formats/vtk_grid.hpp.
+   other way round, see formats/meshes/vtk_grid.hpp.
 
           hex                      prism                   pyramid                  tet
 

@@ -1,6 +1,6 @@
 #pragma once
-// What the command line says about a tool's inputs and output. tool_main declares these options; formats/stage.hpp
-// obeys them.
+// What the command line says about a tool's inputs and output. tool_main declares these options;
+// formats/pipeline/stage.hpp obeys them.
 
 #include <array>
 #include <map>

@@ -2,13 +2,13 @@
 #include <string>
 
 #include "common/run/error.hpp"
-#include "formats/surface_files.hpp"
+#include "formats/surfaces/surface_files.hpp"
 #include "tests/fuzz/targets.hpp"
-#include "tools/tetmesh/repair.hpp"
-#include "tools/tetmesh/shells.hpp"
-#include "tools/tetmesh/sizing.hpp"
+#include "tools/tetmesh/sizing/sizing.hpp"
+#include "tools/tetmesh/solid/repair.hpp"
+#include "tools/tetmesh/solid/shells.hpp"
+#include "tools/tetmesh/solid/surface_check.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
-#include "tools/tetmesh/surface_check.hpp"
 
 namespace hexpipe {
 namespace {

@@ -8,13 +8,13 @@
 #include "common/candidates/findhex.hpp"
 #include "common/conflicts/find_conflicts.hpp"
 #include "common/mesh/adjacency.hpp"
-#include "common/mwis/solution_state.hpp"
+#include "common/mwis/ground/solution_state.hpp"
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
 #include "tools/assemble/assemble.hpp"
-#include "tools/assemble/complete_surface.hpp"
-#include "tools/assemble/exchange.hpp"
-#include "tools/assemble/exchange_search.hpp"
+#include "tools/assemble/choice/exchange.hpp"
+#include "tools/assemble/choice/exchange_search.hpp"
+#include "tools/assemble/hybrid/complete_surface.hpp"
 
 namespace hexpipe {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "common/mesh/adjacency.hpp"
 #include "common/run/error.hpp"
-#include "tools/assemble/extract.hpp"
-#include "tools/assemble/peel.hpp"
+#include "tools/assemble/conform/peel.hpp"
+#include "tools/assemble/hybrid/extract.hpp"
 #include "tools/assemble/self_check.hpp"
 
 namespace hexpipe {

@@ -5,8 +5,8 @@
 #include "assemble_lattice.hpp"
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/quality.hpp"
-#include "tools/assemble/hybrid_mesh.hpp"
-#include "tools/assemble/reconnect.hpp"
+#include "tools/assemble/conform/reconnect.hpp"
+#include "tools/assemble/hybrid/hybrid_mesh.hpp"
 
 namespace hexpipe {
 namespace {

@@ -5,10 +5,10 @@
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/quality.hpp"
 #include "tools/assemble/assemble.hpp"
-#include "tools/assemble/freedom.hpp"
-#include "tools/assemble/point_star.hpp"
-#include "tools/assemble/repair.hpp"
-#include "tools/assemble/smooth.hpp"
+#include "tools/assemble/conform/repair.hpp"
+#include "tools/assemble/shape/freedom.hpp"
+#include "tools/assemble/shape/point_star.hpp"
+#include "tools/assemble/shape/smooth.hpp"
 
 namespace hexpipe {
 namespace {

@@ -6,9 +6,9 @@
 #include "assemble_lattice.hpp"
 #include "common/mesh/adjacency.hpp"
 #include "tools/assemble/assemble.hpp"
-#include "tools/assemble/boundary_deviation.hpp"
-#include "tools/assemble/input_surface.hpp"
-#include "tools/assemble/smooth.hpp"
+#include "tools/assemble/shape/boundary_deviation.hpp"
+#include "tools/assemble/shape/input_surface.hpp"
+#include "tools/assemble/shape/smooth.hpp"
 
 namespace hexpipe {
 namespace {

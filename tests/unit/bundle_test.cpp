@@ -1,4 +1,4 @@
-#include "formats/bundle.hpp"
+#include "formats/pipeline/bundle.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "formats/cand.hpp"
+#include "formats/choice/cand.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "formats/dimacs.hpp"
+#include "formats/choice/dimacs.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
-#include "formats/facet_owners.hpp"
+#include "formats/meshes/facet_owners.hpp"
 
 #include <gtest/gtest.h>
 
-#include "formats/cell_data.hpp"
+#include "formats/meshes/cell_data.hpp"
 #include "sample_meshes.hpp"
 
 namespace hexpipe {

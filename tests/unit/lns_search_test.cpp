@@ -3,10 +3,10 @@
 #include <new>
 #include <set>
 
-#include "common/mwis/fragment.hpp"
-#include "common/mwis/lns.hpp"
-#include "common/mwis/repair.hpp"
-#include "common/mwis/schedule.hpp"
+#include "common/mwis/local_search/fragment.hpp"
+#include "common/mwis/local_search/lns.hpp"
+#include "common/mwis/local_search/repair.hpp"
+#include "common/mwis/local_search/schedule.hpp"
 #include "common/run/parallel.hpp"
 #include "random_graphs.hpp"
 

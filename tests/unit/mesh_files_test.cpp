@@ -1,4 +1,4 @@
-#include "formats/mesh_files.hpp"
+#include "formats/meshes/mesh_files.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "formats/metis.hpp"
+#include "formats/choice/metis.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "common/mwis/annealing.hpp"
+#include "common/mwis/local_search/annealing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "common/mwis/exact_algorithm.hpp"
+#include "common/mwis/exact/exact_algorithm.hpp"
 
 #include <gtest/gtest.h>
 

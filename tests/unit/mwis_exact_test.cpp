@@ -2,12 +2,12 @@
 
 #include <functional>
 
-#include "common/mwis/branch_and_bound.hpp"
-#include "common/mwis/branch_and_reduce.hpp"
-#include "common/mwis/dense_reductions.hpp"
-#include "common/mwis/exact_algorithm.hpp"
-#include "common/mwis/exact_solver.hpp"
-#include "common/mwis/lns.hpp"
+#include "common/mwis/exact/branch_and_bound.hpp"
+#include "common/mwis/exact/branch_and_reduce.hpp"
+#include "common/mwis/exact/exact_algorithm.hpp"
+#include "common/mwis/exact/exact_solver.hpp"
+#include "common/mwis/local_search/lns.hpp"
+#include "common/mwis/reduce/dense_reductions.hpp"
 #include "random_graphs.hpp"
 
 namespace hexpipe {

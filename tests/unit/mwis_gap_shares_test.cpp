@@ -1,10 +1,10 @@
-#include "common/mwis/gap_shares.hpp"
+#include "common/mwis/bounds/gap_shares.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
-#include "common/mwis/solution_state.hpp"
+#include "common/mwis/ground/solution_state.hpp"
 #include "random_graphs.hpp"
 
 namespace hexpipe {

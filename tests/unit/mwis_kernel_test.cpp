@@ -1,8 +1,8 @@
-#include "common/mwis/kernel.hpp"
+#include "common/mwis/reduce/kernel.hpp"
 
 #include <gtest/gtest.h>
 
-#include "common/mwis/exact_solver.hpp"
+#include "common/mwis/exact/exact_solver.hpp"
 #include "random_graphs.hpp"
 
 namespace hexpipe {

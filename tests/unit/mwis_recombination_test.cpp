@@ -1,10 +1,10 @@
-#include "common/mwis/recombination.hpp"
+#include "common/mwis/local_search/recombination.hpp"
 
 #include <gtest/gtest.h>
 
 #include <iterator>
 
-#include "common/mwis/solution_state.hpp"
+#include "common/mwis/ground/solution_state.hpp"
 #include "random_graphs.hpp"
 
 namespace hexpipe {

@@ -1,11 +1,11 @@
-#include "common/mwis/relaxation.hpp"
+#include "common/mwis/bounds/relaxation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "common/mwis/clique_dual.hpp"
-#include "common/mwis/heavy_cliques.hpp"
+#include "common/mwis/bounds/clique_dual.hpp"
+#include "common/mwis/exact/heavy_cliques.hpp"
 #include "random_graphs.hpp"
 
 namespace hexpipe {

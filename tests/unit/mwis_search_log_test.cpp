@@ -1,4 +1,4 @@
-#include "common/mwis/search_log.hpp"
+#include "common/mwis/ground/search_log.hpp"
 
 #include <gtest/gtest.h>
 

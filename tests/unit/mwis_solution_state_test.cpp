@@ -1,4 +1,4 @@
-#include "common/mwis/solution_state.hpp"
+#include "common/mwis/ground/solution_state.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Which bound of a bundle's history is one of the graph that the bundle has now.
 
-#include "common/mwis/target_weight.hpp"
+#include "common/mwis/ground/target_weight.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "formats/number_map.hpp"
+#include "formats/streams/number_map.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "formats/output.hpp"
+#include "formats/streams/output.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

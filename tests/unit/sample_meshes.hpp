@@ -11,8 +11,8 @@
 #include "common/mesh/mixed_mesh.hpp"
 #include "common/run/error.hpp"
 #include "common/run/random.hpp"
-#include "formats/mesh_blocks.hpp"
-#include "formats/mesh_files.hpp"
+#include "formats/meshes/mesh_blocks.hpp"
+#include "formats/meshes/mesh_files.hpp"
 #include "tests/unit/written_bytes.hpp"
 
 namespace hexpipe {

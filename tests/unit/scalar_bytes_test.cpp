@@ -1,4 +1,4 @@
-#include "formats/scalar_bytes.hpp"
+#include "formats/streams/scalar_bytes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

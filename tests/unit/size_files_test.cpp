@@ -1,10 +1,10 @@
-#include "formats/size_files.hpp"
+#include "formats/points/size_files.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/run/error.hpp"
-#include "formats/npy.hpp"
+#include "formats/pipeline/npy.hpp"
 
 namespace hexpipe {
 namespace {

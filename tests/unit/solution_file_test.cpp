@@ -1,4 +1,4 @@
-#include "formats/solution_file.hpp"
+#include "formats/choice/solution_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

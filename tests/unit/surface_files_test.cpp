@@ -1,4 +1,4 @@
-#include "formats/surface_files.hpp"
+#include "formats/surfaces/surface_files.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "formats/surface_building.hpp"
-#include "formats/surface_files.hpp"
+#include "formats/surfaces/surface_building.hpp"
+#include "formats/surfaces/surface_files.hpp"
 
 namespace hexpipe::testing {
 

@@ -1,4 +1,4 @@
-#include "tools/tetmesh/child_process.hpp"
+#include "tools/tetmesh/tetgen/child_process.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

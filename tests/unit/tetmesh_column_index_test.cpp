@@ -1,4 +1,4 @@
-#include "tools/tetmesh/column_index.hpp"
+#include "tools/tetmesh/geometry/column_index.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tools/tetmesh/curl_correction.hpp"
+#include "tools/tetmesh/fields/curl_correction.hpp"
 
 #include <gtest/gtest.h>
 

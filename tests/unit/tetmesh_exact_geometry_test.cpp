@@ -1,4 +1,4 @@
-#include "tools/tetmesh/exact_geometry.hpp"
+#include "tools/tetmesh/geometry/exact_geometry.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "tetmesh_surfaces.hpp"
-#include "tools/tetmesh/graded_lattice.hpp"
+#include "tools/tetmesh/sizing/wall_thickness.hpp"
 #include "tools/tetmesh/volume/expected_points.hpp"
-#include "tools/tetmesh/wall_thickness.hpp"
+#include "tools/tetmesh/volume/graded_lattice.hpp"
 
 namespace hexpipe {
 namespace {

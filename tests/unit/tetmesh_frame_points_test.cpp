@@ -9,12 +9,12 @@
 #include "common/run/parallel.hpp"
 #include "common/run/random.hpp"
 #include "tetmesh_surfaces.hpp"
-#include "tools/tetmesh/column_index.hpp"
-#include "tools/tetmesh/lattice.hpp"
-#include "tools/tetmesh/part_axes.hpp"
-#include "tools/tetmesh/triangle_distance.hpp"
-#include "tools/tetmesh/volume/octahedral.hpp"
-#include "tools/tetmesh/volume/surface_clearance.hpp"
+#include "tools/tetmesh/fields/octahedral.hpp"
+#include "tools/tetmesh/geometry/column_index.hpp"
+#include "tools/tetmesh/geometry/triangle_distance.hpp"
+#include "tools/tetmesh/solid/part_axes.hpp"
+#include "tools/tetmesh/solid/surface_clearance.hpp"
+#include "tools/tetmesh/volume/lattice.hpp"
 
 namespace hexpipe {
 namespace {

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "tetmesh_surfaces.hpp"
-#include "tools/tetmesh/lattice.hpp"
-#include "tools/tetmesh/part_axes.hpp"
+#include "tools/tetmesh/solid/part_axes.hpp"
+#include "tools/tetmesh/volume/lattice.hpp"
 
 namespace hexpipe {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/tetmesh/lattice.hpp"
+#include "tools/tetmesh/volume/lattice.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 
 #include "common/run/error.hpp"
 #include "tetmesh_surfaces.hpp"
-#include "tools/tetmesh/column_index.hpp"
-#include "tools/tetmesh/graded_lattice.hpp"
+#include "tools/tetmesh/geometry/column_index.hpp"
+#include "tools/tetmesh/volume/graded_lattice.hpp"
 
 namespace hexpipe {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "common/run/random.hpp"
 #include "tetmesh_surfaces.hpp"
+#include "tools/tetmesh/solid/surface_check.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
 #include "tools/tetmesh/surface/surface_refine.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
-#include "tools/tetmesh/surface_check.hpp"
 
 namespace hexpipe {
 namespace {

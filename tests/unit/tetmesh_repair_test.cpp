@@ -1,13 +1,13 @@
-#include "tools/tetmesh/repair.hpp"
+#include "tools/tetmesh/solid/repair.hpp"
 
 #include <gtest/gtest.h>
 
 #include "common/run/error.hpp"
 #include "common/run/random.hpp"
 #include "surface_samples.hpp"
-#include "tools/tetmesh/hole_filling.hpp"
-#include "tools/tetmesh/shells.hpp"
-#include "tools/tetmesh/surface_check.hpp"
+#include "tools/tetmesh/solid/hole_filling.hpp"
+#include "tools/tetmesh/solid/shells.hpp"
+#include "tools/tetmesh/solid/surface_check.hpp"
 
 namespace hexpipe {
 namespace {

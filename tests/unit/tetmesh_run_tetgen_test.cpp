@@ -1,4 +1,4 @@
-#include "tools/tetmesh/run_tetgen.hpp"
+#include "tools/tetmesh/tetgen/run_tetgen.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 #include "common/run/error.hpp"
 #include "surface_samples.hpp"
-#include "tools/tetmesh/build_mesh.hpp"
+#include "tools/tetmesh/tetgen/build_mesh.hpp"
 
 namespace hexpipe {
 namespace {

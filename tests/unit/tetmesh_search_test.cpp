@@ -13,7 +13,7 @@
 #include "tools/tetmesh/search/mesh_change.hpp"
 #include "tools/tetmesh/search/point_search.hpp"
 #include "tools/tetmesh/search/surface_change.hpp"
-#include "tools/tetmesh/surface_check.hpp"
+#include "tools/tetmesh/solid/surface_check.hpp"
 
 namespace hexpipe {
 namespace {

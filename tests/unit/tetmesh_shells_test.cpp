@@ -1,4 +1,4 @@
-#include "tools/tetmesh/shells.hpp"
+#include "tools/tetmesh/solid/shells.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,10 +3,10 @@
 
 #include "common/run/random.hpp"
 #include "tetmesh_surfaces.hpp"
-#include "tools/tetmesh/box_tree.hpp"
-#include "tools/tetmesh/size_field.hpp"
-#include "tools/tetmesh/sized_point_grid.hpp"
-#include "tools/tetmesh/sizing.hpp"
+#include "tools/tetmesh/geometry/box_tree.hpp"
+#include "tools/tetmesh/geometry/sized_point_grid.hpp"
+#include "tools/tetmesh/sizing/size_field.hpp"
+#include "tools/tetmesh/sizing/sizing.hpp"
 
 namespace hexpipe {
 namespace {

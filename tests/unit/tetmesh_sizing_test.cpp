@@ -1,11 +1,11 @@
-#include "tools/tetmesh/sizing.hpp"
+#include "tools/tetmesh/sizing/sizing.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/run/error.hpp"
 #include "tetmesh_surfaces.hpp"
-#include "tools/tetmesh/wall_thickness.hpp"
+#include "tools/tetmesh/sizing/wall_thickness.hpp"
 
 namespace hexpipe {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/tetmesh/surface_check.hpp"
+#include "tools/tetmesh/solid/surface_check.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,10 +9,10 @@
 
 #include "common/run/random.hpp"
 #include "surface_samples.hpp"
-#include "tools/tetmesh/build_mesh.hpp"
-#include "tools/tetmesh/run_tetgen.hpp"
-#include "tools/tetmesh/shells.hpp"
-#include "tools/tetmesh/triangle_distance.hpp"
+#include "tools/tetmesh/geometry/triangle_distance.hpp"
+#include "tools/tetmesh/solid/shells.hpp"
+#include "tools/tetmesh/tetgen/build_mesh.hpp"
+#include "tools/tetmesh/tetgen/run_tetgen.hpp"
 
 namespace hexpipe::testing {
 

@@ -1,15 +1,15 @@
-#include "tools/tetmesh/triangle_pieces.hpp"
+#include "tools/tetmesh/geometry/triangle_pieces.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "common/run/random.hpp"
-#include "formats/surface_files.hpp"
-#include "tools/tetmesh/apart_test.hpp"
-#include "tools/tetmesh/column_index.hpp"
+#include "formats/surfaces/surface_files.hpp"
+#include "tools/tetmesh/geometry/apart_test.hpp"
+#include "tools/tetmesh/geometry/column_index.hpp"
+#include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
-#include "tools/tetmesh/triangle_distance.hpp"
 
 namespace hexpipe {
 namespace {

@@ -1,4 +1,4 @@
-#include "formats/text_scanner.hpp"
+#include "formats/streams/text_scanner.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

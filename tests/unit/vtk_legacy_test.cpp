@@ -3,7 +3,7 @@
 
 #include <bit>
 
-#include "formats/scalar_bytes.hpp"
+#include "formats/streams/scalar_bytes.hpp"
 #include "sample_meshes.hpp"
 
 namespace hexpipe {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "formats/scalar_bytes.hpp"
-#include "formats/vtu.hpp"
+#include "formats/meshes/vtu.hpp"
+#include "formats/streams/scalar_bytes.hpp"
 #include "sample_meshes.hpp"
 
 namespace hexpipe {

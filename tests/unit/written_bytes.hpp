@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "formats/output.hpp"
+#include "formats/streams/output.hpp"
 #include "tests/unit/temporary_path.hpp"
 
 namespace hexpipe::testing {

@@ -5,8 +5,8 @@
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/mixed_mesh.hpp"
 #include "common/mesh/tet_mesh.hpp"
-#include "tools/assemble/seam.hpp"
-#include "tools/assemble/selection.hpp"
+#include "tools/assemble/choice/selection.hpp"
+#include "tools/assemble/hybrid/seam.hpp"
 #include "tools/assemble/statistics.hpp"
 
 namespace hexpipe {

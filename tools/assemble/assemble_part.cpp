@@ -14,10 +14,10 @@
 
 #include "common/mesh/orientation.hpp"
 #include "common/run/error.hpp"
-#include "formats/part_bundle.hpp"
-#include "tools/assemble/complete_surface.hpp"
-#include "tools/assemble/piece_input.hpp"
-#include "tools/assemble/pieces.hpp"
+#include "formats/pipeline/part_bundle.hpp"
+#include "tools/assemble/hybrid/complete_surface.hpp"
+#include "tools/assemble/pieces/piece_input.hpp"
+#include "tools/assemble/pieces/pieces.hpp"
 
 namespace hexpipe {
 namespace {

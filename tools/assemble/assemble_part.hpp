@@ -6,7 +6,7 @@
 
 #include "common/mesh/mesh_piece.hpp"
 #include "tools/assemble/assemble.hpp"
-#include "tools/assemble/part_view.hpp"
+#include "tools/assemble/pieces/part_view.hpp"
 
 namespace hexpipe {
 

@@ -3,10 +3,10 @@
 #include <map>
 #include <utility>
 
-#include "common/mwis/target_weight.hpp"
+#include "common/mwis/ground/target_weight.hpp"
 #include "common/run/error.hpp"
 #include "common/run/tool_main.hpp"
-#include "formats/stage.hpp"
+#include "formats/pipeline/stage.hpp"
 #include "tools/assemble/assemble.hpp"
 #include "tools/assemble/assemble_part.hpp"
 

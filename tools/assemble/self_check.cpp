@@ -6,8 +6,8 @@
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/run/error.hpp"
-#include "tools/assemble/boundary_deviation.hpp"
-#include "tools/assemble/cell_facets.hpp"
+#include "tools/assemble/hybrid/cell_facets.hpp"
+#include "tools/assemble/shape/boundary_deviation.hpp"
 
 namespace hexpipe {
 namespace {

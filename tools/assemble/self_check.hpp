@@ -4,9 +4,9 @@
 #include <cstdint>
 
 #include "common/mesh/tet_mesh.hpp"
-#include "tools/assemble/extract.hpp"
-#include "tools/assemble/input_surface.hpp"
-#include "tools/assemble/surface_tags.hpp"
+#include "tools/assemble/hybrid/extract.hpp"
+#include "tools/assemble/hybrid/surface_tags.hpp"
+#include "tools/assemble/shape/input_surface.hpp"
 
 namespace hexpipe {
 

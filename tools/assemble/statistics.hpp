@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "common/mesh/mixed_mesh.hpp"
-#include "tools/assemble/conform.hpp"
-#include "tools/assemble/exchange.hpp"
+#include "tools/assemble/choice/exchange.hpp"
+#include "tools/assemble/conform/conform.hpp"
 #include "tools/assemble/self_check.hpp"
-#include "tools/assemble/smooth.hpp"
+#include "tools/assemble/shape/smooth.hpp"
 
 namespace hexpipe {
 

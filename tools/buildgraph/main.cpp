@@ -8,8 +8,8 @@
 #include "common/run/option_checks.hpp"
 #include "common/run/phases.hpp"
 #include "common/run/tool_main.hpp"
-#include "formats/cand.hpp"
-#include "formats/stage.hpp"
+#include "formats/choice/cand.hpp"
+#include "formats/pipeline/stage.hpp"
 #include "tools/buildgraph/buildgraph.hpp"
 #include "tools/buildgraph/report.hpp"
 

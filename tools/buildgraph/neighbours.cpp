@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "common/run/error.hpp"
-#include "formats/history.hpp"
-#include "formats/part_bundle.hpp"
+#include "formats/pipeline/history.hpp"
+#include "formats/pipeline/part_bundle.hpp"
 
 namespace hexpipe {
 namespace {

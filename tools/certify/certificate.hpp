@@ -4,8 +4,8 @@
 // its cliques, gets the bound.
 
 #include "common/graph/clique_cover.hpp"
-#include "common/mwis/clique_dual.hpp"
-#include "formats/output.hpp"
+#include "common/mwis/bounds/clique_dual.hpp"
+#include "formats/streams/output.hpp"
 
 namespace hexpipe {
 

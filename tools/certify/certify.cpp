@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "common/mwis/solution_state.hpp"
-#include "common/mwis/target_weight.hpp"
+#include "common/mwis/ground/solution_state.hpp"
+#include "common/mwis/ground/target_weight.hpp"
 
 namespace hexpipe {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "common/graph/conflict_graph.hpp"
-#include "common/mwis/clique_dual.hpp"
-#include "common/mwis/exact_algorithm.hpp"
+#include "common/mwis/bounds/clique_dual.hpp"
+#include "common/mwis/exact/exact_algorithm.hpp"
 #include "common/run/deadline.hpp"
 
 namespace hexpipe {

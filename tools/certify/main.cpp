@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "common/graph/tet_cliques.hpp"
-#include "common/mwis/gap_shares.hpp"
-#include "common/mwis/search_log.hpp"
+#include "common/mwis/bounds/gap_shares.hpp"
+#include "common/mwis/ground/search_log.hpp"
 #include "common/run/tool_main.hpp"
-#include "formats/stage.hpp"
+#include "formats/pipeline/stage.hpp"
 #include "tools/certify/certificate.hpp"
 #include "tools/certify/certify.hpp"
 

@@ -8,7 +8,7 @@
 #include "common/run/option_checks.hpp"
 #include "common/run/phases.hpp"
 #include "common/run/tool_main.hpp"
-#include "formats/stage.hpp"
+#include "formats/pipeline/stage.hpp"
 #include "tools/findhex/part_search.hpp"
 #include "tools/findhex/report.hpp"
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "common/mwis/recombination.hpp"
+#include "common/mwis/local_search/recombination.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe {

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "common/graph/conflict_graph.hpp"
-#include "common/mwis/annealing.hpp"
+#include "common/mwis/local_search/annealing.hpp"
 #include "common/run/deadline.hpp"
 #include "tools/initsol/greedy.hpp"
 #include "tools/initsol/tabu_search.hpp"

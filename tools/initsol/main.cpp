@@ -2,12 +2,12 @@
 
 #include <map>
 
-#include "common/mwis/search_log.hpp"
+#include "common/mwis/ground/search_log.hpp"
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
-#include "formats/stage.hpp"
+#include "formats/pipeline/stage.hpp"
 #include "tools/initsol/initsol.hpp"
 
 using namespace hexpipe;

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/mwis/solution_state.hpp"
+#include "common/mwis/ground/solution_state.hpp"
 #include "common/run/deadline.hpp"
 #include "common/run/random.hpp"
 #include "tools/initsol/indexed_heap.hpp"

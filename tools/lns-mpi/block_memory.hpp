@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/mwis/lns.hpp"
-#include "common/mwis/schedule.hpp"
+#include "common/mwis/local_search/lns.hpp"
+#include "common/mwis/local_search/schedule.hpp"
 #include "tools/lns-mpi/regions.hpp"
 
 namespace hexpipe {

@@ -9,9 +9,9 @@
 #include <system_error>
 #include <utility>
 
-#include "formats/bundle.hpp"
-#include "formats/input.hpp"
-#include "formats/output.hpp"
+#include "formats/pipeline/bundle.hpp"
+#include "formats/streams/input.hpp"
+#include "formats/streams/output.hpp"
 
 namespace hexpipe {
 namespace {

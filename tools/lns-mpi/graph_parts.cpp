@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "formats/stage.hpp"
+#include "formats/pipeline/stage.hpp"
 #include "tools/lns-mpi/source.hpp"
 
 namespace hexpipe {

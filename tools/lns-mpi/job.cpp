@@ -6,11 +6,11 @@
 #include <memory>
 #include <optional>
 
-#include "common/mwis/search_log.hpp"
-#include "common/mwis/target_weight.hpp"
+#include "common/mwis/ground/search_log.hpp"
+#include "common/mwis/ground/target_weight.hpp"
 #include "common/run/progress.hpp"
-#include "formats/fragments_file.hpp"
-#include "formats/output.hpp"
+#include "formats/choice/fragments_file.hpp"
+#include "formats/streams/output.hpp"
 #include "tools/lns-mpi/checkpoint.hpp"
 #include "tools/lns-mpi/fingerprint.hpp"
 #include "tools/lns-mpi/shared_dual.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/run/lns_options.hpp"
+#include "common/mwis/lns_options.hpp"
 #include "common/run/run_context.hpp"
 #include "tools/lns-mpi/ranks.hpp"
 #include "tools/lns-mpi/rounds.hpp"

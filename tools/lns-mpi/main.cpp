@@ -5,7 +5,7 @@
 #include <iostream>
 #include <map>
 
-#include "common/run/lns_options.hpp"
+#include "common/mwis/lns_options.hpp"
 #include "common/run/messages.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"

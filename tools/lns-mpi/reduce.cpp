@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "common/mwis/reducer.hpp"
+#include "common/mwis/reduce/reducer.hpp"
 
 namespace hexpipe {
 namespace {

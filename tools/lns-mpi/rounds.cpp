@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "common/mwis/solution_state.hpp"
+#include "common/mwis/ground/solution_state.hpp"
 #include "common/run/random.hpp"
 #include "tools/lns-mpi/reduce.hpp"
 #include "tools/lns-mpi/regions.hpp"

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "common/mwis/lns.hpp"
+#include "common/mwis/local_search/lns.hpp"
 #include "common/run/deadline.hpp"
 #include "tools/lns-mpi/block_memory.hpp"
 #include "tools/lns-mpi/piece.hpp"

@@ -11,7 +11,7 @@
 
 #include "common/graph/clique_cover.hpp"
 #include "common/graph/subgraph.hpp"
-#include "common/mwis/entropy_dual.hpp"
+#include "common/mwis/bounds/entropy_dual.hpp"
 #include "common/run/random.hpp"
 
 namespace hexpipe {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "common/mwis/target_weight.hpp"
-#include "formats/stage.hpp"
+#include "common/mwis/ground/target_weight.hpp"
+#include "formats/pipeline/stage.hpp"
 #include "tools/lns-mpi/cut.hpp"
 #include "tools/lns-mpi/source.hpp"
 

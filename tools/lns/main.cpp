@@ -4,15 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "common/mwis/gap_shares.hpp"
-#include "common/mwis/lns.hpp"
-#include "common/mwis/search_log.hpp"
-#include "common/mwis/target_weight.hpp"
-#include "common/run/lns_options.hpp"
+#include "common/mwis/bounds/gap_shares.hpp"
+#include "common/mwis/ground/search_log.hpp"
+#include "common/mwis/ground/target_weight.hpp"
+#include "common/mwis/lns_options.hpp"
+#include "common/mwis/local_search/lns.hpp"
 #include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
-#include "formats/fragments_file.hpp"
-#include "formats/stage.hpp"
+#include "formats/choice/fragments_file.hpp"
+#include "formats/pipeline/stage.hpp"
 
 using namespace hexpipe;
 

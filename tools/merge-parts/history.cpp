@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "common/run/error.hpp"
-#include "formats/history.hpp"
+#include "formats/pipeline/history.hpp"
 
 namespace hexpipe {
 namespace {

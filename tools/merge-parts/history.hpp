@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/run/stream_options.hpp"
-#include "formats/bundle.hpp"
+#include "formats/pipeline/bundle.hpp"
 #include "tools/merge-parts/part_reader.hpp"
 
 namespace hexpipe {

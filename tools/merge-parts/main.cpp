@@ -2,9 +2,9 @@
 
 #include "common/run/error.hpp"
 #include "common/run/tool_main.hpp"
-#include "formats/bundle.hpp"
-#include "formats/output.hpp"
-#include "formats/output_format.hpp"
+#include "formats/pipeline/bundle.hpp"
+#include "formats/pipeline/output_format.hpp"
+#include "formats/streams/output.hpp"
 #include "tools/merge-parts/merge_parts.hpp"
 #include "tools/merge-parts/output_name.hpp"
 #include "tools/merge-parts/pieces.hpp"

@@ -1,7 +1,7 @@
 #include "tools/merge-parts/merge_parts.hpp"
 
 #include "common/run/open_files.hpp"
-#include "formats/members.hpp"
+#include "formats/pipeline/members.hpp"
 #include "tools/merge-parts/part_reader.hpp"
 #include "tools/merge-parts/parts_of_mesh.hpp"
 #include "tools/merge-parts/shares.hpp"

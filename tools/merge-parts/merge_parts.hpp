@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/bundle.hpp"
+#include "formats/pipeline/bundle.hpp"
 
 namespace hexpipe {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "common/run/error.hpp"
-#include "formats/output_format.hpp"
+#include "formats/pipeline/output_format.hpp"
 
 namespace hexpipe {
 

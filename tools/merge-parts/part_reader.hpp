@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "formats/bundle.hpp"
-#include "formats/input.hpp"
+#include "formats/pipeline/bundle.hpp"
+#include "formats/streams/input.hpp"
 
 namespace hexpipe {
 

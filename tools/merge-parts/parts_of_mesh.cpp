@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "common/run/error.hpp"
-#include "formats/history.hpp"
-#include "formats/members.hpp"
+#include "formats/pipeline/history.hpp"
+#include "formats/pipeline/members.hpp"
 #include "tools/merge-parts/history.hpp"
 #include "tools/merge-parts/interleaving.hpp"
 #include "tools/merge-parts/part_numbers.hpp"

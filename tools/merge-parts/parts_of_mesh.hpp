@@ -2,7 +2,7 @@
 // Puts together the bundles of the parts of a mesh: the mesh, and its candidates, graph and solution where they are
 // there.
 
-#include "formats/bundle.hpp"
+#include "formats/pipeline/bundle.hpp"
 #include "tools/merge-parts/part_reader.hpp"
 
 namespace hexpipe {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/bundle.hpp"
+#include "formats/pipeline/bundle.hpp"
 #include "tools/merge-parts/part_reader.hpp"
 
 namespace hexpipe {

@@ -2,8 +2,8 @@
 
 #include "common/run/phases.hpp"
 #include "common/run/tool_main.hpp"
-#include "formats/history.hpp"
-#include "formats/stage.hpp"
+#include "formats/pipeline/history.hpp"
+#include "formats/pipeline/stage.hpp"
 #include "tools/mesh-part/mesh_part.hpp"
 #include "tools/mesh-part/part_files.hpp"
 

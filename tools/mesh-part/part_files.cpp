@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "common/run/error.hpp"
-#include "formats/bundle.hpp"
-#include "formats/history.hpp"
-#include "formats/members.hpp"
+#include "formats/pipeline/bundle.hpp"
+#include "formats/pipeline/history.hpp"
+#include "formats/pipeline/members.hpp"
 
 namespace hexpipe {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "formats/group_names.hpp"
-#include "formats/output_group.hpp"
+#include "formats/streams/output_group.hpp"
 #include "tools/mesh-part/mesh_cutter.hpp"
 
 namespace hexpipe {

@@ -24,7 +24,7 @@
 #include <string_view>
 
 #include "common/run/error.hpp"
-#include "formats/text_scanner.hpp"
+#include "formats/streams/text_scanner.hpp"
 #include "tools/tessellate/make_bodies.hpp"
 #include "tools/tessellate/occt_names.hpp"
 
@@ -62,8 +62,9 @@ LengthUnit unit_named(std::string name) {
   };
   for (const Known& entry : known)
     if (name.find(entry.part) != std::string::npos) return entry.unit;
-  static const Known short_names[] = {{"mm", {"millimetre", 1}}, {"cm", {"centimetre", 10}}, {"m", {"metre", 1000}},
-                                      {"in", {"inch", 25.4}},    {"ft", {"foot", 304.8}},    {"um", {"micrometre", 1e-3}}};
+  static const Known short_names[] = {{"mm", {"millimetre", 1}}, {"cm", {"centimetre", 10}},
+                                      {"m", {"metre", 1000}},    {"in", {"inch", 25.4}},
+                                      {"ft", {"foot", 304.8}},   {"um", {"micrometre", 1e-3}}};
   for (const Known& entry : short_names)
     if (name == entry.part) return entry.unit;
   return {name, 0};
@@ -192,7 +193,8 @@ CadModel read_brep(const std::string& bytes, const std::string& name) {
     throw DataError::at(name, "expected a shape in BREP, found one that OpenCASCADE cannot read: it is cut off");
   CadModel model;
   model.names_unit = false;
-  for (TopExp_Explorer solid(whole, TopAbs_SOLID); solid.More(); solid.Next()) model.bodies.push_back({solid.Current(), {}});
+  for (TopExp_Explorer solid(whole, TopAbs_SOLID); solid.More(); solid.Next())
+    model.bodies.push_back({solid.Current(), {}});
   finish(whole, name, model);
   return model;
 }

@@ -1,7 +1,7 @@
 #pragma once
 // CAD files: STEP, IGES and BREP, told by their content.
 
-#include "formats/input.hpp"
+#include "formats/streams/input.hpp"
 #include "tools/tessellate/cad_model.hpp"
 
 namespace hexpipe {

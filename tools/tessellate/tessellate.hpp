@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "formats/input.hpp"
-#include "formats/surface_files.hpp"
+#include "formats/streams/input.hpp"
+#include "formats/surfaces/surface_files.hpp"
 
 namespace hexpipe {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "formats/surface_files.hpp"
+#include "formats/surfaces/surface_files.hpp"
 #include "tools/tessellate/cad_model.hpp"
 
 namespace hexpipe {

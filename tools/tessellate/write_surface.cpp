@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "common/run/error.hpp"
-#include "formats/mesh_files.hpp"
+#include "formats/meshes/mesh_files.hpp"
 
 namespace hexpipe {
 namespace {
@@ -27,8 +27,10 @@ std::string name_of(const SurfaceSoup& surface, std::int32_t tag) {
 // In OBJ a blank ends a name, and '#' begins a comment.
 std::string obj_name(const std::string& name, std::vector<std::string>& changes) {
   std::string result = name;
-  std::ranges::replace_if(result, [](char c) { return c == ' ' || c == '#'; }, '_');
-  if (result != name) changes.push_back(fmt::format("the name '{}' is written as {}, for OBJ has no blanks", name, result));
+  std::ranges::replace_if(
+      result, [](char c) { return c == ' ' || c == '#'; }, '_');
+  if (result != name)
+    changes.push_back(fmt::format("the name '{}' is written as {}, for OBJ has no blanks", name, result));
   return result;
 }
 

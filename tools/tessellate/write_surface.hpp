@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/output.hpp"
-#include "formats/surface_files.hpp"
+#include "formats/streams/output.hpp"
+#include "formats/surfaces/surface_files.hpp"
 
 namespace hexpipe {
 

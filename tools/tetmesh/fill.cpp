@@ -9,15 +9,15 @@
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/build_mesh.hpp"
-#include "tools/tetmesh/graded_lattice.hpp"
-#include "tools/tetmesh/mesh_shape.hpp"
-#include "tools/tetmesh/part_axes.hpp"
-#include "tools/tetmesh/run_tetgen.hpp"
+#include "tools/tetmesh/sizing/wall_thickness.hpp"
+#include "tools/tetmesh/solid/part_axes.hpp"
+#include "tools/tetmesh/tetgen/build_mesh.hpp"
+#include "tools/tetmesh/tetgen/mesh_shape.hpp"
+#include "tools/tetmesh/tetgen/run_tetgen.hpp"
 #include "tools/tetmesh/volume/frame_points.hpp"
 #include "tools/tetmesh/volume/given_points.hpp"
+#include "tools/tetmesh/volume/graded_lattice.hpp"
 #include "tools/tetmesh/volume/hex_estimate.hpp"
-#include "tools/tetmesh/wall_thickness.hpp"
 
 namespace hexpipe {
 namespace {

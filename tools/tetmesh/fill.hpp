@@ -4,9 +4,9 @@
 
 #include <optional>
 
-#include "tools/tetmesh/build_mesh.hpp"
-#include "tools/tetmesh/shells.hpp"
-#include "tools/tetmesh/size_field.hpp"
+#include "tools/tetmesh/sizing/size_field.hpp"
+#include "tools/tetmesh/solid/shells.hpp"
+#include "tools/tetmesh/tetgen/build_mesh.hpp"
 #include "tools/tetmesh/tetmesh.hpp"
 
 namespace hexpipe {

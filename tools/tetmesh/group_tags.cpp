@@ -12,8 +12,8 @@
 
 #include "common/mesh/facet_key.hpp"
 #include "common/run/error.hpp"
-#include "tools/tetmesh/feature_angle.hpp"
-#include "tools/tetmesh/half_edges.hpp"
+#include "tools/tetmesh/geometry/feature_angle.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
 
 namespace hexpipe {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "tools/tetmesh/shells.hpp"
+#include "tools/tetmesh/solid/shells.hpp"
 
 namespace hexpipe {
 

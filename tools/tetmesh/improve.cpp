@@ -8,8 +8,8 @@
 
 #include "common/run/deadline.hpp"
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/run_tetgen.hpp"
 #include "tools/tetmesh/search/point_search.hpp"
+#include "tools/tetmesh/tetgen/run_tetgen.hpp"
 
 namespace hexpipe {
 namespace {

@@ -11,10 +11,10 @@
 #include "common/run/option_checks.hpp"
 #include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
-#include "formats/point_files.hpp"
-#include "formats/size_files.hpp"
-#include "formats/stage.hpp"
-#include "formats/surface_files.hpp"
+#include "formats/pipeline/stage.hpp"
+#include "formats/points/point_files.hpp"
+#include "formats/points/size_files.hpp"
+#include "formats/surfaces/surface_files.hpp"
 #include "tools/tetmesh/command_line.hpp"
 #include "tools/tetmesh/tetmesh.hpp"
 
@@ -64,7 +64,9 @@ std::string summary(const TetmeshStatistics& s) {
 int main(int argc, char** argv) {
   const ToolInfo info{
       .name = "tetmesh",
-      .summary = "Fill a closed surface (STL, OBJ, PLY, OFF, or a bundle of tessellate) with tetrahedra that merge well into hexes.",
+      .summary =
+          "Fill a closed surface (STL, OBJ, PLY, OFF, or a bundle of tessellate) with tetrahedra that merge well into "
+          "hexes.",
       .example = "tetmesh bracket.stl --size 3 | findhex | buildgraph | initsol | assemble -o bracket.vtu",
       .reads = {},
       .product = Role::mesh,
@@ -136,9 +138,10 @@ int main(int argc, char** argv) {
     app.add_option("--shells", shells,
                    "Shells in shells: holes where oriented inward and regions else; all regions; or alternately holes")
         ->check(CLI::IsMember(shell_rules));
-    app.add_option("--tags-by-angle", options.tag_angle,
-                   "If given: where nothing is named, pieces of the surface within edges that turn by more than so many "
-                   "degrees get tags, or than 40")
+    app.add_option(
+           "--tags-by-angle", options.tag_angle,
+           "If given: where nothing is named, pieces of the surface within edges that turn by more than so many "
+           "degrees get tags, or than 40")
         ->expected(0, 1)
         ->default_str("40")
         ->check(number_between(1, 180))

@@ -7,10 +7,10 @@
 
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
-#include "tools/tetmesh/build_mesh.hpp"
 #include "tools/tetmesh/fill.hpp"
 #include "tools/tetmesh/improve.hpp"
-#include "tools/tetmesh/surface_check.hpp"
+#include "tools/tetmesh/solid/surface_check.hpp"
+#include "tools/tetmesh/tetgen/build_mesh.hpp"
 #include "tools/tetmesh/volume/expected_points.hpp"
 #include "tools/tetmesh/volume/frame_points.hpp"
 

@@ -9,16 +9,16 @@
 #include <vector>
 
 #include "common/mesh/tet_mesh.hpp"
-#include "formats/point_files.hpp"
-#include "formats/surface_files.hpp"
+#include "formats/points/point_files.hpp"
+#include "formats/surfaces/surface_files.hpp"
 #include "tools/tetmesh/group_tags.hpp"
-#include "tools/tetmesh/lattice.hpp"
-#include "tools/tetmesh/repair.hpp"
 #include "tools/tetmesh/search/point_search.hpp"
-#include "tools/tetmesh/shells.hpp"
-#include "tools/tetmesh/size_field.hpp"
-#include "tools/tetmesh/sizing.hpp"
+#include "tools/tetmesh/sizing/size_field.hpp"
+#include "tools/tetmesh/sizing/sizing.hpp"
+#include "tools/tetmesh/solid/repair.hpp"
+#include "tools/tetmesh/solid/shells.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
+#include "tools/tetmesh/volume/lattice.hpp"
 
 namespace hexpipe {
 

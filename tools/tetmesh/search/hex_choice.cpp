@@ -8,7 +8,7 @@
 #include "common/conflicts/find_conflicts.hpp"
 #include "common/mesh/facet_key.hpp"
 #include "common/mesh/reorder.hpp"
-#include "common/mwis/annealing.hpp"
+#include "common/mwis/local_search/annealing.hpp"
 #include "common/run/random.hpp"
 
 namespace hexpipe {

@@ -19,7 +19,7 @@ struct ChosenHex {
   std::vector<std::int32_t> interior_tets, boundary_tets;  // boundary tets: slivers on its quads
 };
 
-// With `kicks` for each hex, see common/mwis/annealing.hpp.
+// With `kicks` for each hex, see common/mwis/local_search/annealing.hpp.
 std::vector<ChosenHex> choose_hexes(const TetMesh& mesh, double kicks);
 
 // From those that were chosen before the mesh changed: only hexes at vertices that the change touched are chosen anew,

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "tools/tetmesh/build_mesh.hpp"
 #include "tools/tetmesh/search/hex_choice.hpp"
+#include "tools/tetmesh/tetgen/build_mesh.hpp"
 
 namespace hexpipe {
 

@@ -7,7 +7,7 @@
 #include "common/run/random.hpp"
 #include "tools/tetmesh/search/judged_mesh.hpp"
 #include "tools/tetmesh/search/surface_change.hpp"
-#include "tools/tetmesh/volume/surface_clearance.hpp"
+#include "tools/tetmesh/solid/surface_clearance.hpp"
 
 namespace hexpipe {
 

@@ -7,10 +7,10 @@
 
 #include "common/run/parallel.hpp"
 #include "common/run/random.hpp"
+#include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/search/judged_mesh.hpp"
 #include "tools/tetmesh/search/point_change.hpp"
-#include "tools/tetmesh/sized_point_grid.hpp"
-#include "tools/tetmesh/volume/surface_clearance.hpp"
+#include "tools/tetmesh/solid/surface_clearance.hpp"
 
 namespace hexpipe {
 namespace {

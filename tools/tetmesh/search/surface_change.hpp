@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/mesh/vertex_items.hpp"
-#include "tools/tetmesh/shells.hpp"
+#include "tools/tetmesh/solid/shells.hpp"
 
 namespace hexpipe {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tools/tetmesh/size_field.hpp"
+#include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 #include "tools/tetmesh/surface/field_surface.hpp"
 

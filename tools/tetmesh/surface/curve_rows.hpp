@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tools/tetmesh/size_field.hpp"
+#include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/surface/feature_curves.hpp"
 
 namespace hexpipe {

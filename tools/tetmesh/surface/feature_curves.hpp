@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "tools/tetmesh/size_field.hpp"
+#include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 
 namespace hexpipe {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tools/tetmesh/feature_angle.hpp"
+#include "tools/tetmesh/geometry/feature_angle.hpp"
 
 namespace hexpipe {
 

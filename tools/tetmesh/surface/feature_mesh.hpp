@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "tools/tetmesh/shells.hpp"
+#include "tools/tetmesh/solid/shells.hpp"
 
 namespace hexpipe {
 

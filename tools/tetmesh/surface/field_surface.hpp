@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "tools/tetmesh/half_edges.hpp"
-#include "tools/tetmesh/size_field.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
+#include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 
 namespace hexpipe {

@@ -3,8 +3,8 @@
 #include <array>
 
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/box_tree.hpp"
-#include "tools/tetmesh/ray_hit.hpp"
+#include "tools/tetmesh/geometry/box_tree.hpp"
+#include "tools/tetmesh/geometry/ray_hit.hpp"
 
 namespace hexpipe {
 namespace {

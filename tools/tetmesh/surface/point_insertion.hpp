@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "tools/tetmesh/size_field.hpp"
+#include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
 

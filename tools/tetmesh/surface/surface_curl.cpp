@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tools/tetmesh/layers_across.hpp"
+#include "tools/tetmesh/fields/layers_across.hpp"
 #include "tools/tetmesh/surface/feature_fan.hpp"
 #include "tools/tetmesh/surface/narrow_strips.hpp"
 

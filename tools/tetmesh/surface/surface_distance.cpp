@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/triangle_distance.hpp"
-#include "tools/tetmesh/triangle_pieces.hpp"
+#include "tools/tetmesh/geometry/triangle_distance.hpp"
+#include "tools/tetmesh/geometry/triangle_pieces.hpp"
 
 namespace hexpipe {
 namespace {

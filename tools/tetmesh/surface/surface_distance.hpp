@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/mesh/tet_mesh.hpp"
-#include "tools/tetmesh/size_field.hpp"
+#include "tools/tetmesh/sizing/size_field.hpp"
 
 namespace hexpipe {
 

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <optional>
 
-#include "tools/tetmesh/sized_point_grid.hpp"
+#include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/surface/surface_lattice.hpp"
 
 namespace hexpipe {

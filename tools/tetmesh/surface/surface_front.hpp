@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "tools/tetmesh/size_field.hpp"
+#include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/surface/cross_field.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
 

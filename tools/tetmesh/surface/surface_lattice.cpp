@@ -17,7 +17,7 @@
 #include <numeric>
 
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/sized_point_grid.hpp"
+#include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/surface/links_across.hpp"
 #include "tools/tetmesh/surface/surface_curl.hpp"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "tools/tetmesh/curl_correction.hpp"
-#include "tools/tetmesh/periodic_numbers.hpp"
+#include "tools/tetmesh/fields/curl_correction.hpp"
+#include "tools/tetmesh/fields/periodic_numbers.hpp"
 #include "tools/tetmesh/surface/crest_lines.hpp"
 #include "tools/tetmesh/surface/cross_field.hpp"
 

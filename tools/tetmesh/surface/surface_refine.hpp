@@ -1,7 +1,7 @@
 #pragma once
 // Makes a surface's triangles fit to carry a field, without moving it: flips edges that are flat, halves long ones.
 
-#include "tools/tetmesh/size_field.hpp"
+#include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 
 namespace hexpipe {

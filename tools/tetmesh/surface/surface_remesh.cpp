@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/exact_geometry.hpp"
-#include "tools/tetmesh/sized_point_grid.hpp"
-#include "tools/tetmesh/sizing.hpp"
+#include "tools/tetmesh/geometry/exact_geometry.hpp"
+#include "tools/tetmesh/geometry/sized_point_grid.hpp"
+#include "tools/tetmesh/sizing/sizing.hpp"
 #include "tools/tetmesh/surface/crest_lines.hpp"
 #include "tools/tetmesh/surface/curve_rows.hpp"
 #include "tools/tetmesh/surface/point_insertion.hpp"

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "tools/tetmesh/feature_angle.hpp"
-#include "tools/tetmesh/shells.hpp"
-#include "tools/tetmesh/size_field.hpp"
+#include "tools/tetmesh/geometry/feature_angle.hpp"
+#include "tools/tetmesh/sizing/size_field.hpp"
+#include "tools/tetmesh/solid/shells.hpp"
 
 namespace hexpipe {
 

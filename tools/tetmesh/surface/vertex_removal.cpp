@@ -9,9 +9,9 @@
 #include <limits>
 
 #include "common/run/parallel.hpp"
+#include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/surface/delaunay_flips.hpp"
 #include "tools/tetmesh/surface/mesh_regions.hpp"
-#include "tools/tetmesh/triangle_distance.hpp"
 
 namespace hexpipe {
 namespace {

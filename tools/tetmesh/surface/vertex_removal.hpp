@@ -1,7 +1,7 @@
 #pragma once
 // Takes the removable vertices out of a surface mesh, by collapses and flips that keep it near to where it was.
 
-#include "tools/tetmesh/size_field.hpp"
+#include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
 

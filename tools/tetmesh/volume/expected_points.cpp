@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tools/tetmesh/volume/surface_clearance.hpp"
+#include "tools/tetmesh/solid/surface_clearance.hpp"
 
 namespace hexpipe {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 // How many points a lattice will have inside a surface, before any is placed.
 
-#include "tools/tetmesh/shells.hpp"
-#include "tools/tetmesh/size_field.hpp"
+#include "tools/tetmesh/sizing/size_field.hpp"
+#include "tools/tetmesh/solid/shells.hpp"
 
 namespace hexpipe {
 

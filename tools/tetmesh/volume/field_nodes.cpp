@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/feature_angle.hpp"
-#include "tools/tetmesh/half_edges.hpp"
+#include "tools/tetmesh/geometry/feature_angle.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
 
 namespace hexpipe {
 namespace {

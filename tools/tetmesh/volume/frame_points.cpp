@@ -7,11 +7,11 @@
 #include <numeric>
 
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/sized_point_grid.hpp"
+#include "tools/tetmesh/geometry/sized_point_grid.hpp"
+#include "tools/tetmesh/solid/surface_clearance.hpp"
 #include "tools/tetmesh/volume/frame_field.hpp"
 #include "tools/tetmesh/volume/jitter.hpp"
 #include "tools/tetmesh/volume/lattice_field.hpp"
-#include "tools/tetmesh/volume/surface_clearance.hpp"
 
 namespace hexpipe {
 namespace {

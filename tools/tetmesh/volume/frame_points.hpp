@@ -13,9 +13,9 @@
 
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/tet_mesh.hpp"
-#include "tools/tetmesh/feature_angle.hpp"
-#include "tools/tetmesh/shells.hpp"
-#include "tools/tetmesh/size_field.hpp"
+#include "tools/tetmesh/geometry/feature_angle.hpp"
+#include "tools/tetmesh/sizing/size_field.hpp"
+#include "tools/tetmesh/solid/shells.hpp"
 
 namespace hexpipe {
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "tools/tetmesh/sized_point_grid.hpp"
-#include "tools/tetmesh/volume/surface_clearance.hpp"
+#include "tools/tetmesh/geometry/sized_point_grid.hpp"
+#include "tools/tetmesh/solid/surface_clearance.hpp"
 
 namespace hexpipe {
 

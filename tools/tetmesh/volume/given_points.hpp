@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "formats/point_files.hpp"
-#include "tools/tetmesh/shells.hpp"
+#include "formats/points/point_files.hpp"
+#include "tools/tetmesh/solid/shells.hpp"
 
 namespace hexpipe {
 

@@ -13,7 +13,7 @@
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/volume/cell_key.hpp"
+#include "tools/tetmesh/geometry/cell_key.hpp"
 
 namespace hexpipe {
 namespace {

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/curl_correction.hpp"
-#include "tools/tetmesh/layers_across.hpp"
-#include "tools/tetmesh/periodic_numbers.hpp"
+#include "tools/tetmesh/fields/curl_correction.hpp"
+#include "tools/tetmesh/fields/layers_across.hpp"
+#include "tools/tetmesh/fields/periodic_numbers.hpp"
 
 namespace hexpipe {
 namespace {

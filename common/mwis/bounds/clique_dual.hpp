@@ -1,0 +1,48 @@
+#pragma once
+// An upper bound by LP-Clique (Verhetsel 2017, 3.2): the linear relaxation with one row a clique, solved from its dual
+// by entropy-smoothed coordinate steps (Haller and Savchynskyy 2024). Deviates from the dissertation's subgradient,
+// which needs step lengths and stands further from the optimum after the same time, and in adding cliques that the
+// relaxed solution violates.
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "common/graph/clique_cover.hpp"
+#include "common/mwis/bounds/relaxation.hpp"
+#include "common/run/deadline.hpp"
+
+namespace hexpipe {
+
+// A price for every clique, whole and not negative. Any prices prove a bound: a solution pays at most one member of a
+// clique, so its weight is at most the sum of all prices and of what vertices weigh beyond the prices of their cliques.
+struct CliqueDual {
+  std::vector<std::int64_t> prices;
+  std::int64_t bound = 0;
+  std::int64_t passes = 0;
+};
+
+// Exact, in integers; the largest number of 64 bits, which bounds every graph, where the bound is no less.
+std::int64_t bound_of_prices(const ConflictGraph& graph, const CliqueCover& cover,
+                             const std::vector<std::int64_t>& prices);
+
+// Weight of each vertex minus the prices of its cliques. A solution with v is at most bound + min(0, reduced cost), one
+// without v at most bound - max(0, reduced cost). The sum of the prices fits 64 bits.
+std::vector<std::int64_t> reduced_costs(const ConflictGraph& graph, const CliqueCover& cover,
+                                        const std::vector<std::int64_t>& prices);
+
+struct CliqueDualOptions {
+  // Over all the cliques and back; more of them, in the same steps of temperature, give a better bound.
+  std::int64_t passes = 300;
+  // Ends when the bound is down at this weight, which is then optimal.
+  std::int64_t target = 0;
+};
+
+// Adds cliques to `cover`. `report` is called for every better bound.
+CliqueDual solve_clique_dual(const ConflictGraph& graph, CliqueCover& cover, const CliqueDualOptions& options,
+                             const Deadline& deadline, const std::function<void(const CliqueDual&)>& report = {});
+
+// The same as a relaxation of branch and reduce.
+Relaxation relax_by_clique_dual(const ConflictGraph& graph, std::int64_t target, int depth, const Deadline& deadline);
+
+}  // namespace hexpipe

@@ -1,0 +1,25 @@
+#pragma once
+// Where a solution and the bound of a clique dual differ: the gap, vertex by vertex. Complementary slackness says that
+// an optimal solution of a tight relaxation has a member of every clique with a price, no vertex of negative reduced
+// cost, and all of positive reduced cost; what breaks this adds up to the gap.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/graph/clique_cover.hpp"
+#include "common/graph/conflict_graph.hpp"
+#include "common/mwis/bounds/clique_dual.hpp"
+
+namespace hexpipe {
+
+// For each vertex of the solution, in its order, its share of the gap, not negative. What lies at vertices that are not
+// chosen is divided among their chosen neighbours. The sum is bound - weight, less where nothing chosen is near.
+std::vector<std::int64_t> gap_shares(const ConflictGraph& graph, const CliqueCover& cover,
+                                     const std::vector<std::int64_t>& prices, const IndependentSet& solution);
+
+// By vertex: whether it is one of the fewest of the solution that hold most of the gap.
+std::vector<bool> holds_most_of_gap(std::int32_t vertex_count, const IndependentSet& solution,
+                                    std::span<const std::int64_t> shares);
+
+}  // namespace hexpipe

@@ -1,0 +1,68 @@
+#pragma once
+// What the searches on bits have in common: a row of candidates for each depth, the current set, and the best one.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/mwis/ground/dense_graph.hpp"
+#include "common/mwis/ground/search_budget.hpp"
+
+namespace hexpipe {
+
+// Keeps its memory from one graph to the next.
+class BitSearch {
+ public:
+  // Valid after a search that found something; vertices in no particular order.
+  std::span<const std::uint32_t> best() const { return best_; }
+  std::int64_t best_weight() const { return best_weight_; }
+
+ protected:
+  // `rows` of bits a depth, of which the first are the candidates.
+  explicit BitSearch(std::size_t rows) : rows_(rows) {}
+
+  // All vertices are candidates at depth 0; what is found has to be heavier than `lower_bound`.
+  void begin(const DenseGraph& graph, std::int64_t lower_bound, SearchBudget& budget) {
+    graph_ = &graph;
+    budget_ = &budget;
+    words_ = graph.words();
+    best_weight_ = lower_bound;
+    found_ = false;
+    current_.clear();
+    if (levels_.size() < rows_ * words_ * (graph.size() + 1)) levels_.resize(rows_ * words_ * (graph.size() + 1));
+    if (graph.size() > 0) bits::fill(row(0, 0), graph.size());
+  }
+
+  bits::Word* row(std::size_t depth, std::size_t which) { return levels_.data() + (rows_ * depth + which) * words_; }
+
+  // Adds v to the current set; the candidates of the next depth are those of this one that v leaves.
+  void enter(std::size_t v, std::size_t depth) {
+    const bits::Word* const candidates = row(depth, 0);
+    const bits::Word* const neighbours = graph_->row(v);
+    bits::Word* const next = row(depth + 1, 0);
+    for (std::size_t i = 0; i < words_; ++i) next[i] = candidates[i] & ~neighbours[i];
+    current_.push_back(static_cast<std::uint32_t>(v));
+  }
+  void leave() { current_.pop_back(); }
+
+  // The current set, which weighs `weight`, is the best one if it is heavier.
+  void offer(std::int64_t weight) {
+    if (weight <= best_weight_) return;
+    best_weight_ = weight;
+    best_.assign(current_.begin(), current_.end());
+    found_ = true;
+  }
+
+  const DenseGraph* graph_ = nullptr;
+  SearchBudget* budget_ = nullptr;
+  std::size_t words_ = 0;
+  std::int64_t best_weight_ = 0;
+  bool found_ = false;
+
+ private:
+  std::size_t rows_;
+  std::vector<bits::Word> levels_;
+  std::vector<std::uint32_t> current_, best_;
+};
+
+}  // namespace hexpipe

@@ -1,0 +1,32 @@
+#pragma once
+// Branch and bound for small graphs (Verhetsel 2017, 3.2, algorithms 2 and 4): the bound of a node is a weighted clique
+// cover with weight splitting (Babel 1994; Held, Cook, Sewell 2012). Deviates in using the cover for the choice of
+// branches too, as Jiang, Li, Liu, Manyà 2018 do for cliques: what a cover of no more than the missing weight covers
+// needs no branch of its own.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/mwis/exact/bit_search.hpp"
+
+namespace hexpipe {
+
+class BranchAndBound : public BitSearch {
+ public:
+  BranchAndBound() : BitSearch(2) {}
+
+  // Looks for the heaviest independent set among those heavier than `lower_bound`; true when one was found, which is
+  // then best(). With budget.exhausted() afterwards there may be a heavier one, otherwise there is none.
+  bool solve(const DenseGraph& graph, std::int64_t lower_bound, SearchBudget& budget);
+
+ private:
+  void expand(std::size_t depth, std::int64_t weight);
+  void find_branches(const bits::Word* candidates, bits::Word* branches, std::int64_t allowance);
+  std::int64_t take_clique(bits::Word* uncovered, std::size_t first_word, std::size_t first, std::int64_t allowance);
+
+  std::vector<bits::Word> clique_candidates_;
+  std::vector<std::uint32_t> clique_;
+  std::vector<std::int64_t> residual_;
+};
+
+}  // namespace hexpipe

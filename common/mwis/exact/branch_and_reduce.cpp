@@ -1,0 +1,166 @@
+#include "common/mwis/exact/branch_and_reduce.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "common/graph/subgraph.hpp"
+#include "common/mwis/reduce/kernel.hpp"
+
+namespace hexpipe {
+namespace {
+
+IndependentSet renumbered(const IndependentSet& set, const std::vector<std::int32_t>& vertices) {
+  IndependentSet result;
+  for (const std::int32_t v : set) result.push_back(vertices[v]);
+  return result;
+}
+
+std::vector<std::int32_t> without_neighbourhood(const ConflictGraph& graph, std::int32_t v) {
+  std::vector<char> gone(graph.weights.size(), 0);
+  gone[v] = 1;
+  for (const std::int32_t u : graph.neighbours_of(v)) gone[u] = 1;
+  std::vector<std::int32_t> rest;
+  for (std::int32_t u = 0; u < graph.vertex_count(); ++u)
+    if (gone[u] == 0) rest.push_back(u);
+  return rest;
+}
+
+// The one for which the relaxation is least decided, by weight. A vertex with many neighbours decides most of the rest,
+// which counts where the relaxation decides all.
+std::int32_t branching_vertex(const ConflictGraph& graph, const Relaxation& relaxation) {
+  const auto rank = [&](std::int32_t v) {
+    const double fraction = relaxation.fractions.empty() ? 0 : relaxation.fractions[v];
+    return std::pair(std::min(fraction, 1 - fraction) * static_cast<double>(graph.weights[v]), graph.degree(v));
+  };
+  std::int32_t best = 0;
+  for (std::int32_t v = 1; v < graph.vertex_count(); ++v)
+    if (rank(v) > rank(best)) best = v;
+  return best;
+}
+
+}  // namespace
+
+struct BranchAndReduce::Component {
+  std::vector<std::int32_t> vertices;  // of the graph that it is a part of
+  ConflictGraph graph;
+  Relaxation relaxation;
+  std::optional<IndependentSet> optimum;  // where it is known
+};
+
+std::optional<IndependentSet> BranchAndReduce::solve(const ConflictGraph& graph, std::int64_t needed) {
+  nodes_ = 0;
+  bound_ = std::reduce(graph.weights.begin(), graph.weights.end(), std::int64_t{0});
+  stopped_ = false;
+  return reduce(graph, needed, 0);
+}
+
+bool BranchAndReduce::stop() {
+  stopped_ = stopped_ || deadline_.passed();
+  return stopped_;
+}
+
+std::optional<IndependentSet> BranchAndReduce::reduce(const ConflictGraph& graph, std::int64_t needed, int depth) {
+  if (stop()) return std::nullopt;
+  ++nodes_;
+  const Kernel kernel(graph, deadline_, depth == 0 ? ReductionEffort::thorough : ReductionEffort::full);
+  if (depth == 0) offset_ = kernel.offset();
+  const auto found = solve_components(kernel.graph(), needed - kernel.offset(), depth);
+  if (!found) return std::nullopt;
+  return kernel.lift(*found);
+}
+
+// The smallest first. What the others may reach tells the last one, which is the largest, what its bound has to be to
+// end this node.
+std::vector<BranchAndReduce::Component> BranchAndReduce::bound_components(const ConflictGraph& graph,
+                                                                          std::int64_t needed, int depth) {
+  std::vector<Component> components;
+  std::int64_t others = 0;
+  for (auto& vertices : connected_components(graph)) {
+    const bool last = vertices.size() > graph.weights.size() / 2;
+    Component& component = components.emplace_back();
+    component.graph = induced_subgraph(graph, vertices);
+    component.vertices = std::move(vertices);
+    if (component.graph.vertex_count() <= small_)
+      solve_small(component);
+    else
+      component.relaxation = relax_(component.graph, last ? needed - others : 0, depth, deadline_);
+    others += component.relaxation.bound;
+  }
+  return components;
+}
+
+// Each component has to bring what is needed beyond the bounds of the others.
+std::optional<IndependentSet> BranchAndReduce::solve_components(const ConflictGraph& graph, std::int64_t needed,
+                                                                int depth) {
+  const std::vector<Component> components = bound_components(graph, needed, depth);
+  std::int64_t bound = 0;
+  for (const Component& component : components) bound += component.relaxation.bound;
+  if (depth == 0) bound_ = std::min(bound_, offset_ + bound);
+  if (bound <= needed) return std::nullopt;
+  IndependentSet whole;
+  for (const Component& component : components) {
+    const auto found = solve_component(component, needed - (bound - component.relaxation.bound), depth);
+    if (!found) return std::nullopt;
+    bound += total_weight(*found, component.graph) - component.relaxation.bound;
+    for (const std::int32_t v : *found) whole.push_back(component.vertices[v]);
+    if (bound <= needed) return std::nullopt;
+  }
+  std::ranges::sort(whole);
+  return whole;
+}
+
+std::optional<IndependentSet> BranchAndReduce::solve_component(const Component& component, std::int64_t needed,
+                                                               int depth) {
+  if (component.optimum) return component.optimum;
+  const ConflictGraph& graph = component.graph;
+  const Relaxation& relaxation = component.relaxation;
+  std::vector<char> out(graph.weights.size(), 0);
+  for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
+    if (relaxation.with[v] <= needed) out[v] = 1;
+    if (relaxation.without[v] > needed) continue;
+    for (const std::int32_t u : graph.neighbours_of(v)) out[u] = 1;
+  }
+  std::vector<std::int32_t> left;
+  for (std::int32_t v = 0; v < graph.vertex_count(); ++v)
+    if (out[v] == 0) left.push_back(v);
+  if (20 * left.size() > 19 * component.vertices.size()) return branch(component, needed, depth);
+  const auto found = reduce(induced_subgraph(graph, left), needed, depth + 1);
+  if (!found) return std::nullopt;
+  return renumbered(*found, left);
+}
+
+void BranchAndReduce::solve_small(Component& component) {
+  const ConflictGraph& graph = component.graph;
+  DenseGraph dense = dense_graph_of(graph);
+  std::vector<bits::Word> chosen(dense.words(), 0);
+  SearchBudget budget(std::numeric_limits<std::int64_t>::max(), &deadline_);
+  const bool complete = small_solver_.solve(dense, chosen, budget);
+  stopped_ = stopped_ || !complete;
+  IndependentSet& set = component.optimum.emplace();
+  bits::for_each(chosen.data(), chosen.size(), [&](std::size_t v) { set.push_back(static_cast<std::int32_t>(v)); });
+  component.relaxation.bound =
+      complete ? total_weight(set, graph) : std::reduce(graph.weights.begin(), graph.weights.end(), std::int64_t{0});
+}
+
+// With a vertex, then without it.
+std::optional<IndependentSet> BranchAndReduce::branch(const Component& component, std::int64_t needed, int depth) {
+  const ConflictGraph& graph = component.graph;
+  const std::int32_t v = branching_vertex(graph, component.relaxation);
+  std::optional<IndependentSet> best;
+  const std::vector<std::int32_t> beside = without_neighbourhood(graph, v);
+  if (const auto found = reduce(induced_subgraph(graph, beside), needed - graph.weights[v], depth + 1)) {
+    best = renumbered(*found, beside);
+    best->insert(std::ranges::lower_bound(*best, v), v);
+    needed = total_weight(*best, graph);
+  }
+  std::vector<std::int32_t> others(graph.weights.size());
+  std::iota(others.begin(), others.end(), 0);
+  others.erase(others.begin() + v);
+  if (const auto found = reduce(induced_subgraph(graph, others), needed, depth + 1)) best = renumbered(*found, others);
+  return best;
+}
+
+}  // namespace hexpipe

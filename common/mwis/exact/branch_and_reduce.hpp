@@ -1,0 +1,55 @@
+#pragma once
+// The heaviest independent set of a large sparse graph, with proof: branch and reduce (Lamm et al. 2019). A node is
+// reduced, cut into connected components, and bounded by a relaxation, whose reduced costs decide more vertices
+// (Verhetsel 2017, 3.2); what is small enough is left to branch and bound. Deviates in bounding each component by what
+// the others may still reach.
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "common/graph/conflict_graph.hpp"
+#include "common/mwis/bounds/relaxation.hpp"
+#include "common/mwis/exact/exact_solver.hpp"
+#include "common/run/deadline.hpp"
+
+namespace hexpipe {
+
+class BranchAndReduce {
+ public:
+  // Components of at most `small` vertices go to branch and bound on bits.
+  BranchAndReduce(Relax relax, const Deadline& deadline, std::int32_t small = 100)
+      : relax_(std::move(relax)), deadline_(deadline), small_(small) {}
+
+  // The heaviest set among those heavier than `needed`; none where there is none, or where the deadline passed before
+  // one was found.
+  std::optional<IndependentSet> solve(const ConflictGraph& graph, std::int64_t needed);
+
+  // The deadline did not pass: what solve() returned is proven.
+  bool complete() const { return !stopped_; }
+  std::int64_t nodes() const { return nodes_; }
+  // On every set, from before the first branch; that of all weights where the deadline passed before.
+  std::int64_t bound() const { return bound_; }
+
+ private:
+  struct Component;
+  std::optional<IndependentSet> reduce(const ConflictGraph& graph, std::int64_t needed, int depth);
+  std::vector<Component> bound_components(const ConflictGraph& graph, std::int64_t needed, int depth);
+  std::optional<IndependentSet> solve_components(const ConflictGraph& graph, std::int64_t needed, int depth);
+  std::optional<IndependentSet> solve_component(const Component& component, std::int64_t needed, int depth);
+  void solve_small(Component& component);
+  std::optional<IndependentSet> branch(const Component& component, std::int64_t needed, int depth);
+  bool stop();
+
+  Relax relax_;
+  const Deadline& deadline_;
+  std::int32_t small_;
+  ExactSolver small_solver_;
+  bool stopped_ = false;
+  std::int64_t nodes_ = 0;
+  std::int64_t bound_ = 0;
+  std::int64_t offset_ = 0;  // of the reductions before the first branch
+};
+
+}  // namespace hexpipe

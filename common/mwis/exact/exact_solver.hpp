@@ -1,0 +1,40 @@
+#pragma once
+// The heaviest independent set of a small graph: reductions, then branch and bound on each connected component of what
+// they leave, then the lift.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/mwis/exact/branch_and_bound.hpp"
+#include "common/mwis/ground/dense_graph.hpp"
+#include "common/mwis/ground/search_budget.hpp"
+#include "common/mwis/reduce/dense_reductions.hpp"
+
+namespace hexpipe {
+
+// Keeps its memory from one graph to the next.
+class ExactSolver {
+ public:
+  // `chosen` (one word for each 64 vertices) holds an independent set, and gets one that is not lighter. True when this
+  // is proven to be the heaviest; false when the budget ran out before. The weights of `graph` are used up.
+  bool solve(DenseGraph& graph, std::span<bits::Word> chosen, SearchBudget& budget);
+
+ private:
+  void find_components(const DenseGraph& graph);
+  std::int64_t solve_component(const DenseGraph& graph, std::span<const std::uint32_t> component, std::int64_t needed,
+                               SearchBudget& budget);
+  void extract(const DenseGraph& graph, std::span<const std::uint32_t> component);
+  std::int64_t complete_warm_start();
+
+  DenseReductions reductions_;
+  BranchAndBound branch_and_bound_;
+  DenseGraph part_;                      // the component that is being solved
+  std::vector<std::uint32_t> vertices_;  // of all components, one after the other
+  std::vector<std::size_t> ends_;        // of each component in vertices_
+  std::vector<std::uint32_t> order_;     // vertex of the graph for each of part_
+  std::vector<bits::Word> unseen_, covered_, warm_, solution_;
+  std::vector<double> crowding_;
+};
+
+}  // namespace hexpipe

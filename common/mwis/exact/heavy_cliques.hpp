@@ -1,0 +1,37 @@
+#pragma once
+// Cliques of which a fractional solution chooses more than 1: what a linear relaxation is tightened by. Each is the
+// heaviest around its first vertex, found by branch and bound on the complement of what is fractional there, and then
+// grown until it is maximal (the separation of clique inequalities, Nemhauser and Sigismondi 1992, solved exactly).
+
+#include <cstdint>
+#include <vector>
+
+#include "common/graph/clique_cover.hpp"
+#include "common/mwis/exact/branch_and_bound.hpp"
+
+namespace hexpipe {
+
+class HeavyCliques {
+ public:
+  explicit HeavyCliques(const ConflictGraph& graph)
+      : graph_(graph), in_support_(graph.weights.size(), 0), found_(graph.weights.size(), 0) {}
+
+  // Adds some of them to `cover`; none only where there is none, as far as the search around each vertex goes. Returns
+  // their number.
+  std::int64_t add(const std::vector<double>& fractions, CliqueCover& cover);
+
+ private:
+  bool find_around(std::int32_t v);
+  void make_complement();
+  void make_maximal();
+
+  const ConflictGraph& graph_;
+  const std::vector<double>* fractions_ = nullptr;
+  std::vector<char> in_support_;
+  std::vector<int> found_;  // by vertex: cliques of this call that have it
+  std::vector<std::int32_t> around_, clique_;
+  DenseGraph complement_;
+  BranchAndBound branch_and_bound_;
+};
+
+}  // namespace hexpipe

@@ -1,0 +1,45 @@
+#include "common/mwis/lns_options.hpp"
+
+#include <limits>
+
+#include "common/run/error.hpp"
+#include "common/run/option_checks.hpp"
+
+namespace hexpipe {
+
+void declare_lns_options(CLI::App& app, LnsOptions& options, TargetOptions& target) {
+  app.add_option("--fragment-size", options.fragment_size, "Vertices of the first fragments; the size adapts")
+      ->check(CLI::Range(1, 4096).description(""));
+  app.add_option("--largest-fragment", options.largest_fragment, "Vertices of a fragment at most")
+      ->check(CLI::Range(1, 4096).description(""));
+  app.add_option("--node-limit", options.node_limit, "Nodes of branch and bound for a fragment at most")
+      ->check(CLI::Range(1, 1000000000).description(""));
+  app.add_option("--annealed-fragment", options.annealed_fragment,
+                 "Vertices of the larger fragments that are annealed in between; 0: none are")
+      ->check(CLI::Range(0, 1000000).description(""));
+  app.add_option(
+         "--recombined-fragment", options.recombined_fragment,
+         "Vertices of fragments that are annealed from nothing, and recombined with what is chosen; 0: none are")
+      ->check(CLI::Range(0, 1000000).description(""));
+  app.add_option("--batch", options.batch,
+                 "Fragments in a round, which are solved in parallel and put together in order")
+      ->check(CLI::Range(1, 10000).description(""));
+  app.add_flag("!--no-reductions", options.reduce,
+               "Search the whole graph, not the kernel that exact reductions leave");
+  app.add_flag("--free-running", options.free_running,
+               "Threads do not wait for each other: faster, but the result depends on the timing");
+  app.add_option(
+         "--target-gap", target.gap,
+         "Stop when (bound - weight) / bound is no more than this; the bound is what certify left in the bundle")
+      ->type_name("FRACTION")
+      ->check(number_between(0, 1));
+  app.add_option("--bound", target.bound, "An upper bound that is known, for --target-gap")
+      ->type_name("WEIGHT")
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()).description(""));
+}
+
+void check(const TargetOptions& target) {
+  if (target.bound && !target.gap) throw UsageError("--bound does nothing without --target-gap");
+}
+
+}  // namespace hexpipe

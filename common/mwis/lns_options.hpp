@@ -1,0 +1,21 @@
+#pragma once
+// The options of the search that lns and lns-mpi share.
+
+#include <CLI/CLI.hpp>
+#include <optional>
+
+#include "common/mwis/local_search/lns.hpp"
+
+namespace hexpipe {
+
+struct TargetOptions {
+  std::optional<double> gap;
+  std::optional<std::int64_t> bound;
+};
+
+void declare_lns_options(CLI::App& app, LnsOptions& options, TargetOptions& target);
+
+// Throws UsageError when options do nothing without others.
+void check(const TargetOptions& target);
+
+}  // namespace hexpipe

@@ -1,0 +1,42 @@
+#include "common/mwis/local_search/effort.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hexpipe {
+namespace {
+
+// What was gained before so many nanoseconds of work in the same way counts a third.
+constexpr double memory = 3e8;
+// What each way keeps at least, for its time may come.
+constexpr std::array least_shares{0.2, 0.2, 0.1};
+// Growing a fragment and putting it back takes a microsecond, where there is nothing to do in between: what counted as
+// nothing would have the next turn again, for ever.
+constexpr double least_work = 1000;
+
+double least_share_of(Way way) {
+  return least_shares[static_cast<std::size_t>(way)];
+}
+
+}  // namespace
+
+Way Effort::next() const {
+  return *std::ranges::max_element(ways_, {}, [this](Way way) { return of(way).credit - of(way).cost; });
+}
+
+double Effort::share_of(Way way) const {
+  double yields = 0, left = 1;
+  for (const Way each : ways_) yields += of(each).yield, left -= least_share_of(each);
+  const double earned = yields > 0 ? of(way).yield / yields : 1 / static_cast<double>(ways_.size());
+  return least_share_of(way) + left * earned;
+}
+
+void Effort::record(Way way, double work, double gain) {
+  work = std::max(work, least_work);
+  for (const Way each : ways_) of(each).credit += work * share_of(each);
+  of(way).credit -= work;
+  double& yield = of(way).yield;
+  yield += (1 - std::exp(-work / memory)) * (gain / work - yield);
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,81 @@
+#pragma once
+// Fragments: connected parts of the conflict graph that are freed and solved anew while everything else stays.
+
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "common/mwis/ground/dense_graph.hpp"
+#include "common/mwis/ground/solution_state.hpp"
+#include "common/run/random.hpp"
+
+namespace hexpipe {
+
+// Everything that can be chosen once `released` are no longer: these and the vertices with no other chosen neighbour.
+struct Fragment {
+  std::vector<std::int32_t> released;  // chosen vertices, from the seed outwards
+  std::vector<std::int32_t> vertices;  // free ones, the released among them
+  std::vector<std::int32_t> frontier;  // chosen vertices that would have been released next
+  bool whole_component = false;        // nothing of the connected component is outside
+  std::uint32_t stamp = 0;
+
+  void clear();
+};
+
+// Grows fragments from seeds, each at a cost of O(sum of the degrees of its vertices), without allocation once its
+// memory has grown. Fragments do not touch those that are held, so that they can be solved at the same time.
+class FragmentGrower {
+ public:
+  FragmentGrower(const SolutionState& state, Random random);
+
+  // Lets go of all fragments; the state may have changed.
+  void let_go();
+  // Lets go of one; the state may have changed in it.
+  void let_go(const Fragment& fragment);
+  // False when a held fragment has the vertex or a neighbour of it.
+  bool is_free(std::int32_t v) const { return !is_held(marks_[v].claim); }
+  // Releases chosen vertices around `seed`, itself free and chosen, until at least `target` vertices are free or the
+  // component is. No more than `limit` become free, which matters at vertices of high degree. The fragment is held.
+  void grow(std::int32_t seed, std::size_t target, std::size_t limit, Fragment& fragment);
+
+  // The graph of the fragment's vertices; `chosen` gets the released ones. Safe to call at the same time for several
+  // fragments that are held.
+  void extract(const Fragment& fragment, DenseGraph& graph, std::vector<bits::Word>& chosen) const;
+  // Likewise for fragments that are too large for a matrix; the fragment's vertices have to ascend.
+  void extract(const Fragment& fragment, ConflictGraph& graph, IndependentSet& chosen) const;
+  // Brings the fragment's vertices into ascending order.
+  void sort(Fragment& fragment);
+
+ private:
+  struct Mark {
+    std::uint32_t claim = 0;    // fragment that has this vertex or a neighbour of it
+    std::uint32_t member = 0;   // fragment that has this vertex
+    std::int32_t index = 0;     // in its vertices
+    std::uint32_t touched = 0;  // fragment for which the next two count
+    std::int32_t released_neighbours = 0;
+    std::uint32_t released_sum = 0;  // of their numbers
+    std::uint32_t queued = 0;        // fragment whose frontier this chosen vertex is in
+  };
+
+  void release(std::int32_t v, std::size_t limit, Fragment& fragment);
+  void touch(std::int32_t v, std::int32_t released, std::size_t limit, Fragment& fragment);
+  void include(std::int32_t v, Fragment& fragment);
+  void queue(std::int32_t v, Fragment& fragment);
+  void vary(std::size_t next, Fragment& fragment);
+  bool queue_beyond(Fragment& fragment);
+  bool is_held(std::uint32_t stamp) const { return stamp >= oldest_held_ && held_[stamp - oldest_held_] != 0; }
+
+  const SolutionState& state_;
+  Random random_;
+  std::vector<Mark> marks_;
+  std::vector<std::int32_t> partly_freed_;  // touched vertices that were not freed at once
+  std::size_t next_partly_freed_ = 0;
+  std::size_t next_vertex_ = 0;  // of the fragment, whose neighbours were not looked at for want of anything nearer
+  std::uint32_t stamp_ = 0;
+  std::uint32_t oldest_held_ = 1;
+  std::deque<char> held_;  // by stamp, from the oldest that is held on
+  bool left_out_ = false;  // a vertex was not freed because of another fragment or the limit
+};
+
+}  // namespace hexpipe

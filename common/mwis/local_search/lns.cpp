@@ -1,0 +1,404 @@
+#include "common/mwis/local_search/lns.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <vector>
+
+#include "common/mwis/local_search/fragment.hpp"
+#include "common/mwis/local_search/repair.hpp"
+#include "common/mwis/local_search/schedule.hpp"
+#include "common/mwis/reduce/kernel.hpp"
+#include "common/run/parallel.hpp"
+
+namespace hexpipe {
+namespace {
+
+// Of annealing a fragment for the first time. Of 20 and 60, on random-33k after 8 s: 20, by far.
+constexpr int kicks_a_vertex = 20;
+// Annealed fragments may be so many times as large as wanted, which only hubs make them: these can be exchanged for all
+// of their neighbours in no other way.
+constexpr std::size_t hub_factor = 16;
+
+class Lns {
+ public:
+  Lns(const ConflictGraph& graph, const IndependentSet& initial, const LnsOptions& options, const Deadline& deadline,
+      const std::function<void(const LnsProgress&)>& report, LnsMemory* memory = nullptr)
+      : options_(options),
+        deadline_(deadline),
+        report_(report),
+        memory_(memory),
+        state_(graph, initial),
+        grower_(state_, Random(options.seed, 1)),
+        schedules_{
+            Schedule(graph.weights.size(), options.fragment_size, options.largest_fragment, Random(options.seed, 0)),
+            Schedule(graph.weights.size(), options.annealed_fragment, options.annealed_fragment,
+                     Random(options.seed, 2)),
+            Schedule(graph.weights.size(), options.recombined_fragment, options.recombined_fragment,
+                     Random(options.seed, 3))},
+        effort_(ways_of(options)) {
+    state_.make_maximal();
+    if (memory_ != nullptr) recall();
+    for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
+      if (!state_.contains(v)) continue;
+      wait(v);
+      // Other places wait as if one fragment had been tried there.
+      if (!options.first_places.empty() && !options.first_places[v]) schedule_of(Way::exact).retire(v);
+    }
+    const auto largest = std::min<std::size_t>(graph.weights.size(), options.recombined_fragment);
+    effort_.expect(Way::recombine, static_cast<double>(options.free_running ? 1 : batch_of(Way::recombine)) *
+                                       static_cast<double>(largest) * kicks_a_vertex * Repair::work_a_kick(graph));
+  }
+
+  LnsResult run() {
+    if (options_.free_running)
+      run_free();
+    else
+      run_rounds();
+    state_.make_maximal();
+    if (memory_ != nullptr) remember();
+    return {state_.to_set(), state_.weight(), iterations_, improvements_, is_complete()};
+  }
+
+ private:
+  bool is_complete() const { return closed_ == state_.graph().vertex_count(); }
+  bool goes_on() const {
+    return begun_ < options_.iterations && state_.weight() < options_.target && !is_complete() && !deadline_.passed();
+  }
+  static std::vector<Way> ways_of(const LnsOptions& options) {
+    std::vector<Way> ways{Way::exact};
+    if (options.annealed_fragment > 0) ways.push_back(Way::anneal);
+    if (options.recombined_fragment > 0) ways.push_back(Way::recombine);
+    return ways;
+  }
+  Schedule& schedule_of(Way way) { return schedules_[static_cast<std::size_t>(way)]; }
+  const Schedule& schedule_of(Way way) const { return schedules_[static_cast<std::size_t>(way)]; }
+  void renew(std::int32_t v) {
+    for (Schedule& schedule : schedules_) schedule.renew(v);
+  }
+  void wait(std::int32_t v) {
+    for (Schedule& schedule : schedules_) schedule.wait(v);
+  }
+
+  void recall() {
+    for (const LnsMemory::Place& place : memory_->places)
+      for (const Way way : all_ways) {
+        Schedule& schedule = schedule_of(way);
+        const auto size = way == Way::exact ? place.size : static_cast<std::uint32_t>(schedule.size_at(place.vertex));
+        schedule.recall(place.vertex, place.tries[static_cast<std::size_t>(way)], size);
+      }
+    effort_.recall(memory_->effort);
+  }
+  void remember() {
+    memory_->places.clear();
+    for (std::int32_t v = 0; v < state_.graph().vertex_count(); ++v) {
+      if (!state_.contains(v)) continue;
+      LnsMemory::Place& place = memory_->places.emplace_back();
+      place.vertex = v;
+      for (const Way way : all_ways) place.tries[static_cast<std::size_t>(way)] = schedule_of(way).tries_at(v);
+      place.size = static_cast<std::uint32_t>(schedule_of(Way::exact).size_at(v));
+    }
+    memory_->effort = effort_.accounts();
+  }
+
+  void run_rounds() {
+    std::vector<Repair> repairs(static_cast<std::size_t>(options_.batch));
+    while (goes_on()) {
+      const std::int64_t first = begun_;
+      const std::int64_t size = grow_round(repairs);
+      if (size == 0) return;
+      parallel_for(size, 1, [&](std::int64_t i) {
+        repairs[i].extract(grower_);
+        solve(repairs[i], first + i);
+      });
+      grower_.let_go();
+      for (std::int64_t i = 0; i < size; ++i) apply(repairs[i]);
+      take_left_out();
+    }
+  }
+
+  // Larger fragments come fewer at a time.
+  std::int64_t batch_of(Way way) const {
+    constexpr std::array parts{1, 4, 8};
+    const int part = parts[static_cast<std::size_t>(way)];
+    return (options_.batch + part - 1) / part;
+  }
+
+  // Fills the round with fragments that do not touch each other.
+  std::int64_t grow_round(std::vector<Repair>& repairs) {
+    const Way way = effort_.next();
+    const std::int64_t batch = batch_of(way);
+    const std::int64_t wanted = std::min(batch, options_.iterations - begun_);
+    std::int64_t size = 0;
+    while (size < wanted && grow(way, repairs[size], batch)) ++size;
+    return size;
+  }
+
+  struct FreeRun {
+    std::mutex mutex;
+    std::condition_variable put_back;
+    bool failed = false;
+  };
+
+  // Each thread takes a fragment, solves it beside the others, and puts it back, on its own. What one of them throws
+  // ends all: nobody else would wake those that wait for its fragment.
+  void run_free() {
+    FreeRun run;
+    parallel_for(thread_count(), 1, [&](std::int64_t) {
+      std::unique_lock lock(run.mutex);
+      try {
+        take_turns(run, lock);
+      } catch (...) {
+        if (!lock.owns_lock()) lock.lock();
+        run.failed = true;
+        run.put_back.notify_all();
+        throw;
+      }
+      run.put_back.notify_all();
+    });
+  }
+
+  // One thread, which holds the lock but while it solves.
+  void take_turns(FreeRun& run, std::unique_lock<std::mutex>& lock) {
+    Repair repair;
+    while (!run.failed && goes_on()) {
+      if (!grow(effort_.next(), repair, options_.batch)) {
+        if (begun_ == iterations_) return;
+        run.put_back.wait(lock);
+        continue;
+      }
+      repair.extract(grower_);
+      const std::int64_t index = begun_ - 1;
+      const std::int64_t effort = effort_for(repair);
+      lock.unlock();
+      repair.solve(effort, random_for(index), deadline_);
+      lock.lock();
+      grower_.let_go(repair.fragment());
+      apply(repair);
+      take_left_out();
+      run.put_back.notify_all();
+    }
+  }
+
+  // Grows a fragment from the next seed that is free; false when there is none among so many.
+  bool grow(Way way, Repair& repair, std::int64_t most_postponed) {
+    Schedule& schedule = schedule_of(way);
+    postponed_.clear();
+    bool grown = false;
+    while (!grown && std::ssize(postponed_) < most_postponed) {
+      const auto seed = schedule.take();
+      if (!seed) break;
+      if (!state_.contains(*seed)) continue;
+      if (!grower_.is_free(*seed)) {
+        postponed_.push_back(*seed);
+        continue;
+      }
+      const std::size_t size = schedule.size_at(*seed);
+      const std::size_t limit = way == Way::exact ? std::min(options_.largest_fragment, 2 * size) : hub_factor * size;
+      repair.begin(way);
+      grower_.grow(*seed, size, limit, repair.fragment());
+      ++begun_;
+      grown = true;
+    }
+    for (const std::int32_t v : postponed_) schedule.wait(v);
+    return grown;
+  }
+
+  Random random_for(std::int64_t index) const { return {options_.seed, static_cast<std::uint64_t>(4 + index)}; }
+
+  // Where annealing did not help, the next one is slower.
+  std::int64_t effort_for(const Repair& repair) const {
+    if (repair.way() == Way::exact) return options_.node_limit;
+    const std::int64_t tries = schedule_of(repair.way()).tries_at(repair.fragment().released.front());
+    return kicks_a_vertex * (1 + std::min<std::int64_t>(tries, 15));
+  }
+
+  void solve(Repair& repair, std::int64_t index) const {
+    repair.solve(effort_for(repair), random_for(index), deadline_);
+  }
+
+  void apply(const Repair& repair) {
+    ++iterations_;
+    const std::int64_t before = state_.weight();
+    if (exchange(repair) && state_.weight() > before) {
+      ++improvements_;
+      if (report_) report_({iterations_, state_.weight(), repair.fragment().vertices});
+      renew_around(repair);
+    } else {
+      hand_over(repair);
+      retire_around(repair);
+    }
+    effort_.record(repair.way(), repair.work(), static_cast<double>(state_.weight() - before));
+    if (repair.complete() && repair.fragment().whole_component) close(repair.fragment());
+  }
+
+  // False when nothing was changed: what free-running threads applied meanwhile, next to the fragment, is in conflict.
+  bool exchange(const Repair& repair) {
+    const auto& vertices = repair.fragment().vertices;
+    removed_.clear();
+    added_.clear();
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      if (state_.contains(vertices[i]) && !repair.chooses(i)) removed_.push_back(vertices[i]);
+    for (const std::int32_t v : removed_) state_.remove(v);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      if (repair.chooses(i) && state_.tightness(vertices[i]) != 0) {
+        for (const std::int32_t v : removed_) state_.add(v);
+        return false;
+      }
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      if (repair.chooses(i) && !state_.contains(vertices[i])) add(vertices[i]);
+    // What a search found before its limit need not be maximal.
+    for (const std::int32_t v : vertices)
+      if (!state_.contains(v) && state_.tightness(v) == 0) add(v);
+    for (const std::int32_t v : removed_)
+      for (const std::int32_t u : state_.graph().neighbours_of(v))
+        if (!state_.contains(u) && state_.tightness(u) == 0) left_out_.push_back(u);
+    return true;
+  }
+
+  // What no fragment had room for may have lost its last chosen neighbour. Fragments grow from what is chosen, and
+  // would never come upon it.
+  void take_left_out() {
+    std::ranges::stable_sort(left_out_, std::ranges::greater(),
+                             [&](std::int32_t v) { return state_.graph().weights[v]; });
+    std::erase_if(left_out_, [&](std::int32_t v) {
+      if (state_.contains(v) || state_.tightness(v) != 0) return true;
+      if (!grower_.is_free(v)) return false;
+      state_.add(v);
+      renew(v);
+      return true;
+    });
+  }
+  void add(std::int32_t v) {
+    state_.add(v);
+    added_.push_back(v);
+  }
+
+  // What came in without a gain is a seed as well: a new place for the other ways, but not for the one that brought it,
+  // which would stay there for ever where weights are equal.
+  void hand_over(const Repair& repair) {
+    const std::int32_t seed = repair.fragment().released.front();
+    Schedule& own = schedule_of(repair.way());
+    const std::uint32_t tries = own.tries_at(seed) + 1;
+    for (const std::int32_t v : added_) {
+      renew(v);
+      own.recall(v, tries, static_cast<std::uint32_t>(own.size_at(seed)));
+    }
+  }
+
+  // Everything that could be better now, because it is in the fragment or could share one with it.
+  void renew_around(const Repair& repair) {
+    const Fragment& fragment = repair.fragment();
+    Schedule& exact = schedule_of(Way::exact);
+    const std::size_t size = exact.size_at(fragment.released.front());
+    for (const std::int32_t v : fragment.vertices) {
+      if (!state_.contains(v)) continue;
+      exact.set_size(v, size);
+      renew(v);
+    }
+    for (const std::int32_t v : fragment.frontier) renew(v);
+  }
+
+  // The inner half of the fragment has its surroundings solved too.
+  void retire_around(const Repair& repair) {
+    const auto& released = repair.fragment().released;
+    const std::size_t inner = (released.size() + 1) / 2;
+    Schedule& schedule = schedule_of(repair.way());
+    for (std::size_t i = 0; i < inner; ++i) {
+      if (!state_.contains(released[i])) continue;
+      if (repair.way() == Way::exact && repair.complete())
+        schedule.enlarge(released[i]);
+      else if (repair.way() == Way::exact)
+        schedule.shrink(released[i]);
+      schedule.retire(released[i]);
+    }
+  }
+
+  void close(const Fragment& fragment) {
+    closed_ += static_cast<std::int32_t>(fragment.vertices.size());
+    for (const std::int32_t v : fragment.vertices)
+      for (Schedule& schedule : schedules_) schedule.close(v);
+  }
+
+  const LnsOptions& options_;
+  const Deadline& deadline_;
+  const std::function<void(const LnsProgress&)>& report_;
+  LnsMemory* const memory_;
+  SolutionState state_;
+  FragmentGrower grower_;
+  std::array<Schedule, all_ways.size()> schedules_;  // by way
+  Effort effort_;
+  std::vector<std::int32_t> postponed_, removed_, added_, left_out_;
+  std::int64_t begun_ = 0, iterations_ = 0;  // fragments grown, and put back
+  std::int64_t improvements_ = 0;
+  std::int32_t closed_ = 0;  // vertices of components that are solved to the end
+};
+
+Deadline earlier(const Deadline& deadline, double seconds) {
+  return std::isfinite(deadline.remaining()) ? Deadline(deadline.remaining() - seconds) : Deadline();
+}
+
+// Of a time limit, reductions get a tenth.
+Deadline share_for_reductions(const Deadline& deadline) {
+  return std::isfinite(deadline.remaining()) ? Deadline(0.1 * deadline.remaining()) : Deadline();
+}
+
+// What reductions made of several vertices may be first.
+std::vector<bool> of_kernel(const std::vector<bool>& of_graph, const Kernel& kernel) {
+  std::vector<bool> result(of_graph.empty() ? 0 : kernel.graph().weights.size(), true);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const auto v = static_cast<std::int32_t>(i);
+    const auto original = kernel.originals(std::span(&v, 1));
+    if (!original.empty()) result[i] = of_graph[original.front()];
+  }
+  return result;
+}
+
+LnsResult search_kernel(const ConflictGraph& graph, const IndependentSet& start, const LnsOptions& options,
+                        const Deadline& deadline, const std::function<void(const LnsProgress&)>& report) {
+  const Kernel kernel(graph, share_for_reductions(deadline));
+  // The start loses where reductions decided otherwise, until the search has caught up.
+  std::int64_t best = total_weight(start, graph);
+  const auto report_whole = [&](const LnsProgress& now) {
+    if (!report || now.weight + kernel.offset() <= best) return;
+    best = now.weight + kernel.offset();
+    report({now.iteration, best, kernel.originals(now.fragment)});
+  };
+  LnsOptions kernel_options = options;
+  kernel_options.target -= kernel.offset();
+  kernel_options.first_places = of_kernel(options.first_places, kernel);
+  LnsResult result = Lns(kernel.graph(), kernel.project(start), kernel_options, deadline, report_whole).run();
+  result.solution = kernel.lift(result.solution);
+  result.weight = total_weight(result.solution, graph);
+  return result;
+}
+
+}  // namespace
+
+LnsResult improve_by_lns(const ConflictGraph& graph, const IndependentSet& initial, const LnsOptions& options,
+                         const Deadline& deadline, const std::function<void(const LnsProgress&)>& report) {
+  const Stopwatch watch;
+  SolutionState state(graph, initial);
+  state.make_maximal();
+  const IndependentSet start = state.to_set();
+  // The lift at the end costs as much as this: a quarter of a second at 33 million edges.
+  const Deadline search_deadline = earlier(deadline, watch.seconds());
+  const bool idle = options.iterations == 0 || state.weight() >= options.target || deadline.passed();
+  LnsResult result = options.reduce && !idle ? search_kernel(graph, start, options, search_deadline, report)
+                                             : Lns(graph, start, options, search_deadline, report).run();
+  if (result.weight < state.weight()) {
+    result.solution = start;
+    result.weight = state.weight();
+  }
+  return result;
+}
+
+LnsResult continue_lns(const ConflictGraph& graph, const IndependentSet& initial, const LnsOptions& options,
+                       const Deadline& deadline, LnsMemory& memory,
+                       const std::function<void(const LnsProgress&)>& report) {
+  return Lns(graph, initial, options, deadline, report, &memory).run();
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,83 @@
+#include "common/mwis/local_search/repair.hpp"
+
+#include <algorithm>
+
+#include "common/mwis/local_search/recombination.hpp"
+
+namespace hexpipe {
+namespace {
+
+// Measured on fragments of 100 to 300 vertices and of 2000, of block-28k and random-33k.
+constexpr double work_a_pair = 4, work_a_node = 5000, work_a_touched_neighbour = 3;
+
+// What a fragment is heated to. Of 0.08, 0.15 and 0.3, on random-33k from a solution of initsol: 0.15 gains most after
+// 8 s, a tenth more than 0.3, which forgets the solution.
+constexpr Cooling reheating{.hot = 0.15, .cold = 0.03};
+constexpr std::int64_t cooling_steps = 50;
+// A kick touches some 20 times as many neighbours as a vertex has; beyond 64 times it is one of few hubs that takes the
+// time.
+constexpr double touched_a_kick = 20;
+constexpr std::int64_t most_touched_a_kick = 64;
+
+}  // namespace
+
+void Repair::extract(FragmentGrower& grower) {
+  if (way_ == Way::exact) return grower.extract(fragment_, dense_, chosen_);
+  grower.sort(fragment_);
+  grower.extract(fragment_, sparse_, start_);
+}
+
+void Repair::solve(std::int64_t effort, Random random, const Deadline& deadline) {
+  if (way_ == Way::exact)
+    solve_exactly(effort, deadline);
+  else if (way_ == Way::anneal)
+    anneal(effort, random, deadline);
+  else
+    recombine(effort, random, deadline);
+}
+
+double Repair::work_a_kick(const ConflictGraph& graph) {
+  const auto directed_edges = static_cast<double>(graph.neighbours.size());
+  return work_a_touched_neighbour * touched_a_kick * directed_edges / std::max(1, graph.vertex_count());
+}
+
+void Repair::solve_exactly(std::int64_t nodes, const Deadline& deadline) {
+  const auto size = static_cast<double>(dense_.size());
+  SearchBudget budget(nodes, &deadline);
+  complete_ = solver_.solve(dense_, chosen_, budget);
+  work_ = work_a_pair * size * size + work_a_node * static_cast<double>(budget.spent());
+}
+
+void Repair::anneal(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline) {
+  Annealing search(sparse_, start_, random);
+  choose(cool(search, reheating, kicks_a_vertex, deadline));
+}
+
+// Two sets that nothing binds together differ everywhere, and each is the better one in places.
+void Repair::recombine(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline) {
+  Annealing search(sparse_, {}, random);
+  choose(hexpipe::recombine(sparse_, start_, cool(search, Cooling(), kicks_a_vertex, deadline)));
+}
+
+IndependentSet Repair::cool(Annealing& search, const Cooling& cooling, std::int64_t kicks_a_vertex,
+                            const Deadline& deadline) {
+  const double unit = search.mean_weight();
+  const std::int64_t kicks = kicks_a_vertex * sparse_.vertex_count();
+  const auto directed_edges = static_cast<std::int64_t>(sparse_.neighbours.size());
+  const std::int64_t most_touched = most_touched_a_kick * kicks_a_vertex * directed_edges / cooling_steps;
+  for (std::int64_t step = 0; step < cooling_steps; ++step) {
+    const double progress = static_cast<double>(step) / static_cast<double>(cooling_steps);
+    search.run(kicks * (step + 1) / cooling_steps - kicks * step / cooling_steps, unit * cooling.at(progress), deadline,
+               most_touched);
+  }
+  work_ = work_a_touched_neighbour * static_cast<double>(search.touched());
+  return search.best();
+}
+
+void Repair::choose(const IndependentSet& set) {
+  chosen_.assign(bits::words_for(sparse_.weights.size()), 0);
+  for (const std::int32_t i : set) bits::insert(chosen_.data(), static_cast<std::size_t>(i));
+  complete_ = false;
+}
+
+}  // namespace hexpipe

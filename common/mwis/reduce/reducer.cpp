@@ -1,0 +1,332 @@
+#include "common/mwis/reduce/reducer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace hexpipe {
+namespace {
+
+// Places count from the second word of a row, so that what is nowhere has a bit as well, in the first: then rows are
+// built without branches, which would be guessed wrong half of the time.
+constexpr std::int32_t nowhere = 0, first_place = 64;
+constexpr std::int32_t place_of(std::size_t i) {
+  return first_place + static_cast<std::int32_t>(i);
+}
+constexpr std::size_t index_of(std::int32_t place) {
+  return static_cast<std::size_t>(place - first_place);
+}
+
+// Neighbourhoods are looked into up to this size; beyond it the cost (its square) exceeds what hubs ever gave.
+constexpr std::size_t largest_neighbourhood = 512;
+// Quick reductions end when of so many vertices looked at fewer than so many were decided. On conflict graphs of
+// meshes, where low degrees come first, that keeps what decides 3 % of the vertices and leaves out two thirds of the
+// time.
+constexpr std::size_t window = 1024;
+constexpr std::int32_t least_yield = 16;
+// Sets are enumerated around vertices up to this degree, and up to so many more sets than neighbours.
+constexpr std::size_t largest_folded = 96;
+constexpr std::size_t most_added = 256;
+// A try that removed nothing after so many vertices were looked at is given up. Cascades that are worth it remove
+// hundreds by then.
+constexpr std::size_t patience = 2048;
+
+}  // namespace
+
+void Reducer::Queue::push(std::int32_t v) {
+  if (waiting.size() <= static_cast<std::size_t>(v)) waiting.resize(static_cast<std::size_t>(v) + 1, 0);
+  if (waiting[v] != 0) return;
+  waiting[v] = 1;
+  vertices.push_back(v);
+}
+
+std::int32_t Reducer::Queue::pop() {
+  const std::int32_t v = vertices.front();
+  vertices.pop_front();
+  waiting[v] = 0;
+  return v;
+}
+
+void Reducer::Queue::clear() {
+  while (!vertices.empty()) pop();
+}
+
+Reducer::Reducer(const ConflictGraph& graph, ReductionLog& log, std::vector<char> incomplete)
+    : graph_(graph),
+      log_(log),
+      incomplete_(std::move(incomplete)),
+      growth_(graph.weights.size(), unknown),
+      places_(graph.weights.size(), nowhere) {
+  std::vector<std::int32_t> order(graph.weights.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](std::int32_t v) { return graph.degree(v); });
+  for (const std::int32_t v : order) queue_.push(v);
+}
+
+std::int64_t Reducer::run(ReductionEffort effort, const Deadline& deadline) {
+  if (effort == ReductionEffort::quick) {
+    skim(deadline);
+  } else {
+    settle(deadline, 0);
+    if (effort == ReductionEffort::thorough) blow_up(deadline);
+  }
+  return offset_;
+}
+
+void Reducer::skim(const Deadline& deadline) {
+  std::int32_t left = graph_.alive_count();
+  for (std::size_t seen = 1; !queue_.vertices.empty(); ++seen) {
+    const std::int32_t v = queue_.pop();
+    if (graph_.alive(v) && is_complete(v)) decide(v);
+    if (seen % 64 == 0 && deadline.passed()) break;
+    if (seen % window != 0) continue;
+    if (left - graph_.alive_count() < least_yield) break;
+    left = graph_.alive_count();
+  }
+}
+
+// Ends early when not fewer than `wanted` vertices are left for too long; none ends it where `wanted` is 0.
+void Reducer::settle(const Deadline& deadline, std::int32_t wanted) {
+  for (std::size_t seen = 1; !queue_.vertices.empty() || !set_queue_.vertices.empty(); ++seen) {
+    const bool quick = !queue_.vertices.empty();
+    const std::int32_t v = quick ? queue_.pop() : set_queue_.pop();
+    if (graph_.alive(v) && is_complete(v)) quick ? decide(v) : decide_by_sets(v);
+    if (seen % 64 == 0 && deadline.passed()) break;
+    if (wanted > 0 && seen % patience == 0 && graph_.alive_count() >= wanted) break;
+  }
+}
+
+// Folds that add vertices, the fewest first, where fewer are left in the end (cyclic blow-up, Gellner et al. 2021).
+void Reducer::blow_up(const Deadline& deadline) {
+  while (!growths_.empty() && !deadline.passed()) {
+    const auto [growth, v] = growths_.top();
+    growths_.pop();
+    // Tries that were taken back leave entries of vertices that never were.
+    if (v < graph_.vertex_count() && graph_.alive(v) && growth_[v] == growth) try_fold(v, deadline);
+  }
+}
+
+void Reducer::try_fold(std::int32_t v, const Deadline& deadline) {
+  growth_[v] = unknown;
+  if (!find_sets(v)) return;
+  const std::int32_t before = graph_.alive_count();
+  const std::size_t decided = log_.size();
+  const std::int64_t offset = offset_;
+  graph_.mark();
+  growth_before_.clear();
+  trying_ = true;
+  fold(v);
+  settle(deadline, before);
+  trying_ = false;
+  if (graph_.alive_count() >= before) take_back(decided, offset);
+}
+
+void Reducer::take_back(std::size_t decided, std::int64_t offset) {
+  graph_.rollback();
+  queue_.clear();
+  set_queue_.clear();
+  log_.forget(decided);
+  offset_ = offset;
+  const auto count = static_cast<std::size_t>(graph_.vertex_count());
+  places_.resize(count);
+  growth_.resize(count);
+  for (auto before = growth_before_.rbegin(); before != growth_before_.rend(); ++before) {
+    const auto& [growth, v] = *before;
+    if (v >= graph_.vertex_count()) continue;
+    growth_[v] = growth;
+    if (growth != unknown) growths_.emplace(growth, v);
+  }
+}
+
+void Reducer::estimate(std::int32_t v, std::int32_t growth) {
+  if (growth_[v] == growth) return;
+  if (trying_) growth_before_.emplace_back(growth_[v], v);
+  growth_[v] = growth;
+  if (growth != unknown) growths_.emplace(growth, v);
+}
+
+// The rules that clique covers can prove.
+void Reducer::decide(std::int32_t v) {
+  const std::int64_t weight = graph_.weight(v);
+  if (weight == 0) return drop(v);
+  if (!look_around(v)) return;
+  if (bound_without(nullptr, weight)) return take(v);
+  if (!drop_replaceable(v)) set_queue_.push(v);
+}
+
+// False when there are too many neighbours.
+bool Reducer::look_around(std::int32_t v) {
+  const auto neighbours = graph_.neighbours_of(v);
+  if (neighbours.size() > largest_neighbourhood) return false;
+  around_.assign(neighbours.begin(), neighbours.end());
+  std::ranges::sort(around_, [&](std::int32_t a, std::int32_t b) {
+    return graph_.weight(a) != graph_.weight(b) ? graph_.weight(a) > graph_.weight(b) : a < b;
+  });
+  local_.reset(around_.size());
+  set_.assign(local_.words(), 0);
+  excluded_.assign(local_.words(), 0);
+  for (std::size_t i = 0; i < around_.size(); ++i) places_[around_[i]] = place_of(i);
+  for (std::size_t i = 0; i < around_.size(); ++i) {
+    local_.set_weight(i, graph_.weight(around_[i]));
+    build_row(around_[i], local_.row(i));
+  }
+  for (const std::int32_t u : around_) places_[u] = nowhere;
+  return true;
+}
+
+// The neighbours of v that have places. In one word what is nowhere is shifted in as a 0; in several it is marked in
+// the first, which is left behind.
+void Reducer::build_row(std::int32_t v, bits::Word* row) {
+  if (local_.words() == 1) {
+    for (const std::int32_t u : graph_.neighbours_of(v)) {
+      const auto place = static_cast<bits::Word>(places_[u]);
+      *row |= place / 64 << place % 64;
+    }
+    return;
+  }
+  std::array<bits::Word, 1 + bits::words_for(largest_neighbourhood)> marked{};
+  for (const std::int32_t u : graph_.neighbours_of(v))
+    bits::insert(marked.data(), static_cast<std::size_t>(places_[u]));
+  std::copy_n(marked.begin() + 1, local_.words(), row);
+}
+
+// A clique cover shows that no independent set of neighbours, without those in `excluded`, outweighs `limit`.
+bool Reducer::bound_without(const bits::Word* excluded, std::int64_t limit) {
+  bits::fill(set_.data(), around_.size());
+  if (excluded != nullptr)
+    for (std::size_t w = 0; w < set_.size(); ++w) set_[w] &= ~excluded[w];
+  return bound_.at_most(local_, set_.data(), limit);
+}
+
+// Drops neighbours whose place v can take together with that of all that v pushes out beside them.
+bool Reducer::drop_replaceable(std::int32_t v) {
+  std::vector<bits::Word> dropped(local_.words(), 0);
+  bool any = false;
+  for (std::size_t i = around_.size(); i-- > 0;) {
+    const std::int64_t allowance = graph_.weight(v) - local_.weight(i);
+    if (allowance < 0) break;
+    for (std::size_t w = 0; w < excluded_.size(); ++w) excluded_[w] = local_.row(i)[w] | dropped[w];
+    bits::insert(excluded_.data(), i);
+    if (!bound_without(excluded_.data(), allowance)) continue;
+    bits::insert(dropped.data(), i);
+    drop(around_[i]);
+    any = true;
+  }
+  return any;
+}
+
+void Reducer::decide_by_sets(std::int32_t v) {
+  estimate(v, unknown);
+  if (!find_sets(v)) return;
+  if (heavy_sets_.size() == 0) return take(v);
+  if (drop_outside_sets()) return;
+  const auto growth = static_cast<std::int32_t>(sets_.size()) - static_cast<std::int32_t>(around_.size()) - 1;
+  if (growth < 0) return fold(v);
+  estimate(v, growth);
+}
+
+bool Reducer::find_sets(std::int32_t v) {
+  if (static_cast<std::size_t>(graph_.neighbours_of(v).size()) > largest_folded || !look_around(v)) return false;
+  const std::size_t most = around_.size() + most_added;
+  if (!heavy_sets_.find(local_, graph_.weight(v), most, static_cast<std::int64_t>(2 * most))) return false;
+  collect_sets();
+  return true;
+}
+
+bool Reducer::drop_outside_sets() {
+  for (std::size_t i = 0; i < heavy_sets_.size(); ++i)
+    for (std::size_t w = 0; w < excluded_.size(); ++w) excluded_[w] |= heavy_sets_.set(i)[w];
+  bool any = false;
+  for (std::size_t i = 0; i < around_.size(); ++i) {
+    if (bits::test(excluded_.data(), i)) continue;
+    drop(around_[i]);
+    any = true;
+  }
+  return any;
+}
+
+// Keeps the heavy sets that no other one replaces: one that is at least as heavy and in no more conflict outside.
+void Reducer::collect_sets() {
+  look_outside();
+  std::vector<std::size_t> order(heavy_sets_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return heavy_sets_.weight(i); });
+  sets_.clear();
+  set_conflicts_.clear();
+  for (const std::size_t i : order) {
+    set_conflicts_.resize((sets_.size() + 1) * outside_words_, 0);
+    bits::Word* const row = set_conflicts_.data() + sets_.size() * outside_words_;
+    bits::for_each(heavy_sets_.set(i), local_.words(), [&](std::size_t j) {
+      for (std::size_t w = 0; w < outside_words_; ++w) row[w] |= conflicts_[j * outside_words_ + w];
+    });
+    bool replaced = false;
+    for (const bits::Word* other = set_conflicts_.data(); other != row && !replaced; other += outside_words_)
+      replaced = bits::includes(row, other, outside_words_);
+    if (replaced)
+      std::fill_n(row, outside_words_, 0);
+    else
+      sets_.push_back(i);
+  }
+}
+
+void Reducer::look_outside() {
+  // Marks those around as well, so that they are not outside.
+  for (const std::int32_t u : around_) places_[u] = first_place;
+  outside_.clear();
+  for (const std::int32_t u : around_)
+    for (const std::int32_t x : graph_.neighbours_of(u))
+      if (places_[x] == nowhere) {
+        places_[x] = first_place;
+        outside_.push_back(x);
+      }
+  for (const std::int32_t u : around_) places_[u] = nowhere;
+  std::ranges::sort(outside_);
+  for (std::size_t i = 0; i < outside_.size(); ++i) places_[outside_[i]] = place_of(i);
+  outside_words_ = bits::words_for(outside_.size());
+  conflicts_.assign(around_.size() * outside_words_, 0);
+  for (std::size_t j = 0; j < around_.size(); ++j)
+    for (const std::int32_t x : graph_.neighbours_of(around_[j]))
+      if (places_[x] != nowhere) bits::insert(conflicts_.data() + j * outside_words_, index_of(places_[x]));
+  for (const std::int32_t x : outside_) places_[x] = nowhere;
+}
+
+void Reducer::fold(std::int32_t v) {
+  const std::int64_t weight = graph_.weight(v);
+  offset_ += weight;
+  log_.begin_fold(v, graph_.vertex_count());
+  graph_.remove(v);
+  for (const std::int32_t u : around_) drop(u);
+  const std::int32_t first = graph_.vertex_count();
+  std::vector<std::int32_t> members, neighbours;
+  for (std::size_t i = 0; i < sets_.size(); ++i) {
+    members.clear();
+    bits::for_each(heavy_sets_.set(sets_[i]), local_.words(), [&](std::size_t j) { members.push_back(around_[j]); });
+    log_.add_set(members);
+    neighbours.clear();
+    bits::for_each(set_conflicts_.data() + i * outside_words_, outside_words_, [&](std::size_t j) {
+      if (outside_[j] != v) neighbours.push_back(outside_[j]);
+    });
+    for (std::int32_t other = first; other < graph_.vertex_count(); ++other) neighbours.push_back(other);
+    queue_.push(graph_.add(heavy_sets_.weight(sets_[i]) - weight, neighbours));
+    places_.push_back(nowhere);
+    growth_.push_back(unknown);
+  }
+  for (std::int32_t created = first; created < graph_.vertex_count(); ++created)
+    for (const std::int32_t u : graph_.neighbours_of(created)) queue_.push(u);
+}
+
+void Reducer::take(std::int32_t v) {
+  offset_ += graph_.weight(v);
+  log_.take(v);
+  const auto neighbours = graph_.neighbours_of(v);
+  around_.assign(neighbours.begin(), neighbours.end());
+  graph_.remove(v);
+  for (const std::int32_t u : around_) drop(u);
+}
+
+void Reducer::drop(std::int32_t v) {
+  graph_.remove(v);
+  for (const std::int32_t u : graph_.neighbours_of(v)) queue_.push(u);
+}
+
+}  // namespace hexpipe

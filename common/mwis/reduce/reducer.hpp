@@ -1,0 +1,108 @@
+#pragma once
+// Exact reductions of a conflict graph, from the centre of a neighbourhood. All rules are consequences of one question:
+// which independent sets of neighbours outweigh the centre v? A solution has v or one of these sets. None: v is taken
+// (neighbourhood removal); neighbours in no such set are dropped (domination, basic and extended single edge); and when
+// they are few, vertices that stand for the sets replace v and its neighbours (extended struction, Gellner et al. 2021,
+// with simplicial weight transfer and the folds of small degree as special cases). Deviates from there in bounding
+// neighbourhoods by clique covers, because the conflicts of cells come in cliques, and in leaving out sets that another
+// one dominates.
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "common/mwis/bounds/clique_cover_bound.hpp"
+#include "common/mwis/ground/dense_graph.hpp"
+#include "common/mwis/reduce/heavy_sets.hpp"
+#include "common/mwis/reduce/reducible_graph.hpp"
+#include "common/mwis/reduce/reduction_log.hpp"
+#include "common/run/deadline.hpp"
+
+namespace hexpipe {
+
+enum class ReductionEffort {
+  quick,     // what clique covers prove, while it decides something often enough: a fraction of a second
+  full,      // all rules that leave fewer vertices at once
+  thorough,  // all rules, and folds that add vertices where other rules then remove more: seconds to minutes
+};
+
+class Reducer {
+ public:
+  // Around those in `incomplete`, which have neighbours that the graph does not show, nothing is decided.
+  Reducer(const ConflictGraph& graph, ReductionLog& log, std::vector<char> incomplete = {});
+
+  // Until no rule applies any more, or to the deadline. Returns how much heavier solutions become by the lift.
+  std::int64_t run(ReductionEffort effort, const Deadline& deadline);
+
+  ReducibleGraph& graph() { return graph_; }
+
+ private:
+  // Vertices whose neighbourhood changed, each named once.
+  struct Queue {
+    std::deque<std::int32_t> vertices;
+    std::vector<char> waiting;
+    void push(std::int32_t v);
+    std::int32_t pop();
+    void clear();
+  };
+
+  bool is_complete(std::int32_t v) const {
+    return static_cast<std::size_t>(v) >= incomplete_.size() || incomplete_[v] == 0;
+  }
+  void skim(const Deadline& deadline);
+  void settle(const Deadline& deadline, std::int32_t wanted);
+  void blow_up(const Deadline& deadline);
+  void try_fold(std::int32_t v, const Deadline& deadline);
+  void take_back(std::size_t decided, std::int64_t offset);
+  void estimate(std::int32_t v, std::int32_t growth);
+
+  void decide(std::int32_t v);
+  bool look_around(std::int32_t v);
+  void build_row(std::int32_t v, bits::Word* row);
+  bool bound_without(const bits::Word* excluded, std::int64_t limit);
+  bool drop_replaceable(std::int32_t v);
+
+  void decide_by_sets(std::int32_t v);
+  bool find_sets(std::int32_t v);
+  bool drop_outside_sets();
+  void collect_sets();
+  void look_outside();
+  void fold(std::int32_t v);
+
+  void take(std::int32_t v);
+  void drop(std::int32_t v);
+
+  ReducibleGraph graph_;
+  ReductionLog& log_;
+  const std::vector<char> incomplete_;
+  std::int64_t offset_ = 0;
+  Queue queue_, set_queue_;
+
+  // How many vertices a fold of the vertex would add, where that is known; the fewest first, with entries that are no
+  // longer true.
+  static constexpr std::int32_t unknown = std::numeric_limits<std::int32_t>::max();
+  using Growth = std::pair<std::int32_t, std::int32_t>;  // and the vertex
+  std::vector<std::int32_t> growth_;
+  std::priority_queue<Growth, std::vector<Growth>, std::greater<>> growths_;
+  bool trying_ = false;
+  std::vector<Growth> growth_before_;  // the try
+
+  // The neighbourhood that is looked at, the heaviest first, as a small graph.
+  std::vector<std::int32_t> around_;
+  std::vector<std::int32_t> places_;  // in around_, while local_ is built
+  DenseGraph local_;
+  std::vector<bits::Word> set_, excluded_;
+  CliqueCoverBound bound_;
+  HeavySets heavy_sets_;
+  std::vector<std::size_t> sets_;      // those of heavy_sets_ that a fold has to keep, the heaviest first
+  std::vector<std::int32_t> outside_;  // ascending, what the neighbours have for neighbours outside
+  std::size_t outside_words_ = 0;
+  std::vector<bits::Word> conflicts_;      // a row of outside_ for each of around_
+  std::vector<bits::Word> set_conflicts_;  // a row of outside_ for each of sets_
+};
+
+}  // namespace hexpipe

@@ -1,0 +1,84 @@
+#include "formats/meshes/mesh_files.hpp"
+
+#include <utility>
+
+#include "common/run/error.hpp"
+#include "formats/meshes/abaqus.hpp"
+#include "formats/meshes/medit.hpp"
+#include "formats/meshes/msh.hpp"
+#include "formats/meshes/tetgen.hpp"
+#include "formats/meshes/vtk_legacy.hpp"
+#include "formats/meshes/vtu.hpp"
+#include "formats/streams/text_scanner.hpp"
+
+namespace hexpipe {
+namespace {
+
+struct MeshFormat {
+  std::string_view name;
+  void (*write)(const MixedMesh& mesh, Output& output);
+};
+
+template <MshVersion version, MshCoding coding>
+void write_msh_as(const MixedMesh& mesh, Output& output) {
+  write_msh(mesh, version, coding, output);
+}
+
+constexpr MeshFormat formats[] = {
+    {"mesh", write_medit},
+    {"msh", write_msh_as<MshVersion::v4_1, MshCoding::ascii>},
+    {"msh-binary", write_msh_as<MshVersion::v4_1, MshCoding::binary>},
+    {"msh22", write_msh_as<MshVersion::v2_2, MshCoding::ascii>},
+    {"msh22-binary", write_msh_as<MshVersion::v2_2, MshCoding::binary>},
+    {"vtk", write_vtk_legacy},
+    {"vtu", write_vtu},
+    {"inp", write_abaqus},
+};
+
+// The first four bytes of a MEDIT .meshb, in either byte order.
+bool looks_like_binary_medit(std::string_view text) {
+  using namespace std::string_view_literals;
+  return text.starts_with("\1\0\0\0"sv) || text.starts_with("\0\0\0\1"sv);
+}
+
+MixedMesh read_by_content(std::string text, const std::string& name, const std::string& path, GroupNames* names) {
+  text.erase(0, text.size() - without_byte_order_mark(text).size());
+  if (looks_like_vtu(text)) return read_vtu(std::move(text), name);
+  if (looks_like_vtk_legacy(text)) return read_vtk_legacy(text, name);
+  if (looks_like_msh(text)) return read_msh(text, name, names);
+  if (looks_like_medit(text)) return read_medit(text, name);
+  if (looks_like_tetgen(text)) return read_tetgen(text, name, path);
+  if (looks_like_binary_medit(text))
+    throw DataError::at(name,
+                        "expected a text, found MEDIT's binary format; transmesh of libmeshb makes a .mesh of it");
+  throw FormatError(
+      name, 1,
+      fmt::format("expected a mesh (MEDIT .mesh, Gmsh .msh, VTK, VTU, TetGen .node or .ele; tetmesh makes one of a "
+                  "surface), found {}",
+                  quote_found(TextScanner(text, name).peek_word())));
+}
+
+}  // namespace
+
+MixedMesh read_mixed_mesh(Input& input, GroupNames* names) {
+  MixedMesh mesh = read_by_content(input.read_all(), input.name(), input.path(), names);
+  validate(mesh, input.name().c_str());
+  return mesh;
+}
+
+void write_mixed_mesh(const MixedMesh& mesh, std::string_view format, Output& output) {
+  for (const MeshFormat& known : formats)
+    if (known.name == format) return known.write(mesh, output);
+  throw UsageError(fmt::format("expected a mesh format, found {}", quote_found(format)));
+}
+
+const std::vector<std::string_view>& mesh_format_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> list;
+    for (const MeshFormat& format : formats) list.push_back(format.name);
+    return list;
+  }();
+  return names;
+}
+
+}  // namespace hexpipe

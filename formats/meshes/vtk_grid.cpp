@@ -1,0 +1,149 @@
+#include "formats/meshes/vtk_grid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+
+#include "common/run/error.hpp"
+#include "formats/meshes/cell_data.hpp"
+#include "formats/meshes/mesh_blocks.hpp"
+
+namespace hexpipe {
+namespace {
+
+// meshio keeps Gmsh's and MEDIT's tags under the second and third, Gmsh writes the fourth.
+constexpr std::array<std::string_view, 4> foreign_tag_names{"tag", "gmsh:physical", "medit:ref", "CellEntityIds"};
+
+enum VtkType : std::uint8_t {
+  vtk_vertex = 1,
+  vtk_polyvertex = 2,
+  vtk_line = 3,
+  vtk_polyline = 4,
+  vtk_pixel = 8,
+  vtk_quad = 9,
+  vtk_voxel = 11,
+  vtk_hex = 12,
+  vtk_quadratic_edge = 21,
+  vtk_cubic_line = 35,
+  vtk_lagrange_curve = 68,
+  vtk_bezier_curve = 75,
+};
+
+constexpr std::array dropped_types{vtk_vertex,         vtk_polyvertex, vtk_line,           vtk_polyline,
+                                   vtk_quadratic_edge, vtk_cubic_line, vtk_lagrange_curve, vtk_bezier_curve};
+
+struct GridReader {
+  VtkGrid& grid;
+  std::string_view file;
+
+  [[noreturn]] void fail(std::size_t cell, const std::string& message) const {
+    throw DataError::at(file, "cell {}: {}", cell, message);
+  }
+
+  std::span<Vertex> corners_of(std::size_t cell) const {
+    const std::int64_t begin = cell == 0 ? 0 : grid.ends[cell - 1];
+    return std::span(grid.connectivity)
+        .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(grid.ends[cell] - begin));
+  }
+
+  void check_arrays() const {
+    const std::size_t count = grid.types.size();
+    if (grid.ends.size() != count)
+      throw DataError::at(file, "expected offsets for {} cells, found {}", count, grid.ends.size());
+    std::int64_t last = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (grid.ends[i] < last) fail(i, fmt::format("expected an offset of at least {}, found {}", last, grid.ends[i]));
+      last = grid.ends[i];
+    }
+    if (last != static_cast<std::int64_t>(grid.connectivity.size()))
+      throw DataError::at(file, "expected {} corners of cells as the offsets say, found {}", last,
+                          grid.connectivity.size());
+    for (const auto& [name, tags] : grid.tags) check_cell_data(name, tags.size());
+    if (!grid.quality.empty()) check_cell_data(quality_name, grid.quality.size());
+  }
+
+  void check_cell_data(std::string_view name, std::size_t size) const {
+    if (size != grid.types.size())
+      throw DataError::at(file, "expected an entry of cell data {} for each of {} cells, found {}", name,
+                          grid.types.size(), size);
+  }
+
+  // Pixels and voxels list their corners by coordinates; swapping makes them quads and hexes.
+  void turn_pixels_and_voxels() {
+    for (std::size_t i = 0; i < grid.types.size(); ++i) {
+      const std::span<Vertex> corners = corners_of(i);
+      if (grid.types[i] == vtk_pixel && corners.size() == 4) {
+        grid.types[i] = vtk_quad;
+        std::swap(corners[2], corners[3]);
+      } else if (grid.types[i] == vtk_voxel && corners.size() == 8) {
+        grid.types[i] = vtk_hex;
+        std::swap(corners[2], corners[3]);
+        std::swap(corners[6], corners[7]);
+      }
+    }
+  }
+
+  void refuse_other_types(const MixedMesh& mesh) const {
+    std::array<bool, 256> known{};
+    for (const VtkType type : dropped_types) known[type] = true;
+    for_each_block(mesh, [&](const ElementNames& names, const auto&) { known[names.vtk] = true; });
+    for (std::size_t i = 0; i < grid.types.size(); ++i)
+      if (!known[grid.types[i]])
+        fail(i, fmt::format("expected a linear cell of VTK type 5, 9, 10, 12, 13 or 14, found type {}", grid.types[i]));
+  }
+
+  const std::vector<std::int32_t>* find_tags(std::string_view own_name) const {
+    if (const auto own = grid.tags.find(own_name); own != grid.tags.end()) return &own->second;
+    for (const std::string_view name : foreign_tag_names)
+      if (const auto foreign = grid.tags.find(name); foreign != grid.tags.end()) return &foreign->second;
+    return nullptr;
+  }
+
+  template <class Block>
+  void take_cells(const ElementNames& names, Block& block) const {
+    const auto* const tags = find_tags(names.dimension == 3 ? "region" : "surface");
+    const bool with_quality = names.dimension == 3 && !grid.quality.empty();
+    const auto count = static_cast<std::size_t>(std::ranges::count(grid.types, names.vtk));
+    block.cells.reserve(count);
+    block.tags.reserve(count);
+    if (with_quality) block.quality.reserve(count);
+    for (std::size_t i = 0; i < grid.types.size() && block.size() < count; ++i) {
+      if (grid.types[i] != names.vtk) continue;
+      take_corners(i, names, block.cells.emplace_back());
+      block.tags.push_back(tags != nullptr ? (*tags)[i] : 0);
+      if (with_quality) block.quality.push_back(grid.quality[i]);
+    }
+  }
+
+  template <std::size_t Corners>
+  void take_corners(std::size_t cell, const ElementNames& names, std::array<Vertex, Corners>& corners) const {
+    const std::span<const Vertex> found = corners_of(cell);
+    if (found.size() != Corners)
+      fail(cell, fmt::format("expected {} corners of a {}, found {}", Corners, names.one, found.size()));
+    for (const Vertex v : found)
+      if (v < 0 || static_cast<std::size_t>(v) >= grid.points.size())
+        fail(cell, fmt::format("expected points from 0 to below {}, found {}", grid.points.size(), v));
+    std::ranges::copy(found, corners.begin());
+    corners = swap_vtk_order(corners);
+  }
+};
+
+}  // namespace
+
+bool is_vtk_tag_name(std::string_view name) {
+  return name == "region" || name == "surface" || std::ranges::find(foreign_tag_names, name) != foreign_tag_names.end();
+}
+
+MixedMesh to_mixed_mesh(VtkGrid grid, std::string_view file) {
+  GridReader reader{grid, file};
+  reader.check_arrays();
+  reader.turn_pixels_and_voxels();
+  MixedMesh mesh;
+  reader.refuse_other_types(mesh);
+  for_each_block(mesh, [&](const ElementNames& names, auto& block) { reader.take_cells(names, block); });
+  mesh.points = std::move(grid.points);
+  return mesh;
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,119 @@
+#include "formats/streams/input.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "common/run/deadline.hpp"
+#include "common/run/error.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr std::size_t buffer_size = 1 << 20;
+
+}  // namespace
+
+Input Input::open(const std::string& path) {
+  Input input;
+  if (path == "-") {
+    input.name_ = "stdin";
+    input.descriptor_ = dup(STDIN_FILENO);
+  } else {
+    input.name_ = input.path_ = path;
+    const WaitForInput wait;  // for the writer of a FIFO
+    input.descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  }
+  if (input.descriptor_ < 0) throw DataError::at(input.name_, "cannot open: {}", std::strerror(errno));
+  struct stat status {};
+  if (fstat(input.descriptor_, &status) == 0 && S_ISDIR(status.st_mode))
+    throw DataError::at(input.name_, "expected a file, found a directory");
+  // A larger pipe means fewer switches between the stages; where it is refused, the default serves.
+  if (S_ISFIFO(status.st_mode)) fcntl(input.descriptor_, F_SETPIPE_SZ, buffer_size);
+  if (S_ISFIFO(status.st_mode) && path == "-") leave_interrupt_upstream(true);
+  input.buffer_.resize(buffer_size);
+  return input;
+}
+
+Input Input::from_memory(std::string bytes, std::string name) {
+  Input input;
+  input.name_ = std::move(name);
+  input.buffer_.assign(bytes.begin(), bytes.end());
+  input.end_ = bytes.size();
+  input.at_end_ = true;
+  return input;
+}
+
+Input::Input(Input&& other) noexcept {
+  *this = std::move(other);
+}
+
+Input& Input::operator=(Input&& other) noexcept {
+  std::swap(name_, other.name_);
+  std::swap(path_, other.path_);
+  std::swap(descriptor_, other.descriptor_);
+  std::swap(buffer_, other.buffer_);
+  std::swap(begin_, other.begin_);
+  std::swap(end_, other.end_);
+  std::swap(at_end_, other.at_end_);
+  return *this;
+}
+
+Input::~Input() {
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  if (path_.empty()) leave_interrupt_upstream(false);
+}
+
+// Adds bytes behind those at hand, at least one unless the end is reached. The buffer must have room.
+bool Input::fill() {
+  if (at_end_) return false;
+  const WaitForInput wait;
+  ssize_t got;
+  do got = ::read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
+  while (got < 0 && errno == EINTR);
+  if (got < 0) throw DataError::at(name_, "cannot read: {}", std::strerror(errno));
+  at_end_ = got == 0;
+  if (at_end_ && path_.empty()) leave_interrupt_upstream(false);
+  end_ += static_cast<std::size_t>(got);
+  return got > 0;
+}
+
+std::string_view Input::peek(std::size_t count) {
+  if (begin_ + count > buffer_.size()) {
+    std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_),
+              buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
+    end_ -= begin_;
+    begin_ = 0;
+    buffer_.resize(std::max(buffer_.size(), count));
+  }
+  while (end_ - begin_ < count && fill()) {
+  }
+  return {buffer_.data() + begin_, std::min(count, end_ - begin_)};
+}
+
+std::string_view Input::read_some() {
+  if (begin_ == end_) {
+    if (at_end_) return {};
+    begin_ = end_ = 0;
+    fill();
+  }
+  const std::string_view bytes(buffer_.data() + begin_, end_ - begin_);
+  begin_ = end_;
+  return bytes;
+}
+
+std::string Input::read_all() {
+  std::string all;
+  struct stat status {};
+  if (descriptor_ >= 0 && fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode))
+    all.reserve(static_cast<std::size_t>(status.st_size) + 1);
+  for (std::string_view bytes = read_some(); !bytes.empty(); bytes = read_some()) all.append(bytes);
+  return all;
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,51 @@
+#pragma once
+// Numbers to an Output: as text, or as the machine's bytes. Doubles are written as the shortest text that reads back as
+// the same number.
+
+#include <charconv>
+#include <string_view>
+#include <type_traits>
+
+#include "formats/streams/output.hpp"
+
+namespace hexpipe {
+
+// Numbers and words of a line, separated by blanks.
+class LineWriter {
+ public:
+  explicit LineWriter(Output& output) : output_(output) {}
+
+  template <class T>
+  requires std::is_arithmetic_v<T> LineWriter& operator<<(T number) {
+    char text[32];
+    const auto result = std::to_chars(text, text + sizeof text, number);
+    return *this << std::string_view(text, static_cast<std::size_t>(result.ptr - text));
+  }
+  LineWriter& operator<<(std::string_view word) {
+    if (in_line_) output_.write(" ");
+    output_.write(word);
+    in_line_ = true;
+    return *this;
+  }
+  void end_line() {
+    output_.write("\n");
+    in_line_ = false;
+  }
+
+ private:
+  Output& output_;
+  bool in_line_ = false;
+};
+
+template <class T>
+void write_bytes(Output& output, const T& number) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  output.write({reinterpret_cast<const char*>(&number), sizeof number});
+}
+
+template <class Range>
+void write_array_bytes(Output& output, const Range& numbers) {
+  output.write({reinterpret_cast<const char*>(std::data(numbers)), std::size(numbers) * sizeof *std::data(numbers)});
+}
+
+}  // namespace hexpipe

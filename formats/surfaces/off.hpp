@@ -1,0 +1,19 @@
+#pragma once
+// OFF, Geomview's object file format, ASCII, in three dimensions.
+
+#include <string>
+#include <string_view>
+
+#include "formats/surfaces/surface_files.hpp"
+
+namespace hexpipe {
+
+// True for OFF and its variants with normals, colours or texture coordinates (NOFF, COFF, STOFF, STCNOFF, ...), and for
+// those of other dimensions (4OFF, nOFF), which read_off rejects by name.
+bool is_off_keyword(std::string_view word);
+
+// Whatever follows a vertex's coordinates or a face's corners on their line is skipped. The count of edges may be
+// missing.
+SurfaceSoup read_off(std::string_view text, const std::string& name);
+
+}  // namespace hexpipe

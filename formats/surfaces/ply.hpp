@@ -1,0 +1,17 @@
+#pragma once
+// PLY, ASCII and binary of either byte order.
+
+#include <string>
+#include <string_view>
+
+#include "formats/surfaces/surface_files.hpp"
+
+namespace hexpipe {
+
+bool looks_like_ply(std::string_view bytes);
+
+// Elements other than vertex and face, and properties other than x, y, z and vertex_indices (or vertex_index), are
+// skipped. Faces are placed by line (ASCII) or by number (binary).
+SurfaceSoup read_ply(std::string_view bytes, const std::string& name);
+
+}  // namespace hexpipe

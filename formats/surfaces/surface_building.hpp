@@ -1,0 +1,62 @@
+#pragma once
+// What the readers of surface formats share: merging equal points, cutting polygons, reading finite coordinates.
+
+#include <tsl/robin_map.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "formats/streams/text_scanner.hpp"
+#include "formats/surfaces/surface_files.hpp"
+
+namespace hexpipe {
+
+// Gives every distinct coordinate triple one index, in the order of first appearance.
+class PointMerger {
+ public:
+  explicit PointMerger(std::vector<Vec3>& points) : points_(points) {}
+  Vertex index_of(const Vec3& point);
+
+ private:
+  struct Hash {
+    std::size_t operator()(const Vec3& p) const;
+  };
+  std::vector<Vec3>& points_;
+  tsl::robin_map<Vec3, Vertex, Hash> indices_;
+};
+
+// The soup with one point for those that are equal, in the order of first use, and none that no triangle uses. Curves
+// are edges of triangles.
+SurfaceSoup merge_equal_points(SurfaceSoup soup);
+
+// Throws DataError where there are more points than can be numbered.
+void check_point_count(std::uint64_t count, std::string_view name);
+
+void append_triangle(SurfaceSoup& soup, const Triangle& triangle, std::int32_t tag, std::int64_t place);
+
+// Collects the polygons of a file that may have faces before the vertices.
+class PolygonReader {
+ public:
+  // Fans it; at least three corners.
+  void append(SurfaceSoup& soup, std::span<const Vertex> corners, std::int32_t tag, std::int64_t place);
+  // Once all points are there and corners are known to be among them: cuts concave polygons as they must be.
+  void cut_concave(SurfaceSoup& soup) const;
+
+ private:
+  std::vector<bool> goes_on_;  // whether a triangle is of the same polygon as the one before
+};
+
+// Three words as coordinates. Throws FormatError where one is missing, no number, or not finite.
+Vec3 read_coordinates(TextScanner& scanner);
+
+// The word at the scanner, on this line. Throws FormatError at the end of the line.
+template <class T>
+T number_on_line(TextScanner& scanner, std::string_view what) {
+  if (scanner.at_line_end()) scanner.fail(fmt::format("expected {}, found the end of the line", what));
+  return scanner.number<T>(what);
+}
+
+}  // namespace hexpipe

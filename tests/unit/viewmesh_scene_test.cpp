@@ -1,0 +1,192 @@
+// What view shows: cells, facets, layers, and the state that chooses among them.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "common/run/error.hpp"
+#include "tools/viewmesh/camera.hpp"
+#include "tools/viewmesh/facets.hpp"
+#include "tools/viewmesh/scene.hpp"
+#include "tools/viewmesh/skin.hpp"
+#include "tools/viewmesh/view_state.hpp"
+
+namespace hexpipe {
+namespace {
+
+// n x n x n unit hexes.
+StageData hex_lattice(int n) {
+  MixedMesh mesh;
+  const auto point = [&](int x, int y, int z) { return x + (n + 1) * (y + (n + 1) * z); };
+  for (int z = 0; z <= n; ++z)
+    for (int y = 0; y <= n; ++y)
+      for (int x = 0; x <= n; ++x) mesh.points.push_back({1.0 * x, 1.0 * y, 1.0 * z});
+  for (int z = 0; z < n; ++z)
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x < n; ++x) {
+        mesh.hexes.cells.push_back({point(x, y, z), point(x + 1, y, z), point(x + 1, y + 1, z), point(x, y + 1, z),
+                                    point(x, y, z + 1), point(x + 1, y, z + 1), point(x + 1, y + 1, z + 1),
+                                    point(x, y + 1, z + 1)});
+        mesh.hexes.tags.push_back(x);
+      }
+  StageData data;
+  data.result = mesh;
+  return data;
+}
+
+Scene lattice_scene(int n) {
+  return make_scene(hex_lattice(n), Scene::Content::result, "test");
+}
+
+std::ptrdiff_t visible_count(const Scene& scene, const ViewState& state) {
+  const auto visible = visible_cells(scene, state);
+  return std::count(visible.begin(), visible.end(), true);
+}
+
+TEST(Scene, HoldsTheCellsInABallOfRadiusOne) {
+  const Scene scene = lattice_scene(3);
+  EXPECT_EQ(scene.cell_count(), 27);
+  EXPECT_EQ(scene.kind_of(26), CellKind::hex);
+  EXPECT_FLOAT_EQ(scene.quality[0], 1);
+  double farthest = 0;
+  for (std::size_t i = 0; i < scene.points.size(); ++i)
+    farthest = std::max(farthest, norm(scene.point(static_cast<int>(i))));
+  EXPECT_NEAR(farthest, 1, 1e-6);
+  EXPECT_EQ(scene.centre, (Vec3{1.5, 1.5, 1.5}));
+}
+
+TEST(Scene, LeavesPointsOutOfTheBoxThatNoCellUses) {
+  StageData data = hex_lattice(2);
+  data.result->points.push_back({100, 100, 100});
+  EXPECT_EQ(make_scene(data, Scene::Content::result, "test").centre, (Vec3{1, 1, 1}));
+}
+
+TEST(Scene, CountsLayersFromTheSurface) {
+  const Scene scene = lattice_scene(5);
+  std::array<int, 4> cells{};
+  for (const auto layer : scene.layer) ++cells.at(layer);
+  EXPECT_EQ(cells, (std::array{0, 98, 26, 1}));
+}
+
+TEST(Scene, KindsFollowEachOther) {
+  MixedMesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}, {0.5, 0.5, -1}};
+  mesh.pyramids.cells = {{0, 1, 2, 3, 4}};
+  mesh.tets.cells = {{0, 2, 1, 5}, {0, 3, 2, 5}};
+  mesh.pyramids.tags = {1};
+  mesh.tets.tags = {2, 2};
+  StageData data;
+  data.result = mesh;
+  const Scene scene = make_scene(data, Scene::Content::result, "test");
+  EXPECT_EQ(scene.kind_begin, (std::array{0, 0, 0, 1, 3}));
+  EXPECT_EQ(scene.kind_of(0), CellKind::pyramid);
+  EXPECT_EQ(scene.kind_of(1), CellKind::tet);
+  EXPECT_THAT(scene.corners_of(2), testing::ElementsAre(0, 3, 2, 5));
+  EXPECT_THAT(scene.region, testing::ElementsAre(1, 2, 2));
+}
+
+TEST(Scene, SaysWhatIsMissing) {
+  EXPECT_THROW(last_content(StageData{}, "test"), DataError);
+  EXPECT_THROW(make_scene(StageData{}, Scene::Content::candidates, "test"), DataError);
+  StageData empty;
+  empty.result.emplace();
+  EXPECT_THROW(make_scene(empty, Scene::Content::result, "test"), DataError);
+}
+
+TEST(Skin, IsTheSurfaceOfWhatIsVisible) {
+  const Scene scene = lattice_scene(4);
+  ViewState state;
+  EXPECT_EQ(visible_skin(scene, state).size(), 6 * 16 * 2 * 3);
+  state.peel = 1;
+  EXPECT_EQ(visible_skin(scene, state).size(), 6 * 4 * 2 * 3);
+  state.peel = 0;
+  state.clip = {{1, 0, 0}, 0.5};
+  EXPECT_EQ(visible_skin(scene, state).size(), (2 * 16 + 4 * 8) * 2 * 3);
+  state.kinds[0] = false;
+  EXPECT_TRUE(visible_skin(scene, state).empty());
+}
+
+TEST(Skin, NormalsPointOut) {
+  const Scene scene = lattice_scene(2);
+  for (const SkinVertex& vertex : visible_skin(scene, {})) {
+    double out = 0;
+    for (int axis = 0; axis < 3; ++axis) out += vertex.position[axis] * vertex.normal[axis];
+    EXPECT_GT(out, 0);
+  }
+}
+
+TEST(Skin, OfCellsThatOverlapShowsFacetsWithCellsOnOneSide) {
+  StageData data = hex_lattice(1);
+  data.result->hexes.cells.push_back(data.result->hexes.cells.front());
+  data.result->hexes.tags.push_back(0);
+  const Scene scene = make_scene(data, Scene::Content::result, "test");
+  EXPECT_EQ(visible_skin(scene, {}).size(), 6 * 2 * 3);
+}
+
+TEST(ViewState, ClipsWholeCellsByTheirMiddles) {
+  const Scene scene = lattice_scene(4);
+  ViewState state;
+  state.clip = {{0, 0, 1}, 0.6};
+  EXPECT_EQ(visible_count(scene, state), 32);
+  state.clip = {{0, 0, -1}, 0.3};
+  EXPECT_EQ(visible_count(scene, state), 16);
+}
+
+TEST(ViewState, FiltersByQuality) {
+  const Scene scene = lattice_scene(2);
+  ViewState state;
+  state.greatest_quality = 0.9;
+  EXPECT_EQ(visible_count(scene, state), 0);
+}
+
+TEST(ViewState, TextAndBack) {
+  for (const char* text : {"camera=-52,28,1,0,0,0&clip=none&quality=-1,1&peel=0&kinds=hex,prism,pyramid,tet&colour="
+                           "hexes&edges=on&theme=light"
+                           "&fragment=0",
+                           "camera=12.5,-90,3,0.1,-0.2,0.3&clip=-y:0.25&quality=0.1,0.75&peel=3&kinds=none&colour="
+                           "region&edges=off&theme=dark"
+                           "&fragment=7",
+                           "camera=0,0,1,0,0,0&clip=0.6,0,0.8:1&quality=-1,1&peel=0&kinds=tet&colour=kind&edges=on&"
+                           "theme=light&fragment=0"})
+    EXPECT_EQ(to_text(parse_view_state(text)), text);
+}
+
+TEST(ViewState, RefusesWhatIsNone) {
+  for (const char* text : {"clip=a:1", "clip=x:nan", "quality=0", "quality=2,3", "peel=x", "colour=", "=",
+                           "kinds=", "kinds=hexes", "kinds=hex,", "quality=0,1,", "peel=1&", "camera=1,1,0,0,0,0",
+                           "edges=1", "theme", "fragment=-1", "clip=1,2,3:0.5"})
+    EXPECT_THROW(parse_view_state(text), UsageError) << text;
+}
+
+// The corners of a box lie on the ball of radius 1.
+TEST(Camera, SeesTheWholeScene) {
+  std::vector<Vec3> places{{0, 0, 0}};
+  for (int i = 0; i < 60; ++i)
+    for (int j = -15; j <= 15; ++j) {
+      const double around = i * std::numbers::pi / 30, up = j * std::numbers::pi / 30;
+      places.push_back({std::cos(up) * std::cos(around), std::cos(up) * std::sin(around), std::sin(up)});
+    }
+  for (const double aspect : {0.5, 1.0, 1.8})
+    for (const double elevation : {ViewState{}.elevation, 90.0}) {
+      ViewState state;
+      state.elevation = elevation;
+      const Camera camera = camera_of(state, aspect);
+      for (const Vec3& p : places) {
+        std::array<double, 4> at{p.x, p.y, p.z, 1}, eye{}, clip{};
+        for (int row = 0; row < 4; ++row)
+          for (int k = 0; k < 4; ++k) eye[row] += camera.view[4 * k + row] * at[k];
+        for (int row = 0; row < 4; ++row)
+          for (int k = 0; k < 4; ++k) clip[row] += camera.projection[4 * k + row] * eye[k];
+        for (int axis = 0; axis < 3; ++axis)
+          EXPECT_LT(std::abs(clip[axis] / clip[3]), 1 + 1e-6) << p.x << " " << p.y << " " << p.z;
+        EXPECT_GT(-eye[2], camera.near);
+        EXPECT_LT(-eye[2], camera.far);
+      }
+    }
+}
+
+}  // namespace
+}  // namespace hexpipe

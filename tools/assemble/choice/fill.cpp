@@ -1,0 +1,153 @@
+// What lies between two sheets of hexes that end against each other is often a row of wedges. As tets these take two
+// pyramids each, as prisms none. The tets that are left are a mesh of their own, small beside the whole, so that the
+// search for prisms among them and the conflict graph cost little.
+
+#include "tools/assemble/choice/fill.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "common/candidates/findhex.hpp"
+#include "common/conflicts/find_conflicts.hpp"
+#include "common/mesh/facet_key.hpp"
+#include "tools/assemble/hybrid/hybrid_mesh.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr const char* source = "tets between cells";
+
+// The tets that no cell has replaced or absorbed, and the numbers that they have in `mesh`.
+struct LeftTets {
+  TetMesh mesh;
+  std::vector<std::int32_t> number;
+};
+
+LeftTets left_tets(const TetMesh& mesh, const HybridMesh& standing) {
+  LeftTets left;
+  left.mesh.points = mesh.points;
+  left.mesh.triangles = mesh.triangles;
+  left.mesh.triangle_tags = mesh.triangle_tags;
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tets.size()); ++t) {
+    if (!standing.is_alive(t)) continue;
+    left.mesh.tets.push_back(mesh.tets[t]);
+    left.mesh.tet_tags.push_back(mesh.tet_tags[t]);
+    left.number.push_back(t);
+  }
+  return left;
+}
+
+// Prisms of the tets that are left, in the numbers of `mesh`.
+Candidates prisms_between(const TetMesh& mesh, const HybridMesh& standing) {
+  LeftTets left = left_tets(mesh, standing);
+  Candidates prisms;
+  if (left.number.empty()) return prisms;
+  const Candidates found = findhex(std::move(left.mesh), {.kinds = {CellKind::prism}}, source).candidates;
+  const auto same = [](Vertex v) { return v; };
+  const auto in_mesh = [&](std::int32_t t) { return left.number[t]; };
+  for (std::size_t i = 0; i < found.size(); ++i) append_candidate(prisms, found, i, same, in_mesh, in_mesh);
+  return prisms;
+}
+
+std::array<Quad, PrismTopology::quads.size()> quads_of_prism(const Candidates& candidates, std::int32_t prism) {
+  HybridCell cell;
+  cell.kind = CellKind::prism;
+  cell.corners = candidates.vertices[prism];
+  return {cell.quad(0), cell.quad(1), cell.quad(2)};
+}
+
+// Takes one prism after the other, always the one that closes most quads less those that it opens, the best of several;
+// of those that close as many as they open, too, for a prism is better than its tets.
+class Filling {
+ public:
+  // `all`: cells, and from `first` on the prisms; `graph`: their conflicts.
+  Filling(const BoundaryQuads& boundary, const Candidates& all, const ConflictGraph& graph, std::int32_t first)
+      : boundary_(boundary), all_(all), graph_(graph), barred_(all.size()) {
+    for (std::int32_t i = 0; i < first; ++i) take(i);
+    for (std::int32_t i = first; i < static_cast<std::int32_t>(all.size()); ++i)
+      for (const Quad& quad : quads_of_prism(all, i)) prisms_at_[key_of(quad)].push_back(i);
+    for (std::int32_t i = first; i < static_cast<std::int32_t>(all.size()); ++i) offer(i);
+  }
+
+  // The prisms taken, ascending.
+  std::vector<std::int32_t> run() {
+    std::vector<std::int32_t> taken;
+    while (!offers_.empty()) {
+      const Offer best = offers_.top();
+      offers_.pop();
+      // What it would bring may have changed; then it was offered anew.
+      if (barred_[best.prism] || best.gain != gain_of(best.prism)) continue;
+      take(best.prism);
+      taken.push_back(best.prism);
+      for (const Quad& quad : quads_of_prism(all_, best.prism))
+        for (const std::int32_t beside : prisms_at_.at(key_of(quad))) offer(beside);
+    }
+    std::ranges::sort(taken);
+    return taken;
+  }
+
+ private:
+  struct Offer {
+    int gain;
+    double quality;
+    std::int32_t prism;
+    bool operator<(const Offer& other) const {
+      if (gain != other.gain) return gain < other.gain;
+      if (quality != other.quality) return quality < other.quality;
+      return prism > other.prism;
+    }
+  };
+
+  void take(std::int32_t i) {
+    HybridCell cell;
+    cell.kind = all_.kind[i];
+    cell.corners = all_.vertices[i];
+    for (int k = 0; k < cell.quad_count(); ++k) quads_.insert(key_of(cell.quad(k)));
+    barred_[i] = true;
+    for (const std::int32_t other : graph_.neighbours_of(i)) barred_[other] = true;
+  }
+
+  int gain_of(std::int32_t prism) const {
+    int gain = 0;
+    for (const Quad& quad : quads_of_prism(all_, prism)) {
+      if (quads_.contains(key_of(quad)))
+        ++gain;
+      else if (!boundary_.contains(quad))
+        --gain;
+    }
+    return gain;
+  }
+
+  void offer(std::int32_t prism) {
+    if (barred_[prism]) return;
+    if (const int gain = gain_of(prism); gain >= 0) offers_.push({gain, all_.quality[prism], prism});
+  }
+
+  const BoundaryQuads& boundary_;
+  const Candidates& all_;
+  const ConflictGraph& graph_;
+  std::vector<bool> barred_;  // taken, or in conflict with what is
+  KeySet<4> quads_;           // of all that stand
+  KeyMap<4, std::vector<std::int32_t>> prisms_at_;
+  std::priority_queue<Offer> offers_;
+};
+
+}  // namespace
+
+std::int64_t append_filling_prisms(const TetMesh& mesh, const BoundaryQuads& boundary, const HybridMesh& standing,
+                                   Candidates& cells) {
+  const Candidates prisms = prisms_between(mesh, standing);
+  if (prisms.size() == 0) return 0;
+  Candidates all = cells;
+  append(all, prisms);
+  const ConflictGraph graph = conflict_graph(all, {.weight = WeightKind::count, .weight_scale = 1}, source);
+  const auto taken = Filling(boundary, all, graph, static_cast<std::int32_t>(cells.size())).run();
+  append(cells, select(all, taken));
+  return static_cast<std::int64_t>(taken.size());
+}
+
+}  // namespace hexpipe

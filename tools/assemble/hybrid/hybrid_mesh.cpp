@@ -1,0 +1,124 @@
+#include "tools/assemble/hybrid/hybrid_mesh.hpp"
+
+#include <cassert>
+
+namespace hexpipe {
+
+Quad HybridCell::quad(int i) const {
+  return with_topology(kind, [&](auto topology) {
+    Quad result{};
+    if constexpr (!decltype(topology)::quads.empty())
+      for (int k = 0; k < 4; ++k) result[k] = corners[decltype(topology)::quads[i][k]];
+    return result;
+  });
+}
+
+HybridMesh::HybridMesh(const TetMesh& mesh, const std::vector<bool>& removed)
+    : points(mesh.points),
+      tets_(mesh.tets),
+      regions_(mesh.tet_tags),
+      alive_(mesh.tets.size(), 0),
+      first_(mesh.points.size(), none),
+      next_(4 * mesh.tets.size(), none) {
+  assert(removed.size() == tets_.size());
+  for (std::int32_t t = static_cast<std::int32_t>(tets_.size()) - 1; t >= 0; --t)
+    if (!removed[t]) link(t);
+}
+
+Vertex HybridMesh::add_point(const Vec3& at) {
+  points.push_back(at);
+  first_.push_back(none);
+  return static_cast<Vertex>(points.size() - 1);
+}
+
+void HybridMesh::link(std::int32_t t) {
+  assert(!alive_[t]);
+  alive_[t] = 1;
+  for (int i = 0; i < 4; ++i) {
+    const std::int64_t slot = 4 * static_cast<std::int64_t>(t) + i;
+    next_[slot] = first_[tets_[t][i]];
+    first_[tets_[t][i]] = slot;
+  }
+}
+
+void HybridMesh::unlink(std::int32_t t) {
+  assert(alive_[t]);
+  alive_[t] = 0;
+  for (int i = 0; i < 4; ++i) {
+    const std::int64_t slot = 4 * static_cast<std::int64_t>(t) + i;
+    std::int64_t* at = &first_[tets_[t][i]];
+    while (*at != slot) at = &next_[*at];
+    *at = next_[slot];
+  }
+}
+
+std::int32_t HybridMesh::add_tet(const Tet& tet, std::int32_t region) {
+  const auto t = static_cast<std::int32_t>(tets_.size());
+  tets_.push_back(tet);
+  regions_.push_back(region);
+  alive_.push_back(0);
+  next_.resize(next_.size() + 4, none);
+  link(t);
+  return t;
+}
+
+void HybridMesh::remove_tet(std::int32_t t) {
+  unlink(t);
+}
+void HybridMesh::restore_tet(std::int32_t t) {
+  link(t);
+}
+
+namespace {
+
+bool has_vertex(const Tet& tet, Vertex v) {
+  return tet[0] == v || tet[1] == v || tet[2] == v || tet[3] == v;
+}
+
+}  // namespace
+
+std::int32_t HybridMesh::tet_at(const Triangle& triangle, std::int32_t except) const {
+  std::int32_t found = none;
+  for_tets_at(triangle[0], [&](std::int32_t t) {
+    if (t != except && has_vertex(tets_[t], triangle[1]) && has_vertex(tets_[t], triangle[2])) found = t;
+  });
+  return found;
+}
+
+void HybridMesh::tets_around_edge(Vertex a, Vertex b, std::vector<std::int32_t>& out) const {
+  out.clear();
+  for_tets_at(a, [&](std::int32_t t) {
+    if (has_vertex(tets_[t], b)) out.push_back(t);
+  });
+}
+
+std::int32_t HybridMesh::add_cell(const HybridCell& cell) {
+  const auto c = static_cast<std::int32_t>(cells_.size());
+  cells_.push_back(cell);
+  for (int i = 0; i < cell.quad_count(); ++i) {
+    auto [entry, added] = cells_at_quad_.try_emplace(key_of(cell.quad(i)), std::array{c, none});
+    if (added) continue;
+    auto& cells = entry.value();
+    assert(cells[0] == none || cells[1] == none);
+    cells[cells[0] == none ? 0 : 1] = c;
+  }
+  return c;
+}
+
+void HybridMesh::remove_cell(std::int32_t c) {
+  assert(cells_[c].alive);
+  cells_[c].alive = false;
+  for (int i = 0; i < cells_[c].quad_count(); ++i)
+    for (auto& other : cells_at_quad_[key_of(cells_[c].quad(i))])
+      if (other == c) other = none;
+}
+
+std::int32_t HybridMesh::partner_at(const Quad& quad, std::int32_t cell) const {
+  const auto found = cells_at_quad_.find(key_of(quad));
+  if (found == cells_at_quad_.end()) return none;
+  for (std::int32_t other : found->second)
+    if (other != cell && other != none) return other;
+  return none;
+}
+
+}  // namespace hexpipe

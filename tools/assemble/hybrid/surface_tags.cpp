@@ -1,0 +1,44 @@
+#include "tools/assemble/hybrid/surface_tags.hpp"
+
+namespace hexpipe {
+
+SurfaceTags::SurfaceTags(const TetMesh& mesh) : triangles_(mesh.triangles), tags_(mesh.triangle_tags) {
+  numbers_.reserve(triangles_.size());
+  for (std::size_t i = 0; i < triangles_.size(); ++i)
+    numbers_.try_emplace(key_of(triangles_[i]), static_cast<std::int32_t>(i));
+}
+
+void SurfaceTags::peel(const Tet& tet, const std::array<std::int32_t, 2>& places,
+                       const std::array<Triangle, 2>& triangles) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    numbers_.erase(key_of(triangles_[places[i]]));
+    triangles_[places[i]] = triangles[i];
+    numbers_.emplace(key_of(triangles[i]), places[i]);
+  }
+  peeled_.push_back(tet);
+}
+
+std::optional<std::int32_t> SurfaceTags::find(const Triangle& triangle) const {
+  const auto found = numbers_.find(key_of(triangle));
+  if (found == numbers_.end()) return std::nullopt;
+  return found->second;
+}
+
+std::optional<SurfaceTags::Cover> SurfaceTags::cover_of(const Quad& quad, int diagonal) const {
+  const auto halves = triangles_of(quad, diagonal);
+  const auto first = find(halves[0]), second = find(halves[1]);
+  if (!first || !second || tag_of(*first) != tag_of(*second)) return std::nullopt;
+  return Cover{{*first, *second}};
+}
+
+std::optional<SurfaceTags::Cover> SurfaceTags::cover_of(const Quad& quad) const {
+  if (const auto cover = cover_of(quad, 0)) return cover;
+  return cover_of(quad, 1);
+}
+
+bool SurfaceTags::covers_partly(const Quad& quad, int diagonal) const {
+  const auto halves = triangles_of(quad, diagonal);
+  return (contains(halves[0]) || contains(halves[1])) && !cover_of(quad, diagonal);
+}
+
+}  // namespace hexpipe

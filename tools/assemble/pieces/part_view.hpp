@@ -1,0 +1,48 @@
+#pragma once
+// What one part sees: its mesh with the ghosts, and the cells that have been chosen there, by itself and its
+// neighbours.
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "common/graph/conflict_graph.hpp"
+#include "common/mesh/candidates.hpp"
+#include "common/mesh/mesh_part.hpp"
+#include "common/mesh/tet_mesh.hpp"
+#include "tools/assemble/choice/selection.hpp"
+
+namespace hexpipe {
+
+struct PartView {
+  MeshPart part;
+  TetMesh mesh;
+  // Chosen ones, in the order of a single run: all whose corners have all their tets here.
+  Candidates cells;
+  CandidateKeys keys;
+  // By cell, where it is from; the names of the bundles, of which the first is the part's own.
+  std::vector<CellOrigin> origins;
+  std::vector<std::string> bundles;
+  // By point: edges from the nearest point of the part's own, at most `furthest`.
+  std::vector<std::uint8_t> distance;
+};
+
+// Every point up to this distance has all its tets in the part's mesh (docs/definitions.md 5).
+inline constexpr std::uint8_t furthest = 6;
+
+// What the bundle of a part holds, with its solution.
+struct SolvedPart {
+  MeshPart part;
+  TetMesh mesh;
+  Candidates candidates;
+  CandidateKeys keys;
+  IndependentSet chosen;
+  std::vector<nlohmann::ordered_json> history;
+};
+
+// Reads the neighbours one after the other. Throws DataError when one is missing, has no solution, or one of another
+// run.
+PartView view_part(SolvedPart own, const std::vector<std::string>& neighbours, const std::string& source);
+
+}  // namespace hexpipe

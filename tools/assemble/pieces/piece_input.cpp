@@ -1,0 +1,153 @@
+#include "tools/assemble/pieces/piece_input.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <limits>
+#include <span>
+
+namespace hexpipe {
+namespace {
+
+constexpr std::int32_t none = -1;
+
+// The greatest number that is none of these.
+std::int32_t unused_tag(std::span<const std::int32_t> used, std::int32_t but) {
+  std::int32_t tag = std::numeric_limits<std::int32_t>::max();
+  while (tag == but || std::ranges::find(used, tag) != used.end()) --tag;
+  return tag;
+}
+
+class Cutter {
+ public:
+  Cutter(const PartView& view, const TetAdjacency& adjacency, const SurfaceTags& tags, const Pieces& pieces)
+      : view_(view), adjacency_(adjacency), tags_(tags), pieces_(pieces), tet_place_(view.mesh.tets.size(), none) {
+    result_.seam.guest_region = unused_tag(view.mesh.tet_tags, 0);
+    result_.seam.seam_tag = unused_tag(view.mesh.triangle_tags, 0);
+    result_.seam.guest_tag = unused_tag(view.mesh.triangle_tags, result_.seam.seam_tag);
+  }
+
+  PieceInput cut(const SeamCells& cells) {
+    take_tets(cells.guests);
+    take_triangles();
+    take_points();
+    std::ranges::merge(cells.own, cells.guests, std::back_inserter(result_.view_cells));
+    for (const std::int32_t i : result_.view_cells) take_cell(i);
+    return std::move(result_);
+  }
+
+ private:
+  bool is_here(std::int32_t tet) const { return pieces_.of_tet[tet] == view_.part.part; }
+
+  void take_tets(const std::vector<std::int32_t>& guests) {
+    std::vector<std::uint8_t> taken(view_.mesh.tets.size());
+    for (std::size_t t = 0; t < taken.size(); ++t) taken[t] = is_here(static_cast<std::int32_t>(t)) ? 1 : 0;
+    for (const std::int32_t i : guests) {
+      for (const std::int32_t t : view_.cells.interior_tets_of(i)) taken[t] = 2;
+      for (const std::int32_t t : view_.cells.boundary_tets_of(i))
+        if (pieces_.of_tet[t] == view_.keys.part[i]) taken[t] = 2;
+    }
+    for (std::size_t t = 0; t < taken.size(); ++t) {
+      if (taken[t] == 0) continue;
+      tet_place_[t] = static_cast<std::int32_t>(result_.mesh.tets.size());
+      result_.mesh.tets.push_back(view_.mesh.tets[t]);
+      result_.mesh.tet_tags.push_back(taken[t] == 1 ? view_.mesh.tet_tags[t] : result_.seam.guest_region);
+    }
+  }
+
+  // The view's tagged triangles in their order, then those where the piece or the guests end. Of one between two pieces
+  // the lower one keeps the tag.
+  void take_triangles() {
+    std::vector<std::int32_t> new_tags(view_.mesh.triangles.size());
+    std::vector<std::uint8_t> used(view_.mesh.triangles.size());
+    std::vector<Triangle> ends;
+    std::vector<std::int32_t> end_tags;
+    for (std::int32_t t = 0; t < static_cast<std::int32_t>(tet_place_.size()); ++t) {
+      if (tet_place_[t] == none) continue;
+      for (int i = 0; i < 4; ++i) {
+        const std::int32_t beyond = adjacency_.tet_beyond(t, i);
+        const auto& corners = TetTopology::triangles[i];
+        const Tet& tet = view_.mesh.tets[t];
+        const Triangle facet{tet[corners[0]], tet[corners[1]], tet[corners[2]]};
+        const auto tagged = tags_.find(facet);
+        // Of the two tets that a facet may have, the piece's own says what it is.
+        if (!is_here(t) && beyond != none && is_here(beyond)) continue;
+        const std::int32_t tag = tag_of(t, beyond, tagged);
+        if (tagged) {
+          used[*tagged] = 1;
+          new_tags[*tagged] = tag;
+        } else if (tag != inside_) {
+          ends.push_back(facet);
+          end_tags.push_back(tag);
+        }
+      }
+    }
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      if (used[i] == 0) continue;
+      result_.mesh.triangles.push_back(view_.mesh.triangles[i]);
+      result_.mesh.triangle_tags.push_back(new_tags[i]);
+    }
+    std::ranges::copy(ends, std::back_inserter(result_.mesh.triangles));
+    std::ranges::copy(end_tags, std::back_inserter(result_.mesh.triangle_tags));
+  }
+
+  // Of a facet of tet `t`, which the piece or a guest has.
+  std::int32_t tag_of(std::int32_t t, std::int32_t beyond, const std::optional<std::int32_t>& tagged) const {
+    const Seam& seam = result_.seam;
+    const bool ends = beyond != none && pieces_.of_tet[beyond] != view_.part.part;
+    if (!is_here(t)) {
+      const bool between_guests = beyond != none && tet_place_[beyond] != none;
+      return between_guests && !tagged ? inside_ : seam.guest_tag;
+    }
+    if (ends && (!tagged || pieces_.of_tet[beyond] < view_.part.part)) return seam.seam_tag;
+    return tagged ? view_.mesh.triangle_tags[*tagged] : inside_;
+  }
+
+  void take_points() {
+    std::vector<Vertex> place(view_.mesh.points.size(), none);
+    for (const Tet& tet : result_.mesh.tets)
+      for (const Vertex v : tet) place[v] = 0;
+    for (std::size_t v = 0; v < place.size(); ++v) {
+      if (place[v] == none) continue;
+      place[v] = static_cast<Vertex>(result_.mesh.points.size());
+      result_.mesh.points.push_back(view_.mesh.points[v]);
+      result_.point_number.push_back(view_.part.point_number[v]);
+      const bool is_shared =
+          !std::ranges::all_of(adjacency_.tets_at(static_cast<Vertex>(v)), [&](std::int32_t t) { return is_here(t); });
+      result_.seam.is_shared.push_back(is_shared ? 1 : 0);
+    }
+    for (Tet& tet : result_.mesh.tets)
+      for (Vertex& v : tet) v = place[v];
+    for (Triangle& triangle : result_.mesh.triangles)
+      for (Vertex& v : triangle) v = place[v];
+    point_place_ = std::move(place);
+  }
+
+  void take_cell(std::int32_t i) {
+    append_candidate(
+        result_.cells, view_.cells, i, [&](Vertex v) { return point_place_[v]; },
+        [&](std::int32_t t) { return tet_place_[t]; },
+        [&](std::int32_t t) { return pieces_.of_tet[t] == view_.keys.part[i] ? tet_place_[t] : none; });
+    result_.seam.is_guest.push_back(view_.keys.part[i] != view_.part.part ? 1 : 0);
+  }
+
+  // No triangle.
+  const std::int32_t inside_ = std::numeric_limits<std::int32_t>::min();
+
+  const PartView& view_;
+  const TetAdjacency& adjacency_;
+  const SurfaceTags& tags_;
+  const Pieces& pieces_;
+  PieceInput result_;
+  std::vector<std::int32_t> tet_place_;
+  std::vector<Vertex> point_place_;
+};
+
+}  // namespace
+
+PieceInput cut_piece(const PartView& view, const TetAdjacency& adjacency, const SurfaceTags& tags, const Pieces& pieces,
+                     const SeamCells& cells) {
+  return Cutter(view, adjacency, tags, pieces).cut(cells);
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,53 @@
+#pragma once
+// How far the tagged facets of a result lie from the input's surface, and that from them.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/mesh/mixed_mesh.hpp"
+#include "common/mesh/vertex_items.hpp"
+#include "tools/assemble/shape/input_surface.hpp"
+
+namespace hexpipe {
+
+class BoundaryDeviation {
+ public:
+  // `origin`: the input's vertex that each of the mesh's is, as in Extract. Vertices on tagged facets all are vertices
+  // of the input; positions are read anew by each call. All arguments must outlive this.
+  BoundaryDeviation(const MixedMesh& mesh, const InputSurface& surface, std::span<const Vec3> input_points,
+                    std::span<const Vertex> origin);
+
+  bool has_moved(Vertex v) const { return mesh_.points[v] != input_points_[origin_[v]]; }
+
+  // The greatest distance between the two surfaces around v: from the middles of the facets and edges at v to the
+  // input's surface, and from where the corners of these facets were to the facets around them. Only as exact as it
+  // takes to tell it from `enough`, and the first that is greater than `most` is returned.
+  double around(Vertex v, double enough, double most) const;
+
+  struct Summary {
+    std::int64_t moved = 0;  // vertices on tagged facets
+    double greatest = 0;     // of all distances as in around(), exactly
+  };
+  Summary summary() const;
+
+  // A vertex that is further than `tolerance` from the input's surface.
+  std::optional<Vertex> vertex_off_surface(double tolerance) const;
+
+ private:
+  // As corners of the facet; a triangle repeats its last.
+  Quad facet(std::int32_t f) const;
+  double from_facet(std::int32_t f, double enough) const;
+  double from_input_vertex(Vertex v, double enough) const;
+  double to_facets_at(Vertex v, const Vec3& from) const;
+
+  const MixedMesh& mesh_;
+  const InputSurface& surface_;
+  std::span<const Vec3> input_points_;
+  std::span<const Vertex> origin_;
+  // Triangles, then quads, at each vertex.
+  VertexItems facets_;
+};
+
+}  // namespace hexpipe

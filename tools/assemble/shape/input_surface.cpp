@@ -1,0 +1,245 @@
+#include "tools/assemble/shape/input_surface.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "common/mesh/facet_key.hpp"
+#include "tools/assemble/shape/wall_thickness.hpp"
+
+namespace hexpipe {
+namespace {
+
+// 40 degrees, as in tetmesh: cylinders of nine sides and more count as smooth, and a curve may turn by as much.
+const double cos_feature_angle = std::cos(std::numbers::pi * 40 / 180);
+// A vertex slides a few edges far at most; walks that do not end by then are at something odd, and a point that is too
+// far away is as safe as the nearest.
+constexpr int longest_walk = 30;
+
+Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& to) {
+  const Vec3 along = b - a;
+  const double length = norm_squared(along);
+  return length > 0 ? a + along * std::clamp(dot(to - a, along) / length, 0.0, 1.0) : a;
+}
+
+// The part of ab's far side: from edge ab to c, at right angles to the edge.
+Vec3 away_from_edge(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 along = unit(b - a);
+  return unit((c - a) - along * dot(c - a, along));
+}
+
+Vertex third_of(const Triangle& t, Vertex a, Vertex b) {
+  for (Vertex v : t)
+    if (v != a && v != b) return v;
+  return t[0];
+}
+
+}  // namespace
+
+// C. Ericson, "Real-Time Collision Detection" (2005), section 5.1.5, by regions: an edge or a corner where the foot of
+// the perpendicular falls outside.
+Vec3 nearest_on_triangle(const std::array<Vec3, 3>& triangle, const Vec3& to) {
+  const auto& [a, b, c] = triangle;
+  const Vec3 normal = cross(b - a, c - a);
+  const double length = norm_squared(normal);
+  auto is_inside = [&](const Vec3& p, const Vec3& q) { return dot(cross(q - p, to - p), normal) >= 0; };
+  if (length > 0 && is_inside(a, b) && is_inside(b, c) && is_inside(c, a))
+    return to - normal * (dot(to - a, normal) / length);
+  Vec3 best = nearest_on_segment(a, b, to);
+  for (const Vec3& other : {nearest_on_segment(b, c, to), nearest_on_segment(c, a, to)})
+    if (norm_squared(other - to) < norm_squared(best - to)) best = other;
+  return best;
+}
+
+InputSurface::InputSurface(const TetMesh& mesh, const TetAdjacency& adjacency) : mesh_(mesh) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Vec3 low{infinity, infinity, infinity}, high = -low;
+  for (const Vec3& p : mesh.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  if (!mesh.points.empty()) diagonal_ = norm(high - low);
+  triangles_ = triangles_at_vertices(mesh.points.size(), mesh.triangles);
+  find_features();
+  places_.resize(mesh.points.size());
+  for (std::size_t v = 0; v < places_.size(); ++v) places_[v] = place_of(static_cast<Vertex>(v));
+  find_lengths(adjacency);
+}
+
+void InputSurface::find_features() {
+  struct Sides {
+    std::array<std::int32_t, 2> triangles{};
+    int count = 0;
+  };
+  KeyMap<2, Sides> edges;
+  edges.reserve(2 * mesh_.triangles.size());
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      Sides& sides = edges[edge_key(mesh_.triangles[t][i], mesh_.triangles[t][(i + 1) % 3])];
+      if (sides.count < 2) sides.triangles[sides.count] = static_cast<std::int32_t>(t);
+      ++sides.count;
+    }
+  std::vector<std::int32_t> parent(mesh_.triangles.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  auto root = [&](std::int32_t t) {
+    while (parent[t] != t) t = parent[t] = parent[parent[t]];
+    return t;
+  };
+  std::vector<VertexKey<2>> features;
+  for (const auto& [edge, sides] : edges) {
+    const auto [first, second] = sides.triangles;
+    const auto& p = mesh_.points;
+    const bool smooth =
+        sides.count == 2 && mesh_.triangle_tags[first] == mesh_.triangle_tags[second] &&
+        dot(away_from_edge(p[edge[0]], p[edge[1]], p[third_of(mesh_.triangles[first], edge[0], edge[1])]),
+            away_from_edge(p[edge[0]], p[edge[1]], p[third_of(mesh_.triangles[second], edge[0], edge[1])])) <
+            -cos_feature_angle;
+    if (smooth)
+      parent[root(first)] = root(second);
+    else
+      features.push_back(edge);
+  }
+  part_.resize(parent.size());
+  for (std::size_t t = 0; t < part_.size(); ++t) part_[t] = root(static_cast<std::int32_t>(t));
+
+  std::sort(features.begin(), features.end());
+  feature_offsets_.assign(mesh_.points.size() + 1, 0);
+  for (const auto& edge : features) ++feature_offsets_[edge[0] + 1], ++feature_offsets_[edge[1] + 1];
+  std::partial_sum(feature_offsets_.begin(), feature_offsets_.end(), feature_offsets_.begin());
+  feature_ends_.resize(2 * features.size());
+  std::vector<std::int64_t> fill(feature_offsets_.begin(), feature_offsets_.end() - 1);
+  for (const auto& edge : features) {
+    feature_ends_[fill[edge[0]]++] = edge[1];
+    feature_ends_[fill[edge[1]]++] = edge[0];
+  }
+}
+
+void InputSurface::find_lengths(const TetAdjacency& adjacency) {
+  lengths_.resize(mesh_.points.size());
+  for (std::size_t v = 0; v < lengths_.size(); ++v) lengths_[v] = edge_length(static_cast<Vertex>(v));
+  std::vector<double> reach;
+  reach.reserve(mesh_.triangles.size());
+  for (const auto& [a, b, c] : mesh_.triangles) reach.push_back(std::max({lengths_[a], lengths_[b], lengths_[c]}));
+  const auto thickness = wall_thickness(mesh_, adjacency, reach);
+  for (std::size_t t = 0; t < thickness.size(); ++t)
+    for (const Vertex v : mesh_.triangles[t]) lengths_[v] = std::min(lengths_[v], thickness[t]);
+}
+
+// Whether the triangles at v that join by edges are all of them.
+bool InputSurface::is_one_fan(Vertex v) const {
+  const auto all = triangles_at(v);
+  std::vector<std::int32_t> reached{all[0]};
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    for (std::int32_t other : all) {
+      int shared = 0;
+      for (Vertex a : mesh_.triangles[other])
+        for (Vertex b : mesh_.triangles[reached[i]]) shared += a == b;
+      if (shared == 2 && std::find(reached.begin(), reached.end(), other) == reached.end()) reached.push_back(other);
+    }
+  return reached.size() == all.size();
+}
+
+InputSurface::Place InputSurface::place_of(Vertex v) const {
+  if (triangles_at(v).empty()) return Place::inside;
+  const std::int64_t first = feature_offsets_[v], count = feature_offsets_[v + 1] - first;
+  if (!is_one_fan(v)) return Place::corner;
+  if (count == 0) return Place::face;
+  if (count != 2) return Place::corner;
+  const Vec3 o = mesh_.points[v];
+  const Vec3 one = unit(mesh_.points[feature_ends_[first]] - o), two = unit(mesh_.points[feature_ends_[first + 1]] - o);
+  return dot(one, two) < -cos_feature_angle ? Place::curve : Place::corner;
+}
+
+InputSurface::Nearest InputSurface::descend(Vertex v, const Vec3& to, bool within_part, double enough) const {
+  const std::int32_t start = triangles_at(v)[0];
+  Nearest best{start, {}, std::numeric_limits<double>::infinity()};
+  // True when a triangle at `w` is nearer.
+  auto look_at = [&](Vertex w) {
+    bool nearer = false;
+    for (std::int32_t t : triangles_at(w)) {
+      if (within_part && part_[t] != part_[start]) continue;
+      const auto& [a, b, c] = mesh_.triangles[t];
+      const Vec3 at = nearest_on_triangle({mesh_.points[a], mesh_.points[b], mesh_.points[c]}, to);
+      const double distance = norm_squared(at - to);
+      if (distance >= best.distance_squared) continue;
+      best = {t, at, distance};
+      nearer = true;
+    }
+    return nearer;
+  };
+  look_at(v);
+  bool nearer = true;
+  const double near_enough = enough * enough;
+  for (int step = 0; nearer && best.distance_squared > near_enough && step < longest_walk; ++step) {
+    nearer = false;
+    const Triangle around = mesh_.triangles[best.triangle];
+    for (Vertex w : around) nearer = look_at(w) || nearer;
+  }
+  return best;
+}
+
+InputSurface::Foot InputSurface::foot_on_curve(Vertex v, const Vec3& to) const {
+  Foot best{mesh_.points[v], {}};
+  double least = std::numeric_limits<double>::infinity();
+  for (int way = 0; way < 2; ++way) {
+    Vertex from = v, next = feature_ends_[feature_offsets_[v] + way];
+    for (int step = 0; step < longest_walk; ++step) {
+      const Vec3 at = nearest_on_segment(mesh_.points[from], mesh_.points[next], to);
+      const double distance = norm_squared(at - to);
+      if (distance < least) {
+        least = distance;
+        best = {at, unit(mesh_.points[next] - mesh_.points[from])};
+      }
+      // On to the next edge only where this one ends too soon.
+      if (at != mesh_.points[next] || places_[next] != Place::curve) break;
+      const auto ends = std::span(feature_ends_).subspan(feature_offsets_[next], 2);
+      const Vertex beyond = ends[0] == from ? ends[1] : ends[0];
+      from = std::exchange(next, beyond);
+    }
+  }
+  return best;
+}
+
+InputSurface::Foot InputSurface::foot(Vertex v, const Vec3& to) const {
+  if (places_[v] == Place::curve) return foot_on_curve(v, to);
+  if (places_[v] != Place::face) return {mesh_.points[v], {}};
+  const Nearest nearest = descend(v, to, true, 0);
+  const auto& [a, b, c] = mesh_.triangles[nearest.triangle];
+  const auto& p = mesh_.points;
+  return {nearest.at, unit(cross(p[b] - p[a], p[c] - p[a]))};
+}
+
+double InputSurface::distance(Vertex v, const Vec3& to, double enough) const {
+  if (triangles_at(v).empty()) return distance(to);  // of a boundary that has come to where it was not
+  return std::sqrt(descend(v, to, false, enough).distance_squared);
+}
+
+double InputSurface::distance(const Vec3& to) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [a, b, c] : mesh_.triangles) {
+    const Vec3 at = nearest_on_triangle({mesh_.points[a], mesh_.points[b], mesh_.points[c]}, to);
+    least = std::min(least, norm_squared(at - to));
+  }
+  return std::sqrt(least);
+}
+
+// The mean, of the triangles at v.
+double InputSurface::edge_length(Vertex v) const {
+  double sum = 0;
+  for (std::int32_t t : triangles_at(v))
+    for (int i = 0; i < 3; ++i)
+      sum += norm(mesh_.points[mesh_.triangles[t][i]] - mesh_.points[mesh_.triangles[t][(i + 1) % 3]]);
+  return sum / static_cast<double>(std::max<std::size_t>(1, 3 * triangles_at(v).size()));
+}
+
+bool InputSurface::has_triangle(const Triangle& triangle) const {
+  const auto key = key_of(triangle);
+  return std::ranges::any_of(triangles_at(triangle[0]),
+                             [&](std::int32_t t) { return key_of(mesh_.triangles[t]) == key; });
+}
+
+}  // namespace hexpipe

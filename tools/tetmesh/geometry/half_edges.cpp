@@ -1,0 +1,41 @@
+#include "tools/tetmesh/geometry/half_edges.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace hexpipe {
+
+void for_each_edge(std::size_t vertex_count, std::span<const Triangle> triangles,
+                   const std::function<void(std::span<const HalfEdge>)>& visit) {
+  // A counting sort by the lower vertex leaves a handful of half-edges to sort by the higher one.
+  const auto half_edge_count = static_cast<HalfEdge>(3 * triangles.size());
+  auto ends = [&](HalfEdge h) { return std::minmax({start_of(triangles, h), end_of(triangles, h)}); };
+  std::vector<HalfEdge> offsets(vertex_count + 1);
+  for (HalfEdge h = 0; h < half_edge_count; ++h) ++offsets[ends(h).first + 1];
+  for (std::size_t v = 0; v < vertex_count; ++v) offsets[v + 1] += offsets[v];
+  std::vector<HalfEdge> sorted(half_edge_count), next = offsets;
+  for (HalfEdge h = 0; h < half_edge_count; ++h) sorted[next[ends(h).first]++] = h;
+
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    const auto at_vertex = std::span(sorted).subspan(offsets[v], offsets[v + 1] - offsets[v]);
+    std::ranges::sort(at_vertex, {}, [&](HalfEdge h) { return std::pair(ends(h).second, h); });
+    for (std::size_t begin = 0; begin < at_vertex.size();) {
+      std::size_t end = begin + 1;
+      while (end < at_vertex.size() && ends(at_vertex[end]).second == ends(at_vertex[begin]).second) ++end;
+      visit(at_vertex.subspan(begin, end - begin));
+      begin = end;
+    }
+  }
+}
+
+std::vector<HalfEdge> find_twins(std::size_t vertex_count, std::span<const Triangle> triangles) {
+  std::vector<HalfEdge> twins(3 * triangles.size());
+  for_each_edge(vertex_count, triangles, [&](std::span<const HalfEdge> edge) {
+    assert(edge.size() == 2);
+    twins[edge[0]] = edge[1];
+    twins[edge[1]] = edge[0];
+  });
+  return twins;
+}
+
+}  // namespace hexpipe

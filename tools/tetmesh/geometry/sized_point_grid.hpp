@@ -1,0 +1,101 @@
+#pragma once
+// Points that come one by one, each with the length that holds at its place, and those of them near a place.
+//
+// A grid for every octave of lengths, with cells as wide: where lengths differ a hundredfold, neither the small ones
+// fill the cells nor the large ones many cells.
+
+#include <tsl/robin_map.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "common/mesh/vec3.hpp"
+#include "tools/tetmesh/geometry/box_tree.hpp"
+#include "tools/tetmesh/geometry/cell_key.hpp"
+
+namespace hexpipe {
+
+class SizedPointGrid {
+ public:
+  // No point may be further than 10^6 of its lengths from the origin along an axis.
+  explicit SizedPointGrid(const Vec3& origin) : origin_(origin) {}
+  // For points in a box, of any lengths.
+  explicit SizedPointGrid(const Box& box)
+      : origin_(box.low), least_width_((box.high - box.low)[box.longest_axis()] / most_cells) {}
+
+  // Returns the number of the point, from 0.
+  std::int32_t add(const Vec3& p, double length) {
+    const auto number = static_cast<std::int32_t>(points_.size());
+    points_.push_back(p);
+    Octave& octave = octave_of(length);
+    const auto [head, is_new] = octave.heads.try_emplace(cell_key(cell_of(p, octave.width)), number);
+    next_.push_back(is_new ? none : head->second);
+    if (!is_new) head.value() = number;
+    return number;
+  }
+
+  // In the order in which they were added.
+  const std::vector<Vec3>& points() const { return points_; }
+
+  // Calls visit(number) for the points within `reach` of p along every axis, and some more, until it returns false.
+  // Points of which the length is below `least` may be left out.
+  template <class Visit>
+  void for_each_near(const Vec3& p, const Vec3& reach, double least, Visit&& visit) const {
+    for (const Octave& octave : octaves_)
+      if (2 * octave.width >= least && !visit_octave(octave, p, reach, visit)) return;
+  }
+  template <class Visit>
+  void for_each_near(const Vec3& p, double reach, double least, Visit&& visit) const {
+    for_each_near(p, Vec3{reach, reach, reach}, least, visit);
+  }
+
+ private:
+  static constexpr std::int32_t none = -1;
+  static constexpr double most_cells = 1e6;  // along an axis
+
+  struct Octave {
+    double width;
+    tsl::robin_map<std::uint64_t, std::int32_t, CellKeyHash> heads = {};
+  };
+
+  // Widths are powers of two times the first length that came.
+  Octave& octave_of(double length) {
+    length = std::max(length, least_width_);
+    if (octaves_.empty()) first_ = length;
+    const double width = first_ * std::exp2(std::floor(std::log2(length / first_) + 1e-6));
+    const auto found = std::ranges::find(octaves_, width, &Octave::width);
+    return found != octaves_.end() ? *found : octaves_.emplace_back(Octave{width});
+  }
+
+  GridCell cell_of(const Vec3& p, double width) const {
+    const auto index = [&](int axis) {
+      return static_cast<std::int64_t>(std::floor((p[axis] - origin_[axis]) / width));
+    };
+    return {index(0), index(1), index(2)};
+  }
+
+  template <class Visit>
+  bool visit_octave(const Octave& octave, const Vec3& p, const Vec3& reach, Visit&& visit) const {
+    const GridCell low = cell_of(p - reach, octave.width), high = cell_of(p + reach, octave.width);
+    GridCell cell;
+    for (cell[2] = low[2]; cell[2] <= high[2]; ++cell[2])
+      for (cell[1] = low[1]; cell[1] <= high[1]; ++cell[1])
+        for (cell[0] = low[0]; cell[0] <= high[0]; ++cell[0]) {
+          const auto head = octave.heads.find(cell_key(cell));
+          if (head == octave.heads.end()) continue;
+          for (std::int32_t i = head->second; i != none; i = next_[i])
+            if (!visit(i)) return false;
+        }
+    return true;
+  }
+
+  Vec3 origin_;
+  double least_width_ = 0, first_ = 0;
+  std::vector<Octave> octaves_;
+  std::vector<Vec3> points_;
+  std::vector<std::int32_t> next_;  // in the same cell
+};
+
+}  // namespace hexpipe

@@ -1,0 +1,106 @@
+#pragma once
+// Boxes of a triangle for a grid or a tree.
+//
+// The box of a long narrow triangle that does not lie along the axes is so much larger than the triangle that those of
+// all its neighbours overlap; cut across its longest side, it has boxes that lie along it.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "common/mesh/tet_mesh.hpp"
+#include "tools/tetmesh/geometry/box_tree.hpp"
+
+namespace hexpipe {
+
+class TrianglePieces {
+ public:
+  // Pieces that are about as long as `length`, which may be 0; one where the triangle's box is hardly larger than it.
+  TrianglePieces(const Vec3& a, const Vec3& b, const Vec3& c, double length)
+      : box_(Box::around(std::array{a, b, c})), a_(a), b_(b), c_(c) {
+    const Vec3 extent = box_.high - box_.low;
+    const double sides = extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
+    if (sides <= most_sides * norm(cross(b - a, c - a))) return;
+    turn_longest_side_first();
+    const double count = norm(b_ - a_) / length;
+    if (count >= least_count) count_ = static_cast<int>(std::min(count, static_cast<double>(most_count)));
+  }
+
+  int count() const { return count_; }
+  // The box of the whole triangle.
+  const Box& box() const { return box_; }
+
+  // Calls visit(box) for boxes that cover the triangle, with room for rounding, and lie in its own.
+  template <class Visit>
+  void for_each_box(Visit&& visit) const {
+    if (count_ == 1) return visit(box_);
+    const Vec3 along = b_ - a_;
+    const double apex = std::clamp(dot(c_ - a_, along) / norm_squared(along), 0.0, 1.0);
+    std::array before{a_, a_};
+    for (int piece = 1; piece <= count_; ++piece) {
+      const double from = static_cast<double>(piece - 1) / count_, to = static_cast<double>(piece) / count_;
+      const std::array after{a_ + to * along, beyond(to, apex)};
+      Box box = Box::around(std::array{before[0], before[1], after[0], after[1]});
+      if (from <= apex && apex <= to) box.add({c_, c_});
+      visit(within(box));
+      before = after;
+    }
+  }
+
+  // Calls visit(cell) once for each cell of a grid that the pieces may reach, in order where there are several;
+  // cells_in(box, take) calls take(cell) for those that a box reaches.
+  template <class CellsIn, class Visit>
+  void for_each_cell(CellsIn&& cells_in, Visit&& visit) const {
+    if (count_ == 1) return cells_in(box_, std::forward<Visit>(visit));
+    std::vector<std::int64_t> cells;
+    for_each_box([&](const Box& box) { cells_in(box, [&](std::int64_t cell) { cells.push_back(cell); }); });
+    std::ranges::sort(cells);
+    cells.erase(std::ranges::unique(cells).begin(), cells.end());
+    for (const std::int64_t cell : cells) visit(cell);
+  }
+
+ private:
+  // Of the box's half surface and twice the triangle's area: at most 1.5 along the axes, and about 2 for most others.
+  static constexpr double most_sides = 8;
+  // Fewer pieces gain nothing; more only make up for slivers that are alone in being so thin.
+  static constexpr int least_count = 3, most_count = 1024;
+
+  void turn_longest_side_first() {
+    const double ab = norm_squared(b_ - a_), bc = norm_squared(c_ - b_), ca = norm_squared(a_ - c_);
+    if (ab >= bc && ab >= ca) return;
+    if (bc >= ca)
+      std::tie(a_, b_, c_) = std::tuple(b_, c_, a_);
+    else
+      std::tie(a_, b_, c_) = std::tuple(c_, a_, b_);
+  }
+  // On the two shorter sides, where they are that far along the longest one.
+  Vec3 beyond(double at, double apex) const {
+    return at < apex ? a_ + (at / apex) * (c_ - a_) : c_ + ((at - apex) / std::max(1 - apex, least)) * (b_ - c_);
+  }
+  // Corners of pieces are rounded, by less than this.
+  Box within(const Box& piece) const {
+    double greatest = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      greatest = std::max({greatest, std::abs(box_.low[axis]), std::abs(box_.high[axis])});
+    const double room = 16 * std::numeric_limits<double>::epsilon() * greatest;
+    const auto low = [&](int axis) { return std::max(piece.low[axis] - room, box_.low[axis]); };
+    const auto high = [&](int axis) { return std::min(piece.high[axis] + room, box_.high[axis]); };
+    return {{low(0), low(1), low(2)}, {high(0), high(1), high(2)}};
+  }
+
+  static constexpr double least = std::numeric_limits<double>::min();
+  Box box_;
+  Vec3 a_, b_, c_;  // once cut, the longest side is the one from a to b
+  int count_ = 1;
+};
+
+// For trees and the like, where each piece costs memory: the side of a square of twice the mean area, but so long that
+// there are at most 64 pieces for each triangle in the mean.
+double length_of_pieces(std::span<const Vec3> points, std::span<const Triangle> triangles);
+
+}  // namespace hexpipe

@@ -1,0 +1,359 @@
+#include "tools/tetmesh/solid/repair.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "common/run/error.hpp"
+#include "tools/tetmesh/geometry/column_index.hpp"
+#include "tools/tetmesh/geometry/exact_geometry.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
+#include "tools/tetmesh/geometry/sized_point_grid.hpp"
+#include "tools/tetmesh/solid/hole_filling.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr HalfEdge none = -1;
+
+class Repairer {
+ public:
+  Repairer(SurfaceSoup& soup, const RepairOptions& options) : soup_(soup), options_(options) {}
+
+  RepairReport repair() {
+    weld();
+    remove_degenerate();
+    remove_duplicates();
+    orient();
+    fill_holes();
+    turn_outward();
+    drop_unused_points();
+    if (count() == 0) throw DataError::at(soup_.name, "expected a surface, found only triangles without area");
+    return report_;
+  }
+
+ private:
+  std::size_t count() const { return soup_.triangles.size(); }
+  void keep_only(const std::vector<bool>& kept);
+  void weld();
+  void remove_degenerate();
+  void remove_collapsed();
+  bool cut_flat_triangles();
+  void cut_neighbour(HalfEdge longest, std::vector<bool>& touched);
+  HalfEdge longest_side(std::int32_t triangle) const;
+  void remove_duplicates();
+  void find_twins_and_borders();
+  void spread(std::int32_t start, std::vector<std::int8_t>& sides, std::vector<std::int32_t>& piece) const;
+  void turn(std::int32_t triangle) { std::swap(soup_.triangles[triangle][1], soup_.triangles[triangle][2]); }
+  void orient();
+  void fill_holes();
+  void fill(const std::vector<HalfEdge>& border);
+  void turn_outward();
+  void drop_unused_points();
+
+  SurfaceSoup& soup_;
+  const RepairOptions& options_;
+  RepairReport report_;
+  std::vector<HalfEdge> twins_;  // of edges with two triangles; none else
+  std::vector<HalfEdge> borders_;
+};
+
+void Repairer::keep_only(const std::vector<bool>& kept) {
+  std::size_t next = 0;
+  for (std::size_t t = 0; t < count(); ++t) {
+    if (!kept[t]) continue;
+    soup_.triangles[next] = soup_.triangles[t];
+    soup_.tags[next] = soup_.tags[t];
+    soup_.places[next++] = soup_.places[t];
+  }
+  soup_.triangles.resize(next);
+  soup_.tags.resize(next);
+  soup_.places.resize(next);
+}
+
+// A point moves to the first one before it that is near and was kept.
+void Repairer::weld() {
+  if (options_.tolerance <= 0 || soup_.points.empty()) return;
+  SizedPointGrid kept(Box::around(soup_.points));
+  std::vector<Vertex> new_index;
+  new_index.reserve(soup_.points.size());
+  for (const Vec3& p : soup_.points) {
+    Vertex nearest = std::numeric_limits<Vertex>::max();
+    kept.for_each_near(p, options_.tolerance, 0, [&](std::int32_t i) {
+      if (norm_squared(kept.points()[i] - p) <= options_.tolerance * options_.tolerance) nearest = std::min(nearest, i);
+      return true;
+    });
+    if (nearest == std::numeric_limits<Vertex>::max()) {
+      nearest = static_cast<Vertex>(kept.points().size());
+      kept.add(p, options_.tolerance);
+    }
+    new_index.push_back(nearest);
+  }
+  report_.welded_points = soup_.points.size() - kept.points().size();
+  soup_.points = kept.points();
+  for (Triangle& t : soup_.triangles)
+    for (Vertex& v : t) v = new_index[v];
+  for (CurveEdge& edge : soup_.curves)
+    for (Vertex& v : edge) v = new_index[v];
+}
+
+void Repairer::remove_degenerate() {
+  // Cutting may leave flat triangles again; beyond that many rounds, check_surface names what is left.
+  constexpr int most_rounds = 20;
+  remove_collapsed();
+  for (int round = 0; round < most_rounds && cut_flat_triangles(); ++round) remove_collapsed();
+}
+
+void Repairer::remove_collapsed() {
+  std::vector<bool> kept(count());
+  for (std::size_t t = 0; t < count(); ++t) {
+    const auto [a, b, c] = soup_.triangles[t];
+    kept[t] = a != b && b != c && c != a;
+    report_.degenerate_triangles += !kept[t];
+  }
+  keep_only(kept);
+}
+
+// Triangles of three corners on a line: the one across the longest side takes the corner in the middle. One round, in
+// which each triangle changes once.
+bool Repairer::cut_flat_triangles() {
+  find_twins_and_borders();
+  const auto old_count = static_cast<std::int32_t>(count());
+  std::vector<bool> touched(count()), kept(count(), true);
+  for (std::int32_t t = 0; t < old_count; ++t) {
+    const auto [a, b, c] = soup_.triangles[t];
+    if (touched[t] || !are_collinear(soup_.points[a], soup_.points[b], soup_.points[c])) continue;
+    const HalfEdge longest = longest_side(t), twin = twins_[longest];
+    if (twin != none && touched[triangle_of(twin)]) continue;
+    kept[t] = false;
+    touched[t] = true;
+    ++report_.degenerate_triangles;
+    if (twin != none) cut_neighbour(longest, touched);
+  }
+  const bool removed = std::ranges::find(kept, false) != kept.end();
+  kept.resize(count(), true);
+  keep_only(kept);
+  return removed;
+}
+
+HalfEdge Repairer::longest_side(std::int32_t triangle) const {
+  const auto squared = [&](HalfEdge h) {
+    return norm_squared(soup_.points[end_of(soup_.triangles, h)] - soup_.points[start_of(soup_.triangles, h)]);
+  };
+  const auto is_shorter = [&](HalfEdge a, HalfEdge b) { return squared(a) < squared(b); };
+  return std::max({3 * triangle, 3 * triangle + 1, 3 * triangle + 2}, is_shorter);
+}
+
+void Repairer::cut_neighbour(HalfEdge longest, std::vector<bool>& touched) {
+  const HalfEdge twin = twins_[longest];
+  const std::int32_t neighbour = triangle_of(twin);
+  const Vertex middle = start_of(soup_.triangles, previous_in_triangle(longest));
+  Triangle other = soup_.triangles[neighbour];
+  other[twin % 3] = middle;
+  soup_.triangles[neighbour][next_in_triangle(twin) % 3] = middle;
+  soup_.triangles.push_back(other);
+  soup_.tags.push_back(soup_.tags[neighbour]);
+  soup_.places.push_back(soup_.places[neighbour]);
+  touched[neighbour] = true;
+}
+
+void Repairer::remove_duplicates() {
+  const auto key = [&](std::int32_t t) {
+    Triangle corners = soup_.triangles[t];
+    std::ranges::sort(corners);
+    return std::pair(corners, t);
+  };
+  std::vector<std::int32_t> order(count());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, key);
+  std::vector<bool> kept(count(), true);
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (key(order[i]).first == key(order[i - 1]).first) kept[order[i]] = false;
+  report_.duplicate_triangles = static_cast<std::size_t>(std::ranges::count(kept, false));
+  keep_only(kept);
+}
+
+void Repairer::find_twins_and_borders() {
+  twins_.assign(3 * count(), none);
+  borders_.clear();
+  for_each_edge(soup_.points.size(), soup_.triangles, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() == 1) borders_.push_back(edge[0]);
+    if (edge.size() != 2) return;
+    twins_[edge[0]] = edge[1];
+    twins_[edge[1]] = edge[0];
+  });
+}
+
+// From one triangle over the edges of two: 1 shows the same side as the first, -1 the other.
+void Repairer::spread(std::int32_t start, std::vector<std::int8_t>& sides, std::vector<std::int32_t>& piece) const {
+  piece.assign(1, start);
+  sides[start] = 1;
+  for (std::size_t i = 0; i < piece.size(); ++i)
+    for (HalfEdge h = 3 * piece[i]; h < 3 * piece[i] + 3; ++h) {
+      if (twins_[h] == none || sides[triangle_of(twins_[h])] != 0) continue;
+      const bool agree = start_of(soup_.triangles, h) == end_of(soup_.triangles, twins_[h]);
+      const std::int8_t side = sides[piece[i]];
+      sides[triangle_of(twins_[h])] = static_cast<std::int8_t>(agree ? side : -side);
+      piece.push_back(triangle_of(twins_[h]));
+    }
+}
+
+void Repairer::orient() {
+  find_twins_and_borders();
+  std::vector<std::int8_t> sides(count());
+  std::vector<std::int32_t> piece;
+  for (std::size_t start = 0; start < count(); ++start) {
+    if (sides[start] != 0) continue;
+    spread(static_cast<std::int32_t>(start), sides, piece);
+    const auto wrong = [&](std::int32_t t) { return sides[t] < 0; };
+    const bool most_are = 2 * static_cast<std::size_t>(std::ranges::count_if(piece, wrong)) > piece.size();
+    for (const std::int32_t t : piece) {
+      if (wrong(t) == most_are) continue;
+      turn(t);
+      ++report_.turned_triangles;
+    }
+  }
+}
+
+// Walks the borders, each from its end to its start, and on along one that ends there. Where the walk comes back to a
+// vertex, it has been around a hole: holes may touch in a vertex, and are filled one by one.
+void Repairer::fill_holes() {
+  find_twins_and_borders();
+  if (borders_.empty()) return;
+  constexpr std::ptrdiff_t nowhere = -1;
+  std::vector<std::vector<HalfEdge>> ending_at(soup_.points.size());
+  for (const HalfEdge h : borders_) ending_at[end_of(soup_.triangles, h)].push_back(h);
+  std::vector<std::ptrdiff_t> place_on_walk(soup_.points.size(), nowhere);  // of what ends at each vertex
+  std::vector<HalfEdge> walk;
+  const auto cut_off = [&](std::ptrdiff_t length) {
+    for (auto h = walk.begin() + length; h != walk.end(); ++h) place_on_walk[end_of(soup_.triangles, *h)] = nowhere;
+    walk.resize(static_cast<std::size_t>(length));
+  };
+  // Those of the triangles that were there: what fills holes brings no borders.
+  const std::vector<HalfEdge> borders = borders_;
+  for (const HalfEdge first : borders) {
+    for (Vertex at = end_of(soup_.triangles, first); !ending_at[at].empty();) {
+      const HalfEdge h = ending_at[at].back();
+      ending_at[at].pop_back();
+      place_on_walk[at] = std::ssize(walk);
+      walk.push_back(h);
+      at = start_of(soup_.triangles, h);
+      const std::ptrdiff_t begin = place_on_walk[at];
+      if (begin == nowhere) continue;
+      const std::vector<HalfEdge> loop(walk.begin() + begin, walk.end());
+      cut_off(begin);
+      if (loop.size() >= 3 && loop.size() <= options_.largest_hole) fill(loop);
+    }
+    cut_off(0);
+  }
+}
+
+void Repairer::fill(const std::vector<HalfEdge>& border) {
+  std::vector<Vertex> corners;
+  corners.reserve(border.size());
+  for (const HalfEdge h : border) corners.push_back(end_of(soup_.triangles, h));
+  const std::int32_t beside = triangle_of(border.front());
+  const std::vector<Triangle> triangles = triangulate_polygon(soup_.points, corners);
+  for (const Triangle& t : triangles) {
+    soup_.triangles.push_back(t);
+    soup_.tags.push_back(soup_.tags[beside]);
+    soup_.places.push_back(soup_.places[beside]);
+  }
+  ++report_.filled_holes;
+  report_.hole_triangles += triangles.size();
+}
+
+// Only pieces that lie in none: one inside another may be a hole by intention.
+void Repairer::turn_outward() {
+  find_twins_and_borders();
+  if (!borders_.empty()) return;
+  std::vector<std::int8_t> sides(count());
+  std::vector<std::vector<std::int32_t>> pieces;
+  std::vector<std::int32_t> piece_of(count());
+  for (std::size_t start = 0; start < count(); ++start) {
+    if (sides[start] != 0) continue;
+    spread(static_cast<std::int32_t>(start), sides, pieces.emplace_back());
+    for (const std::int32_t t : pieces.back()) piece_of[t] = static_cast<std::int32_t>(pieces.size()) - 1;
+  }
+  const ColumnIndex columns(soup_.points, soup_.triangles);
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const Vec3& origin = soup_.points[soup_.triangles[pieces[p].front()][0]];
+    double volume = 0;
+    for (const std::int32_t t : pieces[p]) {
+      const auto [a, b, c] = soup_.triangles[t];
+      volume += det(soup_.points[a] - origin, soup_.points[b] - origin, soup_.points[c] - origin);
+    }
+    int crossings = 0;
+    columns.for_each_crossing(origin,
+                              [&](std::int32_t t) { crossings += piece_of[t] != static_cast<std::int32_t>(p); });
+    if (volume >= 0 || crossings % 2 == 1) continue;
+    for (const std::int32_t t : pieces[p]) turn(t);
+    report_.turned_triangles += pieces[p].size();
+  }
+}
+
+void Repairer::drop_unused_points() {
+  constexpr Vertex unused = -1;
+  std::vector<Vertex> new_index(soup_.points.size(), unused);
+  std::vector<Vec3> points;
+  for (Triangle& t : soup_.triangles)
+    for (Vertex& v : t) {
+      if (new_index[v] == unused) {
+        new_index[v] = static_cast<Vertex>(points.size());
+        points.push_back(soup_.points[v]);
+      }
+      v = new_index[v];
+    }
+  soup_.points = std::move(points);
+  // A curve whose edge went with its triangles is no more.
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < soup_.curves.size(); ++i) {
+    const CurveEdge edge{new_index[soup_.curves[i][0]], new_index[soup_.curves[i][1]]};
+    if (edge[0] == unused || edge[1] == unused || edge[0] == edge[1]) continue;
+    soup_.curves[kept] = edge;
+    soup_.curve_tags[kept++] = soup_.curve_tags[i];
+  }
+  soup_.curves.resize(kept);
+  soup_.curve_tags.resize(kept);
+}
+
+std::string counted(std::size_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string RepairReport::sentence() const {
+  std::vector<std::string> acts;
+  if (welded_points > 0) acts.push_back(counted(welded_points, "point") + " welded");
+  if (degenerate_triangles > 0) acts.push_back(counted(degenerate_triangles, "triangle") + " without area removed");
+  if (duplicate_triangles > 0) acts.push_back(counted(duplicate_triangles, "repeated triangle") + " removed");
+  if (turned_triangles > 0) acts.push_back(counted(turned_triangles, "triangle") + " turned round");
+  if (filled_holes > 0)
+    acts.push_back(counted(filled_holes, "hole") + " filled by " + counted(hole_triangles, "triangle"));
+  return fmt::format("{}", fmt::join(acts, ", "));
+}
+
+nlohmann::ordered_json to_json(const RepairReport& report) {
+  return {{"welded_points", report.welded_points},
+          {"degenerate_triangles", report.degenerate_triangles},
+          {"duplicate_triangles", report.duplicate_triangles},
+          {"turned_triangles", report.turned_triangles},
+          {"filled_holes", report.filled_holes},
+          {"hole_triangles", report.hole_triangles}};
+}
+
+RepairReport repair(SurfaceSoup& soup, const RepairOptions& options) {
+  if (!soup.sides.empty())
+    throw DataError::at(soup.name,
+                        "expected a surface that does not say what is on its sides for --repair, found "
+                        "surface/sides.npy; tessellate heals shapes");
+  return Repairer(soup, options).repair();
+}
+
+}  // namespace hexpipe

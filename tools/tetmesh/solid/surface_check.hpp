@@ -1,0 +1,19 @@
+#pragma once
+// Whether a triangle soup is the boundary of a solid: what TetGen does not say, or says by crashing.
+
+#include <string_view>
+
+#include "formats/surfaces/surface_files.hpp"
+
+namespace hexpipe {
+
+// Throws DataError, which names the first triangles or the first edge at fault and says how many there are, unless
+// - coordinates are not so large or small that volumes overflow or vanish,
+// - no triangle is degenerate and no two have the same corners,
+// - each edge belongs to two triangles (closed), and each vertex to one fan of them (2-manifold),
+// - neighbours agree in orientation, so that each shell is consistently oriented, outward or inward,
+// - no two triangles meet elsewhere than in the vertices and edges that they share.
+// `remedy` ends the messages about what repair.hpp mends.
+void check_surface(const SurfaceSoup& soup, std::string_view remedy = {});
+
+}  // namespace hexpipe

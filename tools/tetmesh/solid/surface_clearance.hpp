@@ -1,0 +1,25 @@
+#pragma once
+// Whether a point keeps clear of a surface, and whether it lies in material.
+
+#include "tools/tetmesh/geometry/box_tree.hpp"
+#include "tools/tetmesh/geometry/column_index.hpp"
+#include "tools/tetmesh/solid/shells.hpp"
+
+namespace hexpipe {
+
+class SurfaceClearance {
+ public:
+  // The surface must outlive it.
+  explicit SurfaceClearance(const Surface& surface);
+
+  // No triangle is nearer than the clearance.
+  bool is_clear(const Vec3& p, double clearance) const;
+  bool is_inside(const Vec3& p) const { return is_in_material(surface_, columns_, p); }
+
+ private:
+  const Surface& surface_;
+  BoxTree triangles_;
+  ColumnIndex columns_;
+};
+
+}  // namespace hexpipe

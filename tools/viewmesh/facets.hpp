@@ -1,0 +1,46 @@
+#pragma once
+// Which cells meet at each facet of a scene, on which side of it.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tools/viewmesh/scene.hpp"
+
+namespace hexpipe {
+
+// A cell's view of one of its facets. Cells that list the same vertices in opposite senses are on different sides.
+struct FacetSide {
+  std::array<std::int32_t, 4> key;  // vertices ascending; of a triangle the first is -1
+  std::int32_t cell;
+  std::uint8_t facet;  // triangles of the topology first, then its quads
+  std::uint8_t side;
+};
+
+// The vertices of a cell's facet counter-clockwise from outside, 3 or 4.
+struct FacetCorners {
+  std::array<std::int32_t, 4> vertices;
+  int count;
+};
+FacetCorners facet_corners(const Scene& scene, std::int32_t cell, int facet);
+
+// All sides of all facets, those of one facet together.
+std::vector<FacetSide> facet_sides(const Scene& scene);
+
+// visit(span of FacetSide) for each facet.
+template <class Visit>
+void for_each_facet(std::span<const FacetSide> sides, Visit&& visit) {
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    while (end < sides.size() && sides[end].key == sides[begin].key) ++end;
+    visit(sides.subspan(begin, end - begin));
+  }
+}
+
+// For each point whether it is on the surface of the scene's cells, which must not overlap.
+std::vector<bool> surface_points(const Scene& scene);
+
+// For each cell 1 when it touches a point of the surface, else one more than the least among the cells it touches; at
+// most 255.
+std::vector<std::uint8_t> layers_from_surface(const Scene& scene, const std::vector<bool>& surface);
+
+}  // namespace hexpipe

@@ -1,0 +1,113 @@
+#include "tools/viewmesh/skin.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "tools/viewmesh/facets.hpp"
+#include "tools/viewmesh/resources.hpp"
+
+namespace hexpipe {
+namespace {
+
+class Painter {
+ public:
+  Painter(const Scene& scene, const ViewState& state) : scene_(scene), colour_(state.colour) {
+    const auto& colours = page_colours();
+    plain_ = parse_colour(colours["plain"]), invalid_ = parse_colour(colours["invalid"]);
+    for (const auto& stop : colours["quality"]) quality_.push_back(parse_colour(stop));
+    for (std::size_t k = 0; k < kinds_.size(); ++k) kinds_[k] = parse_colour(colours["kinds"][name_of(scene_kinds[k])]);
+    for (const auto& region : colours["regions"]) region_colours_.push_back(parse_colour(region));
+    const std::set<std::int32_t> regions(scene.region.begin(), scene.region.end());
+    regions_.assign(regions.begin(), regions.end());
+  }
+
+  Rgb colour_of(std::int32_t cell) const {
+    switch (colour_) {
+      case ViewState::Colour::kind:
+        return kinds_[scene_.kind_index(cell)];
+      case ViewState::Colour::region: {
+        const auto place = std::lower_bound(regions_.begin(), regions_.end(), scene_.region[cell]) - regions_.begin();
+        return region_colours_[place % region_colours_.size()];
+      }
+      case ViewState::Colour::hexes:
+        return scene_.kind_of(cell) == CellKind::hex ? by_quality(scene_.quality[cell]) : plain_;
+      case ViewState::Colour::quality:
+        break;
+    }
+    return by_quality(scene_.quality[cell]);
+  }
+
+ private:
+  Rgb by_quality(double quality) const {
+    if (!(quality > 0)) return invalid_;
+    const double place = std::min(quality, 1.0) * static_cast<double>(quality_.size() - 1);
+    const std::size_t below = std::min(static_cast<std::size_t>(place), quality_.size() - 2);
+    const double part = place - static_cast<double>(below);
+    Rgb mixed;
+    for (std::size_t i = 0; i < 3; ++i)
+      mixed[i] =
+          static_cast<std::uint8_t>(std::lround(quality_[below][i] * (1 - part) + quality_[below + 1][i] * part));
+    return mixed;
+  }
+
+  const Scene& scene_;
+  ViewState::Colour colour_;
+  Rgb plain_, invalid_;
+  std::vector<Rgb> quality_, region_colours_;
+  std::array<Rgb, 4> kinds_;
+  std::vector<std::int32_t> regions_;
+};
+
+// Of the mean plane of a facet (half the cross product of the diagonals of a quad).
+std::array<std::int8_t, 4> normal_of(const Scene& scene, const FacetCorners& facet) {
+  const auto at = [&](int i) { return scene.point(facet.vertices[i]); };
+  const Vec3 across = facet.count == 3 ? cross(at(1) - at(0), at(2) - at(0)) : cross(at(2) - at(0), at(3) - at(1));
+  const double length = norm(across);
+  const double scale = length > 0 ? 127 / length : 0;
+  const auto byte = [&](double value) { return static_cast<std::int8_t>(std::lround(scale * value)); };
+  return {byte(across.x), byte(across.y), byte(across.z), 0};
+}
+
+void add_facet(const Scene& scene, const FacetCorners& facet, const Rgb& colour, std::vector<SkinVertex>& skin) {
+  // A quad's two triangles hide the side opposite their corner 1, its diagonal.
+  constexpr std::array<std::array<int, 3>, 2> triangles{{{0, 1, 2}, {2, 3, 0}}};
+  const auto normal = normal_of(scene, facet);
+  const int hidden = facet.count == 4 ? 2 : 0;
+  for (int t = 0; t < facet.count - 2; ++t)
+    for (int corner = 0; corner < 3; ++corner)
+      skin.push_back({scene.points[facet.vertices[triangles[t][corner]]],
+                      normal,
+                      {colour[0], colour[1], colour[2], static_cast<std::uint8_t>(corner + 4 * hidden)}});
+}
+
+}  // namespace
+
+std::vector<SkinVertex> visible_skin(const Scene& scene, const ViewState& state) {
+  const Painter painter(scene, state);
+  const std::vector<bool> visible = visible_cells(scene, state);
+  const auto sides = facet_sides(scene);
+  std::vector<SkinVertex> skin;
+  for_each_facet(sides, [&](std::span<const FacetSide> facet) {
+    std::array<const FacetSide*, 2> first{};
+    for (const FacetSide& side : facet)
+      if (visible[side.cell] && !first[side.side]) first[side.side] = &side;
+    if ((first[0] == nullptr) == (first[1] == nullptr)) return;
+    const FacetSide& shown = first[0] ? *first[0] : *first[1];
+    add_facet(scene, facet_corners(scene, shown.cell, shown.facet), painter.colour_of(shown.cell), skin);
+  });
+  return skin;
+}
+
+Rgb parse_colour(const std::string& text) {
+  const unsigned long value = std::stoul(text.substr(1), nullptr, 16);
+  return {static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 8),
+          static_cast<std::uint8_t>(value)};
+}
+
+const nlohmann::json& page_colours() {
+  static const nlohmann::json colours = nlohmann::json::parse(resources::colours);
+  return colours;
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,30 @@
+#pragma once
+// The triangles that are drawn: facets with visible cells on one side only.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tools/viewmesh/scene.hpp"
+#include "tools/viewmesh/view_state.hpp"
+
+namespace hexpipe {
+
+// As page/skin.vert wants it.
+struct SkinVertex {
+  std::array<float, 3> position;
+  std::array<std::int8_t, 4> normal;   // of the facet, 127 is 1; the fourth is not used
+  std::array<std::uint8_t, 4> colour;  // and the code of the corner
+};
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+// Three vertices a triangle.
+std::vector<SkinVertex> visible_skin(const Scene& scene, const ViewState& state);
+
+// The colours of the page, from page/colours.json.
+Rgb parse_colour(const std::string& text);
+const nlohmann::json& page_colours();
+
+}  // namespace hexpipe

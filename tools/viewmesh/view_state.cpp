@@ -1,0 +1,196 @@
+#include "tools/viewmesh/view_state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <vector>
+
+#include "common/run/error.hpp"
+
+namespace hexpipe {
+namespace {
+
+constexpr std::array colour_names{"hexes", "quality", "kind", "region"};
+constexpr std::array axis_names{"x", "y", "z"};
+constexpr std::array axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+
+[[noreturn]] void fail(std::string_view key, std::string_view expected, std::string_view found) {
+  throw UsageError(fmt::format("--view: {}: expected {}, found '{}'", key, expected, found));
+}
+
+// Of nothing, one part that is empty: what a separator too many leaves is refused as any other part.
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t end; (end = text.find(separator)) != std::string_view::npos; text.remove_prefix(end + 1))
+    parts.push_back(text.substr(0, end));
+  parts.push_back(text);
+  return parts;
+}
+
+double parse_number(std::string_view key, std::string_view text, double low, double high) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(value >= low && value <= high))
+    fail(key, fmt::format("a number from {:g} to {:g}", low, high), text);
+  return value;
+}
+
+std::vector<double> parse_numbers(std::string_view key, std::string_view text, std::size_t count, double low,
+                                  double high) {
+  std::vector<double> numbers;
+  const auto parts = split(text, ',');
+  if (parts.size() != count) fail(key, fmt::format("{} numbers joined by commas", count), text);
+  for (const auto part : parts) numbers.push_back(parse_number(key, part, low, high));
+  return numbers;
+}
+
+template <std::size_t N>
+std::size_t parse_name(std::string_view key, std::string_view text, const std::array<const char*, N>& names) {
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found == names.end()) fail(key, fmt::format("one of {}", fmt::join(names, ", ")), text);
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+Vec3 parse_direction(std::string_view key, std::string_view text) {
+  const bool turned = text.starts_with('-');
+  const auto axis = std::find(axis_names.begin(), axis_names.end(), text.substr(turned ? 1 : 0));
+  if (axis != axis_names.end()) return (turned ? -1.0 : 1.0) * axes[axis - axis_names.begin()];
+  const auto numbers = parse_numbers(key, text, 3, -1, 1);
+  const Vec3 direction{numbers[0], numbers[1], numbers[2]};
+  if (norm(direction) < 1e-3) fail(key, "a direction", text);
+  return direction;
+}
+
+std::optional<ViewState::Clip> parse_clip(std::string_view text) {
+  if (text == "none") return std::nullopt;
+  const std::size_t colon = text.find(':');
+  if (colon == std::string_view::npos) fail("clip", "AXIS:FRACTION or none", text);
+  return ViewState::Clip{parse_direction("clip", text.substr(0, colon)),
+                         parse_number("clip", text.substr(colon + 1), 0, 1)};
+}
+
+std::array<bool, 4> parse_kinds(std::string_view text) {
+  std::array<bool, 4> kinds{};
+  std::array<const char*, 4> names{};
+  std::transform(scene_kinds.begin(), scene_kinds.end(), names.begin(), [](CellKind kind) { return name_of(kind); });
+  if (text == "none") return kinds;
+  if (text.empty()) fail("kinds", fmt::format("none or some of {}", fmt::join(names, ", ")), text);
+  for (const auto part : split(text, ',')) kinds[parse_name("kinds", part, names)] = true;
+  return kinds;
+}
+
+std::string direction_text(const Vec3& direction) {
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    if (direction == axes[i]) return axis_names[i];
+    if (direction == -axes[i]) return fmt::format("-{}", axis_names[i]);
+  }
+  return fmt::format("{:g},{:g},{:g}", direction.x, direction.y, direction.z);
+}
+
+std::string kinds_text(const std::array<bool, 4>& kinds) {
+  std::vector<const char*> names;
+  for (std::size_t k = 0; k < kinds.size(); ++k)
+    if (kinds[k]) names.push_back(name_of(scene_kinds[k]));
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ","));
+}
+
+bool parse_switch(std::string_view key, std::string_view text) {
+  return parse_name(key, text, std::array{"off", "on"}) == 1;
+}
+
+// What to do with each key's value.
+std::map<std::string_view, std::function<void(std::string_view)>> setters_of(ViewState& state) {
+  return {
+      {"camera",
+       [&](std::string_view text) {
+         const auto numbers = parse_numbers("camera", text, 6, -1e4, 1e4);
+         state.azimuth = numbers[0], state.elevation = numbers[1], state.zoom = numbers[2];
+         state.target = {numbers[3], numbers[4], numbers[5]};
+         if (std::abs(state.elevation) > 90 || state.zoom < 0.05)
+           fail("camera", "an elevation from -90 to 90 and a zoom from 0.05", text);
+       }},
+      {"clip", [&](std::string_view text) { state.clip = parse_clip(text); }},
+      {"quality",
+       [&](std::string_view text) {
+         const auto range = parse_numbers("quality", text, 2, -1, 1);
+         state.least_quality = range[0], state.greatest_quality = range[1];
+       }},
+      {"peel", [&](std::string_view text) { state.peel = static_cast<int>(parse_number("peel", text, 0, 255)); }},
+      {"kinds", [&](std::string_view text) { state.kinds = parse_kinds(text); }},
+      {"colour",
+       [&](std::string_view text) {
+         state.colour = static_cast<ViewState::Colour>(parse_name("colour", text, colour_names));
+       }},
+      {"edges", [&](std::string_view text) { state.edges = parse_switch("edges", text); }},
+      {"theme",
+       [&](std::string_view text) {
+         state.dark = parse_name("theme", text, std::array{"light", "dark"}) == 1;
+       }},
+      {"fragment",
+       [&](std::string_view text) { state.fragment = static_cast<int>(parse_number("fragment", text, 0, 1e9)); }},
+  };
+}
+
+}  // namespace
+
+ViewState parse_view_state(std::string_view text) {
+  ViewState state;
+  if (text.empty()) return state;
+  const auto setters = setters_of(state);
+  for (const auto part : split(text, '&')) {
+    const std::size_t equals = std::min(part.find('='), part.size());
+    const auto setter = setters.find(part.substr(0, equals));
+    if (setter == setters.end()) {
+      std::vector<std::string_view> names;
+      names.reserve(setters.size());
+      for (const auto& [name, set] : setters) names.push_back(name);
+      throw UsageError(
+          fmt::format("--view: expected KEY=VALUE with a key of {}, found '{}'", fmt::join(names, ", "), part));
+    }
+    setter->second(part.substr(std::min(equals + 1, part.size())));
+  }
+  return state;
+}
+
+std::string to_text(const ViewState& state) {
+  return fmt::format(
+      "camera={:g},{:g},{:g},{:g},{:g},{:g}&clip={}&quality={:g},{:g}&peel={}&kinds={}&colour={}&edges={}"
+      "&theme={}&fragment={}",
+      state.azimuth, state.elevation, state.zoom, state.target.x, state.target.y, state.target.z,
+      state.clip ? fmt::format("{}:{:g}", direction_text(state.clip->normal), state.clip->fraction) : "none",
+      state.least_quality, state.greatest_quality, state.peel, kinds_text(state.kinds),
+      colour_names[static_cast<int>(state.colour)], state.edges ? "on" : "off", state.dark ? "dark" : "light",
+      state.fragment);
+}
+
+std::vector<bool> visible_cells(const Scene& scene, const ViewState& state) {
+  double beyond = std::numeric_limits<double>::infinity();
+  if (state.clip) {
+    double low = beyond, high = -beyond;
+    for (const auto& block : scene.corners)
+      for (const auto vertex : block) {
+        const double along = dot(state.clip->normal, scene.point(vertex));
+        low = std::min(low, along), high = std::max(high, along);
+      }
+    beyond = low + state.clip->fraction * (high - low);
+  }
+  std::vector<bool> visible(scene.cell_count());
+  for (std::int32_t cell = 0; cell < scene.cell_count(); ++cell)
+    visible[cell] = state.kinds[scene.kind_index(cell)] && scene.layer[cell] > state.peel &&
+                    scene.quality[cell] >= static_cast<float>(state.least_quality) &&
+                    scene.quality[cell] <= static_cast<float>(state.greatest_quality) &&
+                    (!state.clip || dot(state.clip->normal, scene.middle_of(cell)) <= beyond);
+  if (state.fragment > 0 && static_cast<std::size_t>(state.fragment) <= scene.fragments.size()) {
+    const auto& fragment = scene.fragments[state.fragment - 1];
+    for (std::int32_t cell = 0; cell < scene.cell_count(); ++cell)
+      if (!std::binary_search(fragment.begin(), fragment.end(), cell)) visible[cell] = false;
+  }
+  return visible;
+}
+
+}  // namespace hexpipe

@@ -1,0 +1,43 @@
+#pragma once
+// From where and how a scene is looked at, as the page's links and --view say it: key=value joined by '&'.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "common/mesh/vec3.hpp"
+#include "tools/viewmesh/scene.hpp"
+
+namespace hexpipe {
+
+struct ViewState {
+  enum class Colour { hexes, quality, kind, region };
+  // Cells whose middle lies beyond `fraction` of the way along `normal` are taken away.
+  struct Clip {
+    Vec3 normal;
+    double fraction;
+  };
+
+  // The camera looks at `target` (in the scene's units) from `azimuth` and `elevation` (degrees, z is up); zoom 1 shows
+  // the whole scene.
+  double azimuth = -52, elevation = 28, zoom = 1;
+  Vec3 target;
+  std::optional<Clip> clip;
+  double least_quality = -1, greatest_quality = 1;
+  int peel = 0;                                       // layers of cells taken off the surface
+  std::array<bool, 4> kinds{true, true, true, true};  // as scene_kinds
+  Colour colour = Colour::hexes;
+  bool edges = true;
+  bool dark = false;
+  int fragment = 0;  // from 1: only this fragment's cells; 0: all
+};
+
+// Keys that `text` does not name keep their defaults. Throws UsageError for unknown keys and for values that are none.
+ViewState parse_view_state(std::string_view text);
+std::string to_text(const ViewState& state);
+
+// For each cell whether the state shows it.
+std::vector<bool> visible_cells(const Scene& scene, const ViewState& state);
+
+}  // namespace hexpipe
