@@ -37,8 +37,8 @@ assert_none() {
   done
 }
 
-@test "CLI11 only in main.cpp and common/run" {
-  includes_of common formats tools | grep -E ':CLI/' | grep -vE '^(tools/[a-z-]+/main\.cpp|common/run/[^:]+):' |
+@test "CLI11 only in main.cpp, common/run and the options that lns and lns-mpi share" {
+  includes_of common formats tools | grep -E ':CLI/' | grep -vE '^(tools/[a-z-]+/main\.cpp|common/run/[^:]+|common/mwis/lns_options\.[ch]pp):' |
     assert_none "CLI11 out of place"
   includes_of common formats tools | grep -E ':common/run/tool_main.hpp' |
     grep -vE '^(tools/[a-z-]+/main\.cpp|common/run/[^:]+):' | assert_none "tool_main out of place"
@@ -53,7 +53,7 @@ assert_none() {
 
 @test "OpenMesh only where surfaces are read and in tetmesh" {
   includes_of common formats tools | grep -E ':OpenMesh/' |
-    grep -vE '^(tools/tetmesh/|formats/(surface|stl|obj|ply|off))' | assert_none "OpenMesh out of place"
+    grep -vE '^(tools/tetmesh/|formats/surfaces/)' | assert_none "OpenMesh out of place"
 }
 
 @test "every header is included once" {
@@ -65,4 +65,55 @@ assert_none() {
 
 @test "the checkers share no header with the project" {
   if grep -rnE '#include "(common|formats|tools)/' "$CHECKERS"; then fail "a checker includes the project's headers"; fi
+}
+
+# assert_floors FOLDER ROOMS...: the rooms of a folder from the ground up; "." are the files at its root. A room includes
+# rooms that stand before it, and every subfolder is listed.
+assert_floors() {
+  local folder=$1 room here below=""
+  shift
+  local rooms=("$@")
+  for room in $(cd "$HEXPIPE_SOURCE/$folder" && find . -mindepth 2 -name '*.hpp' -printf '%h\n' | sed 's|^\./||' | sort -u); do
+    [[ " ${rooms[*]} " == *" $room "* ]] || fail "$folder/$room is on no floor"
+  done
+  for room in "${rooms[@]}"; do
+    below+="${below:+|}$room"
+    if [[ $room == . ]]; then here="$folder/[^/]+"; else here="$folder/$room/[^:]+"; fi
+    includes_of "$folder" | grep -E "^$here:$folder/" | grep -vE ":$folder/(${below//./[^/]+\\.hpp\$})(/[^/]*)?$" |
+      assert_none "$folder/$room includes a room above it"
+  done
+}
+
+@test "rooms stand on floors: mwis, formats, tetmesh, assemble" {
+  assert_floors common/mwis ground bounds reduce exact local_search .
+  assert_floors formats streams surfaces meshes choice pipeline points
+  assert_floors tools/tetmesh geometry fields solid sizing surface volume tetgen search .
+  assert_floors tools/assemble hybrid choice shape conform pieces .
+}
+
+@test "run includes nothing of its neighbours in common, mesh only run" {
+  includes_of common/run | grep -E ':common/' | grep -vE ':common/run/' | assert_none "common/run includes its neighbours"
+  includes_of common/mesh | grep -E ':common/' | grep -vE ':common/(run|mesh)/' | assert_none "common/mesh includes rooms above it"
+}
+
+# namespace_of FILE: the one that its room has. common/mesh and common/run speak the language of all rooms.
+namespace_of() {
+  local room=${1%/*}
+  case $room in
+    common/mesh | common/run) echo hexpipe ;;
+    common/*) echo "hexpipe::${room#common/}" ;;
+    formats/pipeline) echo hexpipe::pipeline ;;
+    formats/*) echo hexpipe::formats ;;
+    tools/viewmesh) echo hexpipe::viewmesh ;;
+    tools/*) echo "hexpipe::${room#tools/}" ;;
+  esac | sed 's|/|::|g; s|-|_|g'
+}
+
+@test "each file is in the namespace of its room" {
+  local file expected
+  for file in $(cd "$HEXPIPE_SOURCE" && find common formats tools -name '*.hpp'); do
+    [[ $file == tools/viewmesh/resources.hpp || $file == common/mwis/ground/bits.hpp ]] && continue
+    expected="namespace $(namespace_of "$file") {"
+    grep -qxF "$expected" "$HEXPIPE_SOURCE/$file" || fail "$file: expected '$expected'"
+  done
 }

@@ -38,9 +38,9 @@ for_tools() {
   for_tools mesh-part
 }
 
-@test "faults leave the old output or the whole new one: view" {
-  [[ -x $HEXPIPE_BIN/view ]] || skip "built without it"
-  for_tools view
+@test "faults leave the old output or the whole new one: viewmesh" {
+  [[ -x $HEXPIPE_BIN/viewmesh ]] || skip "built without it"
+  for_tools viewmesh
 }
 
 @test "memory that is missing at the end, for statistics and history, is an error and no crash" {

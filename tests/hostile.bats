@@ -126,7 +126,7 @@ PYTHON
   local message="deep.tar: history/09-a.json: expected a JSON object of at most 64 levels, found more"
   assert_fails_with 1 "$message" mesh-part deep.tar --parts 2 -o parts
   assert_fails_with 1 "$message" initsol deep.tar -o out.tar
-  if [[ -x "$HEXPIPE_BIN/view" ]]; then assert_fails_with 1 "$message" view deep.tar -o out.html; fi
+  if [[ -x "$HEXPIPE_BIN/viewmesh" ]]; then assert_fails_with 1 "$message" viewmesh deep.tar -o out.html; fi
 }
 
 @test "a name of a tool that would lead out of the history is refused" {

@@ -83,7 +83,7 @@ weight_of() {
   "$PYTHON" -c 'import json; stats = json.load(open("stats.json")); assert stats["rounds"] <= 1, stats'
 }
 
-@test "--fragments writes what was improved, the same on any number of ranks, as view reads it" {
+@test "--fragments writes what was improved, the same on any number of ranks, as viewmesh reads it" {
   for ranks in 1 2; do on $ranks --iterations 200 --round 20 --fragments $ranks.txt --stats stats.json -o out.sol; done
   assert_same_bytes 1.txt 2.txt
   "$PYTHON" - <<'PYTHON'

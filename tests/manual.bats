@@ -3,7 +3,7 @@
 load helpers
 
 TOOLS="merge-parts findhex buildgraph initsol lns certify assemble"
-for optional in tetmesh mesh-part lns-mpi view; do
+for optional in tetmesh mesh-part lns-mpi viewmesh; do
   if [[ -x "$HEXPIPE_BIN/$optional" ]]; then TOOLS="$TOOLS $optional"; fi
 done
 MANUAL="$HEXPIPE_BIN/../manual"
@@ -127,14 +127,14 @@ CMAKE
   done
 }
 
-@test "the man page of view explains every key of --view, with the defaults" {
-  if [[ ! -x "$HEXPIPE_BIN/view" ]]; then skip "view is not built"; fi
-  local keys key page="$HEXPIPE_SOURCE/docs/man/view.h2m"
-  keys=$(view --view none 2>&1 </dev/null | sed 's/.*a key of \(.*\), found.*/\1/; s/,//g')
+@test "the man page of viewmesh explains every key of --view, with the defaults" {
+  if [[ ! -x "$HEXPIPE_BIN/viewmesh" ]]; then skip "viewmesh is not built"; fi
+  local keys key page="$HEXPIPE_SOURCE/docs/man/viewmesh.h2m"
+  keys=$(viewmesh --view none 2>&1 </dev/null | sed 's/.*a key of \(.*\), found.*/\1/; s/,//g')
   assert [ "$(wc -w <<<"$keys")" -ge 9 ]
   for key in $keys; do grep -qF "\fB$key=\fP" "$page" || fail "$key is missing"; done
-  view "$DATA/thin.mesh" -o plain.html
-  view "$DATA/thin.mesh" --view "$(sed -n '/^Defaults:/,/^\.fi/{//d;p}' "$page" | tr -d '\\\n')" -o defaults.html
+  viewmesh "$DATA/thin.mesh" -o plain.html
+  viewmesh "$DATA/thin.mesh" --view "$(sed -n '/^Defaults:/,/^\.fi/{//d;p}' "$page" | tr -d '\\\n')" -o defaults.html
   assert_same_bytes plain.html defaults.html
 }
 

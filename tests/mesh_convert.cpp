@@ -7,6 +7,7 @@
 
 int main(int argc, char** argv) {
   using namespace hexpipe;
+  using namespace hexpipe::formats;
   if (argc != 4) {
     std::fprintf(stderr, "usage: mesh_convert INPUT FORMAT OUTPUT\n");
     return 2;

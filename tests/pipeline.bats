@@ -84,8 +84,8 @@ assert share > 0.94, share'
   local theirs
   theirs=$(ls)
   examples bracket.parts.graph bracket.conflicts.tar bracket.vtk bracket.inp
-  if [[ -x "$HEXPIPE_BIN/view" ]]; then
-    # A library's own leaks, as in view.bats.
+  if [[ -x "$HEXPIPE_BIN/viewmesh" ]]; then
+    # A library's own leaks, as in viewmesh.bats.
     LSAN_OPTIONS="suppressions=$HEXPIPE_SOURCE/tests/leaks_of_mesa.txt:print_suppressions=0" examples bracket.html bracket.png
   fi
   if [[ -x "$HEXPIPE_BIN/mesh-part" ]]; then

@@ -1,4 +1,4 @@
-# view: a page and a picture of any stage.
+# viewmesh: a page and a picture of any stage.
 
 load helpers
 
@@ -35,10 +35,10 @@ size() {
 }
 
 @test "a page of each stage tells what it shows" {
-  view mesh.mesh -o mesh.html
-  view graph.tar -o candidates.html
-  view solution.tar -o solution.html
-  view <result.tar >result.html
+  viewmesh mesh.mesh -o mesh.html
+  viewmesh graph.tar -o candidates.html
+  viewmesh solution.tar -o solution.html
+  viewmesh <result.tar >result.html
   assert_equal "$(scene mesh.html content)" '"result"'
   assert_equal "$(scene candidates.html content)" '"candidates"'
   assert_equal "$(scene solution.html content)" '"solution"'
@@ -49,15 +49,15 @@ size() {
 }
 
 @test "the same cells from the file and from the bundle" {
-  view result.vtu -o file.html
-  view result.tar -o bundle.html
+  viewmesh result.vtu -o file.html
+  viewmesh result.tar -o bundle.html
   for key in points corners quality kindBegin layer; do
     assert_equal "$(scene file.html $key)" "$(scene bundle.html $key)"
   done
 }
 
 @test "the numbers of the page are those of the mesh, read by another program" {
-  view result.vtu -o page.html
+  viewmesh result.vtu -o page.html
   run "$PYTHON" - <<'PYTHON'
 import base64, json, re, zlib
 import meshio, numpy as np
@@ -83,78 +83,78 @@ PYTHON
 }
 
 @test "--show goes back to an earlier stage, and says what is missing" {
-  view result.tar --show candidates -o page.html
+  viewmesh result.tar --show candidates -o page.html
   assert_equal "$(scene page.html content)" '"candidates"'
-  view result.tar --show mesh -o page.html
+  viewmesh result.tar --show mesh -o page.html
   assert_equal "$(scene page.html kindBegin)" "[0, 0, 0, 0, 298]"
-  assert_fails_with 1 "graph.tar: expected a solution to show the solution, found none" view graph.tar --show solution -o no.html
-  assert_fails_with 1 "result.vtu: expected the tet mesh to show the mesh" view result.vtu --show mesh -o no.html
-  assert_fails_with 2 "show" view result.vtu --show nothing -o no.html
+  assert_fails_with 1 "graph.tar: expected a solution to show the solution, found none" viewmesh graph.tar --show solution -o no.html
+  assert_fails_with 1 "result.vtu: expected the tet mesh to show the mesh" viewmesh result.vtu --show mesh -o no.html
+  assert_fails_with 2 "show" viewmesh result.vtu --show nothing -o no.html
   assert [ ! -e no.html ]
 }
 
 @test "the page needs nothing from elsewhere" {
-  view result.vtu -o page.html
+  viewmesh result.vtu -o page.html
   run grep -oE '(src|href)="[^"]*"|@import|url\(' page.html
   assert_output ""
 }
 
 @test "the page has the notices that the licences of its script ask for" {
-  view result.vtu -o page.html
+  viewmesh result.vtu -o page.html
   for word in "2026 The hexpipe developers" "three.js authors" "MIT License" "Permission is hereby granted"; do
     grep -q "$word" page.html
   done
 }
 
 @test "a page under the name of a picture, and a picture under that of a page, are refused" {
-  assert_fails_with 2 "^view: -o writes a page: .*'x.png' \(a picture: --png x.png\)" view result.vtu -o x.png
-  assert_fails_with 2 "^view: --png writes a picture: .*'x.html' \(a page: -o x.html\)" view result.vtu --png x.html
+  assert_fails_with 2 "^viewmesh: -o writes a page: .*'x.png' \(a picture: --png x.png\)" viewmesh result.vtu -o x.png
+  assert_fails_with 2 "^viewmesh: --png writes a picture: .*'x.html' \(a page: -o x.html\)" viewmesh result.vtu --png x.html
   assert [ ! -e x.png ]
   assert [ ! -e x.html ]
 }
 
 @test "--title is the page's, and is not markup" {
-  view result.vtu --title 'A <b> & "c"' -o page.html
+  viewmesh result.vtu --title 'A <b> & "c"' -o page.html
   grep -q '<title>A &lt;b> &amp; "c"</title>' page.html
   assert_equal "$(scene page.html title)" '"A <b> & \"c\""'
 }
 
 @test "the same bytes twice, by pipe, with any number of threads" {
-  view result.tar -o one.html --png one.png
-  view --threads 1 <result.tar >two.html
-  cat result.tar | view --png two.png
+  viewmesh result.tar -o one.html --png one.png
+  viewmesh --threads 1 <result.tar >two.html
+  cat result.tar | viewmesh --png two.png
   assert_same_bytes one.html two.html
   assert_same_bytes one.png two.png
 }
 
 @test "every part of --view changes the picture, and the page opens with it" {
-  view result.vtu --size 320,200 --png plain.png
+  viewmesh result.vtu --size 320,200 --png plain.png
   for part in clip=x:0.5 clip=-x:0.5 clip=1,1,0:0.5 quality=0,0.15 peel=1 kinds=hex,tet colour=quality colour=kind \
     colour=region edges=off theme=dark camera=10,20,1,0,0,0 camera=-52,28,2,0,0,0 camera=-52,28,1,0.3,0,0; do
-    view result.vtu --size 320,200 --view "$part" --png part.png -o part.html
+    viewmesh result.vtu --size 320,200 --view "$part" --png part.png -o part.html
     assert_different_bytes plain.png part.png
     run scene part.html state
     assert_output --partial "$part"
   done
   # What a page says is what --view takes.
   state=$(scene part.html state)
-  view result.vtu --size 320,200 --view "${state//\"/}" --png again.png
+  viewmesh result.vtu --size 320,200 --view "${state//\"/}" --png again.png
   assert_same_bytes part.png again.png
 }
 
 @test "wrong words in --view end with 2" {
   while read -r state; do
-    assert_fails_with 2 "--view: " view result.vtu --view "$state" -o no.html
+    assert_fails_with 2 "--view: " viewmesh result.vtu --view "$state" -o no.html
   done <"$DATA/wrong_views.txt"
   assert_fails_with 2 "--view: kinds: expected none or some of hex, prism, pyramid, tet, found ''" \
-    view result.vtu --view kinds= -o no.html
+    viewmesh result.vtu --view kinds= -o no.html
   assert [ ! -e no.html ]
 }
 
 @test "--size is the picture's size, and the picture shows the mesh on the background" {
-  view result.vtu --size 300,200 --view colour=region --png picture.png
+  viewmesh result.vtu --size 300,200 --view colour=region --png picture.png
   assert_equal "$(size picture.png)" "300 200"
-  view --size 320,240 result.vtu --png before.png  # the file may follow
+  viewmesh --size 320,240 result.vtu --png before.png  # the file may follow
   assert_equal "$(size before.png)" "320 240"
   assert [ ! -e result.html ]
   run "$PYTHON" - <<'PYTHON'
@@ -173,7 +173,7 @@ assert np.mean(middle[:, 0] < middle[:, 2]) > 0.3, middle.mean(axis=0)
 assert len(np.unique(middle, axis=0)) > 100
 PYTHON
   assert_success
-  assert_fails_with 2 "size" view result.vtu --size 0,100 --png no.png
+  assert_fails_with 2 "size" viewmesh result.vtu --size 0,100 --png no.png
 }
 
 @test "a solution beyond the candidates is told as assemble tells it" {
@@ -188,28 +188,28 @@ with tarfile.open("beyond.tar") as old, tarfile.open("graphless.tar", "w", forma
             new.addfile(member, old.extractfile(member))
 PYTHON
   local message="graphless.tar: .*expected candidates from 1 to $count, found $((count + 1))$"
-  assert_fails_with 1 "^view: $message" view graphless.tar -o no.html
+  assert_fails_with 1 "^viewmesh: $message" viewmesh graphless.tar -o no.html
   assert_fails_with 1 "^assemble: $message" assemble graphless.tar -o no.vtu
 }
 
 @test "of the graph in a bundle no more is read than how many candidates it has" {
   "$PYTHON" "$DATA/change_array.py" solution.tar edgeless.tar graph/neighbours.npy "a[:0]"
-  view solution.tar -o whole.html
-  view edgeless.tar -o edgeless.html
+  viewmesh solution.tar -o whole.html
+  viewmesh edgeless.tar -o edgeless.html
   assert_same_bytes whole.html edgeless.html
   count=$("$PYTHON" -c 'import io, tarfile, numpy; t = tarfile.open("solution.tar")
 print(len(numpy.load(io.BytesIO(t.extractfile("graph/weights.npy").read()))))')
   "$PYTHON" "$DATA/change_array.py" edgeless.tar beyond.tar solution/chosen.npy "np.array([0, $count], '<i4')"
-  assert_fails_with 1 "^view: beyond.tar: " view beyond.tar -o no.html
+  assert_fails_with 1 "^viewmesh: beyond.tar: " viewmesh beyond.tar -o no.html
 }
 
 @test "nothing to show is one clear line" {
   cat >empty.mesh <<<$'MeshVersionFormatted 2\nDimension 3\nVertices\n1\n0 0 0 0\nEnd'
-  assert_fails_with 1 "^view: empty.mesh: expected cells in the result, found none" view empty.mesh -o no.html
+  assert_fails_with 1 "^viewmesh: empty.mesh: expected cells in the result, found none" viewmesh empty.mesh -o no.html
   sed '/^Vertices/{n;n;s/^[^ ]*/nan/}' mesh.mesh >nan.mesh
-  assert_fails_with 1 "^view: nan.mesh:[0-9]+: " view nan.mesh -o no.html
+  assert_fails_with 1 "^viewmesh: nan.mesh:[0-9]+: " viewmesh nan.mesh -o no.html
   sed 's/Tetrahedra/Dodecahedra/' mesh.mesh >unknown.mesh
-  assert_fails_with 1 "^view: unknown.mesh" view unknown.mesh -o no.html
+  assert_fails_with 1 "^viewmesh: unknown.mesh" viewmesh unknown.mesh -o no.html
   "$PYTHON" - <<'PYTHON'
 import io, tarfile
 with tarfile.open("graph.tar") as old, tarfile.open("meshless.tar", "w", format=tarfile.PAX_FORMAT) as new, \
@@ -220,30 +220,30 @@ with tarfile.open("graph.tar") as old, tarfile.open("meshless.tar", "w", format=
         if member.name.startswith("history/"):
             history.addfile(member, old.extractfile(member))
 PYTHON
-  assert_fails_with 1 "^view: meshless.tar: expected the tet mesh to show the candidates, found none" view meshless.tar -o no.html
-  assert_fails_with 1 "^view: history.tar: expected a mesh to show, found none" view history.tar -o no.html
-  assert_fails_with 1 "^view: missing.vtu: .*No such file" view missing.vtu -o no.html
-  assert_fails_with 1 "^view: stdin: " shell "head -c 5000 result.tar | view -o no.html"
+  assert_fails_with 1 "^viewmesh: meshless.tar: expected the tet mesh to show the candidates, found none" viewmesh meshless.tar -o no.html
+  assert_fails_with 1 "^viewmesh: history.tar: expected a mesh to show, found none" viewmesh history.tar -o no.html
+  assert_fails_with 1 "^viewmesh: missing.vtu: .*No such file" viewmesh missing.vtu -o no.html
+  assert_fails_with 1 "^viewmesh: stdin: " shell "head -c 5000 result.tar | viewmesh -o no.html"
   assert [ ! -e no.html ]
 }
 
 @test "outputs that cannot be written, and terminals" {
-  assert_fails_with 1 "^view: /dev/full: cannot write" view result.vtu -o /dev/full
-  assert_fails_with 1 "^view: /dev/full: cannot write" view result.vtu --png /dev/full
-  assert_fails_with 1 "^view: nowhere/x.png: cannot write" view result.vtu --png nowhere/x.png
-  run script -qec "view result.vtu 2>message" /dev/null </dev/null
+  assert_fails_with 1 "^viewmesh: /dev/full: cannot write" viewmesh result.vtu -o /dev/full
+  assert_fails_with 1 "^viewmesh: /dev/full: cannot write" viewmesh result.vtu --png /dev/full
+  assert_fails_with 1 "^viewmesh: nowhere/x.png: cannot write" viewmesh result.vtu --png nowhere/x.png
+  run script -qec "viewmesh result.vtu 2>message" /dev/null </dev/null
   assert_equal "$status" 2
   grep -q "standard output is a terminal" message
 }
 
 @test "--help, --version, --stats" {
-  run_apart view --help
-  assert_output --regexp "Example:.*view "
+  run_apart viewmesh --help
+  assert_output --regexp "Example:.*viewmesh "
   assert [ "$(wc -L <<<"$output")" -le 100 ]
-  run view --version
-  assert_line --regexp "^view \(hexpipe\) [0-9.]+$"
-  view result.vtu -o page.html --stats stats.json
-  run "$PYTHON" -c "import json; s = json.load(open('stats.json')); assert s['hex'] > 0 and s['tool'] == 'view', s"
+  run viewmesh --version
+  assert_line --regexp "^viewmesh \(hexpipe\) [0-9.]+$"
+  viewmesh result.vtu -o page.html --stats stats.json
+  run "$PYTHON" -c "import json; s = json.load(open('stats.json')); assert s['hex'] > 0 and s['tool'] == 'viewmesh', s"
   assert_success
 }
 
@@ -252,9 +252,9 @@ PYTHON
   if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
   tetmesh "$DATA/bracket.stl" --size 5 | findhex | buildgraph | initsol --iterations 20000 |
     certify --iterations 20 -o chosen.tar
-  assemble chosen.tar | view -o bracket.html
-  view chosen.tar --show candidates -o candidates.html
-  view chosen.tar -o chosen.html
+  assemble chosen.tar | viewmesh -o bracket.html
+  viewmesh chosen.tar --show candidates -o candidates.html
+  viewmesh chosen.tar -o chosen.html
   findhex chosen.tar -o bracket.cand
   run timeout 200 "$PYTHON" "$HEXPIPE_SOURCE/tests/browser/page_test.py" bracket.html screenshots bracket.cand \
     candidates.html chosen.html
@@ -265,21 +265,21 @@ PYTHON
 
 @test "--fragments shows parts of the graph one by one" {
   printf '1 2 3\n4 5\n' >parts
-  view graph.tar --fragments parts --size 320,200 --png all.png -o page.html
-  for fragment in 1 2; do view graph.tar --fragments parts --size 320,200 --view "fragment=$fragment" --png $fragment.png; done
+  viewmesh graph.tar --fragments parts --size 320,200 --png all.png -o page.html
+  for fragment in 1 2; do viewmesh graph.tar --fragments parts --size 320,200 --view "fragment=$fragment" --png $fragment.png; done
   assert_different_bytes all.png 1.png
   assert_different_bytes 1.png 2.png
-  assert_fails_with 2 "--fragments: expected candidates or a solution" view result.vtu --fragments parts -o no.html
+  assert_fails_with 2 "--fragments: expected candidates or a solution" viewmesh result.vtu --fragments parts -o no.html
   echo "1 x" >>parts
   count=$(scene page.html kindBegin | "$PYTHON" -c 'import json, sys; print(json.load(sys.stdin)[4])')
-  assert_fails_with 1 "^view: parts:3: expected the number of a candidate, 1 to $count, found 'x'" \
-    view graph.tar --fragments parts -o no.html
+  assert_fails_with 1 "^viewmesh: parts:3: expected the number of a candidate, 1 to $count, found 'x'" \
+    viewmesh graph.tar --fragments parts -o no.html
   # Those of another graph; a solution shows some of its candidates, but has no more.
   for stage in graph solution; do
     echo "$count $((count + 1))" >others
-    assert_fails_with 1 "^view: others:1: expected the number of a candidate, 1 to $count, found '$((count + 1))'" \
-      view $stage.tar --fragments others -o no.html
+    assert_fails_with 1 "^viewmesh: others:1: expected the number of a candidate, 1 to $count, found '$((count + 1))'" \
+      viewmesh $stage.tar --fragments others -o no.html
     echo "1 $count" >others
-    view $stage.tar --fragments others -o page.html
+    viewmesh $stage.tar --fragments others -o page.html
   done
 }

@@ -14,7 +14,7 @@
 #include "common/candidates/search_plan.hpp"
 #include "common/mesh/quality.hpp"
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 
 // body(std::integral_constant) for 0 .. count - 1, at compile time.
 template <std::size_t count, class Body>
@@ -338,4 +338,4 @@ class CellSearch {
   std::vector<OppositeCorner> found_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

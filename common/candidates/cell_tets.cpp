@@ -11,7 +11,7 @@
 
 #include "common/mesh/quality.hpp"
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 namespace {
 
 constexpr unsigned bit(int corner) {
@@ -278,4 +278,4 @@ template class CellTets<HexTopology>;
 template class CellTets<PrismTopology>;
 template class CellTets<PyramidTopology>;
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

@@ -14,7 +14,7 @@
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 
 // Rule 6, by kind: at least this many interior tets, at most this many tets in all.
 template <class Topology>
@@ -162,4 +162,4 @@ class CellTets {
   bool has_inner_vertex_ = false;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

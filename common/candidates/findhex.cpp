@@ -11,7 +11,7 @@
 #include "common/mesh/validity.hpp"
 #include "common/run/parallel.hpp"
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 namespace {
 
 constexpr std::int64_t vertices_a_block = 64;
@@ -193,4 +193,4 @@ FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* s
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

@@ -11,7 +11,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "common/run/part.hpp"
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 
 enum class CandidateQuality { corner, element };
 
@@ -56,4 +56,4 @@ struct SearchScope {
 // Throws DataError naming `source` when a facet of the mesh belongs to more than two tets.
 FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* source, const SearchScope& scope = {});
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

@@ -10,7 +10,7 @@
 #include "common/run/huge_pages.hpp"
 #include "common/run/parallel.hpp"
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 namespace {
 
 constexpr std::int32_t derived_tag = 0;
@@ -117,4 +117,4 @@ void MeshTables::label_walls() {
   }
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

@@ -11,7 +11,7 @@
 #include "common/mesh/orientation.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 
 // What the mesh needed before it could be searched.
 struct MeshFindings {
@@ -73,4 +73,4 @@ class MeshTables {
   std::vector<Wall> walls_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

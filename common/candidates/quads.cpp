@@ -10,7 +10,7 @@
 #include "common/mesh/lanes.hpp"
 #include "common/mesh/quality.hpp"
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 namespace {
 
 // The angles are a filter before the test of the corners, so its rounding must not reject what that one accepts.
@@ -315,4 +315,4 @@ auto QuadFan::find_pair_among_many(int place, int other_place) const -> const Pa
   return at != pairs_.end() && at->places == wanted ? &*at : nullptr;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

@@ -14,7 +14,7 @@
 #include "common/mesh/lanes.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 
 // Rule 8 is broken by the quad abcd with diagonal ac: the normals of abc and acd do not agree.
 inline bool is_folded(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
@@ -244,4 +244,4 @@ class QuadFan {
   EdgeRow row_;                         // the same
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

@@ -6,7 +6,7 @@
 
 #include "common/mesh/cell_topology.hpp"
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 
 // rotation[c] is the corner that takes the place of corner c.
 template <class Topology>
@@ -82,4 +82,4 @@ static_assert(rotations_of<HexTopology>().count == 24);
 static_assert(rotations_of<PrismTopology>().count == 6);
 static_assert(rotations_of<PyramidTopology>().count == 4);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

@@ -14,7 +14,7 @@
 #include "common/candidates/rotations.hpp"
 #include "common/mesh/cell_topology.hpp"
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 
 // A list with room for what a step of any cell may have.
 template <class T, std::size_t Most>
@@ -211,4 +211,4 @@ constexpr auto make_search_plan() {
 template <class Topology>
 inline constexpr auto search_plan = make_search_plan<Topology>();
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

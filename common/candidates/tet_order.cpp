@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 namespace {
 
 Vertex lowest_vertex(const Tet& tet) {
@@ -24,4 +24,4 @@ std::vector<std::int32_t> order_by_lowest_vertex(const TetMesh& mesh) {
   return order;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

@@ -7,9 +7,9 @@
 
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 
 // The numbers of the mesh's tets by lowest vertex, and ascending at each; none when that is how they stand.
 std::vector<std::int32_t> order_by_lowest_vertex(const TetMesh& mesh);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

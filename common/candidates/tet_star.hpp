@@ -9,7 +9,7 @@
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 
 class TetStar {
  public:
@@ -73,4 +73,4 @@ class TetStar {
   std::array<Slot, slot_count> slots_{};
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

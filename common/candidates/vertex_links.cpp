@@ -7,7 +7,7 @@
 #include "common/run/huge_pages.hpp"
 #include "common/run/parallel.hpp"
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 namespace {
 
 constexpr std::int64_t vertices_a_block = 1024;
@@ -114,4 +114,4 @@ bool VertexLinks::is_facet(Vertex a, Vertex b, Vertex c) const {
   return i != none && j != none && are_linked(a, i, j);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

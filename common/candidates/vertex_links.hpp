@@ -12,7 +12,7 @@
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::candidates {
 
 class VertexLinks {
  public:
@@ -122,4 +122,4 @@ class VertexLinks {
   std::vector<std::int32_t> wide_places_;  // ascending in a row
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::candidates

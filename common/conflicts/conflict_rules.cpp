@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-namespace hexpipe {
+namespace hexpipe::conflicts {
 namespace {
 
 // Corners of a cell, as bits.
@@ -107,4 +107,4 @@ bool in_conflict(const Candidates& candidates, std::size_t i, std::size_t j) {
   }
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::conflicts

@@ -5,9 +5,9 @@
 
 #include "common/mesh/candidates.hpp"
 
-namespace hexpipe {
+namespace hexpipe::conflicts {
 
 // Decides for one pair, from its tets and vertices alone.
 bool in_conflict(const Candidates& candidates, std::size_t i, std::size_t j);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::conflicts

@@ -13,7 +13,7 @@
 
 #include "common/conflicts/conflict_rules.hpp"
 
-namespace hexpipe {
+namespace hexpipe::conflicts {
 namespace {
 
 // Quads are filed under their lowest vertex. The key is a hash: two quads under one key cost a comparison, no more.
@@ -97,4 +97,4 @@ void ConflictFinder::collect_lower_of_kind(std::size_t i, SortedSet& found) cons
   });
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::conflicts

@@ -8,7 +8,7 @@
 #include "common/conflicts/sorted_set.hpp"
 #include "common/mesh/candidates.hpp"
 
-namespace hexpipe {
+namespace hexpipe::conflicts {
 
 class ConflictFinder {
  public:
@@ -27,4 +27,4 @@ class ConflictFinder {
   SharingIndex tets_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::conflicts

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::conflicts {
 namespace {
 
 // A mesh has a few tets a candidate, or some more where candidates are few; a single candidate may name any number.
@@ -42,4 +42,4 @@ std::optional<Candidates> with_dense_ids(const Candidates& candidates) {
   return dense;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::conflicts

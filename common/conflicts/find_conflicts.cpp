@@ -16,7 +16,7 @@
 #include "common/run/huge_pages.hpp"
 #include "common/run/parallel.hpp"
 
-namespace hexpipe {
+namespace hexpipe::conflicts {
 namespace {
 
 constexpr std::int64_t candidates_a_block = 256;
@@ -79,12 +79,12 @@ LowerConflicts find_lower_conflicts(const Candidates& candidates, const Part& pa
 // Conflicts are found once, from their higher end. They are packed until all are counted, and what they were found by
 // is gone before the graph takes its memory. Then they are written at both ends: as higher ends come in ascending
 // order, so do all lists, and none goes further than the higher ends so far. So the graph grows as the lists are freed.
-ConflictGraph conflict_graph(Candidates candidates, const ConflictOptions& options, const char* source,
-                             const std::vector<bool>& own) {
+graph::ConflictGraph conflict_graph(Candidates candidates, const ConflictOptions& options, const char* source,
+                                    const std::vector<bool>& own) {
   const std::size_t count = candidates.size();
   if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw DataError::at(source, "expected fewer than 2^31 candidates, found {}", count);
-  ConflictGraph graph;
+  graph::ConflictGraph graph;
   graph.weights = weights_of(candidates, options.weight, options.weight_scale, source);
 
   forget_worth(candidates);
@@ -112,4 +112,4 @@ ConflictGraph conflict_graph(Candidates candidates, const ConflictOptions& optio
   return graph;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::conflicts

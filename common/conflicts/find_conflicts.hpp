@@ -8,7 +8,7 @@
 #include "common/mesh/candidates.hpp"
 #include "common/run/part.hpp"
 
-namespace hexpipe {
+namespace hexpipe::conflicts {
 
 struct ConflictOptions {
   WeightKind weight = WeightKind::quality;
@@ -19,7 +19,7 @@ struct ConflictOptions {
 // Vertex i is candidate i. Candidates that are moved in are gone before the graph takes its memory. Where `own` is not
 // empty, conflicts between two candidates that are not own are left out. Throws DataError naming `source` when weights
 // do not fit (see weights_of) or there are 2^31 candidates or more.
-ConflictGraph conflict_graph(Candidates candidates, const ConflictOptions& options, const char* source,
-                             const std::vector<bool>& own = {});
+graph::ConflictGraph conflict_graph(Candidates candidates, const ConflictOptions& options, const char* source,
+                                    const std::vector<bool>& own = {});
 
-}  // namespace hexpipe
+}  // namespace hexpipe::conflicts

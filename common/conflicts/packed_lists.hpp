@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::conflicts {
 
 class PackedLists {
  public:
@@ -53,4 +53,4 @@ class PackedLists {
   std::uint32_t last_ = before_first;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::conflicts

@@ -6,7 +6,7 @@
 #include "common/run/huge_pages.hpp"
 #include "common/run/parallel.hpp"
 
-namespace hexpipe {
+namespace hexpipe::conflicts {
 namespace {
 
 constexpr std::int64_t vertices_a_block = 256;
@@ -149,4 +149,4 @@ void SegmentIndex::make_segments(const Candidates& candidates, std::size_t verte
   });
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::conflicts

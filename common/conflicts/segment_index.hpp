@@ -9,7 +9,7 @@
 
 #include "common/mesh/candidates.hpp"
 
-namespace hexpipe {
+namespace hexpipe::conflicts {
 
 // Two corners of a cell.
 struct CornerPair {
@@ -65,4 +65,4 @@ class SegmentIndex {
   std::vector<std::int32_t> entries_;  // a segment: how many have it as edge, how many not; these candidates; those
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::conflicts

@@ -11,7 +11,7 @@
 #include "common/run/huge_pages.hpp"
 #include "common/run/parallel.hpp"
 
-namespace hexpipe {
+namespace hexpipe::conflicts {
 
 class SharingIndex {
  public:
@@ -52,4 +52,4 @@ class SharingIndex {
   std::vector<Entry> entries_;         // ascending in a bucket
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::conflicts

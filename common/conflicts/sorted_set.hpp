@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::conflicts {
 
 class SortedSet {
  public:
@@ -48,4 +48,4 @@ class SortedSet {
   std::size_t lowest_, highest_ = 0;   // groups
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::conflicts

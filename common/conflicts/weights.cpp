@@ -4,7 +4,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::conflicts {
 namespace {
 
 double worth(const Candidates& candidates, std::size_t i, WeightKind kind) {
@@ -41,4 +41,4 @@ std::vector<std::int64_t> weights_of(const Candidates& candidates, WeightKind ki
   return weights;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::conflicts

@@ -6,7 +6,7 @@
 
 #include "common/mesh/candidates.hpp"
 
-namespace hexpipe {
+namespace hexpipe::conflicts {
 
 enum class WeightKind { quality, volume, count, quality_volume };
 
@@ -14,4 +14,4 @@ enum class WeightKind { quality, volume, count, quality_volume };
 // not fit 64 bits.
 std::vector<std::int64_t> weights_of(const Candidates& candidates, WeightKind kind, double scale, const char* source);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::conflicts

@@ -5,7 +5,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::graph {
 namespace {
 
 class CoverBuilder {
@@ -223,4 +223,4 @@ std::int64_t add_violated_cliques(const ConflictGraph& graph, const std::vector<
   return ViolatedCliques(graph, fractions, cover).add();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::graph

@@ -7,7 +7,7 @@
 
 #include "common/graph/conflict_graph.hpp"
 
-namespace hexpipe {
+namespace hexpipe::graph {
 
 struct CliqueCover {
   std::vector<std::int64_t> offsets{0};  // cliques + 1
@@ -41,4 +41,4 @@ void validate(const CliqueCover& cover, const ConflictGraph& graph, const char* 
 // says how much of it is: cliques that the cover misses. Returns their number.
 std::int64_t add_violated_cliques(const ConflictGraph& graph, const std::vector<double>& fractions, CliqueCover& cover);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::graph

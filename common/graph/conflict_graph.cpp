@@ -5,7 +5,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::graph {
 namespace {
 
 void check_lengths(const ConflictGraph& graph, const char* source) {
@@ -113,4 +113,4 @@ std::int64_t total_weight(const IndependentSet& set, const ConflictGraph& graph)
   return sum;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::graph

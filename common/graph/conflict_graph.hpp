@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::graph {
 
 struct ConflictGraph {
   std::vector<std::int64_t> offsets{0};  // vertices + 1
@@ -44,4 +44,4 @@ void validate(const IndependentSet& set, const ConflictGraph& graph, const char*
 
 std::int64_t total_weight(const IndependentSet& set, const ConflictGraph& graph);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::graph

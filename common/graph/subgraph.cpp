@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hexpipe {
+namespace hexpipe::graph {
 
 ConflictGraph induced_subgraph(const ConflictGraph& graph, std::span<const std::int32_t> vertices) {
   std::vector<std::int32_t> numbers(graph.weights.size(), -1);
@@ -36,4 +36,4 @@ std::vector<std::vector<std::int32_t>> connected_components(const ConflictGraph&
   return components;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::graph

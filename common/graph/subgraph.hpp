@@ -7,7 +7,7 @@
 
 #include "common/graph/conflict_graph.hpp"
 
-namespace hexpipe {
+namespace hexpipe::graph {
 
 // The part that `vertices`, ascending, induce; they are numbered in their order.
 ConflictGraph induced_subgraph(const ConflictGraph& graph, std::span<const std::int32_t> vertices);
@@ -15,4 +15,4 @@ ConflictGraph induced_subgraph(const ConflictGraph& graph, std::span<const std::
 // The vertices of each connected component, ascending; the smallest component first.
 std::vector<std::vector<std::int32_t>> connected_components(const ConflictGraph& graph);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::graph

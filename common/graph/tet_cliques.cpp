@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::graph {
 namespace {
 
 // Tets by their places among those that candidates have: the numbers may be any, the memory is that of the places.
@@ -42,4 +42,4 @@ CliqueCover cliques_of_tets(const Candidates& candidates) {
   return cover;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::graph

@@ -5,9 +5,9 @@
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis {
 
-void declare_lns_options(CLI::App& app, LnsOptions& options, TargetOptions& target) {
+void declare_lns_options(CLI::App& app, local_search::LnsOptions& options, TargetOptions& target) {
   app.add_option("--fragment-size", options.fragment_size, "Vertices of the first fragments; the size adapts")
       ->check(CLI::Range(1, 4096).description(""));
   app.add_option("--largest-fragment", options.largest_fragment, "Vertices of a fragment at most")
@@ -42,4 +42,4 @@ void check(const TargetOptions& target) {
   if (target.bound && !target.gap) throw UsageError("--bound does nothing without --target-gap");
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis

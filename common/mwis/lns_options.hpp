@@ -6,16 +6,16 @@
 
 #include "common/mwis/local_search/lns.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis {
 
 struct TargetOptions {
   std::optional<double> gap;
   std::optional<std::int64_t> bound;
 };
 
-void declare_lns_options(CLI::App& app, LnsOptions& options, TargetOptions& target);
+void declare_lns_options(CLI::App& app, local_search::LnsOptions& options, TargetOptions& target);
 
 // Throws UsageError when options do nothing without others.
 void check(const TargetOptions& target);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis

@@ -15,7 +15,7 @@
 namespace hexpipe {
 namespace {
 
-// What is written beside the product. view reads its --fragments: nothing may be written there either.
+// What is written beside the product. viewmesh reads its --fragments: nothing may be written there either.
 constexpr std::array<std::string_view, 6> beside_product{
     "stats", "log", "certificate", "fragments", "reduced-candidates", "png"};
 
@@ -79,7 +79,8 @@ void check_named_files(const CLI::App& app) {
   const std::vector<NamedFile> read = inputs(app);
   std::vector<NamedFile> written;
   if (const CLI::Option* const product = app.get_option_no_throw("--output")) {
-    // Without it standard output, but where it names a directory, and where view makes a picture in place of the page.
+    // Without it standard output, but where it names a directory, and where viewmesh makes a picture in place of the
+    // page.
     if (product->count() > 0)
       written.push_back({"--output", product->results().front()});
     else if (product->get_type_name() != "DIR" && !is_given(app, "--png"))

@@ -10,7 +10,7 @@
 #include "formats/streams/number_writer.hpp"
 #include "formats/streams/text_scanner.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 constexpr std::string_view magic = "hexpipe-candidates";
@@ -151,4 +151,4 @@ void write_cand(const Candidates& candidates, Output& output) {
   }
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

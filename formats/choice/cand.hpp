@@ -15,10 +15,10 @@
 #include "formats/streams/input.hpp"
 #include "formats/streams/output.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // Throws FormatError.
 Candidates read_cand(Input& input);
 void write_cand(const Candidates& candidates, Output& output);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

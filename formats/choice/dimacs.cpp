@@ -10,14 +10,14 @@
 #include "common/run/memory.hpp"
 #include "formats/streams/number_lines.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 class DimacsParser : NumberLines {
  public:
   DimacsParser(std::string_view text, std::string_view file) : NumberLines(text, file, 'c') {}
 
-  ConflictGraph parse() {
+  graph::ConflictGraph parse() {
     read_problem();
     while (begin_line()) read_line();
     build_lists();
@@ -124,7 +124,7 @@ class DimacsParser : NumberLines {
   std::int64_t weight_sum_ = 0;
   std::vector<char> has_weight_;
   std::vector<std::int32_t> ends_;  // two an edge
-  ConflictGraph graph_;
+  graph::ConflictGraph graph_;
 };
 
 }  // namespace
@@ -135,10 +135,10 @@ bool looks_like_dimacs(Input& input) {
   return first != std::string_view::npos && (text[first] == 'c' || text[first] == 'p');
 }
 
-ConflictGraph read_dimacs(Input& input) {
+graph::ConflictGraph read_dimacs(Input& input) {
   const std::string text = input.read_all();
   if (!text.empty()) expect_last_line_end(text, input.name());
   return DimacsParser(text, input.name()).parse();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

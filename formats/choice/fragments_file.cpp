@@ -2,7 +2,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 void FragmentsFile::add(std::span<const std::uint64_t> vertices) {
   if (failure_) return;
@@ -23,4 +23,4 @@ void FragmentsFile::commit() {
   output_.commit();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

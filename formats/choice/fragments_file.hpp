@@ -1,5 +1,5 @@
 #pragma once
-// The fragments that a search improved, as view --fragments reads them: a line each, the numbers of its vertices
+// The fragments that a search improved, as viewmesh --fragments reads them: a line each, the numbers of its vertices
 // from 1.
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 #include "formats/streams/output.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // A disk that is full in the middle of a search does not end it: commit() tells.
 class FragmentsFile {
@@ -27,4 +27,4 @@ class FragmentsFile {
   std::exception_ptr failure_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

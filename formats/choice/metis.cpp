@@ -10,14 +10,14 @@
 #include "common/run/memory.hpp"
 #include "formats/streams/number_lines.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 class MetisParser : NumberLines {
  public:
   MetisParser(std::string_view text, std::string_view file) : NumberLines(text, file, '%') {}
 
-  ConflictGraph parse() {
+  graph::ConflictGraph parse() {
     read_header();
     for (std::int32_t v = 0; v < vertex_count_; ++v) read_vertex(v);
     check_nothing_follows();
@@ -108,7 +108,7 @@ class MetisParser : NumberLines {
   }
 
   void check_both_ends() {
-    const auto edge = find_one_sided_edge(graph_);
+    const auto edge = graph::find_one_sided_edge(graph_);
     if (!edge) return;
     throw FormatError(file(), line_of_vertex(edge->from),
                       fmt::format("expected every edge at both ends, found {} beside {} but not {} beside {}",
@@ -131,18 +131,18 @@ class MetisParser : NumberLines {
   bool vertex_weights_ = false;
   bool edge_weights_ = false;
   std::int64_t weight_sum_ = 0;
-  ConflictGraph graph_;
+  graph::ConflictGraph graph_;
 };
 
 }  // namespace
 
-ConflictGraph read_metis(Input& input) {
+graph::ConflictGraph read_metis(Input& input) {
   const std::string text = input.read_all();
   if (!text.empty()) expect_last_line_end(text, input.name());
   return MetisParser(text, input.name()).parse();
 }
 
-void write_metis(const ConflictGraph& graph, Output& output) {
+void write_metis(const graph::ConflictGraph& graph, Output& output) {
   output.print("{} {} 10\n", graph.vertex_count(), graph.edge_count());
   std::string line;
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
@@ -161,7 +161,7 @@ void write_metis(const ConflictGraph& graph, Output& output) {
   }
 }
 
-std::optional<std::string> metis_weight_warning(const ConflictGraph& graph) {
+std::optional<std::string> metis_weight_warning(const graph::ConflictGraph& graph) {
   constexpr double metis_limit = 0x1p31, kamis_limit = 0x1p32;
   double total = 0;
   for (const std::int64_t weight : graph.weights) total += static_cast<double>(weight);
@@ -174,4 +174,4 @@ std::optional<std::string> metis_weight_warning(const ConflictGraph& graph) {
                      divisor);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -10,7 +10,7 @@
 #include "common/run/error.hpp"
 #include "formats/streams/text_scanner.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 struct NumberedLine {
@@ -53,15 +53,15 @@ bool is_line_for_each_vertex(const std::vector<NumberedLine>& lines, std::int64_
          std::ranges::all_of(lines, [](const NumberedLine& l) { return l.number == 0 || l.number == 1; });
 }
 
-IndependentSet from_flags(const std::vector<NumberedLine>& lines) {
-  IndependentSet solution;
+graph::IndependentSet from_flags(const std::vector<NumberedLine>& lines) {
+  graph::IndependentSet solution;
   for (std::size_t v = 0; v < lines.size(); ++v)
     if (lines[v].number == 1) solution.push_back(static_cast<std::int32_t>(v));
   return solution;
 }
 
-IndependentSet from_numbers(const std::vector<NumberedLine>& lines, std::int64_t vertex_count,
-                            const std::string& name) {
+graph::IndependentSet from_numbers(const std::vector<NumberedLine>& lines, std::int64_t vertex_count,
+                                   const std::string& name) {
   const auto n = static_cast<std::int32_t>(vertex_count);
   std::vector<char> chosen(n, 0);
   for (const auto& [number, line] : lines) {
@@ -72,7 +72,7 @@ IndependentSet from_numbers(const std::vector<NumberedLine>& lines, std::int64_t
       throw FormatError(name, line, fmt::format("expected each vertex once, found {} again", number));
     chosen[number - 1] = 1;
   }
-  IndependentSet solution;
+  graph::IndependentSet solution;
   for (std::int32_t v = 0; v < n; ++v)
     if (chosen[v]) solution.push_back(v);
   return solution;
@@ -80,7 +80,7 @@ IndependentSet from_numbers(const std::vector<NumberedLine>& lines, std::int64_t
 
 }  // namespace
 
-IndependentSet read_solution(Input& input, std::int64_t vertex_count) {
+graph::IndependentSet read_solution(Input& input, std::int64_t vertex_count) {
   const std::string text = input.read_all();
   if (!text.empty()) expect_last_line_end(text, input.name());
   const auto lines = read_lines(text, input.name());
@@ -90,8 +90,8 @@ IndependentSet read_solution(Input& input, std::int64_t vertex_count) {
                                                       : from_numbers(lines, vertex_count, input.name());
 }
 
-void write_solution(const IndependentSet& solution, Output& output) {
+void write_solution(const graph::IndependentSet& solution, Output& output) {
   for (const std::int32_t v : solution) output.print("{}\n", v + 1);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

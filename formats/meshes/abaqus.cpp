@@ -11,7 +11,7 @@
 #include "formats/meshes/mesh_blocks.hpp"
 #include "formats/streams/number_writer.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 struct AbaqusNames {
@@ -130,4 +130,4 @@ void write_abaqus(const MixedMesh& mesh, Output& output) {
   AbaqusWriter(mesh, output).write();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -5,7 +5,7 @@
 #include "formats/meshes/facet_owners.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 // Calls visit with the block of a kind of cell.
@@ -62,4 +62,4 @@ CellData cell_data(const MixedMesh& mesh) {
   return data;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -8,7 +8,7 @@
 
 #include "common/mesh/mixed_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 inline constexpr std::string_view quality_name = "quality";
 
@@ -21,4 +21,4 @@ struct CellData {
 
 CellData cell_data(const MixedMesh& mesh);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

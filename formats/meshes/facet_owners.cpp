@@ -6,7 +6,7 @@
 
 #include "formats/meshes/facet_table.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 template <std::size_t Corners>
@@ -70,4 +70,4 @@ FacetOwners find_facet_owners(const MixedMesh& mesh) {
   return {triangles.take(), quads.take()};
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -7,7 +7,7 @@
 
 #include "common/mesh/mixed_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 struct FacetOwner {
   std::int64_t cell = -1;  // within the block of its kind; -1: the facet is none of a cell
@@ -22,4 +22,4 @@ struct FacetOwners {
 // The owner of a facet is the first cell that it points out of, or else the first that has it.
 FacetOwners find_facet_owners(const MixedMesh& mesh);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -9,7 +9,7 @@
 
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // Facets in buckets by their lowest vertex, as offsets and members; within a bucket by their vertices in ascending
 // order. The facets must outlive the table.
@@ -70,4 +70,4 @@ std::array<Vertex, Facet> pick(const std::array<Vertex, Cell>& cell, const std::
   return facet;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -6,7 +6,7 @@
 #include "formats/streams/number_writer.hpp"
 #include "formats/streams/text_scanner.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 constexpr std::string_view header = "MeshVersionFormatted";
@@ -153,4 +153,4 @@ void write_medit(const MixedMesh& mesh, Output& output) {
   output.print("\nEnd\n");
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -6,7 +6,7 @@
 #include "common/mesh/mixed_mesh.hpp"
 #include "formats/streams/output.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 bool looks_like_medit(std::string_view text);
 
@@ -16,4 +16,4 @@ MixedMesh read_medit(std::string_view text, std::string_view file);
 // Qualities are not written: the format has no place for them.
 void write_medit(const MixedMesh& mesh, Output& output);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

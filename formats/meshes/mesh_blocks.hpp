@@ -8,7 +8,7 @@
 
 #include "common/mesh/mixed_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 struct ElementNames {
   const char* one;    // in messages
@@ -54,4 +54,4 @@ inline bool has_quality(const MixedMesh& mesh) {
   return all;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

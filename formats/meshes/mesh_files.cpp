@@ -11,7 +11,7 @@
 #include "formats/meshes/vtu.hpp"
 #include "formats/streams/text_scanner.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 struct MeshFormat {
@@ -81,4 +81,4 @@ const std::vector<std::string_view>& mesh_format_names() {
   return names;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "common/mesh/mixed_mesh.hpp"
-#include "formats/group_names.hpp"
+#include "formats/streams/group_names.hpp"
 #include "formats/streams/input.hpp"
 #include "formats/streams/output.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // The format is told by content: MEDIT .mesh, Gmsh .msh 2.2 and 4.1 (ASCII, binary), VTK legacy, VTU, TetGen .node with
 // its .ele (and .face) beside it. Vertices that no cell uses are kept. `names`, if not null, gets those of tags, where
@@ -23,4 +23,4 @@ void write_mixed_mesh(const MixedMesh& mesh, std::string_view format, Output& ou
 // All format names that write_mixed_mesh knows; the ending of a file is one of mesh, msh, vtk, vtu, inp.
 const std::vector<std::string_view>& mesh_format_names();
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

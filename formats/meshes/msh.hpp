@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "common/mesh/mixed_mesh.hpp"
-#include "formats/group_names.hpp"
+#include "formats/streams/group_names.hpp"
 #include "formats/streams/output.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 enum class MshVersion { v2_2, v4_1 };
 enum class MshCoding { ascii, binary };
@@ -32,4 +32,4 @@ MshNodeValues read_msh_node_values(std::string_view text, std::string_view file)
 // cannot open mixed meshes with one.
 void write_msh(const MixedMesh& mesh, MshVersion version, MshCoding coding, Output& output);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

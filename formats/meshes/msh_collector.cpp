@@ -7,7 +7,7 @@
 
 #include "common/mesh/reorder.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 // True when elements of one entity name different groups.
@@ -197,4 +197,4 @@ void MshCollector::set_qualities() {
   });
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

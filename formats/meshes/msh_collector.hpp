@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "common/mesh/mixed_mesh.hpp"
-#include "formats/group_names.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
+#include "formats/streams/group_names.hpp"
 #include "formats/streams/number_map.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // The numbers that an element has besides its corners. 0 as physical group: none.
 struct MshElementNumbers {
@@ -88,4 +88,4 @@ bool MshCollector::with_block(int type, Visitor&& visit) {
   return found;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

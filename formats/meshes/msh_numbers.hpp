@@ -9,7 +9,7 @@
 
 #include "formats/streams/text_scanner.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // The numbers of a section, which stand as text or as the machine's bytes in the same order.
 class MshNumbers {
@@ -55,4 +55,4 @@ class MshNumbers {
   std::size_t size_bytes_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -12,7 +12,7 @@
 #include "formats/streams/scalar_bytes.hpp"
 #include "formats/streams/text_scanner.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 // Points and lines of any order: Gmsh's type and the number of nodes.
@@ -402,4 +402,4 @@ MshNodeValues read_msh_node_values(std::string_view text, std::string_view file)
   return MshReader(text, file, true).read_node_values();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -11,7 +11,7 @@
 #include "formats/meshes/msh_collector.hpp"
 #include "formats/streams/number_writer.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 // A physical group and the entity with the same number: all cells or all facets with one tag.
@@ -301,4 +301,4 @@ void write_msh(const MixedMesh& mesh, MshVersion version, MshCoding coding, Outp
   MshWriter(mesh, version, coding, output).write();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -10,7 +10,7 @@
 #include "formats/streams/scalar_bytes.hpp"
 #include "formats/streams/text_scanner.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 // Comments and empty lines may stand anywhere. Nothing marks the end of a file, so only the end of its last line tells
@@ -193,4 +193,4 @@ MixedMesh read_tetgen(std::string_view text, const std::string& name, const std:
   return reader.take_mesh();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -6,7 +6,7 @@
 
 #include "common/mesh/mixed_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 bool looks_like_tetgen(std::string_view text);
 
@@ -14,4 +14,4 @@ bool looks_like_tetgen(std::string_view text);
 // messages. Throws FormatError or DataError, also when `path` is empty (standard input).
 MixedMesh read_tetgen(std::string_view text, const std::string& name, const std::string& path);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -9,7 +9,7 @@
 #include "formats/meshes/cell_data.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 // meshio keeps Gmsh's and MEDIT's tags under the second and third, Gmsh writes the fourth.
@@ -146,4 +146,4 @@ MixedMesh to_mixed_mesh(VtkGrid grid, std::string_view file) {
   return mesh;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -13,7 +13,7 @@
 
 #include "common/mesh/mixed_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // Cells of all kinds in one list, as the files hold them.
 struct VtkGrid {
@@ -45,4 +45,4 @@ bool is_vtk_tag_name(std::string_view name);
 // other programs use. Throws DataError naming `file` on other cells, or when the arrays contradict each other.
 MixedMesh to_mixed_mesh(VtkGrid grid, std::string_view file);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

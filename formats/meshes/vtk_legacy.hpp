@@ -6,7 +6,7 @@
 #include "common/mesh/mixed_mesh.hpp"
 #include "formats/streams/output.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 bool looks_like_vtk_legacy(std::string_view text);
 
@@ -16,4 +16,4 @@ MixedMesh read_vtk_legacy(std::string_view text, std::string_view file);
 // Version 3.0 ASCII: the one that gmsh, meshio, VTK and HexaLab all read.
 void write_vtk_legacy(const MixedMesh& mesh, Output& output);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

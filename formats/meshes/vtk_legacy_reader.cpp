@@ -11,7 +11,7 @@
 #include "formats/streams/scalar_bytes.hpp"
 #include "formats/streams/text_scanner.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 constexpr std::string_view magic = "# vtk DataFile Version";
@@ -340,4 +340,4 @@ MixedMesh read_vtk_legacy(std::string_view text, std::string_view file) {
   return VtkLegacyReader(text, file).read();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -4,7 +4,7 @@
 #include "formats/meshes/vtk_legacy.hpp"
 #include "formats/streams/number_writer.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 void write_cells(const MixedMesh& mesh, Output& output) {
@@ -56,4 +56,4 @@ void write_vtk_legacy(const MixedMesh& mesh, Output& output) {
   if (!data.quality.empty()) write_array(quality_name, "double", data.quality, output);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -9,7 +9,7 @@
 #include "formats/streams/scalar_bytes.hpp"
 #include "formats/streams/text_scanner.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 constexpr int no_digit = -1;
@@ -105,4 +105,4 @@ std::string_view read_vtk_xml_data(EncodedBytes& bytes, const VtkXmlEncoding& en
   return storage;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 struct VtkXmlEncoding {
   std::endian order = std::endian::little;
@@ -41,4 +41,4 @@ class EncodedBytes {
 std::string_view read_vtk_xml_data(EncodedBytes& bytes, const VtkXmlEncoding& encoding, std::string_view where,
                                    std::string& storage);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -9,7 +9,7 @@
 #include "common/mesh/mixed_mesh.hpp"
 #include "formats/streams/output.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 bool looks_like_vtu(std::string_view text);
 
@@ -25,4 +25,4 @@ void write_vtu_piece(const MixedMesh& mesh, const std::vector<std::int64_t>& poi
 // PVTU: the file that names these pieces, which have all their arrays.
 void write_pvtu(const std::vector<std::string>& pieces, Output& output);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -12,7 +12,7 @@
 #include "formats/streams/scalar_bytes.hpp"
 #include "formats/streams/text_scanner.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 constexpr std::pair<std::string_view, ScalarType> type_names[] = {
@@ -277,4 +277,4 @@ MixedMesh read_vtu(std::string text, std::string_view file) {
   return VtuReader(std::move(text), file).read();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

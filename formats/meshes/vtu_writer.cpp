@@ -10,7 +10,7 @@
 #include "formats/meshes/vtu.hpp"
 #include "formats/streams/number_writer.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 struct DataArray {
@@ -171,4 +171,4 @@ void write_pvtu(const std::vector<std::string>& pieces, Output& output) {
   output.print("  </PUnstructuredGrid>\n</VTKFile>\n");
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

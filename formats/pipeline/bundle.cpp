@@ -17,7 +17,7 @@
 #include "common/run/memory.hpp"
 #include "formats/streams/text_scanner.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 namespace {
 
 constexpr std::size_t tar_block = 512;
@@ -111,14 +111,14 @@ bool convert_numbers(NpyType from, const char* data, NpyType to, void* destinati
 
 }  // namespace
 
-bool looks_like_bundle(Input& input) {
+bool looks_like_bundle(formats::Input& input) {
   const std::string_view start = input.peek(tar_block);
   return start.substr(0, zstd_magic.size()) == zstd_magic || (start.size() >= 262 && start.substr(257, 5) == "ustar");
 }
 
 // ---- writing
 
-BundleWriter::BundleWriter(Output& output, bool compress)
+BundleWriter::BundleWriter(formats::Output& output, bool compress)
     : output_(output), archive_(archive_write_new(), &archive_write_free) {
   if (!archive_) throw std::bad_alloc();
   archive_write_set_format_pax_restricted(archive_.get());
@@ -192,7 +192,7 @@ void BundleWriter::close() {
 
 // ---- reading
 
-BundleReader::BundleReader(Input& input) : input_(input), archive_(archive_read_new(), &archive_read_free) {
+BundleReader::BundleReader(formats::Input& input) : input_(input), archive_(archive_read_new(), &archive_read_free) {
   if (!archive_) throw std::bad_alloc();
   archive_read_support_format_tar(archive_.get());
   archive_read_support_filter_zstd(archive_.get());
@@ -248,7 +248,7 @@ bool BundleReader::next() {
   const std::string name = path ? path : "";
   if (!is_printable_name(name))
     throw DataError::at(input_.name(), "expected a member name of at most {} printable ASCII characters, found {}",
-                        longest_name, quote_found(name));
+                        longest_name, formats::quote_found(name));
   if (!is_safe_name(name))
     throw DataError::at(input_.name(), "expected a relative member name without '..', found '{}'", name);
   name_ = name;
@@ -357,4 +357,4 @@ void BundleReader::copy_to(BundleWriter& writer) {
   while (const std::size_t bytes = read_some(chunk.data(), chunk.size())) writer.write(chunk.data(), bytes);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

@@ -16,18 +16,18 @@
 
 struct archive;
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 
 // With the function that frees it.
 using ArchiveHandle = std::unique_ptr<archive, int (*)(archive*)>;
 
 // True when the first bytes are those of a tar archive, plain or compressed by zstd.
-bool looks_like_bundle(Input& input);
+bool looks_like_bundle(formats::Input& input);
 
 class BundleWriter {
  public:
   // The output stays the caller's, who commits it after close().
-  BundleWriter(Output& output, bool compress);
+  BundleWriter(formats::Output& output, bool compress);
   BundleWriter(const BundleWriter&) = delete;  // libarchive holds its address
   BundleWriter& operator=(const BundleWriter&) = delete;
   ~BundleWriter();
@@ -59,7 +59,7 @@ class BundleWriter {
   // Throws what the output threw, or what libarchive says when a call did not succeed.
   void check(bool succeeded) const;
 
-  Output& output_;
+  formats::Output& output_;
   // What Output threw inside libarchive's callback.
   std::exception_ptr output_error_;
   bool abandoned_ = false;
@@ -69,7 +69,7 @@ class BundleWriter {
 
 class BundleReader {
  public:
-  explicit BundleReader(Input& input);
+  explicit BundleReader(formats::Input& input);
   BundleReader(const BundleReader&) = delete;  // libarchive holds its address
   BundleReader& operator=(const BundleReader&) = delete;
 
@@ -130,7 +130,7 @@ class BundleReader {
   void check_type(const NpyHeader& header, NpyType wanted) const;
   [[noreturn]] void fail(const char* what) const;
 
-  Input& input_;
+  formats::Input& input_;
   std::exception_ptr input_error_;
   ArchiveHandle archive_;
   std::string name_;
@@ -139,4 +139,4 @@ class BundleReader {
   std::int64_t members_ = 0;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

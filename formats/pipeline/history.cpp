@@ -9,7 +9,7 @@
 #include "common/run/version.hpp"
 #include "formats/streams/text_scanner.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 namespace {
 
 constexpr std::string_view folder = "history/";
@@ -42,7 +42,7 @@ void check_tool_name(const std::string& name, const std::string& where) {
   const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
   if (name.empty() || name.size() > longest_tool || !std::ranges::all_of(name, allowed))
     throw DataError::at(where, "expected a tool named by 1 to {} of a to z, 0 to 9 and '-', found {}", longest_tool,
-                        name.empty() ? "''" : quote_found(name));
+                        name.empty() ? "''" : formats::quote_found(name));
 }
 
 }  // namespace
@@ -96,4 +96,4 @@ nlohmann::ordered_json settings_of(const std::string& tool, const std::vector<nl
   return nullptr;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

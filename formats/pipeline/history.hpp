@@ -10,7 +10,7 @@
 #include "common/run/run_context.hpp"
 #include "formats/pipeline/bundle.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 
 bool is_history_entry(std::string_view member);
 
@@ -35,4 +35,4 @@ void write_history(BundleWriter& writer, const std::vector<nlohmann::ordered_jso
 // The last entry of a tool, without its counts: version and options. Null where there is none.
 nlohmann::ordered_json settings_of(const std::string& tool, const std::vector<nlohmann::ordered_json>& history);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

@@ -7,7 +7,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 namespace {
 
 constexpr const char* part_json = "mesh/part.json";
@@ -197,7 +197,7 @@ bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy, bool
 
 bool read_weights(BundleReader& reader, StageData& data, BundleWriter* copy) {
   if (reader.name() != graph_weights) return false;
-  ConflictGraph& graph = ensure(data.graph);
+  graph::ConflictGraph& graph = ensure(data.graph);
   graph.weights = reader.read_array<std::int64_t>();
   graph.offsets.assign(graph.weights.size() + 1, 0);
   if (copy) copy->add_array(graph_weights, graph.weights);
@@ -296,13 +296,13 @@ void write_members(BundleWriter& writer, const TetMesh& mesh) {
 void write_members(BundleWriter& writer, const Candidates& candidates) {
   visit_members_of_candidates(candidates, writing_to(writer));
 }
-void write_members(BundleWriter& writer, const ConflictGraph& graph) {
+void write_members(BundleWriter& writer, const graph::ConflictGraph& graph) {
   visit_members_of_graph(graph, writing_to(writer));
 }
-void write_members(BundleWriter& writer, const CliqueCover& cover) {
+void write_members(BundleWriter& writer, const graph::CliqueCover& cover) {
   visit_members_of_cover(cover, writing_to(writer));
 }
-void write_members(BundleWriter& writer, const IndependentSet& solution) {
+void write_members(BundleWriter& writer, const graph::IndependentSet& solution) {
   visit_members_of_solution(solution, writing_to(writer));
 }
 void write_gap_members(BundleWriter& writer, const std::vector<std::int64_t>& gaps) {
@@ -312,4 +312,4 @@ void write_members(BundleWriter& writer, const MixedMesh& result) {
   visit_members_of_result(result, writing_to(writer));
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

@@ -9,7 +9,7 @@
 #include "formats/pipeline/bundle.hpp"
 #include "formats/pipeline/stage.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 
 // The role that a member belongs to by its name's folder; nothing for history and for members that we do not know.
 std::optional<Role> role_of_member(std::string_view name);
@@ -35,12 +35,12 @@ void write_members(BundleWriter& writer, const MeshPart& part);
 void write_members(BundleWriter& writer, const CandidateKeys& keys);
 void write_members(BundleWriter& writer, const TetMesh& mesh);
 void write_members(BundleWriter& writer, const Candidates& candidates);
-void write_members(BundleWriter& writer, const ConflictGraph& graph);
-void write_members(BundleWriter& writer, const CliqueCover& cover);
-void write_members(BundleWriter& writer, const IndependentSet& solution);
+void write_members(BundleWriter& writer, const graph::ConflictGraph& graph);
+void write_members(BundleWriter& writer, const graph::CliqueCover& cover);
+void write_members(BundleWriter& writer, const graph::IndependentSet& solution);
 // StageData::gaps.
 void write_gap_members(BundleWriter& writer, const std::vector<std::int64_t>& gaps);
 void write_members(BundleWriter& writer, const MixedMesh& result);
 void write_members(BundleWriter& writer, const MeshPiece& piece);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

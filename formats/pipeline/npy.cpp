@@ -9,7 +9,7 @@
 #include "common/run/error.hpp"
 #include "formats/streams/text_scanner.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "arrays are written as they lie in memory");
@@ -34,7 +34,8 @@ NpyType parse_type(std::string_view value, std::string_view source) {
                      std::string_view("fiu").find(code[1]) != std::string_view::npos &&
                      std::string_view("1248").find(code[2]) != std::string_view::npos && code != "<f1" && code != "|f1";
   if (!known)
-    throw DataError::at(source, "expected little-endian numbers (like '<i4'), found type {}", quote_found(code));
+    throw DataError::at(source, "expected little-endian numbers (like '<i4'), found type {}",
+                        formats::quote_found(code));
   return {code[1], code[2] - '0'};
 }
 
@@ -93,4 +94,4 @@ NpyHeader parse_npy_header(std::string_view header, std::string_view source) {
   return parsed;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

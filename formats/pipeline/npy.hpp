@@ -12,7 +12,7 @@
 
 #include "common/mesh/vec3.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 
 // 'f' float, 'i' signed, 'u' unsigned, with the number of bytes; as in "<i4".
 struct NpyType {
@@ -62,4 +62,4 @@ constexpr NpyType npy_type() {
     return {std::signed_integral<Number> ? 'i' : 'u', sizeof(Number)};
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

@@ -1,6 +1,6 @@
 #include "formats/pipeline/output_format.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 
 bool is_bundle_format(std::string_view format) {
   return format == bundle_format || format == compressed_bundle_format;
@@ -13,4 +13,4 @@ std::string_view ending_of(std::string_view path) {
   return dot == std::string_view::npos ? std::string_view() : path.substr(dot + 1);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

@@ -10,10 +10,10 @@
 #include "formats/pipeline/members.hpp"
 #include "formats/streams/input.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 
 PartHead read_part_bundle(const std::string& path, const std::function<bool(const MeshPart&)>& wanted) {
-  Input input = Input::open(path);
+  formats::Input input = formats::Input::open(path);
   if (!looks_like_bundle(input)) throw DataError::at(path, "expected a bundle of a part, found another file");
   BundleReader reader(input);
   StageData data;
@@ -74,7 +74,7 @@ void for_each_neighbour(const MeshPart& part, const std::vector<std::string>& pa
 }
 
 PieceBundle read_piece_bundle(const std::string& path, bool with_mesh) {
-  Input input = Input::open(path);
+  formats::Input input = formats::Input::open(path);
   if (!looks_like_bundle(input)) throw DataError::at(path, "expected a bundle of a piece, found another file");
   BundleReader reader(input);
   StageData data;
@@ -83,7 +83,7 @@ PieceBundle read_piece_bundle(const std::string& path, bool with_mesh) {
     if (read_piece_member(reader, piece)) continue;
     if (with_mesh && role_of_member(reader.name()) == Role::result) read_member(reader, data, nullptr, false);
     if (with_mesh && is_history_entry(reader.name())) data.history.push_back(read_history_entry(reader));
-    if (with_mesh && reader.name() == names_member) data.names = parse_group_names(reader.read_text(), reader.where());
+    if (with_mesh && reader.name() == formats::names_member) data.names = formats::parse_group_names(reader.read_text(), reader.where());
   }
   if (!piece) throw DataError::at(path, "expected a piece of a mesh, as assemble makes them of parts, found none");
   validate(*piece, path.c_str());
@@ -95,4 +95,4 @@ PieceBundle read_piece_bundle(const std::string& path, bool with_mesh) {
   return {path, std::move(*piece), std::move(mesh), std::move(data.history), std::move(data.names)};
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

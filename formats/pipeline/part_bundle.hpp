@@ -13,16 +13,16 @@
 #include "common/mesh/mesh_part.hpp"
 #include "common/mesh/mesh_piece.hpp"
 #include "common/mesh/mixed_mesh.hpp"
-#include "formats/group_names.hpp"
+#include "formats/streams/group_names.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 
 struct PartBundle {
   std::string name;
   MeshPart part;
   Candidates candidates;
   CandidateKeys keys;
-  std::optional<IndependentSet> chosen;  // where there is a solution
+  std::optional<graph::IndependentSet> chosen;  // where there is a solution
   std::vector<nlohmann::ordered_json> history;
 };
 
@@ -47,8 +47,8 @@ struct PieceBundle {
   MeshPiece piece;
   MixedMesh mesh;
   std::vector<nlohmann::ordered_json> history;
-  GroupNames names;
+  formats::GroupNames names;
 };
 PieceBundle read_piece_bundle(const std::string& path, bool with_mesh);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

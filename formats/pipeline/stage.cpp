@@ -19,9 +19,9 @@
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/members.hpp"
 #include "formats/pipeline/output_format.hpp"
-#include "formats/surface_bundle.hpp"
+#include "formats/pipeline/surface_bundle.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 namespace {
 
 std::vector<std::string_view> product_formats(Role product) {
@@ -36,7 +36,7 @@ std::vector<std::string_view> product_formats(Role product) {
     case Role::result:
       break;
   }
-  return mesh_format_names();
+  return formats::mesh_format_names();
 }
 
 // The format that the command line asks for. Throws UsageError when the product cannot be written so.
@@ -92,22 +92,22 @@ std::int64_t vertex_count_for_solution(const StageData& data, const std::string&
   throw DataError::at(source, "expected a graph or candidates beside the solution, found neither");
 }
 
-void read_role_file(Role role, Input& input, StageData& data) {
+void read_role_file(Role role, formats::Input& input, StageData& data) {
   switch (role) {
     case Role::mesh:
-      data.mesh = to_tet_mesh(read_mixed_mesh(input, &data.names), input.name().c_str());
+      data.mesh = to_tet_mesh(formats::read_mixed_mesh(input, &data.names), input.name().c_str());
       break;
     case Role::candidates:
-      data.candidates = read_cand(input);
+      data.candidates = formats::read_cand(input);
       break;
     case Role::graph:
-      data.graph = looks_like_dimacs(input) ? read_dimacs(input) : read_metis(input);
+      data.graph = formats::looks_like_dimacs(input) ? formats::read_dimacs(input) : formats::read_metis(input);
       break;
     case Role::solution:
-      data.solution = read_solution(input, vertex_count_for_solution(data, input.name()));
+      data.solution = formats::read_solution(input, vertex_count_for_solution(data, input.name()));
       break;
     case Role::result:
-      data.result = read_mixed_mesh(input, &data.names);
+      data.result = formats::read_mixed_mesh(input, &data.names);
       break;
   }
 }
@@ -147,8 +147,8 @@ void write_members(BundleWriter& writer, const KeysAndCandidates& product) {
 }
 
 struct GraphAndCover {
-  const ConflictGraph& graph;
-  const CliqueCover* cover;
+  const graph::ConflictGraph& graph;
+  const graph::CliqueCover* cover;
 };
 
 void write_members(BundleWriter& writer, const GraphAndCover& product) {
@@ -157,7 +157,7 @@ void write_members(BundleWriter& writer, const GraphAndCover& product) {
 }
 
 struct SolutionAndGaps {
-  const IndependentSet& solution;
+  const graph::IndependentSet& solution;
   const std::vector<std::int64_t>* gaps;
 };
 
@@ -195,10 +195,10 @@ void fill_defaults(StageData& data) {
 struct Stage::State {
   RunContext context;
   std::string format;
-  std::optional<Output> output;
+  std::optional<formats::Output> output;
   std::optional<BundleWriter> bundle;
   int history_count = 0;
-  GroupNames names;  // of the tags of the product
+  formats::GroupNames names;  // of the tags of the product
   bool names_are_written = false;
   // Where each role came from, for messages.
   std::map<Role, std::string> sources;
@@ -214,10 +214,10 @@ struct Stage::State {
   }
 
   void choose_output();
-  void read_bundle(Input& input, const std::set<Role>& taken, StageData& data);
+  void read_bundle(formats::Input& input, const std::set<Role>& taken, StageData& data);
   void pass_history_entry(BundleReader& reader, std::vector<nlohmann::ordered_json>& history);
   void write_names();
-  void read_files(std::map<Role, Input>& files, StageData& data);
+  void read_files(std::map<Role, formats::Input>& files, StageData& data);
   void orient(TetMesh& mesh, const std::string& name) const;
   void check(const StageData& data) const;
   std::string source_of(Role role) const;
@@ -262,20 +262,20 @@ StageData Stage::read(const std::vector<Role>& needs, const std::vector<Role>& w
   std::set<Role> taken(needs.begin(), needs.end());
   taken.insert(wants.begin(), wants.end());
 
-  std::map<Role, Input> files;
-  for (const auto& [role, path] : streams.files) files.emplace(role, Input::open(path));
+  std::map<Role, formats::Input> files;
+  for (const auto& [role, path] : streams.files) files.emplace(role, formats::Input::open(path));
 
   // Files may cover all that is needed; otherwise there must be an operand or a stream.
   const bool covered =
       !files.empty() && std::all_of(needs.begin(), needs.end(), [&](Role role) { return files.contains(role); });
-  std::optional<Input> input;
+  std::optional<formats::Input> input;
   if (streams.operand) {
-    input = Input::open(*streams.operand);
+    input = formats::Input::open(*streams.operand);
   } else if (!covered) {
     if (isatty(STDIN_FILENO))
       throw UsageError(fmt::format("nothing to read: name a file, or pipe a bundle to standard input (see {} --help)",
                                    state.context.info.name));
-    input = Input::open("-");
+    input = formats::Input::open("-");
   }
   if (input && !looks_like_bundle(*input)) {
     if (input->peek(1).empty())
@@ -306,14 +306,14 @@ StageData Stage::read(const std::vector<Role>& needs, const std::vector<Role>& w
 }
 
 // What the tool makes anew, and what depended on the old one, does not pass.
-void Stage::State::read_bundle(Input& input, const std::set<Role>& taken, StageData& data) {
+void Stage::State::read_bundle(formats::Input& input, const std::set<Role>& taken, StageData& data) {
   BundleReader reader(input);
   const bool has_other_mesh = context.streams.files.contains(Role::mesh);
   while (reader.next()) {
     const auto role = role_of_member(reader.name());
     const bool is_replaced =
         role ? context.streams.files.contains(*role)
-             : has_other_mesh && (is_surface_member(reader.name()) || reader.name() == names_member);
+             : has_other_mesh && (is_surface_member(reader.name()) || reader.name() == formats::names_member);
     const bool passes = bundle && !is_replaced && (!role || (*role < product() && !held_back.contains(*role)));
     if (role && !is_replaced) {
       seen.insert(*role);
@@ -324,8 +324,8 @@ void Stage::State::read_bundle(Input& input, const std::set<Role>& taken, StageD
     }
     if (is_history_entry(reader.name())) {
       pass_history_entry(reader, data.history);
-    } else if (reader.name() == names_member && !is_replaced) {
-      names = data.names = parse_group_names(reader.read_text(), reader.where());
+    } else if (reader.name() == formats::names_member && !is_replaced) {
+      names = data.names = formats::parse_group_names(reader.read_text(), reader.where());
       write_names();
     } else if (passes) {
       reader.copy_to(*bundle);
@@ -343,7 +343,7 @@ void Stage::State::pass_history_entry(BundleReader& reader, std::vector<nlohmann
 // Once: where they were read, or behind the product where the tool sets them.
 void Stage::State::write_names() {
   if (!bundle || names.empty() || std::exchange(names_are_written, true)) return;
-  bundle->add_text(std::string(names_member), text_of(names));
+  bundle->add_text(std::string(formats::names_member), text_of(names));
 }
 
 // Files of other programs list tets in any sense; bundles hold them positively oriented.
@@ -353,7 +353,7 @@ void Stage::State::orient(TetMesh& mesh, const std::string& name) const {
 }
 
 // In the order of the pipeline: a solution needs to know its graph.
-void Stage::State::read_files(std::map<Role, Input>& files, StageData& data) {
+void Stage::State::read_files(std::map<Role, formats::Input>& files, StageData& data) {
   for (auto& [role, input] : files) {
     seen.insert(role);
     sources[role] = input.name();
@@ -361,8 +361,8 @@ void Stage::State::read_files(std::map<Role, Input>& files, StageData& data) {
       BundleReader reader(input);
       const bool has_tags = role == Role::mesh || role == Role::result;
       while (reader.next())
-        if (has_tags && reader.name() == names_member)
-          data.names = parse_group_names(reader.read_text(), reader.where());
+        if (has_tags && reader.name() == formats::names_member)
+          data.names = formats::parse_group_names(reader.read_text(), reader.where());
         else if (role_of_member(reader.name()) == role && !(with_part && read_part_member(reader, data, nullptr)))
           read_member(reader, data, nullptr, with_cover || bundle);
       if (!holds(data, role))
@@ -385,10 +385,10 @@ std::string Stage::State::source_of(Role role) const {
   return found == sources.end() ? std::string(name_of(role)) : fmt::format("{}: {}", found->second, name_of(role));
 }
 
-SurfaceSoup Stage::read_surface(Input& input) {
+formats::SurfaceSoup Stage::read_surface(formats::Input& input) {
   State& state = *state_;
   if (!looks_like_bundle(input)) {
-    SurfaceSoup surface = hexpipe::read_surface(input);
+    formats::SurfaceSoup surface = formats::read_surface(input);
     begin();
     return surface;
   }
@@ -403,7 +403,7 @@ SurfaceSoup Stage::read_surface(Input& input) {
   return read_surface_bundle(input, pass, state.bundle ? &*state.bundle : nullptr);
 }
 
-void Stage::set_names(GroupNames names) {
+void Stage::set_names(formats::GroupNames names) {
   state_->names = std::move(names);
 }
 
@@ -445,13 +445,13 @@ void Stage::State::check(const StageData& data) const {
   if (data.candidates && data.candidate_keys)
     validate(*data.candidate_keys, data.candidates->size(), source_of(Role::candidates).c_str());
   if (data.graph) {
-    validate(*data.graph, source_of(Role::graph).c_str());
+    graph::validate(*data.graph, source_of(Role::graph).c_str());
     if (data.candidates && data.candidates->size() != data.graph->weights.size())
       throw DataError::at(source_of(Role::graph), "expected a vertex for each of the {} candidates, found {}",
                           data.candidates->size(), data.graph->weights.size());
   }
-  if (data.cover) validate(*data.cover, *data.graph, source_of(Role::graph).c_str());
-  if (data.solution && data.graph) validate(*data.solution, *data.graph, source_of(Role::solution).c_str());
+  if (data.cover) graph::validate(*data.cover, *data.graph, source_of(Role::graph).c_str());
+  if (data.solution && data.graph) graph::validate(*data.solution, *data.graph, source_of(Role::solution).c_str());
   if (data.gaps) validate_gaps(data, source_of(Role::solution).c_str());
   if (data.result) validate(*data.result, source_of(Role::result).c_str());
 }
@@ -477,30 +477,35 @@ void Stage::State::write(const Product& product, const nlohmann::ordered_json& d
 }
 
 void Stage::write(const TetMesh& mesh, const nlohmann::ordered_json& details) {
-  state_->write(mesh, details, [&](Output& output) { write_mixed_mesh(to_mixed_mesh(mesh), state_->format, output); });
-}
-
-void Stage::write(const Candidates& candidates, const CandidateKeys* keys, const nlohmann::ordered_json& details) {
-  state_->write(KeysAndCandidates{keys, candidates}, details, [&](Output& output) { write_cand(candidates, output); });
-}
-
-void Stage::write(const ConflictGraph& graph, const CandidateKeys* keys, const Candidates* candidates,
-                  const CliqueCover* cover, const nlohmann::ordered_json& details) {
-  if (state_->bundle && candidates != nullptr) write_members(*state_->bundle, KeysAndCandidates{keys, *candidates});
-  state_->write(GraphAndCover{graph, cover}, details, [&](Output& output) {
-    if (const auto warning = metis_weight_warning(graph)) state_->context.warn(*warning);
-    write_metis(graph, output);
+  state_->write(mesh, details, [&](formats::Output& output) {
+    formats::write_mixed_mesh(to_mixed_mesh(mesh), state_->format, output);
   });
 }
 
-void Stage::write(const IndependentSet& solution, const nlohmann::ordered_json& details,
+void Stage::write(const Candidates& candidates, const CandidateKeys* keys, const nlohmann::ordered_json& details) {
+  state_->write(KeysAndCandidates{keys, candidates}, details,
+                [&](formats::Output& output) { formats::write_cand(candidates, output); });
+}
+
+void Stage::write(const graph::ConflictGraph& graph, const CandidateKeys* keys, const Candidates* candidates,
+                  const graph::CliqueCover* cover, const nlohmann::ordered_json& details) {
+  if (state_->bundle && candidates != nullptr) write_members(*state_->bundle, KeysAndCandidates{keys, *candidates});
+  state_->write(GraphAndCover{graph, cover}, details, [&](formats::Output& output) {
+    if (const auto warning = formats::metis_weight_warning(graph)) state_->context.warn(*warning);
+    formats::write_metis(graph, output);
+  });
+}
+
+void Stage::write(const graph::IndependentSet& solution, const nlohmann::ordered_json& details,
                   const std::vector<std::int64_t>* gaps) {
-  state_->write(SolutionAndGaps{solution, gaps}, details, [&](Output& output) { write_solution(solution, output); });
+  state_->write(SolutionAndGaps{solution, gaps}, details,
+                [&](formats::Output& output) { formats::write_solution(solution, output); });
 }
 
 void Stage::write(const MixedMesh& result, const MeshPiece* piece, const nlohmann::ordered_json& details) {
   if (state_->bundle && piece != nullptr) write_members(*state_->bundle, *piece);
-  state_->write(result, details, [&](Output& output) { write_mixed_mesh(result, state_->format, output); });
+  state_->write(result, details,
+                [&](formats::Output& output) { formats::write_mixed_mesh(result, state_->format, output); });
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

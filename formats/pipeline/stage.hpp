@@ -16,25 +16,25 @@
 #include "common/mesh/mixed_mesh.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "common/run/run_context.hpp"
-#include "formats/group_names.hpp"
+#include "formats/streams/group_names.hpp"
 #include "formats/surfaces/surface_files.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 
 // What a stage has read; a role that was not asked for or not there stays empty.
 struct StageData {
   std::optional<TetMesh> mesh;
   std::optional<Candidates> candidates;
-  std::optional<ConflictGraph> graph;
-  std::optional<CliqueCover> cover;  // of the graph, for a stage that asked for it
-  std::optional<IndependentSet> solution;
+  std::optional<graph::ConflictGraph> graph;
+  std::optional<graph::CliqueCover> cover;  // of the graph, for a stage that asked for it
+  std::optional<graph::IndependentSet> solution;
   // Of the solution's vertices, what certify found of the gap to its bound at each (gap_shares.hpp).
   std::optional<std::vector<std::int64_t>> gaps;
   std::optional<MixedMesh> result;
   // Where the mesh is a part of another, for a stage that asked for it.
   std::optional<MeshPart> part;
   std::optional<CandidateKeys> candidate_keys;
-  GroupNames names;  // of the tags of mesh and result
+  formats::GroupNames names;  // of the tags of mesh and result
   std::vector<nlohmann::ordered_json> history;
 };
 
@@ -67,9 +67,9 @@ class Stage {
 
   // For tetmesh: reads a surface of any format. What else a bundle has passes, but for the stages behind. Begins the
   // output.
-  SurfaceSoup read_surface(Input& input);
+  formats::SurfaceSoup read_surface(formats::Input& input);
   // Before writing: names that go into the bundle, or the file, with the product.
-  void set_names(GroupNames names);
+  void set_names(formats::GroupNames names);
 
   // Write the product, in the form that the command line asks for, then the history entry {tool, version, options,
   // replaced, ...details}, and commit; `replaced` where roles came from files beside a bundle.
@@ -77,10 +77,10 @@ class Stage {
   // Of a part of a mesh, with their keys in a bundle; else null.
   void write(const Candidates& candidates, const CandidateKeys* keys, const nlohmann::ordered_json& details);
   // With what belongs to it, in a bundle only: candidates that were held back and their keys, a clique cover.
-  void write(const ConflictGraph& graph, const CandidateKeys* keys, const Candidates* candidates,
-             const CliqueCover* cover, const nlohmann::ordered_json& details);
+  void write(const graph::ConflictGraph& graph, const CandidateKeys* keys, const Candidates* candidates,
+             const graph::CliqueCover* cover, const nlohmann::ordered_json& details);
   // With the gap at its vertices in a bundle, where that is known.
-  void write(const IndependentSet& solution, const nlohmann::ordered_json& details,
+  void write(const graph::IndependentSet& solution, const nlohmann::ordered_json& details,
              const std::vector<std::int64_t>* gaps = nullptr);
   // With what a piece of a result has beside it, in a bundle only; else null.
   void write(const MixedMesh& result, const MeshPiece* piece, const nlohmann::ordered_json& details);
@@ -93,4 +93,4 @@ class Stage {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

@@ -12,14 +12,14 @@
 #include "formats/surfaces/ply.hpp"
 #include "formats/surfaces/surface_building.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 PointList read_npy_points(std::string_view bytes, const std::string& name) {
-  const std::size_t header_size = npy_header_size(bytes.substr(0, 10));
+  const std::size_t header_size = pipeline::npy_header_size(bytes.substr(0, 10));
   if (header_size > bytes.size())
     throw DataError::at(name, "expected {} bytes of header, found {}", header_size, bytes.size());
-  const NpyHeader header = parse_npy_header(bytes.substr(0, header_size), name);
+  const pipeline::NpyHeader header = pipeline::parse_npy_header(bytes.substr(0, header_size), name);
   if (header.shape.size() != 2 || header.shape[1] != 3 || header.type.kind != 'f' || header.type.bytes < 4)
     throw DataError::at(name, "expected an array of floats with three columns, found another shape or type");
   const std::string_view body = bytes.substr(header_size);
@@ -76,7 +76,7 @@ PointList read_xyz_points(std::string_view text, const std::string& name) {
 }
 
 PointList read_by_content(std::string_view bytes, const std::string& name) {
-  if (npy_header_size(bytes.substr(0, 10)) > 0) return read_npy_points(bytes, name);
+  if (pipeline::npy_header_size(bytes.substr(0, 10)) > 0) return read_npy_points(bytes, name);
   bytes = without_byte_order_mark(bytes);
   if (looks_like_ply(bytes)) return {read_ply(bytes, name).points, {}, {}};
   if (!bytes.empty()) expect_last_line_end(bytes, name);
@@ -99,4 +99,4 @@ PointList read_points(Input& input) {
   return list;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -8,7 +8,7 @@
 #include "common/mesh/vec3.hpp"
 #include "formats/streams/input.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 struct PointList {
   std::vector<Vec3> points;
@@ -22,4 +22,4 @@ struct PointList {
 // The format is told by content. Throws FormatError or DataError naming line or point.
 PointList read_points(Input& input);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -14,7 +14,7 @@
 #include "formats/streams/text_scanner.hpp"
 #include "formats/surfaces/surface_building.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 bool is_size(double size) {
@@ -57,10 +57,10 @@ SizeList read_text(std::string_view text, const std::string& name) {
 }
 
 SizeList read_npy(std::string_view bytes, const std::string& name) {
-  const std::size_t header_size = npy_header_size(bytes.substr(0, 10));
+  const std::size_t header_size = pipeline::npy_header_size(bytes.substr(0, 10));
   if (header_size > bytes.size())
     throw DataError::at(name, "expected {} bytes of header, found {}", header_size, bytes.size());
-  const NpyHeader header = parse_npy_header(bytes.substr(0, header_size), name);
+  const pipeline::NpyHeader header = pipeline::parse_npy_header(bytes.substr(0, header_size), name);
   const bool has_places = header.shape.size() == 2 && header.shape[1] == 4;
   if (!(header.shape.size() == 1 || has_places) || header.type.kind != 'f' || header.type.bytes < 4)
     throw DataError::at(name, "expected an array of floats, of one dimension or with four columns, found another one");
@@ -127,7 +127,7 @@ SizeList read_background(std::string_view text, const std::string& name) {
 }
 
 SizeList read_by_content(std::string_view bytes, const std::string& name) {
-  if (npy_header_size(bytes.substr(0, 10)) > 0) return read_npy(bytes, name);
+  if (pipeline::npy_header_size(bytes.substr(0, 10)) > 0) return read_npy(bytes, name);
   bytes = without_byte_order_mark(bytes);
   if (looks_like_msh(bytes)) return read_background(bytes, name);
   if (!bytes.empty()) expect_last_line_end(bytes, name);
@@ -159,4 +159,4 @@ SizeList on_surface(SizeList sizes, const SurfaceSoup& surface) {
   return list;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

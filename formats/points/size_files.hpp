@@ -10,7 +10,7 @@
 #include "formats/streams/input.hpp"
 #include "formats/surfaces/surface_files.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 struct SizeList {
   static constexpr Vertex none = -1;
@@ -29,4 +29,4 @@ SizeList read_sizes(Input& input);
 // file of the surface has another number of vertices, or none of its own.
 SizeList on_surface(SizeList sizes, const SurfaceSoup& surface);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

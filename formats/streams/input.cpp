@@ -11,7 +11,7 @@
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 constexpr std::size_t buffer_size = 1 << 20;
@@ -116,4 +116,4 @@ std::string Input::read_all() {
   return all;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 class Input {
  public:
@@ -44,4 +44,4 @@ class Input {
   bool at_end_ = false;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

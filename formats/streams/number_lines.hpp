@@ -14,7 +14,7 @@
 #include "common/run/error.hpp"
 #include "formats/streams/text_scanner.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 class NumberLines {
  public:
@@ -123,4 +123,4 @@ class NumberLines {
   long line_ = 0;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

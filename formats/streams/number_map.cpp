@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 NumberMap::NumberMap(const std::vector<std::int64_t>& numbers) {
   if (numbers.empty()) return;
@@ -48,4 +48,4 @@ std::int32_t NumberMap::find(std::int64_t number) const {
   return found != list_.end() && found->first == number ? found->second : none;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 class NumberMap {
  public:
@@ -33,4 +33,4 @@ class NumberMap {
   std::optional<std::int64_t> repeated_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -8,7 +8,7 @@
 
 #include "formats/streams/output.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // Numbers and words of a line, separated by blanks.
 class LineWriter {
@@ -48,4 +48,4 @@ void write_array_bytes(Output& output, const Range& numbers) {
   output.write({reinterpret_cast<const char*>(std::data(numbers)), std::size(numbers) * sizeof *std::data(numbers)});
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -14,7 +14,7 @@
 #include "common/run/error.hpp"
 #include "common/run/links.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 constexpr int most_names_tried = 100;
@@ -169,4 +169,4 @@ void Output::commit() {
   if (!closed && path_.empty()) fail();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -12,7 +12,7 @@
 
 #include "common/run/removed_files.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 class Output {
  public:
@@ -55,4 +55,4 @@ class Output {
   bool committed_ = false;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

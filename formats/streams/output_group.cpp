@@ -7,7 +7,7 @@
 #include "common/run/error.hpp"
 #include "common/run/open_files.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 OutputGroup::OutputGroup() {
   allow_many_open_files();
@@ -45,4 +45,4 @@ void OutputGroup::commit() {
   directory_.clear();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -8,7 +8,7 @@
 
 #include "formats/streams/output.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 class OutputGroup {
  public:
@@ -32,4 +32,4 @@ class OutputGroup {
   std::vector<std::string> added_;  // in place now, where there was none before
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

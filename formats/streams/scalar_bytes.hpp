@@ -14,7 +14,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 enum class ScalarType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
@@ -95,4 +95,4 @@ std::vector<To> convert_scalars(std::string_view bytes, ScalarType type, std::en
   });
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <limits>
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 char lower(char c) {
@@ -109,4 +109,4 @@ double TextScanner::underflowing_number(std::string_view what) {
   return value;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -11,7 +11,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 class TextScanner {
  public:
@@ -117,4 +117,4 @@ T TextScanner::number(std::string_view what) {
   return value;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -10,7 +10,7 @@
 
 #include "formats/surfaces/surface_building.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 // What polygonal OBJ consists of. Free-form curves and surfaces are not: their first statement is an error.
@@ -163,4 +163,4 @@ SurfaceSoup read_obj(std::string_view text, const std::string& name) {
   return ObjReader(text, name).read();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

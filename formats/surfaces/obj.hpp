@@ -6,7 +6,7 @@
 
 #include "formats/surfaces/surface_files.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // Every statement of polygonal OBJ is known; only v, f, g and o are obeyed. The groups and objects (g, o) that hold
 // faces are numbered from 1 in the order in which they come; their numbers become the tags.
@@ -15,4 +15,4 @@ SurfaceSoup read_obj(std::string_view text, const std::string& name);
 // True for the first word of an OBJ statement.
 bool is_obj_keyword(std::string_view word);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

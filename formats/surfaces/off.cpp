@@ -4,7 +4,7 @@
 
 #include "formats/surfaces/surface_building.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 // The prefixes of the keyword in the order in which they may come.
@@ -69,4 +69,4 @@ SurfaceSoup read_off(std::string_view text, const std::string& name) {
   return soup;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -6,7 +6,7 @@
 
 #include "formats/surfaces/surface_files.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // True for OFF and its variants with normals, colours or texture coordinates (NOFF, COFF, STOFF, STCNOFF, ...), and for
 // those of other dimensions (4OFF, nOFF), which read_off rejects by name.
@@ -16,4 +16,4 @@ bool is_off_keyword(std::string_view word);
 // missing.
 SurfaceSoup read_off(std::string_view text, const std::string& name);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

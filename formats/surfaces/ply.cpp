@@ -11,7 +11,7 @@
 #include "formats/streams/text_scanner.hpp"
 #include "formats/surfaces/surface_building.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 enum class Type { i1, u1, i2, u2, i4, u4, f4, f8 };
@@ -374,4 +374,4 @@ SurfaceSoup read_ply(std::string_view bytes, const std::string& name) {
   return BodyReader(header, name, BinaryBody(bytes.substr(scanner.position()), swap, name)).read();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -6,7 +6,7 @@
 
 #include "formats/surfaces/surface_files.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 bool looks_like_ply(std::string_view bytes);
 
@@ -14,4 +14,4 @@ bool looks_like_ply(std::string_view bytes);
 // skipped. Faces are placed by line (ASCII) or by number (binary).
 SurfaceSoup read_ply(std::string_view bytes, const std::string& name);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

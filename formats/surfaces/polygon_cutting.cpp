@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 constexpr std::size_t most_corners = 10'000;
@@ -115,4 +115,4 @@ void cut_if_concave(std::span<const Vec3> points, std::span<Triangle> fan) {
   for (std::size_t i = 0; i < fan.size(); ++i) fan[i] = {corners[ears[i][0]], corners[ears[i][1]], corners[ears[i][2]]};
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -6,7 +6,7 @@
 
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // Cuts anew what was fanned from its first corner, if a triangle of the fan is turned against the polygon, as happens
 // where that is concave: by cutting off ears, in the projection along an axis (G. H. Meisters: Polygons have ears,
@@ -14,4 +14,4 @@ namespace hexpipe {
 // many as before. Time grows with the square of the number of corners.
 void cut_if_concave(std::span<const Vec3> points, std::span<Triangle> fan);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -6,7 +6,7 @@
 
 #include "formats/surfaces/surface_building.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 constexpr std::size_t header_bytes = 80;
@@ -94,4 +94,4 @@ SurfaceSoup read_binary_stl(std::string_view bytes, const std::string& name) {
   return soup;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -6,7 +6,7 @@
 
 #include "formats/surfaces/surface_files.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // True when the length is the one that the count in a binary header asks for. ASCII cannot match by accident: four
 // letters read as a count are hundreds of millions of facets.
@@ -18,4 +18,4 @@ SurfaceSoup read_ascii_stl(std::string_view text, const std::string& name);
 // The facets' attributes become the tags. Throws DataError when the length is not 84 + 50 n or a coordinate not finite.
 SurfaceSoup read_binary_stl(std::string_view bytes, const std::string& name);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

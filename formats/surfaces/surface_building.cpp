@@ -6,7 +6,7 @@
 #include "common/run/error.hpp"
 #include "formats/surfaces/polygon_cutting.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 std::size_t PointMerger::Hash::operator()(const Vec3& p) const {
   // Multiplication spreads low bits upwards, rotation brings them back: coordinates of a grid differ in few bits.
@@ -87,4 +87,4 @@ Vec3 read_coordinates(TextScanner& scanner) {
   return {x, y, z};
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -12,7 +12,7 @@
 #include "formats/streams/text_scanner.hpp"
 #include "formats/surfaces/surface_files.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // Gives every distinct coordinate triple one index, in the order of first appearance.
 class PointMerger {
@@ -59,4 +59,4 @@ T number_on_line(TextScanner& scanner, std::string_view what) {
   return scanner.number<T>(what);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -5,20 +5,23 @@
 #include <optional>
 
 #include "common/run/error.hpp"
-#include "formats/surface_bundle.hpp"
 #include "formats/surfaces/obj.hpp"
 #include "formats/surfaces/off.hpp"
 #include "formats/surfaces/ply.hpp"
 #include "formats/surfaces/stl.hpp"
 #include "formats/surfaces/surface_building.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 // An ASCII STL begins like some binary ones: "solid". The high byte of a binary header's count is zero in any file
 // below 800 MB, a text has no zero byte.
 bool has_zero_byte_in_header(std::string_view bytes) {
   return bytes.substr(0, 84).find('\0') != std::string_view::npos;
+}
+
+bool is_archive(std::string_view bytes) {
+  return bytes.starts_with("\x28\xb5\x2f\xfd") || (bytes.size() > 262 && bytes.substr(257, 5) == "ustar");
 }
 
 // CAD files by their first bytes: triangles have to be made of them first.
@@ -34,6 +37,8 @@ std::optional<std::string_view> hint_for_cad(std::string_view bytes) {
 SurfaceSoup read_by_content(std::string_view bytes, const std::string& name) {
   if (bytes.empty())
     throw DataError::at(name, "expected a surface in STL, OBJ, PLY or OFF, found nothing: it is empty");
+  if (is_archive(bytes))
+    throw DataError::at(name, "expected a surface in STL, OBJ, PLY or OFF, found a bundle or another archive");
   if (const auto hint = hint_for_cad(bytes))
     throw DataError::at(name,
                         "expected a surface in STL, OBJ, PLY or OFF, found {}; 'tessellate {} | tetmesh' meshes it",
@@ -77,7 +82,6 @@ std::string SurfaceSoup::place_of(std::size_t triangle) const {
 }
 
 SurfaceSoup read_surface(Input& input) {
-  if (looks_like_bundle(input)) return read_surface_bundle(input, {});
   SurfaceSoup soup = read_by_content(input.read_all(), input.name());
   soup.name = input.name();
   check_extent(soup);
@@ -91,4 +95,4 @@ void check_extent(const SurfaceSoup& soup) {
   check_magnitude(soup);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

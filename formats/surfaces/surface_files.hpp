@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "common/mesh/tet_mesh.hpp"
-#include "formats/group_names.hpp"
+#include "formats/streams/group_names.hpp"
 #include "formats/streams/input.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 // The ends of an edge of some triangles.
 using CurveEdge = std::array<Vertex, 2>;
@@ -43,11 +43,11 @@ struct SurfaceSoup {
   const char* place_unit() const { return text ? "line" : "triangle"; }
 };
 
-// The format is told by content: a bundle has it in its members surface/*.npy. Throws FormatError or DataError naming
-// line or facet.
+// The format is told by content. Throws FormatError or DataError naming line or facet. Of bundles,
+// pipeline/surface_bundle.hpp reads surfaces.
 SurfaceSoup read_surface(Input& input);
 
 // What all readers promise: there are triangles, not too many, of a size that can be computed with.
 void check_extent(const SurfaceSoup& soup);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""page.py [--cells N] [--page FILE] - how long a page of view with N cells (10^6) takes to open, in headless Chromium.
+"""page.py [--cells N] [--page FILE] - how long a page of viewmesh with N cells (10^6) takes to open, in headless Chromium.
 
 The mesh is a box of moved points, so that no two numbers are alike: hexes in the lower two thirds, six tets a cube above.
-Printed are what view takes to write the page, and its size; the page's own marks, in seconds after it was asked for; processor
+Printed are what viewmesh takes to write the page, and its size; the page's own marks, in seconds after it was asked for; processor
 seconds of Chromium's processes (the renderer is the page, the GPU process draws, here without a graphics card) until the first
 picture; and what one step of turning, of the clipping plane, of peeling and of the histogram's ends takes in the page's script.
 Ends with 1 when the renderer takes MOST_SECONDS or more until the first picture. --page measures a page that is there.
@@ -66,8 +66,8 @@ def write_result(path, arrays):
 def write_page(cells, folder):
     mesh = box(cells)
     write_result(folder / "mesh.tar", mesh)
-    seconds, peak = meshes.run([meshes.tool("view"), "-q", folder / "mesh.tar", "-o", folder / "page.html"])
-    print(f"view: {len(mesh['hexes'])} hexes, {len(mesh['tets'])} tets, {seconds:.2f} s CPU, peak {peak / 2**20:.0f} MiB")
+    seconds, peak = meshes.run([meshes.tool("viewmesh"), "-q", folder / "mesh.tar", "-o", folder / "page.html"])
+    print(f"viewmesh: {len(mesh['hexes'])} hexes, {len(mesh['tets'])} tets, {seconds:.2f} s CPU, peak {peak / 2**20:.0f} MiB")
     return folder / "page.html"
 
 

@@ -1,4 +1,4 @@
-"""Headless Chromium for the tests and measurements of view's page, drawn by software where there is no graphics card."""
+"""Headless Chromium for the tests and measurements of viewmesh's page, drawn by software where there is no graphics card."""
 from selenium import webdriver
 from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service

@@ -95,7 +95,7 @@ class Page:
         assert self.browser.save_screenshot(str(self.folder / f"{name}.png"))
 
 
-# A line each what --view refuses, as view.bats checks.
+# A line each what --view refuses, as viewmesh.bats checks.
 WRONG_VIEWS = (pathlib.Path(__file__).parent.parent / "data" / "wrong_views.txt").read_text().splitlines()
 
 

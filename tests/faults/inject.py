@@ -35,7 +35,7 @@ STAGES = {  # options, ending of the product
     "assemble": ([], "vtu"),
     "merge-parts": ([], "tar.zst"),
     "mesh-part": (["--parts", "2"], ""),  # a directory
-    "view": ([], "html"),
+    "viewmesh": ([], "html"),
     "lns-mpi": (["--iterations", "5"], "sol"),
 }
 # Of runs that are long enough to be stopped in the middle.
@@ -49,7 +49,7 @@ LONG_RUNS = {
     "assemble": ["--smooth", "20"],
     "merge-parts": [],
     "mesh-part": ["--parts", "2"],
-    "view": [],
+    "viewmesh": [],
     "lns-mpi": ["--time-limit", "0.3"],
 }
 LIBARCHIVE_WITHOUT_MEMORY = ("Fatal Internal Error in libarchive: Out of memory", "Fatal Internal Error in libarchive: No memory")
@@ -299,7 +299,7 @@ def stage_inputs(directory, size):
         inputs[following] = directory / (following + ".in.tar")
         options = STAGES[tool][0]
         subprocess.run([BIN / tool, *options, "-q", inputs[tool], "-o", inputs[following]], check=True)
-    inputs["certify"] = inputs["view"] = inputs["assemble"]
+    inputs["certify"] = inputs["viewmesh"] = inputs["assemble"]
     inputs["lns-mpi"] = inputs["lns"]
     inputs["merge-parts"] = directory / "merge-parts.in.tar"
     subprocess.run([BIN / "findhex", *STAGES["findhex"][0], "--part", "1/1", "-q", mesh, "-o", inputs["merge-parts"]], check=True)

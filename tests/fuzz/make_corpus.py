@@ -114,8 +114,8 @@ def tools():
         for choice, (tool_name, folders) in enumerate(inputs.items()):
             seed("tool-" + tool_name, name, bytes([choice % 2]) + only(solution, *folders))
         seed("tool-mesh-part", name, bytes([1]) + only(solution, "mesh"))
-        seed("tool-view", name, bytes([3]) + only(solution, "mesh", "candidates", "graph", "solution"))
-        seed("tool-view", name + "-result", b"\0" + only(tool("assemble", stdin=solution), "result"))
+        seed("tool-viewmesh", name, bytes([3]) + only(solution, "mesh", "candidates", "graph", "solution"))
+        seed("tool-viewmesh", name + "-result", b"\0" + only(tool("assemble", stdin=solution), "result"))
     with tempfile.TemporaryDirectory() as folder:
         mesh = pathlib.Path(folder) / "lattice.mesh"
         mesh.write_bytes(lattice("kuhn", "1"))

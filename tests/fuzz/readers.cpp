@@ -23,6 +23,9 @@
 #include "tests/fuzz/targets.hpp"
 
 namespace hexpipe {
+using namespace formats;
+using namespace graph;
+using namespace pipeline;
 namespace {
 
 const ScratchFiles& scratch() {

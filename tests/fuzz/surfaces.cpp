@@ -11,6 +11,10 @@
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 
 namespace hexpipe {
+using namespace formats;
+using namespace tetmesh::sizing;
+using namespace tetmesh::solid;
+using namespace tetmesh::surface;
 namespace {
 
 // Larger ones take long under the sanitizers and have no more to show.

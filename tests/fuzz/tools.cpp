@@ -22,7 +22,7 @@ int certify_main(int argc, char** argv);
 int assemble_main(int argc, char** argv);
 int merge_parts_main(int argc, char** argv);
 int mesh_part_main(int argc, char** argv);
-int view_main(int argc, char** argv);
+int viewmesh_main(int argc, char** argv);
 }
 
 namespace hexpipe {
@@ -78,9 +78,10 @@ const FuzzedTool merge_parts{"merge-parts", merge_parts_main, {{}, {"--compress"
 const FuzzedTool mesh_part{"mesh-part", mesh_part_main, {{"--parts", "1"}, {"--parts", "2"}, {"--parts", "5"}}};
 #endif
 #ifdef HEXPIPE_FUZZES_VIEW
-const FuzzedTool view{"view",
-                      view_main,
-                      {{}, {"--show", "mesh"}, {"--show", "candidates"}, {"--show", "solution"}, {"--show", "result"}}};
+const FuzzedTool viewmesh{
+    "viewmesh",
+    viewmesh_main,
+    {{}, {"--show", "mesh"}, {"--show", "candidates"}, {"--show", "solution"}, {"--show", "result"}}};
 #endif
 
 const ScratchFiles& scratch() {
@@ -152,7 +153,7 @@ constexpr std::array targets{
     FuzzTarget{"tool-mesh-part", [](std::string_view bytes) { run_on_bundle(mesh_part, bytes); }, 1},
 #endif
 #ifdef HEXPIPE_FUZZES_VIEW
-    FuzzTarget{"tool-view", [](std::string_view bytes) { run_on_bundle(view, bytes); }, 1},
+    FuzzTarget{"tool-viewmesh", [](std::string_view bytes) { run_on_bundle(viewmesh, bytes); }, 1},
 #endif
     FuzzTarget{"pipeline", run_pipeline},
 };

@@ -4,6 +4,7 @@
 #include "sample_meshes.hpp"
 
 namespace hexpipe {
+using namespace formats;
 namespace {
 
 using ::testing::HasSubstr;

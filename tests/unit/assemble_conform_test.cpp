@@ -8,6 +8,10 @@
 #include "tools/assemble/assemble.hpp"
 
 namespace hexpipe {
+using namespace assemble::conform;
+using namespace assemble::hybrid;
+using namespace assemble;
+using namespace graph;
 namespace {
 
 using testing::jitter;
@@ -21,7 +25,7 @@ constexpr AssembleOptions conforming{.conformity = AssembleOptions::Conformity::
 
 TEST(Conform, OneCubeAmongTetsKeepsItsHexAndGetsAPyramidOnEachSide) {
   const auto lattice = make_lattice(3);
-  const AssembleResult result = assemble(lattice.mesh, lattice.cubes, {13}, conforming);
+  const AssembleResult result = assemble::assemble(lattice.mesh, lattice.cubes, {13}, conforming);
   EXPECT_EQ(result.mesh.hexes.size(), 1u);
   EXPECT_EQ(result.mesh.pyramids.size(), 6u);
   EXPECT_EQ(result.statistics.volumes.nonconforming_quads, 0);
@@ -31,7 +35,7 @@ TEST(Conform, OneCubeAmongTetsKeepsItsHexAndGetsAPyramidOnEachSide) {
 
 TEST(Conform, AllCubesNeedNothing) {
   const auto lattice = make_lattice(2);
-  const AssembleResult result = assemble(lattice.mesh, lattice.cubes, {0, 1, 2, 3, 4, 5, 6, 7}, conforming);
+  const AssembleResult result = assemble::assemble(lattice.mesh, lattice.cubes, {0, 1, 2, 3, 4, 5, 6, 7}, conforming);
   EXPECT_EQ(result.mesh.hexes.size(), 8u);
   EXPECT_EQ(result.statistics.cells(), 8);
   EXPECT_EQ(result.mesh.quads.size(), 24u);
@@ -46,7 +50,7 @@ TEST(Conform, RandomChoicesOnJitteredLatticesStayConforming) {
     auto lattice = make_lattice(5);
     jitter(lattice, 0.15, random);
     const auto chosen = random_choice(lattice, random.uniform(0.1, 0.9), random);
-    const AssembleResult result = assemble(lattice.mesh, lattice.cubes, chosen, conforming);
+    const AssembleResult result = assemble::assemble(lattice.mesh, lattice.cubes, chosen, conforming);
     EXPECT_EQ(result.statistics.volumes.nonconforming_quads, 0);
     std::int64_t given_back = 0;
     for (auto count : result.statistics.conformity.given_back) given_back += count;
@@ -82,7 +86,7 @@ TEST(Conform, TaggedTrianglesInsideStay) {
     const auto chosen = random_choice(lattice, random.uniform(0.1, 0.5), random);
     const std::int64_t tagged = tag_inner_facets(lattice, chosen, 5, random);
     for (const int smooth : {0, 5}) {
-      const AssembleResult result = assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = smooth});
+      const AssembleResult result = assemble::assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = smooth});
       // Two of them may have become the quad of a prism.
       EXPECT_EQ(std::ranges::count(result.mesh.triangles.tags, 5) + 2 * std::ranges::count(result.mesh.quads.tags, 5),
                 tagged);
@@ -101,12 +105,12 @@ TEST(Conform, AHexThatStaysPoorGoesBack) {
         if (std::ranges::all_of(mesh.triangles[i], [&](Vertex v) { return mesh.points[v][axis] == end; }))
           mesh.triangle_tags[i] = 2 * axis + end;
   for (Vec3& p : mesh.points) p.x += 12 * p.z;
-  const AssembleResult result = assemble(mesh, lattice.cubes, {0}, {});
+  const AssembleResult result = assemble::assemble(mesh, lattice.cubes, {0}, {});
   EXPECT_EQ(result.mesh.hexes.size(), 0u);
   EXPECT_EQ(result.mesh.tets.size(), 6u);
   EXPECT_EQ(result.statistics.conformity.given_back[static_cast<std::size_t>(GivenBack::poor_elements)], 1);
   for (Vec3& p : mesh.points) p.x -= 4 * p.z;  // a scaled Jacobian of 0.12
-  EXPECT_EQ(assemble(mesh, lattice.cubes, {0}, {}).mesh.hexes.size(), 1u);
+  EXPECT_EQ(assemble::assemble(mesh, lattice.cubes, {0}, {}).mesh.hexes.size(), 1u);
 }
 
 // Two pyramids whose common quad is a hole of the mesh: a missing tet. With a quad on one side the hole would have two
@@ -127,7 +131,7 @@ TEST(Conform, CellsThatWouldCloseAHoleGoBack) {
   pyramids.tet_offsets = {0, 2, 4};
   pyramids.boundary_tet_offsets = {0, 0, 0};
   for (const IndependentSet& chosen : {IndependentSet{0}, IndependentSet{1}, IndependentSet{0, 1}}) {
-    const auto result = assemble(mesh, pyramids, chosen, {});
+    const auto result = assemble::assemble(mesh, pyramids, chosen, {});
     EXPECT_EQ(result.mesh.tets.size(), 4u);
     EXPECT_EQ(result.mesh.triangles.size(), 12u);
     EXPECT_EQ(result.statistics.conformity.given_back[static_cast<std::size_t>(GivenBack::diagonal_on_surface)],

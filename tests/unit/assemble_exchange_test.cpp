@@ -17,6 +17,13 @@
 #include "tools/assemble/hybrid/complete_surface.hpp"
 
 namespace hexpipe {
+using namespace assemble;
+using namespace assemble::choice;
+using namespace assemble::hybrid;
+using namespace candidates;
+using namespace conflicts;
+using namespace graph;
+using namespace mwis::ground;
 namespace {
 
 using testing::jitter;
@@ -192,7 +199,8 @@ TEST(Exchange, CellsThatCannotStandTogetherAreAnError) {
     const auto beside = scene.graph.neighbours_of(first);
     const std::int32_t second = beside[random.below(beside.size())];
     const IndependentSet pair{std::min(first, second), std::max(first, second)};
-    EXPECT_THROW(assemble(scene.mesh, scene.candidates, pair, {.smooth = 0}), DataError) << first << ' ' << second;
+    EXPECT_THROW(assemble::assemble(scene.mesh, scene.candidates, pair, {.smooth = 0}), DataError)
+        << first << ' ' << second;
   }
 }
 
@@ -224,7 +232,7 @@ TEST(Exchange, WhatNobodyChoseMayBeAnything) {
   std::ranges::fill(all_huge.quality, 1e300);
   std::ranges::fill(all_huge.volume, 1e308);
   for (const Candidates& candidates : {without_last_tet, without_slivers, inverted, huge, negative, all_huge}) {
-    const AssembleResult made = assemble(scene.mesh, candidates, chosen, {.smooth = 0});
+    const AssembleResult made = assemble::assemble(scene.mesh, candidates, chosen, {.smooth = 0});
     ASSERT_TRUE(made.statistics.exchange);
     EXPECT_LE(made.statistics.exchange->open_quads_after, made.statistics.exchange->open_quads_before);
   }
@@ -264,7 +272,7 @@ TEST(Exchange, IsAnOptionOfAssemble) {
   const Scene scene = jittered_scene(4, random);
   const auto chosen = scene.maximal_choice({}, random);
   const auto assembled = [&](AssembleOptions options) {
-    return assemble(scene.mesh, scene.candidates, chosen, options);
+    return assemble::assemble(scene.mesh, scene.candidates, chosen, options);
   };
   const AssembleResult with = assembled({.smooth = 0});
   const AssembleResult without = assembled({.exchange = AssembleOptions::Exchange::none, .smooth = 0});

@@ -4,6 +4,8 @@
 #include "tools/assemble/assemble.hpp"
 
 namespace hexpipe {
+using namespace assemble;
+using namespace graph;
 namespace {
 
 using testing::jitter;
@@ -38,7 +40,7 @@ TEST(Fill, TwoPrismsStandInACornerBetweenCubes) {
     IndependentSet chosen;
     for (std::int32_t cube = 0; cube < 4; ++cube)
       if (cube != missing) chosen.push_back(cube);
-    const AssembleResult result = assemble(layer.mesh, layer.cubes, chosen, {.smooth = 0});
+    const AssembleResult result = assemble::assemble(layer.mesh, layer.cubes, chosen, {.smooth = 0});
     EXPECT_EQ(result.statistics.filling_prisms, 2);
     EXPECT_EQ(result.mesh.hexes.size(), 3u);
     EXPECT_EQ(result.mesh.prisms.size(), 2u);
@@ -47,7 +49,7 @@ TEST(Fill, TwoPrismsStandInACornerBetweenCubes) {
     EXPECT_EQ(result.statistics.volumes.nonconforming_quads, 0);
 
     const AssembleResult without =
-        assemble(layer.mesh, layer.cubes, chosen, {.fill = AssembleOptions::Fill::none, .smooth = 0});
+        assemble::assemble(layer.mesh, layer.cubes, chosen, {.fill = AssembleOptions::Fill::none, .smooth = 0});
     EXPECT_EQ(without.statistics.filling_prisms, 0);
     EXPECT_EQ(without.mesh.prisms.size(), 0u);
     EXPECT_EQ(without.mesh.pyramids.size(), 2u);
@@ -56,15 +58,15 @@ TEST(Fill, TwoPrismsStandInACornerBetweenCubes) {
 
 TEST(Fill, ACubeAloneStaysTets) {
   const auto lattice = make_lattice(1);
-  const AssembleResult result = assemble(lattice.mesh, lattice.cubes, {}, {});
+  const AssembleResult result = assemble::assemble(lattice.mesh, lattice.cubes, {}, {});
   EXPECT_EQ(result.mesh.prisms.size(), 0u);
   EXPECT_EQ(result.mesh.tets.size(), 6u);
 }
 
 TEST(Fill, TakesNothingWhereTheResultNeedNotConform) {
   const Lattice layer = one_layer();
-  const AssembleResult result =
-      assemble(layer.mesh, layer.cubes, {0, 1, 2}, {.conformity = AssembleOptions::Conformity::none, .smooth = 0});
+  const AssembleResult result = assemble::assemble(layer.mesh, layer.cubes, {0, 1, 2},
+                                                   {.conformity = AssembleOptions::Conformity::none, .smooth = 0});
   EXPECT_EQ(result.statistics.filling_prisms, 0);
   EXPECT_EQ(result.mesh.prisms.size(), 0u);
 }
@@ -77,7 +79,7 @@ TEST(Fill, PrismsKeepToTheirRegion) {
     for (const Vertex v : layer.mesh.tets[t]) middle += layer.mesh.points[v] * 0.25;
     layer.mesh.tet_tags[t] = middle.z < 0.5 ? 1 : 2;
   }
-  const AssembleResult result = assemble(layer.mesh, layer.cubes, {0, 1, 2}, {});
+  const AssembleResult result = assemble::assemble(layer.mesh, layer.cubes, {0, 1, 2}, {});
   EXPECT_EQ(result.mesh.prisms.size(), 0u);
   EXPECT_EQ(result.mesh.hexes.size(), 3u);
 }
@@ -92,9 +94,9 @@ TEST(Fill, LeavesFewerQuadsAgainstTets) {
     auto lattice = make_lattice(4);
     jitter(lattice, 0.1, random);
     const auto chosen = random_choice(lattice, random.uniform(0.6, 0.95), random);
-    const auto with = assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = 0});
+    const auto with = assemble::assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = 0});
     const auto without =
-        assemble(lattice.mesh, lattice.cubes, chosen, {.fill = AssembleOptions::Fill::none, .smooth = 0});
+        assemble::assemble(lattice.mesh, lattice.cubes, chosen, {.fill = AssembleOptions::Fill::none, .smooth = 0});
     EXPECT_LE(with.statistics.conformity.open_quads, without.statistics.conformity.open_quads);
     open_with += with.statistics.conformity.open_quads;
     open_without += without.statistics.conformity.open_quads;

@@ -13,6 +13,7 @@
 #include "common/run/random.hpp"
 
 namespace hexpipe::testing {
+using namespace graph;
 
 struct Lattice {
   int n;

@@ -7,6 +7,10 @@
 #include "tools/assemble/self_check.hpp"
 
 namespace hexpipe {
+using namespace assemble;
+using namespace assemble::conform;
+using namespace assemble::hybrid;
+using namespace assemble::shape;
 namespace {
 
 constexpr Vertex a = 0, b = 1, c = 2, d = 3;

@@ -9,6 +9,8 @@
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
 
 namespace hexpipe {
+using namespace assemble::conform;
+using namespace assemble::hybrid;
 namespace {
 
 double quality(const HybridMesh& mesh, std::int32_t t) {

@@ -6,6 +6,8 @@
 #include "tools/assemble/assemble.hpp"
 
 namespace hexpipe {
+using namespace assemble;
+using namespace graph;
 namespace {
 
 using ::testing::HasSubstr;
@@ -18,7 +20,7 @@ constexpr AssembleOptions plain{.conformity = AssembleOptions::Conformity::none,
 
 std::string error_of(const Lattice& lattice, const Candidates& candidates, const IndependentSet& chosen) {
   try {
-    assemble(lattice.mesh, candidates, chosen, plain);
+    assemble::assemble(lattice.mesh, candidates, chosen, plain);
   } catch (const DataError& error) {
     return error.what();
   }
@@ -39,7 +41,7 @@ void append_copy(Candidates& candidates, std::size_t i) {
 
 TEST(Selection, NothingChosenGivesTheTetsBack) {
   const auto lattice = make_lattice(2);
-  const AssembleResult result = assemble(lattice.mesh, lattice.cubes, {}, plain);
+  const AssembleResult result = assemble::assemble(lattice.mesh, lattice.cubes, {}, plain);
   EXPECT_EQ(result.mesh.tets.cells, lattice.mesh.tets);
   EXPECT_EQ(result.mesh.tets.tags, lattice.mesh.tet_tags);
   EXPECT_EQ(result.mesh.points, lattice.mesh.points);
@@ -49,7 +51,7 @@ TEST(Selection, NothingChosenGivesTheTetsBack) {
 
 TEST(Selection, AChosenCubeReplacesItsSixTets) {
   const auto lattice = make_lattice(2);
-  const AssembleResult result = assemble(lattice.mesh, lattice.cubes, {5}, plain);
+  const AssembleResult result = assemble::assemble(lattice.mesh, lattice.cubes, {5}, plain);
   EXPECT_EQ(result.mesh.hexes.cells, (std::vector{lattice.cubes.vertices[5]}));
   EXPECT_EQ(result.mesh.tets.size(), 42u);
   // Three of its sides lie on the boundary, three face tets.
@@ -80,7 +82,7 @@ TEST(Selection, VerticesInsideACellAreDropped) {
     lattice.mesh.tet_tags.push_back(1);
   }
   lattice.cubes.tet_offsets[1] = 9;
-  const AssembleResult result = assemble(lattice.mesh, lattice.cubes, {0}, plain);
+  const AssembleResult result = assemble::assemble(lattice.mesh, lattice.cubes, {0}, plain);
   EXPECT_EQ(result.mesh.points.size(), 8u);
   EXPECT_EQ(result.statistics.cells(), 1);
 }
@@ -94,7 +96,7 @@ TEST(Selection, PartsAddUpWithTheBulgesOfWarpedQuads) {
     // A warped boundary quad as well.
     lattice.mesh.points[testing::lattice_vertex(4, 0, 2, 2)].x -= 0.1;
     const auto chosen = random_choice(lattice, 0.6, random);
-    const auto volumes = assemble(lattice.mesh, lattice.cubes, chosen, plain).statistics.volumes;
+    const auto volumes = assemble::assemble(lattice.mesh, lattice.cubes, chosen, plain).statistics.volumes;
     EXPECT_NE(volumes.open_bulge, 0);
     EXPECT_NEAR(volumes.parts, volumes.input + volumes.bulge + volumes.open_bulge, 1e-9);
     EXPECT_NEAR(volumes.skin, volumes.parts, 1e-9);
@@ -115,7 +117,8 @@ TEST(Selection, RegionsAndSurfaceTagsAreCarried) {
     }
   ASSERT_EQ(lattice.mesh.triangles.size(), 8u);
   for (const auto conformity : {AssembleOptions::Conformity::none, AssembleOptions::Conformity::pyramids}) {
-    const auto mesh = assemble(lattice.mesh, lattice.cubes, {0, 7}, {.conformity = conformity, .smooth = 0}).mesh;
+    const auto mesh =
+        assemble::assemble(lattice.mesh, lattice.cubes, {0, 7}, {.conformity = conformity, .smooth = 0}).mesh;
     EXPECT_EQ(mesh.hexes.tags, (std::vector<std::int32_t>{7, 9}));
     EXPECT_EQ(std::count(mesh.quads.tags.begin(), mesh.quads.tags.end(), 5), 2);
     EXPECT_EQ(std::count(mesh.triangles.tags.begin(), mesh.triangles.tags.end(), 5), 4);
@@ -201,7 +204,7 @@ TEST(Selection, PrismsOfHalfACubeTakePart) {
   ASSERT_EQ(prisms.tets.size(), 3u);
   prisms.tet_offsets.push_back(3);
   prisms.boundary_tet_offsets.push_back(0);
-  const AssembleResult result = assemble(lattice.mesh, prisms, {0}, plain);
+  const AssembleResult result = assemble::assemble(lattice.mesh, prisms, {0}, plain);
   EXPECT_EQ(result.mesh.prisms.size(), 1u);
   EXPECT_EQ(result.mesh.tets.size(), 3u);
   EXPECT_EQ(result.statistics.volumes.nonconforming_quads, 1);

@@ -11,6 +11,9 @@
 #include "tools/assemble/self_check.hpp"
 
 namespace hexpipe {
+using namespace assemble;
+using namespace assemble::hybrid;
+using namespace assemble::shape;
 namespace {
 
 using ::testing::HasSubstr;
@@ -21,7 +24,7 @@ class SelfCheck : public ::testing::Test {
   SelfCheck() : lattice_(testing::make_lattice(3)) {
     lattice_.mesh.tet_tags.back() = 2;  // one tet is a region of its own
     add_missing_boundary_triangles(lattice_.mesh, TetAdjacency(lattice_.mesh, "test"), 0);
-    result_.mesh = assemble(lattice_.mesh, lattice_.cubes, {0, 13}, {.smooth = 0}).mesh;
+    result_.mesh = assemble::assemble(lattice_.mesh, lattice_.cubes, {0, 13}, {.smooth = 0}).mesh;
     result_.origin.resize(result_.mesh.points.size());
     std::iota(result_.origin.begin(), result_.origin.end(), 0);  // no vertex of the lattice is dropped
   }

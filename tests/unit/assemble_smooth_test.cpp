@@ -11,6 +11,11 @@
 #include "tools/assemble/shape/smooth.hpp"
 
 namespace hexpipe {
+using namespace assemble::conform;
+using namespace assemble;
+using namespace assemble::hybrid;
+using namespace assemble::shape;
+using namespace graph;
 namespace {
 
 using testing::jitter;
@@ -156,7 +161,7 @@ TEST(PointStar, TheBestPlaceInAnOctahedronIsItsMiddle) {
 
 TEST(Freedom, SidesEdgesAndCornersOfABox) {
   const auto lattice = make_lattice(2);
-  const auto mesh = assemble(lattice.mesh, lattice.cubes, {0, 1, 2}, {}).mesh;
+  const auto mesh = assemble::assemble(lattice.mesh, lattice.cubes, {0, 1, 2}, {}).mesh;
   const auto freedoms = vertex_freedoms(mesh);
   std::array<int, 4> found{};
   for (std::size_t v = 0; v < 27; ++v) ++found[static_cast<int>(freedoms[v].kind)];
@@ -165,7 +170,7 @@ TEST(Freedom, SidesEdgesAndCornersOfABox) {
 
 TEST(Freedom, BordersOfTagsHold) {
   const auto lattice = make_lattice(2);
-  auto mesh = assemble(lattice.mesh, lattice.cubes, {0, 1, 2, 3, 4, 5, 6, 7}, {}).mesh;
+  auto mesh = assemble::assemble(lattice.mesh, lattice.cubes, {0, 1, 2, 3, 4, 5, 6, 7}, {}).mesh;
   const auto side = static_cast<std::size_t>(testing::lattice_vertex(2, 0, 1, 1));
   EXPECT_EQ(vertex_freedoms(mesh)[side].kind, Freedom::Kind::plane);
   for (std::size_t i = 0; i < mesh.quads.size(); ++i)
@@ -181,7 +186,7 @@ TEST(Smooth, TheWorstCellsBecomeBetterAndTheBoxStays) {
     auto lattice = make_lattice(5);
     jitter(lattice, 0.2, random);
     const auto chosen = random_choice(lattice, 0.7, random);
-    const auto rough = assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = 0});
+    const auto rough = assemble::assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = 0});
     MixedMesh mesh = rough.mesh;
     const SmoothCounts counts = smooth(mesh, 5);
     EXPECT_GT(counts.moves, 0);
@@ -212,7 +217,8 @@ TEST(Smooth, HexesGrowAndTheRestStaysGoodEnough) {
     Random random(seed);
     auto lattice = make_lattice(5);
     jitter(lattice, 0.1, random);
-    MixedMesh mesh = assemble(lattice.mesh, lattice.cubes, random_choice(lattice, 0.7, random), {.smooth = 0}).mesh;
+    MixedMesh mesh =
+        assemble::assemble(lattice.mesh, lattice.cubes, random_choice(lattice, 0.7, random), {.smooth = 0}).mesh;
     const auto volume_of_hexes = [&] {
       double volume = 0;
       for (const auto& hex : mesh.hexes.cells) volume += cell_volume(CellKind::hex, corner_points(mesh.points, hex));
@@ -248,7 +254,7 @@ TEST(Smooth, HexesKeepAScaledJacobianOfThreeTenths) {
       const auto corners = corner_points(lattice.mesh.points, lattice.cubes.vertices[c]);
       return least_corner_scaled_jacobian(CellKind::hex, corners) < 0.3;
     });
-    const auto result = assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = 10});
+    const auto result = assemble::assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = 10});
     EXPECT_GE(result.statistics.kinds[0].least, 0.3 - 1e-9);
     least = std::min(least, result.statistics.kinds[0].least);
   }
@@ -258,7 +264,7 @@ TEST(Smooth, HexesKeepAScaledJacobianOfThreeTenths) {
 // A vertex pulled through the cells around it.
 TEST(Smooth, UntangleTurnsInvertedCellsRight) {
   const auto lattice = make_lattice(3);
-  auto mesh = assemble(lattice.mesh, lattice.cubes, {0, 1, 2, 9, 10, 11}, {.smooth = 0}).mesh;
+  auto mesh = assemble::assemble(lattice.mesh, lattice.cubes, {0, 1, 2, 9, 10, 11}, {.smooth = 0}).mesh;
   mesh.points[static_cast<std::size_t>(testing::lattice_vertex(3, 1, 1, 1))] = {1.2, 1.3, 2.3};
   compute_quality(mesh);
   EXPECT_LT(kind_statistics(mesh)[0].least, 0);
@@ -275,7 +281,8 @@ TEST(Smooth, EdgesStayLong) {
     Random random(seed);
     auto lattice = make_lattice(4);
     jitter(lattice, 0.2, random);
-    const auto mesh = assemble(lattice.mesh, lattice.cubes, random_choice(lattice, 0.7, random), {.smooth = 20}).mesh;
+    const auto mesh =
+        assemble::assemble(lattice.mesh, lattice.cubes, random_choice(lattice, 0.7, random), {.smooth = 20}).mesh;
     double shortest = 1, longest = 0;
     auto measure = [&](const auto& cells, const auto& edges) {
       for (const auto& cell : cells)
@@ -298,8 +305,8 @@ TEST(Smooth, RoundsChangeTheResult) {
   auto lattice = make_lattice(4);
   jitter(lattice, 0.2, random);
   const auto chosen = random_choice(lattice, 0.7, random);
-  const auto once = assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = 1});
-  const auto often = assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = 5});
+  const auto once = assemble::assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = 1});
+  const auto often = assemble::assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = 5});
   EXPECT_NE(once.mesh.points, often.mesh.points);
   EXPECT_EQ(once.statistics.smoothing.rounds, 1);
   EXPECT_GT(often.statistics.kinds[3].least, often.statistics.before_smoothing[3].least);

@@ -11,6 +11,9 @@
 #include "tools/assemble/shape/smooth.hpp"
 
 namespace hexpipe {
+using namespace assemble;
+using namespace assemble::shape;
+using namespace graph;
 namespace {
 
 using testing::lattice_vertex;
@@ -198,7 +201,7 @@ TEST(Smooth, ColumnsOfHexesPassTheSelfCheck) {
     IndependentSet chosen;
     for (std::int32_t c = 0; c < n * n * n; ++c)
       if (c % 3 != 0) chosen.push_back(c);
-    const auto result = assemble(lattice.mesh, lattice.cubes, chosen, {});
+    const auto result = assemble::assemble(lattice.mesh, lattice.cubes, chosen, {});
     EXPECT_GT(result.mesh.hexes.size(), 0u);
     EXPECT_LT(std::abs(result.statistics.volumes.drift), 1e-12);
   }

@@ -15,6 +15,9 @@
 #include "tools/buildgraph/report.hpp"
 
 namespace hexpipe {
+using namespace buildgraph;
+using namespace conflicts;
+using namespace graph;
 namespace {
 
 using ::testing::ElementsAre;
@@ -226,9 +229,10 @@ TEST(Report, WarnsOfWeightsThatVanish) {
   add(c, hex, first_hex, {0});
   c.volume = {1e-9};
   BuildgraphOptions options{{WeightKind::volume, 1e6}};
-  EXPECT_THAT(warnings_about(summarize(buildgraph(c, options, "test"))), ElementsAre(HasSubstr("1 of 1 weights")));
+  EXPECT_THAT(warnings_about(summarize(buildgraph::buildgraph(c, options, "test"))),
+              ElementsAre(HasSubstr("1 of 1 weights")));
   options.conflicts.weight_scale = 1e12;
-  EXPECT_THAT(warnings_about(summarize(buildgraph(c, options, "test"))), IsEmpty());
+  EXPECT_THAT(warnings_about(summarize(buildgraph::buildgraph(c, options, "test"))), IsEmpty());
 }
 
 TEST(SortedSet, ListsInOrderAndEmptiesItself) {

@@ -7,6 +7,7 @@
 #include "common/conflicts/packed_lists.hpp"
 
 namespace hexpipe {
+using namespace conflicts;
 namespace {
 
 using Items = std::vector<std::pair<std::int64_t, std::int32_t>>;

@@ -10,6 +10,8 @@
 #include "tools/buildgraph/domination.hpp"
 
 namespace hexpipe {
+using namespace buildgraph;
+using namespace graph;
 namespace {
 
 using hexpipe::testing::brute_force_weight;

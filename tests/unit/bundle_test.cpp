@@ -15,6 +15,8 @@
 #include "tests/unit/written_bytes.hpp"
 
 namespace hexpipe {
+using namespace formats;
+using namespace pipeline;
 namespace {
 
 using ::testing::ElementsAre;

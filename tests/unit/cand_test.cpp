@@ -7,6 +7,7 @@
 #include "tests/unit/written_bytes.hpp"
 
 namespace hexpipe {
+using namespace formats;
 namespace {
 
 using ::testing::AllOf;

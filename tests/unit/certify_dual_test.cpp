@@ -9,6 +9,9 @@
 #include "tools/certify/certify.hpp"
 
 namespace hexpipe {
+using namespace certify;
+using namespace graph;
+using namespace mwis::bounds;
 namespace {
 
 using hexpipe::testing::brute_force_weight;
@@ -178,13 +181,13 @@ TEST(CliqueDual, MorePassesAndMoreTimeHelp) {
 TEST(Certify, ProvesOptimalityAndFixes) {
   // A clique and a vertex apart: the relaxation is exact.
   const ConflictGraph graph = make_graph({500, 700, 900, 4}, {{0, 1}, {1, 2}, {0, 2}});
-  const CertifyResult best = certify(graph, {2, 3}, {}, {}, no_deadline);
+  const CertifyResult best = certify::certify(graph, {2, 3}, {}, {}, no_deadline);
   EXPECT_EQ(best.weight, 904);
   EXPECT_TRUE(best.maximal);
   EXPECT_EQ(best.dual.bound, 904);
   EXPECT_TRUE(best.complete);
   EXPECT_EQ(best.gap, 0);
-  const CertifyResult worse = certify(graph, {1}, {}, {}, no_deadline);
+  const CertifyResult worse = certify::certify(graph, {1}, {}, {}, no_deadline);
   EXPECT_FALSE(worse.maximal);
   EXPECT_FALSE(worse.complete);
   EXPECT_NEAR(worse.gap, 204.0 / 904.0, 0.01);
@@ -219,22 +222,22 @@ TEST(Certify, PricesTheCliquesThatAreKnown) {
   for (const std::vector<std::int32_t>& edge : {std::vector<std::int32_t>{0, 1}, {0, 2}, {1, 2}, {3}}) edges.add(edge);
   tet.add({0, 1});
   const CertifyOptions none{.dual = {.passes = 0, .target = 0}};
-  EXPECT_EQ(certify(graph, {2, 3}, {edges, tet}, none, no_deadline).cover.size(), 4);
-  EXPECT_EQ(certify(graph, {2, 3}, {std::nullopt, tet}, none, no_deadline).cover.members,
+  EXPECT_EQ(certify::certify(graph, {2, 3}, {edges, tet}, none, no_deadline).cover.size(), 4);
+  EXPECT_EQ(certify::certify(graph, {2, 3}, {std::nullopt, tet}, none, no_deadline).cover.members,
             (std::vector<std::int32_t>{0, 1, 2}));
-  EXPECT_EQ(certify(graph, {2, 3}, {}, none, no_deadline).cover.size(), 2);
-  const CertifyResult result = certify(graph, {2, 3}, {std::nullopt, tet}, {}, no_deadline);
+  EXPECT_EQ(certify::certify(graph, {2, 3}, {}, none, no_deadline).cover.size(), 2);
+  const CertifyResult result = certify::certify(graph, {2, 3}, {std::nullopt, tet}, {}, no_deadline);
   EXPECT_EQ(result.dual.bound, 904) << "a vertex without a clique counts in full";
 }
 
 TEST(Certify, TakesTheExtremes) {
-  const CertifyResult empty = certify({}, {}, {}, {}, no_deadline);
+  const CertifyResult empty = certify::certify({}, {}, {}, {}, no_deadline);
   EXPECT_TRUE(empty.complete && empty.maximal);
   EXPECT_EQ(empty.gap, 0);
-  const CertifyResult zero = certify(make_graph({0}, {}), {0}, {}, {}, no_deadline);
+  const CertifyResult zero = certify::certify(make_graph({0}, {}), {0}, {}, {}, no_deadline);
   EXPECT_TRUE(zero.complete);
   const std::int64_t huge = std::int64_t{1} << 61;
-  const CertifyResult large = certify(make_graph({huge, huge}, {{0, 1}}), {0}, {}, {}, no_deadline);
+  const CertifyResult large = certify::certify(make_graph({huge, huge}, {{0, 1}}), {0}, {}, {}, no_deadline);
   EXPECT_GE(large.dual.bound, huge);
 }
 

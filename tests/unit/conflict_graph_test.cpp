@@ -9,6 +9,7 @@
 #include "random_graphs.hpp"
 
 namespace hexpipe {
+using namespace graph;
 namespace {
 
 using hexpipe::testing::make_graph;

@@ -7,6 +7,8 @@
 #include "random_graphs.hpp"
 
 namespace hexpipe {
+using namespace formats;
+using namespace graph;
 namespace {
 
 using hexpipe::testing::make_graph;

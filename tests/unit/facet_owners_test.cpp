@@ -6,6 +6,7 @@
 #include "sample_meshes.hpp"
 
 namespace hexpipe {
+using namespace formats;
 namespace {
 
 void expect_owner(const FacetOwner& owner, CellKind kind, std::int64_t cell, int facet) {

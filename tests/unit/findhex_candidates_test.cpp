@@ -16,6 +16,8 @@
 #include "tools/findhex/report.hpp"
 
 namespace hexpipe {
+using namespace findhex;
+using namespace candidates;
 namespace {
 
 using testing::cube_points;
@@ -31,7 +33,7 @@ using testing::six_tets;
 using ::testing::ThrowsMessage;
 
 Candidates find(const TetMesh& mesh, const FindhexOptions& options = {}) {
-  Candidates found = findhex(mesh, options, "test").candidates;
+  Candidates found = candidates::findhex(mesh, options, "test").candidates;
   validate(found, "candidates");
   validate_against(found, mesh, "candidates");
   return found;
@@ -230,7 +232,7 @@ TEST(Findhex, OnlyValidHexesAreCandidates) {
   for (int n = 0; n < 10; ++n) {
     TetMesh moved = mesh;
     for (Vec3& p : moved.points) p += {random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2)};
-    invalid += findhex(moved, options, "test").counts[0].counts.invalid;
+    invalid += candidates::findhex(moved, options, "test").counts[0].counts.invalid;
   }
   EXPECT_GT(invalid, 0);
 }
@@ -240,7 +242,7 @@ TEST(Findhex, InvertedAndFlatTetsAreCountedAndNotUsed) {
   const std::size_t all = find(mesh).size();
   // An inner vertex pushed through its neighbourhood inverts some tets; two at the same place flatten some.
   mesh.points[21] = {2.2, 1, 0.7};
-  FindhexResult result = findhex(mesh, {}, "test");
+  FindhexResult result = candidates::findhex(mesh, {}, "test");
   EXPECT_GT(result.findings.orientation.inverted, 0);
   EXPECT_LT(result.candidates.size(), all);
   EXPECT_GT(result.candidates.size(), 0u);
@@ -251,7 +253,7 @@ TEST(Findhex, InvertedAndFlatTetsAreCountedAndNotUsed) {
 
   mesh = kuhn_lattice(3);
   mesh.points[21] = mesh.points[42] = {1.5, 1.5, 1.5};
-  result = findhex(mesh, {}, "test");
+  result = candidates::findhex(mesh, {}, "test");
   EXPECT_GT(result.findings.orientation.flat, 0);
   EXPECT_THAT(warnings_about(result.findings), ElementsAre(HasSubstr("flat")));
 }
@@ -260,14 +262,14 @@ TEST(Findhex, ListedInsideOutIsNotInverted) {
   const TetMesh mesh = kuhn_lattice(2);
   TetMesh turned = mesh;
   for (Tet& tet : turned.tets) std::swap(tet[0], tet[1]);
-  FindhexResult result = findhex(turned, {}, "test");
+  FindhexResult result = candidates::findhex(turned, {}, "test");
   EXPECT_EQ(result.candidates, find(mesh));
   EXPECT_EQ(result.findings.orientation.turned, 48);
   EXPECT_THAT(warnings_about(result.findings), IsEmpty());
 
   turned = mesh;
   std::swap(turned.tets[5][0], turned.tets[5][1]);
-  result = findhex(turned, {}, "test");
+  result = candidates::findhex(turned, {}, "test");
   EXPECT_EQ(result.candidates, find(mesh));
   EXPECT_EQ(result.findings.orientation.inverted, 0);
   EXPECT_THAT(warnings_about(result.findings), ElementsAre(HasSubstr("1 of 48 tets")));
@@ -339,7 +341,7 @@ TEST(Findhex, ComesByCornerZeroTheSameForAnyThreads) {
   });
   auto with_threads = [&](int threads) {
     const ThreadLimit limit(threads);
-    return findhex(mesh, options, "test");
+    return candidates::findhex(mesh, options, "test");
   };
   const FindhexResult one = with_threads(1), two = with_threads(2);
   EXPECT_EQ(one.candidates, two.candidates);
@@ -351,7 +353,7 @@ TEST(Findhex, ComesByCornerZeroTheSameForAnyThreads) {
 }
 
 TEST(Findhex, CountsAddUp) {
-  const FindhexResult result = findhex(kuhn_lattice(4), {}, "test");
+  const FindhexResult result = candidates::findhex(kuhn_lattice(4), {}, "test");
   const CellCounts& counts = result.counts[0].counts;
   std::int64_t judged = counts.invalid;
   for (const std::int64_t n : counts.by_verdict) judged += n;

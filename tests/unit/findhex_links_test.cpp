@@ -13,6 +13,7 @@
 #include "findhex_meshes.hpp"
 
 namespace hexpipe {
+using namespace candidates;
 namespace {
 
 using testing::kuhn_lattice;

@@ -10,6 +10,7 @@
 #include "common/run/random.hpp"
 
 namespace hexpipe {
+using namespace candidates;
 namespace {
 
 template <class Topology>

@@ -5,6 +5,8 @@
 #include "tools/initsol/initsol.hpp"
 
 namespace hexpipe {
+using namespace graph;
+using namespace initsol;
 namespace {
 
 using hexpipe::testing::make_graph;

@@ -11,6 +11,10 @@
 #include "random_graphs.hpp"
 
 namespace hexpipe {
+using namespace mwis;
+using namespace graph;
+using namespace mwis::ground;
+using namespace mwis::local_search;
 namespace {
 
 using hexpipe::testing::brute_force_weight;

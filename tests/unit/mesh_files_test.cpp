@@ -6,6 +6,7 @@
 #include "sample_meshes.hpp"
 
 namespace hexpipe {
+using namespace formats;
 namespace {
 
 using ::testing::HasSubstr;

@@ -8,6 +8,8 @@
 #include "tests/unit/written_bytes.hpp"
 
 namespace hexpipe {
+using namespace formats;
+using namespace graph;
 namespace {
 
 using hexpipe::testing::make_graph;

@@ -5,6 +5,8 @@
 #include "random_graphs.hpp"
 
 namespace hexpipe {
+using namespace graph;
+using namespace mwis::local_search;
 namespace {
 
 using hexpipe::testing::make_graph;

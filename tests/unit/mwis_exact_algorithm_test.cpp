@@ -8,6 +8,8 @@
 #include "random_graphs.hpp"
 
 namespace hexpipe {
+using namespace graph;
+using namespace mwis::exact;
 namespace {
 
 using hexpipe::testing::brute_force_weight;

@@ -11,6 +11,12 @@
 #include "random_graphs.hpp"
 
 namespace hexpipe {
+using namespace mwis;
+using namespace graph;
+using namespace mwis::exact;
+using namespace mwis::ground;
+using namespace mwis::local_search;
+using namespace mwis::reduce;
 namespace {
 
 using hexpipe::testing::brute_force_weight;

@@ -8,6 +8,9 @@
 #include "random_graphs.hpp"
 
 namespace hexpipe {
+using namespace graph;
+using namespace mwis::bounds;
+using namespace mwis::ground;
 namespace {
 
 const Deadline no_deadline;

@@ -8,6 +8,9 @@
 #include "random_graphs.hpp"
 
 namespace hexpipe {
+using namespace graph;
+using namespace mwis::ground;
+using namespace mwis::local_search;
 namespace {
 
 using hexpipe::testing::make_graph;

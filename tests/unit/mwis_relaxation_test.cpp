@@ -9,6 +9,9 @@
 #include "random_graphs.hpp"
 
 namespace hexpipe {
+using namespace graph;
+using namespace mwis::bounds;
+using namespace mwis::exact;
 namespace {
 
 using hexpipe::testing::brute_force_weight;

@@ -10,6 +10,7 @@
 #include "common/run/error.hpp"
 
 namespace hexpipe {
+using namespace mwis::ground;
 namespace {
 
 TEST(SearchLog, ThinsOutAndEndsWithTheLastPoint) {

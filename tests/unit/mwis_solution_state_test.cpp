@@ -5,6 +5,8 @@
 #include "random_graphs.hpp"
 
 namespace hexpipe {
+using namespace graph;
+using namespace mwis::ground;
 namespace {
 
 TEST(SolutionState, StaysConsistentUnderRandomMoves) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 namespace hexpipe {
+using namespace mwis::ground;
 namespace {
 
 using History = std::vector<nlohmann::ordered_json>;

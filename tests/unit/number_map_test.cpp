@@ -8,6 +8,7 @@
 #include "common/run/random.hpp"
 
 namespace hexpipe {
+using namespace formats;
 namespace {
 
 void expect_found(const std::vector<std::int64_t>& numbers) {

@@ -15,6 +15,7 @@
 #include "temporary_path.hpp"
 
 namespace hexpipe {
+using namespace formats;
 namespace {
 
 // Writes to a reader that takes 64 KiB every so often, after the search was told to stop by SIGTERM.

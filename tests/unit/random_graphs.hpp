@@ -11,6 +11,7 @@
 #include "common/run/random.hpp"
 
 namespace hexpipe::testing {
+using namespace graph;
 
 inline ConflictGraph make_graph(std::vector<std::int64_t> weights,
                                 const std::vector<std::pair<std::int32_t, std::int32_t>>& edges) {

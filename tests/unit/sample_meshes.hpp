@@ -16,6 +16,7 @@
 #include "tests/unit/written_bytes.hpp"
 
 namespace hexpipe {
+using namespace formats;
 
 // A cube with a prism on its top, a pyramid on its right and a tet between these two; conforming, every cell valid.
 // Each cell is a region of its own. Of the facets some are on the boundary and one lies between hex and pyramid.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace hexpipe {
+using namespace formats;
 namespace {
 
 using testing::ElementsAre;

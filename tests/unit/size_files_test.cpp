@@ -7,6 +7,8 @@
 #include "formats/pipeline/npy.hpp"
 
 namespace hexpipe {
+using namespace formats;
+using namespace pipeline;
 namespace {
 
 using ::testing::HasSubstr;

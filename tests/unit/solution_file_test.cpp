@@ -7,6 +7,8 @@
 #include "tests/unit/written_bytes.hpp"
 
 namespace hexpipe {
+using namespace formats;
+using namespace graph;
 namespace {
 
 using ::testing::HasSubstr;

@@ -13,6 +13,7 @@
 #include "common/run/error.hpp"
 
 namespace hexpipe {
+using namespace formats;
 namespace {
 
 using testing::ElementsAre;

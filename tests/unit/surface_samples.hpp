@@ -10,6 +10,7 @@
 #include "formats/surfaces/surface_files.hpp"
 
 namespace hexpipe::testing {
+using namespace formats;
 
 using Facet = std::array<Vec3, 3>;
 using Facets = std::vector<Facet>;

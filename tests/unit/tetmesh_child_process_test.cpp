@@ -16,6 +16,7 @@
 #include "common/run/error.hpp"
 
 namespace hexpipe {
+using namespace tetmesh::tetgen;
 namespace {
 
 constexpr double no_timeout = std::numeric_limits<double>::infinity();

@@ -6,6 +6,8 @@
 #include "surface_samples.hpp"
 
 namespace hexpipe {
+using namespace formats;
+using namespace tetmesh::geometry;
 namespace {
 
 using testing::box;

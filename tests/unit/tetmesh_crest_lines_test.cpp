@@ -13,6 +13,8 @@
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 
 namespace hexpipe {
+using namespace tetmesh::solid;
+using namespace tetmesh::surface;
 namespace {
 
 using testing::box;

@@ -12,6 +12,9 @@
 #include "tools/tetmesh/surface/surface_refine.hpp"
 
 namespace hexpipe {
+using namespace formats;
+using namespace tetmesh::solid;
+using namespace tetmesh::surface;
 namespace {
 
 using testing::box;

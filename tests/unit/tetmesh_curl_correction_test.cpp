@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace hexpipe {
+using namespace tetmesh::fields;
 namespace {
 
 // A strip of squares: number i is the bottom side of square i, 100 + i its top side, 200 + i the side to its left.

@@ -12,6 +12,7 @@
 #include "tools/tetmesh/surface/surface_refine.hpp"
 
 namespace hexpipe {
+using namespace tetmesh::surface;
 namespace {
 
 using testing::box;

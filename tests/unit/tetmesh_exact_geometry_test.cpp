@@ -6,6 +6,8 @@
 #include "surface_samples.hpp"
 
 namespace hexpipe {
+using namespace formats;
+using namespace tetmesh::geometry;
 namespace {
 
 using Pair = std::array<std::int32_t, 2>;

@@ -6,6 +6,9 @@
 #include "tools/tetmesh/volume/graded_lattice.hpp"
 
 namespace hexpipe {
+using namespace tetmesh::sizing;
+using namespace tetmesh::solid;
+using namespace tetmesh::volume;
 namespace {
 
 using testing::box;

@@ -17,6 +17,11 @@
 #include "tools/tetmesh/volume/lattice.hpp"
 
 namespace hexpipe {
+using namespace tetmesh::fields;
+using namespace tetmesh::geometry;
+using namespace tetmesh::solid;
+using namespace tetmesh::tetgen;
+using namespace tetmesh::volume;
 namespace {
 
 using testing::box;

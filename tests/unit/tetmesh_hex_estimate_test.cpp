@@ -5,6 +5,9 @@
 #include "tetmesh_surfaces.hpp"
 
 namespace hexpipe {
+using namespace tetmesh::solid;
+using namespace tetmesh::tetgen;
+using namespace tetmesh::volume;
 namespace {
 
 double share_of_box(int n, double moved) {

@@ -9,6 +9,8 @@
 #include "tools/tetmesh/volume/lattice.hpp"
 
 namespace hexpipe {
+using namespace tetmesh::solid;
+using namespace tetmesh::volume;
 namespace {
 
 using testing::box;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace hexpipe {
+using namespace tetmesh::volume;
 namespace {
 
 constexpr Vec3 up{0, 0, 1}, down{0, 0, -1}, along{1, 0, 0};

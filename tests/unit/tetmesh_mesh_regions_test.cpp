@@ -12,6 +12,8 @@
 #include "tools/tetmesh/surface/vertex_removal.hpp"
 
 namespace hexpipe {
+using namespace tetmesh::solid;
+using namespace tetmesh::surface;
 namespace {
 
 using testing::sphere;

@@ -13,6 +13,9 @@
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 
 namespace hexpipe {
+using namespace formats;
+using namespace tetmesh::solid;
+using namespace tetmesh::surface;
 namespace {
 
 using testing::box;

@@ -10,6 +10,8 @@
 #include "tools/tetmesh/solid/surface_check.hpp"
 
 namespace hexpipe {
+using namespace formats;
+using namespace tetmesh::solid;
 namespace {
 
 using testing::cube;

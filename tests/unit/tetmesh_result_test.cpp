@@ -12,6 +12,10 @@
 #include "tools/tetmesh/tetmesh.hpp"
 
 namespace hexpipe {
+using namespace formats;
+using namespace tetmesh;
+using namespace tetmesh::sizing;
+using namespace tetmesh::solid;
 namespace {
 
 using testing::box;
@@ -23,7 +27,7 @@ using testing::soup_of;
 using testing::sphere;
 
 TetmeshResult run(const Facets& facets, const TetmeshOptions& options) {
-  return tetmesh(soup_of(facets), options);
+  return tetmesh::tetmesh(soup_of(facets), options);
 }
 
 // Every facet between two regions or a region and nothing is a triangle of the mesh, outward from the lower region, and
@@ -73,11 +77,11 @@ TEST(Tetmesh, FillsWhatTheShellsEnclose) {
 TEST(Tetmesh, TagsComeFromTheFileOrFromTheShells) {
   SurfaceSoup soup = soup_of(joined(cube(0, 1), cube(2, 1)));
   const TetmeshOptions options{.size = Length{0.5, false}, .surface = SurfaceKind::keep};
-  const auto by_shell = tetmesh(soup, options).mesh.triangle_tags;
+  const auto by_shell = tetmesh::tetmesh(soup, options).mesh.triangle_tags;
   EXPECT_EQ(by_shell.front(), 1);
   EXPECT_EQ(by_shell.back(), 2);
   for (std::size_t i = 0; i < soup.tags.size(); ++i) soup.tags[i] = static_cast<std::int32_t>(i % 5);
-  EXPECT_EQ(tetmesh(soup, options).mesh.triangle_tags, soup.tags);
+  EXPECT_EQ(tetmesh::tetmesh(soup, options).mesh.triangle_tags, soup.tags);
 }
 
 TEST(Tetmesh, RefusesAJitterThatReachesTheSurface) {

@@ -13,6 +13,9 @@
 #include "tools/tetmesh/tetgen/build_mesh.hpp"
 
 namespace hexpipe {
+using namespace formats;
+using namespace tetmesh::solid;
+using namespace tetmesh::tetgen;
 namespace {
 
 using testing::cube;

@@ -16,6 +16,10 @@
 #include "tools/tetmesh/solid/surface_check.hpp"
 
 namespace hexpipe {
+using namespace formats;
+using namespace tetmesh::search;
+using namespace tetmesh::solid;
+using namespace tetmesh::tetgen;
 namespace {
 
 constexpr int cells = 4;  // along each edge of the box, of size 1

@@ -9,6 +9,8 @@
 #include "surface_samples.hpp"
 
 namespace hexpipe {
+using namespace formats;
+using namespace tetmesh::solid;
 namespace {
 
 using testing::cube;

@@ -9,6 +9,9 @@
 #include "tools/tetmesh/sizing/sizing.hpp"
 
 namespace hexpipe {
+using namespace tetmesh::geometry;
+using namespace tetmesh::sizing;
+using namespace tetmesh::solid;
 namespace {
 
 using testing::cube;

@@ -8,6 +8,8 @@
 #include "tools/tetmesh/sizing/wall_thickness.hpp"
 
 namespace hexpipe {
+using namespace tetmesh::sizing;
+using namespace tetmesh::solid;
 namespace {
 
 using testing::box;

@@ -10,6 +10,10 @@
 #include "tools/tetmesh/surface/surface_refine.hpp"
 
 namespace hexpipe {
+using namespace tetmesh::fields;
+using namespace tetmesh::geometry;
+using namespace tetmesh::solid;
+using namespace tetmesh::surface;
 namespace {
 
 using testing::box;

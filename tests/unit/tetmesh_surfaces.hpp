@@ -15,6 +15,10 @@
 #include "tools/tetmesh/tetgen/run_tetgen.hpp"
 
 namespace hexpipe::testing {
+using namespace tetmesh::solid;
+using namespace tetmesh::tetgen;
+using namespace tetmesh::geometry;
+using namespace formats;
 
 inline Surface surface_of(const Facets& facets) {
   return find_shells(soup_of(facets), ShellRule::oriented);

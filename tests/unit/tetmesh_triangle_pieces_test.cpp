@@ -12,6 +12,9 @@
 #include "tools/tetmesh/surface/surface_distance.hpp"
 
 namespace hexpipe {
+using namespace formats;
+using namespace tetmesh::geometry;
+using namespace tetmesh::surface;
 namespace {
 
 Vec3 place_in_cube(Random& random, double width) {

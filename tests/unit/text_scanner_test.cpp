@@ -6,6 +6,7 @@
 #include <limits>
 
 namespace hexpipe {
+using namespace formats;
 namespace {
 
 using testing::HasSubstr;

@@ -1,4 +1,4 @@
-// What view shows: cells, facets, layers, and the state that chooses among them.
+// What viewmesh shows: cells, facets, layers, and the state that chooses among them.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,6 +15,8 @@
 #include "tools/viewmesh/view_state.hpp"
 
 namespace hexpipe {
+using namespace pipeline;
+using namespace viewmesh;
 namespace {
 
 // n x n x n unit hexes.

@@ -9,6 +9,7 @@
 #include "sample_meshes.hpp"
 
 namespace hexpipe {
+using namespace formats;
 namespace {
 
 using ::testing::ElementsAre;

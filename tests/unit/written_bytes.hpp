@@ -10,6 +10,7 @@
 #include "tests/unit/temporary_path.hpp"
 
 namespace hexpipe::testing {
+using namespace formats;
 
 inline std::string read_file(const std::string& path) {
   std::ostringstream bytes;

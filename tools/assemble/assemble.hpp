@@ -9,7 +9,7 @@
 #include "tools/assemble/hybrid/seam.hpp"
 #include "tools/assemble/statistics.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble {
 
 struct AssembleOptions {
   enum class Conformity { pyramids, none };
@@ -29,11 +29,11 @@ struct AssembleResult {
   AssembleStatistics statistics;
   // By point the input's vertex that it was, or a number from theirs on for one that was added.
   std::vector<Vertex> origin;
-  IndependentSet left;  // of a piece: the chosen candidates that are cells of the mesh, ascending
+  graph::IndependentSet left;  // of a piece: the chosen candidates that are cells of the mesh, ascending
 };
 
 // Throws DataError, with the mesh's name and the number of the tet from 1, when one is not positively oriented.
-void check_orientation(const TetMesh& mesh, const InputNames& names);
+void check_orientation(const TetMesh& mesh, const choice::InputNames& names);
 
 // The chosen cells, or what they are exchanged for, and the tets that remain, with the input's regions and tagged
 // facets; with Conformity::pyramids conforming. The result is checked (self_check.hpp) before it is returned.
@@ -43,7 +43,8 @@ void check_orientation(const TetMesh& mesh, const InputNames& names);
 //
 // Of a piece of a mesh, with its `seam`, the triangles have every facet of its boundary and interfaces; the result is
 // without the guests and without facets that have the tags of `seam`.
-AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const IndependentSet& chosen,
-                        const AssembleOptions& options, const InputNames& names = {}, const Seam* seam = nullptr);
+AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const graph::IndependentSet& chosen,
+                        const AssembleOptions& options, const choice::InputNames& names = {},
+                        const hybrid::Seam* seam = nullptr);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble

@@ -19,11 +19,11 @@
 #include "tools/assemble/pieces/piece_input.hpp"
 #include "tools/assemble/pieces/pieces.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble {
 namespace {
 
 struct Before {
-  RoundBefore said;
+  pieces::RoundBefore said;
   bool is_there = false;
   MeshPiece own;
 };
@@ -39,7 +39,7 @@ Before read_round_before(const MeshPart& part, const std::vector<std::string>& p
   std::map<std::int64_t, std::int32_t> moved;
   std::map<std::int32_t, std::string> found;
   for (const std::string& path : paths) {
-    PieceBundle bundle = read_piece_bundle(path, false);
+    pipeline::PieceBundle bundle = pipeline::read_piece_bundle(path, false);
     MeshPiece& piece = bundle.piece;
     check_piece(piece, part, path);
     const auto [twin, is_first] = found.emplace(piece.part, path);
@@ -72,7 +72,7 @@ Before read_round_before(const MeshPart& part, const std::vector<std::string>& p
 }
 
 // The numbers of points that were added begin behind those of the whole, and tell the part.
-std::vector<std::int64_t> point_numbers(const std::vector<Vertex>& origin, const PieceInput& input,
+std::vector<std::int64_t> point_numbers(const std::vector<Vertex>& origin, const pieces::PieceInput& input,
                                         const MeshPart& part) {
   std::vector<std::int64_t> numbers;
   numbers.reserve(origin.size());
@@ -85,34 +85,35 @@ std::vector<std::int64_t> point_numbers(const std::vector<Vertex>& origin, const
 }
 
 // For messages about some of the view's cells, in this order.
-InputNames names_of_cells(InputNames names, const PartView& view, std::span<const std::int32_t> cells) {
+choice::InputNames names_of_cells(choice::InputNames names, const pieces::PartView& view,
+                                  std::span<const std::int32_t> cells) {
   names.bundles = view.bundles;
   names.origins.clear();
   for (const std::int32_t i : cells) names.origins.push_back(view.origins[i]);
   return names;
 }
 
-IndependentSet all_of(const Candidates& cells) {
-  IndependentSet all(cells.size());
+graph::IndependentSet all_of(const Candidates& cells) {
+  graph::IndependentSet all(cells.size());
   std::iota(all.begin(), all.end(), 0);
   return all;
 }
 
 }  // namespace
 
-PartResult assemble_part(PartView view, const std::vector<std::string>& before_paths, const AssembleOptions& options,
-                         const InputNames& bundle_names) {
+PartResult assemble_part(pieces::PartView view, const std::vector<std::string>& before_paths,
+                         const AssembleOptions& options, const choice::InputNames& bundle_names) {
   const Before before = read_round_before(view.part, before_paths, bundle_names.solution);
-  const InputNames names = names_of_cells(bundle_names, view, all_of(view.cells));
+  const choice::InputNames names = names_of_cells(bundle_names, view, all_of(view.cells));
   // Here, for the piece's tets are not numbered as the bundle's.
   check_orientation(view.mesh, names);
   const TetAdjacency adjacency(view.mesh, names.mesh.c_str());
   check_sides(view.mesh, adjacency, names.mesh.c_str());
-  complete_surface(view.mesh, adjacency);
-  const SurfaceTags tags(view.mesh);
-  const Pieces pieces = divide_tets(view, tags, adjacency, before.said, names);
-  const SeamCells cells = cells_at_seams(view, tags, pieces, before.said.given_back, names);
-  PieceInput input = cut_piece(view, adjacency, tags, pieces, cells);
+  hybrid::complete_surface(view.mesh, adjacency);
+  const hybrid::SurfaceTags tags(view.mesh);
+  const pieces::Pieces pieces = pieces::divide_tets(view, tags, adjacency, before.said, names);
+  const pieces::SeamCells cells = pieces::cells_at_seams(view, tags, pieces, before.said.given_back, names);
+  pieces::PieceInput input = pieces::cut_piece(view, adjacency, tags, pieces, cells);
 
   PartResult result;
   MeshPiece& piece = result.piece;
@@ -124,10 +125,10 @@ PartResult assemble_part(PartView view, const std::vector<std::string>& before_p
   piece.given_back = before.said.given_back;
   for (const std::int32_t i : cells.given_back) piece.given_back.push_back(view.keys.key[i]);
   if (!input.mesh.tets.empty()) {
-    const IndependentSet all = all_of(input.cells);
+    const graph::IndependentSet all = all_of(input.cells);
     AssembleResult assembled = assemble(std::move(input.mesh), input.cells, all, options,
                                         names_of_cells(bundle_names, view, input.view_cells), &input.seam);
-    IndependentSet given_back;
+    graph::IndependentSet given_back;
     std::ranges::set_difference(all, assembled.left, std::back_inserter(given_back));
     for (const std::int32_t c : given_back) piece.given_back.push_back(view.keys.key[input.view_cells[c]]);
     piece.point_number = point_numbers(assembled.origin, input, view.part);
@@ -139,4 +140,4 @@ PartResult assemble_part(PartView view, const std::vector<std::string>& before_p
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble

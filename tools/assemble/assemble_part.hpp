@@ -8,7 +8,7 @@
 #include "tools/assemble/assemble.hpp"
 #include "tools/assemble/pieces/part_view.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble {
 
 struct PartResult {
   MixedMesh mesh;
@@ -19,7 +19,7 @@ struct PartResult {
 // `before`: what the round before made of this part and its neighbours, others are skipped; empty in the first round.
 // Throws DataError as assemble does, and when a piece is missing or of another mesh.
 // `names` of the part's own bundle.
-PartResult assemble_part(PartView view, const std::vector<std::string>& before, const AssembleOptions& options,
-                         const InputNames& names);
+PartResult assemble_part(pieces::PartView view, const std::vector<std::string>& before, const AssembleOptions& options,
+                         const choice::InputNames& names);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble

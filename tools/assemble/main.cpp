@@ -11,18 +11,19 @@
 #include "tools/assemble/assemble_part.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::assemble;
 
 namespace {
 
 // How good the choice is, where certify has proven a bound for its graph: weight, bound and gap.
-nlohmann::ordered_json proven_gap(const StageData& data) {
-  const auto bound = bound_in(data.history);
+nlohmann::ordered_json proven_gap(const pipeline::StageData& data) {
+  const auto bound = mwis::ground::bound_in(data.history);
   if (!data.graph || !bound) return nullptr;
-  const std::int64_t weight = total_weight(*data.solution, *data.graph);
-  return {{"weight", weight}, {"bound", *bound}, {"gap", gap_to(*bound, weight)}};
+  const std::int64_t weight = graph::total_weight(*data.solution, *data.graph);
+  return {{"weight", weight}, {"bound", *bound}, {"gap", mwis::ground::gap_to(*bound, weight)}};
 }
 
-SolvedPart solved_part(StageData data, const InputNames& names) {
+pieces::SolvedPart solved_part(pipeline::StageData data, const choice::InputNames& names) {
   if (!data.part) throw UsageError("--neighbours goes with a part of a mesh, as mesh-part makes them");
   if (!data.candidate_keys)
     throw DataError::at(names.candidates,
@@ -35,11 +36,11 @@ SolvedPart solved_part(StageData data, const InputNames& names) {
           .history = std::move(data.history)};
 }
 
-PartResult assemble_whole(StageData data, const AssembleOptions& options, const InputNames& names) {
+PartResult assemble_whole(pipeline::StageData data, const AssembleOptions& options, const choice::InputNames& names) {
   if (data.part && !data.part->neighbours.empty())
     throw DataError::at(names.mesh, "expected the neighbours of {} with --neighbours, found none",
                         title_of(*data.part));
-  AssembleResult result = assemble(std::move(*data.mesh), *data.candidates, *data.solution, options, names);
+  AssembleResult result = assemble::assemble(std::move(*data.mesh), *data.candidates, *data.solution, options, names);
   return {std::move(result.mesh), std::move(result.statistics), {}};
 }
 
@@ -110,22 +111,22 @@ int main(int argc, char** argv) {
     if (by_part && options.conformity == AssembleOptions::Conformity::none)
       throw UsageError("--conformity none does not go with --neighbours: pieces fit because they conform");
     if (!by_part && !before.empty()) throw UsageError("--before goes with --neighbours");
-    Stage stage(context);
+    pipeline::Stage stage(context);
     stage.take_part();
     if (by_part) {
       for (const Role role : {Role::mesh, Role::candidates, Role::graph, Role::solution}) stage.hold_back(role);
     } else {
       stage.take_weights();  // for the gap: which cells cannot stand together is told by their tets
     }
-    StageData data = stage.read({Role::mesh, Role::candidates, Role::solution});
-    const InputNames names{.mesh = stage.source_of(Role::mesh),
-                           .candidates = stage.source_of(Role::candidates),
-                           .solution = stage.source_of(Role::solution)};
+    pipeline::StageData data = stage.read({Role::mesh, Role::candidates, Role::solution});
+    const choice::InputNames names{.mesh = stage.source_of(Role::mesh),
+                                   .candidates = stage.source_of(Role::candidates),
+                                   .solution = stage.source_of(Role::solution)};
     const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
     const auto choice = graph_of_bundle ? proven_gap(data) : nullptr;
     const PartResult result =
-        by_part ? assemble_part(view_part(solved_part(std::move(data), names), neighbours, names.solution), before,
-                                options, names)
+        by_part ? assemble_part(pieces::view_part(solved_part(std::move(data), names), neighbours, names.solution),
+                                before, options, names)
                 : assemble_whole(std::move(data), options, names);
     context.statistics = to_json(result.statistics);
     for (const auto& line : summary_lines(result.statistics)) context.note(line);

@@ -9,7 +9,7 @@
 #include "tools/assemble/hybrid/cell_facets.hpp"
 #include "tools/assemble/shape/boundary_deviation.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble {
 namespace {
 
 // Part of the input's volume. A million terms lose no more by rounding.
@@ -24,7 +24,7 @@ template <class... Args>
 }
 
 void check_cells_valid(const MixedMesh& mesh) {
-  for_each_cell(mesh, [&](CellKind kind, std::span<const Vertex> corners, std::int32_t) {
+  hybrid::for_each_cell(mesh, [&](CellKind kind, std::span<const Vertex> corners, std::int32_t) {
     const auto at = corner_points(mesh.points, corners);
     if (!is_valid(kind, std::span<const Vec3>(at).first(corners.size())))
       fail("expected valid cells, found an invalid {} at {} {} {}", name_of(kind), at[0].x, at[0].y, at[0].z);
@@ -32,9 +32,9 @@ void check_cells_valid(const MixedMesh& mesh) {
 }
 
 template <int Corners>
-void mark_tagged(const CellBlock<Corners>& block, CellFacets& table) {
+void mark_tagged(const CellBlock<Corners>& block, hybrid::CellFacets& table) {
   for (const auto& facet : block.cells) {
-    CellFacets::Entry* entry = table.find(FacetForm::of(facet));
+    hybrid::CellFacets::Entry* entry = table.find(hybrid::FacetForm::of(facet));
     if (entry == nullptr) fail("expected tagged facets of cells, found one at vertex {} of none", facet[0]);
     if (entry->tagged) fail("expected tagged facets once, found one at vertex {} twice", facet[0]);
     entry->tagged = true;
@@ -42,7 +42,7 @@ void mark_tagged(const CellBlock<Corners>& block, CellFacets& table) {
 }
 
 // The quad with the orientation in which the entry's first cell goes around it.
-Quad quad_of(const CellFacets::Entry& entry) {
+Quad quad_of(const hybrid::CellFacets::Entry& entry) {
   const auto& [least, opposite, low, high] = entry.vertices;
   return entry.forward ? Quad{least, low, opposite, high} : Quad{least, high, opposite, low};
 }
@@ -55,11 +55,11 @@ double bulge_of(std::span<const Vec3> points, const Quad& quad, int diagonal) {
 }
 
 // The diagonal along which two facets of one cell each, marked as used, lie under the quad.
-std::optional<int> open_diagonal(const Quad& quad, CellFacets& table) {
+std::optional<int> open_diagonal(const Quad& quad, hybrid::CellFacets& table) {
   for (int diagonal = 0; diagonal < 2; ++diagonal) {
     const auto halves = triangles_of(quad, diagonal);
-    CellFacets::Entry* first = table.find(FacetForm::of(halves[0]));
-    CellFacets::Entry* second = table.find(FacetForm::of(halves[1]));
+    hybrid::CellFacets::Entry* first = table.find(hybrid::FacetForm::of(halves[0]));
+    hybrid::CellFacets::Entry* second = table.find(hybrid::FacetForm::of(halves[1]));
     if (first == nullptr || second == nullptr || first->uses != 1 || second->uses != 1) continue;
     first->tagged = second->tagged = true;
     return diagonal;
@@ -80,7 +80,7 @@ double volume_over(std::span<const Vec3> points, const Vec3& origin, const Quad&
 }
 
 // Enclosed by the facets of one cell.
-double skin_volume(const MixedMesh& mesh, CellFacets& table) {
+double skin_volume(const MixedMesh& mesh, hybrid::CellFacets& table) {
   double sum = 0;
   for (const auto& entry : table.entries()) {
     if (entry.uses != 1) continue;
@@ -94,8 +94,8 @@ double skin_volume(const MixedMesh& mesh, CellFacets& table) {
 }
 
 // Judges every facet and sums the bulges.
-void check_facets(const Extract& result, const SurfaceTags& tags, bool conforming, CellFacets& table,
-                  CheckedVolumes& volumes) {
+void check_facets(const hybrid::Extract& result, const hybrid::SurfaceTags& tags, bool conforming,
+                  hybrid::CellFacets& table, CheckedVolumes& volumes) {
   const MixedMesh& mesh = result.mesh;
   mark_tagged(mesh.triangles, table);
   mark_tagged(mesh.quads, table);
@@ -125,7 +125,7 @@ void check_facets(const Extract& result, const SurfaceTags& tags, bool conformin
 
 void check_points_used(const MixedMesh& mesh) {
   std::vector<bool> used(mesh.points.size());
-  for_each_cell(mesh, [&](CellKind, std::span<const Vertex> corners, std::int32_t) {
+  hybrid::for_each_cell(mesh, [&](CellKind, std::span<const Vertex> corners, std::int32_t) {
     for (Vertex v : corners) used[v] = true;
   });
   for (std::size_t v = 0; v < used.size(); ++v)
@@ -133,7 +133,8 @@ void check_points_used(const MixedMesh& mesh) {
 }
 
 // Vertices of the boundary are the input's, and on its surface.
-void check_surface(const Extract& result, const TetMesh& input, const InputSurface& surface, CheckedVolumes& volumes) {
+void check_surface(const hybrid::Extract& result, const TetMesh& input, const shape::InputSurface& surface,
+                   CheckedVolumes& volumes) {
   auto check = [&](const auto& block) {
     for (const auto& facet : block.cells)
       for (Vertex v : facet)
@@ -142,7 +143,7 @@ void check_surface(const Extract& result, const TetMesh& input, const InputSurfa
   };
   check(result.mesh.triangles);
   check(result.mesh.quads);
-  const BoundaryDeviation deviation(result.mesh, surface, input.points, result.origin);
+  const shape::BoundaryDeviation deviation(result.mesh, surface, input.points, result.origin);
   if (const auto v = deviation.vertex_off_surface(surface_tolerance * surface.diagonal()))
     fail("expected the boundary's vertices on the input's surface, found vertex {} off it", *v);
   const auto summary = deviation.summary();
@@ -157,7 +158,7 @@ double volume_of(std::span<const Vec3> points, std::span<const Tet> tets) {
 }
 
 // Where the input's vertices are now; vertices inside that are gone do not count in the sum over all tets.
-std::vector<Vec3> moved_input_points(const Extract& result, const TetMesh& input) {
+std::vector<Vec3> moved_input_points(const hybrid::Extract& result, const TetMesh& input) {
   std::vector<Vec3> points = input.points;
   for (std::size_t v = 0; v < result.origin.size(); ++v)
     if (static_cast<std::size_t>(result.origin[v]) < points.size()) points[result.origin[v]] = result.mesh.points[v];
@@ -173,17 +174,17 @@ void check_volumes(const CheckedVolumes& volumes) {
 
 }  // namespace
 
-CheckedVolumes check_result(const Extract& result, const TetMesh& input, const SurfaceTags& tags,
-                            const InputSurface& surface, bool conforming) {
+CheckedVolumes check_result(const hybrid::Extract& result, const TetMesh& input, const hybrid::SurfaceTags& tags,
+                            const shape::InputSurface& surface, bool conforming) {
   const MixedMesh& mesh = result.mesh;
   CheckedVolumes volumes;
   check_cells_valid(mesh);
   check_points_used(mesh);
-  CellFacets table(mesh);
+  hybrid::CellFacets table(mesh);
   check_facets(result, tags, conforming, table, volumes);
   check_surface(result, input, surface, volumes);
   volumes.skin = skin_volume(mesh, table);
-  for_each_cell(mesh, [&](CellKind kind, std::span<const Vertex> corners, std::int32_t) {
+  hybrid::for_each_cell(mesh, [&](CellKind kind, std::span<const Vertex> corners, std::int32_t) {
     volumes.parts +=
         cell_volume(kind, std::span<const Vec3>(corner_points(mesh.points, corners)).first(corners.size()));
   });
@@ -196,4 +197,4 @@ CheckedVolumes check_result(const Extract& result, const TetMesh& input, const S
   return volumes;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble

@@ -8,7 +8,7 @@
 #include "tools/assemble/hybrid/surface_tags.hpp"
 #include "tools/assemble/shape/input_surface.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble {
 
 // They add up: parts = skin = input + bulge + open_bulge + slide - peeled, but for rounding.
 struct CheckedVolumes {
@@ -29,7 +29,7 @@ struct CheckedVolumes {
 // facet of one cell or between two regions is not tagged, a tagged facet is none of a cell, a vertex is unused, or
 // a vertex of the boundary is not on the input's surface, volumes do not add up; and, for a conforming result, when a
 // quad faces two triangles.
-CheckedVolumes check_result(const Extract& result, const TetMesh& input, const SurfaceTags& tags,
-                            const InputSurface& surface, bool conforming);
+CheckedVolumes check_result(const hybrid::Extract& result, const TetMesh& input, const hybrid::SurfaceTags& tags,
+                            const shape::InputSurface& surface, bool conforming);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble

@@ -7,7 +7,7 @@
 
 #include "common/mesh/quality.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble {
 namespace {
 
 template <class Visit>
@@ -84,7 +84,7 @@ std::array<double, all_kinds.size()> least_inside(const MixedMesh& mesh) {
 std::vector<PoorCell> poor_cells(const MixedMesh& mesh) {
   std::vector<PoorCell> result;
   for_each_block(mesh, [&](CellKind kind, const auto& block) {
-    const double limit = kind == CellKind::hex ? poor_hex : poor_quality;
+    const double limit = kind == CellKind::hex ? shape::poor_hex : shape::poor_quality;
     const double scale = kind == CellKind::tet ? std::sqrt(2.0) : 1;
     for (std::size_t i = 0; i < block.size(); ++i) {
       if (scale * block.quality[i] >= limit) continue;
@@ -164,8 +164,8 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
                         {"open_quads_after", exchange->open_quads_after}};
   const auto& counts = statistics.conformity;
   auto given_back = nlohmann::ordered_json::object();
-  for (GivenBack reason : all_reasons)
-    given_back[name_of(reason)] = counts.given_back[static_cast<std::size_t>(reason)];
+  for (conform::GivenBack reason : conform::all_reasons)
+    given_back[conform::name_of(reason)] = counts.given_back[static_cast<std::size_t>(reason)];
   json["conformity"] = {{"prisms_between_cells", statistics.filling_prisms},
                         {"quads_against_tets", counts.open_quads},
                         {"pyramids_merged", counts.merged},
@@ -221,4 +221,4 @@ std::vector<std::string> summary_lines(const AssembleStatistics& statistics) {
   return lines;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble

@@ -14,7 +14,7 @@
 #include "tools/assemble/self_check.hpp"
 #include "tools/assemble/shape/smooth.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble {
 
 inline constexpr std::array all_kinds{CellKind::hex, CellKind::prism, CellKind::pyramid, CellKind::tet};
 
@@ -38,10 +38,10 @@ struct AssembleStatistics {
   std::array<KindStatistics, all_kinds.size()> kinds;  // as in all_kinds
   std::int64_t points = 0, triangles = 0, quads = 0;
   CheckedVolumes volumes;
-  std::optional<ExchangeCounts> exchange;  // where hexes may be exchanged
-  ConformityCounts conformity;
+  std::optional<choice::ExchangeCounts> exchange;  // where hexes may be exchanged
+  conform::ConformityCounts conformity;
   std::int64_t filling_prisms = 0;  // made of the tets between the chosen cells; some may have gone back since
-  SmoothCounts smoothing;
+  shape::SmoothCounts smoothing;
   std::vector<PoorCell> poor;                                     // all that are left
   std::int64_t exchanges = 0;                                     // of poor tets for others on the same vertices
   std::int64_t repaired = 0;                                      // vertices put beside flat tets
@@ -66,4 +66,4 @@ std::vector<PoorCell> poor_cells(const MixedMesh& mesh);
 nlohmann::ordered_json to_json(const AssembleStatistics& statistics);
 std::vector<std::string> summary_lines(const AssembleStatistics& statistics);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble

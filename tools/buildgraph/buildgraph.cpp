@@ -6,19 +6,19 @@
 #include "common/graph/tet_cliques.hpp"
 #include "tools/buildgraph/reduce.hpp"
 
-namespace hexpipe {
+namespace hexpipe::buildgraph {
 
 BuildgraphResult buildgraph(Candidates candidates, const BuildgraphOptions& options, const char* source) {
   BuildgraphResult result;
   if (options.reduce) {
-    result.graph = conflict_graph(candidates, options.conflicts, source);
+    result.graph = conflicts::conflict_graph(candidates, options.conflicts, source);
     result.dominated = reduce(candidates, result.graph);
-    if (options.cover) result.cover = greedy_edge_clique_cover(result.graph, cliques_of_tets(candidates));
+    if (options.cover) result.cover = graph::greedy_edge_clique_cover(result.graph, graph::cliques_of_tets(candidates));
     result.candidates = std::move(candidates);
   } else {
-    const CliqueCover known = options.cover ? cliques_of_tets(candidates) : CliqueCover();
-    result.graph = conflict_graph(std::move(candidates), options.conflicts, source);
-    if (options.cover) result.cover = greedy_edge_clique_cover(result.graph, known);
+    const graph::CliqueCover known = options.cover ? graph::cliques_of_tets(candidates) : graph::CliqueCover();
+    result.graph = conflicts::conflict_graph(std::move(candidates), options.conflicts, source);
+    if (options.cover) result.cover = graph::greedy_edge_clique_cover(result.graph, known);
   }
   return result;
 }
@@ -28,8 +28,8 @@ PartGraph buildgraph_of_part(PartCandidates all, std::int32_t part, const Buildg
   std::vector<bool> own(all.keys.part.size());
   for (std::size_t i = 0; i < own.size(); ++i) own[i] = all.keys.part[i] == part;
   PartGraph built;
-  ConflictGraph& graph = built.result.graph;
-  graph = conflict_graph(all.candidates, options.conflicts, source, own);
+  graph::ConflictGraph& graph = built.result.graph;
+  graph = conflicts::conflict_graph(all.candidates, options.conflicts, source, own);
   std::vector<std::int32_t> kept;
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v)
     if (own[v] || graph.degree(v) > 0) kept.push_back(v);
@@ -40,4 +40,4 @@ PartGraph buildgraph_of_part(PartCandidates all, std::int32_t part, const Buildg
   return built;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::buildgraph

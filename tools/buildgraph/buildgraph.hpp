@@ -9,18 +9,18 @@
 #include "common/mesh/candidates.hpp"
 #include "tools/buildgraph/neighbours.hpp"
 
-namespace hexpipe {
+namespace hexpipe::buildgraph {
 
 struct BuildgraphOptions {
-  ConflictOptions conflicts{};
+  conflicts::ConflictOptions conflicts{};
   bool reduce = false;  // leave out dominated candidates
   bool cover = false;   // find an edge clique cover, from the mesh
 };
 
 struct BuildgraphResult {
-  ConflictGraph graph;
+  graph::ConflictGraph graph;
   std::optional<Candidates> candidates;  // where they were reduced: those that are left, vertex i is candidate i
-  std::optional<CliqueCover> cover;
+  std::optional<graph::CliqueCover> cover;
   std::int64_t dominated = 0;  // candidates that were left out
 };
 
@@ -37,4 +37,4 @@ struct PartGraph {
 PartGraph buildgraph_of_part(PartCandidates all, std::int32_t part, const BuildgraphOptions& options,
                              const char* source);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::buildgraph

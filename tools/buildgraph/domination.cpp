@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <utility>
 
-namespace hexpipe {
+namespace hexpipe::buildgraph {
 namespace {
 
 class Domination {
  public:
-  explicit Domination(const ConflictGraph& graph)
+  explicit Domination(const graph::ConflictGraph& graph)
       : graph_(graph),
         degrees_(graph.weights.size()),
         mark_(graph.weights.size(), -1),
@@ -64,7 +64,7 @@ class Domination {
     return false;
   }
 
-  const ConflictGraph& graph_;
+  const graph::ConflictGraph& graph_;
   std::vector<std::int64_t> degrees_;  // among the vertices that are left
   std::vector<std::int32_t> mark_;     // the last vertex that this one was seen beside
   std::vector<char> gone_;
@@ -73,8 +73,8 @@ class Domination {
 
 }  // namespace
 
-std::vector<std::int32_t> undominated_vertices(const ConflictGraph& graph) {
+std::vector<std::int32_t> undominated_vertices(const graph::ConflictGraph& graph) {
   return Domination(graph).run();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::buildgraph

@@ -8,10 +8,10 @@
 
 #include "common/graph/conflict_graph.hpp"
 
-namespace hexpipe {
+namespace hexpipe::buildgraph {
 
 // The vertices that stay, ascending, once dominated ones are left out one after another until none is left. Of two that
 // dominate each other the higher one stays.
-std::vector<std::int32_t> undominated_vertices(const ConflictGraph& graph);
+std::vector<std::int32_t> undominated_vertices(const graph::ConflictGraph& graph);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::buildgraph

@@ -14,12 +14,13 @@
 #include "tools/buildgraph/report.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::buildgraph;
 
 namespace {
 
 // A part of a mesh and its neighbours.
-PartGraph build_part(StageData data, const BuildgraphOptions& options, const std::vector<std::string>& neighbours,
-                     const std::string& source) {
+buildgraph::PartGraph build_part(pipeline::StageData data, const BuildgraphOptions& options,
+                                 const std::vector<std::string>& neighbours, const std::string& source) {
   if (options.conflicts.part.count > 1 || options.reduce || options.cover)
     throw UsageError(
         fmt::format("--part, --reduce and --cover need the whole graph, not that of {}", title_of(*data.part)));
@@ -44,10 +45,10 @@ void check_together(const BuildgraphOptions& options, const std::string& reduced
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::map<std::string, WeightKind> weights{{"quality", WeightKind::quality},
-                                                  {"volume", WeightKind::volume},
-                                                  {"count", WeightKind::count},
-                                                  {"quality*volume", WeightKind::quality_volume}};
+  const std::map<std::string, conflicts::WeightKind> weights{{"quality", conflicts::WeightKind::quality},
+                                                             {"volume", conflicts::WeightKind::volume},
+                                                             {"count", conflicts::WeightKind::count},
+                                                             {"quality*volume", conflicts::WeightKind::quality_volume}};
   const ToolInfo info{
       .name = "buildgraph",
       .summary = "Compare candidates: the graph of those that cannot both be chosen.",
@@ -82,20 +83,20 @@ int main(int argc, char** argv) {
     options.conflicts.weight = weights.at(weight);
     options.conflicts.part = parse_part(part);
     Phases phases;
-    Stage stage(context);
+    pipeline::Stage stage(context);
     check_together(options, reduced_candidates, stage.writes_bundle());
     if (options.reduce || !neighbours.empty()) stage.hold_back(Role::candidates);
     stage.take_part();
-    std::optional<Output> reduced;
+    std::optional<formats::Output> reduced;
     if (!reduced_candidates.empty()) reduced.emplace(reduced_candidates);
-    StageData data = stage.read({Role::candidates});
+    pipeline::StageData data = stage.read({Role::candidates});
     const std::string source = stage.source_of(Role::candidates);
     phases.end("read");
     if (!data.part && !neighbours.empty())
       throw UsageError("--neighbours goes with the candidates of a part of a mesh, as mesh-part makes them");
     const auto [result, of_part] =
         data.part ? build_part(std::move(data), options, neighbours, source)
-                  : PartGraph{buildgraph(std::move(*data.candidates), options, source.c_str()), {}};
+                  : PartGraph{buildgraph::buildgraph(std::move(*data.candidates), options, source.c_str()), {}};
     phases.end("build");
     const GraphSummary summary = summarize(result);
     for (const auto& warning : warnings_about(summary)) context.warn(warning);
@@ -103,7 +104,7 @@ int main(int argc, char** argv) {
     context.statistics.update(to_json(summary));
     // A .graph is of no use without them, a bundle has them itself.
     if (reduced && !stage.writes_bundle()) {
-      write_cand(*result.candidates, *reduced);
+      formats::write_cand(*result.candidates, *reduced);
       reduced->drain();
     }
     const Candidates* const candidates = !neighbours.empty() ? &of_part.candidates
@@ -111,7 +112,7 @@ int main(int argc, char** argv) {
                                                              : nullptr;
     stage.write(result.graph, neighbours.empty() ? nullptr : &of_part.keys, candidates,
                 result.cover ? &*result.cover : nullptr, history_of(summary));
-    if (reduced && stage.writes_bundle()) write_cand(*result.candidates, *reduced);
+    if (reduced && stage.writes_bundle()) formats::write_cand(*result.candidates, *reduced);
     if (reduced) reduced->commit();
     phases.end("write");
     context.statistics.update(phases.seconds());

@@ -8,7 +8,7 @@
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/part_bundle.hpp"
 
-namespace hexpipe {
+namespace hexpipe::buildgraph {
 namespace {
 
 constexpr std::int32_t none = -1;
@@ -29,7 +29,7 @@ class HaloCollector {
     std::iota(order_.begin(), order_.end(), 0);
   }
 
-  void add_from(const PartBundle& other) {
+  void add_from(const pipeline::PartBundle& other) {
     const std::vector<std::int32_t> points = places_in(part_.point_number, other.part.point_number);
     const std::vector<std::int32_t> tets = places_in(part_.tet_number, other.part.tet_number);
     for (std::size_t i = 0; i < other.candidates.size(); ++i) {
@@ -57,7 +57,7 @@ class HaloCollector {
                        [&](std::int32_t tet) { return tets[tet] != none && tets_[tets[tet]]; });
   }
 
-  void add(const PartBundle& other, std::size_t i, const std::vector<std::int32_t>& points,
+  void add(const pipeline::PartBundle& other, std::size_t i, const std::vector<std::int32_t>& points,
            const std::vector<std::int32_t>& tets) {
     const auto place = [&](const std::vector<std::int32_t>& places, std::int32_t item) {
       if (places[item] != none) return places[item];
@@ -83,10 +83,10 @@ class HaloCollector {
 PartCandidates with_neighbours(PartCandidates own, const MeshPart& part,
                                const std::vector<nlohmann::ordered_json>& history,
                                const std::vector<std::string>& paths, const std::string& source) {
-  const nlohmann::ordered_json settings = settings_of("findhex", history);
+  const nlohmann::ordered_json settings = pipeline::settings_of("findhex", history);
   HaloCollector halo(std::move(own), part);
-  for_each_neighbour(part, paths, source, [&](const PartBundle& neighbour) {
-    if (settings_of("findhex", neighbour.history) != settings)
+  pipeline::for_each_neighbour(part, paths, source, [&](const pipeline::PartBundle& neighbour) {
+    if (pipeline::settings_of("findhex", neighbour.history) != settings)
       throw DataError::at(neighbour.name, "expected candidates found with the version and options of {}, found others",
                           source);
     halo.add_from(neighbour);
@@ -94,4 +94,4 @@ PartCandidates with_neighbours(PartCandidates own, const MeshPart& part,
   return halo.take();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::buildgraph

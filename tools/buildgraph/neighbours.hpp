@@ -9,7 +9,7 @@
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/mesh_part.hpp"
 
-namespace hexpipe {
+namespace hexpipe::buildgraph {
 
 struct PartCandidates {
   Candidates candidates;  // in the numbers of the part
@@ -24,4 +24,4 @@ PartCandidates with_neighbours(PartCandidates own, const MeshPart& part,
                                const std::vector<nlohmann::ordered_json>& history,
                                const std::vector<std::string>& paths, const std::string& source);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::buildgraph

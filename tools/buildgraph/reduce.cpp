@@ -5,7 +5,7 @@
 
 #include "tools/buildgraph/domination.hpp"
 
-namespace hexpipe {
+namespace hexpipe::buildgraph {
 
 namespace {
 
@@ -45,7 +45,7 @@ void keep_only(CandidateKeys& keys, std::span<const std::int32_t> kept) {
   keep_items(keys.part, kept);
 }
 
-void keep_only(ConflictGraph& graph, std::span<const std::int32_t> kept) {
+void keep_only(graph::ConflictGraph& graph, std::span<const std::int32_t> kept) {
   std::vector<std::int32_t> numbers(graph.weights.size(), -1);
   for (std::size_t i = 0; i < kept.size(); ++i) numbers[kept[i]] = static_cast<std::int32_t>(i);
   std::int64_t end = 0, read = 0;
@@ -64,7 +64,7 @@ void keep_only(ConflictGraph& graph, std::span<const std::int32_t> kept) {
   graph.offsets.resize(kept.size() + 1);
 }
 
-std::int64_t reduce(Candidates& candidates, ConflictGraph& graph) {
+std::int64_t reduce(Candidates& candidates, graph::ConflictGraph& graph) {
   const std::vector<std::int32_t> kept = undominated_vertices(graph);
   const auto dropped = static_cast<std::int64_t>(graph.weights.size() - kept.size());
   if (dropped == 0) return 0;
@@ -73,4 +73,4 @@ std::int64_t reduce(Candidates& candidates, ConflictGraph& graph) {
   return dropped;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::buildgraph

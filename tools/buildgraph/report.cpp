@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <numeric>
 
-namespace hexpipe {
+namespace hexpipe::buildgraph {
 
 GraphSummary summarize(const BuildgraphResult& result) {
-  const ConflictGraph& graph = result.graph;
+  const graph::ConflictGraph& graph = result.graph;
   GraphSummary summary;
   if (result.candidates) summary.dominated = result.dominated;
   if (result.cover) {
@@ -65,4 +65,4 @@ nlohmann::ordered_json to_json(const GraphSummary& summary) {
   return all;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::buildgraph

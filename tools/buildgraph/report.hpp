@@ -8,7 +8,7 @@
 
 #include "tools/buildgraph/buildgraph.hpp"
 
-namespace hexpipe {
+namespace hexpipe::buildgraph {
 
 struct GraphSummary {
   std::int64_t vertices = 0, edges = 0;
@@ -26,4 +26,4 @@ std::vector<std::string> summary_lines(const GraphSummary& summary);
 nlohmann::ordered_json to_json(const GraphSummary& summary);
 nlohmann::ordered_json history_of(const GraphSummary& summary);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::buildgraph

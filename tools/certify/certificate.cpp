@@ -1,8 +1,8 @@
 #include "tools/certify/certificate.hpp"
 
-namespace hexpipe {
+namespace hexpipe::certify {
 
-void write_certificate(const CliqueCover& cover, const CliqueDual& dual, Output& output) {
+void write_certificate(const graph::CliqueCover& cover, const mwis::bounds::CliqueDual& dual, formats::Output& output) {
   output.print("bound {}\n", dual.bound);
   for (std::int64_t c = 0; c < cover.size(); ++c) {
     if (dual.prices[c] == 0) continue;
@@ -12,4 +12,4 @@ void write_certificate(const CliqueCover& cover, const CliqueDual& dual, Output&
   }
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::certify

@@ -7,8 +7,8 @@
 #include "common/mwis/bounds/clique_dual.hpp"
 #include "formats/streams/output.hpp"
 
-namespace hexpipe {
+namespace hexpipe::certify {
 
-void write_certificate(const CliqueCover& cover, const CliqueDual& dual, Output& output);
+void write_certificate(const graph::CliqueCover& cover, const mwis::bounds::CliqueDual& dual, formats::Output& output);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::certify

@@ -10,20 +10,20 @@
 #include "common/mwis/exact/exact_algorithm.hpp"
 #include "common/run/deadline.hpp"
 
-namespace hexpipe {
+namespace hexpipe::certify {
 
 // Passes of the dual where a proof follows, whose bound is better: a third of what they are without.
 inline constexpr std::int64_t passes_before_proof = 100;
 
 struct CertifyOptions {
-  CliqueDualOptions dual;
-  std::optional<ExactAlgorithm> exact{};  // go on to a proof of optimality
+  mwis::bounds::CliqueDualOptions dual;
+  std::optional<mwis::exact::ExactAlgorithm> exact{};  // go on to a proof of optimality
 };
 
 struct CertifyResult {
-  CliqueCover cover;
-  CliqueDual dual;
-  IndependentSet solution;  // the given one, or a better one that the proof came upon
+  graph::CliqueCover cover;
+  mwis::bounds::CliqueDual dual;
+  graph::IndependentSet solution;  // the given one, or a better one that the proof came upon
   std::int64_t weight = 0;
   // That of the dual, or a lower one that the proof brought, which has no certificate.
   std::int64_t bound = 0;
@@ -38,15 +38,15 @@ struct CertifyResult {
 
 // Cliques that are known already, or that may be.
 struct KnownCliques {
-  std::optional<CliqueCover> cover;    // an edge clique cover
-  std::optional<CliqueCover> of_tets;  // candidates that share a tet
+  std::optional<graph::CliqueCover> cover;    // an edge clique cover
+  std::optional<graph::CliqueCover> of_tets;  // candidates that share a tet
 };
 
 // `solution` is independent. Without known cliques they are found in the graph. Those at tets, made maximal, give as
 // good a bound with a third of the members: what they miss and the relaxation violates is added. Throws DataError,
 // before anything else, where the graph is more than options.exact can hold.
-CertifyResult certify(const ConflictGraph& graph, const IndependentSet& solution, KnownCliques known,
+CertifyResult certify(const graph::ConflictGraph& graph, const graph::IndependentSet& solution, KnownCliques known,
                       const CertifyOptions& options, const Deadline& deadline,
-                      const std::function<void(const CliqueDual&)>& report = {});
+                      const std::function<void(const mwis::bounds::CliqueDual&)>& report = {});
 
-}  // namespace hexpipe
+}  // namespace hexpipe::certify

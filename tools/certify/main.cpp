@@ -12,6 +12,7 @@
 #include "tools/certify/certify.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::certify;
 
 int main(int argc, char** argv) {
   const ToolInfo info{
@@ -25,36 +26,36 @@ int main(int argc, char** argv) {
   CertifyOptions options;
   std::string certificate;
   bool exact = false;
-  std::string algorithm = default_exact_algorithm();
+  std::string algorithm = mwis::exact::default_exact_algorithm();
   const auto declare = [&](CLI::App& app) {
     app.add_option("--certificate", certificate, "Write the proof of the bound to a file: prices of cliques")
         ->type_name("FILE");
     CLI::Option* const with_exact =
         app.add_flag("--exact", exact, "Go on to a proof of optimality; its bound has no certificate");
     app.add_option("--algorithm", algorithm, "How --exact proves it")
-        ->check(CLI::IsMember(exact_algorithms()))
+        ->check(CLI::IsMember(mwis::exact::exact_algorithms()))
         ->needs(with_exact);
   };
   const auto run = [&](RunContext& context) {
     if (exact) {
-      options.exact = exact_algorithms().at(algorithm);
+      options.exact = mwis::exact::exact_algorithms().at(algorithm);
       options.dual.passes = passes_before_proof;
     }
-    Stage stage(context);
+    pipeline::Stage stage(context);
     stage.take_cover();
-    SearchLog log(context.common.log_file, "bound");
-    std::optional<Output> proof;
+    mwis::ground::SearchLog log(context.common.log_file, "bound");
+    std::optional<formats::Output> proof;
     if (!certificate.empty()) proof.emplace(certificate);
-    const StageData data = stage.read({Role::graph, Role::solution}, {Role::candidates});
+    const pipeline::StageData data = stage.read({Role::graph, Role::solution}, {Role::candidates});
     KnownCliques known{data.cover, std::nullopt};
-    if (data.candidates) known.of_tets = cliques_of_tets(*data.candidates);
+    if (data.candidates) known.of_tets = graph::cliques_of_tets(*data.candidates);
     // Cliques at tets are fewer, and a pass over them is that much quicker.
     if (known.of_tets && !known.cover) options.dual.passes *= 2;
     options.dual.passes = context.common.iterations.value_or(options.dual.passes);
     const Deadline deadline = context.deadline();
-    const CertifyResult result =
-        certify(*data.graph, *data.solution, std::move(known), options, deadline,
-                [&](const CliqueDual& now) { log.record(deadline.elapsed(), now.passes, now.bound); });
+    const CertifyResult result = certify::certify(
+        *data.graph, *data.solution, std::move(known), options, deadline,
+        [&](const mwis::bounds::CliqueDual& now) { log.record(deadline.elapsed(), now.passes, now.bound); });
     const double seconds = deadline.elapsed();
     context.statistics["weight"] = result.weight;
     context.statistics["bound"] = result.bound;
@@ -70,7 +71,7 @@ int main(int argc, char** argv) {
                              100 * result.gap, result.complete ? ", optimal" : "",
                              result.maximal ? "" : ", not maximal"));
     const std::vector<std::int64_t> gaps =
-        stage.writes_bundle() ? gap_shares(*data.graph, result.cover, result.dual.prices, result.solution)
+        stage.writes_bundle() ? mwis::bounds::gap_shares(*data.graph, result.cover, result.dual.prices, result.solution)
                               : std::vector<std::int64_t>();
     stage.write(
         result.solution,

@@ -13,12 +13,13 @@
 #include "tools/findhex/report.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::findhex;
 
 int main(int argc, char** argv) {
   const std::map<std::string, CellKind> kinds{
       {"hex", CellKind::hex}, {"prism", CellKind::prism}, {"pyramid", CellKind::pyramid}};
-  const std::map<std::string, CandidateQuality> qualities{{"corner", CandidateQuality::corner},
-                                                          {"element", CandidateQuality::element}};
+  const std::map<std::string, candidates::CandidateQuality> qualities{
+      {"corner", candidates::CandidateQuality::corner}, {"element", candidates::CandidateQuality::element}};
   const ToolInfo info{
       .name = "findhex",
       .summary = "Find every way to merge tets into hexes (prisms, pyramids): the candidates.",
@@ -26,7 +27,7 @@ int main(int argc, char** argv) {
       .reads = {Role::mesh},
       .product = Role::candidates,
   };
-  FindhexOptions options;
+  candidates::FindhexOptions options;
   std::vector<std::string> cells{"hex"};
   std::string quality = "element", inner_vertices = "allow", folded_quads = "drop", flat_corners = "reject",
               part = "1/1";
@@ -63,17 +64,18 @@ int main(int argc, char** argv) {
     options.drop_folded_quads = folded_quads == "drop";
 
     Phases phases;
-    Stage stage(context);
+    pipeline::Stage stage(context);
     stage.take_part();
-    StageData data = stage.read({Role::mesh});
+    pipeline::StageData data = stage.read({Role::mesh});
     const std::string source = stage.source_of(Role::mesh);
     phases.end("read");
     if (data.mesh->tets.empty())
       throw DataError::at(source, "expected tets, found none (tetmesh makes them from a surface)");
     if (data.part && options.part.count > 1)
       throw UsageError(fmt::format("--part does not go with a mesh that is {} already", title_of(*data.part)));
-    const FindhexResult result = data.part ? findhex_of_part(*data.mesh, *data.part, options, source.c_str())
-                                           : findhex(std::move(*data.mesh), options, source.c_str());
+    const candidates::FindhexResult result = data.part
+                                                 ? findhex_of_part(*data.mesh, *data.part, options, source.c_str())
+                                                 : candidates::findhex(std::move(*data.mesh), options, source.c_str());
     phases.end("find");
     for (const auto& warning : warnings_about(result.findings)) context.warn(warning);
     for (const auto& line : summary_lines(result)) context.note(line);

@@ -2,14 +2,14 @@
 
 #include "common/mesh/submesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::findhex {
 namespace {
 
 // From where a cell begins to any of its corners: no cell has corners that are more edges apart.
 constexpr int edges_across_cell = 3;
 
-SearchScope scope_of(const Submesh& part_searched, const MeshPart& part) {
-  SearchScope scope;
+candidates::SearchScope scope_of(const Submesh& part_searched, const MeshPart& part) {
+  candidates::SearchScope scope;
   for (const std::int32_t point : part_searched.points) scope.begins_at.push_back(part.point_part[point] == part.part);
   if (!part.tet_turned.empty())
     for (const std::int32_t tet : part_searched.tets) scope.turns.push_back(part.tet_turned[tet]);
@@ -24,13 +24,13 @@ void renumber(std::vector<std::int32_t>& items, const std::vector<std::int32_t>&
 
 // Which cells there are and of which tets depends on the tets at their corners alone; those further out, which are
 // there for buildgraph, would only take memory.
-FindhexResult findhex_of_part(const TetMesh& mesh, const MeshPart& part, const FindhexOptions& options,
-                              const char* source) {
+candidates::FindhexResult findhex_of_part(const TetMesh& mesh, const MeshPart& part,
+                                          const candidates::FindhexOptions& options, const char* source) {
   std::vector<bool> own(mesh.points.size());
   for (std::size_t v = 0; v < own.size(); ++v) own[v] = part.point_part[v] == part.part;
   Submesh searched = submesh_around(mesh, own, edges_across_cell);
-  const SearchScope scope = scope_of(searched, part);
-  FindhexResult result = findhex(std::move(searched.mesh), options, source, scope);
+  const candidates::SearchScope scope = scope_of(searched, part);
+  candidates::FindhexResult result = candidates::findhex(std::move(searched.mesh), options, source, scope);
   for (auto& corners : result.candidates.vertices)
     for (Vertex& v : corners)
       if (v >= 0) v = searched.points[v];
@@ -39,4 +39,4 @@ FindhexResult findhex_of_part(const TetMesh& mesh, const MeshPart& part, const F
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::findhex

@@ -4,20 +4,20 @@
 
 #include <utility>
 
-namespace hexpipe {
+namespace hexpipe::findhex {
 namespace {
 
-constexpr std::pair<TetVerdict, const char*> rejections[] = {
-    {TetVerdict::no_interior, "rule 5, no tets between the facets"},
-    {TetVerdict::tet_count, "rule 6, too few or too many tets"},
-    {TetVerdict::boundary_tets, "too many boundary tets"},
-    {TetVerdict::crosses_mesh, "rules 6 and 7, a boundary, region or unusable tet within"},
-    {TetVerdict::half_on_surface, "rule 7, a quad half on a surface"},
-    {TetVerdict::inner_vertex, "an inner vertex"},
-    {TetVerdict::flat_corner, "rule 9, a flat corner left at the surface"},
+constexpr std::pair<candidates::TetVerdict, const char*> rejections[] = {
+    {candidates::TetVerdict::no_interior, "rule 5, no tets between the facets"},
+    {candidates::TetVerdict::tet_count, "rule 6, too few or too many tets"},
+    {candidates::TetVerdict::boundary_tets, "too many boundary tets"},
+    {candidates::TetVerdict::crosses_mesh, "rules 6 and 7, a boundary, region or unusable tet within"},
+    {candidates::TetVerdict::half_on_surface, "rule 7, a quad half on a surface"},
+    {candidates::TetVerdict::inner_vertex, "an inner vertex"},
+    {candidates::TetVerdict::flat_corner, "rule 9, a flat corner left at the surface"},
 };
 
-std::int64_t count_of(const CellCounts& counts, TetVerdict verdict) {
+std::int64_t count_of(const candidates::CellCounts& counts, candidates::TetVerdict verdict) {
   return counts.by_verdict[static_cast<std::size_t>(verdict)];
 }
 
@@ -27,7 +27,7 @@ std::string plural(CellKind kind) {
 
 }  // namespace
 
-std::vector<std::string> warnings_about(const MeshFindings& findings) {
+std::vector<std::string> warnings_about(const candidates::MeshFindings& findings) {
   std::vector<std::string> warnings;
   const TetOrientation& orientation = findings.orientation;
   if (const auto turned = turned_tets_warning(orientation)) warnings.push_back(*turned);
@@ -37,13 +37,13 @@ std::vector<std::string> warnings_about(const MeshFindings& findings) {
   return warnings;
 }
 
-nlohmann::ordered_json candidate_counts(const FindhexResult& result) {
+nlohmann::ordered_json candidate_counts(const candidates::FindhexResult& result) {
   auto json = nlohmann::ordered_json::object();
-  for (const KindCounts& kind : result.counts) json[plural(kind.kind)] = kind.counts.accepted();
+  for (const candidates::KindCounts& kind : result.counts) json[plural(kind.kind)] = kind.counts.accepted();
   return json;
 }
 
-nlohmann::ordered_json statistics_of(const FindhexResult& result) {
+nlohmann::ordered_json statistics_of(const candidates::FindhexResult& result) {
   auto json = nlohmann::ordered_json::object();
   json["tets"] = result.findings.orientation.signs.size();
   json["turned_tets"] = result.findings.orientation.turned;
@@ -52,7 +52,7 @@ nlohmann::ordered_json statistics_of(const FindhexResult& result) {
   json["derived_triangles"] = result.findings.derived_triangles;
   json["triangulated_quads"] = result.triangulated_quads;
   json["candidates"] = result.candidates.size();
-  for (const KindCounts& kind : result.counts) {
+  for (const candidates::KindCounts& kind : result.counts) {
     auto& of_kind = json[plural(kind.kind)];
     of_kind["candidates"] = kind.counts.accepted();
     of_kind["complete"] = kind.counts.complete;
@@ -62,12 +62,12 @@ nlohmann::ordered_json statistics_of(const FindhexResult& result) {
   return json;
 }
 
-std::vector<std::string> summary_lines(const FindhexResult& result) {
+std::vector<std::string> summary_lines(const candidates::FindhexResult& result) {
   std::vector<std::string> lines{fmt::format("{} tets, {} triangulated quads", result.findings.orientation.signs.size(),
                                              result.triangulated_quads)};
   if (result.findings.derived_triangles > 0)
     lines.push_back(fmt::format("{} surface triangles derived, with tag 0", result.findings.derived_triangles));
-  for (const KindCounts& kind : result.counts) {
+  for (const candidates::KindCounts& kind : result.counts) {
     lines.push_back(fmt::format("{} {} of {} with all facets and good corners", kind.counts.accepted(),
                                 plural(kind.kind), kind.counts.complete));
     if (kind.counts.invalid > 0) lines.push_back(fmt::format("  {} rejected: rule 4, not valid", kind.counts.invalid));
@@ -78,4 +78,4 @@ std::vector<std::string> summary_lines(const FindhexResult& result) {
   return lines;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::findhex

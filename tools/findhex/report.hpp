@@ -7,15 +7,15 @@
 
 #include "common/candidates/findhex.hpp"
 
-namespace hexpipe {
+namespace hexpipe::findhex {
 
-std::vector<std::string> warnings_about(const MeshFindings& findings);
+std::vector<std::string> warnings_about(const candidates::MeshFindings& findings);
 
 // The number of candidates of each kind, by its name.
-nlohmann::ordered_json candidate_counts(const FindhexResult& result);
+nlohmann::ordered_json candidate_counts(const candidates::FindhexResult& result);
 
-nlohmann::ordered_json statistics_of(const FindhexResult& result);
+nlohmann::ordered_json statistics_of(const candidates::FindhexResult& result);
 
-std::vector<std::string> summary_lines(const FindhexResult& result);
+std::vector<std::string> summary_lines(const candidates::FindhexResult& result);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::findhex

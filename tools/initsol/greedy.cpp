@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
-namespace hexpipe {
+namespace hexpipe::initsol {
 
-std::vector<double> merits(const ConflictGraph& graph, GreedyOrder order, std::span<const double> quality) {
+std::vector<double> merits(const graph::ConflictGraph& graph, GreedyOrder order, std::span<const double> quality) {
   if (order == GreedyOrder::quality) return {quality.begin(), quality.end()};
   std::vector<double> merits(graph.weights.begin(), graph.weights.end());
   if (order == GreedyOrder::weight_degree)
@@ -13,13 +13,13 @@ std::vector<double> merits(const ConflictGraph& graph, GreedyOrder order, std::s
   return merits;
 }
 
-IndependentSet greedy(const ConflictGraph& graph, std::span<const double> merits) {
+graph::IndependentSet greedy(const graph::ConflictGraph& graph, std::span<const double> merits) {
   std::vector<std::int32_t> order(graph.weights.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, [&](std::int32_t a, std::int32_t b) { return merits[a] > merits[b]; });
 
   std::vector<char> excluded(graph.weights.size(), 0);
-  IndependentSet solution;
+  graph::IndependentSet solution;
   for (const std::int32_t v : order) {
     if (excluded[v]) continue;
     solution.push_back(v);
@@ -29,4 +29,4 @@ IndependentSet greedy(const ConflictGraph& graph, std::span<const double> merits
   return solution;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::initsol

@@ -8,7 +8,7 @@
 
 #include "common/graph/conflict_graph.hpp"
 
-namespace hexpipe {
+namespace hexpipe::initsol {
 
 enum class GreedyOrder {
   weight,
@@ -17,9 +17,9 @@ enum class GreedyOrder {
 };
 
 // The merit of every vertex; `quality` is looked at for that order only.
-std::vector<double> merits(const ConflictGraph& graph, GreedyOrder order, std::span<const double> quality);
+std::vector<double> merits(const graph::ConflictGraph& graph, GreedyOrder order, std::span<const double> quality);
 
 // The highest merit first, equal ones in the order of their numbers. The set is maximal.
-IndependentSet greedy(const ConflictGraph& graph, std::span<const double> merits);
+graph::IndependentSet greedy(const graph::ConflictGraph& graph, std::span<const double> merits);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::initsol

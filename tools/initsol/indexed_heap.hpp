@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::initsol {
 
 class IndexedHeap {
  public:
@@ -88,4 +88,4 @@ class IndexedHeap {
   std::vector<std::int32_t> places_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::initsol

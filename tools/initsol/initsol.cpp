@@ -8,7 +8,7 @@
 #include "common/mwis/local_search/recombination.hpp"
 #include "common/run/parallel.hpp"
 
-namespace hexpipe {
+namespace hexpipe::initsol {
 namespace {
 
 // Moves between two looks at which start is ahead; some milliseconds.
@@ -16,8 +16,8 @@ constexpr std::int64_t most_moves_a_round = 1000;
 // Few iterations cool down in as many steps.
 constexpr std::int64_t least_rounds = 100;
 
-IndependentSet start_solution(const ConflictGraph& graph, std::vector<double> merits, const InitsolOptions& options,
-                              std::int64_t index) {
+graph::IndependentSet start_solution(const graph::ConflictGraph& graph, std::vector<double> merits,
+                                     const InitsolOptions& options, std::int64_t index) {
   if (index > 0) {
     Random random(options.seed, static_cast<std::uint64_t>(2 * index));
     for (double& merit : merits) merit *= random.uniform(0.8, 1.2);
@@ -32,17 +32,18 @@ class Search {
   virtual void run(std::int64_t moves, double progress, const Deadline& deadline) = 0;
   virtual std::int64_t moves() const = 0;
   virtual std::int64_t best_weight() const = 0;
-  virtual IndependentSet best() const = 0;
+  virtual graph::IndependentSet best() const = 0;
 };
 
 class TabuStart : public Search {
  public:
-  TabuStart(const ConflictGraph& graph, const IndependentSet& start, const InitsolOptions& options, Random random)
+  TabuStart(const graph::ConflictGraph& graph, const graph::IndependentSet& start, const InitsolOptions& options,
+            Random random)
       : search_(graph, start, options.tabu, random) {}
   void run(std::int64_t moves, double, const Deadline& deadline) override { search_.run(moves, deadline); }
   std::int64_t moves() const override { return search_.moves(); }
   std::int64_t best_weight() const override { return search_.best_weight(); }
-  IndependentSet best() const override { return search_.best(); }
+  graph::IndependentSet best() const override { return search_.best(); }
 
  private:
   TabuSearch search_;
@@ -50,32 +51,34 @@ class TabuStart : public Search {
 
 class AnnealedStart : public Search {
  public:
-  AnnealedStart(const ConflictGraph& graph, const IndependentSet& start, const InitsolOptions& options, Random random,
-                const Deadline& deadline)
+  AnnealedStart(const graph::ConflictGraph& graph, const graph::IndependentSet& start, const InitsolOptions& options,
+                Random random, const Deadline& deadline)
       : cooling_(options.cooling), search_(graph, start, random, deadline), unit_(search_.mean_weight()) {}
   void run(std::int64_t moves, double progress, const Deadline& deadline) override {
     search_.run(moves, unit_ * cooling_.at(progress), deadline);
   }
   std::int64_t moves() const override { return search_.kicks(); }
   std::int64_t best_weight() const override { return search_.best_weight(); }
-  IndependentSet best() const override { return search_.best(); }
+  graph::IndependentSet best() const override { return search_.best(); }
 
  private:
-  Cooling cooling_;
-  Annealing search_;
+  mwis::local_search::Cooling cooling_;
+  mwis::local_search::Annealing search_;
   double unit_;
 };
 
-std::unique_ptr<Search> make_search(const ConflictGraph& graph, const IndependentSet& start,
+std::unique_ptr<Search> make_search(const graph::ConflictGraph& graph, const graph::IndependentSet& start,
                                     const InitsolOptions& options, Random random, const Deadline& deadline) {
   if (options.method == Method::tabu) return std::make_unique<TabuStart>(graph, start, options, random);
   return std::make_unique<AnnealedStart>(graph, start, options, random, deadline);
 }
 
 // The best parts of all: two starts of random-33k differ by 0.1 to 0.3 %, and together gain 0.1 %.
-IndependentSet recombined(const ConflictGraph& graph, const std::vector<std::unique_ptr<Search>>& searches) {
-  IndependentSet set = searches.front()->best();
-  for (std::size_t i = 1; i < searches.size(); ++i) set = recombine(graph, searches[i]->best(), set);
+graph::IndependentSet recombined(const graph::ConflictGraph& graph,
+                                 const std::vector<std::unique_ptr<Search>>& searches) {
+  graph::IndependentSet set = searches.front()->best();
+  for (std::size_t i = 1; i < searches.size(); ++i)
+    set = mwis::local_search::recombine(graph, searches[i]->best(), set);
   return set;
 }
 
@@ -88,13 +91,13 @@ double progress_of(std::int64_t done, const InitsolOptions& options, const Deadl
 
 }  // namespace
 
-InitsolResult find_initial_solution(const ConflictGraph& graph, std::span<const double> quality,
+InitsolResult find_initial_solution(const graph::ConflictGraph& graph, std::span<const double> quality,
                                     const InitsolOptions& options, const Deadline& deadline,
                                     const std::function<void(const InitsolProgress&)>& report) {
   const std::vector<double> vertex_merits = merits(graph, options.order, quality);
   InitsolResult result;
-  const IndependentSet first = greedy(graph, vertex_merits);
-  result.greedy_weight = result.weight = total_weight(first, graph);
+  const graph::IndependentSet first = greedy(graph, vertex_merits);
+  result.greedy_weight = result.weight = graph::total_weight(first, graph);
   if (options.iterations == 0 || deadline.passed() || graph.edge_count() == 0) {
     result.solution = first;
     return result;
@@ -129,11 +132,11 @@ InitsolResult find_initial_solution(const ConflictGraph& graph, std::span<const 
     if (std::ranges::all_of(searches, [&](const auto& search) { return search->moves() < done; })) break;
   }
   result.iterations = moves_made();
-  SolutionState best(graph, recombined(graph, searches));
+  mwis::ground::SolutionState best(graph, recombined(graph, searches));
   best.make_maximal();  // with vertices of weight 0
   result.solution = best.to_set();
   result.weight = best.weight();
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::initsol

@@ -12,7 +12,7 @@
 #include "tools/initsol/greedy.hpp"
 #include "tools/initsol/tabu_search.hpp"
 
-namespace hexpipe {
+namespace hexpipe::initsol {
 
 enum class Method {
   anneal,   // simulated annealing over local optima; the slower it cools, the better it gets
@@ -23,7 +23,7 @@ enum class Method {
 struct InitsolOptions {
   GreedyOrder order = GreedyOrder::weight_degree;
   Method method = Method::anneal;
-  Cooling cooling{};
+  mwis::local_search::Cooling cooling{};
   TabuOptions tabu{};
   int starts = 1;
   std::uint64_t seed = 1;
@@ -36,7 +36,7 @@ struct InitsolProgress {
 };
 
 struct InitsolResult {
-  IndependentSet solution;
+  graph::IndependentSet solution;
   std::int64_t weight = 0;
   std::int64_t greedy_weight = 0;
   std::int64_t iterations = 0;  // moves or kicks of all starts
@@ -45,8 +45,8 @@ struct InitsolResult {
 // `quality` has an entry for each vertex when the order needs it. The first start is the greedy solution, the others
 // are greedy with merits changed at random. Annealing cools from the first to the last of the iterations, or of the
 // seconds where these end sooner. `report` is called for improvements.
-InitsolResult find_initial_solution(const ConflictGraph& graph, std::span<const double> quality,
+InitsolResult find_initial_solution(const graph::ConflictGraph& graph, std::span<const double> quality,
                                     const InitsolOptions& options, const Deadline& deadline,
                                     const std::function<void(const InitsolProgress&)>& report = {});
 
-}  // namespace hexpipe
+}  // namespace hexpipe::initsol

@@ -11,6 +11,7 @@
 #include "tools/initsol/initsol.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::initsol;
 
 namespace {
 
@@ -21,7 +22,7 @@ const std::map<std::string, Method> methods{
 const std::map<std::string, Escape> escapes{
     {"restart", Escape::restart}, {"rebuild", Escape::rebuild}, {"best", Escape::best}};
 
-std::vector<double> quality_for(const StageData& data) {
+std::vector<double> quality_for(const pipeline::StageData& data) {
   if (!data.candidates)
     throw DataError("--greedy quality needs candidates: found none in the bundle, give --candidates");
   if (data.candidates->size() != data.graph->weights.size())
@@ -86,10 +87,11 @@ int main(int argc, char** argv) {
     options.tabu.escape = escapes.at(escape);
     options.seed = context.common.seed;
     options.iterations = context.common.iterations.value_or(options.iterations);
-    Stage stage(context);
-    SearchLog log(context.common.log_file);
+    pipeline::Stage stage(context);
+    mwis::ground::SearchLog log(context.common.log_file);
     const bool by_quality = options.order == GreedyOrder::quality;
-    const StageData data = stage.read({Role::graph}, by_quality ? std::vector{Role::candidates} : std::vector<Role>{});
+    const pipeline::StageData data =
+        stage.read({Role::graph}, by_quality ? std::vector{Role::candidates} : std::vector<Role>{});
     const std::vector<double> quality = by_quality ? quality_for(data) : std::vector<double>{};
 
     const Deadline deadline = context.deadline();

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
-namespace hexpipe {
+namespace hexpipe::initsol {
 
-TabuSearch::TabuSearch(const ConflictGraph& graph, const IndependentSet& start, const TabuOptions& options,
-                       Random random)
+TabuSearch::TabuSearch(const graph::ConflictGraph& graph, const graph::IndependentSet& start,
+                       const TabuOptions& options, Random random)
     : graph_(graph),
       options_(options),
       random_(random),
@@ -122,8 +122,8 @@ void TabuSearch::return_to_best() {
   since_best_.clear();
 }
 
-void TabuSearch::restart_at(const IndependentSet& solution) {
-  state_ = SolutionState(graph_, solution);
+void TabuSearch::restart_at(const graph::IndependentSet& solution) {
+  state_ = mwis::ground::SolutionState(graph_, solution);
   state_.make_maximal();
   open_.clear();
   tabu_.clear();
@@ -134,19 +134,19 @@ void TabuSearch::restart_at(const IndependentSet& solution) {
     if (!state_.contains(v)) open_.insert(v, state_.push_gain(v));
 }
 
-IndependentSet TabuSearch::build_in_order(const std::vector<std::int32_t>& order) const {
-  SolutionState fresh(graph_);
+graph::IndependentSet TabuSearch::build_in_order(const std::vector<std::int32_t>& order) const {
+  mwis::ground::SolutionState fresh(graph_);
   for (const std::int32_t v : order)
     if (fresh.tightness(v) == 0) fresh.add(v);
   return fresh.to_set();
 }
 
-IndependentSet TabuSearch::best() const {
+graph::IndependentSet TabuSearch::best() const {
   if (best_is_stored_) return best_;
   std::vector<char> chosen(graph_.weights.size());
   for (std::int32_t v = 0; v < graph_.vertex_count(); ++v) chosen[v] = state_.contains(v);
   for (const std::int32_t v : since_best_) chosen[v] = !chosen[v];
-  IndependentSet solution;
+  graph::IndependentSet solution;
   for (std::int32_t v = 0; v < graph_.vertex_count(); ++v)
     if (chosen[v]) solution.push_back(v);
   return solution;
@@ -161,4 +161,4 @@ bool TabuSearch::check() const {
   return true;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::initsol

@@ -12,7 +12,7 @@
 #include "common/run/random.hpp"
 #include "tools/initsol/indexed_heap.hpp"
 
-namespace hexpipe {
+namespace hexpipe::initsol {
 
 // The way out when nothing better was found for long (algorithms 8, 9 and 10).
 enum class Escape {
@@ -33,14 +33,15 @@ struct TabuOptions {
 
 class TabuSearch {
  public:
-  TabuSearch(const ConflictGraph& graph, const IndependentSet& start, const TabuOptions& options, Random random);
+  TabuSearch(const graph::ConflictGraph& graph, const graph::IndependentSet& start, const TabuOptions& options,
+             Random random);
 
   // Makes `moves` more moves, fewer when the deadline passes or no vertex can move at all.
   void run(std::int64_t moves, const Deadline& deadline);
 
   std::int64_t moves() const { return moves_; }
   std::int64_t best_weight() const { return best_weight_; }
-  IndependentSet best() const;
+  graph::IndependentSet best() const;
 
   // The state is right, the queues hold every vertex that is not chosen, with its gain, and none is open before its
   // tabu ends. For tests.
@@ -63,13 +64,13 @@ class TabuSearch {
   void note_best();
   void take_way_out();
   void return_to_best();
-  void restart_at(const IndependentSet& solution);
-  IndependentSet build_in_order(const std::vector<std::int32_t>& order) const;
+  void restart_at(const graph::IndependentSet& solution);
+  graph::IndependentSet build_in_order(const std::vector<std::int32_t>& order) const;
 
-  const ConflictGraph& graph_;
+  const graph::ConflictGraph& graph_;
   TabuOptions options_;
   Random random_;
-  SolutionState state_;
+  mwis::ground::SolutionState state_;
   IndexedHeap open_, tabu_;  // gains of the vertices that are not chosen
   // A heap, the earliest end first, with entries that are no longer true: of a vertex only that counts which is its
   // last.
@@ -83,7 +84,7 @@ class TabuSearch {
   // The best solution is the present one with these taken back, last first; or best_, once another start was made.
   std::vector<std::int32_t> since_best_;
   bool best_is_stored_ = false;
-  IndependentSet best_;
+  graph::IndependentSet best_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::initsol

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 namespace {
 
 // What other blocks choose beyond the edge changes which fragments there are around it.
@@ -13,8 +13,8 @@ bool is_near_edge(const Region& region, std::int32_t v) {
 
 }  // namespace
 
-LnsMemory BlockMemory::recall(const Region& region, std::span<const std::uint64_t> keys) const {
-  LnsMemory memory;
+mwis::local_search::LnsMemory BlockMemory::recall(const Region& region, std::span<const std::uint64_t> keys) const {
+  mwis::local_search::LnsMemory memory;
   memory.effort = effort_;
   auto known = places_.begin();
   for (const std::int32_t v : region.chosen) {
@@ -25,11 +25,12 @@ LnsMemory BlockMemory::recall(const Region& region, std::span<const std::uint64_
   return memory;
 }
 
-void BlockMemory::remember(const LnsMemory& memory, const Region& region, std::span<const std::uint64_t> keys) {
+void BlockMemory::remember(const mwis::local_search::LnsMemory& memory, const Region& region,
+                           std::span<const std::uint64_t> keys) {
   effort_ = memory.effort;
   places_.clear();
   places_.reserve(memory.places.size());
-  for (const LnsMemory::Place& place : memory.places) {
+  for (const mwis::local_search::LnsMemory::Place& place : memory.places) {
     Place& known = places_.emplace_back(Place{keys[region.vertices[place.vertex]], place.tries, place.size});
     if (is_near_edge(region, place.vertex)) known.tries.fill(0);
   }
@@ -42,4 +43,4 @@ std::size_t BlockMemory::usual_size() const {
   return sum / places_.size();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

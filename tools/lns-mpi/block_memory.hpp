@@ -11,35 +11,35 @@
 #include "common/mwis/local_search/schedule.hpp"
 #include "tools/lns-mpi/regions.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 
 class BlockMemory {
  public:
   struct Place {
     std::uint64_t key;
-    std::array<std::uint32_t, all_ways.size()> tries;
+    std::array<std::uint32_t, mwis::local_search::all_ways.size()> tries;
     std::uint32_t size;
   };
 
   BlockMemory() = default;
-  BlockMemory(std::vector<Place> places, const Effort::Accounts& effort)
+  BlockMemory(std::vector<Place> places, const mwis::local_search::Effort::Accounts& effort)
       : places_(std::move(places)), effort_(effort) {}
 
   // What counts in this region, by its numbers; `keys` are those of the piece.
-  LnsMemory recall(const Region& region, std::span<const std::uint64_t> keys) const;
+  mwis::local_search::LnsMemory recall(const Region& region, std::span<const std::uint64_t> keys) const;
   // Of places at the edge of the region the size alone, for what is beyond may change before the next round. Everything
   // further inside stays as this search leaves it, because no other block may change it meanwhile.
-  void remember(const LnsMemory& memory, const Region& region, std::span<const std::uint64_t> keys);
+  void remember(const mwis::local_search::LnsMemory& memory, const Region& region, std::span<const std::uint64_t> keys);
 
   // How large fragments have become; 0 where nothing is known.
   std::size_t usual_size() const;
 
   const std::vector<Place>& places() const { return places_; }
-  const Effort::Accounts& effort() const { return effort_; }
+  const mwis::local_search::Effort::Accounts& effort() const { return effort_; }
 
  private:
   std::vector<Place> places_;  // ascending
-  Effort::Accounts effort_;
+  mwis::local_search::Effort::Accounts effort_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

@@ -13,7 +13,7 @@
 #include "formats/streams/input.hpp"
 #include "formats/streams/output.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 namespace {
 
 // The numbers of RoundsProgress by name, for both directions.
@@ -32,7 +32,7 @@ struct Title {
 };
 
 Title read_title(const std::string& path) {
-  Input input = Input::open(path);
+  formats::Input input = formats::Input::open(path);
   const auto json = nlohmann::json::parse(input.read_all(), nullptr, false);
   Title title;
   const auto take = [&](const char* name, auto& number) {
@@ -68,7 +68,7 @@ struct RankState {
     }
     auto& row = effort.emplace_back();
     for (std::size_t way = 0; way < memory.effort().size(); ++way) {
-      const Effort::Account& account = memory.effort()[way];
+      const mwis::local_search::Effort::Account& account = memory.effort()[way];
       row[3 * way] = account.credit, row[3 * way + 1] = account.cost, row[3 * way + 2] = account.yield;
     }
   }
@@ -80,7 +80,7 @@ BlockMemory memory_of(std::int32_t block, const RankState& state, const std::arr
     const auto& place = state.places[i];
     if (state.blocks[i] == block) places.push_back({state.keys[i], {place[0], place[1], place[2]}, place[3]});
   }
-  Effort::Accounts accounts;
+  mwis::local_search::Effort::Accounts accounts;
   for (std::size_t way = 0; way < accounts.size(); ++way)
     accounts[way] = {row[3 * way], row[3 * way + 1], row[3 * way + 2]};
   return {std::move(places), accounts};
@@ -88,7 +88,8 @@ BlockMemory memory_of(std::int32_t block, const RankState& state, const std::arr
 
 bool is_sound(const RankState& state, std::size_t blocks) {
   const auto has_bounded_tries = [](const std::array<std::uint32_t, 4>& place) {
-    return std::all_of(place.begin(), place.end() - 1, [](auto tries) { return tries <= Schedule::most_tries; });
+    return std::all_of(place.begin(), place.end() - 1,
+                       [](auto tries) { return tries <= mwis::local_search::Schedule::most_tries; });
   };
   const auto is_finite = [](const std::array<double, 9>& row) {
     return std::ranges::all_of(row, [](double value) { return std::isfinite(value); });
@@ -99,8 +100,8 @@ bool is_sound(const RankState& state, std::size_t blocks) {
 }
 
 RankState read_state(const std::string& path, std::size_t blocks) {
-  Input input = Input::open(path);
-  BundleReader reader(input);
+  formats::Input input = formats::Input::open(path);
+  pipeline::BundleReader reader(input);
   RankState state;
   int found = 0, expected = 0;
   while (reader.next())
@@ -194,8 +195,8 @@ void Checkpoint::write(const Piece& piece, const RoundsProgress& progress, const
       if (piece.chosen[v] != 0 && piece.owns(v)) state.chosen.push_back(piece.keys[v]);
     for (std::int32_t block = piece.owners.first_of(piece.rank); const BlockMemory& memory : memories)
       state.add(block++, memory);
-    Output output((folder / fmt::format("{:04}.tar", ranks_.rank())).string());
-    BundleWriter writer(output, false);
+    formats::Output output((folder / fmt::format("{:04}.tar", ranks_.rank())).string());
+    pipeline::BundleWriter writer(output, false);
     state.visit([&](const char* name, const auto& rows) { writer.add_array(name, rows); });
     writer.close();
     output.commit();
@@ -207,7 +208,7 @@ void Checkpoint::write(const Piece& piece, const RoundsProgress& progress, const
     title["ranks"] = ranks_.count();
     title["blocks"] = piece.owners.blocks();
     title["fingerprint"] = fingerprint_;
-    Output output((directory_ / "checkpoint.json").string());
+    formats::Output output((directory_ / "checkpoint.json").string());
     output.write(title.dump(2) + "\n");
     output.commit();
     remove_rounds_but(folder);
@@ -215,4 +216,4 @@ void Checkpoint::write(const Piece& piece, const RoundsProgress& progress, const
   round_ = progress.round;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

@@ -17,7 +17,7 @@
 #include "tools/lns-mpi/ranks.hpp"
 #include "tools/lns-mpi/rounds.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 
 class Checkpoint {
  public:
@@ -48,4 +48,4 @@ class Checkpoint {
   std::optional<std::int64_t> round_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

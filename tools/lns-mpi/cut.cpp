@@ -12,7 +12,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 namespace {
 
 struct Clusters {
@@ -20,7 +20,7 @@ struct Clusters {
   std::int32_t count = 0;
 };
 
-Clusters cluster(const ConflictGraph& graph) {
+Clusters cluster(const graph::ConflictGraph& graph) {
   Clusters clusters;
   clusters.of_vertex.assign(graph.weights.size(), -1);
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
@@ -38,7 +38,7 @@ struct ClusterGraph {
   std::vector<idx_t> offsets{0}, neighbours, edge_weights, sizes;
 };
 
-ClusterGraph contract(const ConflictGraph& graph, const Clusters& clusters) {
+ClusterGraph contract(const graph::ConflictGraph& graph, const Clusters& clusters) {
   std::vector<std::int64_t> begins(static_cast<std::size_t>(clusters.count) + 1, 0);
   for (const std::int32_t c : clusters.of_vertex) ++begins[c + 1];
   std::partial_sum(begins.begin(), begins.end(), begins.begin());
@@ -83,7 +83,7 @@ std::vector<idx_t> partition(ClusterGraph& graph, std::int32_t blocks) {
 
 }  // namespace
 
-std::vector<std::int32_t> cut_into_blocks(const ConflictGraph& graph, std::int32_t blocks) {
+std::vector<std::int32_t> cut_into_blocks(const graph::ConflictGraph& graph, std::int32_t blocks) {
   const Clusters clusters = cluster(graph);
   std::vector<std::int32_t> block(graph.weights.size(), 0);
   if (blocks <= 1) return block;
@@ -97,4 +97,4 @@ std::vector<std::int32_t> cut_into_blocks(const ConflictGraph& graph, std::int32
   return block;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

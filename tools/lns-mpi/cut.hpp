@@ -6,10 +6,10 @@
 
 #include "common/graph/conflict_graph.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 
 // The block of each vertex, every block from 0 on used unless there are fewer vertices. Depends on the graph and the
 // number of blocks alone.
-std::vector<std::int32_t> cut_into_blocks(const ConflictGraph& graph, std::int32_t blocks);
+std::vector<std::int32_t> cut_into_blocks(const graph::ConflictGraph& graph, std::int32_t blocks);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

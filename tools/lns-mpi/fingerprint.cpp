@@ -9,7 +9,7 @@
 
 #include "common/run/random.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 namespace {
 
 // Modulo 2^64, in two halves so that no sum overflows.
@@ -73,4 +73,4 @@ void expect_agreement(Ranks& ranks, const BlockOwners& owners, const OwnedRows& 
   });
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

@@ -7,7 +7,7 @@
 #include "tools/lns-mpi/piece.hpp"
 #include "tools/lns-mpi/ranks.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 
 // Of vertices, weights, edges and blocks of all ranks together.
 std::uint64_t fingerprint_of(Ranks& ranks, const OwnedRows& rows);
@@ -16,4 +16,4 @@ std::uint64_t fingerprint_of(Ranks& ranks, const OwnedRows& rows);
 // alone.
 void expect_agreement(Ranks& ranks, const BlockOwners& owners, const OwnedRows& rows);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

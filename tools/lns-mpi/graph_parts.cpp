@@ -11,12 +11,12 @@
 #include "formats/pipeline/stage.hpp"
 #include "tools/lns-mpi/source.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 namespace {
 
 // A part's own vertices with their rows.
-void append_rows(const StageData& part, OwnedRows& rows) {
-  const ConflictGraph& graph = *part.graph;
+void append_rows(const pipeline::StageData& part, OwnedRows& rows) {
+  const graph::ConflictGraph& graph = *part.graph;
   const CandidateKeys& keys = *part.candidate_keys;
   std::vector<std::uint8_t> chosen(graph.weights.size(), 0);
   if (part.solution)
@@ -81,7 +81,7 @@ class GraphParts : public Source {
   void write(Ranks& ranks, const Piece& piece, const nlohmann::ordered_json& details) override {
     ranks.together([&] {
       for (Part& part : own_) {
-        IndependentSet solution;
+        graph::IndependentSet solution;
         for (std::size_t v = 0; v < part.keys.size(); ++v) {
           const auto found = std::ranges::lower_bound(piece.keys, part.keys[v]);
           const bool is_held = found != piece.keys.end() && *found == part.keys[v];
@@ -95,7 +95,7 @@ class GraphParts : public Source {
 
  private:
   struct Part {
-    std::unique_ptr<Stage> stage;
+    std::unique_ptr<pipeline::Stage> stage;
     std::vector<std::uint64_t> keys;  // by number in the part
   };
 
@@ -111,9 +111,9 @@ class GraphParts : public Source {
     context.streams.operand = file.string();
     context.streams.output = (std::filesystem::path(context_.streams.output) / file.filename()).string();
     Part& part = own_.emplace_back();
-    part.stage = std::make_unique<Stage>(context);
+    part.stage = std::make_unique<pipeline::Stage>(context);
     part.stage->take_part();
-    const StageData data = part.stage->read({Role::graph}, {Role::candidates, Role::solution});
+    const pipeline::StageData data = part.stage->read({Role::graph}, {Role::candidates, Role::solution});
     if (!data.part || !data.candidate_keys || data.candidate_keys->part.empty())
       throw DataError::at(file.string(), "expected a part of a graph as buildgraph --neighbours makes it, found none");
     if (data.part->parts != blocks_ || data.part->part != number)
@@ -152,4 +152,4 @@ std::unique_ptr<Source> graph_parts(const RunContext& context, std::vector<std::
   return std::make_unique<GraphParts>(context, std::move(files));
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

@@ -16,7 +16,7 @@
 #include "tools/lns-mpi/shared_dual.hpp"
 #include "tools/lns-mpi/source.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 namespace {
 
 // What all ranks sent together, and the one that sent most.
@@ -97,7 +97,7 @@ class Job {
     const std::int64_t bound = options_.known_bound >= 0 ? options_.known_bound : source_->bound();
     ranks_.together([&] {
       options_.rounds.search.target =
-          target_weight(options_.target_gap, bound < 0 ? std::nullopt : std::optional(bound));
+          mwis::ground::target_weight(options_.target_gap, bound < 0 ? std::nullopt : std::optional(bound));
     });
   }
 
@@ -159,7 +159,7 @@ class Job {
   void prove(const Piece& piece) {
     proof_ = prove_bound(ranks_, piece, options_.passes, options_.rounds.search.seed, Deadline(),
                          !options_.certificate.empty());
-    const double gap = gap_to(proof_->bound, progress_.weight);
+    const double gap = mwis::ground::gap_to(proof_->bound, progress_.weight);
     context_.statistics["bound"] = proof_->bound;
     context_.statistics["gap"] = gap;
     context_.note(fmt::format("at most {} is possible: gap {:.4f} %", proof_->bound, 100 * gap));
@@ -205,9 +205,9 @@ class Job {
   Deadline deadline_;
   Progress shown_;
   std::unique_ptr<Source> source_;
-  std::optional<SearchLog> log_;
-  std::optional<FragmentsFile> fragments_;  // of the first rank
-  std::optional<Output> certificate_;       // likewise
+  std::optional<mwis::ground::SearchLog> log_;
+  std::optional<formats::FragmentsFile> fragments_;  // of the first rank
+  std::optional<formats::Output> certificate_;       // likewise
   std::optional<Checkpoint> checkpoint_;
   RoundsProgress progress_;
   std::vector<BlockMemory> memories_;
@@ -222,4 +222,4 @@ void run_job(Ranks& ranks, RunContext& context, JobOptions options) {
   Job(ranks, context, std::move(options)).run();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

@@ -9,7 +9,7 @@
 #include "tools/lns-mpi/ranks.hpp"
 #include "tools/lns-mpi/rounds.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 
 struct JobOptions {
   RoundsOptions rounds;
@@ -28,4 +28,4 @@ struct JobOptions {
 // Throws ErrorOfAll on all ranks where one cannot go on.
 void run_job(Ranks& ranks, RunContext& context, JobOptions options);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

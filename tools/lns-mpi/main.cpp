@@ -12,6 +12,7 @@
 #include "tools/lns-mpi/job.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::lns_mpi;
 
 namespace {
 
@@ -76,10 +77,10 @@ int main(int argc, char** argv) {
       .default_time_limit = 60,
       .outside_history = {"parts", "certificate", "fragments", "checkpoint", "checkpoint-interval"}};
   JobOptions options;
-  TargetOptions target;
+  mwis::TargetOptions target;
   CLI::Option* round = nullptr;
   const auto declare = [&](CLI::App& app) {
-    declare_lns_options(app, options.rounds.search, target);
+    mwis::declare_lns_options(app, options.rounds.search, target);
     app.add_option("--blocks", options.blocks,
                    "Blocks to cut the graph into, at least one a rank; 0: one for 50000 vertices")
         ->check(CLI::Range(0, 1000000).description(""));
@@ -111,7 +112,7 @@ int main(int argc, char** argv) {
         ->needs(checkpoint);
   };
   const auto run = [&](RunContext& context) {
-    check(target);
+    mwis::check(target);
     check_parts(context, options);
     if (round->count() > 0 && !context.common.iterations) throw UsageError("--round does nothing without --iterations");
     if (!options.certificate.empty() && options.passes == 0)

@@ -9,7 +9,7 @@
 
 #include "tools/lns-mpi/fingerprint.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 namespace {
 
 // Finds places in an ascending list by its highest bits.
@@ -244,4 +244,4 @@ Piece make_piece(Ranks& ranks, const BlockOwners& owners, OwnedRows rows, std::i
   return piece;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

@@ -9,7 +9,7 @@
 #include "common/graph/conflict_graph.hpp"
 #include "tools/lns-mpi/ranks.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 
 // The rows of the vertices that a rank owns, by their numbers in the whole graph: what a rank begins with.
 struct OwnedRows {
@@ -51,7 +51,7 @@ struct Piece {
   int rank = 0;
   std::int32_t overlap = 0;
   std::vector<std::uint64_t> keys;
-  ConflictGraph graph;  // empty rows where only the solution is held
+  graph::ConflictGraph graph;  // empty rows where only the solution is held
   std::vector<std::int32_t> block;
   std::vector<std::int64_t> near_offsets{0};
   std::vector<NearBlock> near;  // other blocks at most overlap + 1 edges away, ascending
@@ -76,4 +76,4 @@ struct Piece {
 // Sends every rank the rows and solution of its halo. Each row travels once to each rank that holds it.
 Piece make_piece(Ranks& ranks, const BlockOwners& owners, OwnedRows rows, std::int32_t overlap);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

@@ -10,7 +10,7 @@
 #include "common/run/error.hpp"
 #include "common/run/messages.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 namespace {
 
 // MPI counts in int; longer messages travel in pieces.
@@ -184,4 +184,4 @@ Bytes Ranks::receive(int from) {
   return bytes;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

@@ -16,7 +16,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 
 using Bytes = std::vector<char>;
 
@@ -151,4 +151,4 @@ class Unpacker {
   std::size_t next_ = 0;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

@@ -8,12 +8,12 @@
 
 #include "common/mwis/reduce/reducer.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 namespace {
 
 struct BlockGraph {
   std::vector<std::int32_t> vertices;  // of the piece, ascending
-  ConflictGraph graph;
+  graph::ConflictGraph graph;
   std::vector<char> incomplete;  // has neighbours in other blocks
 };
 
@@ -37,9 +37,9 @@ BlockGraph graph_of(const Piece& piece, std::vector<std::int32_t> vertices, std:
 }
 
 void decide(Piece& piece, const BlockGraph& block, const Deadline& deadline) {
-  ReductionLog log;
-  Reducer reducer(block.graph, log, block.incomplete);
-  reducer.run(ReductionEffort::quick, deadline);
+  mwis::reduce::ReductionLog log;
+  mwis::reduce::Reducer reducer(block.graph, log, block.incomplete);
+  reducer.run(mwis::reduce::ReductionEffort::quick, deadline);
   std::vector<std::uint8_t> taken(block.vertices.size(), 0);
   log.lift(taken);
   for (std::size_t i = 0; i < block.vertices.size(); ++i) {
@@ -87,4 +87,4 @@ void reduce_blocks(Ranks& ranks, Piece& piece, const Deadline& deadline) {
   tell_partners(ranks, piece);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

@@ -5,7 +5,7 @@
 
 #include "common/run/random.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 
 Regions::Regions(const Piece& piece, std::uint64_t seed, std::int64_t round)
     : piece_(piece), priority_(static_cast<std::size_t>(piece.owners.blocks())) {
@@ -61,4 +61,4 @@ Region Regions::extract(std::int32_t block) {
   return region;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

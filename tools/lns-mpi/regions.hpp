@@ -9,13 +9,13 @@
 
 #include "tools/lns-mpi/piece.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 
 // What can be chosen in a region while everything around it stays.
 struct Region {
   std::vector<std::int32_t> vertices;  // of the piece, ascending
-  ConflictGraph graph;                 // of these, numbered in this order
-  IndependentSet chosen;
+  graph::ConflictGraph graph;          // of these, numbered in this order
+  graph::IndependentSet chosen;
   std::vector<char> at_edge;  // has a neighbour that another region may change, in this round or in another one
 };
 
@@ -41,4 +41,4 @@ class Regions {
   std::vector<std::int32_t> number_;                   // in the region that is extracted
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

@@ -10,7 +10,7 @@
 #include "tools/lns-mpi/reduce.hpp"
 #include "tools/lns-mpi/regions.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 namespace {
 
 // Under a time limit: a quarter of it, so that borders move; and no more than a minute, so that ranks do not go on for
@@ -142,7 +142,7 @@ class Rounds {
   }
 
   void add_free(const Region& region) {
-    SolutionState state(region.graph, region.chosen);
+    mwis::ground::SolutionState state(region.graph, region.chosen);
     state.make_maximal();
     put_back(region, state.to_set());
   }
@@ -188,7 +188,7 @@ class Rounds {
     }
     const Region region = regions.extract(block);
     BlockMemory& known = memories_[block - piece_.owners.first_of(piece_.rank)];
-    LnsOptions options = options_.search;
+    mwis::local_search::LnsOptions options = options_.search;
     options.iterations = fragments;
     options.target = std::numeric_limits<std::int64_t>::max();
     // Of places that came to this block with the round: as large as they have become elsewhere in it.
@@ -196,15 +196,16 @@ class Rounds {
     // Another number for every region.
     options.seed =
         Random(options.seed, static_cast<std::uint64_t>(progress_.round)).next() + static_cast<std::uint64_t>(block);
-    LnsMemory memory = known.recall(region, piece_.keys);
+    mwis::local_search::LnsMemory memory = known.recall(region, piece_.keys);
     std::vector<std::int32_t> fragment;
-    const auto report = [&](const LnsProgress& now) {
+    const auto report = [&](const mwis::local_search::LnsProgress& now) {
       if (!options_.improved) return;
       fragment.clear();
       for (const std::int32_t v : now.fragment) fragment.push_back(region.vertices[v]);
       options_.improved(fragment);
     };
-    const LnsResult result = continue_lns(region.graph, region.chosen, options, deadline, memory, report);
+    const mwis::local_search::LnsResult result =
+        mwis::local_search::continue_lns(region.graph, region.chosen, options, deadline, memory, report);
     known.remember(memory, region, piece_.keys);
     iterations_ += result.iterations;
     improvements_ += result.improvements;
@@ -212,7 +213,7 @@ class Rounds {
     put_back(region, result.solution);
   }
 
-  void put_back(const Region& region, const IndependentSet& solution) {
+  void put_back(const Region& region, const graph::IndependentSet& solution) {
     const std::size_t before = changed_.size();
     std::ranges::set_symmetric_difference(region.chosen, solution, std::back_inserter(changed_));
     for (std::size_t i = before; i < changed_.size(); ++i) {
@@ -301,4 +302,4 @@ void improve_in_rounds(Ranks& ranks, Piece& piece, const RoundsOptions& options,
   rounds.complete();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

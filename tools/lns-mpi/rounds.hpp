@@ -19,11 +19,11 @@
 #include "tools/lns-mpi/piece.hpp"
 #include "tools/lns-mpi/ranks.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 
 struct RoundsOptions {
-  LnsOptions search;                    // `iterations` and `target` over all rounds and blocks
-  std::int64_t fragments_a_round = 20;  // for a thousand vertices of the whole graph
+  mwis::local_search::LnsOptions search;  // `iterations` and `target` over all rounds and blocks
+  std::int64_t fragments_a_round = 20;    // for a thousand vertices of the whole graph
   // Called with what this rank improved, by vertices of the piece; may be empty.
   std::function<void(std::span<const std::int32_t>)> improved;
 };
@@ -57,4 +57,4 @@ void improve_in_rounds(Ranks& ranks, Piece& piece, const RoundsOptions& options,
 // Of the vertices that all ranks own, together.
 std::int64_t total_weight(Ranks& ranks, const Piece& piece);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

@@ -14,7 +14,7 @@
 #include "common/mwis/bounds/entropy_dual.hpp"
 #include "common/run/random.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 namespace {
 
 // Other than those of the search's rounds.
@@ -24,8 +24,8 @@ constexpr std::uint64_t stream = 0x5eed0fd0a15u;
 struct BlockCliques {
   std::int32_t block = 0;
   std::vector<std::int32_t> vertices;  // of the piece, ascending
-  ConflictGraph graph;
-  CliqueCover cover;
+  graph::ConflictGraph graph;
+  graph::CliqueCover cover;
   std::vector<double> prices;
   std::vector<std::int64_t> whole_prices;
 };
@@ -45,11 +45,11 @@ class SharedDual {
   void run(std::int64_t passes, std::uint64_t seed, const Deadline& deadline) {
     double round = -1;
     for (std::int64_t pass = 0; pass < passes && goes_on(deadline); ++pass) {
-      const double now = dual_rounds(static_cast<double>(pass) / static_cast<double>(passes));
+      const double now = mwis::bounds::dual_rounds(static_cast<double>(pass) / static_cast<double>(passes));
       draw(seed, pass);
       if (std::floor(now) > round && pass > 0) add_cliques();
       round = std::floor(now);
-      for (BlockCliques& cliques : blocks_) step(cliques, heaviest_ * dual_temperature(now));
+      for (BlockCliques& cliques : blocks_) step(cliques, heaviest_ * mwis::bounds::dual_temperature(now));
       tell_costs();
     }
   }
@@ -86,7 +86,8 @@ class SharedDual {
     for (BlockCliques& cliques : blocks_) {
       cliques.whole_prices.resize(cliques.prices.size());
       for (std::int64_t c = 0; c < cliques.cover.size(); ++c)
-        cliques.whole_prices[c] = whole_price(cliques.cover.clique(c), cliques.prices[c], cliques.graph.weights);
+        cliques.whole_prices[c] =
+            mwis::bounds::whole_price(cliques.cover.clique(c), cliques.prices[c], cliques.graph.weights);
     }
   }
 
@@ -129,8 +130,8 @@ class SharedDual {
     found.block = block;
     for (std::int32_t v = 0; v < piece_.vertex_count(); ++v)
       if (piece_.block[v] == block || touches(v, block)) found.vertices.push_back(v);
-    found.graph = induced_subgraph(piece_.graph, found.vertices);
-    const CliqueCover all = greedy_edge_clique_cover(found.graph);
+    found.graph = graph::induced_subgraph(piece_.graph, found.vertices);
+    const graph::CliqueCover all = graph::greedy_edge_clique_cover(found.graph);
     std::vector<std::int32_t> clique;
     for (std::int64_t c = 0; c < all.size(); ++c) {
       clique.assign(all.clique(c).begin(), all.clique(c).end());
@@ -170,7 +171,7 @@ class SharedDual {
       const auto members = cliques.cover.clique(c);
       const bool may =
           std::ranges::all_of(members, [&](std::int32_t i) { return turn_[cliques.vertices[i]] == cliques.block; });
-      if (may) cliques.prices[c] = step_price(members, cliques.prices[c], temperature, local_);
+      if (may) cliques.prices[c] = mwis::bounds::step_price(members, cliques.prices[c], temperature, local_);
     };
     for (std::int64_t c = 0; c < cliques.cover.size(); ++c) move(c);
     for (std::int64_t c = cliques.cover.size(); c-- > 0;) move(c);
@@ -182,9 +183,9 @@ class SharedDual {
     for (BlockCliques& cliques : blocks_) {
       std::vector<double> fractions(cliques.vertices.size());
       std::ranges::transform(cliques.vertices, fractions.begin(), [&](std::int32_t v) {
-        return std::min(1.0, std::exp(costs_[v] / (heaviest_ * coldest_dual_temperature)));
+        return std::min(1.0, std::exp(costs_[v] / (heaviest_ * mwis::bounds::coldest_dual_temperature)));
       });
-      add_violated_cliques(cliques.graph, fractions, cliques.cover);
+      graph::add_violated_cliques(cliques.graph, fractions, cliques.cover);
       cliques.prices.resize(static_cast<std::size_t>(cliques.cover.size()), 0);
     }
   }
@@ -257,4 +258,4 @@ SharedProof prove_bound(Ranks& ranks, const Piece& piece, std::int64_t passes, s
   return proof;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

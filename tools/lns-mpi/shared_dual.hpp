@@ -12,7 +12,7 @@
 #include "tools/lns-mpi/piece.hpp"
 #include "tools/lns-mpi/ranks.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 
 struct SharedProof {
   std::int64_t bound = 0;
@@ -25,4 +25,4 @@ struct SharedProof {
 SharedProof prove_bound(Ranks& ranks, const Piece& piece, std::int64_t passes, std::uint64_t seed,
                         const Deadline& deadline, bool with_prices);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

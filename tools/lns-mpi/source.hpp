@@ -12,7 +12,7 @@
 #include "tools/lns-mpi/piece.hpp"
 #include "tools/lns-mpi/ranks.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 
 class Source {
  public:
@@ -38,4 +38,4 @@ std::unique_ptr<Source> whole_graph(const RunContext& context, std::int32_t bloc
 // the directory that the command line names as output.
 std::unique_ptr<Source> graph_parts(const RunContext& context, std::vector<std::string> files);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

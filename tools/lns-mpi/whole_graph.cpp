@@ -8,7 +8,7 @@
 #include "tools/lns-mpi/cut.hpp"
 #include "tools/lns-mpi/source.hpp"
 
-namespace hexpipe {
+namespace hexpipe::lns_mpi {
 namespace {
 
 template <class Rows, class Visit>
@@ -30,8 +30,8 @@ std::int32_t usual_blocks(std::int64_t vertices) {
 }
 
 // On the first rank: sends the others their rows and returns its own. The numbers of the vertices are their keys.
-OwnedRows scatter_rows(Ranks& ranks, const BlockOwners& owners, const ConflictGraph& graph,
-                       const IndependentSet& solution, const std::vector<std::int32_t>& blocks) {
+OwnedRows scatter_rows(Ranks& ranks, const BlockOwners& owners, const graph::ConflictGraph& graph,
+                       const graph::IndependentSet& solution, const std::vector<std::int32_t>& blocks) {
   std::vector<std::uint8_t> chosen(graph.weights.size(), 0);
   for (const std::int32_t v : solution) chosen[v] = 1;
   const auto rows_of = [&](int rank) {
@@ -65,13 +65,13 @@ OwnedRows receive_rows(Ranks& ranks) {
 }
 
 // The first gets the whole solution, the others nothing.
-IndependentSet gather_solution(Ranks& ranks, const Piece& piece) {
+graph::IndependentSet gather_solution(Ranks& ranks, const Piece& piece) {
   Packer packer;
   for (std::int32_t v = 0; v < piece.vertex_count(); ++v)
     if (piece.chosen[v] != 0 && piece.owns(v)) packer.put(static_cast<std::int32_t>(piece.keys[v]));
   std::vector<Bytes> to(static_cast<std::size_t>(ranks.count()));
   to[0] = packer.take();
-  IndependentSet solution;
+  graph::IndependentSet solution;
   for (const Bytes& bytes : ranks.exchange(std::move(to)))
     for (Unpacker unpacker(bytes); !unpacker.at_end();) solution.push_back(unpacker.get<std::int32_t>());
   std::ranges::sort(solution);
@@ -83,7 +83,7 @@ class WholeGraph : public Source {
   WholeGraph(const RunContext& context, std::int32_t blocks) : context_(context) { blocks_ = blocks; }
 
   OwnedRows read(Ranks& ranks) override {
-    StageData data;
+    pipeline::StageData data;
     std::vector<std::int32_t> cut;
     ranks.together([&] {
       if (!ranks.is_first()) return;
@@ -94,7 +94,7 @@ class WholeGraph : public Source {
         throw DataError(
             fmt::format("expected at least a block for each of {} ranks, found {}", ranks.count(), blocks_));
       cut = cut_into_blocks(*data.graph, blocks_);
-      if (!context_.streams.files.contains(Role::graph)) bound_ = bound_in(data.history).value_or(-1);
+      if (!context_.streams.files.contains(Role::graph)) bound_ = mwis::ground::bound_in(data.history).value_or(-1);
     });
     Packer packer;
     packer.put(blocks_);
@@ -109,7 +109,7 @@ class WholeGraph : public Source {
   }
 
   void write(Ranks& ranks, const Piece& piece, const nlohmann::ordered_json& details) override {
-    const IndependentSet solution = gather_solution(ranks, piece);
+    const graph::IndependentSet solution = gather_solution(ranks, piece);
     ranks.together([&] {
       if (ranks.is_first()) stage_->write(solution, details);
     });
@@ -117,7 +117,7 @@ class WholeGraph : public Source {
 
  private:
   RunContext context_;
-  std::optional<Stage> stage_;
+  std::optional<pipeline::Stage> stage_;
 };
 
 }  // namespace
@@ -126,4 +126,4 @@ std::unique_ptr<Source> whole_graph(const RunContext& context, std::int32_t bloc
   return std::make_unique<WholeGraph>(context, blocks);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::lns_mpi

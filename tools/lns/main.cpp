@@ -27,34 +27,36 @@ int main(int argc, char** argv) {
       .searches = true,
       .default_time_limit = 60,
       .outside_history = {"fragments"}};
-  LnsOptions options;
-  TargetOptions target;
+  mwis::local_search::LnsOptions options;
+  mwis::TargetOptions target;
   std::string fragments_file;
   const auto declare = [&](CLI::App& app) {
-    declare_lns_options(app, options, target);
-    app.add_option("--fragments", fragments_file,
-                   "Write the fragments that were improved to a file, a line each, to look at with view --fragments")
+    mwis::declare_lns_options(app, options, target);
+    app.add_option(
+           "--fragments", fragments_file,
+           "Write the fragments that were improved to a file, a line each, to look at with viewmesh --fragments")
         ->type_name("FILE");
   };
   const auto run = [&](RunContext& context) {
-    check(target);
+    mwis::check(target);
     options.seed = context.common.seed;
     options.iterations = context.common.iterations.value_or(options.iterations);
-    Stage stage(context);
-    SearchLog log(context.common.log_file);
-    std::optional<FragmentsFile> fragments;
+    pipeline::Stage stage(context);
+    mwis::ground::SearchLog log(context.common.log_file);
+    std::optional<formats::FragmentsFile> fragments;
     if (!fragments_file.empty()) fragments.emplace(fragments_file);
-    const StageData data = stage.read({Role::graph, Role::solution});
+    const pipeline::StageData data = stage.read({Role::graph, Role::solution});
     const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
     if (target.gap)
-      options.target =
-          target_weight(*target.gap, target.bound || !graph_of_bundle ? target.bound : bound_in(data.history));
+      options.target = mwis::ground::target_weight(
+          *target.gap, target.bound || !graph_of_bundle ? target.bound : mwis::ground::bound_in(data.history));
 
-    if (data.gaps) options.first_places = holds_most_of_gap(data.graph->vertex_count(), *data.solution, *data.gaps);
+    if (data.gaps)
+      options.first_places = mwis::bounds::holds_most_of_gap(data.graph->vertex_count(), *data.solution, *data.gaps);
     const Deadline deadline = context.deadline();
     Progress progress("lns", context.common.quiet);
-    const LnsResult result =
-        improve_by_lns(*data.graph, *data.solution, options, deadline, [&](const LnsProgress& now) {
+    const mwis::local_search::LnsResult result = mwis::local_search::improve_by_lns(
+        *data.graph, *data.solution, options, deadline, [&](const mwis::local_search::LnsProgress& now) {
           log.record(deadline.elapsed(), now.iteration, now.weight);
           if (fragments) fragments->add(std::vector<std::uint64_t>(now.fragment.begin(), now.fragment.end()));
           if (progress.due()) progress.show(fmt::format("weight {} after {} fragments", now.weight, now.iteration));

@@ -11,7 +11,7 @@
 #include "formats/pipeline/bundle.hpp"
 #include "tools/merge-parts/part_reader.hpp"
 
-namespace hexpipe {
+namespace hexpipe::merge_parts {
 
 // What a single run would have counted.
 struct MergedCounts {
@@ -25,22 +25,22 @@ class MergedHistory {
   void take(PartReaders& parts);
   // Writes the entries that come before the members of this role, as the tools that made them wrote them; all of them
   // where there is none.
-  void write_before(std::optional<Role> role, const MergedCounts& counts, BundleWriter& out);
+  void write_before(std::optional<Role> role, const MergedCounts& counts, pipeline::BundleWriter& out);
   // The same for shares (--part i/k): which ones they are.
   std::vector<std::string> take_shares(PartReaders& parts);
   // Writes the only entry, under this name.
-  void write_last(const std::string& name, const MergedCounts& counts, BundleWriter& out);
+  void write_last(const std::string& name, const MergedCounts& counts, pipeline::BundleWriter& out);
 
  private:
   struct Entry {
     nlohmann::ordered_json json;
     Role made;  // the role of what the tool writes
   };
-  static void write(Entry& entry, const std::string& name, const MergedCounts& counts, BundleWriter& out);
+  static void write(Entry& entry, const std::string& name, const MergedCounts& counts, pipeline::BundleWriter& out);
 
   std::vector<Entry> entries_;  // not written yet
   int written_ = 0;
   Role latest_ = Role::mesh;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::merge_parts

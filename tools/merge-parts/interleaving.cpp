@@ -4,7 +4,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::merge_parts {
 namespace {
 
 constexpr std::uint16_t nowhere = std::numeric_limits<std::uint16_t>::max();
@@ -53,7 +53,7 @@ void check_ends_are_there(PartReaders& parts, const ListLengths& lengths) {
     throw DataError::at(parts.front().bundle().where(), "expected the ends of its lists before it, found none");
 }
 
-ListLengths merge_offsets(PartReaders& parts, const Interleaving& order, BundleWriter& out) {
+ListLengths merge_offsets(PartReaders& parts, const Interleaving& order, pipeline::BundleWriter& out) {
   ListLengths lengths(parts.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
     RowReader<std::int64_t> reader(parts[p], order.rows_of(p) + 1);
@@ -76,4 +76,4 @@ ListLengths merge_offsets(PartReaders& parts, const Interleaving& order, BundleW
   return lengths;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::merge_parts

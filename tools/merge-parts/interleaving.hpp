@@ -9,7 +9,7 @@
 
 #include "tools/merge-parts/part_reader.hpp"
 
-namespace hexpipe {
+namespace hexpipe::merge_parts {
 
 struct Interleaving {
   std::vector<std::uint16_t> part_of_row;
@@ -70,7 +70,7 @@ void RowReader<T>::check_rows(PartReader& part, std::uint64_t wanted, std::uint6
 template <class T>
 class RowWriter {
  public:
-  RowWriter(BundleWriter& bundle, const std::string& name, std::uint64_t rows) : bundle_(bundle) {
+  RowWriter(pipeline::BundleWriter& bundle, const std::string& name, std::uint64_t rows) : bundle_(bundle) {
     bundle.begin_rows<T>(name, rows);
     block_.reserve(block_rows);
   }
@@ -86,13 +86,13 @@ class RowWriter {
 
  private:
   static constexpr std::size_t block_rows = (1 << 20) / sizeof(T);
-  BundleWriter& bundle_;
+  pipeline::BundleWriter& bundle_;
   std::vector<T> block_;
 };
 
 // Writes the member at which all parts stand: change(part, row) of each row.
 template <class T, class Change>
-void merge_rows(PartReaders& parts, const Interleaving& order, BundleWriter& out, Change&& change) {
+void merge_rows(PartReaders& parts, const Interleaving& order, pipeline::BundleWriter& out, Change&& change) {
   check_numbers_are_there(parts.front(), parts.size(), order.gives.size());
   std::vector<RowReader<T>> readers;
   readers.reserve(parts.size());
@@ -115,15 +115,15 @@ using ListLengths = std::vector<std::vector<std::int32_t>>;  // by part and list
 std::int32_t list_length(PartReader& part, std::int64_t begin, std::int64_t end);
 
 // Writes the member of ends; lengths of all lists of the parts, given or not.
-ListLengths merge_offsets(PartReaders& parts, const Interleaving& order, BundleWriter& out);
+ListLengths merge_offsets(PartReaders& parts, const Interleaving& order, pipeline::BundleWriter& out);
 
 // Throws DataError unless the ends of the lists of these parts, so many, came before what is in them.
 void check_ends_are_there(PartReaders& parts, const ListLengths& lengths);
 
 // Writes the items, changed; how many.
 template <class Change>
-std::uint64_t merge_items(PartReaders& parts, const Interleaving& order, const ListLengths& lengths, BundleWriter& out,
-                          Change&& change) {
+std::uint64_t merge_items(PartReaders& parts, const Interleaving& order, const ListLengths& lengths,
+                          pipeline::BundleWriter& out, Change&& change) {
   check_ends_are_there(parts, lengths);
   std::vector<RowReader<std::int32_t>> readers;
   readers.reserve(parts.size());
@@ -147,4 +147,4 @@ std::uint64_t merge_items(PartReaders& parts, const Interleaving& order, const L
   return total;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::merge_parts

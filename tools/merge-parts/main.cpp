@@ -10,6 +10,7 @@
 #include "tools/merge-parts/pieces.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::merge_parts;
 
 int main(int argc, char** argv) {
   const ToolInfo info{
@@ -39,9 +40,9 @@ int main(int argc, char** argv) {
       return;
     }
     expect_bundle_or({}, path);
-    Output output(path);
-    BundleWriter writer(output, compress || ending_of(path) == compressed_bundle_format);
-    merge_parts(paths, writer);
+    formats::Output output(path);
+    pipeline::BundleWriter writer(output, compress || pipeline::ending_of(path) == pipeline::compressed_bundle_format);
+    merge_parts::merge_parts(paths, writer);
     writer.close();
     output.commit();
   };

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::merge_parts {
 
 // Throws UsageError where the ending names neither a bundle nor one of `others`; a name may have none.
 void expect_bundle_or(const std::vector<std::string_view>& others, const std::string& path);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::merge_parts

@@ -6,7 +6,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::merge_parts {
 
 Numbers read_numbers(PartReaders& parts, std::int64_t count) {
   if (count > std::numeric_limits<std::int32_t>::max())
@@ -66,4 +66,4 @@ CandidateOrder order_by_keys(const std::vector<CandidateKeys>& keys, const std::
   return order;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::merge_parts

@@ -8,7 +8,7 @@
 #include "tools/merge-parts/interleaving.hpp"
 #include "tools/merge-parts/part_reader.hpp"
 
-namespace hexpipe {
+namespace hexpipe::merge_parts {
 
 using Numbers = std::vector<std::vector<std::int32_t>>;  // by part and place in the part
 
@@ -26,4 +26,4 @@ struct CandidateOrder {
 CandidateOrder order_by_keys(const std::vector<CandidateKeys>& keys, const std::vector<std::int32_t>& titles,
                              const PartReaders& parts);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::merge_parts

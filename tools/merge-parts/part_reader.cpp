@@ -2,7 +2,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::merge_parts {
 namespace {
 
 std::string standing_at(const PartReader& part) {
@@ -11,9 +11,10 @@ std::string standing_at(const PartReader& part) {
 
 }  // namespace
 
-PartReader::PartReader(const std::string& path) : input_(std::make_unique<Input>(Input::open(path))) {
-  if (!looks_like_bundle(*input_)) throw DataError::at(path, "expected a bundle of a part, found another file");
-  reader_ = std::make_unique<BundleReader>(*input_);
+PartReader::PartReader(const std::string& path) : input_(std::make_unique<formats::Input>(formats::Input::open(path))) {
+  if (!pipeline::looks_like_bundle(*input_))
+    throw DataError::at(path, "expected a bundle of a part, found another file");
+  reader_ = std::make_unique<pipeline::BundleReader>(*input_);
   next();
 }
 
@@ -30,4 +31,4 @@ void next(PartReaders& parts) {
   for (PartReader& part : parts) part.next();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::merge_parts

@@ -8,14 +8,14 @@
 #include "formats/pipeline/bundle.hpp"
 #include "formats/streams/input.hpp"
 
-namespace hexpipe {
+namespace hexpipe::merge_parts {
 
 class PartReader {
  public:
   // Stands at the first member. Throws DataError when it is no bundle.
   explicit PartReader(const std::string& path);
 
-  BundleReader& bundle() { return *reader_; }
+  pipeline::BundleReader& bundle() { return *reader_; }
   // Whether there is a member to read, and which.
   bool at_member() const { return at_member_; }
   const std::string& name() const { return reader_->name(); }
@@ -24,8 +24,8 @@ class PartReader {
 
  private:
   // At an address of its own, which the reader holds.
-  std::unique_ptr<Input> input_;
-  std::unique_ptr<BundleReader> reader_;
+  std::unique_ptr<formats::Input> input_;
+  std::unique_ptr<pipeline::BundleReader> reader_;
   bool at_member_ = false;
 };
 
@@ -35,4 +35,4 @@ using PartReaders = std::vector<PartReader>;
 std::string common_member(const PartReaders& parts);
 void next(PartReaders& parts);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::merge_parts

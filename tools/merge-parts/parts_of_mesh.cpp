@@ -16,7 +16,7 @@
 #include "tools/merge-parts/interleaving.hpp"
 #include "tools/merge-parts/part_numbers.hpp"
 
-namespace hexpipe {
+namespace hexpipe::merge_parts {
 namespace {
 
 constexpr auto unchanged = [](std::size_t, const auto& row) { return row; };
@@ -48,13 +48,13 @@ class Renumber {
 
 class Merger {
  public:
-  Merger(PartReaders& parts, BundleWriter& out) : parts_(parts), out_(out), keys_(parts.size()) {}
+  Merger(PartReaders& parts, pipeline::BundleWriter& out) : parts_(parts), out_(out), keys_(parts.size()) {}
 
   void merge() {
     check_heads();
     for (next(parts_); !common_member(parts_).empty(); next(parts_)) {
       const std::string name = common_member(parts_);
-      if (is_history_entry(name))
+      if (pipeline::is_history_entry(name))
         history_.take(parts_);
       else
         merge_member(name);
@@ -67,8 +67,8 @@ class Merger {
   void check_heads() {
     std::map<std::int32_t, std::size_t> found;
     for (std::size_t p = 0; p < parts_.size(); ++p) {
-      StageData data;
-      if (!parts_[p].at_member() || !read_part_member(parts_[p].bundle(), data, nullptr) || !data.part)
+      pipeline::StageData data;
+      if (!parts_[p].at_member() || !pipeline::read_part_member(parts_[p].bundle(), data, nullptr) || !data.part)
         throw DataError::at(parts_[p].bundle_name(), "expected a part of a mesh as {}, found a whole",
                             parts_.front().bundle_name());
       heads_.push_back(std::move(*data.part));
@@ -92,7 +92,7 @@ class Merger {
 
   void merge_member(const std::string& name) {
     if (take_about_part(name) || merge_names(name)) return;
-    const auto role = role_of_member(name);
+    const auto role = pipeline::role_of_member(name);
     if (role) history_.write_before(*role, counts_, out_);
     if (!merge_mesh(name) && !merge_candidates(name) && !merge_graph(name) && !merge_solution(name))
       throw DataError::at(parts_.front().bundle().where(),
@@ -112,7 +112,7 @@ class Merger {
   Renumber to_tets() const { return {parts_, tet_numbers_}; }
 
   PartReaders& parts_;
-  BundleWriter& out_;
+  pipeline::BundleWriter& out_;
   std::vector<MeshPart> heads_;
   std::vector<std::int32_t> titles_;
   MergedHistory history_;
@@ -148,7 +148,7 @@ bool Merger::take_about_part(const std::string& name) {
 
 // All parts have those of the whole.
 bool Merger::merge_names(const std::string& name) {
-  if (name != names_member) return false;
+  if (name != formats::names_member) return false;
   const std::string text = parts_.front().bundle().read_text();
   for (std::size_t p = 1; p < parts_.size(); ++p)
     if (parts_[p].bundle().read_text() != text)
@@ -237,8 +237,8 @@ bool Merger::merge_solution(const std::string& name) {
 
 }  // namespace
 
-void merge_parts_of_mesh(PartReaders& parts, BundleWriter& out) {
+void merge_parts_of_mesh(PartReaders& parts, pipeline::BundleWriter& out) {
   Merger(parts, out).merge();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::merge_parts

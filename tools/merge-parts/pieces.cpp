@@ -23,7 +23,7 @@
 #include "tools/merge-parts/output_name.hpp"
 #include "tools/merge-parts/seam_check.hpp"
 
-namespace hexpipe {
+namespace hexpipe::merge_parts {
 namespace {
 
 using History = std::vector<nlohmann::ordered_json>;
@@ -45,7 +45,7 @@ class PieceReader {
   explicit PieceReader(const std::vector<std::string>& paths) : paths_(paths) {
     std::map<std::int32_t, std::string> found;
     for (const std::string& path : paths) {
-      const MeshPiece piece = read_piece_bundle(path, false).piece;
+      const MeshPiece piece = pipeline::read_piece_bundle(path, false).piece;
       if (found.empty()) first_ = piece;
       if (piece.whole != first_.whole)
         throw DataError::at(path, "expected a piece of the same mesh as {}, found one of another", paths.front());
@@ -69,7 +69,7 @@ class PieceReader {
   void for_each(Visit&& visit) {
     SeamCheck seams;
     for (const std::string& path : order_) {
-      PieceBundle piece = read_piece_bundle(path, true);
+      pipeline::PieceBundle piece = pipeline::read_piece_bundle(path, true);
       History settings = settings_in(piece.history);
       if (path == order_.front()) settings_ = settings;
       if (path == order_.front()) names_ = piece.names;
@@ -85,7 +85,7 @@ class PieceReader {
   }
 
   const History& settings() const { return settings_; }
-  const GroupNames& names() const { return names_; }
+  const formats::GroupNames& names() const { return names_; }
   std::size_t size() const { return order_.size(); }
 
  private:
@@ -93,12 +93,12 @@ class PieceReader {
   MeshPiece first_;
   std::vector<std::string> order_;
   History settings_;
-  GroupNames names_;
+  formats::GroupNames names_;
 };
 
 class Joiner {
  public:
-  void add(const PieceBundle& piece) {
+  void add(const pipeline::PieceBundle& piece) {
     const auto begin = static_cast<Vertex>(points_.size());
     for (std::size_t v = 0; v < piece.mesh.points.size(); ++v)
       points_.push_back({piece.piece.point_number[v], static_cast<Vertex>(points_.size()), piece.mesh.points[v]});
@@ -149,36 +149,36 @@ class Joiner {
 
 void write_pieces(PieceReader& reader, const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).replace_extension();
-  OutputGroup files;
+  formats::OutputGroup files;
   files.make_directory(folder.string());
-  Output& head = files.add(path);
+  formats::Output& head = files.add(path);
   std::vector<std::string> names;
-  reader.for_each([&](const PieceBundle& piece) {
+  reader.for_each([&](const pipeline::PieceBundle& piece) {
     if (piece.mesh.cell_count() == 0) return;
     const std::string name = fmt::format("part-{:04}.vtu", piece.piece.part);
-    Output& output = files.add((folder / name).string());
-    write_vtu_piece(piece.mesh, piece.piece.point_number, output);
+    formats::Output& output = files.add((folder / name).string());
+    formats::write_vtu_piece(piece.mesh, piece.piece.point_number, output);
     output.drain();
     names.push_back((folder.filename() / name).string());
   });
-  write_pvtu(names, head);
+  formats::write_pvtu(names, head);
   files.commit();
 }
 
 void write_whole(PieceReader& reader, const std::string& path, bool compress) {
-  const std::string ending(ending_of(path));
-  const auto& formats = mesh_format_names();
-  Output output(path);
+  const std::string ending(pipeline::ending_of(path));
+  const auto& formats = formats::mesh_format_names();
+  formats::Output output(path);
   Joiner joiner;
-  reader.for_each([&](const PieceBundle& piece) { joiner.add(piece); });
+  reader.for_each([&](const pipeline::PieceBundle& piece) { joiner.add(piece); });
   const MixedMesh mesh = joiner.take();
   if (std::ranges::find(formats, ending) != formats.end()) {
-    write_mixed_mesh(mesh, ending, output);
+    formats::write_mixed_mesh(mesh, ending, output);
   } else {
-    BundleWriter writer(output, compress || ending == compressed_bundle_format);
-    write_members(writer, mesh);
-    if (!reader.names().empty()) writer.add_text(std::string(names_member), text_of(reader.names()));
-    write_history(writer, reader.settings());
+    pipeline::BundleWriter writer(output, compress || ending == pipeline::compressed_bundle_format);
+    pipeline::write_members(writer, mesh);
+    if (!reader.names().empty()) writer.add_text(std::string(formats::names_member), text_of(reader.names()));
+    pipeline::write_history(writer, reader.settings());
     writer.close();
   }
   output.commit();
@@ -190,24 +190,24 @@ bool is_piece(const std::string& path) {
   // What comes from a pipe can be read only once; pieces are read more often.
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;
-  Input input = Input::open(path);
-  if (!looks_like_bundle(input)) return false;
-  BundleReader reader(input);
+  formats::Input input = formats::Input::open(path);
+  if (!pipeline::looks_like_bundle(input)) return false;
+  pipeline::BundleReader reader(input);
   // Histories and names may come before it.
   while (reader.next())
-    if (role_of_member(reader.name())) return is_piece_title(reader.name());
+    if (pipeline::role_of_member(reader.name())) return pipeline::is_piece_title(reader.name());
   return false;
 }
 
 void merge_pieces(const std::vector<std::string>& paths, const std::string& output, bool compress) {
-  std::vector<std::string_view> formats = mesh_format_names();
+  std::vector<std::string_view> formats = formats::mesh_format_names();
   formats.emplace_back("pvtu");
   expect_bundle_or(formats, output);
   PieceReader reader(paths);
-  if (ending_of(output) == "pvtu")
+  if (pipeline::ending_of(output) == "pvtu")
     write_pieces(reader, output);
   else
     write_whole(reader, output, compress);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::merge_parts

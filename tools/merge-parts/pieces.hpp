@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::merge_parts {
 
 // Whether the bundle is such a piece.
 bool is_piece(const std::string& path);
@@ -15,4 +15,4 @@ bool is_piece(const std::string& path);
 // other options, or they do not fit together.
 void merge_pieces(const std::vector<std::string>& paths, const std::string& output, bool compress);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::merge_parts

@@ -7,7 +7,7 @@
 #include "common/run/error.hpp"
 #include "common/run/random.hpp"
 
-namespace hexpipe {
+namespace hexpipe::merge_parts {
 
 std::size_t SeamCheck::Hash::operator()(const Facet& facet) const {
   std::uint64_t h = 0;
@@ -84,4 +84,4 @@ void SeamCheck::end() const {
                     (*open)[0]));
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::merge_parts

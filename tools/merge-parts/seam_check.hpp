@@ -11,7 +11,7 @@
 #include "common/mesh/mesh_piece.hpp"
 #include "common/mesh/mixed_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::merge_parts {
 
 class SeamCheck {
  public:
@@ -38,4 +38,4 @@ class SeamCheck {
   tsl::robin_map<std::int64_t, Vec3> places_;  // of points of these facets
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::merge_parts

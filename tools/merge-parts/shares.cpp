@@ -16,7 +16,7 @@
 #include "tools/merge-parts/history.hpp"
 #include "tools/merge-parts/interleaving.hpp"
 
-namespace hexpipe {
+namespace hexpipe::merge_parts {
 namespace {
 
 constexpr auto unchanged = [](std::size_t, const auto& row) { return row; };
@@ -66,9 +66,9 @@ Interleaving order_by_kinds(const std::vector<std::vector<std::uint8_t>>& kinds)
 }
 
 // The member at which all stand, which has to be the same in all.
-void copy_common(PartReaders& parts, BundleWriter& out) {
+void copy_common(PartReaders& parts, pipeline::BundleWriter& out) {
   constexpr std::size_t block = 64 << 10;
-  BundleReader& first = parts.front().bundle();
+  pipeline::BundleReader& first = parts.front().bundle();
   const auto fail = [](PartReader& part) {
     throw DataError::at(part.bundle().where(), "expected the same as in the first bundle, found other bytes");
   };
@@ -88,7 +88,7 @@ void copy_common(PartReaders& parts, BundleWriter& out) {
 
 class CandidateShares {
  public:
-  CandidateShares(PartReaders& parts, const Shared& shared, BundleWriter& out)
+  CandidateShares(PartReaders& parts, const Shared& shared, pipeline::BundleWriter& out)
       : parts_(parts), order_(order_by_kinds(shared.kinds)), out_(out) {}
 
   bool merge_member(const std::string& name) {
@@ -110,14 +110,14 @@ class CandidateShares {
  private:
   PartReaders& parts_;
   Interleaving order_;
-  BundleWriter& out_;
+  pipeline::BundleWriter& out_;
   ListLengths lengths_;
 };
 
 // Each conflict is in one share, at both ends, and later shares have the higher neighbours: rows are joined.
 class GraphShares {
  public:
-  GraphShares(PartReaders& parts, BundleWriter& out) : parts_(parts), out_(out) {}
+  GraphShares(PartReaders& parts, pipeline::BundleWriter& out) : parts_(parts), out_(out) {}
 
   bool merge_member(const std::string& name) {
     if (name == "graph/offsets.npy")
@@ -166,7 +166,7 @@ class GraphShares {
   }
 
   PartReaders& parts_;
-  BundleWriter& out_;
+  pipeline::BundleWriter& out_;
   std::int64_t vertices_ = 0, ends_ = 0;
   ListLengths lengths_;
 };
@@ -182,7 +182,7 @@ void check_shares(const std::vector<std::string>& shares) {
 
 }  // namespace
 
-void merge_shares(PartReaders& parts, const std::vector<std::string>& paths, BundleWriter& out) {
+void merge_shares(PartReaders& parts, const std::vector<std::string>& paths, pipeline::BundleWriter& out) {
   const Shared shared = look_through(paths);
   const bool of_graph = shared.folder == "graph/";
   CandidateShares candidates(parts, shared, out);
@@ -201,4 +201,4 @@ void merge_shares(PartReaders& parts, const std::vector<std::string>& paths, Bun
   history.write_last(shared.last_entry, of_graph ? graph.counts() : MergedCounts(), out);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::merge_parts

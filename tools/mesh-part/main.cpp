@@ -8,6 +8,7 @@
 #include "tools/mesh-part/part_files.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::mesh_part;
 
 int main(int argc, char** argv) {
   const ToolInfo info{
@@ -34,11 +35,11 @@ int main(int argc, char** argv) {
   const auto run = [&](RunContext& context) {
     options.seed = context.common.seed;
     Phases phases;
-    Stage stage(context);
-    StageData data = stage.read({Role::mesh});
+    pipeline::Stage stage(context);
+    pipeline::StageData data = stage.read({Role::mesh});
     const std::string source = stage.source_of(Role::mesh);
     phases.end("read");
-    data.history.push_back(history_entry_of(context));
+    data.history.push_back(pipeline::history_entry_of(context));
     PartFiles files(directory, options.parts, compress);
     const SplitCounts counts = split(std::move(*data.mesh), options, source.c_str(),
                                      [&](const PartOfMesh& part) { files.write(part, data.history, data.names); });

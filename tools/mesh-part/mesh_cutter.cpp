@@ -6,7 +6,7 @@
 
 #include "common/mesh/submesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mesh_part {
 namespace {
 
 constexpr std::int32_t untaken = -1;
@@ -142,4 +142,4 @@ PartOfMesh MeshCutter::cut(std::int32_t part, const MeshFingerprint& whole, cons
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mesh_part

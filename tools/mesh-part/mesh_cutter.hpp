@@ -10,7 +10,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/mesh-part/partition.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mesh_part {
 
 struct PartOfMesh {
   TetMesh mesh;
@@ -66,4 +66,4 @@ class MeshCutter {
   std::int32_t search_ = 0;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mesh_part

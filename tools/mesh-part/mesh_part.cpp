@@ -7,7 +7,7 @@
 
 #include "common/mesh/orientation.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mesh_part {
 namespace {
 
 // How far the tets around a part reach: docs/definitions.md 5.
@@ -55,4 +55,4 @@ nlohmann::ordered_json to_json(const SplitCounts& counts) {
           {"greatest_tets", counts.most}, {"ghost_tets", counts.ghosts}, {"most_neighbours", counts.most_neighbours}};
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mesh_part

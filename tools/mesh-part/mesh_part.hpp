@@ -9,7 +9,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/mesh-part/mesh_cutter.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mesh_part {
 
 // As many as files of four digits name.
 constexpr std::int32_t most_parts = 10000;
@@ -34,4 +34,4 @@ SplitCounts split(TetMesh mesh, const SplitOptions& options, const char* source,
 std::string summary(const SplitCounts& counts);
 nlohmann::ordered_json to_json(const SplitCounts& counts);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mesh_part

@@ -12,7 +12,7 @@
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/members.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mesh_part {
 namespace {
 
 constexpr std::string_view stem = "part-";
@@ -48,15 +48,15 @@ std::string PartFiles::name_of(std::int32_t part) const {
 }
 
 void PartFiles::write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history,
-                      const GroupNames& names) {
-  Output& output = files_.add(fmt::format("{}/{}", directory_, name_of(part.part.part)));
-  BundleWriter writer(output, compress_);
-  write_members(writer, part.part);
-  write_members(writer, part.mesh);
-  if (!names.empty()) writer.add_text(std::string(names_member), text_of(names));
-  write_history(writer, history);
+                      const formats::GroupNames& names) {
+  formats::Output& output = files_.add(fmt::format("{}/{}", directory_, name_of(part.part.part)));
+  pipeline::BundleWriter writer(output, compress_);
+  pipeline::write_members(writer, part.part);
+  pipeline::write_members(writer, part.mesh);
+  if (!names.empty()) writer.add_text(std::string(formats::names_member), text_of(names));
+  pipeline::write_history(writer, history);
   writer.close();
   output.drain();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mesh_part

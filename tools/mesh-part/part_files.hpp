@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "formats/group_names.hpp"
+#include "formats/streams/group_names.hpp"
 #include "formats/streams/output_group.hpp"
 #include "tools/mesh-part/mesh_cutter.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mesh_part {
 
 class PartFiles {
  public:
@@ -19,7 +19,7 @@ class PartFiles {
   PartFiles(std::string directory, std::int32_t parts, bool compress);
 
   // `history`: the entries that the part begins with; `names`: those of the whole mesh.
-  void write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history, const GroupNames& names);
+  void write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history, const formats::GroupNames& names);
   // Without it, nothing new is left. Throws DataError where a part cannot be put in place; those before it are.
   void commit() { files_.commit(); }
 
@@ -28,7 +28,7 @@ class PartFiles {
 
   std::string directory_;
   bool compress_;
-  OutputGroup files_;
+  formats::OutputGroup files_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mesh_part

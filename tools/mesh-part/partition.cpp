@@ -13,7 +13,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mesh_part {
 namespace {
 
 static_assert(sizeof(idx_t) >= sizeof(std::int32_t));
@@ -110,4 +110,4 @@ Partition partition(const TetMesh& mesh, const TetAdjacency& adjacency, std::int
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mesh_part

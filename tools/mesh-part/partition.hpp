@@ -7,7 +7,7 @@
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mesh_part {
 
 struct Partition {
   std::vector<std::int32_t> tet_part, point_part;
@@ -19,4 +19,4 @@ struct Partition {
 Partition partition(const TetMesh& mesh, const TetAdjacency& adjacency, std::int32_t parts, std::uint64_t seed,
                     const char* source);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mesh_part

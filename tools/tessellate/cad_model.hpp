@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::tessellate {
 
 // Names by what shapes are, wherever they stand: the faces of all instances of a part have one name.
 class ShapeNames {
@@ -48,4 +48,4 @@ struct CadModel {
   std::vector<std::string> warnings;  // what was healed or left out
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tessellate

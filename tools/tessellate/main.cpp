@@ -14,7 +14,7 @@
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/output_format.hpp"
 #include "formats/streams/output.hpp"
-#include "formats/surface_bundle.hpp"
+#include "formats/pipeline/surface_bundle.hpp"
 #include "tools/tessellate/tessellate.hpp"
 #include "tools/tessellate/write_surface.hpp"
 
@@ -22,10 +22,10 @@ using namespace hexpipe;
 
 namespace {
 
-Input open_cad(const std::string& path) {
+formats::Input open_cad(const std::string& path) {
   if (path == "-" && isatty(STDIN_FILENO))
     throw UsageError("nothing to read: name a CAD file, or pipe one to standard input (see tessellate --help)");
-  return Input::open(path);
+  return formats::Input::open(path);
 }
 
 // Empty: a bundle.
@@ -33,21 +33,21 @@ std::string_view format_of(const std::string& path) {
   const bool to_stdout = path.empty() || path == "-";
   if (to_stdout && isatty(STDOUT_FILENO))
     throw UsageError("standard output is a terminal: pipe it to tetmesh, or write a file with -o");
-  const std::string_view ending = ending_of(path);
-  if (to_stdout || path.starts_with("/dev/") || is_bundle_format(ending)) return {};
-  const auto& known = surface_format_names();
+  const std::string_view ending = pipeline::ending_of(path);
+  if (to_stdout || path.starts_with("/dev/") || pipeline::is_bundle_format(ending)) return {};
+  const auto& known = tessellate::surface_format_names();
   if (std::ranges::find(known, ending) == known.end())
     throw UsageError(fmt::format("expected a surface as {} or tar, tar.zst, found '{}'", fmt::join(known, ", "), path));
   return ending;
 }
 
-void write_bundle(const TessellateResult& result, const RunContext& context, bool compress, Output& output) {
-  BundleWriter writer(output, compress);
-  write_surface_members(writer, result.surface);
-  if (!result.surface.names.empty()) writer.add_text(std::string(names_member), text_of(result.surface.names));
-  nlohmann::ordered_json entry = history_entry_of(context);
+void write_bundle(const tessellate::TessellateResult& result, const RunContext& context, bool compress, formats::Output& output) {
+  pipeline::BundleWriter writer(output, compress);
+  pipeline::write_surface_members(writer, result.surface);
+  if (!result.surface.names.empty()) writer.add_text(std::string(formats::names_member), text_of(result.surface.names));
+  nlohmann::ordered_json entry = pipeline::history_entry_of(context);
   entry.update(to_json(result));
-  write_history_entry(writer, history_member(1, entry), entry);
+  pipeline::write_history_entry(writer, pipeline::history_member(1, entry), entry);
   writer.close();
 }
 
@@ -61,7 +61,7 @@ int main(int argc, char** argv) {
       .reads = {},
       .product = std::nullopt,
   };
-  TessellateOptions options;
+  tessellate::TessellateOptions options;
   std::string path = "-", output_path;
   bool compress = false;
   const auto declare = [&](CLI::App& app) {
@@ -81,12 +81,12 @@ int main(int argc, char** argv) {
   };
   const auto run = [&](RunContext& context) {
     const std::string_view format = format_of(output_path);
-    Input input = open_cad(path);
-    const TessellateResult result = tessellate(input, options);
+    formats::Input input = open_cad(path);
+    const tessellate::TessellateResult result = tessellate(input, options);
     for (const std::string& warning : result.warnings) context.warn(input.name() + ": " + warning);
-    Output output(output_path);
+    formats::Output output(output_path);
     if (format.empty())
-      write_bundle(result, context, compress || ending_of(output_path) == compressed_bundle_format, output);
+      write_bundle(result, context, compress || pipeline::ending_of(output_path) == pipeline::compressed_bundle_format, output);
     else
       for (const std::string& change : write_surface(result.surface, format, output)) context.warn(change);
     output.commit();

@@ -25,7 +25,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tessellate {
 namespace {
 
 // Edges of loose faces nearer than that, as a part of the diagonal, are one.
@@ -165,4 +165,4 @@ void join_bodies(const std::string& source, CadModel& model) {
   model.bodies = std::move(joined);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tessellate

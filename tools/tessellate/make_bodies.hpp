@@ -6,7 +6,7 @@
 
 #include "tools/tessellate/cad_model.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tessellate {
 
 // Where a file has no solids: closed shells become bodies, loose faces are sewn. Throws DataError where nothing closed
 // comes of it.
@@ -18,4 +18,4 @@ void heal_bodies(CadModel& model);
 // Bodies that touch share the faces, edges and vertices where they do. Throws DataError for bodies that overlap.
 void join_bodies(const std::string& source, CadModel& model);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tessellate

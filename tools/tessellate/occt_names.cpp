@@ -22,9 +22,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formats/group_names.hpp"
+#include "formats/streams/group_names.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tessellate {
 namespace {
 
 bool has_own_name(const TopoDS_Shape& shape) {
@@ -119,7 +119,7 @@ class BodyCollector {
 }  // namespace
 
 std::string cad_name(const std::string& text) {
-  std::string name = clean_name(text);
+  std::string name = formats::clean_name(text);
   // What OpenCASCADE and NX write where there is none.
   const bool is_none = name == "NONE" || name.starts_with("=>[") || name.starts_with("Open CASCADE STEP translator");
   return is_none ? std::string() : name;
@@ -156,4 +156,4 @@ void add_bodies(const Handle(TDocStd_Document) & document, CadModel& model) {
     collector.add(labels.Value(i), TopLoc_Location(), std::string());
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tessellate

@@ -9,7 +9,7 @@
 
 #include "tools/tessellate/cad_model.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tessellate {
 
 // Without what says that there is no name.
 std::string cad_name(const std::string& text);
@@ -24,4 +24,4 @@ void add_document_names(const Handle(TDocStd_Document) & document, ShapeNames& n
 // The bodies of all instances, each with its own name or that of its part.
 void add_bodies(const Handle(TDocStd_Document) & document, CadModel& model);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tessellate

@@ -28,7 +28,7 @@
 #include "tools/tessellate/make_bodies.hpp"
 #include "tools/tessellate/occt_names.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tessellate {
 namespace {
 
 constexpr std::string_view step_begin = "ISO-10303-21", step_end = "END-ISO-10303-21";
@@ -201,11 +201,11 @@ CadModel read_brep(const std::string& bytes, const std::string& name) {
 
 }  // namespace
 
-CadModel read_cad(Input& input) {
+CadModel read_cad(formats::Input& input) {
   const std::string bytes = input.read_all();
   const std::string& name = input.name();
   if (bytes.empty()) throw DataError::at(name, "expected CAD in STEP, IGES or BREP, found nothing: it is empty");
-  const std::string_view text = without_byte_order_mark(bytes);
+  const std::string_view text = formats::without_byte_order_mark(bytes);
   try {
     if (text.substr(0, 4096).find(step_begin) != std::string_view::npos) return read_step(bytes, name);
     if (looks_like_brep(text)) return read_brep(bytes, name);
@@ -214,7 +214,7 @@ CadModel read_cad(Input& input) {
     throw DataError::at(name, "OpenCASCADE cannot read it: {}", failure.GetMessageString());
   }
   throw DataError::at(name, "expected CAD in STEP, IGES or BREP, found {}",
-                      quote_found(TextScanner(text, name).peek_word()));
+                      formats::quote_found(formats::TextScanner(text, name).peek_word()));
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tessellate

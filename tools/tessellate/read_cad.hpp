@@ -4,10 +4,10 @@
 #include "formats/streams/input.hpp"
 #include "tools/tessellate/cad_model.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tessellate {
 
 // Throws DataError where the file is empty, cut off or no CAD, and where it has no bodies. Closed shells and faces that
 // can be sewn to such become bodies, with a warning.
-CadModel read_cad(Input& input);
+CadModel read_cad(formats::Input& input);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tessellate

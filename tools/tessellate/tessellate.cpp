@@ -12,7 +12,7 @@
 #include "tools/tessellate/read_cad.hpp"
 #include "tools/tessellate/triangulate.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tessellate {
 namespace {
 
 // What OpenCASCADE has to say goes to standard output, where the bundle goes.
@@ -35,7 +35,7 @@ LengthUnit wanted_unit(const CadModel& model, const TessellateOptions& options) 
 
 }  // namespace
 
-TessellateResult tessellate(Input& input, const TessellateOptions& options) {
+TessellateResult tessellate(formats::Input& input, const TessellateOptions& options) {
   const SilentOpenCascade silent;
   CadModel model = read_cad(input);
   const LengthUnit unit = wanted_unit(model, options);
@@ -59,7 +59,7 @@ TessellateResult tessellate(Input& input, const TessellateOptions& options) {
   if (model.names_unit || options.unit) result.unit = unit.name;
   if (!options.unit && unit.name != "millimetre")
     result.warnings.push_back(fmt::format("its unit is the {}, and so is that of all lengths (see --unit)", unit.name));
-  check_extent(result.surface);
+  formats::check_extent(result.surface);
   return result;
 }
 
@@ -76,4 +76,4 @@ nlohmann::ordered_json to_json(const TessellateResult& result) {
   return json;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tessellate

@@ -9,7 +9,7 @@
 #include "formats/streams/input.hpp"
 #include "formats/surfaces/surface_files.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tessellate {
 
 struct TessellateOptions {
   std::optional<double> deviation = {};  // in the units that are written; nothing: a hundredth of tetmesh's size
@@ -19,7 +19,7 @@ struct TessellateOptions {
 };
 
 struct TessellateResult {
-  SurfaceSoup surface;
+  formats::SurfaceSoup surface;
   std::size_t bodies = 0, faces = 0, curves = 0;
   double deviation = 0;  // in the units that are written
   std::string unit;      // of what is written; empty where the file names none
@@ -27,8 +27,8 @@ struct TessellateResult {
 };
 
 // Throws DataError for a file that is no CAD, has no bodies, or cannot be triangulated.
-TessellateResult tessellate(Input& input, const TessellateOptions& options);
+TessellateResult tessellate(formats::Input& input, const TessellateOptions& options);
 
 nlohmann::ordered_json to_json(const TessellateResult& result);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tessellate

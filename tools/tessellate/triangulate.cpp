@@ -35,7 +35,7 @@
 #include "common/mesh/facet_key.hpp"
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tessellate {
 namespace {
 
 constexpr double deviation_of_size = 0.01;
@@ -289,7 +289,7 @@ void Triangulator::add_curves() {
     if (!has_two_names && is_smooth(edge, faces)) continue;
     const auto tag = static_cast<std::int32_t>(++result_.curves);
     for (std::size_t i = 1; i < nodes.size(); ++i) {
-      const CurveEdge ends{same_.of(nodes[i - 1]), same_.of(nodes[i])};
+      const formats::CurveEdge ends{same_.of(nodes[i - 1]), same_.of(nodes[i])};
       if (ends[0] == ends[1]) continue;
       result_.surface.curves.push_back(ends);
       result_.surface.curve_tags.push_back(tag);
@@ -300,7 +300,7 @@ void Triangulator::add_curves() {
 
 // Nodes that are one become one point; triangles of less than three points, at poles, go, and walls inside.
 void Triangulator::number_points() {
-  SurfaceSoup& surface = result_.surface;
+  formats::SurfaceSoup& surface = result_.surface;
   std::vector<Vertex> number(nodes_.size(), -1);
   const auto number_of = [&](std::int32_t node) {
     Vertex& known = number[same_.of(node)];
@@ -332,13 +332,13 @@ void Triangulator::number_points() {
 
 // Those on walls inside.
 void Triangulator::drop_curves_without_triangles(const std::vector<Vertex>& number) {
-  SurfaceSoup& surface = result_.surface;
+  formats::SurfaceSoup& surface = result_.surface;
   KeySet<2> edges;
   for (const auto& [a, b, c] : surface.triangles)
     for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) edges.insert(edge_key(from, to));
   std::size_t kept = 0;
   for (std::size_t i = 0; i < surface.curves.size(); ++i) {
-    const CurveEdge ends{number[surface.curves[i][0]], number[surface.curves[i][1]]};
+    const formats::CurveEdge ends{number[surface.curves[i][0]], number[surface.curves[i][1]]};
     if (ends[0] < 0 || ends[1] < 0 || !edges.contains(key_of(ends))) continue;
     surface.curves[kept] = ends;
     surface.curve_tags[kept++] = surface.curve_tags[i];
@@ -349,7 +349,7 @@ void Triangulator::drop_curves_without_triangles(const std::vector<Vertex>& numb
 
 // Around each region, edges have as many triangles one way round as the other.
 void Triangulator::check_closed() const {
-  const SurfaceSoup& surface = result_.surface;
+  const formats::SurfaceSoup& surface = result_.surface;
   struct Balance {
     int count = 0;
     int face = 0;
@@ -398,4 +398,4 @@ Triangulation triangulate(const CadModel& model, const TriangulationOptions& opt
   return Triangulator(model, options, source).run();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tessellate

@@ -7,7 +7,7 @@
 #include "formats/surfaces/surface_files.hpp"
 #include "tools/tessellate/cad_model.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tessellate {
 
 struct TriangulationOptions {
   std::optional<double> deviation = {};  // nothing: a hundredth of the size that tetmesh would choose
@@ -16,7 +16,7 @@ struct TriangulationOptions {
 };
 
 struct Triangulation {
-  SurfaceSoup surface;  // in the model's units; sides, curves, names
+  formats::SurfaceSoup surface;  // in the model's units; sides, curves, names
   std::size_t faces = 0, curves = 0;
   double deviation = 0;
 };
@@ -27,4 +27,4 @@ double default_size_of(const CadModel& model);
 // Throws DataError where a face cannot be triangulated, or its triangles leave a gap.
 Triangulation triangulate(const CadModel& model, const TriangulationOptions& options, const std::string& source);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tessellate

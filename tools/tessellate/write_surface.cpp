@@ -9,17 +9,17 @@
 #include "common/run/error.hpp"
 #include "formats/meshes/mesh_files.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tessellate {
 namespace {
 
 // Triangles by tag, ascending.
-std::map<std::int32_t, std::vector<std::size_t>> by_tag(const SurfaceSoup& surface) {
+std::map<std::int32_t, std::vector<std::size_t>> by_tag(const formats::SurfaceSoup& surface) {
   std::map<std::int32_t, std::vector<std::size_t>> result;
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) result[surface.tags[i]].push_back(i);
   return result;
 }
 
-std::string name_of(const SurfaceSoup& surface, std::int32_t tag) {
+std::string name_of(const formats::SurfaceSoup& surface, std::int32_t tag) {
   const auto found = surface.names.surfaces.find(tag);
   return found == surface.names.surfaces.end() ? fmt::format("surface_{}", tag) : found->second;
 }
@@ -34,7 +34,7 @@ std::string obj_name(const std::string& name, std::vector<std::string>& changes)
   return result;
 }
 
-std::vector<std::string> write_obj(const SurfaceSoup& surface, Output& output) {
+std::vector<std::string> write_obj(const formats::SurfaceSoup& surface, formats::Output& output) {
   std::vector<std::string> changes;
   for (const Vec3& p : surface.points) output.print("v {} {} {}\n", p.x, p.y, p.z);
   for (const auto& [tag, triangles] : by_tag(surface)) {
@@ -47,7 +47,7 @@ std::vector<std::string> write_obj(const SurfaceSoup& surface, Output& output) {
   return changes;
 }
 
-std::vector<std::string> write_stl(const SurfaceSoup& surface, Output& output) {
+std::vector<std::string> write_stl(const formats::SurfaceSoup& surface, formats::Output& output) {
   for (const auto& [tag, triangles] : by_tag(surface)) {
     const std::string name = name_of(surface, tag);
     output.print("solid {}\n", name);
@@ -64,15 +64,15 @@ std::vector<std::string> write_stl(const SurfaceSoup& surface, Output& output) {
   return {};
 }
 
-std::vector<std::string> write_msh(const SurfaceSoup& surface, Output& output) {
+std::vector<std::string> write_msh(const formats::SurfaceSoup& surface, formats::Output& output) {
   MixedMesh mesh;
   mesh.points = surface.points;
   mesh.triangles = {surface.triangles, surface.tags, {}};
-  write_mixed_mesh(mesh, "msh", output);
+  formats::write_mixed_mesh(mesh, "msh", output);
   return {};
 }
 
-using Writer = std::vector<std::string> (*)(const SurfaceSoup&, Output&);
+using Writer = std::vector<std::string> (*)(const formats::SurfaceSoup&, formats::Output&);
 constexpr std::pair<std::string_view, Writer> writers[] = {{"obj", write_obj}, {"stl", write_stl}, {"msh", write_msh}};
 
 }  // namespace
@@ -86,10 +86,10 @@ const std::vector<std::string_view>& surface_format_names() {
   return names;
 }
 
-std::vector<std::string> write_surface(const SurfaceSoup& surface, std::string_view format, Output& output) {
+std::vector<std::string> write_surface(const formats::SurfaceSoup& surface, std::string_view format, formats::Output& output) {
   for (const auto& [name, writer] : writers)
     if (name == format) return writer(surface, output);
   throw UsageError(fmt::format("expected a surface as obj, stl or msh, found '{}'", format));
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tessellate

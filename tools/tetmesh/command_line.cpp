@@ -7,7 +7,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh {
 namespace {
 
 // Or a number that the option does not take, which CLI11 refuses.
@@ -50,4 +50,4 @@ void refuse_idle_options(const std::function<bool(const char*)>& is_given, const
     refuse({"--size-field", "--layers"}, "with --surface keep and --points none");
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh

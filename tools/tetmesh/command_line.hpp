@@ -7,7 +7,7 @@
 
 #include "tools/tetmesh/tetmesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh {
 
 // The words of a command line for CLI11, which takes the word behind an option for its optional value, whatever it is:
 // one behind --layers or --tags-by-angle that is no number is the surface. Words stay those of argv, or last as long as the process.
@@ -18,4 +18,4 @@ std::vector<char*> words_for_parsing(int argc, char** argv);
 void refuse_idle_options(const std::function<bool(const char*)>& is_given, const TetmeshOptions& options,
                          const std::string& points);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh

@@ -19,7 +19,7 @@
 #include "tools/tetmesh/volume/graded_lattice.hpp"
 #include "tools/tetmesh/volume/hex_estimate.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh {
 namespace {
 
 // A point given by the user may come as near to the surface as TetGen can bear.
@@ -52,7 +52,7 @@ constexpr int first_strict_run = 8;
 
 class Filler {
  public:
-  Filler(const Surface& given, const TetmeshOptions& options, SizeField size)
+  Filler(const solid::Surface& given, const TetmeshOptions& options, sizing::SizeField size)
       : given_(given), options_(options), size_(std::move(size)) {
     statistics_.size = size_.greatest();
     if (!size_.is_uniform()) statistics_.least_size = size_.least();
@@ -68,21 +68,21 @@ class Filler {
   void try_frame_points();
   // Called while TetGen is at work; false when its mesh is not wanted any more.
   using Meanwhile = std::function<bool()>;
-  std::optional<BuiltMesh> tetrahedralize(std::span<const Vec3> points, const Meanwhile& meanwhile);
-  void describe(const RemeshResult& remeshed);
-  const Surface& given_;
+  std::optional<tetgen::BuiltMesh> tetrahedralize(std::span<const Vec3> points, const Meanwhile& meanwhile);
+  void describe(const surface::RemeshResult& remeshed);
+  const solid::Surface& given_;
   const TetmeshOptions& options_;
-  const SizeField size_;
+  const sizing::SizeField size_;
   TetmeshResult result_;
   TetmeshStatistics& statistics_ = result_.statistics;
   StepWatch watch_;
 
-  std::optional<RemeshResult> remeshed_;
-  const Surface* surface_ = &given_;  // that is filled
-  Axes axes_{};                       // of the part
-  std::vector<Vec3> points_;          // inside
+  std::optional<surface::RemeshResult> remeshed_;
+  const solid::Surface* surface_ = &given_;  // that is filled
+  solid::Axes axes_{};                       // of the part
+  std::vector<Vec3> points_;                 // inside
   std::optional<std::string> points_left_out_;
-  std::optional<BuiltMesh> built_;
+  std::optional<tetgen::BuiltMesh> built_;
 };
 
 FilledSurface Filler::fill(bool estimates) {
@@ -96,7 +96,7 @@ FilledSurface Filler::fill(bool estimates) {
   if (options_.points == PointKind::frame || options_.points == PointKind::best) {
     try {
       try_frame_points();
-    } catch (const TetGenFailure& failure) {
+    } catch (const tetgen::TetGenFailure& failure) {
       if (options_.points == PointKind::frame) throw;
       result_.warnings.push_back(fmt::format("the points along the frame field are left out: {}", failure.what()));
     }
@@ -104,10 +104,10 @@ FilledSurface Filler::fill(bool estimates) {
   if (estimates) {
     const auto& known =
         statistics_.points_kept == PointKind::frame ? statistics_.frame_hex_share : statistics_.lattice_hex_share;
-    statistics_.hex_share = known ? *known : estimate_hex_share(built_->mesh, built_->adjacency);
+    statistics_.hex_share = known ? *known : volume::estimate_hex_share(built_->mesh, built_->adjacency);
     watch_.add_to(statistics_.seconds.comparing);
   }
-  std::optional<Surface> made;
+  std::optional<solid::Surface> made;
   if (remeshed_ && surface_ == &remeshed_->surface) made = std::move(remeshed_->surface);
   return {std::move(made), size_, *std::move(built_), std::move(result_)};
 }
@@ -116,9 +116,9 @@ FilledSurface Filler::fill(bool estimates) {
 // are elsewhere.
 bool Filler::fill_new_surface() {
   // What a size may take is nothing beside the part, unless that is thinner than a size.
-  const bool walls_count = !options_.layers && !asks_for_too_many_points(given_, size_);
-  const SizeField unit = walls_count ? size_field(given_, options_, size_.greatest(), 1) : size_;
-  SurfaceRemesher remesher(given_, {size_, options_.feature_angle, options_.deviation, unit});
+  const bool walls_count = !options_.layers && !surface::asks_for_too_many_points(given_, size_);
+  const sizing::SizeField unit = walls_count ? size_field(given_, options_, size_.greatest(), 1) : size_;
+  surface::SurfaceRemesher remesher(given_, {size_, options_.feature_angle, options_.deviation, unit});
   std::string failure;
   try {
     while (!built_ && remesher.make()) {
@@ -131,7 +131,7 @@ bool Filler::fill_new_surface() {
         return good;
       });
     }
-  } catch (const TetGenFailure& of_tetgen) {
+  } catch (const tetgen::TetGenFailure& of_tetgen) {
     failure = of_tetgen.what();
   }
   watch_.add_to(statistics_.seconds.remeshing);
@@ -150,7 +150,7 @@ bool Filler::fill_new_surface() {
 void Filler::fill_given_surface() {
   surface_ = &given_;
   if (options_.points != PointKind::none && result_.warnings.empty()) {
-    const auto complaint = fit_to_size(given_, size_).complaint(statistics_.size);
+    const auto complaint = sizing::fit_to_size(given_, size_).complaint(statistics_.size);
     if (complaint) result_.warnings.push_back(*complaint);
   }
   place_points();
@@ -159,15 +159,16 @@ void Filler::fill_given_surface() {
 
 void Filler::place_points() {
   if (places_points(options_.points)) {
-    axes_ = axes_of_part(*surface_, options_.feature_angle);
-    points_ = graded_lattice_points(*surface_, size_,
-                                    {.clearance = options_.clearance,
-                                     .jitter = options_.jitter.value_or(LatticeOptions{}.jitter),
-                                     .seed = options_.seed,
-                                     .axes = axes_},
-                                    options_.most_points);
+    axes_ = solid::axes_of_part(*surface_, options_.feature_angle);
+    points_ = volume::graded_lattice_points(*surface_, size_,
+                                            {.clearance = options_.clearance,
+                                             .jitter = options_.jitter.value_or(volume::LatticeOptions{}.jitter),
+                                             .seed = options_.seed,
+                                             .axes = axes_},
+                                            options_.most_points);
   } else if (options_.points == PointKind::given) {
-    GivenPoints given = usable_points(*surface_, options_.given_points, clearance_of_given * size_.least());
+    volume::GivenPoints given =
+        volume::usable_points(*surface_, options_.given_points, clearance_of_given * size_.least());
     points_ = std::move(given.points);
     points_left_out_ = std::move(given.complaint);
   }
@@ -176,25 +177,26 @@ void Filler::place_points() {
 
 // From the mesh with the lattice's points, which stays where it is the better one.
 void Filler::try_frame_points() {
-  const FramePoints frame = frame_points(*surface_, built_->mesh, built_->adjacency,
-                                         {.size = size_,
-                                          .clearance = options_.clearance,
-                                          .jitter = options_.jitter.value_or(FramePointsOptions{}.jitter),
-                                          .seed = options_.seed,
-                                          .feature_angle = options_.feature_angle,
-                                          .axes = axes_});
+  const volume::FramePoints frame =
+      volume::frame_points(*surface_, built_->mesh, built_->adjacency,
+                           {.size = size_,
+                            .clearance = options_.clearance,
+                            .jitter = options_.jitter.value_or(volume::FramePointsOptions{}.jitter),
+                            .seed = options_.seed,
+                            .feature_angle = options_.feature_angle,
+                            .axes = axes_});
   watch_.add_to(statistics_.seconds.placing);
   const bool compares = options_.points == PointKind::best &&
                         !frame_plainly_wins(statistics_.remeshed, frame.turned_share, built_->mesh.tets.size());
   double lattice_share = 0;
-  std::optional<BuiltMesh> bent = tetrahedralize(frame.points, [&] {
-    if (compares) lattice_share = estimate_hex_share(built_->mesh, built_->adjacency);
+  std::optional<tetgen::BuiltMesh> bent = tetrahedralize(frame.points, [&] {
+    if (compares) lattice_share = volume::estimate_hex_share(built_->mesh, built_->adjacency);
     watch_.add_to(statistics_.seconds.comparing);
     return true;
   });
   if (compares) {
     statistics_.lattice_hex_share = lattice_share;
-    statistics_.frame_hex_share = estimate_hex_share(bent->mesh, bent->adjacency);
+    statistics_.frame_hex_share = volume::estimate_hex_share(bent->mesh, bent->adjacency);
     watch_.add_to(statistics_.seconds.comparing);
     if (lattice_share >= *statistics_.frame_hex_share) return;
   }
@@ -204,39 +206,39 @@ void Filler::try_frame_points() {
 }
 
 // Nothing where the mesh is not wanted.
-std::optional<BuiltMesh> Filler::tetrahedralize(std::span<const Vec3> points, const Meanwhile& meanwhile) {
+std::optional<tetgen::BuiltMesh> Filler::tetrahedralize(std::span<const Vec3> points, const Meanwhile& meanwhile) {
   // With one thread, one after the other.
   const bool at_once = thread_count() > 1;
   if (!at_once && !meanwhile()) return std::nullopt;
   const Deadline deadline(options_.tetgen_timeout);
   for (int run = 0;; ++run) {
     try {
-      TetGenRun tetgen({.surface_points = surface_->points,
-                        .triangles = surface_->triangles,
-                        .interior_points = points,
-                        .shuffle = static_cast<std::uint64_t>(run),
-                        .strict = run >= first_strict_run,
-                        .names_intersecting = run + 1 == most_runs},
-                       deadline.remaining());
+      tetgen::TetGenRun tetgen({.surface_points = surface_->points,
+                                .triangles = surface_->triangles,
+                                .interior_points = points,
+                                .shuffle = static_cast<std::uint64_t>(run),
+                                .strict = run >= first_strict_run,
+                                .names_intersecting = run + 1 == most_runs},
+                               deadline.remaining());
       if (at_once && run == 0) {
         bool wanted = true;
         leaving_one_thread([&] { wanted = meanwhile(); });
         if (!wanted) return std::nullopt;
       }
-      TetGenResult made = tetgen.wait();
+      tetgen::TetGenResult made = tetgen.wait();
       ++statistics_.tetgen_runs;
       statistics_.seconds.of_tetgen += made.seconds;
       watch_.add_to(statistics_.seconds.tetgen);
-      BuiltMesh built = build_mesh(*surface_, points, std::move(made));
+      tetgen::BuiltMesh built = tetgen::build_mesh(*surface_, points, std::move(made));
       watch_.add_to(statistics_.seconds.building);
       return built;
-    } catch (const TetGenFailure&) {
+    } catch (const tetgen::TetGenFailure&) {
       if (run + 1 == most_runs || deadline.passed()) throw;
     }
   }
 }
 
-void Filler::describe(const RemeshResult& remeshed) {
+void Filler::describe(const surface::RemeshResult& remeshed) {
   statistics_.remeshed = true;
   statistics_.distance_to_input = remeshed.to_input;
   statistics_.distance_from_input = remeshed.from_input;
@@ -249,23 +251,23 @@ bool frame_plainly_wins(bool remeshed, double turned_share, std::size_t tets) {
   return remeshed && turned_share > much_turned && tets > few_tets;
 }
 
-SizeField size_field(const Surface& surface, const TetmeshOptions& options, double greatest,
-                     std::optional<int> layers) {
-  SizeSources sources = options.size_sources;
-  if (layers) sources.prisms = wall_sizes(surface, greatest, *layers);
+sizing::SizeField size_field(const solid::Surface& surface, const TetmeshOptions& options, double greatest,
+                             std::optional<int> layers) {
+  sizing::SizeSources sources = options.size_sources;
+  if (layers) sources.prisms = sizing::wall_sizes(surface, greatest, *layers);
   return {std::move(sources), greatest, options.grading};
 }
 
-FilledSurface fill(const Surface& given, const TetmeshOptions& options, SizeField size, bool estimates) {
+FilledSurface fill(const solid::Surface& given, const TetmeshOptions& options, sizing::SizeField size, bool estimates) {
   return Filler(given, options, std::move(size)).fill(estimates);
 }
 
-TetmeshResult finish(FilledSurface filled, const Surface& given) {
+TetmeshResult finish(FilledSurface filled, const solid::Surface& given) {
   const Stopwatch watch;
-  const Surface& surface = filled.surface(given);
-  const BuiltMesh& built = filled.built;
+  const solid::Surface& surface = filled.surface(given);
+  const tetgen::BuiltMesh& built = filled.built;
   TetmeshStatistics& s = filled.result.statistics;
-  const MeshShape shape = shape_of(built.mesh);
+  const tetgen::MeshShape shape = tetgen::shape_of(built.mesh);
   s.surface_points = surface.points.size();
   s.surface_triangles = surface.triangles.size();
   s.shells = surface.shells.size();
@@ -282,4 +284,4 @@ TetmeshResult finish(FilledSurface filled, const Surface& given) {
   return std::move(filled.result);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh

@@ -11,7 +11,7 @@
 #include "tools/tetmesh/search/point_search.hpp"
 #include "tools/tetmesh/tetgen/run_tetgen.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh {
 namespace {
 
 // TetGen goes on for ever on a few meshes, and the others take about as long as each other: one that takes this many
@@ -25,19 +25,19 @@ class MeshMaker {
   MeshMaker(double tetgen_timeout, const Deadline& deadline, TetmeshStatistics& statistics)
       : tetgen_timeout_(tetgen_timeout), deadline_(deadline), statistics_(statistics) {}
 
-  void make(std::span<const SurfaceWithPoints> all, const TakeMesh& take);
+  void make(std::span<const search::SurfaceWithPoints> all, const search::TakeMesh& take);
 
  private:
-  void start(const SurfaceWithPoints& filled);
+  void start(const search::SurfaceWithPoints& filled);
   double seconds_for_a_run() const;
 
   double tetgen_timeout_;
   const Deadline& deadline_;
   TetmeshStatistics& statistics_;
-  std::deque<std::unique_ptr<TetGenRun>> running_;
+  std::deque<std::unique_ptr<tetgen::TetGenRun>> running_;
 };
 
-void MeshMaker::make(std::span<const SurfaceWithPoints> all, const TakeMesh& take) {
+void MeshMaker::make(std::span<const search::SurfaceWithPoints> all, const search::TakeMesh& take) {
   const auto at_once = static_cast<std::size_t>(thread_count());
   std::size_t started = 0;
   const auto start_more = [&] {
@@ -46,15 +46,15 @@ void MeshMaker::make(std::span<const SurfaceWithPoints> all, const TakeMesh& tak
   running_.clear();  // of a call that threw
   start_more();
   for (std::size_t number = 0; !running_.empty(); ++number) {
-    const std::unique_ptr<TetGenRun> run = std::move(running_.front());
+    const std::unique_ptr<tetgen::TetGenRun> run = std::move(running_.front());
     running_.pop_front();
     try {
-      TetGenResult made = run->wait();
+      tetgen::TetGenResult made = run->wait();
       ++statistics_.tetgen_runs;
       statistics_.seconds.of_tetgen += made.seconds;
       // While the mesh is judged here TetGen makes the next one, but with one thread.
       if (at_once > 1) start_more();
-      take(number, build_mesh(all[number].surface, all[number].inside, std::move(made)));
+      take(number, tetgen::build_mesh(all[number].surface, all[number].inside, std::move(made)));
     } catch (const DataError&) {
       // It failed, or had not enough memory: the mesh that stands is good.
     }
@@ -62,12 +62,12 @@ void MeshMaker::make(std::span<const SurfaceWithPoints> all, const TakeMesh& tak
   }
 }
 
-void MeshMaker::start(const SurfaceWithPoints& filled) {
-  running_.push_back(std::make_unique<TetGenRun>(TetGenInput{.surface_points = filled.surface.points,
-                                                             .triangles = filled.surface.triangles,
-                                                             .interior_points = filled.inside,
-                                                             .names_intersecting = false},
-                                                 seconds_for_a_run()));
+void MeshMaker::start(const search::SurfaceWithPoints& filled) {
+  running_.push_back(std::make_unique<tetgen::TetGenRun>(tetgen::TetGenInput{.surface_points = filled.surface.points,
+                                                                             .triangles = filled.surface.triangles,
+                                                                             .interior_points = filled.inside,
+                                                                             .names_intersecting = false},
+                                                         seconds_for_a_run()));
 }
 
 double MeshMaker::seconds_for_a_run() const {
@@ -78,20 +78,21 @@ double MeshMaker::seconds_for_a_run() const {
 
 }  // namespace
 
-void improve(FilledSurface& filled, const Surface& given, const TetmeshOptions& options) {
+void improve(FilledSurface& filled, const solid::Surface& given, const TetmeshOptions& options) {
   const Stopwatch watch;
   stop_searches_on_signal();
   const Deadline deadline(options.time_limit);
   TetmeshStatistics& statistics = filled.result.statistics;
   MeshMaker maker(options.tetgen_timeout, deadline, statistics);
-  PointSearchResult found = search_points(
+  search::PointSearchResult found = search::search_points(
       filled.surface(given), std::move(filled.built),
       {.size = filled.size,
        .seed = options.seed,
        .rounds = options.improve,
        .changes_surface = filled.made_surface.has_value(),
        .after_round = options.after_round},
-      deadline, [&](std::span<const SurfaceWithPoints> all, const TakeMesh& take) { maker.make(all, take); });
+      deadline,
+      [&](std::span<const search::SurfaceWithPoints> all, const search::TakeMesh& take) { maker.make(all, take); });
   if (found.surface) filled.made_surface = std::move(found.surface);
   filled.built = std::move(found.built);
   statistics.improved = found.summary;
@@ -100,4 +101,4 @@ void improve(FilledSurface& filled, const Surface& given, const TetmeshOptions& 
   statistics.seconds.improving += watch.seconds();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh

@@ -3,10 +3,10 @@
 
 #include "tools/tetmesh/fill.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh {
 
 // From here on a first SIGINT or SIGTERM ends the search and not the process. Statistics of the search and of TetGen's
 // time are added to those that are there.
-void improve(FilledSurface& filled, const Surface& given, const TetmeshOptions& options);
+void improve(FilledSurface& filled, const solid::Surface& given, const TetmeshOptions& options);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh

@@ -19,19 +19,21 @@
 #include "tools/tetmesh/tetmesh.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::tetmesh;
 
 namespace {
 
 const std::map<std::string, SurfaceKind> surface_kinds{{"remesh", SurfaceKind::remesh}, {"keep", SurfaceKind::keep}};
 const std::map<std::string, PointKind> point_kinds{
     {"best", PointKind::best}, {"frame", PointKind::frame}, {"lattice", PointKind::lattice}, {"none", PointKind::none}};
-const std::map<std::string, ShellRule> shell_rules{
-    {"oriented", ShellRule::oriented}, {"regions", ShellRule::regions}, {"holes", ShellRule::holes}};
+const std::map<std::string, solid::ShellRule> shell_rules{{"oriented", solid::ShellRule::oriented},
+                                                          {"regions", solid::ShellRule::regions},
+                                                          {"holes", solid::ShellRule::holes}};
 
-Input open_surface(const std::string& path) {
+formats::Input open_surface(const std::string& path) {
   if (path == "-" && isatty(STDIN_FILENO))
     throw UsageError("nothing to read: name a surface, or pipe one to standard input (see tetmesh --help)");
-  return Input::open(path);
+  return formats::Input::open(path);
 }
 
 void choose_points(const std::string& points, TetmeshOptions& options) {
@@ -40,14 +42,14 @@ void choose_points(const std::string& points, TetmeshOptions& options) {
   if (options.points != PointKind::given) return;
   if (!std::filesystem::exists(points))
     throw UsageError(fmt::format("expected --points best, frame, lattice, none or a file, found '{}'", points));
-  Input input = Input::open(points);
-  options.given_points = read_points(input);
+  formats::Input input = formats::Input::open(points);
+  options.given_points = formats::read_points(input);
   if (options.given_points.points.empty()) throw DataError::at(input.name(), "expected points, found none");
 }
 
-SizeSources size_sources(const std::string& path, const SurfaceSoup& surface) {
-  Input input = Input::open(path);
-  SizeList list = on_surface(read_sizes(input), surface);
+sizing::SizeSources size_sources(const std::string& path, const formats::SurfaceSoup& surface) {
+  formats::Input input = formats::Input::open(path);
+  formats::SizeList list = formats::on_surface(formats::read_sizes(input), surface);
   return {std::move(list.points), std::move(list.sizes), std::move(list.simplices), {}};
 }
 
@@ -153,23 +155,23 @@ int main(int argc, char** argv) {
         ->check(number_between(0.001, 1e9));
   };
   const auto run = [&](RunContext& context) {
-    if (size) options.size = parse_length(*size);
+    if (size) options.size = sizing::parse_length(*size);
     options.surface = surface_kinds.at(surface_kind);
     choose_points(points, options);
     refuse_idle_options([&](const char* name) { return command_line->count(name) > 0; }, options, points);
     options.shells = shell_rules.at(shells);
-    for (const std::string& text : tag_names) options.tag_names.push_back(parse_tag_name(text));
+    for (const std::string& text : tag_names) options.tag_names.push_back(solid::parse_tag_name(text));
     options.seed = context.common.seed;
-    options.weld = parse_length(weld);
-    Stage stage(context);
-    Input input = open_surface(path);
-    SurfaceSoup surface = stage.read_surface(input);
+    options.weld = sizing::parse_length(weld);
+    pipeline::Stage stage(context);
+    formats::Input input = open_surface(path);
+    formats::SurfaceSoup surface = stage.read_surface(input);
     if (sizes) options.size_sources = size_sources(*sizes, surface);
     Progress progress("tetmesh", context.common.quiet);
     options.after_round = [&](std::size_t round, double share) {
       if (progress.due()) progress.show(fmt::format("round {}, about {:.1f} % in hexes", round + 1, 100 * share));
     };
-    const TetmeshResult result = tetmesh(std::move(surface), options);
+    const TetmeshResult result = tetmesh::tetmesh(std::move(surface), options);
     if (const auto& repair = result.statistics.repair; repair && repair->anything())
       context.warn(fmt::format("{}: repaired: {}", input.name(), repair->sentence()));
     for (const std::string& warning : result.warnings) context.warn(warning);

@@ -14,7 +14,7 @@
 #include "tools/tetmesh/volume/expected_points.hpp"
 #include "tools/tetmesh/volume/frame_points.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh {
 
 StepSeconds& StepSeconds::operator+=(const StepSeconds& other) {
   checking += other.checking;
@@ -39,20 +39,20 @@ void check_options(const TetmeshOptions& options) {
     throw UsageError("--tries has no sizes to try with --surface keep and without points to place");
   // Each coordinate moves by the jitter, a point by up to sqrt(3) times that; it must not reach the surface.
   if (!places_points(options.points)) return;
-  const double jitter = options.jitter.value_or(FramePointsOptions{}.jitter);
+  const double jitter = options.jitter.value_or(volume::FramePointsOptions{}.jitter);
   if (jitter >= options.clearance / 2)
     throw UsageError(
         fmt::format("expected --jitter below half of --clearance, {:g}, found {:g}", options.clearance / 2, jitter));
 }
 
 // Before any memory is used for them, or walls are looked for.
-void check_number_of_points(const Surface& surface, const TetmeshOptions& options, double greatest_size) {
+void check_number_of_points(const solid::Surface& surface, const TetmeshOptions& options, double greatest_size) {
   const double most = options.most_points;
   const auto given = static_cast<double>(options.given_points.points.size());
   if (given > most)
     throw DataError::at(options.given_points.name, "expected at most {:g} points (see --most-points), found {:g}", most,
                         given);
-  const double expected = points_expected(surface, greatest_size);
+  const double expected = sizing::points_expected(surface, greatest_size);
   if (places_points(options.points) && expected > most)
     throw DataError::at(surface.name,
                         "expected a size that makes at most {:g} points inside (see --most-points), found {:g}, which "
@@ -61,29 +61,31 @@ void check_number_of_points(const Surface& surface, const TetmeshOptions& option
 }
 
 // Where sizes differ by place it is told early what makes far too many; else graded_lattice_points() counts.
-void check_points_by_place(const Surface& surface, const TetmeshOptions& options, const SizeField& size) {
+void check_points_by_place(const solid::Surface& surface, const TetmeshOptions& options,
+                           const sizing::SizeField& size) {
   const double far_too_many = 4 * options.most_points;
   if (places_points(options.points) && !size.is_uniform() &&
-      points_inside(surface, size, options.clearance, far_too_many) > far_too_many)
+      volume::points_inside(surface, size, options.clearance, far_too_many) > far_too_many)
     throw DataError::at(surface.name,
                         "expected sizes that make at most {:g} points inside (see --most-points), found {:g} to {:g}, "
                         "which make more than {:g}",
                         options.most_points, size.least(), size.greatest(), far_too_many);
 }
 
-RepairReport repair(SurfaceSoup& soup, const TetmeshOptions& options) {
-  const double unit = options.weld.percent_of_diagonal ? bounding_box_diagonal(soup) / 100 : 1;
-  return repair(soup, {options.weld.value * unit, options.largest_hole});
+solid::RepairReport repair(formats::SurfaceSoup& soup, const TetmeshOptions& options) {
+  const double unit = options.weld.percent_of_diagonal ? sizing::bounding_box_diagonal(soup) / 100 : 1;
+  return solid::repair(soup, {options.weld.value * unit, options.largest_hole});
 }
 
 // Of the elements: what the user asks for, else the greatest of the sizes given by place, else what suits the part.
-double greatest_size(const Surface& surface, const TetmeshOptions& options) {
+double greatest_size(const solid::Surface& surface, const TetmeshOptions& options) {
   if (options.size || options.size_sources.empty())
-    return element_size(surface, options.size, options.surface == SurfaceKind::keep);
+    return sizing::element_size(surface, options.size, options.surface == SurfaceKind::keep);
   return std::ranges::max(options.size_sources.sizes);
 }
 
-FilledSurface fill_at(double factor, const Surface& surface, TetmeshOptions options, const SizeField& size) {
+FilledSurface fill_at(double factor, const solid::Surface& surface, TetmeshOptions options,
+                      const sizing::SizeField& size) {
   const bool estimates = options.tries > 1;
   if (factor == 1) return fill(surface, options, size, estimates);
   for (double& known : options.size_sources.sizes) known *= factor;
@@ -91,7 +93,8 @@ FilledSurface fill_at(double factor, const Surface& surface, TetmeshOptions opti
 }
 
 // The one that is estimated to have most hexes. A size at which TetGen fails is passed over, unless it does at all.
-FilledSurface best_of_tries(const Surface& surface, const TetmeshOptions& options, const SizeField& size) {
+FilledSurface best_of_tries(const solid::Surface& surface, const TetmeshOptions& options,
+                            const sizing::SizeField& size) {
   std::optional<FilledSurface> best;
   std::vector<TriedSize> tried;
   StepSeconds seconds;
@@ -103,7 +106,7 @@ FilledSurface best_of_tries(const Surface& surface, const TetmeshOptions& option
       tried.push_back({statistics.size, statistics.hex_share});
       seconds += statistics.seconds;
       if (!best || statistics.hex_share > best->result.statistics.hex_share) best = std::move(filled);
-    } catch (const TetGenFailure&) {
+    } catch (const tetgen::TetGenFailure&) {
       tried.push_back({factor * size.greatest(), {}});
       if (!failure) failure = std::current_exception();
     }
@@ -132,20 +135,20 @@ const char* name_of(PointKind kind) {
 
 }  // namespace
 
-TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options) {
+TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) {
   check_options(options);
   const Stopwatch watch;
-  std::optional<RepairReport> repaired;
+  std::optional<solid::RepairReport> repaired;
   if (options.repair) repaired = repair(soup, options);
-  check_surface(soup, options.repair ? "" : " (see --repair)");
-  Surface given = find_shells(std::move(soup), options.shells);
-  if (options.tag_angle) tag_by_angle(given, *options.tag_angle);
-  name_tags(given, options.tag_names);
-  const Surface surface = std::move(given);
+  solid::check_surface(soup, options.repair ? "" : " (see --repair)");
+  solid::Surface given = solid::find_shells(std::move(soup), options.shells);
+  if (options.tag_angle) solid::tag_by_angle(given, *options.tag_angle);
+  solid::name_tags(given, options.tag_names);
+  const solid::Surface surface = std::move(given);
   const double greatest = greatest_size(surface, options);
   const double least_factor = std::ranges::min(std::span(tried_sizes).first(options.tries));
   check_number_of_points(surface, options, least_factor * greatest);
-  const SizeField size = size_field(surface, options, greatest, options.layers);
+  const sizing::SizeField size = size_field(surface, options, greatest, options.layers);
   check_points_by_place(surface, options, least_factor * size);
   const double seconds_checking = watch.seconds();
 
@@ -180,7 +183,7 @@ nlohmann::ordered_json to_json(const TetmeshStatistics& s) {
                               {"least_dihedral", s.least_dihedral},
                               {"greatest_dihedral", s.greatest_dihedral}};
   if (s.least_size) json["least_size"] = *s.least_size;
-  if (s.repair) json["repair"] = to_json(*s.repair);
+  if (s.repair) json["repair"] = solid::to_json(*s.repair);
   if (s.lattice_hex_share)
     json["estimated_hex_share"] = {{"lattice", *s.lattice_hex_share}, {"frame", *s.frame_hex_share}};
   if (s.improved)
@@ -200,4 +203,4 @@ nlohmann::ordered_json times_of(const TetmeshStatistics& statistics) {
           {"building", s.building}, {"comparing", s.comparing}, {"improving", s.improving}};
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh

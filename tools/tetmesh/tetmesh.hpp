@@ -11,7 +11,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "formats/points/point_files.hpp"
 #include "formats/surfaces/surface_files.hpp"
-#include "tools/tetmesh/group_tags.hpp"
+#include "tools/tetmesh/solid/group_tags.hpp"
 #include "tools/tetmesh/search/point_search.hpp"
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/sizing/sizing.hpp"
@@ -20,7 +20,7 @@
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 #include "tools/tetmesh/volume/lattice.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh {
 
 // What becomes of the surface's triangles.
 enum class SurfaceKind { remesh, keep };
@@ -41,25 +41,25 @@ constexpr bool places_points(PointKind kind) {
 constexpr std::size_t most_tries = 9;
 
 struct TetmeshOptions {
-  std::optional<Length> size = {};  // nothing: see greatest_size()
-  SizeSources size_sources = {};
+  std::optional<sizing::Length> size = {};  // nothing: see greatest_size()
+  sizing::SizeSources size_sources = {};
   double grading = 0.3;
   std::optional<int> layers = {};  // across thin walls, at least; nothing: walls do not count
   SurfaceKind surface = SurfaceKind::remesh;
-  double feature_angle = default_feature_angle;
-  double deviation = RemeshOptions{}.deviation;  // in sizes, or in the thickness of thinner walls
+  double feature_angle = geometry::default_feature_angle;
+  double deviation = surface::RemeshOptions{}.deviation;  // in sizes, or in the thickness of thinner walls
   PointKind points = PointKind::best;
-  PointList given_points = {};  // for PointKind::given
-  double clearance = LatticeOptions{}.clearance;
+  formats::PointList given_points = {};  // for PointKind::given
+  double clearance = volume::LatticeOptions{}.clearance;
   std::optional<double> jitter = {};  // nothing: that of the kind of points
-  ShellRule shells = ShellRule::oriented;
+  solid::ShellRule shells = solid::ShellRule::oriented;
   std::optional<double> tag_angle = {};  // nothing: the file's tags
-  std::vector<TagName> tag_names = {};
+  std::vector<solid::TagName> tag_names = {};
   std::uint64_t seed = 1;
   double most_points = 2e7;  // inside
   bool repair = false;
-  Length weld = {1e-4, true};
-  std::size_t largest_hole = RepairOptions{}.largest_hole;
+  sizing::Length weld = {1e-4, true};
+  std::size_t largest_hole = solid::RepairOptions{}.largest_hole;
   double tetgen_timeout = 3600;  // seconds, of all runs that make one mesh
   std::size_t tries = 1;         // sizes, up to 5 % off, of which the one with most hexes is kept; at most most_tries
   std::size_t improve = 0;       // rounds of the search for better points
@@ -90,7 +90,7 @@ struct TetmeshStatistics {
   std::size_t extra_points = 0;                           // of the input, that remeshing could not remove
   std::size_t shells = 0, regions = 0;
   std::size_t interior_points = 0;  // asked for
-  std::optional<RepairReport> repair;
+  std::optional<solid::RepairReport> repair;
   PointKind points_kept = PointKind::none;
   // Of the volume, by a rough greedy choice; where several kinds of points were tried.
   std::optional<double> lattice_hex_share, frame_hex_share;
@@ -101,23 +101,23 @@ struct TetmeshStatistics {
   double least_dihedral = 0, greatest_dihedral = 0;  // degrees
   std::optional<double> hex_share;  // of the mesh, estimated in the same way, where several sizes were tried
   std::vector<TriedSize> tried;     // these
-  std::optional<PointSearchSummary> improved;
+  std::optional<search::PointSearchSummary> improved;
   StepSeconds seconds;  // of all tries
 };
 
 struct TetmeshResult {
   TetMesh mesh;
-  GroupNames names;
+  formats::GroupNames names;
   TetmeshStatistics statistics;
   std::vector<std::string> warnings;
 };
 
 // Throws DataError for a surface that is not the boundary of a solid, and where TetGen fails; UsageError for options
 // that contradict each other.
-TetmeshResult tetmesh(SurfaceSoup soup, const TetmeshOptions& options);
+TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options);
 
 // Everything but the times, which differ from run to run; and these, in seconds by step.
 nlohmann::ordered_json to_json(const TetmeshStatistics& statistics);
 nlohmann::ordered_json times_of(const TetmeshStatistics& statistics);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh

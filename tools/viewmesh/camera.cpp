@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hexpipe {
+namespace hexpipe::viewmesh {
 
 Camera camera_of(const ViewState& state, double aspect) {
   constexpr double degree = std::numbers::pi / 180;
@@ -43,4 +43,4 @@ double occlusion_reach(const Scene& scene) {
   return std::clamp(2.5 / std::cbrt(static_cast<double>(scene.cell_count())), 0.03, 0.2);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::viewmesh

@@ -5,7 +5,7 @@
 
 #include "tools/viewmesh/view_state.hpp"
 
-namespace hexpipe {
+namespace hexpipe::viewmesh {
 
 using Matrix4 = std::array<float, 16>;  // by columns
 
@@ -20,4 +20,4 @@ Camera camera_of(const ViewState& state, double aspect);
 // How far occluders are looked for: a few cells, in the scene's units.
 double occlusion_reach(const Scene& scene);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::viewmesh

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace hexpipe {
+namespace hexpipe::viewmesh {
 namespace {
 
 // Whether, begun at the least vertex, the next one is less than the one before: opposite senses differ in this.
@@ -91,4 +91,4 @@ std::vector<std::uint8_t> layers_from_surface(const Scene& scene, const std::vec
   return layer;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::viewmesh

@@ -7,7 +7,7 @@
 
 #include "tools/viewmesh/scene.hpp"
 
-namespace hexpipe {
+namespace hexpipe::viewmesh {
 
 // A cell's view of one of its facets. Cells that list the same vertices in opposite senses are on different sides.
 struct FacetSide {
@@ -43,4 +43,4 @@ std::vector<bool> surface_points(const Scene& scene);
 // most 255.
 std::vector<std::uint8_t> layers_from_surface(const Scene& scene, const std::vector<bool>& surface);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::viewmesh

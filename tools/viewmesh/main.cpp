@@ -11,6 +11,7 @@
 #include "tools/viewmesh/picture.hpp"
 
 using namespace hexpipe;
+using namespace hexpipe::viewmesh;
 
 namespace {
 
@@ -31,12 +32,12 @@ void check_endings(const Outputs& outputs) {
 
 void write_outputs(const Scene& scene, const ViewState& state, const std::string& title, const Outputs& outputs) {
   if (!outputs.picture.empty()) {
-    Output output(outputs.picture);
+    formats::Output output(outputs.picture);
     write_png(draw_picture(scene, state, outputs.size[0], outputs.size[1]), output);
     output.commit();
   }
   if (outputs.page.empty() && !outputs.picture.empty()) return;
-  Output output(outputs.page);
+  formats::Output output(outputs.page);
   write_page(scene, state, title, output);
   output.commit();
 }
@@ -44,9 +45,9 @@ void write_outputs(const Scene& scene, const ViewState& state, const std::string
 }  // namespace
 
 int main(int argc, char** argv) {
-  const ToolInfo info{.name = "view",
+  const ToolInfo info{.name = "viewmesh",
                       .summary = "Show a mesh, a choice or candidates as a page for the browser, or as a picture.",
-                      .example = "view bracket.vtu -o bracket.html --png bracket.png --view 'clip=y:0.5'",
+                      .example = "viewmesh bracket.vtu -o bracket.html --png bracket.png --view 'clip=y:0.5'",
                       .reads = {Role::result, Role::mesh, Role::candidates, Role::graph, Role::solution},
                       .product = std::nullopt};
   const std::map<std::string, Scene::Content> contents{{"result", Scene::Content::result},
@@ -70,7 +71,7 @@ int main(int argc, char** argv) {
         ->check(CLI::IsMember(contents).description(""));
     app.add_option("--view", view,
                    "How the page opens and the picture is taken, as links of the page say it behind the #, for example "
-                   "'clip=y:0.5&colour=quality&theme=dark' (man view has all keys)")
+                   "'clip=y:0.5&colour=quality&theme=dark' (man viewmesh has all keys)")
         ->type_name("STATE");
     app.add_option("--fragments", fragments,
                    "Fragments to go through one by one: a line each, the numbers of its candidates, from 1")
@@ -82,9 +83,9 @@ int main(int argc, char** argv) {
     check_endings(outputs);
     if (outputs.page.empty() && outputs.picture.empty() && isatty(STDOUT_FILENO))
       throw UsageError("standard output is a terminal: write the page to a file with -o, or a picture with --png");
-    Stage stage(context);
+    pipeline::Stage stage(context);
     stage.take_weights();  // for their number: a solution chooses among as many
-    StageData data = stage.read({}, {Role::mesh, Role::candidates, Role::solution, Role::result});
+    pipeline::StageData data = stage.read({}, {Role::mesh, Role::candidates, Role::solution, Role::result});
     const std::string source = !context.streams.operand || context.streams.operand == "-"
                                    ? context.streams.files.empty() ? "stdin" : "the files"
                                    : *context.streams.operand;
@@ -93,7 +94,7 @@ int main(int argc, char** argv) {
     if (!fragments.empty()) {
       if (content != Scene::Content::candidates && content != Scene::Content::solution)
         throw UsageError("--fragments: expected candidates or a solution to show them in (see --show)");
-      Input input = Input::open(fragments);
+      formats::Input input = formats::Input::open(fragments);
       read_fragments(scene, input);
     }
     for (std::size_t k = 0; k < scene_kinds.size(); ++k)

@@ -9,7 +9,7 @@
 #include "tools/viewmesh/camera.hpp"
 #include "tools/viewmesh/resources.hpp"
 
-namespace hexpipe {
+namespace hexpipe::viewmesh {
 namespace {
 
 std::string base64(const std::vector<std::uint8_t>& bytes) {
@@ -131,7 +131,7 @@ std::string pack_floats(const std::vector<float>& numbers) {
   return pack_words(words);
 }
 
-void write_page(const Scene& scene, const ViewState& state, const std::string& title, Output& output) {
+void write_page(const Scene& scene, const ViewState& state, const std::string& title, formats::Output& output) {
   const std::string heading = for_html(title), data = for_script(to_json(scene, state, title));
   const auto text_of = [&](std::string_view name) -> std::string_view {
     if (name == "title") return heading;
@@ -149,4 +149,4 @@ void write_page(const Scene& scene, const ViewState& state, const std::string& t
   output.write(rest);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::viewmesh

@@ -7,14 +7,14 @@
 #include "tools/viewmesh/scene.hpp"
 #include "tools/viewmesh/view_state.hpp"
 
-namespace hexpipe {
+namespace hexpipe::viewmesh {
 
 // `title` is shown above the counts; `state` is how the page opens.
-void write_page(const Scene& scene, const ViewState& state, const std::string& title, Output& output);
+void write_page(const Scene& scene, const ViewState& state, const std::string& title, formats::Output& output);
 
 // Arrays as the page reads them: base64 of the zlib stream of the bytes, of which first come the lowest of all numbers,
 // then the next ones. Integers are taken from the one `stride` before them, and written as 2n or -2n - 1.
 std::string pack_integers(const std::vector<std::int32_t>& numbers, int stride);
 std::string pack_floats(const std::vector<float>& numbers);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::viewmesh

@@ -17,7 +17,7 @@
 #include "tools/viewmesh/resources.hpp"
 #include "tools/viewmesh/skin.hpp"
 
-namespace hexpipe {
+namespace hexpipe::viewmesh {
 namespace {
 
 // Drawn this much larger each way and averaged.
@@ -220,7 +220,7 @@ Picture draw_picture(const Scene& scene, const ViewState& state, int width, int 
   return averaged(renderer.finish(), width, height);
 }
 
-void write_png(const Picture& picture, Output& output) {
+void write_png(const Picture& picture, formats::Output& output) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
   std::string bytes;
@@ -230,4 +230,4 @@ void write_png(const Picture& picture, Output& output) {
   output.write(bytes);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::viewmesh

@@ -8,7 +8,7 @@
 #include "tools/viewmesh/scene.hpp"
 #include "tools/viewmesh/view_state.hpp"
 
-namespace hexpipe {
+namespace hexpipe::viewmesh {
 
 struct Picture {
   int width = 0, height = 0;
@@ -18,6 +18,6 @@ struct Picture {
 // Throws DataError when Mesa cannot draw.
 Picture draw_picture(const Scene& scene, const ViewState& state, int width, int height);
 
-void write_png(const Picture& picture, Output& output);
+void write_png(const Picture& picture, formats::Output& output);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::viewmesh

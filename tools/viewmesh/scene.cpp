@@ -11,7 +11,7 @@
 #include "formats/streams/text_scanner.hpp"
 #include "tools/viewmesh/facets.hpp"
 
-namespace hexpipe {
+namespace hexpipe::viewmesh {
 namespace {
 
 int index_of(CellKind kind) {
@@ -74,8 +74,8 @@ void collect(const Candidates& candidates, const TetMesh& mesh, std::size_t i, C
 }
 
 // Chosen candidates, and the tets that none of them takes.
-void collect(const IndependentSet& chosen, const Candidates& candidates, const TetMesh& mesh, const std::string& source,
-             CellCollector& cells) {
+void collect(const graph::IndependentSet& chosen, const Candidates& candidates, const TetMesh& mesh,
+             const std::string& source, CellCollector& cells) {
   std::vector<char> taken(mesh.tets.size());
   for (const auto i : chosen) {
     if (i < 0 || static_cast<std::size_t>(i) >= candidates.size())
@@ -97,7 +97,7 @@ void collect(const TetMesh& mesh, CellCollector& cells) {
 }
 
 // What there must be to show anything but the result.
-void expect_parts(const StageData& data, Scene::Content content, const std::string& source) {
+void expect_parts(const pipeline::StageData& data, Scene::Content content, const std::string& source) {
   const auto expect = [&](bool there, const char* part) {
     if (!there) throw DataError::at(source, "expected {} to show the {}, found none", part, name_of(content));
   };
@@ -167,7 +167,7 @@ const char* name_of(Scene::Content content) {
   return names[static_cast<int>(content)];
 }
 
-Scene::Content last_content(const StageData& data, const std::string& source) {
+Scene::Content last_content(const pipeline::StageData& data, const std::string& source) {
   if (data.result) return Scene::Content::result;
   if (data.solution && data.candidates) return Scene::Content::solution;
   if (data.candidates) return Scene::Content::candidates;
@@ -175,7 +175,7 @@ Scene::Content last_content(const StageData& data, const std::string& source) {
   throw DataError::at(source, "expected a mesh to show, found none");
 }
 
-Scene make_scene(StageData data, Scene::Content content, const std::string& source) {
+Scene make_scene(pipeline::StageData data, Scene::Content content, const std::string& source) {
   Scene scene;
   scene.content = content;
   scene.history = std::move(data.history);
@@ -198,7 +198,7 @@ Scene make_scene(StageData data, Scene::Content content, const std::string& sour
   return scene;
 }
 
-void read_fragments(Scene& scene, Input& input) {
+void read_fragments(Scene& scene, formats::Input& input) {
   // Tets, which come last, are no candidates.
   std::unordered_map<std::int32_t, std::int32_t> cell_of;
   for (std::int32_t cell = 0; cell < scene.kind_begin[3]; ++cell) cell_of[scene.number[cell]] = cell;
@@ -214,7 +214,7 @@ void read_fragments(Scene& scene, Input& input) {
       if (error != std::errc() || end != word.data() + word.size() || number < 1 || number > scene.candidate_count)
         throw FormatError(input.name(), line_number,
                           fmt::format("expected the number of a candidate, 1 to {}, found {}", scene.candidate_count,
-                                      quote_found(word)));
+                                      formats::quote_found(word)));
       // A solution shows only those that were chosen.
       if (const auto found = cell_of.find(number - 1); found != cell_of.end()) fragment.push_back(found->second);
     }
@@ -222,4 +222,4 @@ void read_fragments(Scene& scene, Input& input) {
   }
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::viewmesh

@@ -13,7 +13,7 @@
 #include "formats/pipeline/stage.hpp"
 #include "formats/streams/input.hpp"
 
-namespace hexpipe {
+namespace hexpipe::viewmesh {
 
 // Kinds in the order in which a scene lists its cells.
 inline constexpr std::array scene_kinds{CellKind::hex, CellKind::prism, CellKind::pyramid, CellKind::tet};
@@ -53,12 +53,12 @@ const char* name_of(Scene::Content content);
 
 // The last of the result, the solution, the candidates and the mesh that is there. Throws DataError when nothing is, or
 // there are no cells, or candidates come without the mesh that has their points; `source` is named in the message.
-Scene::Content last_content(const StageData& data, const std::string& source);
-Scene make_scene(StageData data, Scene::Content content, const std::string& source);
+Scene::Content last_content(const pipeline::StageData& data, const std::string& source);
+Scene make_scene(pipeline::StageData data, Scene::Content content, const std::string& source);
 
 // Gives the scene the fragments that a text lists, the candidates of one a line, counted from 1; tells them by
 // Scene::number, of hexes, prisms and pyramids. Throws FormatError at what is no candidate, of those that were there to
 // choose from.
-void read_fragments(Scene& scene, Input& input);
+void read_fragments(Scene& scene, formats::Input& input);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::viewmesh

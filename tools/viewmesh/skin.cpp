@@ -7,7 +7,7 @@
 #include "tools/viewmesh/facets.hpp"
 #include "tools/viewmesh/resources.hpp"
 
-namespace hexpipe {
+namespace hexpipe::viewmesh {
 namespace {
 
 class Painter {
@@ -110,4 +110,4 @@ const nlohmann::json& page_colours() {
   return colours;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::viewmesh

@@ -9,7 +9,7 @@
 #include "tools/viewmesh/scene.hpp"
 #include "tools/viewmesh/view_state.hpp"
 
-namespace hexpipe {
+namespace hexpipe::viewmesh {
 
 // As page/skin.vert wants it.
 struct SkinVertex {
@@ -27,4 +27,4 @@ std::vector<SkinVertex> visible_skin(const Scene& scene, const ViewState& state)
 Rgb parse_colour(const std::string& text);
 const nlohmann::json& page_colours();
 
-}  // namespace hexpipe
+}  // namespace hexpipe::viewmesh

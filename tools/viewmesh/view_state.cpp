@@ -12,7 +12,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::viewmesh {
 namespace {
 
 constexpr std::array colour_names{"hexes", "quality", "kind", "region"};
@@ -193,4 +193,4 @@ std::vector<bool> visible_cells(const Scene& scene, const ViewState& state) {
   return visible;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::viewmesh

@@ -9,7 +9,7 @@
 #include "common/mesh/vec3.hpp"
 #include "tools/viewmesh/scene.hpp"
 
-namespace hexpipe {
+namespace hexpipe::viewmesh {
 
 struct ViewState {
   enum class Colour { hexes, quality, kind, region };
@@ -40,4 +40,4 @@ std::string to_text(const ViewState& state);
 // For each cell whether the state shows it.
 std::vector<bool> visible_cells(const Scene& scene, const ViewState& state);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::viewmesh

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-namespace hexpipe {
+namespace hexpipe::mwis::bounds {
 
-bool CliqueCoverBound::at_most(const DenseGraph& graph, bits::Word* set, std::int64_t limit) {
+bool CliqueCoverBound::at_most(const ground::DenseGraph& graph, bits::Word* set, std::int64_t limit) {
   const std::size_t words = graph.words();
   clique_.resize(std::max(words, clique_.size()));
   for (std::size_t w = 0; w < words; ++w)
@@ -29,4 +29,4 @@ bool CliqueCoverBound::at_most(const DenseGraph& graph, bits::Word* set, std::in
   return true;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::bounds

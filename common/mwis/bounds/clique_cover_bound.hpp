@@ -7,16 +7,16 @@
 
 #include "common/mwis/ground/dense_graph.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::bounds {
 
 class CliqueCoverBound {
  public:
   // True when a cover proves that no independent set within `set` (of graph.words() words) is heavier than `limit`,
   // false as soon as that is out of reach. Empties `set` on the way.
-  bool at_most(const DenseGraph& graph, bits::Word* set, std::int64_t limit);
+  bool at_most(const ground::DenseGraph& graph, bits::Word* set, std::int64_t limit);
 
  private:
   std::vector<bits::Word> clique_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::bounds

@@ -6,12 +6,12 @@
 
 #include "common/mwis/bounds/entropy_dual.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::bounds {
 namespace {
 
 class SmoothedDual {
  public:
-  SmoothedDual(const ConflictGraph& graph, const CliqueCover& cover)
+  SmoothedDual(const graph::ConflictGraph& graph, const graph::CliqueCover& cover)
       : weights_(graph.weights),
         cover_(cover),
         prices_(static_cast<std::size_t>(cover.size()), 0.0),
@@ -24,11 +24,11 @@ class SmoothedDual {
   }
 
   // Adds cliques that the relaxed solution of the last pass violates, at a price of 0.
-  void add_cliques(const ConflictGraph& graph, CliqueCover& cover, double temperature) {
+  void add_cliques(const graph::ConflictGraph& graph, graph::CliqueCover& cover, double temperature) {
     std::vector<double> fractions(costs_.size());
     std::ranges::transform(costs_, fractions.begin(),
                            [&](double cost) { return std::min(1.0, std::exp(cost / temperature)); });
-    add_violated_cliques(graph, fractions, cover);
+    graph::add_violated_cliques(graph, fractions, cover);
     prices_.resize(static_cast<std::size_t>(cover.size()), 0.0);
   }
 
@@ -44,7 +44,7 @@ class SmoothedDual {
   }
 
   const std::vector<std::int64_t>& weights_;
-  const CliqueCover& cover_;
+  const graph::CliqueCover& cover_;
   std::vector<double> prices_, costs_;
 };
 
@@ -63,7 +63,7 @@ double progress(std::int64_t passes, const CliqueDualOptions& options, const Dea
 
 }  // namespace
 
-std::vector<std::int64_t> reduced_costs(const ConflictGraph& graph, const CliqueCover& cover,
+std::vector<std::int64_t> reduced_costs(const graph::ConflictGraph& graph, const graph::CliqueCover& cover,
                                         const std::vector<std::int64_t>& prices) {
   std::vector<std::int64_t> costs = graph.weights;
   for (std::int64_t c = 0; c < cover.size(); ++c)
@@ -71,7 +71,7 @@ std::vector<std::int64_t> reduced_costs(const ConflictGraph& graph, const Clique
   return costs;
 }
 
-std::int64_t bound_of_prices(const ConflictGraph& graph, const CliqueCover& cover,
+std::int64_t bound_of_prices(const graph::ConflictGraph& graph, const graph::CliqueCover& cover,
                              const std::vector<std::int64_t>& prices) {
   std::int64_t bound = 0;
   for (const std::int64_t price : prices)
@@ -82,8 +82,9 @@ std::int64_t bound_of_prices(const ConflictGraph& graph, const CliqueCover& cove
   return __builtin_add_overflow(bound, left, &bound) ? no_bound : bound;
 }
 
-CliqueDual solve_clique_dual(const ConflictGraph& graph, CliqueCover& cover, const CliqueDualOptions& options,
-                             const Deadline& deadline, const std::function<void(const CliqueDual&)>& report) {
+CliqueDual solve_clique_dual(const graph::ConflictGraph& graph, graph::CliqueCover& cover,
+                             const CliqueDualOptions& options, const Deadline& deadline,
+                             const std::function<void(const CliqueDual&)>& report) {
   CliqueDual best;
   best.prices.assign(static_cast<std::size_t>(cover.size()), 0);
   best.bound = bound_of_prices(graph, cover, best.prices);
@@ -109,11 +110,12 @@ CliqueDual solve_clique_dual(const ConflictGraph& graph, CliqueCover& cover, con
   return best;
 }
 
-Relaxation relax_by_clique_dual(const ConflictGraph& graph, std::int64_t target, int depth, const Deadline& deadline) {
-  CliqueCover cover = greedy_edge_clique_cover(graph);
+Relaxation relax_by_clique_dual(const graph::ConflictGraph& graph, std::int64_t target, int depth,
+                                const Deadline& deadline) {
+  graph::CliqueCover cover = graph::greedy_edge_clique_cover(graph);
   const CliqueDualOptions options{.passes = depth == 0 ? root_passes : node_passes, .target = target};
   const CliqueDual dual = solve_clique_dual(graph, cover, options, deadline);
   return bounds_of_prices(graph, cover, {dual.prices.begin(), dual.prices.end()});
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::bounds

@@ -12,7 +12,7 @@
 #include "common/mwis/bounds/relaxation.hpp"
 #include "common/run/deadline.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::bounds {
 
 // A price for every clique, whole and not negative. Any prices prove a bound: a solution pays at most one member of a
 // clique, so its weight is at most the sum of all prices and of what vertices weigh beyond the prices of their cliques.
@@ -23,12 +23,12 @@ struct CliqueDual {
 };
 
 // Exact, in integers; the largest number of 64 bits, which bounds every graph, where the bound is no less.
-std::int64_t bound_of_prices(const ConflictGraph& graph, const CliqueCover& cover,
+std::int64_t bound_of_prices(const graph::ConflictGraph& graph, const graph::CliqueCover& cover,
                              const std::vector<std::int64_t>& prices);
 
 // Weight of each vertex minus the prices of its cliques. A solution with v is at most bound + min(0, reduced cost), one
 // without v at most bound - max(0, reduced cost). The sum of the prices fits 64 bits.
-std::vector<std::int64_t> reduced_costs(const ConflictGraph& graph, const CliqueCover& cover,
+std::vector<std::int64_t> reduced_costs(const graph::ConflictGraph& graph, const graph::CliqueCover& cover,
                                         const std::vector<std::int64_t>& prices);
 
 struct CliqueDualOptions {
@@ -39,10 +39,12 @@ struct CliqueDualOptions {
 };
 
 // Adds cliques to `cover`. `report` is called for every better bound.
-CliqueDual solve_clique_dual(const ConflictGraph& graph, CliqueCover& cover, const CliqueDualOptions& options,
-                             const Deadline& deadline, const std::function<void(const CliqueDual&)>& report = {});
+CliqueDual solve_clique_dual(const graph::ConflictGraph& graph, graph::CliqueCover& cover,
+                             const CliqueDualOptions& options, const Deadline& deadline,
+                             const std::function<void(const CliqueDual&)>& report = {});
 
 // The same as a relaxation of branch and reduce.
-Relaxation relax_by_clique_dual(const ConflictGraph& graph, std::int64_t target, int depth, const Deadline& deadline);
+Relaxation relax_by_clique_dual(const graph::ConflictGraph& graph, std::int64_t target, int depth,
+                                const Deadline& deadline);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::bounds

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hexpipe {
+namespace hexpipe::mwis::bounds {
 namespace {
 
 // A third of the effort goes into the cliques there are, from `hottest`, where all prices move at once, geometrically
@@ -45,4 +45,4 @@ double dual_temperature(double at) {
   return first * std::pow(coldest_dual_temperature / first, at - std::floor(at));
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::bounds

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::mwis::bounds {
 
 // Minimizes sum(prices) + T sum(exp(cost / T)) in the price of one clique, which it returns; the members' costs follow.
 // The step makes the members sum to one where exp(cost / T) is how much of a vertex is chosen.
@@ -23,4 +23,4 @@ double dual_temperature(double rounds);
 // That of the end of each round, where the relaxed solution is at its clearest.
 inline constexpr double coldest_dual_temperature = 0.0015;
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::bounds

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace hexpipe {
+namespace hexpipe::mwis::bounds {
 namespace {
 
 // On block-28k and sphere-56k, after initsol, this much lies at 12 % and 7 % of the solution.
@@ -11,7 +11,7 @@ constexpr double most_of_gap = 0.8;
 
 class GapDivider {
  public:
-  GapDivider(const ConflictGraph& graph, const IndependentSet& solution)
+  GapDivider(const graph::ConflictGraph& graph, const graph::IndependentSet& solution)
       : graph_(graph), places_(graph.weights.size(), none), shares_(solution.size(), 0) {
     for (std::size_t i = 0; i < solution.size(); ++i) places_[solution[i]] = static_cast<std::int32_t>(i);
   }
@@ -36,7 +36,7 @@ class GapDivider {
  private:
   static constexpr std::int32_t none = -1;
 
-  const ConflictGraph& graph_;
+  const graph::ConflictGraph& graph_;
   std::vector<std::int32_t> places_;  // by vertex: its place in the solution
   std::vector<std::int64_t> shares_;
   std::vector<std::int32_t> near_;
@@ -44,8 +44,8 @@ class GapDivider {
 
 }  // namespace
 
-std::vector<std::int64_t> gap_shares(const ConflictGraph& graph, const CliqueCover& cover,
-                                     const std::vector<std::int64_t>& prices, const IndependentSet& solution) {
+std::vector<std::int64_t> gap_shares(const graph::ConflictGraph& graph, const graph::CliqueCover& cover,
+                                     const std::vector<std::int64_t>& prices, const graph::IndependentSet& solution) {
   GapDivider divider(graph, solution);
   for (std::int64_t c = 0; c < cover.size(); ++c) {
     const auto clique = cover.clique(c);
@@ -60,7 +60,7 @@ std::vector<std::int64_t> gap_shares(const ConflictGraph& graph, const CliqueCov
   return divider.take();
 }
 
-std::vector<bool> holds_most_of_gap(std::int32_t vertex_count, const IndependentSet& solution,
+std::vector<bool> holds_most_of_gap(std::int32_t vertex_count, const graph::IndependentSet& solution,
                                     std::span<const std::int64_t> shares) {
   std::vector<std::size_t> order(shares.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -77,4 +77,4 @@ std::vector<bool> holds_most_of_gap(std::int32_t vertex_count, const Independent
   return holds;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::bounds

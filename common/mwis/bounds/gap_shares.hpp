@@ -11,15 +11,15 @@
 #include "common/graph/conflict_graph.hpp"
 #include "common/mwis/bounds/clique_dual.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::bounds {
 
 // For each vertex of the solution, in its order, its share of the gap, not negative. What lies at vertices that are not
 // chosen is divided among their chosen neighbours. The sum is bound - weight, less where nothing chosen is near.
-std::vector<std::int64_t> gap_shares(const ConflictGraph& graph, const CliqueCover& cover,
-                                     const std::vector<std::int64_t>& prices, const IndependentSet& solution);
+std::vector<std::int64_t> gap_shares(const graph::ConflictGraph& graph, const graph::CliqueCover& cover,
+                                     const std::vector<std::int64_t>& prices, const graph::IndependentSet& solution);
 
 // By vertex: whether it is one of the fewest of the solution that hold most of the gap.
-std::vector<bool> holds_most_of_gap(std::int32_t vertex_count, const IndependentSet& solution,
+std::vector<bool> holds_most_of_gap(std::int32_t vertex_count, const graph::IndependentSet& solution,
                                     std::span<const std::int64_t> shares);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::bounds

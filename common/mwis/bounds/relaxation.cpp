@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace hexpipe {
+namespace hexpipe::mwis::bounds {
 namespace {
 
 // Prices are whole numbers of 2^-20 of a weight, or of more where sums would not fit.
@@ -19,8 +19,8 @@ __extension__ using Wide = __int128;
 // In whole numbers of 2^-shift of a weight, which `Sum` has room for. Sets that weigh more than all vertices there are
 // none of.
 template <class Sum>
-void bring_down(const ConflictGraph& graph, const CliqueCover& cover, const std::vector<double>& prices, int shift,
-                Relaxation& result) {
+void bring_down(const graph::ConflictGraph& graph, const graph::CliqueCover& cover, const std::vector<double>& prices,
+                int shift, Relaxation& result) {
   const std::int64_t total = result.bound;
   const auto round_down = [&](Sum value) { return static_cast<std::int64_t>(std::min<Sum>(value >> shift, total)); };
   std::vector<Sum> costs(graph.weights.size());
@@ -41,7 +41,8 @@ void bring_down(const ConflictGraph& graph, const CliqueCover& cover, const std:
 
 }  // namespace
 
-Relaxation bounds_of_prices(const ConflictGraph& graph, const CliqueCover& cover, const std::vector<double>& prices) {
+Relaxation bounds_of_prices(const graph::ConflictGraph& graph, const graph::CliqueCover& cover,
+                            const std::vector<double>& prices) {
   const std::int64_t total = std::reduce(graph.weights.begin(), graph.weights.end(), std::int64_t{0});
   Relaxation result{.bound = total,
                     .with = std::vector<std::int64_t>(graph.weights.size(), total),
@@ -57,4 +58,4 @@ Relaxation bounds_of_prices(const ConflictGraph& graph, const CliqueCover& cover
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::bounds

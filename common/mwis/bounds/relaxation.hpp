@@ -9,7 +9,7 @@
 #include "common/graph/conflict_graph.hpp"
 #include "common/run/deadline.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::bounds {
 
 struct Relaxation {
   std::int64_t bound = 0;                   // on every independent set
@@ -19,10 +19,12 @@ struct Relaxation {
 
 // Solves a relaxation of a graph; no more effort than it takes to bring the bound down to `target`. `depth` is that of
 // the node, 0 before the first branch.
-using Relax = std::function<Relaxation(const ConflictGraph& graph, std::int64_t target, int depth, const Deadline&)>;
+using Relax =
+    std::function<Relaxation(const graph::ConflictGraph& graph, std::int64_t target, int depth, const Deadline&)>;
 
 // The bounds that `prices`, one a clique, prove. They need not be optimal, nor free of rounding: they are taken to
 // whole multiples of a small fraction of a weight, of which all sums are exact.
-Relaxation bounds_of_prices(const ConflictGraph& graph, const CliqueCover& cover, const std::vector<double>& prices);
+Relaxation bounds_of_prices(const graph::ConflictGraph& graph, const graph::CliqueCover& cover,
+                            const std::vector<double>& prices);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::bounds

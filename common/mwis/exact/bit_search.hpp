@@ -8,7 +8,7 @@
 #include "common/mwis/ground/dense_graph.hpp"
 #include "common/mwis/ground/search_budget.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 
 // Keeps its memory from one graph to the next.
 class BitSearch {
@@ -22,7 +22,7 @@ class BitSearch {
   explicit BitSearch(std::size_t rows) : rows_(rows) {}
 
   // All vertices are candidates at depth 0; what is found has to be heavier than `lower_bound`.
-  void begin(const DenseGraph& graph, std::int64_t lower_bound, SearchBudget& budget) {
+  void begin(const ground::DenseGraph& graph, std::int64_t lower_bound, ground::SearchBudget& budget) {
     graph_ = &graph;
     budget_ = &budget;
     words_ = graph.words();
@@ -53,8 +53,8 @@ class BitSearch {
     found_ = true;
   }
 
-  const DenseGraph* graph_ = nullptr;
-  SearchBudget* budget_ = nullptr;
+  const ground::DenseGraph* graph_ = nullptr;
+  ground::SearchBudget* budget_ = nullptr;
   std::size_t words_ = 0;
   std::int64_t best_weight_ = 0;
   bool found_ = false;
@@ -65,4 +65,4 @@ class BitSearch {
   std::vector<std::uint32_t> current_, best_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 
-bool BranchAndBound::solve(const DenseGraph& graph, std::int64_t lower_bound, SearchBudget& budget) {
+bool BranchAndBound::solve(const ground::DenseGraph& graph, std::int64_t lower_bound, ground::SearchBudget& budget) {
   begin(graph, lower_bound, budget);
   clique_candidates_.resize(words_);
   residual_.resize(graph.size());
@@ -72,4 +72,4 @@ std::int64_t BranchAndBound::take_clique(bits::Word* uncovered, std::size_t firs
   return least;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

@@ -9,7 +9,7 @@
 
 #include "common/mwis/exact/bit_search.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 
 class BranchAndBound : public BitSearch {
  public:
@@ -17,7 +17,7 @@ class BranchAndBound : public BitSearch {
 
   // Looks for the heaviest independent set among those heavier than `lower_bound`; true when one was found, which is
   // then best(). With budget.exhausted() afterwards there may be a heavier one, otherwise there is none.
-  bool solve(const DenseGraph& graph, std::int64_t lower_bound, SearchBudget& budget);
+  bool solve(const ground::DenseGraph& graph, std::int64_t lower_bound, ground::SearchBudget& budget);
 
  private:
   void expand(std::size_t depth, std::int64_t weight);
@@ -29,4 +29,4 @@ class BranchAndBound : public BitSearch {
   std::vector<std::int64_t> residual_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

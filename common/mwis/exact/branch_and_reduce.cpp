@@ -9,16 +9,16 @@
 #include "common/graph/subgraph.hpp"
 #include "common/mwis/reduce/kernel.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 namespace {
 
-IndependentSet renumbered(const IndependentSet& set, const std::vector<std::int32_t>& vertices) {
-  IndependentSet result;
+graph::IndependentSet renumbered(const graph::IndependentSet& set, const std::vector<std::int32_t>& vertices) {
+  graph::IndependentSet result;
   for (const std::int32_t v : set) result.push_back(vertices[v]);
   return result;
 }
 
-std::vector<std::int32_t> without_neighbourhood(const ConflictGraph& graph, std::int32_t v) {
+std::vector<std::int32_t> without_neighbourhood(const graph::ConflictGraph& graph, std::int32_t v) {
   std::vector<char> gone(graph.weights.size(), 0);
   gone[v] = 1;
   for (const std::int32_t u : graph.neighbours_of(v)) gone[u] = 1;
@@ -30,7 +30,7 @@ std::vector<std::int32_t> without_neighbourhood(const ConflictGraph& graph, std:
 
 // The one for which the relaxation is least decided, by weight. A vertex with many neighbours decides most of the rest,
 // which counts where the relaxation decides all.
-std::int32_t branching_vertex(const ConflictGraph& graph, const Relaxation& relaxation) {
+std::int32_t branching_vertex(const graph::ConflictGraph& graph, const bounds::Relaxation& relaxation) {
   const auto rank = [&](std::int32_t v) {
     const double fraction = relaxation.fractions.empty() ? 0 : relaxation.fractions[v];
     return std::pair(std::min(fraction, 1 - fraction) * static_cast<double>(graph.weights[v]), graph.degree(v));
@@ -45,12 +45,12 @@ std::int32_t branching_vertex(const ConflictGraph& graph, const Relaxation& rela
 
 struct BranchAndReduce::Component {
   std::vector<std::int32_t> vertices;  // of the graph that it is a part of
-  ConflictGraph graph;
-  Relaxation relaxation;
-  std::optional<IndependentSet> optimum;  // where it is known
+  graph::ConflictGraph graph;
+  bounds::Relaxation relaxation;
+  std::optional<graph::IndependentSet> optimum;  // where it is known
 };
 
-std::optional<IndependentSet> BranchAndReduce::solve(const ConflictGraph& graph, std::int64_t needed) {
+std::optional<graph::IndependentSet> BranchAndReduce::solve(const graph::ConflictGraph& graph, std::int64_t needed) {
   nodes_ = 0;
   bound_ = std::reduce(graph.weights.begin(), graph.weights.end(), std::int64_t{0});
   stopped_ = false;
@@ -62,10 +62,12 @@ bool BranchAndReduce::stop() {
   return stopped_;
 }
 
-std::optional<IndependentSet> BranchAndReduce::reduce(const ConflictGraph& graph, std::int64_t needed, int depth) {
+std::optional<graph::IndependentSet> BranchAndReduce::reduce(const graph::ConflictGraph& graph, std::int64_t needed,
+                                                             int depth) {
   if (stop()) return std::nullopt;
   ++nodes_;
-  const Kernel kernel(graph, deadline_, depth == 0 ? ReductionEffort::thorough : ReductionEffort::full);
+  const reduce::Kernel kernel(graph, deadline_,
+                              depth == 0 ? reduce::ReductionEffort::thorough : reduce::ReductionEffort::full);
   if (depth == 0) offset_ = kernel.offset();
   const auto found = solve_components(kernel.graph(), needed - kernel.offset(), depth);
   if (!found) return std::nullopt;
@@ -74,14 +76,14 @@ std::optional<IndependentSet> BranchAndReduce::reduce(const ConflictGraph& graph
 
 // The smallest first. What the others may reach tells the last one, which is the largest, what its bound has to be to
 // end this node.
-std::vector<BranchAndReduce::Component> BranchAndReduce::bound_components(const ConflictGraph& graph,
+std::vector<BranchAndReduce::Component> BranchAndReduce::bound_components(const graph::ConflictGraph& graph,
                                                                           std::int64_t needed, int depth) {
   std::vector<Component> components;
   std::int64_t others = 0;
-  for (auto& vertices : connected_components(graph)) {
+  for (auto& vertices : graph::connected_components(graph)) {
     const bool last = vertices.size() > graph.weights.size() / 2;
     Component& component = components.emplace_back();
-    component.graph = induced_subgraph(graph, vertices);
+    component.graph = graph::induced_subgraph(graph, vertices);
     component.vertices = std::move(vertices);
     if (component.graph.vertex_count() <= small_)
       solve_small(component);
@@ -93,18 +95,18 @@ std::vector<BranchAndReduce::Component> BranchAndReduce::bound_components(const 
 }
 
 // Each component has to bring what is needed beyond the bounds of the others.
-std::optional<IndependentSet> BranchAndReduce::solve_components(const ConflictGraph& graph, std::int64_t needed,
-                                                                int depth) {
+std::optional<graph::IndependentSet> BranchAndReduce::solve_components(const graph::ConflictGraph& graph,
+                                                                       std::int64_t needed, int depth) {
   const std::vector<Component> components = bound_components(graph, needed, depth);
   std::int64_t bound = 0;
   for (const Component& component : components) bound += component.relaxation.bound;
   if (depth == 0) bound_ = std::min(bound_, offset_ + bound);
   if (bound <= needed) return std::nullopt;
-  IndependentSet whole;
+  graph::IndependentSet whole;
   for (const Component& component : components) {
     const auto found = solve_component(component, needed - (bound - component.relaxation.bound), depth);
     if (!found) return std::nullopt;
-    bound += total_weight(*found, component.graph) - component.relaxation.bound;
+    bound += graph::total_weight(*found, component.graph) - component.relaxation.bound;
     for (const std::int32_t v : *found) whole.push_back(component.vertices[v]);
     if (bound <= needed) return std::nullopt;
   }
@@ -112,11 +114,11 @@ std::optional<IndependentSet> BranchAndReduce::solve_components(const ConflictGr
   return whole;
 }
 
-std::optional<IndependentSet> BranchAndReduce::solve_component(const Component& component, std::int64_t needed,
-                                                               int depth) {
+std::optional<graph::IndependentSet> BranchAndReduce::solve_component(const Component& component, std::int64_t needed,
+                                                                      int depth) {
   if (component.optimum) return component.optimum;
-  const ConflictGraph& graph = component.graph;
-  const Relaxation& relaxation = component.relaxation;
+  const graph::ConflictGraph& graph = component.graph;
+  const bounds::Relaxation& relaxation = component.relaxation;
   std::vector<char> out(graph.weights.size(), 0);
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
     if (relaxation.with[v] <= needed) out[v] = 1;
@@ -127,40 +129,42 @@ std::optional<IndependentSet> BranchAndReduce::solve_component(const Component& 
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v)
     if (out[v] == 0) left.push_back(v);
   if (20 * left.size() > 19 * component.vertices.size()) return branch(component, needed, depth);
-  const auto found = reduce(induced_subgraph(graph, left), needed, depth + 1);
+  const auto found = reduce(graph::induced_subgraph(graph, left), needed, depth + 1);
   if (!found) return std::nullopt;
   return renumbered(*found, left);
 }
 
 void BranchAndReduce::solve_small(Component& component) {
-  const ConflictGraph& graph = component.graph;
-  DenseGraph dense = dense_graph_of(graph);
+  const graph::ConflictGraph& graph = component.graph;
+  ground::DenseGraph dense = ground::dense_graph_of(graph);
   std::vector<bits::Word> chosen(dense.words(), 0);
-  SearchBudget budget(std::numeric_limits<std::int64_t>::max(), &deadline_);
+  ground::SearchBudget budget(std::numeric_limits<std::int64_t>::max(), &deadline_);
   const bool complete = small_solver_.solve(dense, chosen, budget);
   stopped_ = stopped_ || !complete;
-  IndependentSet& set = component.optimum.emplace();
+  graph::IndependentSet& set = component.optimum.emplace();
   bits::for_each(chosen.data(), chosen.size(), [&](std::size_t v) { set.push_back(static_cast<std::int32_t>(v)); });
-  component.relaxation.bound =
-      complete ? total_weight(set, graph) : std::reduce(graph.weights.begin(), graph.weights.end(), std::int64_t{0});
+  component.relaxation.bound = complete ? graph::total_weight(set, graph)
+                                        : std::reduce(graph.weights.begin(), graph.weights.end(), std::int64_t{0});
 }
 
 // With a vertex, then without it.
-std::optional<IndependentSet> BranchAndReduce::branch(const Component& component, std::int64_t needed, int depth) {
-  const ConflictGraph& graph = component.graph;
+std::optional<graph::IndependentSet> BranchAndReduce::branch(const Component& component, std::int64_t needed,
+                                                             int depth) {
+  const graph::ConflictGraph& graph = component.graph;
   const std::int32_t v = branching_vertex(graph, component.relaxation);
-  std::optional<IndependentSet> best;
+  std::optional<graph::IndependentSet> best;
   const std::vector<std::int32_t> beside = without_neighbourhood(graph, v);
-  if (const auto found = reduce(induced_subgraph(graph, beside), needed - graph.weights[v], depth + 1)) {
+  if (const auto found = reduce(graph::induced_subgraph(graph, beside), needed - graph.weights[v], depth + 1)) {
     best = renumbered(*found, beside);
     best->insert(std::ranges::lower_bound(*best, v), v);
-    needed = total_weight(*best, graph);
+    needed = graph::total_weight(*best, graph);
   }
   std::vector<std::int32_t> others(graph.weights.size());
   std::iota(others.begin(), others.end(), 0);
   others.erase(others.begin() + v);
-  if (const auto found = reduce(induced_subgraph(graph, others), needed, depth + 1)) best = renumbered(*found, others);
+  if (const auto found = reduce(graph::induced_subgraph(graph, others), needed, depth + 1))
+    best = renumbered(*found, others);
   return best;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

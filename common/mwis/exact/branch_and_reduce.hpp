@@ -14,17 +14,17 @@
 #include "common/mwis/exact/exact_solver.hpp"
 #include "common/run/deadline.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 
 class BranchAndReduce {
  public:
   // Components of at most `small` vertices go to branch and bound on bits.
-  BranchAndReduce(Relax relax, const Deadline& deadline, std::int32_t small = 100)
+  BranchAndReduce(bounds::Relax relax, const Deadline& deadline, std::int32_t small = 100)
       : relax_(std::move(relax)), deadline_(deadline), small_(small) {}
 
   // The heaviest set among those heavier than `needed`; none where there is none, or where the deadline passed before
   // one was found.
-  std::optional<IndependentSet> solve(const ConflictGraph& graph, std::int64_t needed);
+  std::optional<graph::IndependentSet> solve(const graph::ConflictGraph& graph, std::int64_t needed);
 
   // The deadline did not pass: what solve() returned is proven.
   bool complete() const { return !stopped_; }
@@ -34,15 +34,16 @@ class BranchAndReduce {
 
  private:
   struct Component;
-  std::optional<IndependentSet> reduce(const ConflictGraph& graph, std::int64_t needed, int depth);
-  std::vector<Component> bound_components(const ConflictGraph& graph, std::int64_t needed, int depth);
-  std::optional<IndependentSet> solve_components(const ConflictGraph& graph, std::int64_t needed, int depth);
-  std::optional<IndependentSet> solve_component(const Component& component, std::int64_t needed, int depth);
+  std::optional<graph::IndependentSet> reduce(const graph::ConflictGraph& graph, std::int64_t needed, int depth);
+  std::vector<Component> bound_components(const graph::ConflictGraph& graph, std::int64_t needed, int depth);
+  std::optional<graph::IndependentSet> solve_components(const graph::ConflictGraph& graph, std::int64_t needed,
+                                                        int depth);
+  std::optional<graph::IndependentSet> solve_component(const Component& component, std::int64_t needed, int depth);
   void solve_small(Component& component);
-  std::optional<IndependentSet> branch(const Component& component, std::int64_t needed, int depth);
+  std::optional<graph::IndependentSet> branch(const Component& component, std::int64_t needed, int depth);
   bool stop();
 
-  Relax relax_;
+  bounds::Relax relax_;
   const Deadline& deadline_;
   std::int32_t small_;
   ExactSolver small_solver_;
@@ -52,4 +53,4 @@ class BranchAndReduce {
   std::int64_t offset_ = 0;  // of the reductions before the first branch
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

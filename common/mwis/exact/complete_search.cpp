@@ -1,8 +1,8 @@
 #include "common/mwis/exact/complete_search.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 
-bool CompleteSearch::solve(const DenseGraph& graph, std::int64_t lower_bound, SearchBudget& budget) {
+bool CompleteSearch::solve(const ground::DenseGraph& graph, std::int64_t lower_bound, ground::SearchBudget& budget) {
   begin(graph, lower_bound, budget);
   expand(0, 0);
   return found_;
@@ -23,4 +23,4 @@ void CompleteSearch::expand(std::size_t depth, std::int64_t weight) {
     }
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

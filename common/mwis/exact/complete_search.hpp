@@ -4,17 +4,17 @@
 
 #include "common/mwis/exact/bit_search.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 
 class CompleteSearch : public BitSearch {
  public:
   CompleteSearch() : BitSearch(1) {}
 
   // As BranchAndBound::solve.
-  bool solve(const DenseGraph& graph, std::int64_t lower_bound, SearchBudget& budget);
+  bool solve(const ground::DenseGraph& graph, std::int64_t lower_bound, ground::SearchBudget& budget);
 
  private:
   void expand(std::size_t depth, std::int64_t weight);
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

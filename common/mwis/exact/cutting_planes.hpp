@@ -6,9 +6,9 @@
 
 #include "common/mwis/bounds/relaxation.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 
-Relaxation relax_by_cutting_planes(const ConflictGraph& graph, std::int64_t target, int depth,
-                                   const Deadline& deadline);
+bounds::Relaxation relax_by_cutting_planes(const graph::ConflictGraph& graph, std::int64_t target, int depth,
+                                           const Deadline& deadline);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

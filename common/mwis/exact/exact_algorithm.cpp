@@ -21,7 +21,7 @@
 #include "common/mwis/exact/cutting_planes.hpp"
 #endif
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 namespace {
 
 // A search on bits takes a matrix and a row of bits a depth, and SubgradientSearch its prices a depth: some hundred MiB
@@ -30,7 +30,7 @@ constexpr std::int32_t most_on_bits = 4096;
 constexpr std::int64_t heaviest_for_subgradient = std::int64_t{1} << 58;
 
 // The order in which the dissertation's algorithms take vertices.
-std::vector<std::int32_t> heaviest_first(const ConflictGraph& graph) {
+std::vector<std::int32_t> heaviest_first(const graph::ConflictGraph& graph) {
   std::vector<std::int32_t> order(graph.weights.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, std::ranges::greater(), [&](std::int32_t v) { return graph.weights[v]; });
@@ -40,7 +40,7 @@ std::vector<std::int32_t> heaviest_first(const ConflictGraph& graph) {
 // Those with little weight around them first, so that weighted covers leave those in the middle of many conflicts for
 // branching (exact_solver.cpp): a fiftieth of the nodes on random graphs of 130 vertices, where a partition takes sixty
 // times as many.
-std::vector<std::int32_t> least_crowded_first(const ConflictGraph& graph) {
+std::vector<std::int32_t> least_crowded_first(const graph::ConflictGraph& graph) {
   std::vector<double> crowding(graph.weights.size());
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v)
     for (const std::int32_t u : graph.neighbours_of(v)) crowding[v] += static_cast<double>(graph.weights[u]);
@@ -50,10 +50,10 @@ std::vector<std::int32_t> least_crowded_first(const ConflictGraph& graph) {
   return order;
 }
 
-ConflictGraph renumbered(const ConflictGraph& graph, const std::vector<std::int32_t>& order) {
+graph::ConflictGraph renumbered(const graph::ConflictGraph& graph, const std::vector<std::int32_t>& order) {
   std::vector<std::int32_t> numbers(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) numbers[order[i]] = static_cast<std::int32_t>(i);
-  ConflictGraph result;
+  graph::ConflictGraph result;
   for (const std::int32_t v : order) {
     result.weights.push_back(graph.weights[v]);
     for (const std::int32_t u : graph.neighbours_of(v)) result.neighbours.push_back(numbers[u]);
@@ -65,28 +65,30 @@ ConflictGraph renumbered(const ConflictGraph& graph, const std::vector<std::int3
 
 // A node of SubgradientSearch takes up to a tenth of a second, one of the others some microseconds.
 template <class Search>
-constexpr std::int64_t nodes_a_look = std::is_same_v<Search, SubgradientSearch> ? 1 : SearchBudget::usual_nodes_a_look;
+constexpr std::int64_t nodes_a_look =
+    std::is_same_v<Search, SubgradientSearch> ? 1 : ground::SearchBudget::usual_nodes_a_look;
 
 template <class Search>
-bool run(Search& search, const ConflictGraph& graph, std::int64_t weight, SearchBudget& budget) {
-  return search.solve(dense_graph_of(graph), weight, budget);
+bool run(Search& search, const graph::ConflictGraph& graph, std::int64_t weight, ground::SearchBudget& budget) {
+  return search.solve(ground::dense_graph_of(graph), weight, budget);
 }
 
-bool run(SubgradientSearch& search, const ConflictGraph& graph, std::int64_t weight, SearchBudget& budget) {
-  return search.solve(dense_graph_of(graph), greedy_edge_clique_cover(graph), weight, budget);
+bool run(SubgradientSearch& search, const graph::ConflictGraph& graph, std::int64_t weight,
+         ground::SearchBudget& budget) {
+  return search.solve(ground::dense_graph_of(graph), graph::greedy_edge_clique_cover(graph), weight, budget);
 }
 
 template <class Search>
-ExactResult search_on_bits(const ConflictGraph& graph, const std::vector<std::int32_t>& order, std::int64_t weight,
-                           const Deadline& deadline) {
+ExactResult search_on_bits(const graph::ConflictGraph& graph, const std::vector<std::int32_t>& order,
+                           std::int64_t weight, const Deadline& deadline) {
   Search search;
-  SearchBudget budget(std::numeric_limits<std::int64_t>::max(), &deadline, nodes_a_look<Search>);
+  ground::SearchBudget budget(std::numeric_limits<std::int64_t>::max(), &deadline, nodes_a_look<Search>);
   const bool found = run(search, renumbered(graph, order), weight, budget);
   ExactResult result;
   result.complete = !budget.exhausted();
   result.nodes = budget.spent();
   if (found) {
-    IndependentSet& better = result.better.emplace();
+    graph::IndependentSet& better = result.better.emplace();
     for (const std::uint32_t v : search.best()) better.push_back(order[v]);
     std::ranges::sort(better);
   }
@@ -99,7 +101,7 @@ bool is_on_bits(ExactAlgorithm algorithm) {
   return algorithm != ExactAlgorithm::branch_and_reduce && algorithm != ExactAlgorithm::branch_and_cut;
 }
 
-ExactResult search_by_reductions(const ConflictGraph& graph, std::int64_t weight, ExactAlgorithm algorithm,
+ExactResult search_by_reductions(const graph::ConflictGraph& graph, std::int64_t weight, ExactAlgorithm algorithm,
                                  const Deadline& deadline) {
   BranchAndReduce search(relaxation_of(algorithm), deadline);
   ExactResult result;
@@ -128,15 +130,15 @@ std::string default_exact_algorithm() {
   return exact_algorithms().contains("branch-and-cut") ? "branch-and-cut" : "branch-and-reduce";
 }
 
-Relax relaxation_of([[maybe_unused]] ExactAlgorithm algorithm) {
+bounds::Relax relaxation_of([[maybe_unused]] ExactAlgorithm algorithm) {
 #ifdef HEXPIPE_WITH_CLP
   if (algorithm == ExactAlgorithm::branch_and_cut) return relax_by_cutting_planes;
 #endif
   assert(algorithm == ExactAlgorithm::branch_and_reduce);
-  return relax_by_clique_dual;
+  return bounds::relax_by_clique_dual;
 }
 
-void expect_room_for(ExactAlgorithm algorithm, const ConflictGraph& graph) {
+void expect_room_for(ExactAlgorithm algorithm, const graph::ConflictGraph& graph) {
   if (is_on_bits(algorithm) && graph.vertex_count() > most_on_bits)
     throw DataError(fmt::format("expected a graph of at most {} vertices for an algorithm without reductions, found {}",
                                 most_on_bits, graph.vertex_count()));
@@ -145,7 +147,7 @@ void expect_room_for(ExactAlgorithm algorithm, const ConflictGraph& graph) {
     throw DataError("expected weights of a sum below 2^58 for clique-lp, found more");
 }
 
-ExactResult solve_exactly(const ConflictGraph& graph, std::int64_t weight, ExactAlgorithm algorithm,
+ExactResult solve_exactly(const graph::ConflictGraph& graph, std::int64_t weight, ExactAlgorithm algorithm,
                           const Deadline& deadline) {
   expect_room_for(algorithm, graph);
   switch (algorithm) {
@@ -164,4 +166,4 @@ ExactResult solve_exactly(const ConflictGraph& graph, std::int64_t weight, Exact
   return search_by_reductions(graph, weight, algorithm, deadline);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

@@ -10,7 +10,7 @@
 #include "common/mwis/bounds/relaxation.hpp"
 #include "common/run/deadline.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 
 // The first four are those of Verhetsel 2017, 3.2, as they stand there: on bits, without reductions.
 enum class ExactAlgorithm {
@@ -28,21 +28,21 @@ const std::map<std::string, ExactAlgorithm>& exact_algorithms();
 std::string default_exact_algorithm();
 
 // By which branch and reduce, or branch and cut, bounds what it has reduced.
-Relax relaxation_of(ExactAlgorithm algorithm);
+bounds::Relax relaxation_of(ExactAlgorithm algorithm);
 
 struct ExactResult {
-  std::optional<IndependentSet> better;  // the heaviest set found that is heavier than what was asked for
-  bool complete = false;                 // it, or that there is none, is proven
-  std::int64_t bound = 0;                // on every set: where it is complete, the optimum or `weight`
+  std::optional<graph::IndependentSet> better;  // the heaviest set found that is heavier than what was asked for
+  bool complete = false;                        // it, or that there is none, is proven
+  std::int64_t bound = 0;                       // on every set: where it is complete, the optimum or `weight`
   std::int64_t nodes = 0;
 };
 
 // Throws DataError where a graph has too many vertices for a search on bits, or weights too large for clique_lp.
-void expect_room_for(ExactAlgorithm algorithm, const ConflictGraph& graph);
+void expect_room_for(ExactAlgorithm algorithm, const graph::ConflictGraph& graph);
 
 // Looks for the heaviest set among those heavier than `weight`, until it is proven or the deadline passes. Throws as
 // expect_room_for does.
-ExactResult solve_exactly(const ConflictGraph& graph, std::int64_t weight, ExactAlgorithm algorithm,
+ExactResult solve_exactly(const graph::ConflictGraph& graph, std::int64_t weight, ExactAlgorithm algorithm,
                           const Deadline& deadline);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

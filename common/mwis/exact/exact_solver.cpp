@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 namespace {
 
-std::int64_t weight_of(const bits::Word* set, const DenseGraph& graph) {
+std::int64_t weight_of(const bits::Word* set, const ground::DenseGraph& graph) {
   std::int64_t sum = 0;
   bits::for_each(set, graph.words(), [&](std::size_t v) { sum += graph.weight(v); });
   return sum;
@@ -14,7 +14,7 @@ std::int64_t weight_of(const bits::Word* set, const DenseGraph& graph) {
 
 }  // namespace
 
-bool ExactSolver::solve(DenseGraph& graph, std::span<bits::Word> chosen, SearchBudget& budget) {
+bool ExactSolver::solve(ground::DenseGraph& graph, std::span<bits::Word> chosen, ground::SearchBudget& budget) {
   const std::int64_t incumbent = weight_of(chosen.data(), graph);
   reductions_.reduce(graph);
   find_components(graph);
@@ -37,7 +37,7 @@ bool ExactSolver::solve(DenseGraph& graph, std::span<bits::Word> chosen, SearchB
 }
 
 // Components of the undecided vertices, the smallest first.
-void ExactSolver::find_components(const DenseGraph& graph) {
+void ExactSolver::find_components(const ground::DenseGraph& graph) {
   const std::size_t words = graph.words();
   vertices_.clear();
   ends_.clear();
@@ -68,8 +68,8 @@ void ExactSolver::find_components(const DenseGraph& graph) {
 
 // Adds the component's solution to solution_ and returns its weight. Nothing that is not heavier than `needed` is
 // looked for.
-std::int64_t ExactSolver::solve_component(const DenseGraph& graph, std::span<const std::uint32_t> component,
-                                          std::int64_t needed, SearchBudget& budget) {
+std::int64_t ExactSolver::solve_component(const ground::DenseGraph& graph, std::span<const std::uint32_t> component,
+                                          std::int64_t needed, ground::SearchBudget& budget) {
   extract(graph, component);
   const std::int64_t warm = complete_warm_start();
   const bool found = branch_and_bound_.solve(part_, std::max(warm, needed), budget);
@@ -86,7 +86,7 @@ std::int64_t ExactSolver::solve_component(const DenseGraph& graph, std::span<con
 // first, so that those in the middle of many conflicts are left for branching. Measured in lns on block-28k and
 // random-33k, 4 s each: 0.02 % and 1 % better than by decreasing weight, which is the dissertation's order. Relative to
 // the vertex's own weight it is as good on the first and 0.2 % worse on the second.
-void ExactSolver::extract(const DenseGraph& graph, std::span<const std::uint32_t> component) {
+void ExactSolver::extract(const ground::DenseGraph& graph, std::span<const std::uint32_t> component) {
   order_.assign(component.begin(), component.end());
   crowding_.resize(graph.size());
   for (const std::uint32_t v : component) {
@@ -122,4 +122,4 @@ std::int64_t ExactSolver::complete_warm_start() {
   return weight;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

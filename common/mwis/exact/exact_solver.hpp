@@ -11,25 +11,25 @@
 #include "common/mwis/ground/search_budget.hpp"
 #include "common/mwis/reduce/dense_reductions.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 
 // Keeps its memory from one graph to the next.
 class ExactSolver {
  public:
   // `chosen` (one word for each 64 vertices) holds an independent set, and gets one that is not lighter. True when this
   // is proven to be the heaviest; false when the budget ran out before. The weights of `graph` are used up.
-  bool solve(DenseGraph& graph, std::span<bits::Word> chosen, SearchBudget& budget);
+  bool solve(ground::DenseGraph& graph, std::span<bits::Word> chosen, ground::SearchBudget& budget);
 
  private:
-  void find_components(const DenseGraph& graph);
-  std::int64_t solve_component(const DenseGraph& graph, std::span<const std::uint32_t> component, std::int64_t needed,
-                               SearchBudget& budget);
-  void extract(const DenseGraph& graph, std::span<const std::uint32_t> component);
+  void find_components(const ground::DenseGraph& graph);
+  std::int64_t solve_component(const ground::DenseGraph& graph, std::span<const std::uint32_t> component,
+                               std::int64_t needed, ground::SearchBudget& budget);
+  void extract(const ground::DenseGraph& graph, std::span<const std::uint32_t> component);
   std::int64_t complete_warm_start();
 
-  DenseReductions reductions_;
+  reduce::DenseReductions reductions_;
   BranchAndBound branch_and_bound_;
-  DenseGraph part_;                      // the component that is being solved
+  ground::DenseGraph part_;              // the component that is being solved
   std::vector<std::uint32_t> vertices_;  // of all components, one after the other
   std::vector<std::size_t> ends_;        // of each component in vertices_
   std::vector<std::uint32_t> order_;     // vertex of the graph for each of part_
@@ -37,4 +37,4 @@ class ExactSolver {
   std::vector<double> crowding_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 namespace {
 
 // What a simplex calls 0 may be a little more.
@@ -23,7 +23,7 @@ std::int64_t whole(double fraction) {
 
 }  // namespace
 
-std::int64_t HeavyCliques::add(const std::vector<double>& fractions, CliqueCover& cover) {
+std::int64_t HeavyCliques::add(const std::vector<double>& fractions, graph::CliqueCover& cover) {
   fractions_ = &fractions;
   std::vector<std::int32_t> support;
   for (std::int32_t v = 0; v < graph_.vertex_count(); ++v) {
@@ -48,7 +48,7 @@ bool HeavyCliques::find_around(std::int32_t v) {
   for (const std::int32_t u : graph_.neighbours_of(v))
     if (in_support_[u] != 0) around_.push_back(u);
   make_complement();
-  SearchBudget budget(most_nodes);
+  ground::SearchBudget budget(most_nodes);
   if (!branch_and_bound_.solve(complement_, whole(1 + least_excess - (*fractions_)[v]), budget)) return false;
   clique_.assign(1, v);
   for (const std::uint32_t i : branch_and_bound_.best()) clique_.push_back(around_[i]);
@@ -76,4 +76,4 @@ void HeavyCliques::make_maximal() {
   std::ranges::sort(clique_);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

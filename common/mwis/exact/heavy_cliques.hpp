@@ -9,29 +9,29 @@
 #include "common/graph/clique_cover.hpp"
 #include "common/mwis/exact/branch_and_bound.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 
 class HeavyCliques {
  public:
-  explicit HeavyCliques(const ConflictGraph& graph)
+  explicit HeavyCliques(const graph::ConflictGraph& graph)
       : graph_(graph), in_support_(graph.weights.size(), 0), found_(graph.weights.size(), 0) {}
 
   // Adds some of them to `cover`; none only where there is none, as far as the search around each vertex goes. Returns
   // their number.
-  std::int64_t add(const std::vector<double>& fractions, CliqueCover& cover);
+  std::int64_t add(const std::vector<double>& fractions, graph::CliqueCover& cover);
 
  private:
   bool find_around(std::int32_t v);
   void make_complement();
   void make_maximal();
 
-  const ConflictGraph& graph_;
+  const graph::ConflictGraph& graph_;
   const std::vector<double>* fractions_ = nullptr;
   std::vector<char> in_support_;
   std::vector<int> found_;  // by vertex: cliques of this call that have it
   std::vector<std::int32_t> around_, clique_;
-  DenseGraph complement_;
+  ground::DenseGraph complement_;
   BranchAndBound branch_and_bound_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

@@ -4,7 +4,7 @@
 #include <ClpSimplex.hpp>
 #include <algorithm>
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 namespace {
 
 // The simplex asks it after each iteration.
@@ -82,4 +82,4 @@ bool PackingProgram::solve(const Deadline& deadline) {
   return optimal;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

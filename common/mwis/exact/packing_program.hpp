@@ -9,7 +9,7 @@
 
 #include "common/run/deadline.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 
 class PackingProgram {
  public:
@@ -34,4 +34,4 @@ class PackingProgram {
   std::vector<double> fractions_, prices_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

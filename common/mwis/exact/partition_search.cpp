@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 
-bool PartitionSearch::solve(const DenseGraph& graph, std::int64_t lower_bound, SearchBudget& budget) {
+bool PartitionSearch::solve(const ground::DenseGraph& graph, std::int64_t lower_bound, ground::SearchBudget& budget) {
   begin(graph, lower_bound, budget);
   expand(0, 0);
   return found_;
@@ -34,4 +34,4 @@ bool PartitionSearch::is_too_light(std::size_t depth, std::int64_t weight) {
   return bound_.at_most(*graph_, scratch, best_weight_ - weight);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

@@ -5,20 +5,20 @@
 #include "common/mwis/bounds/clique_cover_bound.hpp"
 #include "common/mwis/exact/bit_search.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 
 class PartitionSearch : public BitSearch {
  public:
   PartitionSearch() : BitSearch(2) {}
 
   // As BranchAndBound::solve.
-  bool solve(const DenseGraph& graph, std::int64_t lower_bound, SearchBudget& budget);
+  bool solve(const ground::DenseGraph& graph, std::int64_t lower_bound, ground::SearchBudget& budget);
 
  private:
   void expand(std::size_t depth, std::int64_t weight);
   bool is_too_light(std::size_t depth, std::int64_t weight);
 
-  CliqueCoverBound bound_;
+  bounds::CliqueCoverBound bound_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 namespace {
 
 // Prices are whole numbers of 2^-20 of a weight, or of more where sums, which stay below eight times that of all
@@ -20,8 +20,8 @@ constexpr double first_length = 1.0, shortening = 0.97;
 
 }  // namespace
 
-bool SubgradientSearch::solve(const DenseGraph& graph, const CliqueCover& cover, std::int64_t lower_bound,
-                              SearchBudget& budget) {
+bool SubgradientSearch::solve(const ground::DenseGraph& graph, const graph::CliqueCover& cover,
+                              std::int64_t lower_bound, ground::SearchBudget& budget) {
   begin(graph, lower_bound, budget);
   const std::int64_t total = std::reduce(graph.weights().begin(), graph.weights().end(), std::int64_t{0});
   shift_ = std::min(finest, 59 - static_cast<int>(std::bit_width(static_cast<std::uint64_t>(total))));
@@ -120,4 +120,4 @@ std::size_t SubgradientSearch::highest_cost(std::size_t depth) {
   return best;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

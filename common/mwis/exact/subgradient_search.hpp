@@ -9,14 +9,15 @@
 #include "common/graph/clique_cover.hpp"
 #include "common/mwis/exact/bit_search.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::exact {
 
 class SubgradientSearch : public BitSearch {
  public:
   SubgradientSearch() : BitSearch(1) {}
 
   // As BranchAndBound::solve. `cover` is an edge clique cover of the graph, whose weights have a sum of less than 2^58.
-  bool solve(const DenseGraph& graph, const CliqueCover& cover, std::int64_t lower_bound, SearchBudget& budget);
+  bool solve(const ground::DenseGraph& graph, const graph::CliqueCover& cover, std::int64_t lower_bound,
+             ground::SearchBudget& budget);
 
  private:
   using Prices = std::vector<std::int64_t>;
@@ -33,4 +34,4 @@ class SubgradientSearch : public BitSearch {
   std::vector<std::vector<std::int32_t>> cliques_of_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::exact

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hexpipe::bits {
+namespace hexpipe::mwis::bits {
 
 using Word = std::uint64_t;
 
@@ -65,4 +65,4 @@ constexpr bool all_of(const Word* set, std::size_t words, Visit&& visit) {
   return true;
 }
 
-}  // namespace hexpipe::bits
+}  // namespace hexpipe::mwis::bits

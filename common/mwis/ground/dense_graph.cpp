@@ -1,8 +1,8 @@
 #include "common/mwis/ground/dense_graph.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::ground {
 
-DenseGraph dense_graph_of(const ConflictGraph& graph) {
+DenseGraph dense_graph_of(const graph::ConflictGraph& graph) {
   DenseGraph dense(graph.weights.size());
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
     dense.set_weight(v, graph.weights[v]);
@@ -11,4 +11,4 @@ DenseGraph dense_graph_of(const ConflictGraph& graph) {
   return dense;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::ground

@@ -10,7 +10,7 @@
 #include "common/graph/conflict_graph.hpp"
 #include "common/mwis/ground/bits.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::ground {
 
 // Keeps its memory when it is reset to a smaller graph.
 class DenseGraph {
@@ -47,6 +47,6 @@ class DenseGraph {
 };
 
 // With the same numbers.
-DenseGraph dense_graph_of(const ConflictGraph& graph);
+DenseGraph dense_graph_of(const graph::ConflictGraph& graph);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::ground

@@ -7,7 +7,7 @@
 
 #include "common/run/deadline.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::ground {
 
 class SearchBudget {
  public:
@@ -40,4 +40,4 @@ class SearchBudget {
   bool out_of_time_ = false;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::ground

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace hexpipe {
+namespace hexpipe::mwis::ground {
 
 SearchLog::SearchLog(const std::string& path, std::string value_name) : value_name_(std::move(value_name)) {
   if (!path.empty()) file_.emplace(path);
@@ -27,4 +27,4 @@ void SearchLog::write(double seconds, std::int64_t iteration, std::int64_t value
       fmt::format("{{\"seconds\":{:.3f},\"iteration\":{},\"{}\":{}}}\n", seconds, iteration, value_name_, value));
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::ground

@@ -7,7 +7,7 @@
 
 #include "common/run/text_file.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::ground {
 
 class SearchLog {
  public:
@@ -28,4 +28,4 @@ class SearchLog {
   double next_ = 0;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::ground

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cassert>
 
-namespace hexpipe {
+namespace hexpipe::mwis::ground {
 
-SolutionState::SolutionState(const ConflictGraph& graph)
+SolutionState::SolutionState(const graph::ConflictGraph& graph)
     : graph_(&graph), around_(graph.weights.size()), chosen_(graph.weights.size(), 0) {
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v) around_[v].push_gain = graph.weights[v];
 }
 
-SolutionState::SolutionState(const ConflictGraph& graph, const IndependentSet& solution) : SolutionState(graph) {
+SolutionState::SolutionState(const graph::ConflictGraph& graph, const graph::IndependentSet& solution)
+    : SolutionState(graph) {
   for (const std::int32_t v : solution) add(v);
 }
 
@@ -37,8 +38,8 @@ void SolutionState::make_maximal() {
     if (tightness(v) == 0) add(v);
 }
 
-IndependentSet SolutionState::to_set() const {
-  IndependentSet solution;
+graph::IndependentSet SolutionState::to_set() const {
+  graph::IndependentSet solution;
   for (std::int32_t v = 0; v < graph_->vertex_count(); ++v)
     if (contains(v)) solution.push_back(v);
   return solution;
@@ -54,4 +55,4 @@ bool SolutionState::check() const {
   return fresh.around_ == around_ && fresh.weight_ == weight_;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::ground

@@ -8,15 +8,15 @@
 
 #include "common/graph/conflict_graph.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::ground {
 
 // add and remove are the only two mutators; each costs O(degree).
 class SolutionState {
  public:
-  explicit SolutionState(const ConflictGraph& graph);
-  SolutionState(const ConflictGraph& graph, const IndependentSet& solution);
+  explicit SolutionState(const graph::ConflictGraph& graph);
+  SolutionState(const graph::ConflictGraph& graph, const graph::IndependentSet& solution);
 
-  const ConflictGraph& graph() const { return *graph_; }
+  const graph::ConflictGraph& graph() const { return *graph_; }
   bool contains(std::int32_t v) const { return chosen_[v] != 0; }
   std::int32_t tightness(std::int32_t v) const { return around_[v].tightness; }
   // The weight of the chosen neighbours.
@@ -51,7 +51,7 @@ class SolutionState {
   // Adds free vertices, the heaviest first, until none is left. Zero weights count: a set is maximal with them.
   void make_maximal();
 
-  IndependentSet to_set() const;
+  graph::IndependentSet to_set() const;
 
   // True when everything kept agrees with the chosen vertices, and these are independent. O(vertices + edges), for
   // tests.
@@ -65,7 +65,7 @@ class SolutionState {
     bool operator==(const Around&) const = default;
   };
 
-  const ConflictGraph* graph_;
+  const graph::ConflictGraph* graph_;
   std::vector<Around> around_;
   std::vector<std::uint8_t> chosen_;
   std::int64_t weight_ = 0;
@@ -86,4 +86,4 @@ void SolutionState::remove(std::int32_t v, Touched&& touched) {
   }
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::ground

@@ -5,7 +5,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::ground {
 namespace {
 
 // Whether the stage made what is chosen from, or took it from a file in place of what the bundle held.
@@ -43,4 +43,4 @@ std::int64_t target_weight(double gap, std::optional<std::int64_t> bound) {
   return *bound - static_cast<std::int64_t>(std::floor(static_cast<long double>(*bound) * gap));
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::ground

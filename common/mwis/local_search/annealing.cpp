@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-namespace hexpipe {
+namespace hexpipe::mwis::local_search {
 namespace {
 
 // In graphs that no cache holds, kicks go to random vertices of a window that moves on over all of them: neighbours
@@ -21,7 +21,8 @@ double Cooling::at(double progress) const {
   return hot * std::pow(cold / hot, progress);
 }
 
-Annealing::Annealing(const ConflictGraph& graph, const IndependentSet& start, Random random, const Deadline& deadline)
+Annealing::Annealing(const graph::ConflictGraph& graph, const graph::IndependentSet& start, Random random,
+                     const Deadline& deadline)
     : random_(random), state_(graph, start), is_waiting_(graph.weights.size(), 0), marks_(graph.weights.size(), 0) {
   state_.make_maximal();
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v) wait(v);
@@ -109,7 +110,7 @@ void Annealing::push(std::int32_t v) {
 
 // The best swap of v for two of the vertices that it alone keeps out; false when none gains.
 bool Annealing::swap_for_two(std::int32_t v) {
-  const ConflictGraph& graph = state_.graph();
+  const graph::ConflictGraph& graph = state_.graph();
   loose_.clear();
   std::int64_t heaviest = 0;
   for (const std::int32_t u : graph.neighbours_of(v)) {
@@ -190,14 +191,14 @@ void Annealing::keep() {
   since_best_.clear();
 }
 
-IndependentSet Annealing::best() const {
+graph::IndependentSet Annealing::best() const {
   return best_is_stored_ ? best_ : present_without(since_best_);
 }
 
-IndependentSet Annealing::present_without(const std::vector<std::int32_t>& toggles) const {
+graph::IndependentSet Annealing::present_without(const std::vector<std::int32_t>& toggles) const {
   std::vector<std::uint8_t> toggled(is_waiting_.size(), 0);
   for (const std::int32_t v : toggles) toggled[v] ^= 1;
-  IndependentSet set;
+  graph::IndependentSet set;
   for (std::int32_t v = 0; v < state_.graph().vertex_count(); ++v)
     if (state_.contains(v) != (toggled[v] != 0)) set.push_back(v);
   return set;
@@ -216,4 +217,4 @@ bool Annealing::check() const {
   return true;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::local_search

@@ -14,7 +14,7 @@
 #include "common/run/deadline.hpp"
 #include "common/run/random.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::local_search {
 
 // Temperatures in units of the mean weight of a chosen vertex, falling geometrically.
 // Of hot 0.1 to 0.6 and cold 0.004 to 0.04 on three graphs of 28,000 to 56,000 vertices with 25 kicks a vertex: colder
@@ -30,7 +30,7 @@ struct Cooling {
 class Annealing {
  public:
   // `start` is independent; it is made maximal and, unless the deadline passes before, locally optimal.
-  Annealing(const ConflictGraph& graph, const IndependentSet& start, Random random,
+  Annealing(const graph::ConflictGraph& graph, const graph::IndependentSet& start, Random random,
             const Deadline& deadline = Deadline());
 
   // Makes `kicks` more kicks at this temperature, in units of weight, fewer when the deadline passes or `most_touched`
@@ -42,7 +42,7 @@ class Annealing {
   // Neighbours of the vertices that went in or out, in all: what the time is proportional to.
   std::int64_t touched() const { return touched_; }
   std::int64_t best_weight() const { return best_weight_; }
-  IndependentSet best() const;
+  graph::IndependentSet best() const;
   // Of a vertex of the present solution; 1 where nothing is chosen.
   double mean_weight() const;
 
@@ -64,10 +64,10 @@ class Annealing {
   void take_back();
   void keep();
   void count(std::int32_t v) { touched_ += state_.graph().degree(v); }
-  IndependentSet present_without(const std::vector<std::int32_t>& toggles) const;
+  graph::IndependentSet present_without(const std::vector<std::int32_t>& toggles) const;
 
   Random random_;
-  SolutionState state_;
+  ground::SolutionState state_;
   std::vector<std::int32_t> waiting_, settling_;  // vertices whose surroundings changed
   std::vector<std::uint8_t> is_waiting_;
   std::vector<std::int32_t> pushed_out_;
@@ -82,7 +82,7 @@ class Annealing {
   // The best solution is the present one with these taken back; or best_, once they were too many.
   std::vector<std::int32_t> since_best_;
   bool best_is_stored_ = false;
-  IndependentSet best_;
+  graph::IndependentSet best_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::local_search

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hexpipe {
+namespace hexpipe::mwis::local_search {
 namespace {
 
 // What was gained before so many nanoseconds of work in the same way counts a third.
@@ -39,4 +39,4 @@ void Effort::record(Way way, double work, double gain) {
   yield += (1 - std::exp(-work / memory)) * (gain / work - yield);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::local_search

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::mwis::local_search {
 
 enum class Way {
   exact,      // branch and bound on fragments of some hundred vertices
@@ -46,4 +46,4 @@ class Effort {
   Accounts accounts_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::local_search

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace hexpipe {
+namespace hexpipe::mwis::local_search {
 
 void Fragment::clear() {
   released.clear();
@@ -12,7 +12,7 @@ void Fragment::clear() {
   whole_component = false;
 }
 
-FragmentGrower::FragmentGrower(const SolutionState& state, Random random)
+FragmentGrower::FragmentGrower(const ground::SolutionState& state, Random random)
     : state_(state), random_(random), marks_(static_cast<std::size_t>(state.graph().vertex_count())) {}
 
 void FragmentGrower::let_go() {
@@ -127,7 +127,8 @@ bool FragmentGrower::queue_beyond(Fragment& fragment) {
   return fragment.frontier.size() > before;
 }
 
-void FragmentGrower::extract(const Fragment& fragment, DenseGraph& graph, std::vector<bits::Word>& chosen) const {
+void FragmentGrower::extract(const Fragment& fragment, ground::DenseGraph& graph,
+                             std::vector<bits::Word>& chosen) const {
   graph.reset(fragment.vertices.size());
   chosen.assign(graph.words(), 0);
   for (std::size_t i = 0; i < fragment.vertices.size(); ++i) {
@@ -140,7 +141,8 @@ void FragmentGrower::extract(const Fragment& fragment, DenseGraph& graph, std::v
   }
 }
 
-void FragmentGrower::extract(const Fragment& fragment, ConflictGraph& graph, IndependentSet& chosen) const {
+void FragmentGrower::extract(const Fragment& fragment, graph::ConflictGraph& graph,
+                             graph::IndependentSet& chosen) const {
   graph = {};
   chosen.clear();
   for (std::size_t i = 0; i < fragment.vertices.size(); ++i) {
@@ -159,4 +161,4 @@ void FragmentGrower::sort(Fragment& fragment) {
     marks_[fragment.vertices[i]].index = static_cast<std::int32_t>(i);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::local_search

@@ -10,7 +10,7 @@
 #include "common/mwis/ground/solution_state.hpp"
 #include "common/run/random.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::local_search {
 
 // Everything that can be chosen once `released` are no longer: these and the vertices with no other chosen neighbour.
 struct Fragment {
@@ -27,7 +27,7 @@ struct Fragment {
 // memory has grown. Fragments do not touch those that are held, so that they can be solved at the same time.
 class FragmentGrower {
  public:
-  FragmentGrower(const SolutionState& state, Random random);
+  FragmentGrower(const ground::SolutionState& state, Random random);
 
   // Lets go of all fragments; the state may have changed.
   void let_go();
@@ -41,9 +41,9 @@ class FragmentGrower {
 
   // The graph of the fragment's vertices; `chosen` gets the released ones. Safe to call at the same time for several
   // fragments that are held.
-  void extract(const Fragment& fragment, DenseGraph& graph, std::vector<bits::Word>& chosen) const;
+  void extract(const Fragment& fragment, ground::DenseGraph& graph, std::vector<bits::Word>& chosen) const;
   // Likewise for fragments that are too large for a matrix; the fragment's vertices have to ascend.
-  void extract(const Fragment& fragment, ConflictGraph& graph, IndependentSet& chosen) const;
+  void extract(const Fragment& fragment, graph::ConflictGraph& graph, graph::IndependentSet& chosen) const;
   // Brings the fragment's vertices into ascending order.
   void sort(Fragment& fragment);
 
@@ -66,7 +66,7 @@ class FragmentGrower {
   bool queue_beyond(Fragment& fragment);
   bool is_held(std::uint32_t stamp) const { return stamp >= oldest_held_ && held_[stamp - oldest_held_] != 0; }
 
-  const SolutionState& state_;
+  const ground::SolutionState& state_;
   Random random_;
   std::vector<Mark> marks_;
   std::vector<std::int32_t> partly_freed_;  // touched vertices that were not freed at once
@@ -78,4 +78,4 @@ class FragmentGrower {
   bool left_out_ = false;  // a vertex was not freed because of another fragment or the limit
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::local_search

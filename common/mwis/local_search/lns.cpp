@@ -13,7 +13,7 @@
 #include "common/mwis/reduce/kernel.hpp"
 #include "common/run/parallel.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::local_search {
 namespace {
 
 // Of annealing a fragment for the first time. Of 20 and 60, on random-33k after 8 s: 20, by far.
@@ -24,8 +24,8 @@ constexpr std::size_t hub_factor = 16;
 
 class Lns {
  public:
-  Lns(const ConflictGraph& graph, const IndependentSet& initial, const LnsOptions& options, const Deadline& deadline,
-      const std::function<void(const LnsProgress&)>& report, LnsMemory* memory = nullptr)
+  Lns(const graph::ConflictGraph& graph, const graph::IndependentSet& initial, const LnsOptions& options,
+      const Deadline& deadline, const std::function<void(const LnsProgress&)>& report, LnsMemory* memory = nullptr)
       : options_(options),
         deadline_(deadline),
         report_(report),
@@ -326,7 +326,7 @@ class Lns {
   const Deadline& deadline_;
   const std::function<void(const LnsProgress&)>& report_;
   LnsMemory* const memory_;
-  SolutionState state_;
+  ground::SolutionState state_;
   FragmentGrower grower_;
   std::array<Schedule, all_ways.size()> schedules_;  // by way
   Effort effort_;
@@ -346,7 +346,7 @@ Deadline share_for_reductions(const Deadline& deadline) {
 }
 
 // What reductions made of several vertices may be first.
-std::vector<bool> of_kernel(const std::vector<bool>& of_graph, const Kernel& kernel) {
+std::vector<bool> of_kernel(const std::vector<bool>& of_graph, const reduce::Kernel& kernel) {
   std::vector<bool> result(of_graph.empty() ? 0 : kernel.graph().weights.size(), true);
   for (std::size_t i = 0; i < result.size(); ++i) {
     const auto v = static_cast<std::int32_t>(i);
@@ -356,11 +356,12 @@ std::vector<bool> of_kernel(const std::vector<bool>& of_graph, const Kernel& ker
   return result;
 }
 
-LnsResult search_kernel(const ConflictGraph& graph, const IndependentSet& start, const LnsOptions& options,
-                        const Deadline& deadline, const std::function<void(const LnsProgress&)>& report) {
-  const Kernel kernel(graph, share_for_reductions(deadline));
+LnsResult search_kernel(const graph::ConflictGraph& graph, const graph::IndependentSet& start,
+                        const LnsOptions& options, const Deadline& deadline,
+                        const std::function<void(const LnsProgress&)>& report) {
+  const reduce::Kernel kernel(graph, share_for_reductions(deadline));
   // The start loses where reductions decided otherwise, until the search has caught up.
-  std::int64_t best = total_weight(start, graph);
+  std::int64_t best = graph::total_weight(start, graph);
   const auto report_whole = [&](const LnsProgress& now) {
     if (!report || now.weight + kernel.offset() <= best) return;
     best = now.weight + kernel.offset();
@@ -371,18 +372,19 @@ LnsResult search_kernel(const ConflictGraph& graph, const IndependentSet& start,
   kernel_options.first_places = of_kernel(options.first_places, kernel);
   LnsResult result = Lns(kernel.graph(), kernel.project(start), kernel_options, deadline, report_whole).run();
   result.solution = kernel.lift(result.solution);
-  result.weight = total_weight(result.solution, graph);
+  result.weight = graph::total_weight(result.solution, graph);
   return result;
 }
 
 }  // namespace
 
-LnsResult improve_by_lns(const ConflictGraph& graph, const IndependentSet& initial, const LnsOptions& options,
-                         const Deadline& deadline, const std::function<void(const LnsProgress&)>& report) {
+LnsResult improve_by_lns(const graph::ConflictGraph& graph, const graph::IndependentSet& initial,
+                         const LnsOptions& options, const Deadline& deadline,
+                         const std::function<void(const LnsProgress&)>& report) {
   const Stopwatch watch;
-  SolutionState state(graph, initial);
+  ground::SolutionState state(graph, initial);
   state.make_maximal();
-  const IndependentSet start = state.to_set();
+  const graph::IndependentSet start = state.to_set();
   // The lift at the end costs as much as this: a quarter of a second at 33 million edges.
   const Deadline search_deadline = earlier(deadline, watch.seconds());
   const bool idle = options.iterations == 0 || state.weight() >= options.target || deadline.passed();
@@ -395,10 +397,10 @@ LnsResult improve_by_lns(const ConflictGraph& graph, const IndependentSet& initi
   return result;
 }
 
-LnsResult continue_lns(const ConflictGraph& graph, const IndependentSet& initial, const LnsOptions& options,
-                       const Deadline& deadline, LnsMemory& memory,
+LnsResult continue_lns(const graph::ConflictGraph& graph, const graph::IndependentSet& initial,
+                       const LnsOptions& options, const Deadline& deadline, LnsMemory& memory,
                        const std::function<void(const LnsProgress&)>& report) {
   return Lns(graph, initial, options, deadline, report, &memory).run();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::local_search

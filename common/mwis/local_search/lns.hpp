@@ -16,7 +16,7 @@
 #include "common/mwis/local_search/effort.hpp"
 #include "common/run/deadline.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::local_search {
 
 struct LnsOptions {
   std::uint64_t seed = 1;
@@ -44,7 +44,7 @@ struct LnsProgress {
 };
 
 struct LnsResult {
-  IndependentSet solution;
+  graph::IndependentSet solution;
   std::int64_t weight = 0;
   std::int64_t iterations = 0;
   std::int64_t improvements = 0;
@@ -64,12 +64,13 @@ struct LnsMemory {
 };
 
 // `initial` is independent. `report` is called for every improvement.
-LnsResult improve_by_lns(const ConflictGraph& graph, const IndependentSet& initial, const LnsOptions& options,
-                         const Deadline& deadline, const std::function<void(const LnsProgress&)>& report = {});
+LnsResult improve_by_lns(const graph::ConflictGraph& graph, const graph::IndependentSet& initial,
+                         const LnsOptions& options, const Deadline& deadline,
+                         const std::function<void(const LnsProgress&)>& report = {});
 
 // Likewise without reductions, from what is remembered on, and remembers in the end.
-LnsResult continue_lns(const ConflictGraph& graph, const IndependentSet& initial, const LnsOptions& options,
-                       const Deadline& deadline, LnsMemory& memory,
+LnsResult continue_lns(const graph::ConflictGraph& graph, const graph::IndependentSet& initial,
+                       const LnsOptions& options, const Deadline& deadline, LnsMemory& memory,
                        const std::function<void(const LnsProgress&)>& report = {});
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::local_search

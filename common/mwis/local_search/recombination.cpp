@@ -13,7 +13,7 @@
 #include <iterator>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::mwis::local_search {
 namespace {
 
 using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
@@ -56,16 +56,17 @@ class Cut {
   std::size_t source_, sink_;
 };
 
-IndependentSet difference(const IndependentSet& a, const IndependentSet& b) {
-  IndependentSet only;
+graph::IndependentSet difference(const graph::IndependentSet& a, const graph::IndependentSet& b) {
+  graph::IndependentSet only;
   std::ranges::set_difference(a, b, std::back_inserter(only));
   return only;
 }
 
 }  // namespace
 
-IndependentSet recombine(const ConflictGraph& graph, const IndependentSet& a, const IndependentSet& b) {
-  const IndependentSet only_a = difference(a, b), only_b = difference(b, a);
+graph::IndependentSet recombine(const graph::ConflictGraph& graph, const graph::IndependentSet& a,
+                                const graph::IndependentSet& b) {
+  const graph::IndependentSet only_a = difference(a, b), only_b = difference(b, a);
   Cut cut(only_a.size() + only_b.size());
   for (std::size_t j = 0; j < only_b.size(); ++j) cut.to_sink(only_a.size() + j, graph.weights[only_b[j]]);
   for (std::size_t i = 0; i < only_a.size(); ++i) {
@@ -80,7 +81,7 @@ IndependentSet recombine(const ConflictGraph& graph, const IndependentSet& a, co
   }
   cut.find();
 
-  IndependentSet set;
+  graph::IndependentSet set;
   set.reserve(std::max(a.size(), b.size()));
   std::ranges::set_intersection(a, b, std::back_inserter(set));
   for (std::size_t i = 0; i < only_a.size(); ++i)
@@ -91,4 +92,4 @@ IndependentSet recombine(const ConflictGraph& graph, const IndependentSet& a, co
   return set;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::local_search

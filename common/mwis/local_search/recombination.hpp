@@ -5,9 +5,10 @@
 
 #include "common/graph/conflict_graph.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::local_search {
 
 // Not lighter than either; that of `b` where both weigh the same. It need not be maximal.
-IndependentSet recombine(const ConflictGraph& graph, const IndependentSet& a, const IndependentSet& b);
+graph::IndependentSet recombine(const graph::ConflictGraph& graph, const graph::IndependentSet& a,
+                                const graph::IndependentSet& b);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::local_search

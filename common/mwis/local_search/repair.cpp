@@ -4,7 +4,7 @@
 
 #include "common/mwis/local_search/recombination.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::local_search {
 namespace {
 
 // Measured on fragments of 100 to 300 vertices and of 2000, of block-28k and random-33k.
@@ -36,14 +36,14 @@ void Repair::solve(std::int64_t effort, Random random, const Deadline& deadline)
     recombine(effort, random, deadline);
 }
 
-double Repair::work_a_kick(const ConflictGraph& graph) {
+double Repair::work_a_kick(const graph::ConflictGraph& graph) {
   const auto directed_edges = static_cast<double>(graph.neighbours.size());
   return work_a_touched_neighbour * touched_a_kick * directed_edges / std::max(1, graph.vertex_count());
 }
 
 void Repair::solve_exactly(std::int64_t nodes, const Deadline& deadline) {
   const auto size = static_cast<double>(dense_.size());
-  SearchBudget budget(nodes, &deadline);
+  ground::SearchBudget budget(nodes, &deadline);
   complete_ = solver_.solve(dense_, chosen_, budget);
   work_ = work_a_pair * size * size + work_a_node * static_cast<double>(budget.spent());
 }
@@ -56,11 +56,11 @@ void Repair::anneal(std::int64_t kicks_a_vertex, Random random, const Deadline& 
 // Two sets that nothing binds together differ everywhere, and each is the better one in places.
 void Repair::recombine(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline) {
   Annealing search(sparse_, {}, random);
-  choose(hexpipe::recombine(sparse_, start_, cool(search, Cooling(), kicks_a_vertex, deadline)));
+  choose(hexpipe::mwis::local_search::recombine(sparse_, start_, cool(search, Cooling(), kicks_a_vertex, deadline)));
 }
 
-IndependentSet Repair::cool(Annealing& search, const Cooling& cooling, std::int64_t kicks_a_vertex,
-                            const Deadline& deadline) {
+graph::IndependentSet Repair::cool(Annealing& search, const Cooling& cooling, std::int64_t kicks_a_vertex,
+                                   const Deadline& deadline) {
   const double unit = search.mean_weight();
   const std::int64_t kicks = kicks_a_vertex * sparse_.vertex_count();
   const auto directed_edges = static_cast<std::int64_t>(sparse_.neighbours.size());
@@ -74,10 +74,10 @@ IndependentSet Repair::cool(Annealing& search, const Cooling& cooling, std::int6
   return search.best();
 }
 
-void Repair::choose(const IndependentSet& set) {
+void Repair::choose(const graph::IndependentSet& set) {
   chosen_.assign(bits::words_for(sparse_.weights.size()), 0);
   for (const std::int32_t i : set) bits::insert(chosen_.data(), static_cast<std::size_t>(i));
   complete_ = false;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::local_search

@@ -9,7 +9,7 @@
 #include "common/mwis/local_search/effort.hpp"
 #include "common/mwis/local_search/fragment.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::local_search {
 
 // Keeps its memory from one fragment to the next.
 class Repair {
@@ -32,14 +32,15 @@ class Repair {
   // A rough number of nanoseconds that does not depend on the machine.
   double work() const { return work_; }
   // What a kick will take in this graph, likewise.
-  static double work_a_kick(const ConflictGraph& graph);
+  static double work_a_kick(const graph::ConflictGraph& graph);
 
  private:
   void solve_exactly(std::int64_t nodes, const Deadline& deadline);
   void anneal(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline);
   void recombine(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline);
-  IndependentSet cool(Annealing& search, const Cooling& cooling, std::int64_t kicks_a_vertex, const Deadline& deadline);
-  void choose(const IndependentSet& set);
+  graph::IndependentSet cool(Annealing& search, const Cooling& cooling, std::int64_t kicks_a_vertex,
+                             const Deadline& deadline);
+  void choose(const graph::IndependentSet& set);
 
   Way way_ = Way::exact;
   Fragment fragment_;
@@ -47,10 +48,10 @@ class Repair {
   bool complete_ = false;
   double work_ = 0;
 
-  DenseGraph dense_;
-  ExactSolver solver_;
-  ConflictGraph sparse_;
-  IndependentSet start_;
+  ground::DenseGraph dense_;
+  exact::ExactSolver solver_;
+  graph::ConflictGraph sparse_;
+  graph::IndependentSet start_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::local_search

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace hexpipe {
+namespace hexpipe::mwis::local_search {
 namespace {
 
 constexpr std::uint32_t not_waiting = std::numeric_limits<std::uint32_t>::max();
@@ -66,4 +66,4 @@ void Schedule::shrink(std::int32_t v) {
   places_[v].size = std::min(size, std::max(smallest_size, size * 3 / 4));
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::local_search

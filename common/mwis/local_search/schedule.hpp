@@ -7,7 +7,7 @@
 
 #include "common/run/random.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::local_search {
 
 // A chosen vertex is a possible seed. Seeds around which fewest fragments were solved since the solution last changed
 // there go first, in random order, so that the whole graph is worked through before anything is tried again; where
@@ -60,4 +60,4 @@ class Schedule {
   std::size_t lowest_ = 0;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::local_search

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-namespace hexpipe {
+namespace hexpipe::mwis::reduce {
 
-void DenseReductions::reduce(DenseGraph& graph) {
+void DenseReductions::reduce(ground::DenseGraph& graph) {
   graph_ = &graph;
   words_ = graph.words();
   offset_ = 0;
@@ -139,4 +139,4 @@ void DenseReductions::lift(bits::Word* chosen) const {
   }
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::reduce

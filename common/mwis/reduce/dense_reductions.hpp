@@ -11,14 +11,14 @@
 #include "common/mwis/bounds/clique_cover_bound.hpp"
 #include "common/mwis/ground/dense_graph.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::reduce {
 
 // Keeps its memory from one graph to the next.
 class DenseReductions {
  public:
   // Changes the weights of `graph`, whose vertices stay; left() says which of them are undecided. Every solution of
   // these is offset() lighter than what lift() makes of it, and an optimal one is lifted to an optimal one.
-  void reduce(DenseGraph& graph);
+  void reduce(ground::DenseGraph& graph);
 
   const bits::Word* left() const { return alive_.data(); }
   std::int64_t offset() const { return offset_; }
@@ -43,14 +43,14 @@ class DenseReductions {
   void drop(std::uint32_t v);
   void touch_neighbours(std::uint32_t v);
 
-  DenseGraph* graph_ = nullptr;
+  ground::DenseGraph* graph_ = nullptr;
   std::size_t words_ = 0;
   std::int64_t offset_ = 0;
   std::vector<bits::Word> alive_, touched_;
   std::vector<bits::Word> around_;  // the undecided neighbours of the vertex that is looked at
   std::vector<bits::Word> scratch_;
-  CliqueCoverBound bound_;
+  bounds::CliqueCoverBound bound_;
   std::vector<Decision> decisions_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::reduce

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-namespace hexpipe {
+namespace hexpipe::mwis::reduce {
 
-bool HeavySets::find(const DenseGraph& graph, std::int64_t limit, std::size_t most, std::int64_t nodes) {
+bool HeavySets::find(const ground::DenseGraph& graph, std::int64_t limit, std::size_t most, std::int64_t nodes) {
   graph_ = &graph;
   words_ = graph.words();
   limit_ = limit;
@@ -48,4 +48,4 @@ bool HeavySets::extend(std::size_t depth, std::int64_t weight) {
   return true;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::reduce

@@ -8,14 +8,14 @@
 #include "common/mwis/bounds/clique_cover_bound.hpp"
 #include "common/mwis/ground/dense_graph.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::reduce {
 
 // Keeps its memory from one graph to the next.
 class HeavySets {
  public:
   // True when all sets heavier than `limit` were found; false when there are more than `most`, or when the search takes
   // more than `nodes`.
-  bool find(const DenseGraph& graph, std::int64_t limit, std::size_t most, std::int64_t nodes);
+  bool find(const ground::DenseGraph& graph, std::int64_t limit, std::size_t most, std::int64_t nodes);
 
   std::size_t size() const { return weights_.size(); }
   const bits::Word* set(std::size_t i) const { return sets_.data() + i * words_; }
@@ -24,7 +24,7 @@ class HeavySets {
  private:
   bool extend(std::size_t depth, std::int64_t weight);
 
-  const DenseGraph* graph_ = nullptr;
+  const ground::DenseGraph* graph_ = nullptr;
   std::size_t words_ = 0;
   std::int64_t limit_ = 0;
   std::size_t most_ = 0;
@@ -33,7 +33,7 @@ class HeavySets {
   std::vector<std::int64_t> weights_;
   std::vector<bits::Word> candidates_;  // a row for each depth, and one to bound
   std::vector<bits::Word> current_;
-  CliqueCoverBound bound_;
+  bounds::CliqueCoverBound bound_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::reduce

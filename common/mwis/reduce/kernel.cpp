@@ -2,20 +2,20 @@
 
 #include "common/mwis/ground/solution_state.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::reduce {
 
-Kernel::Kernel(const ConflictGraph& graph, const Deadline& deadline, ReductionEffort effort) : original_(graph) {
+Kernel::Kernel(const graph::ConflictGraph& graph, const Deadline& deadline, ReductionEffort effort) : original_(graph) {
   Reducer reducer(graph, log_);
   offset_ = reducer.run(effort, deadline);
   choices_ = static_cast<std::size_t>(reducer.graph().vertex_count());
   kernel_ = reducer.graph().compress(vertices_);
 }
 
-IndependentSet Kernel::lift(const IndependentSet& of_kernel) const {
+graph::IndependentSet Kernel::lift(const graph::IndependentSet& of_kernel) const {
   std::vector<std::uint8_t> chosen(choices_, 0);
   for (const std::int32_t v : of_kernel) chosen[vertices_[v]] = 1;
   log_.lift(chosen);
-  SolutionState state(original_);
+  ground::SolutionState state(original_);
   for (std::int32_t v = 0; v < original_.vertex_count(); ++v)
     if (chosen[v] != 0) state.add(v);
   state.make_maximal();
@@ -30,14 +30,14 @@ std::vector<std::int32_t> Kernel::originals(std::span<const std::int32_t> of_ker
   return result;
 }
 
-IndependentSet Kernel::project(const IndependentSet& of_graph) const {
+graph::IndependentSet Kernel::project(const graph::IndependentSet& of_graph) const {
   std::vector<std::uint8_t> chosen(choices_, 0);
   for (const std::int32_t v : of_graph) chosen[v] = 1;
   log_.project(chosen);
-  IndependentSet of_kernel;
+  graph::IndependentSet of_kernel;
   for (std::int32_t v = 0; v < kernel_.vertex_count(); ++v)
     if (chosen[vertices_[v]] != 0) of_kernel.push_back(v);
   return of_kernel;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::reduce

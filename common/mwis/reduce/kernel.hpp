@@ -11,31 +11,31 @@
 #include "common/mwis/reduce/reduction_log.hpp"
 #include "common/run/deadline.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::reduce {
 
 class Kernel {
  public:
   // Stops at the deadline, with less reduced.
-  Kernel(const ConflictGraph& graph, const Deadline& deadline, ReductionEffort effort = ReductionEffort::quick);
+  Kernel(const graph::ConflictGraph& graph, const Deadline& deadline, ReductionEffort effort = ReductionEffort::quick);
 
-  const ConflictGraph& graph() const { return kernel_; }
+  const graph::ConflictGraph& graph() const { return kernel_; }
   // How much heavier a solution of the kernel becomes by lift, at least; an optimal one exactly.
   std::int64_t offset() const { return offset_; }
 
   // A maximal independent set of the graph from one of the kernel.
-  IndependentSet lift(const IndependentSet& of_kernel) const;
+  graph::IndependentSet lift(const graph::IndependentSet& of_kernel) const;
   // The graph's numbers of these, without those that reductions made of several vertices.
   std::vector<std::int32_t> originals(std::span<const std::int32_t> of_kernel) const;
   // What a set of the graph chooses in the kernel; not maximal in general.
-  IndependentSet project(const IndependentSet& of_graph) const;
+  graph::IndependentSet project(const graph::IndependentSet& of_graph) const;
 
  private:
-  const ConflictGraph& original_;
-  ConflictGraph kernel_;
+  const graph::ConflictGraph& original_;
+  graph::ConflictGraph kernel_;
   std::vector<std::int32_t> vertices_;  // by vertex of the kernel: of the graph, or created by reductions
   std::size_t choices_ = 0;             // vertices of the graph and created ones
   ReductionLog log_;
   std::int64_t offset_ = 0;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::reduce

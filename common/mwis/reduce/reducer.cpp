@@ -4,7 +4,7 @@
 #include <array>
 #include <numeric>
 
-namespace hexpipe {
+namespace hexpipe::mwis::reduce {
 namespace {
 
 // Places count from the second word of a row, so that what is nowhere has a bit as well, in the first: then rows are
@@ -51,7 +51,7 @@ void Reducer::Queue::clear() {
   while (!vertices.empty()) pop();
 }
 
-Reducer::Reducer(const ConflictGraph& graph, ReductionLog& log, std::vector<char> incomplete)
+Reducer::Reducer(const graph::ConflictGraph& graph, ReductionLog& log, std::vector<char> incomplete)
     : graph_(graph),
       log_(log),
       incomplete_(std::move(incomplete)),
@@ -329,4 +329,4 @@ void Reducer::drop(std::int32_t v) {
   for (const std::int32_t u : graph_.neighbours_of(v)) queue_.push(u);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::reduce

@@ -22,7 +22,7 @@
 #include "common/mwis/reduce/reduction_log.hpp"
 #include "common/run/deadline.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::reduce {
 
 enum class ReductionEffort {
   quick,     // what clique covers prove, while it decides something often enough: a fraction of a second
@@ -33,7 +33,7 @@ enum class ReductionEffort {
 class Reducer {
  public:
   // Around those in `incomplete`, which have neighbours that the graph does not show, nothing is decided.
-  Reducer(const ConflictGraph& graph, ReductionLog& log, std::vector<char> incomplete = {});
+  Reducer(const graph::ConflictGraph& graph, ReductionLog& log, std::vector<char> incomplete = {});
 
   // Until no rule applies any more, or to the deadline. Returns how much heavier solutions become by the lift.
   std::int64_t run(ReductionEffort effort, const Deadline& deadline);
@@ -94,9 +94,9 @@ class Reducer {
   // The neighbourhood that is looked at, the heaviest first, as a small graph.
   std::vector<std::int32_t> around_;
   std::vector<std::int32_t> places_;  // in around_, while local_ is built
-  DenseGraph local_;
+  ground::DenseGraph local_;
   std::vector<bits::Word> set_, excluded_;
-  CliqueCoverBound bound_;
+  bounds::CliqueCoverBound bound_;
   HeavySets heavy_sets_;
   std::vector<std::size_t> sets_;      // those of heavy_sets_ that a fold has to keep, the heaviest first
   std::vector<std::int32_t> outside_;  // ascending, what the neighbours have for neighbours outside
@@ -105,4 +105,4 @@ class Reducer {
   std::vector<bits::Word> set_conflicts_;  // a row of outside_ for each of sets_
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::reduce

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-namespace hexpipe {
+namespace hexpipe::mwis::reduce {
 
-ReducibleGraph::ReducibleGraph(const ConflictGraph& graph)
+ReducibleGraph::ReducibleGraph(const graph::ConflictGraph& graph)
     : weights_(graph.weights),
       pool_(graph.neighbours),
       alive_(graph.weights.size(), 1),
@@ -106,7 +106,7 @@ void ReducibleGraph::pack() {
   packed_size_ = pool_.size();
 }
 
-ConflictGraph ReducibleGraph::compress(std::vector<std::int32_t>& vertices) {
+graph::ConflictGraph ReducibleGraph::compress(std::vector<std::int32_t>& vertices) {
   std::vector<std::int32_t> numbers(weights_.size(), 0);
   vertices.clear();
   for (std::int32_t v = 0; v < vertex_count(); ++v) {
@@ -114,7 +114,7 @@ ConflictGraph ReducibleGraph::compress(std::vector<std::int32_t>& vertices) {
     numbers[v] = static_cast<std::int32_t>(vertices.size());
     vertices.push_back(v);
   }
-  ConflictGraph graph;
+  graph::ConflictGraph graph;
   for (const std::int32_t v : vertices) {
     for (const std::int32_t u : neighbours_of(v)) graph.neighbours.push_back(numbers[u]);
     graph.offsets.push_back(static_cast<std::int64_t>(graph.neighbours.size()));
@@ -123,4 +123,4 @@ ConflictGraph ReducibleGraph::compress(std::vector<std::int32_t>& vertices) {
   return graph;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::reduce

@@ -8,11 +8,11 @@
 
 #include "common/graph/conflict_graph.hpp"
 
-namespace hexpipe {
+namespace hexpipe::mwis::reduce {
 
 class ReducibleGraph {
  public:
-  explicit ReducibleGraph(const ConflictGraph& graph);
+  explicit ReducibleGraph(const graph::ConflictGraph& graph);
 
   // Vertices that are or were there; numbers are not used again.
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(weights_.size()); }
@@ -31,7 +31,7 @@ class ReducibleGraph {
   void rollback();
 
   // What is there, numbered in ascending order of the vertices, which `vertices` gets.
-  ConflictGraph compress(std::vector<std::int32_t>& vertices);
+  graph::ConflictGraph compress(std::vector<std::int32_t>& vertices);
 
  private:
   struct List {
@@ -55,4 +55,4 @@ class ReducibleGraph {
   std::size_t packed_size_;  // of the pool, when it had no holes
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::reduce

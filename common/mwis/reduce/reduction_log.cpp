@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hexpipe {
+namespace hexpipe::mwis::reduce {
 
 void ReductionLog::take(std::int32_t v) {
   begin_fold(v, 0);
@@ -53,4 +53,4 @@ void ReductionLog::project(std::vector<std::uint8_t>& chosen) const {
   }
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::reduce

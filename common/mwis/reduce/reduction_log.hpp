@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::mwis::reduce {
 
 // Choices are a byte a vertex, those that reductions created included.
 class ReductionLog {
@@ -41,4 +41,4 @@ class ReductionLog {
   std::vector<std::int32_t> members_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::mwis::reduce

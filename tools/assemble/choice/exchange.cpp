@@ -21,7 +21,7 @@
 #include "tools/assemble/choice/selection.hpp"
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::choice {
 namespace {
 
 // The numbers below are by the share of the volume that hexes have in the end, in points, in the mean of simp, blub and
@@ -35,7 +35,7 @@ constexpr double cost_of_open_quad = 0.1;
 constexpr double power_of_quality = 0.3;
 // In the same units as what open quads cost. From 0.03 to 0.003, hardly an annealing, gains six tenths; a start at 0.4,
 // or an end at 0.005 or 0.02, as much.
-constexpr Cooling cooling{.hot = 0.3, .cold = 0.01};
+constexpr mwis::local_search::Cooling cooling{.hot = 0.3, .cold = 0.01};
 // With 50 the share is 0.04 less, with 100 the same. They take half the time of all that assemble does else.
 constexpr std::int64_t moves_a_candidate = 70;
 // Half a minute, for parts with millions of candidates.
@@ -50,15 +50,17 @@ constexpr double worth_of_all = 0x1p52;
 
 // Calls visit(key) for the quads of a candidate that are not on the boundary.
 template <class Visit>
-void for_inner_quads(const BoundaryQuads& boundary, const Candidates& candidates, std::int32_t i, Visit&& visit) {
-  HybridCell cell;
+void for_inner_quads(const hybrid::BoundaryQuads& boundary, const Candidates& candidates, std::int32_t i,
+                     Visit&& visit) {
+  hybrid::HybridCell cell;
   cell.kind = candidates.kind[i];
   cell.corners = candidates.vertices[i];
   for (int k = 0; k < cell.quad_count(); ++k)
     if (const Quad quad = cell.quad(k); !boundary.contains(quad)) visit(key_of(quad));
 }
 
-KeySet<4> open_quads(const BoundaryQuads& boundary, const Candidates& candidates, const IndependentSet& chosen) {
+KeySet<4> open_quads(const hybrid::BoundaryQuads& boundary, const Candidates& candidates,
+                     const graph::IndependentSet& chosen) {
   KeySet<4> open;
   for (const std::int32_t i : chosen)
     for_inner_quads(boundary, candidates, i, [&](const VertexKey<4>& key) {
@@ -74,8 +76,8 @@ bool can_come_in(const TetMesh& mesh, const Candidates& candidates, std::int32_t
   return is_valid(CellKind::hex, corners);
 }
 
-double least_quality_of(const Candidates& candidates, const IndependentSet& chosen) {
-  double least = FindhexOptions{}.min_quality;
+double least_quality_of(const Candidates& candidates, const graph::IndependentSet& chosen) {
+  double least = candidates::FindhexOptions{}.min_quality;
   for (const std::int32_t i : chosen)
     if (candidates.kind[i] == CellKind::hex) least = std::min(least, candidates.quality[i]);
   return least;
@@ -84,7 +86,7 @@ double least_quality_of(const Candidates& candidates, const IndependentSet& chos
 // Candidates, ascending: hexes at open quads, and every chosen cell that has a vertex of these, as cells in conflict
 // and cells at one quad have.
 std::vector<std::int32_t> those_that_take_part(const TetMesh& mesh, const Candidates& candidates,
-                                               const IndependentSet& chosen, const KeySet<4>& open) {
+                                               const graph::IndependentSet& chosen, const KeySet<4>& open) {
   std::vector<bool> is_at_open(mesh.points.size()), is_at_part(mesh.points.size());
   for (const auto& quad : open)
     for (const Vertex v : quad) is_at_open[v] = true;
@@ -166,8 +168,9 @@ class Worth {
 };
 
 // Numbers the inner quads of those that take part, and counts the other chosen cells at them.
-void number_quads(const BoundaryQuads& boundary, const Candidates& candidates, const IndependentSet& chosen,
-                  std::span<const std::int32_t> part, const Worth& worth, ExchangeProblem& problem) {
+void number_quads(const hybrid::BoundaryQuads& boundary, const Candidates& candidates,
+                  const graph::IndependentSet& chosen, std::span<const std::int32_t> part, const Worth& worth,
+                  ExchangeProblem& problem) {
   KeyMap<4, std::int32_t> numbers;
   for (const std::int32_t i : part) {
     auto& row = problem.quads.emplace_back();
@@ -180,7 +183,7 @@ void number_quads(const BoundaryQuads& boundary, const Candidates& candidates, c
     });
   }
   problem.standing.assign(numbers.size(), 0);
-  IndependentSet others;
+  graph::IndependentSet others;
   std::ranges::set_difference(chosen, part, std::back_inserter(others));
   for (const std::int32_t i : others)
     for_inner_quads(boundary, candidates, i, [&](const VertexKey<4>& key) {
@@ -188,8 +191,8 @@ void number_quads(const BoundaryQuads& boundary, const Candidates& candidates, c
     });
 }
 
-ExchangeProblem problem_of(const TetMesh& mesh, const BoundaryQuads& boundary, const Candidates& candidates,
-                           const IndependentSet& chosen, std::span<const std::int32_t> part) {
+ExchangeProblem problem_of(const TetMesh& mesh, const hybrid::BoundaryQuads& boundary, const Candidates& candidates,
+                           const graph::IndependentSet& chosen, std::span<const std::int32_t> part) {
   ExchangeProblem problem;
   Candidates cells = select(candidates, part);
   const Worth worth(cells, mesh.points);
@@ -199,12 +202,13 @@ ExchangeProblem problem_of(const TetMesh& mesh, const BoundaryQuads& boundary, c
     weights[i] = worth.of(i);
     problem.usual.push_back(worth.usual_around(i));
   }
-  problem.graph = conflict_graph(std::move(cells), {.weight = WeightKind::count, .weight_scale = 1}, "candidates");
+  problem.graph = conflicts::conflict_graph(std::move(cells),
+                                            {.weight = conflicts::WeightKind::count, .weight_scale = 1}, "candidates");
   problem.graph.weights = std::move(weights);
   return problem;
 }
 
-bool is_independent(const ConflictGraph& graph, const IndependentSet& set) {
+bool is_independent(const graph::ConflictGraph& graph, const graph::IndependentSet& set) {
   std::vector<bool> is_in(graph.weights.size());
   for (const std::int32_t i : set) is_in[i] = true;
   return std::ranges::none_of(set, [&](std::int32_t i) {
@@ -214,7 +218,7 @@ bool is_independent(const ConflictGraph& graph, const IndependentSet& set) {
 
 // Where something could stand beside what is chosen, it was left out on purpose, and its room with it. A maximal choice
 // has no such candidates.
-std::vector<std::int32_t> left_out(const ConflictGraph& graph, const IndependentSet& start,
+std::vector<std::int32_t> left_out(const graph::ConflictGraph& graph, const graph::IndependentSet& start,
                                    const std::vector<std::uint8_t>& is_hex) {
   std::vector<bool> is_kept_out(graph.weights.size());
   for (const std::int32_t i : start) {
@@ -229,7 +233,7 @@ std::vector<std::int32_t> left_out(const ConflictGraph& graph, const Independent
 
 // By candidate that takes part, 1 where it is not to be exchanged: chosen cells other than hexes, candidates that were
 // left out, and what is in conflict with one of these.
-std::vector<std::uint8_t> those_that_stay(const ConflictGraph& graph, const IndependentSet& start,
+std::vector<std::uint8_t> those_that_stay(const graph::ConflictGraph& graph, const graph::IndependentSet& start,
                                           const std::vector<std::uint8_t>& is_hex) {
   std::vector<std::uint8_t> stays(graph.weights.size());
   const auto bar = [&](std::int32_t i) {
@@ -244,13 +248,13 @@ std::vector<std::uint8_t> those_that_stay(const ConflictGraph& graph, const Inde
 
 }  // namespace
 
-Exchange exchange_hexes(const TetMesh& mesh, const BoundaryQuads& boundary, const Candidates& candidates,
-                        const IndependentSet& chosen) {
+Exchange exchange_hexes(const TetMesh& mesh, const hybrid::BoundaryQuads& boundary, const Candidates& candidates,
+                        const graph::IndependentSet& chosen) {
   const KeySet<4> open = open_quads(boundary, candidates, chosen);
   const auto open_before = static_cast<std::int64_t>(open.size());
   Exchange result{chosen, {.open_quads_before = open_before, .open_quads_after = open_before}};
   const std::vector<std::int32_t> part = those_that_take_part(mesh, candidates, chosen, open);
-  IndependentSet start;
+  graph::IndependentSet start;
   std::vector<std::uint8_t> is_hex;
   for (const std::int32_t i : part) {
     if (std::ranges::binary_search(chosen, i)) start.push_back(static_cast<std::int32_t>(is_hex.size()));
@@ -262,7 +266,7 @@ Exchange exchange_hexes(const TetMesh& mesh, const BoundaryQuads& boundary, cons
 
   ExchangeSearch search(problem, start, Random(seed));
   search.run(std::min(moves_a_candidate * static_cast<std::int64_t>(part.size()), most_moves), cooling);
-  IndependentSet before, after, out, in, rest;
+  graph::IndependentSet before, after, out, in, rest;
   for (const std::int32_t i : start) before.push_back(part[i]);
   for (const std::int32_t i : search.best()) after.push_back(part[i]);
   std::ranges::set_difference(before, after, std::back_inserter(out));
@@ -276,4 +280,4 @@ Exchange exchange_hexes(const TetMesh& mesh, const BoundaryQuads& boundary, cons
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::choice

@@ -8,7 +8,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/assemble/hybrid/boundary_quads.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::choice {
 
 struct ExchangeCounts {
   std::int64_t hexes_out = 0, hexes_in = 0;
@@ -17,7 +17,7 @@ struct ExchangeCounts {
 };
 
 struct Exchange {
-  IndependentSet chosen;
+  graph::IndependentSet chosen;
   ExchangeCounts counts;
 };
 
@@ -28,7 +28,7 @@ struct Exchange {
 // and not poorer than both the poorest of `chosen` and what findhex takes where it is not told otherwise. What could
 // stand beside `chosen` at its open quads was left out on purpose: neither it nor what would take its room comes in.
 // Chosen cells of other kinds stay. `chosen` can be built (build_selection).
-Exchange exchange_hexes(const TetMesh& mesh, const BoundaryQuads& boundary, const Candidates& candidates,
-                        const IndependentSet& chosen);
+Exchange exchange_hexes(const TetMesh& mesh, const hybrid::BoundaryQuads& boundary, const Candidates& candidates,
+                        const graph::IndependentSet& chosen);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::choice

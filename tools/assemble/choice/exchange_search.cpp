@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hexpipe {
+namespace hexpipe::assemble::choice {
 namespace {
 
 // Candidates that would push out more are left alone. With 4 the share of hexes in the volume gains 0.04 points in the
@@ -14,7 +14,7 @@ constexpr std::int64_t moves_a_temperature = 256;
 
 }  // namespace
 
-ExchangeSearch::ExchangeSearch(const ExchangeProblem& problem, const IndependentSet& start, Random random)
+ExchangeSearch::ExchangeSearch(const ExchangeProblem& problem, const graph::IndependentSet& start, Random random)
     : problem_(problem), state_(problem.graph), random_(random), cells_at_(problem.standing) {
   for (std::size_t quad = 0; quad < cells_at_.size(); ++quad)
     if (cells_at_[quad] == 1) open_cost_ += problem.cost[quad];
@@ -24,7 +24,7 @@ ExchangeSearch::ExchangeSearch(const ExchangeProblem& problem, const Independent
   best_value_ = value();
 }
 
-void ExchangeSearch::run(std::int64_t moves, const Cooling& cooling) {
+void ExchangeSearch::run(std::int64_t moves, const mwis::local_search::Cooling& cooling) {
   if (movable_.empty()) return;
   double temperature = 0;
   for (std::int64_t i = 0; i < moves; ++i) {
@@ -135,10 +135,10 @@ void ExchangeSearch::forget_what_came_back() {
   since_best_.resize(kept);
 }
 
-IndependentSet ExchangeSearch::best() const {
+graph::IndependentSet ExchangeSearch::best() const {
   std::vector<std::uint8_t> toggled(problem_.stays.size(), 0);
   for (const std::int32_t candidate : since_best_) toggled[candidate] ^= 1;
-  IndependentSet set;
+  graph::IndependentSet set;
   for (std::int32_t i = 0; i < problem_.graph.vertex_count(); ++i)
     if (state_.contains(i) != (toggled[i] != 0)) set.push_back(i);
   return set;
@@ -149,4 +149,4 @@ bool ExchangeSearch::check() const {
   return state_.check() && fresh.cells_at_ == cells_at_ && fresh.open_cost_ == open_cost_;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::choice

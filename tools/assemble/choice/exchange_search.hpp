@@ -14,13 +14,13 @@
 #include "common/mwis/local_search/annealing.hpp"
 #include "common/run/random.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::choice {
 
 // What the search chooses from. A quad is open when exactly one chosen cell has it.
 struct ExchangeProblem {
   static constexpr std::int32_t none = -1;
 
-  ConflictGraph graph;                             // its weights are what candidates are worth
+  graph::ConflictGraph graph;                      // its weights are what candidates are worth
   std::vector<std::array<std::int32_t, 6>> quads;  // by candidate, in numbers from 0; none: no quad, or on the boundary
   std::vector<std::int64_t> cost;                  // by quad: of its being open, in units of weight
   std::vector<std::uint8_t> standing;              // by quad: how many cells have it that are not in the graph
@@ -31,15 +31,15 @@ struct ExchangeProblem {
 class ExchangeSearch {
  public:
   // `start` is independent; `problem` has to outlive this.
-  ExchangeSearch(const ExchangeProblem& problem, const IndependentSet& start, Random random);
+  ExchangeSearch(const ExchangeProblem& problem, const graph::IndependentSet& start, Random random);
 
   // Temperatures in units of what is usual around the candidate that moves.
-  void run(std::int64_t moves, const Cooling& cooling);
+  void run(std::int64_t moves, const mwis::local_search::Cooling& cooling);
 
   // The weight of the chosen cells less the cost of open quads, now and of the best set so far.
   std::int64_t value() const { return state_.weight() - open_cost_; }
   std::int64_t best_value() const { return best_value_; }
-  IndependentSet best() const;
+  graph::IndependentSet best() const;
 
   // All that is kept agrees with the chosen cells, which are independent. For tests.
   bool check() const;
@@ -57,7 +57,7 @@ class ExchangeSearch {
   void forget_what_came_back();
 
   const ExchangeProblem& problem_;
-  SolutionState state_;
+  mwis::ground::SolutionState state_;
   Random random_;
   std::vector<std::int32_t> movable_;   // candidates that need not stay
   std::vector<std::uint8_t> cells_at_;  // by quad
@@ -69,4 +69,4 @@ class ExchangeSearch {
   std::vector<std::int32_t> pushed_out_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::choice

@@ -16,7 +16,7 @@
 #include "common/mesh/facet_key.hpp"
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::choice {
 namespace {
 
 constexpr const char* source = "tets between cells";
@@ -27,7 +27,7 @@ struct LeftTets {
   std::vector<std::int32_t> number;
 };
 
-LeftTets left_tets(const TetMesh& mesh, const HybridMesh& standing) {
+LeftTets left_tets(const TetMesh& mesh, const hybrid::HybridMesh& standing) {
   LeftTets left;
   left.mesh.points = mesh.points;
   left.mesh.triangles = mesh.triangles;
@@ -42,11 +42,11 @@ LeftTets left_tets(const TetMesh& mesh, const HybridMesh& standing) {
 }
 
 // Prisms of the tets that are left, in the numbers of `mesh`.
-Candidates prisms_between(const TetMesh& mesh, const HybridMesh& standing) {
+Candidates prisms_between(const TetMesh& mesh, const hybrid::HybridMesh& standing) {
   LeftTets left = left_tets(mesh, standing);
   Candidates prisms;
   if (left.number.empty()) return prisms;
-  const Candidates found = findhex(std::move(left.mesh), {.kinds = {CellKind::prism}}, source).candidates;
+  const Candidates found = candidates::findhex(std::move(left.mesh), {.kinds = {CellKind::prism}}, source).candidates;
   const auto same = [](Vertex v) { return v; };
   const auto in_mesh = [&](std::int32_t t) { return left.number[t]; };
   for (std::size_t i = 0; i < found.size(); ++i) append_candidate(prisms, found, i, same, in_mesh, in_mesh);
@@ -54,7 +54,7 @@ Candidates prisms_between(const TetMesh& mesh, const HybridMesh& standing) {
 }
 
 std::array<Quad, PrismTopology::quads.size()> quads_of_prism(const Candidates& candidates, std::int32_t prism) {
-  HybridCell cell;
+  hybrid::HybridCell cell;
   cell.kind = CellKind::prism;
   cell.corners = candidates.vertices[prism];
   return {cell.quad(0), cell.quad(1), cell.quad(2)};
@@ -65,7 +65,8 @@ std::array<Quad, PrismTopology::quads.size()> quads_of_prism(const Candidates& c
 class Filling {
  public:
   // `all`: cells, and from `first` on the prisms; `graph`: their conflicts.
-  Filling(const BoundaryQuads& boundary, const Candidates& all, const ConflictGraph& graph, std::int32_t first)
+  Filling(const hybrid::BoundaryQuads& boundary, const Candidates& all, const graph::ConflictGraph& graph,
+          std::int32_t first)
       : boundary_(boundary), all_(all), graph_(graph), barred_(all.size()) {
     for (std::int32_t i = 0; i < first; ++i) take(i);
     for (std::int32_t i = first; i < static_cast<std::int32_t>(all.size()); ++i)
@@ -103,7 +104,7 @@ class Filling {
   };
 
   void take(std::int32_t i) {
-    HybridCell cell;
+    hybrid::HybridCell cell;
     cell.kind = all_.kind[i];
     cell.corners = all_.vertices[i];
     for (int k = 0; k < cell.quad_count(); ++k) quads_.insert(key_of(cell.quad(k)));
@@ -127,9 +128,9 @@ class Filling {
     if (const int gain = gain_of(prism); gain >= 0) offers_.push({gain, all_.quality[prism], prism});
   }
 
-  const BoundaryQuads& boundary_;
+  const hybrid::BoundaryQuads& boundary_;
   const Candidates& all_;
-  const ConflictGraph& graph_;
+  const graph::ConflictGraph& graph_;
   std::vector<bool> barred_;  // taken, or in conflict with what is
   KeySet<4> quads_;           // of all that stand
   KeyMap<4, std::vector<std::int32_t>> prisms_at_;
@@ -138,16 +139,17 @@ class Filling {
 
 }  // namespace
 
-std::int64_t append_filling_prisms(const TetMesh& mesh, const BoundaryQuads& boundary, const HybridMesh& standing,
-                                   Candidates& cells) {
+std::int64_t append_filling_prisms(const TetMesh& mesh, const hybrid::BoundaryQuads& boundary,
+                                   const hybrid::HybridMesh& standing, Candidates& cells) {
   const Candidates prisms = prisms_between(mesh, standing);
   if (prisms.size() == 0) return 0;
   Candidates all = cells;
   append(all, prisms);
-  const ConflictGraph graph = conflict_graph(all, {.weight = WeightKind::count, .weight_scale = 1}, source);
+  const graph::ConflictGraph graph =
+      conflicts::conflict_graph(all, {.weight = conflicts::WeightKind::count, .weight_scale = 1}, source);
   const auto taken = Filling(boundary, all, graph, static_cast<std::int32_t>(cells.size())).run();
   append(cells, select(all, taken));
   return static_cast<std::int64_t>(taken.size());
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::choice

@@ -6,7 +6,7 @@
 
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::choice {
 namespace {
 
 // Interior tets by the cell that replaces them, slivers by how many cells absorb them.
@@ -22,7 +22,7 @@ struct Claims {
 
 void claim_interior(const InputNames& names, const Candidates& candidates, std::int32_t candidate, Claims& claims) {
   for (std::int32_t t : candidates.interior_tets_of(candidate)) {
-    if (claims.owner[t] != HybridCell::none) fail_conflict(names, claims.owner[t], candidate, "share a tet");
+    if (claims.owner[t] != hybrid::HybridCell::none) fail_conflict(names, claims.owner[t], candidate, "share a tet");
     claims.owner[t] = candidate;
   }
 }
@@ -52,7 +52,7 @@ bool contains_all(const std::vector<VertexKey<3>>& skin, std::span<const Triangl
 
 // Finds each facet of the cell on the skin, and each quad's diagonal; nullopt when the skin is not the cell's.
 template <class Topology>
-bool match_skin(const std::vector<VertexKey<3>>& skin, HybridCell& cell) {
+bool match_skin(const std::vector<VertexKey<3>>& skin, hybrid::HybridCell& cell) {
   if (skin.size() != Topology::triangles.size() + 2 * Topology::quads.size()) return false;
   for (const auto& f : Topology::triangles) {
     const Triangle triangle{cell.corners[f[0]], cell.corners[f[1]], cell.corners[f[2]]};
@@ -66,17 +66,17 @@ bool match_skin(const std::vector<VertexKey<3>>& skin, HybridCell& cell) {
   return true;
 }
 
-int quad_with_vertices(const HybridCell& cell, const VertexKey<4>& key) {
+int quad_with_vertices(const hybrid::HybridCell& cell, const VertexKey<4>& key) {
   for (int i = 0; i < cell.quad_count(); ++i)
     if (key_of(cell.quad(i)) == key) return i;
   return -1;
 }
 
 // Nothing where the tets do not form it.
-std::optional<HybridCell> cell_of(const TetMesh& mesh, const Candidates& candidates, std::int32_t candidate) {
+std::optional<hybrid::HybridCell> cell_of(const TetMesh& mesh, const Candidates& candidates, std::int32_t candidate) {
   const auto interior = candidates.interior_tets_of(candidate);
   if (interior.empty() || candidates.kind[candidate] == CellKind::tet) return std::nullopt;
-  HybridCell cell;
+  hybrid::HybridCell cell;
   cell.kind = candidates.kind[candidate];
   cell.corners = candidates.vertices[candidate];
   cell.candidate = candidate;
@@ -88,7 +88,8 @@ std::optional<HybridCell> cell_of(const TetMesh& mesh, const Candidates& candida
     return std::nullopt;
   for (std::int32_t t : candidates.boundary_tets_of(candidate)) {
     const int quad = quad_with_vertices(cell, key_of(mesh.tets[t]));
-    if (quad < 0 || cell.sliver[quad] != HybridCell::none || mesh.tet_tags[t] != cell.region) return std::nullopt;
+    if (quad < 0 || cell.sliver[quad] != hybrid::HybridCell::none || mesh.tet_tags[t] != cell.region)
+      return std::nullopt;
     cell.sliver[quad] = t;
   }
   return cell;
@@ -98,33 +99,33 @@ std::optional<HybridCell> cell_of(const TetMesh& mesh, const Candidates& candida
 struct QuadOwner {
   std::int32_t cell;
   Quad quad;
-  std::int32_t partner = HybridCell::none;
+  std::int32_t partner = hybrid::HybridCell::none;
 };
 
-void pair_quads(const InputNames& names, const std::vector<HybridCell>& cells, KeyMap<4, QuadOwner>& owners) {
+void pair_quads(const InputNames& names, const std::vector<hybrid::HybridCell>& cells, KeyMap<4, QuadOwner>& owners) {
   for (std::int32_t c = 0; c < static_cast<std::int32_t>(cells.size()); ++c)
     for (int i = 0; i < cells[c].quad_count(); ++i) {
       const Quad quad = cells[c].quad(i);
       auto [entry, added] = owners.try_emplace(key_of(quad), QuadOwner{c, quad});
       if (added) continue;
       QuadOwner& owner = entry.value();
-      if (owner.partner != HybridCell::none || !same_diagonals(owner.quad, quad))
+      if (owner.partner != hybrid::HybridCell::none || !same_diagonals(owner.quad, quad))
         fail_conflict(names, cells[owner.cell].candidate, cells[c].candidate, "cross at a quad");
       owner.partner = c;
     }
 }
 
-void absorb_slivers(const InputNames& names, const SurfaceTags& tags, const KeyMap<4, QuadOwner>& owners,
-                    std::vector<HybridCell>& cells, Claims& claims) {
+void absorb_slivers(const InputNames& names, const hybrid::SurfaceTags& tags, const KeyMap<4, QuadOwner>& owners,
+                    std::vector<hybrid::HybridCell>& cells, Claims& claims) {
   for (auto& cell : cells)
     for (int i = 0; i < cell.quad_count(); ++i) {
       std::int32_t& sliver = cell.sliver[i];
-      if (sliver == HybridCell::none) continue;
-      if (claims.owner[sliver] != HybridCell::none)
+      if (sliver == hybrid::HybridCell::none) continue;
+      if (claims.owner[sliver] != hybrid::HybridCell::none)
         fail_conflict(names, claims.owner[sliver], cell.candidate, "share a tet");
-      const bool alone = owners.at(key_of(cell.quad(i))).partner == HybridCell::none;
+      const bool alone = owners.at(key_of(cell.quad(i))).partner == hybrid::HybridCell::none;
       if (alone && tags.covers_partly(cell.quad(i), cell.outer_diagonal(i)))
-        sliver = HybridCell::none;
+        sliver = hybrid::HybridCell::none;
       else
         claims.absorbed[sliver] = 1;
     }
@@ -132,22 +133,22 @@ void absorb_slivers(const InputNames& names, const SurfaceTags& tags, const KeyM
 
 // Each half of a quad without a partner has to face a tet or lie on the boundary; else another cell stands across it.
 // Likewise no other cell may use its diagonal, which conformity is going to split.
-void check_open_sides(const InputNames& names, const HybridMesh& mesh, const SurfaceTags& tags) {
+void check_open_sides(const InputNames& names, const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags) {
   KeyMap<2, std::int32_t> diagonals;
   for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c)
     for (int i = 0; i < mesh.cell(c).quad_count(); ++i) {
       const Quad quad = mesh.cell(c).quad(i);
       const auto inner = triangles_of(quad, mesh.cell(c).inner_diagonal[i]);
-      if (const std::int32_t partner = mesh.partner_at(quad, c); partner != HybridMesh::none) {
+      if (const std::int32_t partner = mesh.partner_at(quad, c); partner != hybrid::HybridMesh::none) {
         if (mesh.cell(partner).region != mesh.cell(c).region && !tags.cover_of(quad))
           fail_conflict(names, mesh.cell(c).candidate, mesh.cell(partner).candidate,
                         "stand in two regions without an interface between them");
-        if (mesh.tet_at(inner[0]) == HybridMesh::none) continue;
+        if (mesh.tet_at(inner[0]) == hybrid::HybridMesh::none) continue;
         fail_conflict(names, mesh.cell(c).candidate, mesh.cell(partner).candidate, "have a tet between them");
       }
       const int diagonal = mesh.cell(c).outer_diagonal(i);
       int tets = 0;
-      for (const auto& half : triangles_of(quad, diagonal)) tets += mesh.tet_at(half) != HybridMesh::none;
+      for (const auto& half : triangles_of(quad, diagonal)) tets += mesh.tet_at(half) != hybrid::HybridMesh::none;
       if (tets == 0 && tags.cover_of(quad, diagonal)) continue;
       const auto candidate = mesh.cell(c).candidate;
       if (tets != 2)
@@ -179,11 +180,11 @@ bool is_formed_by_its_tets(const TetMesh& mesh, const Candidates& candidates, st
   return cell_of(mesh, candidates, candidate).has_value();
 }
 
-HybridMesh build_selection(const TetMesh& mesh, const SurfaceTags& tags, const Candidates& candidates,
-                           const IndependentSet& chosen, const InputNames& names) {
-  Claims claims{std::vector<std::int32_t>(mesh.tets.size(), HybridCell::none),
+hybrid::HybridMesh build_selection(const TetMesh& mesh, const hybrid::SurfaceTags& tags, const Candidates& candidates,
+                                   const graph::IndependentSet& chosen, const InputNames& names) {
+  Claims claims{std::vector<std::int32_t>(mesh.tets.size(), hybrid::HybridCell::none),
                 std::vector<std::uint8_t>(mesh.tets.size(), 0)};
-  std::vector<HybridCell> cells;
+  std::vector<hybrid::HybridCell> cells;
   cells.reserve(chosen.size());
   for (std::int32_t candidate : chosen) {
     claim_interior(names, candidates, candidate, claims);
@@ -201,20 +202,20 @@ HybridMesh build_selection(const TetMesh& mesh, const SurfaceTags& tags, const C
 
   std::vector<bool> removed(mesh.tets.size());
   for (std::size_t t = 0; t < removed.size(); ++t)
-    removed[t] = claims.owner[t] != HybridCell::none || claims.absorbed[t];
-  HybridMesh result(mesh, removed);
+    removed[t] = claims.owner[t] != hybrid::HybridCell::none || claims.absorbed[t];
+  hybrid::HybridMesh result(mesh, removed);
   for (const auto& cell : cells) result.add_cell(cell);
   check_open_sides(names, result, tags);
   return result;
 }
 
-bool is_open(const HybridMesh& mesh, std::int32_t cell, int i) {
+bool is_open(const hybrid::HybridMesh& mesh, std::int32_t cell, int i) {
   const Quad quad = mesh.cell(cell).quad(i);
-  if (mesh.partner_at(quad, cell) != HybridMesh::none) return false;
-  return mesh.tet_at(triangles_of(quad, mesh.cell(cell).outer_diagonal(i))[0]) != HybridMesh::none;
+  if (mesh.partner_at(quad, cell) != hybrid::HybridMesh::none) return false;
+  return mesh.tet_at(triangles_of(quad, mesh.cell(cell).outer_diagonal(i))[0]) != hybrid::HybridMesh::none;
 }
 
-std::vector<OpenQuad> open_quads(const HybridMesh& mesh) {
+std::vector<OpenQuad> open_quads(const hybrid::HybridMesh& mesh) {
   std::vector<OpenQuad> result;
   for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
     if (!mesh.cell(c).alive) continue;
@@ -224,4 +225,4 @@ std::vector<OpenQuad> open_quads(const HybridMesh& mesh) {
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::choice

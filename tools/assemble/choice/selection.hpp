@@ -11,7 +11,7 @@
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
 #include "tools/assemble/hybrid/surface_tags.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::choice {
 
 // A cell's bundle, of those that cells come from, and its number there, from 0.
 struct CellOrigin {
@@ -39,8 +39,8 @@ bool is_formed_by_its_tets(const TetMesh& mesh, const Candidates& candidates, st
 // Throws DataError when a chosen candidate is not what its tets form (a candidate of another mesh) or two chosen ones
 // cannot stand together: they share an interior tet, their facets cross, a diagonal of one is an edge of the other, or
 // they lie in two regions without an interface between them.
-HybridMesh build_selection(const TetMesh& mesh, const SurfaceTags& tags, const Candidates& candidates,
-                           const IndependentSet& chosen, const InputNames& names = {});
+hybrid::HybridMesh build_selection(const TetMesh& mesh, const hybrid::SurfaceTags& tags, const Candidates& candidates,
+                                   const graph::IndependentSet& chosen, const InputNames& names = {});
 
 // A quad of a cell that faces two tets, each with a triangle of it.
 struct OpenQuad {
@@ -49,8 +49,8 @@ struct OpenQuad {
 };
 
 // All of them, by cell and quad.
-std::vector<OpenQuad> open_quads(const HybridMesh& mesh);
+std::vector<OpenQuad> open_quads(const hybrid::HybridMesh& mesh);
 // Whether quad `i` of the cell faces a tet rather than another cell or nothing.
-bool is_open(const HybridMesh& mesh, std::int32_t cell, int i);
+bool is_open(const hybrid::HybridMesh& mesh, std::int32_t cell, int i);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::choice

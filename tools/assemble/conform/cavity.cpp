@@ -12,7 +12,7 @@
 
 #include "common/mesh/quality.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::conform {
 namespace {
 
 // Ascent steps; smoothing goes on from here. Twice as many cost three times the time, for nothing after smoothing.
@@ -24,7 +24,7 @@ constexpr std::size_t most_tets = 60;
 
 }  // namespace
 
-Cavity::Cavity(const HybridMesh& mesh, const SurfaceTags& tags, const Quad& quad, int diagonal)
+Cavity::Cavity(const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, const Quad& quad, int diagonal)
     : mesh_(mesh), tags_(tags), quad_(quad), diagonal_(diagonal) {
   const Vertex a = quad[diagonal], c = quad[diagonal + 2];
   mesh.tets_around_edge(a, c, tets_);
@@ -41,7 +41,7 @@ Cavity::Cavity(const HybridMesh& mesh, const SurfaceTags& tags, const Quad& quad
   if (obstacle_ == Obstacle::none && !is_sphere()) obstacle_ = Obstacle::cells;
 }
 
-Cavity::Cavity(const HybridMesh& mesh, const SurfaceTags& tags, std::int32_t tet)
+Cavity::Cavity(const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std::int32_t tet)
     : mesh_(mesh), tags_(tags), region_(mesh.region_of(tet)), tets_{tet} {
   collect_skin();
 }
@@ -116,18 +116,19 @@ void Cavity::build_star() {
 }
 
 // The planes on whose inner sides all new elements are positive.
-std::vector<Plane> Cavity::planes() const {
+std::vector<shape::Plane> Cavity::planes() const {
   auto at = [&](Vertex v) { return mesh_.points[v]; };
-  std::vector<Plane> result;
+  std::vector<shape::Plane> result;
   for (int diagonal = 0; quad_ && diagonal < 2; ++diagonal)
-    for (const auto& [a, b, c] : triangles_of(*quad_, diagonal)) result.push_back(Plane::through(at(a), at(b), at(c)));
+    for (const auto& [a, b, c] : triangles_of(*quad_, diagonal))
+      result.push_back(shape::Plane::through(at(a), at(b), at(c)));
   for (const auto& [triangle, tet] : skin_)
-    result.push_back(Plane::through(at(triangle[0]), at(triangle[2]), at(triangle[1])));
+    result.push_back(shape::Plane::through(at(triangle[0]), at(triangle[2]), at(triangle[1])));
   return result;
 }
 
 // From the best of a few places: between the middle of the quad and the middle of the rest, or at the middle.
-Placement Cavity::search(int steps) const {
+shape::Placement Cavity::search(int steps) const {
   Vec3 base{}, rest{};
   double count = 0;
   for (const auto& facet : skin_)
@@ -144,19 +145,19 @@ Placement Cavity::search(int steps) const {
     // A ring without other vertices is one sliver.
     if (count == 0) return {base, -1};
   }
-  Placement best{base, -2};
+  shape::Placement best{base, -2};
   auto consider = [&](const Vec3& at) {
     const double worst = star_.worst(at);
     if (worst > best.worst) best = {at, worst};
   };
   for (double fraction : {0.5, 0.25, 0.1}) consider(base + (rest - base) * fraction);
-  if (best.worst <= 0) consider(deepest_point(planes(), best.at));
-  return raise_worst(star_, best.at, steps);
+  if (best.worst <= 0) consider(shape::deepest_point(planes(), best.at));
+  return shape::raise_worst(star_, best.at, steps);
 }
 
 std::vector<std::pair<double, Cavity::Facet>> Cavity::worst_facets(const Vec3& at) const {
   std::vector<std::pair<double, Facet>> result;
-  PointStar one;
+  shape::PointStar one;
   for (const auto& facet : skin_) {
     one.clear();
     const std::array<Vec3, 4> corners{mesh_.points[facet.triangle[0]], mesh_.points[facet.triangle[2]],
@@ -173,7 +174,7 @@ std::vector<std::pair<double, Cavity::Facet>> Cavity::worst_facets(const Vec3& a
 bool Cavity::take_in(const Facet& facet) {
   if (tags_.contains(facet.triangle)) return false;
   const std::int32_t behind = mesh_.tet_at(facet.triangle, facet.tet);
-  if (behind == HybridMesh::none || mesh_.region_of(behind) != region_) return false;
+  if (behind == hybrid::HybridMesh::none || mesh_.region_of(behind) != region_) return false;
   const auto skin = skin_;
   tets_.push_back(behind);
   if (collect_skin() && is_sphere()) return true;
@@ -185,7 +186,7 @@ bool Cavity::take_in(const Facet& facet) {
 double Cavity::place_vertex(double enough) {
   assert(obstacle_ == Obstacle::none);
   build_star();
-  Placement best = search(first_steps);
+  shape::Placement best = search(first_steps);
   int attempts = 0;
   for (bool better = true; better && best.worst < enough && tets_.size() < most_tets;) {
     better = false;
@@ -195,8 +196,9 @@ double Cavity::place_vertex(double enough) {
       if (!take_in(facet)) continue;
       ++attempts;
       build_star();
-      const Placement from_middle = search(growth_steps), from_here = raise_worst(star_, best.at, growth_steps);
-      const Placement& grown = from_middle.worst > from_here.worst ? from_middle : from_here;
+      const shape::Placement from_middle = search(growth_steps),
+                             from_here = shape::raise_worst(star_, best.at, growth_steps);
+      const shape::Placement& grown = from_middle.worst > from_here.worst ? from_middle : from_here;
       better = grown.worst > best.worst + 1e-3;
       if (better) {
         best = grown;
@@ -212,7 +214,7 @@ double Cavity::place_vertex(double enough) {
 
 double Cavity::worst_tet() const {
   double worst = 1;
-  PointStar one;
+  shape::PointStar one;
   for (std::int32_t t : tets_) {
     one.clear();
     const auto at = corner_points(mesh_.points, mesh_.tet(t));
@@ -222,18 +224,18 @@ double Cavity::worst_tet() const {
   return worst;
 }
 
-void Cavity::fill(HybridMesh& mesh) const {
+void Cavity::fill(hybrid::HybridMesh& mesh) const {
   assert(&mesh == &mesh_);
   const Vertex apex = mesh.add_point(at_);
   for (std::int32_t t : tets_) mesh.remove_tet(t);
   for (const auto& [triangle, tet] : skin_) mesh.add_tet({triangle[0], triangle[2], triangle[1], apex}, region_);
   if (!quad_) return;
   const auto& [a, b, c, d] = *quad_;
-  HybridCell pyramid;
+  hybrid::HybridCell pyramid;
   pyramid.kind = CellKind::pyramid;
   pyramid.corners = {a, b, c, d, apex, -1, -1, -1};
   pyramid.region = region_;
   mesh.add_cell(pyramid);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::conform

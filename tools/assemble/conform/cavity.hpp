@@ -10,17 +10,17 @@
 #include "tools/assemble/hybrid/surface_tags.hpp"
 #include "tools/assemble/shape/point_star.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::conform {
 
 class Cavity {
  public:
   enum class Obstacle { none, surface, cells };
 
   // The ring of tets around diagonal `diagonal` of `quad`, whose normal points into the ring.
-  Cavity(const HybridMesh& mesh, const SurfaceTags& tags, const Quad& quad, int diagonal);
+  Cavity(const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, const Quad& quad, int diagonal);
 
   // One tet, to be improved; it grows in place_vertex.
-  Cavity(const HybridMesh& mesh, const SurfaceTags& tags, std::int32_t tet);
+  Cavity(const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std::int32_t tet);
 
   // What keeps the ring from being a ball that shows the whole quad: the diagonal lies on a tagged surface, or other
   // cells use it.
@@ -34,7 +34,7 @@ class Cavity {
   double worst_tet() const;
 
   // Replaces the tets by the new elements.
-  void fill(HybridMesh& mesh) const;
+  void fill(hybrid::HybridMesh& mesh) const;
 
  private:
   struct Facet {
@@ -45,21 +45,21 @@ class Cavity {
   bool collect_skin();
   bool is_sphere() const;
   void build_star();
-  std::vector<Plane> planes() const;
-  Placement search(int steps) const;
+  std::vector<shape::Plane> planes() const;
+  shape::Placement search(int steps) const;
   std::vector<std::pair<double, Facet>> worst_facets(const Vec3& at) const;
   bool take_in(const Facet& facet);
 
-  const HybridMesh& mesh_;
-  const SurfaceTags& tags_;
+  const hybrid::HybridMesh& mesh_;
+  const hybrid::SurfaceTags& tags_;
   std::optional<Quad> quad_;
   int diagonal_ = 0;
   std::int32_t region_ = 0;
   Obstacle obstacle_ = Obstacle::none;
   std::vector<std::int32_t> tets_;
   std::vector<Facet> skin_;  // without the quad
-  PointStar star_;
+  shape::PointStar star_;
   Vec3 at_{};
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::conform

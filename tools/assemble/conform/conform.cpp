@@ -17,7 +17,7 @@
 #include "tools/assemble/conform/cavity.hpp"
 #include "tools/assemble/shape/smooth.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::conform {
 namespace {
 
 // A merged pyramid that is this good is taken at once: it adds no vertex, and a split seldom does better.
@@ -33,11 +33,12 @@ constexpr double flat_corner = 1e-3;
 
 class Conformer {
  public:
-  Conformer(HybridMesh& mesh, const SurfaceTags& tags, const Candidates& candidates, double least_quality)
+  Conformer(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, const Candidates& candidates,
+            double least_quality)
       : mesh_(mesh), tags_(tags), candidates_(candidates), least_quality_(least_quality) {}
 
   ConformityCounts run() {
-    std::vector<OpenQuad> open = open_quads(mesh_);
+    std::vector<choice::OpenQuad> open = choice::open_quads(mesh_);
     counts_.open_quads = static_cast<std::int64_t>(open.size());
     while (!open.empty()) open = round(open);
     return counts_;
@@ -45,25 +46,25 @@ class Conformer {
 
  private:
   struct Failure {
-    OpenQuad at;
+    choice::OpenQuad at;
     GivenBack reason;
   };
 
-  std::vector<OpenQuad> round(std::vector<OpenQuad>& open);
-  void absorb_sliver(const OpenQuad& at);
-  bool is_done(const OpenQuad& at) const { return !is_open(mesh_, at.cell, at.quad); }
-  VertexKey<2> diagonal_of(const OpenQuad& at) const;
-  std::optional<Vertex> common_apex(const OpenQuad& at) const;
-  std::optional<HybridCell> merged_pyramid(const OpenQuad& at) const;
-  bool has_flat_corner(const OpenQuad& at) const;
-  double quality_of(const HybridCell& pyramid) const;
-  void merge(const OpenQuad& at, const HybridCell& pyramid);
-  std::optional<GivenBack> resolve(const OpenQuad& at, double least);
-  void give_back(std::int32_t cell, std::vector<OpenQuad>& open);
-  void free_quad(const HybridCell& cell, int i, std::int32_t partner, std::vector<OpenQuad>& open);
+  std::vector<choice::OpenQuad> round(std::vector<choice::OpenQuad>& open);
+  void absorb_sliver(const choice::OpenQuad& at);
+  bool is_done(const choice::OpenQuad& at) const { return !choice::is_open(mesh_, at.cell, at.quad); }
+  VertexKey<2> diagonal_of(const choice::OpenQuad& at) const;
+  std::optional<Vertex> common_apex(const choice::OpenQuad& at) const;
+  std::optional<hybrid::HybridCell> merged_pyramid(const choice::OpenQuad& at) const;
+  bool has_flat_corner(const choice::OpenQuad& at) const;
+  double quality_of(const hybrid::HybridCell& pyramid) const;
+  void merge(const choice::OpenQuad& at, const hybrid::HybridCell& pyramid);
+  std::optional<GivenBack> resolve(const choice::OpenQuad& at, double least);
+  void give_back(std::int32_t cell, std::vector<choice::OpenQuad>& open);
+  void free_quad(const hybrid::HybridCell& cell, int i, std::int32_t partner, std::vector<choice::OpenQuad>& open);
 
-  HybridMesh& mesh_;
-  const SurfaceTags& tags_;
+  hybrid::HybridMesh& mesh_;
+  const hybrid::SurfaceTags& tags_;
   const Candidates& candidates_;
   double least_quality_;
   // The diagonals of open quads: no pyramid may have one as its edge.
@@ -71,25 +72,25 @@ class Conformer {
   ConformityCounts counts_;
 };
 
-VertexKey<2> Conformer::diagonal_of(const OpenQuad& at) const {
-  const HybridCell& cell = mesh_.cell(at.cell);
+VertexKey<2> Conformer::diagonal_of(const choice::OpenQuad& at) const {
+  const hybrid::HybridCell& cell = mesh_.cell(at.cell);
   const Quad quad = cell.quad(at.quad);
   const int diagonal = cell.outer_diagonal(at.quad);
   return edge_key(quad[diagonal], quad[diagonal + 2]);
 }
 
 // Where both triangles of the quad belong to one tet, the quad takes its other diagonal.
-void Conformer::absorb_sliver(const OpenQuad& at) {
-  const HybridCell& cell = mesh_.cell(at.cell);
+void Conformer::absorb_sliver(const choice::OpenQuad& at) {
+  const hybrid::HybridCell& cell = mesh_.cell(at.cell);
   const Quad quad = cell.quad(at.quad);
   const int diagonal = cell.outer_diagonal(at.quad);
   const auto near = triangles_of(quad, diagonal), far = triangles_of(quad, 1 - diagonal);
   const std::int32_t sliver = mesh_.tet_at(near[0]);
-  if (sliver != mesh_.tet_at(near[1]) || cell.sliver[at.quad] != HybridCell::none) return;
+  if (sliver != mesh_.tet_at(near[1]) || cell.sliver[at.quad] != hybrid::HybridCell::none) return;
   if (tags_.contains(near[0]) || tags_.contains(near[1]) || tags_.covers_partly(quad, 1 - diagonal)) return;
   const bool on_boundary = tags_.cover_of(quad, 1 - diagonal).has_value();
   int tets = 0;
-  for (const auto& half : far) tets += mesh_.tet_at(half, sliver) != HybridMesh::none;
+  for (const auto& half : far) tets += mesh_.tet_at(half, sliver) != hybrid::HybridMesh::none;
   if (tets != 2 && !(tets == 0 && on_boundary)) return;
   mesh_.remove_tet(sliver);
   mesh_.set_sliver(at.cell, at.quad, sliver);
@@ -97,8 +98,8 @@ void Conformer::absorb_sliver(const OpenQuad& at) {
 }
 
 // The vertex that both tets at an open quad have besides the quad's, unless the facet between them is tagged.
-std::optional<Vertex> Conformer::common_apex(const OpenQuad& at) const {
-  const HybridCell& cell = mesh_.cell(at.cell);
+std::optional<Vertex> Conformer::common_apex(const choice::OpenQuad& at) const {
+  const hybrid::HybridCell& cell = mesh_.cell(at.cell);
   const Quad quad = cell.quad(at.quad);
   const auto halves = triangles_of(quad, cell.outer_diagonal(at.quad));
   const std::int32_t first = mesh_.tet_at(halves[0]), second = mesh_.tet_at(halves[1]);
@@ -116,10 +117,10 @@ std::optional<Vertex> Conformer::common_apex(const OpenQuad& at) const {
 
 // Two edges of the quad and the common apex's edge between them lie in a flat part of the surface: whatever stands on
 // the quad has no volume there.
-bool Conformer::has_flat_corner(const OpenQuad& at) const {
+bool Conformer::has_flat_corner(const choice::OpenQuad& at) const {
   const auto apex = common_apex(at);
   if (!apex) return false;
-  const HybridCell& cell = mesh_.cell(at.cell);
+  const hybrid::HybridCell& cell = mesh_.cell(at.cell);
   const Quad quad = cell.quad(at.quad);
   for (int corner = cell.outer_diagonal(at.quad); corner < 4; corner += 2) {
     const Vertex o = quad[corner], next = quad[(corner + 1) % 4], last = quad[(corner + 3) % 4];
@@ -132,30 +133,30 @@ bool Conformer::has_flat_corner(const OpenQuad& at) const {
   return false;
 }
 
-std::optional<HybridCell> Conformer::merged_pyramid(const OpenQuad& at) const {
+std::optional<hybrid::HybridCell> Conformer::merged_pyramid(const choice::OpenQuad& at) const {
   const auto common = common_apex(at);
   if (!common) return std::nullopt;
   const Quad quad = mesh_.cell(at.cell).quad(at.quad);
   const Vertex apex = *common;
   for (Vertex v : quad)
     if (diagonals_.contains(edge_key(v, apex))) return std::nullopt;
-  HybridCell pyramid;
+  hybrid::HybridCell pyramid;
   pyramid.kind = CellKind::pyramid;
   pyramid.corners = {quad[0], quad[1], quad[2], quad[3], apex, -1, -1, -1};
   pyramid.region = mesh_.region_of(mesh_.tet_at(triangles_of(quad, mesh_.cell(at.cell).outer_diagonal(at.quad))[0]));
   return pyramid;
 }
 
-double Conformer::quality_of(const HybridCell& pyramid) const {
+double Conformer::quality_of(const hybrid::HybridCell& pyramid) const {
   std::array<Vec3, 5> corners;
   for (int i = 0; i < 5; ++i) corners[i] = mesh_.points[pyramid.corners[i]];
-  PointStar star;
+  shape::PointStar star;
   star.add(CellKind::pyramid, corners, 4);
   return star.worst(corners[4]);
 }
 
-void Conformer::merge(const OpenQuad& at, const HybridCell& pyramid) {
-  const HybridCell& cell = mesh_.cell(at.cell);
+void Conformer::merge(const choice::OpenQuad& at, const hybrid::HybridCell& pyramid) {
+  const hybrid::HybridCell& cell = mesh_.cell(at.cell);
   diagonals_.erase(diagonal_of(at));
   for (const auto& half : triangles_of(cell.quad(at.quad), cell.outer_diagonal(at.quad)))
     mesh_.remove_tet(mesh_.tet_at(half));
@@ -164,8 +165,8 @@ void Conformer::merge(const OpenQuad& at, const HybridCell& pyramid) {
 }
 
 // The better of merging and splitting; the reason when neither is acceptable.
-std::optional<GivenBack> Conformer::resolve(const OpenQuad& at, double least) {
-  const HybridCell& cell = mesh_.cell(at.cell);
+std::optional<GivenBack> Conformer::resolve(const choice::OpenQuad& at, double least) {
+  const hybrid::HybridCell& cell = mesh_.cell(at.cell);
   const auto pyramid = merged_pyramid(at);
   const double merged_quality = pyramid ? quality_of(*pyramid) : -1;
   if (merged_quality >= good_pyramid) {
@@ -190,35 +191,36 @@ std::optional<GivenBack> Conformer::resolve(const OpenQuad& at, double least) {
 }
 
 // Quad i of a cell that is no more: what lay on it stays conforming with the cell's tets.
-void Conformer::free_quad(const HybridCell& cell, int i, std::int32_t partner, std::vector<OpenQuad>& open) {
+void Conformer::free_quad(const hybrid::HybridCell& cell, int i, std::int32_t partner,
+                          std::vector<choice::OpenQuad>& open) {
   const std::int32_t sliver = cell.sliver[i];
-  if (partner == HybridMesh::none) {
-    if (sliver != HybridCell::none) mesh_.restore_tet(sliver);
+  if (partner == hybrid::HybridMesh::none) {
+    if (sliver != hybrid::HybridCell::none) mesh_.restore_tet(sliver);
     return;
   }
-  const HybridCell& other = mesh_.cell(partner);
-  if (other.candidate == HybridCell::none) {
+  const hybrid::HybridCell& other = mesh_.cell(partner);
+  if (other.candidate == hybrid::HybridCell::none) {
     // Both diagonals cut a valid pyramid into two positive tets: its corner determinants are theirs.
     const Vertex apex = other.corners[4];
     const std::int32_t region = other.region;
     mesh_.remove_cell(partner);
     for (const auto& half : triangles_of(cell.quad(i), cell.outer_diagonal(i)))
       mesh_.add_tet({half[0], half[1], half[2], apex}, region);
-    if (sliver != HybridCell::none) mesh_.restore_tet(sliver);
+    if (sliver != hybrid::HybridCell::none) mesh_.restore_tet(sliver);
     return;
   }
   int theirs = 0;
   while (key_of(other.quad(theirs)) != key_of(cell.quad(i))) ++theirs;
-  if (sliver != HybridCell::none && other.sliver[theirs] != sliver) mesh_.restore_tet(sliver);
+  if (sliver != hybrid::HybridCell::none && other.sliver[theirs] != sliver) mesh_.restore_tet(sliver);
   open.push_back({partner, theirs});
 }
 
-void Conformer::give_back(std::int32_t c, std::vector<OpenQuad>& open) {
-  const HybridCell cell = mesh_.cell(c);
+void Conformer::give_back(std::int32_t c, std::vector<choice::OpenQuad>& open) {
+  const hybrid::HybridCell cell = mesh_.cell(c);
   std::array<std::int32_t, 6> partners;
   for (int i = 0; i < cell.quad_count(); ++i) {
     partners[i] = mesh_.partner_at(cell.quad(i), c);
-    if (is_open(mesh_, c, i)) diagonals_.erase(diagonal_of({c, i}));
+    if (choice::is_open(mesh_, c, i)) diagonals_.erase(diagonal_of({c, i}));
   }
   mesh_.remove_cell(c);
   for (std::int32_t t : candidates_.interior_tets_of(cell.candidate)) mesh_.restore_tet(t);
@@ -228,23 +230,24 @@ void Conformer::give_back(std::int32_t c, std::vector<OpenQuad>& open) {
 
 // One round: slivers, merges that are good at once, then the rest one after the other. Returns the quads that the cells
 // given back leave open.
-std::vector<OpenQuad> Conformer::round(std::vector<OpenQuad>& open) {
+std::vector<choice::OpenQuad> Conformer::round(std::vector<choice::OpenQuad>& open) {
   for (const auto& at : open)
     if (mesh_.cell(at.cell).alive && !is_done(at)) absorb_sliver(at);
-  std::erase_if(open, [&](const OpenQuad& at) { return !mesh_.cell(at.cell).alive || is_done(at); });
+  std::erase_if(open, [&](const choice::OpenQuad& at) { return !mesh_.cell(at.cell).alive || is_done(at); });
   for (const auto& at : open) diagonals_.insert(diagonal_of(at));
-  std::erase_if(open, [&](const OpenQuad& at) {
+  std::erase_if(open, [&](const choice::OpenQuad& at) {
     const auto pyramid = merged_pyramid(at);
     if (!pyramid || quality_of(*pyramid) < good_pyramid) return false;
     merge(at, *pyramid);
     return true;
   });
-  std::erase_if(open, [&](const OpenQuad& at) { return !resolve(at, std::max(accepted_at_once, least_quality_)); });
+  std::erase_if(open,
+                [&](const choice::OpenQuad& at) { return !resolve(at, std::max(accepted_at_once, least_quality_)); });
   std::vector<Failure> failures;
   for (const auto& at : open)
     if (const auto reason = has_flat_corner(at) ? std::optional(GivenBack::flat_corner) : resolve(at, least_quality_))
       failures.push_back({at, *reason});
-  std::vector<OpenQuad> next;
+  std::vector<choice::OpenQuad> next;
   for (const auto& [at, reason] : failures) {
     if (!mesh_.cell(at.cell).alive) continue;
     give_back(at.cell, next);
@@ -255,9 +258,9 @@ std::vector<OpenQuad> Conformer::round(std::vector<OpenQuad>& open) {
 
 }  // namespace
 
-ConformityCounts make_conforming(HybridMesh& mesh, const SurfaceTags& tags, const Candidates& candidates,
-                                 double least_quality) {
+ConformityCounts make_conforming(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags,
+                                 const Candidates& candidates, double least_quality) {
   return Conformer(mesh, tags, candidates, least_quality).run();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::conform

@@ -8,7 +8,7 @@
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
 #include "tools/assemble/hybrid/surface_tags.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::conform {
 
 // Why a cell went back to its tets.
 enum class GivenBack : std::uint8_t {
@@ -38,7 +38,7 @@ struct ConformityCounts {
 };
 
 // `least_quality`: the worst scaled Jacobian that a new element may have; below 0 to leave inverted ones to smoothing.
-ConformityCounts make_conforming(HybridMesh& mesh, const SurfaceTags& tags, const Candidates& candidates,
-                                 double least_quality);
+ConformityCounts make_conforming(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags,
+                                 const Candidates& candidates, double least_quality);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::conform

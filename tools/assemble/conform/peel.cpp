@@ -13,7 +13,7 @@
 
 #include "common/mesh/quality.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::conform {
 namespace {
 
 // Cosine between the normals of the facets that come and those that go: 15 degrees.
@@ -31,8 +31,8 @@ struct Peel {
 
 class Peeler {
  public:
-  Peeler(HybridMesh& mesh, SurfaceTags& tags, const InputSurface& surface, std::span<const std::uint8_t> is_shared,
-         double least)
+  Peeler(hybrid::HybridMesh& mesh, hybrid::SurfaceTags& tags, const shape::InputSurface& surface,
+         std::span<const std::uint8_t> is_shared, double least)
       : mesh_(mesh), tags_(tags), surface_(surface), is_shared_(is_shared), least_(least) {}
 
   std::int64_t run();
@@ -45,9 +45,9 @@ class Peeler {
   void collect_obstacles(const std::vector<Peel>& peels);
   bool is_free(const Peel& peel) const;
 
-  HybridMesh& mesh_;
-  SurfaceTags& tags_;
-  const InputSurface& surface_;
+  hybrid::HybridMesh& mesh_;
+  hybrid::SurfaceTags& tags_;
+  const shape::InputSurface& surface_;
   std::span<const std::uint8_t> is_shared_;
   double least_;
   KeySet<2> cell_edges_;      // with diagonals; an outer edge may not be among them
@@ -148,7 +148,7 @@ void Peeler::collect_obstacles(const std::vector<Peel>& peels) {
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(tags_.size()); ++i)
     for (int k = 0; k < 3; ++k) take(inner, tags_.triangle(i)[k], tags_.triangle(i)[(k + 1) % 3], boundary_edges_);
   for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh_.cell_count()); ++c) {
-    const HybridCell& cell = mesh_.cell(c);
+    const hybrid::HybridCell& cell = mesh_.cell(c);
     if (!cell.alive) continue;
     with_topology(cell.kind, [&](auto topology) {
       for (const auto& e : decltype(topology)::edges) take(outer, cell.corners[e[0]], cell.corners[e[1]], cell_edges_);
@@ -191,9 +191,9 @@ std::int64_t Peeler::run() {
 
 }  // namespace
 
-std::int64_t peel_flat_tets(HybridMesh& mesh, SurfaceTags& tags, const InputSurface& surface,
+std::int64_t peel_flat_tets(hybrid::HybridMesh& mesh, hybrid::SurfaceTags& tags, const shape::InputSurface& surface,
                             std::span<const std::uint8_t> is_shared, double least) {
   return Peeler(mesh, tags, surface, is_shared, least).run();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::conform

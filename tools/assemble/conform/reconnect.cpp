@@ -15,7 +15,7 @@
 
 #include "common/mesh/quality.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::conform {
 namespace {
 
 // Longer rings hardly ever have a triangulation that is better.
@@ -31,7 +31,7 @@ struct Exchange {
 
 class Reconnector {
  public:
-  Reconnector(HybridMesh& mesh, const SurfaceTags& tags) : mesh_(mesh), tags_(tags) {
+  Reconnector(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags) : mesh_(mesh), tags_(tags) {
     for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
       if (!mesh.cell(c).alive) continue;
       for (int i = 0; i < mesh.cell(c).quad_count(); ++i) {
@@ -62,8 +62,8 @@ class Reconnector {
   std::optional<Exchange> without_facet(std::int32_t t, int facet, double bound) const;
   std::optional<Exchange> best_exchange(std::int32_t t);
 
-  HybridMesh& mesh_;
-  const SurfaceTags& tags_;
+  hybrid::HybridMesh& mesh_;
+  const hybrid::SurfaceTags& tags_;
   KeySet<2> diagonals_;
   std::vector<std::int32_t> around_;
 };
@@ -146,7 +146,7 @@ std::optional<Exchange> Reconnector::without_facet(std::int32_t t, int facet, do
   const Tet& tet = mesh_.tet(t);
   const Triangle triangle{tet[f[0]], tet[f[1]], tet[f[2]]};
   const std::int32_t behind = mesh_.tet_at(triangle, t);
-  if (behind == HybridMesh::none || mesh_.region_of(behind) != mesh_.region_of(t) || tags_.contains(triangle))
+  if (behind == hybrid::HybridMesh::none || mesh_.region_of(behind) != mesh_.region_of(t) || tags_.contains(triangle))
     return std::nullopt;
   const Vertex here = tet[facet];
   const Tet& other = mesh_.tet(behind);
@@ -195,11 +195,11 @@ std::int64_t Reconnector::pass(double least) {
 
 }  // namespace
 
-std::int64_t reconnect_poor_tets(HybridMesh& mesh, const SurfaceTags& tags, double least) {
+std::int64_t reconnect_poor_tets(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, double least) {
   Reconnector reconnector(mesh, tags);
   std::int64_t exchanges = 0;
   while (const std::int64_t more = reconnector.pass(least)) exchanges += more;
   return exchanges;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::conform

@@ -6,7 +6,7 @@
 
 #include "tools/assemble/conform/cavity.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::conform {
 namespace {
 
 // Below this the cavity goes on growing.
@@ -17,7 +17,7 @@ constexpr double least_gain = 0.005;
 
 }  // namespace
 
-std::int64_t repair_flat_tets(HybridMesh& mesh, const SurfaceTags& tags, double least) {
+std::int64_t repair_flat_tets(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, double least) {
   std::int64_t added = 0;
   const auto count = static_cast<std::int32_t>(mesh.tet_count());
   for (std::int32_t t = 0; t < count; ++t) {
@@ -32,4 +32,4 @@ std::int64_t repair_flat_tets(HybridMesh& mesh, const SurfaceTags& tags, double 
   return added;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::conform

@@ -4,7 +4,7 @@
 
 #include "common/mesh/cell_topology.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::hybrid {
 
 BoundaryQuads::BoundaryQuads(const TetMesh& mesh, const TetAdjacency& adjacency, const SurfaceTags& tags)
     : tags_(tags), is_outer_(tags.size()) {
@@ -22,4 +22,4 @@ bool BoundaryQuads::contains(const Quad& quad) const {
   return cover && is_outer_[cover->triangles[0]];
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::hybrid

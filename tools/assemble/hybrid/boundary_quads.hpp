@@ -7,7 +7,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/assemble/hybrid/surface_tags.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::hybrid {
 
 class BoundaryQuads {
  public:
@@ -22,4 +22,4 @@ class BoundaryQuads {
   std::vector<bool> is_outer_;  // by tagged triangle
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::hybrid

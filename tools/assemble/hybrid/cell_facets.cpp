@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hexpipe {
+namespace hexpipe::assemble::hybrid {
 
 FacetForm FacetForm::of(std::span<const Vertex> corners) {
   const std::size_t n = corners.size();
@@ -69,4 +69,4 @@ CellFacets::Entry* CellFacets::find(const FacetForm& facet) {
   return found != end && found->vertices == facet.vertices ? &*found : nullptr;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::hybrid

@@ -7,7 +7,7 @@
 
 #include "common/mesh/mixed_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::hybrid {
 
 // A facet in canonical form: its least vertex, then for a triangle the other two in ascending order and -1; for a quad
 // the one opposite to the least, then the other two in ascending order. So a quad in another cyclic order is another
@@ -55,4 +55,4 @@ void for_each_cell(const MixedMesh& mesh, Visit&& visit) {
   each(CellKind::tet, mesh.tets);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::hybrid

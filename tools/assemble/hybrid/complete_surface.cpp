@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hexpipe {
+namespace hexpipe::assemble::hybrid {
 namespace {
 
 // Boundary facets that no triangle of the input names get this tag, as in findhex.
@@ -32,4 +32,4 @@ void complete_surface(TetMesh& mesh, const TetAdjacency& adjacency) {
   add_missing_boundary_triangles(mesh, adjacency, untagged);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::hybrid

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hexpipe {
+namespace hexpipe::assemble::hybrid {
 namespace {
 
 template <int Corners>
@@ -131,4 +131,4 @@ Extract without(const Extract& from, std::int32_t region, std::int32_t tag) {
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::hybrid

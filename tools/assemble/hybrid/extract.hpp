@@ -6,7 +6,7 @@
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
 #include "tools/assemble/hybrid/surface_tags.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::hybrid {
 
 struct Extract {
   MixedMesh mesh;
@@ -24,4 +24,4 @@ Extract without(const Extract& from, std::int32_t region, std::int32_t tag);
 // Without the facets with a tag.
 Extract without_facets(Extract from, std::int32_t tag);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::hybrid

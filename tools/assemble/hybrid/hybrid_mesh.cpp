@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-namespace hexpipe {
+namespace hexpipe::assemble::hybrid {
 
 Quad HybridCell::quad(int i) const {
   return with_topology(kind, [&](auto topology) {
@@ -121,4 +121,4 @@ std::int32_t HybridMesh::partner_at(const Quad& quad, std::int32_t cell) const {
   return none;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::hybrid

@@ -11,7 +11,7 @@
 #include "common/mesh/facet_key.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::hybrid {
 
 struct HybridCell {
   static constexpr std::int32_t none = -1;
@@ -85,4 +85,4 @@ class HybridMesh {
   KeyMap<4, std::array<std::int32_t, 2>> cells_at_quad_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::hybrid

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::assemble::hybrid {
 
 struct Seam {
   // By vertex of the input: 1 where others have cells too, so that it stays where it is.
@@ -18,4 +18,4 @@ struct Seam {
   std::int32_t seam_tag = 0;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::hybrid

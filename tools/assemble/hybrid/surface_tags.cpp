@@ -1,6 +1,6 @@
 #include "tools/assemble/hybrid/surface_tags.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::hybrid {
 
 SurfaceTags::SurfaceTags(const TetMesh& mesh) : triangles_(mesh.triangles), tags_(mesh.triangle_tags) {
   numbers_.reserve(triangles_.size());
@@ -41,4 +41,4 @@ bool SurfaceTags::covers_partly(const Quad& quad, int diagonal) const {
   return (contains(halves[0]) || contains(halves[1])) && !cover_of(quad, diagonal);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::hybrid

@@ -11,7 +11,7 @@
 #include "common/mesh/facet_key.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::hybrid {
 
 class SurfaceTags {
  public:
@@ -48,4 +48,4 @@ class SurfaceTags {
   std::vector<Tet> peeled_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::hybrid

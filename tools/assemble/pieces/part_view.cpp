@@ -9,7 +9,7 @@
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/part_bundle.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::pieces {
 namespace {
 
 constexpr std::int32_t none = -1;
@@ -30,7 +30,7 @@ std::vector<std::uint8_t> distances(const TetMesh& mesh, const MeshPart& part) {
 // What made a solution, but for what each part counts by itself.
 nlohmann::ordered_json solver_of(const std::vector<nlohmann::ordered_json>& history) {
   auto all = nlohmann::ordered_json::array();
-  for (const char* tool : {"findhex", "initsol", "lns", "lns-mpi"}) all.push_back(settings_of(tool, history));
+  for (const char* tool : {"findhex", "initsol", "lns", "lns-mpi"}) all.push_back(pipeline::settings_of(tool, history));
   return all;
 }
 
@@ -40,7 +40,7 @@ class ChosenCells {
 
   // Of candidates in a part's numbers those chosen that are its own and lie within the view; the places of its points
   // and tets in the view's; none for a part whose numbers are the view's.
-  void add(const Candidates& from, const CandidateKeys& keys, const IndependentSet& chosen, std::int32_t part,
+  void add(const Candidates& from, const CandidateKeys& keys, const graph::IndependentSet& chosen, std::int32_t part,
            std::span<const std::int32_t> points, std::span<const std::int32_t> tets, const std::string& source) {
     const auto bundle = static_cast<std::int32_t>(view_.bundles.size());
     view_.bundles.push_back(source);
@@ -63,7 +63,7 @@ class ChosenCells {
     std::ranges::sort(order, {}, [&](std::int32_t i) { return view_.keys.key[i]; });
     view_.cells = select(view_.cells, order);
     view_.keys = select(view_.keys, order);
-    std::vector<CellOrigin> origins;
+    std::vector<choice::CellOrigin> origins;
     origins.reserve(order.size());
     for (const std::int32_t i : order) origins.push_back(view_.origins[i]);
     view_.origins = std::move(origins);
@@ -94,7 +94,7 @@ PartView view_part(SolvedPart own, const std::vector<std::string>& neighbours, c
   ChosenCells cells(view);
   cells.add(own.candidates, own.keys, own.chosen, view.part.part, {}, {}, source);
   const auto solver = solver_of(own.history);
-  for_each_neighbour(view.part, neighbours, source, [&](const PartBundle& other) {
+  pipeline::for_each_neighbour(view.part, neighbours, source, [&](const pipeline::PartBundle& other) {
     if (!other.chosen) throw DataError::at(other.name, "expected a solution, found none");
     if (solver_of(other.history) != solver)
       throw DataError::at(other.name, "expected a solution made with the version and options of {}, found another",
@@ -107,4 +107,4 @@ PartView view_part(SolvedPart own, const std::vector<std::string>& neighbours, c
   return view;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::pieces

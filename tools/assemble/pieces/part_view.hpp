@@ -13,7 +13,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/assemble/choice/selection.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::pieces {
 
 struct PartView {
   MeshPart part;
@@ -22,7 +22,7 @@ struct PartView {
   Candidates cells;
   CandidateKeys keys;
   // By cell, where it is from; the names of the bundles, of which the first is the part's own.
-  std::vector<CellOrigin> origins;
+  std::vector<choice::CellOrigin> origins;
   std::vector<std::string> bundles;
   // By point: edges from the nearest point of the part's own, at most `furthest`.
   std::vector<std::uint8_t> distance;
@@ -37,7 +37,7 @@ struct SolvedPart {
   TetMesh mesh;
   Candidates candidates;
   CandidateKeys keys;
-  IndependentSet chosen;
+  graph::IndependentSet chosen;
   std::vector<nlohmann::ordered_json> history;
 };
 
@@ -45,4 +45,4 @@ struct SolvedPart {
 // run.
 PartView view_part(SolvedPart own, const std::vector<std::string>& neighbours, const std::string& source);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::pieces

@@ -6,7 +6,7 @@
 #include <limits>
 #include <span>
 
-namespace hexpipe {
+namespace hexpipe::assemble::pieces {
 namespace {
 
 constexpr std::int32_t none = -1;
@@ -20,7 +20,7 @@ std::int32_t unused_tag(std::span<const std::int32_t> used, std::int32_t but) {
 
 class Cutter {
  public:
-  Cutter(const PartView& view, const TetAdjacency& adjacency, const SurfaceTags& tags, const Pieces& pieces)
+  Cutter(const PartView& view, const TetAdjacency& adjacency, const hybrid::SurfaceTags& tags, const Pieces& pieces)
       : view_(view), adjacency_(adjacency), tags_(tags), pieces_(pieces), tet_place_(view.mesh.tets.size(), none) {
     result_.seam.guest_region = unused_tag(view.mesh.tet_tags, 0);
     result_.seam.seam_tag = unused_tag(view.mesh.triangle_tags, 0);
@@ -93,7 +93,7 @@ class Cutter {
 
   // Of a facet of tet `t`, which the piece or a guest has.
   std::int32_t tag_of(std::int32_t t, std::int32_t beyond, const std::optional<std::int32_t>& tagged) const {
-    const Seam& seam = result_.seam;
+    const hybrid::Seam& seam = result_.seam;
     const bool ends = beyond != none && pieces_.of_tet[beyond] != view_.part.part;
     if (!is_here(t)) {
       const bool between_guests = beyond != none && tet_place_[beyond] != none;
@@ -136,7 +136,7 @@ class Cutter {
 
   const PartView& view_;
   const TetAdjacency& adjacency_;
-  const SurfaceTags& tags_;
+  const hybrid::SurfaceTags& tags_;
   const Pieces& pieces_;
   PieceInput result_;
   std::vector<std::int32_t> tet_place_;
@@ -145,9 +145,9 @@ class Cutter {
 
 }  // namespace
 
-PieceInput cut_piece(const PartView& view, const TetAdjacency& adjacency, const SurfaceTags& tags, const Pieces& pieces,
-                     const SeamCells& cells) {
+PieceInput cut_piece(const PartView& view, const TetAdjacency& adjacency, const hybrid::SurfaceTags& tags,
+                     const Pieces& pieces, const SeamCells& cells) {
   return Cutter(view, adjacency, tags, pieces).cut(cells);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::pieces

@@ -10,18 +10,18 @@
 #include "tools/assemble/pieces/part_view.hpp"
 #include "tools/assemble/pieces/pieces.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::pieces {
 
 struct PieceInput {
   TetMesh mesh;  // with every facet of its boundary and interfaces among its triangles
   Candidates cells;
-  Seam seam;
+  hybrid::Seam seam;
   std::vector<std::int32_t> view_cells;    // by candidate, its number in the view
   std::vector<std::int64_t> point_number;  // in the whole
 };
 
 // `tags` of the view's mesh, whose surface is complete.
-PieceInput cut_piece(const PartView& view, const TetAdjacency& adjacency, const SurfaceTags& tags, const Pieces& pieces,
-                     const SeamCells& cells);
+PieceInput cut_piece(const PartView& view, const TetAdjacency& adjacency, const hybrid::SurfaceTags& tags,
+                     const Pieces& pieces, const SeamCells& cells);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::pieces

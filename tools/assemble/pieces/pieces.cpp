@@ -6,7 +6,7 @@
 #include <numeric>
 #include <set>
 
-namespace hexpipe {
+namespace hexpipe::assemble::pieces {
 namespace {
 
 // Tets that hang together by open quads are few; where they are more than this, all stay at home.
@@ -21,10 +21,10 @@ struct OpenRing {
   std::vector<std::int32_t> tets;
 };
 
-std::vector<OpenRing> open_rings(const HybridMesh& mesh) {
+std::vector<OpenRing> open_rings(const hybrid::HybridMesh& mesh) {
   std::vector<OpenRing> rings;
-  for (const auto& [c, i] : open_quads(mesh)) {
-    const HybridCell& cell = mesh.cell(c);
+  for (const auto& [c, i] : choice::open_quads(mesh)) {
+    const hybrid::HybridCell& cell = mesh.cell(c);
     const Quad quad = cell.quad(i);
     const int diagonal = cell.outer_diagonal(i);
     OpenRing& ring = rings.emplace_back();
@@ -67,7 +67,7 @@ std::vector<std::vector<std::int32_t>> groups_of(const std::vector<OpenRing>& ri
 
 class Division {
  public:
-  Division(const PartView& view, const TetAdjacency& adjacency, const HybridMesh& chosen)
+  Division(const PartView& view, const TetAdjacency& adjacency, const hybrid::HybridMesh& chosen)
       : view_(view), adjacency_(adjacency), rings_(open_rings(chosen)) {
     pieces_.of_tet.resize(view.mesh.tets.size());
     for (std::int32_t t = 0; t < static_cast<std::int32_t>(pieces_.of_tet.size()); ++t)
@@ -153,8 +153,8 @@ class Division {
   Pieces pieces_;
 };
 
-IndependentSet all_but(const PartView& view, std::span<const std::uint64_t> given_back) {
-  IndependentSet rest;
+graph::IndependentSet all_but(const PartView& view, std::span<const std::uint64_t> given_back) {
+  graph::IndependentSet rest;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(view.cells.size()); ++i)
     if (!std::ranges::binary_search(given_back, view.keys.key[i])) rest.push_back(i);
   return rest;
@@ -162,9 +162,9 @@ IndependentSet all_but(const PartView& view, std::span<const std::uint64_t> give
 
 }  // namespace
 
-Pieces divide_tets(const PartView& view, const SurfaceTags& tags, const TetAdjacency& adjacency,
-                   const RoundBefore& before, const InputNames& names) {
-  const HybridMesh chosen = build_selection(view.mesh, tags, view.cells, all_but(view, {}), names);
+Pieces divide_tets(const PartView& view, const hybrid::SurfaceTags& tags, const TetAdjacency& adjacency,
+                   const RoundBefore& before, const choice::InputNames& names) {
+  const hybrid::HybridMesh chosen = choice::build_selection(view.mesh, tags, view.cells, all_but(view, {}), names);
   Division division(view, adjacency, chosen);
   division.move_groups();
   division.note_moved();
@@ -173,16 +173,16 @@ Pieces divide_tets(const PartView& view, const SurfaceTags& tags, const TetAdjac
   return division.take();
 }
 
-SeamCells cells_at_seams(const PartView& view, const SurfaceTags& tags, const Pieces& pieces,
-                         std::span<const std::uint64_t> given_back, const InputNames& names) {
+SeamCells cells_at_seams(const PartView& view, const hybrid::SurfaceTags& tags, const Pieces& pieces,
+                         std::span<const std::uint64_t> given_back, const choice::InputNames& names) {
   SeamCells result;
   const std::int32_t here = view.part.part;
   const auto is_own = [&](std::int32_t i) { return view.keys.part[i] == here; };
-  IndependentSet left = all_but(view, given_back);
+  graph::IndependentSet left = all_but(view, given_back);
   for (bool changed = true; changed;) {
     changed = false;
     result.guests.clear();
-    const HybridMesh chosen = build_selection(view.mesh, tags, view.cells, left, names);
+    const hybrid::HybridMesh chosen = choice::build_selection(view.mesh, tags, view.cells, left, names);
     std::set<std::int32_t> torn, guests;
     for (const OpenRing& ring : open_rings(chosen)) {
       const std::int32_t piece = pieces.of_tet[ring.tets.front()];
@@ -204,4 +204,4 @@ SeamCells cells_at_seams(const PartView& view, const SurfaceTags& tags, const Pi
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::pieces

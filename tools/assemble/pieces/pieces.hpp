@@ -10,7 +10,7 @@
 #include "tools/assemble/choice/selection.hpp"
 #include "tools/assemble/pieces/part_view.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::pieces {
 
 // What the other pieces of the round before say.
 struct RoundBefore {
@@ -30,8 +30,8 @@ struct Pieces {
 // A cell with its interior tets and its slivers belongs to its own part. Other tets belong to their home, the part of
 // the tet if a point of it is of that part, else that of its first point; but those around the diagonals of open quads
 // that have tets in common belong all to one part, where one is near enough to all of them.
-Pieces divide_tets(const PartView& view, const SurfaceTags& tags, const TetAdjacency& adjacency,
-                   const RoundBefore& before, const InputNames& names);
+Pieces divide_tets(const PartView& view, const hybrid::SurfaceTags& tags, const TetAdjacency& adjacency,
+                   const RoundBefore& before, const choice::InputNames& names);
 
 // How the cells that are left stand at the seams.
 struct SeamCells {
@@ -40,7 +40,7 @@ struct SeamCells {
   // Of this part, with a quad that faces tets of several pieces, or was given back by one.
   std::vector<std::int32_t> given_back;
 };
-SeamCells cells_at_seams(const PartView& view, const SurfaceTags& tags, const Pieces& pieces,
-                         std::span<const std::uint64_t> given_back, const InputNames& names);
+SeamCells cells_at_seams(const PartView& view, const hybrid::SurfaceTags& tags, const Pieces& pieces,
+                         std::span<const std::uint64_t> given_back, const choice::InputNames& names);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::pieces

@@ -5,7 +5,7 @@
 
 #include "common/mesh/facet_key.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::shape {
 
 BoundaryDeviation::BoundaryDeviation(const MixedMesh& mesh, const InputSurface& surface,
                                      std::span<const Vec3> input_points, std::span<const Vertex> origin)
@@ -110,4 +110,4 @@ std::optional<Vertex> BoundaryDeviation::vertex_off_surface(double tolerance) co
   return std::nullopt;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::shape

@@ -10,7 +10,7 @@
 #include "common/mesh/vertex_items.hpp"
 #include "tools/assemble/shape/input_surface.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::shape {
 
 class BoundaryDeviation {
  public:
@@ -50,4 +50,4 @@ class BoundaryDeviation {
   VertexItems facets_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::shape

@@ -5,7 +5,7 @@
 
 #include "common/mesh/facet_key.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::shape {
 namespace {
 
 // Sine of the angle between normals of one plane. STL files hold floats: a slanted plane in one is this uneven, and a
@@ -125,4 +125,4 @@ std::vector<Freedom> vertex_freedoms(const MixedMesh& mesh) {
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::shape

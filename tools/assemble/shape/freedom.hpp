@@ -7,10 +7,10 @@
 #include "common/mesh/mixed_mesh.hpp"
 #include "tools/assemble/shape/point_star.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::shape {
 
 // Vertices inside: anywhere. On tagged facets that all lie in one plane with one tag: in that plane. On tagged facets
 // in two planes, with one tag in each: along their common line. All others: nowhere.
 std::vector<Freedom> vertex_freedoms(const MixedMesh& mesh);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::shape

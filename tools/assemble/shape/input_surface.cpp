@@ -11,7 +11,7 @@
 #include "common/mesh/facet_key.hpp"
 #include "tools/assemble/shape/wall_thickness.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::shape {
 namespace {
 
 // 40 degrees, as in tetmesh: cylinders of nine sides and more count as smooth, and a curve may turn by as much.
@@ -242,4 +242,4 @@ bool InputSurface::has_triangle(const Triangle& triangle) const {
                              [&](std::int32_t t) { return key_of(mesh_.triangles[t]) == key; });
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::shape

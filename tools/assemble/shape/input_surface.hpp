@@ -10,7 +10,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "common/mesh/vertex_items.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::shape {
 
 // How far facets may come to lie from the input's surface where vertices slide on it or flat tets are taken off it: in
 // edge lengths there, or, where the part is thinner than an edge is long, in its thickness. Circles of 25 edges and
@@ -81,4 +81,4 @@ class InputSurface {
   std::vector<double> lengths_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::shape

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hexpipe {
+namespace hexpipe::assemble::shape {
 namespace {
 
 // The scaled Jacobian of a tet is at most sqrt(1/2) without it.
@@ -304,4 +304,4 @@ Placement raise_score(const PointStar& star, const Vec3& start, int steps, doubl
   return best;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::shape

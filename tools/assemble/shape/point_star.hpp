@@ -8,7 +8,7 @@
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/vec3.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::shape {
 
 // How the corners of an element count beside those of others.
 struct Standing {
@@ -103,4 +103,4 @@ Vec3 deepest_point(std::span<const Plane> planes, const Vec3& start);
 // The point of the convex hull of `vectors` (not empty) nearest to the origin, nearly.
 Vec3 shortest_in_hull(std::span<const Vec3> vectors);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::shape

@@ -22,7 +22,7 @@
 #include "tools/assemble/shape/freedom.hpp"
 #include "tools/assemble/shape/point_star.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::shape {
 namespace {
 
 // What a scaled Jacobian counts by kind when cells compete for a vertex: a hex of 0.5 counts as a tet or a pyramid of
@@ -290,4 +290,4 @@ SmoothCounts smooth(MixedMesh& mesh, int rounds, const SlidingSurface* sliding) 
   return counts;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::shape

@@ -6,7 +6,7 @@
 #include "common/mesh/mixed_mesh.hpp"
 #include "tools/assemble/shape/input_surface.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::shape {
 
 struct SmoothCounts {
   int rounds = 0;  // done; fewer than asked for when nothing moved any more
@@ -41,4 +41,4 @@ void untangle(MixedMesh& mesh, int rounds, const SlidingSurface* sliding = nullp
 // curves slide on them where the worst cell is poor, within a small part of an edge length of the input's surface.
 SmoothCounts smooth(MixedMesh& mesh, int rounds, const SlidingSurface* sliding = nullptr);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::shape

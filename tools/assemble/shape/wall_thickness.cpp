@@ -7,7 +7,7 @@
 
 #include "common/mesh/cell_topology.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::shape {
 namespace {
 
 // Rays that pass more tets than this within a few edge lengths go round in circles, by rounding.
@@ -99,4 +99,4 @@ std::vector<double> wall_thickness(const TetMesh& mesh, const TetAdjacency& adja
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::shape

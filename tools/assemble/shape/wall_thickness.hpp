@@ -6,10 +6,10 @@
 
 #include "common/mesh/adjacency.hpp"
 
-namespace hexpipe {
+namespace hexpipe::assemble::shape {
 
 // For each tagged triangle, from its middle at right angles into the tets on either side, to where their region ends;
 // at most the triangle's `reach`, which it also is for a triangle that is no facet of a tet.
 std::vector<double> wall_thickness(const TetMesh& mesh, const TetAdjacency& adjacency, std::span<const double> reach);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::assemble::shape

@@ -4,7 +4,7 @@
 
 #include "tools/tetmesh/fields/curl_correction.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::fields {
 namespace {
 
 // In single precision: the tolerance asks for no more, and how fast this is depends on how much memory it goes through.
@@ -53,4 +53,4 @@ std::vector<float> curl_correction(std::span<const float> distances, const Loops
   return correction;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::fields

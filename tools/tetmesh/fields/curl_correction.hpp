@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::fields {
 
 // A numbered distance on a way.
 struct LoopStep {
@@ -53,4 +53,4 @@ struct CurlLimits {
 // What to add to the distances so that each loop adds up to what it should, as nearly as little enough does.
 std::vector<float> curl_correction(std::span<const float> distances, const Loops& loops, const CurlLimits& limits);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::fields

@@ -1,7 +1,7 @@
 #pragma once
 // How many elements go across what is thin.
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::fields {
 
 // Of what is so many sizes wide, one or two: whichever number stretches or presses them less. Up to
 // widest_to_decide both are near enough for some places to take the one and some the other, if each is left to itself.
@@ -11,4 +11,4 @@ inline int layers_across(double width) {
   return width > as_far_from_both ? 2 : 1;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::fields

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::fields {
 namespace {
 
 // The harmonics as polynomials: see any table, for instance Huang et al. 2011; times sqrt(4 pi / 9).
@@ -153,4 +153,4 @@ Frame frame_around(const Vec3& direction) {
   return {direction, second, cross(direction, second)};
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::fields

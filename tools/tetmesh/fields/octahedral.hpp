@@ -11,7 +11,7 @@
 
 #include "common/mesh/vec3.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::fields {
 
 // Coefficients of the real harmonics of degree 4, m = -4 .. 4, scaled so that those of a single direction have norm 1.
 using Harmonics = Eigen::Matrix<double, 9, 1>;
@@ -50,4 +50,4 @@ Frame turned_onto(const Frame& frame, const Vec3& direction);
 // An orthonormal frame whose first axis is the unit vector.
 Frame frame_around(const Vec3& direction);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::fields

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::fields {
 
 using Complex = std::complex<double>;
 template <std::size_t K>
@@ -77,4 +77,4 @@ PeriodicNumbers<K> diffused(PeriodicNumbers<K> rest, const DiffusionLimits& limi
   return numbers;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::fields

@@ -12,7 +12,7 @@
 
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::geometry {
 
 class ApartTest {
  public:
@@ -67,4 +67,4 @@ class ApartTest {
   std::vector<std::array<Vec3, 2>> directions_;  // across the triangle, and in it across its longest side
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::geometry

@@ -4,7 +4,7 @@
 
 #include "tools/tetmesh/geometry/triangle_pieces.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::geometry {
 
 double Box::entry(const Vec3& from, const Vec3& inverse) const {
   double in = 0, out = std::numeric_limits<double>::max();
@@ -76,4 +76,4 @@ BoxTree tree_of_triangles(std::span<const Vec3> points, std::span<const Triangle
   return {boxes, std::vector<double>(boxes.size(), 0.0), owners};
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::geometry

@@ -11,7 +11,7 @@
 
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::geometry {
 
 struct Box {
   Vec3 low, high;
@@ -108,4 +108,4 @@ class BoxTree {
 // With values of 0, so that least() with a slope of 1 finds distances.
 BoxTree tree_of_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::geometry

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::geometry {
 
 using GridCell = std::array<std::int64_t, 3>;
 
@@ -24,4 +24,4 @@ struct CellKeyHash {
   }
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::geometry

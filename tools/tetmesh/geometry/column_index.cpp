@@ -8,7 +8,7 @@
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
 #include "tools/tetmesh/geometry/triangle_pieces.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::geometry {
 
 ColumnIndex::ColumnIndex(std::span<const Vec3> points, std::span<const Triangle> triangles)
     : points_(points), triangles_(triangles) {
@@ -70,4 +70,4 @@ bool ColumnIndex::is_crossed(const Vec3& p, std::int32_t triangle) const {
   return facing * orientation(a, b, c, p) < 0;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::geometry

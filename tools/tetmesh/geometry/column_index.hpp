@@ -12,7 +12,7 @@
 
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::geometry {
 
 class ColumnIndex {
  public:
@@ -42,4 +42,4 @@ class ColumnIndex {
   std::vector<std::int32_t> members_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::geometry

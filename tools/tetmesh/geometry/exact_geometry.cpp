@@ -10,7 +10,7 @@
 
 #include "tools/tetmesh/geometry/apart_test.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::geometry {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -125,4 +125,4 @@ IntersectionReport find_intersections(std::span<const Vec3> points, std::span<co
   return report;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::geometry

@@ -9,7 +9,7 @@
 
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::geometry {
 
 // The sign of the area of (a, b, c) projected along z: positive when counter-clockwise seen from +z.
 int orientation_along_z(const Vec3& a, const Vec3& b, const Vec3& c);
@@ -26,4 +26,4 @@ struct IntersectionReport {
 IntersectionReport find_intersections(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                       std::size_t limit);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::geometry

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::geometry {
 
 // An edge of the surface is a feature where the normals of its triangles differ by more, in degrees.
 inline constexpr double default_feature_angle = 40;
@@ -13,4 +13,4 @@ inline double cosine_of_degrees(double angle) {
   return std::cos(angle * std::numbers::pi / 180);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::geometry

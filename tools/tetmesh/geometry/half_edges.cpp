@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::geometry {
 
 void for_each_edge(std::size_t vertex_count, std::span<const Triangle> triangles,
                    const std::function<void(std::span<const HalfEdge>)>& visit) {
@@ -38,4 +38,4 @@ std::vector<HalfEdge> find_twins(std::size_t vertex_count, std::span<const Trian
   return twins;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::geometry

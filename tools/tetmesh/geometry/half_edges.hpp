@@ -8,7 +8,7 @@
 
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::geometry {
 
 using HalfEdge = std::int32_t;
 
@@ -37,4 +37,4 @@ void for_each_edge(std::size_t vertex_count, std::span<const Triangle> triangles
 // The other half-edge of each edge; every edge must have two.
 std::vector<HalfEdge> find_twins(std::size_t vertex_count, std::span<const Triangle> triangles);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::geometry

@@ -5,7 +5,7 @@
 
 #include "common/mesh/vec3.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::geometry {
 
 // How far along a direction, in its lengths, maybe behind; infinite where the ray's line misses the triangle
 // (T. Möller, B. Trumbore: Fast, minimum storage ray/triangle intersection, 1997).
@@ -21,4 +21,4 @@ inline double length_to_triangle(const Vec3& from, const Vec3& direction, const 
   return dot(second, other) / volume;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::geometry

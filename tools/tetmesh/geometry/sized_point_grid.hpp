@@ -15,7 +15,7 @@
 #include "tools/tetmesh/geometry/box_tree.hpp"
 #include "tools/tetmesh/geometry/cell_key.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::geometry {
 
 class SizedPointGrid {
  public:
@@ -98,4 +98,4 @@ class SizedPointGrid {
   std::vector<std::int32_t> next_;  // in the same cell
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::geometry

@@ -6,7 +6,7 @@
 
 #include "common/mesh/vec3.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::geometry {
 
 class TriangleDistance {
  public:
@@ -41,4 +41,4 @@ class TriangleDistance {
   double normal_squared_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::geometry

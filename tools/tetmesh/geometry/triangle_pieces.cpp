@@ -1,6 +1,6 @@
 #include "tools/tetmesh/geometry/triangle_pieces.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::geometry {
 
 double length_of_pieces(std::span<const Vec3> points, std::span<const Triangle> triangles) {
   constexpr double most_pieces = 64;
@@ -14,4 +14,4 @@ double length_of_pieces(std::span<const Vec3> points, std::span<const Triangle> 
   return std::max(std::sqrt(area / count), length / (most_pieces * count));
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::geometry

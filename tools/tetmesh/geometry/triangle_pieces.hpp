@@ -16,7 +16,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/tetmesh/geometry/box_tree.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::geometry {
 
 class TrianglePieces {
  public:
@@ -103,4 +103,4 @@ class TrianglePieces {
 // there are at most 64 pieces for each triangle in the mean.
 double length_of_pieces(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::geometry

@@ -11,13 +11,13 @@
 #include "common/mwis/local_search/annealing.hpp"
 #include "common/run/random.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::search {
 namespace {
 
 constexpr double temperature = 0;  // nothing that loses stays: two meshes are to differ by their points alone
 constexpr const char* source = "the mesh of changed points";
 // Over the element it takes a tenth of the time here, and hardly ever tells another hex.
-constexpr CandidateQuality quality = CandidateQuality::corner;
+constexpr candidates::CandidateQuality quality = candidates::CandidateQuality::corner;
 
 // Those with a corner that is touched. A cell is found at its lowest vertex: here the touched ones come first.
 Candidates hexes_at(const std::vector<bool>& is_touched, const TetMesh& mesh) {
@@ -34,10 +34,10 @@ Candidates hexes_at(const std::vector<bool>& is_touched, const TetMesh& mesh) {
   };
   renumber(ordered.tets);
   renumber(ordered.triangles);
-  SearchScope scope;
+  candidates::SearchScope scope;
   scope.begins_at.resize(order.size());
   std::fill_n(scope.begins_at.begin(), end_of_touched - order.begin(), true);
-  Candidates found = findhex(std::move(ordered), {.quality = quality}, source, scope).candidates;
+  Candidates found = candidates::findhex(std::move(ordered), {.quality = quality}, source, scope).candidates;
   for (auto& corners : found.vertices)
     for (Vertex& v : corners) v = order[v];
   return found;
@@ -55,9 +55,9 @@ void append(Candidates& to, const ChosenHex& hex) {
 }
 
 // Less those that are in conflict with one before, where the change has put them there.
-IndependentSet independent_of(std::span<const std::int32_t> wanted, const ConflictGraph& graph) {
+graph::IndependentSet independent_of(std::span<const std::int32_t> wanted, const graph::ConflictGraph& graph) {
   std::vector<bool> is_kept_out(graph.weights.size());
-  IndependentSet set;
+  graph::IndependentSet set;
   for (const std::int32_t i : wanted) {
     if (is_kept_out[i]) continue;
     set.push_back(i);
@@ -70,8 +70,8 @@ IndependentSet independent_of(std::span<const std::int32_t> wanted, const Confli
 // The best set found from the one that is wanted.
 void append_best(const Candidates& found, std::span<const std::int32_t> wanted, double kicks,
                  std::vector<ChosenHex>& chosen) {
-  const ConflictGraph graph = conflict_graph(found, {}, source);
-  Annealing annealing(graph, independent_of(wanted, graph), Random(1));
+  const graph::ConflictGraph graph = conflicts::conflict_graph(found, {}, source);
+  mwis::local_search::Annealing annealing(graph, independent_of(wanted, graph), Random(1));
   const auto chosen_at_first = static_cast<double>(annealing.best().size());
   annealing.run(static_cast<std::int64_t>(kicks * chosen_at_first), temperature, Deadline());
   for (const std::int32_t i : annealing.best()) {
@@ -107,7 +107,7 @@ ChosenHex unchanged(const ChosenHex& before, const std::array<Vertex, 8>& corner
 
 std::vector<ChosenHex> choose_hexes(const TetMesh& mesh, double kicks) {
   std::vector<ChosenHex> chosen;
-  append_best(findhex(mesh, {.quality = quality}, source).candidates, {}, kicks, chosen);
+  append_best(candidates::findhex(mesh, {.quality = quality}, source).candidates, {}, kicks, chosen);
   return chosen;
 }
 
@@ -142,4 +142,4 @@ std::vector<ChosenHex> choose_hexes_again(const TetMesh& mesh, const MeshChange&
   return chosen;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::search

@@ -11,7 +11,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/tetmesh/search/mesh_change.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::search {
 
 struct ChosenHex {
   double volume, quality;  // quality: the least scaled Jacobian of the corners
@@ -28,4 +28,4 @@ std::vector<ChosenHex> choose_hexes(const TetMesh& mesh, double kicks);
 std::vector<ChosenHex> choose_hexes_again(const TetMesh& mesh, const MeshChange& change,
                                           std::span<const ChosenHex> before, double kicks);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::search

@@ -9,7 +9,7 @@
 #include "common/mesh/quality.hpp"
 #include "tools/tetmesh/search/hex_choice.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::search {
 namespace {
 
 // Of a hex's volume, for each open quad. What is left of simp once hexes have grown is a seventh of a hex for each open
@@ -44,7 +44,7 @@ double JudgedMesh::total_worth() const {
   return total;
 }
 
-JudgedMesh judge(BuiltMesh built, std::vector<ChosenHex> hexes) {
+JudgedMesh judge(tetgen::BuiltMesh built, std::vector<ChosenHex> hexes) {
   JudgedMesh judged{std::move(built), std::move(hexes), {}, {}, {}, {}};
   const TetMesh& mesh = judged.built.mesh;
   judged.hex_of_tet.assign(mesh.tets.size(), JudgedMesh::none);
@@ -72,4 +72,4 @@ JudgedMesh judge(BuiltMesh built, std::vector<ChosenHex> hexes) {
   return judged;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::search

@@ -8,12 +8,12 @@
 #include "tools/tetmesh/search/hex_choice.hpp"
 #include "tools/tetmesh/tetgen/build_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::search {
 
 struct JudgedMesh {
   static constexpr std::int32_t none = -1;
 
-  BuiltMesh built;
+  tetgen::BuiltMesh built;
   std::vector<ChosenHex> hexes;          // chosen
   std::vector<std::int32_t> hex_of_tet;  // or none
   std::vector<std::int32_t> left;        // tets of no hex
@@ -28,6 +28,6 @@ struct JudgedMesh {
 };
 
 // Of a mesh with hexes that stand together.
-JudgedMesh judge(BuiltMesh built, std::vector<ChosenHex> hexes);
+JudgedMesh judge(tetgen::BuiltMesh built, std::vector<ChosenHex> hexes);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::search

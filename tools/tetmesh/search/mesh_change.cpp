@@ -5,7 +5,7 @@
 
 #include "common/run/random.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::search {
 
 std::size_t MeshIndex::PlaceHash::operator()(const Vec3& p) const {
   std::uint64_t key = 0;
@@ -48,4 +48,4 @@ MeshChange::MeshChange(const MeshIndex& before, const TetMesh& now)
   }
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::search

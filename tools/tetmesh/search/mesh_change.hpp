@@ -7,7 +7,7 @@
 #include "common/mesh/facet_key.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::search {
 
 // A mesh as the one after it looks things up there.
 class MeshIndex {
@@ -34,4 +34,4 @@ struct MeshChange {
   std::vector<bool> is_touched;       // by vertex now: a tet has come or gone there
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::search

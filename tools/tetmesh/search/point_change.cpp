@@ -8,7 +8,7 @@
 
 #include "common/mesh/cell_topology.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::search {
 namespace {
 
 // All in sizes.
@@ -51,7 +51,7 @@ const QuadWithBack* quad_under(const ChosenHex& hex, const Triangle& triangle) {
 
 }  // namespace
 
-ChangeDrawer::ChangeDrawer(const JudgedMesh& judged, Vertex first_inside, const SurfaceClearance& clearance,
+ChangeDrawer::ChangeDrawer(const JudgedMesh& judged, Vertex first_inside, const solid::SurfaceClearance& clearance,
                            const FlatSurface* surface)
     : judged_(judged),
       mesh_(judged.built.mesh),
@@ -174,4 +174,4 @@ Vertex ChangeDrawer::nearest_to(const Vec3& place, std::span<const Vertex> aroun
   return nearest;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::search

@@ -9,7 +9,7 @@
 #include "tools/tetmesh/search/surface_change.hpp"
 #include "tools/tetmesh/solid/surface_clearance.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::search {
 
 struct PointChange {
   // Inside.
@@ -29,7 +29,7 @@ class ChangeDrawer {
  public:
   // Vertices from `first_inside` on are inside. Without a `surface` that stays as it is. All that is given must outlive
   // it.
-  ChangeDrawer(const JudgedMesh& judged, Vertex first_inside, const SurfaceClearance& clearance,
+  ChangeDrawer(const JudgedMesh& judged, Vertex first_inside, const solid::SurfaceClearance& clearance,
                const FlatSurface* surface);
 
   // Where the tet's middle is `middle` and the size there `size`. Nothing where all that it drew is too near to the
@@ -51,8 +51,8 @@ class ChangeDrawer {
   const TetMesh& mesh_;
   const TetAdjacency& adjacency_;
   Vertex first_inside_;
-  const SurfaceClearance& clearance_;
+  const solid::SurfaceClearance& clearance_;
   const FlatSurface* surface_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::search

@@ -12,7 +12,7 @@
 #include "tools/tetmesh/search/point_change.hpp"
 #include "tools/tetmesh/solid/surface_clearance.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::search {
 namespace {
 
 constexpr std::size_t tries_a_place = 4;        // changes tried at a place in a round
@@ -28,20 +28,21 @@ struct Place {
 
 class PointSearch {
  public:
-  PointSearch(const Surface& surface, BuiltMesh start, const PointSearchOptions& options, const MakeMeshes& make_meshes)
+  PointSearch(const solid::Surface& surface, tetgen::BuiltMesh start, const PointSearchOptions& options,
+              const MakeMeshes& make_meshes)
       : options_(options),
         make_meshes_(make_meshes),
         given_surface_(surface),
         clearance_(surface),
-        box_(Box::around(surface.points)),
+        box_(geometry::Box::around(surface.points)),
         current_(judged(std::move(start))),
         index_(current_.built.mesh) {}
 
   // Returns the number of changes that stay.
   std::size_t run_round(std::size_t round);
-  BuiltMesh take_mesh() { return std::move(current_.built); }
+  tetgen::BuiltMesh take_mesh() { return std::move(current_.built); }
   // Nothing where it is as it was given.
-  std::optional<Surface> take_surface() { return std::move(changed_surface_); }
+  std::optional<solid::Surface> take_surface() { return std::move(changed_surface_); }
   double hex_volume() const { return current_.hex_volume(); }
   bool is_complete() const { return current_.left.empty(); }
 
@@ -52,18 +53,18 @@ class PointSearch {
                                                std::span<const std::vector<PointChange>> changes,
                                                std::span<const std::vector<double>> worth) const;
   std::vector<double> worth_around(std::span<const Place> places, const JudgedMesh& judged) const;
-  const Surface& surface() const { return changed_surface_ ? *changed_surface_ : given_surface_; }
+  const solid::Surface& surface() const { return changed_surface_ ? *changed_surface_ : given_surface_; }
   SurfaceWithPoints with(std::span<const PointChange* const> changes) const;
   bool take_if_better(std::span<const PointChange* const> changes);
-  static JudgedMesh judged(BuiltMesh start);
-  JudgedMesh judged_from_current(BuiltMesh built) const;
+  static JudgedMesh judged(tetgen::BuiltMesh start);
+  JudgedMesh judged_from_current(tetgen::BuiltMesh built) const;
 
   const PointSearchOptions& options_;
   const MakeMeshes& make_meshes_;
-  const Surface& given_surface_;
-  const SurfaceClearance clearance_;  // the same for all that come, for these lie where it does
-  const Box box_;
-  std::optional<Surface> changed_surface_;
+  const solid::Surface& given_surface_;
+  const solid::SurfaceClearance clearance_;  // the same for all that come, for these lie where it does
+  const geometry::Box box_;
+  std::optional<solid::Surface> changed_surface_;
   JudgedMesh current_;
   MeshIndex index_;  // of its mesh
 };
@@ -79,7 +80,7 @@ std::size_t PointSearch::run_round(std::size_t round) {
     variants.push_back(with(all));
   }
   std::vector<std::vector<double>> worth(tries_a_place);  // as the changes; nothing where TetGen failed
-  make_meshes_(variants, [&](std::size_t number, BuiltMesh built) {
+  make_meshes_(variants, [&](std::size_t number, tetgen::BuiltMesh built) {
     worth[number] = worth_around(places, judged_from_current(std::move(built)));
   });
   std::vector<const PointChange*> good = best_changes(places, changes, worth);
@@ -129,7 +130,7 @@ std::vector<Place> PointSearch::choose_places(Random& random) const {
   std::vector<std::int32_t> order = current_.left;
   random.shuffle(std::span(order));
   std::vector<Place> places;
-  SizedPointGrid chosen(box_);
+  geometry::SizedPointGrid chosen(box_);
   for (const std::int32_t t : order) {
     const Tet& corners = mesh.tets[t];
     const Vec3 middle =
@@ -184,7 +185,7 @@ bool PointSearch::take_if_better(std::span<const PointChange* const> changes) {
   std::optional<JudgedMesh> next;
   std::vector<SurfaceWithPoints> changed;
   changed.push_back(with(changes));
-  make_meshes_(changed, [&](std::size_t, BuiltMesh built) { next = judged_from_current(std::move(built)); });
+  make_meshes_(changed, [&](std::size_t, tetgen::BuiltMesh built) { next = judged_from_current(std::move(built)); });
   if (!next || next->total_worth() <= current_.total_worth()) return false;
   current_ = std::move(*next);
   index_ = MeshIndex(current_.built.mesh);
@@ -192,12 +193,12 @@ bool PointSearch::take_if_better(std::span<const PointChange* const> changes) {
   return true;
 }
 
-JudgedMesh PointSearch::judged(BuiltMesh start) {
+JudgedMesh PointSearch::judged(tetgen::BuiltMesh start) {
   std::vector<ChosenHex> hexes = choose_hexes(start.mesh, first_kicks);
   return judge(std::move(start), std::move(hexes));
 }
 
-JudgedMesh PointSearch::judged_from_current(BuiltMesh built) const {
+JudgedMesh PointSearch::judged_from_current(tetgen::BuiltMesh built) const {
   const MeshChange change(index_, built.mesh);
   std::vector<ChosenHex> hexes = choose_hexes_again(built.mesh, change, current_.hexes, kicks);
   return judge(std::move(built), std::move(hexes));
@@ -205,8 +206,9 @@ JudgedMesh PointSearch::judged_from_current(BuiltMesh built) const {
 
 }  // namespace
 
-PointSearchResult search_points(const Surface& surface, BuiltMesh start, const PointSearchOptions& options,
-                                const Deadline& deadline, const MakeMeshes& make_meshes) {
+PointSearchResult search_points(const solid::Surface& surface, tetgen::BuiltMesh start,
+                                const PointSearchOptions& options, const Deadline& deadline,
+                                const MakeMeshes& make_meshes) {
   const double volume = surface.volume();
   PointSearch search(surface, std::move(start), options, make_meshes);
   PointSearchSummary summary{.share_before = search.hex_volume() / volume};
@@ -218,4 +220,4 @@ PointSearchResult search_points(const Surface& surface, BuiltMesh start, const P
   return {search.take_surface(), search.take_mesh(), summary};
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::search

@@ -16,10 +16,10 @@
 #include "tools/tetmesh/solid/shells.hpp"
 #include "tools/tetmesh/tetgen/build_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::search {
 
 struct PointSearchOptions {
-  SizeField size = 1;
+  sizing::SizeField size = 1;
   std::uint64_t seed = 1;
   std::size_t rounds = 0;
   bool changes_surface = false;  // within flat faces and along straight edges
@@ -29,7 +29,7 @@ struct PointSearchOptions {
 
 // What a mesh is made of.
 struct SurfaceWithPoints {
-  Surface surface;
+  solid::Surface surface;
   std::vector<Vec3> inside;
 };
 
@@ -40,19 +40,20 @@ struct PointSearchSummary {
 };
 
 struct PointSearchResult {
-  std::optional<Surface> surface;  // where it changed
-  BuiltMesh built;
+  std::optional<solid::Surface> surface;  // where it changed
+  tetgen::BuiltMesh built;
   PointSearchSummary summary;
 };
 
 // Makes a mesh of each, in any order, and hands it over with the number of what it is made of, one at a time. Where
 // none can be made, that is passed over.
-using TakeMesh = std::function<void(std::size_t number, BuiltMesh)>;
+using TakeMesh = std::function<void(std::size_t number, tetgen::BuiltMesh)>;
 using MakeMeshes = std::function<void(std::span<const SurfaceWithPoints>, const TakeMesh& take)>;
 
 // From a mesh of the surface, whose points come first there. The same for the same seed and number of rounds, unless
 // the deadline passes before.
-PointSearchResult search_points(const Surface& surface, BuiltMesh start, const PointSearchOptions& options,
-                                const Deadline& deadline, const MakeMeshes& make_meshes);
+PointSearchResult search_points(const solid::Surface& surface, tetgen::BuiltMesh start,
+                                const PointSearchOptions& options, const Deadline& deadline,
+                                const MakeMeshes& make_meshes);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::search

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::search {
 namespace {
 
 constexpr Vertex added_vertex = -1;
@@ -17,7 +17,7 @@ Vertex third_corner(const Triangle& t, Vertex a, Vertex b) {
 
 }  // namespace
 
-FlatSurface::FlatSurface(const Surface& surface)
+FlatSurface::FlatSurface(const solid::Surface& surface)
     : surface_(surface), triangles_(triangles_at_vertices(surface.points.size(), surface.triangles)) {}
 
 std::vector<Vertex> FlatSurface::neighbours_of(Vertex v) const {
@@ -151,8 +151,8 @@ SurfaceChange FlatSurface::flip(Vertex a, Vertex b, double size) const {
   return change;
 }
 
-Surface with_changes(const Surface& surface, std::span<const SurfaceChange* const> changes) {
-  SurfaceSoup soup = surface;
+solid::Surface with_changes(const solid::Surface& surface, std::span<const SurfaceChange* const> changes) {
+  formats::SurfaceSoup soup = surface;
   std::vector<bool> gone(soup.points.size());
   std::vector<bool> replaced(soup.triangles.size());
   std::vector<std::pair<Triangle, std::int32_t>> triangles;  // with what each is instead of
@@ -195,7 +195,7 @@ Surface with_changes(const Surface& surface, std::span<const SurfaceChange* cons
     soup.places.push_back(surface.places[instead_of]);
     shell_of.push_back(surface.shell_of[instead_of]);
   }
-  return with_shells_of(surface, std::move(soup), std::move(shell_of));
+  return solid::with_shells_of(surface, std::move(soup), std::move(shell_of));
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::search

@@ -11,7 +11,7 @@
 #include "common/mesh/vertex_items.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::search {
 
 struct NewTriangle {
   Triangle corners;         // -1 for the point that comes
@@ -32,7 +32,7 @@ struct SurfaceChange {
 // The surface must outlive it.
 class FlatSurface {
  public:
-  explicit FlatSurface(const Surface& surface);
+  explicit FlatSurface(const solid::Surface& surface);
 
   // By the part of the step that lies in the face, or along the edge.
   SurfaceChange move(Vertex v, const Vec3& step, double size) const;
@@ -60,11 +60,11 @@ class FlatSurface {
   Vec3 normal_of(const Triangle& t) const;
   bool keeps(std::int32_t triangle, const Vec3& a, const Vec3& b, const Vec3& c, double size) const;
 
-  const Surface& surface_;
+  const solid::Surface& surface_;
   VertexItems triangles_;
 };
 
 // With changes that have no triangle in common. Vertices that stay keep their order; those that come are last.
-Surface with_changes(const Surface& surface, std::span<const SurfaceChange* const> changes);
+solid::Surface with_changes(const solid::Surface& surface, std::span<const SurfaceChange* const> changes);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::search

@@ -9,7 +9,7 @@
 #include "tools/tetmesh/geometry/box_tree.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::sizing {
 namespace {
 
 constexpr std::size_t most_corners = 4;
@@ -133,7 +133,7 @@ class PrismDistance {
   }
 
  private:
-  TriangleDistance base_;
+  geometry::TriangleDistance base_;
   Vec3 corner_, up_;
   double height_;
 };
@@ -162,19 +162,19 @@ struct SizeField::Known {
   }
 
   // Simplices come first.
-  static BoxTree tree_of(const SizeSources& sources) {
-    std::vector<Box> boxes;
+  static geometry::BoxTree tree_of(const SizeSources& sources) {
+    std::vector<geometry::Box> boxes;
     std::vector<double> values;
     boxes.reserve(sources.simplices.size() + sources.prisms.size());
     values.reserve(boxes.capacity());
     for (std::size_t i = 0; i < sources.simplices.size(); ++i) {
       const SizeSimplex simplex = simplex_of(sources, i);
-      boxes.push_back(Box::around(std::span(simplex.corners).first(simplex.count)));
+      boxes.push_back(geometry::Box::around(std::span(simplex.corners).first(simplex.count)));
       values.push_back(std::ranges::min(std::span(simplex.sizes).first(simplex.count)));
     }
     for (const auto& [corners, across, size] : sources.prisms) {
-      Box box = Box::around(corners);
-      box.add(Box::around(std::array{corners[0] + across, corners[1] + across, corners[2] + across}));
+      geometry::Box box = geometry::Box::around(corners);
+      box.add(geometry::Box::around(std::array{corners[0] + across, corners[1] + across, corners[2] + across}));
       boxes.push_back(box);
       values.push_back(size);
     }
@@ -183,7 +183,7 @@ struct SizeField::Known {
 
   SizeSources sources;
   double grading;
-  BoxTree tree;
+  geometry::BoxTree tree;
   std::vector<PrismDistance> distances;
 };
 
@@ -204,4 +204,4 @@ double SizeField::least_near(double here, double reach) const {
   return known_ ? std::max(least(), here - factor_ * known_->grading * reach) : greatest();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::sizing

@@ -13,7 +13,7 @@
 
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::sizing {
 
 // From a triangle straight across, the same size everywhere.
 struct SizePrism {
@@ -70,4 +70,4 @@ class SizeField {
   std::shared_ptr<const Known> known_;  // null: the same everywhere
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::sizing

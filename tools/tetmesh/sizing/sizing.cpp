@@ -11,7 +11,7 @@
 #include "common/mesh/default_size.hpp"
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::sizing {
 namespace {
 
 constexpr double coarse_edge = 2.5, fine_edge = 0.4;
@@ -19,7 +19,7 @@ constexpr double tolerated_share = 0.25;
 // Over a part of a triangle this long, in sizes, the size is taken to be that of its centre.
 constexpr double longest_part = 2;
 
-double area_of(const Surface& surface, const Triangle& t) {
+double area_of(const solid::Surface& surface, const Triangle& t) {
   const Vec3& origin = surface.points[t[0]];
   return norm(cross(surface.points[t[1]] - origin, surface.points[t[2]] - origin)) / 2;
 }
@@ -47,7 +47,7 @@ Length parse_length(std::string_view text) {
   return length;
 }
 
-double bounding_box_diagonal(const SurfaceSoup& surface) {
+double bounding_box_diagonal(const formats::SurfaceSoup& surface) {
   Vec3 low = surface.points.front(), high = low;
   for (const Vec3& p : surface.points) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
@@ -56,7 +56,7 @@ double bounding_box_diagonal(const SurfaceSoup& surface) {
   return norm(high - low);
 }
 
-double element_size(const Surface& surface, const std::optional<Length>& length, bool triangles_stay) {
+double element_size(const solid::Surface& surface, const std::optional<Length>& length, bool triangles_stay) {
   if (length) return length->percent_of_diagonal ? length->value / 100 * bounding_box_diagonal(surface) : length->value;
   double area = 0;
   for (const Triangle& t : surface.triangles) area += area_of(surface, t);
@@ -66,7 +66,7 @@ double element_size(const Surface& surface, const std::optional<Length>& length,
                       triangles_stay ? spacing : std::numeric_limits<double>::infinity());
 }
 
-double points_on_surface(const Surface& surface, const SizeField& size, double enough) {
+double points_on_surface(const solid::Surface& surface, const SizeField& size, double enough) {
   double sum = 0;
   std::vector<std::array<Vec3, 3>> parts;
   for (const auto& [a, b, c] : surface.triangles) {
@@ -89,11 +89,11 @@ double points_on_surface(const Surface& surface, const SizeField& size, double e
   return sum;
 }
 
-double points_expected(const Surface& surface, double size) {
+double points_expected(const solid::Surface& surface, double size) {
   return surface.volume() / size / size / size;
 }
 
-SizeFit fit_to_size(const Surface& surface, const SizeField& size) {
+SizeFit fit_to_size(const solid::Surface& surface, const SizeField& size) {
   double area = 0, coarse = 0, fine = 0;
   std::vector<double> edges;
   edges.reserve(3 * surface.triangles.size());
@@ -129,4 +129,4 @@ std::optional<std::string> SizeFit::complaint(double size) const {
       median_edge);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::sizing

@@ -7,7 +7,7 @@
 #include "tools/tetmesh/geometry/box_tree.hpp"
 #include "tools/tetmesh/geometry/ray_hit.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::sizing {
 namespace {
 
 constexpr double least_cosine = 0.70710678118654752;  // of 45 degrees
@@ -24,8 +24,11 @@ using Walls = std::vector<SizePrism>;
 
 class WallFinder {
  public:
-  WallFinder(const Surface& surface, double size, int layers)
-      : surface_(surface), size_(size), layers_(layers), tree_(tree_of_triangles(surface.points, surface.triangles)) {}
+  WallFinder(const solid::Surface& surface, double size, int layers)
+      : surface_(surface),
+        size_(size),
+        layers_(layers),
+        tree_(geometry::tree_of_triangles(surface.points, surface.triangles)) {}
 
   Walls find() const {
     Walls walls;
@@ -48,20 +51,20 @@ class WallFinder {
   double first_hit(const Vec3& from, const Vec3& direction, double longest) const;
   double length_to(std::int32_t triangle, const Vec3& from, const Vec3& direction) const;
 
-  const Surface& surface_;
+  const solid::Surface& surface_;
   double size_;
   int layers_;
-  BoxTree tree_;
+  geometry::BoxTree tree_;
 };
 
 void WallFinder::look_from(std::size_t triangle, Walls& walls) const {
   const auto& [a, b, c] = surface_.triangles[triangle];
   const Corners corners{surface_.points[a], surface_.points[b], surface_.points[c]};
-  const Shell& shell = surface_.shells[surface_.shell_of[triangle]];
+  const solid::Shell& shell = surface_.shells[surface_.shell_of[triangle]];
   const Vec3 normal = unit(cross(corners[1] - corners[0], corners[2] - corners[0]));
   if (norm_squared(normal) == 0) return;
   look(corners, -normal, walls);
-  if (shell.in_front != outside_region) look(corners, normal, walls);
+  if (shell.in_front != solid::outside_region) look(corners, normal, walls);
 }
 
 // In parts of a size.
@@ -127,14 +130,15 @@ double WallFinder::first_hit(const Vec3& from, const Vec3& direction, double lon
 // Along a direction of length 1, infinite where the ray misses the triangle.
 double WallFinder::length_to(std::int32_t triangle, const Vec3& from, const Vec3& direction) const {
   const auto& [a, b, c] = surface_.triangles[triangle];
-  const double length = length_to_triangle(from, direction, surface_.points[a], surface_.points[b], surface_.points[c]);
+  const double length =
+      geometry::length_to_triangle(from, direction, surface_.points[a], surface_.points[b], surface_.points[c]);
   return length > least_length * size_ ? length : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
 
-std::vector<SizePrism> wall_sizes(const Surface& surface, double size, int layers) {
+std::vector<SizePrism> wall_sizes(const solid::Surface& surface, double size, int layers) {
   return WallFinder(surface, size, layers).find();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::sizing

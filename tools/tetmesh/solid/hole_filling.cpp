@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::solid {
 
 std::vector<Triangle> triangulate_polygon(std::span<const Vec3> points, std::span<const Vertex> corners) {
   const std::size_t n = corners.size();
@@ -39,4 +39,4 @@ std::vector<Triangle> triangulate_polygon(std::span<const Vec3> points, std::spa
   return triangles;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::solid

@@ -9,7 +9,7 @@
 
 #include "tools/tetmesh/geometry/half_edges.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::solid {
 namespace {
 
 constexpr Axes coordinate_axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
@@ -62,7 +62,7 @@ class DirectionList {
 class AxesFinder {
  public:
   AxesFinder(const Surface& surface, double feature_angle)
-      : surface_(surface), faces_(area_normals()), edges_(feature_edges(cosine_of_degrees(feature_angle))) {}
+      : surface_(surface), faces_(area_normals()), edges_(feature_edges(geometry::cosine_of_degrees(feature_angle))) {}
 
   Axes find() const {
     const auto candidates = std::span(faces_.directions()).first(std::min(faces_.directions().size(), most_directions));
@@ -99,11 +99,11 @@ class AxesFinder {
   std::vector<Vec3> feature_edges(double feature_cosine) const {
     std::vector<Vec3> edges;
     double total = 0;
-    for_each_edge(surface_.points.size(), surface_.triangles, [&](std::span<const HalfEdge> edge) {
-      const Vec3 n = area_normal(triangle_of(edge[0])), m = area_normal(triangle_of(edge[1]));
+    geometry::for_each_edge(surface_.points.size(), surface_.triangles, [&](std::span<const geometry::HalfEdge> edge) {
+      const Vec3 n = area_normal(geometry::triangle_of(edge[0])), m = area_normal(geometry::triangle_of(edge[1]));
       if (dot(n, m) > feature_cosine * norm(n) * norm(m)) return;
-      edges.push_back(surface_.points[end_of(surface_.triangles, edge[0])] -
-                      surface_.points[start_of(surface_.triangles, edge[0])]);
+      edges.push_back(surface_.points[geometry::end_of(surface_.triangles, edge[0])] -
+                      surface_.points[geometry::start_of(surface_.triangles, edge[0])]);
       total += norm(edges.back());
     });
     for (Vec3& edge : edges) edge = edge * (edge_weight * total_area_ / total);
@@ -179,4 +179,4 @@ Axes axes_of_part(const Surface& surface, double feature_angle) {
   return AxesFinder(surface, feature_angle).find();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::solid

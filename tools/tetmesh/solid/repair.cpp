@@ -16,14 +16,14 @@
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/solid/hole_filling.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::solid {
 namespace {
 
-constexpr HalfEdge none = -1;
+constexpr geometry::HalfEdge none = -1;
 
 class Repairer {
  public:
-  Repairer(SurfaceSoup& soup, const RepairOptions& options) : soup_(soup), options_(options) {}
+  Repairer(formats::SurfaceSoup& soup, const RepairOptions& options) : soup_(soup), options_(options) {}
 
   RepairReport repair() {
     weld();
@@ -44,23 +44,23 @@ class Repairer {
   void remove_degenerate();
   void remove_collapsed();
   bool cut_flat_triangles();
-  void cut_neighbour(HalfEdge longest, std::vector<bool>& touched);
-  HalfEdge longest_side(std::int32_t triangle) const;
+  void cut_neighbour(geometry::HalfEdge longest, std::vector<bool>& touched);
+  geometry::HalfEdge longest_side(std::int32_t triangle) const;
   void remove_duplicates();
   void find_twins_and_borders();
   void spread(std::int32_t start, std::vector<std::int8_t>& sides, std::vector<std::int32_t>& piece) const;
   void turn(std::int32_t triangle) { std::swap(soup_.triangles[triangle][1], soup_.triangles[triangle][2]); }
   void orient();
   void fill_holes();
-  void fill(const std::vector<HalfEdge>& border);
+  void fill(const std::vector<geometry::HalfEdge>& border);
   void turn_outward();
   void drop_unused_points();
 
-  SurfaceSoup& soup_;
+  formats::SurfaceSoup& soup_;
   const RepairOptions& options_;
   RepairReport report_;
-  std::vector<HalfEdge> twins_;  // of edges with two triangles; none else
-  std::vector<HalfEdge> borders_;
+  std::vector<geometry::HalfEdge> twins_;  // of edges with two triangles; none else
+  std::vector<geometry::HalfEdge> borders_;
 };
 
 void Repairer::keep_only(const std::vector<bool>& kept) {
@@ -79,7 +79,7 @@ void Repairer::keep_only(const std::vector<bool>& kept) {
 // A point moves to the first one before it that is near and was kept.
 void Repairer::weld() {
   if (options_.tolerance <= 0 || soup_.points.empty()) return;
-  SizedPointGrid kept(Box::around(soup_.points));
+  geometry::SizedPointGrid kept(geometry::Box::around(soup_.points));
   std::vector<Vertex> new_index;
   new_index.reserve(soup_.points.size());
   for (const Vec3& p : soup_.points) {
@@ -98,7 +98,7 @@ void Repairer::weld() {
   soup_.points = kept.points();
   for (Triangle& t : soup_.triangles)
     for (Vertex& v : t) v = new_index[v];
-  for (CurveEdge& edge : soup_.curves)
+  for (formats::CurveEdge& edge : soup_.curves)
     for (Vertex& v : edge) v = new_index[v];
 }
 
@@ -127,9 +127,9 @@ bool Repairer::cut_flat_triangles() {
   std::vector<bool> touched(count()), kept(count(), true);
   for (std::int32_t t = 0; t < old_count; ++t) {
     const auto [a, b, c] = soup_.triangles[t];
-    if (touched[t] || !are_collinear(soup_.points[a], soup_.points[b], soup_.points[c])) continue;
-    const HalfEdge longest = longest_side(t), twin = twins_[longest];
-    if (twin != none && touched[triangle_of(twin)]) continue;
+    if (touched[t] || !geometry::are_collinear(soup_.points[a], soup_.points[b], soup_.points[c])) continue;
+    const geometry::HalfEdge longest = longest_side(t), twin = twins_[longest];
+    if (twin != none && touched[geometry::triangle_of(twin)]) continue;
     kept[t] = false;
     touched[t] = true;
     ++report_.degenerate_triangles;
@@ -141,21 +141,22 @@ bool Repairer::cut_flat_triangles() {
   return removed;
 }
 
-HalfEdge Repairer::longest_side(std::int32_t triangle) const {
-  const auto squared = [&](HalfEdge h) {
-    return norm_squared(soup_.points[end_of(soup_.triangles, h)] - soup_.points[start_of(soup_.triangles, h)]);
+geometry::HalfEdge Repairer::longest_side(std::int32_t triangle) const {
+  const auto squared = [&](geometry::HalfEdge h) {
+    return norm_squared(soup_.points[geometry::end_of(soup_.triangles, h)] -
+                        soup_.points[geometry::start_of(soup_.triangles, h)]);
   };
-  const auto is_shorter = [&](HalfEdge a, HalfEdge b) { return squared(a) < squared(b); };
+  const auto is_shorter = [&](geometry::HalfEdge a, geometry::HalfEdge b) { return squared(a) < squared(b); };
   return std::max({3 * triangle, 3 * triangle + 1, 3 * triangle + 2}, is_shorter);
 }
 
-void Repairer::cut_neighbour(HalfEdge longest, std::vector<bool>& touched) {
-  const HalfEdge twin = twins_[longest];
-  const std::int32_t neighbour = triangle_of(twin);
-  const Vertex middle = start_of(soup_.triangles, previous_in_triangle(longest));
+void Repairer::cut_neighbour(geometry::HalfEdge longest, std::vector<bool>& touched) {
+  const geometry::HalfEdge twin = twins_[longest];
+  const std::int32_t neighbour = geometry::triangle_of(twin);
+  const Vertex middle = geometry::start_of(soup_.triangles, geometry::previous_in_triangle(longest));
   Triangle other = soup_.triangles[neighbour];
   other[twin % 3] = middle;
-  soup_.triangles[neighbour][next_in_triangle(twin) % 3] = middle;
+  soup_.triangles[neighbour][geometry::next_in_triangle(twin) % 3] = middle;
   soup_.triangles.push_back(other);
   soup_.tags.push_back(soup_.tags[neighbour]);
   soup_.places.push_back(soup_.places[neighbour]);
@@ -181,7 +182,7 @@ void Repairer::remove_duplicates() {
 void Repairer::find_twins_and_borders() {
   twins_.assign(3 * count(), none);
   borders_.clear();
-  for_each_edge(soup_.points.size(), soup_.triangles, [&](std::span<const HalfEdge> edge) {
+  geometry::for_each_edge(soup_.points.size(), soup_.triangles, [&](std::span<const geometry::HalfEdge> edge) {
     if (edge.size() == 1) borders_.push_back(edge[0]);
     if (edge.size() != 2) return;
     twins_[edge[0]] = edge[1];
@@ -194,12 +195,12 @@ void Repairer::spread(std::int32_t start, std::vector<std::int8_t>& sides, std::
   piece.assign(1, start);
   sides[start] = 1;
   for (std::size_t i = 0; i < piece.size(); ++i)
-    for (HalfEdge h = 3 * piece[i]; h < 3 * piece[i] + 3; ++h) {
-      if (twins_[h] == none || sides[triangle_of(twins_[h])] != 0) continue;
-      const bool agree = start_of(soup_.triangles, h) == end_of(soup_.triangles, twins_[h]);
+    for (geometry::HalfEdge h = 3 * piece[i]; h < 3 * piece[i] + 3; ++h) {
+      if (twins_[h] == none || sides[geometry::triangle_of(twins_[h])] != 0) continue;
+      const bool agree = geometry::start_of(soup_.triangles, h) == geometry::end_of(soup_.triangles, twins_[h]);
       const std::int8_t side = sides[piece[i]];
-      sides[triangle_of(twins_[h])] = static_cast<std::int8_t>(agree ? side : -side);
-      piece.push_back(triangle_of(twins_[h]));
+      sides[geometry::triangle_of(twins_[h])] = static_cast<std::int8_t>(agree ? side : -side);
+      piece.push_back(geometry::triangle_of(twins_[h]));
     }
 }
 
@@ -226,26 +227,27 @@ void Repairer::fill_holes() {
   find_twins_and_borders();
   if (borders_.empty()) return;
   constexpr std::ptrdiff_t nowhere = -1;
-  std::vector<std::vector<HalfEdge>> ending_at(soup_.points.size());
-  for (const HalfEdge h : borders_) ending_at[end_of(soup_.triangles, h)].push_back(h);
+  std::vector<std::vector<geometry::HalfEdge>> ending_at(soup_.points.size());
+  for (const geometry::HalfEdge h : borders_) ending_at[geometry::end_of(soup_.triangles, h)].push_back(h);
   std::vector<std::ptrdiff_t> place_on_walk(soup_.points.size(), nowhere);  // of what ends at each vertex
-  std::vector<HalfEdge> walk;
+  std::vector<geometry::HalfEdge> walk;
   const auto cut_off = [&](std::ptrdiff_t length) {
-    for (auto h = walk.begin() + length; h != walk.end(); ++h) place_on_walk[end_of(soup_.triangles, *h)] = nowhere;
+    for (auto h = walk.begin() + length; h != walk.end(); ++h)
+      place_on_walk[geometry::end_of(soup_.triangles, *h)] = nowhere;
     walk.resize(static_cast<std::size_t>(length));
   };
   // Those of the triangles that were there: what fills holes brings no borders.
-  const std::vector<HalfEdge> borders = borders_;
-  for (const HalfEdge first : borders) {
-    for (Vertex at = end_of(soup_.triangles, first); !ending_at[at].empty();) {
-      const HalfEdge h = ending_at[at].back();
+  const std::vector<geometry::HalfEdge> borders = borders_;
+  for (const geometry::HalfEdge first : borders) {
+    for (Vertex at = geometry::end_of(soup_.triangles, first); !ending_at[at].empty();) {
+      const geometry::HalfEdge h = ending_at[at].back();
       ending_at[at].pop_back();
       place_on_walk[at] = std::ssize(walk);
       walk.push_back(h);
-      at = start_of(soup_.triangles, h);
+      at = geometry::start_of(soup_.triangles, h);
       const std::ptrdiff_t begin = place_on_walk[at];
       if (begin == nowhere) continue;
-      const std::vector<HalfEdge> loop(walk.begin() + begin, walk.end());
+      const std::vector<geometry::HalfEdge> loop(walk.begin() + begin, walk.end());
       cut_off(begin);
       if (loop.size() >= 3 && loop.size() <= options_.largest_hole) fill(loop);
     }
@@ -253,11 +255,11 @@ void Repairer::fill_holes() {
   }
 }
 
-void Repairer::fill(const std::vector<HalfEdge>& border) {
+void Repairer::fill(const std::vector<geometry::HalfEdge>& border) {
   std::vector<Vertex> corners;
   corners.reserve(border.size());
-  for (const HalfEdge h : border) corners.push_back(end_of(soup_.triangles, h));
-  const std::int32_t beside = triangle_of(border.front());
+  for (const geometry::HalfEdge h : border) corners.push_back(geometry::end_of(soup_.triangles, h));
+  const std::int32_t beside = geometry::triangle_of(border.front());
   const std::vector<Triangle> triangles = triangulate_polygon(soup_.points, corners);
   for (const Triangle& t : triangles) {
     soup_.triangles.push_back(t);
@@ -280,7 +282,7 @@ void Repairer::turn_outward() {
     spread(static_cast<std::int32_t>(start), sides, pieces.emplace_back());
     for (const std::int32_t t : pieces.back()) piece_of[t] = static_cast<std::int32_t>(pieces.size()) - 1;
   }
-  const ColumnIndex columns(soup_.points, soup_.triangles);
+  const geometry::ColumnIndex columns(soup_.points, soup_.triangles);
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     const Vec3& origin = soup_.points[soup_.triangles[pieces[p].front()][0]];
     double volume = 0;
@@ -313,7 +315,7 @@ void Repairer::drop_unused_points() {
   // A curve whose edge went with its triangles is no more.
   std::size_t kept = 0;
   for (std::size_t i = 0; i < soup_.curves.size(); ++i) {
-    const CurveEdge edge{new_index[soup_.curves[i][0]], new_index[soup_.curves[i][1]]};
+    const formats::CurveEdge edge{new_index[soup_.curves[i][0]], new_index[soup_.curves[i][1]]};
     if (edge[0] == unused || edge[1] == unused || edge[0] == edge[1]) continue;
     soup_.curves[kept] = edge;
     soup_.curve_tags[kept++] = soup_.curve_tags[i];
@@ -348,7 +350,7 @@ nlohmann::ordered_json to_json(const RepairReport& report) {
           {"hole_triangles", report.hole_triangles}};
 }
 
-RepairReport repair(SurfaceSoup& soup, const RepairOptions& options) {
+RepairReport repair(formats::SurfaceSoup& soup, const RepairOptions& options) {
   if (!soup.sides.empty())
     throw DataError::at(soup.name,
                         "expected a surface that does not say what is on its sides for --repair, found "
@@ -356,4 +358,4 @@ RepairReport repair(SurfaceSoup& soup, const RepairOptions& options) {
   return Repairer(soup, options).repair();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::solid

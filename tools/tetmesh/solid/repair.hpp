@@ -7,7 +7,7 @@
 
 #include "formats/surfaces/surface_files.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::solid {
 
 struct RepairOptions {
   double tolerance = 0;           // points this near to each other become one
@@ -33,6 +33,6 @@ nlohmann::ordered_json to_json(const RepairReport& report);
 // corners are distinct; removes repeated triangles; turns triangles until neighbours agree, as most of their piece do;
 // fills holes with the triangulation of least area; turns closed pieces that lie in no other outward. What it cannot
 // mend stays, for check_surface to name. Throws DataError where no triangle is left.
-RepairReport repair(SurfaceSoup& soup, const RepairOptions& options);
+RepairReport repair(formats::SurfaceSoup& soup, const RepairOptions& options);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::solid

@@ -12,7 +12,7 @@
 #include "tools/tetmesh/geometry/column_index.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::solid {
 namespace {
 
 // What is known of a shell beside its result.
@@ -25,7 +25,7 @@ struct Draft {
 // Of each triangle, the number of its connected component; components come in the order of their first triangle.
 std::vector<std::int32_t> number_components(std::size_t point_count, std::span<const Triangle> triangles) {
   constexpr std::int32_t unknown = -1;
-  const std::vector<HalfEdge> twins = find_twins(point_count, triangles);
+  const std::vector<geometry::HalfEdge> twins = geometry::find_twins(point_count, triangles);
   std::vector<std::int32_t> component(triangles.size(), unknown), stack;
   std::int32_t count = 0;
   for (std::size_t start = 0; start < triangles.size(); ++start) {
@@ -35,8 +35,8 @@ std::vector<std::int32_t> number_components(std::size_t point_count, std::span<c
     while (!stack.empty()) {
       const std::int32_t t = stack.back();
       stack.pop_back();
-      for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
-        const std::int32_t neighbour = triangle_of(twins[h]);
+      for (geometry::HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+        const std::int32_t neighbour = geometry::triangle_of(twins[h]);
         if (component[neighbour] != unknown) continue;
         component[neighbour] = count;
         stack.push_back(neighbour);
@@ -69,7 +69,7 @@ std::vector<double> measure_shells(Surface& surface) {
 
 class ShellFinder {
  public:
-  ShellFinder(SurfaceSoup soup, ShellRule rule) : surface_{std::move(soup), {}, {}, 0}, rule_(rule) {}
+  ShellFinder(formats::SurfaceSoup soup, ShellRule rule) : surface_{std::move(soup), {}, {}, 0}, rule_(rule) {}
 
   Surface find() {
     collect_shells();
@@ -111,7 +111,7 @@ void ShellFinder::collect_shells() {
 // Shells do not meet, so that one vertex tells which shells are around the whole of its own.
 void ShellFinder::find_parents() {
   if (drafts_.size() == 1) return;
-  const ColumnIndex index(surface_.points, surface_.triangles);
+  const geometry::ColumnIndex index(surface_.points, surface_.triangles);
   std::vector<std::int32_t> crossed;
   for (std::size_t s = 0; s < drafts_.size(); ++s) {
     crossed.clear();
@@ -239,7 +239,7 @@ double Surface::volume() const {
   return volume;
 }
 
-bool is_in_material(const Surface& surface, const ColumnIndex& columns, const Vec3& p) {
+bool is_in_material(const Surface& surface, const geometry::ColumnIndex& columns, const Vec3& p) {
   bool inside = false;
   columns.for_each_crossing(p, [&](std::int32_t t) {
     if (surface.shells[surface.shell_of[t]].in_front == outside_region) inside = !inside;
@@ -247,14 +247,14 @@ bool is_in_material(const Surface& surface, const ColumnIndex& columns, const Ve
   return inside;
 }
 
-Surface find_shells(SurfaceSoup soup, ShellRule rule) {
+Surface find_shells(formats::SurfaceSoup soup, ShellRule rule) {
   return ShellFinder(std::move(soup), rule).find();
 }
 
-Surface with_shells_of(const Surface& surface, SurfaceSoup soup, std::vector<std::int32_t> shell_of) {
+Surface with_shells_of(const Surface& surface, formats::SurfaceSoup soup, std::vector<std::int32_t> shell_of) {
   Surface other{std::move(soup), std::move(shell_of), surface.shells, surface.region_count};
   measure_shells(other);
   return other;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::solid

@@ -7,7 +7,11 @@
 
 #include "formats/surfaces/surface_files.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::geometry {
+class ColumnIndex;
+}  // namespace hexpipe::tetmesh::geometry
+
+namespace hexpipe::tetmesh::solid {
 
 // How shells inside shells are read.
 enum class ShellRule {
@@ -29,7 +33,7 @@ struct Shell {
 
 // A soup that passed check_surface, with its regions. Triangles have material behind them: at a hole they point into
 // it. Tags are the file's where it tells triangles apart, else the shell's number from 1.
-struct Surface : SurfaceSoup {
+struct Surface : formats::SurfaceSoup {
   std::vector<std::int32_t> shell_of;  // of each triangle
   std::vector<Shell> shells;           // in the order of their first triangle
   std::int32_t region_count = 0;       // regions are numbered from 1 in the order of the shells that enclose them
@@ -40,16 +44,14 @@ struct Surface : SurfaceSoup {
   double volume() const;
 };
 
-class ColumnIndex;
-
 // Inside an odd number of the shells between material and nothing. The index is that of the surface.
-bool is_in_material(const Surface& surface, const ColumnIndex& columns, const Vec3& p);
+bool is_in_material(const Surface& surface, const geometry::ColumnIndex& columns, const Vec3& p);
 
 // Finds the shells of a checked surface and their regions. Throws DataError naming the first triangle of a shell that
 // encloses nothing where ShellRule::oriented wants material.
-Surface find_shells(SurfaceSoup soup, ShellRule rule);
+Surface find_shells(formats::SurfaceSoup soup, ShellRule rule);
 
 // The same shells of other triangles, which come in the order of the shells: `shell_of` of each its number.
-Surface with_shells_of(const Surface& surface, SurfaceSoup soup, std::vector<std::int32_t> shell_of);
+Surface with_shells_of(const Surface& surface, formats::SurfaceSoup soup, std::vector<std::int32_t> shell_of);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::solid

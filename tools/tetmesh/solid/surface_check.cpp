@@ -13,7 +13,7 @@
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::solid {
 namespace {
 
 // Intersections are counted up to here: n copies of a triangle have n²/2 of them.
@@ -31,7 +31,7 @@ std::string text_of(const Vec3& p) {
 
 // "triangles 3, 7 and 12", or lines.
 template <class Triangles>
-std::string list_of(const SurfaceSoup& soup, const Triangles& triangles) {
+std::string list_of(const formats::SurfaceSoup& soup, const Triangles& triangles) {
   std::vector<std::int64_t> places;
   places.reserve(std::size(triangles));
   for (const auto t : triangles) places.push_back(soup.places[t]);
@@ -43,11 +43,11 @@ std::string list_of(const SurfaceSoup& soup, const Triangles& triangles) {
                                         : fmt::format(" and {}", places[listed - 1]));
 }
 
-void check_no_degenerate_triangles(const SurfaceSoup& soup, std::string_view remedy) {
+void check_no_degenerate_triangles(const formats::SurfaceSoup& soup, std::string_view remedy) {
   std::size_t count = 0, first = 0;
   for (std::size_t i = soup.triangles.size(); i-- > 0;) {
     const auto [a, b, c] = soup.triangles[i];
-    if (!are_collinear(soup.points[a], soup.points[b], soup.points[c])) continue;
+    if (!geometry::are_collinear(soup.points[a], soup.points[b], soup.points[c])) continue;
     ++count;
     first = i;
   }
@@ -58,7 +58,7 @@ void check_no_degenerate_triangles(const SurfaceSoup& soup, std::string_view rem
                       text_of(soup.points[a]), text_of(soup.points[b]), text_of(soup.points[c]), remedy);
 }
 
-void check_no_repeated_triangles(const SurfaceSoup& soup, std::string_view remedy) {
+void check_no_repeated_triangles(const formats::SurfaceSoup& soup, std::string_view remedy) {
   auto key = [&](std::int32_t i) {
     Triangle t = soup.triangles[i];
     std::ranges::sort(t);
@@ -82,52 +82,52 @@ void check_no_repeated_triangles(const SurfaceSoup& soup, std::string_view remed
 // Edges of one kind of fault: how many, and the one whose triangle comes first in the file.
 struct FaultyEdges {
   std::size_t count = 0;
-  std::vector<HalfEdge> first;
+  std::vector<geometry::HalfEdge> first;
 
-  void add(std::span<const HalfEdge> edge) {
+  void add(std::span<const geometry::HalfEdge> edge) {
     if (count++ == 0 || edge[0] < first[0]) first.assign(edge.begin(), edge.end());
   }
 };
 
-void check_edges(const SurfaceSoup& soup, std::string_view remedy) {
+void check_edges(const formats::SurfaceSoup& soup, std::string_view remedy) {
   FaultyEdges open, crowded;
-  for_each_edge(soup.points.size(), soup.triangles, [&](std::span<const HalfEdge> edge) {
+  geometry::for_each_edge(soup.points.size(), soup.triangles, [&](std::span<const geometry::HalfEdge> edge) {
     if (edge.size() == 1) open.add(edge);
     if (edge.size() > 2) crowded.add(edge);
   });
-  auto edge_text = [&](HalfEdge h) {
-    return fmt::format("from {} to {}", text_of(soup.points[start_of(soup.triangles, h)]),
-                       text_of(soup.points[end_of(soup.triangles, h)]));
+  auto edge_text = [&](geometry::HalfEdge h) {
+    return fmt::format("from {} to {}", text_of(soup.points[geometry::start_of(soup.triangles, h)]),
+                       text_of(soup.points[geometry::end_of(soup.triangles, h)]));
   };
   if (crowded.count > 0) {
     std::vector<std::int32_t> triangles;
-    for (const HalfEdge h : crowded.first) triangles.push_back(triangle_of(h));
+    for (const geometry::HalfEdge h : crowded.first) triangles.push_back(geometry::triangle_of(h));
     throw DataError::at(soup.place_of(triangles[0]),
                         "expected two triangles at every edge, found {} with more; the first, {}, belongs to {}",
                         count_of(crowded.count, "edge"), edge_text(crowded.first[0]), list_of(soup, triangles));
   }
   if (open.count > 0)
-    throw DataError::at(soup.place_of(triangle_of(open.first[0])),
+    throw DataError::at(soup.place_of(geometry::triangle_of(open.first[0])),
                         "expected a closed surface, found {} of a single triangle; the first is {}{}",
                         count_of(open.count, "edge"), edge_text(open.first[0]), remedy);
 }
 
-bool agree(std::span<const Triangle> triangles, HalfEdge h, HalfEdge twin) {
-  return start_of(triangles, h) == end_of(triangles, twin);
+bool agree(std::span<const Triangle> triangles, geometry::HalfEdge h, geometry::HalfEdge twin) {
+  return geometry::start_of(triangles, h) == geometry::end_of(triangles, twin);
 }
 
 // Walks one connected component, giving each triangle the side that it shows: 1 like the first one, -1 turned over.
 // Returns a half-edge where the two ways round disagree, if there is one.
-std::optional<HalfEdge> spread_sides(std::span<const Triangle> triangles, std::span<const HalfEdge> twins,
-                                     std::int32_t start, std::vector<std::int8_t>& sides,
-                                     std::vector<std::int32_t>& component) {
-  std::optional<HalfEdge> conflict;
+std::optional<geometry::HalfEdge> spread_sides(std::span<const Triangle> triangles,
+                                               std::span<const geometry::HalfEdge> twins, std::int32_t start,
+                                               std::vector<std::int8_t>& sides, std::vector<std::int32_t>& component) {
+  std::optional<geometry::HalfEdge> conflict;
   component.assign(1, start);
   sides[start] = 1;
   for (std::size_t i = 0; i < component.size(); ++i) {
     const std::int32_t t = component[i];
-    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
-      const std::int32_t neighbour = triangle_of(twins[h]);
+    for (geometry::HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+      const std::int32_t neighbour = geometry::triangle_of(twins[h]);
       const auto side = static_cast<std::int8_t>(agree(triangles, h, twins[h]) ? sides[t] : -sides[t]);
       if (sides[neighbour] == 0) {
         sides[neighbour] = side;
@@ -140,14 +140,15 @@ std::optional<HalfEdge> spread_sides(std::span<const Triangle> triangles, std::s
   return conflict;
 }
 
-void check_orientation(const SurfaceSoup& soup, std::span<const HalfEdge> twins, std::string_view remedy) {
+void check_orientation(const formats::SurfaceSoup& soup, std::span<const geometry::HalfEdge> twins,
+                       std::string_view remedy) {
   std::vector<std::int8_t> sides(soup.triangles.size());
   std::vector<std::int32_t> component, flipped;
   for (std::size_t start = 0; start < sides.size(); ++start) {
     if (sides[start] != 0) continue;
     const auto conflict = spread_sides(soup.triangles, twins, static_cast<std::int32_t>(start), sides, component);
     if (conflict)
-      throw DataError::at(soup.place_of(triangle_of(*conflict)),
+      throw DataError::at(soup.place_of(geometry::triangle_of(*conflict)),
                           "expected a surface with two sides, found one that has a single side, like Möbius' strip");
     const auto turned =
         static_cast<std::size_t>(std::ranges::count(component, -1, [&](std::int32_t t) { return sides[t]; }));
@@ -163,33 +164,33 @@ void check_orientation(const SurfaceSoup& soup, std::span<const HalfEdge> twins,
 }
 
 // Every edge has two triangles by now, so that the triangles at a vertex form cycles: one each where it is manifold.
-void check_vertices(const SurfaceSoup& soup, std::span<const HalfEdge> twins) {
+void check_vertices(const formats::SurfaceSoup& soup, std::span<const geometry::HalfEdge> twins) {
   std::vector<std::int32_t> unseen(soup.points.size());
   for (const Triangle& t : soup.triangles)
     for (const Vertex v : t) ++unseen[v];
   std::vector<bool> walked(soup.points.size());
   std::size_t count = 0;
-  HalfEdge first = -1;
-  const auto half_edge_count = static_cast<HalfEdge>(twins.size());
-  for (HalfEdge h = 0; h < half_edge_count; ++h) {
-    const Vertex v = start_of(soup.triangles, h);
+  geometry::HalfEdge first = -1;
+  const auto half_edge_count = static_cast<geometry::HalfEdge>(twins.size());
+  for (geometry::HalfEdge h = 0; h < half_edge_count; ++h) {
+    const Vertex v = geometry::start_of(soup.triangles, h);
     if (walked[v]) continue;
     walked[v] = true;
-    HalfEdge around = h;
+    geometry::HalfEdge around = h;
     do {
       --unseen[v];
-      around = twins[previous_in_triangle(around)];
+      around = twins[geometry::previous_in_triangle(around)];
     } while (around != h);
     if (unseen[v] > 0 && count++ == 0) first = h;
   }
   if (count == 0) return;
-  const Vertex v = start_of(soup.triangles, first);
-  throw DataError::at(soup.place_of(triangle_of(first)),
+  const Vertex v = geometry::start_of(soup.triangles, first);
+  throw DataError::at(soup.place_of(geometry::triangle_of(first)),
                       "expected one fan of triangles at every vertex, found {} where several touch; the first is {}",
                       count == 1 ? "1 vertex" : fmt::format("{} vertices", count), text_of(soup.points[v]));
 }
 
-void check_no_intersections(const SurfaceSoup& soup, const IntersectionReport& report) {
+void check_no_intersections(const formats::SurfaceSoup& soup, const geometry::IntersectionReport& report) {
   if (report.pairs.empty()) return;
   throw DataError::at(
       soup.place_of(report.pairs.front()[0]),
@@ -199,19 +200,19 @@ void check_no_intersections(const SurfaceSoup& soup, const IntersectionReport& r
 
 }  // namespace
 
-void check_surface(const SurfaceSoup& soup, std::string_view remedy) {
+void check_surface(const formats::SurfaceSoup& soup, std::string_view remedy) {
   check_no_degenerate_triangles(soup, remedy);
   check_no_repeated_triangles(soup, remedy);
-  IntersectionReport report;
+  geometry::IntersectionReport report;
   check_edges(soup, remedy);
   both_at_once(
       [&] {
-        const std::vector<HalfEdge> twins = find_twins(soup.points.size(), soup.triangles);
+        const std::vector<geometry::HalfEdge> twins = geometry::find_twins(soup.points.size(), soup.triangles);
         check_orientation(soup, twins, remedy);
         check_vertices(soup, twins);
       },
-      [&] { report = find_intersections(soup.points, soup.triangles, most_intersections); });
+      [&] { report = geometry::find_intersections(soup.points, soup.triangles, most_intersections); });
   check_no_intersections(soup, report);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::solid

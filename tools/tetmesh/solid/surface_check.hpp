@@ -5,7 +5,7 @@
 
 #include "formats/surfaces/surface_files.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::solid {
 
 // Throws DataError, which names the first triangles or the first edge at fault and says how many there are, unless
 // - coordinates are not so large or small that volumes overflow or vanish,
@@ -14,6 +14,6 @@ namespace hexpipe {
 // - neighbours agree in orientation, so that each shell is consistently oriented, outward or inward,
 // - no two triangles meet elsewhere than in the vertices and edges that they share.
 // `remedy` ends the messages about what repair.hpp mends.
-void check_surface(const SurfaceSoup& soup, std::string_view remedy = {});
+void check_surface(const formats::SurfaceSoup& soup, std::string_view remedy = {});
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::solid

@@ -5,7 +5,7 @@
 #include "tools/tetmesh/geometry/column_index.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::solid {
 
 class SurfaceClearance {
  public:
@@ -18,8 +18,8 @@ class SurfaceClearance {
 
  private:
   const Surface& surface_;
-  BoxTree triangles_;
-  ColumnIndex columns_;
+  geometry::BoxTree triangles_;
+  geometry::ColumnIndex columns_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::solid

@@ -7,7 +7,7 @@
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -34,11 +34,11 @@ struct Across {
 };
 
 // Straight on from the middle of a half-edge into its triangle and over the next ones, up to a feature.
-Across walk_across(const FieldSurface& surface, HalfEdge start, double near, double reach) {
+Across walk_across(const FieldSurface& surface, geometry::HalfEdge start, double near, double reach) {
   Across result;
-  const Vec3& normal = surface.normals[triangle_of(start)];
-  SurfacePoint at{surface.points[start_of(surface.triangles, start)] + 0.5 * surface.edge_vector(start),
-                  triangle_of(start)};
+  const Vec3& normal = surface.normals[geometry::triangle_of(start)];
+  SurfacePoint at{surface.points[geometry::start_of(surface.triangles, start)] + 0.5 * surface.edge_vector(start),
+                  geometry::triangle_of(start)};
   Vec3 way = surface.inward(start);
   for (double gone = 0; gone < reach && result.triangles.size() < most_triangles;) {
     result.triangles.push_back(at.triangle);
@@ -50,7 +50,7 @@ Across walk_across(const FieldSurface& surface, HalfEdge start, double near, dou
     }
     const TriangleExit exit = exit_of(surface, at, way);
     if (surface.feature[exit.edge]) break;
-    at = {at.position + exit.length * way, triangle_of(surface.twins[exit.edge])};
+    at = {at.position + exit.length * way, geometry::triangle_of(surface.twins[exit.edge])};
     gone += exit.length;
     way = unfolded_beyond(surface, exit.edge, way);
   }
@@ -59,7 +59,7 @@ Across walk_across(const FieldSurface& surface, HalfEdge start, double near, dou
 
 class CrestFinder {
  public:
-  CrestFinder(const FeatureMesh& mesh, const SizeField& size) : mesh_(mesh), size_(size), surface_(mesh, size) {
+  CrestFinder(const FeatureMesh& mesh, const sizing::SizeField& size) : mesh_(mesh), size_(size), surface_(mesh, size) {
     rank_.resize(mesh.n_edges());
     parallel_for(static_cast<std::int64_t>(rank_.size()), 512,
                  [&](std::int64_t e) { rank_[e] = rank_of(mesh.edge_handle(static_cast<unsigned>(e))); });
@@ -89,8 +89,9 @@ class CrestFinder {
   // 2 in the middle of a fillet, 1 at one of the sides of the strip that is, 0 elsewhere.
   int rank_of(OpenMesh::EdgeHandle e) const {
     if (mesh_.is_feature(e)) return 0;
-    const HalfEdge h = half_edge_of(mesh_, mesh_.halfedge_handle(e, 0)), twin = surface_.twins[h];
-    const double bend = angle_between(surface_.normals[triangle_of(h)], surface_.normals[triangle_of(twin)]);
+    const geometry::HalfEdge h = half_edge_of(mesh_, mesh_.halfedge_handle(e, 0)), twin = surface_.twins[h];
+    const double bend =
+        angle_between(surface_.normals[geometry::triangle_of(h)], surface_.normals[geometry::triangle_of(twin)]);
     if (bend < least_bend) return 0;
     const double size = size_.at(middle(e));
     const Across here = walk_across(surface_, h, fillet_reach * size, flat_reach * size);
@@ -135,7 +136,7 @@ class CrestFinder {
   void forget_beside(const std::vector<OpenMesh::EdgeHandle>& line) {
     for (const auto e : line)
       for (const unsigned side : {0u, 1u}) {
-        const HalfEdge h = half_edge_of(mesh_, mesh_.halfedge_handle(e, side));
+        const geometry::HalfEdge h = half_edge_of(mesh_, mesh_.halfedge_handle(e, side));
         const double reach = same_fillet * size_.at(middle(e));
         for (const std::int32_t f : walk_across(surface_, h, reach, reach).triangles)
           for (const auto part : mesh_.fe_range(mesh_.face_handle(static_cast<unsigned>(f)))) rank_[part.idx()] = 0;
@@ -143,26 +144,27 @@ class CrestFinder {
   }
 
   const FeatureMesh& mesh_;
-  const SizeField& size_;
+  const sizing::SizeField& size_;
   FieldSurface surface_;
   std::vector<int> rank_;  // of edges
 };
 
 }  // namespace
 
-std::vector<OpenMesh::EdgeHandle> crest_lines(const FeatureMesh& mesh, const SizeField& size) {
+std::vector<OpenMesh::EdgeHandle> crest_lines(const FeatureMesh& mesh, const sizing::SizeField& size) {
   return CrestFinder(mesh, size).find();
 }
 
 BendStretch bend_stretch(const FieldSurface& surface) {
   BendStretch result{std::vector<double>(surface.triangles.size(), 1.0), std::vector<Vec3>(surface.triangles.size())};
   std::vector<std::int32_t> queue;
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(surface.twins.size()); ++h) {
+  for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(surface.twins.size()); ++h) {
     if (!surface.crest[h]) continue;
-    const double reach = flat_reach * surface.sizes[triangle_of(h)];
+    const double reach = flat_reach * surface.sizes[geometry::triangle_of(h)];
     const Across across = walk_across(surface, h, reach, reach);
     const Vec3& end = surface.normals[across.triangles.back()];
-    const Vec3 crest = unit(surface.normals[triangle_of(h)] + surface.normals[triangle_of(surface.twins[h])]);
+    const Vec3 crest =
+        unit(surface.normals[geometry::triangle_of(h)] + surface.normals[geometry::triangle_of(surface.twins[h])]);
     const double turn = std::clamp(angle_between(crest, end), least_bend, 0.5 * most_turn);
     for (const std::int32_t f : across.triangles) {
       if (result.factor[f] > 1 || angle_between(surface.normals[f], end) < least_bend) continue;
@@ -174,8 +176,8 @@ BendStretch bend_stretch(const FieldSurface& surface) {
   // The rest of their planes.
   for (std::size_t next = 0; next < queue.size(); ++next) {
     const std::int32_t f = queue[next];
-    for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
-      const std::int32_t g = triangle_of(surface.twins[h]);
+    for (geometry::HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
+      const std::int32_t g = geometry::triangle_of(surface.twins[h]);
       if (surface.feature[h] || result.factor[g] > 1) continue;
       if (angle_between(surface.normals[f], surface.normals[g]) > strip_bend) continue;
       result.factor[g] = result.factor[f];
@@ -186,4 +188,4 @@ BendStretch bend_stretch(const FieldSurface& surface) {
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -8,10 +8,10 @@
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 #include "tools/tetmesh/surface/field_surface.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 // Edges of the mesh in chains that are long against the size.
-std::vector<OpenMesh::EdgeHandle> crest_lines(const FeatureMesh& mesh, const SizeField& size);
+std::vector<OpenMesh::EdgeHandle> crest_lines(const FeatureMesh& mesh, const sizing::SizeField& size);
 
 // How much longer the way across a fillet would be had its edge not been rounded: over the tangents of both its sides.
 struct BendStretch {
@@ -28,4 +28,4 @@ struct BendStretch {
 // Beside the half-edges that are crests.
 BendStretch bend_stretch(const FieldSurface& surface);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

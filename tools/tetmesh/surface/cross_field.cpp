@@ -17,7 +17,7 @@
 
 #include "common/run/parallel.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 using Complex = std::complex<double>;
@@ -63,8 +63,8 @@ class FieldSolver {
     frames_.reserve(surface.triangles.size());
     for (std::int32_t f = 0; f < count; ++f) frames_.emplace_back(surface, f);
     edges_.reserve(3 * surface.triangles.size());
-    for (HalfEdge h = 0; h < 3 * count; ++h)
-      edges_.push_back(angle_of(frames_[triangle_of(h)], surface.edge_vector(h)));
+    for (geometry::HalfEdge h = 0; h < 3 * count; ++h)
+      edges_.push_back(angle_of(frames_[geometry::triangle_of(h)], surface.edge_vector(h)));
   }
 
   // First, without opposite sides; then agree_with(), once at most, for it adds to the matrix.
@@ -86,7 +86,7 @@ class FieldSolver {
 
   // exp(i angle) by which a direction of h's triangle has to be multiplied to be one of its neighbour's. The edge runs
   // the other way there.
-  Complex turn(HalfEdge h) const { return -edges_[surface_.twins[h]] / edges_[h]; }
+  Complex turn(geometry::HalfEdge h) const { return -edges_[surface_.twins[h]] / edges_[h]; }
 
   const FieldSurface& surface_;
   std::vector<TangentFrame> frames_;
@@ -99,20 +99,21 @@ class FieldSolver {
 // Of each triangle, the difference of the principal curvatures times exp(2 i angle) of the first one's direction.
 std::vector<Complex> FieldSolver::curvature() const {
   std::vector<Complex> bend(frames_.size());
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(edges_.size()); ++h) {
+  for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(edges_.size()); ++h) {
     if (surface_.feature[h]) continue;
     const Vec3 edge = surface_.edge_vector(h);
-    const Vec3 &n = surface_.normals[triangle_of(h)], &m = surface_.normals[triangle_of(surface_.twins[h])];
+    const Vec3 &n = surface_.normals[geometry::triangle_of(h)],
+               &m = surface_.normals[geometry::triangle_of(surface_.twins[h])];
     const double angle = std::atan2(dot(cross(n, m), edge) / norm(edge), dot(n, m));
-    bend[triangle_of(h)] += angle / 2 * norm(edge) * edges_[h] * edges_[h];
+    bend[geometry::triangle_of(h)] += angle / 2 * norm(edge) * edges_[h] * edges_[h];
   }
   std::vector<double> areas = surface_.areas;
   for (int round = 0; round < curvature_rounds; ++round) {
     std::vector<Complex> sum = bend;
     std::vector<double> area = areas;
-    for (HalfEdge h = 0; h < static_cast<HalfEdge>(edges_.size()); ++h) {
+    for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(edges_.size()); ++h) {
       if (surface_.feature[h]) continue;
-      const std::int32_t f = triangle_of(h), g = triangle_of(surface_.twins[h]);
+      const std::int32_t f = geometry::triangle_of(h), g = geometry::triangle_of(surface_.twins[h]);
       sum[g] += bend[f] * turn(h) * turn(h);
       area[g] += areas[f];
     }
@@ -141,8 +142,8 @@ void FieldSolver::solve() {
         curvature_weight * surface_.areas[f] / (surface_.sizes[f] * surface_.sizes[f]) * turned * turned;
     pull(f, weight + least_weight, direction * direction);
   }
-  for (HalfEdge h = 0; h < 3 * count; ++h) {
-    const std::int32_t f = triangle_of(h), g = triangle_of(surface_.twins[h]);
+  for (geometry::HalfEdge h = 0; h < 3 * count; ++h) {
+    const std::int32_t f = geometry::triangle_of(h), g = geometry::triangle_of(surface_.twins[h]);
     const double squared_length = norm_squared(surface_.edge_vector(h));
     if (surface_.feature[h]) {
       pull(f, feature_weight * std::sqrt(squared_length) / surface_.sizes[f], fourth_power(edges_[h]));
@@ -203,4 +204,4 @@ FieldAndSides cross_field_across(const FieldSurface& surface) {
   return {solver.field(), std::move(opposite)};
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

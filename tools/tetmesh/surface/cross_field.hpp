@@ -9,7 +9,7 @@
 #include "tools/tetmesh/surface/field_surface.hpp"
 #include "tools/tetmesh/surface/opposite_sides.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 struct CrossField {
   // Of each triangle, one of its four directions: of length 1, in its plane.
@@ -32,4 +32,4 @@ struct FieldAndSides {
 };
 FieldAndSides cross_field_across(const FieldSurface& surface);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -5,7 +5,7 @@
 #include "tools/tetmesh/surface/surface_curl.hpp"
 #include "tools/tetmesh/surface/surface_refine.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 using Vertex = OpenMesh::VertexHandle;
@@ -15,7 +15,7 @@ constexpr double most_stretch = 1.5;
 
 class CurveMeasurer {
  public:
-  CurveMeasurer(const FeatureMesh& refined, std::size_t own_vertices, const SizeField& size)
+  CurveMeasurer(const FeatureMesh& refined, std::size_t own_vertices, const sizing::SizeField& size)
       : mesh_(refined), own_vertices_(own_vertices), size_(size), steps_(steps(refined, size)) {}
 
   MeasuredCurve measure(const FeatureCurve& curve) const {
@@ -35,7 +35,7 @@ class CurveMeasurer {
   }
 
  private:
-  static std::vector<double> steps(const FeatureMesh& mesh, const SizeField& size) {
+  static std::vector<double> steps(const FeatureMesh& mesh, const sizing::SizeField& size) {
     const FieldSurface surface(mesh, size);
     // Whether sides agree makes no difference to how many rows there are: 93.0 or 93.1 % in hexes on five parts.
     const CrossField field = cross_field(surface);
@@ -68,14 +68,14 @@ class CurveMeasurer {
 
   const FeatureMesh& mesh_;
   std::size_t own_vertices_;  // those that the mesh had before it was refined
-  const SizeField& size_;
+  const sizing::SizeField& size_;
   std::vector<double> steps_;  // of half-edges
 };
 
 }  // namespace
 
-std::vector<MeasuredCurve> curves_by_rows(const FeatureMesh& mesh, const SizeField& size, const SizeField& longest,
-                                          const SizeField& flatness) {
+std::vector<MeasuredCurve> curves_by_rows(const FeatureMesh& mesh, const sizing::SizeField& size,
+                                          const sizing::SizeField& longest, const sizing::SizeField& flatness) {
   FeatureMesh refined = mesh;
   refine_surface(refined, longest, flatness);
   const CurveMeasurer measurer(refined, mesh.n_vertices(), size);
@@ -84,4 +84,4 @@ std::vector<MeasuredCurve> curves_by_rows(const FeatureMesh& mesh, const SizeFie
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

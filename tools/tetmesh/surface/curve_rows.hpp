@@ -7,10 +7,10 @@
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/surface/feature_curves.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 // Follows the surface's cross field, on triangles as refine_surface() makes them with these lengths.
-std::vector<MeasuredCurve> curves_by_rows(const FeatureMesh& mesh, const SizeField& size, const SizeField& longest,
-                                          const SizeField& flatness);
+std::vector<MeasuredCurve> curves_by_rows(const FeatureMesh& mesh, const sizing::SizeField& size,
+                                          const sizing::SizeField& longest, const sizing::SizeField& flatness);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

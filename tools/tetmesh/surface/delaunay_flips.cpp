@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 // Cosine and sine of the angle at p, times the lengths of its sides.
@@ -50,4 +50,4 @@ double EdgeDiamond::least_cosine_after_flip() const {
   return std::min(cosine(first), cosine(second));
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -5,7 +5,7 @@
 
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 // The four vertices around an edge: its ends, and the corners across it, left and right of the way from end 0 to 1.
 struct EdgeDiamond {
@@ -69,4 +69,4 @@ void flip_towards_delaunay(FeatureMesh& mesh, EdgeQueue& queue, Allow&& allow, D
   }
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 using Vertex = OpenMesh::VertexHandle;
@@ -65,7 +65,7 @@ class CurveFinder {
 // A curve by its length in steps.
 class CurveLength {
  public:
-  CurveLength(const MeasuredCurve& curve, const SizeField& size)
+  CurveLength(const MeasuredCurve& curve, const sizing::SizeField& size)
       : points_(1, curve.points.front()), lengths_(1, 0.0), vertices_(1, 0) {
     for (std::size_t i = 1; i < curve.points.size(); ++i) {
       add_segment(curve.points[i - 1], curve.points[i], curve.steps_per_size[i - 1], size);
@@ -85,7 +85,7 @@ class CurveLength {
   }
 
   // Whether `count` chords of even length leave the curve by more than the deviation.
-  bool is_bent(int count, const SizeField& deviation) const {
+  bool is_bent(int count, const sizing::SizeField& deviation) const {
     const double step = length() / count;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const double k = std::min(std::floor(lengths_[i] / step), count - 1.0);
@@ -99,7 +99,7 @@ class CurveLength {
 
  private:
   // In parts over which the size hardly changes.
-  void add_segment(const Vec3& from, const Vec3& to, double steps_per_size, const SizeField& size) {
+  void add_segment(const Vec3& from, const Vec3& to, double steps_per_size, const sizing::SizeField& size) {
     const double length = norm(to - from);
     const int parts =
         size.least() < size.greatest() ? parts_of(length / size.least_near(size.at(0.5 * (from + to)), length)) : 1;
@@ -131,7 +131,7 @@ Vec3 start_direction(const std::vector<Vec3>& loop) {
 
 class CurveSampler {
  public:
-  CurveSampler(FeatureMesh& mesh, const SizeField& size, const SizeField& deviation)
+  CurveSampler(FeatureMesh& mesh, const sizing::SizeField& size, const sizing::SizeField& deviation)
       : mesh_(mesh), size_(size), deviation_(deviation) {}
 
   void sample(MeasuredCurve curve) {
@@ -201,7 +201,7 @@ class CurveSampler {
   }
 
   FeatureMesh& mesh_;
-  const SizeField &size_, &deviation_;
+  const sizing::SizeField &size_, &deviation_;
 };
 
 }  // namespace
@@ -210,13 +210,13 @@ std::vector<FeatureCurve> feature_curves(const FeatureMesh& mesh) {
   return CurveFinder(mesh).find();
 }
 
-void sample_feature_curves(FeatureMesh& mesh, std::span<const MeasuredCurve> curves, const SizeField& size,
-                           const SizeField& deviation) {
+void sample_feature_curves(FeatureMesh& mesh, std::span<const MeasuredCurve> curves, const sizing::SizeField& size,
+                           const sizing::SizeField& deviation) {
   CurveSampler sampler(mesh, size, deviation);
   for (const MeasuredCurve& curve : curves) sampler.sample(curve);
 }
 
-void sample_feature_curves(FeatureMesh& mesh, const SizeField& size, const SizeField& deviation) {
+void sample_feature_curves(FeatureMesh& mesh, const sizing::SizeField& size, const sizing::SizeField& deviation) {
   std::vector<MeasuredCurve> measured;
   for (FeatureCurve& curve : feature_curves(mesh)) {
     MeasuredCurve& even = measured.emplace_back();
@@ -228,4 +228,4 @@ void sample_feature_curves(FeatureMesh& mesh, const SizeField& size, const SizeF
   sample_feature_curves(mesh, measured, size, deviation);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -8,7 +8,7 @@
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 struct FeatureCurve {
   std::vector<OpenMesh::VertexHandle> vertices;  // a closed one ends with its first
@@ -28,9 +28,9 @@ std::vector<FeatureCurve> feature_curves(const FeatureMesh& mesh);
 
 // Splits feature edges where a step ends and keeps these vertices. A curve bends away from its chords by at most
 // `deviation`, for which it gets more steps where needed.
-void sample_feature_curves(FeatureMesh& mesh, std::span<const MeasuredCurve> curves, const SizeField& size,
-                           const SizeField& deviation);
+void sample_feature_curves(FeatureMesh& mesh, std::span<const MeasuredCurve> curves, const sizing::SizeField& size,
+                           const sizing::SizeField& deviation);
 // In even steps.
-void sample_feature_curves(FeatureMesh& mesh, const SizeField& size, const SizeField& deviation);
+void sample_feature_curves(FeatureMesh& mesh, const sizing::SizeField& size, const sizing::SizeField& deviation);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -2,17 +2,17 @@
 
 #include <cmath>
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 constexpr double aligned_cosine = 0.94;  // between an edge of the feature and a direction that runs along it
 
 }  // namespace
 
-std::optional<FeatureFan> feature_fan(const SurfaceLinks& links, HalfEdge first) {
+std::optional<FeatureFan> feature_fan(const SurfaceLinks& links, geometry::HalfEdge first) {
   const FieldSurface& surface = links.surface;
-  const std::int32_t f = triangle_of(first);
-  const Vec3& vertex = surface.points[start_of(surface.triangles, first)];
+  const std::int32_t f = geometry::triangle_of(first);
+  const Vec3& vertex = surface.points[geometry::start_of(surface.triangles, first)];
   const Vec3 edge = surface.edge_vector(first);
   FollowedAxis along = FollowedAxis::nearest(links, f, edge), across{1 - along.axis};
   across.flipped = dot(across.in(links, f), surface.inward(first)) < 0;
@@ -22,13 +22,13 @@ std::optional<FeatureFan> feature_fan(const SurfaceLinks& links, HalfEdge first)
   FeatureFan fan{};
   fan.first = first;
   fan.first_ahead = dot(onward, vertex + 0.5 * edge - surface.centres[f]) / links.surface.sizes[f];
-  fan.last = previous_in_triangle(first);
-  for (; !surface.feature[fan.last]; fan.last = previous_in_triangle(surface.twins[fan.last])) {
+  fan.last = geometry::previous_in_triangle(first);
+  for (; !surface.feature[fan.last]; fan.last = geometry::previous_in_triangle(surface.twins[fan.last])) {
     if (links.of[fan.last].weight <= 0) return std::nullopt;
     fan.along.push_back(along.cross(links, fan.last));
     fan.across.push_back(across.cross(links, fan.last));
   }
-  const std::int32_t g = triangle_of(fan.last);
+  const std::int32_t g = geometry::triangle_of(fan.last);
   const Vec3 last_edge = surface.edge_vector(fan.last), last_onward = along.in(links, g);
   if (dot(last_onward, unit(last_edge)) < aligned_cosine) return std::nullopt;
   fan.last_ahead = dot(last_onward, vertex - 0.5 * last_edge - surface.centres[g]) / links.surface.sizes[g];
@@ -37,4 +37,4 @@ std::optional<FeatureFan> feature_fan(const SurfaceLinks& links, HalfEdge first)
   return fan;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -4,10 +4,10 @@
 
 #include "tools/tetmesh/geometry/feature_angle.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
-FeatureMesh::FeatureMesh(const Surface& surface, double feature_angle)
-    : corner_cosine_(cosine_of_degrees(feature_angle)) {
+FeatureMesh::FeatureMesh(const solid::Surface& surface, double feature_angle)
+    : corner_cosine_(geometry::cosine_of_degrees(feature_angle)) {
   reserve(surface.points.size(), 3 * surface.triangles.size() / 2, surface.triangles.size());
   for (const Vec3& p : surface.points) add_vertex(to_open_mesh(p));
   for (const Triangle& t : surface.triangles) add_face(vertex_handle(t[0]), vertex_handle(t[1]), vertex_handle(t[2]));
@@ -45,8 +45,8 @@ void FeatureMesh::resize_attributes() {
   source_.resize(n_faces());
 }
 
-void FeatureMesh::mark_features(const Surface& surface, double feature_angle) {
-  const double cosine = cosine_of_degrees(feature_angle);
+void FeatureMesh::mark_features(const solid::Surface& surface, double feature_angle) {
+  const double cosine = geometry::cosine_of_degrees(feature_angle);
   for (const EdgeHandle e : edges()) {
     const FaceHandle f = face_handle(halfedge_handle(e, 0)), g = face_handle(halfedge_handle(e, 1));
     const Vec3 n = area_normal(f), m = area_normal(g);
@@ -54,7 +54,7 @@ void FeatureMesh::mark_features(const Surface& surface, double feature_angle) {
     if (!sharp && surface.tags[source(f)] == surface.tags[source(g)]) continue;
     mark_feature(e, EdgeRole::feature);
   }
-  for (const CurveEdge& edge : surface.curves)
+  for (const formats::CurveEdge& edge : surface.curves)
     if (const auto h = find_halfedge(vertex_handle(edge[0]), vertex_handle(edge[1])); h.is_valid())
       mark_feature(edge_handle(h), EdgeRole::feature);
 }
@@ -136,4 +136,4 @@ void FeatureMesh::collapse_edge(HalfedgeHandle h) {
   for (const auto& [across, role] : sides) edge_role_[edge_handle(find_halfedge(end, across)).idx()] = role;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -9,7 +9,7 @@
 
 #include "tools/tetmesh/solid/shells.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 struct HalfEdgeTraits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
@@ -39,7 +39,7 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
   // Feature edges: where normals of neighbours differ by more than the angle (degrees), where tags meet, and along the
   // surface's own curves. Corners,
   // which are kept, are the vertices where other than two feature edges meet or where a curve turns by more than it.
-  FeatureMesh(const Surface& surface, double feature_angle);
+  FeatureMesh(const solid::Surface& surface, double feature_angle);
 
   Vec3 position(VertexHandle v) const {
     const Point& p = point(v);
@@ -70,7 +70,7 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
 
  private:
   VertexHandle add_removable(const Vec3& p, bool on_feature);
-  void mark_features(const Surface& surface, double feature_angle);
+  void mark_features(const solid::Surface& surface, double feature_angle);
   void mark_feature(EdgeHandle e, EdgeRole role);
   void mark_corners();
   bool is_corner(VertexHandle v) const;
@@ -87,4 +87,4 @@ inline OpenMesh::Vec3d to_open_mesh(const Vec3& p) {
   return {p.x, p.y, p.z};
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -1,8 +1,8 @@
 #include "tools/tetmesh/surface/field_surface.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
-FieldSurface::FieldSurface(const FeatureMesh& mesh, const SizeField& size) {
+FieldSurface::FieldSurface(const FeatureMesh& mesh, const sizing::SizeField& size) {
   points.reserve(mesh.n_vertices());
   for (const auto v : mesh.vertices()) points.push_back(mesh.position(v));
   triangles.reserve(mesh.n_faces());
@@ -22,10 +22,10 @@ FieldSurface::FieldSurface(const FeatureMesh& mesh, const SizeField& size) {
     areas.push_back(length / 2);
     sizes.push_back(size.at(centres.back()));
   }
-  twins = find_twins(points.size(), triangles);
+  twins = geometry::find_twins(points.size(), triangles);
   inwards.reserve(twins.size());
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(twins.size()); ++h) {
-    inwards.push_back(unit(cross(normals[triangle_of(h)], edge_vector(h))));
+  for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
+    inwards.push_back(unit(cross(normals[geometry::triangle_of(h)], edge_vector(h))));
   }
 }
 
@@ -42,9 +42,9 @@ std::vector<AreaSample> FieldSurface::samples(double least_squares) const {
   return samples;
 }
 
-HalfEdge half_edge_of(const FeatureMesh& mesh, OpenMesh::HalfedgeHandle h) {
+geometry::HalfEdge half_edge_of(const FeatureMesh& mesh, OpenMesh::HalfedgeHandle h) {
   const auto f = mesh.face_handle(h);
-  HalfEdge number = 3 * f.idx();
+  geometry::HalfEdge number = 3 * f.idx();
   for (auto g = mesh.halfedge_handle(f); g != h; g = mesh.next_halfedge_handle(g)) ++number;
   return number;
 }
@@ -54,4 +54,4 @@ TangentFrame::TangentFrame(const FieldSurface& surface, std::int32_t triangle) {
   y = cross(surface.normals[triangle], x);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -7,7 +7,7 @@
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 // A triangle that stands for an area: its own and that of triangles before it.
 struct AreaSample {
@@ -18,11 +18,11 @@ struct AreaSample {
 
 struct FieldSurface {
   // Faces and vertices have the numbers that they have in the mesh, which must have nothing deleted.
-  FieldSurface(const FeatureMesh& mesh, const SizeField& size);
+  FieldSurface(const FeatureMesh& mesh, const sizing::SizeField& size);
 
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
-  std::vector<HalfEdge> twins;
+  std::vector<geometry::HalfEdge> twins;
   std::vector<bool> feature;  // of each half-edge
   std::vector<bool> crest;    // those of these that are in the middle of a fillet
   std::vector<Vec3> centres;
@@ -31,9 +31,11 @@ struct FieldSurface {
   std::vector<double> sizes;  // in the middle of each triangle
   std::vector<Vec3> inwards;  // of each half-edge, see inward()
 
-  Vec3 edge_vector(HalfEdge h) const { return points[end_of(triangles, h)] - points[start_of(triangles, h)]; }
+  Vec3 edge_vector(geometry::HalfEdge h) const {
+    return points[geometry::end_of(triangles, h)] - points[geometry::start_of(triangles, h)];
+  }
   // At right angles to a half-edge in the plane of its triangle, of length 1, pointing into it.
-  const Vec3& inward(HalfEdge h) const { return inwards[h]; }
+  const Vec3& inward(geometry::HalfEdge h) const { return inwards[h]; }
   // Of a triangle's area.
   double squares_of_size(std::int32_t triangle) const { return areas[triangle] / (sizes[triangle] * sizes[triangle]); }
   // Triangles that each stand for at least so many squares of the size; what the last ones lack is left out.
@@ -41,7 +43,7 @@ struct FieldSurface {
 };
 
 // The half-edge of the surface that is one of the mesh's.
-HalfEdge half_edge_of(const FeatureMesh& mesh, OpenMesh::HalfedgeHandle h);
+geometry::HalfEdge half_edge_of(const FeatureMesh& mesh, OpenMesh::HalfedgeHandle h);
 
 // A frame of a triangle's plane: its first side, and that turned by 90 degrees.
 struct TangentFrame {
@@ -50,4 +52,4 @@ struct TangentFrame {
   TangentFrame(const FieldSurface& surface, std::int32_t triangle);
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 // A walk that goes around a vertex without getting on is given up after so many triangles.
@@ -22,25 +22,26 @@ Vec3 FieldWalker::nearest_direction(std::int32_t triangle, const Vec3& direction
 
 TriangleExit exit_of(const FieldSurface& surface, const SurfacePoint& point, const Vec3& direction) {
   TriangleExit exit{3 * point.triangle, std::numeric_limits<double>::max()};
-  for (HalfEdge h = 3 * point.triangle; h < 3 * point.triangle + 3; ++h) {
+  for (geometry::HalfEdge h = 3 * point.triangle; h < 3 * point.triangle + 3; ++h) {
     const Vec3 inward = surface.inward(h);
     const double advance = dot(direction, inward);
     if (advance >= -1e-12) continue;
-    const double distance = std::max(0.0, dot(point.position - surface.points[start_of(surface.triangles, h)], inward));
+    const double distance =
+        std::max(0.0, dot(point.position - surface.points[geometry::start_of(surface.triangles, h)], inward));
     if (distance / -advance < exit.length) exit = {h, distance / -advance};
   }
   return exit;
 }
 
-Vec3 unfolded_beyond(const FieldSurface& surface, HalfEdge edge, const Vec3& direction) {
+Vec3 unfolded_beyond(const FieldSurface& surface, geometry::HalfEdge edge, const Vec3& direction) {
   const Vec3 along = unit(surface.edge_vector(edge));
   return dot(direction, along) * along - dot(direction, surface.inward(edge)) * surface.inward(surface.twins[edge]);
 }
 
-Vec3 FieldWalker::field_beyond(HalfEdge edge, const Vec3& direction) const {
-  const HalfEdge twin = surface_.twins[edge];
+Vec3 FieldWalker::field_beyond(geometry::HalfEdge edge, const Vec3& direction) const {
+  const geometry::HalfEdge twin = surface_.twins[edge];
   const Vec3 unfolded = unfolded_beyond(surface_, edge, direction);
-  const Vec3 in_field = nearest_direction(triangle_of(twin), unfolded);
+  const Vec3 in_field = nearest_direction(geometry::triangle_of(twin), unfolded);
   return dot(in_field, surface_.inward(twin)) > least_advance ? in_field : unfolded;
 }
 
@@ -58,9 +59,9 @@ WalkEnd FieldWalker::go(const SurfacePoint& start, const Vec3& direction, double
       break;
     }
     heading = along_field ? field_beyond(exit.edge, heading) : unfolded_beyond(surface_, exit.edge, heading);
-    end.point.triangle = triangle_of(surface_.twins[exit.edge]);
+    end.point.triangle = geometry::triangle_of(surface_.twins[exit.edge]);
   }
   return end;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

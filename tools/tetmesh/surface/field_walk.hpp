@@ -3,7 +3,7 @@
 
 #include "tools/tetmesh/surface/cross_field.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 struct SurfacePoint {
   Vec3 position;
@@ -19,13 +19,13 @@ struct WalkEnd {
 
 // Where a straight way leaves a triangle.
 struct TriangleExit {
-  HalfEdge edge = 0;
+  geometry::HalfEdge edge = 0;
   double length = 0;  // of the way until there
 };
 TriangleExit exit_of(const FieldSurface& surface, const SurfacePoint& point, const Vec3& direction);
 
 // How a direction goes on straight beyond an edge, with both triangles unfolded.
-Vec3 unfolded_beyond(const FieldSurface& surface, HalfEdge edge, const Vec3& direction);
+Vec3 unfolded_beyond(const FieldSurface& surface, geometry::HalfEdge edge, const Vec3& direction);
 
 class FieldWalker {
  public:
@@ -47,10 +47,10 @@ class FieldWalker {
 
  private:
   WalkEnd go(const SurfacePoint& start, const Vec3& direction, double length, bool along_field) const;
-  Vec3 field_beyond(HalfEdge edge, const Vec3& direction) const;
+  Vec3 field_beyond(geometry::HalfEdge edge, const Vec3& direction) const;
 
   const FieldSurface& surface_;
   const CrossField& field_;
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -6,7 +6,7 @@
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 // Of a square of the size on the other side of a wall of one size. Six parts at two levels and three sizes each of
@@ -79,4 +79,4 @@ LinksAcross::LinksAcross(const SurfaceLinks& links, std::span<const OppositeSide
   }
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

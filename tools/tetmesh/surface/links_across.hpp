@@ -8,7 +8,7 @@
 #include "tools/tetmesh/surface/opposite_sides.hpp"
 #include "tools/tetmesh/surface/surface_links.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 // Weights are to be compared with those of SurfaceLinks.
 class LinksAcross {
@@ -26,4 +26,4 @@ class LinksAcross {
   std::vector<SurfaceLink> links_;     // both ways
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -7,7 +7,7 @@
 
 #include "tools/tetmesh/geometry/box_tree.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 constexpr std::size_t most_regions = 64;
@@ -31,7 +31,7 @@ MeshRegions::MeshRegions(const FeatureMesh& mesh, std::size_t most)
       for (const int v : vertices) of_[v] = static_cast<std::uint8_t>(first);
       return;
     }
-    Box box{position(vertices[0]), position(vertices[0])};
+    geometry::Box box{position(vertices[0]), position(vertices[0])};
     for (const int v : vertices) box.add({position(v), position(v)});
     const int axis = box.longest_axis();
     const std::size_t half = vertices.size() / 2;
@@ -60,4 +60,4 @@ bool MeshRegions::has(std::size_t region, const EdgeDiamond& diamond) const {
   return std::ranges::all_of(diamond.ends, is_in) && std::ranges::all_of(diamond.across, is_in);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

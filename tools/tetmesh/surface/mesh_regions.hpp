@@ -11,7 +11,7 @@
 #include "tools/tetmesh/surface/delaunay_flips.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 class MeshRegions {
  public:
@@ -31,4 +31,4 @@ class MeshRegions {
   std::vector<std::uint8_t> of_;  // of vertices
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -2,7 +2,7 @@
 
 #include "tools/tetmesh/surface/field_walk.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 constexpr std::size_t most_triangles = 1000;
@@ -16,10 +16,10 @@ double length_in(const SurfaceLinks& links, std::int32_t triangle, const Vec3& d
 
 }  // namespace
 
-std::optional<NarrowStrip> narrow_strip(const SurfaceLinks& links, HalfEdge from, double widest) {
+std::optional<NarrowStrip> narrow_strip(const SurfaceLinks& links, geometry::HalfEdge from, double widest) {
   const FieldSurface& surface = links.surface;
-  SurfacePoint point{surface.points[start_of(surface.triangles, from)] + 0.5 * surface.edge_vector(from),
-                     triangle_of(from)};
+  SurfacePoint point{surface.points[geometry::start_of(surface.triangles, from)] + 0.5 * surface.edge_vector(from),
+                     geometry::triangle_of(from)};
   const Vec3& inward = surface.inward(from);
   FollowedAxis followed = FollowedAxis::nearest(links, point.triangle, inward);
   Vec3 direction = followed.in(links, point.triangle), straight = direction;
@@ -39,11 +39,11 @@ std::optional<NarrowStrip> narrow_strip(const SurfaceLinks& links, HalfEdge from
     if (links.of[exit.edge].weight <= 0 || strip.across.size() == most_triangles) return std::nullopt;
     strip.across.push_back(followed.cross(links, exit.edge));
     straight = unfolded_beyond(surface, exit.edge, straight);
-    point = {end, triangle_of(surface.twins[exit.edge])};
+    point = {end, geometry::triangle_of(surface.twins[exit.edge])};
     direction = followed.in(links, point.triangle);
     if (dot(direction, straight) < aligned_cosine) return std::nullopt;
   }
   return std::nullopt;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -6,16 +6,16 @@
 
 #include "tools/tetmesh/surface/surface_links.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 // From the middle of a half-edge of a feature. Lengths are in sizes.
 struct NarrowStrip {
-  std::vector<LoopStep> across;  // from the first triangle to the last
-  double before, after;          // from the one feature to the centre of the first, from that of the last to the other
+  std::vector<fields::LoopStep> across;  // from the first triangle to the last
+  double before, after;  // from the one feature to the centre of the first, from that of the last to the other
   double width;
 };
 
 // Nothing where no feature that is at right angles to the way, as the first is, is met within `widest`.
-std::optional<NarrowStrip> narrow_strip(const SurfaceLinks& links, HalfEdge from, double widest);
+std::optional<NarrowStrip> narrow_strip(const SurfaceLinks& links, geometry::HalfEdge from, double widest);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -6,7 +6,7 @@
 #include "tools/tetmesh/geometry/box_tree.hpp"
 #include "tools/tetmesh/geometry/ray_hit.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 constexpr double furthest = 25;  // in sizes
@@ -19,7 +19,7 @@ constexpr double least_area = 0.25;
 }  // namespace
 
 std::vector<OppositeSide> opposite_sides(const FieldSurface& surface) {
-  const BoxTree tree = tree_of_triangles(surface.points, surface.triangles);
+  const geometry::BoxTree tree = geometry::tree_of_triangles(surface.points, surface.triangles);
   std::vector<OppositeSide> result(surface.triangles.size());
   const std::vector<AreaSample> samples = surface.samples(least_area);
   parallel_for(static_cast<std::int64_t>(samples.size()), 64, [&](std::int64_t i) {
@@ -31,7 +31,8 @@ std::vector<OppositeSide> opposite_sides(const FieldSurface& surface) {
     double best = furthest * here;
     tree.first_hit(from, inwards, best, [&](std::int32_t triangle) {
       const auto& [a, b, c] = surface.triangles[triangle];
-      const double length = length_to_triangle(from, inwards, surface.points[a], surface.points[b], surface.points[c]);
+      const double length =
+          geometry::length_to_triangle(from, inwards, surface.points[a], surface.points[b], surface.points[c]);
       if (length <= least_distance * here || length >= best) return std::numeric_limits<double>::infinity();
       best = length;
       side.triangle = triangle;
@@ -43,4 +44,4 @@ std::vector<OppositeSide> opposite_sides(const FieldSurface& surface) {
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

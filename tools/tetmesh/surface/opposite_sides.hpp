@@ -5,7 +5,7 @@
 
 #include "tools/tetmesh/surface/field_surface.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 struct OppositeSide {
   std::int32_t triangle = -1;  // the first one that a ray from the centre, inwards along the normal, meets; -1: none
@@ -17,4 +17,4 @@ struct OppositeSide {
 // that are small: for these, one of several stands.
 std::vector<OppositeSide> opposite_sides(const FieldSurface& surface);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

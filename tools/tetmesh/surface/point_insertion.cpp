@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <limits>
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 class PointInserter {
  public:
-  PointInserter(FeatureMesh& mesh, const SizeField& snap) : mesh_(mesh), snap_(snap), cut_from_(mesh.n_faces()) {
+  PointInserter(FeatureMesh& mesh, const sizing::SizeField& snap)
+      : mesh_(mesh), snap_(snap), cut_from_(mesh.n_faces()) {
     for (std::size_t f = 0; f < cut_from_.size(); ++f) cut_from_[f] = static_cast<std::int32_t>(f);
   }
 
@@ -120,16 +121,16 @@ class PointInserter {
   }
 
   FeatureMesh& mesh_;
-  const SizeField& snap_;
+  const sizing::SizeField& snap_;
   std::vector<std::int32_t> cut_from_;  // of each face, the one that it is part of, as it was at the start
   std::vector<Face> parts_;
 };
 
 }  // namespace
 
-void insert_points(FeatureMesh& mesh, std::span<const SurfacePoint> points, const SizeField& snap) {
+void insert_points(FeatureMesh& mesh, std::span<const SurfacePoint> points, const sizing::SizeField& snap) {
   PointInserter inserter(mesh, snap);
   for (const SurfacePoint& point : points) inserter.insert(point);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

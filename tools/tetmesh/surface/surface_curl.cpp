@@ -6,13 +6,13 @@
 #include "tools/tetmesh/surface/feature_fan.hpp"
 #include "tools/tetmesh/surface/narrow_strips.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 // The less stiff, the further from where they have to do rows stretch: at 0.005, on the fine size of
 // tests/bench/points, 0.1 % more of the volume in hexes on larger parts, 1.6 less on simp; at 0.05, 0.4 less than at
 // 0.02 on larger ones.
-constexpr CurlLimits limits{.stiffness = 0.01f, .most_iterations = 300, .tolerance = 1e-3};
+constexpr fields::CurlLimits limits{.stiffness = 0.01f, .most_iterations = 300, .tolerance = 1e-3};
 // Of its length, what a distance may gain or lose; where more is wanted, rows have to end.
 constexpr double most_strain = 0.3;
 
@@ -21,7 +21,7 @@ constexpr double shortest_step = 0.55, longest_step = 1.8;
 
 std::vector<float> distances_of(const SurfaceLinks& links) {
   std::vector<float> distances(2 * links.of.size());
-  links.for_each_pair([&](HalfEdge h) {
+  links.for_each_pair([&](geometry::HalfEdge h) {
     for (std::size_t k = 0; k < 2; ++k)
       distances[SurfaceLinks::number_of(h, k)] = static_cast<float>(links.of[h].distance[k]);
   });
@@ -30,25 +30,25 @@ std::vector<float> distances_of(const SurfaceLinks& links) {
 
 // Around the start of a half-edge, along both directions of its triangle, unless a feature is in the way or they are
 // not the same at the end.
-void add_loops_around(const SurfaceLinks& links, HalfEdge first, Loops& loops) {
+void add_loops_around(const SurfaceLinks& links, geometry::HalfEdge first, fields::Loops& loops) {
   for (std::size_t k = 0; k < 2; ++k) {
     FollowedAxis followed{k};
-    HalfEdge h = first;
+    geometry::HalfEdge h = first;
     do {
       if (links.of[h].neighbour < 0 || links.of[h].weight <= 0) return loops.drop();
       loops.add_step(followed.cross(links, h));
-      h = next_in_triangle(links.surface.twins[h]);
+      h = geometry::next_in_triangle(links.surface.twins[h]);
     } while (h != first);
     if (followed.axis != k || followed.flipped) return loops.drop();
     loops.close();
   }
 }
 
-Loops loops_around_vertices(const SurfaceLinks& links) {
-  Loops loops;
+fields::Loops loops_around_vertices(const SurfaceLinks& links) {
+  fields::Loops loops;
   std::vector<bool> seen(links.surface.points.size());
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(links.of.size()); ++h) {
-    const Vertex v = start_of(links.surface.triangles, h);
+  for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(links.of.size()); ++h) {
+    const Vertex v = geometry::start_of(links.surface.triangles, h);
     if (seen[v]) continue;
     seen[v] = true;
     add_loops_around(links, h, loops);
@@ -58,14 +58,14 @@ Loops loops_around_vertices(const SurfaceLinks& links) {
 
 template <class Body>
 void for_each_fan(const SurfaceLinks& links, Body&& body) {
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(links.of.size()); ++h)
+  for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(links.of.size()); ++h)
     if (links.surface.feature[h])
       if (const auto fan = feature_fan(links, h)) body(*fan);
 }
 
 // Rows beside a feature run along it.
-void add_row_along(const FeatureFan& fan, Loops& loops) {
-  for (const LoopStep& step : fan.across) loops.add_step(step);
+void add_row_along(const FeatureFan& fan, fields::Loops& loops) {
+  for (const fields::LoopStep& step : fan.across) loops.add_step(step);
   loops.close(fan.apart);
 }
 
@@ -74,83 +74,84 @@ void add_row_along(const FeatureFan& fan, Loops& loops) {
 std::vector<double> step_lengths(const FieldSurface& surface, std::span<const Vertex> kept) {
   std::vector<bool> is_kept(surface.points.size());
   for (const Vertex v : kept) is_kept[v] = true;
-  const auto count = static_cast<HalfEdge>(surface.twins.size());
-  std::vector<HalfEdge> onward(surface.points.size(), -1);  // one of the feature's half-edges from a vertex, then both
-  std::vector<HalfEdge> backward = onward;
-  for (HalfEdge h = 0; h < count; ++h) {
+  const auto count = static_cast<geometry::HalfEdge>(surface.twins.size());
+  std::vector<geometry::HalfEdge> onward(surface.points.size(),
+                                         -1);  // one of the feature's half-edges from a vertex, then both
+  std::vector<geometry::HalfEdge> backward = onward;
+  for (geometry::HalfEdge h = 0; h < count; ++h) {
     if (!surface.feature[h]) continue;
-    const Vertex v = start_of(surface.triangles, h);
+    const Vertex v = geometry::start_of(surface.triangles, h);
     (onward[v] < 0 ? onward[v] : backward[v]) = h;
   }
   std::vector<double> lengths(surface.twins.size());
-  std::vector<HalfEdge> step;
-  for (HalfEdge first = 0; first < count; ++first) {
-    if (!surface.feature[first] || !is_kept[start_of(surface.triangles, first)]) continue;
+  std::vector<geometry::HalfEdge> step;
+  for (geometry::HalfEdge first = 0; first < count; ++first) {
+    if (!surface.feature[first] || !is_kept[geometry::start_of(surface.triangles, first)]) continue;
     double length = 0;
     step.clear();
-    for (HalfEdge h = first; h >= 0;) {
+    for (geometry::HalfEdge h = first; h >= 0;) {
       step.push_back(h);
       length += norm(surface.edge_vector(h));
-      const Vertex v = end_of(surface.triangles, h);
+      const Vertex v = geometry::end_of(surface.triangles, h);
       h = is_kept[v] ? -1 : onward[v] == surface.twins[h] ? backward[v] : onward[v];
     }
-    for (const HalfEdge h : step) lengths[h] = length;
+    for (const geometry::HalfEdge h : step) lengths[h] = length;
   }
   return lengths;
 }
 
 // From the middle of the one edge to that of the other it is as many steps as they are parts of.
 void add_known_steps(const SurfaceLinks& links, const FeatureFan& fan, const std::vector<double>& step_length,
-                     Loops& loops) {
+                     fields::Loops& loops) {
   const double first_length = step_length[fan.first], last_length = step_length[fan.last];
-  const auto is_about_a_size = [&](double length, HalfEdge h) {
-    const double sizes = length / links.surface.sizes[triangle_of(h)];
+  const auto is_about_a_size = [&](double length, geometry::HalfEdge h) {
+    const double sizes = length / links.surface.sizes[geometry::triangle_of(h)];
     return sizes > shortest_step && sizes < longest_step;
   };
   if (!is_about_a_size(first_length, fan.first) || !is_about_a_size(last_length, fan.last)) return;
   const FieldSurface& surface = links.surface;
   const double steps =
       0.5 * (norm(surface.edge_vector(fan.first)) / first_length + norm(surface.edge_vector(fan.last)) / last_length);
-  const double first_ahead = fan.first_ahead * links.surface.sizes[triangle_of(fan.first)] / first_length;
-  const double last_ahead = fan.last_ahead * links.surface.sizes[triangle_of(fan.last)] / last_length;
-  for (const LoopStep& step : fan.along) loops.add_step(step);
+  const double first_ahead = fan.first_ahead * links.surface.sizes[geometry::triangle_of(fan.first)] / first_length;
+  const double last_ahead = fan.last_ahead * links.surface.sizes[geometry::triangle_of(fan.last)] / last_length;
+  for (const fields::LoopStep& step : fan.along) loops.add_step(step);
   loops.close(steps - first_ahead + last_ahead);
 }
 
 // On both sides of a curve it is as far.
-void add_same_steps(const SurfaceLinks& links, const FeatureFan& fan, Loops& loops) {
+void add_same_steps(const SurfaceLinks& links, const FeatureFan& fan, fields::Loops& loops) {
   const auto& twins = links.surface.twins;
   if (twins[fan.last] < fan.first) return;  // seen from the other side
   const auto other = feature_fan(links, twins[fan.last]);
   if (!other || other->last != twins[fan.first]) return;
-  for (const LoopStep& step : fan.along) loops.add_step(step);
-  for (const LoopStep& step : other->along) loops.add_step(step.number, !step.backwards);
+  for (const fields::LoopStep& step : fan.along) loops.add_step(step);
+  for (const fields::LoopStep& step : other->along) loops.add_step(step.number, !step.backwards);
   loops.close(other->first_ahead - other->last_ahead - fan.first_ahead + fan.last_ahead);
 }
 
 // Between two features that are near, rows are counted in the same way everywhere.
-void add_rows_between(const SurfaceLinks& links, HalfEdge feature, Loops& loops) {
-  const auto strip = narrow_strip(links, feature, widest_to_decide);
+void add_rows_between(const SurfaceLinks& links, geometry::HalfEdge feature, fields::Loops& loops) {
+  const auto strip = narrow_strip(links, feature, fields::widest_to_decide);
   if (!strip || strip->width < shortest_step) return;
-  for (const LoopStep& step : strip->across) loops.add_step(step);
-  loops.close(strip->before + strip->after - layers_across(strip->width));
+  for (const fields::LoopStep& step : strip->across) loops.add_step(step);
+  loops.close(strip->before + strip->after - fields::layers_across(strip->width));
 }
 
 }  // namespace
 
 void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept) {
-  Loops loops = loops_around_vertices(links);
+  fields::Loops loops = loops_around_vertices(links);
   const std::vector<double> step_length = step_lengths(links.surface, kept);
   for_each_fan(links, [&](const FeatureFan& fan) {
     add_row_along(fan, loops);
     add_known_steps(links, fan, step_length, loops);
   });
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(links.of.size()); ++h)
+  for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(links.of.size()); ++h)
     if (links.surface.feature[h]) add_rows_between(links, h, loops);
-  const std::vector<float> correction = curl_correction(distances_of(links), loops, limits);
-  links.for_each_pair([&](HalfEdge h) {
+  const std::vector<float> correction = fields::curl_correction(distances_of(links), loops, limits);
+  links.for_each_pair([&](geometry::HalfEdge h) {
     SurfaceLink& link = links.of[h];
-    const std::int32_t f = triangle_of(h);
+    const std::int32_t f = geometry::triangle_of(h);
     const double longest =
         most_strain * norm(links.surface.centres[f] - links.surface.centres[link.neighbour]) / links.surface.sizes[f];
     for (std::size_t k = 0; k < 2; ++k)
@@ -161,13 +162,13 @@ void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept) {
 }
 
 std::vector<double> steps_along_features(const SurfaceLinks& links) {
-  Loops loops = loops_around_vertices(links);
+  fields::Loops loops = loops_around_vertices(links);
   for_each_fan(links, [&](const FeatureFan& fan) {
     add_row_along(fan, loops);
     add_same_steps(links, fan, loops);
   });
   std::vector<float> distances = distances_of(links);
-  const std::vector<float> correction = curl_correction(distances, loops, limits);
+  const std::vector<float> correction = fields::curl_correction(distances, loops, limits);
   for (std::size_t i = 0; i < distances.size(); ++i) distances[i] += correction[i];
   std::vector<double> steps(links.of.size());
   for_each_fan(links, [&](const FeatureFan& fan) {
@@ -178,4 +179,4 @@ std::vector<double> steps_along_features(const SurfaceLinks& links) {
   return steps;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

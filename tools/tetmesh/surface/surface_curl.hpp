@@ -6,7 +6,7 @@
 
 #include "tools/tetmesh/surface/surface_links.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 // `kept` are the vertices of the surface that are points of the lattice: on features, from one to the next is one step.
 void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept);
@@ -16,4 +16,4 @@ void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept);
 // field does not tell.
 std::vector<double> steps_along_features(const SurfaceLinks& links);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

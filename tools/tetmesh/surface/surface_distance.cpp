@@ -8,7 +8,7 @@
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/geometry/triangle_pieces.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 // Cells along each axis, so that a small width does not fill the memory.
@@ -23,7 +23,7 @@ int parts_of(double length, double spacing) {
 // Vertices are samples of the first triangle that has them, points of an edge of the one that runs along it upwards.
 class SurfaceSampler {
  public:
-  SurfaceSampler(std::span<const Vec3> points, std::span<const Triangle> triangles, const SizeField& spacing)
+  SurfaceSampler(std::span<const Vec3> points, std::span<const Triangle> triangles, const sizing::SizeField& spacing)
       : points_(points), triangles_(triangles), spacing_(spacing), owner_(points.size(), -1) {
     for (std::size_t t = triangles.size(); t-- > 0;)
       for (const Vertex v : triangles[t]) owner_[v] = static_cast<std::int32_t>(t);
@@ -58,7 +58,7 @@ class SurfaceSampler {
  private:
   std::span<const Vec3> points_;
   std::span<const Triangle> triangles_;
-  const SizeField& spacing_;
+  const sizing::SizeField& spacing_;
   std::vector<std::int32_t> owner_;  // of each vertex, a triangle
 };
 
@@ -103,20 +103,20 @@ DistanceIndex::Cell DistanceIndex::cell_of(const Vec3& p) const {
 
 template <class Visit>
 void DistanceIndex::for_each_cell(const Triangle& t, Visit&& visit) const {
-  const auto cells_in = [&](const Box& box, auto&& take) {
+  const auto cells_in = [&](const geometry::Box& box, auto&& take) {
     const Cell low = cell_of(box.low), high = cell_of(box.high);
     for (std::int64_t z = low.z; z <= high.z; ++z)
       for (std::int64_t y = low.y; y <= high.y; ++y)
         for (std::int64_t x = low.x; x <= high.x; ++x) take(number_of({x, y, z}));
   };
-  TrianglePieces(points_[t[0]], points_[t[1]], points_[t[2]], width_).for_each_cell(cells_in, visit);
+  geometry::TrianglePieces(points_[t[0]], points_[t[1]], points_[t[2]], width_).for_each_cell(cells_in, visit);
 }
 
 double DistanceIndex::distance(const Vec3& p, std::int32_t& nearest, double enough) const {
   Search search{nearest, std::numeric_limits<double>::max(), enough * enough};
   if (nearest >= 0) {
     const auto [a, b, c] = triangles_[nearest];
-    search.best = TriangleDistance(points_[a], points_[b], points_[c]).squared(p);
+    search.best = geometry::TriangleDistance(points_[a], points_[b], points_[c]).squared(p);
   }
   const Cell centre = cell_of(p);
   const std::int64_t rings = std::max({counts_.x, counts_.y, counts_.z});
@@ -165,7 +165,7 @@ void DistanceIndex::look_in_cell(const Vec3& p, const Cell& cell, Search& search
     const auto [a, b, c] = triangles_[members_[i]];
     const double height = dot(p - points_[a], normals_[members_[i]]);
     if (height * height >= search.best) continue;
-    const double squared = TriangleDistance(points_[a], points_[b], points_[c]).squared(p);
+    const double squared = geometry::TriangleDistance(points_[a], points_[b], points_[c]).squared(p);
     if (squared >= search.best) continue;
     search.best = squared;
     search.nearest = members_[i];
@@ -173,7 +173,8 @@ void DistanceIndex::look_in_cell(const Vec3& p, const Cell& cell, Search& search
 }
 
 SurfaceDistance one_sided_distance(std::span<const Vec3> points, std::span<const Triangle> triangles,
-                                   const DistanceIndex& other, const SizeField& spacing, const SizeField& limit) {
+                                   const DistanceIndex& other, const sizing::SizeField& spacing,
+                                   const sizing::SizeField& limit) {
   SurfaceDistance result;
   const SurfaceSampler sampler(points, triangles, spacing);
   parallel_in_order(
@@ -198,4 +199,4 @@ SurfaceDistance one_sided_distance(std::span<const Vec3> points, std::span<const
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

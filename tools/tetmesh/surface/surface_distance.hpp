@@ -7,7 +7,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/tetmesh/sizing/size_field.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 // Finds distances from a fixed set of triangles.
 class DistanceIndex {
@@ -59,6 +59,7 @@ struct SurfaceDistance {
 
 // Distances of samples of one surface, its vertices among them, from another.
 SurfaceDistance one_sided_distance(std::span<const Vec3> points, std::span<const Triangle> triangles,
-                                   const DistanceIndex& other, const SizeField& spacing, const SizeField& limit);
+                                   const DistanceIndex& other, const sizing::SizeField& spacing,
+                                   const sizing::SizeField& limit);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

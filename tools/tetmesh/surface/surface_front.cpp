@@ -15,7 +15,7 @@
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/surface/surface_lattice.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 // Points nearer than this, in steps of the lattice, are refused.
@@ -54,7 +54,7 @@ struct SizedPoint : SurfacePoint {
 
 class SurfaceFront {
  public:
-  SurfaceFront(const FieldSurface& surface, const CrossField& field, const SizeField& size)
+  SurfaceFront(const FieldSurface& surface, const CrossField& field, const sizing::SizeField& size)
       : surface_(surface),
         field_(field),
         walker_(surface, field),
@@ -75,7 +75,7 @@ class SurfaceFront {
  private:
   void add_kept(std::span<const Vertex> kept);
   void start_from_kept(std::span<const Vertex> kept);
-  void start_from_corner(HalfEdge h);
+  void start_from_corner(geometry::HalfEdge h);
   void spread();
   void fill_gaps();
   SizedPoint sized(const SurfacePoint& point) const { return {point, size_.at(point.position)}; }
@@ -90,13 +90,13 @@ class SurfaceFront {
   const FieldSurface& surface_;
   const CrossField& field_;
   FieldWalker walker_;
-  const SizeField& size_;
+  const sizing::SizeField& size_;
   std::vector<SurfacePoint> points_;
   std::vector<double> sizes_;                   // at the points
   std::vector<Outlook> outlooks_;               // of the points, along the way on which they were reached
   std::vector<std::array<double, 2>> spacing_;  // of the lattice, in each triangle
   std::size_t next_ = 0;                        // of the points, the first that has not yet offered its neighbours
-  SizedPointGrid grid_;                         // the kept vertices, then the points
+  geometry::SizedPointGrid grid_;               // the kept vertices, then the points
   std::vector<std::vector<Vec3>> normals_;      // of the points in the grid, of each face around them that differs
   std::vector<std::int8_t> taken_in_;           // of each triangle, the points
 };
@@ -119,16 +119,16 @@ void SurfaceFront::add_kept(std::span<const Vertex> kept) {
 void SurfaceFront::start_from_kept(std::span<const Vertex> kept) {
   std::vector<bool> is_kept(surface_.points.size());
   for (const Vertex v : kept) is_kept[v] = true;
-  const auto half_edge_count = static_cast<HalfEdge>(surface_.twins.size());
-  for (HalfEdge h = 0; h < half_edge_count; ++h)
-    if (is_kept[start_of(surface_.triangles, h)]) start_from_corner(h);
+  const auto half_edge_count = static_cast<geometry::HalfEdge>(surface_.twins.size());
+  for (geometry::HalfEdge h = 0; h < half_edge_count; ++h)
+    if (is_kept[geometry::start_of(surface_.triangles, h)]) start_from_corner(h);
 }
 
 // The field's directions that lead from the start of h into its triangle.
-void SurfaceFront::start_from_corner(HalfEdge h) {
-  const std::int32_t f = triangle_of(h);
-  const Vec3 left = surface_.inward(h), right = surface_.inward(previous_in_triangle(h));
-  const SizedPoint corner = sized({surface_.points[start_of(surface_.triangles, h)], f});
+void SurfaceFront::start_from_corner(geometry::HalfEdge h) {
+  const std::int32_t f = geometry::triangle_of(h);
+  const Vec3 left = surface_.inward(h), right = surface_.inward(geometry::previous_in_triangle(h));
+  const SizedPoint corner = sized({surface_.points[geometry::start_of(surface_.triangles, h)], f});
   const auto [x, y] = field_.axes(surface_, f);
   for (const Vec3& direction : {x, y, -x, -y})
     if (dot(direction, left) >= 0 && dot(direction, right) > 0) offer_step(corner, direction, {});
@@ -221,8 +221,8 @@ void SurfaceFront::take_if_free(const SizedPoint& point, const Outlook& outlook)
 
 std::vector<SurfacePoint> surface_front(const FieldSurface& surface, const CrossField& field,
                                         std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
-                                        const SizeField& size) {
+                                        const sizing::SizeField& size) {
   return SurfaceFront(surface, field, size).run(surface_lattice(surface, field, opposite, kept), kept);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -8,11 +8,11 @@
 #include "tools/tetmesh/surface/cross_field.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 // `kept` are the vertices of the surface that are points already: those of its feature curves.
 std::vector<SurfacePoint> surface_front(const FieldSurface& surface, const CrossField& field,
                                         std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
-                                        const SizeField& size);
+                                        const sizing::SizeField& size);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -21,14 +21,14 @@
 #include "tools/tetmesh/surface/links_across.hpp"
 #include "tools/tetmesh/surface/surface_curl.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 // Pull of a feature edge and of a point on it, against all links of the triangle.
 // Shares of the volume in hexes differ by up to 0.4 % from 2 to 20 for points, on larger parts.
 constexpr double edge_weight = 20, point_weight = 5;
 constexpr double aligned_cosine = 0.94;  // between a feature edge's normal and a direction that it is across
-constexpr DiffusionLimits limits{200, 1e-3};
+constexpr fields::DiffusionLimits limits{200, 1e-3};
 constexpr int smoothing_sweeps = 60;  // 20 lose 1 % of the volume in hexes on small parts
 constexpr double certain = 1e-3;      // moduli of numbers that features say something about
 constexpr double inertia = 0.3;       // of a number's own value, against its links
@@ -42,12 +42,12 @@ constexpr double most_speakers = 32;
 // Points nearer to each other, in sizes, on surfaces with normals of at least this cosine, are the same.
 constexpr double same_point = 0.3, least_normal_cosine = 0.3;
 
-using Phases = std::array<Complex, 2>;
+using Phases = std::array<fields::Complex, 2>;
 // From one point of the lattice to the next along each direction, in sizes along both.
 using Steps = std::array<std::array<double, 2>, 2>;
 constexpr Steps straight{{{1, 0}, {0, 1}}};
 
-Complex turn_by(double sizes) {
+fields::Complex turn_by(double sizes) {
   return std::polar(1.0, 2 * std::numbers::pi * sizes);
 }
 
@@ -111,7 +111,7 @@ class LatticeMaker {
   void propose();
   void propose(const AreaSample& speaker, std::vector<Proposal>& proposals) const;
   void agree();
-  Proposal agreed(const SizedPointGrid& grid, const Proposal& proposal) const;
+  Proposal agreed(const geometry::SizedPointGrid& grid, const Proposal& proposal) const;
 
   const FieldSurface& surface_;
   const CrossField& field_;
@@ -129,9 +129,9 @@ class LatticeMaker {
 
 void LatticeMaker::link(std::span<const Vertex> kept) {
   correct_curl(links_, kept);
-  links_.for_each_pair([&](HalfEdge h) {
-    degrees_[triangle_of(h)] += links_.of[h].weight;
-    degrees_[triangle_of(surface_.twins[h])] += links_.of[h].weight;
+  links_.for_each_pair([&](geometry::HalfEdge h) {
+    degrees_[geometry::triangle_of(h)] += links_.of[h].weight;
+    degrees_[geometry::triangle_of(surface_.twins[h])] += links_.of[h].weight;
   });
   for (std::int32_t f = 0; f < static_cast<std::int32_t>(degrees_.size()); ++f) {
     for (const SurfaceLink& link : across_.of(f)) degrees_[f] += link.weight;
@@ -148,9 +148,9 @@ void LatticeMaker::pull(std::int32_t f, std::size_t axis, double weight, double 
 void LatticeMaker::make_anchors(std::span<const Vertex> kept) {
   std::vector<bool> is_kept(surface_.points.size());
   for (const Vertex v : kept) is_kept[v] = true;
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(links_.of.size()); ++h) {
-    const std::int32_t f = triangle_of(h);
-    const Vertex v = start_of(surface_.triangles, h);
+  for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(links_.of.size()); ++h) {
+    const std::int32_t f = geometry::triangle_of(h);
+    const Vertex v = geometry::start_of(surface_.triangles, h);
     const Vec3 from_start = surface_.centres[f] - surface_.points[v];
     const auto axes = directions(f);
     for (std::size_t k = 0; k < 2; ++k) {
@@ -168,8 +168,8 @@ Phases seen_through(const SurfaceLink& link, const std::vector<Phases>& phases) 
   const Phases& theirs = phases[link.neighbour];
   Phases seen;
   for (std::size_t k = 0; k < 2; ++k) {
-    const Complex there = theirs[link.axis(k)];
-    seen[k] = times(link.flipped[k] ? std::conj(there) : there, link.turn[k]);
+    const fields::Complex there = theirs[link.axis(k)];
+    seen[k] = fields::times(link.flipped[k] ? std::conj(there) : there, link.turn[k]);
   }
   return seen;
 }
@@ -180,7 +180,7 @@ Phases LatticeMaker::view_of_neighbours(const std::vector<Phases>& phases, std::
     const Phases seen = seen_through(link, phases);
     for (std::size_t k = 0; k < 2; ++k) sum[k] += link.weight * seen[k];
   };
-  for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h)
+  for (geometry::HalfEdge h = 3 * f; h < 3 * f + 3; ++h)
     if (links_.of[h].neighbour >= 0) add(links_.of[h]);
   for (const SurfaceLink& link : across_.of(f)) add(link);
   return sum;
@@ -191,7 +191,7 @@ void LatticeMaker::diffuse() {
   const auto view = [&](const std::vector<Phases>& phases, std::size_t f) {
     return view_of_neighbours(phases, static_cast<std::int32_t>(f));
   };
-  phases_ = diffused<2>(
+  phases_ = fields::diffused<2>(
       targets_, limits, [&](const auto& body) { for_each_triangle(body); }, diagonal, view);
 }
 
@@ -201,7 +201,7 @@ void LatticeMaker::reach_the_rest() {
   std::vector<std::int32_t> queue;
   std::vector<bool> reached(phases_.size());
   const auto reach = [&](std::int32_t f, const Phases& phases) {
-    for (std::size_t k = 0; k < 2; ++k) phases_[f][k] = unit(phases[k]);
+    for (std::size_t k = 0; k < 2; ++k) phases_[f][k] = fields::unit(phases[k]);
     reached[f] = true;
     queue.push_back(f);
   };
@@ -210,11 +210,11 @@ void LatticeMaker::reach_the_rest() {
   std::size_t next = 0;
   for (std::int32_t seed = 0; seed < count; ++seed) {
     for (; next < queue.size(); ++next)
-      for (HalfEdge h = 3 * queue[next]; h < 3 * queue[next] + 3; ++h) {
+      for (geometry::HalfEdge h = 3 * queue[next]; h < 3 * queue[next] + 3; ++h) {
         if (links_.of[h].neighbour < 0 || reached[links_.of[h].neighbour]) continue;
         reach(links_.of[h].neighbour, seen_through(links_.of[surface_.twins[h]], phases_));
       }
-    if (!reached[seed]) reach(seed, {Complex(1), Complex(1)});
+    if (!reached[seed]) reach(seed, {fields::Complex(1), fields::Complex(1)});
   }
 }
 
@@ -224,7 +224,7 @@ void LatticeMaker::sweep() {
   for_each_triangle([&](std::int32_t f) {
     const Phases view = view_of_neighbours(phases_, f);
     for (std::size_t k = 0; k < 2; ++k)
-      next[f][k] = unit(view[k] + inertia * degrees_[f] * phases_[f][k] + targets_[f][k]);
+      next[f][k] = fields::unit(view[k] + inertia * degrees_[f] * phases_[f][k] + targets_[f][k]);
   });
   phases_.swap(next);
 }
@@ -232,7 +232,7 @@ void LatticeMaker::sweep() {
 // By least squares over the distances to the neighbours, which are those of the field no longer.
 Steps LatticeMaker::steps_of(std::int32_t f) const {
   Eigen::Matrix2d moments = Eigen::Matrix2d::Zero(), right = moments;
-  for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
+  for (geometry::HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
     const SurfaceLink& link = links_.of[h];
     const Eigen::Vector2d way(link.way[0], link.way[1]);
     moments += link.weight * way * way.transpose();
@@ -291,7 +291,7 @@ void LatticeMaker::propose(const AreaSample& speaker, std::vector<Proposal>& pro
 
 // Moves every proposal to the mean of those that see the same point, and trusts it as much as all of them.
 void LatticeMaker::agree() {
-  SizedPointGrid grid(surface_.centres.front());
+  geometry::SizedPointGrid grid(surface_.centres.front());
   for (const Proposal& p : proposals_) grid.add(p.point.position, 2 * same_point * greatest_size_);
   std::vector<Proposal> result(proposals_.size());
   parallel_for(static_cast<std::int64_t>(result.size()), 256,
@@ -299,7 +299,7 @@ void LatticeMaker::agree() {
   proposals_ = std::move(result);
 }
 
-Proposal LatticeMaker::agreed(const SizedPointGrid& grid, const Proposal& proposal) const {
+Proposal LatticeMaker::agreed(const geometry::SizedPointGrid& grid, const Proposal& proposal) const {
   const Vec3 &place = proposal.point.position, &normal = surface_.normals[proposal.point.triangle];
   const double reach = same_point * surface_.sizes[proposal.point.triangle];
   Vec3 sum;
@@ -326,4 +326,4 @@ SurfaceLattice surface_lattice(const FieldSurface& surface, const CrossField& fi
   return LatticeMaker(surface, field, opposite).make(kept);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -9,7 +9,7 @@
 #include "tools/tetmesh/surface/cross_field.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 struct SurfaceLattice {
   // Those that come first are trusted most; the same point of the lattice comes several times, as it is seen from
@@ -24,4 +24,4 @@ struct SurfaceLattice {
 SurfaceLattice surface_lattice(const FieldSurface& surface, const CrossField& field,
                                std::span<const OppositeSide> opposite, std::span<const Vertex> kept);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

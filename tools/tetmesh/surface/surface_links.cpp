@@ -8,18 +8,18 @@
 #include "tools/tetmesh/surface/crest_lines.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 // Of the triangle of h, to that beyond it, as both lie unfolded.
-SurfaceLink make_link(const SurfaceLinks& links, HalfEdge h) {
+SurfaceLink make_link(const SurfaceLinks& links, geometry::HalfEdge h) {
   const FieldSurface& surface = links.surface;
-  const HalfEdge twin = surface.twins[h];
-  const std::int32_t f = triangle_of(h), g = triangle_of(twin);
+  const geometry::HalfEdge twin = surface.twins[h];
+  const std::int32_t f = geometry::triangle_of(h), g = geometry::triangle_of(twin);
   const auto here = links.field.axes(surface, f), there = links.field.axes(surface, g);
   const Vec3 side = surface.edge_vector(h);
   const Vec3 &inward = surface.inward(h), &beyond = surface.inward(twin);
-  const Vec3 middle = surface.points[start_of(surface.triangles, h)] + 0.5 * side;
+  const Vec3 middle = surface.points[geometry::start_of(surface.triangles, h)] + 0.5 * side;
   const Vec3 from = surface.centres[f] - middle, to = surface.centres[g] - middle;
   SurfaceLink link;
   link.neighbour = g;
@@ -76,16 +76,16 @@ SurfaceLink SurfaceLink::reversed(std::int32_t from) const {
 SurfaceLinks::SurfaceLinks(const FieldSurface& on, const CrossField& along)
     : surface(on), field(along), stretch(bend_stretch(on)), of(on.twins.size()) {
   parallel_for(static_cast<std::int64_t>(of.size()), 1024, [&](std::int64_t i) {
-    const auto h = static_cast<HalfEdge>(i), twin = on.twins[h];
+    const auto h = static_cast<geometry::HalfEdge>(i), twin = on.twins[h];
     if (on.feature[h] || twin < h) return;
     of[h] = make_link(*this, h);
-    of[twin] = of[h].reversed(triangle_of(h));
+    of[twin] = of[h].reversed(geometry::triangle_of(h));
   });
 }
 
-LoopStep FollowedAxis::cross(const SurfaceLinks& links, HalfEdge h) {
+fields::LoopStep FollowedAxis::cross(const SurfaceLinks& links, geometry::HalfEdge h) {
   const SurfaceLink& link = links.of[h];
-  const HalfEdge twin = links.surface.twins[h];
+  const geometry::HalfEdge twin = links.surface.twins[h];
   const std::size_t here = axis, there = link.axis(axis);
   const bool before = flipped, turned = flipped != link.flipped[axis];
   axis = there;
@@ -94,4 +94,4 @@ LoopStep FollowedAxis::cross(const SurfaceLinks& links, HalfEdge h) {
   return {SurfaceLinks::number_of(twin, there), !turned};
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

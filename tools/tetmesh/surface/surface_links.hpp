@@ -11,14 +11,14 @@
 #include "tools/tetmesh/surface/crest_lines.hpp"
 #include "tools/tetmesh/surface/cross_field.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 // Direction k here is direction k there, or the other one where crossed, turned round where flipped, and `distance[k]`
 // further on.
 struct SurfaceLink {
-  std::array<double, 2> distance{};  // between the centres, in sizes and over what fillets would be; corrected
-  std::array<double, 2> way{};       // as it was before
-  std::array<Complex, 2> turn{};     // by the distances
+  std::array<double, 2> distance{};       // between the centres, in sizes and over what fillets would be; corrected
+  std::array<double, 2> way{};            // as it was before
+  std::array<fields::Complex, 2> turn{};  // by the distances
   std::array<bool, 2> flipped{};
   bool crossed = false;
   std::int32_t neighbour = -1;
@@ -53,11 +53,13 @@ struct SurfaceLinks {
   // Calls body(h) for one half-edge of each pair with links.
   template <class Body>
   void for_each_pair(Body&& body) const {
-    for (HalfEdge h = 0; h < static_cast<HalfEdge>(of.size()); ++h)
+    for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(of.size()); ++h)
       if (of[h].neighbour >= 0 && h < surface.twins[h]) body(h);
   }
   // Distances are numbered by those half-edges and their triangles' directions.
-  static std::int32_t number_of(HalfEdge h, std::size_t axis) { return 2 * h + static_cast<std::int32_t>(axis); }
+  static std::int32_t number_of(geometry::HalfEdge h, std::size_t axis) {
+    return 2 * h + static_cast<std::int32_t>(axis);
+  }
 };
 
 // A direction of a triangle that is followed from one to the next.
@@ -76,7 +78,7 @@ struct FollowedAxis {
     return flipped ? -along : along;
   }
   // Goes on over a half-edge with a link; what that adds to the coordinate.
-  LoopStep cross(const SurfaceLinks& links, HalfEdge h);
+  fields::LoopStep cross(const SurfaceLinks& links, geometry::HalfEdge h);
 };
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -4,12 +4,12 @@
 
 #include "tools/tetmesh/surface/delaunay_flips.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 // Calls done(edge) for each edge that it flips.
 template <class Done>
-void flip_flat_edges(FeatureMesh& mesh, EdgeQueue& queue, const SizeField& flatness, Done&& done) {
+void flip_flat_edges(FeatureMesh& mesh, EdgeQueue& queue, const sizing::SizeField& flatness, Done&& done) {
   flip_towards_delaunay(
       mesh, queue,
       [&](OpenMesh::EdgeHandle, const EdgeDiamond& diamond) {
@@ -25,7 +25,7 @@ std::array<Vec3, 2> ends_of(const FeatureMesh& mesh, OpenMesh::EdgeHandle e) {
 }
 
 // Against the longest that is allowed in its middle.
-double squared_length(const FeatureMesh& mesh, OpenMesh::EdgeHandle e, const SizeField& longest) {
+double squared_length(const FeatureMesh& mesh, OpenMesh::EdgeHandle e, const sizing::SizeField& longest) {
   const auto [from, to] = ends_of(mesh, e);
   const double allowed = longest.at(0.5 * (from + to));
   return norm_squared(to - from) / (allowed * allowed);
@@ -33,7 +33,7 @@ double squared_length(const FeatureMesh& mesh, OpenMesh::EdgeHandle e, const Siz
 
 // Flips after each halving keep the triangles of fans of slivers, which share the ends of their long edges, from having
 // points of their own each.
-void halve_long_edges(FeatureMesh& mesh, const SizeField& longest, const SizeField& flatness) {
+void halve_long_edges(FeatureMesh& mesh, const sizing::SizeField& longest, const sizing::SizeField& flatness) {
   std::priority_queue<std::pair<double, int>> queue;
   EdgeQueue changed;
   auto offer = [&](OpenMesh::EdgeHandle e) {
@@ -57,11 +57,11 @@ void halve_long_edges(FeatureMesh& mesh, const SizeField& longest, const SizeFie
 
 }  // namespace
 
-void refine_surface(FeatureMesh& mesh, const SizeField& longest, const SizeField& flatness) {
+void refine_surface(FeatureMesh& mesh, const sizing::SizeField& longest, const sizing::SizeField& flatness) {
   EdgeQueue all;
   for (const auto e : mesh.edges()) all.push(e);
   flip_flat_edges(mesh, all, flatness, [](OpenMesh::EdgeHandle) {});
   halve_long_edges(mesh, longest, flatness);
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

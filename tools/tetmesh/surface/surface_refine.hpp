@@ -4,10 +4,10 @@
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 // Flips edges towards Delaunay where the surface bends by less than `flatness` there, then halves edges, longest first,
 // until none is longer than `longest`. New vertices are removable.
-void refine_surface(FeatureMesh& mesh, const SizeField& longest, const SizeField& flatness);
+void refine_surface(FeatureMesh& mesh, const sizing::SizeField& longest, const sizing::SizeField& flatness);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -19,7 +19,7 @@
 #include "tools/tetmesh/surface/surface_refine.hpp"
 #include "tools/tetmesh/surface/vertex_removal.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 // The field's triangles are at most that long, in sizes; those on which rows are counted, at most that.
@@ -42,7 +42,7 @@ constexpr int careful_attempts = 4, most_attempts = 6;
 constexpr double most_points = 2e7;
 constexpr std::size_t most_intersections = 1000;
 
-bool has_within(const SizedPointGrid& grid, const Vec3& place, double reach) {
+bool has_within(const geometry::SizedPointGrid& grid, const Vec3& place, double reach) {
   bool found = false;
   grid.for_each_near(place, reach, 0, [&](std::int32_t i) {
     found = norm_squared(grid.points()[i] - place) <= reach * reach;
@@ -55,7 +55,7 @@ bool has_within(const SizedPointGrid& grid, const Vec3& place, double reach) {
 
 class SurfaceRemesher::Work {
  public:
-  Work(const Surface& surface, const RemeshOptions& options)
+  Work(const solid::Surface& surface, const RemeshOptions& options)
       : surface_(surface),
         size_(options.size),
         deviation_(options.deviation * options.unit.value_or(options.size)),
@@ -73,14 +73,14 @@ class SurfaceRemesher::Work {
   bool rows_go_across() const;
   void remove_vertices_of_input();
   std::vector<Vec3> find_faults();
-  void keep_nearest(const std::vector<Vec3>& places, const SizeField& reach);
-  void keep_around(const std::vector<Vec3>& places, const SizeField& reach);
+  void keep_nearest(const std::vector<Vec3>& places, const sizing::SizeField& reach);
+  void keep_around(const std::vector<Vec3>& places, const sizing::SizeField& reach);
   std::vector<Vertex> kept_vertices() const;
-  Surface surface_of(const FeatureMesh& mesh) const;
+  solid::Surface surface_of(const FeatureMesh& mesh) const;
   Vec3 centre_of(std::size_t triangle) const;
 
-  const Surface& surface_;
-  SizeField size_, deviation_;
+  const solid::Surface& surface_;
+  sizing::SizeField size_, deviation_;
   double expected_points_ = 0;  // on the new surface
   FeatureMesh prepared_;        // with all points inserted, and the vertices of the input
   std::optional<DistanceIndex> input_;
@@ -106,7 +106,7 @@ bool SurfaceRemesher::Work::judge() {
 }
 
 bool SurfaceRemesher::Work::prepare() {
-  expected_points_ = points_on_surface(surface_, size_, most_points);
+  expected_points_ = sizing::points_on_surface(surface_, size_, most_points);
   if (expected_points_ > most_points) {
     result.failure = "its size asks for more points than memory holds";
     return false;
@@ -128,7 +128,7 @@ bool SurfaceRemesher::Work::rows_go_across() const {
 
 bool SurfaceRemesher::Work::place_points() {
   if (size_.is_uniform()) prepared_.add_crests(crest_lines(prepared_, size_));
-  const SizeField longest = field_edge * size_, flat = flatness * size_;
+  const sizing::SizeField longest = field_edge * size_, flat = flatness * size_;
   if (rows_go_across())
     sample_feature_curves(prepared_, curves_by_rows(prepared_, size_, row_edge * size_, flat), size_, deviation_);
   else
@@ -159,8 +159,8 @@ void SurfaceRemesher::Work::remove_vertices_of_input() {
   result.extra_points = result.surface.points.size() - result.feature_points - result.front_points;
 }
 
-Surface SurfaceRemesher::Work::surface_of(const FeatureMesh& mesh) const {
-  SurfaceSoup soup;
+solid::Surface SurfaceRemesher::Work::surface_of(const FeatureMesh& mesh) const {
+  formats::SurfaceSoup soup;
   soup.text = surface_.text;
   soup.name = surface_.name;
   std::vector<Vertex> number(mesh.n_vertices());
@@ -179,7 +179,7 @@ Surface SurfaceRemesher::Work::surface_of(const FeatureMesh& mesh) const {
     soup.places.push_back(surface_.places[mesh.source(f)]);
     shells.push_back(shell(f));
   }
-  return with_shells_of(surface_, std::move(soup), std::move(shells));
+  return solid::with_shells_of(surface_, std::move(soup), std::move(shells));
 }
 
 Vec3 SurfaceRemesher::Work::centre_of(std::size_t triangle) const {
@@ -191,11 +191,11 @@ Vec3 SurfaceRemesher::Work::centre_of(std::size_t triangle) const {
 // Places where the new surface is not what was promised. Its edges and vertices are manifold and its orientation is
 // right by construction.
 std::vector<Vec3> SurfaceRemesher::Work::find_faults() {
-  const Surface& made = result.surface;
+  const solid::Surface& made = result.surface;
   std::vector<Vec3> faults;
   for (std::size_t i = 0; i < made.triangles.size(); ++i) {
     const auto [a, b, c] = made.triangles[i];
-    if (are_collinear(made.points[a], made.points[b], made.points[c])) faults.push_back(centre_of(i));
+    if (geometry::are_collinear(made.points[a], made.points[b], made.points[c])) faults.push_back(centre_of(i));
   }
   result.failure = "the new surface has triangles without an area";
   if (!faults.empty()) return faults;
@@ -203,13 +203,13 @@ std::vector<Vec3> SurfaceRemesher::Work::find_faults() {
   SurfaceDistance there, back;
   both_at_once(
       [&] {
-        const SizeField spacing = sample_spacing * size_, limit = (1 + 1e-9) * deviation_;
+        const sizing::SizeField spacing = sample_spacing * size_, limit = (1 + 1e-9) * deviation_;
         const DistanceIndex output(made.points, made.triangles);
         there = one_sided_distance(made.points, made.triangles, *input_, spacing, limit);
         back = one_sided_distance(surface_.points, surface_.triangles, output, spacing, limit);
       },
       [&] {
-        for (const auto& pair : find_intersections(made.points, made.triangles, most_intersections).pairs)
+        for (const auto& pair : geometry::find_intersections(made.points, made.triangles, most_intersections).pairs)
           for (const std::int32_t i : pair) faults.push_back(centre_of(static_cast<std::size_t>(i)));
       });
   result.failure = "the new surface intersects itself";
@@ -222,9 +222,9 @@ std::vector<Vec3> SurfaceRemesher::Work::find_faults() {
   return faults;
 }
 
-void SurfaceRemesher::Work::keep_nearest(const std::vector<Vec3>& places, const SizeField& reach) {
+void SurfaceRemesher::Work::keep_nearest(const std::vector<Vec3>& places, const sizing::SizeField& reach) {
   if (places.empty()) return;
-  SizedPointGrid removable(places.front()), fresh(places.front());
+  geometry::SizedPointGrid removable(places.front()), fresh(places.front());
   std::vector<OpenMesh::VertexHandle> handles;
   for (const auto v : prepared_.vertices()) {
     if (prepared_.is_kept(v)) continue;
@@ -250,9 +250,9 @@ void SurfaceRemesher::Work::keep_nearest(const std::vector<Vec3>& places, const 
   }
 }
 
-void SurfaceRemesher::Work::keep_around(const std::vector<Vec3>& places, const SizeField& reach) {
+void SurfaceRemesher::Work::keep_around(const std::vector<Vec3>& places, const sizing::SizeField& reach) {
   if (places.empty()) return;
-  SizedPointGrid grid(places.front());
+  geometry::SizedPointGrid grid(places.front());
   for (const Vec3& p : places) grid.add(p, reach.greatest());
   for (const auto v : prepared_.vertices()) {
     const Vec3 p = prepared_.position(v);
@@ -260,7 +260,7 @@ void SurfaceRemesher::Work::keep_around(const std::vector<Vec3>& places, const S
   }
 }
 
-SurfaceRemesher::SurfaceRemesher(const Surface& surface, const RemeshOptions& options)
+SurfaceRemesher::SurfaceRemesher(const solid::Surface& surface, const RemeshOptions& options)
     : work_(new Work(surface, options)) {}
 
 SurfaceRemesher::~SurfaceRemesher() = default;
@@ -273,7 +273,7 @@ bool SurfaceRemesher::judge() {
   return work_->judge();
 }
 
-const Surface& SurfaceRemesher::made() const {
+const solid::Surface& SurfaceRemesher::made() const {
   return work_->result.surface;
 }
 
@@ -281,15 +281,15 @@ RemeshResult SurfaceRemesher::take() {
   return std::move(work_->result);
 }
 
-bool asks_for_too_many_points(const Surface& surface, const SizeField& size) {
-  return points_on_surface(surface, size, most_points) > most_points;
+bool asks_for_too_many_points(const solid::Surface& surface, const sizing::SizeField& size) {
+  return sizing::points_on_surface(surface, size, most_points) > most_points;
 }
 
-RemeshResult remesh_surface(const Surface& surface, const RemeshOptions& options) {
+RemeshResult remesh_surface(const solid::Surface& surface, const RemeshOptions& options) {
   SurfaceRemesher remesher(surface, options);
   while (remesher.make() && !remesher.judge()) {
   }
   return remesher.take();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -10,18 +10,18 @@
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 struct RemeshOptions {
-  SizeField size = 1;  // distance of the points
-  double feature_angle = default_feature_angle;
-  double deviation = 0.15;             // of either surface from the other, at the most, in units
-  std::optional<SizeField> unit = {};  // nothing: the size
+  sizing::SizeField size = 1;  // distance of the points
+  double feature_angle = geometry::default_feature_angle;
+  double deviation = 0.15;                     // of either surface from the other, at the most, in units
+  std::optional<sizing::SizeField> unit = {};  // nothing: the size
 };
 
 struct RemeshResult {
   // Tags and places are those of the input's triangles, shells are the input's.
-  Surface surface;
+  solid::Surface surface;
   std::string failure;                  // where it failed: why, in a sentence; the surface is empty
   double from_input = 0, to_input = 0;  // greatest distances of points of the one from the other
   std::size_t feature_points = 0, front_points = 0;
@@ -36,14 +36,14 @@ struct RemeshResult {
 class SurfaceRemesher {
  public:
   // The input stays where it is.
-  SurfaceRemesher(const Surface& surface, const RemeshOptions& options);
+  SurfaceRemesher(const solid::Surface& surface, const RemeshOptions& options);
   ~SurfaceRemesher();
 
   // Makes the first surface, or the next one after one that was judged and is faulty. False where none is left to try.
   bool make();
   // Whether the one made last is as promised.
   bool judge();
-  const Surface& made() const;
+  const solid::Surface& made() const;
   // The last one; good only where it was judged so.
   RemeshResult take();
 
@@ -53,8 +53,8 @@ class SurfaceRemesher {
 };
 
 // More than memory holds: then no surface is made.
-bool asks_for_too_many_points(const Surface& surface, const SizeField& size);
+bool asks_for_too_many_points(const solid::Surface& surface, const sizing::SizeField& size);
 
-RemeshResult remesh_surface(const Surface& surface, const RemeshOptions& options);
+RemeshResult remesh_surface(const solid::Surface& surface, const RemeshOptions& options);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

@@ -13,7 +13,7 @@
 #include "tools/tetmesh/surface/delaunay_flips.hpp"
 #include "tools/tetmesh/surface/mesh_regions.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 namespace {
 
 using Edge = OpenMesh::EdgeHandle;
@@ -61,7 +61,7 @@ using Strays = std::vector<std::vector<Vec3>>;
 
 // Points on the edges of the surface as it is where it bends: across these, a new edge can leave it without a vertex
 // nearby that would tell.
-Strays samples_of_edges(const FeatureMesh& mesh, const SizeField& deviation) {
+Strays samples_of_edges(const FeatureMesh& mesh, const sizing::SizeField& deviation) {
   Strays strays(mesh.n_faces());
   for (const Edge e : mesh.edges()) {
     const EdgeDiamond diamond(mesh, e);
@@ -77,7 +77,7 @@ Strays samples_of_edges(const FeatureMesh& mesh, const SizeField& deviation) {
 
 class VertexRemover {
  public:
-  VertexRemover(FeatureMesh& mesh, const DistanceIndex& original, const SizeField& deviation, Strays& strays)
+  VertexRemover(FeatureMesh& mesh, const DistanceIndex& original, const sizing::SizeField& deviation, Strays& strays)
       : mesh_(mesh), original_(original), deviation_(deviation), strays_(strays) {}
   // That changes nothing outside of a region.
   VertexRemover(const VertexRemover& whole, const MeshRegions& regions, std::size_t region) : VertexRemover(whole) {
@@ -125,7 +125,7 @@ class VertexRemover {
   FeatureMesh& mesh_;
   const DistanceIndex& original_;
   std::int32_t nearest_ = -1;  // triangle of the original to what was measured last
-  const SizeField& deviation_;
+  const sizing::SizeField& deviation_;
   Strays& strays_;
   const MeshRegions* regions_ = nullptr;  // null: everywhere
   std::size_t region_ = 0;
@@ -208,7 +208,7 @@ void VertexRemover::describe_collapse(HalfEdgeH collapse) {
 // Finds the nearest of the new faces for each stray.
 bool VertexRemover::strays_fit() {
   change_.target.clear();
-  std::vector<TriangleDistance> distances;
+  std::vector<geometry::TriangleDistance> distances;
   for (const Corners& c : change_.corners) distances.emplace_back(c[0], c[1], c[2]);
   for (const Vec3& p : change_.strays) {
     double least = std::numeric_limits<double>::max();
@@ -264,7 +264,7 @@ bool VertexRemover::allow_flip(Edge e, const EdgeDiamond& diamond) {
 
 }  // namespace
 
-std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, const SizeField& deviation) {
+std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, const sizing::SizeField& deviation) {
   const auto on_features_first = [&](std::vector<VertexH>& vertices) {
     std::ranges::stable_partition(vertices, [&](VertexH v) { return mesh.is_on_feature(v); });
   };
@@ -291,4 +291,4 @@ std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, co
   return left.size();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

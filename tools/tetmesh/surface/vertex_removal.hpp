@@ -5,7 +5,7 @@
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::surface {
 
 // It is done in regions of about so many vertices at the same time: with half as many, more are left for where regions
 // meet.
@@ -15,6 +15,6 @@ inline constexpr std::size_t region_vertices = 8000;
 // within `deviation` of the faces that took its place, and these within it of the original surface. What cannot be
 // removed so stays. Returns how many stayed. The
 // mesh's deleted elements are left in it.
-std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, const SizeField& deviation);
+std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, const sizing::SizeField& deviation);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::surface

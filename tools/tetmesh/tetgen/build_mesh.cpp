@@ -12,7 +12,7 @@
 #include "common/mesh/facet_key.hpp"
 #include "common/run/error.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::tetgen {
 namespace {
 
 constexpr std::int32_t unknown_region = -1;
@@ -25,7 +25,7 @@ TetGenFailure failure_at(const std::string& place, fmt::format_string<Args...> t
 }
 
 // What TetGen says of its failure, with places in the file where it names triangles.
-[[noreturn]] void fail(const Surface& surface, const TetGenResult& tetgen) {
+[[noreturn]] void fail(const solid::Surface& surface, const TetGenResult& tetgen) {
   if (tetgen.intersecting.empty()) throw failure_at(surface.name, "{}", tetgen.failure);
   KeySet<3> named;
   for (const Triangle& t : tetgen.intersecting) named.insert(key_of(t));
@@ -36,13 +36,13 @@ TetGenFailure failure_at(const std::string& place, fmt::format_string<Args...> t
   throw failure_at(surface.name, "{}", tetgen.failure);
 }
 
-void check_points(const Surface& surface, const std::vector<Vec3>& points) {
+void check_points(const solid::Surface& surface, const std::vector<Vec3>& points) {
   if (points.size() < surface.points.size() ||
       !std::equal(surface.points.begin(), surface.points.end(), points.begin()))
     throw failure_at(surface.name, "it moved or merged points of the surface");
 }
 
-void check_orientation(const Surface& surface, const TetMesh& mesh) {
+void check_orientation(const solid::Surface& surface, const TetMesh& mesh) {
   const auto flat = static_cast<std::size_t>(
       std::ranges::count_if(mesh.tets, [&](const Tet& t) { return tet_determinant(mesh.points, t) <= 0; }));
   if (flat > 0) throw failure_at(surface.name, "{} of its {} tets have no volume", flat, mesh.tets.size());
@@ -59,7 +59,7 @@ std::size_t count_kept(std::span<const Vec3> wanted, std::span<const Vec3> found
 // them without crossing the surface.
 class RegionFinder {
  public:
-  RegionFinder(const Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency)
+  RegionFinder(const solid::Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency)
       : surface_(surface),
         mesh_(mesh),
         adjacency_(adjacency),
@@ -79,7 +79,7 @@ class RegionFinder {
   void place(std::int32_t tet, std::int32_t region);
   void spread();
 
-  const Surface& surface_;
+  const solid::Surface& surface_;
   const TetMesh& mesh_;
   const TetAdjacency& adjacency_;
   std::vector<std::int32_t> regions_;
@@ -90,7 +90,7 @@ class RegionFinder {
 
 void RegionFinder::place_beside(std::size_t triangle) {
   const Triangle corners = surface_.triangles[triangle];
-  const Shell& shell = surface_.shells[surface_.shell_of[triangle]];
+  const solid::Shell& shell = surface_.shells[surface_.shell_of[triangle]];
   bool found_behind = false, found_in_front = false;
   for (const std::int32_t t : adjacency_.tets_at(corners[0])) {
     const Tet& tet = mesh_.tets[t];
@@ -105,7 +105,7 @@ void RegionFinder::place_beside(std::size_t triangle) {
       place(t, is_behind ? shell.behind : shell.in_front);
     }
   }
-  if (!found_behind || (shell.in_front != outside_region && !found_in_front)) {
+  if (!found_behind || (shell.in_front != solid::outside_region && !found_in_front)) {
     if (lost_++ == 0) first_lost_ = triangle;
   }
 }
@@ -127,7 +127,7 @@ void RegionFinder::spread() {
       const std::int32_t beyond = adjacency_.tet_beyond(t, facet);
       if (beyond != TetAdjacency::none) {
         place(beyond, regions_[t]);
-      } else if (regions_[t] != outside_region) {
+      } else if (regions_[t] != solid::outside_region) {
         throw failure_at(surface_.name, "its tets leave a gap behind the surface");
       }
     }
@@ -138,7 +138,7 @@ void RegionFinder::spread() {
 void empty_holes(TetMesh& mesh) {
   std::size_t kept = 0;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    if (mesh.tet_tags[t] == outside_region) continue;
+    if (mesh.tet_tags[t] == solid::outside_region) continue;
     mesh.tets[kept] = mesh.tets[t];
     mesh.tet_tags[kept] = mesh.tet_tags[t];
     ++kept;
@@ -160,13 +160,13 @@ void empty_holes(TetMesh& mesh) {
     for (Vertex& v : tet) v = new_index[v];
 }
 
-void check_volumes(const Surface& surface, const TetMesh& mesh) {
+void check_volumes(const solid::Surface& surface, const TetMesh& mesh) {
   const std::vector<double> wanted = surface.region_volumes();
   std::vector<double> found(wanted.size());
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
     found[mesh.tet_tags[t]] += tet_determinant(mesh.points, mesh.tets[t]) / 6;
   double scale = 0;
-  for (const Shell& shell : surface.shells) scale += shell.volume;
+  for (const solid::Shell& shell : surface.shells) scale += shell.volume;
   for (std::size_t region = 1; region < wanted.size(); ++region)
     if (std::abs(found[region] - wanted[region]) > volume_tolerance * scale)
       throw failure_at(surface.name, "region {} has volume {:.12g}, its tets {:.12g}", region, wanted[region],
@@ -175,7 +175,7 @@ void check_volumes(const Surface& surface, const TetMesh& mesh) {
 
 }  // namespace
 
-BuiltMesh build_mesh(const Surface& surface, std::span<const Vec3> interior_points, TetGenResult tetgen) {
+BuiltMesh build_mesh(const solid::Surface& surface, std::span<const Vec3> interior_points, TetGenResult tetgen) {
   if (!tetgen.failure.empty()) fail(surface, tetgen);
   TetMesh mesh;
   mesh.points = std::move(tetgen.points);
@@ -184,7 +184,7 @@ BuiltMesh build_mesh(const Surface& surface, std::span<const Vec3> interior_poin
   check_orientation(surface, mesh);
   TetAdjacency adjacency(mesh, surface.name.c_str());
   mesh.tet_tags = RegionFinder(surface, mesh, adjacency).find();
-  if (std::ranges::find(mesh.tet_tags, outside_region) != mesh.tet_tags.end()) {
+  if (std::ranges::find(mesh.tet_tags, solid::outside_region) != mesh.tet_tags.end()) {
     empty_holes(mesh);
     adjacency = TetAdjacency(mesh, surface.name.c_str());
   }
@@ -199,4 +199,4 @@ BuiltMesh build_mesh(const Surface& surface, std::span<const Vec3> interior_poin
   return {std::move(mesh), std::move(adjacency), added, dropped};
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::tetgen

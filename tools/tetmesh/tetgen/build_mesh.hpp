@@ -9,7 +9,7 @@
 #include "tools/tetmesh/solid/shells.hpp"
 #include "tools/tetmesh/tetgen/run_tetgen.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::tetgen {
 
 struct BuiltMesh {
   TetMesh mesh;  // points: the surface's, those inside, those that TetGen added; triangles: the surface's
@@ -26,6 +26,6 @@ class TetGenFailure : public DataError {
 
 // Throws TetGenFailure when TetGen failed, moved a point or lost a triangle of the surface, left a tet without volume,
 // or when the tets' volumes do not add up to that of a region.
-BuiltMesh build_mesh(const Surface& surface, std::span<const Vec3> interior_points, TetGenResult tetgen);
+BuiltMesh build_mesh(const solid::Surface& surface, std::span<const Vec3> interior_points, TetGenResult tetgen);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::tetgen

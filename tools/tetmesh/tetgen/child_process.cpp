@@ -19,7 +19,7 @@
 #include "common/run/error.hpp"
 #include "common/run/worker_threads.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::tetgen {
 namespace {
 
 constexpr int no_thread = 117;  // the exit code of a child that could not start
@@ -143,4 +143,4 @@ ChildEnd ChildProcess::wait() {
   return end;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::tetgen

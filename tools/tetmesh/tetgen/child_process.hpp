@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <functional>
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::tetgen {
 
 // Where the child leaves its result: memory that both processes share, which grows as it is written.
 class SharedResult {
@@ -58,4 +58,4 @@ class ChildProcess {
 
 constexpr int uncaught_exception = 118;
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::tetgen

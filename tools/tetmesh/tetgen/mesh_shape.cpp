@@ -7,7 +7,7 @@
 
 #include "common/mesh/cell_topology.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::tetgen {
 namespace {
 
 // The cosines of the angles between facets; the facets opposite two corners meet at the edge that joins the other two.
@@ -44,4 +44,4 @@ MeshShape shape_of(const TetMesh& mesh) {
   return {volume, degrees_of_cosine(greatest_cosine), degrees_of_cosine(least_cosine)};
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::tetgen

@@ -3,7 +3,7 @@
 
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::tetgen {
 
 struct MeshShape {
   double volume = 0;
@@ -12,4 +12,4 @@ struct MeshShape {
 
 MeshShape shape_of(const TetMesh& mesh);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::tetgen

@@ -15,7 +15,7 @@
 #include "common/run/random.hpp"
 #include "tools/tetmesh/tetgen/child_process.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::tetgen {
 namespace {
 
 // p: a piecewise linear complex; Y: keep its triangles; F: no list of boundary triangles; Q: quiet; d: find
@@ -207,4 +207,4 @@ TetGenResult TetGenRun::wait() {
   return result;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::tetgen

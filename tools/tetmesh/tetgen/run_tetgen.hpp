@@ -9,7 +9,7 @@
 
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::tetgen {
 
 struct TetGenInput {
   std::span<const Vec3> surface_points;
@@ -58,4 +58,4 @@ inline TetGenResult run_tetgen(const TetGenInput& input, double timeout) {
   return TetGenRun(input, timeout).wait();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::tetgen

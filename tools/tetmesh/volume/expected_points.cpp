@@ -9,7 +9,7 @@
 
 #include "tools/tetmesh/solid/surface_clearance.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::volume {
 namespace {
 
 constexpr double widest = 3;  // in sizes
@@ -18,16 +18,16 @@ constexpr double most_difference = 0.6;
 // Against the box around the part; no lattice is finer (graded_lattice.cpp).
 constexpr double narrowest = 1.0 / (1 << 20);
 
-double volume_of(const Box& box) {
+double volume_of(const geometry::Box& box) {
   const Vec3 extent = box.high - box.low;
   return extent.x * extent.y * extent.z;
 }
 
-double longest_side(const Box& box) {
+double longest_side(const geometry::Box& box) {
   return (box.high - box.low)[box.longest_axis()];
 }
 
-void add_halves(const Box& box, std::vector<Box>& boxes) {
+void add_halves(const geometry::Box& box, std::vector<geometry::Box>& boxes) {
   const int axis = box.longest_axis();
   const double middle = box.centre()[axis];
   const auto with = [&](const Vec3& corner) {
@@ -39,13 +39,13 @@ void add_halves(const Box& box, std::vector<Box>& boxes) {
 
 }  // namespace
 
-double points_inside(const Surface& surface, const SizeField& size, double clearance, double enough) {
-  const SurfaceClearance clear(surface);
-  std::vector<Box> boxes{Box::around(surface.points)};
+double points_inside(const solid::Surface& surface, const sizing::SizeField& size, double clearance, double enough) {
+  const solid::SurfaceClearance clear(surface);
+  std::vector<geometry::Box> boxes{geometry::Box::around(surface.points)};
   const double least_side = narrowest * longest_side(boxes.front());
   double sum = 0;
   while (!boxes.empty() && sum <= enough) {
-    const Box box = boxes.back();
+    const geometry::Box box = boxes.back();
     boxes.pop_back();
     const Vec3 centre = box.centre();
     const double here = size.at(centre), side = longest_side(box), radius = norm(box.high - box.low) / 2;
@@ -61,4 +61,4 @@ double points_inside(const Surface& surface, const SizeField& size, double clear
   return sum;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::volume

@@ -8,7 +8,7 @@
 #include "tools/tetmesh/geometry/feature_angle.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::volume {
 namespace {
 
 constexpr double aligned_cosine = 0.9396926207859084;  // of 20 degrees between a normal and the nearest axis
@@ -22,9 +22,9 @@ Vec3 normalized(const Vec3& v) {
 
 class SurfaceReader {
  public:
-  SurfaceReader(const Surface& surface, double feature_angle)
+  SurfaceReader(const solid::Surface& surface, double feature_angle)
       : surface_(surface),
-        feature_cosine_(cosine_of_degrees(feature_angle)),
+        feature_cosine_(geometry::cosine_of_degrees(feature_angle)),
         nodes_(surface.points.size()),
         legs_(nodes_.size()),
         creased_(nodes_.size()) {}
@@ -32,7 +32,8 @@ class SurfaceReader {
   std::vector<SurfaceNode> read() {
     add_normals();
     for (SurfaceNode& node : nodes_) node.normal = normalized(node.normal);
-    for_each_edge(surface_.points.size(), surface_.triangles, [&](std::span<const HalfEdge> edge) { add_edge(edge); });
+    geometry::for_each_edge(surface_.points.size(), surface_.triangles,
+                            [&](std::span<const geometry::HalfEdge> edge) { add_edge(edge); });
     parallel_for(static_cast<std::int64_t>(nodes_.size()), 64,
                  [&](std::int64_t v) { creased_[v] ? finish_creased(nodes_[v]) : finish_smooth(v); });
     find_vague();
@@ -42,21 +43,21 @@ class SurfaceReader {
  private:
   // The crosses of a vertex's edges, diagonals left out.
   struct Legs {
-    Harmonics sum = Harmonics::Zero();
+    fields::Harmonics sum = fields::Harmonics::Zero();
     double weight = 0;
   };
 
-  const Vec3& start(HalfEdge h) const { return surface_.points[start_of(surface_.triangles, h)]; }
-  const Vec3& end(HalfEdge h) const { return surface_.points[end_of(surface_.triangles, h)]; }
+  const Vec3& start(geometry::HalfEdge h) const { return surface_.points[geometry::start_of(surface_.triangles, h)]; }
+  const Vec3& end(geometry::HalfEdge h) const { return surface_.points[geometry::end_of(surface_.triangles, h)]; }
   void add_normals();
-  void add_edge(std::span<const HalfEdge> edge);
-  bool is_diagonal(HalfEdge h) const;
+  void add_edge(std::span<const geometry::HalfEdge> edge);
+  bool is_diagonal(geometry::HalfEdge h) const;
   void add_leg(Vertex v, const Vec3& along, double weight);
   void finish_smooth(std::int64_t v);
   void finish_creased(SurfaceNode& node) const;
   void find_vague();
 
-  const Surface& surface_;
+  const solid::Surface& surface_;
   double feature_cosine_;
   std::vector<SurfaceNode> nodes_;
   std::vector<Vec3> normals_;  // of triangles
@@ -68,32 +69,34 @@ class SurfaceReader {
 void SurfaceReader::add_normals() {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(surface_.triangles.size()); ++t) {
     const Vec3 normal = normalized(cross(end(3 * t) - start(3 * t), end(3 * t + 1) - start(3 * t)));
-    const Harmonics harmonics = harmonics_of_axis(normal);
+    const fields::Harmonics harmonics = fields::harmonics_of_axis(normal);
     normals_.push_back(normal);
-    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
-      const Vec3 to_next = end(h) - start(h), to_previous = start(previous_in_triangle(h)) - start(h);
+    for (geometry::HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+      const Vec3 to_next = end(h) - start(h), to_previous = start(geometry::previous_in_triangle(h)) - start(h);
       const double angle = angle_between(to_next, to_previous);
-      SurfaceNode& node = nodes_[start_of(surface_.triangles, h)];
+      SurfaceNode& node = nodes_[geometry::start_of(surface_.triangles, h)];
       node.normal += angle * normal;
       node.suggested += angle * harmonics;
     }
   }
 }
 
-bool SurfaceReader::is_diagonal(HalfEdge h) const {
-  const auto squared = [&](HalfEdge e) { return norm_squared(end(e) - start(e)); };
-  return squared(h) > diagonal_ratio * std::max(squared(next_in_triangle(h)), squared(previous_in_triangle(h)));
+bool SurfaceReader::is_diagonal(geometry::HalfEdge h) const {
+  const auto squared = [&](geometry::HalfEdge e) { return norm_squared(end(e) - start(e)); };
+  return squared(h) >
+         diagonal_ratio * std::max(squared(geometry::next_in_triangle(h)), squared(geometry::previous_in_triangle(h)));
 }
 
-void SurfaceReader::add_edge(std::span<const HalfEdge> edge) {
-  const HalfEdge h = edge[0], twin = edge[1];
+void SurfaceReader::add_edge(std::span<const geometry::HalfEdge> edge) {
+  const geometry::HalfEdge h = edge[0], twin = edge[1];
   const Vec3 along = normalized(end(h) - start(h));
-  const bool is_crease = dot(normals_[triangle_of(h)], normals_[triangle_of(twin)]) < feature_cosine_;
+  const bool is_crease =
+      dot(normals_[geometry::triangle_of(h)], normals_[geometry::triangle_of(twin)]) < feature_cosine_;
   const double weight = 1 - 0.5 * is_diagonal(h) - 0.5 * is_diagonal(twin);
-  for (const Vertex v : {start_of(surface_.triangles, h), end_of(surface_.triangles, h)}) {
+  for (const Vertex v : {geometry::start_of(surface_.triangles, h), geometry::end_of(surface_.triangles, h)}) {
     if (is_crease) {
       creased_[v] = true;
-      nodes_[v].suggested += std::numbers::pi * harmonics_of_axis(along);
+      nodes_[v].suggested += std::numbers::pi * fields::harmonics_of_axis(along);
     } else if (weight > 0) {
       add_leg(v, along, weight);
     }
@@ -105,19 +108,20 @@ void SurfaceReader::add_leg(Vertex v, const Vec3& along, double weight) {
   const Vec3& normal = nodes_[v].normal;
   const Vec3 in_plane = along - dot(along, normal) * normal;
   if (norm(in_plane) < steepest) return;
-  legs_[v].sum += weight * harmonics_of_cross(normal, normalized(in_plane));
+  legs_[v].sum += weight * fields::harmonics_of_cross(normal, normalized(in_plane));
   legs_[v].weight += weight;
 }
 
 void SurfaceReader::finish_smooth(std::int64_t v) {
   const Legs& legs = legs_[v];
-  nodes_[v].suggested = legs.weight > 0 ? Harmonics(legs.sum / legs.weight) : Harmonics(Harmonics::Zero());
+  nodes_[v].suggested =
+      legs.weight > 0 ? fields::Harmonics(legs.sum / legs.weight) : fields::Harmonics(fields::Harmonics::Zero());
 }
 
 void SurfaceReader::finish_creased(SurfaceNode& node) const {
   node.kind = SurfaceNode::Kind::fixed;
-  node.frame = nearest_frame(node.suggested);
-  node.suggested *= std::sqrt(frame_norm_squared / node.suggested.squaredNorm());
+  node.frame = fields::nearest_frame(node.suggested);
+  node.suggested *= std::sqrt(fields::frame_norm_squared / node.suggested.squaredNorm());
 }
 
 void SurfaceReader::find_vague() {
@@ -132,8 +136,8 @@ void SurfaceReader::find_vague() {
 
 }  // namespace
 
-FieldNodes make_field_nodes(const Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency,
-                            const SizeField& size, double feature_angle) {
+FieldNodes make_field_nodes(const solid::Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency,
+                            const sizing::SizeField& size, double feature_angle) {
   constexpr double nearest = 0.25;  // squared; keeps a single link from ruling
   FieldNodes nodes;
   nodes.points = mesh.points;
@@ -152,4 +156,4 @@ FieldNodes make_field_nodes(const Surface& surface, const TetMesh& mesh, const T
   return nodes;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::volume

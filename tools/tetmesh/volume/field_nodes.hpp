@@ -12,7 +12,7 @@
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::volume {
 
 struct FieldLink {
   std::int32_t node;
@@ -28,8 +28,9 @@ struct SurfaceNode {
   };
   Kind kind = Kind::smooth;
   Vec3 normal;
-  Frame frame{};                            // of a fixed one
-  Harmonics suggested = Harmonics::Zero();  // smooth: a cross, of norm 0 (no suggestion) to cross_norm; vague: a frame
+  fields::Frame frame{};  // of a fixed one
+  fields::Harmonics suggested =
+      fields::Harmonics::Zero();  // smooth: a cross, of norm 0 (no suggestion) to cross_norm; vague: a frame
 };
 
 struct FieldNodes {
@@ -47,7 +48,7 @@ struct FieldNodes {
 };
 
 // Of a mesh whose first vertices are the surface's. Weights fall with the square of the distance in sizes.
-FieldNodes make_field_nodes(const Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency,
-                            const SizeField& size, double feature_angle);
+FieldNodes make_field_nodes(const solid::Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency,
+                            const sizing::SizeField& size, double feature_angle);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::volume

@@ -5,7 +5,7 @@
 
 #include "common/run/parallel.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::volume {
 namespace {
 
 // Against all links of the node together. Shares of the volume in hexes differ by 0.2 % from 0.3 to 3.
@@ -20,15 +20,15 @@ using Kind = SurfaceNode::Kind;
 
 // The two directions in which the function of a frame changes when it turns about its normal.
 struct Turning {
-  Harmonics first, second;
+  fields::Harmonics first, second;
 
   explicit Turning(const Vec3& normal) {
     constexpr double cosine = 0.92387953251128674, sine = 0.38268343236508977;  // of 22.5 degrees
-    const Frame frame = frame_around(normal);
-    first = harmonics_of_cross(normal, frame[1]) / cross_norm;
-    second = harmonics_of_cross(normal, cosine * frame[1] + sine * frame[2]) / cross_norm;
+    const fields::Frame frame = fields::frame_around(normal);
+    first = fields::harmonics_of_cross(normal, frame[1]) / fields::cross_norm;
+    second = fields::harmonics_of_cross(normal, cosine * frame[1] + sine * frame[2]) / fields::cross_norm;
   }
-  Harmonics part_of(const Harmonics& a) const { return first * first.dot(a) + second * second.dot(a); }
+  fields::Harmonics part_of(const fields::Harmonics& a) const { return first * first.dot(a) + second * second.dot(a); }
 };
 
 class FrameSolver {
@@ -40,7 +40,7 @@ class FrameSolver {
         degree_(count_),
         frames_(nodes.size()) {}
 
-  std::vector<Frame> solve() {
+  std::vector<fields::Frame> solve() {
     prepare();
     diffuse();
     project();
@@ -64,7 +64,7 @@ class FrameSolver {
   Field field_;
   Eigen::RowVectorXd degree_;  // sum of the weights of a node's links
   std::vector<Turning> turnings_;
-  std::vector<Frame> frames_;
+  std::vector<fields::Frame> frames_;
 };
 
 void FrameSolver::prepare() {
@@ -77,16 +77,17 @@ void FrameSolver::prepare() {
     const SurfaceNode& node = nodes_.surface[i];
     turnings_.emplace_back(node.normal);
     const auto column = static_cast<std::int64_t>(i);
-    if (node.kind == Kind::fixed) field_.col(column) = harmonics_of(node.frame);
+    if (node.kind == Kind::fixed) field_.col(column) = fields::harmonics_of(node.frame);
     if (node.kind == Kind::smooth)
-      field_.col(column) = common_part * harmonics_of_axis(node.normal) + turnings_[i].part_of(node.suggested);
+      field_.col(column) =
+          fields::common_part * fields::harmonics_of_axis(node.normal) + turnings_[i].part_of(node.suggested);
   }
 }
 
 double FrameSolver::suggestion_weight_of(std::size_t i) const {
   if (!nodes_.is_on_surface(i)) return 0;
   const SurfaceNode& node = nodes_.surface[i];
-  const double trust = node.kind == Kind::smooth ? suggestion_weight * node.suggested.norm() / cross_norm : 1;
+  const double trust = node.kind == Kind::smooth ? suggestion_weight * node.suggested.norm() / fields::cross_norm : 1;
   return degree_[static_cast<std::int64_t>(i)] * trust;
 }
 
@@ -95,7 +96,7 @@ Field FrameSolver::apply(const Field& x) const {
   Field y(9, count_);
   parallel_for(count_, 512, [&](std::int64_t i) {
     const auto node = static_cast<std::size_t>(i);
-    Harmonics sum = (degree_[i] + suggestion_weight_of(node)) * x.col(i);
+    fields::Harmonics sum = (degree_[i] + suggestion_weight_of(node)) * x.col(i);
     for (const FieldLink& link : nodes_.links_of(node)) sum -= static_cast<double>(link.weight) * x.col(link.node);
     y.col(i) = sum;
   });
@@ -143,16 +144,16 @@ void FrameSolver::diffuse() {
 
 void FrameSolver::lay_on_normal(std::size_t i) {
   if (nodes_.is_on_surface(i) && nodes_.surface[i].kind == Kind::smooth)
-    frames_[i] = turned_onto(frames_[i], nodes_.surface[i].normal);
+    frames_[i] = fields::turned_onto(frames_[i], nodes_.surface[i].normal);
 }
 
 void FrameSolver::project() {
   parallel_for(count_, 64, [&](std::int64_t i) {
     const auto node = static_cast<std::size_t>(i);
     const bool is_fixed = nodes_.is_on_surface(node) && nodes_.surface[node].kind == Kind::fixed;
-    frames_[node] = is_fixed ? nodes_.surface[node].frame : nearest_frame(field_.col(i));
+    frames_[node] = is_fixed ? nodes_.surface[node].frame : fields::nearest_frame(field_.col(i));
     lay_on_normal(node);
-    field_.col(i) = harmonics_of(frames_[node]);
+    field_.col(i) = fields::harmonics_of(frames_[node]);
   });
 }
 
@@ -163,22 +164,22 @@ void FrameSolver::sweep() {
     const auto node = static_cast<std::size_t>(i);
     const SurfaceNode* const surface = nodes_.is_on_surface(node) ? &nodes_.surface[node] : nullptr;
     if (surface && surface->kind == Kind::fixed) return;
-    Harmonics sum = inertia * degree_[i] * field_.col(i);
+    fields::Harmonics sum = inertia * degree_[i] * field_.col(i);
     for (const FieldLink& link : nodes_.links_of(node)) sum += static_cast<double>(link.weight) * field_.col(link.node);
     if (surface) sum += suggestion_weight_of(node) * surface->suggested;
     if (surface && surface->kind == Kind::smooth)
-      sum += normal_weight * degree_[i] * harmonics_of_axis(surface->normal);
-    frames_[node] = climb_to_frame(sum, frames_[node]);
+      sum += normal_weight * degree_[i] * fields::harmonics_of_axis(surface->normal);
+    frames_[node] = fields::climb_to_frame(sum, frames_[node]);
     lay_on_normal(node);
-    next.col(i) = harmonics_of(frames_[node]);
+    next.col(i) = fields::harmonics_of(frames_[node]);
   });
   field_.swap(next);
 }
 
 }  // namespace
 
-std::vector<Frame> solve_frame_field(const FieldNodes& nodes) {
+std::vector<fields::Frame> solve_frame_field(const FieldNodes& nodes) {
   return FrameSolver(nodes).solve();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::volume

@@ -11,8 +11,8 @@
 
 #include "tools/tetmesh/volume/field_nodes.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::volume {
 
-std::vector<Frame> solve_frame_field(const FieldNodes& nodes);
+std::vector<fields::Frame> solve_frame_field(const FieldNodes& nodes);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::volume

@@ -13,7 +13,7 @@
 #include "tools/tetmesh/volume/jitter.hpp"
 #include "tools/tetmesh/volume/lattice_field.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::volume {
 namespace {
 
 // Least distance of two points in the frame's maximum norm, in steps of the lattice: 0.5 and 0.8 lose 1 % of the volume
@@ -35,13 +35,13 @@ struct Proposal {
 };
 
 // Of a vector in units of the frame's axes.
-double maximum_norm(const Frame& frame, const Vec3& v) {
+double maximum_norm(const fields::Frame& frame, const Vec3& v) {
   return std::max({std::abs(dot(frame[0], v)), std::abs(dot(frame[1], v)), std::abs(dot(frame[2], v))});
 }
 
 class PointPlacer {
  public:
-  PointPlacer(const Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
+  PointPlacer(const solid::Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
               const FramePointsOptions& options)
       : surface_(surface),
         options_(options),
@@ -59,14 +59,14 @@ class PointPlacer {
   void propose();
   void propose(std::size_t node, const LatticeField& field, std::vector<Proposal>& proposals) const;
   void agree();
-  Proposal agreed(const SizedPointGrid& grid, const Proposal& proposal) const;
+  Proposal agreed(const geometry::SizedPointGrid& grid, const Proposal& proposal) const;
   std::vector<Vec3> accept() const;
-  bool is_free(const SizedPointGrid& taken, const Proposal& proposal) const;
+  bool is_free(const geometry::SizedPointGrid& taken, const Proposal& proposal) const;
 
-  const Surface& surface_;
+  const solid::Surface& surface_;
   const FramePointsOptions& options_;
   FieldNodes nodes_;
-  std::vector<Frame> frames_;
+  std::vector<fields::Frame> frames_;
   std::vector<Vec3> spacing_;  // of the lattice along the frames' axes, in sizes
   std::vector<Proposal> proposals_;
 };
@@ -101,7 +101,7 @@ void PointPlacer::propose(std::size_t i, const LatticeField& field, std::vector<
 
 // Moves every proposal to the mean of those that see the same point, and trusts it as much as all of them.
 void PointPlacer::agree() {
-  SizedPointGrid grid(surface_.points.front());
+  geometry::SizedPointGrid grid(surface_.points.front());
   for (const Proposal& p : proposals_) grid.add(p.point, 2 * same_point * p.size);
   std::vector<Proposal> result(proposals_.size());
   parallel_for(static_cast<std::int64_t>(result.size()), 256,
@@ -109,7 +109,7 @@ void PointPlacer::agree() {
   proposals_ = std::move(result);
 }
 
-Proposal PointPlacer::agreed(const SizedPointGrid& grid, const Proposal& proposal) const {
+Proposal PointPlacer::agreed(const geometry::SizedPointGrid& grid, const Proposal& proposal) const {
   const double reach = same_point * proposal.size;
   Vec3 sum;
   double trust = 0;
@@ -130,8 +130,8 @@ std::vector<Vec3> PointPlacer::accept() const {
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, std::greater(), [&](std::int32_t i) { return proposals_[i].trust; });
 
-  const SurfaceClearance clearance(surface_);
-  SizedPointGrid taken(surface_.points.front());
+  const solid::SurfaceClearance clearance(surface_);
+  geometry::SizedPointGrid taken(surface_.points.front());
   for (const Vec3& p : surface_.points) taken.add(p, 2 * least_spacing * options_.size.at(p));
   for (const std::int32_t i : order) {
     const Proposal& p = proposals_[i];
@@ -142,9 +142,9 @@ std::vector<Vec3> PointPlacer::accept() const {
   return {taken.points().begin() + static_cast<std::ptrdiff_t>(surface_.points.size()), taken.points().end()};
 }
 
-bool PointPlacer::is_free(const SizedPointGrid& taken, const Proposal& proposal) const {
-  Frame units = frames_[proposal.node];  // of which the frame's coordinates are numbers of least spacings
-  Vec3 reach;                            // of a box of these, along the coordinate axes
+bool PointPlacer::is_free(const geometry::SizedPointGrid& taken, const Proposal& proposal) const {
+  fields::Frame units = frames_[proposal.node];  // of which the frame's coordinates are numbers of least spacings
+  Vec3 reach;                                    // of a box of these, along the coordinate axes
   for (std::size_t k = 0; k < 3; ++k) {
     const double spacing = least_spacing * spacing_[proposal.node][k] * proposal.size;
     const Vec3& axis = units[k];
@@ -162,7 +162,7 @@ bool PointPlacer::is_free(const SizedPointGrid& taken, const Proposal& proposal)
 
 double PointPlacer::turned_share() const {
   const double least_cosine = std::cos(straight_angle * std::numbers::pi / 180);
-  const auto is_straight = [&](const Frame& frame) {
+  const auto is_straight = [&](const fields::Frame& frame) {
     return std::ranges::all_of(options_.axes,
                                [&](const Vec3& axis) { return maximum_norm(frame, axis) >= least_cosine; });
   };
@@ -172,7 +172,7 @@ double PointPlacer::turned_share() const {
 
 }  // namespace
 
-FramePoints frame_points(const Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
+FramePoints frame_points(const solid::Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
                          const FramePointsOptions& options) {
   PointPlacer placer(surface, background, adjacency, options);
   std::vector<Vec3> points = placer.place();
@@ -181,4 +181,4 @@ FramePoints frame_points(const Surface& surface, const TetMesh& background, cons
   return {std::move(points), placer.turned_share()};
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::volume

@@ -17,16 +17,16 @@
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::volume {
 
 struct FramePointsOptions {
-  SizeField size = 1;
+  sizing::SizeField size = 1;
   double clearance = 0.5;  // least distance from the surface before points are jittered, in sizes
   // Each coordinate moves by at most that, in sizes. Candidates a vertex, and the share of the volume in hexes, over
   // three parts: 11.3 and 87.2 % at 0, 8.4 and 87.6 at 0.01, 7.4 and 87.7 at 0.02, 6.2 and 87.6 at 0.04.
   double jitter = 0.04;
   std::uint64_t seed = 1;
-  double feature_angle = default_feature_angle;
+  double feature_angle = geometry::default_feature_angle;
   std::array<Vec3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // of a lattice, to see how far the frames are from it
 };
 
@@ -37,7 +37,7 @@ struct FramePoints {
 
 // `background`: a mesh of the surface with points inside at about the same distance; its first vertices are the
 // surface's.
-FramePoints frame_points(const Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
+FramePoints frame_points(const solid::Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
                          const FramePointsOptions& options);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::volume

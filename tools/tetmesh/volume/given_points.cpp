@@ -5,11 +5,11 @@
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/solid/surface_clearance.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::volume {
 
-GivenPoints usable_points(const Surface& surface, const PointList& list, double clearance) {
-  const SurfaceClearance clear(surface);
-  SizedPointGrid taken(Box::around(surface.points));
+GivenPoints usable_points(const solid::Surface& surface, const formats::PointList& list, double clearance) {
+  const solid::SurfaceClearance clear(surface);
+  geometry::SizedPointGrid taken(geometry::Box::around(surface.points));
   std::size_t left_out = 0, first = 0;
   for (std::size_t i = 0; i < list.points.size(); ++i) {
     const Vec3& p = list.points[i];
@@ -29,4 +29,4 @@ GivenPoints usable_points(const Surface& surface, const PointList& list, double 
   return given;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::volume

@@ -8,7 +8,7 @@
 #include "formats/points/point_files.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::volume {
 
 struct GivenPoints {
   std::vector<Vec3> points;              // those that can be used, in their order
@@ -16,6 +16,6 @@ struct GivenPoints {
 };
 
 // Leaves out points that are not in material, nearer to the surface than `clearance` (a length), or repeated.
-GivenPoints usable_points(const Surface& surface, const PointList& list, double clearance);
+GivenPoints usable_points(const solid::Surface& surface, const formats::PointList& list, double clearance);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::volume

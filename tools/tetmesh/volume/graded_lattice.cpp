@@ -12,7 +12,7 @@
 #include "tools/tetmesh/solid/surface_clearance.hpp"
 #include "tools/tetmesh/volume/jitter.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::volume {
 namespace {
 
 // Steps are at most 2 to the power of that times the size, and at least half of it: 0.87 times on average.
@@ -22,9 +22,10 @@ constexpr double most_roots = 1e8;
 
 class GradedLattice {
  public:
-  GradedLattice(const Surface& surface, const SizeField& size, const LatticeOptions& options, double most_points)
+  GradedLattice(const solid::Surface& surface, const sizing::SizeField& size, const LatticeOptions& options,
+                double most_points)
       : surface_(surface), size_(size), options_(options), most_points_(most_points), clearance_(surface) {
-    Box box = Box::around(std::array{in_axes(surface.points.front())});
+    geometry::Box box = geometry::Box::around(std::array{in_axes(surface.points.front())});
     for (const Vec3& p : surface.points) box.add({in_axes(p), in_axes(p)});
     low_ = box.low;
     const Vec3 extent = box.high - box.low;
@@ -71,11 +72,11 @@ class GradedLattice {
   void visit(const Vec3& corner, int level, bool is_new);
   void take(const Vec3& p, int level);
 
-  const Surface& surface_;
-  const SizeField& size_;
+  const solid::Surface& surface_;
+  const sizing::SizeField& size_;
   const LatticeOptions& options_;
   double most_points_;
-  SurfaceClearance clearance_;
+  solid::SurfaceClearance clearance_;
   Vec3 low_;
   double outermost_;  // size, of the outermost lattice: the greatest, or what the part is long
   std::array<double, 3> counts_{}, steps_{};
@@ -110,11 +111,11 @@ void GradedLattice::take(const Vec3& p, int level) {
 
 }  // namespace
 
-std::vector<Vec3> graded_lattice_points(const Surface& surface, const SizeField& size, LatticeOptions options,
-                                        double most_points) {
+std::vector<Vec3> graded_lattice_points(const solid::Surface& surface, const sizing::SizeField& size,
+                                        LatticeOptions options, double most_points) {
   options.size = size.greatest();
   if (size.is_uniform()) return lattice_points(surface, options);
   return GradedLattice(surface, size, options, most_points).points_inside();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::volume

@@ -15,7 +15,7 @@
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/geometry/cell_key.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::volume {
 namespace {
 
 constexpr double least_quality = 0.3;    // scaled Jacobian, findhex's default
@@ -193,7 +193,7 @@ class ChosenPairs {
     return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high);
   }
 
-  tsl::robin_map<std::uint64_t, std::uint64_t, CellKeyHash> roles_;
+  tsl::robin_map<std::uint64_t, std::uint64_t, geometry::CellKeyHash> roles_;
 };
 
 // The best first.
@@ -231,4 +231,4 @@ double estimate_hex_share(const TetMesh& mesh, const TetAdjacency& adjacency) {
   return volume_of_greedy_choice(mesh, hexes) / volume;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::volume

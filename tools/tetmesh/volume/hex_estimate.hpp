@@ -7,9 +7,9 @@
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::volume {
 
 // The part of the volume, from 0 to 1.
 double estimate_hex_share(const TetMesh& mesh, const TetAdjacency& adjacency);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::volume

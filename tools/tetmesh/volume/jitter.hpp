@@ -6,7 +6,7 @@
 #include "common/mesh/vec3.hpp"
 #include "common/run/random.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::volume {
 
 // Up to `reach` along each axis; depends on the seed and the point's number only.
 inline Vec3 jitter_of(std::size_t number, double reach, std::uint64_t seed) {
@@ -18,4 +18,4 @@ inline Vec3 jitter_of(std::size_t number, double reach, std::uint64_t seed) {
   return jitter;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::volume

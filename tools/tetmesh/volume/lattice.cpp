@@ -9,7 +9,7 @@
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/volume/jitter.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::volume {
 namespace {
 
 // A byte each while they are sorted out.
@@ -21,7 +21,9 @@ enum class Place : std::uint8_t { far, near, too_near, inside, outside };
 
 class Lattice {
  public:
-  Lattice(const Surface& surface, const LatticeOptions& options) : surface_(surface), options_(options) { fit(); }
+  Lattice(const solid::Surface& surface, const LatticeOptions& options) : surface_(surface), options_(options) {
+    fit();
+  }
 
   std::vector<Vec3> points_inside() {
     mark_distances();
@@ -42,7 +44,7 @@ class Lattice {
   void flood(std::int64_t start, Place place);
   std::vector<Vec3> collect() const;
 
-  const Surface& surface_;
+  const solid::Surface& surface_;
   const LatticeOptions& options_;
   Vec3 low_;  // of the bounding box; the first lattice point is a step inside
   std::array<double, 3> steps_{};
@@ -98,7 +100,7 @@ void Lattice::mark_distances() {
 // around the triangle's plane.
 void Lattice::mark_around(const Triangle& triangle) {
   const Vec3 &a = surface_.points[triangle[0]], &b = surface_.points[triangle[1]], &c = surface_.points[triangle[2]];
-  const TriangleDistance distance(a, b, c);
+  const geometry::TriangleDistance distance(a, b, c);
   const Vec3& normal = distance.normal();
   const double reach = std::max(clearance_, far_distance_);
   auto range_of = [&](double low, double high, int axis) {
@@ -139,11 +141,12 @@ void Lattice::mark_around(const Triangle& triangle) {
 }
 
 void Lattice::find_inside() {
-  const ColumnIndex columns(surface_.points, surface_.triangles);
+  const geometry::ColumnIndex columns(surface_.points, surface_.triangles);
   for (std::size_t n = 0; n < places_.size(); ++n) {
     if (places_[n] != Place::far && places_[n] != Place::near) continue;
     const auto number = static_cast<std::int64_t>(n);
-    const Place place = is_in_material(surface_, columns, node(index_of(number))) ? Place::inside : Place::outside;
+    const Place place =
+        solid::is_in_material(surface_, columns, node(index_of(number))) ? Place::inside : Place::outside;
     if (places_[n] == Place::far) flood(number, place);
     places_[n] = place;
   }
@@ -182,14 +185,14 @@ std::vector<Vec3> Lattice::collect() const {
 
 }  // namespace
 
-std::vector<Vec3> lattice_points(const Surface& surface, const LatticeOptions& options) {
+std::vector<Vec3> lattice_points(const solid::Surface& surface, const LatticeOptions& options) {
   if (options.axes == LatticeOptions{}.axes) return Lattice(surface, options).points_inside();
   const auto& [x, y, z] = options.axes;
-  Surface turned = surface;
+  solid::Surface turned = surface;
   for (Vec3& p : turned.points) p = {dot(p, x), dot(p, y), dot(p, z)};
   std::vector<Vec3> points = Lattice(turned, options).points_inside();
   for (Vec3& p : points) p = p.x * x + p.y * y + p.z * z;
   return points;
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::volume

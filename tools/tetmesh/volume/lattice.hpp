@@ -11,7 +11,7 @@
 
 #include "tools/tetmesh/solid/shells.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::volume {
 
 struct LatticeOptions {
   // Distance between lattice points. A whole number of steps is fitted to the bounding box along each axis, so that a
@@ -32,6 +32,6 @@ struct LatticeOptions {
 
 // In the order of the lattice, x fastest; a point's jitter depends on the seed and its place in the lattice only.
 // Throws DataError when the bounding box holds too many lattice points.
-std::vector<Vec3> lattice_points(const Surface& surface, const LatticeOptions& options);
+std::vector<Vec3> lattice_points(const solid::Surface& surface, const LatticeOptions& options);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::volume

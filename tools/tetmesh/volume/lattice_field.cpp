@@ -10,7 +10,7 @@
 #include "tools/tetmesh/fields/layers_across.hpp"
 #include "tools/tetmesh/fields/periodic_numbers.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::volume {
 namespace {
 
 // How strongly a surface point that is one of the lattice for certain holds it, against all its links. Shares of the
@@ -25,7 +25,7 @@ constexpr double inertia = 0.3;  // of a number's own value, against its links
 constexpr double no_step = 0.2, least_step = 0.75, greatest_step = 1.7;
 // In the volumes of blub, spot and mambo-m1, with their surfaces as before, 84.9 % of the volume in hexes without, 86.6
 // at a stiffness of 0.05, 86.8 at 0.01.
-constexpr CurlLimits curl_limits{.stiffness = 0.01f, .most_iterations = 40, .tolerance = 1e-2};
+constexpr fields::CurlLimits curl_limits{.stiffness = 0.01f, .most_iterations = 40, .tolerance = 1e-2};
 constexpr double most_strain = 0.45;  // of its length, what a distance may gain or lose
 // Between a normal and what lies along it.
 constexpr double normal_cosine = 0.9;
@@ -33,7 +33,7 @@ constexpr double normal_cosine = 0.9;
 constexpr double rigidity = 0.1;
 constexpr double least_determinant = 0.2;  // of the cells a step in each direction, below which frames are taken
 
-using Phases = std::array<Complex, 3>;
+using Phases = std::array<fields::Complex, 3>;
 
 // Which axis of the other frame is the nearest, and whether it points the same way.
 struct AxisMatch {
@@ -42,7 +42,7 @@ struct AxisMatch {
   double quality;  // mean cosine
 };
 
-AxisMatch match(const Frame& from, const Frame& to) {
+AxisMatch match(const fields::Frame& from, const fields::Frame& to) {
   static constexpr std::array<std::array<std::uint8_t, 3>, 6> orders{
       {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
   std::array<std::array<double, 3>, 3> cosines;
@@ -65,8 +65,8 @@ AxisMatch match(const Frame& from, const Frame& to) {
 // What a node sees of a neighbour: its axis k is axis[k] there, turned round where flipped, and `distance[k]` further
 // on.
 struct Transition {
-  std::array<double, 3> distance;  // in sizes
-  std::array<Complex, 3> turn;     // by these
+  std::array<double, 3> distance;       // in sizes
+  std::array<fields::Complex, 3> turn;  // by these
   std::array<std::uint8_t, 3> axis;
   std::array<bool, 3> flipped;
   std::int32_t node;
@@ -75,7 +75,7 @@ struct Transition {
 
 class LatticeSolver {
  public:
-  LatticeSolver(const FieldNodes& nodes, const std::vector<Frame>& frames)
+  LatticeSolver(const FieldNodes& nodes, const std::vector<fields::Frame>& frames)
       : nodes_(nodes),
         frames_(frames),
         transitions_(nodes.links.size()),
@@ -89,7 +89,7 @@ class LatticeSolver {
     for (std::size_t i = 0; i < nodes_.surface.size(); ++i) make_anchors(i);
     diffuse();
     for (Phases& phases : phases_)
-      for (Complex& phase : phases) phase = unit(phase);
+      for (fields::Complex& phase : phases) phase = fields::unit(phase);
     for (int i = 0; i < smoothing_sweeps; ++i) sweep();
     return result();
   }
@@ -108,9 +108,9 @@ class LatticeSolver {
   Transition make_transition(std::size_t i, const FieldLink& link) const;
   void make_anchors(std::size_t i);
   void correct_curl();
-  Loops triangles() const;
-  void add_steps_on_surface(Loops& loops) const;
-  void add_loops(std::int64_t ij, std::int64_t jl, std::int64_t il, Loops& loops) const;
+  fields::Loops triangles() const;
+  void add_steps_on_surface(fields::Loops& loops) const;
+  void add_loops(std::int64_t ij, std::int64_t jl, std::int64_t il, fields::Loops& loops) const;
   std::int32_t number_of(std::int64_t link, std::size_t axis) const {
     return 3 * pair_numbers_[link] + static_cast<std::int32_t>(axis);
   }
@@ -139,7 +139,7 @@ class LatticeSolver {
   std::array<Vec3, 3> steps_of(std::size_t i) const;
 
   const FieldNodes& nodes_;
-  const std::vector<Frame>& frames_;
+  const std::vector<fields::Frame>& frames_;
   std::vector<Transition> transitions_;     // of each link
   std::vector<std::int32_t> pair_numbers_;  // of each link to a later node, among these
   std::vector<double> degree_;
@@ -194,9 +194,9 @@ void LatticeSolver::correct_curl() {
     pair_numbers_[ij] = static_cast<std::int32_t>(distances.size() / 3);
     for (const double distance : transitions_[ij].distance) distances.push_back(static_cast<float>(distance));
   });
-  Loops loops = triangles();
+  fields::Loops loops = triangles();
   add_steps_on_surface(loops);
-  const std::vector<float> correction = curl_correction(distances, loops, curl_limits);
+  const std::vector<float> correction = fields::curl_correction(distances, loops, curl_limits);
   for_each_node([&](std::size_t node) {
     for_each_pair_of(static_cast<std::int32_t>(node), [&](std::int32_t i, std::int64_t ij) {
       Transition& t = transitions_[ij];
@@ -209,12 +209,12 @@ void LatticeSolver::correct_curl() {
   });
 }
 
-Loops LatticeSolver::triangles() const {
-  Loops loops;
+fields::Loops LatticeSolver::triangles() const {
+  fields::Loops loops;
   parallel_in_order(
       static_cast<std::int64_t>(nodes_.size()), 512,
       [&](std::int64_t begin, std::int64_t end) {
-        Loops some;
+        fields::Loops some;
         for (std::int64_t node = begin; node < end; ++node)
           for_each_pair_of(static_cast<std::int32_t>(node), [&](std::int32_t i, std::int64_t ij) {
             for (std::int64_t il = ij + 1; il < nodes_.offsets[i + 1]; ++il)
@@ -223,12 +223,12 @@ Loops LatticeSolver::triangles() const {
           });
         return some;
       },
-      [&](const Loops& some) { loops.append(some); });
+      [&](const fields::Loops& some) { loops.append(some); });
   return loops;
 }
 
 // Along each axis of the first node, unless the frames say at the end that it is another one.
-void LatticeSolver::add_loops(std::int64_t ij, std::int64_t jl, std::int64_t il, Loops& loops) const {
+void LatticeSolver::add_loops(std::int64_t ij, std::int64_t jl, std::int64_t il, fields::Loops& loops) const {
   const Transition &to_j = transitions_[ij], &onward = transitions_[jl], &to_l = transitions_[il];
   if (std::min({to_j.weight, onward.weight, to_l.weight}) <= 0) return;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -245,7 +245,7 @@ void LatticeSolver::add_loops(std::int64_t ij, std::int64_t jl, std::int64_t il,
 
 // Between points of the surface, which are points of the lattice, are whole numbers of steps: one along it, and through
 // the part as many as go across it.
-void LatticeSolver::add_steps_on_surface(Loops& loops) const {
+void LatticeSolver::add_steps_on_surface(fields::Loops& loops) const {
   for_each_pair([&](std::int32_t i, std::int64_t ij) {
     const Transition& t = transitions_[ij];
     if (!nodes_.is_on_surface(i) || !nodes_.is_on_surface(t.node) || t.weight <= 0) return;
@@ -283,19 +283,19 @@ Phases LatticeSolver::view_of_neighbours(const std::vector<Phases>& phases, std:
   for (const Transition& t : transitions_of(i)) {
     const Phases& theirs = phases[t.node];
     for (std::size_t k = 0; k < 3; ++k) {
-      const Complex there = theirs[t.axis[k]];
-      sum[k] += t.weight * times(t.flipped[k] ? std::conj(there) : there, t.turn[k]);
+      const fields::Complex there = theirs[t.axis[k]];
+      sum[k] += t.weight * fields::times(t.flipped[k] ? std::conj(there) : there, t.turn[k]);
     }
   }
   return sum;
 }
 
 void LatticeSolver::diffuse() {
-  constexpr DiffusionLimits limits{60, 1e-3};
+  constexpr fields::DiffusionLimits limits{60, 1e-3};
   std::vector<Phases> held(nodes_.size());
   for (std::size_t i = 0; i < held.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) held[i][k] = anchors_[i][k];
-  phases_ = diffused<3>(
+  phases_ = fields::diffused<3>(
       std::move(held), limits, [&](const auto& body) { for_each_node(body); },
       [&](std::size_t i, std::size_t k) { return diagonal(i, k); },
       [&](const std::vector<Phases>& phases, std::size_t i) { return view_of_neighbours(phases, i); });
@@ -307,7 +307,7 @@ void LatticeSolver::sweep() {
   for_each_node([&](std::size_t i) {
     const Phases view = view_of_neighbours(phases_, i);
     for (std::size_t k = 0; k < 3; ++k)
-      next[i][k] = unit(view[k] + inertia * degree_[i] * phases_[i][k] + anchors_[i][k]);
+      next[i][k] = fields::unit(view[k] + inertia * degree_[i] * phases_[i][k] + anchors_[i][k]);
   });
   phases_.swap(next);
 }
@@ -356,13 +356,13 @@ LatticeField LatticeSolver::result() const {
 
 std::optional<int> steps_on_surface(const Vec3& axis, const Vec3& normal, const Vec3& other_normal, double length) {
   const bool is_through = dot(normal, other_normal) < -normal_cosine && std::abs(dot(axis, normal)) > normal_cosine;
-  if (length > (is_through ? widest_to_decide : greatest_step)) return std::nullopt;
+  if (length > (is_through ? fields::widest_to_decide : greatest_step)) return std::nullopt;
   if (length > no_step && length < least_step) return std::nullopt;
-  return length <= no_step ? 0 : is_through ? layers_across(length) : 1;
+  return length <= no_step ? 0 : is_through ? fields::layers_across(length) : 1;
 }
 
-LatticeField solve_lattice_field(const FieldNodes& nodes, const std::vector<Frame>& frames) {
+LatticeField solve_lattice_field(const FieldNodes& nodes, const std::vector<fields::Frame>& frames) {
   return LatticeSolver(nodes, frames).solve();
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::volume

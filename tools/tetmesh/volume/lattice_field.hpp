@@ -14,7 +14,7 @@
 
 #include "tools/tetmesh/volume/field_nodes.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::volume {
 
 struct LatticeField {
   // Of each node, along each axis of its frame: from -1/2 to 1/2 cells from a point of the lattice.
@@ -31,6 +31,6 @@ struct LatticeField {
 std::optional<int> steps_on_surface(const Vec3& axis, const Vec3& normal, const Vec3& other_normal, double length);
 
 // The cells of the lattice are as wide as the sizes of the nodes.
-LatticeField solve_lattice_field(const FieldNodes& nodes, const std::vector<Frame>& frames);
+LatticeField solve_lattice_field(const FieldNodes& nodes, const std::vector<fields::Frame>& frames);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::volume

@@ -1,4 +1,4 @@
-#include "tools/tetmesh/group_tags.hpp"
+#include "tools/tetmesh/solid/group_tags.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,7 +15,7 @@
 #include "tools/tetmesh/geometry/feature_angle.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::solid {
 namespace {
 
 constexpr std::size_t most_listed = 10;
@@ -24,10 +24,10 @@ constexpr std::size_t most_listed = 10;
 class SmoothPieces {
  public:
   SmoothPieces(const Surface& surface, double angle)
-      : surface_(surface), cosine_(cosine_of_degrees(angle)), parent_(surface.triangles.size()) {
+      : surface_(surface), cosine_(geometry::cosine_of_degrees(angle)), parent_(surface.triangles.size()) {
     std::iota(parent_.begin(), parent_.end(), 0);
-    for (const CurveEdge& edge : surface.curves) curves_.insert(key_of(edge));
-    for_each_edge(surface.points.size(), surface.triangles, [&](std::span<const HalfEdge> edge) { add(edge); });
+    for (const formats::CurveEdge& edge : surface.curves) curves_.insert(key_of(edge));
+    geometry::for_each_edge(surface.points.size(), surface.triangles, [&](std::span<const geometry::HalfEdge> edge) { add(edge); });
   }
 
   std::int32_t of(std::int32_t t) {
@@ -42,13 +42,13 @@ class SmoothPieces {
     return cross(surface_.points[b] - surface_.points[a], surface_.points[c] - surface_.points[a]);
   }
 
-  void add(std::span<const HalfEdge> edge) {
+  void add(std::span<const geometry::HalfEdge> edge) {
     if (edge.size() != 2) return;
-    const std::int32_t t = triangle_of(edge[0]), u = triangle_of(edge[1]);
+    const std::int32_t t = geometry::triangle_of(edge[0]), u = geometry::triangle_of(edge[1]);
     if (is_named(t) || is_named(u)) return;
     const Vec3 n = normal(t), m = normal(u);
     if (dot(n, m) < cosine_ * norm(n) * norm(m)) return;
-    if (curves_.contains(edge_key(start_of(surface_.triangles, edge[0]), end_of(surface_.triangles, edge[0])))) return;
+    if (curves_.contains(edge_key(geometry::start_of(surface_.triangles, edge[0]), geometry::end_of(surface_.triangles, edge[0])))) return;
     const std::int32_t first = std::min(of(t), of(u));
     parent_[of(t)] = first;
     parent_[of(u)] = first;
@@ -86,7 +86,7 @@ TagName parse_tag_name(const std::string& text) {
   result.of_region = number.starts_with(region);
   if (result.of_region) number.remove_prefix(region.size());
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), result.tag);
-  if (equals != std::string::npos) result.name = clean_name(std::string_view(text).substr(equals + 1));
+  if (equals != std::string::npos) result.name = formats::clean_name(std::string_view(text).substr(equals + 1));
   if (error != std::errc() || end != number.data() + number.size() || result.name.empty())
     throw UsageError(fmt::format("expected --name TAG=NAME or 'region TAG=NAME', found '{}'", text));
   return result;
@@ -108,4 +108,4 @@ void name_tags(Surface& surface, std::span<const TagName> names) {
   }
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::solid

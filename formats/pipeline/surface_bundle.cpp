@@ -1,4 +1,4 @@
-#include "formats/surface_bundle.hpp"
+#include "formats/pipeline/surface_bundle.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -8,7 +8,7 @@
 #include "common/run/error.hpp"
 #include "formats/surfaces/surface_building.hpp"
 
-namespace hexpipe {
+namespace hexpipe::pipeline {
 namespace {
 
 constexpr std::string_view folder = "surface/";
@@ -26,7 +26,7 @@ void visit_members(Soup& soup, Visit&& visit) {
 
 class Checker {
  public:
-  explicit Checker(const SurfaceSoup& soup) : soup_(soup) {}
+  explicit Checker(const formats::SurfaceSoup& soup) : soup_(soup) {}
 
   void check() const {
     check_count("triangle_tags", soup_.tags.size(), "triangles", soup_.triangles.size());
@@ -78,17 +78,17 @@ class Checker {
     edges.reserve(2 * soup_.triangles.size());
     for (const auto& [a, b, c] : soup_.triangles)
       for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
-        edges.insert(key_of(CurveEdge{from, to}));
+        edges.insert(key_of(formats::CurveEdge{from, to}));
     for (std::size_t i = 0; i < soup_.curves.size(); ++i)
       if (!edges.contains(key_of(soup_.curves[i])))
         throw DataError::at(soup_.name, "surface/curves.npy: row {}: expected an edge of a triangle, found {}, {}", i,
                             soup_.curves[i][0], soup_.curves[i][1]);
   }
 
-  const SurfaceSoup& soup_;
+  const formats::SurfaceSoup& soup_;
 };
 
-bool take_member(BundleReader& reader, SurfaceSoup& soup, BundleWriter* copy) {
+bool take_member(BundleReader& reader, formats::SurfaceSoup& soup, BundleWriter* copy) {
   bool known = false;
   visit_members(soup, [&]<class T>(std::string_view name, std::vector<T>& array) {
     if (known || reader.name() != name) return;
@@ -105,16 +105,16 @@ bool is_surface_member(std::string_view name) {
   return name.starts_with(folder);
 }
 
-SurfaceSoup read_surface_bundle(Input& input, const std::function<void(BundleReader&)>& other, BundleWriter* copy) {
+formats::SurfaceSoup read_surface_bundle(formats::Input& input, const std::function<void(BundleReader&)>& other, BundleWriter* copy) {
   BundleReader reader(input);
-  SurfaceSoup soup;
+  formats::SurfaceSoup soup;
   soup.name = input.name();
   soup.text = false;
   bool has_surface = false, has_mesh = false;
   while (reader.next()) {
     has_mesh = has_mesh || reader.name().starts_with("mesh/");
-    if (reader.name() == names_member)
-      soup.names = parse_group_names(reader.read_text(), reader.where());
+    if (reader.name() == formats::names_member)
+      soup.names = formats::parse_group_names(reader.read_text(), reader.where());
     else if (is_surface_member(reader.name()) && take_member(reader, soup, copy))
       has_surface = true;
     else if (other)
@@ -134,7 +134,7 @@ SurfaceSoup read_surface_bundle(Input& input, const std::function<void(BundleRea
   return soup;
 }
 
-void write_surface_members(BundleWriter& writer, const SurfaceSoup& surface) {
+void write_surface_members(BundleWriter& writer, const formats::SurfaceSoup& surface) {
   visit_members(surface, [&](const char* name, const auto& array) {
     const bool may_be_missing =
         name != std::string_view("surface/points.npy") && name != std::string_view("surface/triangles.npy");
@@ -142,4 +142,4 @@ void write_surface_members(BundleWriter& writer, const SurfaceSoup& surface) {
   });
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::pipeline

@@ -7,7 +7,7 @@
 
 #include "tools/tetmesh/solid/shells.hpp"
 
-namespace hexpipe {
+namespace hexpipe::tetmesh::solid {
 
 inline constexpr double default_tag_angle = 40;
 
@@ -27,4 +27,4 @@ TagName parse_tag_name(const std::string& text);
 // Throws DataError where no triangle, or no region, has the tag.
 void name_tags(Surface& surface, std::span<const TagName> names);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::tetmesh::solid

@@ -1,4 +1,4 @@
-#include "formats/group_names.hpp"
+#include "formats/streams/group_names.hpp"
 
 #include <charconv>
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 #include "common/run/error.hpp"
 #include "formats/streams/text_scanner.hpp"
 
-namespace hexpipe {
+namespace hexpipe::formats {
 namespace {
 
 using Names = std::map<std::int32_t, std::string>;
@@ -106,4 +106,4 @@ std::string text_of(const GroupNames& names) {
   return json.dump() + "\n";
 }
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats

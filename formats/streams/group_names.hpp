@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace hexpipe {
+namespace hexpipe::formats {
 
 struct GroupNames {
   // By tag. A name is UTF-8 and not empty; several tags may have the same one.
@@ -27,4 +27,4 @@ std::string clean_name(std::string_view bytes);
 GroupNames parse_group_names(const std::string& text, const std::string& where);
 std::string text_of(const GroupNames& names);
 
-}  // namespace hexpipe
+}  // namespace hexpipe::formats
