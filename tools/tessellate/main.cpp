@@ -82,17 +82,17 @@ int main(int argc, char** argv) {
   const auto run = [&](RunContext& context) {
     const std::string_view format = format_of(output_path);
     formats::Input input = open_cad(path);
-    const tessellate::TessellateResult result = tessellate(input, options);
+    const tessellate::TessellateResult result = tessellate::tessellate(input, options);
     for (const std::string& warning : result.warnings) context.warn(input.name() + ": " + warning);
     formats::Output output(output_path);
     if (format.empty())
       write_bundle(result, context, compress || pipeline::ending_of(output_path) == pipeline::compressed_bundle_format, output);
     else
-      for (const std::string& change : write_surface(result.surface, format, output)) context.warn(change);
+      for (const std::string& change : tessellate::write_surface(result.surface, format, output)) context.warn(change);
     output.commit();
     context.note(fmt::format("{} bodies of {} faces, {} triangles within {:.4g} of them, lengths in {}", result.bodies,
                              result.faces, result.surface.triangles.size(), result.deviation,
-                             result.unit.empty() ? "a unit that the file does not name" : result.unit + "s"));
+                             result.unit.empty() ? "a unit that the file does not name" : "the unit " + result.unit));
     context.statistics.update(to_json(result));
   };
   return tool_main(argc, argv, info, declare, run);

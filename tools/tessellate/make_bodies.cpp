@@ -98,8 +98,7 @@ TopoDS_Shape sewn(const TopoDS_Shape& whole, ShapeNames& names) {
 void make_bodies(const TopoDS_Shape& whole, const std::string& source, CadModel& model) {
   const int faces = count_of(whole, TopAbs_FACE);
   if (faces == 0)
-    throw DataError::at(source, "expected bodies, found no solid, and {} and no face",
-                        counted(count_of(whole, TopAbs_EDGE), "edge"));
+    throw DataError::at(source, "expected bodies, found no solid and no face");
   int open = add_closed_shells(whole, model);
   const char* act = "shells that are closed are taken for bodies";
   if (model.bodies.empty()) {

@@ -9,6 +9,7 @@
 #include "common/run/error.hpp"
 #include "tools/tetmesh/fill.hpp"
 #include "tools/tetmesh/improve.hpp"
+#include "tools/tetmesh/solid/sheets.hpp"
 #include "tools/tetmesh/solid/surface_check.hpp"
 #include "tools/tetmesh/tetgen/build_mesh.hpp"
 #include "tools/tetmesh/volume/expected_points.hpp"
@@ -84,6 +85,29 @@ double greatest_size(const solid::Surface& surface, const TetmeshOptions& option
   return std::ranges::max(options.size_sources.sizes);
 }
 
+// Checked, with its shells, or its sheets where they meet at edges of more than two triangles.
+solid::Surface surface_of(formats::SurfaceSoup soup, const TetmeshOptions& options,
+                          std::vector<std::string>& warnings) {
+  const char* remedy = options.repair ? "" : " (see --repair)";
+  if (soup.sides.empty() && solid::meets_in_sheets(soup)) {
+    solid::check_areas(soup, remedy);
+    for (const std::string& sentence : solid::find_sides(soup, options.shells).sentences())
+      warnings.push_back(fmt::format("{}: {}", soup.name, sentence));
+  }
+  if (!solid::meets_in_sheets(soup)) {
+    solid::check_surface(soup, remedy);
+    return solid::find_shells(std::move(soup), options.shells);
+  }
+  solid::check_areas(soup, remedy);
+  solid::check_intersections(soup);
+  if (options.surface == SurfaceKind::remesh)
+    warnings.push_back(
+        fmt::format("{}: sheets meet at edges of more than two triangles, so that triangles are cut to the size, and not "
+                    "made anew",
+                    soup.name));
+  return solid::find_sheets(std::move(soup));
+}
+
 FilledSurface fill_at(double factor, const solid::Surface& surface, TetmeshOptions options,
                       const sizing::SizeField& size) {
   const bool estimates = options.tries > 1;
@@ -140,8 +164,8 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
   const Stopwatch watch;
   std::optional<solid::RepairReport> repaired;
   if (options.repair) repaired = repair(soup, options);
-  solid::check_surface(soup, options.repair ? "" : " (see --repair)");
-  solid::Surface given = solid::find_shells(std::move(soup), options.shells);
+  std::vector<std::string> warnings;
+  solid::Surface given = surface_of(std::move(soup), options, warnings);
   if (options.tag_angle) solid::tag_by_angle(given, *options.tag_angle);
   solid::name_tags(given, options.tag_names);
   const solid::Surface surface = std::move(given);
@@ -155,6 +179,7 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
   FilledSurface filled = best_of_tries(surface, options, size);
   if (options.improve > 0) improve(filled, surface, options);
   TetmeshResult result = finish(std::move(filled), surface);
+  result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
   result.names = surface.names;
   result.statistics.repair = repaired;
   result.statistics.seconds.checking = seconds_checking;

@@ -69,7 +69,7 @@ std::vector<double> measure_shells(Surface& surface) {
 
 class ShellFinder {
  public:
-  ShellFinder(formats::SurfaceSoup soup, ShellRule rule) : surface_{std::move(soup), {}, {}, 0}, rule_(rule) {}
+  ShellFinder(formats::SurfaceSoup soup, ShellRule rule) : surface_{std::move(soup), {}, {}, 0, false}, rule_(rule) {}
 
   Surface find() {
     collect_shells();
@@ -81,7 +81,7 @@ class ShellFinder {
       take_given_sides();
     }
     orient_triangles();
-    choose_tags();
+    choose_tags(surface_);
     return std::move(surface_);
   }
 
@@ -94,8 +94,6 @@ class ShellFinder {
   void assign_sides();
   void assign_sides(std::int32_t shell);
   void orient_triangles();
-  void rename_only_tag();
-  void choose_tags();
 
   Surface surface_;
   ShellRule rule_;
@@ -206,25 +204,36 @@ void ShellFinder::orient_triangles() {
 }
 
 // The name of the whole surface, where the file has one, stays where the whole gets one tag again.
-void ShellFinder::rename_only_tag() {
-  const auto found = surface_.names.surfaces.find(surface_.tags.front());
+void rename_only_tag(Surface& surface) {
+  const auto found = surface.names.surfaces.find(surface.tags.front());
   std::map<std::int32_t, std::string> names;
-  if (found != surface_.names.surfaces.end() && surface_.shells.size() == 1) names[1] = found->second;
-  surface_.names.surfaces = std::move(names);
-}
-
-void ShellFinder::choose_tags() {
-  const bool file_tells =
-      surface_.has_own_tags || std::ranges::adjacent_find(surface_.tags, std::not_equal_to()) != surface_.tags.end();
-  if (file_tells) return;
-  rename_only_tag();
-  for (std::size_t i = 0; i < surface_.tags.size(); ++i) surface_.tags[i] = surface_.shell_of[i] + 1;
+  if (found != surface.names.surfaces.end() && surface.shells.size() == 1) names[1] = found->second;
+  surface.names.surfaces = std::move(names);
 }
 
 }  // namespace
 
+void choose_tags(Surface& surface) {
+  const bool file_tells = surface.has_own_tags ||
+                          std::ranges::adjacent_find(surface.tags, std::not_equal_to()) != surface.tags.end();
+  if (file_tells) return;
+  rename_only_tag(surface);
+  for (std::size_t i = 0; i < surface.tags.size(); ++i) surface.tags[i] = surface.shell_of[i] + 1;
+}
+
 std::vector<double> Surface::region_volumes() const {
   std::vector<double> volumes(region_count + 1);
+  if (has_sheets) {
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const auto [a, b, c] = triangles[i];
+      const Shell& sheet = shells[shell_of[i]];
+      const double volume = det(points[a] - points[0], points[b] - points[0], points[c] - points[0]) / 6;
+      volumes[sheet.behind] += volume;
+      volumes[sheet.in_front] -= volume;
+    }
+    volumes[outside_region] = 0;
+    return volumes;
+  }
   for (const Shell& shell : shells) {
     volumes[shell.behind] += shell.has_material ? shell.volume : -shell.volume;
     if (shell.has_material) volumes[shell.in_front] -= shell.volume;
@@ -252,7 +261,7 @@ Surface find_shells(formats::SurfaceSoup soup, ShellRule rule) {
 }
 
 Surface with_shells_of(const Surface& surface, formats::SurfaceSoup soup, std::vector<std::int32_t> shell_of) {
-  Surface other{std::move(soup), std::move(shell_of), surface.shells, surface.region_count};
+  Surface other{std::move(soup), std::move(shell_of), surface.shells, surface.region_count, surface.has_sheets};
   measure_shells(other);
   return other;
 }

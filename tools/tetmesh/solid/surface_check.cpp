@@ -215,4 +215,12 @@ void check_surface(const formats::SurfaceSoup& soup, std::string_view remedy) {
   check_no_intersections(soup, report);
 }
 
+void check_areas(const formats::SurfaceSoup& soup, std::string_view remedy) {
+  check_no_degenerate_triangles(soup, remedy);
+}
+
+void check_intersections(const formats::SurfaceSoup& soup) {
+  check_no_intersections(soup, geometry::find_intersections(soup.points, soup.triangles, most_intersections));
+}
+
 }  // namespace hexpipe::tetmesh::solid

@@ -1,0 +1,194 @@
+# Names of groups, from the files that have them to the last stage.
+
+load helpers
+
+names_of() {
+  tar xOf "$1" names.json
+}
+
+@test "findhex takes the names of a .msh, in either version" {
+  cat >named.msh <<'END'
+$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+5
+2 5 "inlet"
+3 7 "steel"
+3 8 "nowhere"
+2 9 "surface 9"
+1 1 "a curve"
+$EndPhysicalNames
+$Nodes
+4
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 0 0 1
+$EndNodes
+$Elements
+3
+1 4 2 7 7 1 2 3 4
+2 2 2 5 5 1 4 3
+3 2 2 9 9 1 2 4
+$EndElements
+END
+  findhex --mesh named.msh -o two.tar --format tar
+  assert_equal "$(names_of two.tar)" '{"surfaces":{"5":"inlet"},"regions":{"7":"steel"}}'
+  gmsh named.msh -save -format msh41 -o four.msh >/dev/null
+  findhex --mesh four.msh -o four.tar --format tar
+  assert_equal "$(names_of four.tar)" '{"surfaces":{"5":"inlet"},"regions":{"7":"steel"}}'
+}
+
+@test "tetmesh takes the names of STL solids and of OBJ groups, and of materials where there are no groups" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  cat >tet.obj <<'END'
+v 0 0 0
+v 1 0 0
+v 0 1 0
+v 0 0 1
+usemtl red
+f 1 3 2
+g sides # all of them
+f 1 2 4
+usemtl blue
+f 2 3 4
+f 1 4 3
+END
+  tetmesh tet.obj --surface keep --points none -o tet.tar
+  assert_equal "$(names_of tet.tar)" '{"surfaces":{"1":"sides"}}'
+  grep -v '^g' tet.obj >materials.obj
+  tetmesh materials.obj --surface keep --points none -o materials.tar
+  assert_equal "$(names_of materials.tar)" '{"surfaces":{"1":"red","2":"blue"}}'
+  $PYTHON - <<'PYTHON'
+points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+with open("tet.stl", "wb") as file:
+    for name, triangles in (("Einlaß 1".encode("latin-1"), [(0, 2, 1)]), ("sides".encode(), [(0, 1, 3), (1, 2, 3), (0, 3, 2)])):
+        file.write(b"solid  " + name + b"\n")
+        for t in triangles:
+            file.write(b"facet normal 0 0 0\nouter loop\n" + b"".join(b"vertex %g %g %g\n" % points[i] for i in t) + b"endloop\nendfacet\n")
+        file.write(b"endsolid\n")
+PYTHON
+  tetmesh tet.stl --surface keep --points none -o stl.tar
+  assert_equal "$(names_of stl.tar)" '{"surfaces":{"1":"Einlaß 1","2":"sides"}}'
+  # One solid: its name is that of the only tag.
+  sed -e '0,/endsolid/!{/^solid/d}' -e '0,/endsolid/{/endsolid/d}' tet.stl >one.stl
+  tetmesh one.stl --surface keep --points none -o one.tar
+  assert_equal "$(names_of one.tar)" '{"surfaces":{"1":"Einlaß 1"}}'
+}
+
+@test "tetmesh --tags-by-angle makes groups, and --name names them" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  tetmesh "$DATA/cube.stl" --size 0.4 --tags-by-angle --name 3=inlet --name 'region 1=steel' -o cube.tar
+  assert_equal "$(names_of cube.tar)" '{"surfaces":{"3":"inlet"},"regions":{"1":"steel"}}'
+  tetmesh "$DATA/cube.stl" --size 0.4 --tags-by-angle -o cube.mesh
+  tetmesh "$DATA/cube.stl" --size 0.4 --tags-by-angle 100 -o whole.mesh
+  tags() { $PYTHON -c 'import meshio, sys; m = meshio.read(sys.argv[1]); print(sorted({int(t) for c, d in zip(m.cells, m.cell_data["medit:ref"]) if c.type == "triangle" for t in d}))' "$1"; }
+  run tags cube.mesh
+  assert_line "[1, 2, 3, 4, 5, 6]"
+  run tags whole.mesh
+  assert_line "[1]"
+  assert_fails_with 1 "cube.stl: expected --name of a surface tag \(1\), found 3" tetmesh "$DATA/cube.stl" --name 3=inlet -o x.mesh
+  assert_fails_with 1 "cube.stl: expected --name of a region from 1 to 1, found 2" tetmesh "$DATA/cube.stl" --name 'region 2=air' -o x.mesh
+  assert_fails_with 2 "expected --name TAG=NAME or 'region TAG=NAME', found 'inlet'" tetmesh "$DATA/cube.stl" --name inlet -o x.mesh
+}
+
+@test "names pass through all stages, shares and parts" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  tetmesh "$DATA/cube.stl" --size 0.25 --name 1=skin -o mesh.tar
+  findhex mesh.tar -o candidates.tar
+  buildgraph candidates.tar -o graph.tar
+  initsol graph.tar --iterations 0 | lns --iterations 10 | assemble -o result.tar
+  for stage in candidates graph result; do assert_equal "$(names_of $stage.tar)" '{"surfaces":{"1":"skin"}}'; done
+  for i in 1 2; do findhex mesh.tar --part $i/2 -o share$i.tar; done
+  merge-parts share1.tar share2.tar -o merged.tar
+  assert_same_bytes merged.tar candidates.tar
+  if [[ ! -x "$HEXPIPE_BIN/mesh-part" ]]; then return; fi
+  mesh-part mesh.tar --parts 2 -o parts
+  for i in 0 1; do findhex parts/part-000$i.tar -o candidates$i.tar; done
+  for i in 0 1; do buildgraph candidates$i.tar --neighbours candidates?.tar -o graph$i.tar; done
+  merge-parts graph0.tar graph1.tar -o merged.tar
+  assert_same_bytes merged.tar graph.tar
+}
+
+@test "names of another mesh do not pass beside the one that replaces it" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  tetmesh "$DATA/cube.stl" --size 0.5 --name 1=skin -o mesh.tar
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 2 >lattice.mesh
+  findhex mesh.tar --mesh lattice.mesh -o other.tar
+  run tar tf other.tar
+  refute_line names.json
+}
+
+@test "what is no names.json is an error that names it" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  tetmesh "$DATA/cube.stl" --size 0.5 -o mesh.tar
+  broken() {
+    printf '%s' "$1" >names.json
+    cp mesh.tar broken.tar
+    tar rf broken.tar names.json
+    assert_fails_with 1 "broken.tar: names.json: $2" findhex broken.tar
+  }
+  broken '{' "expected a JSON object with the names of surfaces, regions and curves, found no JSON"
+  broken '[]' "expected a JSON object with the names of surfaces, regions and curves, found something else"
+  broken '{"surfaces":[]}' "expected \"surfaces\" as an object"
+  broken '{"regions":{"x":"steel"}}' "expected the number of a tag, found 'x'"
+  broken '{"regions":{"1":2}}' "expected a name for tag '1' of \"regions\", found something else"
+  broken '{"regions":{"1":""}}' "expected a name for tag '1' of \"regions\", found an empty one"
+}
+
+# bundle NAME ARRAYS: surface/ members of a tet, with what the Python expression changes.
+bundle() {
+  $PYTHON - "$1" "$2" <<'PYTHON'
+import io, sys, tarfile
+import numpy as np
+arrays = {"points": np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], "<f8"),
+          "triangles": np.array([(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)], "<i4")}
+arrays.update(eval(sys.argv[2]))
+with tarfile.open(sys.argv[1], "w", format=tarfile.PAX_FORMAT) as out:
+    for name, array in arrays.items():
+        data = io.BytesIO()
+        np.save(data, np.array(array))
+        member = tarfile.TarInfo(f"surface/{name}.npy")
+        member.size = len(data.getvalue())
+        out.addfile(member, io.BytesIO(data.getvalue()))
+PYTHON
+}
+
+@test "tetmesh checks what a surface bundle says" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  i4() { echo "{'$1': np.array($2, '<i4')}"; }
+  bundle good.tar "{'sides': np.array([(3, 0)] * 4, '<i4'), 'triangle_tags': np.array([5] * 4, '<i4')}"
+  tetmesh --surface keep --points none <good.tar >mesh.tar
+  run $PYTHON -c 'import io, numpy, tarfile; t = tarfile.open("mesh.tar"); print(*[set(numpy.load(io.BytesIO(t.extractfile(f"mesh/{name}_tags.npy").read())).tolist()) for name in ("tet", "triangle")])'
+  assert_output "{3} {5}"
+  fails() {
+    bundle bad.tar "$1"
+    assert_fails_with 1 "bad.tar: $2" tetmesh bad.tar -o x.mesh
+  }
+  fails "$(i4 triangle_tags '[1]')" "surface/triangle_tags.npy: expected a row for each of the 4 triangles, found 1"
+  fails "$(i4 sides '[(1, 0)]')" "surface/sides.npy: expected a row for each of the 4 triangles, found 1"
+  fails "$(i4 sides '[(1, 1)] * 4')" "surface/sides.npy: row 0: expected two regions, found 1 on both sides"
+  fails "$(i4 sides '[(-1, 0)] * 4')" "surface/sides.npy: row 0: expected regions from 0 to 4, found -1, 0"
+  fails "$(i4 triangles '[(0, 1, 9)]')" "surface/triangles.npy: row 0: expected points from 0 to 3, found 9"
+  fails "{'curves': np.array([(0, 0)], '<i4')}" "surface/curves.npy: row 0: expected an edge of a triangle, found 0, 0"
+  fails "{'points': np.array([(0, 0, np.nan)] * 4)}" "surface/points.npy: row 0: expected coordinates up to"
+  tar cf none.tar --files-from /dev/null
+  assert_fails_with 1 "none.tar: expected a bundle with a surface, found none in it" tetmesh none.tar -o x.mesh
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 2 >lattice.mesh
+  findhex --mesh lattice.mesh -o lattice.tar
+  assert_fails_with 1 "lattice.tar: expected a bundle with a surface, found one with a mesh; findhex takes it" tetmesh lattice.tar -o x.mesh
+}
+
+@test "a curve in a surface bundle gets points, however flat the surface is there" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  bundle plain.tar "{'points': np.array([(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (1, 0.5, 0)], '<f8'), 'triangles': np.array([(0, 2, 4), (2, 1, 4), (1, 0, 4), (0, 1, 3), (1, 2, 3), (0, 3, 2)], '<i4')}"
+  bundle curve.tar "{'points': np.array([(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (1, 0.5, 0)], '<f8'), 'triangles': np.array([(0, 2, 4), (2, 1, 4), (1, 0, 4), (0, 1, 3), (1, 2, 3), (0, 3, 2)], '<i4'), 'curves': np.array([(0, 4)], '<i4')}"
+  on_line() {
+    tetmesh "$1" --size 0.5 | $PYTHON -c 'import io, numpy, sys, tarfile
+points = numpy.load(io.BytesIO(tarfile.open(fileobj=io.BytesIO(sys.stdin.buffer.read())).extractfile("mesh/points.npy").read()))
+print(sum(abs(p[0] - 2 * p[1]) < 1e-9 and p[0] <= 1 and p[2] == 0 for p in points))'
+  }
+  assert_equal "$(on_line curve.tar)" 3
+  assert [ "$(on_line plain.tar)" -lt 3 ]
+}
