@@ -89,7 +89,8 @@ double greatest_size(const solid::Surface& surface, const TetmeshOptions& option
 solid::Surface surface_of(formats::SurfaceSoup soup, const TetmeshOptions& options,
                           std::vector<std::string>& warnings) {
   const char* remedy = options.repair ? "" : " (see --repair)";
-  if (soup.sides.empty() && solid::meets_in_sheets(soup)) {
+  const bool has_own_sides = !soup.sides.empty();
+  if (!has_own_sides && solid::meets_in_sheets(soup)) {
     solid::check_areas(soup, remedy);
     for (const std::string& sentence : solid::find_sides(soup, options.shells).sentences())
       warnings.push_back(fmt::format("{}: {}", soup.name, sentence));
@@ -98,8 +99,10 @@ solid::Surface surface_of(formats::SurfaceSoup soup, const TetmeshOptions& optio
     solid::check_surface(soup, remedy);
     return solid::find_shells(std::move(soup), options.shells);
   }
-  solid::check_areas(soup, remedy);
-  solid::check_intersections(soup);
+  if (has_own_sides) {
+    solid::check_areas(soup, remedy);
+    solid::check_intersections(soup);
+  }
   if (options.surface == SurfaceKind::remesh)
     warnings.push_back(
         fmt::format("{}: sheets meet at edges of more than two triangles, so that triangles are cut to the size, and not "

@@ -14,7 +14,9 @@
 #include "common/run/error.hpp"
 #include "formats/surfaces/surface_building.hpp"
 #include "tools/tetmesh/geometry/column_index.hpp"
+#include "tools/tetmesh/geometry/exact_geometry.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
+#include "tools/tetmesh/solid/surface_check.hpp"
 
 namespace hexpipe::tetmesh::solid {
 namespace {
@@ -50,6 +52,35 @@ constexpr std::int32_t before(std::int32_t triangle) {
 Vec3 normal_of(const formats::SurfaceSoup& soup, std::int32_t t) {
   const auto [a, b, c] = soup.triangles[t];
   return cross(soup.points[b] - soup.points[a], soup.points[c] - soup.points[a]);
+}
+
+constexpr std::size_t most_overlaps = 100'000;
+constexpr int most_flip_rounds = 1000;
+// Of sines and of volumes beside the lengths of their edges: what counts as flat, and as on one circle.
+constexpr double flatness = 1e-9;
+
+Vertex across_of(const formats::SurfaceSoup& soup, HalfEdge h) {
+  return geometry::end_of(soup.triangles, geometry::next_in_triangle(h));
+}
+
+// Whether two triangles in one plane should exchange their common edge for the other diagonal.
+bool wants_flip(const formats::SurfaceSoup& soup, HalfEdge h, HalfEdge k) {
+  const Vertex from = geometry::start_of(soup.triangles, h), to = geometry::end_of(soup.triangles, h);
+  if (geometry::start_of(soup.triangles, k) != to) return false;
+  const Vertex one = across_of(soup, h), other = across_of(soup, k);
+  const Vec3 &a = soup.points[from], &b = soup.points[to], &c = soup.points[one], &d = soup.points[other];
+  const Vec3 n = unit(cross(b - a, c - a));
+  const double scale = norm(d - c);
+  if (std::abs(dot(n, d - a)) > flatness * scale) return false;
+  const auto turns = [&](const Vec3& p, const Vec3& q, const Vec3& r) {
+    return dot(cross(q - p, r - p), n) > flatness * norm(q - p) * norm(r - p);
+  };
+  if (!turns(a, d, c) || !turns(d, b, c)) return false;
+  const auto sine = [](const Vec3& at, const Vec3& p, const Vec3& q) { return norm(cross(unit(p - at), unit(q - at))); };
+  const auto cosine = [](const Vec3& at, const Vec3& p, const Vec3& q) { return dot(unit(p - at), unit(q - at)); };
+  const double of_sum = sine(c, a, b) * cosine(d, a, b) + cosine(c, a, b) * sine(d, a, b);
+  if (std::abs(of_sum) <= flatness) return std::min(one, other) < std::min(from, to);
+  return of_sum < 0;
 }
 
 // The triangles at an edge in the order in which they come on a walk around it.
@@ -115,7 +146,9 @@ class SideFinder {
       throw DataError::at(soup_.name,
                           "expected --shells oriented or regions for a surface whose sheets meet at edges of more than "
                           "two triangles, found holes");
+    agree_on_overlaps();
     join_repeated();
+    check_intersections(soup_);
     walk_around_edges();
     nest();
     judge_rooms();
@@ -125,6 +158,8 @@ class SideFinder {
 
  private:
   std::int32_t count() const { return static_cast<std::int32_t>(soup_.triangles.size()); }
+  void agree_on_overlaps();
+  bool flip_round(const std::vector<bool>& overlaps);
   void join_repeated();
   void walk_around_edges();
   void nest();
@@ -142,23 +177,61 @@ class SideFinder {
   SheetReport report_;
 };
 
+// Bodies that touch in a face may cut it into triangles in different ways. Where these overlap, flips lead both to the
+// same ones: Delaunay's, and of those with corners on one circle the ones at the lowest corner.
+void SideFinder::agree_on_overlaps() {
+  const auto found = geometry::find_intersections(soup_.points, soup_.triangles, most_overlaps);
+  std::vector<bool> overlaps(soup_.triangles.size());
+  for (const auto& pair : found.pairs)
+    for (const std::int32_t t : pair) overlaps[t] = true;
+  if (found.pairs.empty()) return;
+  for (int round = 0; round < most_flip_rounds && flip_round(overlaps); ++round) {
+  }
+}
+
+bool SideFinder::flip_round(const std::vector<bool>& overlaps) {
+  std::vector<bool> touched(soup_.triangles.size());
+  std::vector<std::array<HalfEdge, 2>> flips;
+  geometry::for_each_edge(soup_.points.size(), soup_.triangles, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() != 2) return;
+    const std::int32_t t = geometry::triangle_of(edge[0]), u = geometry::triangle_of(edge[1]);
+    if (!overlaps[t] || !overlaps[u] || touched[t] || touched[u] || soup_.tags[t] != soup_.tags[u]) return;
+    if (!wants_flip(soup_, edge[0], edge[1])) return;
+    touched[t] = touched[u] = true;
+    flips.push_back({edge[0], edge[1]});
+  });
+  for (const auto& [h, k] : flips) {
+    const Vertex a = geometry::start_of(soup_.triangles, h), b = geometry::end_of(soup_.triangles, h);
+    const Vertex c = across_of(soup_, h), d = across_of(soup_, k);
+    soup_.triangles[geometry::triangle_of(h)] = {a, d, c};
+    soup_.triangles[geometry::triangle_of(k)] = {d, b, c};
+  }
+  return !flips.empty();
+}
+
 // Two bodies that touch in a face have its triangles twice, turned against each other.
 void SideFinder::join_repeated() {
   std::map<VertexKey<3>, std::int32_t> first;
   std::vector<bool> kept(soup_.triangles.size(), true);
+  std::size_t repeated = 0;
+  std::array<std::int32_t, 2> first_repeated{};
   is_interface_.assign(soup_.triangles.size(), false);
   for (std::int32_t t = 0; t < count(); ++t) {
     const auto [known, is_new] = first.try_emplace(key_of(soup_.triangles[t]), t);
     if (is_new) continue;
     const Triangle &here = soup_.triangles[t], &other = soup_.triangles[known->second];
     const auto at = std::ranges::find(other, here[0]) - other.begin();
-    if (other[(at + 1) % 3] == here[1] || is_interface_[known->second])
-      throw DataError::at(soup_.place_of(t), "expected distinct triangles, found one that repeats {} {} (see --repair)",
-                          soup_.place_unit(), soup_.places[known->second]);
+    if ((other[(at + 1) % 3] == here[1] || is_interface_[known->second]) && repeated++ == 0)
+      first_repeated = {t, known->second};
     is_interface_[known->second] = true;
     kept[t] = false;
     ++report_.interface_triangles;
   }
+  if (repeated > 0)
+    throw DataError::at(soup_.place_of(first_repeated[0]),
+                        "expected distinct triangles, found {} with the corners of another; the first repeats {} {} (see "
+                        "--repair)",
+                        repeated, soup_.place_unit(), soup_.places[first_repeated[1]]);
   if (report_.interface_triangles == 0) return;
   std::vector<bool> interfaces;
   for (std::size_t i = 0; i < kept.size(); ++i)

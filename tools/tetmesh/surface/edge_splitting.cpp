@@ -88,7 +88,7 @@ class EdgeSplitter {
     soup_.places.push_back(soup_.places[t]);
     if (!soup_.sides.empty()) soup_.sides.push_back(soup_.sides[t]);
     shell_of_.push_back(shell_of_[t]);
-    const Vertex across = *std::ranges::find_if(other, [&](Vertex v) { return v != middle && v != edge[1]; });
+    const Vertex across = other[0] ^ other[1] ^ other[2] ^ middle ^ edge[1];  // the one that is left
     std::ranges::replace(triangles_of_[edge_key(edge[1], across)], t, made);
     triangles_of_[edge_key(edge[0], middle)].push_back(t);
     triangles_of_[edge_key(edge[1], middle)].push_back(made);
