@@ -173,7 +173,8 @@ PYTHON
   fails "$(i4 triangles '[(0, 1, 9)]')" "surface/triangles.npy: row 0: expected points from 0 to 3, found 9"
   fails "{'curves': np.array([(0, 0)], '<i4')}" "surface/curves.npy: row 0: expected an edge of a triangle, found 0, 0"
   fails "{'points': np.array([(0, 0, np.nan)] * 4)}" "surface/points.npy: row 0: expected coordinates up to"
-  tar cf none.tar --files-from /dev/null
+  echo >other.txt
+  tar cf none.tar other.txt
   assert_fails_with 1 "none.tar: expected a bundle with a surface, found none in it" tetmesh none.tar -o x.mesh
   $PYTHON "$DATA/lattices/lattice.py" kuhn 2 >lattice.mesh
   findhex --mesh lattice.mesh -o lattice.tar
@@ -191,4 +192,23 @@ print(sum(abs(p[0] - 2 * p[1]) < 1e-9 and p[0] <= 1 and p[2] == 0 for p in point
   }
   assert_equal "$(on_line curve.tar)" 3
   assert [ "$(on_line plain.tar)" -lt 3 ]
+}
+
+@test "the surface bundle of formats/README.md is one, and its names are" {
+  $PYTHON - "$HEXPIPE_SOURCE/formats/README.md" <<'PYTHON'
+import re, sys
+text = open(sys.argv[1]).read()
+open("surface.py", "w").write(re.search(r"```python surface\n(.*?)```", text, re.S)[1])
+open("names.json", "w").write(re.search(r"```json names.json\n(.*?)```", text, re.S)[1])
+PYTHON
+  $PYTHON surface.py >surface.tar
+  run tar tf surface.tar
+  assert_output "$(printf 'surface/%s.npy\n' points triangles triangle_tags sides curves curve_tags)
+names.json"
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then return; fi
+  tetmesh --surface keep --points none <surface.tar >mesh.tar
+  assert_equal "$(names_of mesh.tar)" '{"surfaces":{"5":"bottom"},"regions":{"1":"steel"}}'
+  tar rf mesh.tar names.json
+  findhex mesh.tar -o candidates.tar
+  assert_equal "$(names_of candidates.tar | head -1)" "$(cat names.json)"
 }

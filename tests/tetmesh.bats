@@ -291,8 +291,8 @@ PYTHON
   assert_fails_with 1 "^tetmesh: zero.obj:4: expected a vertex index, counted from 1 .*, found '0'" tetmesh zero.obj
 }
 
-# regions MESH: volume of each, from its tets.
-regions() {
+# volumes_of MESH: of each region, from its tets.
+volumes_of() {
   $PYTHON - "$1" <<'PYTHON'
 import meshio, numpy as np, sys
 mesh = meshio.read(sys.argv[1])
@@ -310,12 +310,12 @@ PYTHON
   local name
   for name in edge-touch face-touch-two-bodies; do
     tetmesh -q "$DATA/touching/$name.off" --size 0.3 -o $name.mesh
-    assert_equal "$(regions $name.mesh | tail -1)" "{1: 1.0, 2: 1.0}"
+    assert_equal "$(volumes_of $name.mesh | tail -1)" "{1: 1.0, 2: 1.0}"
   done
   tetmesh -q "$DATA/touching/inner-wall.off" --size 0.3 -o wall.mesh
-  assert_equal "$(regions wall.mesh | tail -1)" "{1: 0.5, 2: 0.5}"
+  assert_equal "$(volumes_of wall.mesh | tail -1)" "{1: 0.5, 2: 0.5}"
   tetmesh -q "$FILES/corner.stl" --size 0.4 -o corner.mesh
-  assert_equal "$(regions corner.mesh | tail -1)" "{1: 1.0, 2: 1.0}"
+  assert_equal "$(volumes_of corner.mesh | tail -1)" "{1: 1.0, 2: 1.0}"
 }
 
 @test "an interface of two bodies is meshed once, and told" {
@@ -345,14 +345,14 @@ PYTHON
   assert_success
   assert_equal "$stderr" "tetmesh: warning: $DATA/touching/fin-on-edge.off: a triangle with the same on both sides is left out"
   tetmesh "$DATA/cube.stl" --size 0.5 -o cube.mesh
-  assert_equal "$(regions fin.mesh | tail -1)" "$(regions cube.mesh | tail -1)"
+  assert_equal "$(volumes_of fin.mesh | tail -1)" "$(volumes_of cube.mesh | tail -1)"
 }
 
 @test "where sheets meet, --shells regions takes triangles of any orientation" {
   sed '0,/^3 0 2 1/s//3 0 1 2/' "$DATA/touching/inner-wall.off" >turned.off
   assert_fails_with 1 "turned.off:11: expected triangles that point outward where sheets meet, found 1 that" tetmesh turned.off -o x.mesh
   tetmesh -q turned.off --shells regions --size 0.3 -o turned.mesh
-  assert_equal "$(regions turned.mesh | tail -1)" "{1: 0.5, 2: 0.5}"
+  assert_equal "$(volumes_of turned.mesh | tail -1)" "{1: 0.5, 2: 0.5}"
   assert_fails_with 1 "expected --shells oriented or regions" tetmesh turned.off --shells holes -o x.mesh
 }
 

@@ -89,19 +89,16 @@ double greatest_size(const solid::Surface& surface, const TetmeshOptions& option
 solid::Surface surface_of(formats::SurfaceSoup soup, const TetmeshOptions& options,
                           std::vector<std::string>& warnings) {
   const char* remedy = options.repair ? "" : " (see --repair)";
-  const bool has_own_sides = !soup.sides.empty();
-  if (!has_own_sides && solid::meets_in_sheets(soup)) {
+  if (solid::meets_in_sheets(soup)) {
     solid::check_areas(soup, remedy);
-    for (const std::string& sentence : solid::find_sides(soup, options.shells).sentences())
+    const bool has_sides = !soup.sides.empty();
+    const solid::SheetReport found = has_sides ? solid::join_bodies(soup) : solid::find_sides(soup, options.shells);
+    for (const std::string& sentence : found.sentences())
       warnings.push_back(fmt::format("{}: {}", soup.name, sentence));
   }
   if (!solid::meets_in_sheets(soup)) {
     solid::check_surface(soup, remedy);
     return solid::find_shells(std::move(soup), options.shells);
-  }
-  if (has_own_sides) {
-    solid::check_areas(soup, remedy);
-    solid::check_intersections(soup);
   }
   if (options.surface == SurfaceKind::remesh)
     warnings.push_back(

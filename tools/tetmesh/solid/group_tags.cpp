@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
+#include <functional>
 #include <numeric>
 #include <set>
 #include <string_view>
@@ -63,6 +65,9 @@ class SmoothPieces {
 }  // namespace
 
 void tag_by_angle(Surface& surface, double angle) {
+  // The name of the whole tells nothing apart.
+  if (std::ranges::adjacent_find(surface.tags, std::not_equal_to()) == surface.tags.end())
+    surface.names.surfaces.clear();
   SmoothPieces pieces(surface, angle);
   std::vector<std::int32_t> tag_of_piece(surface.triangles.size(), 0);
   std::int32_t last = 0;

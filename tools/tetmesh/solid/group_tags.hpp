@@ -12,7 +12,8 @@ namespace hexpipe::tetmesh::solid {
 inline constexpr double default_tag_angle = 40;
 
 // Gives each piece of the surface within edges that turn by more than the angle (degrees), or that are curves, a tag of
-// its own. Numbers go up from 1 in the order of the first triangles. Triangles whose tag has a name keep it.
+// its own. Numbers go up from 1 in the order of the first triangles. Triangles whose tag has a name keep it, unless
+// all have the same.
 void tag_by_angle(Surface& surface, double angle);
 
 struct TagName {

@@ -141,14 +141,19 @@ class SideFinder {
  public:
   SideFinder(formats::SurfaceSoup& soup, ShellRule rule) : soup_(soup), rule_(rule) {}
 
+  SheetReport join() {
+    agree_on_overlaps();
+    join_repeated();
+    check_intersections(soup_);
+    return report_;
+  }
+
   SheetReport find() {
     if (rule_ == ShellRule::holes)
       throw DataError::at(soup_.name,
                           "expected --shells oriented or regions for a surface whose sheets meet at edges of more than "
                           "two triangles, found holes");
-    agree_on_overlaps();
-    join_repeated();
-    check_intersections(soup_);
+    join();
     walk_around_edges();
     nest();
     judge_rooms();
@@ -224,6 +229,7 @@ void SideFinder::join_repeated() {
     if ((other[(at + 1) % 3] == here[1] || is_interface_[known->second]) && repeated++ == 0)
       first_repeated = {t, known->second};
     is_interface_[known->second] = true;
+    if (!soup_.sides.empty()) soup_.sides[known->second] = {soup_.sides[known->second][0], soup_.sides[t][0]};
     kept[t] = false;
     ++report_.interface_triangles;
   }
@@ -389,6 +395,10 @@ std::vector<std::string> SheetReport::sentences() const {
 
 SheetReport find_sides(formats::SurfaceSoup& soup, ShellRule rule) {
   return SideFinder(soup, rule).find();
+}
+
+SheetReport join_bodies(formats::SurfaceSoup& soup) {
+  return SideFinder(soup, ShellRule::oriented).join();
 }
 
 Surface find_sheets(formats::SurfaceSoup soup) {

@@ -27,6 +27,9 @@ struct SheetReport {
 // outside, and where nothing is enclosed.
 SheetReport find_sides(formats::SurfaceSoup& soup, ShellRule rule);
 
+// Of a soup that has sides: bodies that have the same triangles where they touch share them from then on.
+SheetReport join_bodies(formats::SurfaceSoup& soup);
+
 // The sheets of a soup with sides, in place of shells. Triangles between two regions have the lower number behind them.
 Surface find_sheets(formats::SurfaceSoup soup);
 

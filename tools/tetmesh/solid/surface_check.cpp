@@ -194,8 +194,9 @@ void check_no_intersections(const formats::SurfaceSoup& soup, const geometry::In
   if (report.pairs.empty()) return;
   throw DataError::at(
       soup.place_of(report.pairs.front()[0]),
-      "expected a surface that does not intersect itself, found {}{} of triangles that do; the first: {}",
-      report.complete ? "" : "more than ", count_of(report.pairs.size(), "pair"), list_of(soup, report.pairs.front()));
+      "expected a surface that does not intersect itself, found {}{} of triangles that do; the first: {}{}",
+      report.complete ? "" : "more than ", count_of(report.pairs.size(), "pair"), list_of(soup, report.pairs.front()),
+      soup.sides.empty() ? "" : "; where bodies touch, tessellate --join makes one face of two");
 }
 
 }  // namespace
