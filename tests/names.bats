@@ -93,6 +93,32 @@ PYTHON
   assert_fails_with 2 "expected --name TAG=NAME or 'region TAG=NAME', found 'inlet'" tetmesh "$DATA/cube.stl" --name inlet -o x.mesh
 }
 
+@test "tetmesh --size NAME=LENGTH is the size at a surface" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  points() { tetmesh "$DATA/cube.stl" --tags-by-angle --name 3=inlet "$@" --stats stats.json -o cube.mesh && $PYTHON -c 'import json; print(json.load(open("stats.json"))["points"])'; }
+  local plain
+  plain=$(points --size 0.25)
+  assert [ "$(points --size 0.25 --size inlet=0.08)" -gt $((2 * plain)) ]
+  assert_equal "$(points --size 0.25 --size 3=0.08)" "$(points --size surface_3=0.08 --size 0.25)"
+  assert [ "$(points --size 0.25 --size inlet=0.08 --grading 1)" -lt "$(points --size 0.25 --size inlet=0.08 --grading 0.1)" ]
+  # Fine where it is asked for, and not on the other side.
+  points --size 0.25 --size inlet=0.08
+  run $PYTHON - <<'PYTHON'
+import meshio
+mesh = meshio.read("cube.mesh")
+counts = {}
+for block, tags in zip(mesh.cells, mesh.cell_data["medit:ref"]):
+    if block.type == "triangle":
+        for tag in tags:
+            counts[int(tag)] = counts.get(int(tag), 0) + 1
+print(max(counts, key=counts.get))
+PYTHON
+  assert_line 3
+  assert_fails_with 1 "cube.stl: expected --size of a surface by its name or number, found 'outlet'" tetmesh "$DATA/cube.stl" --size outlet=1 -o x.mesh
+  assert_fails_with 2 "expected one --size for all, found '2' beside another" tetmesh "$DATA/cube.stl" --size 1 --size 2 -o x.mesh
+  assert_fails_with 2 "expected a positive length such as" tetmesh "$DATA/cube.stl" --size 1=x -o x.mesh
+}
+
 @test "names pass through all stages, shares and parts" {
   if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
   tetmesh "$DATA/cube.stl" --size 0.25 --name 1=skin -o mesh.tar
@@ -208,7 +234,10 @@ names.json"
   if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then return; fi
   tetmesh --surface keep --points none <surface.tar >mesh.tar
   assert_equal "$(names_of mesh.tar)" '{"surfaces":{"5":"bottom"},"regions":{"1":"steel"}}'
+  mkdir mesh && tar xf mesh.tar -C mesh && cp names.json mesh
+  (cd mesh && tar cf ../renamed.tar names.json mesh/*.npy)
+  findhex renamed.tar -o candidates.tar
+  assert_equal "$(names_of candidates.tar)" "$(cat names.json)"
   tar rf mesh.tar names.json
-  findhex mesh.tar -o candidates.tar
-  assert_equal "$(names_of candidates.tar | head -1)" "$(cat names.json)"
+  assert_fails_with 1 "mesh.tar: names.json: expected names once, found them again" findhex mesh.tar
 }

@@ -325,6 +325,7 @@ void Stage::State::read_bundle(formats::Input& input, const std::set<Role>& take
     if (is_history_entry(reader.name())) {
       pass_history_entry(reader, data.history);
     } else if (reader.name() == formats::names_member && !is_replaced) {
+      if (!names.empty()) throw DataError::at(reader.where(), "expected names once, found them again");
       names = data.names = formats::parse_group_names(reader.read_text(), reader.where());
       write_names();
     } else if (passes) {

@@ -105,7 +105,8 @@ bool is_surface_member(std::string_view name) {
   return name.starts_with(folder);
 }
 
-formats::SurfaceSoup read_surface_bundle(formats::Input& input, const std::function<void(BundleReader&)>& other, BundleWriter* copy) {
+formats::SurfaceSoup read_surface_bundle(formats::Input& input, const std::function<void(BundleReader&)>& other,
+                                         BundleWriter* copy) {
   BundleReader reader(input);
   formats::SurfaceSoup soup;
   soup.name = input.name();

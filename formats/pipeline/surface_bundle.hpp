@@ -15,7 +15,7 @@ bool is_surface_member(std::string_view name);
 // it. `copy`, if not null, gets the members of the surface as they come. Points without a triangle and those that are
 // equal to another are left out, as of all formats.
 formats::SurfaceSoup read_surface_bundle(formats::Input& input, const std::function<void(BundleReader&)>& other,
-                                BundleWriter* copy = nullptr);
+                                         BundleWriter* copy = nullptr);
 
 // All members that have something to say, but not the names.
 void write_surface_members(BundleWriter& writer, const formats::SurfaceSoup& surface);

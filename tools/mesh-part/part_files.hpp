@@ -19,7 +19,8 @@ class PartFiles {
   PartFiles(std::string directory, std::int32_t parts, bool compress);
 
   // `history`: the entries that the part begins with; `names`: those of the whole mesh.
-  void write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history, const formats::GroupNames& names);
+  void write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history,
+             const formats::GroupNames& names);
   // Without it, nothing new is left. Throws DataError where a part cannot be put in place; those before it are.
   void commit() { files_.commit(); }
 

@@ -13,8 +13,8 @@
 #include "formats/pipeline/bundle.hpp"
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/output_format.hpp"
-#include "formats/streams/output.hpp"
 #include "formats/pipeline/surface_bundle.hpp"
+#include "formats/streams/output.hpp"
 #include "tools/tessellate/tessellate.hpp"
 #include "tools/tessellate/write_surface.hpp"
 
@@ -41,7 +41,8 @@ std::string_view format_of(const std::string& path) {
   return ending;
 }
 
-void write_bundle(const tessellate::TessellateResult& result, const RunContext& context, bool compress, formats::Output& output) {
+void write_bundle(const tessellate::TessellateResult& result, const RunContext& context, bool compress,
+                  formats::Output& output) {
   pipeline::BundleWriter writer(output, compress);
   pipeline::write_surface_members(writer, result.surface);
   if (!result.surface.names.empty()) writer.add_text(std::string(formats::names_member), text_of(result.surface.names));
@@ -86,7 +87,8 @@ int main(int argc, char** argv) {
     for (const std::string& warning : result.warnings) context.warn(input.name() + ": " + warning);
     formats::Output output(output_path);
     if (format.empty())
-      write_bundle(result, context, compress || pipeline::ending_of(output_path) == pipeline::compressed_bundle_format, output);
+      write_bundle(result, context, compress || pipeline::ending_of(output_path) == pipeline::compressed_bundle_format,
+                   output);
     else
       for (const std::string& change : tessellate::write_surface(result.surface, format, output)) context.warn(change);
     output.commit();

@@ -97,8 +97,7 @@ TopoDS_Shape sewn(const TopoDS_Shape& whole, ShapeNames& names) {
 
 void make_bodies(const TopoDS_Shape& whole, const std::string& source, CadModel& model) {
   const int faces = count_of(whole, TopAbs_FACE);
-  if (faces == 0)
-    throw DataError::at(source, "expected bodies, found no solid and no face");
+  if (faces == 0) throw DataError::at(source, "expected bodies, found no solid and no face");
   int open = add_closed_shells(whole, model);
   const char* act = "shells that are closed are taken for bodies";
   if (model.bodies.empty()) {
@@ -125,8 +124,7 @@ void heal_bodies(CadModel& model) {
       continue;
     }
     const Handle(ShapeBuild_ReShape) context = fix.Context();
-    carry_names(body.solid, model.names,
-                [&](const TopoDS_Shape& part, const auto& set) { set(context->Apply(part)); });
+    carry_names(body.solid, model.names, [&](const TopoDS_Shape& part, const auto& set) { set(context->Apply(part)); });
     body.solid = solid.Current();
     BRepCheck_Analyzer(body.solid).IsValid() ? ++healed : ++faulty;
   }

@@ -5,9 +5,9 @@
 #include <Interface_InterfaceModel.hxx>
 #include <Quantity_Color.hxx>
 #include <StepRepr_RepresentationItem.hxx>
+#include <TColStd_HSequenceOfExtendedString.hxx>
 #include <TCollection_AsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
-#include <TColStd_HSequenceOfExtendedString.hxx>
 #include <TDF_LabelSequence.hxx>
 #include <TDataStd_Name.hxx>
 #include <TopAbs_ShapeEnum.hxx>

@@ -86,7 +86,8 @@ const std::vector<std::string_view>& surface_format_names() {
   return names;
 }
 
-std::vector<std::string> write_surface(const formats::SurfaceSoup& surface, std::string_view format, formats::Output& output) {
+std::vector<std::string> write_surface(const formats::SurfaceSoup& surface, std::string_view format,
+                                       formats::Output& output) {
   for (const auto& [name, writer] : writers)
     if (name == format) return writer(surface, output);
   throw UsageError(fmt::format("expected a surface as obj, stl or msh, found '{}'", format));

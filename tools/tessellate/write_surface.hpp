@@ -15,6 +15,7 @@ const std::vector<std::string_view>& surface_format_names();
 
 // OBJ: a group for each tag; STL: a solid in ASCII for each; .msh: physical surfaces. Returns what had to be changed of
 // the names, in sentences.
-std::vector<std::string> write_surface(const formats::SurfaceSoup& surface, std::string_view format, formats::Output& output);
+std::vector<std::string> write_surface(const formats::SurfaceSoup& surface, std::string_view format,
+                                       formats::Output& output);
 
 }  // namespace hexpipe::tessellate

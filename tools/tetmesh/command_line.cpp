@@ -40,7 +40,8 @@ void refuse_idle_options(const std::function<bool(const char*)>& is_given, const
   };
   const bool keeps = options.surface == SurfaceKind::keep, places = places_points(options.points);
   if (!options.repair) refuse({"--weld", "--largest-hole"}, "without --repair");
-  if (!is_given("--size-field") && !is_given("--layers")) refuse({"--grading"}, "without --size-field or --layers");
+  if (!is_given("--size-field") && !is_given("--layers") && options.named_sizes.empty())
+    refuse({"--grading"}, "without --size-field, --layers or the size of a surface");
   if (options.improve == 0) refuse({"--time-limit"}, "without --improve");
   if (keeps) refuse({"--deviation"}, "with --surface keep");
   if (!places) refuse({"--clearance", "--jitter", "--improve"}, "with --points " + points);

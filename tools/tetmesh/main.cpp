@@ -36,6 +36,17 @@ formats::Input open_surface(const std::string& path) {
   return formats::Input::open(path);
 }
 
+// "3" for all, "inlet=0.5" for a surface.
+void add_size(const std::string& text, TetmeshOptions& options) {
+  const std::size_t equals = text.rfind('=');
+  if (equals == std::string::npos && options.size)
+    throw UsageError(fmt::format("expected one --size for all, found '{}' beside another", text));
+  if (equals == std::string::npos)
+    options.size = sizing::parse_length(text);
+  else
+    options.named_sizes.push_back({text.substr(0, equals), sizing::parse_length(text.substr(equals + 1))});
+}
+
 void choose_points(const std::string& points, TetmeshOptions& options) {
   const auto kind = point_kinds.find(points);
   options.points = kind == point_kinds.end() ? PointKind::given : kind->second;
@@ -77,16 +88,18 @@ int main(int argc, char** argv) {
       .licence = "AGPL-3.0, for it links TetGen"};
   TetmeshOptions options;
   const CLI::App* command_line = nullptr;
-  std::optional<std::string> size, sizes;
+  std::optional<std::string> sizes;
+  std::vector<std::string> given_sizes;
   std::vector<std::string> tag_names;
   std::string path = "-", surface_kind = "remesh", points = "best", shells = "oriented", weld = "0.0001%";
   const auto declare = [&](CLI::App& app) {
     command_line = &app;
     app.add_option("surface", path, "A surface in any format; '-' or nothing: standard input")->type_name("FILE");
     app.add_option(
-           "--size", size,
+           "--size", given_sizes,
            "Distance of points inside, in the surface's units or, with %, in percent of the bounding box's diagonal "
-           "[what suits the part]")
+           "[what suits the part]; at a surface alone: inlet=0.5")
+        ->allow_extra_args(false)
         ->type_name("LENGTH");
     app.add_option("--size-field", sizes,
                    "Sizes by place: lines of x y z size, or of one size for each vertex of the surface, or the same in "
@@ -149,13 +162,14 @@ int main(int argc, char** argv) {
         ->check(number_between(1, 180))
         ->type_name("[ANGLE]");
     app.add_option("--name", tag_names, "Name a surface by its tag, or a region: 3=inlet, 'region 1=steel'; repeatable")
+        ->allow_extra_args(false)
         ->type_name("TAG=NAME");
     app.add_option("--tetgen-timeout", options.tetgen_timeout,
                    "Seconds after which TetGen is given up, for each mesh that it makes")
         ->check(number_between(0.001, 1e9));
   };
   const auto run = [&](RunContext& context) {
-    if (size) options.size = sizing::parse_length(*size);
+    for (const std::string& text : given_sizes) add_size(text, options);
     options.surface = surface_kinds.at(surface_kind);
     choose_points(points, options);
     refuse_idle_options([&](const char* name) { return command_line->count(name) > 0; }, options, points);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "common/run/deadline.hpp"
@@ -101,11 +103,39 @@ solid::Surface surface_of(formats::SurfaceSoup soup, const TetmeshOptions& optio
     return solid::find_shells(std::move(soup), options.shells);
   }
   if (options.surface == SurfaceKind::remesh)
-    warnings.push_back(
-        fmt::format("{}: sheets meet at edges of more than two triangles, so that triangles are cut to the size, and not "
-                    "made anew",
-                    soup.name));
+    warnings.push_back(fmt::format(
+        "{}: sheets meet at edges of more than two triangles, so that triangles are cut to the size, and not "
+        "made anew",
+        soup.name));
   return solid::find_sheets(std::move(soup));
+}
+
+std::set<std::int32_t> tags_named(const solid::Surface& surface, const std::string& name) {
+  std::set<std::int32_t> named, found;
+  for (const auto& [tag, of_tag] : surface.names.surfaces)
+    if (of_tag == name) named.insert(tag);
+  for (const std::int32_t tag : surface.tags)
+    if (named.contains(tag) || name == std::to_string(tag) || name == fmt::format("surface_{}", tag)) found.insert(tag);
+  return found;
+}
+
+// On each triangle of such a surface its size is known.
+void add_named_sizes(const solid::Surface& surface, TetmeshOptions& options) {
+  constexpr Vertex none = sizing::SizeSources::none;
+  for (const auto& [name, length] : options.named_sizes) {
+    const std::set<std::int32_t> tags = tags_named(surface, name);
+    if (tags.empty())
+      throw DataError::at(surface.name, "expected --size of a surface by its name or number, found '{}'", name);
+    const double size = sizing::element_size(surface, length);
+    sizing::SizeSources& sources = options.size_sources;
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+      if (!tags.contains(surface.tags[t])) continue;
+      const auto first = static_cast<Vertex>(sources.points.size());
+      for (const Vertex v : surface.triangles[t]) sources.points.push_back(surface.points[v]);
+      sources.sizes.insert(sources.sizes.end(), 3, size);
+      sources.simplices.push_back({first, first + 1, first + 2, none});
+    }
+  }
 }
 
 FilledSurface fill_at(double factor, const solid::Surface& surface, TetmeshOptions options,
@@ -159,17 +189,19 @@ const char* name_of(PointKind kind) {
 
 }  // namespace
 
-TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) {
-  check_options(options);
+TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& given_options) {
+  check_options(given_options);
   const Stopwatch watch;
   std::optional<solid::RepairReport> repaired;
-  if (options.repair) repaired = repair(soup, options);
+  if (given_options.repair) repaired = repair(soup, given_options);
   std::vector<std::string> warnings;
-  solid::Surface given = surface_of(std::move(soup), options, warnings);
-  if (options.tag_angle) solid::tag_by_angle(given, *options.tag_angle);
-  solid::name_tags(given, options.tag_names);
+  solid::Surface given = surface_of(std::move(soup), given_options, warnings);
+  if (given_options.tag_angle) solid::tag_by_angle(given, *given_options.tag_angle);
+  solid::name_tags(given, given_options.tag_names);
   const solid::Surface surface = std::move(given);
-  const double greatest = greatest_size(surface, options);
+  const double greatest = greatest_size(surface, given_options);
+  TetmeshOptions options = given_options;
+  add_named_sizes(surface, options);
   const double least_factor = std::ranges::min(std::span(tried_sizes).first(options.tries));
   check_number_of_points(surface, options, least_factor * greatest);
   const sizing::SizeField size = size_field(surface, options, greatest, options.layers);

@@ -11,10 +11,10 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "formats/points/point_files.hpp"
 #include "formats/surfaces/surface_files.hpp"
-#include "tools/tetmesh/solid/group_tags.hpp"
 #include "tools/tetmesh/search/point_search.hpp"
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/sizing/sizing.hpp"
+#include "tools/tetmesh/solid/group_tags.hpp"
 #include "tools/tetmesh/solid/repair.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
@@ -40,9 +40,16 @@ constexpr bool places_points(PointKind kind) {
 
 constexpr std::size_t most_tries = 9;
 
+// Of a surface, by its name, or by its number as `surface_3` or `3`.
+struct NamedSize {
+  std::string name;
+  sizing::Length size;
+};
+
 struct TetmeshOptions {
   std::optional<sizing::Length> size = {};  // nothing: see greatest_size()
   sizing::SizeSources size_sources = {};
+  std::vector<NamedSize> named_sizes = {};
   double grading = 0.3;
   std::optional<int> layers = {};  // across thin walls, at least; nothing: walls do not count
   SurfaceKind surface = SurfaceKind::remesh;

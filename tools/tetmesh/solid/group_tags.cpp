@@ -29,7 +29,8 @@ class SmoothPieces {
       : surface_(surface), cosine_(geometry::cosine_of_degrees(angle)), parent_(surface.triangles.size()) {
     std::iota(parent_.begin(), parent_.end(), 0);
     for (const formats::CurveEdge& edge : surface.curves) curves_.insert(key_of(edge));
-    geometry::for_each_edge(surface.points.size(), surface.triangles, [&](std::span<const geometry::HalfEdge> edge) { add(edge); });
+    geometry::for_each_edge(surface.points.size(), surface.triangles,
+                            [&](std::span<const geometry::HalfEdge> edge) { add(edge); });
   }
 
   std::int32_t of(std::int32_t t) {
@@ -50,7 +51,9 @@ class SmoothPieces {
     if (is_named(t) || is_named(u)) return;
     const Vec3 n = normal(t), m = normal(u);
     if (dot(n, m) < cosine_ * norm(n) * norm(m)) return;
-    if (curves_.contains(edge_key(geometry::start_of(surface_.triangles, edge[0]), geometry::end_of(surface_.triangles, edge[0])))) return;
+    if (curves_.contains(
+            edge_key(geometry::start_of(surface_.triangles, edge[0]), geometry::end_of(surface_.triangles, edge[0]))))
+      return;
     const std::int32_t first = std::min(of(t), of(u));
     parent_[of(t)] = first;
     parent_[of(u)] = first;

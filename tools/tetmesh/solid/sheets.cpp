@@ -76,7 +76,9 @@ bool wants_flip(const formats::SurfaceSoup& soup, HalfEdge h, HalfEdge k) {
     return dot(cross(q - p, r - p), n) > flatness * norm(q - p) * norm(r - p);
   };
   if (!turns(a, d, c) || !turns(d, b, c)) return false;
-  const auto sine = [](const Vec3& at, const Vec3& p, const Vec3& q) { return norm(cross(unit(p - at), unit(q - at))); };
+  const auto sine = [](const Vec3& at, const Vec3& p, const Vec3& q) {
+    return norm(cross(unit(p - at), unit(q - at)));
+  };
   const auto cosine = [](const Vec3& at, const Vec3& p, const Vec3& q) { return dot(unit(p - at), unit(q - at)); };
   const double of_sum = sine(c, a, b) * cosine(d, a, b) + cosine(c, a, b) * sine(d, a, b);
   if (std::abs(of_sum) <= flatness) return std::min(one, other) < std::min(from, to);
@@ -175,9 +177,9 @@ class SideFinder {
 
   formats::SurfaceSoup& soup_;
   ShellRule rule_;
-  std::vector<bool> is_interface_;  // of triangles: two bodies had it
-  std::optional<Sets> rooms_;       // of sides, and of the outside as the last
-  std::optional<Sets> pieces_;      // of triangles, by common edges
+  std::vector<bool> is_interface_;    // of triangles: two bodies had it
+  std::optional<Sets> rooms_;         // of sides, and of the outside as the last
+  std::optional<Sets> pieces_;        // of triangles, by common edges
   std::vector<std::int32_t> region_;  // of rooms, 0: nothing
   SheetReport report_;
 };
@@ -234,10 +236,11 @@ void SideFinder::join_repeated() {
     ++report_.interface_triangles;
   }
   if (repeated > 0)
-    throw DataError::at(soup_.place_of(first_repeated[0]),
-                        "expected distinct triangles, found {} with the corners of another; the first repeats {} {} (see "
-                        "--repair)",
-                        repeated, soup_.place_unit(), soup_.places[first_repeated[1]]);
+    throw DataError::at(
+        soup_.place_of(first_repeated[0]),
+        "expected distinct triangles, found {} with the corners of another; the first repeats {} {} (see "
+        "--repair)",
+        repeated, soup_.place_unit(), soup_.places[first_repeated[1]]);
   if (report_.interface_triangles == 0) return;
   std::vector<bool> interfaces;
   for (std::size_t i = 0; i < kept.size(); ++i)
@@ -313,10 +316,11 @@ void SideFinder::judge_rooms() {
     if (rule_ == ShellRule::oriented && rooms_->of(behind(t)) == outside && turned++ == 0) first_turned = t;
   }
   if (turned > 0)
-    throw DataError::at(soup_.place_of(first_turned),
-                        "expected triangles that point outward where sheets meet, found {} that show their backs to the "
-                        "outside; the first is here (see --shells regions)",
-                        turned);
+    throw DataError::at(
+        soup_.place_of(first_turned),
+        "expected triangles that point outward where sheets meet, found {} that show their backs to the "
+        "outside; the first is here (see --shells regions)",
+        turned);
   region_.assign(2 * soup_.triangles.size() + 1, 0);
   std::int32_t last = 0;
   for (std::int32_t t = 0; t < count(); ++t)
@@ -389,7 +393,8 @@ std::vector<std::string> SheetReport::sentences() const {
     result.push_back(fmt::format("bodies touch: {} triangles that two of them have are one each", interface_triangles));
   if (fins > 0)
     result.push_back(fmt::format("{} with the same on both sides {} left out",
-                                 fins == 1 ? "a triangle" : fmt::format("{} triangles", fins), fins == 1 ? "is" : "are"));
+                                 fins == 1 ? "a triangle" : fmt::format("{} triangles", fins),
+                                 fins == 1 ? "is" : "are"));
   return result;
 }
 

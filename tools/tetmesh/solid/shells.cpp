@@ -214,8 +214,8 @@ void rename_only_tag(Surface& surface) {
 }  // namespace
 
 void choose_tags(Surface& surface) {
-  const bool file_tells = surface.has_own_tags ||
-                          std::ranges::adjacent_find(surface.tags, std::not_equal_to()) != surface.tags.end();
+  const bool file_tells =
+      surface.has_own_tags || std::ranges::adjacent_find(surface.tags, std::not_equal_to()) != surface.tags.end();
   if (file_tells) return;
   rename_only_tag(surface);
   for (std::size_t i = 0; i < surface.tags.size(); ++i) surface.tags[i] = surface.shell_of[i] + 1;

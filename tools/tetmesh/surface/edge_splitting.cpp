@@ -21,8 +21,7 @@ class EdgeSplitter {
   EdgeSplitter(const solid::Surface& surface, const sizing::SizeField& size) : size_(size), soup_(surface) {
     shell_of_ = surface.shell_of;
     for (std::size_t t = 0; t < soup_.triangles.size(); ++t) add_edges(static_cast<std::int32_t>(t));
-    for (std::size_t i = 0; i < soup_.curves.size(); ++i)
-      curve_of_[key_of(soup_.curves[i])] = soup_.curve_tags[i];
+    for (std::size_t i = 0; i < soup_.curves.size(); ++i) curve_of_[key_of(soup_.curves[i])] = soup_.curve_tags[i];
     for (const auto& [edge, triangles] : triangles_of_) enqueue(edge);
   }
 
