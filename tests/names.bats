@@ -149,6 +149,7 @@ PYTHON
 @test "what is no names.json is an error that names it" {
   if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
   tetmesh "$DATA/cube.stl" --size 0.5 -o mesh.tar
+  tar --delete -f mesh.tar names.json
   broken() {
     printf '%s' "$1" >names.json
     cp mesh.tar broken.tar
@@ -240,4 +241,13 @@ names.json"
   assert_equal "$(names_of candidates.tar)" "$(cat names.json)"
   tar rf mesh.tar names.json
   assert_fails_with 1 "mesh.tar: names.json: expected names once, found them again" findhex mesh.tar
+}
+
+@test "a fold of a body onto itself, as CAD has some, goes" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  bundle fold.tar "{'points': np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (2, 2, 2)], '<f8'), 'triangles': np.array([(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2), (1, 2, 4), (2, 1, 4)], '<i4'), 'sides': np.array([(1, 0)] * 6, '<i4')}"
+  run_apart tetmesh fold.tar --surface keep --points none -o fold.mesh
+  assert_success
+  assert_equal "$stderr" "tetmesh: warning: fold.tar: a triangle with the same on both sides is left out"
+  assert_equal "$(sed -n '/^Triangles/{n;p}' fold.mesh)" 4
 }

@@ -551,7 +551,7 @@ PYTHON
   }
   refused --weld "without --repair" --weld 1
   refused --largest-hole "without --repair" --largest-hole 3
-  refused --grading "without --size-field or --layers" --grading 0.1
+  refused --grading "without --size-field, --layers or the size of a surface" --grading 0.1
   refused --deviation "with --surface keep" --surface keep --deviation 0.1
   for points in none own.xyz; do
     refused --jitter "with --points $points" --points $points --jitter 0.1

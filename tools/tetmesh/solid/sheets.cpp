@@ -146,6 +146,7 @@ class SideFinder {
   SheetReport join() {
     agree_on_overlaps();
     join_repeated();
+    if (!soup_.sides.empty()) drop_fins();
     check_intersections(soup_);
     return report_;
   }
@@ -174,6 +175,7 @@ class SideFinder {
   void judge_rooms();
   bool is_fin(std::int32_t t) { return rooms_->of(behind(t)) == rooms_->of(before(t)); }
   void set_sides();
+  void drop_fins();
 
   formats::SurfaceSoup& soup_;
   ShellRule rule_;
@@ -220,6 +222,7 @@ bool SideFinder::flip_round(const std::vector<bool>& overlaps) {
 void SideFinder::join_repeated() {
   std::map<VertexKey<3>, std::int32_t> first;
   std::vector<bool> kept(soup_.triangles.size(), true);
+  bool any_joined = false;
   std::size_t repeated = 0;
   std::array<std::int32_t, 2> first_repeated{};
   is_interface_.assign(soup_.triangles.size(), false);
@@ -231,9 +234,12 @@ void SideFinder::join_repeated() {
     if ((other[(at + 1) % 3] == here[1] || is_interface_[known->second]) && repeated++ == 0)
       first_repeated = {t, known->second};
     is_interface_[known->second] = true;
-    if (!soup_.sides.empty()) soup_.sides[known->second] = {soup_.sides[known->second][0], soup_.sides[t][0]};
     kept[t] = false;
-    ++report_.interface_triangles;
+    // Of one body they are a fold, with the same on both sides.
+    const bool is_fold = !soup_.sides.empty() && soup_.sides[known->second][0] == soup_.sides[t][0];
+    if (!soup_.sides.empty()) soup_.sides[known->second] = {soup_.sides[known->second][0], soup_.sides[t][0]};
+    report_.interface_triangles += is_fold ? 0 : 1;
+    any_joined = true;
   }
   if (repeated > 0)
     throw DataError::at(
@@ -241,7 +247,7 @@ void SideFinder::join_repeated() {
         "expected distinct triangles, found {} with the corners of another; the first repeats {} {} (see "
         "--repair)",
         repeated, soup_.place_unit(), soup_.places[first_repeated[1]]);
-  if (report_.interface_triangles == 0) return;
+  if (!any_joined) return;
   std::vector<bool> interfaces;
   for (std::size_t i = 0; i < kept.size(); ++i)
     if (kept[i]) interfaces.push_back(is_interface_[i]);
@@ -332,16 +338,21 @@ void SideFinder::judge_rooms() {
 }
 
 void SideFinder::set_sides() {
-  std::vector<bool> kept(soup_.triangles.size());
   soup_.sides.clear();
-  for (std::int32_t t = 0; t < count(); ++t) {
+  for (std::int32_t t = 0; t < count(); ++t)
     soup_.sides.push_back({region_[rooms_->of(behind(t))], region_[rooms_->of(before(t))]});
-    kept[t] = soup_.sides[t][0] != soup_.sides[t][1];
-    report_.fins += kept[t] ? 0 : 1;
-  }
-  if (report_.fins == soup_.triangles.size())
+  drop_fins();
+}
+
+// Triangles with the same on both sides, and what only they have.
+void SideFinder::drop_fins() {
+  std::vector<bool> kept;
+  for (const auto& [back, front] : soup_.sides) kept.push_back(back != front);
+  const auto fins = static_cast<std::size_t>(std::ranges::count(kept, false));
+  if (fins == kept.size())
     throw DataError::at(soup_.name, "expected a surface that encloses something, found only sheets that do not");
-  if (report_.fins == 0) return;
+  if (fins == 0) return;
+  report_.fins += fins;
   keep_only(soup_, kept);
   KeySet<2> edges;
   for (const auto& [a, b, c] : soup_.triangles)
