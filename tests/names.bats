@@ -77,6 +77,36 @@ PYTHON
   assert_equal "$(names_of one.tar)" '{"surfaces":{"1":"Einlaß 1"}}'
 }
 
+@test "tetmesh takes surfaces in mesh formats, with tags and names" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  cat >cube.geo <<'END'
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+Physical Surface("inlet", 7) = {1};
+Physical Surface("walls", 8) = {2 : 6};
+END
+  gmsh -2 cube.geo -format msh41 -o cube.msh >/dev/null
+  gmsh -2 cube.geo -format msh22 -o cube22.msh >/dev/null
+  for file in cube.msh cube22.msh; do
+    tetmesh $file --size 0.3 -o $file.tar
+    assert_equal "$(names_of $file.tar)" '{"surfaces":{"7":"inlet","8":"walls"}}'
+  done
+  tetmesh "$DATA/cube.stl" --surface keep --points none -o tets.mesh
+  $PYTHON - <<'PYTHON'
+import meshio, numpy as np
+points = np.array([(x, y, z) for z in (0., 1.) for y in (0., 1.) for x in (0., 1.)])
+quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7), (2, 0, 4, 6)]
+meshio.write("quads.vtk", meshio.Mesh(points, [("quad", np.array(quads))]), binary=False)
+meshio.write("quads.vtu", meshio.Mesh(points, [("quad", np.array(quads))]))
+meshio.write("quads.mesh", meshio.Mesh(points, [("quad", np.array(quads))], cell_data={"medit:ref": [np.arange(1, 7)]}))
+PYTHON
+  for file in quads.vtk quads.vtu quads.mesh; do
+    tetmesh $file --surface keep --points none --stats stats.json -o $file.tar
+    assert_equal "$($PYTHON -c 'import json; s = json.load(open("stats.json")); print(s["surface_triangles"], s["volume"])')" "12 1.0"
+  done
+  assert_fails_with 1 "tets.mesh: expected a surface, found a mesh of [0-9]+ cells; findhex takes it where they are tets" tetmesh tets.mesh -o x.mesh
+}
+
 @test "tetmesh --tags-by-angle makes groups, and --name names them" {
   if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
   tetmesh "$DATA/cube.stl" --size 0.4 --tags-by-angle --name 3=inlet --name 'region 1=steel' -o cube.tar

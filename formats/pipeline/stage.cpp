@@ -15,6 +15,7 @@
 #include "formats/choice/metis.hpp"
 #include "formats/choice/solution_file.hpp"
 #include "formats/meshes/mesh_files.hpp"
+#include "formats/meshes/mesh_surface.hpp"
 #include "formats/pipeline/bundle.hpp"
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/members.hpp"
@@ -389,7 +390,10 @@ std::string Stage::State::source_of(Role role) const {
 formats::SurfaceSoup Stage::read_surface(formats::Input& input) {
   State& state = *state_;
   if (!looks_like_bundle(input)) {
-    formats::SurfaceSoup surface = formats::read_surface(input);
+    constexpr std::size_t enough_to_tell = 4096;
+    formats::SurfaceSoup surface = formats::looks_like_mesh_surface(input.peek(enough_to_tell))
+                                       ? formats::read_mesh_surface(input)
+                                       : formats::read_surface(input);
     begin();
     return surface;
   }
