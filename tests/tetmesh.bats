@@ -551,7 +551,8 @@ PYTHON
   }
   refused --weld "without --repair" --weld 1
   refused --largest-hole "without --repair" --largest-hole 3
-  refused --grading "without --size-field, --layers or the size of a surface" --grading 0.1
+  refused --least-size "without --curvature" --least-size 0.1
+  refused --grading "without --size-field, --layers, --curvature or the size of a surface" --grading 0.1
   refused --deviation "with --surface keep" --surface keep --deviation 0.1
   for points in none own.xyz; do
     refused --jitter "with --points $points" --points $points --jitter 0.1
@@ -997,4 +998,21 @@ assert not any('second' in key for key in entry), entry"
   done
   if grep -qs '^State:[[:space:]]*[^Z]' /proc/$child/status; then fail "process $child lives on"; fi
   assert [ ! -e out.tar ]
+}
+
+@test "--curvature makes elements small where the surface bends, down to --least-size" {
+  points() { tetmesh -q "$DATA/bracket.stl" --size 8 "$@" --stats stats.json -o curved.mesh && $PYTHON -c 'import json; s = json.load(open("stats.json")); print(s["points"], s.get("least_size"))'; }
+  read -r plain least <<<"$(points)"
+  assert_equal "$least" None
+  read -r coarse least <<<"$(points --curvature 12)"
+  assert [ "$coarse" -gt "$plain" ]
+  read -r fine least <<<"$(points --curvature 24)"
+  assert [ "$fine" -gt "$coarse" ]
+  read -r bounded least <<<"$(points --curvature 24 --least-size 4)"
+  assert [ "$bounded" -lt "$fine" ]
+  assert_equal "$least" 4.0
+  # A cube does not bend.
+  tetmesh "$DATA/cube.stl" --size 0.3 --curvature 100 -o curved.mesh
+  tetmesh "$DATA/cube.stl" --size 0.3 -o plain.mesh
+  assert_same_bytes curved.mesh plain.mesh
 }

@@ -40,15 +40,16 @@ void refuse_idle_options(const std::function<bool(const char*)>& is_given, const
   };
   const bool keeps = options.surface == SurfaceKind::keep, places = places_points(options.points);
   if (!options.repair) refuse({"--weld", "--largest-hole"}, "without --repair");
-  if (!is_given("--size-field") && !is_given("--layers") && options.named_sizes.empty())
-    refuse({"--grading"}, "without --size-field, --layers or the size of a surface");
+  if (!is_given("--size-field") && !is_given("--layers") && options.named_sizes.empty() && !options.curvature)
+    refuse({"--grading"}, "without --size-field, --layers, --curvature or the size of a surface");
+  if (!options.curvature) refuse({"--least-size"}, "without --curvature");
   if (options.improve == 0) refuse({"--time-limit"}, "without --improve");
   if (keeps) refuse({"--deviation"}, "with --surface keep");
   if (!places) refuse({"--clearance", "--jitter", "--improve"}, "with --points " + points);
   if (keeps && !places) refuse({"--feature-angle"}, "with --surface keep and --points " + points);
   // Of points of the user's own, --size and these say how near to the surface they may be.
   if (keeps && options.points == PointKind::none)
-    refuse({"--size-field", "--layers"}, "with --surface keep and --points none");
+    refuse({"--size-field", "--layers", "--curvature"}, "with --surface keep and --points none");
 }
 
 }  // namespace hexpipe::tetmesh

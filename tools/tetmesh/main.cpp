@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
       .licence = "AGPL-3.0, for it links TetGen"};
   TetmeshOptions options;
   const CLI::App* command_line = nullptr;
-  std::optional<std::string> sizes;
+  std::optional<std::string> sizes, least_size;
   std::vector<std::string> given_sizes;
   std::vector<std::string> tag_names;
   std::string path = "-", surface_kind = "remesh", points = "best", shells = "oriented", weld = "0.0001%";
@@ -106,6 +106,12 @@ int main(int argc, char** argv) {
     app.add_option("--grading", options.grading,
                    "How much sizes may differ between two places, against their distance, at the most")
         ->check(number_between(0.01, 10));
+    app.add_option("--curvature", options.curvature,
+                   "If given: where the surface bends, elements are no longer than an Nth of a turn")
+        ->check(number_between(3, 1000))
+        ->type_name("N");
+    app.add_option("--least-size", least_size, "With --curvature: no size is less [a fifth of --size]")
+        ->type_name("LENGTH");
     app.add_option("--layers", options.layers, "If given: thin walls get at least N elements across, or 2")
         ->expected(0, 1)
         ->default_str("2")
@@ -168,6 +174,7 @@ int main(int argc, char** argv) {
   };
   const auto run = [&](RunContext& context) {
     for (const std::string& text : given_sizes) add_size(text, options);
+    if (least_size) options.least_size = sizing::parse_length(*least_size);
     options.surface = surface_kinds.at(surface_kind);
     choose_points(points, options);
     refuse_idle_options([&](const char* name) { return command_line->count(name) > 0; }, options, points);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <exception>
+#include <numbers>
 #include <set>
 #include <string>
 #include <utility>
@@ -10,6 +12,8 @@
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "tools/tetmesh/fill.hpp"
+#include "tools/tetmesh/geometry/feature_angle.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/improve.hpp"
 #include "tools/tetmesh/solid/sheets.hpp"
 #include "tools/tetmesh/solid/surface_check.hpp"
@@ -138,6 +142,37 @@ void add_named_sizes(const solid::Surface& surface, TetmeshOptions& options) {
   }
 }
 
+// Where neighbours on the surface turn by an angle, over the distance of their outer corners from the common edge, the
+// radius is the one over the other.
+void add_curvature_sizes(const solid::Surface& surface, TetmeshOptions& options, double greatest) {
+  constexpr double least_of_size = 0.2, least_angle = 1e-3;
+  constexpr Vertex none = sizing::SizeSources::none;
+  const double least =
+      options.least_size ? sizing::element_size(surface, options.least_size) : least_of_size * greatest;
+  const double feature_cosine = geometry::cosine_of_degrees(options.feature_angle);
+  sizing::SizeSources& sources = options.size_sources;
+  geometry::for_each_edge(surface.points.size(), surface.triangles, [&](std::span<const geometry::HalfEdge> edge) {
+    if (edge.size() != 2) return;
+    const Vec3& a = surface.points[geometry::start_of(surface.triangles, edge[0])];
+    const Vec3& b = surface.points[geometry::end_of(surface.triangles, edge[0])];
+    std::array<Vec3, 2> areas;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto [p, q, r] = surface.triangles[geometry::triangle_of(edge[i])];
+      areas[i] = cross(surface.points[q] - surface.points[p], surface.points[r] - surface.points[p]);
+    }
+    const double cosine = dot(unit(areas[0]), unit(areas[1]));
+    if (cosine < feature_cosine) return;
+    const double angle = std::atan2(norm(cross(unit(areas[0]), unit(areas[1]))), cosine);
+    const double width = (norm(areas[0]) + norm(areas[1])) / 2 / norm(b - a);
+    const double size = std::max(least, 2 * std::numbers::pi / *options.curvature * width / angle);
+    if (angle < least_angle || size >= greatest) return;
+    const auto first = static_cast<Vertex>(sources.points.size());
+    sources.points.insert(sources.points.end(), {a, b});
+    sources.sizes.insert(sources.sizes.end(), 2, size);
+    sources.simplices.push_back({first, first + 1, none, none});
+  });
+}
+
 FilledSurface fill_at(double factor, const solid::Surface& surface, TetmeshOptions options,
                       const sizing::SizeField& size) {
   const bool estimates = options.tries > 1;
@@ -202,6 +237,7 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& given_opt
   const double greatest = greatest_size(surface, given_options);
   TetmeshOptions options = given_options;
   add_named_sizes(surface, options);
+  if (options.curvature) add_curvature_sizes(surface, options, greatest);
   const double least_factor = std::ranges::min(std::span(tried_sizes).first(options.tries));
   check_number_of_points(surface, options, least_factor * greatest);
   const sizing::SizeField size = size_field(surface, options, greatest, options.layers);

@@ -50,6 +50,8 @@ struct TetmeshOptions {
   std::optional<sizing::Length> size = {};  // nothing: see greatest_size()
   sizing::SizeSources size_sources = {};
   std::vector<NamedSize> named_sizes = {};
+  std::optional<double> curvature = {};           // elements a turn where the surface bends; nothing: it does not count
+  std::optional<sizing::Length> least_size = {};  // by curvature; nothing: a fifth of the size
   double grading = 0.3;
   std::optional<int> layers = {};  // across thin walls, at least; nothing: walls do not count
   SurfaceKind surface = SurfaceKind::remesh;
