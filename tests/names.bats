@@ -219,6 +219,7 @@ PYTHON
   tetmesh --surface keep --points none <good.tar >mesh.tar
   run $PYTHON -c 'import io, numpy, tarfile; t = tarfile.open("mesh.tar"); print(*[set(numpy.load(io.BytesIO(t.extractfile(f"mesh/{name}_tags.npy").read())).tolist()) for name in ("tet", "triangle")])'
   assert_output "{3} {5}"
+  assert_fails_with 1 "good.tar: expected a surface file for --scale, found a bundle; tessellate --unit scales CAD" tetmesh good.tar --scale 2 -o x.mesh
   fails() {
     bundle bad.tar "$1"
     assert_fails_with 1 "bad.tar: $2" tetmesh bad.tar -o x.mesh

@@ -1016,3 +1016,13 @@ assert not any('second' in key for key in entry), entry"
   tetmesh "$DATA/cube.stl" --size 0.3 -o plain.mesh
   assert_same_bytes curved.mesh plain.mesh
 }
+
+@test "--scale multiplies the coordinates" {
+  tetmesh "$DATA/cube.stl" --surface keep --points none -o cube.mesh
+  tetmesh "$DATA/cube.stl" --surface keep --points none --scale 0.5 -o half.mesh
+  assert_equal "$(volumes_of cube.mesh | tail -1) $(volumes_of half.mesh | tail -1)" "{1: 1.0} {1: 0.125}"
+  # Lengths are in the new unit.
+  tetmesh "$DATA/cube.stl" --scale 1000 --size 300 --stats scaled.json -o scaled.mesh
+  tetmesh "$DATA/cube.stl" --size 0.3 --stats plain.json -o plain.mesh
+  assert_equal "$($PYTHON -c 'import json; print(json.load(open("scaled.json"))["surface_points"] == json.load(open("plain.json"))["surface_points"])')" True
+}

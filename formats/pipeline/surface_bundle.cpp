@@ -124,6 +124,7 @@ formats::SurfaceSoup read_surface_bundle(formats::Input& input, const std::funct
   if (!has_surface)
     throw DataError::at(soup.name, "expected a bundle with a surface, found {}",
                         has_mesh ? "one with a mesh; findhex takes it" : "none in it");
+  soup.from_bundle = true;
   soup.has_own_tags = !soup.tags.empty();
   if (soup.tags.empty()) soup.tags.resize(soup.triangles.size(), 0);
   if (soup.curve_tags.empty()) soup.curve_tags.resize(soup.curves.size(), 0);

@@ -34,6 +34,7 @@ struct SurfaceSoup {
   // Edges of the CAD's own curves, which are features however little the surface turns there.
   std::vector<CurveEdge> curves = {};
   std::vector<std::int32_t> curve_tags = {};
+  bool from_bundle = false;
   bool has_own_tags = false;  // tags that say something even where all triangles have the same
   GroupNames names = {};
 

@@ -47,6 +47,15 @@ void add_size(const std::string& text, TetmeshOptions& options) {
     options.named_sizes.push_back({text.substr(0, equals), sizing::parse_length(text.substr(equals + 1))});
 }
 
+// Of a file: a bundle passes its surface on as it is.
+void scale_surface(double factor, formats::SurfaceSoup& surface) {
+  if (surface.from_bundle)
+    throw DataError::at(surface.name,
+                        "expected a surface file for --scale, found a bundle; tessellate --unit scales CAD");
+  for (Vec3& p : surface.points) p = factor * p;
+  formats::check_extent(surface);
+}
+
 void choose_points(const std::string& points, TetmeshOptions& options) {
   const auto kind = point_kinds.find(points);
   options.points = kind == point_kinds.end() ? PointKind::given : kind->second;
@@ -87,6 +96,7 @@ int main(int argc, char** argv) {
   TetmeshOptions options;
   const CLI::App* command_line = nullptr;
   std::optional<std::string> sizes, least_size;
+  std::optional<double> scale;
   std::vector<std::string> given_sizes;
   std::vector<std::string> tag_names;
   std::string path = "-", surface_kind = "remesh", points = "best", shells = "oriented", weld = "0.0001%";
@@ -103,6 +113,10 @@ int main(int argc, char** argv) {
                    "Sizes by place: lines of x y z size, or of one size for each vertex of the surface, or the same in "
                    ".npy, or a background mesh in .msh with $NodeData")
         ->type_name("FILE");
+    app.add_option("--scale", scale,
+                   "Multiply the coordinates of a surface file by this; all lengths are in the new unit")
+        ->check(number_between(1e-12, 1e12))
+        ->type_name("FACTOR");
     app.add_option("--grading", options.grading,
                    "How much sizes may differ between two places, against their distance, at the most")
         ->check(number_between(0.01, 10));
@@ -185,6 +199,7 @@ int main(int argc, char** argv) {
     pipeline::Stage stage(context);
     formats::Input input = open_surface(path);
     formats::SurfaceSoup surface = stage.read_surface(input);
+    if (scale) scale_surface(*scale, surface);
     if (sizes) options.size_sources = size_sources(*sizes, surface);
     Progress progress("tetmesh", context.common.quiet);
     options.after_round = [&](std::size_t round, double share) {
