@@ -53,16 +53,16 @@ bool looks_like_binary_medit(std::string_view text) {
   return text.starts_with("\1\0\0\0"sv) || text.starts_with("\0\0\0\1"sv);
 }
 
-MixedMesh read_by_content(std::string text, const std::string& name, const std::string& path) {
+MixedMesh read_by_content(std::string text, const std::string& name, const std::string& path, GroupNames* names) {
   text.erase(0, text.size() - without_byte_order_mark(text).size());
   if (looks_like_vtu(text)) return read_vtu(std::move(text), name);
   if (looks_like_vtk_legacy(text)) return read_vtk_legacy(text, name);
   // Comments of Nastran begin like the sections of a .msh.
-  if (looks_like_nastran(text)) return read_nastran(text, name);
-  if (looks_like_msh(text)) return read_msh(text, name);
+  if (looks_like_nastran(text)) return read_nastran(text, name, names);
+  if (looks_like_msh(text)) return read_msh(text, name, names);
   if (looks_like_medit(text)) return read_medit(text, name);
   if (looks_like_tetgen(text)) return read_tetgen(text, name, path);
-  if (looks_like_su2(text)) return read_su2(text, name);
+  if (looks_like_su2(text)) return read_su2(text, name, names);
   if (looks_like_binary_medit(text))
     throw DataError::at(name,
                         "expected a text, found MEDIT's binary format; transmesh of libmeshb makes a .mesh of it");
@@ -75,8 +75,8 @@ MixedMesh read_by_content(std::string text, const std::string& name, const std::
 
 }  // namespace
 
-MixedMesh read_mixed_mesh(Input& input) {
-  MixedMesh mesh = read_by_content(input.read_all(), input.name(), input.path());
+MixedMesh read_mixed_mesh(Input& input, GroupNames* names) {
+  MixedMesh mesh = read_by_content(input.read_all(), input.name(), input.path(), names);
   validate(mesh, input.name().c_str());
   return mesh;
 }

@@ -8,6 +8,7 @@
 
 #include "common/mesh/mixed_mesh.hpp"
 #include "formats/meshes/mesh_writing.hpp"
+#include "formats/streams/group_names.hpp"
 #include "formats/streams/input.hpp"
 #include "formats/streams/output.hpp"
 #include "formats/streams/output_folder.hpp"
@@ -15,9 +16,9 @@
 namespace hexpipe::formats {
 
 // Recognises the format by the content: MEDIT .mesh, Gmsh .msh 2.2 and 4.1 (ASCII, binary), VTK legacy, VTU, TetGen
-// .node with its .ele (and .face) beside it, SU2, Nastran bulk data. Keeps vertices that no cell uses. Throws
-// FormatError or DataError.
-MixedMesh read_mixed_mesh(Input& input);
+// .node with its .ele (and .face) beside it, SU2, Nastran bulk data. Keeps vertices that no cell uses. `names`, if not
+// null, gets those of tags, where the format has names. Throws FormatError or DataError.
+MixedMesh read_mixed_mesh(Input& input, GroupNames* names = nullptr);
 
 // Writes in the named format: mesh, msh (4.1 ASCII), msh-binary, msh22, msh22-binary, vtk, vtu, inp, su2, bdf, nas.
 void write_mixed_mesh(const MixedMesh& mesh, std::string_view format, Output& output, const MeshWriting& writing = {});

@@ -6,6 +6,7 @@
 
 #include "common/mesh/mixed_mesh.hpp"
 #include "formats/meshes/mesh_writing.hpp"
+#include "formats/streams/group_names.hpp"
 #include "formats/streams/output.hpp"
 
 namespace hexpipe::formats {
@@ -16,8 +17,9 @@ enum class MshCoding { ascii, binary };
 bool looks_like_msh(std::string_view text);
 
 // Physical groups become tags; in a dimension without groups, elementary entities do. Elements come in the order of
-// their numbers, nodes in the order of the file. Throws FormatError or DataError.
-MixedMesh read_msh(std::string_view text, std::string_view file);
+// their numbers, nodes in the order of the file. `names`, if not null, gets those of groups. Throws FormatError or
+// DataError.
+MixedMesh read_msh(std::string_view text, std::string_view file, GroupNames* names = nullptr);
 
 // A mesh with a value at each of its points, from the first $NodeData section of one component; NaN at points without a
 // value. Reading it also throws when there is no such section.

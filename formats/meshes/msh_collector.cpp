@@ -46,6 +46,18 @@ void erase_marked(std::vector<T>& items, const std::vector<bool>& marked) {
 
 }  // namespace
 
+namespace {
+
+// What we and others write where there is no name: region 3, region_3.
+bool is_default_name(std::string_view name, std::int32_t number, int dimension) {
+  const std::string_view word = msh_group_word(dimension);
+  return name.starts_with(word) && name.size() > word.size() &&
+         (name[word.size()] == ' ' || name[word.size()] == '_') &&
+         name.substr(word.size() + 1) == std::to_string(number);
+}
+
+}  // namespace
+
 const char* msh_group_word(int dimension) {
   return dimension == 3 ? "region" : "surface";
 }
@@ -80,7 +92,10 @@ std::optional<std::int64_t> MshCollector::number_nodes() {
 
 void MshCollector::name_group(int dimension, std::int32_t number, std::string_view name) {
   numbers_of_groups_.insert({dimension, number});
-  if (const auto tag = tag_in_group_name(name, dimension)) tags_in_names_[{dimension, number}] = *tag;
+  if (const auto tag = tag_in_group_name(name, dimension))
+    tags_in_names_[{dimension, number}] = *tag;
+  else if (std::string text = clean_name(name); !text.empty() && !is_default_name(text, number, dimension))
+    group_names_[{dimension, number}] = std::move(text);
 }
 
 MixedMesh MshCollector::take_mesh() {
@@ -130,6 +145,7 @@ void MshCollector::set_tags() {
         if (dimension == 2 && numbers[i].physical < 0) std::reverse(block.cells[i].begin() + 1, block.cells[i].end());
       }
     });
+    if (from_groups) set_names(dimension);
   }
 }
 
@@ -142,6 +158,18 @@ bool MshCollector::has_groups(int dimension) {
       found = std::ranges::any_of(numbers, [](const auto& element) { return element.physical != 0; });
   });
   return found;
+}
+
+void MshCollector::set_names(int dimension) {
+  for (const auto& [group, name] : group_names_) {
+    if (group.first != dimension) continue;
+    const std::int32_t tag = tag_of_group(dimension, group.second);
+    bool is_used = false;
+    for_each_block(mesh_, [&](const ElementNames& names, const auto& block) {
+      if (names.dimension == dimension && !is_used) is_used = std::ranges::find(block.tags, tag) != block.tags.end();
+    });
+    if (is_used) (dimension == 3 ? names_.regions : names_.surfaces)[tag] = name;
+  }
 }
 
 // The number of a group that holds an element turned round is negative.

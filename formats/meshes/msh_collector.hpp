@@ -13,6 +13,7 @@
 
 #include "common/mesh/mixed_mesh.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
+#include "formats/streams/group_names.hpp"
 #include "formats/streams/number_map.hpp"
 
 namespace hexpipe::formats {
@@ -49,6 +50,8 @@ class MshCollector {
   void add_quality(std::int64_t element, double quality) { quality_.emplace_back(element, quality); }
 
   MixedMesh take_mesh();
+  // Of the tags that the mesh has, once it is taken; without those that say no more than the number.
+  const GroupNames& names() const { return names_; }
 
  private:
   static constexpr std::size_t block_count = 6;
@@ -59,6 +62,7 @@ class MshCollector {
   void drop_repeated_elements();
   void set_qualities();
   std::int32_t tag_of_group(int dimension, std::int32_t physical) const;
+  void set_names(int dimension);
 
   MixedMesh mesh_;
   std::vector<std::int64_t> node_numbers_;
@@ -66,6 +70,8 @@ class MshCollector {
   std::vector<MshElementNumbers> numbers_[block_count];  // in the order of for_each_block
   std::map<std::pair<int, std::int32_t>, std::int32_t> tags_in_names_;
   std::set<std::pair<int, std::int32_t>> numbers_of_groups_;  // that have names
+  std::map<std::pair<int, std::int32_t>, std::string> group_names_;
+  GroupNames names_;
   std::vector<std::pair<std::int64_t, double>> quality_;
 };
 

@@ -13,6 +13,7 @@
 #include "common/mesh/mesh_part.hpp"
 #include "common/mesh/mesh_piece.hpp"
 #include "common/mesh/mixed_mesh.hpp"
+#include "formats/streams/group_names.hpp"
 
 namespace hexpipe::pipeline {
 
@@ -46,6 +47,7 @@ struct PieceBundle {
   MeshPiece piece;
   MixedMesh mesh;
   std::vector<nlohmann::ordered_json> history;
+  formats::GroupNames names;
 };
 PieceBundle read_piece_bundle(const std::string& path, bool with_mesh);
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "common/mesh/orientation.hpp"
 #include "common/run/error.hpp"
@@ -14,11 +15,13 @@
 #include "formats/choice/metis.hpp"
 #include "formats/choice/solution_file.hpp"
 #include "formats/meshes/mesh_files.hpp"
+#include "formats/meshes/mesh_surface.hpp"
 #include "formats/meshes/solvers.hpp"
 #include "formats/pipeline/bundle.hpp"
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/members.hpp"
 #include "formats/pipeline/output_format.hpp"
+#include "formats/pipeline/surface_bundle.hpp"
 
 namespace hexpipe::pipeline {
 namespace {
@@ -125,7 +128,7 @@ graph::ConflictGraph read_graph_file(formats::Input& input, const RunContext& co
 void read_role_file(Role role, formats::Input& input, const RunContext& context, StageData& data) {
   switch (role) {
     case Role::mesh:
-      data.mesh = to_tet_mesh(formats::read_mixed_mesh(input), input.name().c_str());
+      data.mesh = to_tet_mesh(formats::read_mixed_mesh(input, &data.names), input.name().c_str());
       break;
     case Role::candidates:
       data.candidates = formats::read_cand(input);
@@ -137,7 +140,7 @@ void read_role_file(Role role, formats::Input& input, const RunContext& context,
       data.solution = formats::read_solution(input, vertex_count_for_solution(data, input.name()));
       break;
     case Role::result:
-      data.result = formats::read_mixed_mesh(input);
+      data.result = formats::read_mixed_mesh(input, &data.names);
       break;
   }
 }
@@ -225,6 +228,8 @@ struct Stage::State {
   std::unique_ptr<formats::OutputFolder> folder;  // in place of `output`
   std::optional<BundleWriter> bundle;
   int history_count = 0;
+  formats::GroupNames names;  // of the tags of the product
+  bool names_are_written = false;
   // Where each role came from, for messages.
   std::map<Role, std::string> sources;
   std::set<Role> seen;
@@ -241,6 +246,8 @@ struct Stage::State {
 
   std::optional<formats::Input> open_inputs(std::map<Role, formats::Input>& files) const;
   void read_bundle(formats::Input& input, StageData& data);
+  void pass_history_entry(BundleReader& reader, std::vector<nlohmann::ordered_json>& history);
+  void write_names();
   void read_files(std::map<Role, formats::Input>& files, StageData& data);
   void orient(TetMesh& mesh, const std::string& name) const;
   void check(const StageData& data) const;
@@ -324,6 +331,7 @@ StageData Stage::read(const StageRequest& request) {
     state.read_bundle(*input, data);
   }
   state.read_files(files, data);
+  state.names = data.names;
   if (state.context.streams.graph_file.any() && !state.read_graph)
     throw UsageError("--graph-format, --weight-scale, --complement and --tolerant do nothing without a graph file");
   for (const Role role : request.needs)
@@ -337,9 +345,12 @@ StageData Stage::read(const StageRequest& request) {
 
 void Stage::State::read_bundle(formats::Input& input, StageData& data) {
   BundleReader reader(input);
+  const bool has_other_mesh = context.streams.files.contains(Role::mesh);
   while (reader.next()) {
     const auto role = role_of_member(reader.name());
-    const bool is_replaced = role && context.streams.files.contains(*role);
+    const bool is_replaced =
+        role ? context.streams.files.contains(*role)
+             : has_other_mesh && (is_surface_member(reader.name()) || reader.name() == formats::names_member);
     BundleWriter* const copy = bundle && !is_replaced && (!role || passes(*role)) ? &*bundle : nullptr;
     if (role && !is_replaced) {
       seen.insert(*role);
@@ -349,14 +360,28 @@ void Stage::State::read_bundle(formats::Input& input, StageData& data) {
       if (takes(*role) && read_member(reader, data, copy, request.cover)) continue;
     }
     if (is_history_entry(reader.name())) {
-      std::string text;
-      data.history.push_back(read_history_entry(reader, &text));
-      ++history_count;
-      if (copy) copy->add_text(reader.name(), text);
-      continue;
+      pass_history_entry(reader, data.history);
+    } else if (reader.name() == formats::names_member && !is_replaced) {
+      if (!names.empty()) throw DataError::at(reader.where(), "expected names once, found them again");
+      names = data.names = formats::parse_group_names(reader.read_text(), reader.where());
+      write_names();
+    } else if (copy) {
+      reader.copy_to(*copy);
     }
-    if (copy) reader.copy_to(*copy);
   }
+}
+
+void Stage::State::pass_history_entry(BundleReader& reader, std::vector<nlohmann::ordered_json>& history) {
+  std::string text;
+  history.push_back(read_history_entry(reader, &text));
+  ++history_count;
+  if (bundle) bundle->add_text(reader.name(), text);
+}
+
+// Once: where they were read, or behind the product where the tool sets them.
+void Stage::State::write_names() {
+  if (!bundle || names.empty() || std::exchange(names_are_written, true)) return;
+  bundle->add_text(std::string(formats::names_member), text_of(names));
 }
 
 // Files of other programs list tets in any sense; bundles hold them positively oriented.
@@ -372,8 +397,11 @@ void Stage::State::read_files(std::map<Role, formats::Input>& files, StageData& 
     sources[role] = input.name();
     if (looks_like_bundle(input)) {
       BundleReader reader(input);
+      const bool has_tags = role == Role::mesh || role == Role::result;
       while (reader.next())
-        if (role_of_member(reader.name()) == role && !(request.part && read_part_member(reader, data, nullptr)))
+        if (has_tags && reader.name() == formats::names_member)
+          data.names = formats::parse_group_names(reader.read_text(), reader.where());
+        else if (role_of_member(reader.name()) == role && !(request.part && read_part_member(reader, data, nullptr)))
           read_member(reader, data, nullptr, request.cover || bundle);
       if (!holds(data, role))
         throw DataError::at(input.name(), "expected {} in this bundle, found none", name_of(role));
@@ -383,13 +411,42 @@ void Stage::State::read_files(std::map<Role, formats::Input>& files, StageData& 
       read_graph = read_graph || role == Role::graph;
       if (role == Role::mesh) orient(*data.mesh, input.name());
     }
-    if (passes(role)) write_role(role, data, *bundle);
+    if (passes(role)) {
+      write_role(role, data, *bundle);
+      if (role == Role::mesh) names = data.names;
+      write_names();
+    }
   }
 }
 
 std::string Stage::State::source_of(Role role) const {
   const auto found = sources.find(role);
   return found == sources.end() ? std::string(name_of(role)) : fmt::format("{}: {}", found->second, name_of(role));
+}
+
+formats::SurfaceSoup Stage::read_surface(formats::Input& input) {
+  State& state = *state_;
+  if (!looks_like_bundle(input)) {
+    constexpr std::size_t enough_to_tell = 4096;
+    formats::SurfaceSoup surface = formats::looks_like_mesh_surface(input.peek(enough_to_tell))
+                                       ? formats::read_mesh_surface(input)
+                                       : formats::read_surface(input);
+    begin();
+    return surface;
+  }
+  begin();
+  std::vector<nlohmann::ordered_json> history;
+  const auto pass = [&](BundleReader& reader) {
+    if (is_history_entry(reader.name()))
+      state.pass_history_entry(reader, history);
+    else if (state.bundle && !role_of_member(reader.name()))
+      reader.copy_to(*state.bundle);
+  };
+  return read_surface_bundle(input, pass, state.bundle ? &*state.bundle : nullptr);
+}
+
+void Stage::set_names(formats::GroupNames names) {
+  state_->names = std::move(names);
 }
 
 bool Stage::writes_bundle() const {
@@ -436,6 +493,7 @@ template <class Product, class WriteFile>
 void Stage::State::write(const Product& product, const nlohmann::ordered_json& details, WriteFile&& write_file) {
   if (bundle) {
     write_members(*bundle, product);
+    write_names();
     write_history(details);
     bundle->close();
   } else {
@@ -445,12 +503,14 @@ void Stage::State::write(const Product& product, const nlohmann::ordered_json& d
 }
 
 void Stage::State::write_mesh_to_folder(const MixedMesh& mesh) {
+  writing.names = names;
   formats::write_mesh_folder(mesh, *folder, writing);
   folder->commit();
 }
 
 void Stage::write(const MeshProduct& product, const nlohmann::ordered_json& details) {
   if (state_->folder) return state_->write_mesh_to_folder(to_mixed_mesh(product.mesh));
+  state_->writing.names = state_->names;
   state_->write(product, details, [&](formats::Output& output) {
     formats::write_mixed_mesh(to_mixed_mesh(product.mesh), state_->format, output, state_->writing);
   });
@@ -473,6 +533,7 @@ void Stage::write(const SolutionProduct& product, const nlohmann::ordered_json& 
 
 void Stage::write(const ResultProduct& product, const nlohmann::ordered_json& details) {
   if (state_->folder) return state_->write_mesh_to_folder(product.mesh);
+  state_->writing.names = state_->names;
   state_->write(product, details, [&](formats::Output& output) {
     formats::write_mixed_mesh(product.mesh, state_->format, output, state_->writing);
   });

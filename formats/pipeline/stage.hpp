@@ -9,6 +9,8 @@
 
 #include "common/run/run_context.hpp"
 #include "formats/pipeline/stage_data.hpp"
+#include "formats/streams/group_names.hpp"
+#include "formats/surfaces/surface_files.hpp"
 
 namespace hexpipe::pipeline {
 
@@ -43,8 +45,11 @@ class Stage {
   // The file (or stream) that a role was read from, for messages about it.
   std::string source_of(Role role) const;
 
-  // For a tool that reads no StageData (tetmesh): the bundle starts empty.
-  void begin();
+  // For tetmesh: reads a surface of any format. What else a bundle has passes, but for the stages behind. Begins the
+  // output.
+  formats::SurfaceSoup read_surface(formats::Input& input);
+  // Before writing: names that go into the bundle, or the file, with the product.
+  void set_names(formats::GroupNames names);
 
   // Write the product, in the form that the command line asks for, then the history entry {tool, version, options,
   // replaced, ...details}, and commit. `replaced` lists roles that came from files beside a bundle.
@@ -55,6 +60,9 @@ class Stage {
   void write(const ResultProduct& product, const nlohmann::ordered_json& details);
 
  private:
+  // Makes the output; the bundle starts empty.
+  void begin();
+
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -29,6 +29,7 @@ class PointMerger {
 };
 
 // The soup with one point in place of equal ones, in the order of first use, and without points that no triangle uses.
+// Curves are edges of triangles.
 SurfaceSoup merge_equal_points(SurfaceSoup soup);
 
 // Throws DataError where there are more points than can be numbered.

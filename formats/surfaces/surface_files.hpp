@@ -1,15 +1,20 @@
 #pragma once
-// Reads surfaces from STL, OBJ, PLY and OFF as triangle soups, with the line or the number of every triangle, so that
-// later checks can name a place.
+// Surfaces as they come: triangle soups from STL, OBJ, PLY, OFF and bundles, with the line or the number of every
+// triangle, so that later checks can name a place.
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "common/mesh/tet_mesh.hpp"
+#include "formats/streams/group_names.hpp"
 #include "formats/streams/input.hpp"
 
 namespace hexpipe::formats {
+
+// The ends of an edge of some triangles.
+using CurveEdge = std::array<Vertex, 2>;
 
 struct SurfaceSoup {
   std::vector<Vec3> points;         // one for each distinct coordinate triple (exact equality, -0 = 0)
@@ -23,6 +28,15 @@ struct SurfaceSoup {
   std::vector<Vertex> file_vertices = {};
   std::size_t file_vertex_count = 0;
   std::string name;  // of the input, for messages
+  // Of each triangle, the region that its normal points away from and the one that it points to, 0 outside. Empty where
+  // nothing says so.
+  std::vector<std::array<std::int32_t, 2>> sides = {};
+  // Edges of the CAD's own curves, which are features however little the surface turns there.
+  std::vector<CurveEdge> curves = {};
+  std::vector<std::int32_t> curve_tags = {};
+  bool from_bundle = false;
+  bool has_own_tags = false;  // tags that say something even where all triangles have the same
+  GroupNames names = {};
 
   // "part.stl:12" or "part.stl: triangle 3", to begin a message with.
   std::string place_of(std::size_t triangle) const;
@@ -31,6 +45,10 @@ struct SurfaceSoup {
 };
 
 // Recognises the format by the content. Throws FormatError or DataError that names the line or the facet.
+// pipeline/surface_bundle.hpp reads the surfaces of bundles.
 SurfaceSoup read_surface(Input& input);
+
+// What all readers promise: there are triangles, not too many, of a size that can be computed with.
+void check_extent(const SurfaceSoup& soup);
 
 }  // namespace hexpipe::formats

@@ -91,7 +91,7 @@ class Merger {
   }
 
   void merge_member(const std::string& name) {
-    if (take_about_part(name)) return;
+    if (take_about_part(name) || merge_names(name)) return;
     const auto role = pipeline::role_of_member(name);
     if (role) history_.write_before(*role, counts_, out_);
     if (!merge_mesh(name) && !merge_candidates(name) && !merge_graph(name) && !merge_solution(name))
@@ -101,6 +101,7 @@ class Merger {
 
   // Takes a member that only parts have; false when it is another one.
   bool take_about_part(const std::string& name);
+  bool merge_names(const std::string& name);
   bool merge_mesh(const std::string& name);
   void merge_ridges();
   bool merge_candidates(const std::string& name);
@@ -143,6 +144,18 @@ bool Merger::take_about_part(const std::string& name) {
   } else {
     return name == "mesh/point_part.npy" || name == "mesh/tet_part.npy" || name == "mesh/tet_turned.npy";
   }
+  return true;
+}
+
+// All parts have those of the whole.
+bool Merger::merge_names(const std::string& name) {
+  if (name != formats::names_member) return false;
+  const std::string text = parts_.front().bundle().read_text();
+  for (std::size_t p = 1; p < parts_.size(); ++p)
+    if (parts_[p].bundle().read_text() != text)
+      throw DataError::at(parts_[p].bundle().where(), "expected the same names as in {}, found others",
+                          parts_.front().bundle_name());
+  out_.add_text(name, text);
   return true;
 }
 

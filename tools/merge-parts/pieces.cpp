@@ -71,6 +71,9 @@ class PieceReader {
       pipeline::PieceBundle piece = pipeline::read_piece_bundle(path, true);
       History settings = settings_in(piece.history);
       if (path == order_.front()) settings_ = settings;
+      if (path == order_.front()) names_ = piece.names;
+      if (piece.names != names_)
+        throw DataError::at(path, "expected a piece with the names of {}, found others", order_.front());
       if (settings != settings_)
         throw DataError::at(path, "expected a piece made with the versions and options of {}, found another",
                             order_.front());
@@ -81,6 +84,7 @@ class PieceReader {
   }
 
   const History& settings() const { return settings_; }
+  const formats::GroupNames& names() const { return names_; }
   std::size_t size() const { return order_.size(); }
 
  private:
@@ -88,6 +92,7 @@ class PieceReader {
   MeshPiece first_;
   std::vector<std::string> order_;
   History settings_;
+  formats::GroupNames names_;
 };
 
 class Joiner {
@@ -171,6 +176,7 @@ void write_whole(PieceReader& reader, const std::string& path, bool compress) {
   } else {
     pipeline::BundleWriter writer(output, compress || ending == pipeline::compressed_bundle_format);
     pipeline::write_members(writer, mesh);
+    if (!reader.names().empty()) writer.add_text(std::string(formats::names_member), text_of(reader.names()));
     pipeline::write_history(writer, reader.settings());
     writer.close();
   }
@@ -186,9 +192,9 @@ bool is_piece(const std::string& path) {
   formats::Input input = formats::Input::open(path);
   if (!pipeline::looks_like_bundle(input)) return false;
   pipeline::BundleReader reader(input);
-  // History entries may come before the title.
+  // History entries and names may come before the title.
   while (reader.next())
-    if (!pipeline::is_history_entry(reader.name())) return pipeline::is_piece_title(reader.name());
+    if (pipeline::role_of_member(reader.name())) return pipeline::is_piece_title(reader.name());
   return false;
 }
 

@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
     data.history.push_back(pipeline::history_entry_of(context));
     PartFiles files(options.directory, options.parts, options.compress);
     const SplitCounts counts = split(std::move(*data.mesh), options.parts, options.seed, source.c_str(),
-                                     [&](const PartOfMesh& part) { files.write(part, data.history); });
+                                     [&](const PartOfMesh& part) { files.write(part, data.history, data.names); });
     files.commit();
     phases.end("split");
     context.note(summary(counts));

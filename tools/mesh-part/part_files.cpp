@@ -49,11 +49,13 @@ std::string PartFiles::name_of(std::int32_t part) const {
   return fmt::format("{}{:04}.tar{}", stem, part, compress_ ? ".zst" : "");
 }
 
-void PartFiles::write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history) {
+void PartFiles::write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history,
+                      const formats::GroupNames& names) {
   formats::Output& output = files_.add(fmt::format("{}/{}", directory_, name_of(part.part.part)));
   pipeline::BundleWriter writer(output, compress_);
   pipeline::write_members(writer, part.part);
   pipeline::write_members(writer, part.mesh);
+  if (!names.empty()) writer.add_text(std::string(formats::names_member), text_of(names));
   pipeline::write_history(writer, history);
   writer.close();
   output.drain();

@@ -54,6 +54,9 @@ void FeatureMesh::mark_features(const solid::Surface& surface, double feature_an
     if (!sharp && surface.tags[source(f)] == surface.tags[source(g)]) continue;
     mark_feature(e, EdgeRole::feature);
   }
+  for (const formats::CurveEdge& edge : surface.curves)
+    if (const auto h = find_halfedge(vertex_handle(edge[0]), vertex_handle(edge[1])); h.is_valid())
+      mark_feature(edge_handle(h), EdgeRole::feature);
 }
 
 void FeatureMesh::mark_feature(EdgeHandle e, EdgeRole role) {
