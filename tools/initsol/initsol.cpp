@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/mwis/local_search/annealing.hpp"
 #include "common/mwis/local_search/recombination.hpp"
 #include "common/mwis/local_search/remainder.hpp"
 #include "common/run/parallel.hpp"

@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
+#include "common/mesh/feature_angle.hpp"
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "tools/tetmesh/fill.hpp"
-#include "tools/tetmesh/geometry/feature_angle.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/improve.hpp"
 #include "tools/tetmesh/solid/sheets.hpp"
@@ -149,7 +149,7 @@ void add_curvature_sizes(const solid::Surface& surface, TetmeshOptions& options,
   constexpr Vertex none = sizing::SizeSources::none;
   const double least =
       options.least_size ? sizing::element_size(surface, options.least_size) : least_of_size * greatest;
-  const double feature_cosine = geometry::cosine_of_degrees(options.feature_angle);
+  const double feature_cosine = cosine_of_degrees(options.feature_angle);
   sizing::SizeSources& sources = options.size_sources;
   geometry::for_each_edge(surface.points.size(), surface.triangles, [&](std::span<const geometry::HalfEdge> edge) {
     if (edge.size() != 2) return;

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "common/mesh/facet_key.hpp"
+#include "common/mesh/feature_angle.hpp"
 #include "common/run/error.hpp"
-#include "tools/tetmesh/geometry/feature_angle.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 
 namespace hexpipe::tetmesh::solid {
@@ -26,7 +26,7 @@ constexpr std::size_t most_listed = 10;
 class SmoothPieces {
  public:
   SmoothPieces(const Surface& surface, double angle)
-      : surface_(surface), cosine_(geometry::cosine_of_degrees(angle)), parent_(surface.triangles.size()) {
+      : surface_(surface), cosine_(cosine_of_degrees(angle)), parent_(surface.triangles.size()) {
     std::iota(parent_.begin(), parent_.end(), 0);
     for (const formats::CurveEdge& edge : surface.curves) curves_.insert(key_of(edge));
     geometry::for_each_edge(surface.points.size(), surface.triangles,
