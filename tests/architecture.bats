@@ -105,6 +105,7 @@ namespace_of() {
     formats/pipeline) echo hexpipe::pipeline ;;
     formats/*) echo hexpipe::formats ;;
     tools/viewmesh) echo hexpipe::viewmesh ;;
+    tools/hexpipe) echo hexpipe::front_door ;;
     tools/*) echo "hexpipe::${room#tools/}" ;;
   esac | sed 's|/|::|g; s|-|_|g'
 }
