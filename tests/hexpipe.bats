@@ -101,7 +101,7 @@ setup_file() {
 }
 
 @test "Ctrl-C once: the searches end, and the mesh is assembled" {
-  hexpipe "$DATA/bracket.stl" --size 4% -o bracket.vtu --initsol '--iterations 10' --lns '--time-limit 1000' 2>messages &
+  hexpipe "$DATA/bracket.stl" --size 4% -o bracket.vtu --initsol '--iterations 10' --lns '--time-limit 1000' 2>messages 3>&- &
   local pid=$!
   await searches "$pid"
   kill -INT "$pid"
@@ -113,15 +113,14 @@ setup_file() {
 
 @test "Ctrl-C before there are hexes to choose from ends the pipe, and says so" {
   mkfifo never
-  sleep 1000 >never &  # a surface that does not come
-  hexpipe never -o never.vtu 2>messages &
-  local pid=$!
+  hexpipe never -o never.vtu 2>messages 3>&- &  # nobody writes the surface
+  local pid=$! code=0
   await has_child "$pid" assemble
   kill -INT "$pid"
-  run wait "$pid"
+  wait "$pid" || code=$?
+  assert_equal "$code" 1
   grep -q "^hexpipe: tetmesh: ended by signal 2$" messages
   assert [ ! -e never.vtu ]
-  kill %1
 }
 
 # has_child PID NAME: PID started a process of that name, which has not ended.

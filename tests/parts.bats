@@ -450,7 +450,7 @@ PYTHON
   )
   $PYTHON "$DATA/change_array.py" k/solved/part-0000.tar crossing.tar solution/chosen.npy "np.array([$row], '<i4')"
   local mine="($theirs)" other="$((row + 1)) of crossing.tar"
-  assert_fails_with 1 "part-0001.tar: solution: expected candidates that fit together, found ($mine and $other|$other and $mine) which" $one --neighbours crossing.tar k/solved/part-000[12].tar -o out.tar
+  assert_fails_with 1 "part-0001.tar: solution: expected candidates that fit together, found (($mine and $other|$other and $mine) which|($mine|$other) with a quad that another crosses)" $one --neighbours crossing.tar k/solved/part-000[12].tar -o out.tar
   # A tet is told by its number in the bundle, a ghost too.
   local turned='np.concatenate([a[:N], a[N:N + 1][:, [1, 0, 2, 3]], a[N + 1:]])' tet
   for tet in 0 100; do

@@ -175,7 +175,7 @@ PYTHON
   assert_equal "$(head -1 <<<"$stderr")" "tetmesh: warning: $DATA/touching/face-touch-two-bodies.off: bodies touch: 2 triangles that two of them have are one each"
   findhex touch.tar | buildgraph | initsol --iterations 2000 | assemble -o touch.msh
   run $PYTHON "$CHECKERS/meshstats.py" --json touch.msh
-  assert_output --partial '"conforming": true'
+  assert_output --partial '"is_conforming": true'
   # Hexes of both bodies share quads across it.
   run $PYTHON - <<'PYTHON'
 import meshio

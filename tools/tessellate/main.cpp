@@ -76,9 +76,10 @@ int main(int argc, char** argv) {
     app.add_option("--unit", options.unit, "Write lengths in metres or millimetres [the file's own unit]")
         ->check(CLI::IsMember({"m", "mm"}));
     app.add_flag("--join", options.join, "Bodies that touch share the faces, edges and corners where they do");
-    app.add_option("-o,--output", output_path, "Write to a file, not to standard output: .tar, .obj, .stl or .msh")
+    outside_history(
+        app.add_option("-o,--output", output_path, "Write to a file, not to standard output: .tar, .obj, .stl or .msh"))
         ->type_name("FILE");
-    app.add_flag("--compress", compress, "Compress the bundle with zstd");
+    outside_history(app.add_flag("--compress", compress, "Compress the bundle with zstd"));
   };
   const auto run = [&](RunContext& context) {
     const std::string_view format = format_of(output_path);
