@@ -22,7 +22,7 @@ using geometry::HalfEdge;
 // Ends that far apart are joined, in sizes: a face takes the first of these with which no row stretches too much. With
 // 12 and 6 alone mambo-s27 gains where it loses with these, plate-holes and mambo-m6 the other way round.
 constexpr std::array<double, 4> reaches{40, 20, 12, 6};
-constexpr fields::DiffusionLimits limits{150, 1e-3};
+constexpr fields::DiffusionLimits joining_limits{150, 1e-3};
 // Sides that face each other count where their rows are that near to each other, in rows.
 constexpr double same_row = 0.3;
 constexpr double least_degree = 1e-9;
@@ -185,7 +185,7 @@ RowCoordinates RowStraightener::solve(const RowJumps& jumps, const RowCoordinate
     });
   });
   const fields::PeriodicNumbers<2> change = fields::diffused<2>(
-      std::move(rest), limits, [&](const auto& body) { for_each_triangle(body); },
+      std::move(rest), joining_limits, [&](const auto& body) { for_each_triangle(body); },
       [&](std::size_t f, std::size_t k) { return degree[f][k]; },
       [&](const fields::PeriodicNumbers<2>& numbers, std::size_t f) {
         std::array<fields::Complex, 2> sum{};
