@@ -195,6 +195,20 @@ TEST(Refill, PyramidsAroundAVertexBecomeAPrism) {
   EXPECT_EQ(after.count.at(CellKind::prism), 1);
 }
 
+// The prism of valid Jacobian that gmshToFoam turns round, and an upright one.
+TEST(GapMesh, APrismThatLooksInvertedIsWorthNothing) {
+  TetMesh mesh;
+  mesh.points = {{.1, .13859, .21934}, {.07927, .13784, .21934}, {.1, .13645, .23754},
+                 {.1, .17926, .21308}, {.07681, .17868, .21538}, {.1, .17677, .21751}};
+  HybridMesh warped(mesh, {});
+  const SurfaceTags tags = no_tags();
+  const std::array<Vertex, 6> corners{0, 1, 2, 3, 4, 5};
+  EXPECT_GT(least_corner_scaled_jacobian(CellKind::prism, mesh.points), 0.12);
+  EXPECT_LT(GapMesh(warped, tags, {}).make(CellKind::prism, corners, 0).quality, 0);
+  HybridMesh upright = prism(3).hybrid();
+  EXPECT_GT(GapMesh(upright, tags, {}).make(CellKind::prism, corners, 0).quality, 0.3);
+}
+
 TEST(Refill, TheFacetsOfTheRoomStay) {
   // Two triangles in place of one quad: no prism has them.
   HybridMesh hybrid = prism(2).hybrid();

@@ -2,11 +2,29 @@
 
 #include <algorithm>
 
+#include "common/mesh/face_view.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "tools/assemble/gap/objective.hpp"
 
 namespace hexpipe::assemble::gap {
+namespace {
+
+GapCell cell_of(CellKind kind, const std::array<Vertex, 6>& corners, std::int32_t region,
+                const std::vector<Vec3>& points) {
+  GapCell cell{kind, corners, region};
+  cell.quality = quality_of(kind, points, cell.vertices());
+  return cell;
+}
+
+// Whether some readers would turn the prism round, though it is valid (face_view.hpp).
+bool looks_inverted(const GapCell& cell, const std::vector<Vec3>& points) {
+  if (cell.kind != CellKind::prism) return false;
+  const auto at = corner_points(points, cell.vertices());
+  return least_face_view(cell.kind, std::span<const Vec3>(at).first(cell.vertices().size())) <= 0;
+}
+
+}  // namespace
 
 bool GapCell::has(Vertex v) const {
   return std::ranges::find(vertices(), v) != vertices().end();
@@ -28,7 +46,7 @@ GapMesh::GapMesh(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std:
     if (cell.candidate == hybrid::HybridCell::none) {
       std::array<Vertex, 6> own{};
       std::ranges::copy(corners, own.begin());
-      add(make(cell.kind, own, cell.region), c);
+      add(cell_of(cell.kind, own, cell.region, mesh.points), c);
     } else {
       for (const Vertex v : corners) fixed_[v] = true;
     }
@@ -47,8 +65,8 @@ bool GapMesh::is_valid() const {
 }
 
 GapCell GapMesh::make(CellKind kind, const std::array<Vertex, 6>& corners, std::int32_t region) const {
-  GapCell cell{kind, corners, region};
-  cell.quality = quality_of(kind, mesh_.points, cell.vertices());
+  GapCell cell = cell_of(kind, corners, region, mesh_.points);
+  if (looks_inverted(cell, mesh_.points)) cell.quality = -1;
   return cell;
 }
 

@@ -46,6 +46,7 @@ class GapMesh {
   // True when the Jacobian of each cell is positive everywhere, without any doubt.
   bool is_valid() const;
 
+  // A new cell. A prism that some readers would turn round (common/mesh/face_view.hpp) has the quality -1.
   GapCell make(CellKind kind, const std::array<Vertex, 6>& corners, std::int32_t region) const;
   GapCell make_tet(const Tet& corners, std::int32_t region) const;
 
