@@ -12,6 +12,7 @@ build_packages=(
   libarchive-dev libzstd-dev libpugixml-dev zlib1g-dev
   libopenmesh-dev libtet1.5-dev libcgal-dev libeigen3-dev libgmp-dev libmpfr-dev coinor-libclp-dev
   libmetis-dev libopenmpi-dev openmpi-bin
+  libocct-data-exchange-dev libocct-modeling-algorithms-dev
   esbuild libjs-three libosmesa6-dev libpng-dev help2man
 )
 test_packages=(

@@ -78,17 +78,17 @@ assert_floors() {
   done
   for room in "${rooms[@]}"; do
     below+="${below:+|}$room"
-    if [[ $room == . ]]; then here="$folder/[^/]+"; else here="$folder/$room/[^:]+"; fi
+    if [[ $room == . ]]; then here="$folder/[^/]+"; else here="$folder/$room/[^:/]+"; fi
     includes_of "$folder" | grep -E "^$here:$folder/" | grep -vE ":$folder/(${below//./[^/]+\\.hpp\$})(/[^/]*)?$" |
       assert_none "$folder/$room includes a room above it"
   done
 }
 
 @test "rooms stand on floors: mwis, formats, tetmesh, assemble" {
-  assert_floors common/mwis ground bounds reduce exact local_search .
+  assert_floors common/mwis ground bounds reduce exact exact/historical local_search .
   assert_floors formats streams surfaces meshes choice pipeline points
   assert_floors tools/tetmesh geometry fields solid sizing surface volume tetgen search .
-  assert_floors tools/assemble hybrid choice shape conform pieces .
+  assert_floors tools/assemble hybrid choice shape conform gap pieces .
 }
 
 @test "run includes nothing of its neighbours in common, mesh only run" {
@@ -105,6 +105,7 @@ namespace_of() {
     formats/pipeline) echo hexpipe::pipeline ;;
     formats/*) echo hexpipe::formats ;;
     tools/viewmesh) echo hexpipe::viewmesh ;;
+    tools/hexpipe) echo hexpipe::front_door ;;
     tools/*) echo "hexpipe::${room#tools/}" ;;
   esac | sed 's|/|::|g; s|-|_|g'
 }
@@ -115,5 +116,17 @@ namespace_of() {
     [[ $file == tools/viewmesh/resources.hpp || $file == common/mwis/ground/bits.hpp ]] && continue
     expected="namespace $(namespace_of "$file") {"
     grep -qxF "$expected" "$HEXPIPE_SOURCE/$file" || fail "$file: expected '$expected'"
+  done
+}
+
+@test "every room has a README, which names files that are there" {
+  local room page name
+  for room in $(cd "$HEXPIPE_SOURCE" && ls -d common/*/ common/mwis/*/ formats/*/ tools/{tetmesh,assemble}{,/*}/); do
+    page="$HEXPIPE_SOURCE/${room%/}/README.md"
+    assert [ -e "$page" ]
+    grep -q '^| read in this order ' "$page" || fail "$page does not say in which order to read its files"
+    for name in $(sed -n '/^| read in this order /,/^$/p' "$page" | cut -d'|' -f2 | grep -oE '`[^`]+`' | tr -d '`'); do
+      [[ -e "$(dirname "$page")/$name" ]] || fail "$page names $name, which is not there"
+    done
   done
 }

@@ -1,4 +1,4 @@
-# What every tool of the pipeline does alike: help, exit codes, messages, streams, files, limits.
+# What all tools of the pipeline have in common: help, exit codes, messages, streams, files, limits.
 
 load helpers
 
@@ -112,7 +112,7 @@ product_ending() {
   ln -s x link
   touch x
   assert_fails_with 2 "for --log and --fragments, found link for both" lns "$STAGES/lns.in" -o out.tar --log x --fragments link
-  # What goes nowhere may be much.
+  # Several outputs may go to /dev/null.
   lns -q --iterations 5 "$STAGES/lns.in" -o /dev/null --log /dev/null --stats /dev/null
 }
 
@@ -468,9 +468,9 @@ assert len(stats) > 2, stats"
   mkfifo slow
   for tool in $READERS; do
     echo old >out.tar
-    (head -c 700 "$STAGES/$tool.in"; sleep 30) >slow &
-    local writer=$!
-    $tool -o out.tar slow 2>/dev/null &
+    exec 8<>slow
+    head -c 700 "$STAGES/$tool.in" >&8
+    $tool -o out.tar slow 2>/dev/null 8>&- &
     local reader=$!
     await waits_for_input $reader
     # A search reads on for a second, for a search upstream may be about to answer.
@@ -478,9 +478,7 @@ assert len(stats) > 2, stats"
     local code=0
     wait $reader || code=$?
     assert_equal "$code" 143
-    pkill -P $writer 2>/dev/null || true
-    kill $writer 2>/dev/null || true
-    wait $writer 2>/dev/null || true
+    exec 8>&-
     assert_equal "$(cat out.tar)" old
     assert_equal "$(ls | tr '\n' ' ')" "out.tar slow "
   done

@@ -246,7 +246,7 @@ optimum() {
   buildgraph -q whole.tar -o graph.tar
   for shares in 1 4; do
     rm -f p.candidates* p.conflicts*
-    make -s -C "$HEXPIPE_SOURCE" -f Makefile.examples BIN="$HEXPIPE_BIN" PARTS="$PWD" SHARES=$shares -j2 "$PWD/p.conflicts.tar"
+    make -s -C "$HEXPIPE_SOURCE" -f Makefile.examples BIN="$HEXPIPE_BIN" MODELS="$PWD" SHARES=$shares -j2 "$PWD/p.conflicts.tar"
     assert_same_bytes whole.tar p.candidates.tar
     assert_same_bytes graph.tar p.conflicts.tar
   done

@@ -96,7 +96,7 @@ assert json.load(open("stats.json"))["choice"] == choice
 assert json.load(open(glob.glob("history/*assemble.json")[0]))["choice"] == choice
 assert f"the choice weighs {choice['weight']}, at most {choice['bound']} is possible" in open("log").read()
 PYTHON
-  # Of the graph in the bundle it needs no more than the weights, and passes the rest on as it is.
+  # It needs only the weights of the bundle's graph, and passes the rest on as it is.
   "$PYTHON" "$DATA/change_array.py" chosen.tar edgeless.tar graph/neighbours.npy "a[:0]"
   assemble edgeless.tar --stats edgeless.json -o passed.tar
   assert_equal "$("$PYTHON" -c 'import json; print(json.load(open("edgeless.json"))["choice"])')" \

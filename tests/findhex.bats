@@ -98,6 +98,52 @@ PYTHON
   assert_equal "$(count found.cand)" 170
 }
 
+@test "no quad lies over a sharp edge of the surface" {
+  local mesh="$DATA/quad-folded-over-box-edge.mesh"
+  agrees "$mesh"
+  assert_equal "$(count found.cand)" 0
+  findhex --mesh "$mesh" --stats stats.json -o found.cand
+  assert_equal "$($PYTHON -c "
+import json
+print(json.load(open('stats.json'))['hexes']['rejected']['rule 10, a quad over a sharp edge of the surface'])")" 1
+  agrees "$mesh" --feature-angle 100
+  assert_equal "$(count found.cand)" 1
+  agrees "$mesh" --folded-quads keep
+  assert_equal "$(count found.cand)" 1
+  # By any angle.
+  for angle in 10 40 60; do
+    agrees "$DATA/random_points.mesh" $ALL_KINDS --min-quality 0.1 --feature-angle $angle
+    count found.cand >>counts.txt
+  done
+  run sort -nuc counts.txt
+  assert_success
+}
+
+@test "ridges of a mesh are sharp edges, in a file and in a bundle" {
+  lattice kuhn 3 >plain.mesh
+  findhex -q --mesh plain.mesh -o plain.cand
+  # The diagonal of a square on the surface, which is flat there, and an edge that is no ridge.
+  $PYTHON - >ridge.mesh <<'PYTHON'
+text = open("plain.mesh").read().replace("End", "")
+words = text.split()
+start = words.index("Vertices") + 2
+points = [tuple(float(x) for x in words[start + 4 * i:start + 4 * i + 3]) for i in range(int(words[start - 1]))]
+number = {p: i + 1 for i, p in enumerate(points)}
+print(text + f"Ridges\n1\n2\nEdges\n2\n1 {number[1, 0, 0]} 0\n{number[2, 2, 0]} {number[1, 1, 0]} 0\nEnd")
+PYTHON
+  agrees ridge.mesh
+  assert [ "$(count found.cand)" -lt "$(count plain.cand)" ]
+  findhex -q --mesh ridge.mesh | findhex -q -o from_bundle.cand
+  assert_same_bytes found.cand from_bundle.cand
+  findhex -q --mesh ridge.mesh --folded-quads keep -o kept.cand
+  findhex -q --mesh plain.mesh --folded-quads keep -o plain.cand
+  assert_same_bytes kept.cand plain.cand
+  sed '/^Ridges/,/^Edges/s/^2$/3/' ridge.mesh >wrong.mesh
+  assert_fails_with 1 "findhex: .*expected Ridges of edges from 1 to 2, found 3" findhex --mesh wrong.mesh -o out.cand
+  assert_fails_with 2 "findhex: .*--feature-angle does nothing with --folded-quads keep" \
+    findhex --mesh plain.mesh --feature-angle 30 --folded-quads keep -o out.cand
+}
+
 @test "candidates come by kind, then by their first vertex; each once" {
   findhex -q --mesh "$DATA/random_points.mesh" $ALL_KINDS -o all.cand
   assert_equal "$(column 1 all.cand | uniq | tr '\n' ' ')" "hex prism pyramid "
@@ -125,6 +171,7 @@ PYTHON
 --min-quality 0.5
 --quality corner
 --folded-quads keep
+--feature-angle 5
 --max-boundary-tets 0
 OPTIONS
   # Twelve tets around the centre of a cube.
@@ -223,7 +270,7 @@ OPTIONS
   grep -q "48 surface triangles derived, with tag 0" <<<"$stderr"
 }
 
-@test "a surface in place of a mesh is sent to tetmesh" {
+@test "the message about a surface instead of a mesh names tetmesh" {
   assert_fails_with 1 "cube.stl:1: expected a mesh .*tetmesh makes one of a surface.*found 'solid'$" findhex "$DATA/cube.stl"
 }
 

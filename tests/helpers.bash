@@ -52,26 +52,54 @@ assert_different_bytes() {
   if cmp -s "$1" "$2"; then fail "$1 and $2 are the same"; fi
 }
 
-# await COMMAND...: until it succeeds. On a machine under load, what takes a millisecond else may take seconds.
-await() {
-  local try
-  for try in $(seq 1000); do
-    if "$@" >/dev/null 2>&1; then return; fi
-    sleep 0.02
-  done
-  fail "waited for this in vain: $*"
+# holds EXPRESSION FILE.json...: in the Python expression, what a file holds goes by its name without the ending.
+holds() {
+  $PYTHON -c '
+import json, pathlib, sys
+files = {pathlib.Path(path).stem: json.load(open(path)) for path in sys.argv[2:]}
+assert eval(sys.argv[1], files), (sys.argv[1], {name: files[name] for name in files if name != "__builtins__"})' "$@"
 }
 
-# takes_signals PID: has begun so far that SIGINT reaches a handler of its own. To be awaited.
+# assert_conforming FILE: valid cells that fit together, and nothing besides, by the independent checker.
+assert_conforming() {
+  $PYTHON "$CHECKERS/meshstats.py" --json --exact "$1" >conforming.json
+  holds 'conforming["is_conforming"]' conforming.json
+  local fault
+  for fault in open_quads inverted_cells invalid_hexes negative_volumes unused_points; do
+    holds "conforming['$fault'] == 0" conforming.json
+  done
+  rm conforming.json
+}
+
+# await COMMAND...: tries until it succeeds. Under load and sanitizers, what usually takes a moment may take minutes.
+await() {
+  local end=$((SECONDS + 300))
+  until "$@" >/dev/null 2>&1; do
+    if ((SECONDS > end)); then fail "waited for this in vain: $*"; fi
+    sleep 0.02
+  done
+}
+
+# takes_signals PID: the tool has begun, and SIGINT reaches its own handler. To be awaited.
 takes_signals() {
   local caught
   caught=$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$1/status")
   [[ -n "$caught" && "$(<"/proc/$1/comm")" != bash ]] && ((16#$caught & 2))
 }
 
-# waits_for_input PID: has begun, and sleeps until something comes down a pipe. To be awaited.
+# waits_for_input PID: the tool has begun, and sleeps until something comes down a pipe. To be awaited.
 waits_for_input() {
   takes_signals "$1" && grep -q '^State:[[:space:]]*S' "/proc/$1/status"
+}
+
+# has_taken_signals PID: none waits to be handled. To be awaited.
+has_taken_signals() {
+  grep -q '^ShdPnd:[[:space:]]*0*$' "/proc/$1/status"
+}
+
+# has_ended PID: nothing but a zombie is left. To be awaited, where the process is nobody's child here.
+has_ended() {
+  ! grep -qs '^State:[[:space:]]*[^Z]' "/proc/$1/status"
 }
 
 sanitized() {

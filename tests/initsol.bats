@@ -13,6 +13,11 @@ setup() {
   cp "$BATS_FILE_TMPDIR"/*.graph .
 }
 
+# Reductions solve the ring, and leave nothing to search.
+whole() {
+  initsol ring.graph --no-reductions "$@"
+}
+
 # weight_of SOLUTION: by the independent checker, which fails when the set is not independent or not maximal.
 weight_of() {
   "$CHECKERS/solution_check.py" ring.graph "$1" | sed 's/.*weight //'
@@ -21,15 +26,36 @@ weight_of() {
 @test "the solution is independent and maximal, and its weight is the one in --stats" {
   run "$CHECKERS/graph_check.py" ring.graph
   assert_success
-  initsol ring.graph --iterations 3000 -o out.sol --stats stats.json
+  whole --iterations 3000 -o out.sol --stats stats.json
   run "$CHECKERS/solution_check.py" ring.graph out.sol
   assert_success
   "$PYTHON" - "$output" <<'PYTHON'
 import json, sys
 stats = json.load(open("stats.json"))
 assert sys.argv[1] == f"{stats['chosen']} chosen, weight {stats['weight']}", (sys.argv[1], stats)
-assert stats["iterations"] == 3000 and stats["weight"] > stats["greedy_weight"]
+assert stats["iterations"] == 3000 and stats["weight"] > stats["greedy_weight"] and not stats["complete"]
 PYTHON
+}
+
+@test "what reductions solve is optimal, and ends at once" {
+  initsol ring.graph --time-limit 100 -o solved.sol --stats stats.json
+  certify --graph ring.graph --solution solved.sol --exact -o proven.sol --stats proven.json
+  "$PYTHON" - "$(weight_of solved.sol)" <<'PYTHON'
+import json, sys
+stats, proven = json.load(open("stats.json")), json.load(open("proven.json"))
+assert stats["complete"] and stats["seconds"] < 50 and stats["iterations"] == 0, stats
+assert stats["weight"] == int(sys.argv[1]) == proven["bound"], (stats, proven)
+PYTHON
+  initsol ring.graph --no-reductions --iterations 3000 -o searched.sol
+  assert [ "$(weight_of searched.sol)" -lt "$(weight_of solved.sol)" ]
+}
+
+@test "without a limit the search ends by itself, on the same bytes" {
+  "$PYTHON" "$DATA/random_graph.py" 1500 >hard.graph
+  initsol hard.graph -o one.sol --threads 1 --stats one.json
+  initsol hard.graph -o two.sol --threads 2
+  assert_same_bytes one.sol two.sol
+  grep -q '"complete": false' one.json
 }
 
 @test "--iterations 0 and --time-limit 0 give the greedy solution" {
@@ -54,16 +80,16 @@ PYTHON
 }
 
 @test "--method, --seed, --hot, --cold, --starts change the search" {
-  initsol ring.graph --iterations 4000 -o base.sol
-  initsol ring.graph --iterations 4000 --method anneal --hot 0.3 --cold 0.03 -o same.sol
+  whole --iterations 4000 -o base.sol
+  whole --iterations 4000 --method anneal -o same.sol
   assert_same_bytes base.sol same.sol
-  initsol ring.graph --iterations 4000 --method tabu -o tabu.sol
-  initsol ring.graph --method descend -o descend.sol
+  whole --iterations 4000 --method tabu -o tabu.sol
+  whole --method descend -o descend.sol
   assert [ "$(weight_of descend.sol)" -lt "$(weight_of base.sol)" ]
-  initsol ring.graph --iterations 4000 --seed 2 -o seed.sol
-  initsol ring.graph --iterations 4000 --hot 1 -o hot.sol
-  initsol ring.graph --iterations 4000 --cold 0.2 -o cold.sol
-  initsol ring.graph --iterations 4000 --starts 3 -o starts.sol
+  whole --iterations 4000 --seed 2 -o seed.sol
+  whole --iterations 4000 --hot 1 -o hot.sol
+  whole --iterations 4000 --cold 0.2 -o cold.sol
+  whole --iterations 4000 --starts 3 -o starts.sol
   for other in tabu descend seed hot cold starts; do
     assert_different_bytes base.sol $other.sol
     weight_of $other.sol >/dev/null
@@ -73,12 +99,12 @@ PYTHON
 
 @test "--seed, --tenure, --patience, --escape, --starts change tabu search" {
   tabu() {
-    initsol ring.graph --method tabu --iterations 4000 --patience 50 "$@"
+    whole --method tabu --iterations 4000 --patience 50 "$@"
   }
   tabu -o base.sol
   tabu --seed 2 -o seed.sol
   tabu --tenure 5 -o tenure.sol
-  initsol ring.graph --method tabu --iterations 4000 -o patience.sol
+  whole --method tabu --iterations 4000 -o patience.sol
   tabu --escape restart -o restart.sol
   tabu --escape rebuild -o rebuild.sol
   tabu --starts 3 -o starts.sol
@@ -106,8 +132,8 @@ PYTHON
 
 @test "--starts gives the same bytes on 1 and 2 threads" {
   for method in anneal tabu; do
-    initsol ring.graph --method $method --iterations 3000 --starts 4 --threads 1 -o one.sol
-    initsol ring.graph --method $method --iterations 3000 --starts 4 --threads 2 -o two.sol
+    whole --method $method --iterations 3000 --starts 4 --threads 1 -o one.sol
+    whole --method $method --iterations 3000 --starts 4 --threads 2 -o two.sol
     assert_same_bytes one.sol two.sol
   done
 }
@@ -115,7 +141,7 @@ PYTHON
 @test "--time-limit is kept, and --log ends with the weight of the solution" {
   local begin end
   begin=$(date +%s%N)
-  initsol ring.graph --time-limit 0.5 -o out.sol --log log.jsonl
+  whole --time-limit 0.5 -o out.sol --log log.jsonl
   end=$(date +%s%N)
   assert [ $(((end - begin) / 1000000)) -ge 500 ]
   sanitized || assert [ $(((end - begin) / 1000000)) -le 1500 ]  # a machine under load
@@ -132,9 +158,9 @@ PYTHON
 
 @test "a signal writes the best so far and ends with 0" {
   for signal in INT TERM; do
-    initsol ring.graph --time-limit 60 -o out.sol --log log.jsonl 3>&- &
+    initsol ring.graph --no-reductions --time-limit 60 -o out.sol --log log.jsonl 3>&- &
     local pid=$!
-    for _ in $(seq 400); do [ -s log.jsonl ] || sleep 0.05; done
+    await test -s log.jsonl
     kill -s $signal $pid
     wait $pid
     weight_of out.sol >/dev/null
@@ -205,6 +231,42 @@ PYTHON
   assert_fails_with 1 "^initsol: loop.col:[0-9]+: expected no loops" initsol loop.col --iterations 1 -o out.sol
 }
 
+@test "graphs of other programs, and what options say of them" {
+  initsol small.graph -o metis.sol
+  printf '%%%%MatrixMarket matrix coordinate pattern symmetric\n4 4 4\n2 1\n3 1\n3 2\n4 3\n' >small.mtx
+  printf '0 1\n0 2\n1 2\n2 3\n' >small.edges
+  sed 's/^1[1-4]/1/' small.graph >unweighted.graph
+  initsol unweighted.graph -o unweighted.sol
+  initsol small.mtx -o mtx.sol
+  initsol small.edges --graph-format edges -o edges.sol
+  for other in mtx edges; do assert_same_bytes unweighted.sol $other.sol; done
+  # Without the option it is a METIS header.
+  assert_fails_with 1 "initsol: small.edges:[0-9]+: expected" initsol small.edges -o out.sol
+
+  initsol small.graph --complement -o clique.sol
+  assert_equal "$(tr '\n' ' ' <clique.sol)" "1 2 3 "
+
+  sed 's/^1\([1-4]\)/1.\1/' small.graph >real.graph
+  assert_fails_with 1 "initsol: real.graph:2: .*--weight-scale takes others" initsol real.graph -o out.sol
+  initsol real.graph --weight-scale 10 -o real.sol
+  assert_same_bytes metis.sol real.sol
+
+  printf '4 4 10\n11 2 3 1\n12 1 3\n13 1 2 4 4\n14 3 3\n' >loops.graph
+  assert_fails_with 1 "initsol: loops.graph:2: expected no loops, .*--tolerant" initsol loops.graph -o out.sol
+  run initsol loops.graph --tolerant -o tolerant.sol
+  assert_success
+  assert_output --partial "loops.graph: left out 1 loops and 1 repeated edges"
+  assert_same_bytes metis.sol tolerant.sol
+
+  printf '%s' "$(cat small.graph)" >open.graph
+  initsol open.graph -o open.sol
+  assert_same_bytes metis.sol open.sol
+
+  initsol small.graph -o bundle.tar
+  assert_fails_with 2 "initsol: .*do nothing without a graph file" initsol bundle.tar --complement -o out.sol
+  assert_fails_with 2 "initsol: .*--graph-format" initsol small.graph --graph-format pdf -o out.sol
+}
+
 @test "the DIMACS example of formats/README.md is the path beside it" {
   "$PYTHON" - "$HEXPIPE_SOURCE/formats/README.md" >path.col <<'PYTHON'
 import re, sys
@@ -218,7 +280,7 @@ PYTHON
 @test "every truncated prefix of a graph is refused" {
   local size prefix
   size=$(stat -c %s small.graph)
-  for ((prefix = 0; prefix < size; ++prefix)); do
+  for ((prefix = 0; prefix < size - 1; ++prefix)); do
     head -c $prefix small.graph >cut.graph
     assert_fails_with 1 "^initsol: cut.graph" initsol cut.graph --iterations 1 -o out.sol
   done

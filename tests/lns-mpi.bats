@@ -21,14 +21,15 @@ setup() {
 export LSAN_OPTIONS="suppressions=$HEXPIPE_SOURCE/tests/leaks_of_mpi.txt:print_suppressions=0"
 export ASAN_OPTIONS="${ASAN_OPTIONS:-}:fast_unwind_on_malloc=0"
 
-# on RANKS OPTIONS...: the search of the ring on so many ranks.
+# on RANKS OPTIONS...: the search of the ring on that number of ranks.
 on() {
   local ranks=$1
   shift
   mpirun --oversubscribe -n "$ranks" lns-mpi --graph ring.graph --solution start.sol "$@"
 }
 
-# start_long OPTIONS...: one of two ranks that takes minutes; $job is mpirun. Goes on when the search has begun.
+# start_long OPTIONS...: a search of two ranks that takes minutes; $job is mpirun. Goes on when a round is over, which needs
+# both of them.
 start_long() {
   "$PYTHON" "$DATA/random_graph.py" 1000 >ring.graph
   initsol ring.graph --iterations 0 -o start.sol
@@ -36,8 +37,7 @@ start_long() {
   mpirun --oversubscribe -n 2 lns-mpi --graph ring.graph --solution start.sol --iterations 100000000 \
     --round 20 --log log.jsonl -o out.sol "$@" 2>message 3>&- &
   job=$!
-  for _ in $(seq 400); do [[ -s log.jsonl ]] || sleep 0.05; done
-  sleep 0.5
+  await test -s log.jsonl
 }
 
 weight_of() {
@@ -77,7 +77,7 @@ weight_of() {
   for other in blocks overlap round seed size; do assert_different_bytes base.sol $other.sol; done
   lns-mpi --iterations 5 --free-running <(initsol ring.graph --iterations 0) | tar xO --wildcards 'history/*lns-mpi.json' |
     grep -q depends_on_timing
-  # Of 5000 fragments: the search ends long before.
+  # The search ends long before its 5000 fragments.
   lns-mpi --graph ring.graph --solution start.sol --iterations 5000 --round 5 --target-gap 0.5 --bound 500000 \
     --stats stats.json -o target.sol
   "$PYTHON" -c 'import json; stats = json.load(open("stats.json")); assert stats["rounds"] <= 1, stats'
@@ -99,12 +99,14 @@ PYTHON
   search() { on "$@" --iterations 300 --no-reductions --round 10; }
   search 2 -o straight.sol
   search 2 --checkpoint state --checkpoint-interval 0 -o killed.sol &
-  local job=$!
-  for _ in $(seq 400); do [[ -e state/checkpoint.json ]] || sleep 0.02; done
-  # mpirun's processes end with it.
-  kill -KILL "$(pgrep -P $job)"
+  local job=$! run rank ranks
+  await test -e state/checkpoint.json
+  run=$(pgrep -P $job)
+  ranks=$(pgrep -P "$run" -x lns-mpi)
+  kill -KILL "$run"
   wait $job || true
-  sleep 0.5
+  # mpirun's processes end with it.
+  for rank in $ranks; do await has_ended "$rank"; done
   grep -q '"round"' state/checkpoint.json
   search 3 --checkpoint state -v -o resumed.sol 2>message
   grep -q "goes on after round" message
@@ -242,7 +244,7 @@ PYTHON
 @test "a rank that dies ends the job, which names it" {
   local job
   start_long --checkpoint state --checkpoint-interval 0
-  for _ in $(seq 400); do [[ -e state/checkpoint.json ]] || sleep 0.05; done
+  await test -e state/checkpoint.json
   kill -KILL "$(pgrep -P $job -x lns-mpi | tail -1)"
   local code=0
   wait $job || code=$?
@@ -309,7 +311,7 @@ parts_of() {
   refuse 3 "part2.tar: expected part 1 of 3, found part 2 of 3" part0.tar part2.tar part1.tar
   refuse 4 "expected at least a part for each of 4 ranks, found 3" part0.tar part1.tar part2.tar
   refuse 2 "part.candidates0.tar: expected graph" part.candidates0.tar part1.tar part2.tar
-  # Of the same mesh, but with other candidates; and so that one rank alone is given it.
+  # Parts of the same mesh, but with other candidates; only one rank gets them.
   parts_of fewer lattice.mesh 0.7
   refuse 2 "parts 0 and 1 disagree about the conflicts between them" part0.tar fewer1.tar part2.tar
   cat >wrapper <<'SHELL'
@@ -376,7 +378,7 @@ PYTHON
 @test "options that would do nothing are refused" {
   refuse() { assert_fails_with 2 "lns-mpi: $1" lns-mpi --graph ring.graph --solution start.sol -o out.sol "${@:2}"; }
   refuse "--certificate requires --prove" --certificate proof
-  refuse "--certificate needs a bound, of which --prove 0 proves none" --prove 0 --certificate proof
+  refuse "--certificate needs a bound, and --prove 0 proves none" --prove 0 --certificate proof
   refuse "--checkpoint-interval requires --checkpoint" --checkpoint-interval 1
   refuse "--round does nothing without --iterations" --round 5 --time-limit 1
   refuse "--bound does nothing without --target-gap" --bound 5

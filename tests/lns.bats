@@ -26,7 +26,7 @@ weight_of() {
 }
 
 @test "the result is independent, maximal and heavier; --stats tells its weight" {
-  ring --iterations 300 -o out.sol --stats stats.json
+  ring --iterations 300 --no-reductions -o out.sol --stats stats.json
   run "$CHECKERS/solution_check.py" ring.graph out.sol
   assert_success
   assert [ "$(weight_of out.sol)" -gt "$(weight_of start.sol)" ]
@@ -171,7 +171,7 @@ PYTHON
 }
 
 @test "--free-running improves too, and says that its result depends on the timing" {
-  ring --free-running --iterations 300 --threads 2 -o free.sol
+  ring --free-running --no-reductions --iterations 300 --threads 2 -o free.sol
   assert [ "$(weight_of free.sol)" -gt "$(weight_of start.sol)" ]
   ring --free-running --iterations 20 | tar xO --wildcards 'history/*-lns.json' >history.json
   grep -q '"depends_on_timing": *true' history.json
@@ -219,7 +219,7 @@ PYTHON
 @test "--time-limit is kept, and --log ends with the weight of the solution" {
   local begin end
   begin=$(date +%s%N)
-  ring --time-limit 0.5 --node-limit 1000000000 -o out.sol --log log.jsonl --stats stats.json
+  ring --time-limit 0.5 --no-reductions --node-limit 1000000000 -o out.sol --log log.jsonl --stats stats.json
   end=$(date +%s%N)
   sanitized || assert [ $(((end - begin) / 1000000)) -le 1500 ]  # a machine under load
   "$PYTHON" - "$(weight_of out.sol)" <<'PYTHON'
@@ -244,10 +244,13 @@ assert all(part and len(set(part)) == len(part) and 1 <= min(part) and max(part)
 start, end = ({int(line) for line in open(name)} for name in ("start.sol", "out.sol"))
 assert start != end and start ^ end <= set().union(*parts), "what changed lies in no fragment"
 PYTHON
-  ring --iterations 300 -o reduced.sol --fragments reduced_parts
+  # Of a graph that reductions make smaller, the numbers are those of the whole.
+  "$PYTHON" "$DATA/random_graph.py" 1500 >dense.graph
+  initsol dense.graph --iterations 0 --greedy weight -o dense.sol
+  lns --graph dense.graph --solution dense.sol --iterations 300 -o reduced.sol --fragments reduced_parts
   "$PYTHON" - <<'PYTHON'
 numbers = [int(word) for line in open("reduced_parts") for word in line.split()]
-assert numbers and 1 <= min(numbers) and max(numbers) <= 6000
+assert numbers and 1 <= min(numbers) and max(numbers) <= 1500
 PYTHON
 }
 
@@ -258,13 +261,43 @@ PYTHON
   for signal in INT TERM; do
     lns --graph hard.graph --solution hard.sol --time-limit 60 -o out.sol --log log.jsonl 3>&- &
     local pid=$!
-    for _ in $(seq 400); do [ -s log.jsonl ] || sleep 0.05; done
+    await test -s log.jsonl
     kill -s $signal $pid
     wait $pid
     run "$CHECKERS/solution_check.py" hard.graph out.sol
     assert_success
     rm out.sol log.jsonl
   done
+}
+
+@test "--worth ends the search when it gains too little; without limits it is on" {
+  "$PYTHON" "$DATA/random_graph.py" 300 >hard.graph
+  initsol hard.graph --iterations 0 -o hard.sol
+  hard() { lns --graph hard.graph --solution hard.sol --no-reductions --stats "$1.json" -o "$1.sol" "${@:2}"; }
+  hard usual --threads 1
+  hard again --threads 2
+  assert_same_bytes usual.sol again.sol
+  hard named --time-limit 100 --worth 5e-5
+  assert_same_bytes usual.sol named.sol
+  hard hasty --worth 1
+  "$PYTHON" - <<'PYTHON'
+import json
+usual, hasty = (json.load(open(f"{name}.json")) for name in ("usual", "hasty"))
+assert 0 < hasty["iterations"] < usual["iterations"] and hasty["weight"] <= usual["weight"], (hasty, usual)
+PYTHON
+  assert_fails_with 2 "lns: .*--worth" hard out --worth 2
+}
+
+@test "what reductions solve ends at once" {
+  ring --time-limit 100 -o solved.sol --stats stats.json --log log.jsonl
+  "$PYTHON" - "$(weight_of solved.sol)" <<'PYTHON'
+import json, sys
+stats = json.load(open("stats.json"))
+assert stats["complete"] and stats["seconds"] < 50 and stats["iterations"] == 0, stats
+assert json.loads(open("log.jsonl").readlines()[-1])["weight"] == stats["weight"] == int(sys.argv[1])
+PYTHON
+  initsol ring.graph -o optimal.sol
+  assert_equal "$(weight_of optimal.sol)" "$(weight_of solved.sol)"
 }
 
 @test "a missing solution is an error that names initsol" {
@@ -323,9 +356,9 @@ PYTHON
 }
 
 @test "what goes wrong beside the solution does not cost it" {
-  ring --iterations 30 -o whole.sol
+  ring --iterations 30 --no-reductions -o whole.sol
   for side in log fragments; do
-    assert_fails_with 1 "lns: /dev/full: .*No space left" ring --iterations 30 -o $side.sol --$side /dev/full
+    assert_fails_with 1 "lns: /dev/full: .*No space left" ring --iterations 30 --no-reductions -o $side.sol --$side /dev/full
     assert_same_bytes whole.sol $side.sol
     assert_fails_with 1 "lns: no/such/place: .*No such file" ring -o none.sol --$side no/such/place
     assert_fails_with 1 "lns: no/such/place: .*No such file" lns missing.tar --$side no/such/place

@@ -3,7 +3,7 @@
 load helpers
 
 TOOLS="merge-parts findhex buildgraph initsol lns certify assemble"
-for optional in tetmesh mesh-part lns-mpi viewmesh; do
+for optional in tessellate tetmesh mesh-part lns-mpi viewmesh; do
   if [[ -x "$HEXPIPE_BIN/$optional" ]]; then TOOLS="$TOOLS $optional"; fi
 done
 MANUAL="$HEXPIPE_BIN/../manual"
@@ -160,18 +160,27 @@ dead_links() {
   $PYTHON - "$@" <<'PYTHON'
 import pathlib, re, sys
 root, pages = pathlib.Path(sys.argv[1]), 0
+
+def anchors(page):
+    """The names that GitHub gives to the headings of a page."""
+    headings = re.findall(r"^#+ +(.*)$", page.read_text(), re.M)
+    return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
 for pattern in sys.argv[2:]:
     for page in root.glob(pattern):
         pages += 1
-        for link in re.findall(r"\]\(([^)#]+)", page.read_text()):
-            if not re.match("[a-z]+:", link) and not (page.parent / link).exists():
-                print(f"{page.relative_to(root)}: {link}")
+        for link, anchor in re.findall(r"\]\(([^)#]*)#?([^)]*)\)", page.read_text()):
+            target = page.parent / link if link else page
+            if re.match("[a-z]+:", link):
+                continue
+            if not target.exists() or anchor and target.suffix == ".md" and anchor not in anchors(target):
+                print(f"{page.relative_to(root)}: {link}#{anchor}")
 assert pages > 7, pages
 PYTHON
 }
 
 @test "links between pages lead somewhere, in the repository and where it is installed" {
-  run dead_links "$HEXPIPE_SOURCE" "*.md" "docs/**/*.md" "formats/**/*.md" "tests/**/*.md" "tools/**/*.md"
+  run dead_links "$HEXPIPE_SOURCE" "*.md" "docs/**/*.md" "formats/**/*.md" "tests/**/*.md" "tools/**/*.md" "common/**/*.md"
   assert_success
   assert_output ""
   if [[ ! -e "$HEXPIPE_BIN/../cmake_install.cmake" ]]; then skip "not in a directory of cmake"; fi

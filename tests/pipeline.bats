@@ -2,18 +2,15 @@
 
 load helpers
 
+# Everything that holds before cells are made conforming: no overlap, a closed skin, no inverted cell.
 mesh_is_valid() {
-  # Everything that holds before cells are made conforming: no overlap, a closed skin, no inverted cell.
-  run $PYTHON "$CHECKERS/meshstats.py" --json --exact "$1"
-  assert_success
-  $PYTHON - "$output" <<'PYTHON'
-import json, sys
-stats = json.loads(sys.argv[1])
-assert "error" not in stats, stats
-for key in ("f>2", "perm", "bedge_odd", "dupcells", "orphan_nodes", "inv", "hexbad", "negvol"):
-    assert stats.get(key, 0) == 0, (key, stats)
-assert stats["hex"] > 0, stats
-PYTHON
+  $PYTHON "$CHECKERS/meshstats.py" --json --exact "$1" >found.json
+  holds 'found["hexes"] > 0' found.json
+  local fault
+  for fault in facets_of_three_cells twisted_quads odd_boundary_edges duplicate_cells unused_points inverted_cells \
+    invalid_hexes negative_volumes; do
+    holds "found['$fault'] == 0" found.json
+  done
 }
 
 @test "a surface becomes a mesh through one line of pipes, and other programs open it" {
@@ -58,12 +55,12 @@ assert share > 0.94, share'
 }
 
 @test "Makefile.examples drives it through files, several parts at a time" {
-  make -s -j2 -f "$HEXPIPE_SOURCE/Makefile.examples" BIN="$HEXPIPE_BIN" PARTS="$DATA" SIZE=8 TIME=1 bracket.vtu bracket.msh
+  make -s -j2 -f "$HEXPIPE_SOURCE/Makefile.examples" BIN="$HEXPIPE_BIN" MODELS="$DATA" SIZE=8 TIME=1 bracket.vtu bracket.msh
   mesh_is_valid bracket.vtu
   mesh_is_valid bracket.msh
   for file in bracket.mesh bracket.cand bracket.graph bracket.start.sol bracket.sol bracket.lns.jsonl; do assert [ -s $file ]; done
   # Nothing is made twice.
-  run make -s -f "$HEXPIPE_SOURCE/Makefile.examples" BIN="$HEXPIPE_BIN" PARTS="$DATA" bracket.vtu
+  run make -s -f "$HEXPIPE_SOURCE/Makefile.examples" BIN="$HEXPIPE_BIN" MODELS="$DATA" bracket.vtu
   assert_output ""
 }
 
@@ -184,7 +181,7 @@ PYTHON
   $PYTHON "$DATA/lattices/lattice.py" kuhn 3 >lattice.mesh
   findhex --mesh lattice.mesh | buildgraph -o graph.tar
   # A process group of its own, as a terminal gives to each pipeline.
-  setsid bash -o pipefail -c 'echo $$ >group; initsol graph.tar --time-limit 60 | lns | assemble -o out.vtk' 2>message &
+  setsid bash -o pipefail -c 'echo $$ >group; initsol graph.tar --no-reductions --time-limit 60 | lns | assemble -o out.vtk' 2>message &
   local pipeline=$!
   await test -s group
   for tool in initsol lns assemble; do await pgrep -g "$(cat group)" -x $tool; done
@@ -220,18 +217,17 @@ PYTHON
 
 @test "Ctrl-C ends a tool that waits for a pipe the second time" {
   mkfifo pipe
-  sleep 30 >pipe &
-  local writer=$!
-  findhex <pipe >out.tar 2>/dev/null &
+  exec 8<>pipe
+  findhex <pipe >out.tar 2>/dev/null 8>&- &
   local reader=$!
   await waits_for_input $reader
   kill -INT $reader
-  sleep 0.3
-  kill -0 $reader
+  await has_taken_signals $reader
+  await waits_for_input $reader
   kill -INT $reader
   local code=0
   wait $reader || code=$?
-  kill $writer
+  exec 8>&-
   assert_equal "$code" 130
 }
 

@@ -15,7 +15,7 @@ tests_at_once=$((jobs + 1))
 for preset in ci ci-sanitize; do
   cmake --preset "$preset"
   cmake --build --preset "$preset" --parallel "$jobs"
-  # What the sanitized tools make is compared with what the optimized ones make: tests/reproducible.bats.
+  # tests/reproducible.bats compares the results of the sanitized tools with those of the optimized ones.
   if [[ $preset == ci-sanitize ]]; then export HEXPIPE_OTHER_BIN="$PWD/build-ci/bin"; fi
   ctest --test-dir "build-$preset" --output-on-failure --parallel "$tests_at_once" --no-tests=error
 done

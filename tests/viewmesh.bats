@@ -136,7 +136,7 @@ PYTHON
     run scene part.html state
     assert_output --partial "$part"
   done
-  # What a page says is what --view takes.
+  # --view takes the words of a page.
   state=$(scene part.html state)
   viewmesh result.vtu --size 320,200 --view "${state//\"/}" --png again.png
   assert_same_bytes part.png again.png

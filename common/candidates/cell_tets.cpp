@@ -211,8 +211,8 @@ TetVerdict CellTets<Topology>::judge_walls() const {
   return encloses<Topology>(outer_ & all) ? TetVerdict::accepted : TetVerdict::no_interior;
 }
 
-// The two triangles that the interior tets have on a quad, the boundary tet on it if there is one, and rules 7 and 9
-// for what is outermost.
+// The two triangles that the interior tets have on a quad, the boundary tet on it if there is one, and rules 7, 9 and
+// 10 for what is outermost.
 template <class Topology>
 TetVerdict CellTets<Topology>::judge_quad(std::size_t quad) {
   const LocalQuad& q = Topology::quads[quad];
@@ -221,9 +221,12 @@ TetVerdict CellTets<Topology>::judge_quad(std::size_t quad) {
   std::array<std::int32_t, 2> beyond{across(outermost[0]), across(outermost[1])};
   const auto labels_differ = [&] { return tables_.facet_label(beyond[0]) != tables_.facet_label(beyond[1]); };
   if (labels_differ()) return TetVerdict::half_on_surface;
-  const std::int32_t sliver = tables_.usable_beyond(beyond[0]);
-  if (sliver == TetAdjacency::none) return TetVerdict::accepted;
   unsigned diagonal = bit(q[1 - left_out]) | bit(q[3 - left_out]);
+  const auto is_at_sharp_edge = [&] {
+    return !rules_.sharp_edges && tables_.facet_label(beyond[0]) != 0 && is_over_sharp_edge(q, diagonal);
+  };
+  const std::int32_t sliver = tables_.usable_beyond(beyond[0]);
+  if (sliver == TetAdjacency::none) return is_at_sharp_edge() ? TetVerdict::sharp_edge : TetVerdict::accepted;
   // A tet at both triangles has the four corners of the quad.
   if (sliver == tables_.usable_beyond(beyond[1])) {
     if (tables_.facet_label(beyond[0]) != 0) return TetVerdict::crosses_mesh;
@@ -237,9 +240,18 @@ TetVerdict CellTets<Topology>::judge_quad(std::size_t quad) {
     beyond = {across(outermost[0]), across(outermost[1])};
     if (labels_differ()) return TetVerdict::half_on_surface;
   }
+  if (is_at_sharp_edge()) return TetVerdict::sharp_edge;
   if (!rules_.flat_corners && tables_.facet_label(beyond[0]) == 0 && has_flat_corner(q, diagonal, outermost))
     return TetVerdict::flat_corner;
   return TetVerdict::accepted;
+}
+
+// Rule 10 for a quad on a surface, of which the triangles there meet at this diagonal.
+template <class Topology>
+bool CellTets<Topology>::is_over_sharp_edge(const LocalQuad& quad, unsigned diagonal) const {
+  const std::size_t first = (bit(quad[0]) & diagonal) != 0 ? 0 : 1;
+  const auto corner = [&](std::size_t i) { return corners_[quad[(first + i) % 4]]; };
+  return tables_.is_sharp(corner(0), corner(1), corner(2), corner(3));
 }
 
 // Rule 9 for a quad inside the mesh, of which the outermost triangles meet at this diagonal.

@@ -1,5 +1,5 @@
 #pragma once
-// The tets of a candidate: rules 5 to 7 and 9 of docs/definitions.md 1.
+// The tets of a candidate: rules 5 to 7, 9 and 10 of docs/definitions.md 1.
 
 #include <algorithm>
 #include <array>
@@ -39,6 +39,7 @@ struct CellTetRules {
   bool inner_vertices = true;  // allow them
   std::size_t max_boundary_tets = 6;
   bool flat_corners = false;  // allow them: rule 9
+  bool sharp_edges = false;   // allow quads over them: rule 10
 };
 
 // Why a cell with all its facets in the mesh is no candidate, by the rule that it breaks.
@@ -51,6 +52,7 @@ enum class TetVerdict {
   half_on_surface,  // 7: the two outer triangles of a quad differ
   inner_vertex,     // the option forbids them
   flat_corner,      // 9
+  sharp_edge,       // 10
 };
 
 // Which way a flood goes is hard to foresee, for a processor too: what follows decides by arithmetic where it can, not
@@ -145,6 +147,7 @@ class CellTets {
   void add_interior(std::int32_t tet);
   TetVerdict judge_walls() const;
   TetVerdict judge_quad(std::size_t quad);
+  bool is_over_sharp_edge(const LocalQuad& quad, unsigned diagonal) const;
   bool has_flat_corner(const LocalQuad& quad, unsigned diagonal, const std::array<TetFacet, 2>& outermost) const;
 
   const MeshTables& tables_;

@@ -27,8 +27,8 @@ void append_tets(std::span<const std::int32_t> added, std::vector<std::int32_t>&
   offsets.push_back(static_cast<std::int64_t>(tets.size()));
 }
 
-// Rules 4 to 7 and 9 for cells that the search has completed; keeps those that hold them all. A few cells are measured
-// side by side.
+// Rules 4 to 7, 9 and 10 for cells that the search has completed; keeps those that hold them all. A few cells are
+// measured side by side.
 template <class Topology>
 class CandidateCollector {
  public:
@@ -161,7 +161,7 @@ CellCounts& CellCounts::operator+=(const CellCounts& other) {
 }
 
 FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* source, const SearchScope& scope) {
-  const MeshTables tables(std::move(mesh), source, scope.turns);
+  const MeshTables tables(std::move(mesh), source, scope.turns, options.feature_angle);
   FindhexResult result;
   result.findings = tables.findings();
   for (const CellKind kind : options.kinds) result.counts.push_back({kind, {}});

@@ -22,14 +22,15 @@ struct FindhexOptions {
   CandidateQuality quality = CandidateQuality::element;
   bool drop_folded_quads = true;  // rule 8
   CellTetRules tet_rules{};
-  Part part{};  // only cells whose corner 0 is in this part of the vertices
+  double feature_angle = default_feature_angle;  // rule 10, in degrees
+  Part part{};                                   // only cells whose corner 0 is in this part of the vertices
 };
 
 // How many cells of a kind got how far.
 struct CellCounts {
   std::int64_t complete = 0;                 // rules 1 to 3 and 8 hold
   std::int64_t invalid = 0;                  // rule 4
-  std::array<std::int64_t, 8> by_verdict{};  // rules 5 to 7 and 9, by TetVerdict
+  std::array<std::int64_t, 9> by_verdict{};  // rules 5 to 7, 9 and 10, by TetVerdict
 
   std::int64_t accepted() const { return by_verdict[static_cast<int>(TetVerdict::accepted)]; }
   CellCounts& operator+=(const CellCounts& other);

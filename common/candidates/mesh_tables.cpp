@@ -31,8 +31,10 @@ FoundFacet facet_of(const Tet& tet, const Triangle& triangle) {
 
 }  // namespace
 
-MeshTables::MeshTables(TetMesh mesh, const char* source, const std::vector<std::int8_t>& turns)
+MeshTables::MeshTables(TetMesh mesh, const char* source, const std::vector<std::int8_t>& turns, double feature_angle)
     : mesh_(std::move(mesh)),
+      feature_cosine_(cosine_of_degrees(feature_angle)),
+      ridges_(ridges_of(mesh_)),
       findings_{.orientation = turns.empty() ? orient_tets(mesh_, source) : orient_tets(mesh_, turns)},
       tet_order_(order_by_lowest_vertex(mesh_)),
       usable_(order_tets()),
@@ -77,6 +79,14 @@ std::int32_t MeshTables::tet_inside(Vertex a, Vertex b, Vertex c) const {
     if (usable_[t] && found.from_outside) inside = t;
   });
   return inside;
+}
+
+bool MeshTables::is_sharp(Vertex a, Vertex b, Vertex c, Vertex d) const {
+  const auto& p = mesh_.points;
+  const Vec3 diagonal = p[c] - p[a];
+  const Vec3 normal = cross(p[b] - p[a], diagonal), next_normal = cross(diagonal, p[d] - p[a]);
+  return !(dot(normal, next_normal) >= feature_cosine_ * norm(normal) * norm(next_normal)) ||
+         (!ridges_.empty() && ridges_.contains(edge_key(a, c)));
 }
 
 void MeshTables::make_flood_tets() {

@@ -8,6 +8,8 @@
 
 #include "common/candidates/vertex_links.hpp"
 #include "common/mesh/adjacency.hpp"
+#include "common/mesh/facet_key.hpp"
+#include "common/mesh/feature_angle.hpp"
 #include "common/mesh/orientation.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
@@ -23,7 +25,8 @@ class MeshTables {
  public:
   // `turns`: which tets are to be turned (TetOrientation::turns) where that is known. Throws DataError naming `source`
   // when a facet belongs to more than two tets.
-  MeshTables(TetMesh mesh, const char* source, const std::vector<std::int8_t>& turns = {});
+  MeshTables(TetMesh mesh, const char* source, const std::vector<std::int8_t>& turns = {},
+             double feature_angle = default_feature_angle);
 
   // Its tets stand in an order of their own, and all else here and in what is made of this counts them so.
   const TetMesh& mesh() const { return mesh_; }
@@ -49,6 +52,9 @@ class MeshTables {
   // 0 where a facet lies inside a region and has no surface tag; else a number that two facets share when they have the
   // same tag and are both on the boundary of the mesh or both inside it.
   std::int32_t facet_label(std::int32_t across) const { return across >= 0 ? 0 : walls_[~across].label; }
+  // Rule 10: the edge ac between the surface's triangles abc and acd is a ridge, or they turn by more than the feature
+  // angle there.
+  bool is_sharp(Vertex a, Vertex b, Vertex c, Vertex d) const;
 
  private:
   // A facet that no cell may reach across.
@@ -64,6 +70,8 @@ class MeshTables {
   void for_each_tet_at(const Triangle& facet, Visit&& visit) const;
 
   TetMesh mesh_;
+  double feature_cosine_;
+  KeySet<2> ridges_;
   MeshFindings findings_;
   std::vector<std::int32_t> tet_order_;  // numbers in the mesh as it came; empty: the same
   std::vector<bool> usable_;

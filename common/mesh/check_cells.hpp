@@ -24,13 +24,10 @@ inline void check_points(std::span<const Vec3> points, const char* source) {
                           points[i].x, points[i].y, points[i].z);
 }
 
-// Throws DataError naming `source` when a cell names a vertex that is not there or one twice, or tags are too few or
-// too many.
+// Throws DataError naming `source` when a cell names a vertex that is not there or one twice.
 template <std::size_t Corners>
-void check_cells(const std::vector<std::array<Vertex, Corners>>& cells, const std::vector<std::int32_t>& tags,
-                 std::size_t point_count, const char* name, const char* source) {
-  if (tags.size() != cells.size())
-    throw DataError::at(source, "expected a tag for each of {} {}, found {}", cells.size(), name, tags.size());
+void check_corners(const std::vector<std::array<Vertex, Corners>>& cells, std::size_t point_count, const char* name,
+                   const char* source) {
   for (std::size_t i = 0; i < cells.size(); ++i)
     for (std::size_t k = 0; k < Corners; ++k) {
       const Vertex v = cells[i][k];
@@ -40,6 +37,15 @@ void check_cells(const std::vector<std::array<Vertex, Corners>>& cells, const st
         if (cells[i][j] == v)
           throw DataError::at(source, "{}[{}]: expected {} different vertices, found {} twice", name, i, Corners, v);
     }
+}
+
+// Likewise, and when tags are too few or too many.
+template <std::size_t Corners>
+void check_cells(const std::vector<std::array<Vertex, Corners>>& cells, const std::vector<std::int32_t>& tags,
+                 std::size_t point_count, const char* name, const char* source) {
+  if (tags.size() != cells.size())
+    throw DataError::at(source, "expected a tag for each of {} {}, found {}", cells.size(), name, tags.size());
+  check_corners(cells, point_count, name, source);
 }
 
 }  // namespace hexpipe

@@ -43,6 +43,13 @@ using KeyMap = tsl::robin_map<VertexKey<N>, T, VertexKeyHash<N>>;
 template <std::size_t N>
 using KeySet = tsl::robin_set<VertexKey<N>, VertexKeyHash<N>>;
 
+inline KeySet<2> ridges_of(const TetMesh& mesh) {
+  KeySet<2> keys;
+  if (mesh.ridges)
+    for (const auto& [a, b] : *mesh.ridges) keys.insert(edge_key(a, b));
+  return keys;
+}
+
 // The two triangles into which a diagonal cuts a quad, with the quad's orientation. `diagonal` 0 joins corners 0 and 2,
 // 1 joins corners 1 and 3.
 inline std::array<Triangle, 2> triangles_of(const Quad& q, int diagonal) {

@@ -65,6 +65,7 @@ MeshFingerprint fingerprint_of(const TetMesh& mesh) {
   };
   add_rows(mesh.tets, mesh.tet_tags);
   add_rows(mesh.triangles, mesh.triangle_tags);
+  if (mesh.ridges) add_rows(*mesh.ridges, {});
   return {static_cast<std::int64_t>(mesh.points.size()), static_cast<std::int64_t>(mesh.tets.size()),
           static_cast<std::int64_t>(mesh.triangles.size()), sum.value()};
 }

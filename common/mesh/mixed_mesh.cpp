@@ -30,6 +30,7 @@ MixedMesh to_mixed_mesh(TetMesh mesh) {
   mixed.tets.tags = std::move(mesh.tet_tags);
   mixed.triangles.cells = std::move(mesh.triangles);
   mixed.triangles.tags = std::move(mesh.triangle_tags);
+  mixed.ridges = std::move(mesh.ridges);
   return mixed;
 }
 
@@ -40,8 +41,8 @@ TetMesh to_tet_mesh(MixedMesh mesh, const char* source) {
                                                         {"quads", mesh.quads.size()}};
   for (const auto& [name, count] : others)
     if (count > 0) throw DataError::at(source, "expected tets and triangles only, found {} {}", count, name);
-  return {std::move(mesh.points), std::move(mesh.tets.cells), std::move(mesh.tets.tags),
-          std::move(mesh.triangles.cells), std::move(mesh.triangles.tags)};
+  return {std::move(mesh.points),          std::move(mesh.tets.cells),     std::move(mesh.tets.tags),
+          std::move(mesh.triangles.cells), std::move(mesh.triangles.tags), std::move(mesh.ridges)};
 }
 
 void validate(const MixedMesh& mesh, const char* source) {
@@ -53,6 +54,7 @@ void validate(const MixedMesh& mesh, const char* source) {
   check_block(mesh.tets, points, "tets", source);
   check_block(mesh.triangles, points, "triangles", source);
   check_block(mesh.quads, points, "quads", source);
+  if (mesh.ridges) check_corners(*mesh.ridges, points, "ridges", source);
 }
 
 }  // namespace hexpipe

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/mesh/cell_topology.hpp"
@@ -30,6 +31,7 @@ struct MixedMesh {
   CellBlock<4> tets;
   CellBlock<3> triangles;  // boundary and interfaces, outward where they have an outside
   CellBlock<4> quads;
+  std::optional<std::vector<Ridge>> ridges{};  // as those of a TetMesh
 
   std::size_t cell_count() const { return hexes.size() + prisms.size() + pyramids.size() + tets.size(); }
   bool operator==(const MixedMesh&) const = default;

@@ -32,6 +32,19 @@ std::vector<std::int32_t> where_true(const std::vector<bool>& marked) {
   return places;
 }
 
+// Those with both ends among the points, `places` being the numbers there of these points.
+std::vector<Ridge> ridges_among(const std::vector<Ridge>& ridges, std::span<const std::int32_t> points,
+                                std::span<const std::int32_t> places) {
+  std::vector<Ridge> selected;
+  const auto is_among = [&](Vertex v) {
+    const auto place = static_cast<std::size_t>(places[v]);
+    return place < points.size() && points[place] == v;
+  };
+  for (const auto& [a, b] : ridges)
+    if (is_among(a) && is_among(b)) selected.push_back({places[a], places[b]});
+  return selected;
+}
+
 }  // namespace
 
 Submesh submesh(const TetMesh& mesh, std::vector<std::int32_t> points, std::vector<std::int32_t> tets,
@@ -50,6 +63,7 @@ Submesh submesh(const TetMesh& mesh, std::vector<std::int32_t> points, std::vect
   };
   renumber(part.mesh.tets);
   renumber(part.mesh.triangles);
+  if (mesh.ridges) part.mesh.ridges = ridges_among(*mesh.ridges, part.points, scratch);
   return part;
 }
 

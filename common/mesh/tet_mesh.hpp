@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,7 @@ inline constexpr std::int32_t no_index = -1;
 using Tet = std::array<Vertex, 4>;
 using Triangle = std::array<Vertex, 3>;
 using Quad = std::array<Vertex, 4>;
+using Ridge = std::array<Vertex, 2>;
 
 struct TetMesh {
   std::vector<Vec3> points;
@@ -24,6 +26,8 @@ struct TetMesh {
   std::vector<std::int32_t> tet_tags;       // region of each tet
   std::vector<Triangle> triangles;          // boundary and interfaces between regions
   std::vector<std::int32_t> triangle_tags;  // surface tag of each triangle
+  // Edges of the surface that are sharp whatever their angle, if the mesh says so; empty in a part without some.
+  std::optional<std::vector<Ridge>> ridges{};
 
   bool operator==(const TetMesh&) const = default;
 };

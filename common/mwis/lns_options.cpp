@@ -10,30 +10,28 @@ namespace hexpipe::mwis {
 void declare_lns_options(CLI::App& app, local_search::LnsOptions& options, TargetOptions& target) {
   app.add_option("--fragment-size", options.fragment_size, "Vertices of the first fragments; the size adapts")
       ->check(CLI::Range(1, 4096).description(""));
-  app.add_option("--largest-fragment", options.largest_fragment, "Vertices of a fragment at most")
+  app.add_option("--largest-fragment", options.largest_fragment, "The most vertices of a fragment")
       ->check(CLI::Range(1, 4096).description(""));
-  app.add_option("--node-limit", options.node_limit, "Nodes of branch and bound for a fragment at most")
+  app.add_option("--node-limit", options.node_limit, "The most nodes of branch and bound for a fragment")
       ->check(CLI::Range(1, 1000000000).description(""));
   app.add_option("--annealed-fragment", options.annealed_fragment,
-                 "Vertices of the larger fragments that are annealed in between; 0: none are")
+                 "Vertices of the larger fragments that are annealed in between; 0: no such fragments")
       ->check(CLI::Range(0, 1000000).description(""));
   app.add_option(
          "--recombined-fragment", options.recombined_fragment,
-         "Vertices of fragments that are annealed from nothing, and recombined with what is chosen; 0: none are")
+         "Vertices of fragments that are annealed from nothing and recombined with the choice; 0: no such fragments")
       ->check(CLI::Range(0, 1000000).description(""));
-  app.add_option("--batch", options.batch,
-                 "Fragments in a round, which are solved in parallel and put together in order")
+  app.add_option("--batch", options.batch, "Fragments in a round: they are solved in parallel and applied in order")
       ->check(CLI::Range(1, 10000).description(""));
   app.add_flag("!--no-reductions", options.reduce,
-               "Search the whole graph, not the kernel that exact reductions leave");
+               "Search the whole graph and not the kernel that exact reductions leave");
   app.add_flag("--free-running", options.free_running,
                "Threads do not wait for each other: faster, but the result depends on the timing");
-  app.add_option(
-         "--target-gap", target.gap,
-         "Stop when (bound - weight) / bound is no more than this; the bound is what certify left in the bundle")
+  app.add_option("--target-gap", target.gap,
+                 "Stop when (bound - weight) / bound is at most this; certify leaves the bound in the bundle")
       ->type_name("FRACTION")
       ->check(number_between(0, 1));
-  app.add_option("--bound", target.bound, "An upper bound that is known, for --target-gap")
+  app.add_option("--bound", target.bound, "A known upper bound, for --target-gap")
       ->type_name("WEIGHT")
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()).description(""));
 }

@@ -1,5 +1,6 @@
 #pragma once
-// Checks of option values that CLI11 lacks: its own ranges let NaN pass, and its unsigned integers wrap around.
+// What CLI11 lacks: checks of values (its own ranges let NaN pass, and its unsigned integers wrap around), and a mark
+// for options that stay out of the history.
 
 #include <fmt/format.h>
 
@@ -32,6 +33,24 @@ inline CLI::Validator whole_number_of_64_bits() {
         return good ? std::string() : fmt::format("expected a whole number from 0 to {}, found {}", UINT64_MAX, text);
       },
       "");
+}
+
+inline constexpr const char* outside_history_mark = "outside history";
+
+// Marks an option that says where things are or how to run, but not what comes out. It stays out of the history, so
+// that the same input and options give the same bytes. The mark is a named check that lets every value pass, as CLI11
+// has no other place to keep it.
+inline CLI::Option* outside_history(CLI::Option* option) {
+  return option->check(CLI::Validator([](std::string&) { return std::string(); }, ""), outside_history_mark);
+}
+
+inline bool is_outside_history(CLI::Option& option) {
+  try {
+    option.get_validator(outside_history_mark);
+    return true;
+  } catch (const CLI::OptionNotFound&) {
+    return false;
+  }
 }
 
 }  // namespace hexpipe

@@ -64,7 +64,7 @@ void RemovedFile::set(const char* path) {
 
 void remove_registered_files() {
   for (RemovedFileSlot* slot = first_slot; slot != nullptr; slot = slot->next)
-    if (change(*slot, State::file, State::taken)) unlink(slot->path);
+    if (change(*slot, State::file, State::taken) && unlink(slot->path) != 0) rmdir(slot->path);
 }
 
 }  // namespace hexpipe

@@ -1,5 +1,6 @@
 #pragma once
-// Files that are to be gone when the process ends without destructors: by a signal, or where memory is missing.
+// Files, and empty folders, that are to be gone when the process ends without destructors: by a signal, or where memory
+// is missing.
 
 namespace hexpipe {
 

@@ -21,9 +21,8 @@ struct ToolInfo {
   bool random = false;          // has --seed
   bool searches = false;        // has --time-limit, --iterations and --log, and stops gracefully on signals
   std::optional<double> default_time_limit{};  // of a search that is given neither limit, seconds
-  // Options of its own that do not decide what comes out, and so stay out of the history.
-  std::vector<std::string> outside_history{};
-  std::string licence{"MIT"};  // of the executable as a whole, for --version
+  std::string ends_by_itself{};  // or when a search ends that is given neither limit
+  std::string licence{"MIT"};                  // of the executable as a whole, for --version
 };
 
 struct CommonOptions {

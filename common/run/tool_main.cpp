@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -37,21 +36,6 @@ namespace {
 constexpr int exit_data = 1;
 constexpr int exit_usage = 2;
 
-// Options that say where things are or how to run, but not what comes out: they stay out of the history, so that the
-// same input and options give the same bytes.
-bool decides_result(const CLI::Option& option, const ToolInfo& info) {
-  static const std::vector<std::string> common_ones{"help", "version", "config", "threads", "memory", "stats",
-                                                    "log",  "verbose", "quiet",  "output",  "format", "compress"};
-  if (option.get_lnames().empty()) return false;
-  const std::string& long_name = option.get_lnames().front();
-  for (const Role role : all_roles)
-    if (long_name == name_of(role)) return false;
-  const auto lists = [&](const std::vector<std::string>& names) {
-    return std::find(names.begin(), names.end(), long_name) != names.end();
-  };
-  return !lists(common_ones) && !lists(info.outside_history);
-}
-
 // CLI11 writes the default of an option with several values as "[a,b]", given values as "a,b".
 std::string default_value(const CLI::Option& option) {
   std::string text = option.get_default_str();
@@ -68,16 +52,50 @@ std::vector<std::string> given_values(const CLI::Option& option) {
   return values;
 }
 
-nlohmann::ordered_json options_for_history(const CLI::App& app, const ToolInfo& info) {
+nlohmann::ordered_json options_for_history(CLI::App& app) {
   nlohmann::ordered_json options = nlohmann::ordered_json::object();
-  for (const CLI::Option* option : app.get_options()) {
-    if (!decides_result(*option, info)) continue;
+  for (CLI::Option* const option : app.get_options({})) {
+    if (option->get_lnames().empty() || is_outside_history(*option)) continue;
     // Not by CLI11's join: a stream without memory cuts its text off and says nothing.
     const std::string value =
         option->count() > 0 ? fmt::format("{}", fmt::join(given_values(*option), ",")) : default_value(*option);
     if (!value.empty()) options[option->get_lnames().front()] = value;
   }
   return options;
+}
+
+void declare_graph_file(CLI::App& app, GraphFileOptions& options) {
+  app.add_option("--graph-format", options.format,
+                 "What a graph file is [told by its first bytes, METIS where these say nothing]")
+      ->check(CLI::IsMember({"metis", "dimacs", "matrix-market", "edges"}));
+  app.add_option("--weight-scale", options.weight_scale,
+                 "Weights in a graph file are any numbers: multiply them by this, then round")
+      ->check(number_between(1e-300, 1e300));
+  app.add_flag("--complement", options.complement,
+               "Take the edges that a graph file does not have: its cliques are the independent sets then");
+  app.add_flag("--tolerant", options.tolerant, "Leave out loops and repeated edges of a graph file, with a warning");
+}
+
+// Of tools that write meshes. None of them changes a bundle.
+void declare_mesh_output(CLI::App& app, MeshOptions& mesh) {
+  outside_history(
+      app.add_option("--solver", mesh.solver,
+                     "Write a mesh as this program takes it best: its pyramids, hexes and facets; calculix: pyramids "
+                     "collapsed, C3D8I; abaqus: C3D8I; openfoam, su2, nastran: their format is checked"))
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"calculix", "abaqus", "openfoam", "su2", "nastran"}).description(""));
+  outside_history(
+      app.add_option(
+          "--pyramids", mesh.pyramids,
+          "In files of other programs: keep; collapsed: as hexes with the apex four times (.inp); split: as two "
+          "tets each"))
+      ->type_name("FORM")
+      ->check(CLI::IsMember({"keep", "collapsed", "split"}).description(""));
+  outside_history(app.add_option("--hex-element", mesh.hex_element, "The type of hexes in .inp: C3D8, C3D8I or C3D8R"))
+      ->type_name("TYPE")
+      ->check(CLI::IsMember({"C3D8", "C3D8I", "C3D8R"}).description(""));
+  outside_history(app.add_flag("--no-facets", mesh.no_facets,
+                               "In files of other programs: cells alone, for readers that take no facets among them"));
 }
 
 void declare_streams(CLI::App& app, RunContext& context) {
@@ -89,28 +107,34 @@ void declare_streams(CLI::App& app, RunContext& context) {
            fmt::format("A bundle, or the {} in any format; '-' or nothing: standard input", name_of(reads.front())))
         ->type_name("FILE");
     for (const Role role : reads)
-      app.add_option(fmt::format("--{}", name_of(role)), streams.files[role],
-                     fmt::format("Take the {} from this file, whatever the bundle holds", name_of(role)))
+      outside_history(
+          app.add_option(fmt::format("--{}", name_of(role)), streams.files[role],
+                         fmt::format("Take the {} from this file, whatever the bundle holds", name_of(role))))
           ->type_name("FILE");
   }
+  if (std::ranges::find(reads, Role::graph) != reads.end()) declare_graph_file(app, streams.graph_file);
   if (!context.info.product) return;
-  app.add_option(
-         "-o,--output", streams.output,
-         fmt::format("Write to a file: a bundle (.tar, .tar.zst), else the {} alone, in the format that the ending "
-                     "names",
-                     name_of(*context.info.product)))
+  outside_history(
+      app.add_option("-o,--output", streams.output,
+                     fmt::format("Write to a file: a bundle (.tar, .tar.zst), else the {} alone, in the format that "
+                                 "the ending names",
+                                 name_of(*context.info.product))))
       ->type_name("FILE");
-  app.add_option("--format", streams.format, "The format of the output, whatever its name")->type_name("NAME");
-  app.add_flag("--compress", streams.compress, "Compress the bundle with zstd");
+  outside_history(app.add_option("--format", streams.format, "The format of the output, whatever its name"))
+      ->type_name("NAME");
+  outside_history(app.add_flag("--compress", streams.compress, "Compress the bundle with zstd"));
+  if (*context.info.product == Role::mesh || *context.info.product == Role::result)
+    declare_mesh_output(app, streams.mesh);
 }
 
 void declare_common(CLI::App& app, RunContext& context) {
   CommonOptions& common = context.common;
   const ToolInfo& info = context.info;
-  app.add_option("--threads", common.threads, "Threads to use; 0: as many as the machine has")
+  outside_history(app.add_option("--threads", common.threads, "Threads to use; 0: as many as the machine has"))
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
-  app.add_option("--memory", common.memory, "Take no more memory than this, as 8G; else: what the machine has left")
+  outside_history(app.add_option("--memory", common.memory,
+                                 "Take no more memory than this, as 8G; else: what the machine has left"))
       ->type_name("BYTES")
       ->transform(CLI::AsSizeValue(false).description(""))
       ->check(CLI::Range(std::uint64_t{1} << 20, std::uint64_t{1} << 62).description(""));
@@ -122,22 +146,25 @@ void declare_common(CLI::App& app, RunContext& context) {
   if (info.searches) {
     const std::string note = info.default_time_limit
                                  ? fmt::format(" [{:g} unless --iterations is given]", *info.default_time_limit)
-                                 : std::string();
+                             : info.ends_by_itself.empty() ? std::string()
+                                                           : fmt::format(" [else it ends {}]", info.ends_by_itself);
     app.add_option("--time-limit", common.time_limit, "Stop after this many seconds" + note)
         ->type_name("SECONDS")
         ->check(number_between(0, 1e9));
     app.add_option("--iterations", common.iterations, "Stop after this many iterations")
         ->type_name("N")
         ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 62).description(""));
-    app.add_option("--log", common.log_file,
-                   "Write the course of the search to a file, a JSON object a line; '-': to standard output")
+    outside_history(
+        app.add_option("--log", common.log_file,
+                       "Write the course of the search to a file, a JSON object a line; '-': to standard output"))
         ->type_name("FILE");
   }
-  app.add_option("--stats", common.stats_file, "Write counts and times to a file as JSON; '-': to standard output")
+  outside_history(
+      app.add_option("--stats", common.stats_file, "Write counts and times to a file as JSON; '-': to standard output"))
       ->type_name("FILE");
-  app.add_flag("-v,--verbose", common.verbose, "Say what is done, on standard error");
-  app.add_flag("-q,--quiet", common.quiet, "No warnings");
-  app.set_config("--config", "", "Read options from a file (name=value)")->type_name("FILE");
+  outside_history(app.add_flag("-v,--verbose", common.verbose, "Say what is done, on standard error"));
+  outside_history(app.add_flag("-q,--quiet", common.quiet, "No warnings"));
+  outside_history(app.set_config("--config", "", "Read options from a file (name=value)"))->type_name("FILE");
   app.allow_config_extras(CLI::config_extras_mode::error);
 }
 
@@ -234,7 +261,9 @@ int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<v
   context.info = info;
   CLI::App app(info.summary, info.name);
   app.formatter(std::make_shared<HelpFormatter>());
-  app.set_version_flag("--version", fmt::format("{} (hexpipe) {}\nLicence: {}", info.name, version(), info.licence));
+  outside_history(app.get_help_ptr());
+  outside_history(app.set_version_flag(
+      "--version", fmt::format("{} (hexpipe) {}\nLicence: {}", info.name, version(), info.licence)));
   app.footer(footer(info));
   app.option_defaults()->always_capture_default();
   declare(app);
@@ -249,7 +278,7 @@ int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<v
     return report(info.name, explanation_of(app, error), exit_usage);
   }
   std::erase_if(context.streams.files, [](const auto& file) { return file.second.empty(); });
-  context.options = options_for_history(app, info);
+  context.options = options_for_history(app);
 
   try {
     check_named_files(app);

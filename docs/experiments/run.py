@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""run.py [--out FOLDER] [--seconds S] [--size LENGTH] [EXPERIMENT...] - the dissertation's experiments on our parts.
+"""run.py [--out FOLDER] [--seconds S] [--size LENGTH] [EXPERIMENT...] - the dissertation's experiments on our models.
 
 K. Verhetsel, Solving the Maximum Weight Independent Set Problem: Application to Indirect Hex-Mesh Generation (UCLouvain,
 2017), chapter 4. Each experiment leaves a CSV and an SVG in FOLDER; without names all are run. S is the time of a search.

@@ -104,7 +104,7 @@ class CandParser {
     return found - 1;
   }
 
-  // A candidate is one line: what is missing there is not looked for on the next.
+  // A candidate is one line: a number that is missing there is not taken from the next line.
   template <class T>
   T number(std::string_view what) {
     if (scanner_.at_line_end()) scanner_.fail(fmt::format("expected {}, found the end of the line", what));

@@ -5,8 +5,8 @@
 //   hex 0.8164965809277261 1 6 0 1 2 3 4 5 6 7 8 11 12 13 14 15 16
 //   prism 0.7071067811865475 0.5 3 1 9 10 11 12 13 14 20 21 22 30
 //
-// The header: the word, the version, then how many candidates, interior tets and boundary tets there are in all. A
-// line: kind (hex, prism, pyramid), quality, volume, number of interior tets, number of boundary tets; then the
+// The header has the word, the version, and the numbers of candidates, interior tets and boundary tets in all. A line
+// has: kind (hex, prism, pyramid), quality, volume, number of interior tets, number of boundary tets; then the
 // vertices (8, 6 or 5), the interior tets ascending, the boundary tets ascending. Vertices and tets count from 1 as in
 // .mesh files, and so do candidates: the candidate of line n + 1 is vertex n of the .graph and number n in the .sol.
 // Numbers are separated by single spaces when written, by blanks when read; numbers read back are the same doubles.

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "common/run/memory.hpp"
+#include "formats/choice/edges.hpp"
 #include "formats/streams/number_lines.hpp"
 
 namespace hexpipe::formats {
@@ -15,12 +15,13 @@ namespace {
 
 class DimacsParser : NumberLines {
  public:
-  DimacsParser(std::string_view text, std::string_view file) : NumberLines(text, file, 'c') {}
+  DimacsParser(std::string_view text, std::string_view file, const GraphReading& reading, LeftOut& left_out)
+      : NumberLines(text, file, 'c'), reading_(reading), left_out_(left_out) {}
 
   graph::ConflictGraph parse() {
     read_problem();
     while (begin_line()) read_line();
-    build_lists();
+    graph_ = graph_of_edges(std::move(graph_.weights), ends_);
     check_edge_count();
     return std::move(graph_);
   }
@@ -40,7 +41,8 @@ class DimacsParser : NumberLines {
     end_line("the end of the problem line");
     if (vertices > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max()))
       fail(fmt::format("expected fewer than 2^31 vertices, found {}", vertices));
-    // Vertices without edges take no room in the file, so that its size says little; no real graph has so many.
+    // Vertices without edges take no room in the file, so its size is no bound for them; no real graph has more than
+    // this.
     constexpr std::uint64_t isolated = 1000000;
     if (vertices > bytes_left() + isolated)
       fail(fmt::format("expected at most {} vertices in a file of this size, found {}", bytes_left() + isolated,
@@ -74,7 +76,7 @@ class DimacsParser : NumberLines {
     const std::int32_t v = vertex_number("a vertex", graph_.vertex_count());
     if (has_weight_[v]) fail(fmt::format("expected one weight a vertex, found another for vertex {}", v + 1));
     has_weight_[v] = 1;
-    graph_.weights[v] = weight_number("the weight");
+    graph_.weights[v] = scaled_weight("the weight", reading_.weight_scale);
     if (__builtin_add_overflow(weight_sum_ - 1, graph_.weights[v], &weight_sum_))
       fail("expected weights whose sum fits 64 bits, found an overflow");
   }
@@ -82,44 +84,29 @@ class DimacsParser : NumberLines {
   void read_edge() {
     const std::int32_t a = vertex_number("a vertex", graph_.vertex_count());
     const std::int32_t b = vertex_number("a vertex", graph_.vertex_count());
-    if (a == b) fail(fmt::format("expected no loops, found vertex {} beside itself", a + 1));
+    if (a == b) {
+      if (!reading_.tolerant)
+        fail(fmt::format("expected no loops, found vertex {} beside itself (--tolerant leaves them out)", a + 1));
+      return static_cast<void>(++left_out_.loops);
+    }
     if (ends_.size() == 4 * edge_count_)
       fail(fmt::format("expected {} edges as the problem line says, found more than twice as many", edge_count_));
     ends_.push_back(a);
     ends_.push_back(b);
   }
 
-  void build_lists() {
-    std::vector<std::int64_t> places(graph_.weights.size() + 1, 0);
-    for (const std::int32_t v : ends_) ++places[v + 1];
-    for (std::size_t v = 1; v < places.size(); ++v) places[v] += places[v - 1];
-    std::vector<std::int32_t>& lists = graph_.neighbours;
-    lists.resize(ends_.size());
-    for (std::size_t i = 0; i < ends_.size(); i += 2) {
-      lists[places[ends_[i]]++] = ends_[i + 1];
-      lists[places[ends_[i + 1]]++] = ends_[i];
-    }
-    // Now places[v] is where the list of v ends.
-    std::int64_t begin = 0, kept = 0;
-    for (std::size_t v = 0; v < graph_.weights.size(); ++v) {
-      const auto list = std::span(lists).subspan(begin, places[v] - begin);
-      begin = places[v];
-      std::ranges::sort(list);
-      const auto repeated = std::unique(list.begin(), list.end());
-      kept = std::copy(list.begin(), repeated, lists.begin() + kept) - lists.begin();
-      graph_.offsets.push_back(kept);
-    }
-    lists.resize(kept);
-  }
-
   // Colouring files count an edge that comes twice as one or as two.
   void check_edge_count() {
     const std::uint64_t lines = ends_.size() / 2;
-    if (lines != edge_count_ && static_cast<std::uint64_t>(graph_.edge_count()) != edge_count_)
+    const auto loops = static_cast<std::uint64_t>(left_out_.loops);
+    if (lines != edge_count_ && lines + loops != edge_count_ &&
+        static_cast<std::uint64_t>(graph_.edge_count()) != edge_count_)
       throw FormatError(file(), line(),
                         fmt::format("expected {} edges as the problem line says, found {}", edge_count_, lines));
   }
 
+  const GraphReading& reading_;
+  LeftOut& left_out_;
   std::uint64_t edge_count_ = 0;
   std::int64_t weight_sum_ = 0;
   std::vector<char> has_weight_;
@@ -136,9 +123,14 @@ bool looks_like_dimacs(Input& input) {
 }
 
 graph::ConflictGraph read_dimacs(Input& input) {
+  LeftOut nothing;
+  return read_dimacs(input, {}, nothing);
+}
+
+graph::ConflictGraph read_dimacs(Input& input, const GraphReading& reading, LeftOut& left_out) {
   const std::string text = input.read_all();
   if (!text.empty()) expect_last_line_end(text, input.name());
-  return DimacsParser(text, input.name()).parse();
+  return DimacsParser(text, input.name(), reading, left_out).parse();
 }
 
 }  // namespace hexpipe::formats

@@ -1,6 +1,6 @@
 #pragma once
-// The fragments that a search improved, as viewmesh --fragments reads them: a line each, the numbers of its vertices
-// from 1.
+// Writes the fragments that a search improved, as viewmesh --fragments reads them: each line has the numbers of a
+// fragment's vertices, from 1.
 
 #include <cstdint>
 #include <exception>
@@ -11,7 +11,7 @@
 
 namespace hexpipe::formats {
 
-// A disk that is full in the middle of a search does not end it: commit() tells.
+// A disk that is full does not end a search: commit() reports it.
 class FragmentsFile {
  public:
   // Throws DataError when the file cannot be opened.
@@ -19,7 +19,7 @@ class FragmentsFile {
 
   // `vertices` count from 0.
   void add(std::span<const std::uint64_t> vertices);
-  // Throws DataError when this or anything before could not be written; then there is no file.
+  // Throws DataError when anything could not be written; then there is no file.
   void commit();
 
  private:

@@ -15,7 +15,8 @@ namespace {
 
 class MetisParser : NumberLines {
  public:
-  MetisParser(std::string_view text, std::string_view file) : NumberLines(text, file, '%') {}
+  MetisParser(std::string_view text, std::string_view file, const GraphReading& reading, LeftOut& left_out)
+      : NumberLines(text, file, '%'), reading_(reading), left_out_(left_out), has_last_end_(text.ends_with('\n')) {}
 
   graph::ConflictGraph parse() {
     read_header();
@@ -23,6 +24,7 @@ class MetisParser : NumberLines {
     check_nothing_follows();
     check_edge_count();
     check_both_ends();
+    check_last_number();
     return std::move(graph_);
   }
 
@@ -61,7 +63,7 @@ class MetisParser : NumberLines {
   void read_vertex(std::int32_t v) {
     if (!begin_line()) fail_missing_lines(v);
     std::int64_t weight = 1;
-    if (vertex_weights_) weight = weight_number("the vertex weight");
+    if (vertex_weights_) weight = scaled_weight("the vertex weight", reading_.weight_scale);
     if (__builtin_add_overflow(weight_sum_, weight, &weight_sum_))
       fail("expected weights whose sum fits 64 bits, found an overflow");
     graph_.weights.push_back(weight);
@@ -70,9 +72,10 @@ class MetisParser : NumberLines {
     const auto first = graph_.neighbours.size();
     while (!at_line_end()) {
       const std::int32_t u = neighbour(v);
+      if (edge_weights_) take_edge_weight();
+      if (u == v) continue;
       ascending = ascending && (graph_.neighbours.size() == first || graph_.neighbours.back() < u);
       graph_.neighbours.push_back(u);
-      if (edge_weights_) weight_number("the edge weight");
     }
     if (!ascending) sort_neighbours(first);
     graph_.offsets.push_back(static_cast<std::int64_t>(graph_.neighbours.size()));
@@ -81,8 +84,13 @@ class MetisParser : NumberLines {
 
   std::int32_t neighbour(std::int32_t v) {
     const std::int32_t u = vertex_number("a neighbour", vertex_count_);
-    if (u == v) fail(fmt::format("expected no loops, found vertex {} beside itself", v + 1));
-    if (graph_.neighbours.size() == directed_count_)
+    if (u == v) {
+      if (!reading_.tolerant)
+        fail(fmt::format("expected no loops, found vertex {} beside itself (--tolerant leaves them out)", v + 1));
+      ++left_out_.loops;
+      return u;
+    }
+    if (!reading_.tolerant && graph_.neighbours.size() == directed_count_)
       fail(fmt::format("expected {} edges as the header says, found more", directed_count_ / 2));
     return u;
   }
@@ -91,7 +99,20 @@ class MetisParser : NumberLines {
     const auto list = std::span(graph_.neighbours).subspan(first);
     std::ranges::sort(list);
     const auto repeated = std::ranges::adjacent_find(list);
-    if (repeated != list.end()) fail(fmt::format("expected each neighbour once, found {} repeated", *repeated + 1));
+    if (repeated == list.end()) return;
+    if (!reading_.tolerant)
+      fail(fmt::format("expected each neighbour once, found {} repeated (--tolerant takes it once)", *repeated + 1));
+    const auto rest = std::ranges::unique(list);
+    repeated_ends_ += rest.size();
+    graph_.neighbours.resize(graph_.neighbours.size() - rest.size());
+  }
+
+  // Where they are real numbers they are left out as well.
+  void take_edge_weight() {
+    if (reading_.weight_scale)
+      scaled_weight("the edge weight", reading_.weight_scale);
+    else
+      weight_number("the edge weight");
   }
 
   void check_nothing_follows() {
@@ -102,9 +123,26 @@ class MetisParser : NumberLines {
   }
 
   void check_edge_count() {
-    if (graph_.neighbours.size() != directed_count_)
-      throw DataError::at(file(), "expected {} edges ({} neighbours) as the header says, found {} neighbours",
-                          directed_count_ / 2, directed_count_, graph_.neighbours.size());
+    left_out_.repeated += static_cast<std::int64_t>(repeated_ends_ / 2);
+    if (is_counted(graph_.neighbours.size())) return;
+    throw DataError::at(file(), "expected {} edges ({} neighbours) as the header says, found {} neighbours",
+                        directed_count_ / 2, directed_count_, graph_.neighbours.size());
+  }
+
+  // The header may count what is left out: repeated edges, and loops by one of their ends or by both.
+  bool is_counted(std::size_t found) const {
+    const auto loops = static_cast<std::size_t>(left_out_.loops);
+    for (const std::size_t with_repeated : {found, found + repeated_ends_})
+      for (const std::size_t with_loops : {with_repeated, with_repeated + loops, with_repeated + 2 * loops})
+        if (with_loops == directed_count_) return true;
+    return false;
+  }
+
+  // What is cut off may end with the beginning of a number. A neighbour would have been missed at its other end.
+  void check_last_number() const {
+    if (has_last_end_ || !vertex_weights_ || vertex_count_ == 0 || graph_.degree(vertex_count_ - 1) > 0) return;
+    throw DataError::at(file(),
+                        "expected the last line to have an end, found none; is the file cut off in its last weight?");
   }
 
   void check_both_ends() {
@@ -126,6 +164,10 @@ class MetisParser : NumberLines {
                       fmt::format("expected the lines of {} vertices, found {}", vertex_count_, found));
   }
 
+  const GraphReading& reading_;
+  LeftOut& left_out_;
+  bool has_last_end_;
+  std::size_t repeated_ends_ = 0;
   std::int32_t vertex_count_ = 0;
   std::uint64_t directed_count_ = 0;
   bool vertex_weights_ = false;
@@ -137,9 +179,13 @@ class MetisParser : NumberLines {
 }  // namespace
 
 graph::ConflictGraph read_metis(Input& input) {
+  LeftOut nothing;
+  return read_metis(input, {}, nothing);
+}
+
+graph::ConflictGraph read_metis(Input& input, const GraphReading& reading, LeftOut& left_out) {
   const std::string text = input.read_all();
-  if (!text.empty()) expect_last_line_end(text, input.name());
-  return MetisParser(text, input.name()).parse();
+  return MetisParser(text, input.name(), reading, left_out).parse();
 }
 
 void write_metis(const graph::ConflictGraph& graph, Output& output) {

@@ -6,22 +6,24 @@
 #include <string>
 
 #include "common/graph/conflict_graph.hpp"
+#include "formats/choice/graph_reading.hpp"
 #include "formats/streams/input.hpp"
 #include "formats/streams/output.hpp"
 
 namespace hexpipe::formats {
 
-// Takes fmt 0, 1, 10 and 11: without vertex weights every weight is 1, edge weights are read and left out, '%' begins a
-// comment line, an empty line is a vertex without neighbours, neighbours may come in any order. Throws FormatError with
-// the line for loops, repeated and one-sided edges, numbers out of range, and counts that disagree with the header.
+// Reads fmt 0, 1, 10 and 11. Without vertex weights every weight is 1; edge weights are dropped. '%' begins a comment
+// line, an empty line is a vertex without neighbours, and neighbours may come in any order. Throws FormatError with the
+// line for loops, repeated and one-sided edges, numbers out of range, and counts that disagree with the header. A
+// tolerant reading leaves out loops and repeated edges, which the header may count or not.
 graph::ConflictGraph read_metis(Input& input);
+graph::ConflictGraph read_metis(Input& input, const GraphReading& reading, LeftOut& left_out);
 
 // Writes `n m 10`, neighbours ascending.
 void write_metis(const graph::ConflictGraph& graph, Output& output);
 
-// What other programs would do to these weights: METIS itself holds them in 31 bits, KaMIS sums them in 32, both
-// without a word when they overflow. Says which --weight-scale would fit, as a factor of the present one. Empty when
-// all is well.
+// A warning when other programs cannot hold these weights: METIS itself holds them in 31 bits, KaMIS sums them in 32,
+// and neither reports an overflow. It names the --weight-scale that would fit, as a factor of the present one.
 std::optional<std::string> metis_weight_warning(const graph::ConflictGraph& graph);
 
 }  // namespace hexpipe::formats

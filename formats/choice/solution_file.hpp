@@ -1,6 +1,6 @@
 #pragma once
-// .sol, an independent set in either of the two forms that solvers write: the numbers of the chosen vertices, counted
-// from 1, one a line (CHILS); or a line 0 or 1 for each vertex (KaMIS). formats/README.md shows both.
+// .sol, an independent set in one of the two forms that solvers write: the numbers of the chosen vertices, counted from
+// 1, each on a line (CHILS); or a line 0 or 1 for each vertex (KaMIS). formats/README.md shows both.
 
 #include <cstdint>
 
@@ -10,10 +10,10 @@
 
 namespace hexpipe::formats {
 
-// Told apart by the graph's size: a file with a line for each vertex, each of them 0 or 1, is of the second form. One
-// file is both, a single line 1 for a graph of one vertex, and means the same either way. Numbers may come in any
-// order. The result is ascending. Throws FormatError with the line for numbers out of range or repeated; whether two
-// chosen vertices are neighbours is for validate(IndependentSet, ConflictGraph) to say: assemble has no graph.
+// The graph's size tells the forms apart: a file with a line 0 or 1 for each vertex has the second form. Only a single
+// line 1 for a graph of one vertex has both, and means the same in both. Numbers may come in any order; the result is
+// ascending. Throws FormatError with the line for numbers out of range or repeated. It does not look for chosen
+// neighbours, as assemble has no graph: validate(IndependentSet, ConflictGraph) does.
 graph::IndependentSet read_solution(Input& input, std::int64_t vertex_count);
 
 // Writes the first form, ascending.

@@ -1,6 +1,8 @@
 #include "formats/meshes/abaqus.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -8,11 +10,20 @@
 
 #include "common/run/error.hpp"
 #include "formats/meshes/facet_owners.hpp"
+#include "formats/meshes/group_naming.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
-#include "formats/streams/number_writer.hpp"
+#include "formats/streams/short_number.hpp"
 
 namespace hexpipe::formats {
 namespace {
+
+// CalculiX cuts fields here, without a word: of -9.52639091424853e-05 it keeps -9.52639091424853e-0.
+constexpr int field_width = 20;
+// CalculiX reads lines of 132 characters, Abaqus of 256; both take 16 numbers a line.
+constexpr std::size_t line_width = 80;
+
+constexpr NameRules abaqus_rules{
+    .format = "Abaqus", .longest = 80, .others = "", .folds_case = true, .begins_with_letter = true};
 
 struct AbaqusNames {
   CellKind kind;
@@ -28,41 +39,53 @@ constexpr AbaqusNames names_by_kind[] = {
     {CellKind::pyramid, "C3D5", {2, 3, 4, 5}, {1}},
     {CellKind::tet, "C3D4", {3, 4, 2, 1}, {}},
 };
-
-constexpr const AbaqusNames& abaqus_names(CellKind kind) {
-  for (const AbaqusNames& names : names_by_kind)
-    if (names.kind == kind) return names;
-  return names_by_kind[0];
-}
-
-// Names of sets have no minus sign.
-std::string set_name(const char* word, std::int32_t tag) {
-  return tag < 0 ? fmt::format("{}_M{}", word, -static_cast<std::int64_t>(tag)) : fmt::format("{}_{}", word, tag);
-}
+// A pyramid as a hex whose upper four corners are the apex: its sides are the hex's.
+constexpr AbaqusNames collapsed_pyramid{CellKind::pyramid, "C3D8", {3, 4, 5, 6}, {1}};
 
 class AbaqusWriter {
  public:
-  AbaqusWriter(const MixedMesh& mesh, Output& output) : mesh_(mesh), output_(output) {}
+  AbaqusWriter(const MixedMesh& mesh, const MeshWriting& writing, Output& output)
+      : mesh_(mesh), writing_(writing), output_(output), names_(mesh, writing, abaqus_rules, {"EALL", "NALL"}) {}
 
   void write() {
+    check_numbers(std::max(mesh_.points.size(), element_count(mesh_)), most_of_31_bits, output_.name());
     const FacetOwners owners = find_facet_owners(mesh_);
     output_.print("*HEADING\nhexpipe mesh\n");
     write_points();
     write_elements();
+    collect_faces(mesh_.triangles, owners.triangles, "triangles");
+    collect_faces(mesh_.quads, owners.quads, "quads");
     write_regions();
-    collect_surfaces(mesh_.triangles, owners.triangles, "triangles");
-    collect_surfaces(mesh_.quads, owners.quads, "quads");
     write_surfaces();
   }
 
  private:
   using Face = std::pair<std::int64_t, int>;  // number of the element and of its face
+  struct Group {
+    std::vector<std::int64_t> elements;
+    std::vector<std::int64_t> nodes;
+    std::vector<Face> faces;
+  };
+  using Groups = std::map<std::string, Group>;
+
+  bool collapses(CellKind kind) const {
+    return kind == CellKind::pyramid && writing_.pyramids == PyramidForm::collapsed;
+  }
+  const AbaqusNames& abaqus_names(CellKind kind) const {
+    if (collapses(kind)) return collapsed_pyramid;
+    return *std::ranges::find(names_by_kind, kind, &AbaqusNames::kind);
+  }
+  std::string type_of(CellKind kind) const {
+    return kind == CellKind::hex ? writing_.hex_element : abaqus_names(kind).type;
+  }
 
   void write_points() {
+    const double negligible = negligible_length(mesh_);
+    const auto text = [&](double x) { return number_within(std::abs(x) < negligible ? 0 : x, field_width); };
     output_.print("*NODE, NSET=NALL\n");
     for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
       const Vec3& p = mesh_.points[i];
-      output_.print("{}, {}, {}, {}\n", i + 1, p.x, p.y, p.z);
+      output_.print("{}, {}, {}, {}\n", i + 1, text(p.x), text(p.y), text(p.z));
     }
   }
 
@@ -73,32 +96,24 @@ class AbaqusWriter {
       if (names.dimension != 3) return;
       const auto kind = static_cast<CellKind>(names.vtk);
       first_element_[kind] = element;
-      if (block.size() > 0) output_.print("*ELEMENT, TYPE={}, ELSET=EALL\n", abaqus_names(kind).type);
-      for (const auto& cell : block.cells) {
+      if (block.size() > 0) output_.print("*ELEMENT, TYPE={}, ELSET=EALL\n", type_of(kind));
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        const auto& cell = block.cells[i];
+        Group& region = region_groups_[names_.regions.of(block.tags[i])];
+        region.elements.push_back(element);
         output_.print("{}", element++);
-        for (const Vertex v : cell) output_.print(", {}", v + 1);
+        for (const Vertex v : cell) {
+          output_.print(", {}", v + 1);
+          region.nodes.push_back(v + 1);
+        }
+        for (int again = 0; again < (collapses(kind) ? 3 : 0); ++again) output_.print(", {}", cell.back() + 1);
         output_.print("\n");
       }
     });
   }
 
-  void write_regions() {
-    std::map<std::int32_t, std::vector<std::int64_t>> elements;
-    std::int64_t element = 1;
-    for_each_block(mesh_, [&](const ElementNames& names, const auto& block) {
-      if (names.dimension != 3) return;
-      for (const std::int32_t tag : block.tags) elements[tag].push_back(element++);
-    });
-    for (const auto& [tag, list] : elements) {
-      output_.print("*ELSET, ELSET={}\n", set_name("REGION", tag));
-      // A data line has 16 entries at most.
-      for (std::size_t i = 0; i < list.size(); ++i)
-        output_.print("{}{}", list[i], i % 16 == 15 || i + 1 == list.size() ? "\n" : ", ");
-    }
-  }
-
   template <class Block>
-  void collect_surfaces(const Block& facets, const std::vector<FacetOwner>& owners, const char* name) {
+  void collect_faces(const Block& facets, const std::vector<FacetOwner>& owners, const char* name) {
     for (std::size_t i = 0; i < facets.size(); ++i) {
       const FacetOwner& owner = owners[i];
       if (owner.cell < 0)
@@ -107,27 +122,61 @@ class AbaqusWriter {
       const AbaqusNames& names = abaqus_names(owner.kind);
       const auto facet = static_cast<std::size_t>(owner.facet);
       const int face = corners_of_block<Block> == 3 ? names.triangle_faces[facet] : names.quad_faces[facet];
-      surfaces_[facets.tags[i]].emplace_back(first_element_[owner.kind] + owner.cell, face);
+      Group& surface = surface_groups_[names_.surfaces.of(facets.tags[i])];
+      surface.faces.emplace_back(first_element_[owner.kind] + owner.cell, face);
+      for (const Vertex v : facets.cells[i]) surface.nodes.push_back(v + 1);
+    }
+  }
+
+  void write_set(const char* keyword, const std::string& name, const std::vector<std::int64_t>& numbers) {
+    output_.print("*{0}, {0}={1}\n", keyword, name);
+    std::string line;
+    int in_line = 0;
+    for (const std::int64_t number : numbers) {
+      std::string entry = std::to_string(number);
+      if (in_line == 16 || line.size() + 2 + entry.size() > line_width) {
+        output_.print("{}\n", line);
+        line.clear();
+        in_line = 0;
+      }
+      line += (in_line++ == 0 ? "" : ", ") + entry;
+    }
+    output_.print("{}\n", line);
+  }
+
+  void write_node_set(const std::string& name, std::vector<std::int64_t>& nodes) {
+    std::ranges::sort(nodes);
+    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+    write_set("NSET", name, nodes);
+  }
+
+  void write_regions() {
+    for (const std::string& name : names_.regions.list()) {
+      write_set("ELSET", name, region_groups_[name].elements);
+      write_node_set(name, region_groups_[name].nodes);
     }
   }
 
   void write_surfaces() {
-    for (const auto& [tag, faces] : surfaces_) {
-      output_.print("*SURFACE, NAME={}, TYPE=ELEMENT\n", set_name("SURFACE", tag));
-      for (const auto& [element, face] : faces) output_.print("{}, S{}\n", element, face);
+    for (const std::string& name : names_.surfaces.list()) {
+      write_node_set(name, surface_groups_[name].nodes);
+      output_.print("*SURFACE, NAME={}, TYPE=ELEMENT\n", name);
+      for (const auto& [element, face] : surface_groups_[name].faces) output_.print("{}, S{}\n", element, face);
     }
   }
 
   const MixedMesh& mesh_;
+  const MeshWriting& writing_;
   Output& output_;
+  GroupNamings names_;
   std::map<CellKind, std::int64_t> first_element_;
-  std::map<std::int32_t, std::vector<Face>> surfaces_;
+  Groups region_groups_, surface_groups_;
 };
 
 }  // namespace
 
-void write_abaqus(const MixedMesh& mesh, Output& output) {
-  AbaqusWriter(mesh, output).write();
+void write_abaqus(const MixedMesh& mesh, const MeshWriting& writing, Output& output) {
+  AbaqusWriter(mesh, writing, output).write();
 }
 
 }  // namespace hexpipe::formats

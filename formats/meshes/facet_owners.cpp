@@ -15,18 +15,26 @@ class Owners {
   using Facet = std::array<Vertex, Corners>;
 
   Owners(const std::vector<Facet>& facets, std::size_t point_count)
-      : facets_(facets), table_(facets, point_count), owners_(facets.size()), outward_(facets.size()) {}
+      : facets_(facets),
+        table_(facets, point_count),
+        owners_(facets.size()),
+        cells_(facets.size()),
+        outward_(facets.size()) {}
 
   // Tells of a facet of a cell, listed counter-clockwise seen from outside.
   void offer(const Facet& facet, const FacetOwner& cell) {
     table_.visit_same(facet, [&](std::size_t i) {
+      ++cells_[i];
       if (outward_[i]) return;
       outward_[i] = same_cycle(facets_[i], facet);
       if (outward_[i] || owners_[i].cell < 0) owners_[i] = cell;
     });
   }
 
-  std::vector<FacetOwner> take() { return std::move(owners_); }
+  std::vector<FacetOwner> take() {
+    for (std::size_t i = 0; i < owners_.size(); ++i) owners_[i].cells = cells_[i];
+    return std::move(owners_);
+  }
 
  private:
   static bool same_cycle(const Facet& a, Facet b) {
@@ -40,6 +48,7 @@ class Owners {
   const std::vector<Facet>& facets_;
   FacetTable<Corners> table_;
   std::vector<FacetOwner> owners_;
+  std::vector<std::int32_t> cells_;
   std::vector<bool> outward_;
 };
 

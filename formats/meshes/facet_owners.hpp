@@ -1,6 +1,6 @@
 #pragma once
-// Which cell each boundary or interface facet of a mixed mesh belongs to: formats that name surfaces by cell and facet
-// number need it, and pictures give a facet the region and the quality of its cell.
+// Finds the cell that each boundary or interface facet of a mixed mesh belongs to. Formats that name surfaces by cell
+// and facet number need it, and pictures give a facet the region and the quality of its cell.
 
 #include <cstdint>
 #include <vector>
@@ -10,16 +10,17 @@
 namespace hexpipe::formats {
 
 struct FacetOwner {
-  std::int64_t cell = -1;  // within the block of its kind; -1: the facet is none of a cell
+  std::int64_t cell = -1;  // within the block of its kind; -1: the facet belongs to no cell
   CellKind kind = CellKind::tet;
   std::uint8_t facet = 0;  // in the topology's list of triangles or of quads
+  std::int32_t cells = 0;  // how many have the facet: 1 on the boundary, 2 inside
 };
 
 struct FacetOwners {
   std::vector<FacetOwner> triangles, quads;  // one for each of the mesh
 };
 
-// The owner of a facet is the first cell that it points out of, or else the first that has it.
+// The owner of a facet is the first cell that it points out of; if there is no such cell, the first one that has it.
 FacetOwners find_facet_owners(const MixedMesh& mesh);
 
 }  // namespace hexpipe::formats

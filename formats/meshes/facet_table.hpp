@@ -1,5 +1,5 @@
 #pragma once
-// Finds facets by their vertices, in whatever order these are listed.
+// Finds facets by their vertices, in any order.
 
 #include <algorithm>
 #include <array>
@@ -32,7 +32,7 @@ class FacetTable {
     }
   }
 
-  // visit(i) for each facet i of the same vertices.
+  // Calls visit(i) for each facet i with the same vertices.
   template <class Visit>
   void visit_same(const Facet& facet, Visit&& visit) const {
     if (facets_.empty()) return;

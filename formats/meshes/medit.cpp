@@ -1,6 +1,8 @@
 #include "formats/meshes/medit.hpp"
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "formats/meshes/mesh_blocks.hpp"
 #include "formats/streams/number_writer.hpp"
@@ -40,6 +42,7 @@ class MeditReader {
     }
     if (!scanner_.at_end()) scanner_.fail_expected("nothing after End", scanner_.peek_word());
     if (!has_vertices_) scanner_.fail("expected Vertices, found none");
+    if (!ridges_.empty()) mesh_.ridges = edges_at_ridges();
     return std::move(mesh_);
   }
 
@@ -48,6 +51,8 @@ class MeditReader {
     const std::string_view keyword = usual_spelling(word);
     if (equal_ignoring_case(keyword, "Dimension")) return read_dimension();
     if (equal_ignoring_case(keyword, "Vertices")) return read_vertices();
+    if (equal_ignoring_case(keyword, "Edges")) return read_edges();
+    if (equal_ignoring_case(keyword, "Ridges")) return read_ridges();
     bool known = false;
     for_each_block(mesh_, [&](const ElementNames& names, auto& block) {
       if (!equal_ignoring_case(keyword, names.medit)) return;
@@ -96,6 +101,37 @@ class MeditReader {
     }
   }
 
+  void read_edges() {
+    if (!has_vertices_) scanner_.fail("expected Vertices before Edges");
+    const std::size_t count = scanner_.count("the number of Edges", 6);
+    edges_.reserve(edges_.size() + count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vertex a = read_vertex(), b = read_vertex();
+      edges_.push_back({std::min(a, b), std::max(a, b)});
+      scanner_.number<std::int32_t>("a reference");
+    }
+  }
+
+  // Numbers of edges, which may come later in the file.
+  void read_ridges() {
+    const std::size_t count = scanner_.count("the number of Ridges", 2);
+    ridges_.reserve(ridges_.size() + count);
+    for (std::size_t i = 0; i < count; ++i) ridges_.push_back(scanner_.number<std::int64_t>("the number of an edge"));
+  }
+
+  // Each once, by its vertices.
+  std::vector<Ridge> edges_at_ridges() const {
+    std::vector<Ridge> result;
+    for (const std::int64_t number : ridges_) {
+      if (number < 1 || number > static_cast<std::int64_t>(edges_.size()))
+        scanner_.fail(fmt::format("expected Ridges of edges from 1 to {}, found {}", edges_.size(), number));
+      result.push_back(edges_[static_cast<std::size_t>(number - 1)]);
+    }
+    std::ranges::sort(result);
+    result.erase(std::ranges::unique(result).begin(), result.end());
+    return result;
+  }
+
   Vertex read_vertex() {
     const auto v = scanner_.number<Vertex>(vertex_range_);
     if (v < 1 || static_cast<std::size_t>(v) > mesh_.points.size())
@@ -112,16 +148,31 @@ class MeditReader {
     });
   }
 
-  // Corners, Ridges, Normals and the like: a count and numbers.
+  // Corners, Normals and the like: a count and numbers.
   void skip_section() {
     while (!scanner_.at_end() && !is_letter(scanner_.peek_word().front())) scanner_.word("a number");
   }
 
   TextScanner scanner_;
   MixedMesh mesh_;
+  std::vector<Ridge> edges_;
+  std::vector<std::int64_t> ridges_;  // from 1, among the edges
   std::string vertex_range_;
   bool has_vertices_ = false;
 };
+
+void write_ridges(const std::vector<Ridge>& ridges, Output& output, LineWriter& line) {
+  output.print("\nEdges\n{}\n", ridges.size());
+  for (const auto& [a, b] : ridges) {
+    line << a + 1 << b + 1 << 0;
+    line.end_line();
+  }
+  output.print("\nRidges\n{}\n", ridges.size());
+  for (std::size_t i = 1; i <= ridges.size(); ++i) {
+    line << i;
+    line.end_line();
+  }
+}
 
 }  // namespace
 
@@ -150,6 +201,7 @@ void write_medit(const MixedMesh& mesh, Output& output) {
       line.end_line();
     }
   });
+  if (mesh.ridges) write_ridges(*mesh.ridges, output, line);
   output.print("\nEnd\n");
 }
 

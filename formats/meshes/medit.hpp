@@ -13,7 +13,7 @@ bool looks_like_medit(std::string_view text);
 // References become tags. Throws FormatError.
 MixedMesh read_medit(std::string_view text, std::string_view file);
 
-// Qualities are not written: the format has no place for them.
+// Does not write qualities: the format has no place for them.
 void write_medit(const MixedMesh& mesh, Output& output);
 
 }  // namespace hexpipe::formats

@@ -1,5 +1,6 @@
 #pragma once
-// The blocks of a mixed mesh in the order in which every file lists them, with what the formats call their elements.
+// The blocks of a mixed mesh, in the order in which every file lists them, and the names of their elements in each
+// format.
 
 #include <array>
 #include <cstdint>
@@ -45,7 +46,7 @@ inline std::size_t element_count(const MixedMesh& mesh) {
   return mesh.cell_count() + mesh.triangles.size() + mesh.quads.size();
 }
 
-// True when there are cells and every one has a quality: then files carry it.
+// True when there are cells and every one has a quality: then files have it.
 inline bool has_quality(const MixedMesh& mesh) {
   bool all = mesh.cell_count() > 0;
   for_each_block(mesh, [&](const ElementNames& names, const auto& block) {

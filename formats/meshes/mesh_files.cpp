@@ -6,6 +6,9 @@
 #include "formats/meshes/abaqus.hpp"
 #include "formats/meshes/medit.hpp"
 #include "formats/meshes/msh.hpp"
+#include "formats/meshes/nastran.hpp"
+#include "formats/meshes/openfoam.hpp"
+#include "formats/meshes/su2.hpp"
 #include "formats/meshes/tetgen.hpp"
 #include "formats/meshes/vtk_legacy.hpp"
 #include "formats/meshes/vtu.hpp"
@@ -16,23 +19,32 @@ namespace {
 
 struct MeshFormat {
   std::string_view name;
-  void (*write)(const MixedMesh& mesh, Output& output);
+  void (*write)(const MixedMesh& mesh, const MeshWriting& writing, Output& output);
 };
 
 template <MshVersion version, MshCoding coding>
-void write_msh_as(const MixedMesh& mesh, Output& output) {
-  write_msh(mesh, version, coding, output);
+void write_msh_as(const MixedMesh& mesh, const MeshWriting& writing, Output& output) {
+  write_msh(mesh, version, coding, writing, output);
+}
+
+// Formats that nothing of `writing` concerns: they have tags, no names.
+template <void (*write)(const MixedMesh& mesh, Output& output)>
+void write_tags(const MixedMesh& mesh, const MeshWriting&, Output& output) {
+  write(mesh, output);
 }
 
 constexpr MeshFormat formats[] = {
-    {"mesh", write_medit},
+    {"mesh", write_tags<write_medit>},
     {"msh", write_msh_as<MshVersion::v4_1, MshCoding::ascii>},
     {"msh-binary", write_msh_as<MshVersion::v4_1, MshCoding::binary>},
     {"msh22", write_msh_as<MshVersion::v2_2, MshCoding::ascii>},
     {"msh22-binary", write_msh_as<MshVersion::v2_2, MshCoding::binary>},
-    {"vtk", write_vtk_legacy},
-    {"vtu", write_vtu},
+    {"vtk", write_tags<write_vtk_legacy>},
+    {"vtu", write_tags<write_vtu>},
     {"inp", write_abaqus},
+    {"su2", write_su2},
+    {"bdf", write_nastran},
+    {"nas", write_nastran},
 };
 
 // The first four bytes of a MEDIT .meshb, in either byte order.
@@ -41,35 +53,64 @@ bool looks_like_binary_medit(std::string_view text) {
   return text.starts_with("\1\0\0\0"sv) || text.starts_with("\0\0\0\1"sv);
 }
 
-MixedMesh read_by_content(std::string text, const std::string& name, const std::string& path) {
+MixedMesh read_by_content(std::string text, const std::string& name, const std::string& path, GroupNames* names) {
   text.erase(0, text.size() - without_byte_order_mark(text).size());
   if (looks_like_vtu(text)) return read_vtu(std::move(text), name);
   if (looks_like_vtk_legacy(text)) return read_vtk_legacy(text, name);
-  if (looks_like_msh(text)) return read_msh(text, name);
+  // Comments of Nastran begin like the sections of a .msh.
+  if (looks_like_nastran(text)) return read_nastran(text, name, names);
+  if (looks_like_msh(text)) return read_msh(text, name, names);
   if (looks_like_medit(text)) return read_medit(text, name);
   if (looks_like_tetgen(text)) return read_tetgen(text, name, path);
+  if (looks_like_su2(text)) return read_su2(text, name, names);
   if (looks_like_binary_medit(text))
     throw DataError::at(name,
                         "expected a text, found MEDIT's binary format; transmesh of libmeshb makes a .mesh of it");
   throw FormatError(
       name, 1,
-      fmt::format("expected a mesh (MEDIT .mesh, Gmsh .msh, VTK, VTU, TetGen .node or .ele; tetmesh makes one of a "
-                  "surface), found {}",
+      fmt::format("expected a mesh (MEDIT .mesh, Gmsh .msh, VTK, VTU, TetGen .node or .ele, SU2, Nastran; "
+                  "tetmesh makes one of a surface), found {}",
                   quote_found(TextScanner(text, name).peek_word())));
 }
 
 }  // namespace
 
-MixedMesh read_mixed_mesh(Input& input) {
-  MixedMesh mesh = read_by_content(input.read_all(), input.name(), input.path());
+MixedMesh read_mixed_mesh(Input& input, GroupNames* names) {
+  MixedMesh mesh = read_by_content(input.read_all(), input.name(), input.path(), names);
   validate(mesh, input.name().c_str());
   return mesh;
 }
 
-void write_mixed_mesh(const MixedMesh& mesh, std::string_view format, Output& output) {
-  for (const MeshFormat& known : formats)
-    if (known.name == format) return known.write(mesh, output);
+namespace {
+
+// Without what the options leave out; the mesh itself where they leave all. Says what that costs.
+MixedMesh with_options(MixedMesh mesh, const MeshWriting& writing) {
+  if (writing.pyramids == PyramidForm::split && mesh.pyramids.size() > 0) {
+    writing.say(
+        fmt::format("{} pyramids are written as two tets each: their quads face two triangles", mesh.pyramids.size()));
+    mesh = with_split_pyramids(mesh);
+  }
+  if (!writing.facets) mesh.triangles = {}, mesh.quads = {};
+  return mesh;
+}
+
+}  // namespace
+
+void write_mixed_mesh(const MixedMesh& mesh, std::string_view format, Output& output, const MeshWriting& writing) {
+  for (const MeshFormat& known : formats) {
+    if (known.name != format) continue;
+    if (writing.facets && writing.pyramids == PyramidForm::keep) return known.write(mesh, writing, output);
+    return known.write(with_options(mesh, writing), writing, output);
+  }
   throw UsageError(fmt::format("expected a mesh format, found {}", quote_found(format)));
+}
+
+std::unique_ptr<OutputFolder> open_mesh_folder(const std::string& path) {
+  return open_poly_mesh(path);
+}
+
+void write_mesh_folder(const MixedMesh& mesh, OutputFolder& folder, const MeshWriting& writing) {
+  write_openfoam(with_options(mesh, writing), writing, folder);
 }
 
 const std::vector<std::string_view>& mesh_format_names() {

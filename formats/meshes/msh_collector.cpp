@@ -46,17 +46,31 @@ void erase_marked(std::vector<T>& items, const std::vector<bool>& marked) {
 
 }  // namespace
 
+namespace {
+
+// What we and others write where there is no name: region 3, region_3.
+bool is_default_name(std::string_view name, std::int32_t number, int dimension) {
+  const std::string_view word = msh_group_word(dimension);
+  return name.starts_with(word) && name.size() > word.size() &&
+         (name[word.size()] == ' ' || name[word.size()] == '_') &&
+         name.substr(word.size() + 1) == std::to_string(number);
+}
+
+}  // namespace
+
 const char* msh_group_word(int dimension) {
   return dimension == 3 ? "region" : "surface";
 }
 
 std::optional<std::int32_t> tag_in_group_name(std::string_view name, int dimension) {
   const std::string_view word = msh_group_word(dimension);
-  if (!name.starts_with(word) || name.size() <= word.size() || name[word.size()] != ' ') return std::nullopt;
+  if (!name.starts_with(word) || name.size() <= word.size()) return std::nullopt;
+  const char separator = name[word.size()];
+  if (separator != ' ' && separator != '_') return std::nullopt;
   const char* const end = name.data() + name.size();
   std::int32_t tag = 0;
   const auto [stop, error] = std::from_chars(name.data() + word.size() + 1, end, tag);
-  if (error != std::errc{} || stop != end || tag > 0) return std::nullopt;
+  if (error != std::errc{} || stop != end || (tag > 0 && separator == ' ')) return std::nullopt;
   return tag;
 }
 
@@ -77,7 +91,11 @@ std::optional<std::int64_t> MshCollector::number_nodes() {
 }
 
 void MshCollector::name_group(int dimension, std::int32_t number, std::string_view name) {
-  if (const auto tag = tag_in_group_name(name, dimension)) tags_in_names_[{dimension, number}] = *tag;
+  numbers_of_groups_.insert({dimension, number});
+  if (const auto tag = tag_in_group_name(name, dimension))
+    tags_in_names_[{dimension, number}] = *tag;
+  else if (std::string text = clean_name(name); !text.empty() && !is_default_name(text, number, dimension))
+    group_names_[{dimension, number}] = std::move(text);
 }
 
 MixedMesh MshCollector::take_mesh() {
@@ -127,6 +145,7 @@ void MshCollector::set_tags() {
         if (dimension == 2 && numbers[i].physical < 0) std::reverse(block.cells[i].begin() + 1, block.cells[i].end());
       }
     });
+    if (from_groups) set_names(dimension);
   }
 }
 
@@ -141,13 +160,27 @@ bool MshCollector::has_groups(int dimension) {
   return found;
 }
 
+void MshCollector::set_names(int dimension) {
+  for (const auto& [group, name] : group_names_) {
+    if (group.first != dimension) continue;
+    const std::int32_t tag = tag_of_group(dimension, group.second);
+    bool is_used = false;
+    for_each_block(mesh_, [&](const ElementNames& names, const auto& block) {
+      if (names.dimension == dimension && !is_used) is_used = std::ranges::find(block.tags, tag) != block.tags.end();
+    });
+    if (is_used) (dimension == 3 ? names_.regions : names_.surfaces)[tag] = name;
+  }
+}
+
 // The number of a group that holds an element turned round is negative.
 std::int32_t MshCollector::tag_of_group(int dimension, std::int32_t physical) const {
   const std::int32_t group =
       physical < 0 && physical != std::numeric_limits<std::int32_t>::min() ? -physical : physical;
   if (tags_in_names_.empty()) return group;
   const auto named = tags_in_names_.find({dimension, group});
-  return named == tags_in_names_.end() ? group : named->second;
+  if (named == tags_in_names_.end()) return group;
+  // A group of another program may have the number that this name tells.
+  return numbers_of_groups_.contains({dimension, named->second}) ? group : named->second;
 }
 
 void MshCollector::set_qualities() {

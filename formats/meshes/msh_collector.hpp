@@ -1,10 +1,11 @@
 #pragma once
-// What a .msh file says, in either version, put together to a mesh.
+// Collects what a .msh file of either version says, and makes a mesh of it.
 
 #include <cstdint>
 #include <cstdlib>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,19 +13,21 @@
 
 #include "common/mesh/mixed_mesh.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
+#include "formats/streams/group_names.hpp"
 #include "formats/streams/number_map.hpp"
 
 namespace hexpipe::formats {
 
-// The numbers that an element has besides its corners. 0 as physical group: none.
+// The numbers of an element beside its corners. Physical group 0: it is in no group.
 struct MshElementNumbers {
   std::int64_t element = 0;
   std::int32_t physical = 0;
   std::int32_t elementary = 0;
 };
 
-// A group that we write for a tag that is no positive number, and so cannot be the group's number, has the tag in its
-// name: `region -1`, `surface 0`.
+// A tag cannot be the number of a group if it is not positive, or if a group of the other dimension has the number. The
+// group that we write for it has the tag in its name: `region_-1`, `surface_0`. Older files have a blank for the line
+// below; there only tags that are not positive count.
 const char* msh_group_word(int dimension);
 std::optional<std::int32_t> tag_in_group_name(std::string_view name, int dimension);
 
@@ -33,13 +36,13 @@ class MshCollector {
   void reserve_nodes(std::size_t count);
   void add_node(std::int64_t number, const Vec3& point);
   std::size_t node_count() const { return mesh_.points.size(); }
-  // Ends the nodes. Returns a number that two of them have.
+  // Call it after the last node. Returns a number that two nodes have, if any.
   std::optional<std::int64_t> number_nodes();
-  // The vertex of a node, NumberMap::none when there is no such node.
+  // The vertex of a node; NumberMap::none: there is no such node.
   Vertex vertex(std::int64_t node) const { return nodes_.find(node); }
 
-  // Calls visit(block, add) for the block of a Gmsh element type, where add(corners, numbers) adds an element to it.
-  // False when we have no such elements.
+  // Calls visit(block, add) for the block of a Gmsh element type; add(corners, numbers) adds an element to it. False
+  // when we have no such elements.
   template <class Visitor>
   bool with_block(int type, Visitor&& visit);
 
@@ -47,6 +50,8 @@ class MshCollector {
   void add_quality(std::int64_t element, double quality) { quality_.emplace_back(element, quality); }
 
   MixedMesh take_mesh();
+  // Of the tags that the mesh has, once it is taken; without those that say no more than the number.
+  const GroupNames& names() const { return names_; }
 
  private:
   static constexpr std::size_t block_count = 6;
@@ -57,12 +62,16 @@ class MshCollector {
   void drop_repeated_elements();
   void set_qualities();
   std::int32_t tag_of_group(int dimension, std::int32_t physical) const;
+  void set_names(int dimension);
 
   MixedMesh mesh_;
   std::vector<std::int64_t> node_numbers_;
   NumberMap nodes_;
   std::vector<MshElementNumbers> numbers_[block_count];  // in the order of for_each_block
   std::map<std::pair<int, std::int32_t>, std::int32_t> tags_in_names_;
+  std::set<std::pair<int, std::int32_t>> numbers_of_groups_;  // that have names
+  std::map<std::pair<int, std::int32_t>, std::string> group_names_;
+  GroupNames names_;
   std::vector<std::pair<std::int64_t, double>> quality_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The numbers of a .msh file, for its readers.
+// Reads the numbers of a .msh file.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace hexpipe::formats {
 
-// The numbers of a section, which stand as text or as the machine's bytes in the same order.
+// The numbers of a section, as text or as the machine's bytes in the same order.
 class MshNumbers {
  public:
   MshNumbers(TextScanner& scanner, bool binary, std::size_t size_bytes)
@@ -21,7 +21,7 @@ class MshNumbers {
     return binary_ ? bytes<std::int32_t>(what) : scanner_.number<std::int32_t>(what);
   }
   double real(std::string_view what) { return binary_ ? bytes<double>(what) : scanner_.number<double>(what); }
-  // What version 4.1 calls size_t. Neither counts nor numbers of nodes and elements are negative.
+  // A size_t of version 4.1: counts, and numbers of nodes and elements, none of which is negative.
   std::int64_t size(std::string_view what) {
     const std::int64_t number = !binary_           ? scanner_.number<std::int64_t>(what)
                                 : size_bytes_ == 4 ? bytes<std::int32_t>(what)
@@ -29,7 +29,7 @@ class MshNumbers {
     if (number < 0) scanner_.fail_expected(what, std::to_string(number));
     return number;
   }
-  // A size that announces items of `numbers` numbers, which take `binary_bytes` in binary.
+  // The count of items that follow, each of `numbers` numbers, or `binary_bytes` bytes in binary.
   std::size_t count(std::string_view what, std::size_t numbers, std::size_t binary_bytes) {
     return checked_count(size(what), what, numbers, binary_bytes);
   }

@@ -39,6 +39,8 @@ class MshReader {
     return {std::move(mesh), std::move(values)};
   }
 
+  const GroupNames& names() const { return mesh_.names(); }
+
  private:
   MshNumbers numbers() { return {scanner_, binary_, size_bytes_}; }
 
@@ -389,8 +391,11 @@ bool looks_like_msh(std::string_view text) {
   return TextScanner(text, "").peek_word().starts_with('$');
 }
 
-MixedMesh read_msh(std::string_view text, std::string_view file) {
-  return MshReader(text, file, false).read();
+MixedMesh read_msh(std::string_view text, std::string_view file, GroupNames* names) {
+  MshReader reader(text, file, false);
+  MixedMesh mesh = reader.read();
+  if (names != nullptr) *names = reader.names();
+  return mesh;
 }
 
 MshNodeValues read_msh_node_values(std::string_view text, std::string_view file) {

@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <set>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "formats/meshes/cell_data.hpp"
+#include "formats/meshes/group_naming.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
 #include "formats/meshes/msh.hpp"
 #include "formats/meshes/msh_collector.hpp"
@@ -14,10 +15,14 @@
 namespace hexpipe::formats {
 namespace {
 
+// Netgen cuts names at blanks, and quotes end them.
+constexpr NameRules msh_rules{
+    .format = ".msh", .longest = 127, .others = "!#$%&'()*+,-./:;<=>?@[]^`{|}~", .ascii_only = false};
+
 // A physical group and the entity with the same number: all cells or all facets with one tag.
 struct Group {
   std::int32_t tag;
-  std::int32_t number;  // positive: the tag, or else a number that no tag has
+  std::int32_t number;  // positive: the tag, or a number that no tag has
   Vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
            std::numeric_limits<double>::infinity()};
   Vec3 high = -1.0 * low;
@@ -31,16 +36,9 @@ struct Group {
 // The groups of one dimension, by ascending tag; their boxes where the version has them.
 class Groups {
  public:
-  Groups(const MixedMesh& mesh, int dimension, MshVersion version) {
-    std::set<std::int32_t> tags;
-    for_each_block(mesh, [&](const ElementNames& names, const auto& block) {
-      if (names.dimension == dimension) insert_tags(block.tags, tags);
-    });
-    std::int32_t free_number = 1;
-    for (const std::int32_t tag : tags) {
-      while (tag <= 0 && tags.contains(free_number)) ++free_number;
-      list_.push_back({tag, tag > 0 ? tag : free_number++});
-    }
+  Groups(const MixedMesh& mesh, int dimension, MshVersion version,
+         const std::map<std::int32_t, std::int32_t>& numbers) {
+    for (const auto& [tag, number] : numbers) list_.push_back({tag, number});
     if (version == MshVersion::v2_2) return;
     for_each_block(mesh, [&](const ElementNames& names, const auto& block) {
       if (names.dimension == dimension) extend_boxes(mesh, block);
@@ -53,12 +51,6 @@ class Groups {
   }
 
  private:
-  // Neighbours in a block mostly have one tag, which need not be looked up again.
-  static void insert_tags(const std::vector<std::int32_t>& block_tags, std::set<std::int32_t>& tags) {
-    for (std::size_t i = 0; i < block_tags.size(); ++i)
-      if (i == 0 || block_tags[i] != block_tags[i - 1]) tags.insert(block_tags[i]);
-  }
-
   template <class Block>
   void extend_boxes(const MixedMesh& mesh, const Block& block) {
     for (std::size_t i = 0; i < block.size(); ++i) {
@@ -103,13 +95,15 @@ class MshSink {
 
 class MshWriter {
  public:
-  MshWriter(const MixedMesh& mesh, MshVersion version, MshCoding coding, Output& output)
+  MshWriter(const MixedMesh& mesh, MshVersion version, MshCoding coding, const MeshWriting& writing, Output& output)
       : mesh_(mesh),
         version_(version),
         output_(output),
         sink_(output, coding),
-        surfaces_(mesh, 2, version),
-        regions_(mesh, 3, version) {}
+        names_(mesh, writing, msh_rules),
+        numbers_(group_numbers(mesh, version == MshVersion::v2_2)),
+        surfaces_(mesh, 2, version, numbers_.surfaces),
+        regions_(mesh, 3, version, numbers_.regions) {}
 
   void write() {
     write_format();
@@ -141,7 +135,8 @@ class MshWriter {
     output_.print("$PhysicalNames\n{}\n", surfaces_.list().size() + regions_.list().size());
     for (const int dimension : {2, 3})
       for (const Group& group : groups(dimension).list())
-        output_.print("{} {} \"{} {}\"\n", dimension, group.number, msh_group_word(dimension), group.tag);
+        output_.print("{} {} \"{}\"\n", dimension, group.number,
+                      (dimension == 3 ? names_.regions : names_.surfaces).of(group.tag));
     output_.print("$EndPhysicalNames\n");
   }
 
@@ -292,13 +287,16 @@ class MshWriter {
   MshVersion version_;
   Output& output_;
   MshSink sink_;
+  GroupNamings names_;
+  GroupNumbers numbers_;
   Groups surfaces_, regions_;
 };
 
 }  // namespace
 
-void write_msh(const MixedMesh& mesh, MshVersion version, MshCoding coding, Output& output) {
-  MshWriter(mesh, version, coding, output).write();
+void write_msh(const MixedMesh& mesh, MshVersion version, MshCoding coding, const MeshWriting& writing,
+               Output& output) {
+  MshWriter(mesh, version, coding, writing, output).write();
 }
 
 }  // namespace hexpipe::formats

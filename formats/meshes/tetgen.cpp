@@ -90,7 +90,7 @@ class TetgenReader {
   MixedMesh take_mesh() { return std::move(mesh_); }
 
  private:
-  // Lines of a number, corners, what `tag` reads, and what does not matter here.
+  // Each line has a number, the corners, what `tag` reads, and maybe more, which is skipped.
   template <int Corners, class ReadTag>
   void read_lines(TextScanner& scanner, std::size_t count, CellBlock<Corners>& block, ReadTag&& tag) {
     block.cells.reserve(count);

@@ -1,6 +1,5 @@
 #pragma once
-// What the two VTK formats share: an unstructured grid as arrays, with the cell data that carry tags and
-// qualities.
+// Shared by the two VTK formats: an unstructured grid as arrays, with the cell data that hold tags and qualities.
 
 #include <array>
 #include <cstddef>
@@ -25,9 +24,9 @@ struct VtkGrid {
   std::vector<double> quality;                                         // the cell data of this name, or empty
 };
 
-// The corners of an element in VTK's order, or from it to ours. They differ in the wedge, whose first triangle VTK
-// lists with its normal pointing out; up to version 9.6 VTK computes faces and volumes so, and Gmsh and meshio write
-// it.
+// Converts the corners of an element from our order to VTK's, or back. Only the wedge differs: VTK lists its first
+// triangle with the normal pointing out. Up to version 9.6, VTK computes faces and volumes that way, and Gmsh and
+// meshio write it.
 template <std::size_t Corners>
 constexpr std::array<Vertex, Corners> swap_vtk_order(std::array<Vertex, Corners> corners) {
   if constexpr (Corners == 6) {
@@ -40,9 +39,9 @@ constexpr std::array<Vertex, Corners> swap_vtk_order(std::array<Vertex, Corners>
 // True for the names of cell data that a reader puts into VtkGrid::tags.
 bool is_vtk_tag_name(std::string_view name);
 
-// Sorts the cells by kind. Points and lines are dropped, pixels and voxels become quads and hexes. Regions are taken
-// from the cell data `region`, surface tags from `surface`, else either from the first that is there of the names that
-// other programs use. Throws DataError naming `file` on other cells, or when the arrays contradict each other.
+// Sorts the cells by kind. Drops points and lines; pixels and voxels become quads and hexes. Regions come from the cell
+// data `region`, surface tags from `surface`; without these, both come from the first name that other programs use and
+// that is there. Throws DataError naming `file` on other cells, or when the arrays contradict each other.
 MixedMesh to_mixed_mesh(VtkGrid grid, std::string_view file);
 
 }  // namespace hexpipe::formats

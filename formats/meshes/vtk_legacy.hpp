@@ -10,10 +10,10 @@ namespace hexpipe::formats {
 
 bool looks_like_vtk_legacy(std::string_view text);
 
-// Versions 1.0 to 5.1, ASCII and binary. Throws FormatError or DataError.
+// Reads versions 1.0 to 5.1, ASCII and binary. Throws FormatError or DataError.
 MixedMesh read_vtk_legacy(std::string_view text, std::string_view file);
 
-// Version 3.0 ASCII: the one that gmsh, meshio, VTK and HexaLab all read.
+// Writes version 3.0 in ASCII, which gmsh, meshio, VTK and HexaLab all read.
 void write_vtk_legacy(const MixedMesh& mesh, Output& output);
 
 }  // namespace hexpipe::formats

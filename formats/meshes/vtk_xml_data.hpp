@@ -10,12 +10,12 @@ namespace hexpipe::formats {
 
 struct VtkXmlEncoding {
   std::endian order = std::endian::little;
-  bool long_header = false;  // numbers of headers have 64 bits, else 32
+  bool long_header = false;  // numbers of headers have 64 bits, otherwise 32
   bool compressed = false;   // by zlib
 };
 
-// Bytes that a file holds raw or as base64, taken from the front. Where one encoded piece ends in padding, the next one
-// follows. Throws DataError, its message beginning with `where`, when there are too few or something else is there.
+// Takes bytes that a file holds raw or as base64, from the front. Where an encoded run ends in padding, the next one
+// follows. Throws DataError, with a message that begins with `where`, when bytes are missing or are not base64.
 class EncodedBytes {
  public:
   EncodedBytes(std::string_view text, bool base64, std::string_view where)
@@ -23,7 +23,7 @@ class EncodedBytes {
 
   // Valid until the next call.
   std::string_view take(std::uint64_t count);
-  // No more than this can be taken.
+  // An upper bound on the bytes that can be taken.
   std::uint64_t most_left() const;
 
  private:
@@ -36,7 +36,7 @@ class EncodedBytes {
   std::size_t used_ = 0;  // of decoded_
 };
 
-// The contents of one data array, uncompressed; they lie in `bytes` or in `storage`. What a header announces is checked
+// The uncompressed content of one data array, which lies in `bytes` or in `storage`. The sizes in a header are checked
 // against the bytes that are there before anything is allocated.
 std::string_view read_vtk_xml_data(EncodedBytes& bytes, const VtkXmlEncoding& encoding, std::string_view where,
                                    std::string& storage);

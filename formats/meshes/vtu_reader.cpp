@@ -37,7 +37,7 @@ class VtuReader {
   }
 
  private:
-  // Appended raw data are no XML: what comes before them is parsed with the missing end tags.
+  // Appended raw data are not XML: the text before them is parsed, with the missing end tags.
   void parse_xml() {
     constexpr unsigned flags = pugi::parse_minimal | pugi::parse_escapes;
     pugi::xml_parse_result result;

@@ -26,7 +26,7 @@ constexpr std::size_t rows_chunk_bytes = 4 << 20;
 constexpr std::int64_t most_members = 10'000;
 // Zeros compressed by zstd swell by 32768. Bundles, which hold coordinates, do so by less than 20.
 constexpr std::int64_t most_swelling = 1000, swelling_judged_from = 64 << 20;
-// What tar held before pax came.
+// The longest name that tar held before pax.
 constexpr std::size_t longest_name = 255;
 constexpr std::string_view zstd_magic = "\x28\xb5\x2f\xfd";
 

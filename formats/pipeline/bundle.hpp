@@ -1,5 +1,6 @@
 #pragma once
-// Bundles: tar archives (pax) of .npy arrays and small JSON files, streamed through libarchive, never sought.
+// Reads and writes bundles: tar archives (pax) of .npy arrays and small JSON files. libarchive streams them; nothing
+// seeks.
 
 #include <cstdint>
 #include <exception>
@@ -26,7 +27,7 @@ bool looks_like_bundle(formats::Input& input);
 
 class BundleWriter {
  public:
-  // The output stays the caller's, who commits it after close().
+  // The caller commits the output after close().
   BundleWriter(formats::Output& output, bool compress);
   BundleWriter(const BundleWriter&) = delete;  // libarchive holds its address
   BundleWriter& operator=(const BundleWriter&) = delete;
@@ -42,7 +43,7 @@ class BundleWriter {
     begin_rows<T>(name, rows.size());
     write(rows.data(), rows.size() * sizeof(T));
   }
-  // An array of so many rows, whose bytes are to be written next.
+  // Begins an array of `count` rows; their bytes have to be written next.
   template <class T>
   void begin_rows(const std::string& name, std::uint64_t count) {
     NpyHeader header{npy_type<typename NpyRow<T>::Number>(), {count}};
@@ -56,11 +57,11 @@ class BundleWriter {
  private:
   static long on_write(archive*, void* self, const void* data, std::size_t bytes);
   void begin_array(const std::string& name, const NpyHeader& header, std::uint64_t bytes);
-  // Throws what the output threw, or what libarchive says when a call did not succeed.
+  // After a call that did not succeed, throws the output's exception or libarchive's message.
   void check(bool succeeded) const;
 
   formats::Output& output_;
-  // What Output threw inside libarchive's callback.
+  // The exception that Output threw inside libarchive's callback.
   std::exception_ptr output_error_;
   bool abandoned_ = false;
   // Freed first: it calls back.
@@ -73,16 +74,16 @@ class BundleReader {
   BundleReader(const BundleReader&) = delete;  // libarchive holds its address
   BundleReader& operator=(const BundleReader&) = delete;
 
-  // Goes to the next member; false at the end. Throws DataError when the archive is cut off or damaged, a member is no
-  // plain file, its name is absolute or has "..", its size is missing, or there are more members than a bundle has.
+  // Goes to the next member; false at the end. Throws DataError when the archive is cut off or damaged, a member is not
+  // a plain file, its name is absolute or has "..", its size is missing, or there are more members than a bundle has.
   bool next();
   const std::string& name() const { return name_; }
-  // Input's name and member's name, for messages.
+  // The names of input and member, for messages.
   std::string where() const;
   std::uint64_t size() const { return size_; }
 
-  // The current member as an array with the rows of T (see add_array). Integers of any width are taken where they fit,
-  // f4 as f8. Throws DataError on a wrong shape, type, or number of bytes.
+  // The current member as an array with the rows of T (see add_array). Converts integers of any width where they fit,
+  // and f4 to f8. Throws DataError on a wrong shape, type, or number of bytes.
   template <class T>
   std::vector<T> read_array() {
     using Number = typename NpyRow<T>::Number;
@@ -96,8 +97,8 @@ class BundleReader {
         });
     return rows;
   }
-  // The same a block at a time, for arrays that are larger than the memory: how many rows there are, then the next
-  // `count` of them. Numbers have to be of the very type of T.
+  // The same a block at a time, for arrays that are larger than the memory: returns how many rows there are; then
+  // read_next_rows reads `count` of them. Numbers must have exactly the type of T.
   template <class T>
   std::uint64_t begin_rows() {
     const NpyHeader header = begin_array(NpyRow<T>::columns);
@@ -108,23 +109,23 @@ class BundleReader {
   void read_next_rows(T* rows, std::size_t count) {
     read_bytes(rows, count * sizeof(T));
   }
-  // The current member's next bytes, at most so many; 0 at its end.
+  // Reads the current member's next bytes, at most `most`, and returns their number: 0 at its end.
   std::size_t read_some(char* bytes, std::size_t most);
   // The current member as text; throws DataError when larger than `limit`.
   std::string read_text(std::size_t limit = 64 << 20);
-  // The current member's bytes, unchanged, to another bundle.
+  // Copies the current member, unchanged, to another bundle.
   void copy_to(BundleWriter& writer);
 
  private:
   static long on_read(archive*, void* self, const void** data);
-  // Exactly this many bytes of the current member.
+  // Reads exactly this many bytes of the current member.
   void read_bytes(void* data, std::size_t bytes);
-  // Refuses an archive that is made to fill memory or disk out of few bytes.
+  // Refuses an archive whose few bytes would fill memory or disk.
   void check_swelling() const;
-  // The array's header, its shape checked against the columns wanted (0: one dimension) and the member's size.
+  // Reads the array's header and checks its shape against the columns (0: one dimension) and the member's size.
   NpyHeader begin_array(std::uint64_t columns);
-  // Reads all rows, growing the destination by `resize` (new row count -> first byte) as data arrives, so that an array
-  // that only claims to be huge costs nothing; `reserve` is called with the whole count first.
+  // Reads all rows and grows the destination by `resize` (new row count -> first byte) as data arrives, so that an
+  // array that only claims to be huge costs nothing. Calls `reserve` with the whole count first.
   void read_rows(const NpyHeader& header, NpyType wanted, std::size_t row_bytes,
                  const std::function<void(std::size_t)>& reserve, const std::function<void*(std::size_t)>& resize);
   void check_type(const NpyHeader& header, NpyType wanted) const;

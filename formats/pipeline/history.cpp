@@ -18,7 +18,7 @@ constexpr std::size_t longest_entry = 1 << 20;
 constexpr int deepest_nesting = 64;
 constexpr std::size_t longest_tool = 64;
 
-// Of text that may be no JSON: brackets count where they do not stand in a string.
+// The text need not be JSON. Brackets in strings do not count.
 bool nests_too_deep(std::string_view text) {
   int depth = 0;
   bool in_string = false;
@@ -37,7 +37,7 @@ bool nests_too_deep(std::string_view text) {
   return false;
 }
 
-// Names become a part of a member's name.
+// The name becomes a part of a member's name.
 void check_tool_name(const std::string& name, const std::string& where) {
   const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
   if (name.empty() || name.size() > longest_tool || !std::ranges::all_of(name, allowed))

@@ -1,6 +1,6 @@
 #pragma once
-// What was done to the members of a bundle: a JSON object {tool, version, options, ...counts} for each tool that wrote
-// some, as history/NN-tool.json.
+// The history of a bundle: a JSON object {tool, version, options, ...counts} for each tool that wrote members of it, as
+// history/NN-tool.json.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -14,25 +14,25 @@ namespace hexpipe::pipeline {
 
 bool is_history_entry(std::string_view member);
 
-// Of the tool that runs.
+// The entry of the tool that runs.
 nlohmann::ordered_json history_entry_of(const RunContext& context);
 
-// The current member, and its text where that is wanted. Throws DataError unless it is an object of at most 1 MiB and
-// 64 levels of which, if there, the tool is named by a to z, 0 to 9 and '-', the version text and the options an
-// object.
+// Reads the current member, and stores its text in `text` if given. Throws DataError unless it is an object of at most
+// 1 MiB and 64 levels. If it has a tool, its name must consist of a to z, 0 to 9 and '-'; if it has a version, this
+// must be text; if it has options, these must be an object.
 nlohmann::ordered_json read_history_entry(BundleReader& reader, std::string* text = nullptr);
 
-// "stage" where the entry does not say.
+// The name of the entry's tool; "stage" where it has no name.
 std::string tool_of(const nlohmann::ordered_json& entry);
 
-// Of the entry that comes so many-th, from 1.
+// The member's name for the entry with this number, from 1.
 std::string history_member(int number, const nlohmann::ordered_json& entry);
-// What is no UTF-8 in options, as a name of a file may be, is written as U+FFFD.
+// Writes U+FFFD in place of what is not UTF-8 in options: a file's name may have any bytes.
 void write_history_entry(BundleWriter& writer, const std::string& member, const nlohmann::ordered_json& entry);
-// All of them, from the first.
+// Writes all entries, from the first.
 void write_history(BundleWriter& writer, const std::vector<nlohmann::ordered_json>& history);
 
-// The last entry of a tool, without its counts: version and options. Null where there is none.
+// Version and options of the last entry of a tool, without its counts. Null when it has no entry.
 nlohmann::ordered_json settings_of(const std::string& tool, const std::vector<nlohmann::ordered_json>& history);
 
 }  // namespace hexpipe::pipeline

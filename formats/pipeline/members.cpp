@@ -11,6 +11,7 @@ namespace hexpipe::pipeline {
 namespace {
 
 constexpr const char* part_json = "mesh/part.json";
+constexpr const char* mesh_ridges = "mesh/ridges.npy";
 constexpr const char* graph_weights = "graph/weights.npy";
 constexpr const char* piece_json = "result/piece.json";
 constexpr std::size_t longest_part_json = 1 << 20;
@@ -176,6 +177,7 @@ bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy, bool
   switch (*role) {
     case Role::mesh:
       visit_members_of_mesh(ensure(data.mesh), take);
+      if (reader.name() == mesh_ridges) take(mesh_ridges, ensure(data.mesh->ridges));
       break;
     case Role::candidates:
       visit_members_of_candidates(ensure(data.candidates), take);
@@ -210,7 +212,7 @@ bool is_part_title(std::string_view name) {
 
 namespace {
 
-// What says which part or piece of which mesh it is: `parse` throws what the library for JSON throws.
+// Parses the member that says which part or piece of which mesh this is; `parse` throws the exceptions of nlohmann.
 template <class Parse>
 void parse_title(const BundleReader& reader, const char* of, Parse&& parse) {
   try {
@@ -292,6 +294,7 @@ void write_members(BundleWriter& writer, const CandidateKeys& keys) {
 
 void write_members(BundleWriter& writer, const TetMesh& mesh) {
   visit_members_of_mesh(mesh, writing_to(writer));
+  if (mesh.ridges) writer.add_array(mesh_ridges, *mesh.ridges);
 }
 void write_members(BundleWriter& writer, const Candidates& candidates) {
   visit_members_of_candidates(candidates, writing_to(writer));
@@ -305,7 +308,7 @@ void write_members(BundleWriter& writer, const graph::CliqueCover& cover) {
 void write_members(BundleWriter& writer, const graph::IndependentSet& solution) {
   visit_members_of_solution(solution, writing_to(writer));
 }
-void write_gap_members(BundleWriter& writer, const std::vector<std::int64_t>& gaps) {
+void write_gap_members(BundleWriter& writer, const SolutionGaps& gaps) {
   visit_members_of_gaps(gaps, writing_to(writer));
 }
 void write_members(BundleWriter& writer, const MixedMesh& result) {

@@ -29,13 +29,14 @@ struct NpyHeader {
 // The header with magic string, padded to a multiple of 64 bytes.
 std::string npy_header(const NpyHeader& header);
 
-// How many bytes the header takes, from the first ten bytes of a file; 0 when they are no .npy header of version 1.
+// How many bytes the header has, by the first ten bytes of a file; 0 when they are not a .npy header of version 1.
 std::size_t npy_header_size(std::string_view first_ten);
 
 // Parses a whole header (as many bytes as npy_header_size says). Throws DataError naming `source`.
 NpyHeader parse_npy_header(std::string_view header, std::string_view source);
 
-// How a row of type T lies in an array: its number type and how many columns it has (0: the array has one dimension).
+// How a row of type T is stored in an array: its number type and how many columns it has (0: the array has one
+// dimension).
 template <class T>
 struct NpyRow {
   using Number = T;

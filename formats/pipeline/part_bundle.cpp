@@ -83,6 +83,8 @@ PieceBundle read_piece_bundle(const std::string& path, bool with_mesh) {
     if (read_piece_member(reader, piece)) continue;
     if (with_mesh && role_of_member(reader.name()) == Role::result) read_member(reader, data, nullptr, false);
     if (with_mesh && is_history_entry(reader.name())) data.history.push_back(read_history_entry(reader));
+    if (with_mesh && reader.name() == formats::names_member)
+      data.names = formats::parse_group_names(reader.read_text(), reader.where());
   }
   if (!piece) throw DataError::at(path, "expected a piece of a mesh, as assemble makes them of parts, found none");
   validate(*piece, path.c_str());
@@ -91,7 +93,7 @@ PieceBundle read_piece_bundle(const std::string& path, bool with_mesh) {
     validate(mesh, path.c_str());
     validate_against(*piece, mesh, path.c_str());
   }
-  return {path, std::move(*piece), std::move(mesh), std::move(data.history)};
+  return {path, std::move(*piece), std::move(mesh), std::move(data.history), std::move(data.names)};
 }
 
 }  // namespace hexpipe::pipeline

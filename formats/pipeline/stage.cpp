@@ -6,18 +6,22 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "common/mesh/orientation.hpp"
 #include "common/run/error.hpp"
 #include "formats/choice/cand.hpp"
-#include "formats/choice/dimacs.hpp"
+#include "formats/choice/graph_reading.hpp"
 #include "formats/choice/metis.hpp"
 #include "formats/choice/solution_file.hpp"
 #include "formats/meshes/mesh_files.hpp"
+#include "formats/meshes/mesh_surface.hpp"
+#include "formats/meshes/solvers.hpp"
 #include "formats/pipeline/bundle.hpp"
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/members.hpp"
 #include "formats/pipeline/output_format.hpp"
+#include "formats/pipeline/surface_bundle.hpp"
 
 namespace hexpipe::pipeline {
 namespace {
@@ -34,7 +38,15 @@ std::vector<std::string_view> product_formats(Role product) {
     case Role::result:
       break;
   }
-  return formats::mesh_format_names();
+  std::vector<std::string_view> names = formats::mesh_format_names();
+  names.push_back(formats::poly_mesh_format);
+  return names;
+}
+
+// "case/constant/polyMesh/" to "polyMesh".
+std::string_view last_of_path(std::string_view path) {
+  while (path.size() > 1 && path.ends_with('/')) path.remove_suffix(1);
+  return path.substr(path.rfind('/') + 1);
 }
 
 // The format that the command line asks for. Throws UsageError when the product cannot be written so.
@@ -42,7 +54,11 @@ std::string choose_format(const StreamOptions& streams, Role product) {
   const bool to_file = !streams.output.empty() && streams.output != "-";
   const bool to_device = streams.output.starts_with("/dev/");
   std::string_view format = streams.format;
+  const bool is_poly_mesh = last_of_path(streams.output) == formats::poly_mesh_format;
+  if (format.empty() && is_poly_mesh) format = formats::poly_mesh_format;
   if (format.empty()) format = to_file && !to_device ? ending_of(streams.output) : bundle_format;
+  if (format == formats::poly_mesh_format && (!to_file || to_device))
+    throw UsageError("polyMesh is a folder of files: name it with -o");
   const auto known = product_formats(product);
   if (is_bundle_format(format) || std::find(known.begin(), known.end(), format) != known.end())
     return std::string(format);
@@ -58,6 +74,10 @@ bool is_text_format(std::string_view format) {
 const char* maker_of(Role role) {
   constexpr const char* tools[] = {"tetmesh", "findhex", "buildgraph", "initsol", "assemble"};
   return tools[static_cast<int>(role)];
+}
+
+bool contains(const std::vector<Role>& roles, Role role) {
+  return std::ranges::find(roles, role) != roles.end();
 }
 
 std::string list_of(const std::set<Role>& roles) {
@@ -90,22 +110,37 @@ std::int64_t vertex_count_for_solution(const StageData& data, const std::string&
   throw DataError::at(source, "expected a graph or candidates beside the solution, found neither");
 }
 
-void read_role_file(Role role, formats::Input& input, StageData& data) {
+graph::ConflictGraph read_graph_file(formats::Input& input, const RunContext& context) {
+  const GraphFileOptions& options = context.streams.graph_file;
+  formats::GraphReading reading{.format = {},
+                                .weight_scale = options.weight_scale,
+                                .tolerant = options.tolerant,
+                                .complement = options.complement};
+  if (!options.format.empty()) reading.format = formats::graph_formats().at(options.format);
+  formats::LeftOut left_out;
+  graph::ConflictGraph graph = formats::read_graph(input, reading, &left_out);
+  if (left_out.loops + left_out.repeated > 0)
+    context.warn(
+        fmt::format("{}: left out {} loops and {} repeated edges", input.name(), left_out.loops, left_out.repeated));
+  return graph;
+}
+
+void read_role_file(Role role, formats::Input& input, const RunContext& context, StageData& data) {
   switch (role) {
     case Role::mesh:
-      data.mesh = to_tet_mesh(formats::read_mixed_mesh(input), input.name().c_str());
+      data.mesh = to_tet_mesh(formats::read_mixed_mesh(input, &data.names), input.name().c_str());
       break;
     case Role::candidates:
       data.candidates = formats::read_cand(input);
       break;
     case Role::graph:
-      data.graph = formats::looks_like_dimacs(input) ? formats::read_dimacs(input) : formats::read_metis(input);
+      data.graph = read_graph_file(input, context);
       break;
     case Role::solution:
       data.solution = formats::read_solution(input, vertex_count_for_solution(data, input.name()));
       break;
     case Role::result:
-      data.result = formats::read_mixed_mesh(input);
+      data.result = formats::read_mixed_mesh(input, &data.names);
       break;
   }
 }
@@ -134,34 +169,29 @@ void write_role(Role role, const StageData& data, BundleWriter& writer) {
   }
 }
 
-struct KeysAndCandidates {
-  const CandidateKeys* keys;
-  const Candidates& candidates;
-};
+void write_members(BundleWriter& writer, const MeshProduct& product) {
+  write_members(writer, product.mesh);
+}
 
-void write_members(BundleWriter& writer, const KeysAndCandidates& product) {
-  if (product.keys != nullptr) write_members(writer, *product.keys);
+void write_members(BundleWriter& writer, const CandidatesProduct& product) {
+  if (product.keys) write_members(writer, *product.keys);
   write_members(writer, product.candidates);
 }
 
-struct GraphAndCover {
-  const graph::ConflictGraph& graph;
-  const graph::CliqueCover* cover;
-};
-
-void write_members(BundleWriter& writer, const GraphAndCover& product) {
+void write_members(BundleWriter& writer, const GraphProduct& product) {
+  if (product.candidates) write_members(writer, *product.candidates);
   write_members(writer, product.graph);
-  if (product.cover != nullptr) write_members(writer, *product.cover);
+  if (product.cover) write_members(writer, *product.cover);
 }
 
-struct SolutionAndGaps {
-  const graph::IndependentSet& solution;
-  const std::vector<std::int64_t>* gaps;
-};
-
-void write_members(BundleWriter& writer, const SolutionAndGaps& product) {
+void write_members(BundleWriter& writer, const SolutionProduct& product) {
   write_members(writer, product.solution);
-  if (product.gaps != nullptr) write_gap_members(writer, *product.gaps);
+  if (product.gaps) write_gap_members(writer, *product.gaps);
+}
+
+void write_members(BundleWriter& writer, const ResultProduct& product) {
+  if (product.piece) write_members(writer, *product.piece);
+  write_members(writer, product.mesh);
 }
 
 void validate_gaps(const StageData& data, const char* name) {
@@ -193,29 +223,37 @@ void fill_defaults(StageData& data) {
 struct Stage::State {
   RunContext context;
   std::string format;
+  formats::MeshWriting writing;
   std::optional<formats::Output> output;
+  std::unique_ptr<formats::OutputFolder> folder;  // in place of `output`
   std::optional<BundleWriter> bundle;
   int history_count = 0;
+  formats::GroupNames names;  // of the tags of the product
+  bool names_are_written = false;
   // Where each role came from, for messages.
   std::map<Role, std::string> sources;
   std::set<Role> seen;
-  std::vector<Role> replaced;  // those that came from files of their own beside a bundle
-  bool with_cover = false, with_part = false, with_weights = false;
-  std::set<Role> held_back;
+  std::vector<Role> replaced;  // roles that came from files beside a bundle
+  bool read_graph = false;     // from a file
+  StageRequest request;
 
   Role product() const { return *context.info.product; }
-  bool reads(Role role) const {
-    const auto& roles = context.info.reads;
-    return std::find(roles.begin(), roles.end(), role) != roles.end();
-  }
-
   void choose_output();
-  void read_bundle(formats::Input& input, const std::set<Role>& taken, StageData& data);
+  bool takes(Role role) const { return contains(request.needs, role) || contains(request.wants, role); }
+  // Whether members of this role go on to the output: the tool makes its product anew, and what depended on the old one
+  // is void.
+  bool passes(Role role) const { return bundle && role < product() && !contains(request.hold_back, role); }
+
+  std::optional<formats::Input> open_inputs(std::map<Role, formats::Input>& files) const;
+  void read_bundle(formats::Input& input, StageData& data);
+  void pass_history_entry(BundleReader& reader, std::vector<nlohmann::ordered_json>& history);
+  void write_names();
   void read_files(std::map<Role, formats::Input>& files, StageData& data);
   void orient(TetMesh& mesh, const std::string& name) const;
   void check(const StageData& data) const;
   std::string source_of(Role role) const;
   void write_history(const nlohmann::ordered_json& details);
+  void write_mesh_to_folder(const MixedMesh& mesh);
   template <class Product, class WriteFile>
   void write(const Product& product, const nlohmann::ordered_json& details, WriteFile&& write_file);
 };
@@ -233,6 +271,12 @@ void Stage::State::choose_output() {
   const StreamOptions& streams = context.streams;
   format = choose_format(streams, product());
   const bool to_stdout = streams.output.empty() || streams.output == "-";
+  if (product() == Role::mesh || product() == Role::result) {
+    writing = formats::mesh_writing(streams.mesh, format);
+    writing.tell = [this](const std::string& line) { context.warn(line); };
+    if (const std::string summary = formats::solver_summary(streams.mesh, writing); !summary.empty())
+      context.note(summary);
+  }
   if (to_stdout && !is_text_format(format) && isatty(STDOUT_FILENO))
     throw UsageError(
         fmt::format("standard output is a terminal: pipe it to the next tool, or write a file with -o, or text "
@@ -244,52 +288,53 @@ Stage::~Stage() = default;
 
 void Stage::begin() {
   if (!state_->context.info.product) return;
+  if (state_->format == formats::poly_mesh_format) {
+    state_->folder = formats::open_mesh_folder(state_->context.streams.output);
+    return;
+  }
   state_->output.emplace(state_->context.streams.output);
   if (is_bundle_format(state_->format))
     state_->bundle.emplace(*state_->output,
                            state_->context.streams.compress || state_->format == compressed_bundle_format);
 }
 
-StageData Stage::read(const std::vector<Role>& needs, const std::vector<Role>& wants) {
-  State& state = *state_;
-  const StreamOptions& streams = state.context.streams;
-  std::set<Role> taken(needs.begin(), needs.end());
-  taken.insert(wants.begin(), wants.end());
-
-  std::map<Role, formats::Input> files;
-  for (const auto& [role, path] : streams.files) files.emplace(role, formats::Input::open(path));
-
-  // Files may cover all that is needed; otherwise there must be an operand or a stream.
+// The bundle that is read, if any, and the files of single roles. Files may cover all that is needed; otherwise there
+// must be an operand or a stream.
+std::optional<formats::Input> Stage::State::open_inputs(std::map<Role, formats::Input>& files) const {
+  for (const auto& [role, path] : context.streams.files) files.emplace(role, formats::Input::open(path));
   const bool covered =
-      !files.empty() && std::all_of(needs.begin(), needs.end(), [&](Role role) { return files.contains(role); });
-  std::optional<formats::Input> input;
-  if (streams.operand) {
-    input = formats::Input::open(*streams.operand);
-  } else if (!covered) {
-    if (isatty(STDIN_FILENO))
-      throw UsageError(fmt::format("nothing to read: name a file, or pipe a bundle to standard input (see {} --help)",
-                                   state.context.info.name));
-    input = formats::Input::open("-");
-  }
-  if (input && !looks_like_bundle(*input)) {
-    if (input->peek(1).empty())
-      throw DataError::at(input->name(), "expected a bundle or the {}, found nothing: it is empty",
-                          name_of(state.context.info.reads.front()));
-    const Role primary = state.context.info.reads.front();
-    if (files.contains(primary))
-      throw DataError::at(input->name(), "expected a bundle beside --{}, found another file", name_of(primary));
-    files.emplace(primary, std::move(*input));
-    input.reset();
-  }
+      !files.empty() && std::ranges::all_of(request.needs, [&](Role role) { return files.contains(role); });
+  if (!context.streams.operand && covered) return std::nullopt;
+  if (!context.streams.operand && isatty(STDIN_FILENO))
+    throw UsageError(fmt::format("nothing to read: name a file, or pipe a bundle to standard input (see {} --help)",
+                                 context.info.name));
+  formats::Input input = formats::Input::open(context.streams.operand.value_or("-"));
+  if (looks_like_bundle(input)) return input;
+  const Role primary = context.info.reads.front();
+  if (input.peek(1).empty())
+    throw DataError::at(input.name(), "expected a bundle or the {}, found nothing: it is empty", name_of(primary));
+  if (files.contains(primary))
+    throw DataError::at(input.name(), "expected a bundle beside --{}, found another file", name_of(primary));
+  files.emplace(primary, std::move(input));
+  return std::nullopt;
+}
 
+StageData Stage::read(const StageRequest& request) {
+  State& state = *state_;
+  state.request = request;
+  std::map<Role, formats::Input> files;
+  std::optional<formats::Input> input = state.open_inputs(files);
   begin();
   StageData data;
   if (input) {
     for (const auto& [role, file] : files) state.replaced.push_back(role);
-    state.read_bundle(*input, taken, data);
+    state.read_bundle(*input, data);
   }
   state.read_files(files, data);
-  for (const Role role : needs)
+  state.names = data.names;
+  if (state.context.streams.graph_file.any() && !state.read_graph)
+    throw UsageError("--graph-format, --weight-scale, --complement and --tolerant do nothing without a graph file");
+  for (const Role role : request.needs)
     if (!holds(data, role))
       throw DataError::at(input ? input->name() : std::string("the files"), "expected {} for {}, found {}; {} makes it",
                           name_of(role), state.context.info.name, list_of(state.seen), maker_of(role));
@@ -298,29 +343,45 @@ StageData Stage::read(const std::vector<Role>& needs, const std::vector<Role>& w
   return data;
 }
 
-// What the tool makes anew, and what depended on the old one, does not pass.
-void Stage::State::read_bundle(formats::Input& input, const std::set<Role>& taken, StageData& data) {
+void Stage::State::read_bundle(formats::Input& input, StageData& data) {
   BundleReader reader(input);
+  const bool has_other_mesh = context.streams.files.contains(Role::mesh);
   while (reader.next()) {
     const auto role = role_of_member(reader.name());
-    const bool is_replaced = role && context.streams.files.contains(*role);
-    const bool passes = bundle && !is_replaced && (!role || (*role < product() && !held_back.contains(*role)));
+    const bool is_replaced =
+        role ? context.streams.files.contains(*role)
+             : has_other_mesh && (is_surface_member(reader.name()) || reader.name() == formats::names_member);
+    BundleWriter* const copy = bundle && !is_replaced && (!role || passes(*role)) ? &*bundle : nullptr;
     if (role && !is_replaced) {
       seen.insert(*role);
       sources[*role] = input.name();
-      if (with_part && read_part_member(reader, data, passes ? &*bundle : nullptr)) continue;
-      if (with_weights && read_weights(reader, data, passes ? &*bundle : nullptr)) continue;
-      if (taken.contains(*role) && read_member(reader, data, passes ? &*bundle : nullptr, with_cover)) continue;
+      if (request.part && read_part_member(reader, data, copy)) continue;
+      if (request.weights_only && read_weights(reader, data, copy)) continue;
+      if (takes(*role) && read_member(reader, data, copy, request.cover)) continue;
     }
     if (is_history_entry(reader.name())) {
-      std::string text;
-      data.history.push_back(read_history_entry(reader, &text));
-      ++history_count;
-      if (passes) bundle->add_text(reader.name(), text);
-      continue;
+      pass_history_entry(reader, data.history);
+    } else if (reader.name() == formats::names_member && !is_replaced) {
+      if (!names.empty()) throw DataError::at(reader.where(), "expected names once, found them again");
+      names = data.names = formats::parse_group_names(reader.read_text(), reader.where());
+      write_names();
+    } else if (copy) {
+      reader.copy_to(*copy);
     }
-    if (passes) reader.copy_to(*bundle);
   }
+}
+
+void Stage::State::pass_history_entry(BundleReader& reader, std::vector<nlohmann::ordered_json>& history) {
+  std::string text;
+  history.push_back(read_history_entry(reader, &text));
+  ++history_count;
+  if (bundle) bundle->add_text(reader.name(), text);
+}
+
+// Once: where they were read, or behind the product where the tool sets them.
+void Stage::State::write_names() {
+  if (!bundle || names.empty() || std::exchange(names_are_written, true)) return;
+  bundle->add_text(std::string(formats::names_member), text_of(names));
 }
 
 // Files of other programs list tets in any sense; bundles hold them positively oriented.
@@ -336,17 +397,25 @@ void Stage::State::read_files(std::map<Role, formats::Input>& files, StageData& 
     sources[role] = input.name();
     if (looks_like_bundle(input)) {
       BundleReader reader(input);
+      const bool has_tags = role == Role::mesh || role == Role::result;
       while (reader.next())
-        if (role_of_member(reader.name()) == role && !(with_part && read_part_member(reader, data, nullptr)))
-          read_member(reader, data, nullptr, with_cover || bundle);
+        if (has_tags && reader.name() == formats::names_member)
+          data.names = formats::parse_group_names(reader.read_text(), reader.where());
+        else if (role_of_member(reader.name()) == role && !(request.part && read_part_member(reader, data, nullptr)))
+          read_member(reader, data, nullptr, request.cover || bundle);
       if (!holds(data, role))
         throw DataError::at(input.name(), "expected {} in this bundle, found none", name_of(role));
       fill_defaults(data);
     } else {
-      read_role_file(role, input, data);
+      read_role_file(role, input, context, data);
+      read_graph = read_graph || role == Role::graph;
       if (role == Role::mesh) orient(*data.mesh, input.name());
     }
-    if (bundle && role < product() && !held_back.contains(role)) write_role(role, data, *bundle);
+    if (passes(role)) {
+      write_role(role, data, *bundle);
+      if (role == Role::mesh) names = data.names;
+      write_names();
+    }
   }
 }
 
@@ -355,20 +424,29 @@ std::string Stage::State::source_of(Role role) const {
   return found == sources.end() ? std::string(name_of(role)) : fmt::format("{}: {}", found->second, name_of(role));
 }
 
-void Stage::take_cover() {
-  state_->with_cover = true;
+formats::SurfaceSoup Stage::read_surface(formats::Input& input) {
+  State& state = *state_;
+  if (!looks_like_bundle(input)) {
+    constexpr std::size_t enough_to_tell = 4096;
+    formats::SurfaceSoup surface = formats::looks_like_mesh_surface(input.peek(enough_to_tell))
+                                       ? formats::read_mesh_surface(input)
+                                       : formats::read_surface(input);
+    begin();
+    return surface;
+  }
+  begin();
+  std::vector<nlohmann::ordered_json> history;
+  const auto pass = [&](BundleReader& reader) {
+    if (is_history_entry(reader.name()))
+      state.pass_history_entry(reader, history);
+    else if (state.bundle && !role_of_member(reader.name()))
+      reader.copy_to(*state.bundle);
+  };
+  return read_surface_bundle(input, pass, state.bundle ? &*state.bundle : nullptr);
 }
 
-void Stage::take_weights() {
-  state_->with_weights = true;
-}
-
-void Stage::take_part() {
-  state_->with_part = true;
-}
-
-void Stage::hold_back(Role role) {
-  state_->held_back.insert(role);
+void Stage::set_names(formats::GroupNames names) {
+  state_->names = std::move(names);
 }
 
 bool Stage::writes_bundle() const {
@@ -415,6 +493,7 @@ template <class Product, class WriteFile>
 void Stage::State::write(const Product& product, const nlohmann::ordered_json& details, WriteFile&& write_file) {
   if (bundle) {
     write_members(*bundle, product);
+    write_names();
     write_history(details);
     bundle->close();
   } else {
@@ -423,36 +502,41 @@ void Stage::State::write(const Product& product, const nlohmann::ordered_json& d
   output->commit();
 }
 
-void Stage::write(const TetMesh& mesh, const nlohmann::ordered_json& details) {
-  state_->write(mesh, details, [&](formats::Output& output) {
-    formats::write_mixed_mesh(to_mixed_mesh(mesh), state_->format, output);
+void Stage::State::write_mesh_to_folder(const MixedMesh& mesh) {
+  writing.names = names;
+  formats::write_mesh_folder(mesh, *folder, writing);
+  folder->commit();
+}
+
+void Stage::write(const MeshProduct& product, const nlohmann::ordered_json& details) {
+  if (state_->folder) return state_->write_mesh_to_folder(to_mixed_mesh(product.mesh));
+  state_->writing.names = state_->names;
+  state_->write(product, details, [&](formats::Output& output) {
+    formats::write_mixed_mesh(to_mixed_mesh(product.mesh), state_->format, output, state_->writing);
   });
 }
 
-void Stage::write(const Candidates& candidates, const CandidateKeys* keys, const nlohmann::ordered_json& details) {
-  state_->write(KeysAndCandidates{keys, candidates}, details,
-                [&](formats::Output& output) { formats::write_cand(candidates, output); });
+void Stage::write(const CandidatesProduct& product, const nlohmann::ordered_json& details) {
+  state_->write(product, details, [&](formats::Output& output) { formats::write_cand(product.candidates, output); });
 }
 
-void Stage::write(const graph::ConflictGraph& graph, const CandidateKeys* keys, const Candidates* candidates,
-                  const graph::CliqueCover* cover, const nlohmann::ordered_json& details) {
-  if (state_->bundle && candidates != nullptr) write_members(*state_->bundle, KeysAndCandidates{keys, *candidates});
-  state_->write(GraphAndCover{graph, cover}, details, [&](formats::Output& output) {
-    if (const auto warning = formats::metis_weight_warning(graph)) state_->context.warn(*warning);
-    formats::write_metis(graph, output);
+void Stage::write(const GraphProduct& product, const nlohmann::ordered_json& details) {
+  state_->write(product, details, [&](formats::Output& output) {
+    if (const auto warning = formats::metis_weight_warning(product.graph)) state_->context.warn(*warning);
+    formats::write_metis(product.graph, output);
   });
 }
 
-void Stage::write(const graph::IndependentSet& solution, const nlohmann::ordered_json& details,
-                  const std::vector<std::int64_t>* gaps) {
-  state_->write(SolutionAndGaps{solution, gaps}, details,
-                [&](formats::Output& output) { formats::write_solution(solution, output); });
+void Stage::write(const SolutionProduct& product, const nlohmann::ordered_json& details) {
+  state_->write(product, details, [&](formats::Output& output) { formats::write_solution(product.solution, output); });
 }
 
-void Stage::write(const MixedMesh& result, const MeshPiece* piece, const nlohmann::ordered_json& details) {
-  if (state_->bundle && piece != nullptr) write_members(*state_->bundle, *piece);
-  state_->write(result, details,
-                [&](formats::Output& output) { formats::write_mixed_mesh(result, state_->format, output); });
+void Stage::write(const ResultProduct& product, const nlohmann::ordered_json& details) {
+  if (state_->folder) return state_->write_mesh_to_folder(product.mesh);
+  state_->writing.names = state_->names;
+  state_->write(product, details, [&](formats::Output& output) {
+    formats::write_mixed_mesh(product.mesh, state_->format, output, state_->writing);
+  });
 }
 
 }  // namespace hexpipe::pipeline

@@ -1,5 +1,5 @@
 #pragma once
-// Sizes of elements by place: as a list of places, by the vertices of a surface, or on a background mesh. See
+// Reads sizes of elements: for a list of places, for the vertices of a surface, or on a background mesh. See
 // formats/README.md.
 
 #include <array>
@@ -17,16 +17,16 @@ struct SizeList {
 
   std::vector<double> sizes;  // positive and finite
   std::vector<Vec3> points;   // where they hold; empty: at the vertices of a surface, in the order of its file
-  // Of a background mesh, tets or else triangles, the rest `none`: sizes are linear between their corners.
+  // The tets of a background mesh, or its triangles, whose last corner is `none`. Sizes are linear between the corners.
   std::vector<std::array<Vertex, 4>> simplices;
   std::string name;  // of the input, for messages
 };
 
-// The format is told by content. Throws FormatError or DataError naming line or number.
+// Recognises the format by the content. Throws FormatError or DataError that names the line or the number.
 SizeList read_sizes(Input& input);
 
-// Gives sizes of vertices the points and triangles of the surface that they were made for. Throws DataError where the
-// file of the surface has another number of vertices, or none of its own.
+// Gives sizes by vertex the points and triangles of the surface that they were made for. Throws DataError when the file
+// of the surface has another number of vertices, or a format without vertices.
 SizeList on_surface(SizeList sizes, const SurfaceSoup& surface);
 
 }  // namespace hexpipe::formats

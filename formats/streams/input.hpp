@@ -1,5 +1,5 @@
 #pragma once
-// Bytes from a file or from standard input, looked at before they are taken, never sought.
+// Bytes from a file or from standard input. A reader can look at them before it takes them; nothing seeks.
 
 #include <cstddef>
 #include <memory>
@@ -28,7 +28,7 @@ class Input {
 
   // The next bytes without taking them: `count` of them, or fewer at the end. Throws DataError on a read error.
   std::string_view peek(std::size_t count);
-  // Takes what is at hand, at most a buffer; empty at the end. Valid until the next call.
+  // Takes the bytes at hand, at most a buffer; empty at the end. Valid until the next call.
   std::string_view read_some();
   // Takes everything.
   std::string read_all();

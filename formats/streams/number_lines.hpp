@@ -1,13 +1,15 @@
 #pragma once
-// Lines of whole numbers, for the readers of graphs. They go over a text once, byte by byte: these files have hundreds
-// of megabytes of short numbers, for which finding words first and reading them afterwards takes several times as long.
+// Lines of whole numbers, for the readers of graphs. They read a text once, byte by byte: these files have hundreds of
+// megabytes of short numbers, and to find words first and read them afterwards takes several times as long.
 
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,7 +20,7 @@ namespace hexpipe::formats {
 
 class NumberLines {
  public:
-  // Lines that begin with `comment` are skipped. Both texts must outlive the reader.
+  // The reader skips lines that begin with `comment`. Both texts must outlive it.
   NumberLines(std::string_view text, std::string_view file, char comment)
       : at_(text.data()), begin_(text.data()), end_(text.data() + text.size()), file_(file), comment_(comment) {}
 
@@ -76,7 +78,24 @@ class NumberLines {
     at_ = word;
     fail_expected(fmt::format("{} that fits 64 bits", what));
   }
-  // Counted from 1 in the text, from 0 in the result.
+  // Any number that is not negative, times `scale`, rounded; without a scale only whole numbers.
+  std::int64_t scaled_weight(std::string_view what, std::optional<double> scale) {
+    const std::string_view word = peek_word();
+    double value = 0;
+    const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const bool is_number = !word.empty() && error == std::errc{} && rest == word.data() + word.size() && value >= 0;
+    if (!scale) {
+      if (is_number && word.find_first_not_of("0123456789") != std::string_view::npos)
+        fail_expected(fmt::format("{}, a whole number (--weight-scale takes others)", what));
+      return weight_number(what);
+    }
+    constexpr double limit = 0x1p63;
+    if (!is_number || !(value * *scale < limit))
+      fail_expected(fmt::format("{}, a number that is not negative and below 2^63 when scaled", what));
+    take_word();
+    return std::llround(value * *scale);
+  }
+  // Vertices count from 1 in the text, from 0 in the result.
   std::int32_t vertex_number(std::string_view what, std::int32_t vertex_count) {
     const char* const word = at_;
     const std::uint64_t from_one = number(what);

@@ -1,5 +1,5 @@
 #pragma once
-// Positions of items that a file numbers as it likes.
+// The positions of items that have arbitrary numbers in a file.
 
 #include <cstdint>
 #include <optional>
@@ -13,13 +13,13 @@ class NumberMap {
   static constexpr std::int32_t none = -1;
 
   NumberMap() = default;
-  // The item at position i has number numbers[i], none below 0. Numbers in sequence take no memory, others that lie
-  // close a table, and the rest a sorted list.
+  // The item at position i has number numbers[i], which is not negative. Numbers in sequence take no memory, other
+  // numbers that lie close together a table, and the rest a sorted list.
   explicit NumberMap(const std::vector<std::int64_t>& numbers);
 
   // The position of an item, or none.
   std::int32_t find(std::int64_t number) const;
-  // A number that two items have, if there is one.
+  // A number that two items have, if any.
   std::optional<std::int64_t> repeated() const { return repeated_; }
 
  private:
@@ -27,7 +27,7 @@ class NumberMap {
   void fill_list(const std::vector<std::int64_t>& numbers);
 
   std::int64_t first_ = 0;
-  std::int64_t sequence_ = 0;        // first_, first_ + 1, ... are at positions 0, 1, ..., so many
+  std::int64_t sequence_ = 0;        // how many of first_, first_ + 1, ... are at positions 0, 1, ...
   std::vector<std::int32_t> table_;  // by number - first_
   std::vector<std::pair<std::int64_t, std::int32_t>> list_;
   std::optional<std::int64_t> repeated_;

@@ -1,6 +1,6 @@
 #pragma once
-// Numbers to an Output: as text, or as the machine's bytes. Doubles are written as the shortest text that reads back as
-// the same number.
+// Writes numbers to an Output: as text, or as the machine's bytes. A double becomes the shortest text that reads back
+// as the same number.
 
 #include <charconv>
 #include <string_view>
@@ -10,7 +10,7 @@
 
 namespace hexpipe::formats {
 
-// Numbers and words of a line, separated by blanks.
+// Writes lines of numbers and words, separated by blanks.
 class LineWriter {
  public:
   explicit LineWriter(Output& output) : output_(output) {}

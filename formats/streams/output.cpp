@@ -18,7 +18,7 @@ namespace hexpipe::formats {
 namespace {
 
 constexpr int most_names_tried = 100;
-// What a pipe takes in one call of write(2): a reader that takes 22 kB/s makes progress within the time that it is
+// A pipe takes as much in one call of write(2): a reader that takes 22 kB/s makes progress within the time that it is
 // given.
 constexpr std::size_t most_before_wait = 1 << 16;
 
@@ -42,7 +42,7 @@ std::string link_of(int descriptor) {
   return fmt::format("/proc/self/fd/{}", descriptor);
 }
 
-// The permissions that the finished file gets: those of the file it replaces, else what the umask leaves.
+// The permissions that the finished file gets: those of the file that it replaces, or those that the umask leaves.
 mode_t mode_for(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) return status.st_mode & 07777;
@@ -74,7 +74,7 @@ Output::Output(const std::string& path) {
     if (descriptor_ < 0) fail();
     return;
   }
-  // A rename asks nobody: what its owner has protected is not to be replaced.
+  // A rename ignores permissions, but a file that its owner has protected must not be replaced.
   if (access(path.c_str(), F_OK) == 0 && access(path.c_str(), W_OK) != 0) fail();
   may_wait_ = false;
   path_ = behind_links(path);

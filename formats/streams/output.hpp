@@ -1,6 +1,6 @@
 #pragma once
-// Bytes to a file or to standard output. A file is written without a name and put in place when it is whole, so that a
-// failure leaves the old file as it was, and even a kill leaves nothing else.
+// Writes bytes to a file or to standard output. A file has no name until it is whole, so that a failure leaves the old
+// file as it was, and even a kill leaves nothing else.
 
 #include <fmt/format.h>
 
@@ -16,11 +16,11 @@ namespace hexpipe::formats {
 
 class Output {
  public:
-  // Empty or "-" is standard output. A path to something that is no regular file (/dev/full, a FIFO), or to what is
-  // open already (/dev/stdout), is written directly. Throws DataError when it cannot be written, a file that may not be
-  // too.
+  // Empty or "-" is standard output. A path to something other than a regular file (/dev/full, a FIFO), or to something
+  // that is open already (/dev/stdout), is written directly. Throws DataError when it cannot be written, or is a file
+  // without permission to write.
   explicit Output(const std::string& path);
-  // Without commit(), nothing is left of what was written.
+  // Removes what was written unless commit() was called.
   ~Output();
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -33,9 +33,9 @@ class Output {
     fmt::format_to(std::back_inserter(buffer_), text, std::forward<Args>(args)...);
     if (buffer_.size() >= buffer_limit) flush();
   }
-  // Keeps no memory until commit(), which may come much later. Throws DataError when the disk is full.
+  // Writes the buffer and frees its memory: commit() may come much later. Throws DataError when the disk is full.
   void drain();
-  // Everything is written: flush, close, put in place. Throws DataError when any of it fails.
+  // Ends the output: flushes, closes, puts the file in place. Throws DataError when any of it fails.
   void commit();
 
  private:
@@ -50,7 +50,7 @@ class Output {
   std::string temporary_;  // the file beside path_ while it has a name
   RemovedFile removed_;    // that file
   int descriptor_ = -1;
-  bool may_wait_ = true;  // for a reader: it is no file
+  bool may_wait_ = true;  // for a reader, as it is not a file
   std::string buffer_;
   bool committed_ = false;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Arrays of numbers that a binary file holds in one type and we want in another.
+// Converts arrays of numbers from the type that a binary file has to the type that we want.
 
 #include <bit>
 #include <cmath>
@@ -59,7 +59,8 @@ T swap_bytes(T number) {
   return number;
 }
 
-// True when `number` has the same value in To: integers that fit, finite floats that are whole if To is an integer.
+// True when `number` has the same value in To: an integer that fits, or a finite float, which is whole if To is an
+// integer.
 template <class To, class From>
 bool converts_exactly(From number) {
   if constexpr (std::is_floating_point_v<From> && std::is_integral_v<To>) {
@@ -74,8 +75,8 @@ bool converts_exactly(From number) {
   }
 }
 
-// `bytes` holds numbers of `type` in the byte order `order`; `where` begins messages. Throws DataError when a number
-// has no equal in To or the bytes are no whole number of items. To double everything converts.
+// `bytes` holds numbers of `type` in the byte order `order`; `where` begins messages. Throws DataError when To does not
+// have the value of a number, or the bytes are not a whole number of items. Every number converts to double.
 template <class To>
 std::vector<To> convert_scalars(std::string_view bytes, ScalarType type, std::endian order, std::string_view where) {
   return with_scalar_type(type, [&]<class From>(From) {

@@ -1,5 +1,5 @@
 #pragma once
-// Words and numbers of a text with their line, for the readers of ASCII formats.
+// Reads words and numbers of a text and knows their line, for the readers of ASCII formats.
 
 #include <charconv>
 #include <cmath>
@@ -15,8 +15,8 @@ namespace hexpipe::formats {
 
 class TextScanner {
  public:
-  // `comment`: from this character to the end of the line is skipped; '\0' for none. Both texts must outlive the
-  // scanner. `first_line`: where the text begins in its file.
+  // Skips from the character `comment` to the end of its line; '\0': the format has no comments. Both texts must
+  // outlive the scanner. `first_line`: the number of the text's first line in its file.
   TextScanner(std::string_view text, std::string_view file, char comment = '\0', long first_line = 1)
       : text_(text), file_(file), comment_(comment), line_(first_line) {}
 
@@ -34,7 +34,7 @@ class TextScanner {
   std::string_view peek_word();
   // The next word; an error "expected <what>, found end of file" at the end.
   std::string_view word(std::string_view what);
-  // The next word as a number that fits T; an error "expected <what>, found '...'" otherwise. A leading '+' is taken;
+  // The next word as a number that fits T; an error "expected <what>, found '...'" otherwise. A leading '+' is allowed;
   // infinities and NaN are errors.
   template <class T>
   T number(std::string_view what);
@@ -44,16 +44,16 @@ class TextScanner {
   std::string_view rest_of_line();
   // Takes `bytes` raw bytes from here; an error when fewer are left.
   std::string_view raw(std::size_t bytes, std::string_view what);
-  // Goes behind the next place where `word` stands; an error when it stands nowhere.
+  // Goes past the next place where `word` stands; an error when there is none.
   void skip_past(std::string_view word);
   std::size_t bytes_left() const { return text_.size() - at_; }
 
-  // A count announced by the text, checked against what the rest of the text can hold at `bytes_each` or more an item,
-  // before anything is allocated for it.
+  // Reads a count, and checks that the rest of the text can hold as many items of at least `bytes_each` bytes, before
+  // anything is allocated for them.
   std::size_t count(std::string_view what, std::size_t bytes_each);
 
   [[noreturn]] void fail(std::string_view message) const { throw FormatError(file_, line_, message); }
-  // `found` is a word of the text; empty for its end.
+  // `found` is a word of the text; empty: the end of the text.
   [[noreturn]] void fail_expected(std::string_view expected, std::string_view found) const;
 
  private:
@@ -61,7 +61,7 @@ class TextScanner {
   bool ends_word(char c) const { return is_space(c) || (c == comment_ && comment_ != '\0'); }
   void skip_space();
   void skip_comment();
-  // The next word as a double where from_chars gives up on a magnitude that is too small; an error else.
+  // The next word as a double where from_chars gives up because the magnitude is too small; otherwise an error.
   double underflowing_number(std::string_view what);
 
   std::string_view text_, file_;
@@ -72,15 +72,15 @@ class TextScanner {
 
 bool equal_ignoring_case(std::string_view a, std::string_view b);
 
-// A word of a file as messages show it: in quotes, cut after 40 characters, '?' for what is not printable ASCII; "end
-// of file" when it is empty.
+// A word of a file as messages show it: in quotes, cut after 40 characters, '?' in place of anything but printable
+// ASCII; "end of file" when it is empty.
 std::string quote_found(std::string_view word);
 
-// What an editor may put before a text in UTF-8 taken off.
+// The text without the byte order mark that an editor may put before UTF-8.
 std::string_view without_byte_order_mark(std::string_view text);
 
-// Throws DataError unless a text ends with the end of a line: where nothing else marks the end of a file, a last number
-// may be the beginning of one.
+// Throws DataError unless a text ends with the end of a line. Where nothing else marks the end of a file, the last
+// number may be cut off.
 void expect_last_line_end(std::string_view text, std::string_view file);
 
 inline void TextScanner::skip_space() {

@@ -6,13 +6,14 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "formats/surfaces/surface_building.hpp"
 
 namespace hexpipe::formats {
 namespace {
 
-// What polygonal OBJ consists of. Free-form curves and surfaces are not: their first statement is an error.
+// The statements of polygonal OBJ. The first statement of a free-form curve or surface is an error.
 constexpr std::array<std::string_view, 19> keywords{
     "v",  "vt",  "vn",       "vp",       "f",      "g",      "o",      "s",      "l",    "p",
     "mg", "lod", "c_interp", "d_interp", "usemtl", "mtllib", "usemap", "maplib", "bevel"};
@@ -29,7 +30,7 @@ class ObjReader {
   std::string read_group_name();
   void read_face();
   Vertex vertex_index(std::string_view word) const;
-  std::int32_t tag_of_group();
+  void set_tags();
   void check_corners() const;
 
   const std::string& name_;
@@ -38,16 +39,43 @@ class ObjReader {
   SurfaceSoup soup_;
   std::vector<Vertex> corners_;
   PolygonReader polygons_;
-  std::optional<std::string> group_;
-  std::optional<std::int32_t> group_tag_;  // once the group has a face
-  std::map<std::string, std::int32_t> known_groups_;
+  // Numbers the names that have faces, in the order in which they come.
+  class Names {
+   public:
+    void begin(std::string name) {
+      name_ = std::move(name);
+      tag_.reset();
+    }
+    std::int32_t tag() {
+      if (!name_) return 0;
+      if (!tag_) tag_ = known_.try_emplace(*name_, known_.size() + 1).first->second;
+      return *tag_;
+    }
+    const std::map<std::string, std::int32_t>& known() const { return known_; }
+
+   private:
+    std::optional<std::string> name_;
+    std::optional<std::int32_t> tag_;  // once the name has a face
+    std::map<std::string, std::int32_t> known_;
+  };
+  Names groups_, materials_;
+  std::vector<std::int32_t> material_tags_;  // of triangles
 };
 
 SurfaceSoup ObjReader::read() {
   while (!scanner_.at_end()) read_statement(scanner_.word("an OBJ statement"));
   check_corners();
   polygons_.cut_concave(soup_);
+  set_tags();
   return std::move(soup_);
+}
+
+// Materials tell faces apart where no group does.
+void ObjReader::set_tags() {
+  const bool by_material = groups_.known().empty() && !materials_.known().empty();
+  if (by_material) soup_.tags = std::move(material_tags_);
+  for (const auto& [name, tag] : (by_material ? materials_ : groups_).known())
+    if (std::string text = clean_name(name); !text.empty()) soup_.names.surfaces[tag] = std::move(text);
 }
 
 void ObjReader::read_statement(std::string_view keyword) {
@@ -57,8 +85,9 @@ void ObjReader::read_statement(std::string_view keyword) {
   } else if (keyword == "f") {
     read_face();
   } else if (keyword == "g" || keyword == "o") {
-    group_ = read_group_name();
-    group_tag_.reset();
+    groups_.begin(read_group_name());
+  } else if (keyword == "usemtl") {
+    materials_.begin(read_group_name());
   } else if (is_obj_keyword(keyword)) {
     skip_statement();
   } else {
@@ -96,7 +125,8 @@ void ObjReader::read_face() {
   }
   if (corners_.size() < 3)
     throw FormatError(name_, line, fmt::format("expected a face of three or more vertices, found {}", corners_.size()));
-  polygons_.append(soup_, corners_, tag_of_group(), line);
+  polygons_.append(soup_, corners_, groups_.tag(), line);
+  material_tags_.resize(soup_.triangles.size(), materials_.tag());
 }
 
 // From 0. `word` is V, V/T, V//N or V/T/N; V counts from 1, or back from the last vertex so far when negative. Vertices
@@ -111,12 +141,6 @@ Vertex ObjReader::vertex_index(std::string_view word) const {
   if (number < -so_far) scanner_.fail_expected(fmt::format("a vertex index among the {} so far", so_far), word);
   if (number > std::numeric_limits<Vertex>::max()) scanner_.fail_expected("a vertex index below 2^31", word);
   return static_cast<Vertex>(number < 0 ? so_far + number : number - 1);
-}
-
-std::int32_t ObjReader::tag_of_group() {
-  if (!group_) return 0;
-  if (!group_tag_) group_tag_ = known_groups_.try_emplace(*group_, known_groups_.size() + 1).first->second;
-  return *group_tag_;
 }
 
 void ObjReader::check_corners() const {

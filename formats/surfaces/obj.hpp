@@ -8,8 +8,8 @@
 
 namespace hexpipe::formats {
 
-// Every statement of polygonal OBJ is known; only v, f, g and o are obeyed. The groups and objects (g, o) that hold
-// faces are numbered from 1 in the order in which they come; their numbers become the tags.
+// Knows every statement of polygonal OBJ and obeys v, f, g and o. The groups and objects (g, o) that hold faces are
+// numbered from 1 in the order of the file; their numbers become the tags.
 SurfaceSoup read_obj(std::string_view text, const std::string& name);
 
 // True for the first word of an OBJ statement.

@@ -274,7 +274,7 @@ SurfaceSoup BodyReader<Body>::read() {
   return std::move(soup_);
 }
 
-// Before anything is allocated: what is left must be able to hold that many.
+// Checks, before anything is allocated, that the rest of the file can hold so many items.
 template <class Body>
 void BodyReader<Body>::check_count(const Element& element) const {
   std::size_t bytes_each = 0;

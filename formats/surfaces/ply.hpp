@@ -10,8 +10,8 @@ namespace hexpipe::formats {
 
 bool looks_like_ply(std::string_view bytes);
 
-// Elements other than vertex and face, and properties other than x, y, z and vertex_indices (or vertex_index), are
-// skipped. Faces are placed by line (ASCII) or by number (binary).
+// Skips elements other than vertex and face, and properties other than x, y, z and vertex_indices (or vertex_index).
+// The place of a face is its line (ASCII) or its number (binary).
 SurfaceSoup read_ply(std::string_view bytes, const std::string& name);
 
 }  // namespace hexpipe::formats

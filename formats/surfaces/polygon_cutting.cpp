@@ -8,7 +8,7 @@ namespace hexpipe::formats {
 namespace {
 
 constexpr std::size_t most_corners = 10'000;
-// Of the polygon's area: what a corner on a straight side may be turned by, through rounding.
+// By rounding, a corner on a straight side may turn by this share of the polygon's area.
 constexpr double least_turn = 1e-14;
 
 Vec3 area_of(std::span<const Vec3> points, const Triangle& t) {
@@ -66,7 +66,7 @@ class EarCutter {
       passed = 0;
       // Cutting an ear off makes corners beside it convex, never the other way round.
       std::erase_if(others_, [&](std::int32_t k) { return k == i || ((k == before || k == after) && is_convex(k)); });
-      // Whatever else is an ear is so in the whole polygon.
+      // Any other ear was an ear of the whole polygon.
       for (const std::int32_t k : {before, after}) is_ear_[k] = has_no_other_inside(k);
       // On to the next but one: going on beside it would cut a fan of needles.
       i = around_[after].after;
@@ -83,7 +83,7 @@ class EarCutter {
     return turn(places_[around_[i].before], places_[i], places_[around_[i].after]) > 0;
   }
 
-  // A corner that is not convex, and none else, may lie in the triangle of a convex one.
+  // Only a corner that is not convex may lie in the triangle of a convex one.
   bool has_no_other_inside(std::int32_t i) const {
     if (!is_convex(i)) return false;
     const Place &a = places_[around_[i].before], &b = places_[i], &c = places_[around_[i].after];

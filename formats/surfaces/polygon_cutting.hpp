@@ -1,5 +1,5 @@
 #pragma once
-// Triangles for the polygons of a file.
+// Cuts the polygons of a file into triangles.
 
 #include <span>
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace hexpipe::formats {
 
-// Cuts anew what was fanned from its first corner, if a triangle of the fan is turned against the polygon, as happens
-// where that is concave: by cutting off ears, in the projection along an axis (G. H. Meisters: Polygons have ears,
-// 1975). What has no such ears, as it crosses itself, or more than 10,000 corners stays a fan. The triangles are as
-// many as before. Time grows with the square of the number of corners.
+// `fan` has the triangles of one polygon, fanned from its first corner. If one of them is turned against the polygon,
+// as happens where this is concave, cuts the polygon anew into as many triangles: by cutting off ears, in the
+// projection along an axis (G. H. Meisters: Polygons have ears, 1975). A polygon that has no ears because it crosses
+// itself, or that has more than 10,000 corners, stays a fan. The time grows with the square of the number of corners.
 void cut_if_concave(std::span<const Vec3> points, std::span<Triangle> fan);
 
 }  // namespace hexpipe::formats

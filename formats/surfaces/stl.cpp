@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cstring>
+#include <utility>
 
 #include "formats/surfaces/surface_building.hpp"
 
@@ -48,7 +49,7 @@ SurfaceSoup read_ascii_stl(std::string_view text, const std::string& name) {
   std::int32_t solid = 0;
   while (!scanner.at_end()) {
     scanner.expect("solid");
-    scanner.rest_of_line();
+    std::string title = clean_name(scanner.rest_of_line());
     ++solid;
     // peek_word() skips to the word, so that line() is the facet's.
     while (!equal_ignoring_case(scanner.peek_word(), "endsolid")) {
@@ -58,6 +59,7 @@ SurfaceSoup read_ascii_stl(std::string_view text, const std::string& name) {
     }
     scanner.expect("endsolid");
     scanner.rest_of_line();
+    if (!title.empty()) soup.names.surfaces[solid] = std::move(title);
   }
   return soup;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What the readers of surface formats share: merging equal points, cutting polygons, reading finite coordinates.
+// Shared by the readers of surface formats: they merge equal points, cut polygons, and read finite coordinates.
 
 #include <tsl/robin_map.h>
 
@@ -14,7 +14,7 @@
 
 namespace hexpipe::formats {
 
-// Gives every distinct coordinate triple one index, in the order of first appearance.
+// Gives each distinct coordinate triple an index, in the order in which they first appear.
 class PointMerger {
  public:
   explicit PointMerger(std::vector<Vec3>& points) : points_(points) {}
@@ -28,7 +28,8 @@ class PointMerger {
   tsl::robin_map<Vec3, Vertex, Hash> indices_;
 };
 
-// The soup with one point for those that are equal, in the order of first use, and none that no triangle uses.
+// The soup with one point in place of equal ones, in the order of first use, and without points that no triangle uses.
+// Curves are edges of triangles.
 SurfaceSoup merge_equal_points(SurfaceSoup soup);
 
 // Throws DataError where there are more points than can be numbered.
@@ -39,19 +40,19 @@ void append_triangle(SurfaceSoup& soup, const Triangle& triangle, std::int32_t t
 // Collects the polygons of a file that may have faces before the vertices.
 class PolygonReader {
  public:
-  // Fans it; at least three corners.
+  // Appends a polygon of at least three corners as a fan.
   void append(SurfaceSoup& soup, std::span<const Vertex> corners, std::int32_t tag, std::int64_t place);
-  // Once all points are there and corners are known to be among them: cuts concave polygons as they must be.
+  // Cuts concave polygons anew. Call it when all points are there and corners are known to be among them.
   void cut_concave(SurfaceSoup& soup) const;
 
  private:
-  std::vector<bool> goes_on_;  // whether a triangle is of the same polygon as the one before
+  std::vector<bool> goes_on_;  // by triangle: it belongs to the polygon of the triangle before it
 };
 
-// Three words as coordinates. Throws FormatError where one is missing, no number, or not finite.
+// Reads three words as coordinates. Throws FormatError where one is missing, not a number, or not finite.
 Vec3 read_coordinates(TextScanner& scanner);
 
-// The word at the scanner, on this line. Throws FormatError at the end of the line.
+// Reads a number on the present line. Throws FormatError at the end of the line.
 template <class T>
 T number_on_line(TextScanner& scanner, std::string_view what) {
   if (scanner.at_line_end()) scanner.fail(fmt::format("expected {}, found the end of the line", what));

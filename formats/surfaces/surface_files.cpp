@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "common/run/error.hpp"
 #include "formats/surfaces/obj.hpp"
@@ -23,11 +24,25 @@ bool is_archive(std::string_view bytes) {
   return bytes.starts_with("\x28\xb5\x2f\xfd") || (bytes.size() > 262 && bytes.substr(257, 5) == "ustar");
 }
 
+// CAD files by their first bytes: triangles have to be made of them first.
+std::optional<std::string_view> hint_for_cad(std::string_view bytes) {
+  if (bytes.starts_with("ISO-10303-21")) return "CAD in STEP";
+  if (bytes.starts_with("DBRep_DrawableShape") || bytes.starts_with("CASCADE Topology")) return "CAD in BREP";
+  if (bytes.size() > 80 && bytes.substr(0, 81).find('\n') == std::string_view::npos && bytes[72] == 'S' &&
+      bytes.substr(73, 7) == "      1")
+    return "CAD in IGES";
+  return std::nullopt;
+}
+
 SurfaceSoup read_by_content(std::string_view bytes, const std::string& name) {
   if (bytes.empty())
     throw DataError::at(name, "expected a surface in STL, OBJ, PLY or OFF, found nothing: it is empty");
   if (is_archive(bytes))
     throw DataError::at(name, "expected a surface in STL, OBJ, PLY or OFF, found a bundle or another archive");
+  if (const auto hint = hint_for_cad(bytes))
+    throw DataError::at(name,
+                        "expected a surface in STL, OBJ, PLY or OFF, found {}; 'tessellate {} | tetmesh' meshes it",
+                        *hint, name == "stdin" ? "FILE" : name);
   if (is_binary_stl(bytes)) return read_binary_stl(bytes, name);
   bytes = without_byte_order_mark(bytes);
   if (looks_like_ply(bytes)) return merge_equal_points(read_ply(bytes, name));
@@ -69,11 +84,15 @@ std::string SurfaceSoup::place_of(std::size_t triangle) const {
 SurfaceSoup read_surface(Input& input) {
   SurfaceSoup soup = read_by_content(input.read_all(), input.name());
   soup.name = input.name();
+  check_extent(soup);
+  return soup;
+}
+
+void check_extent(const SurfaceSoup& soup) {
   if (soup.triangles.empty()) throw DataError::at(soup.name, "expected a surface, found no triangles");
   if (soup.triangles.size() > std::numeric_limits<std::int32_t>::max() / 3)
     throw DataError::at(soup.name, "expected fewer than 2^31 / 3 triangles, found {}", soup.triangles.size());
   check_magnitude(soup);
-  return soup;
 }
 
 }  // namespace hexpipe::formats

@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""assemble.py [--models DIR] [--size coarse|middle|fine] [--seeds N [--first SEED]] [--million] [MODEL...] - is what assemble makes valid, how good, and how fast.
+"""assemble.py [--models DIR] [--size coarse|middle|fine] [--seeds N [--first SEED]] [--million] [--merging] [MODEL...] - are assemble's meshes valid, how good are they, and how fast.
 
-Three parts, each checked by tests/checkers/meshstats.py --exact:
+Three sections, each checked by tests/checkers/meshstats.py --exact:
   models    the surfaces of ../shared/models (or --models DIR, or the files named): share of the volume in hexes before and
             after conformity, cells given back by reason, least scaled Jacobians, seconds. Skipped where they are not.
   random    N meshes of uniform points, seeds from SEED on: nothing may ever break an invariant.
   million   a lattice of a million tets with 6 of 7 cubes chosen: seconds without smoothing; the goal is 10.
+With --merging instead of these: the models' same choices without and with --merge, cells by kind.
 The tools are taken from build/bin, or from HEXPIPE_BIN. Ends with 1 when an invariant is broken or a goal is missed.
 """
 import argparse
@@ -25,14 +26,17 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "checkers"))
 import meshstats  # noqa: E402
 import surfcheck  # noqa: E402
 
-# Edge lengths as in the models' README: for the MAMBO models, else parts of the longest side of the bounding box.
+# Edge lengths as in the models' README: for the MAMBO models, otherwise shares of the longest side of the bounding box.
 SIZES = {"mambo-s1.stl": (5.2, 3.3, 2.3), "mambo-s22.stl": (5.2, 3.3, 2.3), "mambo-s27.stl": (3.2, 2.05, 1.42),
          "mambo-m1.stl": (5.1, 3.2, 2.2), "mambo-m6.stl": (3.2, 2.1, 1.45)}
 PARTS = (16, 28, 40)
 LEVELS = ("coarse", "middle", "fine")
-NEVER = ("f>2", "perm", "ncq", "nonconf_quads", "inv", "hexbad", "bedge_odd", "dupcells", "orphan_nodes", "negvol")
+NEVER = ("facets_of_three_cells", "twisted_quads", "quads_against_triangles", "open_quads", "inverted_cells",
+         "invalid_hexes", "odd_boundary_edges", "duplicate_cells", "unused_points", "negative_volumes")
 # Scaled Jacobians after smoothing, and points of volume lost to conformity.
 LEAST_HEX, LEAST_OTHER, MOST_LOST = 0.1, 0.02, 0.5
+# Merging may leave cells as poor as this where none was poorer before.
+LEAST_MERGED = 0.12
 
 
 def tool(name, *arguments, **options):
@@ -50,11 +54,12 @@ def assemble(source, *arguments):
 
 
 def broken(found):
-    faults = [key for key in NEVER if found.get(key, 0)]
-    return faults + (["volgap"] if abs(found["volgap"]) > 1e-9 else [])
+    faults = [key for key in NEVER if found[key]]
+    return faults + (["volume_gap"] if abs(found["volume_gap"]) > 1e-9 else [])
 
 
-def bench_model(path, level):
+def make_solution(path, level):
+    """solution.tar in the working folder; returns the edge length."""
     name = os.path.basename(path)
     points, _ = surfcheck.read(path)
     longest = float((points.max(axis=0) - points.min(axis=0)).max())
@@ -63,6 +68,11 @@ def bench_model(path, level):
     tool("findhex", "mesh.tar", "-o", "candidates.tar", "--format", "tar")
     tool("buildgraph", "candidates.tar", "-o", "graph.tar", "--format", "tar")
     tool("initsol", "graph.tar", "--iterations", 20000, "-o", "solution.tar", "--format", "tar")
+    return size
+
+
+def bench_model(path, level):
+    name, size = os.path.basename(path), make_solution(path, level)
     plain, _, _ = assemble(["solution.tar"], "--conformity", "none", "--smooth", 0)
     stats, found, seconds = assemble(["solution.tar"])
     share = [100 * s["cells"]["hex"]["share_of_volume"] for s in (plain, stats)]
@@ -74,10 +84,40 @@ def bench_model(path, level):
     missed += [f"{kind} {value:.4f}" for kind, value in least.items() if kind != "hex" and value < LEAST_OTHER]
     missed += [f"lost {lost:.2f}"] if lost > MOST_LOST else []
     reasons = {k: v for k, v in stats["conformity"]["cells_given_back"].items() if v}
-    print(f"{name:16} {size:7.3g} {found['hex']:7} {share[0]:6.2f} {share[1]:6.2f} {lost:5.2f} "
+    print(f"{name:16} {size:7.3g} {found['hexes']:7} {share[0]:6.2f} {share[1]:6.2f} {lost:5.2f} "
           f"{least.get('hex', 0):6.3f} {least.get('pyramid', 0):6.3f} {least.get('tet', 0):7.4f} {seconds:6.1f}  "
           f"{reasons or ''} {'MISSED: ' + ', '.join(missed) if missed else ''}", flush=True)
     return missed
+
+
+def by_kind(stats):
+    """Number, least and mean scaled Jacobian of the cells that are no hexes; of tets times the square root of 2."""
+    found = []
+    for kind in ("prism", "pyramid", "tet"):
+        cells = stats["cells"][kind]
+        scale = 2 ** 0.5 if kind == "tet" else 1
+        least, mean = (scale * cells["scaled_jacobian"][what] for what in ("least", "mean"))
+        found.append((kind, cells["count"], least, mean))
+    return found
+
+
+def bench_merging(path, level):
+    """The same choice without and with --merge: fewer cells, none of a kind worse, and hexes no smaller."""
+    make_solution(path, level)
+    (none, _, before), (merged, found, after) = (assemble(["solution.tar"], "--merge", m) for m in ("none", "vertices"))
+    missed = broken(found)
+    shares = []
+    for what in ("share_of_number", "share_of_volume"):
+        shares.append([100 * s["cells"]["hex"][what] for s in (none, merged)])
+    missed += ["volume"] if shares[1][1] < shares[1][0] - 0.01 else []
+    kinds = []
+    for (kind, count, least, mean), (_, fewer, worst, average) in zip(by_kind(none), by_kind(merged)):
+        kinds.append(f"{kind} {count:5} {fewer:5}  {least:.3f} {worst:.3f}  {mean:.3f} {average:.3f}")
+        missed += [f"{kind} least {worst:.4f}"] if kind != "prism" and worst < min(least, LEAST_MERGED) - 1e-4 else []
+        missed += [f"{kind} mean {average:.3f}"] if kind != "prism" and average < mean else []
+    print(f"{os.path.basename(path):16} {shares[0][0]:6.2f} {shares[0][1]:6.2f}  {shares[1][0]:6.2f} {shares[1][1]:6.2f}  "
+          f"{'  '.join(kinds)}  {before:5.1f} {after:5.1f} {'MISSED: ' + ', '.join(missed) if missed else ''}", flush=True)
+    return missed, shares[0]
 
 
 def bench_random(seed):
@@ -127,6 +167,7 @@ def main():
     parser.add_argument("--seeds", type=int, default=200)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--million", action="store_true")
+    parser.add_argument("--merging", action="store_true", help="--merge none beside the default, nothing else")
     parser.add_argument("files", nargs="*", metavar="MODEL")
     arguments = parser.parse_args()
     files = [os.path.abspath(f) for f in arguments.files]
@@ -138,6 +179,14 @@ def main():
     missed = 0
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
+        if arguments.merging:
+            print("without and with --merge: hexes % of number, % of volume; by kind number, least, mean; seconds")
+            results = [bench_merging(file, LEVELS.index(arguments.size)) for file in files]
+            if results:
+                means = [sum(shares[i] for _, shares in results) / len(results) for i in (0, 1)]
+                print(f"mean % of the number: {means[0]:.2f} {means[1]:.2f}")
+            os.chdir("/")
+            return 1 if any(bad for bad, _ in results) else 0
         if files:
             print("model               size   hexes  hex %  after  lost hex SJ pyr SJ  tet SJ seconds")
         missed += sum(bool(bench_model(file, LEVELS.index(arguments.size))) for file in files)

@@ -105,7 +105,7 @@ class Zeros(io.RawIOBase):
 
 
 def write_huge(file, neighbours):
-    """A part of one part: two candidates that list so many neighbours each, more than 8 GiB in all."""
+    """A part of one part: two candidates that list that many neighbours each, more than 8 GiB in all."""
     about = {"part": 0, "parts": 1, "neighbours": [], "mesh": {"points": 0, "tets": 0, "triangles": 0, "checksum": "0"}}
     header = io.BytesIO()
     np.lib.format.write_array_header_1_0(header, {"descr": "<i4", "fortran_order": False, "shape": (2 * neighbours,)})

@@ -59,12 +59,12 @@ def assemble_round(number):
 def check(path):
     checked = subprocess.run(["/usr/bin/python3", f"{TESTS}/checkers/meshstats.py", "--exact", path], check=True, capture_output=True, text=True).stdout
     values = dict(re.findall(r"(\S+?)=(\S+)", checked))
-    good = values["conforming"] == "True" and values["inv"] == values["hexbad"] == values["negvol"] == "0"
+    good = values["is_conforming"] == "True" and values["inverted_cells"] == values["invalid_hexes"] == values["negative_volumes"] == "0"
     return values, good
 
 
 def print_row(count, tets, rounds, values, poor, seconds, peak, merge):
-    print(f"| {count} | {tets} | {rounds} | {values['hexvol%']} | {values['hex']} | {values['SJmin']} / {values['SJmean']} | {poor} | {seconds:.1f} | {peak / 2**20:.0f} | {merge} |", flush=True)
+    print(f"| {count} | {tets} | {rounds} | {values['hex_volume_percent']} | {values['hexes']} | {values['least_hex_jacobian']} / {values['mean_hex_jacobian']} | {poor} | {seconds:.1f} | {peak / 2**20:.0f} | {merge} |", flush=True)
 
 
 def whole():

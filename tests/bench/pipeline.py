@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""pipeline.py [--size coarse|middle|fine] [--time-limit S] [--threads N] [MODEL...] - what every stage does on real parts.
+"""pipeline.py [--size coarse|middle|fine] [--time-limit S] [--threads N] [MODEL...] - what every stage does on real models.
 
 Runs the whole pipeline on models of ../shared/models (or on the files named), one stage after another through bundles, and
 prints two tables: the sizes and the result, and wall seconds and peak memory of every stage. The tools are taken from
@@ -78,8 +78,8 @@ def print_tables(rows):
     for r in rows:
         mesh, tetmesh = r["mesh"], r["tetmesh stats"]
         print(f"| {r['model']} | {r['size']} | {tetmesh['points']} | {tetmesh['tets']} | {r['findhex stats']['candidates']} | "
-              f"{r['buildgraph stats']['edges']} | {mesh['hex']} | {mesh['hexvol%']} | {mesh['hex#%']} | {mesh['SJmin']} / "
-              f"{mesh['SJmean']} | {mesh['hexbad'] + mesh['inv']} | {mesh['nonconf_quads']} |")
+              f"{r['buildgraph stats']['edges']} | {mesh['hexes']} | {mesh['hex_volume_percent']} | {mesh['hex_number_percent']} | {mesh['least_hex_jacobian']} / "
+              f"{mesh['mean_hex_jacobian']} | {mesh['invalid_hexes'] + mesh['inverted_cells']} | {mesh['open_quads']} |")
     print()
     print("| model | " + " | ".join(f"{stage} s / MiB" for stage in STAGES) + " |")
     print("|---" * (len(STAGES) + 1) + "|")

@@ -22,7 +22,7 @@ import bench_meshes as meshes
 MOST_MEMORY = 24 * 2**30
 STEPS = (10**5, 10**6, 10**7)
 TILE = 25
-# What formats/README.md says, in bytes, beyond what a program takes that does nothing.
+# The figures of formats/README.md, in bytes, beyond those of a program that does nothing.
 PROGRAM = 16 * 2**20
 FINDHEX_A_TET = 340
 BUILDGRAPH_OVER_GRAPH, BUILDGRAPH_A_CANDIDATE = 1.15, 600

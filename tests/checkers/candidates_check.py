@@ -3,6 +3,7 @@
 
 usage: candidates_check.py MESH.mesh FILE.cand [--cells hex,prism,pyramid] [--min-quality Q] [--quality corner|element]
            [--inner-vertices allow|forbid] [--folded-quads drop|keep] [--flat-corners reject|keep] [--max-boundary-tets N]
+           [--feature-angle DEGREES]
 
 Finds cells another way than findhex does: hexes from a quad and the side quads at two opposite sides of it, prisms from a
 triangle and its side quads, pyramids from a quad and a vertex; the interior tets from the surface made of one diagonal a
@@ -53,7 +54,7 @@ def dot(u, v):
 class Mesh:
     def __init__(self, path):
         words = open(path).read().split()
-        sections = {"Vertices": 4, "Triangles": 4, "Tetrahedra": 5}
+        sections = {"Vertices": 4, "Edges": 3, "Ridges": 1, "Triangles": 4, "Tetrahedra": 5}
         found = {name: [] for name in sections}
         at = 0
         while at < len(words):
@@ -72,6 +73,8 @@ class Mesh:
         self.tets = [tuple(int(v) - 1 for v in row[:4]) for row in found["Tetrahedra"]]
         self.regions = [int(row[4]) for row in found["Tetrahedra"]]
         self.tags = {frozenset(int(v) - 1 for v in row[:3]): int(row[3]) for row in found["Triangles"]}
+        edges = [frozenset(int(v) - 1 for v in row[:2]) for row in found["Edges"]]
+        self.ridges = {edges[int(row[0]) - 1] for row in found["Ridges"]}
         self.flat = {t for t, tet in enumerate(self.tets) if self.volume(tet) == 0}
         self.tets_of = {}  # facet -> tets
         for t, tet in enumerate(self.tets):
@@ -318,6 +321,19 @@ def interior_tets(mesh, cell):
     return None
 
 
+def is_over_sharp_edge(mesh, outer, angle):
+    """Rule 10, of a quad with these outermost triangles."""
+    if outer[0] not in mesh.tags:
+        return False
+    edge = outer[0] & outer[1]
+    a, c = edge
+    (b,), (d,) = outer[0] - edge, outer[1] - edge
+    points = mesh.floats
+    along = minus(points[c], points[a])
+    n, m = cross(minus(points[b], points[a]), along), cross(along, minus(points[d], points[a]))
+    return edge in mesh.ridges or dot(n, m) < math.cos(math.radians(angle)) * math.sqrt(dot(n, n) * dot(m, m))
+
+
 def leaves_flat_corner(mesh, outer, within):
     """Rule 9, of a quad with these outermost triangles on tets `within`."""
     if outer[0] in mesh.tags:
@@ -343,7 +359,7 @@ def leaves_flat_corner(mesh, outer, within):
 
 
 def tets_of(mesh, cell, options):
-    """Rules 5 to 9: (interior tets, boundary tets), or None."""
+    """Rules 5 to 10: (interior tets, boundary tets), or None."""
     found = interior_tets(mesh, cell)
     if found is None or options.folded_quads == "drop" and any(is_folded(mesh, pairs) for pairs in diagonals(mesh, cell)):
         return None
@@ -361,6 +377,8 @@ def tets_of(mesh, cell, options):
             boundary.add(t)
             outer = [f for f in map(frozenset, itertools.combinations(corners, 3)) if f not in outer]
         if mesh.label(outer[0]) != mesh.label(outer[1]):
+            return None
+        if options.folded_quads == "drop" and is_over_sharp_edge(mesh, outer, options.feature_angle):
             return None
         if options.flat_corners == "reject" and leaves_flat_corner(mesh, outer, region | on_quad):
             return None
@@ -454,6 +472,7 @@ def main():
     parser.add_argument("--inner-vertices", default="allow")
     parser.add_argument("--folded-quads", default="drop")
     parser.add_argument("--flat-corners", default="reject")
+    parser.add_argument("--feature-angle", type=float, default=40)
     parser.add_argument("--max-boundary-tets", type=int, default=6)
     options = parser.parse_args()
     mesh = Mesh(options.mesh)

@@ -22,7 +22,7 @@ class Cell:
         self.corners = numbers[:n]
         self.tets = set(numbers[n:n + interior])
         pick = lambda table: [[self.corners[int(c)] for c in word] for word in table[self.kind].split()]
-        # What may be shared; a quad also says who lies opposite whom.
+        # The facets and edges that may be shared; a quad also says who lies opposite whom.
         self.parts = {frozenset()} | {frozenset([v]) for v in self.corners}
         self.parts |= {frozenset(e) for e in pick(EDGES)} | {frozenset(t) for t in pick(TRIANGLES)}
         self.quads = {frozenset([frozenset((a, c)), frozenset((b, d))]) for a, b, c, d in pick(QUADS)}

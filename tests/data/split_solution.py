@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""split_solution.py SOLVED.tar FOLDER GRAPH-PART.tar... - the solution of a whole to each part of its graph, in bundles in the folder.
+"""split_solution.py SOLVED.tar FOLDER GRAPH-PART.tar... - divides the solution of a whole graph among its parts, in bundles in the folder.
 
-Of candidates of others each part says the contrary of what is so, which must not count.
+About candidates of other parts each part says the contrary of the truth, which must not count.
 """
 import io
 import os

@@ -1,7 +1,7 @@
 // Preloaded into a tool, makes one call of the system fail, as HEXPIPE_FAULT says:
 //
 //   KIND:N         the Nth call of this kind from main() on fails
-//   disk:BYTES     files have no room behind so many bytes, all together; the last write before is a short one
+//   disk:BYTES     files have room for this many bytes, all together; the last write is a short one
 //   kill:N         SIGKILL at the Nth call of any kind
 //   short:1        reads and writes move one byte less than asked, where that is more than none
 //   exit:1         a library's destructor never ends

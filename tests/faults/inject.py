@@ -4,7 +4,7 @@
 Runs the tools with one fault each, by the library fail_calls.cpp: every call of the system that a run makes fails once,
 the disk is full at every byte of the output, the tool is killed at every call and at random moments (INT, TERM, HUP,
 KILL), whoever reads its output goes away, its input stalls and one SIGTERM has to end it. --per-kind, --disk, --pipes
-and --stalls spread so many cases over all there are (0: every one); --kills is how many there are.
+and --stalls are numbers of cases, spread over all (0: every one); --kills is the number of kills.
 
 After each case the old output is there, or the new one as a run without fault writes it; there is no other file beside
 it; the exit code is 0 with the new output and 1 with the old one, then with one line on standard error that names the
@@ -38,7 +38,7 @@ STAGES = {  # options, ending of the product
     "viewmesh": ([], "html"),
     "lns-mpi": (["--iterations", "5"], "sol"),
 }
-# Of runs that are long enough to be stopped in the middle.
+# Options for runs that are long enough to be stopped in the middle.
 LONG_RUNS = {
     "tetmesh": ["--size", "0.2"],
     "findhex": ["--cells", "hex,prism,pyramid"],
@@ -54,7 +54,7 @@ LONG_RUNS = {
 }
 LIBARCHIVE_WITHOUT_MEMORY = ("Fatal Internal Error in libarchive: Out of memory", "Fatal Internal Error in libarchive: No memory")
 SEARCHES = ("initsol", "lns", "certify", "lns-mpi")
-# What MPI does when its own calls fail, and that it stays for a second signal, is its own.
+# MPI decides what happens when its own calls fail, and waits for a second signal; this is not tested.
 WITH_MPI = ("lns-mpi",)
 KINDS = ["open", "read", "write", "close", "link", "rename", "fork", "thread", "pipe", "memory"]
 
@@ -286,7 +286,7 @@ def leave_the_pipe(bench, report, wanted):
 
 
 def stage_inputs(directory, size):
-    """The input of each tool, as a file; the mesh is a lattice of so many cubes along each axis."""
+    """The input of each tool, as a file; the mesh is a lattice of that many cubes along each axis."""
     directory.mkdir()
     inputs = {"tetmesh": ROOT / "tests/data/cube.stl"}
     mesh = directory / "lattice.mesh"

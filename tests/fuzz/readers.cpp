@@ -37,7 +37,7 @@ Input memory(std::string_view bytes) {
   return Input::from_memory(std::string(bytes), "fuzzed");
 }
 
-// What `write` makes, as a file that is open again.
+// The output of `write`, as a file that is open again.
 template <class Write>
 Input written(const char* name, Write&& write) {
   const std::string path = scratch().path(name);
@@ -138,9 +138,7 @@ void read_as_stage(std::string_view bytes) {
   context.info.reads = {Role::mesh, Role::candidates, Role::graph, Role::solution, Role::result};
   context.common.quiet = true;
   context.streams.operand = scratch().write("stage.tar", bytes);
-  Stage stage(context);
-  stage.take_cover();
-  stage.read({}, context.info.reads);
+  Stage(context).read({.wants = context.info.reads, .cover = true});
 }
 
 void read_bundle(std::string_view bytes) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# run.sh FUZZER [SECONDS [TARGET...]] - fuzzes each target (all of them) for so many seconds of processor time, from the seeds
+# run.sh FUZZER [SECONDS [TARGET...]] - fuzzes each target (all of them) for this many seconds of processor time, from the seeds
 # and from what earlier runs in this directory found (fuzz-corpus/). Prints a line for each: processor time, executions of all
 # runs here together, edges covered, findings, which lie in fuzz-findings/. Ends with 1 when there are any.
 #

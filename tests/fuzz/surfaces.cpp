@@ -19,7 +19,7 @@ namespace {
 
 // Larger ones take long under the sanitizers and have no more to show.
 constexpr std::size_t most_triangles = 1000, most_to_remesh = 60;
-// Of the diagonal.
+// Shares of the diagonal.
 constexpr double weld = 1e-6, size = 0.25;
 
 bool is_boundary_of_a_solid(const SurfaceSoup& soup) {

@@ -52,7 +52,7 @@ struct Numbers {
   char* at(std::size_t i) const { return data + i * width; }
 };
 
-// Of an .npy file; none where it is no such file.
+// The numbers in an .npy file; none if it is another kind of file.
 Numbers numbers_of(char* data, std::uint64_t bytes) {
   constexpr std::size_t preamble = 10;
   if (bytes < preamble || std::memcmp(data, "\x93NUMPY", 6) != 0) return {data, 0, 1};

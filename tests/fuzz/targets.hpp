@@ -1,5 +1,5 @@
 #pragma once
-// What is fuzzed: every reader of the project and its whole tools, behind functions of bytes.
+// The targets of fuzzing: every reader of the project and its whole tools, as functions of bytes.
 
 #include <span>
 #include <string_view>

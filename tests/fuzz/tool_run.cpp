@@ -11,7 +11,7 @@
 
 #include "tests/fuzz/targets.hpp"
 
-// Of the sanitizers, where there are any: with the name and the type that they give it.
+// The sanitizers define it, with this name and type; without them it is null.
 // NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming)
 extern "C" __attribute__((weak)) void __sanitizer_set_report_fd(void* descriptor);
 

@@ -34,7 +34,7 @@ struct FuzzedTool {
   const char* name;
   int (*main)(int, char**);
   std::vector<Options> choices;  // the first byte of the input is for one of them
-  std::size_t alone = 0;  // so many of the last ones leave nothing for the tools behind, or need what is not there
+  std::size_t alone = 0;         // this many of the last ones leave later tools nothing, or need what is missing
 };
 
 // Larger meshes take long under the sanitizers and have no more to show.

@@ -78,8 +78,8 @@ def require(condition, message):
 # ---- what became of a part, from the files alone
 
 MESHSTATS = runpy.run_path(str(CHECKERS / "meshstats.py"))
-# What the tools promise: smoothing moves the boundary by no more than 0.03 of the part's thickness, or of an edge where it
-# is thicker, and remeshing by no more than 0.15 of it, or of the size. Moved by so much on both sides a part loses twice
+# The promises of the tools: smoothing moves the boundary by no more than 0.03 of the wall thickness, or of an edge where the wall
+# is thicker, and remeshing by no more than 0.15 of it, or of the size. Moved this far on both sides, a model loses twice
 # these shares of its volume.
 SMOOTHING, REMESHING = 0.03, 0.15
 
@@ -125,7 +125,7 @@ def judge_assembled(directory, before, after, smoothed):
     (points, tets), (moved, cells) = (MESHSTATS["read"](str(directory / name)) for name in (before, after))
     volume = MESHSTATS["tetvol"](points, tets["tet"]).sum()
     triangles, quads = skin(cells)
-    made = MESHSTATS["stats"](str(directory / after), conf=False)["vol"]
+    made = MESHSTATS["stats"](str(directory / after), conf=False)["volume"]
     room = bulge(moved, quads) + (2 * SMOOTHING if smoothed else 1e-9) * volume
     require(abs(made - volume) <= room, f"volume {made} out of {volume}, expected {room} more or less at most")
     corners = points[np.array(skin(tets_only(tets))[0])]
@@ -286,8 +286,8 @@ def judge_mesh(directory, mesh, seed):
          smooth, "-o", "part.vtk")
     stats = json.loads(check(directory, "meshstats.py", "--json", "--exact", "part.vtk"))
     require("error" not in stats, stats)
-    for key in ("nonconf_quads", "perm", "inv", "hexbad", "negvol", "dupcells"):
-        require(stats.get(key, 0) == 0, f"{key}: {stats}")
+    for key in ("open_quads", "twisted_quads", "inverted_cells", "invalid_hexes", "negative_volumes", "duplicate_cells"):
+        require(stats[key] == 0, f"{key}: {stats}")
     judge_assembled(directory, "part.mesh", "part.vtk", smooth != "0")
 
 
@@ -441,7 +441,7 @@ def judge_surface(directory, surface, seed):
     points, faces = surface
     write_surface(directory / "part.off", surface)
     try:
-        require("OK" in check(directory, "surfcheck.py", "part.off"), "the surface itself is bad")
+        require("is_solid=True" in check(directory, "surfcheck.py", "part.off"), "the surface itself is bad")
     except Failure as failure:
         raise BadCase(str(failure)) from None
     volume = sum(float(np.linalg.det(np.array([points[v] for v in face], dtype=float))) for face in faces) / 6
@@ -456,8 +456,8 @@ def judge_surface(directory, surface, seed):
     judge_choice(directory, seed)
     tool(directory, "assemble", "--mesh", "part.mesh", "--candidates", "part.cand", "--solution", "part.sol", "-o", "part.vtk")
     stats = json.loads(check(directory, "meshstats.py", "--json", "--exact", "part.vtk"))
-    for key in ("f>2", "nonconf_quads", "perm", "bedge_odd", "inv", "hexbad", "negvol", "dupcells", "orphan_nodes"):
-        require(stats.get(key, 0) == 0, f"{key}: {stats}")
+    for key in ("facets_of_three_cells", "open_quads", "twisted_quads", "odd_boundary_edges", "inverted_cells", "invalid_hexes", "negative_volumes", "duplicate_cells", "unused_points"):
+        require(stats[key] == 0, f"{key}: {stats}")
     judge_assembled(directory, "part.mesh", "part.vtk", True)
 
 

@@ -33,23 +33,39 @@ hexpipe mesh
 3, 2, 3, 7, 6, 9
 *ELEMENT, TYPE=C3D4, ELSET=EALL
 4, 7, 6, 9, 11
-*ELSET, ELSET=REGION_1
+*ELSET, ELSET=region_1
 1
-*ELSET, ELSET=REGION_2
+*NSET, NSET=region_1
+1, 2, 3, 4, 5, 6, 7, 8
+*ELSET, ELSET=region_2
 2
-*ELSET, ELSET=REGION_3
+*NSET, NSET=region_2
+5, 6, 7, 8, 10, 11
+*ELSET, ELSET=region_3
 3
-*ELSET, ELSET=REGION_4
+*NSET, NSET=region_3
+2, 3, 6, 7, 9
+*ELSET, ELSET=region_4
 4
-*SURFACE, NAME=SURFACE_7, TYPE=ELEMENT
+*NSET, NSET=region_4
+6, 7, 9, 11
+*NSET, NSET=surface_7
+2, 3, 6, 7
+*SURFACE, NAME=surface_7, TYPE=ELEMENT
 1, S4
-*SURFACE, NAME=SURFACE_10, TYPE=ELEMENT
+*NSET, NSET=surface_10
+1, 2, 3, 4, 6, 9, 11
+*SURFACE, NAME=surface_10, TYPE=ELEMENT
 4, S3
 1, S1
-*SURFACE, NAME=SURFACE_20, TYPE=ELEMENT
+*NSET, NSET=surface_20
+1, 2, 3, 5, 6, 9
+*SURFACE, NAME=surface_20, TYPE=ELEMENT
 3, S2
 1, S3
-*SURFACE, NAME=SURFACE_30, TYPE=ELEMENT
+*NSET, NSET=surface_30
+5, 8, 10
+*SURFACE, NAME=surface_30, TYPE=ELEMENT
 2, S1
 )");
 }
@@ -90,7 +106,7 @@ TEST(Abaqus, NumbersTheFacesOfEveryKind) {
         mesh.triangles = {{{corners[0] - 1, corners[1] - 1, corners[2] - 1}}, {9}, {}};
       else
         mesh.quads = {{{corners[0] - 1, corners[1] - 1, corners[2] - 1, corners[3] - 1}}, {9}, {}};
-      EXPECT_THAT(written(mesh, "inp"), HasSubstr(fmt::format("NAME=SURFACE_9, TYPE=ELEMENT\n1, S{}\n", face + 1)))
+      EXPECT_THAT(written(mesh, "inp"), HasSubstr(fmt::format("NAME=surface_9, TYPE=ELEMENT\n1, S{}\n", face + 1)))
           << name_of(faces.kind);
     }
 }
@@ -100,7 +116,7 @@ TEST(Abaqus, NegativeTagsMakeNames) {
   mesh.hexes.tags = {-3};
   mesh.quads.tags = {0, -1, std::numeric_limits<std::int32_t>::min()};
   const std::string text = written(mesh, "inp");
-  for (const char* name : {"ELSET=REGION_M3\n", "NAME=SURFACE_0,", "NAME=SURFACE_M1,", "NAME=SURFACE_M2147483648,"})
+  for (const char* name : {"ELSET=region_m3\n", "NAME=surface_0,", "NAME=surface_m1,", "NAME=surface_m2147483648,"})
     EXPECT_THAT(text, HasSubstr(name));
 }
 
@@ -109,8 +125,29 @@ TEST(Abaqus, SetsHaveSixteenElementsALine) {
   mesh.tets.cells.assign(33, mesh.tets.cells[0]);
   mesh.tets.tags.assign(33, 4);
   EXPECT_THAT(written(mesh, "inp"),
-              HasSubstr("*ELSET, ELSET=REGION_4\n4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19\n20, 21, 22, "
-                        "23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35\n36\n*SURFACE"));
+              HasSubstr("*ELSET, ELSET=region_4\n4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19\n20, 21, 22, "
+                        "23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35\n36\n*NSET"));
+}
+
+// The faces of the hex that a collapsed pyramid is: one of its triangles has the edge of the base that the hex's side
+// has.
+TEST(Abaqus, NumbersTheFacesOfCollapsedPyramids) {
+  MeshWriting writing;
+  writing.pyramids = PyramidForm::collapsed;
+  for (std::size_t face = 0; face < 5; ++face) {
+    MixedMesh mesh;
+    mesh.points.resize(5);
+    mesh.pyramids = {{{0, 1, 2, 3, 4}}, {1}, {}};
+    const std::vector<int>& corners = manual()[2].corners[face];
+    if (corners.size() == 3)
+      mesh.triangles = {{{corners[0] - 1, corners[1] - 1, corners[2] - 1}}, {9}, {}};
+    else
+      mesh.quads = {{{corners[0] - 1, corners[1] - 1, corners[2] - 1, corners[3] - 1}}, {9}, {}};
+    const std::string text =
+        testing::written_bytes([&](Output& output) { write_mixed_mesh(mesh, "inp", output, writing); });
+    EXPECT_THAT(text, HasSubstr("TYPE=C3D8, ELSET=EALL\n1, 1, 2, 3, 4, 5, 5, 5, 5\n"));
+    EXPECT_THAT(text, HasSubstr(fmt::format("ELEMENT\n1, S{}\n", face == 0 ? 1 : face + 2)));
+  }
 }
 
 TEST(Abaqus, RefusesFacetsOfNoCell) {

@@ -207,7 +207,7 @@ TEST(Smooth, TheWorstCellsBecomeBetterAndTheBoxStays) {
   }
 }
 
-// What is between hexes becomes thin for them, but nothing becomes poor.
+// Cells between hexes become thin to make room for them, but none becomes poor.
 TEST(Smooth, HexesGrowAndTheRestStaysGoodEnough) {
   constexpr double good_enough = 0.12;
   double grown = 0, thinner = 0;
@@ -304,8 +304,10 @@ TEST(Smooth, RoundsChangeTheResult) {
   auto lattice = make_lattice(4);
   jitter(lattice, 0.2, random);
   const auto chosen = random_choice(lattice, 0.7, random);
-  const auto once = assemble::assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = 1});
-  const auto often = assemble::assemble(lattice.mesh, lattice.cubes, chosen, {.smooth = 5});
+  const auto once =
+      assemble::assemble(lattice.mesh, lattice.cubes, chosen, {.merge = AssembleOptions::Merge::none, .smooth = 1});
+  const auto often =
+      assemble::assemble(lattice.mesh, lattice.cubes, chosen, {.merge = AssembleOptions::Merge::none, .smooth = 5});
   EXPECT_NE(once.mesh.points, often.mesh.points);
   EXPECT_EQ(once.statistics.improvement.rounds, 1);
   EXPECT_GT(often.statistics.kinds[3].least, often.statistics.before_smoothing[3].least);

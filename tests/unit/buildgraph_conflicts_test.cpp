@@ -228,11 +228,13 @@ TEST(Report, WarnsOfWeightsThatVanish) {
   Candidates c;
   add(c, hex, first_hex, {0});
   c.volume = {1e-9};
+  pipeline::StageData data;
+  data.candidates = c;
   BuildgraphOptions options{{WeightKind::volume, 1e6}};
-  EXPECT_THAT(warnings_about(summarize(buildgraph::buildgraph(c, options, "test"))),
+  EXPECT_THAT(warnings_about(summarize(buildgraph::buildgraph(data, options, "test"))),
               ElementsAre(HasSubstr("1 of 1 weights")));
   options.conflicts.weight_scale = 1e12;
-  EXPECT_THAT(warnings_about(summarize(buildgraph::buildgraph(c, options, "test"))), IsEmpty());
+  EXPECT_THAT(warnings_about(summarize(buildgraph::buildgraph(data, options, "test"))), IsEmpty());
 }
 
 TEST(SortedSet, ListsInOrderAndEmptiesItself) {

@@ -221,7 +221,7 @@ TEST(Certify, PricesTheCliquesThatAreKnown) {
   CliqueCover edges, tet;
   for (const std::vector<std::int32_t>& edge : {std::vector<std::int32_t>{0, 1}, {0, 2}, {1, 2}, {3}}) edges.add(edge);
   tet.add({0, 1});
-  const CertifyOptions none{.dual = {.passes = 0, .target = 0}};
+  const CertifyOptions none{.passes = 0};
   EXPECT_EQ(certify::certify(graph, {2, 3}, {edges, tet}, none, no_deadline).cover.size(), 4);
   EXPECT_EQ(certify::certify(graph, {2, 3}, {std::nullopt, tet}, none, no_deadline).cover.members,
             (std::vector<std::int32_t>{0, 1, 2}));

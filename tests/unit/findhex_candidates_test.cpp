@@ -90,6 +90,7 @@ TEST(Findhex, CountsOfLatticesArePublishedOnes) {
     options.min_quality = std::stod(row[4]);
     options.quality = CandidateQuality::corner;
     options.drop_folded_quads = false;
+    options.tet_rules.sharp_edges = true;
     options.tet_rules.max_boundary_tets = 5;
     options.tet_rules.flat_corners = true;
     EXPECT_EQ(find(kuhn_lattice(std::stoi(row[1])), options).size(), std::stoul(row[5])) << line;
@@ -201,10 +202,31 @@ TEST(Findhex, FoldedQuadsAreDroppedOrKept) {
   auto points = cube_points();
   points[5].z = points[7].z = 2;
   const TetMesh mesh = mesh_of(points, six_tets());
-  EXPECT_EQ(find(mesh).size(), 0u);
-  EXPECT_EQ(find(mesh, with([](FindhexOptions& o) { o.drop_folded_quads = false; })).size(), 1u);
+  const auto on_surfaces = [](FindhexOptions& o) { o.tet_rules.sharp_edges = true; };
+  EXPECT_EQ(find(mesh, with(on_surfaces)).size(), 0u);
+  EXPECT_EQ(find(mesh, with([](FindhexOptions& o) {
+                   o.tet_rules.sharp_edges = true;
+                   o.drop_folded_quads = false;
+                 }))
+                .size(),
+            1u);
   points[5].z = points[7].z = 1.5;
+  EXPECT_EQ(find(mesh_of(points, six_tets()), with(on_surfaces)).size(), 1u);
+}
+
+// Rule 10 for a top that turns by 2 atan(sqrt(2) h): 38.9 degrees at h = 0.25, 43.2 at 0.28.
+TEST(Findhex, NoQuadLiesOverASharpEdge) {
+  auto points = cube_points();
+  points[5].z = points[7].z = 1.25;
   EXPECT_EQ(find(mesh_of(points, six_tets())).size(), 1u);
+  points[5].z = points[7].z = 1.28;
+  TetMesh mesh = mesh_of(points, six_tets());
+  EXPECT_EQ(find(mesh).size(), 0u);
+  EXPECT_EQ(find(mesh, with([](FindhexOptions& o) { o.feature_angle = 45; })).size(), 1u);
+  mesh.ridges = {{4, 6}};
+  EXPECT_EQ(find(mesh, with([](FindhexOptions& o) { o.feature_angle = 180; })).size(), 0u);
+  mesh.ridges = {{5, 7}};
+  EXPECT_EQ(find(mesh, with([](FindhexOptions& o) { o.feature_angle = 180; })).size(), 1u);
 }
 
 // The quad on top is folded at 46, but a tet on it has triangles at 57 as well, which are not.
@@ -213,7 +235,10 @@ TEST(Findhex, AQuadIsNotFoldedWhereOneOfItsDiagonalsIsNot) {
   points[5] = {0.7, 0.3, 1.5};
   points[7] = {0.3, 0.7, 1.5};
   auto tets = six_tets();
-  const FindhexOptions low = with([](FindhexOptions& o) { o.min_quality = 0.1; });
+  const FindhexOptions low = with([](FindhexOptions& o) {
+    o.min_quality = 0.1;
+    o.tet_rules.sharp_edges = true;
+  });
   EXPECT_EQ(find(mesh_of(points, tets), low).size(), 0u);
   tets.push_back({4, 5, 6, 7});
   const Candidates found = find(mesh_of(points, tets), low);

@@ -76,7 +76,7 @@ TEST_P(FuzzReplay, TakesEverySeed) {
   for (const auto& seed : seeds) EXPECT_NO_THROW(GetParam().run(bytes_of(seed))) << seed;
 }
 
-// What they end in is for the tests of the readers to say; here they end.
+// Here they only have to end; the tests of the readers judge how.
 TEST_P(FuzzReplay, EndsWellOnEveryFinding) {
   for (const auto& finding : files_in(fuzz_directory / "findings" / GetParam().name))
     EXPECT_NO_THROW(accepts(GetParam(), bytes_of(finding))) << finding;

@@ -125,8 +125,8 @@ TEST(Initsol, NeverLosesWhatGreedyFound) {
           find_initial_solution(graph, quality, {.order = order, .method = method, .iterations = 0}, no_deadline);
       EXPECT_EQ(none.weight, none.greedy_weight);
       EXPECT_EQ(none.iterations, 0);
-      const InitsolResult some =
-          find_initial_solution(graph, quality, {.order = order, .method = method, .iterations = 5000}, no_deadline);
+      const InitsolResult some = find_initial_solution(
+          graph, quality, {.order = order, .method = method, .iterations = 5000, .reduce = false}, no_deadline);
       EXPECT_GT(some.weight, none.weight);
       EXPECT_EQ(total_weight(some.solution, graph), some.weight);
       EXPECT_NO_THROW(validate(some.solution, graph, "solution"));
@@ -138,7 +138,7 @@ TEST(Initsol, AnnealsBetterTheSlowerItCools) {
   const ConflictGraph graph = hexpipe::testing::random_clique_graph(3000, 900, 1000, random);
   std::int64_t last = 0;
   for (const std::int64_t kicks : {500, 5000, 50000}) {
-    const InitsolResult result = find_initial_solution(graph, {}, {.iterations = kicks}, no_deadline);
+    const InitsolResult result = find_initial_solution(graph, {}, {.iterations = kicks, .reduce = false}, no_deadline);
     EXPECT_EQ(result.iterations, kicks);
     EXPECT_GT(result.weight, last);
     last = result.weight;
@@ -148,7 +148,7 @@ TEST(Initsol, AnnealsBetterTheSlowerItCools) {
 TEST(Initsol, DoesNotDependOnThreads) {
   Random random(6);
   const ConflictGraph graph = hexpipe::testing::random_clique_graph(400, 120, 1000, random);
-  const InitsolOptions options{.starts = 4, .iterations = 2500};
+  const InitsolOptions options{.starts = 4, .iterations = 2500, .reduce = false};
   const auto with_threads = [&](int threads) {
     const ThreadLimit limit(threads);
     return find_initial_solution(graph, {}, options, no_deadline).solution;
@@ -161,7 +161,8 @@ TEST(Initsol, MoreStartsAreNotWorse) {
   const ConflictGraph graph = hexpipe::testing::random_graph(200, 0.1, 1000, random);
   std::int64_t last = 0;
   for (const int starts : {1, 8}) {
-    const auto result = find_initial_solution(graph, {}, {.starts = starts, .iterations = 300}, no_deadline);
+    const auto result =
+        find_initial_solution(graph, {}, {.starts = starts, .iterations = 300, .reduce = false}, no_deadline);
     EXPECT_GE(result.weight, last);
     EXPECT_EQ(result.iterations, 300 * starts);
     last = result.weight;
@@ -171,7 +172,7 @@ TEST(Initsol, MoreStartsAreNotWorse) {
 TEST(Initsol, PutsStartsTogether) {
   Random random(12);
   const ConflictGraph graph = hexpipe::testing::random_clique_graph(3000, 900, 1000, random);
-  const InitsolOptions two{.starts = 2, .iterations = 20000};
+  const InitsolOptions two{.starts = 2, .iterations = 20000, .reduce = false};
   std::int64_t better_than_best = 0;
   const InitsolResult both = find_initial_solution(graph, {}, two, no_deadline,
                                                    [&](const InitsolProgress& now) { better_than_best = now.weight; });
@@ -180,12 +181,35 @@ TEST(Initsol, PutsStartsTogether) {
   EXPECT_EQ(total_weight(both.solution, graph), both.weight);
 }
 
+TEST(Initsol, EndsAtOnceWhereReductionsSolveTheGraph) {
+  Random random(10);
+  for (int i = 0; i < 100; ++i) {
+    const ConflictGraph graph = hexpipe::testing::random_graph(20, 0.2, 100, random);
+    const InitsolResult result = find_initial_solution(graph, {}, {}, no_deadline);
+    EXPECT_TRUE(result.complete);
+    EXPECT_EQ(result.weight, hexpipe::testing::brute_force_weight(graph)) << "graph " << i;
+    EXPECT_EQ(total_weight(result.solution, graph), result.weight);
+    EXPECT_NO_THROW(validate(result.solution, graph, "solution"));
+  }
+}
+
+TEST(Initsol, EndsByItselfAfterSoManyIterationsAVertex) {
+  Random random(11);
+  const ConflictGraph graph = hexpipe::testing::random_graph(900, 0.1, 1000, random);
+  const InitsolResult whole =
+      find_initial_solution(graph, {}, {.iterations_a_vertex = 3, .reduce = false}, no_deadline);
+  EXPECT_EQ(whole.iterations, 3 * 900);
+  const InitsolResult reduced = find_initial_solution(graph, {}, {.iterations_a_vertex = 3}, no_deadline);
+  EXPECT_LE(reduced.iterations, 3 * 900);
+  EXPECT_NO_THROW(validate(reduced.solution, graph, "solution"));
+}
+
 TEST(Initsol, StopsAtItsDeadline) {
   Random random(8);
   const ConflictGraph graph = hexpipe::testing::random_graph(300, 0.1, 1000, random);
   const Stopwatch watch;
   const Deadline deadline(0.1);
-  find_initial_solution(graph, {}, {}, deadline);
+  find_initial_solution(graph, {}, {.reduce = false}, deadline);
   EXPECT_GE(watch.seconds(), 0.1);
   EXPECT_LT(watch.seconds(), 1.0);  // a machine under load
 }

@@ -98,6 +98,17 @@ TEST(Medit, KeepsVerticesThatNoCellUses) {
   EXPECT_EQ(parsed(changed("4\n0 0 0 1", "5\n9 9 9 0\n0 0 0 1")).points.size(), 5u);
 }
 
+TEST(Medit, RidgesAreEdgesByTheirVertices) {
+  const std::string text = changed("End", "Ridges 3 2 1 2 Edges 3 4 1 0 3 2 9 1 2 0 End");
+  const MixedMesh mesh = parsed(text);
+  ASSERT_TRUE(mesh.ridges);
+  EXPECT_EQ(*mesh.ridges, (std::vector<Ridge>{{0, 3}, {1, 2}}));
+  EXPECT_TRUE(parsed(written(mesh, "mesh")) == mesh);
+  EXPECT_FALSE(parsed(changed("End", "Edges 1 4 1 0 End")).ridges);
+  EXPECT_EQ(message_of_reading(changed("End", "Ridges 1 2 Edges 1 4 1 0 End")),
+            "test:16: expected Ridges of edges from 1 to 1, found 2");
+}
+
 TEST(Medit, NamesTheLineOfADefect) {
   const auto expect = [](std::string_view from, std::string_view to, const std::string& message) {
     EXPECT_EQ(message_of_reading(changed(from, to)), message);
@@ -119,7 +130,7 @@ TEST(Medit, NamesTheLineOfADefect) {
   expect("Tetrahedra", "TetrahedraP2", "test:9: expected elements of first order only, found 'TetrahedraP2'");
   expect("End", "", "test:16: expected a keyword, or End, found end of file");
   expect("End", "End more", "test:15: expected nothing after End, found 'more'");
-  expect("Vertices", "Ridges", "test:9: expected Vertices before Tetrahedra");
+  expect("Vertices", "Corners", "test:9: expected Vertices before Tetrahedra");
   expect("Triangles", "Vertices", "test:12: expected one section Vertices, found a second");
   EXPECT_EQ(message_of_reading("MeshVersionFormatted 2 Dimension 3 End"), "test:1: expected Vertices, found none");
 }

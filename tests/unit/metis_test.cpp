@@ -92,7 +92,7 @@ TEST(Metis, DistrustsCounts) {
 TEST(Metis, RejectsEveryTruncatedPrefix) {
   const std::string text = "4 4 10\n11 2 3\n12 1 3\n13 1 2 4\n14 3\n";
   EXPECT_NO_THROW(read(text));
-  for (std::size_t length = 0; length < text.size(); ++length) {
+  for (std::size_t length = 0; length + 1 < text.size(); ++length) {
     const std::string prefix = text.substr(0, length);
     EXPECT_THROW(read(prefix), DataError) << prefix;
   }

@@ -150,14 +150,22 @@ TEST(Msh, TagsThatAreNoPositiveNumbersAreInTheNamesOfGroups) {
   mesh.hexes.tags = {0};
   mesh.tets.tags = {-4};
   mesh.quads.tags = {-1, 0, 1};
+  // In version 2.2 surfaces and regions have numbers apart.
   const std::string text = written(mesh, "msh22");
-  for (const char* group : {"3 4 \"region 0\"", "3 1 \"region -4\"", "3 2 \"region 2\"", "2 1 \"surface 1\"",
-                            "2 2 \"surface -1\"", "2 3 \"surface 0\""})
+  for (const char* group : {"3 5 \"region_0\"", "3 4 \"region_-4\"", "3 6 \"region_2\"", "3 7 \"region_3\"",
+                            "2 1 \"surface_1\"", "2 2 \"surface_-1\"", "2 3 \"surface_0\""})
     EXPECT_THAT(text, HasSubstr(group));
+  for (const char* group : {"3 1 \"region_-4\"", "3 4 \"region_0\"", "3 2 \"region_2\""})
+    EXPECT_THAT(written(mesh, "msh"), HasSubstr(group));
+  MixedMesh without_quality = mesh;
+  drop_quality(without_quality);
+  EXPECT_TRUE(parsed(text) == without_quality);
   EXPECT_TRUE(parsed(written(mesh, "msh-binary")) == mesh);
   // Other names do not count: the number of the group is the tag.
-  EXPECT_THAT(parsed(changed(text, "region -4", "region 17")).tets.tags, ElementsAre(1));
-  EXPECT_THAT(parsed(changed(text, "region -4", "steel")).tets.tags, ElementsAre(1));
+  EXPECT_THAT(parsed(changed(text, "region_-4", "region 17")).tets.tags, ElementsAre(4));
+  // Nor does a name that tells the number of another group.
+  EXPECT_THAT(parsed(changed(text, "region_-4", "region_5")).tets.tags, ElementsAre(4));
+  EXPECT_THAT(parsed(changed(text, "region_-4", "steel")).tets.tags, ElementsAre(4));
 }
 
 // A binary file in version 4.1 whose sizes have 4 bytes, which Gmsh can be built to write.

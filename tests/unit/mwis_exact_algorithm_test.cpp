@@ -1,4 +1,4 @@
-#include "common/mwis/exact/exact_algorithm.hpp"
+#include "common/mwis/exact_algorithm.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 
 namespace hexpipe {
 using namespace graph;
+using namespace mwis;
 using namespace mwis::exact;
 namespace {
 

@@ -4,8 +4,8 @@
 
 #include "common/mwis/exact/branch_and_bound.hpp"
 #include "common/mwis/exact/branch_and_reduce.hpp"
-#include "common/mwis/exact/exact_algorithm.hpp"
 #include "common/mwis/exact/exact_solver.hpp"
+#include "common/mwis/exact_algorithm.hpp"
 #include "common/mwis/local_search/lns.hpp"
 #include "common/mwis/reduce/dense_reductions.hpp"
 #include "random_graphs.hpp"

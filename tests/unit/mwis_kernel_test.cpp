@@ -33,9 +33,12 @@ IndependentSet best_set(const ConflictGraph& graph, std::int64_t weight) {
 
 class KernelTest : public ::testing::TestWithParam<ReductionEffort> {};
 
-INSTANTIATE_TEST_SUITE_P(Effort, KernelTest, ::testing::Values(ReductionEffort::quick, ReductionEffort::thorough),
+INSTANTIATE_TEST_SUITE_P(Effort, KernelTest,
+                         ::testing::Values(ReductionEffort::quick, ReductionEffort::worth, ReductionEffort::thorough),
                          [](const auto& effort) {
-                           return effort.param == ReductionEffort::quick ? "Quick" : "Thorough";
+                           return effort.param == ReductionEffort::quick   ? "Quick"
+                                  : effort.param == ReductionEffort::worth ? "Worth"
+                                                                           : "Thorough";
                          });
 
 TEST_P(KernelTest, KeepsTheOptimumAndLiftsIt) {

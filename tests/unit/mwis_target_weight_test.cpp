@@ -34,7 +34,7 @@ TEST(BoundIn, IsForgottenWhereTheGraphIsMadeAnew) {
 TEST(BoundIn, IsForgottenWhereTheGraphCameFromAFile) {
   for (const char* role : {"mesh", "candidates", "graph"}) {
     EXPECT_EQ(bound_in({graph, proven, replacing({{"tool", "initsol"}}, role)}), std::nullopt) << role;
-    // What certify proves is of the graph that it was given.
+    // The bound of certify holds for the graph that it got.
     EXPECT_EQ(bound_in({graph, proven, replacing({{"tool", "certify"}, {"bound", 90}}, role)}), 90) << role;
   }
   EXPECT_EQ(bound_in({graph, proven, replacing({{"tool", "lns"}}, "solution")}), 70);

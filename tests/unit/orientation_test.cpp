@@ -103,7 +103,7 @@ TEST(CheckSides, RefusesTwoCopiesOfATet) {
                   "m.mesh: expected tets on the two sides of a facet, found tets 6 and 8 on one side of that at ")));
 }
 
-// Of a flat or inverted tet others speak.
+// Other checks report flat and inverted tets.
 TEST(CheckSides, IsSilentAboutInvertedTets) {
   TetMesh mesh = kuhn_lattice(1);
   mesh.tets = {mesh.tets[0], mesh.tets[0]};

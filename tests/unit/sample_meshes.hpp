@@ -34,7 +34,7 @@ inline MixedMesh one_cell_of_each_kind() {
 }
 
 inline double random_coordinate(Random& random) {
-  // Of all magnitudes, and often with few digits.
+  // All magnitudes, and often few digits.
   if (random.below(4) == 0) return static_cast<double>(random.below(10)) - 5;
   return random.uniform(-1, 1) * std::pow(10.0, random.uniform(-20, 20));
 }

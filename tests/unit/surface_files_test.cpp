@@ -278,7 +278,8 @@ TEST(SurfaceFiles, ForwardReferencesOfObjAreLegal) {
   EXPECT_EQ(read("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n").triangles.size(), 1u);
 }
 
-// What a cut may leave whole: the last digits of the last number, or white space and words that say nothing.
+// A cut may take these and leave the file whole: the last digits of the last number, white space, and words without
+// meaning.
 void expect_every_prefix_rejected(const std::string& bytes, std::size_t harmless) {
   for (std::size_t length = 0; length + harmless < bytes.size(); ++length)
     EXPECT_NE(error_of(bytes.substr(0, length)), "no error") << length << " of " << bytes.size() << " bytes";

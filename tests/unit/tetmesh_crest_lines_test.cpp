@@ -43,7 +43,7 @@ Facets extrusion(const Profile& profile, double length) {
   return facets;
 }
 
-// A square of side 6, its corner at the origin rounded by so many strips.
+// A square of side 6, its corner at the origin rounded by `strips` strips.
 Profile filleted(double radius, int strips) {
   Profile profile{{6, 6}, {0, 6}};
   for (int i = 0; i <= strips; ++i) {

@@ -81,7 +81,7 @@ FeatureMesh with_diagonal(double height) {
   return mesh;
 }
 
-// Of the middle of the bottom, along the diagonal.
+// How well the field in the middle of the bottom lies along the diagonal.
 double alignment_below(const FeatureMesh& mesh) {
   const FieldSurface surface(mesh, 0.5);
   return worst_alignment(

@@ -46,7 +46,7 @@ Frame random_frame(Random& random) {
   return {first, second, cross(first, second)};
 }
 
-// Of the nearest axis.
+// The cosine of the angle to the nearest axis.
 double cosine_to(const Frame& frame, const Vec3& direction) {
   double greatest = 0;
   for (const Vec3& axis : frame) greatest = std::max(greatest, std::abs(dot(axis, direction)));

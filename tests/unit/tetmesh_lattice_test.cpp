@@ -36,7 +36,7 @@ bool in_material(const Surface& surface, const Vec3& p) {
   return odd;
 }
 
-// What lattice_points does, one point at a time: no rasterizing, no flooding.
+// The result of lattice_points, one point at a time: no rasterizing, no flooding.
 std::size_t count_naively(const Surface& surface, const LatticeOptions& options) {
   Vec3 low = surface.points[0], high = low;
   for (const Vec3& p : surface.points) {

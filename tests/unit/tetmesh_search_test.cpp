@@ -206,7 +206,7 @@ TEST(MeshChange, FindsWhatStaysAndWhatIsTouched) {
 
 using Places = std::vector<std::array<double, 3>>;
 
-// What tells a hex of one mesh from those of another.
+// The places of a hex's corners, which identify it across meshes.
 Places places_of(const ChosenHex& hex, const TetMesh& mesh) {
   Places places;
   for (const Vertex v : hex.corners) places.push_back({mesh.points[v].x, mesh.points[v].y, mesh.points[v].z});
@@ -288,7 +288,7 @@ TEST(ChooseHexes, ForgetsASliverThatGoes) {
   EXPECT_EQ(again.front().interior_tets.size(), 6u);
 }
 
-// As good as from nothing, but for chance: on the whole box, most of which is touched by so many changes.
+// As good as from nothing, apart from chance: on the whole box, most of which the changes touch.
 TEST(ChooseHexes, FindsTheHexesOfWhatChanged) {
   const Surface surface = box_surface();
   const TetMesh mesh = testing::mesh_of(surface, points_inside(0.8)).mesh;

@@ -1,4 +1,4 @@
-// What viewmesh shows: cells, facets, layers, and the state that chooses among them.
+// The scene of viewmesh: cells, facets, layers, and the state that chooses among them.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

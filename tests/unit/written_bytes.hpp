@@ -1,5 +1,5 @@
 #pragma once
-// What a writer writes, as bytes.
+// The output of a writer, as bytes.
 
 #include <cstdio>
 #include <fstream>

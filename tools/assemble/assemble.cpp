@@ -192,13 +192,19 @@ void check_orientation(const TetMesh& mesh, const choice::InputNames& names) {
   }
 }
 
+BuildRules build_rules(const AssembleOptions& options) {
+  const bool is_conforming = options.conformity == AssembleOptions::Conformity::pyramids;
+  return {.is_conforming = is_conforming,
+          .smooth_rounds = options.smooth,
+          .merges = is_conforming && options.smooth > 0 && options.merge == AssembleOptions::Merge::vertices};
+}
+
 AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const graph::IndependentSet& chosen,
                         const AssembleOptions& options, const choice::InputNames& names) {
   Prepared at = checked_input(std::move(mesh), candidates, chosen, names);
-  const bool is_conforming = options.conformity == AssembleOptions::Conformity::pyramids;
-  const bool exchanges = is_conforming && options.exchange == AssembleOptions::Exchange::quads;
-  const bool fills = is_conforming && options.fill == AssembleOptions::Fill::prisms;
-  const BuildRules rules{.is_conforming = is_conforming, .smooth_rounds = options.smooth};
+  const BuildRules rules = build_rules(options);
+  const bool exchanges = rules.is_conforming && options.exchange == AssembleOptions::Exchange::quads;
+  const bool fills = rules.is_conforming && options.fill == AssembleOptions::Fill::prisms;
   if (!exchanges && !fills) return result_of(at, candidates, cells_of(at, candidates, chosen, names), rules, names);
 
   auto [selection, exchange] = selected(at, candidates, chosen, exchanges, names);
@@ -209,11 +215,10 @@ AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const graph:
   return result;
 }
 
-AssembleResult assemble_piece(TetMesh mesh, const Candidates& cells, const hybrid::Seam& seam, int smooth_rounds,
+AssembleResult assemble_piece(TetMesh mesh, const Candidates& cells, const BuildRules& rules,
                               const choice::InputNames& names) {
   const graph::IndependentSet all = choice::all_of(cells);
   Prepared at = checked_input(std::move(mesh), cells, all, names);
-  const BuildRules rules{.is_conforming = true, .smooth_rounds = smooth_rounds, .seam = &seam};
   return result_of(at, cells, cells_of(at, cells, all, names), rules, names);
 }
 

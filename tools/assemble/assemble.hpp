@@ -10,8 +10,8 @@
 #include "common/mesh/mesh_piece.hpp"
 #include "common/mesh/mixed_mesh.hpp"
 #include "common/mesh/tet_mesh.hpp"
+#include "tools/assemble/attempt.hpp"
 #include "tools/assemble/choice/selection.hpp"
-#include "tools/assemble/hybrid/extract.hpp"
 #include "tools/assemble/options.hpp"
 #include "tools/assemble/pieces/part_view.hpp"
 #include "tools/assemble/statistics.hpp"
@@ -37,9 +37,13 @@ void check_orientation(const TetMesh& mesh, const choice::InputNames& names);
 AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const graph::IndependentSet& chosen,
                         const AssembleOptions& options, const choice::InputNames& names = {});
 
-// The piece of one part, conforming, from all `cells`. The surface of `mesh` is complete, with the seam's own tags. The
-// result is without guests and without facets that have the seam's tags. Throws as assemble() does.
-AssembleResult assemble_piece(TetMesh mesh, const Candidates& cells, const hybrid::Seam& seam, int smooth_rounds,
+// For a whole mesh: without a seam.
+BuildRules build_rules(const AssembleOptions& options);
+
+// The piece of one part, conforming, from all `cells`. The surface of `mesh` is complete, with the seam's own tags; the
+// seam is in the rules. The result is without guests and without facets that have the seam's tags. Throws as assemble()
+// does.
+AssembleResult assemble_piece(TetMesh mesh, const Candidates& cells, const BuildRules& rules,
                               const choice::InputNames& names);
 
 struct PartResult {
@@ -50,8 +54,8 @@ struct PartResult {
 
 // The piece of the view's own part, after the pieces that the previous round made of this part and its neighbours:
 // paths in `before`, among which other pieces are skipped; empty in the first round. Throws as assemble() does, and if
-// a piece is missing or of another mesh. `names` are those of the part's own bundle.
-PartResult assemble_part(pieces::PartView view, const std::vector<std::string>& before, int smooth_rounds,
+// a piece is missing or of another mesh. `rules` without a seam; `names` are those of the part's own bundle.
+PartResult assemble_part(pieces::PartView view, const std::vector<std::string>& before, BuildRules rules,
                          const choice::InputNames& names);
 
 }  // namespace hexpipe::assemble

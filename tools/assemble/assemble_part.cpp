@@ -93,7 +93,7 @@ choice::InputNames names_of_cells(choice::InputNames names, const pieces::PartVi
 
 }  // namespace
 
-PartResult assemble_part(pieces::PartView view, const std::vector<std::string>& before_paths, int smooth_rounds,
+PartResult assemble_part(pieces::PartView view, const std::vector<std::string>& before_paths, BuildRules rules,
                          const choice::InputNames& bundle_names) {
   const Before before = read_round_before(view.part, before_paths, bundle_names.solution);
   const choice::InputNames names = names_of_cells(bundle_names, view, choice::all_of(view.cells));
@@ -117,8 +117,9 @@ PartResult assemble_part(pieces::PartView view, const std::vector<std::string>& 
   piece.given_back = before.said.given_back;
   for (const std::int32_t i : cells.given_back) piece.given_back.push_back(view.keys.key[i]);
   if (!input.mesh.tets.empty()) {
-    AssembleResult assembled = assemble_piece(std::move(input.mesh), input.cells, input.seam, smooth_rounds,
-                                              names_of_cells(bundle_names, view, input.view_cells));
+    rules.seam = &input.seam;
+    AssembleResult assembled =
+        assemble_piece(std::move(input.mesh), input.cells, rules, names_of_cells(bundle_names, view, input.view_cells));
     graph::IndependentSet given_back;
     std::ranges::set_difference(choice::all_of(input.cells), assembled.left, std::back_inserter(given_back));
     for (const std::int32_t c : given_back) piece.given_back.push_back(view.keys.key[input.view_cells[c]]);

@@ -7,10 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "common/mesh/face_view.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/run/error.hpp"
 #include "tools/assemble/conform/flat_tets.hpp"
+#include "tools/assemble/gap/fewer_cells.hpp"
 #include "tools/assemble/shape/smooth.hpp"
 
 namespace hexpipe::assemble {
@@ -21,9 +23,11 @@ constexpr double most_inverted = -0.3;
 // Without smoothing, new elements only have to be valid, with room for rounding.
 constexpr double barely_valid = 1e-4;
 constexpr int untangling_rounds = 20;
-// Attempts to conform and untangle without poor elements, and attempts to smooth without poor hexes. Two are nearly
-// always enough; the last one takes no risks.
+// Attempts to conform and untangle without poor elements, and attempts to smooth without poor hexes and inverted
+// prisms. Two are nearly always enough; the last one takes no risks.
 constexpr int most_attempts = 4;
+// Rounds of making the cells between the hexes fewer, each followed by smoothing: more find little.
+constexpr int most_merging_rounds = 2;
 // Rounds of flips, new vertices and peeling.
 constexpr int most_mending_rounds = 4;
 // Tets that smoothing leaves below the first are flipped. Those that are then below the second get a vertex beside
@@ -41,6 +45,12 @@ bool is_worse(const hybrid::HybridMesh& mesh, CellKind kind, std::span<const Ver
   const auto at = corner_points(mesh.points, corners);
   const double scale = kind == CellKind::tet ? std::sqrt(2.0) : 1;
   return scale * least_corner_scaled_jacobian(kind, std::span<const Vec3>(at).first(corners.size())) < limit;
+}
+
+bool looks_inverted(const hybrid::HybridMesh& mesh, const hybrid::HybridCell& cell) {
+  const std::span corners = std::span(cell.corners).first(static_cast<std::size_t>(corner_count(cell.kind)));
+  const auto at = corner_points(mesh.points, corners);
+  return hexpipe::looks_inverted(cell.kind, std::span<const Vec3>(at).first(corners.size()));
 }
 
 void sort_unique(graph::IndependentSet& candidates) {
@@ -100,16 +110,17 @@ class Builder {
   Built run(AttemptStart start) const;
 
  private:
-  bool may_give_back() const { return rules_.is_conforming && rules_.smooth_rounds > 0; }
   shape::SlidingSurface sliding(const hybrid::Extract& extracted) const {
     return {input_.surface, input_.mesh.points, extracted.origin, rules_.is_shared()};
   }
   graph::IndependentSet conform(Attempt& attempt, bool is_last) const;
   void untangle_in_place(Attempt& attempt) const;
   void smooth_and_mend(Attempt& attempt) const;
+  gap::FewerCells make_fewer_cells(Attempt& attempt, bool quickly) const;
+  void merge_and_smooth(Attempt& attempt) const;
   void improve(Attempt& attempt) const;
   bool mend_flat_tets(Attempt& attempt) const;
-  graph::IndependentSet poor_hexes(const hybrid::HybridMesh& mesh) const;
+  graph::IndependentSet poor_candidates(const hybrid::HybridMesh& mesh) const;
   void check_cells_left(const hybrid::HybridMesh& mesh) const;
   Attempt without(graph::IndependentSet& kept, const graph::IndependentSet& given_back) const;
   Built finish(Attempt attempt, const GivenBackCounts& given_back) const;
@@ -142,6 +153,22 @@ void Builder::untangle_in_place(Attempt& attempt) const {
   move_points(extracted, attempt.mesh);
 }
 
+gap::FewerCells Builder::make_fewer_cells(Attempt& attempt, bool quickly) const {
+  const gap::FewerCells fewer = gap::make_fewer_cells(attempt.mesh, attempt.tags, rules_.is_shared(), quickly);
+  attempt.improvement.fewer += fewer;
+  return fewer;
+}
+
+// Fewer cells first, quickly, so that less is smoothed; then once more where vertices are in good places.
+void Builder::merge_and_smooth(Attempt& attempt) const {
+  for (int round = 0; round < most_merging_rounds; ++round) {
+    const bool is_first = round == 0;
+    if (!make_fewer_cells(attempt, is_first).any() && !is_first) break;
+    attempt.extracted = hybrid::extract(attempt.mesh, attempt.tags);
+    improve(attempt);
+  }
+}
+
 // Moves vertices, then mends flat tets; again while poor cells are left.
 void Builder::smooth_and_mend(Attempt& attempt) const {
   hybrid::Extract& extracted = attempt.extracted;
@@ -150,8 +177,12 @@ void Builder::smooth_and_mend(Attempt& attempt) const {
   compute_quality(extracted.mesh);
   attempt.before_smoothing =
       kind_statistics(rules_.seam == nullptr ? extracted.mesh : hybrid::without_guests(extracted, *rules_.seam).mesh);
-  improve(attempt);
+  if (rules_.merges)
+    merge_and_smooth(attempt);
+  else
+    improve(attempt);
   for (int round = 0; round < most_mending_rounds && mend_flat_tets(attempt); ++round) {
+    if (rules_.merges) make_fewer_cells(attempt, true);  // new tets let more vertices merge
     extracted = hybrid::extract(attempt.mesh, attempt.tags);
     improve(attempt);
     compute_quality(extracted.mesh);
@@ -183,13 +214,15 @@ bool Builder::mend_flat_tets(Attempt& attempt) const {
   return flips + vertices + peeled > 0;
 }
 
-// Candidates that are poor hexes after smoothing.
-graph::IndependentSet Builder::poor_hexes(const hybrid::HybridMesh& mesh) const {
+// Candidates that are poor hexes after smoothing, and prisms that some readers would turn round.
+graph::IndependentSet Builder::poor_candidates(const hybrid::HybridMesh& mesh) const {
   graph::IndependentSet result;
   for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
     const hybrid::HybridCell& cell = mesh.cell(c);
-    if (!cell.alive || cell.kind != CellKind::hex || rules_.is_guest(cell.candidate)) continue;
-    if (is_worse(mesh, cell.kind, cell.corners, shape::poor_hex)) result.push_back(cell.candidate);
+    if (!cell.alive || cell.candidate == no_index || rules_.is_guest(cell.candidate)) continue;
+    const bool is_poor_hex = rules_.smooth_rounds > 0 && cell.kind == CellKind::hex &&
+                             is_worse(mesh, cell.kind, cell.corners, shape::poor_hex);
+    if (is_poor_hex || looks_inverted(mesh, cell)) result.push_back(cell.candidate);
   }
   std::ranges::sort(result);
   return result;
@@ -241,12 +274,12 @@ Built Builder::run(AttemptStart start) const {
       Attempt{.tags = std::move(start.tags), .mesh = std::move(start.selection).take_mesh()});
   int conforming_attempts = 1, smoothing_attempts = 1;
   while (true) {
-    graph::IndependentSet poor = conform(*attempt, conforming_attempts == most_attempts || !may_give_back());
+    graph::IndependentSet poor = conform(*attempt, conforming_attempts == most_attempts || rules_.smooth_rounds == 0);
     if (!poor.empty()) {
       ++conforming_attempts;
     } else {
       smooth_and_mend(*attempt);
-      if (may_give_back() && smoothing_attempts < most_attempts) poor = poor_hexes(attempt->mesh);
+      if (rules_.is_conforming && smoothing_attempts < most_attempts) poor = poor_candidates(attempt->mesh);
       if (poor.empty()) return finish(std::move(*attempt), start.given_back);
       ++smoothing_attempts;
       conforming_attempts = 1;

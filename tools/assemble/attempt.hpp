@@ -35,6 +35,7 @@ struct AssembleInput {
 struct BuildRules {
   bool is_conforming = true;
   int smooth_rounds = 0;
+  bool merges = false;  // makes the cells between the hexes fewer; only with is_conforming and smooth_rounds
   const hybrid::Seam* seam = nullptr;  // of a piece
 
   // By vertex of the input, as in Seam; empty without a seam.

@@ -7,6 +7,7 @@
 
 #include "common/mwis/ground/target_weight.hpp"
 #include "common/run/error.hpp"
+#include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "tools/assemble/assemble.hpp"
@@ -23,10 +24,12 @@ const std::map<std::string, AssembleOptions::Exchange> exchanges{{"quads", Assem
                                                                  {"none", AssembleOptions::Exchange::none}};
 const std::map<std::string, AssembleOptions::Fill> fills{{"prisms", AssembleOptions::Fill::prisms},
                                                          {"none", AssembleOptions::Fill::none}};
+const std::map<std::string, AssembleOptions::Merge> merges{{"vertices", AssembleOptions::Merge::vertices},
+                                                           {"none", AssembleOptions::Merge::none}};
 
 struct CommandLine {
-  std::string conformity = "pyramids", exchange = "quads", fill = "prisms";
-  const CLI::Option *exchange_option = nullptr, *fill_option = nullptr;
+  std::string conformity = "pyramids", exchange = "quads", fill = "prisms", merge = "vertices";
+  const CLI::Option *exchange_option = nullptr, *fill_option = nullptr, *merge_option = nullptr;
   int smooth = AssembleOptions{}.smooth;
   std::vector<std::string> neighbours, before;
 
@@ -51,14 +54,24 @@ void declare_options(CLI::App& app, CommandLine& line) {
                      "open; none: keeps the tets, as always with --conformity none and with --neighbours")
           ->check(CLI::IsMember(fills))
           ->capture_default_str();
+  line.merge_option =
+      app.add_option("--merge", line.merge,
+                     "vertices: vertices that no hex uses merge, and rooms between the hexes are filled anew, where "
+                     "this leaves fewer or better cells; none: keeps them, as always with --conformity none and with "
+                     "--smooth 0")
+          ->check(CLI::IsMember(merges))
+          ->capture_default_str();
   app.add_option("--smooth", line.smooth,
                  "rounds of moving vertices and flipping tets to make the worst cells better and hexes larger; 0: none")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  app.add_option("--neighbours", line.neighbours,
-                 "With a part of a mesh: bundles of the other parts' solutions; reads those of the parts beside it")
+  outside_history(
+      app.add_option(
+          "--neighbours", line.neighbours,
+          "With a part of a mesh: bundles of the other parts' solutions; reads those of the parts beside it"))
       ->type_name("FILE");
-  app.add_option("--before", line.before, "With --neighbours: the pieces of the previous round")->type_name("FILE");
+  outside_history(app.add_option("--before", line.before, "With --neighbours: the pieces of the previous round"))
+      ->type_name("FILE");
 }
 
 // Checks that involve several options.
@@ -69,23 +82,27 @@ AssembleOptions options_of(CommandLine& line) {
   if (!may_change_cells && line.fill_option->count() > 0 && line.fill == "prisms")
     throw UsageError("--fill prisms goes with --conformity pyramids, without --neighbours");
   if (!may_change_cells) line.exchange = line.fill = "none";
+  const bool may_merge = line.conformity == "pyramids" && line.smooth > 0;
+  if (!may_merge && line.merge_option->count() > 0 && line.merge == "vertices")
+    throw UsageError("--merge vertices goes with --conformity pyramids, and with --smooth of 1 or more");
+  if (!may_merge) line.merge = "none";
   if (line.by_part() && line.conformity == "none")
     throw UsageError("--conformity none does not go with --neighbours: pieces fit because they conform");
   if (!line.by_part() && !line.before.empty()) throw UsageError("--before goes with --neighbours");
   return {.conformity = conformities.at(line.conformity),
           .exchange = exchanges.at(line.exchange),
           .fill = fills.at(line.fill),
+          .merge = merges.at(line.merge),
           .smooth = line.smooth};
 }
 
 pipeline::StageData read_input(pipeline::Stage& stage, bool by_part) {
-  stage.take_part();
-  if (by_part) {
-    for (const Role role : {Role::mesh, Role::candidates, Role::graph, Role::solution}) stage.hold_back(role);
-  } else {
-    stage.take_weights();  // for the gap: tets tell which cells do not fit together
-  }
-  return stage.read({Role::mesh, Role::candidates, Role::solution});
+  pipeline::StageRequest request{.needs = {Role::mesh, Role::candidates, Role::solution}, .part = true};
+  if (by_part)
+    request.hold_back = {Role::mesh, Role::candidates, Role::graph, Role::solution};
+  else
+    request.weights_only = true;  // for the gap: tets tell which cells do not fit together
+  return stage.read(request);
 }
 
 // The weight of the choice beside the best possible one, if certify has proven a bound for its graph.
@@ -117,10 +134,10 @@ PartResult assemble_whole(pipeline::StageData data, const AssembleOptions& optio
   return {std::move(result.mesh), std::move(result.statistics), {}};
 }
 
-PartResult assemble_one_part(pipeline::StageData data, const CommandLine& line, int smooth_rounds,
+PartResult assemble_one_part(pipeline::StageData data, const CommandLine& line, const AssembleOptions& options,
                              const choice::InputNames& names) {
   pieces::PartView view = pieces::view_part(solved_part(std::move(data), names), line.neighbours, names.solution);
-  return assemble_part(std::move(view), line.before, smooth_rounds, names);
+  return assemble_part(std::move(view), line.before, build_rules(options), names);
 }
 
 // Notes what a user wants to know, and returns the details for the history.
@@ -142,6 +159,7 @@ void run(RunContext& context, CommandLine& line) {
   context.options["conformity"] = line.conformity;
   context.options["exchange"] = line.exchange;
   context.options["fill"] = line.fill;
+  context.options["merge"] = line.merge;
   context.options["smooth"] = line.smooth;
   pipeline::Stage stage(context);
   pipeline::StageData data = read_input(stage, line.by_part());
@@ -150,13 +168,15 @@ void run(RunContext& context, CommandLine& line) {
                                  .solution = stage.source_of(Role::solution)};
   const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
   const auto choice = graph_of_bundle ? proven_gap(data) : nullptr;
-  const PartResult result = line.by_part() ? assemble_one_part(std::move(data), line, options.smooth, names)
-                                           : assemble_whole(std::move(data), options, names);
+  PartResult result = line.by_part() ? assemble_one_part(std::move(data), line, options, names)
+                                     : assemble_whole(std::move(data), options, names);
   const auto details = report(context, result.statistics, choice);
   if (line.by_part())
     context.note(result.piece.settled ? "this piece is settled"
                                       : "this piece has something new to say: another round has to follow");
-  stage.write(result.mesh, line.by_part() ? &result.piece : nullptr, details);
+  pipeline::ResultProduct product{.mesh = std::move(result.mesh)};
+  if (line.by_part()) product.piece = std::move(result.piece);
+  stage.write(product, details);
 }
 
 }  // namespace
@@ -168,7 +188,6 @@ int main(int argc, char** argv) {
       .example = "tetmesh bracket.stl --size 3 | findhex | buildgraph | initsol | assemble -v -o bracket.vtu",
       .reads = {Role::mesh, Role::candidates, Role::graph, Role::solution},
       .product = Role::result,
-      .outside_history = {"neighbours", "before"},
   };
   CommandLine line;
   return tool_main(

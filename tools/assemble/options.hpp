@@ -13,6 +13,10 @@ struct AssembleOptions {
   // prisms: tets between the chosen cells become prisms (choice/prism_filling.hpp). Only if the result conforms.
   enum class Fill { prisms, none };
   Fill fill = Fill::prisms;
+  // vertices: vertices between the cells that no hex uses merge, and rooms there are filled anew (gap/fewer_cells.hpp).
+  // Only if the result conforms and is smoothed.
+  enum class Merge { vertices, none };
+  Merge merge = Merge::vertices;
   int smooth = 5;  // rounds over all vertices
 };
 

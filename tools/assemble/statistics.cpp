@@ -173,6 +173,8 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
                        {"flips_of_tets", statistics.improvement.flips},
                        {"vertices_added_at_flat_tets", statistics.improvement.vertices},
                        {"flat_tets_taken_off", statistics.improvement.peeled}};
+  const gap::FewerCells& fewer = statistics.improvement.fewer;
+  json["merging"] = {{"vertices_gone", fewer.merged}, {"rooms_filled_anew", fewer.refilled}};
   json["nonconforming_quads"] = volumes.nonconforming_quads;
   if (const auto& exchange = statistics.exchange)
     json["exchange"] = {{"hexes_out", exchange->hexes_out},
@@ -228,6 +230,10 @@ std::vector<std::string> summary_lines(const AssembleStatistics& statistics) {
         "{} quads faced tets: {} pyramids merged, {} vertices added, {} cells given back "
         "({:.2f} % of the volume in hexes)",
         counts.open_quads, counts.merged, counts.split, given_back, 100 * share(counts.volume_given_back, volume)));
+  if (const gap::FewerCells& fewer = statistics.improvement.fewer; fewer.any())
+    lines.push_back(
+        fmt::format("{} vertices between the hexes merged into others, {} rooms there filled with better cells",
+                    fewer.merged, fewer.refilled));
   if (!statistics.poor.empty())
     lines.push_back(fmt::format("{} poor cells are left (hexes below 0.1, others below 0.02); --stats lists them",
                                 statistics.poor.size()));

@@ -11,6 +11,7 @@
 #include "common/mesh/mixed_mesh.hpp"
 #include "tools/assemble/choice/exchange.hpp"
 #include "tools/assemble/conform/conform.hpp"
+#include "tools/assemble/gap/fewer_cells.hpp"
 #include "tools/assemble/self_check.hpp"
 
 namespace hexpipe::assemble {
@@ -26,13 +27,14 @@ struct KindStatistics {
 };
 using KindTable = std::array<KindStatistics, all_kinds.size()>;  // as in all_kinds
 
-// What smoothing did, and what it did to flat tets (conform/flat_tets.hpp).
+// What smoothing did, to flat tets (conform/flat_tets.hpp) and between the hexes, too.
 struct ImprovementCounts {
   int rounds = 0;
   std::int64_t moves = 0;
   std::int64_t flips = 0;
   std::int64_t vertices = 0;  // inserted beside flat tets
   std::int64_t peeled = 0;    // flat tets peeled off the boundary
+  gap::FewerCells fewer;
 };
 
 // A hex below poor_hex, or another cell below poor_quality (smooth.hpp).

@@ -1,43 +1,79 @@
 #include "tools/buildgraph/buildgraph.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 #include <vector>
 
 #include "common/graph/tet_cliques.hpp"
+#include "common/run/error.hpp"
+#include "tools/buildgraph/neighbours.hpp"
 #include "tools/buildgraph/reduce.hpp"
 
 namespace hexpipe::buildgraph {
+namespace {
 
-BuildgraphResult buildgraph(Candidates candidates, const BuildgraphOptions& options, const char* source) {
-  BuildgraphResult result;
-  if (options.reduce) {
-    result.graph = conflicts::conflict_graph(candidates, options.conflicts, source);
-    result.dominated = reduce(candidates, result.graph);
-    if (options.cover) result.cover = graph::greedy_edge_clique_cover(result.graph, graph::cliques_of_tets(candidates));
-    result.candidates = std::move(candidates);
-  } else {
-    const graph::CliqueCover known = options.cover ? graph::cliques_of_tets(candidates) : graph::CliqueCover();
-    result.graph = conflicts::conflict_graph(std::move(candidates), options.conflicts, source);
-    if (options.cover) result.cover = graph::greedy_edge_clique_cover(result.graph, known);
-  }
+BuildgraphResult reduced_graph(Candidates candidates, const conflicts::ConflictOptions& conflicts, bool with_cover,
+                               const char* source) {
+  BuildgraphResult result{.product = {.graph = conflicts::conflict_graph(candidates, conflicts, source)}};
+  graph::ConflictGraph& graph = result.product.graph;
+  result.dominated = reduce(candidates, graph);
+  if (with_cover) result.product.cover = graph::greedy_edge_clique_cover(graph, graph::cliques_of_tets(candidates));
+  result.product.candidates = pipeline::CandidatesProduct{.candidates = std::move(candidates)};
   return result;
 }
 
-PartGraph buildgraph_of_part(PartCandidates all, std::int32_t part, const BuildgraphOptions& options,
+BuildgraphResult whole_graph(Candidates candidates, const conflicts::ConflictOptions& conflicts, bool with_cover,
                              const char* source) {
+  const graph::CliqueCover known = with_cover ? graph::cliques_of_tets(candidates) : graph::CliqueCover();
+  BuildgraphResult result{.product = {.graph = conflicts::conflict_graph(std::move(candidates), conflicts, source)}};
+  if (with_cover) result.product.cover = graph::greedy_edge_clique_cover(result.product.graph, known);
+  return result;
+}
+
+// `all`: the candidates of a part and those of its neighbours. A neighbour's stays where it is in conflict with one of
+// the part's own, and an edge joins at least one of its own.
+pipeline::GraphProduct graph_of_part(PartCandidates all, std::int32_t part, const conflicts::ConflictOptions& conflicts,
+                                     const char* source) {
   std::vector<bool> own(all.keys.part.size());
   for (std::size_t i = 0; i < own.size(); ++i) own[i] = all.keys.part[i] == part;
-  PartGraph built;
-  graph::ConflictGraph& graph = built.result.graph;
-  graph = conflicts::conflict_graph(all.candidates, options.conflicts, source, own);
+  pipeline::GraphProduct product{.graph = conflicts::conflict_graph(all.candidates, conflicts, source, own)};
+  graph::ConflictGraph& graph = product.graph;
   std::vector<std::int32_t> kept;
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v)
     if (own[v] || graph.degree(v) > 0) kept.push_back(v);
   keep_only(graph, kept);
   keep_only(all.candidates, kept);
   keep_only(all.keys, kept);
-  built.candidates = std::move(all);
-  return built;
+  product.candidates =
+      pipeline::CandidatesProduct{.candidates = std::move(all.candidates), .keys = std::move(all.keys)};
+  return product;
+}
+
+pipeline::GraphProduct read_graph_of_part(pipeline::StageData data, const BuildgraphOptions& options,
+                                          const std::string& source) {
+  if (options.conflicts.part.count > 1 || options.reduce || options.cover)
+    throw UsageError(
+        fmt::format("--part, --reduce and --cover need the whole graph, not that of {}", title_of(*data.part)));
+  if (!data.candidate_keys)
+    throw DataError::at(source, "expected candidates with their keys, as findhex makes them of a part, found none");
+  PartCandidates own{std::move(*data.candidates), std::move(*data.candidate_keys)};
+  pipeline::GraphProduct product =
+      graph_of_part(with_neighbours(std::move(own), *data.part, data.history, options.neighbours, source),
+                    data.part->part, options.conflicts, source.c_str());
+  // Without neighbours, the candidates are those of the input, which pass.
+  if (options.neighbours.empty()) product.candidates.reset();
+  return product;
+}
+
+}  // namespace
+
+BuildgraphResult buildgraph(pipeline::StageData data, const BuildgraphOptions& options, const std::string& source) {
+  if (data.part) return {.product = read_graph_of_part(std::move(data), options, source)};
+  if (!options.neighbours.empty())
+    throw UsageError("--neighbours goes with the candidates of a part of a mesh, as mesh-part makes them");
+  const auto build = options.reduce ? reduced_graph : whole_graph;
+  return build(std::move(*data.candidates), options.conflicts, options.cover, source.c_str());
 }
 
 }  // namespace hexpipe::buildgraph

@@ -1,6 +1,6 @@
-// Neighbourhoods of conflicting candidates are compared only where the lighter one could go and has no fewer conflicts,
-// and a comparison ends at the first neighbour that tells them apart. After the first round, only vertices that have
-// lost a neighbour can dominate anew.
+// The search compares neighbourhoods of conflicting candidates only where the lighter one has no fewer conflicts, and
+// ends a comparison at the first neighbour that tells them apart. After the first round, only vertices that have lost a
+// neighbour can dominate others anew.
 
 #include "tools/buildgraph/domination.hpp"
 

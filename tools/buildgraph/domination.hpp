@@ -1,7 +1,7 @@
 #pragma once
-// Vertices that no search needs: v is dominated by a neighbour u when every neighbour of u is one of v and u weighs at
-// least as much (Lamm, Schulz, Strash, Williger, Zhang 2019, weighted domination). A solution with v is no worse with u
-// in its place, so that v can be left out, exactly.
+// Finds vertices that no search needs: a neighbour u dominates v when every neighbour of u is a neighbour of v and u
+// weighs at least as much (Lamm, Schulz, Strash, Williger, Zhang 2019, weighted domination). A solution with v does not
+// get lighter with u in its place, so v can be left out without loss.
 
 #include <cstdint>
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace hexpipe::buildgraph {
 
-// The vertices that stay, ascending, once dominated ones are left out one after another until none is left. Of two that
-// dominate each other the higher one stays.
+// The vertices that stay, ascending, when dominated ones are left out one after another until there are none. If two
+// dominate each other, the higher one stays.
 std::vector<std::int32_t> undominated_vertices(const graph::ConflictGraph& graph);
 
 }  // namespace hexpipe::buildgraph

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int32_t none = -1;
 
-// Adds to the candidates of a part those of others that may be in conflict with them.
+// Adds to the candidates of a part other parts' candidates that may be in conflict with them.
 class HaloCollector {
  public:
   HaloCollector(PartCandidates own, const MeshPart& part)
@@ -38,7 +38,7 @@ class HaloCollector {
     }
   }
 
-  // In the order of keys.
+  // All candidates, in the order of their keys.
   PartCandidates take() {
     std::sort(order_.begin(), order_.end(),
               [&](std::int32_t a, std::int32_t b) { return all_.keys.key[a] < all_.keys.key[b]; });

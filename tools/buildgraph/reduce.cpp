@@ -46,14 +46,16 @@ void keep_only(CandidateKeys& keys, std::span<const std::int32_t> kept) {
 }
 
 void keep_only(graph::ConflictGraph& graph, std::span<const std::int32_t> kept) {
-  std::vector<std::int32_t> numbers(graph.weights.size(), -1);
+  constexpr std::int32_t none = -1;
+  std::vector<std::int32_t> numbers(graph.weights.size(), none);
   for (std::size_t i = 0; i < kept.size(); ++i) numbers[kept[i]] = static_cast<std::int32_t>(i);
   std::int64_t end = 0, read = 0;
   for (std::size_t v = 0; v < numbers.size(); ++v) {
     const std::int64_t read_end = graph.offsets[v + 1];
-    if (numbers[v] >= 0) {
+    if (numbers[v] != none) {
       for (; read < read_end; ++read)
-        if (const std::int32_t number = numbers[graph.neighbours[read]]; number >= 0) graph.neighbours[end++] = number;
+        if (const std::int32_t number = numbers[graph.neighbours[read]]; number != none)
+          graph.neighbours[end++] = number;
       graph.weights[numbers[v]] = graph.weights[v];
       graph.offsets[numbers[v] + 1] = end;
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Candidates that no choice needs, left out of their list and of their graph alike.
+// Leaves candidates that no choice needs out of their list and of their graph.
 
 #include <cstdint>
 #include <span>
@@ -10,14 +10,14 @@
 
 namespace hexpipe::buildgraph {
 
-// Those of `kept`, ascending, in place: what is large has no room for another.
+// Keep only the items of `kept`, which ascends. They work in place, as large data have no room for a copy.
 void keep_only(Candidates& candidates, std::span<const std::int32_t> kept);
 void keep_only(CandidateKeys& keys, std::span<const std::int32_t> kept);
-// The graph of them.
+// The graph that `kept` induces.
 void keep_only(graph::ConflictGraph& graph, std::span<const std::int32_t> kept);
 
-// Leaves out what is dominated (domination.hpp). A solution of the graph that is left is one of the whole graph, of the
-// candidates that are left, and the heaviest one weighs the same. Returns how many candidates were left out.
+// Leaves out dominated candidates (domination.hpp). A solution of the remaining graph is a solution of the whole graph,
+// and the heaviest one weighs the same. Returns how many candidates were left out.
 std::int64_t reduce(Candidates& candidates, graph::ConflictGraph& graph);
 
 }  // namespace hexpipe::buildgraph

@@ -8,12 +8,12 @@
 namespace hexpipe::buildgraph {
 
 GraphSummary summarize(const BuildgraphResult& result) {
-  const graph::ConflictGraph& graph = result.graph;
+  const graph::ConflictGraph& graph = result.product.graph;
   GraphSummary summary;
-  if (result.candidates) summary.dominated = result.dominated;
-  if (result.cover) {
-    summary.cliques = result.cover->size();
-    summary.clique_members = static_cast<std::int64_t>(result.cover->members.size());
+  summary.dominated = result.dominated;
+  if (const auto& cover = result.product.cover) {
+    summary.cliques = cover->size();
+    summary.clique_members = static_cast<std::int64_t>(cover->members.size());
   }
   summary.vertices = graph.vertex_count();
   summary.edges = graph.edge_count();

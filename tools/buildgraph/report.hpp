@@ -1,5 +1,5 @@
 #pragma once
-// What buildgraph says of a graph: warnings, lines for -v, and JSON for --stats and the history.
+// The reports of buildgraph: warnings, lines for -v, and JSON for --stats and the history.
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,8 +16,8 @@ struct GraphSummary {
   double density = 0;  // edges / pairs of vertices
   std::int64_t total_weight = 0;
   std::int64_t without_weight = 0;                      // vertices whose weight is 0
-  std::optional<std::int64_t> dominated;                // candidates that were left out, where that was asked for
-  std::optional<std::int64_t> cliques, clique_members;  // of the cover, where there is one
+  std::optional<std::int64_t> dominated;                // candidates that --reduce left out
+  std::optional<std::int64_t> cliques, clique_members;  // of the cover, if there is one
 };
 
 GraphSummary summarize(const BuildgraphResult& result);

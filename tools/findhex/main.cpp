@@ -28,32 +28,42 @@ int main(int argc, char** argv) {
       .product = Role::candidates,
   };
   candidates::FindhexOptions options;
+  CLI::Option* feature_angle = nullptr;
   std::vector<std::string> cells{"hex"};
   std::string quality = "element", inner_vertices = "allow", folded_quads = "drop", flat_corners = "reject",
               part = "1/1";
   const auto declare = [&](CLI::App& app) {
-    app.add_option("--cells", cells, "What to find: hex, prism, pyramid, several separated by commas")
+    app.add_option("--cells", cells, "The kinds of cells to find: hex, prism, pyramid, separated by commas")
         ->check(CLI::IsMember(kinds))
         ->delimiter(',')
         ->allow_extra_args(false);
-    app.add_option("--min-quality", options.min_quality, "The scaled Jacobian that every corner has to exceed")
+    app.add_option("--min-quality", options.min_quality, "Every corner must have a scaled Jacobian greater than this")
         ->check(number_between(0, 1));
-    app.add_option("--quality", quality, "What is stored: the least scaled Jacobian of the corners or of the element")
+    app.add_option("--quality", quality,
+                   "The quality to store: the least scaled Jacobian of the corners, or of the whole element")
         ->check(CLI::IsMember(qualities));
     app.add_option("--inner-vertices", inner_vertices, "allow or forbid: vertices of the mesh strictly inside a cell")
         ->check(CLI::IsMember({"allow", "forbid"}));
-    app.add_option("--folded-quads", folded_quads,
-                   "drop or keep: quads whose two triangles in the mesh are folded over")
+    app.add_option(
+           "--folded-quads", folded_quads,
+           "drop or keep: quads whose two triangles in the mesh fold over each other, or lie on both sides of a "
+           "sharp edge of the surface")
         ->check(CLI::IsMember({"drop", "keep"}));
+    feature_angle =
+        app.add_option("--feature-angle", options.feature_angle,
+                       "Edges of the surface are sharp where it turns by more; MEDIT's Ridges are so anyway")
+            ->check(number_between(0, 180));
     app.add_option("--flat-corners", flat_corners,
-                   "reject or keep: cells beside the surface that would leave a pyramid flat there")
+                   "reject or keep: cells that would leave a flat pyramid at the surface")
         ->check(CLI::IsMember({"reject", "keep"}));
     app.add_option("--part", part, "i/k: only cells that begin in part i of k of the vertices; see Makefile.examples");
     app.add_option("--max-boundary-tets", options.tet_rules.max_boundary_tets,
-                   "Slivers that a cell may have on its quads")
+                   "The most slivers that a cell may have on its quads")
         ->check(CLI::Range(0, 6).description(""));
   };
   const auto run = [&](RunContext& context) {
+    if (folded_quads == "keep" && feature_angle->count() > 0)
+      throw UsageError("--feature-angle does nothing with --folded-quads keep");
     options.part = parse_part(part);
     options.kinds.clear();
     for (const auto& [name, kind] : kinds)
@@ -62,27 +72,26 @@ int main(int argc, char** argv) {
     options.tet_rules.inner_vertices = inner_vertices == "allow";
     options.tet_rules.flat_corners = flat_corners == "keep";
     options.drop_folded_quads = folded_quads == "drop";
+    options.tet_rules.sharp_edges = folded_quads == "keep";
 
     Phases phases;
     pipeline::Stage stage(context);
-    stage.take_part();
-    pipeline::StageData data = stage.read({Role::mesh});
+    pipeline::StageData data = stage.read({.needs = {Role::mesh}, .part = true});
     const std::string source = stage.source_of(Role::mesh);
     phases.end("read");
     if (data.mesh->tets.empty())
       throw DataError::at(source, "expected tets, found none (tetmesh makes them from a surface)");
     if (data.part && options.part.count > 1)
       throw UsageError(fmt::format("--part does not go with a mesh that is {} already", title_of(*data.part)));
-    const candidates::FindhexResult result = data.part
-                                                 ? findhex_of_part(*data.mesh, *data.part, options, source.c_str())
+    candidates::FindhexResult result = data.part ? findhex_of_part(*data.mesh, *data.part, options, source.c_str())
                                                  : candidates::findhex(std::move(*data.mesh), options, source.c_str());
     phases.end("find");
     for (const auto& warning : warnings_about(result.findings)) context.warn(warning);
     for (const auto& line : summary_lines(result)) context.note(line);
     context.statistics.update(statistics_of(result));
-    CandidateKeys keys;
-    if (data.part) keys = keys_of_own(result.candidates, *data.part, source.c_str());
-    stage.write(result.candidates, data.part ? &keys : nullptr, {{"candidates", candidate_counts(result)}});
+    pipeline::CandidatesProduct product{.candidates = std::move(result.candidates)};
+    if (data.part) product.keys = keys_of_own(product.candidates, *data.part, source.c_str());
+    stage.write(product, {{"candidates", candidate_counts(result)}});
     phases.end("write");
     context.statistics.update(phases.seconds());
   };

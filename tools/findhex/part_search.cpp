@@ -5,7 +5,7 @@
 namespace hexpipe::findhex {
 namespace {
 
-// From where a cell begins to any of its corners: no cell has corners that are more edges apart.
+// No two corners of a cell are more edges apart.
 constexpr int edges_across_cell = 3;
 
 candidates::SearchScope scope_of(const Submesh& part_searched, const MeshPart& part) {
@@ -22,8 +22,8 @@ void renumber(std::vector<std::int32_t>& items, const std::vector<std::int32_t>&
 
 }  // namespace
 
-// Which cells there are and of which tets depends on the tets at their corners alone; those further out, which are
-// there for buildgraph, would only take memory.
+// A cell and its tets depend only on the tets at its corners. Tets further out, which the part has for buildgraph,
+// would only take memory.
 candidates::FindhexResult findhex_of_part(const TetMesh& mesh, const MeshPart& part,
                                           const candidates::FindhexOptions& options, const char* source) {
   std::vector<bool> own(mesh.points.size());

@@ -15,6 +15,7 @@ constexpr std::pair<candidates::TetVerdict, const char*> rejections[] = {
     {candidates::TetVerdict::half_on_surface, "rule 7, a quad half on a surface"},
     {candidates::TetVerdict::inner_vertex, "an inner vertex"},
     {candidates::TetVerdict::flat_corner, "rule 9, a flat corner left at the surface"},
+    {candidates::TetVerdict::sharp_edge, "rule 10, a quad over a sharp edge of the surface"},
 };
 
 std::int64_t count_of(const candidates::CellCounts& counts, candidates::TetVerdict verdict) {

@@ -1,5 +1,5 @@
 #pragma once
-// What findhex says of its work: warnings, lines for -v, and JSON for --stats.
+// The reports of findhex: warnings, lines for -v, and JSON for --stats.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,7 +11,7 @@ namespace hexpipe::findhex {
 
 std::vector<std::string> warnings_about(const candidates::MeshFindings& findings);
 
-// The number of candidates of each kind, by its name.
+// The number of candidates of each kind, by the name of the kind.
 nlohmann::ordered_json candidate_counts(const candidates::FindhexResult& result);
 
 nlohmann::ordered_json statistics_of(const candidates::FindhexResult& result);

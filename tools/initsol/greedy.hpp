@@ -1,5 +1,5 @@
 #pragma once
-// Greedy independent sets: vertices in some order of merit, each taken when no neighbour is (Verhetsel 2017, 3.3
+// Greedy independent sets: takes vertices in an order of merit, each if no neighbour was taken (Verhetsel 2017, 3.3
 // and 4.2).
 
 #include <span>
@@ -12,14 +12,14 @@ namespace hexpipe::initsol {
 
 enum class GreedyOrder {
   weight,
-  weight_degree,  // weight / (degree + 1), what a vertex brings for each vertex that it decides
-  quality,        // of the candidates; what indirect mesh generators do
+  weight_degree,  // weight / (degree + 1): the gain for each vertex that is decided
+  quality,        // of the candidates, as indirect mesh generators do
 };
 
-// The merit of every vertex; `quality` is looked at for that order only.
+// The merit of every vertex; only GreedyOrder::quality needs `quality`.
 std::vector<double> merits(const graph::ConflictGraph& graph, GreedyOrder order, std::span<const double> quality);
 
-// The highest merit first, equal ones in the order of their numbers. The set is maximal.
+// Takes the highest merit first, equal merits in the order of their vertices. The set is maximal.
 graph::IndependentSet greedy(const graph::ConflictGraph& graph, std::span<const double> merits);
 
 }  // namespace hexpipe::initsol

@@ -1,6 +1,6 @@
 #pragma once
-// A priority queue of vertices whose keys change: the highest key first, among equal ones the lowest vertex, so that
-// the order does not depend on the history.
+// A priority queue of vertices whose keys change. The highest key comes first, and among equal keys the lowest vertex,
+// so that the order does not depend on the history.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,10 +11,10 @@ namespace hexpipe::initsol {
 
 class IndexedHeap {
  public:
-  explicit IndexedHeap(std::size_t vertices) : places_(vertices, absent) {}
+  explicit IndexedHeap(std::size_t vertices) : places_(vertices, none) {}
 
   bool empty() const { return heap_.empty(); }
-  bool contains(std::int32_t v) const { return places_[v] != absent; }
+  bool contains(std::int32_t v) const { return places_[v] != none; }
   std::int32_t top() const { return heap_.front().vertex; }
   std::int64_t top_key() const { return heap_.front().key; }
 
@@ -35,7 +35,7 @@ class IndexedHeap {
     const auto at = static_cast<std::size_t>(places_[v]);
     swap_entries(at, heap_.size() - 1);
     heap_.pop_back();
-    places_[v] = absent;
+    places_[v] = none;
     if (at == heap_.size()) return;
     const std::int32_t moved = heap_[at].vertex;
     rise(at);
@@ -43,7 +43,7 @@ class IndexedHeap {
   }
 
   void clear() {
-    for (const Entry& entry : heap_) places_[entry.vertex] = absent;
+    for (const Entry& entry : heap_) places_[entry.vertex] = none;
     heap_.clear();
   }
 
@@ -57,7 +57,7 @@ class IndexedHeap {
   }
 
  private:
-  static constexpr std::int32_t absent = -1;
+  static constexpr std::int32_t none = -1;
   struct Entry {
     std::int64_t key;
     std::int32_t vertex;

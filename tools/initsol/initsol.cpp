@@ -5,7 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include "common/mwis/local_search/annealing.hpp"
 #include "common/mwis/local_search/recombination.hpp"
+#include "common/mwis/local_search/remainder.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe::initsol {
@@ -53,7 +55,11 @@ class AnnealedStart : public Search {
  public:
   AnnealedStart(const graph::ConflictGraph& graph, const graph::IndependentSet& start, const InitsolOptions& options,
                 Random random, const Deadline& deadline)
-      : cooling_(options.cooling), search_(graph, start, random, deadline), unit_(search_.mean_weight()) {}
+      : search_(graph, start, random, deadline), unit_(search_.mean_weight()) {
+    cooling_ = mwis::local_search::Cooling::for_chosen(search_.chosen_count());
+    cooling_.hot = options.hot.value_or(cooling_.hot);
+    cooling_.cold = options.cold.value_or(cooling_.cold);
+  }
   void run(std::int64_t moves, double progress, const Deadline& deadline) override {
     search_.run(moves, unit_ * cooling_.at(progress), deadline);
   }
@@ -82,32 +88,32 @@ graph::IndependentSet recombined(const graph::ConflictGraph& graph,
   return set;
 }
 
-double progress_of(std::int64_t done, const InitsolOptions& options, const Deadline& deadline) {
-  const double by_iterations = static_cast<double>(done) / static_cast<double>(options.iterations);
+double progress_of(std::int64_t done, std::int64_t iterations, const Deadline& deadline) {
+  const double by_iterations = static_cast<double>(done) / static_cast<double>(iterations);
   const double left = deadline.remaining();
   const double by_time = std::isfinite(left) ? deadline.elapsed() / (deadline.elapsed() + std::max(left, 0.0)) : 0;
   return std::min(1.0, std::max(by_iterations, by_time));
 }
 
-}  // namespace
+std::int64_t iterations_for(const graph::ConflictGraph& graph, const InitsolOptions& options) {
+  if (options.method == Method::descend) return 0;
+  std::int64_t by_vertices = 0;
+  if (__builtin_mul_overflow(options.iterations_a_vertex, std::max(1, graph.vertex_count()), &by_vertices))
+    return options.iterations;
+  return std::min(options.iterations, by_vertices);
+}
 
-InitsolResult find_initial_solution(const graph::ConflictGraph& graph, std::span<const double> quality,
-                                    const InitsolOptions& options, const Deadline& deadline,
-                                    const std::function<void(const InitsolProgress&)>& report) {
-  const std::vector<double> vertex_merits = merits(graph, options.order, quality);
+using Report = std::function<void(const InitsolProgress&)>;
+
+// From start(i) for each i.
+InitsolResult search(const graph::ConflictGraph& graph, const std::function<graph::IndependentSet(std::int64_t)>& start,
+                     const InitsolOptions& options, const Deadline& deadline, const Report& report) {
   InitsolResult result;
-  const graph::IndependentSet first = greedy(graph, vertex_merits);
-  result.greedy_weight = result.weight = graph::total_weight(first, graph);
-  if (options.iterations == 0 || deadline.passed() || graph.edge_count() == 0) {
-    result.solution = first;
-    return result;
-  }
-
   std::vector<std::unique_ptr<Search>> searches(static_cast<std::size_t>(options.starts));
   parallel_for(options.starts, 1, [&](std::int64_t i) {
     // Even streams of the seed make the starts, odd ones search.
     const Random random(options.seed, static_cast<std::uint64_t>(2 * i + 1));
-    searches[i] = make_search(graph, start_solution(graph, vertex_merits, options, i), options, random, deadline);
+    searches[i] = make_search(graph, start(i), options, random, deadline);
   });
   const auto leader = [&] {
     return std::ranges::max_element(searches, {}, [](const auto& search) { return search->best_weight(); })->get();
@@ -118,24 +124,65 @@ InitsolResult find_initial_solution(const graph::ConflictGraph& graph, std::span
     for (const auto& search : searches) sum += search->moves();
     return sum;
   };
-  const std::int64_t round = std::clamp<std::int64_t>(options.iterations / least_rounds, 1, most_moves_a_round);
-  const std::int64_t iterations = options.method == Method::descend ? 0 : options.iterations;
+  const std::int64_t iterations = iterations_for(graph, options);
+  const std::int64_t round = std::clamp<std::int64_t>(iterations / least_rounds, 1, most_moves_a_round);
   for (std::int64_t done = 0; done < iterations && !deadline.passed();) {
     const std::int64_t moves = std::min(round, iterations - done);
-    const double progress = progress_of(done, options, deadline);
+    const double progress = progress_of(done, iterations, deadline);
     parallel_for(options.starts, 1, [&](std::int64_t i) { searches[i]->run(moves, progress, deadline); });
     done += moves;
-    if (report && leader()->best_weight() > result.weight) {
+    if (leader()->best_weight() > result.weight) {
       result.weight = leader()->best_weight();
       report({moves_made(), result.weight});
     }
     if (std::ranges::all_of(searches, [&](const auto& search) { return search->moves() < done; })) break;
   }
   result.iterations = moves_made();
-  mwis::ground::SolutionState best(graph, recombined(graph, searches));
+  result.solution = recombined(graph, searches);
+  return result;
+}
+
+InitsolResult search_remainder(const graph::ConflictGraph& graph,
+                               const std::function<graph::IndependentSet(std::int64_t)>& start,
+                               const InitsolOptions& options, const Deadline& deadline, const Report& report) {
+  const mwis::local_search::Remainder rest(graph, deadline);
+  InitsolResult result;
+  result.complete = rest.is_solved();
+  if (!result.complete)
+    result = search(
+        rest.graph(), [&](std::int64_t i) { return rest.project(start(i)); }, options, deadline,
+        [&](const InitsolProgress& now) {
+          report({now.iteration, now.weight + rest.offset()});
+        });
+  result.solution = rest.lift(result.solution);
+  if (result.complete) report({0, graph::total_weight(result.solution, graph)});
+  return result;
+}
+
+}  // namespace
+
+InitsolResult find_initial_solution(const graph::ConflictGraph& graph, std::span<const double> quality,
+                                    const InitsolOptions& options, const Deadline& deadline, const Report& report) {
+  const std::vector<double> vertex_merits = merits(graph, options.order, quality);
+  const auto start = [&](std::int64_t i) { return start_solution(graph, vertex_merits, options, i); };
+  const graph::IndependentSet first = start(0);
+  const std::int64_t greedy_weight = graph::total_weight(first, graph);
+  std::int64_t reported = greedy_weight;
+  const Report report_better = [&](const InitsolProgress& now) {
+    if (!report || now.weight <= reported) return;
+    reported = now.weight;
+    report(now);
+  };
+  InitsolResult result;
+  if (options.iterations > 0 && !deadline.passed() && graph.edge_count() > 0)
+    result = options.reduce ? search_remainder(graph, start, options, deadline, report_better)
+                            : search(graph, start, options, deadline, report_better);
+  mwis::ground::SolutionState best(graph, result.solution);
   best.make_maximal();  // with vertices of weight 0
-  result.solution = best.to_set();
-  result.weight = best.weight();
+  const bool better = best.weight() > greedy_weight;
+  result.solution = better ? best.to_set() : first;
+  result.weight = better ? best.weight() : greedy_weight;
+  result.greedy_weight = greedy_weight;
   return result;
 }
 

@@ -22,6 +22,10 @@ const std::map<std::string, Method> methods{
 const std::map<std::string, Escape> escapes{
     {"restart", Escape::restart}, {"rebuild", Escape::rebuild}, {"best", Escape::best}};
 
+// Of a search that nobody limits. On random-33k 27 find all that cooling more slowly does (tests/bench/mwis/README.md);
+// half of that leaves the rest to lns, and a lattice of 6 x 6 x 6 hexes takes half a second.
+constexpr std::int64_t usual_iterations_a_vertex = 15;
+
 std::vector<double> quality_for(const pipeline::StageData& data) {
   if (!data.candidates)
     throw DataError("--greedy quality needs candidates: found none in the bundle, give --candidates");
@@ -31,11 +35,99 @@ std::vector<double> quality_for(const pipeline::StageData& data) {
   return data.candidates->quality;
 }
 
+// The command line, with values by name until they are checked.
+struct CommandLine {
+  InitsolOptions options;
+  std::string order = "weight-degree", method = "anneal", escape = "best";
+  std::vector<CLI::Option*> of_annealing, of_tabu;
+};
+
+void declare_annealing(CLI::App& app, CommandLine& line) {
+  line.of_annealing = {app.add_option("--hot", line.options.hot,
+                                      "Annealing: the first temperature, in mean weights of a chosen vertex [0.3, "
+                                      "higher where few are chosen]")
+                           ->check(number_between(1e-6, 1e6)),
+                       app.add_option("--cold", line.options.cold,
+                                      "Annealing: the last temperature, likewise [0.03, higher where few are chosen]")
+                           ->check(number_between(1e-6, 1e6))};
+}
+
+void declare_tabu_search(CLI::App& app, CommandLine& line) {
+  TabuOptions& tabu = line.options.tabu;
+  line.of_tabu = {
+      app.add_option("--escape", line.escape,
+                     "Tabu search: the way out of local optima: restart at random, rebuild from the vertices that "
+                     "moved least, or go back to the best solution")
+          ->check(CLI::IsMember(escapes)),
+      app.add_option("--tenure", tabu.tenure,
+                     "Tabu search: a vertex that was pushed out stays out for this many moves, or up to twice as many")
+          ->check(CLI::Range(0, 1000000000).description("")),
+      app.add_option("--patience", tabu.patience, "Tabu search: moves without a better solution before the way out")
+          ->check(CLI::Range(1, 1000000000).description(""))};
+}
+
+void declare(CLI::App& app, CommandLine& line) {
+  app.add_option("--greedy", line.order, "Greedy takes first: high weight, high weight / (degree + 1), or high quality")
+      ->check(CLI::IsMember(orders));
+  app.add_option("--method", line.method,
+                 "The search after greedy: simulated annealing over local optima, tabu search, or a descent to the "
+                 "next optimum")
+      ->check(CLI::IsMember(methods));
+  declare_annealing(app, line);
+  declare_tabu_search(app, line);
+  app.add_option("--starts", line.options.starts, "Run searches from this many starts, and recombine their results")
+      ->check(CLI::Range(1, 1000).description(""));
+  app.add_flag("!--no-reductions", line.options.reduce,
+               "Search the whole graph, not what exact reductions and the solution of small components leave");
+}
+
 // Options of other methods would do nothing.
 void refuse_options(const std::vector<CLI::Option*>& others, const std::string& method) {
   for (const CLI::Option* option : others)
     if (option->count() > 0)
       throw UsageError(fmt::format("{} is no option of --method {}", option->get_name(), method));
+}
+
+InitsolOptions checked_options(const CommandLine& line, const CommonOptions& common) {
+  InitsolOptions options = line.options;
+  options.order = orders.at(line.order);
+  options.method = methods.at(line.method);
+  if (options.method != Method::anneal) refuse_options(line.of_annealing, line.method);
+  if (options.method != Method::tabu) refuse_options(line.of_tabu, line.method);
+  options.tabu.escape = escapes.at(line.escape);
+  options.seed = common.seed;
+  options.iterations = common.iterations.value_or(options.iterations);
+  if (!common.iterations && !common.time_limit) options.iterations_a_vertex = usual_iterations_a_vertex;
+  return options;
+}
+
+void run(RunContext& context, const InitsolOptions& options) {
+  pipeline::Stage stage(context);
+  mwis::ground::SearchLog log(context.common.log_file);
+  const bool by_quality = options.order == GreedyOrder::quality;
+  const pipeline::StageData data =
+      stage.read({.needs = {Role::graph}, .wants = by_quality ? std::vector{Role::candidates} : std::vector<Role>{}});
+  const std::vector<double> quality = by_quality ? quality_for(data) : std::vector<double>{};
+
+  const Deadline deadline = context.deadline();
+  Progress progress("initsol", context.common.quiet);
+  const InitsolResult result =
+      find_initial_solution(*data.graph, quality, options, deadline, [&](const InitsolProgress& now) {
+        log.record(deadline.elapsed(), now.iteration, now.weight);
+        if (progress.due()) progress.show(fmt::format("weight {}", now.weight));
+      });
+  const double seconds = deadline.elapsed();
+  context.statistics.update(nlohmann::ordered_json{{"greedy_weight", result.greedy_weight},
+                                                   {"weight", result.weight},
+                                                   {"chosen", result.solution.size()},
+                                                   {"iterations", result.iterations},
+                                                   {"complete", result.complete}});
+  context.note(fmt::format("{} chosen, weight {}{} (greedy {}), {} moves", result.solution.size(), result.weight,
+                           result.complete ? " (optimal)" : "", result.greedy_weight, result.iterations));
+  stage.write(pipeline::SolutionProduct{result.solution},
+              {{"weight", result.weight}, {"iterations", result.iterations}, {"complete", result.complete}});
+  // After the solution, so that a full disk under the log does not cost it.
+  log.finish(seconds, result.iterations, result.weight);
 }
 
 }  // namespace
@@ -49,68 +141,9 @@ int main(int argc, char** argv) {
       .product = Role::solution,
       .random = true,
       .searches = true,
-      .default_time_limit = 10};
-  InitsolOptions options;
-  std::string order = "weight-degree", method = "anneal", escape = "best";
-  std::vector<CLI::Option*> of_annealing, of_tabu;
-  const auto declare = [&](CLI::App& app) {
-    app.add_option("--greedy", order, "What comes first: high weight, weight / (degree + 1), or quality")
-        ->check(CLI::IsMember(orders));
-    app.add_option(
-           "--method", method,
-           "What follows greedy: simulated annealing over local optima, tabu search, or just a descent to the next one")
-        ->check(CLI::IsMember(methods));
-    of_annealing = {app.add_option("--hot", options.cooling.hot,
-                                   "Annealing: the first temperature, in mean weights of a chosen vertex")
-                        ->check(number_between(1e-6, 1e6)),
-                    app.add_option("--cold", options.cooling.cold, "Annealing: the last temperature, likewise")
-                        ->check(number_between(1e-6, 1e6))};
-    of_tabu = {
-        app.add_option("--escape", escape,
-                       "Tabu search: the way out of local optima: restart at random, rebuild from what moved least, go "
-                       "back to the best")
-            ->check(CLI::IsMember(escapes)),
-        app.add_option("--tenure", options.tabu.tenure,
-                       "Tabu search: moves, or up to twice as many, that a vertex pushed out stays out")
-            ->check(CLI::Range(0, 1000000000).description("")),
-        app.add_option("--patience", options.tabu.patience,
-                       "Tabu search: moves without a better solution before the way out")
-            ->check(CLI::Range(1, 1000000000).description(""))};
-    app.add_option("--starts", options.starts, "Searches from different starts, whose results are recombined")
-        ->check(CLI::Range(1, 1000).description(""));
-  };
-  const auto run = [&](RunContext& context) {
-    options.order = orders.at(order);
-    options.method = methods.at(method);
-    if (options.method != Method::anneal) refuse_options(of_annealing, method);
-    if (options.method != Method::tabu) refuse_options(of_tabu, method);
-    options.tabu.escape = escapes.at(escape);
-    options.seed = context.common.seed;
-    options.iterations = context.common.iterations.value_or(options.iterations);
-    pipeline::Stage stage(context);
-    mwis::ground::SearchLog log(context.common.log_file);
-    const bool by_quality = options.order == GreedyOrder::quality;
-    const pipeline::StageData data =
-        stage.read({Role::graph}, by_quality ? std::vector{Role::candidates} : std::vector<Role>{});
-    const std::vector<double> quality = by_quality ? quality_for(data) : std::vector<double>{};
-
-    const Deadline deadline = context.deadline();
-    Progress progress("initsol", context.common.quiet);
-    const InitsolResult result =
-        find_initial_solution(*data.graph, quality, options, deadline, [&](const InitsolProgress& now) {
-          log.record(deadline.elapsed(), now.iteration, now.weight);
-          if (progress.due()) progress.show(fmt::format("weight {}", now.weight));
-        });
-    const double seconds = deadline.elapsed();
-    context.statistics["greedy_weight"] = result.greedy_weight;
-    context.statistics["weight"] = result.weight;
-    context.statistics["chosen"] = result.solution.size();
-    context.statistics["iterations"] = result.iterations;
-    context.note(fmt::format("{} chosen, weight {} (greedy {}), {} moves", result.solution.size(), result.weight,
-                             result.greedy_weight, result.iterations));
-    stage.write(result.solution, {{"weight", result.weight}, {"iterations", result.iterations}});
-    // Behind the solution, which no full disk under it may cost.
-    log.finish(seconds, result.iterations, result.weight);
-  };
-  return tool_main(argc, argv, info, declare, run);
+      .ends_by_itself = "when the temperature has fallen slowly enough for the graph"};
+  CommandLine line;
+  return tool_main(
+      argc, argv, info, [&](CLI::App& app) { declare(app, line); },
+      [&](RunContext& context) { run(context, checked_options(line, context.common)); });
 }

@@ -37,14 +37,14 @@ void TabuSearch::end_tabus() {
     const auto [move, v] = tabu_ends_.front();
     std::pop_heap(tabu_ends_.begin(), tabu_ends_.end());
     tabu_ends_.pop_back();
-    // Went in by aspiration, or back to the best, and perhaps out again for longer.
+    // The vertex went in by aspiration, or back to the best solution, and perhaps out again for longer.
     if (!tabu_.contains(v) || tabu_until_[v] != move) continue;
     tabu_.erase(v);
     open_.insert(v, state_.push_gain(v));
   }
 }
 
-// What is tabu may move when that gives a new best solution, or when nothing else can move.
+// A vertex that is tabu may move when that gives a new best solution, or when no other one can move.
 std::int32_t TabuSearch::choose() const {
   if (open_.empty()) return tabu_.top();
   const bool aspires =
@@ -110,7 +110,7 @@ void TabuSearch::take_way_out() {
   if (state_.weight() > best_weight_) note_best();
 }
 
-// Takes back what was done since, so that the cost is that of the moves and not that of the graph.
+// Takes back the moves since then, so that the cost depends on their number and not on the size of the graph.
 void TabuSearch::return_to_best() {
   const std::vector<std::int32_t> undo(since_best_.rbegin(), since_best_.rend());
   for (const std::int32_t v : undo) {

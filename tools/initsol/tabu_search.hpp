@@ -1,7 +1,7 @@
 #pragma once
-// Tabu search on Push (Verhetsel 2017, 3.3, algorithms 7 and 11): the vertex that gains most, or loses least, comes in,
+// Tabu search on Push (Verhetsel 2017, 3.3, algorithms 7 and 11): the vertex that gains most, or loses least, comes in;
 // its chosen neighbours go out and stay out for a while. The next move is the top of an indexed priority queue of
-// gains, of which a move changes only those around it.
+// gains. A move changes only the gains around it.
 
 #include <cstdint>
 #include <string_view>
@@ -14,20 +14,20 @@
 
 namespace hexpipe::initsol {
 
-// The way out when nothing better was found for long (algorithms 8, 9 and 10).
+// The way out when no better solution was found for long (algorithms 8, 9 and 10).
 enum class Escape {
   restart,  // a random maximal independent set
-  rebuild,  // a greedy one, of the vertices that were moved least
+  rebuild,  // a greedy set of the vertices that were moved least
   best,     // the best solution so far
 };
 
 struct TabuOptions {
   Escape escape = Escape::best;
-  // Moves for which what was pushed out stays out, drawn from [tenure, 2 tenure).
-  // Of 10, 30, 100, 150, 200, 300 and 1000, on graphs of 28,000 to 56,000 vertices in 3 s: 10 stays in one corner of
-  // the graph (0.6 to 9 % worse than the best of them), 1000 tears more open than it closes.
+  // A vertex that was pushed out stays out for a number of moves drawn from [tenure, 2 tenure). 200 was best among 10,
+  // 30, 100, 150, 200, 300 and 1000 on graphs of 28,000 to 56,000 vertices in 3 s: with 10, the search stays in one
+  // corner of the graph (0.6 to 9 % worse than the best value), with 1000 it opens more gaps than it closes.
   std::int64_t tenure = 200;
-  // Moves without a new best before the way out is taken.
+  // The search takes the way out after this many moves without a new best solution.
   std::int64_t patience = 100000;
 };
 
@@ -72,8 +72,7 @@ class TabuSearch {
   Random random_;
   mwis::ground::SolutionState state_;
   IndexedHeap open_, tabu_;  // gains of the vertices that are not chosen
-  // A heap, the earliest end first, with entries that are no longer true: of a vertex only that counts which is its
-  // last.
+  // A heap with the earliest end first. It has outdated entries: only the last entry of a vertex counts.
   std::vector<TabuEnd> tabu_ends_;
   std::vector<std::int64_t> tabu_until_;  // by vertex: its last end
   std::vector<std::int32_t> pushed_out_;
@@ -81,7 +80,7 @@ class TabuSearch {
 
   std::int64_t moves_ = 0, last_best_move_ = 0;
   std::int64_t best_weight_ = 0;
-  // The best solution is the present one with these taken back, last first; or best_, once another start was made.
+  // The best solution is the present one with these moves taken back, last first; after another start, it is best_.
   std::vector<std::int32_t> since_best_;
   bool best_is_stored_ = false;
   graph::IndependentSet best_;

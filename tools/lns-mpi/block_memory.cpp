@@ -5,7 +5,7 @@
 namespace hexpipe::lns_mpi {
 namespace {
 
-// What other blocks choose beyond the edge changes which fragments there are around it.
+// The choice of other blocks beyond the edge changes the fragments around it.
 bool is_near_edge(const Region& region, std::int32_t v) {
   return region.at_edge[v] != 0 ||
          std::ranges::any_of(region.graph.neighbours_of(v), [&](std::int32_t u) { return region.at_edge[u] != 0; });

@@ -1,5 +1,5 @@
 #pragma once
-// What a block's search knows of the places that it has tried, from one round to the next.
+// Keeps what a block's search has learnt of the places that it tried, from one round to the next.
 
 #include <array>
 #include <cstdint>
@@ -25,13 +25,13 @@ class BlockMemory {
   BlockMemory(std::vector<Place> places, const mwis::local_search::Effort::Accounts& effort)
       : places_(std::move(places)), effort_(effort) {}
 
-  // What counts in this region, by its numbers; `keys` are those of the piece.
+  // What is known of this region, in its numbers; `keys` are those of the piece.
   mwis::local_search::LnsMemory recall(const Region& region, std::span<const std::uint64_t> keys) const;
-  // Of places at the edge of the region the size alone, for what is beyond may change before the next round. Everything
-  // further inside stays as this search leaves it, because no other block may change it meanwhile.
+  // Keeps only the size of places at the edge of the region, because what lies beyond may change before the next round.
+  // Everything further inside stays as this search leaves it, because no other block may change it meanwhile.
   void remember(const mwis::local_search::LnsMemory& memory, const Region& region, std::span<const std::uint64_t> keys);
 
-  // How large fragments have become; 0 where nothing is known.
+  // The size that fragments have reached; 0: nothing is known.
   std::size_t usual_size() const;
 
   const std::vector<Place>& places() const { return places_; }

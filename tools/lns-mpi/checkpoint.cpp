@@ -24,7 +24,7 @@ void visit_numbers(Progress& progress, Visit&& visit) {
   visit("quiet", progress.quiet);
 }
 
-// What checkpoint.json says.
+// The content of checkpoint.json.
 struct Title {
   RoundsProgress progress;
   std::int64_t ranks = 0, blocks = 0;
@@ -47,7 +47,7 @@ Title read_title(const std::string& path) {
   return title;
 }
 
-// What one rank wrote: rows of the same length for places, and a row of `effort` for each of its blocks.
+// The state of one rank: rows of the same length for places, and a row of `effort` for each of its blocks.
 struct RankState {
   std::vector<std::uint64_t> chosen, keys;
   std::vector<std::int32_t> blocks;

@@ -1,11 +1,11 @@
 #pragma once
-// Where a search has come to, on disk: a file for each rank, of which all are whole or none counts.
+// Keeps the state of a search on disk, in a file for each rank. Either all files of a round are whole, or none counts.
 //
-//   DIR/checkpoint.json      the round that counts, and of what it is
-//   DIR/round-12/0003.tar    of the fourth rank: the numbers of the vertices that it chose, and what
+//   DIR/checkpoint.json      the round that counts, and the graph that it belongs to
+//   DIR/round-12/0003.tar    the fourth rank: the numbers of the vertices that it chose, and what
 //                            the searches of its blocks remember
 //
-// checkpoint.json is replaced when all files of a round are there, and the round before goes only then.
+// checkpoint.json is replaced when all files of a round are there; only then is the round before it removed.
 
 #include <cstdint>
 #include <filesystem>
@@ -21,16 +21,16 @@ namespace hexpipe::lns_mpi {
 
 class Checkpoint {
  public:
-  // Makes the directory. `fingerprint` is of the graph. All ranks call this and all that follows together.
+  // Makes the directory. `fingerprint` is that of the graph. All ranks call this and the functions below together.
   Checkpoint(Ranks& ranks, std::string directory, double seconds_between, std::uint64_t fingerprint);
 
-  // What an earlier run left: the keys of the vertices that it chose in the blocks of this rank, ascending, maybe with
-  // those of others; the rest goes into what is named. Nothing, with nothing changed, where there is no checkpoint.
-  // Throws DataError when it is damaged or of another graph.
+  // Returns the keys of the vertices that an earlier run chose in the blocks of this rank, ascending, maybe with keys
+  // of other blocks, and stores the rest in `progress` and `memories`. Without a checkpoint, returns nothing and
+  // changes nothing. Throws DataError when the checkpoint is damaged or of another graph.
   std::optional<std::vector<std::uint64_t>> resume(const BlockOwners& owners, RoundsProgress& progress,
                                                    std::vector<BlockMemory>& memories);
 
-  // Whether so much time has passed since the last one.
+  // Whether it is time for the next checkpoint.
   bool is_due();
   void write(const Piece& piece, const RoundsProgress& progress, const std::vector<BlockMemory>& memories);
 
@@ -44,7 +44,7 @@ class Checkpoint {
   std::uint64_t fingerprint_;
   Stopwatch watch_;
   double next_;
-  // That of which checkpoint.json speaks.
+  // The round that checkpoint.json names.
   std::optional<std::int64_t> round_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Cuts a conflict graph into blocks of about as many vertices with few edges between them.
+// Cuts a conflict graph into blocks of about the same size, with few edges between them.
 
 #include <cstdint>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace hexpipe::lns_mpi {
 
-// The block of each vertex, every block from 0 on used unless there are fewer vertices. Depends on the graph and the
-// number of blocks alone.
+// The block of each vertex. Every block from 0 on is used unless there are fewer vertices. Depends only on the graph
+// and the number of blocks.
 std::vector<std::int32_t> cut_into_blocks(const graph::ConflictGraph& graph, std::int32_t blocks);
 
 }  // namespace hexpipe::lns_mpi

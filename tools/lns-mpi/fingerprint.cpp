@@ -20,7 +20,7 @@ std::uint64_t sum_over_ranks(Ranks& ranks, std::uint64_t value) {
   return (static_cast<std::uint64_t>(halves[0]) << 32) + static_cast<std::uint64_t>(halves[1]);
 }
 
-// What a block's rows say of its conflicts with the block beside it.
+// The conflicts of a block with the block beside it, as its rows have them.
 struct Seen {
   std::int32_t block, beside;
   std::uint64_t sum;
@@ -46,7 +46,7 @@ std::uint64_t fingerprint_of(Ranks& ranks, const OwnedRows& rows) {
 void expect_agreement(Ranks& ranks, const BlockOwners& owners, const OwnedRows& rows) {
   // By block of the rank's own, and by another one: the conflicts between both, as the rows of the first have them.
   std::map<std::pair<std::int32_t, std::int32_t>, std::uint64_t> sums;
-  auto sum = sums.end();  // of the last edge, for the next one is mostly between the same blocks
+  auto sum = sums.end();  // of the last edge: the next one mostly joins the same blocks
   for (std::size_t v = 0; v < rows.keys.size(); ++v)
     for (std::int64_t e = rows.offsets[v]; e < rows.offsets[v + 1]; ++e) {
       const std::pair both(rows.blocks[v], rows.neighbour_blocks[e]);

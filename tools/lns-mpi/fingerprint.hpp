@@ -1,6 +1,6 @@
 #pragma once
-// Whether all ranks hold parts of one graph, and the same that a checkpoint was made of: sums of mixed numbers, which
-// do not depend on who holds what.
+// Checks that all ranks hold parts of one graph, and that a checkpoint was made of the same graph: by sums of hashes,
+// which do not depend on which rank holds what.
 
 #include <cstdint>
 
@@ -9,11 +9,11 @@
 
 namespace hexpipe::lns_mpi {
 
-// Of vertices, weights, edges and blocks of all ranks together.
+// The fingerprint of vertices, weights, edges and blocks of all ranks together.
 std::uint64_t fingerprint_of(Ranks& ranks, const OwnedRows& rows);
 
-// Throws DataError on all ranks that names two blocks where an edge between them is in the rows of one of its ends
-// alone.
+// Throws DataError on all ranks when an edge between two blocks is in the rows of only one of its ends; the message
+// names the blocks.
 void expect_agreement(Ranks& ranks, const BlockOwners& owners, const OwnedRows& rows);
 
 }  // namespace hexpipe::lns_mpi

@@ -81,14 +81,14 @@ class GraphParts : public Source {
   void write(Ranks& ranks, const Piece& piece, const nlohmann::ordered_json& details) override {
     ranks.together([&] {
       for (Part& part : own_) {
-        graph::IndependentSet solution;
+        pipeline::SolutionProduct product;
         for (std::size_t v = 0; v < part.keys.size(); ++v) {
           const auto found = std::ranges::lower_bound(piece.keys, part.keys[v]);
           const bool is_held = found != piece.keys.end() && *found == part.keys[v];
           if (is_held && piece.chosen[found - piece.keys.begin()] != 0)
-            solution.push_back(static_cast<std::int32_t>(v));
+            product.solution.push_back(static_cast<std::int32_t>(v));
         }
-        part.stage->write(solution, details);
+        part.stage->write(product, details);
       }
     });
   }
@@ -112,8 +112,8 @@ class GraphParts : public Source {
     context.streams.output = (std::filesystem::path(context_.streams.output) / file.filename()).string();
     Part& part = own_.emplace_back();
     part.stage = std::make_unique<pipeline::Stage>(context);
-    part.stage->take_part();
-    const pipeline::StageData data = part.stage->read({Role::graph}, {Role::candidates, Role::solution});
+    const pipeline::StageData data =
+        part.stage->read({.needs = {Role::graph}, .wants = {Role::candidates, Role::solution}, .part = true});
     if (!data.part || !data.candidate_keys || data.candidate_keys->part.empty())
       throw DataError::at(file.string(), "expected a part of a graph as buildgraph --neighbours makes it, found none");
     if (data.part->parts != blocks_ || data.part->part != number)

@@ -19,7 +19,7 @@
 namespace hexpipe::lns_mpi {
 namespace {
 
-// What all ranks sent together, and the one that sent most.
+// How much all ranks together sent, and how much the rank that sent most.
 struct Sent {
   std::int64_t messages = 0, bytes = 0, most_messages = 0, most_bytes = 0;
 };
@@ -33,10 +33,11 @@ Sent put_together(Ranks& ranks, const Traffic& own) {
 
 class Job {
  public:
-  Job(Ranks& ranks, RunContext& context, JobOptions options)
+  Job(Ranks& ranks, RunContext& context, const LnsMpiOptions& options)
       : ranks_(ranks),
         context_(context),
-        options_(std::move(options)),
+        options_(options),
+        rounds_(options.rounds),
         deadline_(context.deadline()),
         shown_(context.info.name, context.common.quiet || !ranks.is_first()) {
     source_ = options_.parts.empty() ? whole_graph(context, options_.blocks) : graph_parts(context, options_.parts);
@@ -60,13 +61,13 @@ class Job {
 
     Packer improved;
     if (!options_.fragments.empty())
-      options_.rounds.improved = [&](std::span<const std::int32_t> fragment) {
+      rounds_.improved = [&](std::span<const std::int32_t> fragment) {
         std::vector<std::uint64_t> numbers;
         numbers.reserve(fragment.size());
         for (const std::int32_t v : fragment) numbers.push_back(piece.keys[v]);
         improved.put_all(std::span<const std::uint64_t>(numbers));
       };
-    improve_in_rounds(ranks_, piece, options_.rounds, deadline_, earlier, progress_, memories_,
+    improve_in_rounds(ranks_, piece, rounds_, deadline_, earlier, progress_, memories_,
                       [&](const RoundsProgress&, const RoundCosts& costs, bool last) {
                         report(costs);
                         if (!options_.fragments.empty()) write_fragments(improved.take());
@@ -78,7 +79,7 @@ class Job {
   }
 
  private:
-  // Ranks may be started apart, each with a command line of its own; where these differ, some would wait for ever.
+  // Ranks may be started one by one, each with its own command line. If these differed, some would wait for ever.
   void expect_same_options() {
     const std::string options = context_.options.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     const std::string own =
@@ -93,15 +94,12 @@ class Job {
   }
 
   void choose_target() {
-    if (options_.target_gap < 0) return;
-    const std::int64_t bound = options_.known_bound >= 0 ? options_.known_bound : source_->bound();
-    ranks_.together([&] {
-      options_.rounds.search.target =
-          mwis::ground::target_weight(options_.target_gap, bound < 0 ? std::nullopt : std::optional(bound));
-    });
+    if (!options_.target_gap) return;
+    const std::optional<std::int64_t> bound = options_.known_bound ? options_.known_bound : source_->bound();
+    ranks_.together([&] { rounds_.search.target = mwis::ground::target_weight(*options_.target_gap, bound); });
   }
 
-  // What an earlier run chose.
+  // The keys that an earlier run chose.
   std::optional<std::vector<std::uint64_t>> resume(const BlockOwners& owners, const OwnedRows& rows) {
     if (options_.checkpoint.empty()) return std::nullopt;
     checkpoint_.emplace(ranks_, options_.checkpoint, options_.checkpoint_interval, fingerprint_of(ranks_, rows));
@@ -141,7 +139,7 @@ class Job {
                     sent.bytes, sent.most_messages, sent.most_bytes));
   }
 
-  // In the order of the blocks, whichever ranks have them.
+  // Fragments are written in the order of the blocks, whichever ranks have them.
   void write_fragments(Bytes own) {
     std::vector<Bytes> to(static_cast<std::size_t>(ranks_.count()));
     to.front() = std::move(own);
@@ -157,8 +155,8 @@ class Job {
   }
 
   void prove(const Piece& piece) {
-    proof_ = prove_bound(ranks_, piece, options_.passes, options_.rounds.search.seed, Deadline(),
-                         !options_.certificate.empty());
+    proof_ =
+        prove_bound(ranks_, piece, options_.passes, rounds_.search.seed, Deadline(), !options_.certificate.empty());
     const double gap = mwis::ground::gap_to(proof_->bound, progress_.weight);
     context_.statistics["bound"] = proof_->bound;
     context_.statistics["gap"] = gap;
@@ -181,10 +179,10 @@ class Job {
     nlohmann::ordered_json details{
         {"weight", progress_.weight}, {"iterations", progress_.iterations}, {"rounds", progress_.round}};
     if (proof_) details["bound"] = proof_->bound;
-    if (options_.rounds.search.free_running) details["depends_on_timing"] = true;
+    if (rounds_.search.free_running) details["depends_on_timing"] = true;
     const double seconds = deadline_.elapsed();
     source_->write(ranks_, piece, details);
-    // Behind the solution, which a full disk here is not to cost; what took longest first.
+    // After the solution, so that a full disk here does not cost it; what took longest comes first.
     ranks_.together([&] {
       if (certificate_) write_certificate();
       if (fragments_) fragments_->commit();
@@ -201,13 +199,14 @@ class Job {
 
   Ranks& ranks_;
   RunContext& context_;
-  JobOptions options_;
+  const LnsMpiOptions& options_;
+  RoundsOptions rounds_;
   Deadline deadline_;
   Progress shown_;
   std::unique_ptr<Source> source_;
   std::optional<mwis::ground::SearchLog> log_;
   std::optional<formats::FragmentsFile> fragments_;  // of the first rank
-  std::optional<formats::Output> certificate_;       // likewise
+  std::optional<formats::Output> certificate_;       // of the first rank, too
   std::optional<Checkpoint> checkpoint_;
   RoundsProgress progress_;
   std::vector<BlockMemory> memories_;
@@ -218,8 +217,8 @@ class Job {
 
 }  // namespace
 
-void run_job(Ranks& ranks, RunContext& context, JobOptions options) {
-  Job(ranks, context, std::move(options)).run();
+void run_job(Ranks& ranks, RunContext& context, const LnsMpiOptions& options) {
+  Job(ranks, context, options).run();
 }
 
 }  // namespace hexpipe::lns_mpi

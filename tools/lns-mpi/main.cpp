@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 
-#include <filesystem>
 #include <iostream>
-#include <map>
 
 #include "common/mwis/lns_options.hpp"
 #include "common/run/messages.hpp"
@@ -16,36 +14,8 @@ using namespace hexpipe::lns_mpi;
 
 namespace {
 
-bool writes_standard_output(const RunContext& context) {
-  return context.streams.output.empty() || context.streams.output == "-";
-}
-
-// Of each part comes a bundle of its name.
-void expect_different_names(const std::vector<std::string>& parts) {
-  std::map<std::string, std::string> part_by_name;
-  for (const std::string& part : parts) {
-    const auto [other, is_new] = part_by_name.emplace(std::filesystem::path(part).filename(), part);
-    if (!is_new)
-      throw UsageError(fmt::format("expected parts of different names, found {} and {}", other->second, part));
-  }
-}
-
-// What does nothing, or cannot be done, for a graph in parts.
-void check_parts(const RunContext& context, const JobOptions& options) {
-  if (options.parts.empty()) return;
-  if (context.streams.operand || !context.streams.files.empty())
-    throw UsageError("expected --parts or a graph, found both");
-  const std::map<std::string, bool> of_whole_graphs{{"--blocks", options.blocks > 0},
-                                                    {"--certificate", !options.certificate.empty()},
-                                                    {"--fragments", !options.fragments.empty()}};
-  for (const auto& [name, is_given] : of_whole_graphs)
-    if (is_given) throw UsageError(name + " needs a graph that is not in parts");
-  if (writes_standard_output(context)) throw UsageError("--parts needs a directory to write to: -o DIR");
-  expect_different_names(options.parts);
-}
-
-// An error that all ranks throw together ends them one by one, any other one all at once.
-void run_on_all_ranks(RunContext& context, const JobOptions& options) {
+// An error that all ranks throw together ends them one by one; any other error ends all of them at once.
+void run_on_all_ranks(RunContext& context, const LnsMpiOptions& options) {
   Ranks ranks;
   try {
     run_job(ranks, context, options);
@@ -74,53 +44,54 @@ int main(int argc, char** argv) {
       .product = Role::solution,
       .random = true,
       .searches = true,
-      .default_time_limit = 60,
-      .outside_history = {"parts", "certificate", "fragments", "checkpoint", "checkpoint-interval"}};
-  JobOptions options;
+      .default_time_limit = 60};
+  LnsMpiOptions options;
   mwis::TargetOptions target;
   CLI::Option* round = nullptr;
   const auto declare = [&](CLI::App& app) {
     mwis::declare_lns_options(app, options.rounds.search, target);
     app.add_option("--blocks", options.blocks,
-                   "Blocks to cut the graph into, at least one a rank; 0: one for 50000 vertices")
+                   "Blocks to cut the graph into, at least one for each rank; 0: one for each 50000 vertices")
         ->check(CLI::Range(0, 1000000).description(""));
     app.add_option("--overlap", options.overlap, "How many edges beyond its border a block may change the solution")
         ->check(CLI::Range(1, 16).description(""));
     round = app.add_option("--round", options.rounds.fragments_a_round,
-                           "Fragments in a round for a thousand vertices, under a limit of iterations");
+                           "Fragments of a round for each thousand vertices, with --iterations");
     round->check(CLI::Range(1, 1000000).description(""));
-    CLI::Option* const prove = app.add_option("--prove", options.passes,
-                                              "Prove a bound after the search, in so many passes of the dual; 0: none");
+    CLI::Option* const prove = app.add_option(
+        "--prove", options.passes, "Prove a bound after the search, in this many passes of the dual; 0: no bound");
     prove->check(CLI::Range(0, 1000000).description(""));
-    app.add_option("--certificate", options.certificate,
-                   "Write the proof to a file, as certify does; for a graph that is not in parts")
+    outside_history(app.add_option("--certificate", options.certificate,
+                                   "Write the proof to a file, as certify does; for a graph that is not in parts"))
         ->type_name("FILE")
         ->needs(prove);
-    app.add_option("--fragments", options.fragments,
-                   "Write the fragments that were improved to a file, as lns does; for a graph that is not in parts")
+    outside_history(
+        app.add_option("--fragments", options.fragments,
+                       "Write the improved fragments to a file, as lns does; for a graph that is not in parts"))
         ->type_name("FILE");
-    app.add_option("--parts", options.parts,
-                   "Bundles of the parts of a graph, in their order; the solution goes into bundles of the same names "
-                   "in the directory that -o names")
+    outside_history(
+        app.add_option(
+            "--parts", options.parts,
+            "Bundles of the parts of a graph, in their order; the solution goes into bundles of the same names in the "
+            "directory that -o names"))
         ->type_name("FILE");
     CLI::Option* const checkpoint =
-        app.add_option("--checkpoint", options.checkpoint,
-                       "Keep the state of the search in this directory, and go on from what is there")
+        outside_history(
+            app.add_option("--checkpoint", options.checkpoint,
+                           "Keep the state of the search in this directory, and go on from the state that is there"))
             ->type_name("DIR");
-    app.add_option("--checkpoint-interval", options.checkpoint_interval, "Seconds from one checkpoint to the next")
+    outside_history(
+        app.add_option("--checkpoint-interval", options.checkpoint_interval, "Seconds from one checkpoint to the next"))
         ->check(number_between(0, 1e9))
         ->needs(checkpoint);
   };
   const auto run = [&](RunContext& context) {
     mwis::check(target);
-    check_parts(context, options);
-    if (round->count() > 0 && !context.common.iterations) throw UsageError("--round does nothing without --iterations");
-    if (!options.certificate.empty() && options.passes == 0)
-      throw UsageError("--certificate needs a bound, of which --prove 0 proves none");
+    check(options, round->count() > 0, context);
     options.rounds.search.seed = context.common.seed;
     options.rounds.search.iterations = context.common.iterations.value_or(options.rounds.search.iterations);
-    options.target_gap = target.gap.value_or(-1);
-    options.known_bound = target.bound.value_or(-1);
+    options.target_gap = target.gap;
+    options.known_bound = target.bound;
     // mpirun gives standard output as a terminal that leaves bytes as they are, and nobody sits at it.
     if (launched_rank() && writes_standard_output(context)) context.streams.output = "/dev/stdout";
     run_on_all_ranks(context, options);
@@ -129,7 +100,7 @@ int main(int argc, char** argv) {
     silence_messages(true);
     std::cout.setstate(std::ios::failbit);
   }
-  // mpirun passes this one on to its processes; of SIGTERM it ends them a second later.
+  // mpirun passes this signal on to its processes; after SIGTERM, it ends them within a second.
   stop_searches_also_on(SIGUSR1);
   return tool_main(argc, argv, info, declare, run);
 }

@@ -1,6 +1,7 @@
 #pragma once
-// What one rank holds of a conflict graph that is cut into blocks: its own blocks and a halo around them, with the rows
-// of all vertices at most `overlap` edges away from a block of its own, and the solution there and one edge further.
+// The share of one rank in a conflict graph that is cut into blocks: its own blocks and a halo around them. It has the
+// rows of all vertices at most `overlap` edges away from a block of its own, and the solution there and one edge
+// further.
 
 #include <cstdint>
 #include <span>
@@ -11,7 +12,7 @@
 
 namespace hexpipe::lns_mpi {
 
-// The rows of the vertices that a rank owns, by their numbers in the whole graph: what a rank begins with.
+// The rows of the vertices that a rank owns, in the numbers of the whole graph. A rank begins with these.
 struct OwnedRows {
   std::vector<std::uint64_t> keys;  // ascending
   std::vector<std::int32_t> blocks;
@@ -22,7 +23,7 @@ struct OwnedRows {
   std::vector<std::int32_t> neighbour_blocks;  // of each neighbour
 };
 
-// Which rank has which blocks: consecutive ones, as even as can be.
+// Which rank has which blocks: consecutive ones, in numbers as even as possible.
 class BlockOwners {
  public:
   BlockOwners(std::int32_t blocks, int ranks) : blocks_(blocks), ranks_(ranks) {}
@@ -56,10 +57,10 @@ struct Piece {
   std::vector<std::int64_t> near_offsets{0};
   std::vector<NearBlock> near;  // other blocks at most overlap + 1 edges away, ascending
   std::vector<std::uint8_t> chosen;
-  // Taken or left out for good before the search, by reductions; no region has them.
+  // By vertex: reductions took it or left it out for good before the search; no region has it.
   std::vector<std::uint8_t> decided;
 
-  // A rank that holds some of the same vertices; it has the same list.
+  // A rank that holds some of the same vertices, and has the same list of them.
   struct Partner {
     int rank;
     std::vector<std::int32_t> shared;

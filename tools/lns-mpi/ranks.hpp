@@ -1,6 +1,6 @@
 #pragma once
-// The processes of an MPI job, and everything that travels between them: counted, and waited for asleep, so that more
-// ranks than processors do not take the time from each other.
+// The processes of an MPI job, and all traffic between them. The traffic is counted. Ranks sleep while they wait, so
+// that more ranks than processors do not take time from each other.
 
 #include <mpi.h>
 
@@ -28,11 +28,11 @@ struct Traffic {
   }
 };
 
-// All ranks throw it together; one of them is left to say why.
+// An error that all ranks throw together; one of them says why.
 class ErrorOfAll : public std::runtime_error {
  public:
   ErrorOfAll(const std::string& message, bool of_usage) : std::runtime_error(message), of_usage_(of_usage) {}
-  // As the error that the rank that says why had: the command line's, or the data's.
+  // True: the error is in the command line; false: in the data.
   bool of_usage() const { return of_usage_; }
 
  private:
@@ -41,7 +41,7 @@ class ErrorOfAll : public std::runtime_error {
 
 class Ranks {
  public:
-  // One at a time: begins and ends MPI.
+  // Begins MPI, and ends it in the destructor. There may be only one object.
   Ranks();
   ~Ranks();
   Ranks(const Ranks&) = delete;
@@ -52,8 +52,8 @@ class Ranks {
   bool is_first() const { return rank_ == 0; }
   const Traffic& traffic() const { return traffic_; }
 
-  // Runs task() on every rank, and none goes on before all are done. Where it throws on some, all throw ErrorOfAll, and
-  // only the first of these is not silent.
+  // Runs task() on every rank; none goes on before all are done. When it throws on some ranks, all ranks throw
+  // ErrorOfAll, and only the first of the failed ones reports.
   template <class Task>
   void together(Task&& task) {
     std::string error;
@@ -73,14 +73,15 @@ class Ranks {
   // Each entry becomes the sum, or the greatest, over all ranks.
   void sum(std::span<std::int64_t> values);
   void maximum(std::span<std::int64_t> values);
-  // Everybody gets what the first rank has.
+  // All ranks get the bytes of the first one.
   void broadcast(Bytes& bytes);
 
-  // to[r] goes to rank r; returns what came from each. For the few times when anybody may have something for anybody.
+  // to[r] goes to rank r; returns what came from each rank. For the few times when any rank may have data for any
+  // other.
   std::vector<Bytes> exchange(std::vector<Bytes> to);
-  // to[i] goes to partners[i], which names this rank among its partners too; returns what came from each.
+  // to[i] goes to partners[i], which must have this rank among its partners, too; returns what came from each partner.
   std::vector<Bytes> exchange(std::span<const int> partners, const std::vector<Bytes>& to);
-  // To one rank, which calls receive.
+  // Sends to one rank, which has to call receive.
   void send(int to, const Bytes& bytes);
   Bytes receive(int from);
 
@@ -102,7 +103,7 @@ class Ranks {
 // The number that mpirun or another launcher gave this process, known before MPI begins.
 std::optional<int> launched_rank();
 
-// Puts numbers and arrays of numbers into bytes and takes them out again, in the same order.
+// Packer puts numbers and arrays of numbers into bytes; Unpacker takes them out in the same order.
 class Packer {
  public:
   template <class T>

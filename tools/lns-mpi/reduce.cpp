@@ -1,6 +1,6 @@
 // Quick reductions take a vertex or leave out a neighbour of it, for reasons that lie in the neighbourhood of one
-// vertex alone. Where that neighbourhood is in one block, what other blocks decide at the same time does not touch the
-// reason: so blocks need not hear of each other until all are done, and the result does not depend on the number of
+// vertex. Where that neighbourhood is in one block, decisions of other blocks at the same time do not change the
+// reason. So blocks need not hear of each other until all are done, and the result does not depend on the number of
 // ranks.
 #include "tools/lns-mpi/reduce.hpp"
 
@@ -49,7 +49,7 @@ void decide(Piece& piece, const BlockGraph& block, const Deadline& deadline) {
   }
 }
 
-// What is decided of the vertices that others hold too, by place in the list that both have.
+// Sends partners the decisions on shared vertices, by place in the list that both have.
 void tell_partners(Ranks& ranks, Piece& piece) {
   struct Decision {
     std::uint32_t place, taken;

@@ -1,5 +1,5 @@
 #pragma once
-// Exact reductions before the search, once for all rounds.
+// Exact reductions before the search, for all rounds.
 
 #include "common/run/deadline.hpp"
 #include "tools/lns-mpi/piece.hpp"
@@ -7,8 +7,8 @@
 
 namespace hexpipe::lns_mpi {
 
-// Takes and leaves out what can be decided without search, in each block alone: some heaviest solution agrees with it.
-// The solution may lose a little until the search has caught up. All ranks call this together.
+// In each block alone, takes or leaves out the vertices that can be decided without search, so that some heaviest
+// solution agrees. The solution may lose a little until the search has caught up. All ranks call this together.
 void reduce_blocks(Ranks& ranks, Piece& piece, const Deadline& deadline);
 
 }  // namespace hexpipe::lns_mpi

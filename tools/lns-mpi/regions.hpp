@@ -1,8 +1,8 @@
 #pragma once
-// Where each block may change the solution in a round. Blocks are drawn an order anew for each round, and each takes
-// what is at most `overlap` edges away from it and from none that comes before: so borders move to and fro across the
-// old ones and leave no seam. Of two vertices with an edge between them that belong to different blocks, the one of the
-// later block stays as it is; then all blocks can be searched at the same time.
+// Decides where each block may change the solution in a round. Each round draws a new order of the blocks. A block
+// takes the vertices that are at most `overlap` edges away from it and that no earlier block takes, so that borders
+// move to and fro and leave no seam. Where an edge joins vertices of two blocks, the vertex of the later block stays as
+// it is; then all blocks can be searched at the same time.
 
 #include <cstdint>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace hexpipe::lns_mpi {
 
-// What can be chosen in a region while everything around it stays.
+// The vertices that may be chosen in a region while everything around it stays.
 struct Region {
   std::vector<std::int32_t> vertices;  // of the piece, ascending
   graph::ConflictGraph graph;          // of these, numbered in this order
@@ -24,10 +24,7 @@ class Regions {
   // Every rank draws the same order.
   Regions(const Piece& piece, std::uint64_t seed, std::int64_t round);
 
-  // The block that may change a vertex of the piece, whether or not it stays for the sake of a neighbour.
-  std::int32_t block_at(std::int32_t v) const { return block_[v]; }
-
-  // Of a block of the rank's own.
+  // The region of one of the rank's own blocks.
   Region extract(std::int32_t block);
 
  private:

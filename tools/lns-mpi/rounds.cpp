@@ -13,12 +13,12 @@
 namespace hexpipe::lns_mpi {
 namespace {
 
-// Under a time limit: a quarter of it, so that borders move; and no more than a minute, so that ranks do not go on for
-// long after one of them was told to stop.
+// Under a time limit, a round takes a quarter of it, so that borders move, and no more than a minute, so that ranks do
+// not go on for long after one of them was told to stop.
 constexpr double round_share = 1.0 / 4, longest_round = 60;
-// Of a time limit, as in lns.
+// The share of a time limit, as in lns.
 constexpr double share_for_reductions = 0.1;
-// Then what no region could improve is left as it is.
+// The search ends after this many rounds in which no region was improved.
 constexpr std::int64_t most_quiet_rounds = 10;
 
 std::int64_t own_weight(const Piece& piece) {
@@ -47,7 +47,7 @@ class Rounds {
                                                          : std::numeric_limits<double>::infinity();
   }
 
-  // What parts chose apart need not fit together: of two neighbours the heavier one stays.
+  // Parts that chose separately may have chosen neighbours: the heavier of two stays.
   void make_independent() {
     changed_.clear();
     const auto outweighs = [&](std::int32_t u, std::int32_t v) {
@@ -92,8 +92,8 @@ class Rounds {
     progress_.weight = total_weight(ranks_, piece_);
   }
 
-  // Takes what nothing chosen is beside: what reductions left out, and what a search that ended early leaves where
-  // borders were. Then it may still be behind what was given, for reductions cost weight at first.
+  // Takes vertices that have no chosen neighbour: reductions left them out, or a search that ended early left them
+  // where borders were. The solution may then still be lighter than the given one, as reductions cost weight at first.
   void complete() {
     std::ranges::fill(piece_.decided, 0);
     make_maximal();
@@ -191,7 +191,7 @@ class Rounds {
     mwis::local_search::LnsOptions options = options_.search;
     options.iterations = fragments;
     options.target = std::numeric_limits<std::int64_t>::max();
-    // Of places that came to this block with the round: as large as they have become elsewhere in it.
+    // Places that came to this block with the round begin with the size that fragments have reached elsewhere in it.
     if (known.usual_size() > 0) options.fragment_size = known.usual_size();
     // Another number for every region.
     options.seed =
@@ -222,7 +222,7 @@ class Rounds {
     }
   }
 
-  // What changed, by its place in the list that both have.
+  // Sends partners the changes, by place in the list that both have.
   void tell_partners() {
     std::ranges::sort(changed_);
     std::vector<int> to;

@@ -1,11 +1,11 @@
 #pragma once
-// Large neighbourhood search on many machines: in rounds, each rank improves the solution in the regions of its blocks
+// Large neighbourhood search on many machines. In each round, a rank improves the solution in the regions of its blocks
 // by the search of lns, then tells its partners what changed near them.
 //
-// The result does not depend on the number of ranks unless a time limit ends the search: which regions there are, and
-// the seed and the number of fragments for each, follow from the blocks and the round alone; regions have no edges
-// between them, so it does not matter who searches which and when; and the only numbers that are put together are
-// whole. That costs nothing but that the number of blocks must be given, or follow from the graph.
+// The result does not depend on the number of ranks unless a time limit ends the search. The regions, their seeds and
+// their numbers of fragments follow from the blocks and the round alone. There are no edges between regions, so it does
+// not matter which rank searches which region, and when. All sums over ranks are of whole numbers. The only cost is
+// that the number of blocks must be given, or follow from the graph.
 
 #include <cstdint>
 #include <functional>
@@ -24,7 +24,7 @@ namespace hexpipe::lns_mpi {
 struct RoundsOptions {
   mwis::local_search::LnsOptions search;  // `iterations` and `target` over all rounds and blocks
   std::int64_t fragments_a_round = 20;    // for a thousand vertices of the whole graph
-  // Called with what this rank improved, by vertices of the piece; may be empty.
+  // Called with each fragment that this rank improved, as vertices of the piece; may be empty.
   std::function<void(std::span<const std::int32_t>)> improved;
 };
 
@@ -38,23 +38,23 @@ struct RoundsProgress {
   std::int64_t quiet = 0;         // rounds since a region was improved, or left before its best was proven
 };
 
-// What a round took of this rank.
+// The costs of a round on this rank.
 struct RoundCosts {
   double search_seconds = 0, wait_seconds = 0;
   Traffic traffic;
 };
 
-// From the solution in `piece` on, or from what an `earlier` run chose (keys, ascending, of at least the vertices that
-// this rank owns), where `progress` says: the same whether or not it was stopped in between, and not lighter than what
-// is in `piece`. Chosen vertices may be neighbours where they are in different blocks. `memories` are of the blocks of
-// this rank, in order, and empty where nothing was searched. `report` is called after every round, on all ranks, and
-// told whether it was the last one.
+// Begins with the solution in `piece`, or goes on from `progress` with the choice of an `earlier` run (its keys,
+// ascending, of at least the vertices that this rank owns). A search that was stopped in between has the same result,
+// which is not lighter than the solution in `piece`. Chosen vertices may be neighbours where they are in different
+// blocks. `memories` has an entry for each block of this rank, in order; it is empty before the search. `report` is
+// called after every round on all ranks, and its last argument is true after the last round.
 void improve_in_rounds(Ranks& ranks, Piece& piece, const RoundsOptions& options, const Deadline& deadline,
                        const std::optional<std::vector<std::uint64_t>>& earlier, RoundsProgress& progress,
                        std::vector<BlockMemory>& memories,
                        const std::function<void(const RoundsProgress&, const RoundCosts&, bool)>& report);
 
-// Of the vertices that all ranks own, together.
+// The weight of all vertices that are chosen, on all ranks together.
 std::int64_t total_weight(Ranks& ranks, const Piece& piece);
 
 }  // namespace hexpipe::lns_mpi

@@ -95,7 +95,7 @@ class SharedDual {
     for (BlockCliques& cliques : blocks_) std::ranges::fill(cliques.whole_prices, 0);
   }
 
-  // Of all ranks; nothing where it does not fit. Halves of numbers are summed up apart: 2^31 of them fit.
+  // The sum over all ranks; nothing when it does not fit. Halves of the numbers are added separately: 2^31 of them fit.
   std::optional<std::int64_t> sum_of_prices() {
     constexpr int half = 32;
     std::array<std::int64_t, 2> halves{0, 0};
@@ -110,7 +110,7 @@ class SharedDual {
     return (high << half) + (halves[1] & ((std::int64_t{1} << half) - 1));
   }
 
-  // What vertices weigh beyond their prices, on all ranks.
+  // The weight of vertices beyond their prices, on all ranks.
   std::int64_t sum_of_costs() {
     std::vector<std::int64_t> left = piece_.graph.weights;
     for (const BlockCliques& cliques : blocks_)
@@ -218,7 +218,7 @@ class SharedDual {
     }
   }
 
-  // What blocks of other ranks took off the weights of this rank's vertices.
+  // Subtracts the prices that blocks of other ranks put on this rank's vertices.
   void add_prices_of_others(std::vector<std::int64_t>& left) {
     std::vector<int> to;
     std::vector<Bytes> news;

@@ -1,9 +1,9 @@
 #pragma once
-// An upper bound on any solution of a graph that is spread over ranks: certify's clique dual, each clique with the
-// block that found it. In a pass each block steps through the prices of its cliques; where a vertex is in cliques of
-// several blocks, those of one block, drawn for each pass, alone may move, so that every step is exact and what a
-// vertex weighs beyond its prices is all that travels. In the end prices are whole, and the bound is their sum and what
-// is left.
+// Proves an upper bound on any solution of a graph that is spread over ranks, by certify's clique dual. Each clique
+// belongs to the block that found it. In a pass, each block steps through the prices of its cliques. Where a vertex is
+// in cliques of several blocks, only the prices of one block, drawn for each pass, may move. So every step is exact,
+// and ranks send each other only what a vertex weighs beyond its prices. In the end prices are whole numbers, and the
+// bound is the sum of the prices and of what vertices weigh beyond them.
 
 #include <cstdint>
 #include <vector>
@@ -16,12 +16,12 @@ namespace hexpipe::lns_mpi {
 
 struct SharedProof {
   std::int64_t bound = 0;
-  // On the first rank, from each rank in order: the lines behind the first of a certificate, as certify writes it.
+  // On the first rank, from each rank in order: the lines of certify's certificate after its first line.
   std::vector<Bytes> prices;
 };
 
-// The same on all ranks and for any number of them, unless the deadline comes first. Prices come `with_prices` alone,
-// for a graph whose keys are the numbers of its vertices.
+// The result is the same on all ranks and for any number of them, unless the deadline comes first. `with_prices`: also
+// the prices, for a graph whose keys are the numbers of its vertices.
 SharedProof prove_bound(Ranks& ranks, const Piece& piece, std::int64_t passes, std::uint64_t seed,
                         const Deadline& deadline, bool with_prices);
 

@@ -1,10 +1,11 @@
 #pragma once
-// Where the rows of each rank come from and where the solution goes: a graph that fits the first rank, or parts that
-// were made apart and never meet in one place.
+// Where the rows of each rank come from and where the solution goes: either a graph that fits the first rank, or parts
+// that were made separately and never meet in one place.
 
 #include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,21 +22,22 @@ class Source {
   virtual OwnedRows read(Ranks& ranks) = 0;
   virtual void write(Ranks& ranks, const Piece& piece, const nlohmann::ordered_json& details) = 0;
 
-  // After read, the same on all ranks.
+  // Valid after read(), the same on all ranks.
   std::int32_t blocks() const { return blocks_; }
-  // The lowest bound that certify has proven, by the history of the input; below 0: none.
-  std::int64_t bound() const { return bound_; }
+  // The lowest bound that certify has proven, if the input's history has one.
+  std::optional<std::int64_t> bound() const { return bound_; }
 
  protected:
   std::int32_t blocks_ = 0;
-  std::int64_t bound_ = -1;
+  std::optional<std::int64_t> bound_;
 };
 
-// Read and cut by the first rank into so many blocks, of which the others get theirs; 0: as many as its size asks for.
+// The first rank reads the graph and cuts it into `blocks` blocks (0: as many as its size asks for), and sends the
+// other ranks theirs.
 std::unique_ptr<Source> whole_graph(const RunContext& context, std::int32_t blocks);
 
-// A bundle for each part, in their order, as buildgraph makes them; the solution goes into bundles of the same names in
-// the directory that the command line names as output.
+// `files` has a bundle for each part, in the parts' order, as buildgraph makes them. The solution goes into bundles of
+// the same names in the directory that the command line names as output.
 std::unique_ptr<Source> graph_parts(const RunContext& context, std::vector<std::string> files);
 
 }  // namespace hexpipe::lns_mpi

@@ -54,7 +54,7 @@ OwnedRows scatter_rows(Ranks& ranks, const BlockOwners& owners, const graph::Con
   return rows_of(0);
 }
 
-// On the others.
+// On the other ranks.
 OwnedRows receive_rows(Ranks& ranks) {
   const Bytes bytes = ranks.receive(0);
   OwnedRows rows;
@@ -78,6 +78,9 @@ graph::IndependentSet gather_solution(Ranks& ranks, const Piece& piece) {
   return solution;
 }
 
+// As it is sent; a bound is never below 0.
+constexpr std::int64_t unknown_bound = -1;
+
 class WholeGraph : public Source {
  public:
   WholeGraph(const RunContext& context, std::int32_t blocks) : context_(context) { blocks_ = blocks; }
@@ -88,30 +91,30 @@ class WholeGraph : public Source {
     ranks.together([&] {
       if (!ranks.is_first()) return;
       stage_.emplace(context_);
-      data = stage_->read({Role::graph, Role::solution});
+      data = stage_->read({.needs = {Role::graph, Role::solution}});
       if (blocks_ == 0) blocks_ = usual_blocks(data.graph->vertex_count());
       if (blocks_ < ranks.count())
         throw DataError(
             fmt::format("expected at least a block for each of {} ranks, found {}", ranks.count(), blocks_));
       cut = cut_into_blocks(*data.graph, blocks_);
-      if (!context_.streams.files.contains(Role::graph)) bound_ = mwis::ground::bound_in(data.history).value_or(-1);
+      if (!context_.streams.files.contains(Role::graph)) bound_ = mwis::ground::bound_in(data.history);
     });
     Packer packer;
     packer.put(blocks_);
-    packer.put(bound_);
+    packer.put(bound_.value_or(unknown_bound));
     Bytes facts = packer.take();
     ranks.broadcast(facts);
     Unpacker unpacker(facts);
     blocks_ = unpacker.get<std::int32_t>();
-    bound_ = unpacker.get<std::int64_t>();
+    if (const auto bound = unpacker.get<std::int64_t>(); bound != unknown_bound) bound_ = bound;
     if (!ranks.is_first()) return receive_rows(ranks);
     return scatter_rows(ranks, BlockOwners(blocks_, ranks.count()), *data.graph, *data.solution, cut);
   }
 
   void write(Ranks& ranks, const Piece& piece, const nlohmann::ordered_json& details) override {
-    const graph::IndependentSet solution = gather_solution(ranks, piece);
+    const pipeline::SolutionProduct product{gather_solution(ranks, piece)};
     ranks.together([&] {
-      if (ranks.is_first()) stage_->write(solution, details);
+      if (ranks.is_first()) stage_->write(product, details);
     });
   }
 

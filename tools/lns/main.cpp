@@ -9,12 +9,21 @@
 #include "common/mwis/ground/target_weight.hpp"
 #include "common/mwis/lns_options.hpp"
 #include "common/mwis/local_search/lns.hpp"
+#include "common/run/option_checks.hpp"
 #include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/choice/fragments_file.hpp"
 #include "formats/pipeline/stage.hpp"
 
 using namespace hexpipe;
+
+namespace {
+
+// Of a search that nobody limits. What each doubling of the time gains falls by half or more, so that what is left to
+// gain when it ends is about as much.
+constexpr double usual_worth = 5e-5;
+
+}  // namespace
 
 int main(int argc, char** argv) {
   const ToolInfo info{
@@ -25,27 +34,34 @@ int main(int argc, char** argv) {
       .product = Role::solution,
       .random = true,
       .searches = true,
-      .default_time_limit = 60,
-      .outside_history = {"fragments"}};
+      .ends_by_itself = "when --worth says so"};
   mwis::local_search::LnsOptions options;
   mwis::TargetOptions target;
   std::string fragments_file;
+  std::optional<double> worth;
   const auto declare = [&](CLI::App& app) {
     mwis::declare_lns_options(app, options, target);
-    app.add_option(
-           "--fragments", fragments_file,
-           "Write the fragments that were improved to a file, a line each, to look at with viewmesh --fragments")
+    app.add_option("--worth", worth,
+                   "End when the last half of the search gained less than this share of the weight [5e-5 where neither "
+                   "--time-limit nor --iterations is given, else 0: go on to the limit]")
+        ->type_name("SHARE")
+        ->check(number_between(0, 1));
+    outside_history(
+        app.add_option("--fragments", fragments_file,
+                       "Write each improved fragment as a line of a file, to look at with viewmesh --fragments"))
         ->type_name("FILE");
   };
   const auto run = [&](RunContext& context) {
     mwis::check(target);
     options.seed = context.common.seed;
     options.iterations = context.common.iterations.value_or(options.iterations);
+    const bool is_limited = context.common.iterations || context.common.time_limit;
+    options.worth = worth.value_or(is_limited ? 0 : usual_worth);
     pipeline::Stage stage(context);
     mwis::ground::SearchLog log(context.common.log_file);
     std::optional<formats::FragmentsFile> fragments;
     if (!fragments_file.empty()) fragments.emplace(fragments_file);
-    const pipeline::StageData data = stage.read({Role::graph, Role::solution});
+    const pipeline::StageData data = stage.read({.needs = {Role::graph, Role::solution}});
     const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
     if (target.gap)
       options.target = mwis::ground::target_weight(
@@ -58,7 +74,8 @@ int main(int argc, char** argv) {
     const mwis::local_search::LnsResult result = mwis::local_search::improve_by_lns(
         *data.graph, *data.solution, options, deadline, [&](const mwis::local_search::LnsProgress& now) {
           log.record(deadline.elapsed(), now.iteration, now.weight);
-          if (fragments) fragments->add(std::vector<std::uint64_t>(now.fragment.begin(), now.fragment.end()));
+          if (fragments && !now.fragment.empty())
+            fragments->add(std::vector<std::uint64_t>(now.fragment.begin(), now.fragment.end()));
           if (progress.due()) progress.show(fmt::format("weight {} after {} fragments", now.weight, now.iteration));
         });
     const double seconds = deadline.elapsed();
@@ -73,8 +90,8 @@ int main(int argc, char** argv) {
     nlohmann::ordered_json details{
         {"weight", result.weight}, {"iterations", result.iterations}, {"complete", result.complete}};
     if (options.free_running) details["depends_on_timing"] = true;
-    stage.write(result.solution, details);
-    // Behind the solution, which no full disk under them may cost.
+    stage.write(pipeline::SolutionProduct{result.solution}, details);
+    // After the solution, so that a full disk under them does not cost it.
     if (fragments) fragments->commit();
     log.finish(seconds, result.iterations, result.weight);
   };

@@ -19,7 +19,7 @@ void add_counts(nlohmann::ordered_json& sum, const nlohmann::ordered_json& count
       if (counts.contains(name)) add_counts(value, counts[name]);
 }
 
-// What a tool's entry counts for its part alone.
+// Counts in a tool's entry that are of its part alone.
 const std::map<std::string, std::vector<const char*>> counts_of_tools{{"findhex", {"candidates"}},
                                                                       {"buildgraph", {"vertices", "edges"}}};
 
@@ -28,7 +28,7 @@ std::vector<const char*> counts_of(const std::string& tool) {
   return found == counts_of_tools.end() ? std::vector<const char*>() : found->second;
 }
 
-// The role of what a tool makes; of one that we do not know, what was made last.
+// The role that a tool makes; for an unknown tool, the role that was made last.
 Role role_of(const std::string& tool, Role latest) {
   static const std::map<std::string, Role> made{{"tetmesh", Role::mesh},     {"findhex", Role::candidates},
                                                 {"buildgraph", Role::graph}, {"initsol", Role::solution},

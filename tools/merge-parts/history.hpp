@@ -1,5 +1,5 @@
 #pragma once
-// The history of a whole out of those of its parts.
+// Makes the history of a whole from those of its parts.
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -13,20 +13,19 @@
 
 namespace hexpipe::merge_parts {
 
-// What a single run would have counted.
+// The counts of a single run.
 struct MergedCounts {
-  std::optional<std::int64_t> vertices, edges;  // of the graph, where it was merged
+  std::optional<std::int64_t> vertices, edges;  // of the graph, if it was merged
 };
 
 class MergedHistory {
  public:
-  // Takes the entry at which all parts stand. Throws DataError unless the parts were made by the same tool with the
-  // same version and options.
+  // Takes the entry at which all parts stand. Throws DataError unless the same tool made the parts, with the same
+  // version and options.
   void take(PartReaders& parts);
-  // Writes the entries that come before the members of this role, as the tools that made them wrote them; all of them
-  // where there is none.
+  // Writes the entries that come before the members of this role; without a role, writes all entries.
   void write_before(std::optional<Role> role, const MergedCounts& counts, pipeline::BundleWriter& out);
-  // The same for shares (--part i/k): which ones they are.
+  // The same for shares (--part i/k); returns which shares they are.
   std::vector<std::string> take_shares(PartReaders& parts);
   // Writes the only entry, under this name.
   void write_last(const std::string& name, const MergedCounts& counts, pipeline::BundleWriter& out);

@@ -1,6 +1,6 @@
 #pragma once
-// How rows of several parts make those of a whole: from which part each row comes, and which rows a part gives. A part
-// gives its rows in its own order.
+// Puts rows of several parts together to the rows of a whole: from which part each row comes, and which rows a part
+// gives. A part gives its rows in its own order.
 
 #include <algorithm>
 #include <cstdint>
@@ -19,11 +19,12 @@ struct Interleaving {
   std::uint64_t rows_of(std::size_t part) const { return gives[part].size(); }
 };
 
-// Of rows that are numbered in the whole, ascending; one that several parts have comes from the first of them. Throws
-// DataError, which says `what` they are, when one is nowhere; before it takes memory for more than the parts have.
+// `numbers` are those of the rows in the whole, by part, ascending. A row that several parts have comes from the first
+// of them. Throws DataError, which says `what` the rows are, when one is missing, before it takes memory for more rows
+// than the parts have.
 Interleaving interleave(const std::vector<std::vector<std::int32_t>>& numbers, std::int64_t count, const char* what);
 
-// Of the rows of an array, a block at a time.
+// Reads the rows of an array, a block at a time.
 template <class T>
 class RowReader {
  public:
@@ -56,10 +57,10 @@ class RowReader {
   std::size_t at_ = 0;
 };
 
-// Throws DataError unless an array has as many rows as wanted; and unless there is a row left.
+// Throws DataError unless an array has as many rows as wanted.
 void check_row_count(PartReader& part, std::uint64_t wanted, std::uint64_t found);
 
-// Throws DataError unless numbers of so many parts came before the member at which the part stands.
+// Throws DataError unless the numbers of `wanted` parts came before the member at which the part stands.
 void check_numbers_are_there(PartReader& part, std::size_t wanted, std::size_t found);
 
 template <class T>
@@ -90,7 +91,7 @@ class RowWriter {
   std::vector<T> block_;
 };
 
-// Writes the member at which all parts stand: change(part, row) of each row.
+// Writes the member at which all parts stand, with change(part, row) in place of each row.
 template <class T, class Change>
 void merge_rows(PartReaders& parts, const Interleaving& order, pipeline::BundleWriter& out, Change&& change) {
   check_numbers_are_there(parts.front(), parts.size(), order.gives.size());
@@ -107,20 +108,20 @@ void merge_rows(PartReaders& parts, const Interleaving& order, pipeline::BundleW
   writer.flush();
 }
 
-// Lists: their ends in one member, what is in them in the next.
+// Lists have their ends in one member, and their items in the next one.
 using ListLengths = std::vector<std::vector<std::int32_t>>;  // by part and list
 
-// Throws DataError when a list of the member at which the part stands would begin below 0, end before it begins, or be
-// too long.
+// Throws DataError when a list of the member at which the part stands begins below 0, ends before it begins, or is too
+// long.
 std::int32_t list_length(PartReader& part, std::int64_t begin, std::int64_t end);
 
-// Writes the member of ends; lengths of all lists of the parts, given or not.
+// Writes the member of ends. Returns the lengths of all lists of the parts, also of those that a part does not give.
 ListLengths merge_offsets(PartReaders& parts, const Interleaving& order, pipeline::BundleWriter& out);
 
-// Throws DataError unless the ends of the lists of these parts, so many, came before what is in them.
+// Throws DataError unless the ends of the lists of all parts came before their items.
 void check_ends_are_there(PartReaders& parts, const ListLengths& lengths);
 
-// Writes the items, changed; how many.
+// Writes change(part, item) of each item. Returns how many there are.
 template <class Change>
 std::uint64_t merge_items(PartReaders& parts, const Interleaving& order, const ListLengths& lengths,
                           pipeline::BundleWriter& out, Change&& change) {

@@ -1,14 +1,34 @@
 #include "tools/merge-parts/merge_parts.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "common/run/error.hpp"
 #include "common/run/open_files.hpp"
+#include "formats/meshes/mesh_files.hpp"
 #include "formats/pipeline/members.hpp"
-#include "tools/merge-parts/part_reader.hpp"
-#include "tools/merge-parts/parts_of_mesh.hpp"
-#include "tools/merge-parts/shares.hpp"
+#include "formats/pipeline/output_format.hpp"
+#include "formats/streams/output.hpp"
+#include "tools/merge-parts/merges.hpp"
 
 namespace hexpipe::merge_parts {
+namespace {
 
-void merge_parts(const std::vector<std::string>& paths, pipeline::BundleWriter& out) {
+// Throws UsageError where the ending names neither a bundle nor one of `others`; a name may have no ending.
+void expect_bundle_or(std::vector<std::string_view> others, const std::string& path) {
+  const std::string_view ending = pipeline::ending_of(path);
+  if (ending.empty() || pipeline::is_bundle_format(ending)) return;
+  others.insert(others.end(), {pipeline::bundle_format, pipeline::compressed_bundle_format});
+  if (std::ranges::find(others, ending) == others.end())
+    throw UsageError(fmt::format("expected an output as {}, found '{}'", fmt::join(others, ", "), path));
+}
+
+// Arrays may be larger than the memory: the bundles are read side by side, once or twice from front to back, a block at
+// a time. That takes four bytes for each point, tet and candidate of each part, and eight more for each candidate.
+void merge_side_by_side(const std::vector<std::string>& paths, pipeline::BundleWriter& out) {
   allow_many_open_files();
   PartReaders parts;
   parts.reserve(paths.size());
@@ -17,6 +37,25 @@ void merge_parts(const std::vector<std::string>& paths, pipeline::BundleWriter& 
     merge_parts_of_mesh(parts, out);
   else
     merge_shares(parts, paths, out);
+}
+
+}  // namespace
+
+void merge_parts(const MergePartsOptions& options) {
+  if (is_piece(options.paths.front())) {
+    std::vector<std::string_view> formats = formats::mesh_format_names();
+    formats.emplace_back("pvtu");
+    expect_bundle_or(formats, options.output);
+    merge_pieces(options.paths, options.output, options.compress);
+    return;
+  }
+  expect_bundle_or({}, options.output);
+  formats::Output output(options.output);
+  pipeline::BundleWriter writer(
+      output, options.compress || pipeline::ending_of(options.output) == pipeline::compressed_bundle_format);
+  merge_side_by_side(options.paths, writer);
+  writer.close();
+  output.commit();
 }
 
 }  // namespace hexpipe::merge_parts

@@ -1,16 +1,13 @@
 #pragma once
-// Puts bundles of parts together.
+// Puts bundles together to what a single run would have made.
 
-#include <string>
-#include <vector>
-
-#include "formats/pipeline/bundle.hpp"
+#include "tools/merge-parts/options.hpp"
 
 namespace hexpipe::merge_parts {
 
-// Of the parts of a mesh (parts_of_mesh.hpp) or of shares (shares.hpp), whichever the first bundle is one of. All are
-// read side by side, once or twice from front to back, a block at a time: arrays may be larger than the memory, which
-// is for four bytes a point, tet and candidate of each part, and eight a candidate.
-void merge_parts(const std::vector<std::string>& paths, pipeline::BundleWriter& out);
+// The first bundle tells what they are: pieces that assemble made, parts of a mesh, or shares (merges.hpp). Throws
+// UsageError when the output cannot be written in the form that its name asks for, and DataError when the bundles do
+// not belong together.
+void merge_parts(const MergePartsOptions& options);
 
 }  // namespace hexpipe::merge_parts

@@ -1,5 +1,5 @@
 #pragma once
-// Which number what a part has is in the whole.
+// Finds the numbers in the whole of what a part has.
 
 #include <cstdint>
 #include <vector>
@@ -12,17 +12,16 @@ namespace hexpipe::merge_parts {
 
 using Numbers = std::vector<std::vector<std::int32_t>>;  // by part and place in the part
 
-// Of the member at which all parts stand, ascending and below `count`.
+// Reads the member at which all parts stand; numbers ascend and are below `count`.
 Numbers read_numbers(PartReaders& parts, std::int64_t count);
 
-// By keys: the candidates that are a part's own, and the numbers of all in their order.
+// The candidates that are a part's own, in the order of keys, and the numbers of all candidates in that order.
 struct CandidateOrder {
   Interleaving own;
   Numbers numbers;
 };
 
-// `titles`: which part each one is. Throws DataError when keys do not
-// ascend, two parts own a candidate, or none does.
+// `titles`: the number of each part. Throws DataError when keys do not ascend, two parts own a candidate, or none does.
 CandidateOrder order_by_keys(const std::vector<CandidateKeys>& keys, const std::vector<std::int32_t>& titles,
                              const PartReaders& parts);
 

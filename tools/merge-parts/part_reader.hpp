@@ -1,5 +1,5 @@
 #pragma once
-// A part's bundle, read once from front to back, side by side with the others.
+// Reads a part's bundle once from front to back, side by side with the others.
 
 #include <memory>
 #include <string>
@@ -12,18 +12,18 @@ namespace hexpipe::merge_parts {
 
 class PartReader {
  public:
-  // Stands at the first member. Throws DataError when it is no bundle.
+  // Goes to the first member. Throws DataError when the file is not a bundle.
   explicit PartReader(const std::string& path);
 
   pipeline::BundleReader& bundle() { return *reader_; }
-  // Whether there is a member to read, and which.
+  // Whether there is a member to read; name() is its name.
   bool at_member() const { return at_member_; }
   const std::string& name() const { return reader_->name(); }
   void next() { at_member_ = reader_->next(); }
   const std::string& bundle_name() const { return input_->name(); }
 
  private:
-  // At an address of its own, which the reader holds.
+  // On the heap, as the reader holds its address.
   std::unique_ptr<formats::Input> input_;
   std::unique_ptr<pipeline::BundleReader> reader_;
   bool at_member_ = false;
@@ -31,7 +31,7 @@ class PartReader {
 
 using PartReaders = std::vector<PartReader>;
 
-// The member at which all stand; empty at the end. Throws DataError when they differ.
+// The name of the member at which all parts stand; empty at the end. Throws DataError when they differ.
 std::string common_member(const PartReaders& parts);
 void next(PartReaders& parts);
 

@@ -1,4 +1,4 @@
-#include "tools/merge-parts/parts_of_mesh.hpp"
+#include "tools/merge-parts/merges.hpp"
 
 #include <algorithm>
 #include <array>
@@ -91,7 +91,7 @@ class Merger {
   }
 
   void merge_member(const std::string& name) {
-    if (take_about_part(name)) return;
+    if (take_about_part(name) || merge_names(name)) return;
     const auto role = pipeline::role_of_member(name);
     if (role) history_.write_before(*role, counts_, out_);
     if (!merge_mesh(name) && !merge_candidates(name) && !merge_graph(name) && !merge_solution(name))
@@ -99,9 +99,11 @@ class Merger {
                           "expected members of mesh, candidates, graph and solution, found one that cannot be merged");
   }
 
-  // What only parts have. True where it is that.
+  // Takes a member that only parts have; false when it is another one.
   bool take_about_part(const std::string& name);
+  bool merge_names(const std::string& name);
   bool merge_mesh(const std::string& name);
+  void merge_ridges();
   bool merge_candidates(const std::string& name);
   bool merge_graph(const std::string& name);
   bool merge_solution(const std::string& name);
@@ -145,6 +147,18 @@ bool Merger::take_about_part(const std::string& name) {
   return true;
 }
 
+// All parts have those of the whole.
+bool Merger::merge_names(const std::string& name) {
+  if (name != formats::names_member) return false;
+  const std::string text = parts_.front().bundle().read_text();
+  for (std::size_t p = 1; p < parts_.size(); ++p)
+    if (parts_[p].bundle().read_text() != text)
+      throw DataError::at(parts_[p].bundle().where(), "expected the same names as in {}, found others",
+                          parts_.front().bundle_name());
+  out_.add_text(name, text);
+  return true;
+}
+
 bool Merger::merge_mesh(const std::string& name) {
   if (name == "mesh/points.npy")
     merge_rows<Vec3>(parts_, points_, out_, unchanged);
@@ -156,9 +170,22 @@ bool Merger::merge_mesh(const std::string& name) {
     merge_rows<Triangle>(parts_, triangles_, out_, to_points());
   else if (name == "mesh/triangle_tags.npy")
     merge_rows<std::int32_t>(parts_, triangles_, out_, unchanged);
+  else if (name == "mesh/ridges.npy")
+    merge_ridges();
   else
     return false;
   return true;
+}
+
+// A part has those between its points; the whole lists them by their vertices (medit.cpp).
+void Merger::merge_ridges() {
+  const Renumber renumber = to_points();
+  std::vector<Ridge> ridges;
+  for (std::size_t p = 0; p < parts_.size(); ++p)
+    for (const Ridge& ridge : parts_[p].bundle().read_array<Ridge>()) ridges.push_back(renumber(p, ridge));
+  std::ranges::sort(ridges);
+  ridges.erase(std::ranges::unique(ridges).begin(), ridges.end());
+  out_.add_array("mesh/ridges.npy", ridges);
 }
 
 const CandidateOrder& Merger::candidates() {
@@ -205,7 +232,7 @@ bool Merger::merge_graph(const std::string& name) {
   return true;
 }
 
-// What a part chooses of others' candidates is theirs to say.
+// A part counts only for its own candidates.
 bool Merger::merge_solution(const std::string& name) {
   if (name != "solution/chosen.npy") return false;
   const CandidateOrder& order = candidates();

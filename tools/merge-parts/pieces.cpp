@@ -1,4 +1,4 @@
-#include "tools/merge-parts/pieces.hpp"
+#include "tools/merge-parts/merges.hpp"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,6 @@
 #include "formats/streams/input.hpp"
 #include "formats/streams/output.hpp"
 #include "formats/streams/output_group.hpp"
-#include "tools/merge-parts/output_name.hpp"
 #include "tools/merge-parts/seam_check.hpp"
 
 namespace hexpipe::merge_parts {
@@ -28,7 +27,7 @@ namespace {
 
 using History = std::vector<nlohmann::ordered_json>;
 
-// Entries as far as all pieces have them in common.
+// The entries, reduced to what all pieces have in common.
 History settings_in(const History& history) {
   History result;
   for (const auto& entry : history)
@@ -72,6 +71,9 @@ class PieceReader {
       pipeline::PieceBundle piece = pipeline::read_piece_bundle(path, true);
       History settings = settings_in(piece.history);
       if (path == order_.front()) settings_ = settings;
+      if (path == order_.front()) names_ = piece.names;
+      if (piece.names != names_)
+        throw DataError::at(path, "expected a piece with the names of {}, found others", order_.front());
       if (settings != settings_)
         throw DataError::at(path, "expected a piece made with the versions and options of {}, found another",
                             order_.front());
@@ -82,6 +84,7 @@ class PieceReader {
   }
 
   const History& settings() const { return settings_; }
+  const formats::GroupNames& names() const { return names_; }
   std::size_t size() const { return order_.size(); }
 
  private:
@@ -89,6 +92,7 @@ class PieceReader {
   MeshPiece first_;
   std::vector<std::string> order_;
   History settings_;
+  formats::GroupNames names_;
 };
 
 class Joiner {
@@ -172,6 +176,7 @@ void write_whole(PieceReader& reader, const std::string& path, bool compress) {
   } else {
     pipeline::BundleWriter writer(output, compress || ending == pipeline::compressed_bundle_format);
     pipeline::write_members(writer, mesh);
+    if (!reader.names().empty()) writer.add_text(std::string(formats::names_member), text_of(reader.names()));
     pipeline::write_history(writer, reader.settings());
     writer.close();
   }
@@ -181,22 +186,19 @@ void write_whole(PieceReader& reader, const std::string& path, bool compress) {
 }  // namespace
 
 bool is_piece(const std::string& path) {
-  // What comes from a pipe can be read only once; pieces are read more often.
+  // A pipe can be read only once; pieces are read more often.
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;
   formats::Input input = formats::Input::open(path);
   if (!pipeline::looks_like_bundle(input)) return false;
   pipeline::BundleReader reader(input);
-  // Histories may come before it.
+  // History entries and names may come before the title.
   while (reader.next())
-    if (!pipeline::is_history_entry(reader.name())) return pipeline::is_piece_title(reader.name());
+    if (pipeline::role_of_member(reader.name())) return pipeline::is_piece_title(reader.name());
   return false;
 }
 
 void merge_pieces(const std::vector<std::string>& paths, const std::string& output, bool compress) {
-  std::vector<std::string_view> formats = formats::mesh_format_names();
-  formats.emplace_back("pvtu");
-  expect_bundle_or(formats, output);
   PieceReader reader(paths);
   if (pipeline::ending_of(output) == "pvtu")
     write_pieces(reader, output);

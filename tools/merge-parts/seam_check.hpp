@@ -1,6 +1,6 @@
 #pragma once
-// Whether the pieces of a mesh fit together: every facet at which one ends is one at which another does, or a tagged
-// one of the boundary; and a point has one place in all pieces.
+// Checks that the pieces of a mesh fit together: at every facet where a piece ends, another piece ends too, or the
+// facet is a tagged one of the boundary; and a point has the same place in all pieces.
 
 #include <tsl/robin_map.h>
 
@@ -15,13 +15,14 @@ namespace hexpipe::merge_parts {
 
 class SeamCheck {
  public:
-  // Throws DataError naming `source` when a point is elsewhere than in the pieces before, or a third piece has a facet.
+  // Throws DataError naming `source` when a point has another place than in earlier pieces, or a facet is in a third
+  // piece.
   void add(const MixedMesh& mesh, const MeshPiece& piece, const std::string& source);
-  // Of all pieces. Throws DataError when one has a facet for itself that is not tagged.
+  // Call it after the last piece. Throws DataError when a facet is in one piece only and not tagged.
   void end() const;
 
  private:
-  // The points of a facet by their numbers in the whole: the least, the one opposite to it (of a triangle -1), and the
+  // The points of a facet by their numbers in the whole: the lowest, the one opposite to it (-1 in a triangle), and the
   // other two ascending.
   using Facet = std::array<std::int64_t, 4>;
   struct Hash {

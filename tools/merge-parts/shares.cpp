@@ -1,4 +1,4 @@
-#include "tools/merge-parts/shares.hpp"
+#include "tools/merge-parts/merges.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,14 +21,14 @@ namespace {
 
 constexpr auto unchanged = [](std::size_t, const auto& row) { return row; };
 
-// What was shared out: its own members are the last before the last entry of the history.
+// The role that is in shares: its members are the last ones before the last history entry.
 struct Shared {
   std::string folder;      // "candidates/" or "graph/"
   std::string last_entry;  // of the history
   std::vector<std::vector<std::uint8_t>> kinds;
 };
 
-// Reads all bundles once before they are merged: what comes last decides.
+// Reads all bundles once before they are merged: the last members decide which role is in shares.
 Shared look_through(const std::vector<std::string>& paths) {
   Shared shared;
   for (const std::string& path : paths) {

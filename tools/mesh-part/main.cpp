@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include "common/run/option_checks.hpp"
 #include "common/run/phases.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "tools/mesh-part/mesh_part.hpp"
+#include "tools/mesh-part/options.hpp"
 #include "tools/mesh-part/part_files.hpp"
 
 using namespace hexpipe;
@@ -18,31 +20,29 @@ int main(int argc, char** argv) {
       .reads = {Role::mesh},
       .product = std::nullopt,
       .random = true,
-      .outside_history = {},
   };
-  SplitOptions options;
-  std::string directory;
-  bool compress = false;
+  MeshPartOptions options;
   const auto declare = [&](CLI::App& app) {
     app.add_option("--parts", options.parts, "How many parts of about as many tets")
         ->required()
         ->check(CLI::Range(1, most_parts));
-    app.add_option("-o,--output", directory, "The directory for part-0000.tar and so on; it is made")
+    outside_history(
+        app.add_option("-o,--output", options.directory, "The directory for part-0000.tar and so on; it is made"))
         ->required()
         ->type_name("DIR");
-    app.add_flag("--compress", compress, "Compress the bundles with zstd");
+    outside_history(app.add_flag("--compress", options.compress, "Compress the bundles with zstd"));
   };
   const auto run = [&](RunContext& context) {
     options.seed = context.common.seed;
     Phases phases;
     pipeline::Stage stage(context);
-    pipeline::StageData data = stage.read({Role::mesh});
+    pipeline::StageData data = stage.read({.needs = {Role::mesh}});
     const std::string source = stage.source_of(Role::mesh);
     phases.end("read");
     data.history.push_back(pipeline::history_entry_of(context));
-    PartFiles files(directory, options.parts, compress);
-    const SplitCounts counts = split(std::move(*data.mesh), options, source.c_str(),
-                                     [&](const PartOfMesh& part) { files.write(part, data.history); });
+    PartFiles files(options.directory, options.parts, options.compress);
+    const SplitCounts counts = split(std::move(*data.mesh), options.parts, options.seed, source.c_str(),
+                                     [&](const PartOfMesh& part) { files.write(part, data.history, data.names); });
     files.commit();
     phases.end("split");
     context.note(summary(counts));

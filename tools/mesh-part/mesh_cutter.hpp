@@ -20,8 +20,8 @@ struct PartOfMesh {
 
 class MeshCutter {
  public:
-  // Of the tets around a part those are taken that have a point at most so many edges away from a point of its own.
-  // Three edges are what findhex looks at (docs/definitions.md 5).
+  // A part gets the tets around it that have a point at most `edges` edges away from a point of its own. findhex looks
+  // at three edges (docs/definitions.md 5).
   MeshCutter(const TetMesh& mesh, const TetAdjacency& adjacency, const Partition& partition, std::int32_t parts,
              int edges);
 
@@ -60,8 +60,8 @@ class MeshCutter {
   int edges_;
   Lists own_points_, own_tets_;
   std::vector<TriangleAtTet> triangles_;      // sorted
-  std::vector<std::int32_t> lone_triangles_;  // of no tet; they are part 0's
-  // When a point was last taken, by the number of the search, and for which part a tet was.
+  std::vector<std::int32_t> lone_triangles_;  // beside no tet; part 0 gets them
+  // The number of the search that took a point last, and the part that took a tet last.
   std::vector<std::int32_t> point_taken_, tet_taken_, scratch_;
   std::int32_t search_ = 0;
 };

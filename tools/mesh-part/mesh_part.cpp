@@ -13,7 +13,7 @@ namespace {
 // How far the tets around a part reach: docs/definitions.md 5.
 constexpr int ghost_edges = 6;
 
-// What the whole says of its tets' orientation; the mesh stays as it is.
+// TetOrientation::turns of the whole mesh, which stays as it is.
 std::vector<std::int8_t> turns_of(TetMesh& mesh, const char* source) {
   TetOrientation orientation = orient_tets(mesh, source);
   for (std::size_t t = 0; t < orientation.turns.size(); ++t)
@@ -23,15 +23,15 @@ std::vector<std::int8_t> turns_of(TetMesh& mesh, const char* source) {
 
 }  // namespace
 
-SplitCounts split(TetMesh mesh, const SplitOptions& options, const char* source,
+SplitCounts split(TetMesh mesh, std::int32_t part_count, std::uint64_t seed, const char* source,
                   const std::function<void(const PartOfMesh&)>& take) {
   const std::vector<std::int8_t> turns = turns_of(mesh, source);
   const MeshFingerprint whole = fingerprint_of(mesh);
   const TetAdjacency adjacency(mesh, source);
-  const Partition parts = partition(mesh, adjacency, options.parts, options.seed, source);
-  MeshCutter cutter(mesh, adjacency, parts, options.parts, ghost_edges);
-  SplitCounts counts{.tets = whole.tets, .least = whole.tets, .parts = options.parts};
-  for (std::int32_t number = 0; number < options.parts; ++number) {
+  const Partition parts = partition(mesh, adjacency, part_count, seed, source);
+  MeshCutter cutter(mesh, adjacency, parts, part_count, ghost_edges);
+  SplitCounts counts{.tets = whole.tets, .least = whole.tets, .parts = part_count};
+  for (std::int32_t number = 0; number < part_count; ++number) {
     const PartOfMesh part = cutter.cut(number, whole, turns);
     counts.ghosts += static_cast<std::int64_t>(part.mesh.tets.size()) - part.own_tets;
     counts.least = std::min(counts.least, part.own_tets);

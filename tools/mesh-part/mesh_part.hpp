@@ -11,14 +11,6 @@
 
 namespace hexpipe::mesh_part {
 
-// As many as files of four digits name.
-constexpr std::int32_t most_parts = 10000;
-
-struct SplitOptions {
-  std::int32_t parts = 1;
-  std::uint64_t seed = 1;
-};
-
 struct SplitCounts {
   std::int64_t tets = 0, ghosts = 0;  // ghosts: of all parts together
   std::int64_t least = 0, most = 0;   // own tets of a part
@@ -28,7 +20,7 @@ struct SplitCounts {
 
 // Gives the parts to `take`, one after another. Throws DataError naming `source` when there are fewer tets than parts
 // or a facet belongs to more than two tets.
-SplitCounts split(TetMesh mesh, const SplitOptions& options, const char* source,
+SplitCounts split(TetMesh mesh, std::int32_t part_count, std::uint64_t seed, const char* source,
                   const std::function<void(const PartOfMesh&)>& take);
 
 std::string summary(const SplitCounts& counts);

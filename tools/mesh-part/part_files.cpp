@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -17,14 +18,15 @@ namespace {
 
 constexpr std::string_view stem = "part-";
 
-// Of "part-0012.tar": 12; of other names -1.
-std::int32_t number_in(std::string_view name) {
-  if (!name.starts_with(stem)) return -1;
+// 12 for "part-0012.tar"; nothing for other names.
+std::optional<std::int32_t> number_in(std::string_view name) {
+  if (!name.starts_with(stem)) return std::nullopt;
   name.remove_prefix(stem.size());
-  std::int32_t number = -1;
+  std::int32_t number = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
   const std::string_view ending(end, static_cast<std::size_t>(name.data() + name.size() - end));
-  return error == std::errc() && (ending == ".tar" || ending == ".tar.zst") ? number : -1;
+  const bool is_part = error == std::errc() && number >= 0 && (ending == ".tar" || ending == ".tar.zst");
+  return is_part ? std::optional(number) : std::nullopt;
 }
 
 }  // namespace
@@ -36,8 +38,8 @@ PartFiles::PartFiles(std::string directory, std::int32_t parts, bool compress)
   for (auto entry = std::filesystem::directory_iterator(directory_, error);
        !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    const std::int32_t number = number_in(name);
-    if (number >= parts || (number >= 0 && name != name_of(number)))
+    const std::optional<std::int32_t> number = number_in(name);
+    if (number && (*number >= parts || name != name_of(*number)))
       throw DataError::at(directory_, "expected no parts but the {} to be written, found {}: remove it", parts, name);
   }
   if (error) throw DataError::at(directory_, "cannot list the directory: {}", error.message());
@@ -47,11 +49,13 @@ std::string PartFiles::name_of(std::int32_t part) const {
   return fmt::format("{}{:04}.tar{}", stem, part, compress_ ? ".zst" : "");
 }
 
-void PartFiles::write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history) {
+void PartFiles::write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history,
+                      const formats::GroupNames& names) {
   formats::Output& output = files_.add(fmt::format("{}/{}", directory_, name_of(part.part.part)));
   pipeline::BundleWriter writer(output, compress_);
   pipeline::write_members(writer, part.part);
   pipeline::write_members(writer, part.mesh);
+  if (!names.empty()) writer.add_text(std::string(formats::names_member), text_of(names));
   pipeline::write_history(writer, history);
   writer.close();
   output.drain();

@@ -10,7 +10,7 @@
 namespace hexpipe::tetmesh {
 namespace {
 
-// Or a number that --layers does not take, which CLI11 refuses.
+// Or a number that the option does not take, which CLI11 refuses.
 bool is_value(std::string_view word) {
   return word != "-" && word.find_first_not_of("+-.0123456789") == std::string_view::npos;
 }
@@ -22,11 +22,13 @@ bool is_option(std::string_view word) {
 }  // namespace
 
 std::vector<char*> words_for_parsing(int argc, char** argv) {
-  static char layers_without_value[] = "--layers=2";
+  static char layers_without_value[] = "--layers=2", angle_without_value[] = "--tags-by-angle=40";
   std::vector<char*> words(argv, argv + argc);
   for (std::size_t i = 1; i + 1 < words.size() && words[i] != std::string_view("--"); ++i)
-    if (words[i] == std::string_view("--layers") && !is_option(words[i + 1]) && !is_value(words[i + 1]))
-      words[i] = layers_without_value;
+    for (char* with_value : {layers_without_value, angle_without_value}) {
+      const std::string_view option = std::string_view(with_value).substr(0, std::string_view(with_value).find('='));
+      if (words[i] == option && !is_option(words[i + 1]) && !is_value(words[i + 1])) words[i] = with_value;
+    }
   return words;
 }
 
@@ -38,14 +40,16 @@ void refuse_idle_options(const std::function<bool(const char*)>& is_given, const
   };
   const bool keeps = options.surface == SurfaceKind::keep, places = places_points(options.points);
   if (!options.repair) refuse({"--weld", "--largest-hole"}, "without --repair");
-  if (!is_given("--size-field") && !is_given("--layers")) refuse({"--grading"}, "without --size-field or --layers");
+  if (!is_given("--size-field") && !is_given("--layers") && options.named_sizes.empty() && !options.curvature)
+    refuse({"--grading"}, "without --size-field, --layers, --curvature or the size of a surface");
+  if (!options.curvature) refuse({"--least-size"}, "without --curvature");
   if (options.improve == 0) refuse({"--time-limit"}, "without --improve");
-  if (keeps) refuse({"--deviation"}, "with --surface keep");
+  if (keeps) refuse({"--deviation", "--stretch"}, "with --surface keep");
   if (!places) refuse({"--clearance", "--jitter", "--improve"}, "with --points " + points);
   if (keeps && !places) refuse({"--feature-angle"}, "with --surface keep and --points " + points);
   // Of points of the user's own, --size and these say how near to the surface they may be.
   if (keeps && options.points == PointKind::none)
-    refuse({"--size-field", "--layers"}, "with --surface keep and --points none");
+    refuse({"--size-field", "--layers", "--curvature"}, "with --surface keep and --points none");
 }
 
 }  // namespace hexpipe::tetmesh

@@ -10,7 +10,8 @@
 namespace hexpipe::tetmesh {
 
 // The words of a command line for CLI11, which takes the word behind an option for its optional value, whatever it is:
-// one behind --layers that is no number is the surface. Words stay those of argv, or last as long as the process.
+// one behind --layers or --tags-by-angle that is no number is the surface. Words stay those of argv, or last as long as
+// the process.
 std::vector<char*> words_for_parsing(int argc, char** argv);
 
 // Throws UsageError where an option was given that does nothing beside the others: whoever gives one expects it to.

@@ -11,6 +11,7 @@
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/sizing/wall_thickness.hpp"
 #include "tools/tetmesh/solid/part_axes.hpp"
+#include "tools/tetmesh/surface/edge_splitting.hpp"
 #include "tools/tetmesh/tetgen/build_mesh.hpp"
 #include "tools/tetmesh/tetgen/mesh_shape.hpp"
 #include "tools/tetmesh/tetgen/run_tetgen.hpp"
@@ -78,6 +79,7 @@ class Filler {
   StepWatch watch_;
 
   std::optional<surface::RemeshResult> remeshed_;
+  std::optional<solid::Surface> cut_;        // of a surface in sheets, triangles of about the size
   const solid::Surface* surface_ = &given_;  // that is filled
   solid::Axes axes_{};                       // of the part
   std::vector<Vec3> points_;                 // inside
@@ -86,7 +88,8 @@ class Filler {
 };
 
 FilledSurface Filler::fill(bool estimates) {
-  if (options_.surface != SurfaceKind::remesh || !fill_new_surface()) fill_given_surface();
+  const bool makes_new = options_.surface == SurfaceKind::remesh && !given_.has_sheets;
+  if (!makes_new || !fill_new_surface()) fill_given_surface();
   if (points_left_out_) result_.warnings.push_back(*points_left_out_);
   if (options_.points == PointKind::given && built_->dropped_points > 0)
     result_.warnings.push_back(fmt::format("{}: TetGen left out {} of {} points inside, too near to others",
@@ -109,6 +112,7 @@ FilledSurface Filler::fill(bool estimates) {
   }
   std::optional<solid::Surface> made;
   if (remeshed_ && surface_ == &remeshed_->surface) made = std::move(remeshed_->surface);
+  if (cut_) made = std::move(cut_);
   return {std::move(made), size_, *std::move(built_), std::move(result_)};
 }
 
@@ -118,7 +122,8 @@ bool Filler::fill_new_surface() {
   // What a size may take is nothing beside the part, unless that is thinner than a size.
   const bool walls_count = !options_.layers && !surface::asks_for_too_many_points(given_, size_);
   const sizing::SizeField unit = walls_count ? size_field(given_, options_, size_.greatest(), 1) : size_;
-  surface::SurfaceRemesher remesher(given_, {size_, options_.feature_angle, options_.deviation, unit});
+  surface::SurfaceRemesher remesher(given_,
+                                    {size_, options_.feature_angle, options_.deviation, unit, options_.row_stretch});
   std::string failure;
   try {
     while (!built_ && remesher.make()) {
@@ -148,9 +153,13 @@ bool Filler::fill_new_surface() {
 }
 
 void Filler::fill_given_surface() {
-  surface_ = &given_;
+  if (options_.surface == SurfaceKind::remesh && given_.has_sheets) {
+    cut_.emplace(surface::split_long_edges(given_, size_));
+    watch_.add_to(statistics_.seconds.remeshing);
+  }
+  surface_ = cut_ ? &*cut_ : &given_;
   if (options_.points != PointKind::none && result_.warnings.empty()) {
-    const auto complaint = sizing::fit_to_size(given_, size_).complaint(statistics_.size);
+    const auto complaint = sizing::fit_to_size(*surface_, size_).complaint(statistics_.size);
     if (complaint) result_.warnings.push_back(*complaint);
   }
   place_points();

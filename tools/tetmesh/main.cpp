@@ -36,6 +36,26 @@ formats::Input open_surface(const std::string& path) {
   return formats::Input::open(path);
 }
 
+// "3" for all, "inlet=0.5" for a surface.
+void add_size(const std::string& text, TetmeshOptions& options) {
+  const std::size_t equals = text.rfind('=');
+  if (equals == std::string::npos && options.size)
+    throw UsageError(fmt::format("expected one --size for all, found '{}' beside another", text));
+  if (equals == std::string::npos)
+    options.size = sizing::parse_length(text);
+  else
+    options.named_sizes.push_back({text.substr(0, equals), sizing::parse_length(text.substr(equals + 1))});
+}
+
+// Of a file: a bundle passes its surface on as it is.
+void scale_surface(double factor, formats::SurfaceSoup& surface) {
+  if (surface.from_bundle)
+    throw DataError::at(surface.name,
+                        "expected a surface file for --scale, found a bundle; tessellate --unit scales CAD");
+  for (Vec3& p : surface.points) p = factor * p;
+  formats::check_extent(surface);
+}
+
 void choose_points(const std::string& points, TetmeshOptions& options) {
   const auto kind = point_kinds.find(points);
   options.points = kind == point_kinds.end() ? PointKind::given : kind->second;
@@ -66,32 +86,45 @@ std::string summary(const TetmeshStatistics& s) {
 int main(int argc, char** argv) {
   const ToolInfo info{
       .name = "tetmesh",
-      .summary = "Fill a closed surface (STL, OBJ, PLY, OFF) with tetrahedra that merge well into hexes.",
+      .summary = "Fill a closed surface (STL, OBJ, PLY, OFF, bundle) with tetrahedra that merge well into hexes.",
       .example = "tetmesh bracket.stl --size 3 | findhex | buildgraph | initsol | assemble -o bracket.vtu",
       .reads = {},
       .product = Role::mesh,
       .random = true,
-      .outside_history = {"tetgen-timeout"},
       .licence = "AGPL-3.0, for it links TetGen"};
   TetmeshOptions options;
   const CLI::App* command_line = nullptr;
-  std::optional<std::string> size, sizes;
+  std::optional<std::string> sizes, least_size;
+  std::optional<double> scale;
+  std::vector<std::string> given_sizes;
+  std::vector<std::string> tag_names;
   std::string path = "-", surface_kind = "remesh", points = "best", shells = "oriented", weld = "0.0001%";
   const auto declare = [&](CLI::App& app) {
     command_line = &app;
     app.add_option("surface", path, "A surface in any format; '-' or nothing: standard input")->type_name("FILE");
     app.add_option(
-           "--size", size,
+           "--size", given_sizes,
            "Distance of points inside, in the surface's units or, with %, in percent of the bounding box's diagonal "
-           "[what suits the part]")
+           "[what suits the part]; at a surface alone: inlet=0.5")
+        ->allow_extra_args(false)
         ->type_name("LENGTH");
     app.add_option("--size-field", sizes,
                    "Sizes by place: lines of x y z size, or of one size for each vertex of the surface, or the same in "
                    ".npy, or a background mesh in .msh with $NodeData")
         ->type_name("FILE");
+    app.add_option("--scale", scale,
+                   "Multiply the coordinates of a surface file by this; all lengths are in the new unit")
+        ->check(number_between(1e-12, 1e12))
+        ->type_name("FACTOR");
     app.add_option("--grading", options.grading,
                    "How much sizes may differ between two places, against their distance, at the most")
         ->check(number_between(0.01, 10));
+    app.add_option("--curvature", options.curvature,
+                   "If given: where the surface bends, elements are no longer than an Nth of a turn")
+        ->check(number_between(3, 1000))
+        ->type_name("N");
+    app.add_option("--least-size", least_size, "With --curvature: no size is less [a fifth of --size]")
+        ->type_name("LENGTH");
     app.add_option("--layers", options.layers, "If given: thin walls get at least N elements across, or 2")
         ->expected(0, 1)
         ->default_str("2")
@@ -105,6 +138,11 @@ int main(int argc, char** argv) {
     app.add_option("--deviation", options.deviation,
                    "How far the new surface may be from the old one, in sizes, or in thicknesses of a thinner wall")
         ->check(number_between(1e-6, 1));
+    app.add_option(
+           "--stretch", options.row_stretch,
+           "How much rows of points may stretch, from one triangle of their field to the next, in sizes, so that "
+           "none has to end on a face; 0: not for that")
+        ->check(number_between(0, 10));
     app.add_option("--points", points,
                    "Points inside: best, frame (along a frame field that follows the surface), lattice (along the "
                    "part's own axes), none, or a file of your own (.xyz, .node, .npy, .ply)")
@@ -137,28 +175,41 @@ int main(int argc, char** argv) {
     app.add_option("--shells", shells,
                    "Shells in shells: holes where oriented inward and regions else; all regions; or alternately holes")
         ->check(CLI::IsMember(shell_rules));
-    app.add_option("--tetgen-timeout", options.tetgen_timeout,
-                   "Seconds after which TetGen is given up, for each mesh that it makes")
+    app.add_option(
+           "--tags-by-angle", options.tag_angle,
+           "If given: where nothing is named, pieces of the surface within edges that turn by more than so many "
+           "degrees get tags, or than 40")
+        ->expected(0, 1)
+        ->default_str("40")
+        ->check(number_between(1, 180))
+        ->type_name("[ANGLE]");
+    app.add_option("--name", tag_names, "Name a surface by its tag, or a region: 3=inlet, 'region 1=steel'; repeatable")
+        ->allow_extra_args(false)
+        ->type_name("TAG=NAME");
+    outside_history(app.add_option("--tetgen-timeout", options.tetgen_timeout,
+                                   "Seconds after which TetGen is given up, for each mesh that it makes"))
         ->check(number_between(0.001, 1e9));
   };
   const auto run = [&](RunContext& context) {
-    if (size) options.size = sizing::parse_length(*size);
+    for (const std::string& text : given_sizes) add_size(text, options);
+    if (least_size) options.least_size = sizing::parse_length(*least_size);
     options.surface = surface_kinds.at(surface_kind);
     choose_points(points, options);
     refuse_idle_options([&](const char* name) { return command_line->count(name) > 0; }, options, points);
     options.shells = shell_rules.at(shells);
+    for (const std::string& text : tag_names) options.tag_names.push_back(solid::parse_tag_name(text));
     options.seed = context.common.seed;
     options.weld = sizing::parse_length(weld);
     pipeline::Stage stage(context);
     formats::Input input = open_surface(path);
-    formats::SurfaceSoup surface = formats::read_surface(input);
+    formats::SurfaceSoup surface = stage.read_surface(input);
+    if (scale) scale_surface(*scale, surface);
     if (sizes) options.size_sources = size_sources(*sizes, surface);
-    stage.begin();
     Progress progress("tetmesh", context.common.quiet);
     options.after_round = [&](std::size_t round, double share) {
       if (progress.due()) progress.show(fmt::format("round {}, about {:.1f} % in hexes", round + 1, 100 * share));
     };
-    const TetmeshResult result = tetmesh::tetmesh(std::move(surface), options);
+    TetmeshResult result = tetmesh::tetmesh(std::move(surface), options);
     if (const auto& repair = result.statistics.repair; repair && repair->anything())
       context.warn(fmt::format("{}: repaired: {}", input.name(), repair->sentence()));
     for (const std::string& warning : result.warnings) context.warn(warning);
@@ -170,7 +221,8 @@ int main(int argc, char** argv) {
     context.statistics.update(to_json(result.statistics));
     context.statistics["seconds_by_step"] = times_of(result.statistics);
     context.statistics["tetgen_seconds"] = result.statistics.seconds.of_tetgen;
-    stage.write(result.mesh, to_json(result.statistics));
+    stage.set_names(result.names);
+    stage.write(pipeline::MeshProduct{std::move(result.mesh)}, to_json(result.statistics));
   };
   std::vector<char*> words = words_for_parsing(argc, argv);
   return tool_main(argc, words.data(), info, declare, run);

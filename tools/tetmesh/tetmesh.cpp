@@ -2,13 +2,20 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <exception>
+#include <numbers>
+#include <set>
+#include <string>
 #include <utility>
 
+#include "common/mesh/feature_angle.hpp"
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "tools/tetmesh/fill.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/improve.hpp"
+#include "tools/tetmesh/solid/sheets.hpp"
 #include "tools/tetmesh/solid/surface_check.hpp"
 #include "tools/tetmesh/tetgen/build_mesh.hpp"
 #include "tools/tetmesh/volume/expected_points.hpp"
@@ -84,6 +91,88 @@ double greatest_size(const solid::Surface& surface, const TetmeshOptions& option
   return std::ranges::max(options.size_sources.sizes);
 }
 
+// Checked, with its shells, or its sheets where they meet at edges of more than two triangles.
+solid::Surface surface_of(formats::SurfaceSoup soup, const TetmeshOptions& options,
+                          std::vector<std::string>& warnings) {
+  const char* remedy = options.repair ? "" : " (see --repair)";
+  if (solid::meets_in_sheets(soup)) {
+    solid::check_areas(soup, remedy);
+    const bool has_sides = !soup.sides.empty();
+    const solid::SheetReport found = has_sides ? solid::join_bodies(soup) : solid::find_sides(soup, options.shells);
+    for (const std::string& sentence : found.sentences())
+      warnings.push_back(fmt::format("{}: {}", soup.name, sentence));
+  }
+  if (!solid::meets_in_sheets(soup)) {
+    solid::check_surface(soup, remedy);
+    return solid::find_shells(std::move(soup), options.shells);
+  }
+  if (options.surface == SurfaceKind::remesh)
+    warnings.push_back(fmt::format(
+        "{}: sheets meet at edges of more than two triangles, so that triangles are cut to the size, and not "
+        "made anew",
+        soup.name));
+  return solid::find_sheets(std::move(soup));
+}
+
+std::set<std::int32_t> tags_named(const solid::Surface& surface, const std::string& name) {
+  std::set<std::int32_t> named, found;
+  for (const auto& [tag, of_tag] : surface.names.surfaces)
+    if (of_tag == name) named.insert(tag);
+  for (const std::int32_t tag : surface.tags)
+    if (named.contains(tag) || name == std::to_string(tag) || name == fmt::format("surface_{}", tag)) found.insert(tag);
+  return found;
+}
+
+// On each triangle of such a surface its size is known.
+void add_named_sizes(const solid::Surface& surface, TetmeshOptions& options) {
+  constexpr Vertex none = sizing::SizeSources::none;
+  for (const auto& [name, length] : options.named_sizes) {
+    const std::set<std::int32_t> tags = tags_named(surface, name);
+    if (tags.empty())
+      throw DataError::at(surface.name, "expected --size of a surface by its name or number, found '{}'", name);
+    const double size = sizing::element_size(surface, length);
+    sizing::SizeSources& sources = options.size_sources;
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+      if (!tags.contains(surface.tags[t])) continue;
+      const auto first = static_cast<Vertex>(sources.points.size());
+      for (const Vertex v : surface.triangles[t]) sources.points.push_back(surface.points[v]);
+      sources.sizes.insert(sources.sizes.end(), 3, size);
+      sources.simplices.push_back({first, first + 1, first + 2, none});
+    }
+  }
+}
+
+// Where neighbours on the surface turn by an angle, over the distance of their outer corners from the common edge, the
+// radius is the one over the other.
+void add_curvature_sizes(const solid::Surface& surface, TetmeshOptions& options, double greatest) {
+  constexpr double least_of_size = 0.2, least_angle = 1e-3;
+  constexpr Vertex none = sizing::SizeSources::none;
+  const double least =
+      options.least_size ? sizing::element_size(surface, options.least_size) : least_of_size * greatest;
+  const double feature_cosine = cosine_of_degrees(options.feature_angle);
+  sizing::SizeSources& sources = options.size_sources;
+  geometry::for_each_edge(surface.points.size(), surface.triangles, [&](std::span<const geometry::HalfEdge> edge) {
+    if (edge.size() != 2) return;
+    const Vec3& a = surface.points[geometry::start_of(surface.triangles, edge[0])];
+    const Vec3& b = surface.points[geometry::end_of(surface.triangles, edge[0])];
+    std::array<Vec3, 2> areas;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto [p, q, r] = surface.triangles[geometry::triangle_of(edge[i])];
+      areas[i] = cross(surface.points[q] - surface.points[p], surface.points[r] - surface.points[p]);
+    }
+    const double cosine = dot(unit(areas[0]), unit(areas[1]));
+    if (cosine < feature_cosine) return;
+    const double angle = std::atan2(norm(cross(unit(areas[0]), unit(areas[1]))), cosine);
+    const double width = (norm(areas[0]) + norm(areas[1])) / 2 / norm(b - a);
+    const double size = std::max(least, 2 * std::numbers::pi / *options.curvature * width / angle);
+    if (angle < least_angle || size >= greatest) return;
+    const auto first = static_cast<Vertex>(sources.points.size());
+    sources.points.insert(sources.points.end(), {a, b});
+    sources.sizes.insert(sources.sizes.end(), 2, size);
+    sources.simplices.push_back({first, first + 1, none, none});
+  });
+}
+
 FilledSurface fill_at(double factor, const solid::Surface& surface, TetmeshOptions options,
                       const sizing::SizeField& size) {
   const bool estimates = options.tries > 1;
@@ -135,14 +224,20 @@ const char* name_of(PointKind kind) {
 
 }  // namespace
 
-TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) {
-  check_options(options);
+TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& given_options) {
+  check_options(given_options);
   const Stopwatch watch;
   std::optional<solid::RepairReport> repaired;
-  if (options.repair) repaired = repair(soup, options);
-  solid::check_surface(soup, options.repair ? "" : " (see --repair)");
-  const solid::Surface surface = solid::find_shells(std::move(soup), options.shells);
-  const double greatest = greatest_size(surface, options);
+  if (given_options.repair) repaired = repair(soup, given_options);
+  std::vector<std::string> warnings;
+  solid::Surface given = surface_of(std::move(soup), given_options, warnings);
+  if (given_options.tag_angle) solid::tag_by_angle(given, *given_options.tag_angle);
+  solid::name_tags(given, given_options.tag_names);
+  const solid::Surface surface = std::move(given);
+  const double greatest = greatest_size(surface, given_options);
+  TetmeshOptions options = given_options;
+  add_named_sizes(surface, options);
+  if (options.curvature) add_curvature_sizes(surface, options, greatest);
   const double least_factor = std::ranges::min(std::span(tried_sizes).first(options.tries));
   check_number_of_points(surface, options, least_factor * greatest);
   const sizing::SizeField size = size_field(surface, options, greatest, options.layers);
@@ -152,6 +247,8 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
   FilledSurface filled = best_of_tries(surface, options, size);
   if (options.improve > 0) improve(filled, surface, options);
   TetmeshResult result = finish(std::move(filled), surface);
+  result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
+  result.names = surface.names;
   result.statistics.repair = repaired;
   result.statistics.seconds.checking = seconds_checking;
   return result;

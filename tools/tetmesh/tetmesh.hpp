@@ -14,6 +14,7 @@
 #include "tools/tetmesh/search/point_search.hpp"
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/sizing/sizing.hpp"
+#include "tools/tetmesh/solid/group_tags.hpp"
 #include "tools/tetmesh/solid/repair.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
@@ -39,19 +40,31 @@ constexpr bool places_points(PointKind kind) {
 
 constexpr std::size_t most_tries = 9;
 
+// Of a surface, by its name, or by its number as `surface_3` or `3`.
+struct NamedSize {
+  std::string name;
+  sizing::Length size;
+};
+
 struct TetmeshOptions {
   std::optional<sizing::Length> size = {};  // nothing: see greatest_size()
   sizing::SizeSources size_sources = {};
+  std::vector<NamedSize> named_sizes = {};
+  std::optional<double> curvature = {};           // elements a turn where the surface bends; nothing: it does not count
+  std::optional<sizing::Length> least_size = {};  // by curvature; nothing: a fifth of the size
   double grading = 0.3;
   std::optional<int> layers = {};  // across thin walls, at least; nothing: walls do not count
   SurfaceKind surface = SurfaceKind::remesh;
-  double feature_angle = geometry::default_feature_angle;
-  double deviation = surface::RemeshOptions{}.deviation;  // in sizes, or in the thickness of thinner walls
+  double feature_angle = default_feature_angle;
+  double deviation = surface::RemeshOptions{}.deviation;      // in sizes, or in the thickness of thinner walls
+  double row_stretch = surface::RemeshOptions{}.row_stretch;  // in sizes
   PointKind points = PointKind::best;
   formats::PointList given_points = {};  // for PointKind::given
   double clearance = volume::LatticeOptions{}.clearance;
   std::optional<double> jitter = {};  // nothing: that of the kind of points
   solid::ShellRule shells = solid::ShellRule::oriented;
+  std::optional<double> tag_angle = {};  // nothing: the file's tags
+  std::vector<solid::TagName> tag_names = {};
   std::uint64_t seed = 1;
   double most_points = 2e7;  // inside
   bool repair = false;
@@ -104,6 +117,7 @@ struct TetmeshStatistics {
 
 struct TetmeshResult {
   TetMesh mesh;
+  formats::GroupNames names;
   TetmeshStatistics statistics;
   std::vector<std::string> warnings;
 };

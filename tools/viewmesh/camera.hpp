@@ -17,7 +17,7 @@ struct Camera {
 
 Camera camera_of(const ViewState& state, double aspect);
 
-// How far occluders are looked for: a few cells, in the scene's units.
+// The distance up to which occluders count: a few cells, in the scene's units.
 double occlusion_reach(const Scene& scene);
 
 }  // namespace hexpipe::viewmesh

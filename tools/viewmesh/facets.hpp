@@ -1,5 +1,5 @@
 #pragma once
-// Which cells meet at each facet of a scene, on which side of it.
+// Finds the cells that meet at each facet of a scene, and their sides.
 
 #include <cstdint>
 #include <span>
@@ -11,7 +11,7 @@ namespace hexpipe::viewmesh {
 
 // A cell's view of one of its facets. Cells that list the same vertices in opposite senses are on different sides.
 struct FacetSide {
-  std::array<std::int32_t, 4> key;  // vertices ascending; of a triangle the first is -1
+  std::array<std::int32_t, 4> key;  // vertices ascending; the first is -1 in a triangle
   std::int32_t cell;
   std::uint8_t facet;  // triangles of the topology first, then its quads
   std::uint8_t side;
@@ -24,10 +24,10 @@ struct FacetCorners {
 };
 FacetCorners facet_corners(const Scene& scene, std::int32_t cell, int facet);
 
-// All sides of all facets, those of one facet together.
+// All sides of all facets; the sides of one facet stand together.
 std::vector<FacetSide> facet_sides(const Scene& scene);
 
-// visit(span of FacetSide) for each facet.
+// Calls visit(span of FacetSide) for each facet.
 template <class Visit>
 void for_each_facet(std::span<const FacetSide> sides, Visit&& visit) {
   for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
@@ -36,11 +36,11 @@ void for_each_facet(std::span<const FacetSide> sides, Visit&& visit) {
   }
 }
 
-// For each point whether it is on the surface of the scene's cells, which must not overlap.
+// By point: whether it is on the surface of the scene's cells, which must not overlap.
 std::vector<bool> surface_points(const Scene& scene);
 
-// For each cell 1 when it touches a point of the surface, else one more than the least among the cells it touches; at
-// most 255.
+// By cell: 1 when it touches a point of the surface, otherwise one more than the lowest layer of the cells that it
+// touches, at most 255.
 std::vector<std::uint8_t> layers_from_surface(const Scene& scene, const std::vector<bool>& surface);
 
 }  // namespace hexpipe::viewmesh

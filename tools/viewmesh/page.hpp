@@ -1,5 +1,5 @@
 #pragma once
-// The page: one HTML file with the scene, its script and its style, which needs no network.
+// Writes the page: one HTML file with the scene, its script and its style, which needs no network.
 
 #include <string>
 
@@ -12,8 +12,9 @@ namespace hexpipe::viewmesh {
 // `title` is shown above the counts; `state` is how the page opens.
 void write_page(const Scene& scene, const ViewState& state, const std::string& title, formats::Output& output);
 
-// Arrays as the page reads them: base64 of the zlib stream of the bytes, of which first come the lowest of all numbers,
-// then the next ones. Integers are taken from the one `stride` before them, and written as 2n or -2n - 1.
+// Arrays as the page reads them: base64 of a zlib stream of bytes, first the lowest byte of all numbers, then the next
+// byte of all numbers, and so on. An integer is written as its difference n to the one `stride` before it, as 2n or -2n
+// - 1.
 std::string pack_integers(const std::vector<std::int32_t>& numbers, int stride);
 std::string pack_floats(const std::vector<float>& numbers);
 

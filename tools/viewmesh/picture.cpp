@@ -89,7 +89,7 @@ class Renderer {
 
   void draw_to_screen() { glBindFramebuffer(GL_FRAMEBUFFER, 0); }
 
-  // What was drawn on the screen, RGBA, rows from the bottom.
+  // The picture that was drawn, RGBA, rows from the bottom.
   const std::vector<std::uint8_t>& finish() {
     glFinish();
     if (const GLenum error = glGetError(); error != GL_NO_ERROR)

@@ -1,5 +1,5 @@
 #pragma once
-// The picture that the page shows, drawn without a browser: the same shaders, run by Mesa in memory.
+// Draws the picture that the page shows without a browser: Mesa runs the same shaders in memory.
 
 #include <cstdint>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// What stands in page/, put into the executable at build time.
+// The files of page/, which the build puts into the executable.
 
 #include <string_view>
 

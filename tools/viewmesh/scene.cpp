@@ -96,7 +96,7 @@ void collect(const TetMesh& mesh, CellCollector& cells) {
               static_cast<std::int32_t>(i));
 }
 
-// What there must be to show anything but the result.
+// Throws DataError when roles are missing that the content needs; the result needs no other role.
 void expect_parts(const pipeline::StageData& data, Scene::Content content, const std::string& source) {
   const auto expect = [&](bool there, const char* part) {
     if (!there) throw DataError::at(source, "expected {} to show the {}, found none", part, name_of(content));
@@ -215,7 +215,7 @@ void read_fragments(Scene& scene, formats::Input& input) {
         throw FormatError(input.name(), line_number,
                           fmt::format("expected the number of a candidate, 1 to {}, found {}", scene.candidate_count,
                                       formats::quote_found(word)));
-      // A solution shows only those that were chosen.
+      // A solution shows only the chosen candidates.
       if (const auto found = cell_of.find(number - 1); found != cell_of.end()) fragment.push_back(found->second);
     }
     std::sort(fragment.begin(), fragment.end());

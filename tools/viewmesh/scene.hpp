@@ -1,5 +1,6 @@
 #pragma once
-// What is shown: cells of one mesh with what they are coloured and chosen by, taken from any stage of the pipeline.
+// The cells of one mesh that are shown, from any stage of the pipeline, with the values by which they are coloured and
+// selected.
 
 #include <array>
 #include <cstdint>
@@ -10,7 +11,7 @@
 
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/vec3.hpp"
-#include "formats/pipeline/stage.hpp"
+#include "formats/pipeline/stage_data.hpp"
 #include "formats/streams/input.hpp"
 
 namespace hexpipe::viewmesh {
@@ -19,7 +20,7 @@ namespace hexpipe::viewmesh {
 inline constexpr std::array scene_kinds{CellKind::hex, CellKind::prism, CellKind::pyramid, CellKind::tet};
 
 struct Scene {
-  // Which stage's cells. Candidates overlap; the others do not.
+  // The stage that the cells come from. Candidates overlap; other cells do not.
   enum class Content { result, solution, candidates, mesh };
 
   Content content = Content::result;
@@ -30,13 +31,13 @@ struct Scene {
   // Cells of kind scene_kinds[k] are [kind_begin[k], kind_begin[k + 1]), with the corners of each in a row.
   std::array<std::int32_t, 5> kind_begin{};
   std::array<std::vector<std::int32_t>, 4> corners;
-  // One each a cell.
+  // By cell:
   std::vector<float> quality;        // least scaled Jacobian
   std::vector<std::int32_t> region;  // of candidates: that of their first tet
   std::vector<std::uint8_t> layer;   // 1: touches the surface; 2: touches those; ...
   std::vector<std::int32_t> number;  // in its block of the file, or as a candidate, from 0
-  std::int32_t candidate_count = 0;  // of which cells are candidates, shown or not
-  // Parts of the graph that a search freed, if asked for: cells of each fragment, ascending.
+  std::int32_t candidate_count = 0;  // all candidates, shown or not
+  // The fragments that a search freed, if asked for: the cells of each, ascending.
   std::vector<std::vector<std::int32_t>> fragments;
   std::vector<nlohmann::ordered_json> history;
 
@@ -51,14 +52,14 @@ struct Scene {
 
 const char* name_of(Scene::Content content);
 
-// The last of the result, the solution, the candidates and the mesh that is there. Throws DataError when nothing is, or
-// there are no cells, or candidates come without the mesh that has their points; `source` is named in the message.
+// The last one that is there of mesh, candidates, solution and result. Throws DataError naming `source` when none is
+// there, there are no cells, or candidates come without the mesh that has their points.
 Scene::Content last_content(const pipeline::StageData& data, const std::string& source);
 Scene make_scene(pipeline::StageData data, Scene::Content content, const std::string& source);
 
-// Gives the scene the fragments that a text lists, the candidates of one a line, counted from 1; tells them by
-// Scene::number, of hexes, prisms and pyramids. Throws FormatError at what is no candidate, of those that were there to
-// choose from.
+// Gives the scene the fragments of a text, whose lines have the candidates of one fragment each, counted from 1. It
+// finds them by Scene::number among hexes, prisms and pyramids. Throws FormatError at a number that is not a
+// candidate's.
 void read_fragments(Scene& scene, formats::Input& input);
 
 }  // namespace hexpipe::viewmesh

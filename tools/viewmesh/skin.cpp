@@ -59,7 +59,7 @@ class Painter {
   std::vector<std::int32_t> regions_;
 };
 
-// Of the mean plane of a facet (half the cross product of the diagonals of a quad).
+// The normal of a facet's mean plane (half the cross product of the diagonals of a quad).
 std::array<std::int8_t, 4> normal_of(const Scene& scene, const FacetCorners& facet) {
   const auto at = [&](int i) { return scene.point(facet.vertices[i]); };
   const Vec3 across = facet.count == 3 ? cross(at(1) - at(0), at(2) - at(0)) : cross(at(2) - at(0), at(3) - at(1));

@@ -1,5 +1,5 @@
 #pragma once
-// The triangles that are drawn: facets with visible cells on one side only.
+// The triangles that are drawn: facets with a visible cell on one side only.
 
 #include <array>
 #include <cstdint>

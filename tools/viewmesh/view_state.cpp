@@ -23,7 +23,7 @@ constexpr std::array axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
   throw UsageError(fmt::format("--view: {}: expected {}, found '{}'", key, expected, found));
 }
 
-// Of nothing, one part that is empty: what a separator too many leaves is refused as any other part.
+// Empty text gives one empty part: a separator too many is refused like any other wrong part.
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   for (std::size_t end; (end = text.find(separator)) != std::string_view::npos; text.remove_prefix(end + 1))
@@ -103,7 +103,7 @@ bool parse_switch(std::string_view key, std::string_view text) {
   return parse_name(key, text, std::array{"off", "on"}) == 1;
 }
 
-// What to do with each key's value.
+// The setter of each key.
 std::map<std::string_view, std::function<void(std::string_view)>> setters_of(ViewState& state) {
   return {
       {"camera",

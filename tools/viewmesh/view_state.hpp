@@ -1,5 +1,5 @@
 #pragma once
-// From where and how a scene is looked at, as the page's links and --view say it: key=value joined by '&'.
+// How a scene is looked at, as the page's links and --view write it: key=value joined by '&'.
 
 #include <array>
 #include <optional>
@@ -33,7 +33,7 @@ struct ViewState {
   int fragment = 0;  // from 1: only this fragment's cells; 0: all
 };
 
-// Keys that `text` does not name keep their defaults. Throws UsageError for unknown keys and for values that are none.
+// Keys that `text` does not name keep their defaults. Throws UsageError for unknown keys and for wrong values.
 ViewState parse_view_state(std::string_view text);
 std::string to_text(const ViewState& state);
 

@@ -16,14 +16,22 @@
 
 namespace hexpipe::mwis::exact {
 
+// What an exact search for a set heavier than a given weight found.
+struct ExactResult {
+  std::optional<graph::IndependentSet> better;  // the heaviest set found, where it is heavier than that weight
+  bool complete = false;                        // it, or that there is none, is proven
+  std::int64_t bound = 0;                       // on every set: where it is complete, the optimum or that weight
+  std::int64_t nodes = 0;
+};
+
 class BranchAndReduce {
  public:
   // Components of at most `small` vertices go to branch and bound on bits.
   BranchAndReduce(bounds::Relax relax, const Deadline& deadline, std::int32_t small = 100)
       : relax_(std::move(relax)), deadline_(deadline), small_(small) {}
 
-  // The heaviest set among those heavier than `needed`; none where there is none, or where the deadline passed before
-  // one was found.
+  // The heaviest set among those heavier than `needed`; nothing where there is no such set, or where the deadline
+  // passed before one was found.
   std::optional<graph::IndependentSet> solve(const graph::ConflictGraph& graph, std::int64_t needed);
 
   // The deadline did not pass: what solve() returned is proven.

@@ -25,6 +25,9 @@ struct Cooling {
 
   // `progress` from 0 to 1.
   double at(double progress) const;
+
+  // For a graph of which so many vertices are chosen at the start.
+  static Cooling for_chosen(std::int64_t chosen);
 };
 
 class Annealing {
@@ -43,6 +46,8 @@ class Annealing {
   std::int64_t touched() const { return touched_; }
   std::int64_t best_weight() const { return best_weight_; }
   graph::IndependentSet best() const;
+  // Vertices of the present solution.
+  std::int64_t chosen_count() const;
   // Of a vertex of the present solution; 1 where nothing is chosen.
   double mean_weight() const;
 

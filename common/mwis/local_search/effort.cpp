@@ -10,9 +10,6 @@ namespace {
 constexpr double memory = 3e8;
 // What each way keeps at least, for its time may come.
 constexpr std::array least_shares{0.2, 0.2, 0.1};
-// Growing a fragment and putting it back takes a microsecond, where there is nothing to do in between: what counted as
-// nothing would have the next turn again, for ever.
-constexpr double least_work = 1000;
 
 double least_share_of(Way way) {
   return least_shares[static_cast<std::size_t>(way)];

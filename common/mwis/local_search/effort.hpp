@@ -27,6 +27,10 @@ class Effort {
   // At least one way. Each keeps some share.
   explicit Effort(std::vector<Way> ways = {all_ways.begin(), all_ways.end()}) : ways_(std::move(ways)) {}
 
+  // Growing a fragment and putting it back takes a microsecond, where there is nothing to do in between: what counted
+  // as nothing would have the next turn again, for ever.
+  static constexpr double least_work = 1000;
+
   // What this way does at a time; 0 unless told.
   void expect(Way way, double work) { of(way).cost = work; }
   Way next() const;

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "common/mwis/local_search/fragment.hpp"
+#include "common/mwis/local_search/remainder.hpp"
 #include "common/mwis/local_search/repair.hpp"
 #include "common/mwis/local_search/schedule.hpp"
-#include "common/mwis/reduce/kernel.hpp"
+#include "common/mwis/local_search/stop_rule.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe::mwis::local_search {
@@ -21,11 +22,20 @@ constexpr int kicks_a_vertex = 20;
 // Annealed fragments may be so many times as large as wanted, which only hubs make them: these can be exchanged for all
 // of their neighbours in no other way.
 constexpr std::size_t hub_factor = 16;
+// Before anybody asks whether it is worth it, a search works as long as annealing the whole graph some times takes.
+// Large graphs gain for longer: on random-33k 0.4 times end at 10,100,430 after 2 s of lns, which finds 10,129,518 in a
+// minute. On a lattice of 6 x 6 x 6 hexes (5,300 vertices), whose best choice is found at once, 0.4 times are half a
+// second.
+double least_coolings(const graph::ConflictGraph& graph) {
+  constexpr double vertices_a_cooling = 12500, least = 0.4, most = 5;
+  return std::clamp(static_cast<double>(graph.vertex_count()) / vertices_a_cooling, least, most);
+}
 
 class Lns {
  public:
   Lns(const graph::ConflictGraph& graph, const graph::IndependentSet& initial, const LnsOptions& options,
-      const Deadline& deadline, const std::function<void(const LnsProgress&)>& report, LnsMemory* memory = nullptr)
+      const Deadline& deadline, const std::function<void(const LnsProgress&)>& report, LnsMemory* memory = nullptr,
+      std::int64_t decided = 0)
       : options_(options),
         deadline_(deadline),
         report_(report),
@@ -38,8 +48,12 @@ class Lns {
                      Random(options.seed, 2)),
             Schedule(graph.weights.size(), options.recombined_fragment, options.recombined_fragment,
                      Random(options.seed, 3))},
-        effort_(ways_of(options)) {
+        effort_(ways_of(options)),
+        stop_rule_(options.worth * static_cast<double>(total_weight(initial, graph) + decided),
+                   least_coolings(graph) * work_of_cooling(graph)) {
     state_.make_maximal();
+    stop_rule_.record(0, state_.weight());
+    usual_ = Cooling::for_chosen(std::ssize(state_.to_set()));
     if (memory_ != nullptr) recall();
     for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
       if (!state_.contains(v)) continue;
@@ -63,9 +77,13 @@ class Lns {
   }
 
  private:
+  static double work_of_cooling(const graph::ConflictGraph& graph) {
+    return static_cast<double>(graph.vertex_count()) * kicks_a_vertex * Repair::work_a_kick(graph);
+  }
   bool is_complete() const { return closed_ == state_.graph().vertex_count(); }
   bool goes_on() const {
-    return begun_ < options_.iterations && state_.weight() < options_.target && !is_complete() && !deadline_.passed();
+    return begun_ < options_.iterations && state_.weight() < options_.target && !is_complete() &&
+           !stop_rule_.is_done() && !deadline_.passed();
   }
   static std::vector<Way> ways_of(const LnsOptions& options) {
     std::vector<Way> ways{Way::exact};
@@ -173,7 +191,7 @@ class Lns {
       const std::int64_t index = begun_ - 1;
       const std::int64_t effort = effort_for(repair);
       lock.unlock();
-      repair.solve(effort, random_for(index), deadline_);
+      repair.solve(effort, random_for(index), deadline_, usual_);
       lock.lock();
       grower_.let_go(repair.fragment());
       apply(repair);
@@ -216,7 +234,7 @@ class Lns {
   }
 
   void solve(Repair& repair, std::int64_t index) const {
-    repair.solve(effort_for(repair), random_for(index), deadline_);
+    repair.solve(effort_for(repair), random_for(index), deadline_, usual_);
   }
 
   void apply(const Repair& repair) {
@@ -231,6 +249,8 @@ class Lns {
       retire_around(repair);
     }
     effort_.record(repair.way(), repair.work(), static_cast<double>(state_.weight() - before));
+    work_ += std::max(repair.work(), Effort::least_work);
+    stop_rule_.record(work_, state_.weight());
     if (repair.complete() && repair.fragment().whole_component) close(repair.fragment());
   }
 
@@ -330,6 +350,9 @@ class Lns {
   FragmentGrower grower_;
   std::array<Schedule, all_ways.size()> schedules_;  // by way
   Effort effort_;
+  StopRule stop_rule_;
+  double work_ = 0;  // of all fragments
+  Cooling usual_;    // temperatures for this graph
   std::vector<std::int32_t> postponed_, removed_, added_, left_out_;
   std::int64_t begun_ = 0, iterations_ = 0;  // fragments grown, and put back
   std::int64_t improvements_ = 0;
@@ -340,39 +363,39 @@ Deadline earlier(const Deadline& deadline, double seconds) {
   return std::isfinite(deadline.remaining()) ? Deadline(deadline.remaining() - seconds) : Deadline();
 }
 
-// Of a time limit, reductions get a tenth.
-Deadline share_for_reductions(const Deadline& deadline) {
-  return std::isfinite(deadline.remaining()) ? Deadline(0.1 * deadline.remaining()) : Deadline();
-}
-
 // What reductions made of several vertices may be first.
-std::vector<bool> of_kernel(const std::vector<bool>& of_graph, const reduce::Kernel& kernel) {
-  std::vector<bool> result(of_graph.empty() ? 0 : kernel.graph().weights.size(), true);
+std::vector<bool> of_remainder(const std::vector<bool>& of_graph, const Remainder& rest) {
+  std::vector<bool> result(of_graph.empty() ? 0 : rest.graph().weights.size(), true);
   for (std::size_t i = 0; i < result.size(); ++i) {
     const auto v = static_cast<std::int32_t>(i);
-    const auto original = kernel.originals(std::span(&v, 1));
+    const auto original = rest.originals(std::span(&v, 1));
     if (!original.empty()) result[i] = of_graph[original.front()];
   }
   return result;
 }
 
-LnsResult search_kernel(const graph::ConflictGraph& graph, const graph::IndependentSet& start,
-                        const LnsOptions& options, const Deadline& deadline,
-                        const std::function<void(const LnsProgress&)>& report) {
-  const reduce::Kernel kernel(graph, share_for_reductions(deadline));
-  // The start loses where reductions decided otherwise, until the search has caught up.
-  std::int64_t best = graph::total_weight(start, graph);
+// Solutions of the remainder as solutions of the whole graph, whenever they are better than the start, which loses
+// where reductions decided otherwise until the search has caught up.
+LnsResult search_remainder(const graph::ConflictGraph& graph, const graph::IndependentSet& start,
+                           const LnsOptions& options, const Deadline& deadline,
+                           const std::function<void(const LnsProgress&)>& report) {
+  const Remainder rest(graph, deadline);
+  std::int64_t best = total_weight(start, graph);
   const auto report_whole = [&](const LnsProgress& now) {
-    if (!report || now.weight + kernel.offset() <= best) return;
-    best = now.weight + kernel.offset();
-    report({now.iteration, best, kernel.originals(now.fragment)});
+    if (!report || now.weight + rest.offset() <= best) return;
+    best = now.weight + rest.offset();
+    report({now.iteration, best, rest.originals(now.fragment)});
   };
-  LnsOptions kernel_options = options;
-  kernel_options.target -= kernel.offset();
-  kernel_options.first_places = of_kernel(options.first_places, kernel);
-  LnsResult result = Lns(kernel.graph(), kernel.project(start), kernel_options, deadline, report_whole).run();
-  result.solution = kernel.lift(result.solution);
-  result.weight = graph::total_weight(result.solution, graph);
+  LnsOptions rest_options = options;
+  rest_options.target -= rest.offset();
+  rest_options.first_places = of_remainder(options.first_places, rest);
+  LnsResult result;
+  result.complete = rest.is_solved();
+  if (!result.complete)
+    result = Lns(rest.graph(), rest.project(start), rest_options, deadline, report_whole, nullptr, rest.offset()).run();
+  result.solution = rest.lift(result.solution);
+  result.weight = total_weight(result.solution, graph);
+  if (result.complete) report_whole({result.iterations, result.weight - rest.offset(), {}});
   return result;
 }
 
@@ -388,7 +411,7 @@ LnsResult improve_by_lns(const graph::ConflictGraph& graph, const graph::Indepen
   // The lift at the end costs as much as this: a quarter of a second at 33 million edges.
   const Deadline search_deadline = earlier(deadline, watch.seconds());
   const bool idle = options.iterations == 0 || state.weight() >= options.target || deadline.passed();
-  LnsResult result = options.reduce && !idle ? search_kernel(graph, start, options, search_deadline, report)
+  LnsResult result = options.reduce && !idle ? search_remainder(graph, start, options, search_deadline, report)
                                              : Lns(graph, start, options, search_deadline, report).run();
   if (result.weight < state.weight()) {
     result.solution = start;

@@ -31,6 +31,8 @@ struct LnsOptions {
   // Every thread goes on to the next fragment when it has done one. Faster, but the result depends on the timing.
   bool free_running = false;
   std::int64_t target = std::numeric_limits<std::int64_t>::max();  // ends the search at this weight
+  // Ends it when the last half of its work gained less than this share of the weight; 0: only the other limits do.
+  double worth = 0;
   // By vertex: around which chosen ones exact fragments are solved first, because solution and bound differ there.
   // Empty: anywhere.
   std::vector<bool> first_places = {};

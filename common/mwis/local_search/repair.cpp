@@ -10,9 +10,9 @@ namespace {
 // Measured on fragments of 100 to 300 vertices and of 2000, of block-28k and random-33k.
 constexpr double work_a_pair = 4, work_a_node = 5000, work_a_touched_neighbour = 3;
 
-// What a fragment is heated to. Of 0.08, 0.15 and 0.3, on random-33k from a solution of initsol: 0.15 gains most after
-// 8 s, a tenth more than 0.3, which forgets the solution.
-constexpr Cooling reheating{.hot = 0.15, .cold = 0.03};
+// What a fragment is heated to, as a share of what it is when nothing is chosen. Of 0.08, 0.15 and 0.3 mean weights, on
+// random-33k from a solution of initsol: 0.15 gains most after 8 s, a tenth more than 0.3, which forgets the solution.
+constexpr double reheating = 0.5;
 constexpr std::int64_t cooling_steps = 50;
 // A kick touches some 20 times as many neighbours as a vertex has; beyond 64 times it is one of few hubs that takes the
 // time.
@@ -27,13 +27,13 @@ void Repair::extract(FragmentGrower& grower) {
   grower.extract(fragment_, sparse_, start_);
 }
 
-void Repair::solve(std::int64_t effort, Random random, const Deadline& deadline) {
+void Repair::solve(std::int64_t effort, Random random, const Deadline& deadline, const Cooling& usual) {
   if (way_ == Way::exact)
     solve_exactly(effort, deadline);
   else if (way_ == Way::anneal)
-    anneal(effort, random, deadline);
+    anneal(effort, random, deadline, usual);
   else
-    recombine(effort, random, deadline);
+    recombine(effort, random, deadline, usual);
 }
 
 double Repair::work_a_kick(const graph::ConflictGraph& graph) {
@@ -48,15 +48,15 @@ void Repair::solve_exactly(std::int64_t nodes, const Deadline& deadline) {
   work_ = work_a_pair * size * size + work_a_node * static_cast<double>(budget.spent());
 }
 
-void Repair::anneal(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline) {
+void Repair::anneal(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline, const Cooling& usual) {
   Annealing search(sparse_, start_, random);
-  choose(cool(search, reheating, kicks_a_vertex, deadline));
+  choose(cool(search, {.hot = reheating * usual.hot, .cold = usual.cold}, kicks_a_vertex, deadline));
 }
 
 // Two sets that nothing binds together differ everywhere, and each is the better one in places.
-void Repair::recombine(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline) {
+void Repair::recombine(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline, const Cooling& usual) {
   Annealing search(sparse_, {}, random);
-  choose(hexpipe::mwis::local_search::recombine(sparse_, start_, cool(search, Cooling(), kicks_a_vertex, deadline)));
+  choose(hexpipe::mwis::local_search::recombine(sparse_, start_, cool(search, usual, kicks_a_vertex, deadline)));
 }
 
 graph::IndependentSet Repair::cool(Annealing& search, const Cooling& cooling, std::int64_t kicks_a_vertex,

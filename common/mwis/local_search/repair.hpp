@@ -22,8 +22,9 @@ class Repair {
 
   // Copies the graph of the fragment, after which solve needs nothing else.
   void extract(FragmentGrower& grower);
-  // Exactly: with so many nodes of branch and bound at most; otherwise with so many kicks a vertex.
-  void solve(std::int64_t effort, Random random, const Deadline& deadline);
+  // Exactly: with so many nodes of branch and bound at most; otherwise with so many kicks a vertex, and at
+  // temperatures that suit the whole graph.
+  void solve(std::int64_t effort, Random random, const Deadline& deadline, const Cooling& usual = {});
 
   // After solve: by place in fragment().vertices, a set that is not lighter.
   bool chooses(std::size_t i) const { return bits::test(chosen_.data(), i); }
@@ -36,8 +37,8 @@ class Repair {
 
  private:
   void solve_exactly(std::int64_t nodes, const Deadline& deadline);
-  void anneal(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline);
-  void recombine(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline);
+  void anneal(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline, const Cooling& usual);
+  void recombine(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline, const Cooling& usual);
   graph::IndependentSet cool(Annealing& search, const Cooling& cooling, std::int64_t kicks_a_vertex,
                              const Deadline& deadline);
   void choose(const graph::IndependentSet& set);

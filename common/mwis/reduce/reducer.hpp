@@ -11,6 +11,7 @@
 #include <deque>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -26,6 +27,7 @@ namespace hexpipe::mwis::reduce {
 
 enum class ReductionEffort {
   quick,     // what clique covers prove, while it decides something often enough: a fraction of a second
+  worth,     // as quick, then as full and as thorough for as long as what they decide is worth their work
   full,      // all rules that leave fewer vertices at once
   thorough,  // all rules, and folds that add vertices where other rules then remove more: seconds to minutes
 };
@@ -37,6 +39,8 @@ class Reducer {
 
   // Until no rule applies any more, or to the deadline. Returns how much heavier solutions become by the lift.
   std::int64_t run(ReductionEffort effort, const Deadline& deadline);
+  // Of run, so far: roughly nanoseconds, the same on every machine.
+  double work() const { return work_; }
 
   ReducibleGraph& graph() { return graph_; }
 
@@ -50,15 +54,26 @@ class Reducer {
     void clear();
   };
 
+  // What reductions may still spend, in units of work: each vertex that they decide pays something in.
+  struct Purse {
+    double left, most, pay;
+    std::int32_t alive;  // when pay was counted last
+    double work;
+  };
+
   bool is_complete(std::int32_t v) const {
     return static_cast<std::size_t>(v) >= incomplete_.size() || incomplete_[v] == 0;
   }
+  void reduce_while_worth(const Deadline& deadline);
   void skim(const Deadline& deadline);
   void settle(const Deadline& deadline, std::int32_t wanted);
   void blow_up(const Deadline& deadline);
   void try_fold(std::int32_t v, const Deadline& deadline);
   void take_back(std::size_t decided, std::int64_t offset);
   void estimate(std::int32_t v, std::int32_t growth);
+
+  void open_purse();
+  bool is_worth_it();
 
   void decide(std::int32_t v);
   bool look_around(std::int32_t v);
@@ -81,6 +96,8 @@ class Reducer {
   const std::vector<char> incomplete_;
   std::int64_t offset_ = 0;
   Queue queue_, set_queue_;
+  double work_ = 0;  // roughly in nanoseconds, the same on every machine
+  std::optional<Purse> purse_;
 
   // How many vertices a fold of the vertex would add, where that is known; the fewest first, with entries that are no
   // longer true.

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""run.py [--level coarse|middle|fine] [--kind KIND...] [--tries N] [--seconds S] [--time-limit S] [MODEL...] - how much of a part its points
+"""run.py [--level coarse|middle|fine] [--kind KIND...] [--tries N] [--stretch X] [--seconds S] [--time-limit S] [MODEL...] - how much of a model its points
 let become hexes.
 
 Runs the pipeline on models of ../shared/models (or on the files named) once for every kind of points, and prints, worst first
@@ -49,16 +49,17 @@ def tool(name, folder, *arguments):
 
 
 def share(folder, solution):
-    """Percent of the volume in hexes, and the least scaled Jacobian of them; the mesh has to be whole and conforming."""
+    """Percent of the volume in hexes, percent of the number of cells, and the least scaled Jacobian of them; the mesh has to be whole and conforming."""
     mesh = os.path.join(folder, "mesh.vtu")
     stats = tool("assemble", folder, solution, "-o", mesh)
     check = subprocess.run([os.path.join(ROOT, "tests", "checkers", "meshstats.py"), "--json", mesh], check=True,
                            capture_output=True, text=True)
     check = json.loads(check.stdout)
-    if check["inv"] or check["nonconf_quads"]:
-        sys.exit(f"{solution}: {check['inv']} inverted cells, {check['nonconf_quads']} quads against triangles")
+    if check["inverted_cells"] or check["open_quads"]:
+        sys.exit(f"{solution}: {check['inverted_cells']} inverted cells, {check['open_quads']} quads against triangles")
     hexes = stats["cells"]["hex"]
-    return 100 * hexes["share_of_volume"], hexes["scaled_jacobian"]["least"]
+    number = 100 * hexes["count"] / sum(cells["count"] for cells in stats["cells"].values())
+    return 100 * hexes["share_of_volume"], number, hexes["scaled_jacobian"]["least"]
 
 
 def measure(path, level, kind, options):
@@ -68,17 +69,18 @@ def measure(path, level, kind, options):
     with tempfile.TemporaryDirectory() as folder:
         files = {stage: os.path.join(folder, stage + ".tar") for stage in ("mesh", "candidates", "graph", "greedy", "start", "best")}
         mesh = tool("tetmesh", folder, path, "--surface", surface, "--points", points, "--size", repr(size_of(path, level)),
-                    "--tries", str(options.tries), *improving, "-o", files["mesh"])
+                    "--tries", str(options.tries), *improving,
+                    *(["--stretch", repr(options.stretch)] if options.stretch else []), "-o", files["mesh"])
         candidates = tool("findhex", folder, files["mesh"], "-o", files["candidates"])
         tool("buildgraph", folder, files["candidates"], "-o", files["graph"])
         tool("initsol", folder, files["graph"], "--iterations", "0", "-o", files["greedy"])
         tool("initsol", folder, files["graph"], "--time-limit", "1", "-o", files["start"])
         tool("lns", folder, files["start"], "--time-limit", str(options.time_limit), "-o", files["best"])
-        greedy, _ = share(folder, files["greedy"])
-        best, least = share(folder, files["best"])
+        greedy, _, _ = share(folder, files["greedy"])
+        best, number, least = share(folder, files["best"])
     seconds = mesh["seconds_by_step"]
     return {"model": name, "kind": kind, "size": mesh["size"], "points": mesh["points"], "tets": mesh["tets"], "greedy": greedy,
-            "lns": best, "gmsh": GMSH.get(name, (None,) * 3)[level], "candidates": candidates["candidates"] / mesh["points"],
+            "lns": best, "number": number, "gmsh": GMSH.get(name, (None,) * 3)[level], "candidates": candidates["candidates"] / mesh["points"],
             "least": least, "per_tets": 1e5 * sum(seconds.values()) / mesh["tets"],
             "ratio": sum(seconds.values()) / mesh["tetgen_seconds"], "away": mesh["distance_to_input"] / mesh["size"],
             "extra": mesh["extra_points"], "remeshed": mesh["surface_remeshed"] or surface == "keep"}
@@ -87,7 +89,7 @@ def measure(path, level, kind, options):
 def row(r, first):
     against = f"{r['lns'] - first[r['model']]:+.1f}" if r["model"] in first else "-"
     return (f"| {r['model']} | {r['size']:.4g} | {r['kind']}{'' if r['remeshed'] else ' (kept: remeshing failed)'} | {r['points']} | "
-            f"{r['tets']} | {r['greedy']:.1f} | {r['lns']:.1f} | {against} | {r['gmsh'] or '-'} | {r['candidates']:.1f} | "
+            f"{r['tets']} | {r['greedy']:.1f} | {r['lns']:.1f} | {r['number']:.1f} | {against} | {r['gmsh'] or '-'} | {r['candidates']:.1f} | "
             f"{r['least']:.2f} | {r['extra']} | {r['away']:.3f} | {r['per_tets']:.2f} | {r['ratio']:.1f} |")
 
 
@@ -97,6 +99,7 @@ def main():
     parser.add_argument("--level", choices=LEVELS, action="append")
     parser.add_argument("--kind", action="append", help="surface+points, as the options of tetmesh name them, or surface+points+improve")
     parser.add_argument("--tries", type=int, default=1, help="sizes that tetmesh tries")
+    parser.add_argument("--stretch", type=float, default=0, help="of rows, as tetmesh takes it")
     parser.add_argument("--seconds", type=float, default=60, help="in which tetmesh searches for better points, for kinds with +improve")
     parser.add_argument("--time-limit", type=float, default=5, help="seconds of lns")
     options = parser.parse_args()
@@ -105,9 +108,9 @@ def main():
     if missing:
         print(f"skipped: {missing[0]} is not there")
         return
-    print("| model | size | surface+points | points | tets | hex volume %, greedy | after lns | against keep+lattice | Gmsh | candidates / "
+    print("| model | size | surface+points | points | tets | hex volume %, greedy | after lns | hex number % | against keep+lattice | Gmsh | candidates / "
           "vertex | least scaled Jacobian | extra points | distance / size | tetmesh s / 100k tets | tetmesh / TetGen |")
-    print("|---" * 15 + "|")
+    print("|---" * 16 + "|")
     for level in options.level or ("middle", "fine"):
         first = {}
         for kind in options.kind or KINDS:

@@ -8,12 +8,15 @@
 #include <array>
 #include <cstdint>
 #include <queue>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "common/candidates/findhex.hpp"
 #include "common/conflicts/find_conflicts.hpp"
+#include "common/mesh/face_view.hpp"
 #include "common/mesh/facet_key.hpp"
+#include "common/mesh/quality.hpp"
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
 
 namespace hexpipe::assemble::choice {
@@ -41,7 +44,7 @@ LeftTets left_tets(const TetMesh& mesh, const hybrid::HybridMesh& selected) {
   return left;
 }
 
-// All prisms that the tets left could become, with the numbers of `mesh`.
+// All prisms that the tets left could become and that no reader would turn round, with the numbers of `mesh`.
 Candidates prisms_between(const TetMesh& mesh, const hybrid::HybridMesh& selected) {
   LeftTets left = left_tets(mesh, selected);
   Candidates prisms;
@@ -49,7 +52,11 @@ Candidates prisms_between(const TetMesh& mesh, const hybrid::HybridMesh& selecte
   const Candidates found = candidates::findhex(std::move(left.mesh), {.kinds = {CellKind::prism}}, source).candidates;
   const auto same = [](Vertex v) { return v; };
   const auto in_mesh = [&](std::int32_t t) { return left.number[t]; };
-  for (std::size_t i = 0; i < found.size(); ++i) append_candidate(prisms, found, i, same, in_mesh, in_mesh);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto at = corner_points(mesh.points, std::span(found.vertices[i]).first(6));
+    if (!looks_inverted(CellKind::prism, std::span(at).first(6)))
+      append_candidate(prisms, found, i, same, in_mesh, in_mesh);
+  }
   return prisms;
 }
 

@@ -20,7 +20,7 @@ namespace {
 // Longer rings hardly ever have a triangulation that is better.
 constexpr std::size_t longest_ring = 10;
 // A smaller gain is not worth a flip. As every flip gains this much, flips come to an end.
-constexpr double least_gain = 1e-3;
+constexpr double least_gain_of_flip = 1e-3;
 
 // The tets that go and those that take their place.
 struct Flip {
@@ -172,7 +172,7 @@ std::optional<Flip> Flipper::best_flip(std::int32_t t) {
     if (!other || (best && other->worst <= best->worst)) return;
     const double before = worst_of(other->out);
     // Inverted tets overlap others: the tets around them do not fill a ball.
-    if (before > 0 && other->worst > before + least_gain) best = std::move(other);
+    if (before > 0 && other->worst > before + least_gain_of_flip) best = std::move(other);
   };
   for (const auto& e : TetTopology::edges) consider(without_edge(tet[e[0]], tet[e[1]], best ? best->worst : own));
   for (int facet = 0; facet < 4; ++facet) consider(without_facet(t, facet, best ? best->worst : own));

@@ -9,10 +9,10 @@ namespace hexpipe::assemble::conform {
 namespace {
 
 // Below this quality the cavity goes on growing.
-constexpr double good_cavity = 0.2;
+constexpr double good_around_vertex = 0.2;
 // The worst tet has to become better by this factor and by this much, more than rounding, to be worth a vertex.
 constexpr double least_ratio = 1.5;
-constexpr double least_gain = 0.005;
+constexpr double least_gain_of_vertex = 0.005;
 
 }  // namespace
 
@@ -23,8 +23,8 @@ std::int64_t split_flat_tets(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags
     if (!mesh.is_alive(t)) continue;
     Cavity cavity(mesh, tags, t);
     if (cavity.worst_tet() >= least) continue;
-    const double better = cavity.place_vertex(good_cavity), before = cavity.worst_tet();
-    if (better < least_ratio * before || better < before + least_gain) continue;
+    const double better = cavity.place_vertex(good_around_vertex), before = cavity.worst_tet();
+    if (better < least_ratio * before || better < before + least_gain_of_vertex) continue;
     cavity.split(mesh);
     ++vertices;
   }

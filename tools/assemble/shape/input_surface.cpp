@@ -88,12 +88,13 @@ void InputSurface::find_features() {
     while (parent[t] != t) t = parent[t] = parent[parent[t]];
     return t;
   };
+  const KeySet<2> ridges = ridges_of(mesh_);
   std::vector<VertexKey<2>> features;
   for (const auto& [edge, sides] : edges) {
     const auto [first, second] = sides.triangles;
     const auto& p = mesh_.points;
     const bool smooth =
-        sides.count == 2 && mesh_.triangle_tags[first] == mesh_.triangle_tags[second] &&
+        sides.count == 2 && !ridges.contains(edge) && mesh_.triangle_tags[first] == mesh_.triangle_tags[second] &&
         dot(away_from_edge(p[edge[0]], p[edge[1]], p[third_of(mesh_.triangles[first], edge[0], edge[1])]),
             away_from_edge(p[edge[0]], p[edge[1]], p[third_of(mesh_.triangles[second], edge[0], edge[1])])) <
             -cos_feature_angle;

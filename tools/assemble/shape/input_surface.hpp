@@ -27,8 +27,8 @@ std::vector<double> thickness_behind(const TetMesh& mesh, const TetAdjacency& ad
 class InputSurface {
  public:
   // Where a vertex lies: on no tagged triangle; within a smooth patch of the surface; on a feature curve between two
-  // patches; or where curves meet, end or turn. An edge is a feature unless it has two triangles of one tag whose
-  // normals are less than 40 degrees apart.
+  // patches; or where curves meet, end or turn. An edge is a feature if it is a ridge of the mesh, and unless it has
+  // two triangles of one tag whose normals are less than 40 degrees apart.
   enum class Place : std::uint8_t { inside, face, curve, corner };
 
   // `mesh` outlives this, and its surface is complete (surface_tags.hpp). `adjacency` is that of the mesh, and may go.

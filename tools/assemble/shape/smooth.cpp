@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/mesh/face_view.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/mesh/vertex_items.hpp"
@@ -46,7 +47,7 @@ constexpr double excellent = 0.9;
 constexpr int steps_for_worst = 8;
 constexpr int steps_for_score = 2;
 // A smaller gain is not worth another look at the neighbours.
-constexpr double least_gain = 1e-3;
+constexpr double least_gain_of_move = 1e-3;
 // Planes of a surface file are uneven by this much, in diagonals of the bounding box: such files hold floats.
 constexpr double most_uneven = 5e-7;
 // Scaled Jacobians do not see the length of edges: none may become shorter than this fraction of the longest at its
@@ -127,6 +128,7 @@ class Smoother {
   void look_around(Vertex v);
   CornerRules rules_of(CellKind kind) const;
   bool is_valid_cell(std::int32_t c) const;
+  bool looks_inverted(std::int32_t c) const;
   Vec3 growth_at(Vertex v) const;
 
   double weight_of_hexes_;
@@ -184,6 +186,12 @@ bool Smoother::is_valid_cell(std::int32_t c) const {
   const auto corners = cells_.corners_of(c);
   const auto at = corner_points(points_, corners);
   return is_valid(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()));
+}
+
+bool Smoother::looks_inverted(std::int32_t c) const {
+  const auto corners = cells_.corners_of(c);
+  const auto at = corner_points(points_, corners);
+  return hexpipe::looks_inverted(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()));
 }
 
 // Whether v slides on a curved surface or curve, because it has no plane or line.
@@ -248,6 +256,9 @@ bool Smoother::improve(Vertex v, double only_below, bool weighted) {
   const Placement goal = poor ? raise_worst(star_, before, steps_for_worst, freedom(v))
                               : raise_score(star_, before, steps_for_score, good_enough, freedoms_[v]);
   if (goal.at == before) return false;
+  std::vector<std::int32_t> upright_before;
+  for (const std::int32_t c : cells_.at(v))
+    if (cells_.kind(c) == CellKind::prism && !looks_inverted(c)) upright_before.push_back(c);
   std::vector<std::int32_t> valid_before(cells_.at(v).begin(), cells_.at(v).end());
   // Only untangle() meets invalid cells.
   if (worst <= 0) std::erase_if(valid_before, [&](std::int32_t c) { return !is_valid_cell(c); });
@@ -257,12 +268,14 @@ bool Smoother::improve(Vertex v, double only_below, bool weighted) {
     const Vec3 at = slide ? sliding_->surface.foot(sliding_->origin[v], there).at : there;
     const double floor = poor ? worst_unweighted : std::min(worst_unweighted, good_enough);
     if (star_.worst_unweighted(at) < floor || !star_.keeps_floors(before, at)) continue;
-    const bool better = poor ? star_.worst(at) > worst + least_gain
-                             : star_.worst(at) >= good_enough && star_.score(at) > score + least_gain;
+    const bool better = poor ? star_.worst(at) > worst + least_gain_of_move
+                             : star_.worst(at) >= good_enough && star_.score(at) > score + least_gain_of_move;
     if (!better || leaves_surface(v, at) || (worst > 0 && !keeps_edges_long(v, at)) || (slide && !stays_close(v, at)))
       continue;
     points_[v] = at;
-    if (std::ranges::all_of(valid_before, [&](std::int32_t c) { return is_valid_cell(c); })) return true;
+    if (std::ranges::all_of(valid_before, [&](std::int32_t c) { return is_valid_cell(c); }) &&
+        std::ranges::none_of(upright_before, [&](std::int32_t c) { return looks_inverted(c); }))
+      return true;
     points_[v] = before;
   }
   return false;

@@ -8,14 +8,12 @@
 #include <cmath>
 #include <limits>
 
+#include "common/mesh/default_size.hpp"
 #include "common/run/error.hpp"
 
 namespace hexpipe::tetmesh::sizing {
 namespace {
 
-constexpr double longest_default = 0.05;   // of the diagonal
-constexpr double layers_default = 0.5;     // of the mean wall thickness: two layers
-constexpr double shortest_default = 0.01;  // of the cube root of the volume
 constexpr double coarse_edge = 2.5, fine_edge = 0.4;
 constexpr double tolerated_share = 0.25;
 // Over a part of a triangle this long, in sizes, the size is taken to be that of its centre.
@@ -64,9 +62,8 @@ double element_size(const solid::Surface& surface, const std::optional<Length>& 
   for (const Triangle& t : surface.triangles) area += area_of(surface, t);
   const double volume = surface.volume();
   const double spacing = std::sqrt(area / static_cast<double>(surface.points.size()));
-  const double thickness = 2 * volume / area;
-  const double longest = std::min(longest_default * bounding_box_diagonal(surface), layers_default * thickness);
-  return std::max(triangles_stay ? std::min(spacing, longest) : longest, shortest_default * std::cbrt(volume));
+  return default_size({bounding_box_diagonal(surface), area, volume},
+                      triangles_stay ? spacing : std::numeric_limits<double>::infinity());
 }
 
 double points_on_surface(const solid::Surface& surface, const SizeField& size, double enough) {

@@ -62,7 +62,7 @@ class DirectionList {
 class AxesFinder {
  public:
   AxesFinder(const Surface& surface, double feature_angle)
-      : surface_(surface), faces_(area_normals()), edges_(feature_edges(geometry::cosine_of_degrees(feature_angle))) {}
+      : surface_(surface), faces_(area_normals()), edges_(feature_edges(cosine_of_degrees(feature_angle))) {}
 
   Axes find() const {
     const auto candidates = std::span(faces_.directions()).first(std::min(faces_.directions().size(), most_directions));

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "tools/tetmesh/geometry/feature_angle.hpp"
+#include "common/mesh/feature_angle.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 
 namespace hexpipe::tetmesh::solid {
@@ -13,6 +13,6 @@ using Axes = std::array<Vec3, 3>;
 // Orthonormal, right-handed; each the nearest to its coordinate axis that the part allows. The coordinate axes
 // themselves where no others have more of the surface at right angles to them: on parts that are along these, and on
 // those without flat faces. Edges where the surface turns by more than `feature_angle` degrees are features.
-Axes axes_of_part(const Surface& surface, double feature_angle = geometry::default_feature_angle);
+Axes axes_of_part(const Surface& surface, double feature_angle = default_feature_angle);
 
 }  // namespace hexpipe::tetmesh::solid

@@ -98,6 +98,8 @@ void Repairer::weld() {
   soup_.points = kept.points();
   for (Triangle& t : soup_.triangles)
     for (Vertex& v : t) v = new_index[v];
+  for (formats::CurveEdge& edge : soup_.curves)
+    for (Vertex& v : edge) v = new_index[v];
 }
 
 void Repairer::remove_degenerate() {
@@ -310,6 +312,16 @@ void Repairer::drop_unused_points() {
       v = new_index[v];
     }
   soup_.points = std::move(points);
+  // A curve whose edge went with its triangles is no more.
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < soup_.curves.size(); ++i) {
+    const formats::CurveEdge edge{new_index[soup_.curves[i][0]], new_index[soup_.curves[i][1]]};
+    if (edge[0] == unused || edge[1] == unused || edge[0] == edge[1]) continue;
+    soup_.curves[kept] = edge;
+    soup_.curve_tags[kept++] = soup_.curve_tags[i];
+  }
+  soup_.curves.resize(kept);
+  soup_.curve_tags.resize(kept);
 }
 
 std::string counted(std::size_t count, std::string_view noun) {
@@ -339,6 +351,10 @@ nlohmann::ordered_json to_json(const RepairReport& report) {
 }
 
 RepairReport repair(formats::SurfaceSoup& soup, const RepairOptions& options) {
+  if (!soup.sides.empty())
+    throw DataError::at(soup.name,
+                        "expected a surface that does not say what is on its sides for --repair, found "
+                        "surface/sides.npy; tessellate heals shapes");
   return Repairer(soup, options).repair();
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -68,15 +69,19 @@ std::vector<double> measure_shells(Surface& surface) {
 
 class ShellFinder {
  public:
-  ShellFinder(formats::SurfaceSoup soup, ShellRule rule) : surface_{std::move(soup), {}, {}, 0}, rule_(rule) {}
+  ShellFinder(formats::SurfaceSoup soup, ShellRule rule) : surface_{std::move(soup), {}, {}, 0, false}, rule_(rule) {}
 
   Surface find() {
     collect_shells();
     find_parents();
-    number_regions();
-    assign_sides();
+    if (surface_.sides.empty()) {
+      number_regions();
+      assign_sides();
+    } else {
+      take_given_sides();
+    }
     orient_triangles();
-    choose_tags();
+    choose_tags(surface_);
     return std::move(surface_);
   }
 
@@ -84,11 +89,11 @@ class ShellFinder {
   void collect_shells();
   void find_parents();
   void number_regions();
+  void take_given_sides();
   bool encloses_material(const Draft& shell) const;
   void assign_sides();
   void assign_sides(std::int32_t shell);
   void orient_triangles();
-  void choose_tags();
 
   Surface surface_;
   ShellRule rule_;
@@ -130,6 +135,29 @@ void ShellFinder::number_regions() {
     Shell& shell = surface_.shells[s];
     shell.has_material = encloses_material(drafts_[s]);
     if (shell.has_material) shell.behind = ++surface_.region_count;
+  }
+}
+
+// What is on the sides of a shell, the surface says of each of its triangles.
+void ShellFinder::take_given_sides() {
+  for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
+    const std::int32_t s = surface_.shell_of[i];
+    const std::int32_t first = surface_.shells[s].first_triangle;
+    if (surface_.sides[i] != surface_.sides[first])
+      throw DataError::at(
+          surface_.place_of(i),
+          "expected regions {} and {} on its sides, as of other triangles of its shell, found {} and {}",
+          surface_.sides[first][0], surface_.sides[first][1], surface_.sides[i][0], surface_.sides[i][1]);
+  }
+  for (std::size_t s = 0; s < drafts_.size(); ++s) {
+    Shell& shell = surface_.shells[s];
+    const auto [behind, before] = surface_.sides[shell.first_triangle];
+    const bool points_outward = drafts_[s].signed_volume > 0;
+    const std::int32_t inside = points_outward ? behind : before, around = points_outward ? before : behind;
+    shell.has_material = inside != outside_region;
+    shell.behind = shell.has_material ? inside : around;
+    shell.in_front = shell.has_material ? around : inside;
+    surface_.region_count = std::max({surface_.region_count, behind, before});
   }
 }
 
@@ -175,16 +203,37 @@ void ShellFinder::orient_triangles() {
   }
 }
 
-void ShellFinder::choose_tags() {
-  const bool file_tells = std::ranges::adjacent_find(surface_.tags, std::not_equal_to()) != surface_.tags.end();
-  if (file_tells) return;
-  for (std::size_t i = 0; i < surface_.tags.size(); ++i) surface_.tags[i] = surface_.shell_of[i] + 1;
+// The name of the whole surface, where the file has one, stays where the whole gets one tag again.
+void rename_only_tag(Surface& surface) {
+  const auto found = surface.names.surfaces.find(surface.tags.front());
+  std::map<std::int32_t, std::string> names;
+  if (found != surface.names.surfaces.end() && surface.shells.size() == 1) names[1] = found->second;
+  surface.names.surfaces = std::move(names);
 }
 
 }  // namespace
 
+void choose_tags(Surface& surface) {
+  const bool file_tells =
+      surface.has_own_tags || std::ranges::adjacent_find(surface.tags, std::not_equal_to()) != surface.tags.end();
+  if (file_tells) return;
+  rename_only_tag(surface);
+  for (std::size_t i = 0; i < surface.tags.size(); ++i) surface.tags[i] = surface.shell_of[i] + 1;
+}
+
 std::vector<double> Surface::region_volumes() const {
   std::vector<double> volumes(region_count + 1);
+  if (has_sheets) {
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const auto [a, b, c] = triangles[i];
+      const Shell& sheet = shells[shell_of[i]];
+      const double volume = det(points[a] - points[0], points[b] - points[0], points[c] - points[0]) / 6;
+      volumes[sheet.behind] += volume;
+      volumes[sheet.in_front] -= volume;
+    }
+    volumes[outside_region] = 0;
+    return volumes;
+  }
   for (const Shell& shell : shells) {
     volumes[shell.behind] += shell.has_material ? shell.volume : -shell.volume;
     if (shell.has_material) volumes[shell.in_front] -= shell.volume;
@@ -212,7 +261,7 @@ Surface find_shells(formats::SurfaceSoup soup, ShellRule rule) {
 }
 
 Surface with_shells_of(const Surface& surface, formats::SurfaceSoup soup, std::vector<std::int32_t> shell_of) {
-  Surface other{std::move(soup), std::move(shell_of), surface.shells, surface.region_count};
+  Surface other{std::move(soup), std::move(shell_of), surface.shells, surface.region_count, surface.has_sheets};
   measure_shells(other);
   return other;
 }

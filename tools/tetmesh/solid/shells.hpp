@@ -1,5 +1,6 @@
 #pragma once
-// The closed pieces of a surface, and what lies on either side of each: material of a region, or nothing.
+// The closed pieces of a surface, and what lies on either side of each: material of a region, or nothing. Where sheets
+// meet at edges of more than two triangles, the pieces are sheets, each with the same on either side all over.
 
 #include <cstdint>
 #include <string>
@@ -37,6 +38,7 @@ struct Surface : formats::SurfaceSoup {
   std::vector<std::int32_t> shell_of;  // of each triangle
   std::vector<Shell> shells;           // in the order of their first triangle
   std::int32_t region_count = 0;       // regions are numbered from 1 in the order of the shells that enclose them
+  bool has_sheets = false;             // more than two triangles meet somewhere: the pieces are not closed
 
   // The volume of each region from its shells; entry 0 is zero.
   std::vector<double> region_volumes() const;
@@ -50,6 +52,9 @@ bool is_in_material(const Surface& surface, const geometry::ColumnIndex& columns
 // Finds the shells of a checked surface and their regions. Throws DataError naming the first triangle of a shell that
 // encloses nothing where ShellRule::oriented wants material.
 Surface find_shells(formats::SurfaceSoup soup, ShellRule rule);
+
+// The numbers of the shells, from 1, where the file does not tell triangles apart.
+void choose_tags(Surface& surface);
 
 // The same shells of other triangles, which come in the order of the shells: `shell_of` of each its number.
 Surface with_shells_of(const Surface& surface, formats::SurfaceSoup soup, std::vector<std::int32_t> shell_of);

@@ -190,12 +190,21 @@ void check_vertices(const formats::SurfaceSoup& soup, std::span<const geometry::
                       count == 1 ? "1 vertex" : fmt::format("{} vertices", count), text_of(soup.points[v]));
 }
 
+// What tessellate can do about it; only its bundles say what is on the sides.
+const char* hint_for_cad(const formats::SurfaceSoup& soup) {
+  if (soup.sides.empty()) return "";
+  const auto is_first = [](const auto& sides) { return sides[0] <= 1 && sides[1] <= 1; };
+  return std::ranges::all_of(soup.sides, is_first) ? "; from CAD, try a smaller --deviation or --angle of tessellate"
+                                                   : "; where bodies touch, tessellate --join makes one face of two";
+}
+
 void check_no_intersections(const formats::SurfaceSoup& soup, const geometry::IntersectionReport& report) {
   if (report.pairs.empty()) return;
   throw DataError::at(
       soup.place_of(report.pairs.front()[0]),
-      "expected a surface that does not intersect itself, found {}{} of triangles that do; the first: {}",
-      report.complete ? "" : "more than ", count_of(report.pairs.size(), "pair"), list_of(soup, report.pairs.front()));
+      "expected a surface that does not intersect itself, found {}{} of triangles that do; the first: {}{}",
+      report.complete ? "" : "more than ", count_of(report.pairs.size(), "pair"), list_of(soup, report.pairs.front()),
+      hint_for_cad(soup));
 }
 
 }  // namespace
@@ -213,6 +222,14 @@ void check_surface(const formats::SurfaceSoup& soup, std::string_view remedy) {
       },
       [&] { report = geometry::find_intersections(soup.points, soup.triangles, most_intersections); });
   check_no_intersections(soup, report);
+}
+
+void check_areas(const formats::SurfaceSoup& soup, std::string_view remedy) {
+  check_no_degenerate_triangles(soup, remedy);
+}
+
+void check_intersections(const formats::SurfaceSoup& soup) {
+  check_no_intersections(soup, geometry::find_intersections(soup.points, soup.triangles, most_intersections));
 }
 
 }  // namespace hexpipe::tetmesh::solid

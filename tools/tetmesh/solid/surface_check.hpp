@@ -16,4 +16,8 @@ namespace hexpipe::tetmesh::solid {
 // `remedy` ends the messages about what repair.hpp mends.
 void check_surface(const formats::SurfaceSoup& soup, std::string_view remedy = {});
 
+// Of a surface whose sheets may meet as they like: no triangle is degenerate; and none intersects another.
+void check_areas(const formats::SurfaceSoup& soup, std::string_view remedy = {});
+void check_intersections(const formats::SurfaceSoup& soup);
+
 }  // namespace hexpipe::tetmesh::solid

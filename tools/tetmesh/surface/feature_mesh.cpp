@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "tools/tetmesh/geometry/feature_angle.hpp"
+#include "common/mesh/feature_angle.hpp"
 
 namespace hexpipe::tetmesh::surface {
 
 FeatureMesh::FeatureMesh(const solid::Surface& surface, double feature_angle)
-    : corner_cosine_(geometry::cosine_of_degrees(feature_angle)) {
+    : corner_cosine_(cosine_of_degrees(feature_angle)) {
   reserve(surface.points.size(), 3 * surface.triangles.size() / 2, surface.triangles.size());
   for (const Vec3& p : surface.points) add_vertex(to_open_mesh(p));
   for (const Triangle& t : surface.triangles) add_face(vertex_handle(t[0]), vertex_handle(t[1]), vertex_handle(t[2]));
@@ -46,7 +46,7 @@ void FeatureMesh::resize_attributes() {
 }
 
 void FeatureMesh::mark_features(const solid::Surface& surface, double feature_angle) {
-  const double cosine = geometry::cosine_of_degrees(feature_angle);
+  const double cosine = cosine_of_degrees(feature_angle);
   for (const EdgeHandle e : edges()) {
     const FaceHandle f = face_handle(halfedge_handle(e, 0)), g = face_handle(halfedge_handle(e, 1));
     const Vec3 n = area_normal(f), m = area_normal(g);
@@ -54,6 +54,9 @@ void FeatureMesh::mark_features(const solid::Surface& surface, double feature_an
     if (!sharp && surface.tags[source(f)] == surface.tags[source(g)]) continue;
     mark_feature(e, EdgeRole::feature);
   }
+  for (const formats::CurveEdge& edge : surface.curves)
+    if (const auto h = find_halfedge(vertex_handle(edge[0]), vertex_handle(edge[1])); h.is_valid())
+      mark_feature(edge_handle(h), EdgeRole::feature);
 }
 
 void FeatureMesh::mark_feature(EdgeHandle e, EdgeRole role) {

@@ -36,7 +36,8 @@ enum class VertexRole : std::uint8_t {
 
 class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
  public:
-  // Feature edges: where normals of neighbours differ by more than the angle (degrees), and where tags meet. Corners,
+  // Feature edges: where normals of neighbours differ by more than the angle (degrees), where tags meet, and along the
+  // surface's own curves. Corners,
   // which are kept, are the vertices where other than two feature edges meet or where a curve turns by more than it.
   FeatureMesh(const solid::Surface& surface, double feature_angle);
 

@@ -221,8 +221,8 @@ void SurfaceFront::take_if_free(const SizedPoint& point, const Outlook& outlook)
 
 std::vector<SurfacePoint> surface_front(const FieldSurface& surface, const CrossField& field,
                                         std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
-                                        const sizing::SizeField& size) {
-  return SurfaceFront(surface, field, size).run(surface_lattice(surface, field, opposite, kept), kept);
+                                        const sizing::SizeField& size, double row_stretch) {
+  return SurfaceFront(surface, field, size).run(surface_lattice(surface, field, opposite, kept, row_stretch), kept);
 }
 
 }  // namespace hexpipe::tetmesh::surface

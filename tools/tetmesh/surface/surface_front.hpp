@@ -10,9 +10,10 @@
 
 namespace hexpipe::tetmesh::surface {
 
-// `kept` are the vertices of the surface that are points already: those of its feature curves.
+// `kept` are the vertices of the surface that are points already: those of its feature curves. `row_stretch`:
+// see surface_lattice.hpp.
 std::vector<SurfacePoint> surface_front(const FieldSurface& surface, const CrossField& field,
                                         std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
-                                        const sizing::SizeField& size);
+                                        const sizing::SizeField& size, double row_stretch);
 
 }  // namespace hexpipe::tetmesh::surface

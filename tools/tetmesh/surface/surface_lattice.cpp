@@ -19,6 +19,7 @@
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/surface/links_across.hpp"
+#include "tools/tetmesh/surface/row_joining.hpp"
 #include "tools/tetmesh/surface/surface_curl.hpp"
 
 namespace hexpipe::tetmesh::surface {
@@ -30,8 +31,10 @@ constexpr double edge_weight = 20, point_weight = 5;
 constexpr double aligned_cosine = 0.94;  // between a feature edge's normal and a direction that it is across
 constexpr fields::DiffusionLimits limits{200, 1e-3};
 constexpr int smoothing_sweeps = 60;  // 20 lose 1 % of the volume in hexes on small parts
-constexpr double certain = 1e-3;      // moduli of numbers that features say something about
-constexpr double inertia = 0.3;       // of a number's own value, against its links
+// So that both sides of a wall agree again.
+constexpr int sweeps_after_joining = 30;
+constexpr double certain = 1e-3;  // moduli of numbers that features say something about
+constexpr double inertia = 0.3;   // of a number's own value, against its links
 // How strongly the step to the next point of the lattice keeps to the field, against what all links say; and at least.
 constexpr double rigidity = 0.1, least_hold = 1e-9;
 constexpr double least_determinant = 0.2;  // of the cells a step in each direction, below which the field is followed
@@ -68,12 +71,16 @@ class LatticeMaker {
     greatest_size_ = std::ranges::max(surface.sizes);
   }
 
-  SurfaceLattice make(std::span<const Vertex> kept) {
+  SurfaceLattice make(std::span<const Vertex> kept, double row_stretch) {
     link(kept);
     make_anchors(kept);
     diffuse();
     reach_the_rest();
     for (int i = 0; i < smoothing_sweeps; ++i) sweep();
+    if (row_stretch > 0) {
+      join_rows(links_, across_, targets_, row_stretch, phases_);
+      for (int i = 0; i < sweeps_after_joining; ++i) sweep();
+    }
     propose();
     agree();
     std::ranges::stable_sort(proposals_, std::greater(), &Proposal::trust);
@@ -322,8 +329,9 @@ Proposal LatticeMaker::agreed(const geometry::SizedPointGrid& grid, const Propos
 }  // namespace
 
 SurfaceLattice surface_lattice(const FieldSurface& surface, const CrossField& field,
-                               std::span<const OppositeSide> opposite, std::span<const Vertex> kept) {
-  return LatticeMaker(surface, field, opposite).make(kept);
+                               std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
+                               double row_stretch) {
+  return LatticeMaker(surface, field, opposite).make(kept, row_stretch);
 }
 
 }  // namespace hexpipe::tetmesh::surface

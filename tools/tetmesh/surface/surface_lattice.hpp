@@ -21,7 +21,10 @@ struct SurfaceLattice {
 
 // `kept` are the vertices of the surface that are points already. Of sides that face each other across the inside, so
 // that rows lead from the one to the other, `opposite` tells.
+// `row_stretch`: by how much the distance from one triangle of the field to the next may change, in sizes, for rows not
+// to end; 0: rows are never joined.
 SurfaceLattice surface_lattice(const FieldSurface& surface, const CrossField& field,
-                               std::span<const OppositeSide> opposite, std::span<const Vertex> kept);
+                               std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
+                               double row_stretch = 0);
 
 }  // namespace hexpipe::tetmesh::surface

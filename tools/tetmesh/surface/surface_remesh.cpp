@@ -59,6 +59,7 @@ class SurfaceRemesher::Work {
       : surface_(surface),
         size_(options.size),
         deviation_(options.deviation * options.unit.value_or(options.size)),
+        row_stretch_(options.row_stretch),
         prepared_(surface, options.feature_angle) {}
 
   bool make();
@@ -81,6 +82,7 @@ class SurfaceRemesher::Work {
 
   const solid::Surface& surface_;
   sizing::SizeField size_, deviation_;
+  double row_stretch_;
   double expected_points_ = 0;  // on the new surface
   FeatureMesh prepared_;        // with all points inserted, and the vertices of the input
   std::optional<DistanceIndex> input_;
@@ -129,7 +131,8 @@ bool SurfaceRemesher::Work::rows_go_across() const {
 bool SurfaceRemesher::Work::place_points() {
   if (size_.is_uniform()) prepared_.add_crests(crest_lines(prepared_, size_));
   const sizing::SizeField longest = field_edge * size_, flat = flatness * size_;
-  if (rows_go_across())
+  const bool counts_rows = rows_go_across();
+  if (counts_rows)
     sample_feature_curves(prepared_, curves_by_rows(prepared_, size_, row_edge * size_, flat), size_, deviation_);
   else
     sample_feature_curves(prepared_, size_, deviation_);
@@ -138,7 +141,8 @@ bool SurfaceRemesher::Work::place_points() {
   const FieldSurface field_surface(prepared_, size_);
   const auto [field, opposite] = cross_field_across(field_surface);
   if (!std::ranges::all_of(field.directions, is_place)) return false;
-  const std::vector<SurfacePoint> points = surface_front(field_surface, field, opposite, kept, size_);
+  const std::vector<SurfacePoint> points =
+      surface_front(field_surface, field, opposite, kept, size_, counts_rows ? row_stretch_ : 0);
   insert_points(prepared_, points, snap * size_);
   result.feature_points = kept.size();
   result.front_points = points.size();

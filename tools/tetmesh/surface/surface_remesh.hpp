@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "tools/tetmesh/geometry/feature_angle.hpp"
+#include "common/mesh/feature_angle.hpp"
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 
@@ -14,9 +14,10 @@ namespace hexpipe::tetmesh::surface {
 
 struct RemeshOptions {
   sizing::SizeField size = 1;  // distance of the points
-  double feature_angle = geometry::default_feature_angle;
+  double feature_angle = default_feature_angle;
   double deviation = 0.15;                     // of either surface from the other, at the most, in units
   std::optional<sizing::SizeField> unit = {};  // nothing: the size
+  double row_stretch = 0;                      // in sizes: surface_lattice.hpp
 };
 
 struct RemeshResult {

@@ -166,7 +166,8 @@ void check_volumes(const solid::Surface& surface, const TetMesh& mesh) {
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
     found[mesh.tet_tags[t]] += tet_determinant(mesh.points, mesh.tets[t]) / 6;
   double scale = 0;
-  for (const solid::Shell& shell : surface.shells) scale += shell.volume;
+  for (const solid::Shell& shell : surface.shells) scale += surface.has_sheets ? 0 : shell.volume;
+  if (surface.has_sheets) scale = surface.volume();
   for (std::size_t region = 1; region < wanted.size(); ++region)
     if (std::abs(found[region] - wanted[region]) > volume_tolerance * scale)
       throw failure_at(surface.name, "region {} has volume {:.12g}, its tets {:.12g}", region, wanted[region],

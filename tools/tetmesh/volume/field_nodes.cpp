@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/mesh/feature_angle.hpp"
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/geometry/feature_angle.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 
 namespace hexpipe::tetmesh::volume {
@@ -24,7 +24,7 @@ class SurfaceReader {
  public:
   SurfaceReader(const solid::Surface& surface, double feature_angle)
       : surface_(surface),
-        feature_cosine_(geometry::cosine_of_degrees(feature_angle)),
+        feature_cosine_(cosine_of_degrees(feature_angle)),
         nodes_(surface.points.size()),
         legs_(nodes_.size()),
         creased_(nodes_.size()) {}

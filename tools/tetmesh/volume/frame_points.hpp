@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "common/mesh/adjacency.hpp"
+#include "common/mesh/feature_angle.hpp"
 #include "common/mesh/tet_mesh.hpp"
-#include "tools/tetmesh/geometry/feature_angle.hpp"
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 
@@ -26,7 +26,7 @@ struct FramePointsOptions {
   // three parts: 11.3 and 87.2 % at 0, 8.4 and 87.6 at 0.01, 7.4 and 87.7 at 0.02, 6.2 and 87.6 at 0.04.
   double jitter = 0.04;
   std::uint64_t seed = 1;
-  double feature_angle = geometry::default_feature_angle;
+  double feature_angle = default_feature_angle;
   std::array<Vec3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // of a lattice, to see how far the frames are from it
 };
 

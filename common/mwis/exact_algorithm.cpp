@@ -1,0 +1,79 @@
+#include "common/mwis/exact_algorithm.hpp"
+
+#include <cassert>
+
+#include "common/mwis/bounds/clique_dual.hpp"
+#include "common/mwis/exact/historical/searches_on_bits.hpp"
+#ifdef HEXPIPE_WITH_CLP
+#include "common/mwis/exact/cutting_planes.hpp"
+#endif
+
+namespace hexpipe::mwis {
+namespace {
+
+bool is_on_bits(ExactAlgorithm algorithm) {
+  return algorithm != ExactAlgorithm::branch_and_reduce && algorithm != ExactAlgorithm::branch_and_cut;
+}
+
+exact::ExactResult search_by_reductions(const graph::ConflictGraph& graph, std::int64_t weight,
+                                        ExactAlgorithm algorithm, const Deadline& deadline) {
+  exact::BranchAndReduce search(relaxation_of(algorithm), deadline);
+  exact::ExactResult result;
+  result.better = search.solve(graph, weight);
+  result.complete = search.complete();
+  result.bound = search.bound();
+  result.nodes = search.nodes();
+  return result;
+}
+
+}  // namespace
+
+const std::map<std::string, ExactAlgorithm>& exact_algorithms() {
+  static const std::map<std::string, ExactAlgorithm> algorithms{
+      {"complete-search", ExactAlgorithm::complete_search},     {"clique-partition", ExactAlgorithm::clique_partition},
+      {"clique-cover", ExactAlgorithm::clique_cover},           {"clique-lp", ExactAlgorithm::clique_lp},
+      {"branch-and-reduce", ExactAlgorithm::branch_and_reduce},
+#ifdef HEXPIPE_WITH_CLP
+      {"branch-and-cut", ExactAlgorithm::branch_and_cut},
+#endif
+  };
+  return algorithms;
+}
+
+std::string default_exact_algorithm() {
+  return exact_algorithms().contains("branch-and-cut") ? "branch-and-cut" : "branch-and-reduce";
+}
+
+bounds::Relax relaxation_of([[maybe_unused]] ExactAlgorithm algorithm) {
+#ifdef HEXPIPE_WITH_CLP
+  if (algorithm == ExactAlgorithm::branch_and_cut) return exact::relax_by_cutting_planes;
+#endif
+  assert(algorithm == ExactAlgorithm::branch_and_reduce);
+  return bounds::relax_by_clique_dual;
+}
+
+void expect_room_for(ExactAlgorithm algorithm, const graph::ConflictGraph& graph) {
+  if (is_on_bits(algorithm)) exact::historical::expect_room_on_bits(graph);
+  if (algorithm == ExactAlgorithm::clique_lp) exact::historical::expect_room_for_clique_lp(graph);
+}
+
+exact::ExactResult solve_exactly(const graph::ConflictGraph& graph, std::int64_t weight, ExactAlgorithm algorithm,
+                                 const Deadline& deadline) {
+  expect_room_for(algorithm, graph);
+  switch (algorithm) {
+    case ExactAlgorithm::complete_search:
+      return exact::historical::search_completely(graph, weight, deadline);
+    case ExactAlgorithm::clique_partition:
+      return exact::historical::search_by_clique_partition(graph, weight, deadline);
+    case ExactAlgorithm::clique_cover:
+      return exact::historical::search_by_clique_cover(graph, weight, deadline);
+    case ExactAlgorithm::clique_lp:
+      return exact::historical::search_by_clique_lp(graph, weight, deadline);
+    case ExactAlgorithm::branch_and_reduce:
+    case ExactAlgorithm::branch_and_cut:
+      break;
+  }
+  return search_by_reductions(graph, weight, algorithm, deadline);
+}
+
+}  // namespace hexpipe::mwis

@@ -1,0 +1,42 @@
+#pragma once
+// The exact algorithms by name, behind one interface.
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "common/graph/conflict_graph.hpp"
+#include "common/mwis/bounds/relaxation.hpp"
+#include "common/mwis/exact/branch_and_reduce.hpp"
+#include "common/run/deadline.hpp"
+
+namespace hexpipe::mwis {
+
+enum class ExactAlgorithm {
+  branch_and_reduce,
+  branch_and_cut,
+  // exact/historical: to compare with
+  complete_search,
+  clique_partition,
+  clique_cover,
+  clique_lp,
+};
+
+// The algorithms that this build has: branch and cut needs CLP.
+const std::map<std::string, ExactAlgorithm>& exact_algorithms();
+// The name of the best of them.
+std::string default_exact_algorithm();
+
+// The relaxation by which branch and reduce, or branch and cut, bounds a reduced graph.
+bounds::Relax relaxation_of(ExactAlgorithm algorithm);
+
+// Throws DataError where a graph has too many vertices for a search without reductions, or weights too large for
+// clique_lp.
+void expect_room_for(ExactAlgorithm algorithm, const graph::ConflictGraph& graph);
+
+// Looks for the heaviest set among those heavier than `weight`, until it is proven or the deadline passes. Throws as
+// expect_room_for does.
+exact::ExactResult solve_exactly(const graph::ConflictGraph& graph, std::int64_t weight, ExactAlgorithm algorithm,
+                                 const Deadline& deadline);
+
+}  // namespace hexpipe::mwis

@@ -1,0 +1,16 @@
+#include "common/mwis/local_search/stop_rule.hpp"
+
+namespace hexpipe::mwis::local_search {
+
+void StopRule::record(double work, std::int64_t weight) {
+  work_ = work;
+  if (points_.empty() || weight > points_.back().weight) points_.push_back({work, weight});
+  while (half_ + 1 < points_.size() && points_[half_ + 1].work <= work_ / 2) ++half_;
+}
+
+bool StopRule::is_done() const {
+  if (least_gain_ <= 0 || work_ < least_work_ || points_.empty()) return false;
+  return static_cast<double>(points_.back().weight - points_[half_].weight) < least_gain_;
+}
+
+}  // namespace hexpipe::mwis::local_search

@@ -1,0 +1,32 @@
+#pragma once
+// When going on is not worth it: a search ends when the last half of its work gained too little.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace hexpipe::mwis::local_search {
+
+// Counts work, not seconds, so that a search ends at the same place on every machine.
+class StopRule {
+ public:
+  // `least_gain`, of the last half, in units of weight; 0: goes on for ever. Before `least_work` nothing is judged.
+  StopRule(double least_gain, double least_work) : least_gain_(least_gain), least_work_(least_work) {}
+
+  // What was done, and reached, in all; neither falls.
+  void record(double work, std::int64_t weight);
+  bool is_done() const;
+
+ private:
+  struct Point {
+    double work;
+    std::int64_t weight;
+  };
+
+  double least_gain_, least_work_;
+  double work_ = 0;
+  std::vector<Point> points_;  // where the weight rose
+  std::size_t half_ = 0;       // the last of them in the first half of the work, where there is one
+};
+
+}  // namespace hexpipe::mwis::local_search

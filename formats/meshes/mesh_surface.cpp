@@ -1,0 +1,48 @@
+#include "formats/meshes/mesh_surface.hpp"
+
+#include <utility>
+
+#include "common/run/error.hpp"
+#include "formats/meshes/medit.hpp"
+#include "formats/meshes/mesh_files.hpp"
+#include "formats/meshes/msh.hpp"
+#include "formats/meshes/vtk_legacy.hpp"
+#include "formats/meshes/vtu.hpp"
+#include "formats/streams/text_scanner.hpp"
+#include "formats/surfaces/surface_building.hpp"
+
+namespace hexpipe::formats {
+
+bool looks_like_mesh_surface(std::string_view bytes) {
+  bytes = without_byte_order_mark(bytes);
+  return looks_like_vtu(bytes) || looks_like_vtk_legacy(bytes) || looks_like_msh(bytes) || looks_like_medit(bytes);
+}
+
+SurfaceSoup read_mesh_surface(Input& input) {
+  GroupNames names;
+  const MixedMesh mesh = read_mixed_mesh(input, &names);
+  if (mesh.cell_count() > 0)
+    throw DataError::at(input.name(),
+                        "expected a surface, found a mesh of {} cells; findhex takes it where they are tets",
+                        mesh.cell_count());
+  SurfaceSoup soup;
+  soup.name = input.name();
+  soup.text = false;
+  soup.points = mesh.points;
+  soup.names.surfaces = std::move(names.surfaces);
+  std::int64_t place = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    append_triangle(soup, mesh.triangles.cells[i], mesh.triangles.tags[i], ++place);
+  PolygonReader polygons;
+  SurfaceSoup of_quads;
+  of_quads.points = mesh.points;
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i)
+    polygons.append(of_quads, mesh.quads.cells[i], mesh.quads.tags[i], ++place);
+  polygons.cut_concave(of_quads);
+  for (std::size_t i = 0; i < of_quads.triangles.size(); ++i)
+    append_triangle(soup, of_quads.triangles[i], of_quads.tags[i], of_quads.places[i]);
+  check_extent(soup);
+  return merge_equal_points(std::move(soup));
+}
+
+}  // namespace hexpipe::formats

@@ -1,0 +1,44 @@
+#pragma once
+// How a mesh is to be written, beside its format: what solvers want and formats allow.
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "common/mesh/mixed_mesh.hpp"
+#include "formats/streams/group_names.hpp"
+
+namespace hexpipe::formats {
+
+// keep: as pyramids. collapsed: as hexes with the apex four times. split: as two tets each.
+enum class PyramidForm { keep, collapsed, split };
+
+struct MeshWriting {
+  GroupNames names{};
+  PyramidForm pyramids = PyramidForm::keep;
+  bool facets = true;                // false: cells alone, for readers that take no facets among them
+  std::string hex_element = "C3D8";  // Abaqus' type of hexes
+  // Hears what the writer had to change, a line each. May be empty.
+  std::function<void(const std::string&)> tell{};
+
+  void say(const std::string& line) const {
+    if (tell) tell(line);
+  }
+};
+
+// With two tets for each pyramid. The diagonal of a base begins at its lowest vertex, so that two pyramids on one base
+// agree. A facet that only pyramids have becomes two triangles; beside a hex or a prism it stays a quad, whose other
+// side is two triangles now: vertices fit, but the mesh no longer conforms there, and finite elements do not pass the
+// patch test.
+MixedMesh with_split_pyramids(const MixedMesh& mesh);
+
+// Throws DataError, beginning with `name`, where a format has too few numbers for so many points or elements.
+inline constexpr std::size_t most_of_31_bits = 2147483647;
+void check_numbers(std::size_t count, std::size_t most, std::string_view name);
+
+// A length that is nothing beside the mesh: 1e-15 of the diagonal of its bounding box. Coordinates below it are written
+// as 0 by formats with short fields, where they would take digits.
+double negligible_length(const MixedMesh& mesh);
+
+}  // namespace hexpipe::formats

@@ -1,0 +1,307 @@
+#include "formats/meshes/openfoam.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "common/mesh/facet_key.hpp"
+#include "common/run/error.hpp"
+#include "formats/meshes/facet_table.hpp"
+#include "formats/meshes/group_naming.hpp"
+#include "formats/meshes/mesh_blocks.hpp"
+#include "formats/streams/number_writer.hpp"
+
+namespace hexpipe::formats {
+namespace {
+
+// Other characters end a word of a dictionary, or mean a pattern.
+constexpr NameRules openfoam_rules{.format = "OpenFOAM", .longest = 255, .others = "-.:+%@~^"};
+constexpr const char* untagged_patch = "defaultFaces";
+constexpr Vertex no_corner = -1;
+
+// A face with its corners as its first cell sees them from inside out, its lowest corner first; a triangle has no
+// fourth.
+using Corners = std::array<Vertex, 4>;
+
+template <std::size_t N>
+Corners face_corners(const std::array<Vertex, N>& corners) {
+  Corners face{no_corner, no_corner, no_corner, no_corner};
+  std::ranges::copy(corners, face.begin());
+  return face;
+}
+
+std::size_t corner_count_of(const Corners& face) {
+  return face[3] == no_corner ? 3 : 4;
+}
+
+Corners sorted(Corners face) {
+  std::ranges::sort(face);
+  return face;
+}
+
+struct Face {
+  Corners key;      // sorted
+  Corners corners;  // outward from the owner
+  std::int32_t owner;
+  std::int32_t neighbour = -1;
+  std::int32_t surface = -1;  // an index of names
+};
+
+bool same_cycle(const Corners& a, const Corners& b) {
+  const std::size_t count = corner_count_of(a);
+  const auto start = static_cast<std::size_t>(std::ranges::find(b, a[0]) - b.begin());
+  for (std::size_t i = 0; i < count; ++i)
+    if (a[i] != b[(start + i) % count]) return false;
+  return true;
+}
+
+class PolyMesh {
+ public:
+  PolyMesh(const MixedMesh& mesh, const MeshWriting& writing, OutputFolder& folder)
+      : mesh_(mesh), writing_(writing), folder_(folder), names_(mesh, writing, openfoam_rules, {untagged_patch}) {
+    surface_names_ = names_.surfaces.list();
+    check_numbers(mesh.cell_count() * 6, most_of_31_bits, folder.name());
+    collect_faces();
+    join_faces();
+    check_conformity();
+    tag_faces(mesh.triangles);
+    tag_faces(mesh.quads);
+    tell_of_untagged();
+    order_faces();
+  }
+
+  void write() {
+    write_points();
+    write_faces();
+    write_cells_of_faces();
+    write_boundary();
+    write_cell_zones();
+    write_face_zones();
+  }
+
+ private:
+  static constexpr std::int32_t untagged = -1;
+
+  void collect_faces() {
+    std::int32_t cell_number = 0;
+    const auto collect = [&](auto topology, const auto& block) {
+      using Topology = decltype(topology);
+      for (const auto& cell : block.cells) {
+        for (const auto& t : Topology::triangles) add_face(face_corners(pick(cell, t)), cell_number);
+        for (const auto& q : Topology::quads) add_face(face_corners(pick(cell, q)), cell_number);
+        ++cell_number;
+      }
+    };
+    collect(HexTopology{}, mesh_.hexes), collect(PrismTopology{}, mesh_.prisms);
+    collect(PyramidTopology{}, mesh_.pyramids), collect(TetTopology{}, mesh_.tets);
+  }
+
+  void add_face(const Corners& corners, std::int32_t cell) { faces_.push_back({sorted(corners), corners, cell}); }
+
+  // Two cells with the same corners have one face.
+  void join_faces() {
+    std::ranges::sort(faces_, {}, [](const Face& face) { return std::pair(face.key, face.owner); });
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      if (kept == 0 || faces_[kept - 1].key != faces_[i].key) {
+        faces_[kept++] = faces_[i];
+        continue;
+      }
+      Face& first = faces_[kept - 1];
+      if (first.neighbour >= 0)
+        throw DataError::at(folder_.name(), "cannot write cell {}: its face is one of two others, too",
+                            faces_[i].owner + 1);
+      first.neighbour = faces_[i].owner;
+    }
+    faces_.resize(kept);
+  }
+
+  template <class Block>
+  void tag_faces(const Block& block) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const Corners corners = face_corners(block.cells[i]);
+      const auto found = std::ranges::lower_bound(faces_, sorted(corners), {}, &Face::key);
+      if (found == faces_.end() || found->key != sorted(corners))
+        throw DataError::at(folder_.name(), "cannot write {}[{}]: it is no face of a cell",
+                            corners_of_block<Block> == 3 ? "triangles" : "quads", i);
+      const std::string& name = names_.surfaces.of(block.tags[i]);
+      found->surface = static_cast<std::int32_t>(std::ranges::find(surface_names_, name) - surface_names_.begin());
+      if (found->neighbour >= 0) flipped_[found->key] = !same_cycle(corners, found->corners);
+    }
+  }
+
+  // A quad against two triangles would be three walls inside the mesh.
+  void check_conformity() const {
+    const auto is_open = [&](const Triangle& triangle) {
+      const Corners key = sorted(face_corners(triangle));
+      const auto found = std::ranges::lower_bound(faces_, key, {}, &Face::key);
+      return found != faces_.end() && found->key == key && found->neighbour < 0;
+    };
+    for (const Face& face : faces_) {
+      if (face.neighbour >= 0 || corner_count_of(face.corners) != 4) continue;
+      for (int diagonal = 0; diagonal < 2; ++diagonal)
+        if (std::ranges::all_of(triangles_of(face.corners, diagonal), is_open))
+          throw DataError::at(folder_.name(), "cannot write cell {}: a quad of it faces two triangles", face.owner + 1);
+    }
+  }
+
+  void tell_of_untagged() const {
+    const auto count =
+        std::ranges::count_if(faces_, [](const Face& face) { return face.neighbour < 0 && face.surface == untagged; });
+    if (count > 0) writing_.say(fmt::format("{} faces on no surface become the patch {}", count, untagged_patch));
+  }
+
+  // Inside: by owner, then neighbour; after them by patch.
+  void order_faces() {
+    std::ranges::sort(faces_, {}, [](const Face& face) {
+      const bool outside = face.neighbour < 0;
+      return std::tuple(outside, outside ? face.surface : 0, face.owner, face.neighbour, face.key);
+    });
+    inside_ = std::ranges::count_if(faces_, [](const Face& face) { return face.neighbour >= 0; });
+  }
+
+  Output& open(const char* file, const char* type, const std::string& note = "") {
+    Output& output = folder_.add(file);
+    output.print("FoamFile\n{{\n    version 2.0;\n    format ascii;\n    class {};\n", type);
+    if (!note.empty()) output.print("    note \"{}\";\n", note);
+    output.print("    location \"constant/polyMesh\";\n    object {};\n}}\n\n", file);
+    return output;
+  }
+
+  void write_points() {
+    Output& output = open("points", "vectorField");
+    output.print("{}\n(\n", mesh_.points.size());
+    for (const Vec3& p : mesh_.points) output.print("({} {} {})\n", p.x, p.y, p.z);
+    output.print(")\n");
+    output.drain();
+  }
+
+  void write_faces() {
+    Output& output = open("faces", "faceList");
+    output.print("{}\n(\n", faces_.size());
+    for (const Face& face : faces_) {
+      const std::size_t count = corner_count_of(face.corners);
+      output.print("{}({})\n", count, fmt::join(face.corners.begin(), face.corners.begin() + count, " "));
+    }
+    output.print(")\n");
+    output.drain();
+  }
+
+  void write_cells_of_faces() {
+    const std::string note = fmt::format("nPoints: {} nCells: {} nFaces: {} nInternalFaces: {}", mesh_.points.size(),
+                                         mesh_.cell_count(), faces_.size(), inside_);
+    Output& owners = open("owner", "labelList", note);
+    owners.print("{}\n(\n", faces_.size());
+    for (const Face& face : faces_) owners.print("{}\n", face.owner);
+    owners.print(")\n");
+    owners.drain();
+    Output& neighbours = open("neighbour", "labelList", note);
+    neighbours.print("{}\n(\n", inside_);
+    for (const Face& face : faces_)
+      if (face.neighbour >= 0) neighbours.print("{}\n", face.neighbour);
+    neighbours.print(")\n");
+    neighbours.drain();
+  }
+
+  // Patches in the order of their faces.
+  void write_boundary() {
+    struct Patch {
+      std::int32_t surface;
+      std::size_t start, count;
+    };
+    std::vector<Patch> patches;
+    for (std::size_t i = static_cast<std::size_t>(inside_); i < faces_.size(); ++i) {
+      if (patches.empty() || patches.back().surface != faces_[i].surface) patches.push_back({faces_[i].surface, i, 0});
+      ++patches.back().count;
+    }
+    Output& output = open("boundary", "polyBoundaryMesh");
+    output.print("{}\n(\n", patches.size());
+    for (const Patch& patch : patches)
+      output.print("    {}\n    {{\n        type patch;\n        nFaces {};\n        startFace {};\n    }}\n",
+                   patch.surface == untagged ? untagged_patch : surface_names_[static_cast<std::size_t>(patch.surface)],
+                   patch.count, patch.start);
+    output.print(")\n");
+    output.drain();
+  }
+
+  void write_cell_zones() {
+    std::map<std::string, std::vector<std::int32_t>> cells;
+    std::int32_t cell = 0;
+    for_each_block(mesh_, [&](const ElementNames& names, const auto& block) {
+      if (names.dimension != 3) return;
+      for (const std::int32_t tag : block.tags) cells[names_.regions.of(tag)].push_back(cell++);
+    });
+    Output& output = open("cellZones", "regIOobject");
+    output.print("{}\n(\n", cells.size());
+    for (const std::string& name : names_.regions.list())
+      output.print("{}\n{{\n    type cellZone;\n    cellLabels List<label>\n{}\n(\n{}\n)\n;\n}}\n", name,
+                   cells[name].size(), fmt::join(cells[name], "\n"));
+    output.print(")\n");
+    output.drain();
+  }
+
+  // Of the surfaces that have cells on both sides.
+  void write_face_zones() {
+    std::map<std::int32_t, std::vector<std::size_t>> zones;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(inside_); ++i)
+      if (faces_[i].surface != untagged) zones[faces_[i].surface].push_back(i);
+    Output& output = open("faceZones", "regIOobject");
+    output.print("{}\n(\n", zones.size());
+    for (const auto& [surface, list] : zones) {
+      output.print(
+          "{}\n{{\n    type faceZone;\n    faceLabels List<label>\n{}\n(\n{}\n)\n;\n    flipMap List<bool>\n{}\n(\n",
+          surface_names_[static_cast<std::size_t>(surface)], list.size(), fmt::join(list, "\n"), list.size());
+      for (const std::size_t face : list) output.print("{}\n", flipped_.at(faces_[face].key) ? 1 : 0);
+      output.print(")\n;\n}}\n");
+    }
+    output.print(")\n");
+    output.drain();
+  }
+
+  const MixedMesh& mesh_;
+  const MeshWriting& writing_;
+  OutputFolder& folder_;
+  GroupNamings names_;
+  std::vector<std::string> surface_names_;
+  std::vector<Face> faces_;
+  std::map<Corners, bool> flipped_;  // whether a facet looks against its face
+  std::int64_t inside_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<OutputFolder> open_poly_mesh(const std::string& path) {
+  const std::vector<std::string_view> own{"points",
+                                          "faces",
+                                          "owner",
+                                          "neighbour",
+                                          "boundary",
+                                          "cellZones",
+                                          "faceZones",
+                                          "pointZones",
+                                          "sets",
+                                          "meshModifiers",
+                                          "cellLevel",
+                                          "pointLevel",
+                                          "level0Edge",
+                                          "surfaceIndex",
+                                          "cellProcAddressing",
+                                          "faceProcAddressing",
+                                          "pointProcAddressing",
+                                          "boundaryProcAddressing"};
+  return std::make_unique<OutputFolder>(path, own);
+}
+
+void write_openfoam(const MixedMesh& mesh, const MeshWriting& writing, OutputFolder& folder) {
+  PolyMesh(mesh, writing, folder).write();
+}
+
+}  // namespace hexpipe::formats

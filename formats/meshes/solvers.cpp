@@ -1,0 +1,78 @@
+#include "formats/meshes/solvers.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "common/run/error.hpp"
+
+namespace hexpipe::formats {
+namespace {
+
+struct Solver {
+  std::string_view name;
+  std::vector<std::string_view> formats;
+  PyramidForm pyramids;
+  const char* hex_element;
+};
+
+const std::vector<Solver>& solvers() {
+  static const std::vector<Solver> list{
+      // It has no pyramids. Hexes of full integration lock in bending: incompatible modes cure it.
+      {"calculix", {"inp"}, PyramidForm::collapsed, "C3D8I"},
+      {"abaqus", {"inp"}, PyramidForm::keep, "C3D8I"},
+      {"openfoam", {"polyMesh", "msh22"}, PyramidForm::keep, "C3D8"},
+      {"su2", {"su2"}, PyramidForm::keep, "C3D8"},
+      {"nastran", {"bdf", "nas"}, PyramidForm::keep, "C3D8"},
+  };
+  return list;
+}
+
+const char* name_of(PyramidForm form) {
+  switch (form) {
+    case PyramidForm::collapsed:
+      return "collapsed";
+    case PyramidForm::split:
+      return "split";
+    case PyramidForm::keep:
+      break;
+  }
+  return "kept";
+}
+
+}  // namespace
+
+MeshWriting mesh_writing(const MeshOptions& options, std::string_view format) {
+  MeshWriting writing;
+  if (!options.solver.empty()) {
+    const Solver& solver = *std::ranges::find(solvers(), options.solver, &Solver::name);
+    if (std::ranges::find(solver.formats, format) == solver.formats.end())
+      throw UsageError(
+          fmt::format("--solver {} goes with {}, found {}", solver.name, fmt::join(solver.formats, " or "), format));
+    writing.pyramids = solver.pyramids;
+    writing.hex_element = solver.hex_element;
+  }
+  if (options.pyramids == "keep") writing.pyramids = PyramidForm::keep;
+  if (options.pyramids == "collapsed") writing.pyramids = PyramidForm::collapsed;
+  if (options.pyramids == "split") writing.pyramids = PyramidForm::split;
+  if (writing.pyramids == PyramidForm::collapsed && format != "inp")
+    throw UsageError(fmt::format("--pyramids collapsed goes with inp, which has such hexes, found {}", format));
+  if (!options.hex_element.empty()) {
+    if (format != "inp") throw UsageError(fmt::format("--hex-element goes with inp, found {}", format));
+    writing.hex_element = options.hex_element;
+  }
+  writing.facets = !options.no_facets;
+  return writing;
+}
+
+std::string solver_summary(const MeshOptions& options, const MeshWriting& writing) {
+  if (options.solver.empty()) return "";
+  const std::string hexes = options.solver == "calculix" || options.solver == "abaqus"
+                                ? fmt::format(", hexes are {}", writing.hex_element)
+                                : "";
+  return fmt::format("for {}: pyramids are {}{}", options.solver, name_of(writing.pyramids), hexes);
+}
+
+}  // namespace hexpipe::formats

@@ -1,0 +1,66 @@
+#pragma once
+// What a stage of the pipeline takes and what it makes: all roles together as they are read, and one product for each
+// role as it is written.
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "common/graph/clique_cover.hpp"
+#include "common/graph/conflict_graph.hpp"
+#include "common/mesh/candidates.hpp"
+#include "common/mesh/mesh_part.hpp"
+#include "common/mesh/mesh_piece.hpp"
+#include "common/mesh/mixed_mesh.hpp"
+#include "common/mesh/tet_mesh.hpp"
+#include "formats/streams/group_names.hpp"
+
+namespace hexpipe::pipeline {
+
+// For each vertex of a solution, certify's share of the gap to its bound (gap_shares.hpp).
+using SolutionGaps = std::vector<std::int64_t>;
+
+// What a stage has read. A role that the stage did not ask for, or that is not there, stays empty.
+struct StageData {
+  std::optional<TetMesh> mesh;
+  std::optional<Candidates> candidates;
+  std::optional<graph::ConflictGraph> graph;
+  std::optional<graph::CliqueCover> cover;  // with StageRequest::cover
+  std::optional<graph::IndependentSet> solution;
+  std::optional<SolutionGaps> gaps;
+  std::optional<MixedMesh> result;
+  std::optional<MeshPart> part;                 // with StageRequest::part, where the mesh is a part of another
+  std::optional<CandidateKeys> candidate_keys;  // likewise
+  formats::GroupNames names;                    // of the tags of mesh and result
+  std::vector<nlohmann::ordered_json> history;
+};
+
+// Products. The optional members go into a bundle only; a file of one role has no place for them.
+
+struct MeshProduct {
+  TetMesh mesh;
+};
+
+struct CandidatesProduct {
+  Candidates candidates;
+  std::optional<CandidateKeys> keys{};  // of a part of a mesh
+};
+
+struct GraphProduct {
+  graph::ConflictGraph graph;
+  std::optional<graph::CliqueCover> cover{};
+  std::optional<CandidatesProduct> candidates{};  // in place of those that the stage held back
+};
+
+struct SolutionProduct {
+  graph::IndependentSet solution;
+  std::optional<SolutionGaps> gaps{};
+};
+
+struct ResultProduct {
+  MixedMesh mesh;
+  std::optional<MeshPiece> piece{};  // of a part of a mesh
+};
+
+}  // namespace hexpipe::pipeline

@@ -1,0 +1,23 @@
+#pragma once
+// Surfaces in bundles: the members surface/*.npy and names.json.
+
+#include <functional>
+#include <string_view>
+
+#include "formats/pipeline/bundle.hpp"
+#include "formats/surfaces/surface_files.hpp"
+
+namespace hexpipe::pipeline {
+
+bool is_surface_member(std::string_view name);
+
+// Takes the surface and the names of a bundle and passes each other member to `other`, if that is given, which may read
+// it. `copy`, if not null, gets the members of the surface as they come. Points without a triangle and those that are
+// equal to another are left out, as of all formats.
+formats::SurfaceSoup read_surface_bundle(formats::Input& input, const std::function<void(BundleReader&)>& other,
+                                         BundleWriter* copy = nullptr);
+
+// All members that have something to say, but not the names.
+void write_surface_members(BundleWriter& writer, const formats::SurfaceSoup& surface);
+
+}  // namespace hexpipe::pipeline

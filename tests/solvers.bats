@@ -1,0 +1,482 @@
+# What solvers and mesh converters make of our files: CalculiX, OpenFOAM, Gmsh and meshio find what we put there.
+
+load helpers
+
+MESH="$DATA/meshes/one_of_each.msh"
+
+need_calculix() {
+  command -v ccx >/dev/null || skip "calculix-ccx is not installed"
+}
+
+# openfoam is large: only where it happens to be installed.
+need_openfoam() {
+  command -v checkMesh >/dev/null || skip "openfoam is not installed"
+  export WM_PROJECT_DIR=${WM_PROJECT_DIR:-/usr/share/openfoam}
+}
+
+# openfoam_case DIRECTORY: the dictionaries that every application of OpenFOAM wants to see.
+openfoam_case() {
+  mkdir -p "$1/system" "$1/constant"
+  local head='FoamFile { version 2.0; format ascii; class dictionary; object dictionary; }'
+  echo "$head
+application laplacianFoam; startFrom startTime; startTime 0; stopAt endTime; endTime 1; deltaT 1;
+writeControl timeStep; writeInterval 1; writePrecision 12;" >"$1/system/controlDict"
+  echo "$head
+ddtSchemes { default steadyState; } gradSchemes { default Gauss linear; } divSchemes { default none; }
+laplacianSchemes { default Gauss linear corrected; } interpolationSchemes { default linear; }
+snGradSchemes { default corrected; }" >"$1/system/fvSchemes"
+  echo "$head
+solvers { T { solver PCG; preconditioner DIC; tolerance 1e-12; relTol 0; } } SIMPLE { nNonOrthogonalCorrectors 20; }" \
+    >"$1/system/fvSolution"
+}
+
+# whole_mesh [TAG]: whole.msh has a cell of each kind, and all of their outer faces as one surface.
+whole_mesh() {
+  sed '/ElementData/,$d' "$MESH" >plain.msh
+  "$PYTHON" "$DATA/meshes/whole_surface.py" plain.msh whole.msh "${1:-1}" >judge.log 2>&1 || fail "$(cat judge.log)"
+}
+
+# inp_fields FILE: the widest field and the longest line.
+inp_fields() {
+  awk -F', *' '{ if (length($0) > line) line = length($0)
+                 for (i = 1; i <= NF; ++i) if (length($i) > field) field = length($i) }
+               END { print field, line }' <(grep -v '^\*' "$1")
+}
+
+# volume_of FILE.inp: of all elements together, as CalculiX measures it.
+volume_of() {
+  echo "*INCLUDE, INPUT=$1
+*MATERIAL, NAME=STEEL
+*ELASTIC
+210000, 0.3
+*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL
+*STEP
+*STATIC
+*BOUNDARY
+NALL, 1, 3, 0
+*EL PRINT, ELSET=EALL, TOTALS=ONLY
+EVOL
+*END STEP" >case.inp
+  rm -f case.dat
+  timeout 60 ccx case >ccx.log || return 1
+  awk '/total volume/ { getline; getline; printf "%.3f\n", $1 }' case.dat
+}
+
+@test "CalculiX reads coordinates of many digits as they are meant" {
+  mesh_convert "$DATA/meshes/long_numbers.mesh" inp long.inp
+  run sed -n 4p long.inp
+  assert_output "1, 0, 0, 0"
+  # Digits that do not fit are left out at their end; what is small beside the mesh but not nothing stays.
+  sed 's/1.110223024625157e-16/-9.52639091424853e-05/; s/^1 0 0 0$/1.0000000000000002 1.2345678901234567e-11 0 0/' \
+    "$DATA/meshes/long_numbers.mesh" >longer.mesh
+  mesh_convert longer.mesh inp longer.inp
+  run sed -n '4,5p' longer.inp
+  assert_output "1, 0, 0, -9.5263909142485e-05
+2, 1.0000000000000002, 1.23456789012346e-11, 0"
+  local name found
+  for name in long longer; do
+    found=$(inp_fields $name.inp)
+    assert [ "${found% *}" -le 20 ]
+  done
+  need_calculix
+  for name in long longer; do
+    run volume_of $name.inp
+    assert_output "1.000"
+  done
+}
+
+@test "lines of .inp are of 80 characters at most" {
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 12 >big.mesh
+  mesh_convert big.mesh inp big.inp
+  run inp_fields big.inp
+  assert [ "${output#* }" -le 80 ]
+  assert [ "${output#* }" -gt 60 ]
+}
+
+# pressed FILE.inp: with the pressure 210 on SURFACE_1, which is all of the boundary, every point moves by -0.0004 of its
+# place, whatever the cells are: E = 210000, nu = 0.3. Held are three points, so that it neither moves nor turns.
+pressed() {
+  $PYTHON - "$1" <<'PYTHON'
+import sys
+nodes, reading = {}, False
+for line in open(sys.argv[1]):
+    if line.startswith("*"):
+        reading = line.upper().startswith("*NODE")
+    elif reading:
+        number, *at = line.split(",")
+        nodes[int(number)] = tuple(float(c) for c in at)
+by_place = {at: number for number, at in nodes.items()}
+with open("case.inp", "w") as case:
+    print("*INCLUDE, INPUT=%s\n*MATERIAL, NAME=STEEL\n*ELASTIC\n210000, 0.3" % sys.argv[1], file=case)
+    print("*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL\n*BOUNDARY", file=case)
+    for at, first, last in (((0, 0, 0), 1, 3), ((1, 0, 0), 2, 3), ((0, 1, 0), 3, 3)):
+        print("%d, %d, %d, 0" % (by_place[at], first, last), file=case)
+    print("*STEP\n*STATIC\n*DSLOAD\nSURFACE_1, P, 210\n*NODE PRINT, NSET=NALL\nU\n*END STEP", file=case)
+PYTHON
+  rm -f case.dat
+  timeout 60 ccx case >ccx.log || return 1
+  $PYTHON - "$1" <<'PYTHON'
+import sys
+nodes, reading = {}, False
+for line in open(sys.argv[1]):
+    if line.startswith("*"):
+        reading = line.upper().startswith("*NODE")
+    elif reading:
+        number, *at = line.split(",")
+        nodes[int(number)] = [float(c) for c in at]
+moved = [line.split() for line in open("case.dat") if len(line.split()) == 4]
+assert len(moved) == len(nodes), (len(moved), len(nodes))
+for number, *by in moved:
+    for found, c in zip(map(float, by), nodes[int(number)]):
+        assert abs(found + 0.0004 * c) < 1e-9, (number, by, nodes[int(number)])
+PYTHON
+}
+
+@test "CalculiX presses all kinds of cells alike, with collapsed pyramids" {
+  need_calculix
+  # With flat faces: on warped ones its prisms are not integrated exactly.
+  whole_mesh
+  sed -i 's/^11 1.0 0.5 2.1$/11 1 0.5 2/' whole.msh
+  mesh_convert whole.msh inp collapsed.inp "" collapsed
+  grep -q '^11, 1, 0.5, 2$' collapsed.inp
+  grep -q '^3, 2, 3, 7, 6, 9, 9, 9, 9$' collapsed.inp
+  pressed collapsed.inp
+  mesh_convert whole.msh inp incompatible.inp "" collapsed C3D8I
+  grep -A1 -n 'TYPE=C3D8I' incompatible.inp | grep -q '1, 1, 2, 3, 4, 5, 6, 7, 8'
+  pressed incompatible.inp
+  # As they are, it has no such cells.
+  mesh_convert whole.msh inp kept.inp
+  grep -q 'TYPE=C3D5' kept.inp
+  run pressed kept.inp
+  assert_failure
+}
+
+@test "CalculiX takes split pyramids for what they are, but quads against triangles do not balance" {
+  need_calculix
+  whole_mesh
+  sed -i 's/^11 1.0 0.5 2.1$/11 1 0.5 2/' whole.msh
+  mesh_convert whole.msh inp collapsed.inp "" collapsed
+  mesh_convert whole.msh inp split.inp "" split 2>said
+  assert_equal "$(<said)" "mesh_convert: 1 pyramids are written as two tets each: their quads face two triangles"
+  assert_equal "$(grep -c 'C3D5\|, 9, 9' split.inp)" 0
+  assert_equal "$(volume_of split.inp)" "$(volume_of collapsed.inp)"
+  assert_equal "$(volume_of split.inp)" 2.000
+  # docs/solvers.md advises against it.
+  run pressed split.inp
+  assert_failure
+}
+
+# bend FILE.inp: how far the end of a beam of 10 x 1 x 1 bends under a force, beside what beam theory says.
+bend() {
+  cat >case.inp <<INP
+*INCLUDE, INPUT=$1
+*MATERIAL, NAME=STEEL
+*ELASTIC
+210000, 0
+*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL
+*BOUNDARY
+root, 1, 3, 0
+*STEP
+*STATIC
+*CLOAD
+tip, 3, 0.25
+*NODE PRINT, NSET=tip
+U
+*END STEP
+INP
+  timeout 60 ccx case >ccx.log
+  # F L^3 / (3 E I) with four nodes of 0.25, and shear: 6/5 F L / (G A)
+  awk 'NF == 4 { sum += $4; ++count } END { theory = 1000 / (3 * 210000 / 12) + 1.2 * 10 / 105000
+                                            printf "%.3f\n", sum / count / theory }' case.dat
+}
+
+@test "CalculiX bends a beam of one layer of hexes as far as it should with C3D8I, by node sets with names" {
+  need_calculix
+  $PYTHON - >beam.mesh <<'PYTHON'
+n = 10
+def at(i, j, k): return 4 * i + 2 * k + j + 1
+print("MeshVersionFormatted 2\nDimension 3\nVertices\n%d" % (4 * (n + 1)))
+for i in range(n + 1):
+    for k in range(2):
+        for j in range(2):
+            print(i, j, k, 0)
+print("Hexahedra\n%d" % n)
+for i in range(n):
+    print(*(at(i + a, b, c) for a, b, c in ((0,0,0),(1,0,0),(1,1,0),(0,1,0),(0,0,1),(1,0,1),(1,1,1),(0,1,1))), 1)
+print("Quadrilaterals\n2\n%d %d %d %d 4\n%d %d %d %d 5\nEnd" % (at(0,0,0), at(0,0,1), at(0,1,1), at(0,1,0),
+      at(n,0,0), at(n,1,0), at(n,1,1), at(n,0,1)))
+PYTHON
+  local names='{"surfaces": {"4": "root", "5": "tip"}}' found
+  mesh_convert beam.mesh inp good.inp "$names" "" C3D8I
+  mesh_convert beam.mesh inp reduced.inp "$names" "" C3D8R
+  mesh_convert beam.mesh inp plain.inp "$names"
+  found=$(bend good.inp)
+  assert awk -v x="$found" 'BEGIN { exit !(x > 0.97 && x < 1.03) }'
+  assert_different_bytes good.inp reduced.inp
+  assert_different_bytes plain.inp reduced.inp
+}
+
+@test "assemble writes for a solver, and says what that means" {
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 4 >lattice.mesh
+  findhex --mesh lattice.mesh | buildgraph | initsol --iterations 0 -o solved.tar
+  run_apart assemble solved.tar --solver calculix -v -o a.inp
+  assert_success
+  [[ "$stderr" == *"for calculix: pyramids are collapsed, hexes are C3D8I"* ]]
+  grep -q 'TYPE=C3D8I' a.inp
+  assemble solved.tar --solver calculix --pyramids keep --hex-element C3D8 -o b.inp
+  assemble solved.tar -o c.inp
+  assert_same_bytes b.inp c.inp
+  # The other commands of docs/solvers.md.
+  grep -oE 'assemble stages.tar --solver [a-z0-9]+ -o part[.][a-z0-9]+' "$HEXPIPE_SOURCE/docs/solvers.md" >commands
+  assert_equal "$(wc -l <commands)" 4
+  cp solved.tar stages.tar
+  while read -r command; do
+    rm -f part.*
+    $command
+    assert [ -s part.* ]
+  done <commands
+  assemble solved.tar --no-facets -o cells.vtu
+  assemble solved.tar -o all.vtu
+  assert_different_bytes cells.vtu all.vtu
+  run "$PYTHON" "$CHECKERS/mesh_contents.py" vtk cells.vtu
+  assert_success
+  assert_equal "$(cut -d' ' -f1 <<<"$output" | sort -u)" hex
+  assert_fails_with 2 "solver calculix goes with inp, found vtu" assemble solved.tar --solver calculix -o a.vtu
+  assert_fails_with 2 "pyramids collapsed goes with inp.* found su2" assemble solved.tar --pyramids collapsed -o a.su2
+  assert_fails_with 2 "hex-element goes with inp, found msh" assemble solved.tar --hex-element C3D8I -o a.msh
+  assert_fails_with 2 "polyMesh is a folder" assemble solved.tar --format polyMesh
+  # They change no bundle, and so not its history either.
+  assemble solved.tar -o one.tar
+  assemble solved.tar --no-facets -o two.tar
+  assert_same_bytes one.tar two.tar
+}
+
+@test "a prism that gmshToFoam would turn round goes back to its tets" {
+  cat >warped.mesh <<'MESH'
+MeshVersionFormatted 2
+Dimension 3
+Vertices
+6
+.1 .13859 .21934 0
+.07927 .13784 .21934 0
+.1 .13645 .23754 0
+.1 .17926 .21308 0
+.07681 .17868 .21538 0
+.1 .17677 .21751 0
+Tetrahedra
+3
+1 2 3 5 1
+1 5 3 6 1
+1 5 6 4 1
+End
+MESH
+  local cells count
+  sed 's/^.07681 .17868 .21538 0$/.07927 .17784 .21934 0/; s/^.1 .17926 .21308 0$/.1 .17859 .21934 0/
+       s/^.1 .17677 .21751 0$/.1 .17645 .23754 0/' warped.mesh >upright.mesh
+  for cells in warped upright; do
+    findhex --mesh $cells.mesh --cells prism --min-quality 0.05 | buildgraph | initsol --iterations 0 -o $cells.tar
+    assemble $cells.tar --smooth 0 --fill none --stats $cells.json -o $cells.msh22
+  done
+  count() { "$PYTHON" -c 'import json, sys; print(json.load(open(sys.argv[1]))["cells"]["prism"]["count"])' "$1"; }
+  assert_equal "$(count upright.json)" 1
+  assert_equal "$(count warped.json)" 0
+  need_openfoam
+  openfoam_case case
+  mv upright.msh22 upright.msh
+  run gmshToFoam -case case upright.msh
+  assert_success
+  refute_output --partial Inverting
+}
+
+@test "OpenFOAM finds cells, patches, zones and the volume in a polyMesh" {
+  need_openfoam
+  openfoam_case case
+  whole_mesh 5
+  # A facet between two cells, on surface 7.
+  sed -i 's/^16$/17/; s/^.EndElements/17 3 2 7 7 2 3 7 6\n&/' whole.msh
+  mesh_convert whole.msh polyMesh case/constant/polyMesh \
+    '{"surfaces": {"5": "main inlet"}, "regions": {"1": "main_inlet", "2": "water"}}' 2>said
+  assert_equal "$(grep -c "'main inlet' is written as main_inlet" said)" 1
+  run checkMesh -case case -allTopology
+  assert_success
+  for line in "hexahedra: +1" "prisms: +1" "pyramids: +1" "tetrahedra: +1" "polyhedra: +0" "boundary patches: +1" "face zones: +1" \
+    "cell zones: +4" "Upper triangular ordering OK" "main_inlet +[0-9]+ .*ok" "Total volume = 2.04166"; do
+    assert_output --regexp "$line"
+  done
+  run cat case/constant/polyMesh/cellZones
+  for name in main_inlet_2 water region_3 region_4; do assert_output --partial "$name"; done
+  # The facet looks as its face does, from the hex to the pyramid.
+  run bash -c 'tr -s "\n" " " <case/constant/polyMesh/faceZones | grep -o "surface_7.*"'
+  assert_output --partial "surface_7 { type faceZone; faceLabels List<label> 1 ( 1 ) ; flipMap List<bool> 1 ( 0 ) ; }"
+}
+
+@test "OpenFOAM conducts heat through a mesh of hexes and tets exactly" {
+  need_openfoam
+  openfoam_case case
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 4 >untagged.mesh
+  $PYTHON - <<'PYTHON'
+# The sides x = 0 and x = 4 are surfaces 1 and 2, the others 3.
+import itertools
+words = iter(open("untagged.mesh").read().split())
+sections = {}
+for word in words:
+    if word in ("Vertices", "Tetrahedra"):
+        sections[word] = [[next(words) for _ in range(4 if word == "Vertices" else 5)] for _ in range(int(next(words)))]
+points = [[float(c) for c in p[:3]] for p in sections["Vertices"]]
+faces = {}
+for tet in sections["Tetrahedra"]:
+    for face in itertools.combinations(map(int, tet[:4]), 3):
+        faces[tuple(sorted(face))] = faces.get(tuple(sorted(face)), 0) + 1
+text = open("untagged.mesh").read().replace("End", "")
+lines = []
+for face, count in faces.items():
+    if count == 1:
+        xs = {points[v - 1][0] for v in face}
+        lines.append("%d %d %d %d" % (*face, 1 if xs == {0} else 2 if xs == {4} else 3))
+open("tagged.mesh", "w").write(text + "Triangles\n%d\n%s\nEnd\n" % (len(lines), "\n".join(lines)))
+PYTHON
+  findhex --mesh tagged.mesh | buildgraph | initsol --iterations 0 |
+    assemble --smooth 0 --solver openfoam -o case/constant/polyMesh
+  mkdir case/0
+  echo 'FoamFile { version 2.0; format ascii; class volScalarField; object T; }
+dimensions [0 0 0 1 0 0 0]; internalField uniform 0;
+boundaryField { surface_1 { type fixedValue; value uniform 0; } surface_2 { type fixedValue; value uniform 4; }
+  surface_3 { type zeroGradient; } }' >case/0/T
+  echo 'FoamFile { version 2.0; format ascii; class dictionary; object transportProperties; }
+DT DT [0 2 -1 0 0 0 0] 1;' >case/constant/transportProperties
+  run laplacianFoam -case case
+  assert_success
+  run postProcess -case case -latestTime -func writeCellCentres
+  assert_success
+  $PYTHON - <<'PYTHON'
+import re
+def field(name):
+    text = open("case/1/" + name).read()
+    return [float(x) for x in re.search(r"internalField\s+nonuniform List<scalar>\s*\d+\s*\((.*?)\)", text, re.S).group(1).split()]
+T, x = field("T"), field("Cx")
+assert len(T) == len(x) > 60
+assert max(abs(a - b) for a, b in zip(T, x)) < 1e-6, max(abs(a - b) for a, b in zip(T, x))
+PYTHON
+}
+
+@test "a polyMesh folder is whole or not there, and another folder is left alone" {
+  whole_mesh
+  mesh_convert whole.msh polyMesh polyMesh
+  assert_equal "$(ls polyMesh | xargs)" "boundary cellZones faceZones faces neighbour owner points"
+  cp -r polyMesh before
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 6 >other.mesh
+  # The disk is full in the middle of it: the file of points takes more than a block of 1024 bytes.
+  run_apart bash -c "trap '' XFSZ; ulimit -f 1; exec mesh_convert other.mesh polyMesh polyMesh"
+  assert_failure 1
+  [[ "$stderr" == *"cannot write: File too large"* ]]
+  diff -r before polyMesh
+  assert_equal "$(ls -d polyMesh*)" polyMesh
+  # One that is there is replaced, with what lay in it.
+  touch polyMesh/sets
+  mesh_convert other.mesh polyMesh polyMesh 2>said
+  assert_equal "$(<said)" "mesh_convert: 432 faces on no surface become the patch defaultFaces"
+  assert [ ! -e polyMesh/sets ]
+  grep -q defaultFaces polyMesh/boundary
+  mkdir home
+  touch home/thesis.tex
+  assert_fails_with 1 "home: the folder holds 'thesis.tex', which is none of the files" mesh_convert whole.msh polyMesh home
+  assert_equal "$(ls home)" thesis.tex
+  touch file
+  assert_fails_with 1 "file: expected a folder to write" mesh_convert whole.msh polyMesh file
+  assert_fails_with 1 "no/polyMesh: cannot write: No such file" mesh_convert whole.msh polyMesh no/polyMesh
+}
+
+@test "quads against two triangles are no polyMesh" {
+  whole_mesh
+  run mesh_convert whole.msh polyMesh polyMesh "" split
+  assert_failure 1
+  assert_line "mesh_convert: polyMesh: cannot write cell 1: a quad of it faces two triangles"
+  assert [ ! -e polyMesh ]
+}
+
+@test "Gmsh and meshio find the same mesh in SU2 and Nastran files" {
+  local format reader turn
+  whole_mesh
+  for format in su2 bdf; do
+    mesh_convert whole.msh $format out.$format 2>/dev/null
+    for reader in meshio gmsh; do
+      # Gmsh writes SU2 only.
+      if [[ $reader-$format == gmsh-su2 ]]; then continue; fi
+      "$PYTHON" "$CHECKERS/mesh_contents.py" $reader --no-tags whole.msh >expected.txt 2>/dev/null
+      "$PYTHON" "$CHECKERS/mesh_contents.py" $reader --no-tags out.$format 2>judge.log >as_it_is.txt || fail "$(cat judge.log)"
+      # SU2 has VTK's wedges, which meshio takes as they are.
+      if [[ $format == su2 ]]; then turn='s/^(prism -) (\S+) (\S+) (\S+) (\S+) (\S+) (\S+)$/\1 \2 \4 \3 \5 \7 \6/'; else turn=; fi
+      sed -E "$turn" as_it_is.txt >found.txt
+      diff expected.txt found.txt || fail "$reader $format"
+    done
+  done
+}
+
+@test "what Gmsh writes as SU2 and Nastran is read" {
+  local format
+  gmsh -3 -v 2 "$DATA/meshes/all_kinds.geo" -format msh22 -o all.msh
+  "$PYTHON" "$CHECKERS/mesh_contents.py" meshio --no-tags all.msh 2>/dev/null | grep -E '^(hex|prism|pyramid|tet) ' >expected.txt
+  for format in su2 bdf; do
+    gmsh -3 -v 2 "$DATA/meshes/all_kinds.geo" -string 'Mesh.BdfFieldFormat=2;' -format $format -o all.$format
+    mesh_convert all.$format msh22 back.msh
+    # With fewer digits in .bdf, as Gmsh itself reads them.
+    if [[ $format == bdf ]]; then
+      "$PYTHON" "$CHECKERS/mesh_contents.py" gmsh --no-tags all.bdf | grep -E '^(hex|prism|pyramid|tet) ' >expected.txt
+    fi
+    "$PYTHON" "$CHECKERS/mesh_contents.py" meshio --no-tags back.msh 2>/dev/null | grep -E '^(hex|prism|pyramid|tet) ' >found.txt
+    assert [ "$(wc -l <found.txt)" -gt 10 ]
+    diff expected.txt found.txt || fail "$format"
+  done
+}
+
+@test "SU2 and Nastran files are read back with tags, or with names in their place" {
+  mesh_convert "$MESH" bdf out.bdf
+  mesh_convert "$MESH" msh22 expected.msh
+  mesh_convert out.bdf msh22 found.msh
+  assert_same_bytes expected.msh found.msh
+  sed 's/^3 7 2 3 3/3 7 2 1 1/; s/^\([124] [456] 2\) . ./\1 1 1/' "$MESH" >one_region.msh
+  mesh_convert one_region.msh su2 out.su2 2>said
+  mesh_convert out.su2 su2 again.su2
+  assert_same_bytes out.su2 again.su2
+}
+
+@test "Nastran bulk data in free, small and large fields are read" {
+  printf '%s\n' 'SOL 101' 'CEND' 'DISP=ALL' 'BEGIN BULK' '$ a tet of property 7' 'GRID,11,,0.,0.,0.' \
+    'GRID          12              1.      0.     0.0' 'GRID*                 13                             .0              1.' \
+    '*                    0.0' 'grid,14,0,0.,0.,+1.+0' 'CTETRA         1       7      11      12      13      14' \
+    'CTRIA3,2,5,11,14,13' 'PSOLID,7,1' 'ENDDATA' 'nothing' >hand.bdf
+  mesh_convert hand.bdf mesh found.mesh
+  sed -n '/<!-- example tet.mesh -->/,/^End/p' "$HEXPIPE_SOURCE/formats/README.md" | sed 1,2d >expected.mesh
+  assert_same_bytes expected.mesh found.mesh
+  assert_fails_with 1 'hand2.bdf:6: expected points in the basic coordinate system, found system .3.' \
+    shell "sed 's/GRID,11,,/GRID,11,3,/' hand.bdf >hand2.bdf; mesh_convert hand2.bdf mesh out.mesh"
+  assert_fails_with 1 'hand3.bdf:11: expected the number of a point, found 15' \
+    shell "sed 's/      14$/      15/' hand.bdf >hand3.bdf; mesh_convert hand3.bdf mesh out.mesh"
+  assert_fails_with 1 'hand4.bdf:11: expected elements of first order only' \
+    shell "sed 's/      14$/      14      15/' hand.bdf >hand4.bdf; mesh_convert hand4.bdf mesh out.mesh"
+}
+
+@test "surfaces and regions of one number are told apart in .msh 2.2" {
+  whole_mesh
+  mesh_convert whole.msh msh22 out.msh
+  run sed -n '/PhysicalNames/,/EndPhysicalNames/p' out.msh
+  assert_output '$PhysicalNames
+5
+2 1 "surface_1"
+3 5 "region_1"
+3 2 "region_2"
+3 3 "region_3"
+3 4 "region_4"
+$EndPhysicalNames'
+  mesh_convert out.msh msh22 again.msh
+  assert_same_bytes out.msh again.msh
+  mesh_convert out.msh mesh a.mesh
+  mesh_convert whole.msh mesh b.mesh
+  assert_same_bytes a.mesh b.mesh
+  need_openfoam
+  openfoam_case case
+  run gmshToFoam -case case out.msh
+  assert_success
+  assert_output --partial 'region_1'
+  grep -q region_1 case/constant/polyMesh/cellZones
+}

@@ -1,0 +1,241 @@
+# tessellate: CAD files to surfaces with curves, bodies and names.
+
+load helpers
+
+setup_file() {
+  # OpenCASCADE keeps what it made at its start.
+  export LSAN_OPTIONS="suppressions=$BATS_TEST_DIRNAME/leaks_of_occt.txt:print_suppressions=0"
+}
+
+# step KIND...: KIND.step by tests/data/step.py.
+step() {
+  local kind
+  for kind in "$@"; do $PYTHON "$DATA/step.py" "$kind" >"$kind.step"; done
+}
+
+# surface BUNDLE EXPRESSION: of its arrays, by name, and of `names`.
+surface() {
+  $PYTHON - "$@" <<'PYTHON'
+import io, json, sys, tarfile
+import numpy as np
+arrays, names = {}, {}
+with tarfile.open(sys.argv[1]) as bundle:
+    for member in bundle:
+        data = bundle.extractfile(member).read()
+        if member.name == "names.json":
+            names = json.loads(data)
+        elif member.name.startswith(("surface/", "mesh/")):
+            arrays[member.name.replace("mesh/", "mesh_").replace("surface/", "")[:-4]] = np.load(io.BytesIO(data))
+globals().update(arrays)
+
+def tags_of(name):
+    return [int(tag) for tag, value in names["surfaces"].items() if value == name]
+
+def area(tag):
+    return sum(np.linalg.norm(np.cross(points[b] - points[a], points[c] - points[a])) / 2 for (a, b, c), t in zip(triangles, triangle_tags) if t == tag)
+
+def volume():
+    return sum(np.linalg.det(points[list(t)]) / 6 for t in triangles)
+
+def open_edges():
+    count = {}
+    for t in triangles:
+        for i in range(3):
+            edge = (min(t[i], t[i - 2]), max(t[i], t[i - 2]))
+            count[edge] = count.get(edge, 0) + 1
+    return sum(c != 2 for c in count.values())
+
+print(eval(sys.argv[2]))
+PYTHON
+}
+
+@test "a real part becomes a closed surface near the CAD's, with its edges as curves" {
+  tessellate "$DATA/simp.step" -o simp.tar
+  assert_equal "$(surface simp.tar 'open_edges()')" 0
+  # By OpenCASCADE's own integration over the CAD's faces.
+  run surface simp.tar 'round(volume() / 172052, 3)'
+  assert_output 1.0
+  # Half of a cylinder goes on smoothly into the other half: one tag, and no curve between them.
+  assert_equal "$(surface simp.tar 'sorted(set(sides[:, 0])) == [1] and set(sides[:, 1]) == {0}')" True
+  assert [ "$(surface simp.tar 'len(curves)')" -gt 50 ]
+}
+
+@test "its bundle goes through the whole pipeline" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  step named
+  tessellate named.step | tetmesh --size 5 | findhex | buildgraph | initsol --iterations 100 | assemble -o named.tar
+  run bash -c "tar tf named.tar"
+  assert_line surface/points.npy
+  assert_line surface/curves.npy
+  assert_line names.json
+  run tar xOf named.tar names.json
+  assert_output '{"surfaces":{"4":"outlet","6":"inlet"},"regions":{"1":"pipe"}}'
+}
+
+@test "--deviation and --angle ask for more triangles" {
+  tessellate "$DATA/simp.step" -o default.tar
+  tessellate "$DATA/simp.step" --deviation 0.001 -o near.tar
+  tessellate "$DATA/simp.step" --angle 4 -o round.tar
+  local count
+  count=$(surface default.tar 'len(triangles)')
+  assert [ "$(surface near.tar 'len(triangles)')" -gt $((2 * count)) ]
+  assert [ "$(surface round.tar 'len(triangles)')" -gt $((2 * count)) ]
+}
+
+@test "the default deviation is a hundredth of the size that tetmesh chooses" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  tessellate "$DATA/simp.step" --stats cad.json | tetmesh --stats mesh.json -o mesh.tar
+  run $PYTHON -c 'import json; print(abs(json.load(open("mesh.json"))["size"] / json.load(open("cad.json"))["deviation"] / 100 - 1) < 0.01)'
+  assert_output True
+}
+
+@test "names of faces and bodies are groups, colours and layers where a face has no name" {
+  step named coloured
+  tessellate named.step -o named.tar
+  assert_equal "$(surface named.tar 'names["regions"]')" "{'1': 'pipe'}"
+  assert_equal "$(surface named.tar '[area(tags_of(name)[0]) for name in ("inlet", "outlet")]')" "[600.0, 600.0]"
+  tessellate coloured.step -o coloured.tar
+  assert_equal "$(surface coloured.tar 'sorted(names["surfaces"].values())')" "['colour_ff0000', 'inlet', 'outflow']"
+  assert_equal "$(surface coloured.tar 'area(tags_of("inlet")[0])')" 200.0
+}
+
+@test "faces of one name have one tag, whatever the name is" {
+  step one-name odd-names
+  tessellate one-name.step -o one.tar
+  assert_equal "$(surface one.tar 'area(tags_of("wall")[0])')" 1200.0
+  tessellate odd-names.step -o odd.tar
+  assert_equal "$(surface odd.tar 'sorted(names["surfaces"].values()) == sorted(["Einl\u00e4\u00df 1", "a \u0027b\u0027 \"c\"", "x" * 200])')" True
+  assert_equal "$(surface odd.tar 'names["regions"]["1"] == "St\u00fcck"')" True
+}
+
+@test "lengths are in the file's unit, which is told, or in that of --unit" {
+  step box metres inches
+  run_apart tessellate box.step -o box.tar
+  assert_success
+  assert_equal "$stderr" ""
+  run_apart tessellate metres.step -o metres.tar
+  assert_success
+  assert_equal "$stderr" "tessellate: warning: metres.step: its unit is the metre, and so is that of all lengths (see --unit)"
+  assert_equal "$(surface metres.tar 'points.max(axis=0).tolist()')" "[10.0, 20.0, 30.0]"
+  run_apart tessellate metres.step --unit mm -o mm.tar
+  assert_equal "$stderr" ""
+  assert_equal "$(surface mm.tar 'points.max(axis=0).tolist()')" "[10000.0, 20000.0, 30000.0]"
+  tessellate inches.step --unit m -o m.tar
+  assert_equal "$(surface m.tar 'np.allclose(points.max(axis=0), [0.254, 0.508, 0.762])')" True
+  run bash -c 'tar xOf mm.tar history/01-tessellate.json | grep unit'
+  assert_output --partial '"unit": "millimetre"'
+}
+
+@test "a curve of the CAD that is less sharp than the feature angle is an edge of the mesh" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  step roof
+  tessellate roof.step | tetmesh --size 0.4 -o roof.tar
+  # The ridge, from (2, 0, 2.4) to (2, 4, 2.4), in steps of a size.
+  assert_equal "$(surface roof.tar 'sum((abs(mesh_points[:, 0] - 2) < 1e-9) & (abs(mesh_points[:, 2] - 2.4) < 1e-9))')" 11
+  assert_equal "$(surface roof.tar 'sum(np.linalg.norm(points[a] - points[b]) for (a, b), tag in zip(curves, curve_tags) if abs(points[a] - points[b])[1] > 3 and points[a][2] > 2.3)')" 4.0
+}
+
+@test "bodies stand side by side, five hundred of them too" {
+  step apart many
+  tessellate apart.step -o apart.tar
+  assert_equal "$(surface apart.tar 'sides.tolist() == [[1, 0]] * 12 + [[2, 0]] * 12')" True
+  assert_equal "$(surface apart.tar 'names["regions"]')" "{'1': 'body 1', '2': 'body 2'}"
+  tessellate many.step -o many.tar
+  assert_equal "$(surface many.tar 'sides.max()')" 500
+}
+
+@test "--join makes one face of two that touch" {
+  step touching half-touching
+  tessellate touching.step -o apart.tar
+  tessellate touching.step --join -o joined.tar
+  assert_equal "$(surface apart.tar 'len(triangles), open_edges()')" "(24, 0)"
+  assert_equal "$(surface joined.tar 'len(triangles), sorted(map(tuple, sides.tolist())).count((1, 2))')" "(22, 2)"
+  tessellate half-touching.step --join -o half.tar
+  assert_equal "$(surface half.tar 'sorted(map(tuple, sides.tolist())).count((1, 2))')" 2
+  step overlapping
+  if [[ -x "$HEXPIPE_BIN/tetmesh" ]]; then
+    tessellate half-touching.step -o half-apart.tar
+    assert_fails_with 1 "half-apart.tar: .* intersect itself, .*; where bodies touch, tessellate --join makes one face of two" tetmesh half-apart.tar -o x.mesh
+    # Across the interface and on its own, each body is filled with hexes alone.
+    tetmesh -q joined.tar | findhex | buildgraph | initsol --iterations 100 | assemble --stats stats.json -o joined.msh
+    run $PYTHON -c 'import json; cells = json.load(open("stats.json"))["cells"]; print({k: v["count"] for k, v in cells.items() if v["count"]})'
+    assert_output "{'hex': 1024}"
+  fi
+  assert_fails_with 1 "overlapping.step: expected bodies that touch at most, found some that overlap; the second is 'body 2'" \
+    tessellate overlapping.step --join
+}
+
+@test "closed shells without a solid are bodies, which is told; sheets are an error" {
+  step closed-shell sheets nothing
+  run_apart tessellate closed-shell.step -o shell.tar
+  assert_success
+  assert_equal "$stderr" "tessellate: warning: closed-shell.step: there are no solids: shells that are closed are taken for bodies, 1 body"
+  assert_equal "$(surface shell.tar 'round(volume(), 9)')" 64.0
+  assert_fails_with 1 "sheets.step: expected bodies, found no solid, and 1 shell of 5 faces that is not closed" tessellate sheets.step
+  assert_fails_with 1 "nothing.step: expected bodies, found no solid and no face" tessellate nothing.step
+}
+
+@test "files that are empty, cut off or no CAD are errors of one line" {
+  step box
+  : >empty.step
+  assert_fails_with 1 "empty.step: expected CAD in STEP, IGES or BREP, found nothing: it is empty" tessellate empty.step
+  for bytes in 100 2000 4000; do
+    head -c $bytes box.step >cut.step
+    assert_fails_with 1 "cut.step: expected END-ISO-10303-21; at the end" tessellate cut.step
+  done
+  assert_fails_with 1 "cube.stl: expected CAD in STEP, IGES or BREP, found" tessellate "$DATA/cube.stl"
+  sed 's/ADVANCED_FACE/NO_SUCH_FACE/' box.step >unknown.step
+  assert_fails_with 1 "unknown.step: expected" tessellate unknown.step
+  assert_fails_with 1 "none.step: cannot open" tessellate none.step
+  assert_fails_with 2 "expected a surface as obj, stl, msh or tar, tar.zst, found 'x.step'" tessellate box.step -o x.step
+}
+
+@test "BREP and IGES, from a file and from a pipe" {
+  cat >box.geo <<'END'
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 2, 3};
+END
+  gmsh -0 box.geo -o box.brep >/dev/null
+  tessellate box.brep -o brep.tar
+  assert_equal "$(surface brep.tar 'len(triangles), round(volume(), 9)')" "(12, 6.0)"
+  tessellate <box.brep >piped.tar
+  assert_same_bytes brep.tar piped.tar
+  $PYTHON - box.igs <<'PYTHON'
+import sys
+# Six trimmed planes would be long; one that is cut off and one without entities say enough about the reader.
+def line(text, section, number):
+    return f"{text:<72}{section}{number:7d}\n"
+start = line("", "S", 1)
+head = line("1H,,1H;,4Hnone,4Hnone,4Hnone,4Hnone,32,38,6,308,15,4Hnone,1.,2,2HMM,1,", "G", 1) + line("0.01,15H20240101.000000,1E-07,100.,,,11,0,15H20240101.000000;", "G", 2)
+open(sys.argv[1], "w").write(start + head)
+open("whole.igs", "w").write(start + head + line("S      1G      2D      0P      0", "T", 1))
+PYTHON
+  assert_fails_with 1 "box.igs: expected a line of section T at the end of an IGES file" tessellate box.igs
+  assert_fails_with 1 "whole.igs: expected" tessellate whole.igs
+}
+
+@test "-o writes for other meshers, with names" {
+  step odd-names
+  tessellate odd-names.step -o box.stl
+  assert_equal "$(grep -c '^facet' box.stl)" 12
+  assert grep -q "^solid Einläß 1$" box.stl
+  run_apart tessellate odd-names.step -o box.obj
+  assert_success
+  assert_equal "$(grep -c '^f ' box.obj)" 12
+  assert grep -q "^g Einläß_1$" box.obj
+  assert_equal "$(head -1 <<<"$stderr" | cut -c1-60)" "tessellate: warning: the name 'a 'b' \"c\"' is written as a_'b"
+  tessellate odd-names.step -o box.msh
+  run $PYTHON -c 'import meshio; mesh = meshio.read("box.msh"); print(sum(len(c.data) for c in mesh.cells if c.type == "triangle"))'
+  assert_output --partial 12
+}
+
+@test "tetmesh says how CAD files are meshed" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  assert_fails_with 1 "found CAD in STEP; 'tessellate .*simp.step [|] tetmesh' meshes it" tetmesh "$DATA/simp.step"
+}
+
+@test "the same bytes every time" {
+  tessellate "$DATA/simp.step" -o one.tar
+  tessellate "$DATA/simp.step" --threads 1 -o other.tar
+  assert_same_bytes one.tar other.tar
+}

@@ -1,0 +1,397 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "assemble_lattice.hpp"
+#include "common/mesh/adjacency.hpp"
+#include "common/mesh/quality.hpp"
+#include "common/mesh/validity.hpp"
+#include "tools/assemble/assemble.hpp"
+#include "tools/assemble/choice/selection.hpp"
+#include "tools/assemble/conform/conform.hpp"
+#include "tools/assemble/gap/fewer_cells.hpp"
+#include "tools/assemble/gap/gap_mesh.hpp"
+#include "tools/assemble/gap/merge_stars.hpp"
+#include "tools/assemble/gap/merge_vertices.hpp"
+#include "tools/assemble/gap/objective.hpp"
+#include "tools/assemble/gap/refill.hpp"
+#include "tools/assemble/gap/skin.hpp"
+
+namespace hexpipe {
+using namespace assemble;
+using namespace assemble::gap;
+using hybrid::HybridCell;
+using hybrid::HybridMesh;
+using hybrid::SurfaceTags;
+namespace {
+
+// Tets around the last point, one on each triangle, and pyramids, one on each quad; all are listed as seen from inside.
+struct Star {
+  TetMesh mesh;
+  std::vector<HybridCell> pyramids;
+
+  Star(std::vector<Vec3> points, const std::vector<Triangle>& triangles, const std::vector<Quad>& quads) {
+    mesh.points = std::move(points);
+    const auto apex = static_cast<Vertex>(mesh.points.size() - 1);
+    for (const auto& [a, b, c] : triangles) mesh.tets.push_back({a, b, c, apex});
+    mesh.tet_tags.assign(mesh.tets.size(), 1);
+    for (const auto& [a, b, c, d] : quads) {
+      HybridCell pyramid;
+      pyramid.kind = CellKind::pyramid;
+      pyramid.corners = {a, b, c, d, apex, -1, -1, -1};
+      pyramid.region = 1;
+      pyramids.push_back(pyramid);
+    }
+  }
+
+  HybridMesh hybrid() const {
+    HybridMesh result(mesh, std::vector<bool>(mesh.tets.size()));
+    for (const auto& pyramid : pyramids) result.add_cell(pyramid);
+    return result;
+  }
+};
+
+struct Census {
+  std::map<CellKind, int> count;
+  double volume = 0, worst = 1, cost = 0;
+  bool valid = true;
+  // By facet: how often it bounds a cell one way less the other. What is left is the skin.
+  std::map<std::vector<Vertex>, int> uses;
+  bool crowded = false;  // three cells or more at a facet
+
+  void add(const HybridMesh& mesh, CellKind kind, std::span<const Vertex> corners, bool by_choice) {
+    ++count[kind];
+    const auto at = corner_points(mesh.points, corners);
+    const auto cell = std::span<const Vec3>(at).first(corners.size());
+    volume += cell_volume(kind, cell);
+    valid = valid && is_valid(kind, cell);
+    with_topology(kind, [&](auto topology) {
+      auto each = [&](const auto& facets) {
+        for (const auto& facet : facets) {
+          std::vector<Vertex> key;
+          for (const auto i : facet) key.push_back(corners[i]);
+          std::ranges::sort(key);
+          crowded = crowded || ++uses[key] > 2;
+        }
+      };
+      each(decltype(topology)::triangles);
+      each(decltype(topology)::quads);
+    });
+    if (by_choice) return;
+    const double quality = quality_of(kind, mesh.points, corners);
+    worst = std::min(worst, quality);
+    cost += cost_of(quality);
+  }
+
+  explicit Census(const HybridMesh& mesh) {
+    for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tet_count()); ++t)
+      if (mesh.is_alive(t)) add(mesh, CellKind::tet, mesh.tet(t), false);
+    for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
+      const HybridCell& cell = mesh.cell(c);
+      if (!cell.alive) continue;
+      const std::span corners = std::span(cell.corners).first(static_cast<std::size_t>(corner_count(cell.kind)));
+      add(mesh, cell.kind, corners, cell.candidate != no_index);
+    }
+  }
+
+  std::set<std::vector<Vertex>> skin() const {
+    std::set<std::vector<Vertex>> result;
+    for (const auto& [facet, times] : uses)
+      if (times == 1) result.insert(facet);
+    return result;
+  }
+};
+
+// A double pyramid over a square, and a point inside it.
+Star octahedron(const Vec3& middle) {
+  return {{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {0, 0, 1}, middle},
+          {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {0, 5, 1}, {1, 5, 2}, {2, 5, 3}, {3, 5, 0}},
+          {}};
+}
+
+// Around the middle of a prism, which has the corners of cell_topology.hpp: the quads listed become pyramids.
+Star prism(std::size_t quads) {
+  const std::vector<Quad> all{{0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}};
+  std::vector<Triangle> triangles{{0, 1, 2}, {3, 5, 4}};
+  for (std::size_t i = quads; i < 3; ++i)
+    for (const auto& half : triangles_of(all[i], 0)) triangles.push_back(half);
+  return {{{0, 0, 0}, {1, 0, 0}, {0.4, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0.4, 1, 1}, {0.45, 0.35, 0.5}},
+          triangles,
+          {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(quads)}};
+}
+
+// With no facet tagged: so that only what a test says is fixed.
+SurfaceTags no_tags() {
+  return SurfaceTags(TetMesh{});
+}
+
+TEST(MergeVertices, AVertexInsideGoesToANeighbour) {
+  HybridMesh hybrid = octahedron({0.1, 0.05, 0}).hybrid();
+  const Census before(hybrid);
+  ASSERT_TRUE(before.valid);
+  const SurfaceTags tags = no_tags();
+  const std::vector<std::uint8_t> corners_stay{1, 1, 1, 1, 1, 1, 0};
+  GapMesh gap(hybrid, tags, corners_stay);
+  EXPECT_TRUE(gap.is_free(6));
+  EXPECT_FALSE(gap.is_free(0));
+  EXPECT_EQ(merge_vertices(gap), 1);
+  gap.write_back();
+  const Census after(hybrid);
+  EXPECT_EQ(after.count.at(CellKind::tet), 4);
+  EXPECT_TRUE(after.valid);
+  EXPECT_NEAR(after.volume, before.volume, 1e-12);
+  EXPECT_EQ(after.skin(), before.skin());
+}
+
+TEST(MergeVertices, SharedVerticesAndThoseOnTaggedFacetsStay) {
+  const Star star = octahedron({0.1, 0.05, 0});
+  HybridMesh hybrid = star.hybrid();
+  const SurfaceTags untagged = no_tags();
+  const std::vector<std::uint8_t> all_stay(7, 1);
+  GapMesh shared(hybrid, untagged, all_stay);
+  EXPECT_EQ(merge_vertices(shared), 0);
+
+  TetMesh with_triangle = star.mesh;
+  with_triangle.triangles = {{0, 1, 6}};
+  with_triangle.triangle_tags = {7};
+  const SurfaceTags tags(with_triangle);
+  const std::vector<std::uint8_t> corners_stay{1, 1, 1, 1, 1, 1, 0};
+  GapMesh tagged(hybrid, tags, corners_stay);
+  EXPECT_EQ(merge_vertices(tagged), 0);
+}
+
+TEST(MergeVertices, NoneGoesToTheCornerOfAQuad) {
+  HybridMesh hybrid = prism(3).hybrid();
+  ASSERT_TRUE(Census(hybrid).valid);
+  const SurfaceTags tags = no_tags();
+  const std::vector<std::uint8_t> corners_stay{1, 1, 1, 1, 1, 1, 0};
+  GapMesh gap(hybrid, tags, corners_stay);
+  EXPECT_EQ(merge_vertices(gap), 0);
+  EXPECT_EQ(merge_stars(gap), 0);
+}
+
+std::vector<std::int32_t> all_cells(const GapMesh& gap) {
+  std::vector<std::int32_t> cells;
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(gap.cell_count()); ++c)
+    if (gap.is_alive(c)) cells.push_back(c);
+  return cells;
+}
+
+TEST(Refill, PyramidsAroundAVertexBecomeAPrism) {
+  HybridMesh hybrid = prism(3).hybrid();
+  const SurfaceTags tags = no_tags();
+  GapMesh gap(hybrid, tags, {});
+  const auto in = Refill(gap).find(all_cells(gap));
+  ASSERT_TRUE(in.has_value());
+  ASSERT_EQ(in->size(), 1u);
+  EXPECT_EQ(in->front().kind, CellKind::prism);
+  gap.replace(all_cells(gap), *in);
+  gap.write_back();
+  const Census after(hybrid);
+  EXPECT_TRUE(after.valid);
+  EXPECT_EQ(after.skin(), Census(prism(3).hybrid()).skin());
+  EXPECT_EQ(after.count.at(CellKind::prism), 1);
+}
+
+// The prism of valid Jacobian that gmshToFoam turns round, and an upright one.
+TEST(GapMesh, APrismThatLooksInvertedIsWorthNothing) {
+  TetMesh mesh;
+  mesh.points = {{.1, .13859, .21934}, {.07927, .13784, .21934}, {.1, .13645, .23754},
+                 {.1, .17926, .21308}, {.07681, .17868, .21538}, {.1, .17677, .21751}};
+  HybridMesh warped(mesh, {});
+  const SurfaceTags tags = no_tags();
+  const std::array<Vertex, 6> corners{0, 1, 2, 3, 4, 5};
+  EXPECT_GT(least_corner_scaled_jacobian(CellKind::prism, mesh.points), 0.12);
+  EXPECT_LT(GapMesh(warped, tags, {}).make(CellKind::prism, corners, 0).quality, 0);
+  HybridMesh upright = prism(3).hybrid();
+  EXPECT_GT(GapMesh(upright, tags, {}).make(CellKind::prism, corners, 0).quality, 0.3);
+}
+
+TEST(Refill, TheFacetsOfTheRoomStay) {
+  // Two triangles in place of one quad: no prism has them.
+  HybridMesh hybrid = prism(2).hybrid();
+  const SurfaceTags tags = no_tags();
+  GapMesh gap(hybrid, tags, {});
+  const auto cells = all_cells(gap);
+  if (const auto in = Refill(gap).find(cells)) gap.replace(cells, *in);
+  gap.write_back();
+  const Census after(hybrid);
+  EXPECT_EQ(after.skin(), Census(prism(2).hybrid()).skin());
+  EXPECT_TRUE(after.valid);
+}
+
+// `n` tets around the edge between the first two points.
+TetMesh ring(int n) {
+  TetMesh mesh;
+  mesh.points = {{0, 0, -0.6}, {0, 0, 0.6}};
+  for (int i = 0; i < n; ++i) mesh.points.push_back({std::cos(2 * M_PI * i / n), std::sin(2 * M_PI * i / n), 0});
+  for (int i = 0; i < n; ++i) mesh.tets.push_back({0, 1, 2 + i, 2 + (i + 1) % n});
+  mesh.tet_tags.assign(static_cast<std::size_t>(n), 1);
+  return mesh;
+}
+
+TEST(Refill, ThreeTetsAtAnEdgeBecomeTwoUnlessAFacetIsTaggedOrARegionEnds) {
+  const TetMesh mesh = ring(3);
+  const std::vector<bool> none_removed(3);
+  const std::vector<std::int32_t> cells{0, 1, 2};
+  auto refilled = [&](const TetMesh& of) {
+    HybridMesh hybrid(of, none_removed);
+    const SurfaceTags tags(of);
+    const GapMesh gap(hybrid, tags, {});
+    const auto in = Refill(gap).find(cells);
+    return in ? in->size() : 0;
+  };
+  EXPECT_EQ(refilled(mesh), 2u);
+  TetMesh tagged = mesh;
+  tagged.triangles = {{0, 1, 2}};
+  tagged.triangle_tags = {3};
+  EXPECT_EQ(refilled(tagged), 0u);
+  TetMesh two_regions = mesh;
+  two_regions.tet_tags[2] = 2;
+  EXPECT_EQ(refilled(two_regions), 0u);
+}
+
+TEST(Refill, FindsNothingWhereEveryFillingIsWorse) {
+  // Four tets at an edge can only become four others, which are no better.
+  const TetMesh mesh = ring(4);
+  HybridMesh hybrid(mesh, std::vector<bool>(4));
+  const SurfaceTags tags = no_tags();
+  const GapMesh gap(hybrid, tags, {});
+  EXPECT_FALSE(Refill(gap).find(std::vector<std::int32_t>{0, 1, 2, 3}).has_value());
+}
+
+TEST(MergeStars, TwoVerticesOnBothSidesOfAFacetBecomeOne) {
+  // Two prisms with a triangle in common, each filled from its middle: no edge joins the two.
+  TetMesh mesh;
+  for (int level = 0; level < 3; ++level)
+    for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0.4, 1, 0}})
+      mesh.points.push_back(p + Vec3{0, 0, 0.6 * level});
+  mesh.points.push_back({0.45, 0.35, 0.3}), mesh.points.push_back({0.45, 0.35, 0.9});
+  std::vector<HybridCell> pyramids;
+  for (Vertex level = 0; level < 2; ++level) {
+    const Vertex base = 3 * level, apex = 9 + level;
+    mesh.tets.push_back({base, base + 1, base + 2, apex});
+    mesh.tets.push_back({base + 3, base + 5, base + 4, apex});
+    for (Vertex i = 0; i < 3; ++i) {
+      const Vertex a = base + i, b = base + (i + 1) % 3;
+      HybridCell pyramid;
+      pyramid.kind = CellKind::pyramid;
+      pyramid.corners = {a, a + 3, b + 3, b, apex, -1, -1, -1};
+      pyramid.region = 1;
+      pyramids.push_back(pyramid);
+    }
+  }
+  mesh.tet_tags.assign(4, 1);
+  HybridMesh hybrid(mesh, std::vector<bool>(4));
+  for (const auto& pyramid : pyramids) hybrid.add_cell(pyramid);
+  const Census before(hybrid);
+  ASSERT_TRUE(before.valid);
+  const SurfaceTags tags = no_tags();
+  const std::vector<std::uint8_t> corners_stay{1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0};
+  GapMesh gap(hybrid, tags, corners_stay);
+  EXPECT_EQ(merge_vertices(gap), 0);
+  EXPECT_EQ(merge_stars(gap), 1);
+  gap.write_back();
+  const Census after(hybrid);
+  EXPECT_EQ(after.count.at(CellKind::tet), 2);
+  EXPECT_EQ(after.count.at(CellKind::pyramid), 6);
+  EXPECT_TRUE(after.valid);
+  EXPECT_NEAR(after.volume, before.volume, 1e-12);
+  EXPECT_EQ(after.skin(), before.skin());
+}
+
+TEST(Room, NamesWhatLiesAroundItsCells) {
+  HybridMesh hybrid = prism(3).hybrid();
+  const SurfaceTags tags = no_tags();
+  const GapMesh gap(hybrid, tags, {});
+  const auto room = room_of(gap, all_cells(gap), 20);
+  ASSERT_TRUE(room.has_value());
+  EXPECT_EQ(room->skin.size(), 5u);
+  EXPECT_EQ(room->vertices, (std::vector<Vertex>{0, 1, 2, 3, 4, 5}));
+  EXPECT_FALSE(room_of(gap, all_cells(gap), 4).has_value()) << "more facets than allowed";
+  const std::vector<std::uint8_t> middle_stays{0, 0, 0, 0, 0, 0, 1};
+  EXPECT_FALSE(room_of(GapMesh(hybrid, tags, middle_stays), all_cells(gap), 20).has_value());
+}
+
+TEST(Objective, ACellCostsOneAndMoreWhereItIsPoor) {
+  EXPECT_EQ(cost_of(1), 1);
+  EXPECT_EQ(cost_of(0.5), 1);
+  EXPECT_GT(cost_of(0.2), cost_of(0.3));
+  EXPECT_NEAR(cost_of(0), 2, 1e-12);
+}
+
+// A lattice with a part of its cubes chosen and made conforming.
+struct Scene {
+  testing::Lattice lattice;
+  SurfaceTags tags;
+  HybridMesh hybrid;
+
+  static testing::Lattice lattice_of(std::uint64_t seed, Random& random) {
+    auto lattice = testing::make_lattice(3, [&](int i, int, int) { return seed % 3 == 0 && i > 0 ? 2 : 1; });
+    testing::jitter(lattice, 0.05 * static_cast<double>(seed % 5), random);
+    add_missing_boundary_triangles(lattice.mesh, TetAdjacency(lattice.mesh, "test"), 0);
+    return lattice;
+  }
+  Scene(std::uint64_t seed, Random random)
+      : lattice(lattice_of(seed, random)),
+        tags(lattice.mesh),
+        hybrid(choice::Selection(lattice.mesh, tags, lattice.cubes,
+                                 testing::random_choice(lattice, random.uniform(0.1, 0.9), random))
+                   .take_mesh()) {
+    conform::make_conforming(hybrid, tags, lattice.cubes, 1e-4);
+  }
+};
+
+TEST(FewerCells, NothingButTheCellsBetweenHexesChangesInThousandsOfMeshes) {
+  std::int64_t changed = 0;
+  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+    SCOPED_TRACE(seed);
+    Scene scene(seed, Random(seed));
+    const Census before(scene.hybrid);
+    if (!before.valid) continue;
+    const bool quickly = seed % 4 == 0;
+    const auto counts = make_fewer_cells(scene.hybrid, scene.tags, {}, quickly);
+    const Census after(scene.hybrid);
+    ASSERT_TRUE(after.valid);
+    ASSERT_FALSE(after.crowded);
+    ASSERT_NEAR(after.volume, before.volume, 1e-10);
+    ASSERT_EQ(after.skin(), before.skin());
+    ASSERT_GE(after.worst, std::min(before.worst, least_quality) - 1e-12);
+    ASSERT_LE(after.cost, before.cost + 1e-9);
+    ASSERT_TRUE(after.cost < before.cost || !counts.any());
+    const auto hexes = [](const Census& census) {
+      const auto found = census.count.find(CellKind::hex);
+      return found == census.count.end() ? 0 : found->second;
+    };
+    ASSERT_EQ(hexes(after), hexes(before));
+    changed += counts.any();
+  }
+  EXPECT_GT(changed, 1000);
+}
+
+TEST(FewerCells, LeavesAMeshWithInvertedCellsAlone) {
+  Scene valid(1, Random(1)), scene(1, Random(1));
+  EXPECT_TRUE(make_fewer_cells(valid.hybrid, valid.tags, {}, false).any());
+  // A vertex inside that goes beyond its neighbours.
+  scene.hybrid.points[testing::lattice_vertex(3, 1, 1, 1)] += Vec3{3, 0, 0};
+  EXPECT_FALSE(make_fewer_cells(scene.hybrid, scene.tags, {}, false).any());
+}
+
+TEST(FewerCells, AssembleMergesUnlessToldNotTo) {
+  Random random(5);
+  const auto lattice = testing::make_lattice(5);
+  const auto chosen = testing::random_choice(lattice, 0.8, random);
+  AssembleOptions options{.exchange = AssembleOptions::Exchange::none, .fill = AssembleOptions::Fill::none};
+  const auto merged = assemble::assemble(lattice.mesh, lattice.cubes, chosen, options);
+  options.merge = AssembleOptions::Merge::none;
+  const auto plain = assemble::assemble(lattice.mesh, lattice.cubes, chosen, options);
+  EXPECT_GT(merged.statistics.improvement.fewer.merged, 0);
+  EXPECT_FALSE(plain.statistics.improvement.fewer.any());
+  EXPECT_EQ(merged.mesh.hexes.size(), plain.mesh.hexes.size());
+  EXPECT_LT(merged.mesh.tets.size(), plain.mesh.tets.size());
+}
+
+}  // namespace
+}  // namespace hexpipe

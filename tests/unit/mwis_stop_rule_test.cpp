@@ -1,0 +1,48 @@
+#include "common/mwis/local_search/stop_rule.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/mwis/local_search/annealing.hpp"
+
+namespace hexpipe {
+using namespace mwis::local_search;
+namespace {
+
+TEST(StopRule, EndsWhenTheLastHalfGainedTooLittle) {
+  StopRule rule(10, 100);
+  rule.record(0, 1000);
+  rule.record(99, 1000);
+  EXPECT_FALSE(rule.is_done()) << "not judged so early";
+  rule.record(100, 1010);
+  EXPECT_FALSE(rule.is_done()) << "10 in the last half";
+  rule.record(199, 1015);
+  EXPECT_FALSE(rule.is_done()) << "what was at 100 is no part of the first half";
+  rule.record(200, 1015);
+  EXPECT_TRUE(rule.is_done()) << "5 since 100";
+  rule.record(210, 1020);
+  EXPECT_FALSE(rule.is_done()) << "10 since 105";
+}
+
+TEST(StopRule, NeverEndsWithoutALeastGain) {
+  StopRule rule(0, 1);
+  rule.record(0, 1000);
+  rule.record(1e12, 1000);
+  EXPECT_FALSE(rule.is_done());
+}
+
+TEST(Cooling, IsHotterWhereFewAreChosen) {
+  const Cooling usual;
+  for (const std::int64_t many : {1000, 100000}) {
+    EXPECT_DOUBLE_EQ(Cooling::for_chosen(many).hot, usual.hot);
+    EXPECT_DOUBLE_EQ(Cooling::for_chosen(many).cold, usual.cold);
+  }
+  const Cooling few = Cooling::for_chosen(100), fewer = Cooling::for_chosen(60);
+  EXPECT_GT(few.cold, usual.cold);
+  EXPECT_GT(few.hot, usual.hot);
+  EXPECT_GT(fewer.cold, few.cold);
+  EXPECT_GT(fewer.hot, fewer.cold);
+  EXPECT_LE(Cooling::for_chosen(0).cold, Cooling::for_chosen(1).cold);
+}
+
+}  // namespace
+}  // namespace hexpipe

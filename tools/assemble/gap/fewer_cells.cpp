@@ -1,0 +1,27 @@
+#include "tools/assemble/gap/fewer_cells.hpp"
+
+#include "tools/assemble/gap/gap_mesh.hpp"
+#include "tools/assemble/gap/merge_stars.hpp"
+#include "tools/assemble/gap/merge_vertices.hpp"
+#include "tools/assemble/gap/refill_rooms.hpp"
+
+namespace hexpipe::assemble::gap {
+
+FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags,
+                            std::span<const std::uint8_t> is_shared, bool quickly) {
+  FewerCells counts;
+  GapMesh gap(mesh, tags, is_shared);
+  if (!gap.is_valid()) return counts;
+  counts.merged = merge_vertices(gap);
+  if (!quickly) {
+    // Rooms are small: their search gains most after the quick merges, and opens the way to more of these.
+    counts.merged += merge_stars(gap);
+    const RefillCounts refilled = refill_rooms(gap);
+    counts.merged += refilled.vertices + merge_stars(gap);
+    counts.refilled = refilled.edges + refilled.poor;
+  }
+  if (counts.any()) gap.write_back();
+  return counts;
+}
+
+}  // namespace hexpipe::assemble::gap

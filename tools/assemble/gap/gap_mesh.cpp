@@ -1,0 +1,124 @@
+#include "tools/assemble/gap/gap_mesh.hpp"
+
+#include <algorithm>
+
+#include "common/mesh/face_view.hpp"
+#include "common/mesh/quality.hpp"
+#include "common/mesh/validity.hpp"
+#include "tools/assemble/gap/objective.hpp"
+
+namespace hexpipe::assemble::gap {
+namespace {
+
+GapCell cell_of(CellKind kind, const std::array<Vertex, 6>& corners, std::int32_t region,
+                const std::vector<Vec3>& points) {
+  GapCell cell{kind, corners, region};
+  cell.quality = quality_of(kind, points, cell.vertices());
+  return cell;
+}
+
+// Whether some readers would turn the prism round, though it is valid (face_view.hpp).
+bool looks_inverted(const GapCell& cell, const std::vector<Vec3>& points) {
+  if (cell.kind != CellKind::prism) return false;
+  const auto at = corner_points(points, cell.vertices());
+  return least_face_view(cell.kind, std::span<const Vec3>(at).first(cell.vertices().size())) <= 0;
+}
+
+}  // namespace
+
+bool GapCell::has(Vertex v) const {
+  return std::ranges::find(vertices(), v) != vertices().end();
+}
+
+bool is_valid(const GapMesh& gap, const GapCell& cell) {
+  const auto at = corner_points(gap.points(), cell.vertices());
+  return hexpipe::is_valid(cell.kind, std::span<const Vec3>(at).first(cell.vertices().size()));
+}
+
+GapMesh::GapMesh(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std::span<const std::uint8_t> is_shared)
+    : mesh_(mesh), tags_(tags), at_(mesh.points.size()), age_(mesh.points.size()), fixed_(mesh.points.size()) {
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tet_count()); ++t)
+    if (mesh.is_alive(t)) add(make_tet(mesh.tet(t), mesh.region_of(t)), t);
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
+    const hybrid::HybridCell& cell = mesh.cell(c);
+    if (!cell.alive) continue;
+    const std::span corners = std::span(cell.corners).first(static_cast<std::size_t>(corner_count(cell.kind)));
+    if (cell.candidate == no_index) {
+      std::array<Vertex, 6> own{};
+      std::ranges::copy(corners, own.begin());
+      add(cell_of(cell.kind, own, cell.region, mesh.points), c);
+    } else {
+      for (const Vertex v : corners) fixed_[v] = true;
+    }
+  }
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(tags.size()); ++i)
+    for (const Vertex v : tags.triangle(i)) fixed_[v] = true;
+  for (std::size_t v = 0; v < is_shared.size(); ++v)
+    if (is_shared[v] != 0) fixed_[v] = true;
+}
+
+bool GapMesh::is_valid() const {
+  constexpr double surely = 1e-6;
+  for (std::size_t c = 0; c < cells_.size(); ++c)
+    if (alive_[c] != 0 && cells_[c].quality < surely && !gap::is_valid(*this, cells_[c])) return false;
+  return true;
+}
+
+GapCell GapMesh::make(CellKind kind, const std::array<Vertex, 6>& corners, std::int32_t region) const {
+  GapCell cell = cell_of(kind, corners, region, mesh_.points);
+  if (looks_inverted(cell, mesh_.points)) cell.quality = -1;
+  return cell;
+}
+
+GapCell GapMesh::make_tet(const Tet& corners, std::int32_t region) const {
+  return make(CellKind::tet, {corners[0], corners[1], corners[2], corners[3]}, region);
+}
+
+void GapMesh::add(const GapCell& cell, std::int32_t source) {
+  const auto c = static_cast<std::int32_t>(cells_.size());
+  cells_.push_back(cell);
+  alive_.push_back(1);
+  source_.push_back(source);
+  for (const Vertex v : cell.vertices()) {
+    at_[v].push_back(c);
+    ++age_[v];
+  }
+}
+
+void GapMesh::replace(std::span<const std::int32_t> out, std::span<const GapCell> in) {
+  for (const std::int32_t c : out) {
+    alive_[c] = 0;
+    for (const Vertex v : cells_[c].vertices()) {
+      std::erase(at_[v], c);
+      ++age_[v];
+    }
+  }
+  for (const GapCell& cell : in) add(cell, none);
+}
+
+void GapMesh::write_back() {
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    if (alive_[c] != 0 || source_[c] == none) continue;
+    if (cells_[c].kind == CellKind::tet)
+      mesh_.remove_tet(source_[c]);
+    else
+      mesh_.remove_cell(source_[c]);
+    source_[c] = none;
+  }
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    if (alive_[c] == 0 || source_[c] != none) continue;
+    const GapCell& cell = cells_[c];
+    if (cell.kind == CellKind::tet) {
+      source_[c] = mesh_.add_tet({cell.corners[0], cell.corners[1], cell.corners[2], cell.corners[3]}, cell.region);
+      continue;
+    }
+    hybrid::HybridCell made;
+    made.kind = cell.kind;
+    made.corners.fill(none);
+    std::ranges::copy(cell.vertices(), made.corners.begin());
+    made.region = cell.region;
+    source_[c] = mesh_.add_cell(made);
+  }
+}
+
+}  // namespace hexpipe::assemble::gap

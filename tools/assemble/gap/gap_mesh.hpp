@@ -1,0 +1,76 @@
+#pragma once
+// The tets between the chosen cells, and the pyramids and prisms made of such, as one mesh that can be changed; and
+// what of it may not.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tools/assemble/hybrid/hybrid_mesh.hpp"
+#include "tools/assemble/hybrid/surface_tags.hpp"
+
+namespace hexpipe::assemble::gap {
+
+struct GapCell {
+  CellKind kind = CellKind::tet;
+  std::array<Vertex, 6> corners{};
+  std::int32_t region = 0;
+  double quality = 0;  // objective.hpp
+
+  std::span<const Vertex> vertices() const {
+    return std::span(corners).first(static_cast<std::size_t>(corner_count(kind)));
+  }
+  bool has(Vertex v) const;
+};
+
+class GapMesh {
+ public:
+  static constexpr std::int32_t none = -1;
+
+  // Both have to outlive this; points move in `mesh` at once, cells change there by write_back().
+  // `is_shared`: as in Seam, empty without one.
+  GapMesh(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std::span<const std::uint8_t> is_shared);
+
+  std::span<const Vec3> points() const { return mesh_.points; }
+  std::size_t vertex_count() const { return at_.size(); }
+  std::size_t cell_count() const { return cells_.size(); }  // with those that are gone
+  const GapCell& cell(std::int32_t c) const { return cells_[c]; }
+  bool is_alive(std::int32_t c) const { return alive_[c] != 0; }
+  std::span<const std::int32_t> cells_at(Vertex v) const { return at_[v]; }
+  // True where v may move and go: only cells of the gap are there, no tagged facet and no seam.
+  bool is_free(Vertex v) const { return !fixed_[v] && !at_[v].empty(); }
+  bool is_tagged(const Triangle& triangle) const { return tags_.contains(triangle); }
+  // Rises whenever a cell at v changes.
+  std::uint32_t age_of(Vertex v) const { return age_[v]; }
+  // True when the Jacobian of each cell is positive everywhere, without any doubt.
+  bool is_valid() const;
+
+  // A new cell. A prism that some readers would turn round (common/mesh/face_view.hpp) has the quality -1.
+  GapCell make(CellKind kind, const std::array<Vertex, 6>& corners, std::int32_t region) const;
+  GapCell make_tet(const Tet& corners, std::int32_t region) const;
+
+  // Replaces cells by others that fill the same room.
+  void replace(std::span<const std::int32_t> out, std::span<const GapCell> in);
+  // To be followed by replace() of all cells at v.
+  void move(Vertex v, const Vec3& to) { mesh_.points[v] = to; }
+
+  void write_back();
+
+ private:
+  void add(const GapCell& cell, std::int32_t source);
+
+  hybrid::HybridMesh& mesh_;
+  const hybrid::SurfaceTags& tags_;
+  std::vector<GapCell> cells_;
+  std::vector<std::uint8_t> alive_;
+  std::vector<std::int32_t> source_;  // the tet or the cell of `mesh` that it was, or none
+  std::vector<std::vector<std::int32_t>> at_;
+  std::vector<std::uint32_t> age_;
+  std::vector<bool> fixed_;
+};
+
+// Whether the Jacobian of a cell is positive everywhere.
+bool is_valid(const GapMesh& gap, const GapCell& cell);
+
+}  // namespace hexpipe::assemble::gap

@@ -1,0 +1,153 @@
+// The cells around two vertices are a room (skin.hpp), and all of its skin is joined to one vertex inside. The new
+// cells tile the room where all of them are positive, as in refill.cpp. The place is found as in smoothing. A merge
+// across a facet is a flip of two tets to three and an edge collapse in one: the flip alone would make more cells.
+
+#include "tools/assemble/gap/merge_stars.hpp"
+
+#include <algorithm>
+#include <array>
+#include <queue>
+#include <vector>
+
+#include "common/mesh/quality.hpp"
+#include "tools/assemble/gap/objective.hpp"
+#include "tools/assemble/gap/skin.hpp"
+#include "tools/assemble/shape/point_star.hpp"
+
+namespace hexpipe::assemble::gap {
+namespace {
+
+constexpr int steps_to_place = 8;
+// Rooms with more facets are not merged: hardly any has a place that sees all of them.
+constexpr std::size_t most_facets_of_two = 60;
+
+struct StarMerge {
+  double gain = 0;
+  Vertex from = 0, into = 0;
+  std::array<std::uint32_t, 2> ages{};  // of both when this was found
+  Vec3 at{};
+
+  bool operator<(const StarMerge& other) const {
+    if (gain != other.gain) return gain < other.gain;
+    if (from != other.from) return from > other.from;
+    return into > other.into;
+  }
+};
+
+class StarMerger {
+ public:
+  explicit StarMerger(GapMesh& gap) : gap_(gap) {}
+
+  std::int64_t run() {
+    for (Vertex v = 0; v < static_cast<Vertex>(gap_.vertex_count()); ++v)
+      offer(v, [&](Vertex other) { return other > v; });
+    std::int64_t merged = 0;
+    while (!offers_.empty()) {
+      const StarMerge best = offers_.top();
+      offers_.pop();
+      if (best.ages == std::array{gap_.age_of(best.from), gap_.age_of(best.into)}) merged += carry_out(best) ? 1 : 0;
+    }
+    return merged;
+  }
+
+ private:
+  void collect_cells(Vertex a, Vertex b);
+  std::vector<Vertex> partners_of(Vertex v) const;
+  template <class Wanted>
+  void offer(Vertex v, Wanted&& is_wanted);
+  void offer_pair(Vertex from, Vertex into);
+  bool carry_out(const StarMerge& merge);
+
+  GapMesh& gap_;
+  std::priority_queue<StarMerge> offers_;
+  std::vector<std::int32_t> cells_;
+};
+
+// Those at a or b.
+void StarMerger::collect_cells(Vertex a, Vertex b) {
+  cells_.clear();
+  for (const Vertex v : {a, b}) cells_.insert(cells_.end(), gap_.cells_at(v).begin(), gap_.cells_at(v).end());
+  std::ranges::sort(cells_);
+  cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
+}
+
+// Free vertices of the cells at v and of those behind their facets.
+std::vector<Vertex> StarMerger::partners_of(Vertex v) const {
+  std::vector<Vertex> partners;
+  auto take = [&](const GapCell& cell) {
+    for (const Vertex w : cell.vertices())
+      if (w != v && gap_.is_free(w)) partners.push_back(w);
+  };
+  for (const std::int32_t c : gap_.cells_at(v)) {
+    const GapCell& cell = gap_.cell(c);
+    take(cell);
+    for (const Vertex w : cell.vertices()) {
+      if (w == v) continue;
+      for (const std::int32_t other : gap_.cells_at(w)) {
+        const auto shared = std::ranges::count_if(cell.vertices(), [&](Vertex x) { return gap_.cell(other).has(x); });
+        if (shared >= 3) take(gap_.cell(other));
+      }
+    }
+  }
+  std::ranges::sort(partners);
+  partners.erase(std::unique(partners.begin(), partners.end()), partners.end());
+  return partners;
+}
+
+template <class Wanted>
+void StarMerger::offer(Vertex v, Wanted&& is_wanted) {
+  if (!gap_.is_free(v)) return;
+  for (const Vertex other : partners_of(v))
+    if (is_wanted(other)) offer_pair(v, other);
+}
+
+void StarMerger::offer_pair(Vertex from, Vertex into) {
+  collect_cells(from, into);
+  const auto room = room_of(gap_, cells_, most_facets_of_two);
+  if (!room) return;
+  const Worth now = worth_of(gap_, cells_);
+  if (static_cast<double>(room->skin.size()) > now.cost - least_gain) return;
+  shape::PointStar star;
+  for (const Facet& facet : room->skin) {
+    const GapCell cell = cell_on(gap_, facet, into, room->region);
+    const auto at = corner_points(gap_.points(), cell.vertices());
+    star.add(cell.kind, std::span<const Vec3>(at).first(cell.vertices().size()),
+             static_cast<int>(cell.vertices().size()) - 1);
+  }
+  const Vec3 before = gap_.points()[into];
+  const auto place = shape::raise_worst(star, (gap_.points()[from] + before) * 0.5, steps_to_place);
+  if (place.worst < now.floor) return;
+  double after = 0;
+  gap_.move(into, place.at);
+  for (const Facet& facet : room->skin) after += cost_of(cell_on(gap_, facet, into, room->region).quality);
+  gap_.move(into, before);
+  if (now.cost - after > least_gain)
+    offers_.push({now.cost - after, from, into, {gap_.age_of(from), gap_.age_of(into)}, place.at});
+}
+
+bool StarMerger::carry_out(const StarMerge& merge) {
+  collect_cells(merge.from, merge.into);
+  const auto room = room_of(gap_, cells_, most_facets_of_two);
+  if (!room) return false;
+  const Vec3 before = gap_.points()[merge.into];
+  gap_.move(merge.into, merge.at);
+  std::vector<GapCell> in;
+  for (const Facet& facet : room->skin) in.push_back(cell_on(gap_, facet, merge.into, room->region));
+  if (!std::ranges::all_of(in, [&](const GapCell& cell) { return is_valid(gap_, cell); })) {
+    gap_.move(merge.into, before);
+    return false;
+  }
+  gap_.replace(cells_, in);
+  auto always = [](Vertex) { return true; };
+  offer(merge.into, always);
+  for (const Vertex v : room->vertices) offer(v, always);
+  return true;
+}
+
+}  // namespace
+
+std::int64_t merge_stars(GapMesh& gap) {
+  return StarMerger(gap).run();
+}
+
+}  // namespace hexpipe::assemble::gap

@@ -1,0 +1,24 @@
+#pragma once
+// The objective by which the cells between the hexes become fewer and better: docs/definitions.md 4.
+
+#include <span>
+
+#include "common/mesh/cell_topology.hpp"
+#include "common/mesh/tet_mesh.hpp"
+#include "common/mesh/vec3.hpp"
+
+namespace hexpipe::assemble::gap {
+
+// No cell may become worse than this, or than the worst of those that it replaces. It is what smoothing keeps as good
+// enough (shape/smooth.hpp).
+inline constexpr double least_quality = 0.12;
+// Changes that gain less are not worth it; and changes that all gain this much come to an end.
+inline constexpr double least_gain = 0.01;
+
+// The least scaled Jacobian over the corners; of a tet times the square root of 2, of a pyramid over those of its base.
+double quality_of(CellKind kind, std::span<const Vec3> points, std::span<const Vertex> corners);
+
+// The cost of a cell that is no hex: 1, and more where its quality is less than good. The objective is the sum.
+double cost_of(double quality);
+
+}  // namespace hexpipe::assemble::gap

@@ -1,0 +1,47 @@
+#pragma once
+// Fills a room anew, with the cells that cost least and no vertex inside.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tools/assemble/gap/gap_mesh.hpp"
+#include "tools/assemble/gap/skin.hpp"
+
+namespace hexpipe::assemble::gap {
+
+class Refill {
+ public:
+  explicit Refill(const GapMesh& gap) : gap_(gap) {}
+
+  // Tets, pyramids and prisms in the place of `out` that cost less: the cheapest that a search of bounded length finds.
+  // Nothing where there are none, or the cells are no room (skin.hpp) or a large one. All cells of the gap have to be
+  // valid.
+  std::optional<std::vector<GapCell>> find(std::span<const std::int32_t> out);
+
+ private:
+  struct Piece {
+    GapCell cell;
+    double cost = 0, volume = 0;
+    int closes = 0;  // facets of the front, less those that it adds to it
+  };
+
+  void offer(CellKind kind, const std::array<Vertex, 6>& corners, std::vector<Piece>& pieces) const;
+  void collect_pieces(const Facet& facet, std::size_t most, std::vector<Piece>& pieces) const;
+  void collect_prisms(const Facet& facet, std::vector<Piece>& pieces) const;
+  std::vector<Piece> fewest_pieces() const;
+  void place(const Piece& piece);
+  void search(double cost);
+
+  const GapMesh& gap_;
+  Room room_;
+  std::vector<Facet> front_;  // facets that still need a cell
+  std::vector<GapCell> placed_, best_;
+  double floor_ = 0, most_ = 0;
+  double space_ = 0;  // the volume that is left, and a little for rounding
+  int steps_left_ = 0;
+};
+
+}  // namespace hexpipe::assemble::gap

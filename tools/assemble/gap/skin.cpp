@@ -1,0 +1,71 @@
+#include "tools/assemble/gap/skin.hpp"
+
+#include <algorithm>
+
+#include "tools/assemble/gap/objective.hpp"
+
+namespace hexpipe::assemble::gap {
+namespace {
+
+// Cells that are worse may be replaced, but not by such: the sign of less may be rounding.
+constexpr double surely_valid = 1e-6;
+
+}  // namespace
+
+Facet Facet::of(std::span<const Vertex> corners) {
+  Facet facet{{GapMesh::none, GapMesh::none, GapMesh::none, GapMesh::none}};
+  const auto first = static_cast<std::size_t>(std::ranges::min_element(corners) - corners.begin());
+  for (std::size_t i = 0; i < corners.size(); ++i) facet.corners[i] = corners[(first + i) % corners.size()];
+  return facet;
+}
+
+Facet Facet::reversed() const {
+  if (is_quad()) return {{corners[0], corners[3], corners[2], corners[1]}};
+  return {{corners[0], corners[2], corners[1], GapMesh::none}};
+}
+
+std::optional<Room> room_of(const GapMesh& gap, std::span<const std::int32_t> cells, std::size_t most_facets) {
+  Room room;
+  room.region = gap.cell(cells[0]).region;
+  bool blocked = false;
+  auto add = [&](const Facet& facet) {
+    const auto twin = std::ranges::find(room.skin, facet.reversed());
+    if (twin == room.skin.end()) {
+      room.skin.push_back(facet);
+      return;
+    }
+    room.skin.erase(twin);
+    blocked = blocked || (!facet.is_quad() && gap.is_tagged({facet.corners[0], facet.corners[1], facet.corners[2]}));
+  };
+  for (const std::int32_t c : cells) {
+    if (gap.cell(c).region != room.region) return std::nullopt;
+    for_facets(gap.cell(c).kind, gap.cell(c).vertices(), add);
+  }
+  if (blocked || room.skin.size() > most_facets) return std::nullopt;
+  for (const Facet& facet : room.skin)
+    for (const Vertex v : facet.vertices()) room.vertices.push_back(v);
+  std::ranges::sort(room.vertices);
+  room.vertices.erase(std::unique(room.vertices.begin(), room.vertices.end()), room.vertices.end());
+  for (const std::int32_t c : cells)
+    for (const Vertex v : gap.cell(c).vertices())
+      if (!std::ranges::binary_search(room.vertices, v) && !gap.is_free(v)) return std::nullopt;
+  return room;
+}
+
+GapCell cell_on(const GapMesh& gap, const Facet& facet, Vertex apex, std::int32_t region) {
+  const auto& f = facet.corners;
+  if (!facet.is_quad()) return gap.make_tet({f[0], f[2], f[1], apex}, region);
+  return gap.make(CellKind::pyramid, {f[0], f[3], f[2], f[1], apex}, region);
+}
+
+Worth worth_of(const GapMesh& gap, std::span<const std::int32_t> cells) {
+  Worth worth{0, least_quality};
+  for (const std::int32_t c : cells) {
+    worth.cost += cost_of(gap.cell(c).quality);
+    worth.floor = std::min(worth.floor, gap.cell(c).quality);
+  }
+  worth.floor = std::max(worth.floor, surely_valid);
+  return worth;
+}
+
+}  // namespace hexpipe::assemble::gap

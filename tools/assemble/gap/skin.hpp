@@ -1,0 +1,64 @@
+#pragma once
+// Rooms: what a few cells fill together, and the facets around it.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tools/assemble/gap/gap_mesh.hpp"
+
+namespace hexpipe::assemble::gap {
+
+// Counter-clockwise as seen from outside of its cell, the least vertex first; a triangle ends in none.
+struct Facet {
+  std::array<Vertex, 4> corners;
+
+  static Facet of(std::span<const Vertex> corners);
+  bool is_quad() const { return corners[3] != GapMesh::none; }
+  std::span<const Vertex> vertices() const { return std::span(corners).first(is_quad() ? 4 : 3); }
+  Facet reversed() const;
+  // Most differ in the first: a call of memcmp for each took a third of the time.
+  bool operator==(const Facet& other) const {
+    return corners[0] == other.corners[0] && corners[1] == other.corners[1] && corners[2] == other.corners[2] &&
+           corners[3] == other.corners[3];
+  }
+};
+
+// visit(facet) for each facet of a cell of six corners at most.
+template <class Visit>
+void for_facets(CellKind kind, std::span<const Vertex> corners, Visit&& visit) {
+  auto each = [&](const auto& facets) {
+    for (const auto& facet : facets) {
+      std::array<Vertex, 4> own{};
+      for (std::size_t i = 0; i < facet.size(); ++i) own[i] = corners[facet[i]];
+      visit(Facet::of(std::span(own).first(facet.size())));
+    }
+  };
+  with_topology(kind, [&](auto topology) {
+    each(decltype(topology)::triangles);
+    each(decltype(topology)::quads);
+  });
+}
+
+struct Room {
+  std::vector<Facet> skin;       // of the cells in the room; what lies between two of them is not part of it
+  std::vector<Vertex> vertices;  // of the skin, ascending
+  std::int32_t region = 0;
+};
+
+// Nothing where the cells are of several regions, or where a tagged facet or a vertex that has to stay lies between
+// them, or where there are more than `most_facets` around them.
+std::optional<Room> room_of(const GapMesh& gap, std::span<const std::int32_t> cells, std::size_t most_facets);
+
+// The cell on the inner side of a facet of the skin, with its last corner at `apex`: a tet or a pyramid.
+GapCell cell_on(const GapMesh& gap, const Facet& facet, Vertex apex, std::int32_t region);
+
+// What the cells cost together, and the least quality that others in their place may have.
+struct Worth {
+  double cost = 0, floor = 0;
+};
+Worth worth_of(const GapMesh& gap, std::span<const std::int32_t> cells);
+
+}  // namespace hexpipe::assemble::gap

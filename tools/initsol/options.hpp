@@ -1,0 +1,33 @@
+#pragma once
+// The command line of initsol as values.
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "tools/initsol/greedy.hpp"
+#include "tools/initsol/tabu_search.hpp"
+
+namespace hexpipe::initsol {
+
+enum class Method {
+  anneal,   // simulated annealing over local optima; the slower it cools, the better the result
+  tabu,     // the dissertation's search
+  descend,  // Push and (1,2)-swaps while they gain
+};
+
+struct InitsolOptions {
+  GreedyOrder order = GreedyOrder::weight_degree;
+  Method method = Method::anneal;
+  // Temperatures in mean weights of a chosen vertex; what suits the graph, where they are not given.
+  std::optional<double> hot{}, cold{};
+  TabuOptions tabu{};
+  int starts = 1;
+  std::uint64_t seed = 1;
+  std::int64_t iterations = std::numeric_limits<std::int64_t>::max();  // moves or kicks of each start
+  // Likewise for each vertex that reductions leave; a search that cools more slowly gains little.
+  std::int64_t iterations_a_vertex = std::numeric_limits<std::int64_t>::max();
+  bool reduce = true;  // search what exact reductions leave
+};
+
+}  // namespace hexpipe::initsol

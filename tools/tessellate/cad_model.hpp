@@ -1,0 +1,51 @@
+#pragma once
+// A CAD model as it was read: bodies, and names of shapes.
+
+#include <TopoDS_Shape.hxx>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace hexpipe::tessellate {
+
+// Names by what shapes are, wherever they stand: the faces of all instances of a part have one name.
+class ShapeNames {
+ public:
+  // The first name stays.
+  void set(const TopoDS_Shape& shape, std::string name) {
+    if (!shape.IsNull() && !name.empty()) names_.try_emplace(shape.TShape().get(), Entry{shape, std::move(name)});
+  }
+  // Empty: it has none.
+  std::string of(const TopoDS_Shape& shape) const {
+    const auto found = shape.IsNull() ? names_.end() : names_.find(shape.TShape().get());
+    return found == names_.end() ? std::string() : found->second.name;
+  }
+
+ private:
+  struct Entry {
+    TopoDS_Shape shape;  // keeps the address its own
+    std::string name;
+  };
+  std::map<const void*, Entry> names_;
+};
+
+struct CadBody {
+  TopoDS_Shape solid;
+  std::string name;  // may be empty
+};
+
+// How long a unit is.
+struct LengthUnit {
+  std::string name = "millimetre";
+  double millimetres = 1;
+};
+
+struct CadModel {
+  std::vector<CadBody> bodies;  // in millimetres, or in the file's own unit where it names none
+  ShapeNames names;             // of faces and edges
+  LengthUnit unit;              // of the file
+  bool names_unit = true;
+  std::vector<std::string> warnings;  // what was healed or left out
+};
+
+}  // namespace hexpipe::tessellate

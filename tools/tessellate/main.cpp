@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/run/error.hpp"
+#include "common/run/option_checks.hpp"
+#include "common/run/tool_main.hpp"
+#include "formats/pipeline/bundle.hpp"
+#include "formats/pipeline/history.hpp"
+#include "formats/pipeline/output_format.hpp"
+#include "formats/pipeline/surface_bundle.hpp"
+#include "formats/streams/output.hpp"
+#include "tools/tessellate/tessellate.hpp"
+#include "tools/tessellate/write_surface.hpp"
+
+using namespace hexpipe;
+
+namespace {
+
+formats::Input open_cad(const std::string& path) {
+  if (path == "-" && isatty(STDIN_FILENO))
+    throw UsageError("nothing to read: name a CAD file, or pipe one to standard input (see tessellate --help)");
+  return formats::Input::open(path);
+}
+
+// Empty: a bundle.
+std::string_view format_of(const std::string& path) {
+  const bool to_stdout = path.empty() || path == "-";
+  if (to_stdout && isatty(STDOUT_FILENO))
+    throw UsageError("standard output is a terminal: pipe it to tetmesh, or write a file with -o");
+  const std::string_view ending = pipeline::ending_of(path);
+  if (to_stdout || path.starts_with("/dev/") || pipeline::is_bundle_format(ending)) return {};
+  const auto& known = tessellate::surface_format_names();
+  if (std::ranges::find(known, ending) == known.end())
+    throw UsageError(fmt::format("expected a surface as {} or tar, tar.zst, found '{}'", fmt::join(known, ", "), path));
+  return ending;
+}
+
+void write_bundle(const tessellate::TessellateResult& result, const RunContext& context, bool compress,
+                  formats::Output& output) {
+  pipeline::BundleWriter writer(output, compress);
+  pipeline::write_surface_members(writer, result.surface);
+  if (!result.surface.names.empty()) writer.add_text(std::string(formats::names_member), text_of(result.surface.names));
+  nlohmann::ordered_json entry = pipeline::history_entry_of(context);
+  entry.update(to_json(result));
+  pipeline::write_history_entry(writer, pipeline::history_member(1, entry), entry);
+  writer.close();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const ToolInfo info{
+      .name = "tessellate",
+      .summary = "Make triangles of a CAD file (STEP, IGES, BREP), with its curves, bodies and names.",
+      .example = "tessellate part.step | tetmesh --size 3 | findhex | buildgraph | initsol | assemble -o part.vtu",
+      .reads = {},
+      .product = std::nullopt,
+  };
+  tessellate::TessellateOptions options;
+  std::string path = "-", output_path;
+  bool compress = false;
+  const auto declare = [&](CLI::App& app) {
+    app.add_option("cad", path, "A file in STEP, IGES or BREP; '-' or nothing: standard input")->type_name("FILE");
+    app.add_option("--deviation", options.deviation,
+                   "How far triangles may be from the CAD's surface [a hundredth of the size that tetmesh chooses]")
+        ->check(number_between(1e-12, 1e12))
+        ->type_name("LENGTH");
+    app.add_option("--angle", options.angle, "How far neighbours may turn on a smooth face, in degrees")
+        ->check(number_between(1, 60));
+    app.add_option("--unit", options.unit, "Write lengths in metres or millimetres [the file's own unit]")
+        ->check(CLI::IsMember({"m", "mm"}));
+    app.add_flag("--join", options.join, "Bodies that touch share the faces, edges and corners where they do");
+    outside_history(
+        app.add_option("-o,--output", output_path, "Write to a file, not to standard output: .tar, .obj, .stl or .msh"))
+        ->type_name("FILE");
+    outside_history(app.add_flag("--compress", compress, "Compress the bundle with zstd"));
+  };
+  const auto run = [&](RunContext& context) {
+    const std::string_view format = format_of(output_path);
+    formats::Input input = open_cad(path);
+    const tessellate::TessellateResult result = tessellate::tessellate(input, options);
+    for (const std::string& warning : result.warnings) context.warn(input.name() + ": " + warning);
+    formats::Output output(output_path);
+    if (format.empty())
+      write_bundle(result, context, compress || pipeline::ending_of(output_path) == pipeline::compressed_bundle_format,
+                   output);
+    else
+      for (const std::string& change : tessellate::write_surface(result.surface, format, output)) context.warn(change);
+    output.commit();
+    context.note(fmt::format("{} bodies of {} faces, {} triangles within {:.4g} of them, lengths in {}", result.bodies,
+                             result.faces, result.surface.triangles.size(), result.deviation,
+                             result.unit.empty() ? "a unit that the file does not name" : "the unit " + result.unit));
+    context.statistics.update(to_json(result));
+  };
+  return tool_main(argc, argv, info, declare, run);
+}

@@ -1,0 +1,165 @@
+#include "tools/tessellate/make_bodies.hpp"
+
+#include <fmt/format.h>
+
+#include <BRepAlgoAPI_BuilderAlgo.hxx>
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepLib.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <ShapeBuild_ReShape.hxx>
+#include <ShapeFix_Shape.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopTools_MapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Solid.hxx>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "common/run/error.hpp"
+
+namespace hexpipe::tessellate {
+namespace {
+
+// Edges of loose faces nearer than that, as a part of the diagonal, are one.
+constexpr double sewing_tolerance = 1e-5;
+
+int count_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum type) {
+  TopTools_IndexedMapOfShape found;
+  TopExp::MapShapes(shape, type, found);
+  return found.Extent();
+}
+
+std::string counted(int count, const char* noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::string counted_bodies(std::size_t count) {
+  return count == 1 ? "1 body" : fmt::format("{} bodies", count);
+}
+
+double diagonal_of(const TopoDS_Shape& shape) {
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box);
+  return box.IsVoid() ? 0 : std::sqrt(box.SquareExtent());
+}
+
+TopoDS_Solid solid_of(const TopoDS_Shell& shell) {
+  BRep_Builder builder;
+  TopoDS_Solid solid;
+  builder.MakeSolid(solid);
+  builder.Add(solid, shell);
+  BRepLib::OrientClosedSolid(solid);
+  return solid;
+}
+
+// Adds a body for each closed shell; returns how many are open.
+int add_closed_shells(const TopoDS_Shape& shape, CadModel& model) {
+  int open = 0;
+  for (TopExp_Explorer shell(shape, TopAbs_SHELL); shell.More(); shell.Next()) {
+    if (BRep_Tool::IsClosed(shell.Current()))
+      model.bodies.push_back({solid_of(TopoDS::Shell(shell.Current())), model.names.of(shell.Current())});
+    else
+      ++open;
+  }
+  return open;
+}
+
+// Names go from the parts of a shape to those that a change made of them.
+template <class ChangeOf>
+void carry_names(const TopoDS_Shape& shape, ShapeNames& names, ChangeOf&& changed) {
+  for (const TopAbs_ShapeEnum type : {TopAbs_FACE, TopAbs_EDGE})
+    for (TopExp_Explorer part(shape, type); part.More(); part.Next()) {
+      const std::string name = names.of(part.Current());
+      if (!name.empty()) changed(part.Current(), [&](const TopoDS_Shape& made) { names.set(made, name); });
+    }
+}
+
+TopoDS_Shape sewn(const TopoDS_Shape& whole, ShapeNames& names) {
+  BRepBuilderAPI_Sewing sewing(sewing_tolerance * diagonal_of(whole));
+  for (TopExp_Explorer face(whole, TopAbs_FACE); face.More(); face.Next()) sewing.Add(face.Current());
+  sewing.Perform();
+  carry_names(whole, names, [&](const TopoDS_Shape& part, const auto& set) {
+    if (sewing.IsModified(part)) set(sewing.Modified(part));
+    if (part.ShapeType() == TopAbs_EDGE && sewing.IsModifiedSubShape(part)) set(sewing.ModifiedSubShape(part));
+  });
+  return sewing.SewedShape();
+}
+
+}  // namespace
+
+void make_bodies(const TopoDS_Shape& whole, const std::string& source, CadModel& model) {
+  const int faces = count_of(whole, TopAbs_FACE);
+  if (faces == 0) throw DataError::at(source, "expected bodies, found no solid and no face");
+  int open = add_closed_shells(whole, model);
+  const char* act = "shells that are closed are taken for bodies";
+  if (model.bodies.empty()) {
+    open = add_closed_shells(sewn(whole, model.names), model);
+    act = "its faces are sewn to bodies";
+  }
+  if (model.bodies.empty())
+    throw DataError::at(source, "expected bodies, found no solid, and {} of {} that {} not closed",
+                        open > 0 ? counted(open, "shell") : "sheets", counted(faces, "face"), open == 1 ? "is" : "are");
+  model.warnings.push_back(fmt::format("there are no solids: {}, {}{}", act, counted_bodies(model.bodies.size()),
+                                       open > 0 ? fmt::format(", and {} left out", counted(open, "open shell")) : ""));
+}
+
+void heal_bodies(CadModel& model) {
+  std::size_t healed = 0, faulty = 0;
+  for (CadBody& body : model.bodies) {
+    if (BRepCheck_Analyzer(body.solid).IsValid()) continue;
+    ShapeFix_Shape fix(body.solid);
+    fix.Perform();
+    const TopoDS_Shape fixed = fix.Shape();
+    TopExp_Explorer solid(fixed, TopAbs_SOLID);
+    if (!solid.More()) {
+      ++faulty;
+      continue;
+    }
+    const Handle(ShapeBuild_ReShape) context = fix.Context();
+    carry_names(body.solid, model.names, [&](const TopoDS_Shape& part, const auto& set) { set(context->Apply(part)); });
+    body.solid = solid.Current();
+    BRepCheck_Analyzer(body.solid).IsValid() ? ++healed : ++faulty;
+  }
+  if (healed > 0) model.warnings.push_back(fmt::format("healed {}", counted_bodies(healed)));
+  if (faulty > 0)
+    model.warnings.push_back(fmt::format("{} did not hold together by OpenCASCADE's rules, and could not be healed",
+                                         counted_bodies(faulty)));
+}
+
+void join_bodies(const std::string& source, CadModel& model) {
+  if (model.bodies.size() < 2) return;
+  BRepAlgoAPI_BuilderAlgo fuse;
+  TopTools_ListOfShape arguments;
+  for (const CadBody& body : model.bodies) arguments.Append(body.solid);
+  fuse.SetArguments(arguments);
+  fuse.SetNonDestructive(Standard_True);
+  fuse.SetRunParallel(Standard_False);
+  fuse.Build();
+  if (fuse.HasErrors()) throw DataError::at(source, "OpenCASCADE cannot join its bodies (--join)");
+  std::vector<CadBody> joined;
+  TopTools_MapOfShape seen;
+  for (const CadBody& body : model.bodies) {
+    carry_names(body.solid, model.names, [&](const TopoDS_Shape& part, const auto& set) {
+      for (const TopoDS_Shape& made : fuse.Modified(part)) set(made);
+    });
+    TopTools_ListOfShape parts = fuse.Modified(body.solid);
+    if (parts.IsEmpty() && !fuse.IsDeleted(body.solid)) parts.Append(body.solid);
+    for (const TopoDS_Shape& part : parts) {
+      if (!seen.Add(part))
+        throw DataError::at(source, "expected bodies that touch at most, found some that overlap; the second is '{}'",
+                            body.name.empty() ? fmt::format("{}", &body - model.bodies.data() + 1) : body.name);
+      joined.push_back({part, body.name});
+    }
+  }
+  model.bodies = std::move(joined);
+}
+
+}  // namespace hexpipe::tessellate

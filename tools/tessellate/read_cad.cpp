@@ -1,0 +1,220 @@
+#include "tools/tessellate/read_cad.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <IGESCAFControl_Reader.hxx>
+#include <IGESData_GlobalSection.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <Interface_Static.hxx>
+#include <STEPCAFControl_Controller.hxx>
+#include <STEPCAFControl_Reader.hxx>
+#include <Standard_Failure.hxx>
+#include <TColStd_SequenceOfAsciiString.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopExp_Explorer.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include "common/run/error.hpp"
+#include "formats/streams/text_scanner.hpp"
+#include "tools/tessellate/make_bodies.hpp"
+#include "tools/tessellate/occt_names.hpp"
+
+namespace hexpipe::tessellate {
+namespace {
+
+constexpr std::string_view step_begin = "ISO-10303-21", step_end = "END-ISO-10303-21";
+
+bool looks_like_iges(std::string_view bytes) {
+  return bytes.size() > 80 && bytes.substr(0, 80).find('\n') == std::string_view::npos && bytes[72] == 'S' &&
+         bytes.substr(73, 7) == "      1";
+}
+
+bool looks_like_brep(std::string_view bytes) {
+  bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
+  return bytes.starts_with("DBRep_DrawableShape") || bytes.starts_with("CASCADE Topology");
+}
+
+// Blanks and comments behind the last word do not count.
+bool ends_with_word(std::string_view bytes, std::string_view word) {
+  return bytes.substr(bytes.size() - std::min<std::size_t>(bytes.size(), 4096)).rfind(word) != std::string_view::npos;
+}
+
+// By a part of its name, in STEP and IGES.
+LengthUnit unit_named(std::string name) {
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  struct Known {
+    const char* part;
+    LengthUnit unit;
+  };
+  static const Known known[] = {
+      {"milli", {"millimetre", 1}},    {"centi", {"centimetre", 10}}, {"micro", {"micrometre", 1e-3}},
+      {"kilo", {"kilometre", 1e6}},    {"metre", {"metre", 1000}},    {"meter", {"metre", 1000}},
+      {"micro", {"micrometre", 1e-3}}, {"inch", {"inch", 25.4}},      {"foot", {"foot", 304.8}},
+  };
+  for (const Known& entry : known)
+    if (name.find(entry.part) != std::string::npos) return entry.unit;
+  static const Known short_names[] = {{"mm", {"millimetre", 1}}, {"cm", {"centimetre", 10}},
+                                      {"m", {"metre", 1000}},    {"in", {"inch", 25.4}},
+                                      {"ft", {"foot", 304.8}},   {"um", {"micrometre", 1e-3}}};
+  for (const Known& entry : short_names)
+    if (name == entry.part) return entry.unit;
+  return {name, 0};
+}
+
+void set_unit(const std::string& name, CadModel& model) {
+  model.unit = unit_named(name);
+  if (model.unit.millimetres > 0) return;
+  model.warnings.push_back(fmt::format("the unit of length, '{}', is not known; millimetres are written", name));
+  model.unit = {};
+}
+
+Handle(TDocStd_Document) new_document() {
+  Handle(TDocStd_Document) document = new TDocStd_Document("BinXCAF");
+  XCAFDoc_DocumentTool::Set(document->Main(), Standard_False);
+  XCAFDoc_ShapeTool::SetAutoNaming(Standard_False);
+  return document;
+}
+
+TopoDS_Shape whole_of(const Handle(TDocStd_Document) & document) {
+  TDF_LabelSequence labels;
+  XCAFDoc_DocumentTool::ShapeTool(document->Main())->GetFreeShapes(labels);
+  BRep_Builder builder;
+  TopoDS_Compound whole;
+  builder.MakeCompound(whole);
+  for (Standard_Integer i = 1; i <= labels.Length(); ++i)
+    builder.Add(whole, XCAFDoc_ShapeTool::GetShape(labels.Value(i)));
+  return whole;
+}
+
+void finish(const TopoDS_Shape& whole, const std::string& name, CadModel& model) {
+  if (model.bodies.empty()) make_bodies(whole, name, model);
+}
+
+CadModel read_step(const std::string& bytes, const std::string& name) {
+  if (!ends_with_word(bytes, step_end))
+    throw DataError::at(name, "expected {}; at the end of a STEP file, found none: it is cut off", step_end);
+  STEPCAFControl_Controller::Init();
+  STEPCAFControl_Reader reader;
+  reader.SetColorMode(Standard_True);
+  reader.SetNameMode(Standard_True);
+  reader.SetLayerMode(Standard_True);
+  std::istringstream stream(bytes);
+  if (reader.ChangeReader().ReadStream("", stream) != IFSelect_RetDone)
+    throw DataError::at(name, "expected a STEP file, found one that OpenCASCADE cannot read: its syntax is wrong");
+  CadModel model;
+  TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
+  reader.ChangeReader().FileUnits(lengths, angles, solid_angles);
+  if (lengths.IsEmpty())
+    model.names_unit = false;
+  else
+    set_unit(lengths.First().ToCString(), model);
+  Handle(TDocStd_Document) document = new_document();
+  if (!reader.Transfer(document))
+    throw DataError::at(name, "expected shapes in a STEP file, found none that OpenCASCADE can make");
+  add_entity_names(reader.Reader().WS(), model.names);
+  add_document_names(document, model.names);
+  add_bodies(document, model);
+  finish(whole_of(document), name, model);
+  return model;
+}
+
+// OpenCASCADE reads IGES from a file only.
+class NamedFile {
+ public:
+  NamedFile(const std::string& path, const std::string& bytes) : path_(path) {
+    if (!path.empty()) return;
+    const char* folder = std::getenv("TMPDIR");
+    path_ = fmt::format("{}/tessellate-XXXXXX", folder == nullptr || *folder == '\0' ? "/tmp" : folder);
+    const int descriptor = mkstemp(path_.data());
+    if (descriptor < 0) throw DataError::at(path_, "cannot write a temporary file");
+    made_ = true;
+    std::size_t written = 0;
+    while (written < bytes.size()) {
+      const ssize_t count = ::write(descriptor, bytes.data() + written, bytes.size() - written);
+      if (count <= 0) break;
+      written += static_cast<std::size_t>(count);
+    }
+    ::close(descriptor);
+    if (written < bytes.size()) throw DataError::at(path_, "cannot write a temporary file");
+  }
+  ~NamedFile() {
+    if (made_) unlink(path_.c_str());
+  }
+  NamedFile(const NamedFile&) = delete;
+  NamedFile& operator=(const NamedFile&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  bool made_ = false;
+};
+
+CadModel read_iges(const std::string& bytes, const std::string& name, const std::string& path) {
+  const std::string_view last = std::string_view(bytes).substr(bytes.rfind('\n', bytes.size() - 2) + 1);
+  if (last.size() < 73 || last[72] != 'T')
+    throw DataError::at(name, "expected a line of section T at the end of an IGES file, found none: it is cut off");
+  const NamedFile file(path, bytes);
+  IGESCAFControl_Reader reader;
+  reader.SetColorMode(Standard_True);
+  reader.SetNameMode(Standard_True);
+  reader.SetLayerMode(Standard_True);
+  if (reader.ReadFile(file.path().c_str()) != IFSelect_RetDone)
+    throw DataError::at(name, "expected an IGES file, found one that OpenCASCADE cannot read");
+  CadModel model;
+  const Handle(TCollection_HAsciiString) unit = reader.IGESModel()->GlobalSection().UnitName();
+  if (unit.IsNull())
+    model.names_unit = false;
+  else
+    set_unit(unit->ToCString(), model);
+  Handle(TDocStd_Document) document = new_document();
+  if (!reader.Transfer(document))
+    throw DataError::at(name, "expected shapes in an IGES file, found none that OpenCASCADE can make");
+  add_document_names(document, model.names);
+  add_bodies(document, model);
+  finish(whole_of(document), name, model);
+  return model;
+}
+
+CadModel read_brep(const std::string& bytes, const std::string& name) {
+  std::istringstream stream(bytes);
+  TopoDS_Shape whole;
+  BRepTools::Read(whole, stream, BRep_Builder());
+  if (whole.IsNull())
+    throw DataError::at(name, "expected a shape in BREP, found one that OpenCASCADE cannot read: it is cut off");
+  CadModel model;
+  model.names_unit = false;
+  for (TopExp_Explorer solid(whole, TopAbs_SOLID); solid.More(); solid.Next())
+    model.bodies.push_back({solid.Current(), {}});
+  finish(whole, name, model);
+  return model;
+}
+
+}  // namespace
+
+CadModel read_cad(formats::Input& input) {
+  const std::string bytes = input.read_all();
+  const std::string& name = input.name();
+  if (bytes.empty()) throw DataError::at(name, "expected CAD in STEP, IGES or BREP, found nothing: it is empty");
+  const std::string_view text = formats::without_byte_order_mark(bytes);
+  try {
+    if (text.substr(0, 4096).find(step_begin) != std::string_view::npos) return read_step(bytes, name);
+    if (looks_like_brep(text)) return read_brep(bytes, name);
+    if (looks_like_iges(text)) return read_iges(bytes, name, input.path());
+  } catch (const Standard_Failure& failure) {
+    throw DataError::at(name, "OpenCASCADE cannot read it: {}", failure.GetMessageString());
+  }
+  throw DataError::at(name, "expected CAD in STEP, IGES or BREP, found {}",
+                      formats::quote_found(formats::TextScanner(text, name).peek_word()));
+}
+
+}  // namespace hexpipe::tessellate

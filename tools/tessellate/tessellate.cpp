@@ -1,0 +1,79 @@
+#include "tools/tessellate/tessellate.hpp"
+
+#include <fmt/format.h>
+
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Standard_Failure.hxx>
+#include <iostream>
+
+#include "common/run/error.hpp"
+#include "tools/tessellate/make_bodies.hpp"
+#include "tools/tessellate/read_cad.hpp"
+#include "tools/tessellate/triangulate.hpp"
+
+namespace hexpipe::tessellate {
+namespace {
+
+// What OpenCASCADE has to say goes to standard output, where the bundle goes.
+class SilentOpenCascade {
+ public:
+  SilentOpenCascade() : buffer_(std::cout.rdbuf(nullptr)) { Message::DefaultMessenger()->ChangePrinters().Clear(); }
+  ~SilentOpenCascade() { std::cout.rdbuf(buffer_); }
+  SilentOpenCascade(const SilentOpenCascade&) = delete;
+  SilentOpenCascade& operator=(const SilentOpenCascade&) = delete;
+
+ private:
+  std::streambuf* buffer_;
+};
+
+LengthUnit wanted_unit(const CadModel& model, const TessellateOptions& options) {
+  if (options.unit == "m") return {"metre", 1000};
+  if (options.unit == "mm") return {"millimetre", 1};
+  return model.unit;
+}
+
+}  // namespace
+
+TessellateResult tessellate(formats::Input& input, const TessellateOptions& options) {
+  const SilentOpenCascade silent;
+  CadModel model = read_cad(input);
+  const LengthUnit unit = wanted_unit(model, options);
+  TessellateResult result;
+  try {
+    heal_bodies(model);
+    if (options.join) join_bodies(input.name(), model);
+    TriangulationOptions triangulation{.angle = options.angle};
+    if (options.deviation) triangulation.deviation = *options.deviation * unit.millimetres;
+    Triangulation made = triangulate(model, triangulation, input.name());
+    result.surface = std::move(made.surface);
+    result.faces = made.faces;
+    result.curves = made.curves;
+    result.deviation = made.deviation / unit.millimetres;
+  } catch (const Standard_Failure& failure) {
+    throw DataError::at(input.name(), "OpenCASCADE failed: {}", failure.GetMessageString());
+  }
+  for (Vec3& p : result.surface.points) p = {p.x / unit.millimetres, p.y / unit.millimetres, p.z / unit.millimetres};
+  result.bodies = model.bodies.size();
+  result.warnings = std::move(model.warnings);
+  if (model.names_unit || options.unit) result.unit = unit.name;
+  if (!options.unit && unit.name != "millimetre")
+    result.warnings.push_back(fmt::format("its unit is the {}, and so is that of all lengths (see --unit)", unit.name));
+  formats::check_extent(result.surface);
+  return result;
+}
+
+nlohmann::ordered_json to_json(const TessellateResult& result) {
+  nlohmann::ordered_json json{{"unit", nullptr},
+                              {"deviation", result.deviation},
+                              {"bodies", result.bodies},
+                              {"faces", result.faces},
+                              {"curves", result.curves},
+                              {"points", result.surface.points.size()},
+                              {"triangles", result.surface.triangles.size()},
+                              {"names", result.surface.names.surfaces.size()}};
+  if (!result.unit.empty()) json["unit"] = result.unit;
+  return json;
+}
+
+}  // namespace hexpipe::tessellate

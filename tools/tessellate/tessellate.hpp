@@ -1,0 +1,34 @@
+#pragma once
+// From a CAD file to the surface that stands for it.
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/streams/input.hpp"
+#include "formats/surfaces/surface_files.hpp"
+
+namespace hexpipe::tessellate {
+
+struct TessellateOptions {
+  std::optional<double> deviation = {};  // in the units that are written; nothing: a hundredth of tetmesh's size
+  double angle = 15;                     // degrees
+  std::optional<std::string> unit = {};  // m or mm; nothing: the file's own
+  bool join = false;                     // bodies that touch share what they have in common
+};
+
+struct TessellateResult {
+  formats::SurfaceSoup surface;
+  std::size_t bodies = 0, faces = 0, curves = 0;
+  double deviation = 0;  // in the units that are written
+  std::string unit;      // of what is written; empty where the file names none
+  std::vector<std::string> warnings;
+};
+
+// Throws DataError for a file that is no CAD, has no bodies, or cannot be triangulated.
+TessellateResult tessellate(formats::Input& input, const TessellateOptions& options);
+
+nlohmann::ordered_json to_json(const TessellateResult& result);
+
+}  // namespace hexpipe::tessellate

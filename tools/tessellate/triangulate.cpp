@@ -1,0 +1,401 @@
+// Each face has triangles of its own, whose nodes along an edge OpenCASCADE lists in the order of the edge. So nodes of
+// neighbours are made one by the edges and vertices that the faces share, never by their distance.
+
+#include "tools/tessellate/triangulate.hpp"
+
+#include <fmt/format.h>
+
+#include <BRepBndLib.hxx>
+#include <BRepGProp.hxx>
+#include <BRepLib.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GProp_GProps.hxx>
+#include <IMeshTools_Parameters.hxx>
+#include <Poly_PolygonOnTriangulation.hxx>
+#include <Poly_Triangulation.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "common/mesh/default_size.hpp"
+#include "common/mesh/facet_key.hpp"
+#include "common/run/error.hpp"
+
+namespace hexpipe::tessellate {
+namespace {
+
+constexpr double deviation_of_size = 0.01;
+
+TopoDS_Compound compound_of(const CadModel& model) {
+  BRep_Builder builder;
+  TopoDS_Compound whole;
+  builder.MakeCompound(whole);
+  for (const CadBody& body : model.bodies) builder.Add(whole, body.solid);
+  return whole;
+}
+
+double radians(double degrees) {
+  return degrees * std::numbers::pi / 180;
+}
+
+// Numbers that become one.
+class UnionFind {
+ public:
+  std::int32_t add() {
+    parent_.push_back(static_cast<std::int32_t>(parent_.size()));
+    return parent_.back();
+  }
+  std::int32_t of(std::int32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  // The lower one stays.
+  void join(std::int32_t i, std::int32_t j) {
+    i = of(i), j = of(j);
+    parent_[std::max(i, j)] = std::min(i, j);
+  }
+
+ private:
+  std::vector<std::int32_t> parent_;
+};
+
+class Triangulator {
+ public:
+  Triangulator(const CadModel& model, const TriangulationOptions& options, const std::string& source)
+      : model_(model), options_(options), source_(source), whole_(compound_of(model)) {}
+
+  Triangulation run() {
+    result_.surface.name = source_;
+    result_.surface.text = false;
+    result_.surface.has_own_tags = true;
+    result_.deviation = options_.deviation.value_or(deviation_of_size * default_size_of(model_));
+    TopExp::MapShapesAndAncestors(whole_, TopAbs_EDGE, TopAbs_FACE, faces_of_edge_);
+    mesh();
+    number_faces();
+    choose_tags();
+    for (std::size_t body = 0; body < model_.bodies.size(); ++body) add_body(body);
+    add_curves();
+    number_points();
+    check_closed();
+    name_regions();
+    return std::move(result_);
+  }
+
+ private:
+  // Of a face that has been triangulated.
+  struct FaceNodes {
+    std::int32_t first = 0;  // number of its first node
+    std::vector<std::size_t> triangles;
+  };
+
+  void mesh();
+  void number_faces();
+  void choose_tags();
+  bool is_smooth(const TopoDS_Edge& edge, const TopTools_ListOfShape& faces) const;
+  std::string group_of(const TopoDS_Shape& face) const { return model_.names.of(face); }
+  void add_body(std::size_t body);
+  void add_face(const TopoDS_Face& face, std::int32_t region);
+  void add_nodes(const TopoDS_Face& face, const Handle(Poly_Triangulation) & triangles, const TopLoc_Location& place,
+                 std::int32_t first);
+  void join_edge(const TopoDS_Edge& edge, const Handle(Poly_PolygonOnTriangulation) & polygon, std::int32_t first);
+  void add_curves();
+  void number_points();
+  void drop_curves_without_triangles(const std::vector<Vertex>& number);
+  void check_closed() const;
+  void name_regions();
+  std::string title_of(const TopoDS_Face& face) const;
+
+  const CadModel& model_;
+  const TriangulationOptions& options_;
+  const std::string& source_;
+  TopoDS_Compound whole_;
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of_edge_;
+  TopTools_IndexedMapOfShape faces_;
+  std::vector<std::int32_t> tags_;  // of faces
+  std::map<int, FaceNodes> done_;   // by number of the face
+  std::vector<Vec3> nodes_;
+  UnionFind same_;
+  std::map<int, std::vector<std::int32_t>> nodes_of_edge_;  // by number of the edge
+  std::map<const void*, std::vector<std::pair<TopoDS_Shape, std::int32_t>>> node_of_vertex_;
+  std::vector<int> face_of_triangle_;
+  Triangulation result_;
+};
+
+void Triangulator::mesh() {
+  IMeshTools_Parameters parameters;
+  parameters.Deflection = result_.deviation;
+  parameters.Angle = radians(options_.angle);
+  parameters.InParallel = Standard_False;
+  BRepMesh_IncrementalMesh(whole_, parameters);
+}
+
+void Triangulator::number_faces() {
+  TopExp::MapShapes(whole_, TopAbs_FACE, faces_);
+  result_.faces = static_cast<std::size_t>(faces_.Extent());
+}
+
+std::string Triangulator::title_of(const TopoDS_Face& face) const {
+  const std::string name = group_of(face);
+  return fmt::format("face {}{}", faces_.FindIndex(face), name.empty() ? "" : fmt::format(" ('{}')", name));
+}
+
+// Whether the surface goes on over the edge without a bend. One of a single face is a seam.
+bool Triangulator::is_smooth(const TopoDS_Edge& edge, const TopTools_ListOfShape& faces) const {
+  if (faces.Extent() > 2) return false;
+  const TopoDS_Face one = TopoDS::Face(faces.First()), other = TopoDS::Face(faces.Last());
+  if (faces.Extent() == 1 && !BRep_Tool::IsClosed(edge, one)) return false;
+  return BRepLib::ContinuityOfFaces(edge, one, other, radians(options_.smooth_angle)) >= GeomAbs_G1;
+}
+
+// One tag for a name, and one for faces without a name that run on smoothly.
+void Triangulator::choose_tags() {
+  UnionFind pieces;
+  for (int i = 0; i < faces_.Extent(); ++i) pieces.add();
+  for (int e = 1; e <= faces_of_edge_.Extent(); ++e) {
+    const TopTools_ListOfShape& faces = faces_of_edge_.FindFromIndex(e);
+    const TopoDS_Edge& edge = TopoDS::Edge(faces_of_edge_.FindKey(e));
+    if (faces.Extent() != 2 || BRep_Tool::Degenerated(edge)) continue;
+    if (!group_of(faces.First()).empty() || !group_of(faces.Last()).empty() || !is_smooth(edge, faces)) continue;
+    pieces.join(faces_.FindIndex(faces.First()) - 1, faces_.FindIndex(faces.Last()) - 1);
+  }
+  std::map<std::string, std::int32_t> named;
+  std::map<std::int32_t, std::int32_t> unnamed;
+  std::int32_t last = 0;
+  for (int i = 0; i < faces_.Extent(); ++i) {
+    const std::string group = group_of(faces_.FindKey(i + 1));
+    std::int32_t& tag = group.empty() ? unnamed[pieces.of(i)] : named[group];
+    if (tag == 0) tag = ++last;
+    if (!group.empty()) result_.surface.names.surfaces[tag] = group;
+    tags_.push_back(tag);
+  }
+}
+
+void Triangulator::add_body(std::size_t body) {
+  const auto region = static_cast<std::int32_t>(body + 1);
+  const std::size_t first = result_.surface.triangles.size();
+  for (TopExp_Explorer face(model_.bodies[body].solid, TopAbs_FACE); face.More(); face.Next())
+    add_face(TopoDS::Face(face.Current()), region);
+  // A solid whose faces point inward. Of one that shares faces with another, the orientation is right.
+  double volume = 0;
+  bool is_alone = true;
+  for (std::size_t i = first; i < result_.surface.triangles.size(); ++i) {
+    const auto [a, b, c] = result_.surface.triangles[i];
+    volume += det(nodes_[a] - nodes_[0], nodes_[b] - nodes_[0], nodes_[c] - nodes_[0]);
+    is_alone = is_alone && result_.surface.sides[i][0] == region;
+  }
+  if (volume >= 0 || !is_alone) return;
+  for (std::size_t i = first; i < result_.surface.triangles.size(); ++i)
+    std::swap(result_.surface.triangles[i][1], result_.surface.triangles[i][2]);
+}
+
+void Triangulator::add_face(const TopoDS_Face& face, std::int32_t region) {
+  if (face.Orientation() == TopAbs_INTERNAL || face.Orientation() == TopAbs_EXTERNAL) return;
+  const int number = faces_.FindIndex(face);
+  if (const auto found = done_.find(number); found != done_.end()) {
+    // Of the body on the other side, or, where that is the same, a wall inside, which goes.
+    for (const std::size_t t : found->second.triangles) {
+      auto& sides = result_.surface.sides[t];
+      sides = sides[0] == region ? std::array<std::int32_t, 2>{0, 0} : std::array<std::int32_t, 2>{sides[0], region};
+    }
+    return;
+  }
+  TopLoc_Location place;
+  const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, place);
+  if (triangles.IsNull() || triangles->NbTriangles() == 0)
+    throw DataError::at(source_, "{} of body {}: OpenCASCADE cannot make triangles of it", title_of(face), region);
+  FaceNodes& nodes = done_[number];
+  nodes.first = static_cast<std::int32_t>(nodes_.size());
+  add_nodes(face, triangles, place, nodes.first);
+  const bool turned = (face.Orientation() == TopAbs_REVERSED) != place.Transformation().IsNegative();
+  for (Standard_Integer i = 1; i <= triangles->NbTriangles(); ++i) {
+    Standard_Integer a = 0, b = 0, c = 0;
+    triangles->Triangle(i).Get(a, b, c);
+    if (turned) std::swap(b, c);
+    nodes.triangles.push_back(result_.surface.triangles.size());
+    result_.surface.triangles.push_back({nodes.first + a - 1, nodes.first + b - 1, nodes.first + c - 1});
+    result_.surface.tags.push_back(tags_[number - 1]);
+    result_.surface.sides.push_back({region, 0});
+    face_of_triangle_.push_back(number);
+  }
+}
+
+void Triangulator::add_nodes(const TopoDS_Face& face, const Handle(Poly_Triangulation) & triangles,
+                             const TopLoc_Location& place, std::int32_t first) {
+  if (nodes_.size() + static_cast<std::size_t>(triangles->NbNodes()) > std::numeric_limits<std::int32_t>::max() / 3)
+    throw DataError::at(source_, "its deviation {:g} asks for more triangles than can be numbered", result_.deviation);
+  for (Standard_Integer i = 1; i <= triangles->NbNodes(); ++i) {
+    const gp_Pnt p = triangles->Node(i).Transformed(place.Transformation());
+    nodes_.push_back({p.X(), p.Y(), p.Z()});
+    same_.add();
+  }
+  for (TopExp_Explorer part(face, TopAbs_EDGE); part.More(); part.Next()) {
+    const TopoDS_Edge edge = TopoDS::Edge(part.Current());
+    const auto polygon = BRep_Tool::PolygonOnTriangulation(edge, triangles, place);
+    if (!polygon.IsNull()) join_edge(edge, polygon, first);
+  }
+}
+
+void Triangulator::join_edge(const TopoDS_Edge& edge, const Handle(Poly_PolygonOnTriangulation) & polygon,
+                             std::int32_t first) {
+  std::vector<std::int32_t> nodes;
+  for (Standard_Integer i = 1; i <= polygon->NbNodes(); ++i) nodes.push_back(first + polygon->Node(i) - 1);
+  const auto join_vertex = [&](const TopoDS_Vertex& vertex, std::int32_t node) {
+    if (vertex.IsNull()) return;
+    auto& known = node_of_vertex_[vertex.TShape().get()];
+    const auto found = std::ranges::find_if(known, [&](const auto& entry) { return entry.first.IsSame(vertex); });
+    if (found == known.end())
+      known.emplace_back(vertex, node);
+    else
+      same_.join(found->second, node);
+  };
+  TopoDS_Vertex begin, end;
+  TopExp::Vertices(TopoDS::Edge(edge.Oriented(TopAbs_FORWARD)), begin, end);
+  join_vertex(begin, nodes.front());
+  join_vertex(end, nodes.back());
+  if (BRep_Tool::Degenerated(edge)) {
+    for (const std::int32_t node : nodes) same_.join(node, nodes.front());
+    return;
+  }
+  auto& known = nodes_of_edge_[faces_of_edge_.FindIndex(edge)];
+  if (known.empty()) {
+    known = std::move(nodes);
+    return;
+  }
+  if (known.size() != nodes.size())
+    throw DataError::at(source_, "edge {}: OpenCASCADE's triangles do not agree along it",
+                        faces_of_edge_.FindIndex(edge));
+  for (std::size_t i = 0; i < nodes.size(); ++i) same_.join(known[i], nodes[i]);
+}
+
+void Triangulator::add_curves() {
+  for (const auto& [number, nodes] : nodes_of_edge_) {
+    const TopoDS_Edge& edge = TopoDS::Edge(faces_of_edge_.FindKey(number));
+    const TopTools_ListOfShape& faces = faces_of_edge_.FindFromIndex(number);
+    const bool has_two_names = faces.Extent() == 2 && group_of(faces.First()) != group_of(faces.Last());
+    if (!has_two_names && is_smooth(edge, faces)) continue;
+    const auto tag = static_cast<std::int32_t>(++result_.curves);
+    for (std::size_t i = 1; i < nodes.size(); ++i) {
+      const formats::CurveEdge ends{same_.of(nodes[i - 1]), same_.of(nodes[i])};
+      if (ends[0] == ends[1]) continue;
+      result_.surface.curves.push_back(ends);
+      result_.surface.curve_tags.push_back(tag);
+    }
+    if (std::string name = model_.names.of(edge); !name.empty()) result_.surface.names.curves[tag] = std::move(name);
+  }
+}
+
+// Nodes that are one become one point; triangles of less than three points, at poles, go, and walls inside.
+void Triangulator::number_points() {
+  formats::SurfaceSoup& surface = result_.surface;
+  std::vector<Vertex> number(nodes_.size(), -1);
+  const auto number_of = [&](std::int32_t node) {
+    Vertex& known = number[same_.of(node)];
+    if (known < 0) {
+      known = static_cast<Vertex>(surface.points.size());
+      surface.points.push_back(nodes_[same_.of(node)]);
+    }
+    return known;
+  };
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    Triangle t = surface.triangles[i];
+    for (Vertex& v : t) v = same_.of(v);
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || surface.sides[i][0] == surface.sides[i][1]) continue;
+    for (Vertex& v : t) v = number_of(v);
+    surface.triangles[kept] = t;
+    surface.tags[kept] = surface.tags[i];
+    surface.sides[kept] = surface.sides[i];
+    face_of_triangle_[kept++] = face_of_triangle_[i];
+  }
+  surface.triangles.resize(kept);
+  surface.tags.resize(kept);
+  surface.sides.resize(kept);
+  face_of_triangle_.resize(kept);
+  drop_curves_without_triangles(number);
+  surface.places.resize(kept);
+  std::iota(surface.places.begin(), surface.places.end(), 1);
+}
+
+// Those on walls inside.
+void Triangulator::drop_curves_without_triangles(const std::vector<Vertex>& number) {
+  formats::SurfaceSoup& surface = result_.surface;
+  KeySet<2> edges;
+  for (const auto& [a, b, c] : surface.triangles)
+    for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) edges.insert(edge_key(from, to));
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < surface.curves.size(); ++i) {
+    const formats::CurveEdge ends{number[surface.curves[i][0]], number[surface.curves[i][1]]};
+    if (ends[0] < 0 || ends[1] < 0 || !edges.contains(key_of(ends))) continue;
+    surface.curves[kept] = ends;
+    surface.curve_tags[kept++] = surface.curve_tags[i];
+  }
+  surface.curves.resize(kept);
+  surface.curve_tags.resize(kept);
+}
+
+// Around each region, edges have as many triangles one way round as the other.
+void Triangulator::check_closed() const {
+  const formats::SurfaceSoup& surface = result_.surface;
+  struct Balance {
+    int count = 0;
+    int face = 0;
+  };
+  std::map<std::int32_t, KeyMap<2, Balance>> edges;
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i)
+    for (int side = 0; side < 2; ++side) {
+      const std::int32_t region = surface.sides[i][side];
+      if (region == 0) continue;
+      for (int k = 0; k < 3; ++k) {
+        const Vertex a = surface.triangles[i][k], b = surface.triangles[i][(k + 1) % 3];
+        Balance& balance = edges[region][edge_key(a, b)];
+        balance.count += (a < b) == (side == 0) ? 1 : -1;
+        balance.face = face_of_triangle_[i];
+      }
+    }
+  for (const auto& [region, balances] : edges)
+    for (const auto& [edge, balance] : balances)
+      if (balance.count != 0) {
+        const Vec3& p = surface.points[edge[0]];
+        throw DataError::at(source_, "body {} is not closed: the triangles of {} leave a gap at ({:g}, {:g}, {:g})",
+                            region, title_of(TopoDS::Face(faces_.FindKey(balance.face))), p.x, p.y, p.z);
+      }
+}
+
+void Triangulator::name_regions() {
+  for (std::size_t body = 0; body < model_.bodies.size(); ++body)
+    if (!model_.bodies[body].name.empty())
+      result_.surface.names.regions[static_cast<std::int32_t>(body + 1)] = model_.bodies[body].name;
+}
+
+}  // namespace
+
+double default_size_of(const CadModel& model) {
+  const TopoDS_Compound whole = compound_of(model);
+  Bnd_Box box;
+  BRepBndLib::AddOptimal(whole, box, Standard_False, Standard_False);
+  GProp_GProps area, volume;
+  BRepGProp::SurfaceProperties(whole, area);
+  BRepGProp::VolumeProperties(whole, volume);
+  return default_size({std::sqrt(box.SquareExtent()), area.Mass(), std::abs(volume.Mass())},
+                      std::numeric_limits<double>::infinity());
+}
+
+Triangulation triangulate(const CadModel& model, const TriangulationOptions& options, const std::string& source) {
+  return Triangulator(model, options, source).run();
+}
+
+}  // namespace hexpipe::tessellate

@@ -1,0 +1,30 @@
+#pragma once
+// Triangles of a CAD model: near enough to its surface, and the same along an edge for all faces that meet there.
+
+#include <optional>
+#include <string>
+
+#include "formats/surfaces/surface_files.hpp"
+#include "tools/tessellate/cad_model.hpp"
+
+namespace hexpipe::tessellate {
+
+struct TriangulationOptions {
+  std::optional<double> deviation = {};  // nothing: a hundredth of the size that tetmesh would choose
+  double angle = 15;                     // degrees, between neighbours on a smooth face
+  double smooth_angle = 2;               // degrees: a curve between faces that differ by no more is none
+};
+
+struct Triangulation {
+  formats::SurfaceSoup surface;  // in the model's units; sides, curves, names
+  std::size_t faces = 0, curves = 0;
+  double deviation = 0;
+};
+
+// The distance of points that suits the bodies, as tetmesh chooses it.
+double default_size_of(const CadModel& model);
+
+// Throws DataError where a face cannot be triangulated, or its triangles leave a gap.
+Triangulation triangulate(const CadModel& model, const TriangulationOptions& options, const std::string& source);
+
+}  // namespace hexpipe::tessellate

@@ -1,0 +1,452 @@
+#include "tools/tetmesh/solid/sheets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "common/mesh/facet_key.hpp"
+#include "common/run/error.hpp"
+#include "formats/surfaces/surface_building.hpp"
+#include "tools/tetmesh/geometry/column_index.hpp"
+#include "tools/tetmesh/geometry/exact_geometry.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
+#include "tools/tetmesh/solid/surface_check.hpp"
+
+namespace hexpipe::tetmesh::solid {
+namespace {
+
+using geometry::HalfEdge;
+
+// Sets of numbers from 0.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+  std::int32_t of(std::int32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  // The lower one stays.
+  void join(std::int32_t i, std::int32_t j) {
+    i = of(i), j = of(j);
+    parent_[std::max(i, j)] = std::min(i, j);
+  }
+
+ private:
+  std::vector<std::int32_t> parent_;
+};
+
+// Each triangle has two sides: 2 t behind it, 2 t + 1 before it.
+constexpr std::int32_t behind(std::int32_t triangle) {
+  return 2 * triangle;
+}
+constexpr std::int32_t before(std::int32_t triangle) {
+  return 2 * triangle + 1;
+}
+
+Vec3 normal_of(const formats::SurfaceSoup& soup, std::int32_t t) {
+  const auto [a, b, c] = soup.triangles[t];
+  return cross(soup.points[b] - soup.points[a], soup.points[c] - soup.points[a]);
+}
+
+constexpr std::size_t most_overlaps = 100'000;
+constexpr int most_flip_rounds = 1000;
+// Of sines and of volumes beside the lengths of their edges: what counts as flat, and as on one circle.
+constexpr double flatness = 1e-9;
+
+Vertex across_of(const formats::SurfaceSoup& soup, HalfEdge h) {
+  return geometry::end_of(soup.triangles, geometry::next_in_triangle(h));
+}
+
+// Whether two triangles in one plane should exchange their common edge for the other diagonal.
+bool wants_flip(const formats::SurfaceSoup& soup, HalfEdge h, HalfEdge k) {
+  const Vertex from = geometry::start_of(soup.triangles, h), to = geometry::end_of(soup.triangles, h);
+  if (geometry::start_of(soup.triangles, k) != to) return false;
+  const Vertex one = across_of(soup, h), other = across_of(soup, k);
+  const Vec3 &a = soup.points[from], &b = soup.points[to], &c = soup.points[one], &d = soup.points[other];
+  const Vec3 n = unit(cross(b - a, c - a));
+  const double scale = norm(d - c);
+  if (std::abs(dot(n, d - a)) > flatness * scale) return false;
+  const auto turns = [&](const Vec3& p, const Vec3& q, const Vec3& r) {
+    return dot(cross(q - p, r - p), n) > flatness * norm(q - p) * norm(r - p);
+  };
+  if (!turns(a, d, c) || !turns(d, b, c)) return false;
+  const auto sine = [](const Vec3& at, const Vec3& p, const Vec3& q) {
+    return norm(cross(unit(p - at), unit(q - at)));
+  };
+  const auto cosine = [](const Vec3& at, const Vec3& p, const Vec3& q) { return dot(unit(p - at), unit(q - at)); };
+  const double of_sum = sine(c, a, b) * cosine(d, a, b) + cosine(c, a, b) * sine(d, a, b);
+  if (std::abs(of_sum) <= flatness) return std::min(one, other) < std::min(from, to);
+  return of_sum < 0;
+}
+
+// The triangles at an edge in the order in which they come on a walk around it.
+class EdgeWalk {
+ public:
+  EdgeWalk(const formats::SurfaceSoup& soup, std::span<const HalfEdge> edge) {
+    const Vertex low = std::min(start(soup, edge[0]), end(soup, edge[0]));
+    const Vertex high = std::max(start(soup, edge[0]), end(soup, edge[0]));
+    const Vec3& from = soup.points[low];
+    const Vec3 axis = unit(soup.points[high] - from);
+    std::optional<Vec3> first;
+    for (const HalfEdge h : edge) {
+      const Vertex across = geometry::end_of(soup.triangles, geometry::next_in_triangle(h));
+      Vec3 away = soup.points[across] - from;
+      away = unit(away - dot(away, axis) * axis);
+      if (!first) first = away;
+      const double angle = std::atan2(dot(away, cross(axis, *first)), dot(away, *first));
+      // A triangle that has the edge in its direction shows its normal to those that come next.
+      steps_.push_back({angle, geometry::triangle_of(h), start(soup, h) == low});
+    }
+    std::ranges::sort(steps_, {}, [](const Step& s) { return std::pair(s.angle, s.triangle); });
+  }
+
+  // visit(side, side) for each two sides that face each other across a wedge.
+  template <class Visit>
+  void for_each_wedge(Visit&& visit) const {
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      const Step &here = steps_[i], &next = steps_[(i + 1) % steps_.size()];
+      visit(here.is_along ? before(here.triangle) : behind(here.triangle),
+            next.is_along ? behind(next.triangle) : before(next.triangle));
+    }
+  }
+
+ private:
+  struct Step {
+    double angle;
+    std::int32_t triangle;
+    bool is_along;
+  };
+  static Vertex start(const formats::SurfaceSoup& soup, HalfEdge h) { return geometry::start_of(soup.triangles, h); }
+  static Vertex end(const formats::SurfaceSoup& soup, HalfEdge h) { return geometry::end_of(soup.triangles, h); }
+
+  std::vector<Step> steps_;
+};
+
+void keep_only(formats::SurfaceSoup& soup, const std::vector<bool>& kept) {
+  const auto filter = [&](auto& array) {
+    if (array.empty()) return;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      if (kept[i]) array[next++] = array[i];
+    array.resize(next);
+  };
+  filter(soup.triangles), filter(soup.tags), filter(soup.places), filter(soup.sides);
+}
+
+class SideFinder {
+ public:
+  SideFinder(formats::SurfaceSoup& soup, ShellRule rule) : soup_(soup), rule_(rule) {}
+
+  SheetReport join() {
+    agree_on_overlaps();
+    join_repeated();
+    if (!soup_.sides.empty()) drop_fins();
+    check_intersections(soup_);
+    return report_;
+  }
+
+  SheetReport find() {
+    if (rule_ == ShellRule::holes)
+      throw DataError::at(soup_.name,
+                          "expected --shells oriented or regions for a surface whose sheets meet at edges of more than "
+                          "two triangles, found holes");
+    join();
+    walk_around_edges();
+    nest();
+    judge_rooms();
+    set_sides();
+    return report_;
+  }
+
+ private:
+  std::int32_t count() const { return static_cast<std::int32_t>(soup_.triangles.size()); }
+  void agree_on_overlaps();
+  bool flip_round(const std::vector<bool>& overlaps);
+  void join_repeated();
+  void walk_around_edges();
+  void nest();
+  std::int32_t side_below(std::int32_t piece, const geometry::ColumnIndex& index) const;
+  void judge_rooms();
+  bool is_fin(std::int32_t t) { return rooms_->of(behind(t)) == rooms_->of(before(t)); }
+  void set_sides();
+  void drop_fins();
+
+  formats::SurfaceSoup& soup_;
+  ShellRule rule_;
+  std::vector<bool> is_interface_;    // of triangles: two bodies had it
+  std::optional<Sets> rooms_;         // of sides, and of the outside as the last
+  std::optional<Sets> pieces_;        // of triangles, by common edges
+  std::vector<std::int32_t> region_;  // of rooms, 0: nothing
+  SheetReport report_;
+};
+
+// Bodies that touch in a face may cut it into triangles in different ways. Where these overlap, flips lead both to the
+// same ones: Delaunay's, and of those with corners on one circle the ones at the lowest corner.
+void SideFinder::agree_on_overlaps() {
+  const auto found = geometry::find_intersections(soup_.points, soup_.triangles, most_overlaps);
+  std::vector<bool> overlaps(soup_.triangles.size());
+  for (const auto& pair : found.pairs)
+    for (const std::int32_t t : pair) overlaps[t] = true;
+  if (found.pairs.empty()) return;
+  for (int round = 0; round < most_flip_rounds && flip_round(overlaps); ++round) {
+  }
+}
+
+bool SideFinder::flip_round(const std::vector<bool>& overlaps) {
+  std::vector<bool> touched(soup_.triangles.size());
+  std::vector<std::array<HalfEdge, 2>> flips;
+  geometry::for_each_edge(soup_.points.size(), soup_.triangles, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() != 2) return;
+    const std::int32_t t = geometry::triangle_of(edge[0]), u = geometry::triangle_of(edge[1]);
+    if (!overlaps[t] || !overlaps[u] || touched[t] || touched[u] || soup_.tags[t] != soup_.tags[u]) return;
+    if (!wants_flip(soup_, edge[0], edge[1])) return;
+    touched[t] = touched[u] = true;
+    flips.push_back({edge[0], edge[1]});
+  });
+  for (const auto& [h, k] : flips) {
+    const Vertex a = geometry::start_of(soup_.triangles, h), b = geometry::end_of(soup_.triangles, h);
+    const Vertex c = across_of(soup_, h), d = across_of(soup_, k);
+    soup_.triangles[geometry::triangle_of(h)] = {a, d, c};
+    soup_.triangles[geometry::triangle_of(k)] = {d, b, c};
+  }
+  return !flips.empty();
+}
+
+// Two bodies that touch in a face have its triangles twice, turned against each other.
+void SideFinder::join_repeated() {
+  std::map<VertexKey<3>, std::int32_t> first;
+  std::vector<bool> kept(soup_.triangles.size(), true);
+  bool any_joined = false;
+  std::size_t repeated = 0;
+  std::array<std::int32_t, 2> first_repeated{};
+  is_interface_.assign(soup_.triangles.size(), false);
+  for (std::int32_t t = 0; t < count(); ++t) {
+    const auto [known, is_new] = first.try_emplace(key_of(soup_.triangles[t]), t);
+    if (is_new) continue;
+    const Triangle &here = soup_.triangles[t], &other = soup_.triangles[known->second];
+    const auto at = std::ranges::find(other, here[0]) - other.begin();
+    if ((other[(at + 1) % 3] == here[1] || is_interface_[known->second]) && repeated++ == 0)
+      first_repeated = {t, known->second};
+    is_interface_[known->second] = true;
+    kept[t] = false;
+    // Of one body they are a fold, with the same on both sides.
+    const bool is_fold = !soup_.sides.empty() && soup_.sides[known->second][0] == soup_.sides[t][0];
+    if (!soup_.sides.empty()) soup_.sides[known->second] = {soup_.sides[known->second][0], soup_.sides[t][0]};
+    report_.interface_triangles += is_fold ? 0 : 1;
+    any_joined = true;
+  }
+  if (repeated > 0)
+    throw DataError::at(
+        soup_.place_of(first_repeated[0]),
+        "expected distinct triangles, found {} with the corners of another; the first repeats {} {} (see "
+        "--repair)",
+        repeated, soup_.place_unit(), soup_.places[first_repeated[1]]);
+  if (!any_joined) return;
+  std::vector<bool> interfaces;
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    if (kept[i]) interfaces.push_back(is_interface_[i]);
+  is_interface_ = std::move(interfaces);
+  keep_only(soup_, kept);
+}
+
+void SideFinder::walk_around_edges() {
+  rooms_.emplace(2 * soup_.triangles.size() + 1);
+  pieces_.emplace(soup_.triangles.size());
+  geometry::for_each_edge(soup_.points.size(), soup_.triangles, [&](std::span<const HalfEdge> edge) {
+    EdgeWalk(soup_, edge).for_each_wedge([&](std::int32_t one, std::int32_t other) { rooms_->join(one, other); });
+    for (const HalfEdge h : edge) pieces_->join(geometry::triangle_of(edge[0]), geometry::triangle_of(h));
+  });
+}
+
+// The room around each piece is that in which it lies: what is below the first triangle over one of its vertices.
+void SideFinder::nest() {
+  const std::int32_t outside = 2 * count();
+  std::map<std::int32_t, double> volumes;  // of rooms as the triangles of one piece enclose them
+  for (std::int32_t t = 0; t < count(); ++t) {
+    const auto [a, b, c] = soup_.triangles[t];
+    const Vec3& origin = soup_.points[soup_.triangles[pieces_->of(t)][0]];
+    const double volume = det(soup_.points[a] - origin, soup_.points[b] - origin, soup_.points[c] - origin);
+    volumes[rooms_->of(behind(t))] += volume;
+    volumes[rooms_->of(before(t))] -= volume;
+  }
+  std::map<std::int32_t, std::pair<double, std::int32_t>> around;  // by piece: the room of least volume
+  for (std::int32_t t = 0; t < count(); ++t)
+    for (const std::int32_t side : {behind(t), before(t)}) {
+      const std::int32_t room = rooms_->of(side);
+      const std::pair here(volumes[room], room);
+      const auto [known, is_new] = around.try_emplace(pieces_->of(t), here);
+      if (!is_new) known->second = std::min(known->second, here);
+    }
+  const geometry::ColumnIndex index(soup_.points, soup_.triangles);
+  std::vector<std::pair<std::int32_t, std::int32_t>> same;
+  for (const auto& [piece, room] : around) {
+    const std::int32_t below = side_below(piece, index);
+    same.emplace_back(room.second, below < 0 ? outside : below);
+  }
+  for (const auto& [room, other] : same) rooms_->join(room, other);
+}
+
+// Of the lowest triangle of another piece above the piece's first vertex; -1 where there is none.
+std::int32_t SideFinder::side_below(std::int32_t piece, const geometry::ColumnIndex& index) const {
+  const Vec3& p = soup_.points[soup_.triangles[piece][0]];
+  std::int32_t lowest = -1;
+  double least = 0;
+  Sets pieces = *pieces_;
+  index.for_each_crossing(p, [&](std::int32_t t) {
+    if (pieces.of(t) == piece) return;
+    const Vec3 n = normal_of(soup_, t);
+    const Vec3& on = soup_.points[soup_.triangles[t][0]];
+    const double height = n.z == 0 ? 0 : dot(n, on - p) / n.z;
+    if (lowest >= 0 && height >= least) return;
+    least = height;
+    lowest = n.z > 0 ? behind(t) : before(t);
+  });
+  return lowest;
+}
+
+void SideFinder::judge_rooms() {
+  const std::int32_t outside = rooms_->of(2 * count());
+  std::vector<bool> is_region(2 * soup_.triangles.size() + 1, rule_ == ShellRule::regions);
+  std::size_t turned = 0;
+  std::int32_t first_turned = -1;
+  for (std::int32_t t = 0; t < count(); ++t) {
+    if (is_fin(t)) continue;
+    is_region[rooms_->of(behind(t))] = true;
+    if (is_interface_[t]) is_region[rooms_->of(before(t))] = true;
+    if (rule_ == ShellRule::oriented && rooms_->of(behind(t)) == outside && turned++ == 0) first_turned = t;
+  }
+  if (turned > 0)
+    throw DataError::at(
+        soup_.place_of(first_turned),
+        "expected triangles that point outward where sheets meet, found {} that show their backs to the "
+        "outside; the first is here (see --shells regions)",
+        turned);
+  region_.assign(2 * soup_.triangles.size() + 1, 0);
+  std::int32_t last = 0;
+  for (std::int32_t t = 0; t < count(); ++t)
+    for (const std::int32_t side : {behind(t), before(t)}) {
+      const std::int32_t room = rooms_->of(side);
+      if (is_fin(t) || room == outside || !is_region[room] || region_[room] != 0) continue;
+      region_[room] = ++last;
+    }
+}
+
+void SideFinder::set_sides() {
+  soup_.sides.clear();
+  for (std::int32_t t = 0; t < count(); ++t)
+    soup_.sides.push_back({region_[rooms_->of(behind(t))], region_[rooms_->of(before(t))]});
+  drop_fins();
+}
+
+// Triangles with the same on both sides, and what only they have.
+void SideFinder::drop_fins() {
+  std::vector<bool> kept;
+  for (const auto& [back, front] : soup_.sides) kept.push_back(back != front);
+  const auto fins = static_cast<std::size_t>(std::ranges::count(kept, false));
+  if (fins == kept.size())
+    throw DataError::at(soup_.name, "expected a surface that encloses something, found only sheets that do not");
+  if (fins == 0) return;
+  report_.fins += fins;
+  keep_only(soup_, kept);
+  KeySet<2> edges;
+  for (const auto& [a, b, c] : soup_.triangles)
+    for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) edges.insert(edge_key(from, to));
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < soup_.curves.size(); ++i) {
+    if (!edges.contains(key_of(soup_.curves[i]))) continue;
+    soup_.curves[next] = soup_.curves[i];
+    soup_.curve_tags[next++] = soup_.curve_tags[i];
+  }
+  soup_.curves.resize(next);
+  soup_.curve_tags.resize(next);
+  soup_ = formats::merge_equal_points(std::move(soup_));  // and drops those of fins
+  soup_.file_vertices.clear();
+}
+
+bool has_several_fans(const formats::SurfaceSoup& soup) {
+  // By corners: those of one fan are one set.
+  Sets corners(3 * soup.triangles.size());
+  geometry::for_each_edge(soup.points.size(), soup.triangles, [&](std::span<const HalfEdge> edge) {
+    for (const HalfEdge other : edge)
+      for (const HalfEdge h : {edge[0], geometry::next_in_triangle(edge[0])})
+        for (const HalfEdge k : {other, geometry::next_in_triangle(other)})
+          if (geometry::start_of(soup.triangles, h) == geometry::start_of(soup.triangles, k)) corners.join(h, k);
+  });
+  std::vector<std::int32_t> fan(soup.points.size(), -1);
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(3 * soup.triangles.size()); ++h) {
+    std::int32_t& known = fan[geometry::start_of(soup.triangles, h)];
+    if (known >= 0 && known != corners.of(h)) return true;
+    known = corners.of(h);
+  }
+  return false;
+}
+
+}  // namespace
+
+bool meets_in_sheets(const formats::SurfaceSoup& soup) {
+  bool is_crowded = false, is_open = false;
+  geometry::for_each_edge(soup.points.size(), soup.triangles, [&](std::span<const HalfEdge> edge) {
+    is_crowded = is_crowded || edge.size() > 2;
+    is_open = is_open || edge.size() < 2;
+  });
+  return is_crowded || (!is_open && has_several_fans(soup));
+}
+
+std::vector<std::string> SheetReport::sentences() const {
+  std::vector<std::string> result;
+  if (interface_triangles > 0)
+    result.push_back(fmt::format("bodies touch: {} triangles that two of them have are one each", interface_triangles));
+  if (fins > 0)
+    result.push_back(fmt::format("{} with the same on both sides {} left out",
+                                 fins == 1 ? "a triangle" : fmt::format("{} triangles", fins),
+                                 fins == 1 ? "is" : "are"));
+  return result;
+}
+
+SheetReport find_sides(formats::SurfaceSoup& soup, ShellRule rule) {
+  return SideFinder(soup, rule).find();
+}
+
+SheetReport join_bodies(formats::SurfaceSoup& soup) {
+  return SideFinder(soup, ShellRule::oriented).join();
+}
+
+Surface find_sheets(formats::SurfaceSoup soup) {
+  Surface surface{std::move(soup), {}, {}, 0, true};
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    auto& [back, front] = surface.sides[t];
+    surface.region_count = std::max({surface.region_count, back, front});
+    if (front == outside_region || (back != outside_region && back < front)) continue;
+    std::swap(back, front);
+    std::swap(surface.triangles[t][1], surface.triangles[t][2]);
+  }
+  Sets sheets(surface.triangles.size());
+  geometry::for_each_edge(surface.points.size(), surface.triangles, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() != 2) return;
+    const std::int32_t t = geometry::triangle_of(edge[0]), u = geometry::triangle_of(edge[1]);
+    if (surface.sides[t] == surface.sides[u]) sheets.join(t, u);
+  });
+  std::vector<std::int32_t> number(surface.triangles.size(), -1);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    std::int32_t& sheet = number[sheets.of(static_cast<std::int32_t>(t))];
+    if (sheet < 0) {
+      sheet = static_cast<std::int32_t>(surface.shells.size());
+      Shell& made = surface.shells.emplace_back();
+      made.first_triangle = static_cast<std::int32_t>(t);
+      made.behind = surface.sides[t][0];
+      made.in_front = surface.sides[t][1];
+    }
+    ++surface.shells[sheet].triangle_count;
+    surface.shell_of.push_back(sheet);
+  }
+  choose_tags(surface);
+  return surface;
+}
+
+}  // namespace hexpipe::tetmesh::solid
