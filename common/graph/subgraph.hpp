@@ -1,5 +1,5 @@
 #pragma once
-// Parts of a conflict graph as graphs of their own.
+// Subgraphs of a conflict graph as graphs of their own.
 
 #include <cstdint>
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace hexpipe::graph {
 
-// The part that `vertices`, ascending, induce; they are numbered in their order.
+// The subgraph that `vertices` induce. They ascend, and are renumbered in this order.
 ConflictGraph induced_subgraph(const ConflictGraph& graph, std::span<const std::int32_t> vertices);
 
 // The vertices of each connected component, ascending; the smallest component first.

@@ -13,13 +13,14 @@
 namespace hexpipe {
 namespace {
 
-// A facet filed under its lowest vertex: the two others, the middle one above the highest, and 4 * tet + facet.
+// A facet, filed under its lowest vertex. `others` holds its middle vertex in the high bits and its highest in the low
+// bits; `code` is 4 * tet + facet.
 struct FiledFacet {
   std::uint64_t others;
   std::int64_t code;
 };
 
-// The corners of a tet by ascending vertex.
+// The corners of a tet, sorted by vertex.
 std::array<int, 4> ascending_corners(const Tet& tet) {
   std::array<std::int64_t, 4> keys;
   for (int corner = 0; corner < 4; ++corner) keys[corner] = std::int64_t{tet[corner]} * 4 + corner;
@@ -37,7 +38,7 @@ std::array<int, 4> ascending_corners(const Tet& tet) {
           static_cast<int>(keys[3] & 3)};
 }
 
-// visit(lowest, middle, highest, facet), of the facets of a tet: all but the one opposite the lowest vertex have that.
+// Calls visit(lowest, middle, highest, facet) for the three facets of a tet that contain its lowest vertex.
 template <class Visit>
 void for_each_sorted_facet(const Tet& tet, Visit&& visit) {
   const auto c = ascending_corners(tet);
@@ -47,7 +48,7 @@ void for_each_sorted_facet(const Tet& tet, Visit&& visit) {
   visit(tet[c[1]], tet[c[2]], tet[c[3]], c[0]);
 }
 
-// Counts become offsets: entry v holds the sum of the counts before v, the last entry the total.
+// Turns counts into offsets: entry v becomes the sum of the counts before v, the last entry the total.
 std::vector<std::int64_t> offsets_from_counts(std::vector<std::int64_t> counts) {
   counts.push_back(0);
   std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), std::int64_t{0});
@@ -122,9 +123,11 @@ void TetAdjacency::file_tets(const TetMesh& mesh) {
 void TetAdjacency::find_neighbours(const TetMesh& mesh) {
   const std::size_t vertex_count = mesh.points.size();
   neighbour_offsets_.assign(vertex_count + 1, 0);
-  // As many edges as vertices and tets, by Euler's formula, each at both ends; what the boundary adds is little.
+  // By Euler's formula there are about as many edges as vertices and tets together, and each is listed at both ends.
+  // The boundary adds little.
   reserve_in_huge_pages(neighbours_, 2 * (vertex_count + mesh.tets.size()));
-  PerThread<std::vector<Vertex>> seen_from(std::vector<Vertex>(vertex_count, none));  // by vertex, the last one
+  PerThread<std::vector<Vertex>> seen_from(
+      std::vector<Vertex>(vertex_count, none));  // by vertex: the last vertex that saw it
   parallel_in_order(
       static_cast<std::int64_t>(vertex_count), 1024,
       [&](std::int64_t begin, std::int64_t end) {

@@ -11,7 +11,7 @@
 namespace hexpipe {
 namespace {
 
-// Multiplication and shifts mix each word into all bits: enough against mistakes, not against intent.
+// Multiplication and shifts mix each word into all bits. This detects mistakes, not attacks.
 class Checksum {
  public:
   void add(std::uint64_t word) {

@@ -27,7 +27,7 @@ std::vector<std::int8_t> signs_of(const TetMesh& mesh) {
   return signs;
 }
 
-// The facet opposite corner i of a tet, as three vertices from the lowest on, in the sense of TetTopology::triangles.
+// The facet opposite corner i of a tet, beginning with its lowest vertex, in the sense of TetTopology::triangles.
 Triangle facet_from_lowest(const Tet& tet, int facet) {
   const LocalTriangle& c = TetTopology::triangles[facet];
   Triangle triangle{tet[c[0]], tet[c[1]], tet[c[2]]};
@@ -35,7 +35,7 @@ Triangle facet_from_lowest(const Tet& tet, int facet) {
   return triangle;
 }
 
-// Two tets at a facet are listed in the same sense when one lists the facet the other way round.
+// Two tets at a facet are listed in the same sense if they list the facet in opposite senses.
 bool listed_alike(const Tet& tet, int facet, const Tet& other) {
   const Triangle triangle = facet_from_lowest(tet, facet);
   for (int i = 0; i < 4; ++i) {
@@ -47,7 +47,7 @@ bool listed_alike(const Tet& tet, int facet, const Tet& other) {
 
 enum class Turn : std::int8_t { unknown, keep, turn };
 
-// Decides for the tets that hang together with `start`; appends them to `part`.
+// Decides for all tets that are connected to `start` by facets; puts them into `component`.
 void spread(const TetMesh& mesh, const TetAdjacency& adjacency, std::int32_t start, std::vector<Turn>& turns,
             std::vector<std::int32_t>& part) {
   turns[start] = Turn::keep;
@@ -64,7 +64,7 @@ void spread(const TetMesh& mesh, const TetAdjacency& adjacency, std::int32_t sta
   }
 }
 
-// The sense in which more tets of the part are positive.
+// Chooses the sense in which more tets of the component are positive.
 void prefer_positive(std::span<const std::int32_t> part, const std::vector<std::int8_t>& signs,
                      std::vector<Turn>& turns) {
   std::int64_t balance = 0;
@@ -87,7 +87,7 @@ std::vector<std::int8_t> find_turns(const TetMesh& mesh, const std::vector<std::
   return turned;
 }
 
-// `turns` empty: none.
+// An empty `turns` turns none.
 TetOrientation turn_tets(TetMesh& mesh, std::vector<std::int8_t> signs, std::vector<std::int8_t> turns) {
   TetOrientation result{.signs = std::move(signs), .turns = std::move(turns)};
   for (std::size_t t = 0; t < result.turns.size(); ++t) {

@@ -32,7 +32,7 @@ std::vector<std::int32_t> where_true(const std::vector<bool>& marked) {
   return places;
 }
 
-// Those with both ends among the points, `places` being the numbers there of these points.
+// The ridges with both ends among the points. places[p] is the new number of point p.
 std::vector<Ridge> ridges_among(const std::vector<Ridge>& ridges, std::span<const std::int32_t> points,
                                 std::span<const std::int32_t> places) {
   std::vector<Ridge> selected;

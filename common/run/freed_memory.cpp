@@ -7,7 +7,7 @@
 namespace hexpipe {
 
 void FreedMemory::add(std::size_t bytes) {
-  // A walk over the allocator's lists, well worth as many pages.
+  // malloc_trim walks over the allocator's lists; that is well worth this much memory.
   constexpr std::size_t enough = 2 << 20;
   freed_ += bytes;
   if (freed_ < enough) return;

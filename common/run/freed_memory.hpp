@@ -1,5 +1,5 @@
 #pragma once
-// Gives memory that was freed in small pieces back to the system, which the allocator else keeps for later.
+// Returns memory that was freed in small pieces to the system. The allocator would keep it for later.
 
 #include <cstddef>
 
@@ -7,7 +7,7 @@ namespace hexpipe {
 
 class FreedMemory {
  public:
-  // Tells of bytes that were or are about to be freed; now and then, what is free goes back.
+  // Reports bytes that were freed or are about to be; now and then, the free memory goes back to the system.
   void add(std::size_t bytes);
 
  private:

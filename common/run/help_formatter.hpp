@@ -1,5 +1,5 @@
 #pragma once
-// --help as people read it: descriptions wrapped beside their options, in the width of a page.
+// Lays out --help for people: descriptions are wrapped beside their options, to the width of a page.
 
 #include <CLI/CLI.hpp>
 #include <string>

@@ -11,7 +11,7 @@ void use_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t 
   constexpr std::size_t page = 4096, huge_page = 512 * page;
   const std::size_t before = (page - reinterpret_cast<std::uintptr_t>(memory) % page) % page;
   if (before + huge_page > bytes) return;
-  // What it answers does not matter: pages are small then.
+  // The result does not matter: without large pages, the small ones stay.
   ::madvise(static_cast<char*>(memory) + before, (bytes - before) / page * page, MADV_HUGEPAGE);
 #endif
 }

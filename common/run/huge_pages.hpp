@@ -1,6 +1,6 @@
 #pragma once
-// Large arrays in large pages: the first touch of a page costs as much as many numbers, and a page of 2 MiB no more
-// than a few of 4 KiB. Arrays below that, and systems that have none, lose nothing.
+// Puts large arrays into large pages. The first touch of a page costs as much as many numbers, and a page of 2 MiB
+// costs little more than a few of 4 KiB. Smaller arrays, and systems without large pages, lose nothing.
 
 #include <cstddef>
 #include <iterator>
@@ -8,7 +8,7 @@
 
 namespace hexpipe {
 
-// Asks the system for large pages where the memory has not been touched yet.
+// Asks the system for large pages. Call it before the memory is touched.
 void use_huge_pages(void* memory, std::size_t bytes);
 
 template <class T>

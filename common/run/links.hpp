@@ -1,16 +1,16 @@
 #pragma once
-// Where a path leads: to another file by symbolic links, or to what the process has open already.
+// Where a path leads: through symbolic links to another file, or to a file that the process has already open.
 
 #include <optional>
 #include <string>
 
 namespace hexpipe {
 
-// The file that a chain of symbolic links names; a path such as /dev/fd/3 stays as it is.
+// The file at the end of a chain of symbolic links. A path such as /dev/fd/3 is returned unchanged.
 std::string behind_links(std::string path);
 
-// The descriptor that the path names, as /dev/stdout, /dev/fd/3 or a link to one of them do. To open such a path anew
-// would be to begin at the start of a file that the caller wants to go on with.
+// The descriptor that the path names, if it is /dev/stdout, /dev/fd/3 or a link to one of them. Opening such a path
+// anew would start at the beginning of a file that the caller wants to continue.
 std::optional<int> open_descriptor(const std::string& path);
 
 }  // namespace hexpipe

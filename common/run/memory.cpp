@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
-// The number behind `name` in a file of lines "name number"; 0 where there is none.
+// The number that follows `name` in a file of lines "name number"; 0 if it is not there.
 std::uint64_t number_behind(std::string_view name, const std::string& file) {
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);)
@@ -25,7 +25,7 @@ std::uint64_t number_behind(std::string_view name, const std::string& file) {
   return 0;
 }
 
-// The number behind `name` in a file of lines "name: number kB", in bytes; 0 where there is none.
+// The number that follows `name` in a file of lines "name: number kB", in bytes; 0 if it is not there.
 std::uint64_t bytes_in(const char* file, std::string_view name) {
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);)
@@ -34,7 +34,7 @@ std::uint64_t bytes_in(const char* file, std::string_view name) {
   return 0;
 }
 
-// A file of one number; `unlimited` where there is none ("max").
+// The number in a file that holds only that; `unlimited` if it holds "max".
 std::uint64_t number_in(const std::string& file) {
   std::ifstream stream(file);
   std::uint64_t number = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// What a misspelled option was probably meant to be.
+// Guesses which option a misspelled one was meant to be.
 
 #include <string>
 #include <string_view>
@@ -7,9 +7,9 @@
 
 namespace hexpipe {
 
-// Of the names in `known` (without dashes) the one that `given` (as typed: "--siz", "-size", "--min_quality=0.5")
-// begins, if it is the only one, else the one with the fewest letters changed, left out, put in or exchanged with the
-// next, at most a third of them. Empty if there is none.
+// The name in `known` (without dashes) that `given` was probably meant to be; `given` is as typed: "--siz", "-size",
+// "--min_quality=0.5". If `given` begins only one name, that is the answer. Otherwise it is the name with the fewest
+// letters changed, left out, inserted or swapped with the next one, at most a third of them. Empty if there is none.
 std::string near_option(std::string_view given, const std::vector<std::string>& known);
 
 }  // namespace hexpipe

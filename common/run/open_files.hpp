@@ -1,9 +1,9 @@
 #pragma once
-// Parts of a mesh may be more than the files that a process may have open until it asks for more.
+// A mesh may have more parts than the number of files that a process may open without asking for more.
 
 namespace hexpipe {
 
-// As many as the system lets us.
+// Raises the limit as far as the system allows.
 void allow_many_open_files();
 
 }  // namespace hexpipe

@@ -20,7 +20,7 @@ ThreadLimit::ThreadLimit(int threads)
 ThreadLimit::~ThreadLimit() = default;
 
 void ThreadLimit::stay() {
-  // Nobody destroys the list, at exit neither.
+  // The list is never destroyed, not even at exit.
   static auto* const standing = new std::vector<std::unique_ptr<Control>>;
   standing->push_back(std::move(control_));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A share of a tool's work, so that a cluster's scheduler or make -j can spread it.
+// A share of a tool's work, which a cluster's scheduler or make -j can distribute.
 
 #include <cstdint>
 #include <string>
@@ -10,7 +10,7 @@ namespace hexpipe {
 struct Part {
   std::int64_t number = 1, count = 1;
 
-  // The range of items, of so many, that are this part's. Parts follow each other and differ by one item at most.
+  // This part's range when `items` items are shared out. Parts follow each other and differ by one item at most.
   std::int64_t begin(std::int64_t items) const { return bound(items, number - 1); }
   std::int64_t end(std::int64_t items) const { return bound(items, number); }
 
@@ -20,7 +20,7 @@ struct Part {
   }
 };
 
-// Of "i/k" with 1 <= i <= k < 10^6. Throws UsageError.
+// Parses "i/k" with 1 <= i <= k < 10^6. Throws UsageError.
 Part parse_part(const std::string& text);
 
 }  // namespace hexpipe

@@ -8,7 +8,7 @@ namespace hexpipe {
 
 void end_worker_threads() {
   tbb::task_scheduler_handle scheduler{tbb::attach{}};
-  // False only where another thread is in a loop: then there is nothing to end.
+  // False only if another thread is in a loop; then there is nothing to end.
   tbb::finalize(scheduler, std::nothrow);
 }
 
