@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int32_t derived_tag = 0;
 
-// Which facet of a tet these three of its vertices are, and whether in the sense of TetTopology::triangles.
+// Which facet of a tet these three vertices are, and whether in the sense of TetTopology::triangles.
 struct FoundFacet {
   int facet;
   bool from_outside;
@@ -47,7 +47,7 @@ MeshTables::MeshTables(TetMesh mesh, const char* source, const std::vector<std::
                });
 }
 
-// Returns which of them are usable, in the new order.
+// Returns which tets are usable, in the new order.
 std::vector<bool> MeshTables::order_tets() {
   if (!tet_order_.empty()) {
     reorder(mesh_.tets, tet_order_);
@@ -104,14 +104,14 @@ void MeshTables::make_flood_tets() {
   }
 }
 
-// Every facet on the boundary or between regions has a triangle then.
+// Afterwards, every facet on the boundary or between regions has a triangle.
 void MeshTables::label_walls() {
   findings_.derived_triangles =
       static_cast<std::int64_t>(add_missing_boundary_triangles(mesh_, adjacency_, derived_tag));
   std::vector<std::int32_t> tags = mesh_.triangle_tags;
   std::sort(tags.begin(), tags.end());
   tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
-  // The first of several triangles at one place counts.
+  // If several triangles are at one place, the first one counts.
   for (std::size_t i = mesh_.triangles.size(); i-- > 0;) {
     const auto tag =
         static_cast<std::int32_t>(std::lower_bound(tags.begin(), tags.end(), mesh_.triangle_tags[i]) - tags.begin());

@@ -13,10 +13,10 @@
 namespace hexpipe::candidates {
 namespace {
 
-// The angles are a filter before the test of the corners, so its rounding must not reject what that one accepts.
+// The angles are a filter before the test of the corners; its rounding must not reject corners that the test accepts.
 constexpr double filter_slack = 1 - 1e-9;
 
-// By edge of a row: bits of those with which rule 3 holds for the corner that begins with a spoke and this edge.
+// By edge of a row: bits of the edges for which rule 3 holds at the corner formed with a spoke and this edge.
 using CornerBits = std::array<std::uint64_t, EdgeRow::most>;
 
 HEXPIPE_ANY_REGISTERS void judge_corners(const Vec3& spoke, double spoke_square, const EdgeRow& row, double min_quality,
@@ -37,7 +37,7 @@ HEXPIPE_ANY_REGISTERS void judge_corners(const Vec3& spoke, double spoke_square,
   }
 }
 
-// The edges of a row that may be the third at a corner, as bits.
+// The edges of a row that may be the third one at a corner, as bits.
 HEXPIPE_ANY_REGISTERS std::uint64_t judge_third_edges(const Vec3& edge, const Vec3& next, double two_squares,
                                                       const EdgeRow& row, double min_quality) {
   std::uint64_t suffices = 0;
@@ -78,7 +78,7 @@ bool QuadAngle::has_opposite_among_many(const VertexLinks& links, Vertex opposit
   return sides_are_linked_ && links.is_facet(side_, other_side_, opposite);
 }
 
-// The corner itself is linked to its sides: it is among those at their other diagonal, and written over.
+// The corner itself is linked to its sides, so it is among the vertices at their other diagonal. It is overwritten.
 std::span<const OppositeCorner> QuadAngle::find_opposites(const VertexLinks& links,
                                                           std::vector<OppositeCorner>& memory) const {
   if (!is_narrow_) return find_among_many(links, memory);
@@ -244,7 +244,7 @@ std::int32_t QuadFan::outer_edge(int place, Vertex end) {
   return number;
 }
 
-// Of one that is in a quad.
+// Numbers an outer edge that is in a quad.
 void QuadFan::number_outer_edge(std::int32_t outer_edge) {
   OuterEdge& edge = outer_edges_[outer_edge];
   if (edge.number != none) return;

@@ -1,6 +1,6 @@
 #pragma once
-// The tets of a mesh by their lowest vertex. A search goes from vertex to vertex: what it asks about the tets around
-// one then lies near what it asked before, in whatever order the mesh had them.
+// Sorts the tets of a mesh by their lowest vertex. A search goes from vertex to vertex, so the tets that it asks about
+// are then close in memory to those before, whatever order the mesh had.
 
 #include <cstdint>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace hexpipe::candidates {
 
-// The numbers of the mesh's tets by lowest vertex, and ascending at each; none when that is how they stand.
+// The numbers of the mesh's tets by lowest vertex, ascending at each vertex; empty if they are already in this order.
 std::vector<std::int32_t> order_by_lowest_vertex(const TetMesh& mesh);
 
 }  // namespace hexpipe::candidates

@@ -15,8 +15,8 @@ class TetStar {
  public:
   explicit TetStar(const MeshTables& tables) : tables_(tables) {}
 
-  // Files the usable tets at this vertex by the two other vertices of their facets there, in a hash table that is never
-  // more than half full; vertices with more tets have none.
+  // Files the usable tets at this vertex by the two other vertices of their facets there, in a hash table that is at
+  // most half full. Vertices with too many tets get no table.
   void move_to(Vertex centre) {
     if (centre == centre_) return;
     centre_ = centre;
@@ -28,7 +28,7 @@ class TetStar {
       if (tables_.usable(t)) file(t);
   }
 
-  // As MeshTables::tet_inside.
+  // Answers as MeshTables::tet_inside does.
   std::int32_t tet_inside(Vertex a, Vertex b, Vertex c) const {
     if (!is_filed_ || (a != centre_ && b != centre_ && c != centre_)) return tables_.tet_inside(a, b, c);
     if (b == centre_) return find(c, a);
@@ -38,7 +38,7 @@ class TetStar {
  private:
   static constexpr std::size_t slot_count = 512;
   struct Slot {
-    Vertex next = -1, after = -1;  // behind the centre, counter-clockwise seen from outside
+    Vertex next = -1, after = -1;  // the vertices after the centre, counter-clockwise seen from outside
     std::int32_t tet = TetAdjacency::none;
   };
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::int64_t vertices_a_block = 1024;
 
-// visit(i, j): the places of two neighbours of v, for each facet of a usable tet at v, both ways; facets between two
-// tets come twice.
+// Calls visit(i, j) with the places of two neighbours of v, for each facet of a usable tet at v, in both directions.
+// Facets between two tets come twice.
 template <class Visit>
 void for_each_link(const TetMesh& mesh, const TetAdjacency& adjacency, const std::vector<bool>& usable,
                    const VertexLinks& links, Vertex v, Visit&& visit) {

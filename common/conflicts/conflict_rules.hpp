@@ -7,7 +7,7 @@
 
 namespace hexpipe::conflicts {
 
-// Decides for one pair, from its tets and vertices alone.
+// Decides for one pair, from nothing but its tets and vertices.
 bool in_conflict(const Candidates& candidates, std::size_t i, std::size_t j);
 
 }  // namespace hexpipe::conflicts

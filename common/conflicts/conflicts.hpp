@@ -1,5 +1,5 @@
 #pragma once
-// All conflicts of a candidate, from what it shares with others, without comparing it with everything near by.
+// Finds all conflicts of a candidate from what it shares with others, without comparing it with everything near it.
 
 #include <cstdint>
 
@@ -14,7 +14,8 @@ class ConflictFinder {
  public:
   explicit ConflictFinder(const Candidates& candidates);
 
-  // Inserts the candidates below i that conflict with candidate i into an empty set with room for all.
+  // Inserts the candidates below i that conflict with candidate i. The set must be empty and have room for all
+  // candidates.
   void collect_lower(std::size_t i, SortedSet& found) const;
 
  private:

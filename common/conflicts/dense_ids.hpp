@@ -1,5 +1,5 @@
 #pragma once
-// Vertex and tet numbers of candidates that are far more than the candidates could use.
+// Candidates may use vertex and tet numbers that are far larger than their count.
 
 #include <optional>
 
@@ -7,8 +7,8 @@
 
 namespace hexpipe::conflicts {
 
-// The candidates with vertices and tets renumbered from 0 in the same order, where a table by their numbers would take
-// far more memory than the candidates themselves; nothing where it would not.
+// If a table by these numbers would take far more memory than the candidates: the candidates with vertices and tets
+// renumbered from 0 in the same order. Otherwise nothing.
 std::optional<Candidates> with_dense_ids(const Candidates& candidates);
 
 }  // namespace hexpipe::conflicts

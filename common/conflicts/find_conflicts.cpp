@@ -21,14 +21,14 @@ namespace {
 
 constexpr std::int64_t candidates_a_block = 256;
 
-// The conflicts of each candidate with lower ones, packed, and how many conflicts each one has in all.
+// The conflicts of each candidate with lower ones, packed, and the number of all its conflicts.
 struct LowerConflicts {
   std::int64_t first = 0;           // the candidate of the first list
   std::vector<PackedLists> blocks;  // of candidates_a_block lists each
   std::vector<std::int64_t> degrees;
 };
 
-// What conflicts do not depend on is a third of the memory that candidates take.
+// Conflicts do not depend on these arrays, and they are a third of the memory of the candidates.
 void forget_worth(Candidates& candidates) {
   candidates.quality = {};
   candidates.volume = {};
@@ -76,9 +76,9 @@ LowerConflicts find_lower_conflicts(const Candidates& candidates, const Part& pa
 
 }  // namespace
 
-// Conflicts are found once, from their higher end. They are packed until all are counted, and what they were found by
-// is gone before the graph takes its memory. Then they are written at both ends: as higher ends come in ascending
-// order, so do all lists, and none goes further than the higher ends so far. So the graph grows as the lists are freed.
+// Conflicts are found once, from their higher end. They stay packed until all are counted, and the indices are freed
+// before the graph takes its memory. Then both ends are written. Higher ends come in ascending order, so all lists
+// ascend, too, and no list names a vertex above the higher ends so far. So the graph grows while the lists are freed.
 graph::ConflictGraph conflict_graph(Candidates candidates, const ConflictOptions& options, const char* source,
                                     const std::vector<bool>& own) {
   const std::size_t count = candidates.size();

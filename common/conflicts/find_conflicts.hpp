@@ -1,5 +1,5 @@
 #pragma once
-// The conflict graph of candidates: docs/definitions.md 2.
+// Finds the conflict graph of candidates: docs/definitions.md 2.
 
 #include <vector>
 
@@ -13,10 +13,10 @@ namespace hexpipe::conflicts {
 struct ConflictOptions {
   WeightKind weight = WeightKind::quality;
   double weight_scale = 1e6;
-  Part part{};  // only conflicts whose higher end is in this part of the candidates
+  Part part{};  // only conflicts whose higher end is in this share of the candidates
 };
 
-// Vertex i is candidate i. Candidates that are moved in are gone before the graph takes its memory. Where `own` is not
+// Vertex i is candidate i. Candidates that are moved in are freed before the graph takes its memory. If `own` is not
 // empty, conflicts between two candidates that are not own are left out. Throws DataError naming `source` when weights
 // do not fit (see weights_of) or there are 2^31 candidates or more.
 graph::ConflictGraph conflict_graph(Candidates candidates, const ConflictOptions& options, const char* source,

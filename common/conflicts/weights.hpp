@@ -1,5 +1,5 @@
 #pragma once
-// What a candidate is worth, as an integer.
+// The weight of a candidate, as an integer.
 
 #include <cstdint>
 #include <vector>
@@ -10,8 +10,8 @@ namespace hexpipe::conflicts {
 
 enum class WeightKind { quality, volume, count, quality_volume };
 
-// round(scale * w), at least 0. Throws DataError naming `source` when a quality or volume is negative, or the sum does
-// not fit 64 bits.
+// Returns round(scale * w), at least 0. Throws DataError naming `source` when a quality or volume is negative, or the
+// sum does not fit 64 bits.
 std::vector<std::int64_t> weights_of(const Candidates& candidates, WeightKind kind, double scale, const char* source);
 
 }  // namespace hexpipe::conflicts
