@@ -6,7 +6,7 @@
 namespace hexpipe::mwis::bounds {
 namespace {
 
-// On block-28k and sphere-56k, after initsol, this much lies at 12 % and 7 % of the solution.
+// On block-28k and sphere-56k, after initsol, 12 % and 7 % of the solution hold this share.
 constexpr double most_of_gap = 0.8;
 
 class GapDivider {
@@ -19,7 +19,8 @@ class GapDivider {
   bool is_chosen(std::int32_t v) const { return places_[v] != none; }
   void charge(std::int32_t chosen, std::int64_t amount) { shares_[places_[chosen]] += amount; }
 
-  // To the chosen neighbours of these vertices, in equal parts; the first ones take what does not divide.
+  // Divides an amount equally among the chosen neighbours of these vertices; the first ones get the rest of the
+  // division.
   void divide(std::span<const std::int32_t> vertices, std::int64_t amount) {
     near_.clear();
     for (const std::int32_t v : vertices)

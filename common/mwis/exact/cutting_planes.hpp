@@ -1,8 +1,7 @@
 #pragma once
-// The relaxation of branch and cut: LP-Clique (Verhetsel 2017, 3.2) by the simplex method on an edge clique cover, to
-// which cliques that the fractional solution violates are added until there is none (Nemhauser and Sigismondi 1992).
-// Deviates in proving its bounds in whole numbers from the prices alone, so that nothing depends on the tolerances of
-// the simplex.
+// The relaxation of branch and cut: LP-Clique (Verhetsel 2017, 3.2) by the simplex method on an edge clique cover.
+// Cliques that the fractional solution violates are added until there is none (Nemhauser and Sigismondi 1992). Unlike
+// there, the prices alone prove the bounds, in whole numbers, so nothing depends on the tolerances of the simplex.
 
 #include "common/mwis/bounds/relaxation.hpp"
 

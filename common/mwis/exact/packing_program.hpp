@@ -1,6 +1,6 @@
 #pragma once
-// A linear program with a variable from 0 to 1 for each vertex and a row for each clique, of which at most 1 is chosen:
-// COIN-OR's simplex (CLP), which other cliques may be added to and which starts again from where it was.
+// A linear program with a variable from 0 to 1 for each vertex and a row for each clique, of which at most 1 is chosen.
+// It uses COIN-OR's simplex (CLP). Cliques may be added, and the simplex then continues from the last basis.
 
 #include <cstdint>
 #include <memory>
@@ -20,12 +20,12 @@ class PackingProgram {
 
   void add_row(std::span<const std::int32_t> clique);
 
-  // False when the deadline passed first, or the solver gave up. Prices are worth something even then.
+  // False if the deadline passed first, or the solver gave up. Its prices are useful even then.
   bool solve(const Deadline& deadline);
 
-  // How much of each vertex the heaviest fractional set has, from 0 to 1.
+  // By vertex: how much of it the heaviest fractional set has, from 0 to 1.
   const std::vector<double>& fractions() const { return fractions_; }
-  // Of each row, in the order in which they were added; 0 or more.
+  // By row, in the order in which rows were added; 0 or more.
   const std::vector<double>& prices() const { return prices_; }
 
  private:

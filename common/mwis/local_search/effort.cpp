@@ -6,9 +6,9 @@
 namespace hexpipe::mwis::local_search {
 namespace {
 
-// What was gained before so many nanoseconds of work in the same way counts a third.
+// Gains made before this many nanoseconds of work with the same operator count a third.
 constexpr double memory = 3e8;
-// What each way keeps at least, for its time may come.
+// The share that each operator keeps at least, because its gains may come later.
 constexpr std::array least_shares{0.2, 0.2, 0.1};
 
 double least_share_of(Way way) {

@@ -17,15 +17,15 @@
 namespace hexpipe::mwis::local_search {
 namespace {
 
-// Of annealing a fragment for the first time. Of 20 and 60, on random-33k after 8 s: 20, by far.
+// For annealing a fragment for the first time. 20 clearly beat 60 on random-33k after 8 s.
 constexpr int kicks_a_vertex = 20;
-// Annealed fragments may be so many times as large as wanted, which only hubs make them: these can be exchanged for all
-// of their neighbours in no other way.
+// Annealed fragments may be this many times as large as wanted. Only hubs make them so large, and a hub can be
+// exchanged for all its neighbours in no other way.
 constexpr std::size_t hub_factor = 16;
-// Before anybody asks whether it is worth it, a search works as long as annealing the whole graph some times takes.
-// Large graphs gain for longer: on random-33k 0.4 times end at 10,100,430 after 2 s of lns, which finds 10,129,518 in a
-// minute. On a lattice of 6 x 6 x 6 hexes (5,300 vertices), whose best choice is found at once, 0.4 times are half a
-// second.
+// The stop rule (--worth) judges nothing before the search has worked as long as annealing the whole graph this many
+// times takes. Large graphs gain for longer: on random-33k, 0.4 times would end at 10,100,430 after 2 s of lns, which
+// finds 10,129,518 in a minute. On a lattice of 6 x 6 x 6 hexes (5,300 vertices), whose best solution is found at once,
+// 0.4 times are half a second.
 double least_coolings(const graph::ConflictGraph& graph) {
   constexpr double vertices_a_cooling = 12500, least = 0.4, most = 5;
   return std::clamp(static_cast<double>(graph.vertex_count()) / vertices_a_cooling, least, most);
@@ -137,7 +137,7 @@ class Lns {
     }
   }
 
-  // Larger fragments come fewer at a time.
+  // Operators with larger fragments solve fewer at a time.
   std::int64_t batch_of(Way way) const {
     constexpr std::array parts{1, 4, 8};
     const int part = parts[static_cast<std::size_t>(way)];
@@ -160,8 +160,8 @@ class Lns {
     bool failed = false;
   };
 
-  // Each thread takes a fragment, solves it beside the others, and puts it back, on its own. What one of them throws
-  // ends all: nobody else would wake those that wait for its fragment.
+  // Each thread takes a fragment, solves it beside the others and puts it back, on its own. An exception in one thread
+  // ends all, because nobody else would wake the threads that wait for its fragment.
   void run_free() {
     FreeRun run;
     parallel_for(thread_count(), 1, [&](std::int64_t) {
@@ -178,7 +178,7 @@ class Lns {
     });
   }
 
-  // One thread, which holds the lock but while it solves.
+  // One thread. It holds the lock except while it solves.
   void take_turns(FreeRun& run, std::unique_lock<std::mutex>& lock) {
     Repair repair;
     while (!run.failed && goes_on()) {
@@ -200,7 +200,7 @@ class Lns {
     }
   }
 
-  // Grows a fragment from the next seed that is free; false when there is none among so many.
+  // Grows a fragment from the next free seed. False if there is none within this many.
   bool grow(Way way, Repair& repair, std::int64_t most_postponed) {
     Schedule& schedule = schedule_of(way);
     postponed_.clear();
@@ -226,7 +226,7 @@ class Lns {
 
   Random random_for(std::int64_t index) const { return {options_.seed, static_cast<std::uint64_t>(4 + index)}; }
 
-  // Where annealing did not help, the next one is slower.
+  // The next annealing of a place where annealing did not help is slower.
   std::int64_t effort_for(const Repair& repair) const {
     if (repair.way() == Way::exact) return options_.node_limit;
     const std::int64_t tries = schedule_of(repair.way()).tries_at(repair.fragment().released.front());
@@ -254,7 +254,7 @@ class Lns {
     if (repair.complete() && repair.fragment().whole_component) close(repair.fragment());
   }
 
-  // False when nothing was changed: what free-running threads applied meanwhile, next to the fragment, is in conflict.
+  // False if nothing was changed, because a fragment that another thread (free running) put back nearby is in conflict.
   bool exchange(const Repair& repair) {
     const auto& vertices = repair.fragment().vertices;
     removed_.clear();
@@ -269,7 +269,7 @@ class Lns {
       }
     for (std::size_t i = 0; i < vertices.size(); ++i)
       if (repair.chooses(i) && !state_.contains(vertices[i])) add(vertices[i]);
-    // What a search found before its limit need not be maximal.
+    // The result of a search that ended at its limit need not be maximal.
     for (const std::int32_t v : vertices)
       if (!state_.contains(v) && state_.tightness(v) == 0) add(v);
     for (const std::int32_t v : removed_)
@@ -278,8 +278,8 @@ class Lns {
     return true;
   }
 
-  // What no fragment had room for may have lost its last chosen neighbour. Fragments grow from what is chosen, and
-  // would never come upon it.
+  // A vertex that was in no fragment may have lost its last chosen neighbour. Fragments grow from chosen vertices and
+  // would never reach it.
   void take_left_out() {
     std::ranges::stable_sort(left_out_, std::ranges::greater(),
                              [&](std::int32_t v) { return state_.graph().weights[v]; });
@@ -296,8 +296,8 @@ class Lns {
     added_.push_back(v);
   }
 
-  // What came in without a gain is a seed as well: a new place for the other ways, but not for the one that brought it,
-  // which would stay there for ever where weights are equal.
+  // Vertices that came in without a gain are seeds as well: new ones for the other operators. The operator that brought
+  // them counts one more try; otherwise it would stay there for ever where weights are equal.
   void hand_over(const Repair& repair) {
     const std::int32_t seed = repair.fragment().released.front();
     Schedule& own = schedule_of(repair.way());
@@ -321,7 +321,7 @@ class Lns {
     for (const std::int32_t v : fragment.frontier) renew(v);
   }
 
-  // The inner half of the fragment has its surroundings solved too.
+  // For the inner half of the fragment, the surroundings are solved, too.
   void retire_around(const Repair& repair) {
     const auto& released = repair.fragment().released;
     const std::size_t inner = (released.size() + 1) / 2;
@@ -348,22 +348,22 @@ class Lns {
   LnsMemory* const memory_;
   ground::SolutionState state_;
   FragmentGrower grower_;
-  std::array<Schedule, all_ways.size()> schedules_;  // by way
+  std::array<Schedule, all_ways.size()> schedules_;  // by operator
   Effort effort_;
   StopRule stop_rule_;
   double work_ = 0;  // of all fragments
   Cooling usual_;    // temperatures for this graph
   std::vector<std::int32_t> postponed_, removed_, added_, left_out_;
-  std::int64_t begun_ = 0, iterations_ = 0;  // fragments grown, and put back
+  std::int64_t begun_ = 0, iterations_ = 0;  // fragments grown, and fragments put back
   std::int64_t improvements_ = 0;
-  std::int32_t closed_ = 0;  // vertices of components that are solved to the end
+  std::int32_t closed_ = 0;  // vertices of components that are solved completely
 };
 
 Deadline earlier(const Deadline& deadline, double seconds) {
   return std::isfinite(deadline.remaining()) ? Deadline(deadline.remaining() - seconds) : Deadline();
 }
 
-// What reductions made of several vertices may be first.
+// Vertices that reductions made of several ones count as first places.
 std::vector<bool> of_remainder(const std::vector<bool>& of_graph, const Remainder& rest) {
   std::vector<bool> result(of_graph.empty() ? 0 : rest.graph().weights.size(), true);
   for (std::size_t i = 0; i < result.size(); ++i) {
@@ -374,8 +374,8 @@ std::vector<bool> of_remainder(const std::vector<bool>& of_graph, const Remainde
   return result;
 }
 
-// Solutions of the remainder as solutions of the whole graph, whenever they are better than the start, which loses
-// where reductions decided otherwise until the search has caught up.
+// Reports solutions of the remainder as solutions of the whole graph once they are better than the start. At first they
+// are worse, because the reductions decided differently and the search has to catch up.
 LnsResult search_remainder(const graph::ConflictGraph& graph, const graph::IndependentSet& start,
                            const LnsOptions& options, const Deadline& deadline,
                            const std::function<void(const LnsProgress&)>& report) {
@@ -408,7 +408,7 @@ LnsResult improve_by_lns(const graph::ConflictGraph& graph, const graph::Indepen
   ground::SolutionState state(graph, initial);
   state.make_maximal();
   const graph::IndependentSet start = state.to_set();
-  // The lift at the end costs as much as this: a quarter of a second at 33 million edges.
+  // The lift at the end takes as long as this did: a quarter of a second at 33 million edges.
   const Deadline search_deadline = earlier(deadline, watch.seconds());
   const bool idle = options.iterations == 0 || state.weight() >= options.target || deadline.passed();
   LnsResult result = options.reduce && !idle ? search_remainder(graph, start, options, search_deadline, report)

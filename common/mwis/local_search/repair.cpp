@@ -10,12 +10,12 @@ namespace {
 // Measured on fragments of 100 to 300 vertices and of 2000, of block-28k and random-33k.
 constexpr double work_a_pair = 4, work_a_node = 5000, work_a_touched_neighbour = 3;
 
-// What a fragment is heated to, as a share of what it is when nothing is chosen. Of 0.08, 0.15 and 0.3 mean weights, on
-// random-33k from a solution of initsol: 0.15 gains most after 8 s, a tenth more than 0.3, which forgets the solution.
+// A fragment is heated to this share of the temperature for an empty set. 0.08, 0.15 and 0.3 mean weights were compared
+// on random-33k from a solution of initsol: 0.15 gains most after 8 s, a tenth more than 0.3, which forgets the
+// solution.
 constexpr double reheating = 0.5;
 constexpr std::int64_t cooling_steps = 50;
-// A kick touches some 20 times as many neighbours as a vertex has; beyond 64 times it is one of few hubs that takes the
-// time.
+// A kick touches about 20 times as many neighbours as a vertex has. Beyond 64 times, a few hubs take the time.
 constexpr double touched_a_kick = 20;
 constexpr std::int64_t most_touched_a_kick = 64;
 
@@ -53,7 +53,7 @@ void Repair::anneal(std::int64_t kicks_a_vertex, Random random, const Deadline& 
   choose(cool(search, {.hot = reheating * usual.hot, .cold = usual.cold}, kicks_a_vertex, deadline));
 }
 
-// Two sets that nothing binds together differ everywhere, and each is the better one in places.
+// Two unrelated sets differ everywhere, and each is the better one in places.
 void Repair::recombine(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline, const Cooling& usual) {
   Annealing search(sparse_, {}, random);
   choose(hexpipe::mwis::local_search::recombine(sparse_, start_, cool(search, usual, kicks_a_vertex, deadline)));
