@@ -137,13 +137,13 @@ std::array<std::array<Vector, 8>, 8> split(const std::array<Vector, 8>& p) {
     for (int k = 0; k < 3; k += 2) halve(grid[i][0][k], grid[i][1][k], grid[i][2][k]);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) halve(grid[i][j][0], grid[i][j][1], grid[i][j][2]);
-  std::array<std::array<Vector, 8>, 8> parts;
-  for (int part = 0; part < 8; ++part)
+  std::array<std::array<Vector, 8>, 8> subcells;
+  for (int subcell = 0; subcell < 8; ++subcell)
     for (int c = 0; c < 8; ++c) {
       const int a = c & 1, b = c >> 1 & 1, d = c >> 2;
-      parts[part][hex_corner_at[a][b][d]] = grid[(part & 1) + a][(part >> 1 & 1) + b][(part >> 2) + d];
+      subcells[subcell][hex_corner_at[a][b][d]] = grid[(subcell & 1) + a][(subcell >> 1 & 1) + b][(subcell >> 2) + d];
     }
-  return parts;
+  return subcells;
 }
 
 template <class Vector>
@@ -155,27 +155,27 @@ std::array<std::array<Vector, 6>, 8> split(const std::array<Vector, 6>& p) {
     const Vector bottom = p[node[n][0]] + p[node[n][1]], top = p[3 + node[n][0]] + p[3 + node[n][1]];
     return (2 - level) * bottom + level * top;
   };
-  std::array<std::array<Vector, 6>, 8> parts;
-  for (int part = 0; part < 8; ++part)
-    for (int c = 0; c < 6; ++c) parts[part][c] = point(triangle[part % 4][c % 3], part / 4 + c / 3);
-  return parts;
+  std::array<std::array<Vector, 6>, 8> subcells;
+  for (int subcell = 0; subcell < 8; ++subcell)
+    for (int c = 0; c < 6; ++c) subcells[subcell][c] = point(triangle[subcell % 4][c % 3], subcell / 4 + c / 3);
+  return subcells;
 }
 
 template <class Vector>
 std::array<std::array<Vector, 5>, 4> split(const std::array<Vector, 5>& p) {
   constexpr int at[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};  // the parameters of the base's corners
   constexpr int weight[3][2] = {{2, 0}, {1, 1}, {0, 2}};
-  std::array<std::array<Vector, 5>, 4> parts;
-  for (int part = 0; part < 4; ++part) {
+  std::array<std::array<Vector, 5>, 4> subcells;
+  for (int subcell = 0; subcell < 4; ++subcell) {
     for (int c = 0; c < 4; ++c) {
-      const int i = at[part][0] + at[c][0], j = at[part][1] + at[c][1];
+      const int i = at[subcell][0] + at[c][0], j = at[subcell][1] + at[c][1];
       Vector sum{};
       for (int q = 0; q < 4; ++q) sum = sum + weight[i][at[q][0]] * weight[j][at[q][1]] * p[q];
-      parts[part][c] = sum;
+      subcells[subcell][c] = sum;
     }
-    parts[part][4] = 4 * p[4];
+    subcells[subcell][4] = 4 * p[4];
   }
-  return parts;
+  return subcells;
 }
 
 }  // namespace hexpipe

@@ -49,38 +49,38 @@ enum class Turn : std::int8_t { unknown, keep, turn };
 
 // Decides for all tets that are connected to `start` by facets; puts them into `component`.
 void spread(const TetMesh& mesh, const TetAdjacency& adjacency, std::int32_t start, std::vector<Turn>& turns,
-            std::vector<std::int32_t>& part) {
+            std::vector<std::int32_t>& component) {
   turns[start] = Turn::keep;
-  part.assign(1, start);
-  for (std::size_t next = 0; next < part.size(); ++next) {
-    const std::int32_t tet = part[next];
+  component.assign(1, start);
+  for (std::size_t next = 0; next < component.size(); ++next) {
+    const std::int32_t tet = component[next];
     for (int facet = 0; facet < 4; ++facet) {
       const std::int32_t beyond = adjacency.tet_beyond(tet, facet);
       if (beyond == TetAdjacency::none || turns[beyond] != Turn::unknown) continue;
       const bool alike = listed_alike(mesh.tets[tet], facet, mesh.tets[beyond]);
       turns[beyond] = alike == (turns[tet] == Turn::keep) ? Turn::keep : Turn::turn;
-      part.push_back(beyond);
+      component.push_back(beyond);
     }
   }
 }
 
 // Chooses the sense in which more tets of the component are positive.
-void prefer_positive(std::span<const std::int32_t> part, const std::vector<std::int8_t>& signs,
+void prefer_positive(std::span<const std::int32_t> component, const std::vector<std::int8_t>& signs,
                      std::vector<Turn>& turns) {
   std::int64_t balance = 0;
-  for (const std::int32_t t : part) balance += turns[t] == Turn::keep ? signs[t] : -signs[t];
+  for (const std::int32_t t : component) balance += turns[t] == Turn::keep ? signs[t] : -signs[t];
   if (balance >= 0) return;
-  for (const std::int32_t t : part) turns[t] = turns[t] == Turn::keep ? Turn::turn : Turn::keep;
+  for (const std::int32_t t : component) turns[t] = turns[t] == Turn::keep ? Turn::turn : Turn::keep;
 }
 
 std::vector<std::int8_t> find_turns(const TetMesh& mesh, const std::vector<std::int8_t>& signs, const char* source) {
   const TetAdjacency adjacency(mesh, source);
   std::vector<Turn> turns(mesh.tets.size(), Turn::unknown);
-  std::vector<std::int32_t> part;
+  std::vector<std::int32_t> component;
   for (std::size_t start = 0; start < mesh.tets.size(); ++start) {
     if (turns[start] != Turn::unknown) continue;
-    spread(mesh, adjacency, static_cast<std::int32_t>(start), turns, part);
-    prefer_positive(part, signs, turns);
+    spread(mesh, adjacency, static_cast<std::int32_t>(start), turns, component);
+    prefer_positive(component, signs, turns);
   }
   std::vector<std::int8_t> turned(turns.size());
   for (std::size_t t = 0; t < turns.size(); ++t) turned[t] = turns[t] == Turn::turn ? 1 : 0;

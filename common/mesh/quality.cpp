@@ -115,8 +115,8 @@ Bounds<9, 4> bounds_of(const Corners<PyramidTopology>& p) {
 
 // Lowers `least` to the values at the corners of a subcell. Returns whether the subcell may have lower values inside,
 // by more than the tolerance.
-bool may_attain_less(const auto& part, double& least) {
-  const auto bounds = bounds_of(part);
+bool may_attain_less(const auto& subcell, double& least) {
+  const auto bounds = bounds_of(subcell);
   for (const int corner : bounds.corners)
     if (bounds.jacobian[corner] < least * bounds.lengths[corner])
       least = bounds.jacobian[corner] / bounds.lengths[corner];
@@ -141,7 +141,7 @@ int most_bent_parameter(const Corners<HexTopology>& p) {
   return static_cast<int>(std::max_element(bends, bends + 3) - bends);
 }
 
-std::array<Corners<HexTopology>, 2> parts_of(const Corners<HexTopology>& p) {
+std::array<Corners<HexTopology>, 2> subcells_of(const Corners<HexTopology>& p) {
   const int parameter = most_bent_parameter(p);
   std::array<Corners<HexTopology>, 2> halves{p, p};
   for (int c = 0; c < 4; ++c) {
@@ -156,21 +156,21 @@ std::array<Corners<HexTopology>, 2> parts_of(const Corners<HexTopology>& p) {
   }
   return halves;
 }
-auto parts_of(const Corners<PrismTopology>& p) {
+auto subcells_of(const Corners<PrismTopology>& p) {
   return split(p);
 }
-auto parts_of(const Corners<PyramidTopology>& p) {
+auto subcells_of(const Corners<PyramidTopology>& p) {
   return split(p);
 }
 
-void cut(const auto& part, int cuts, double& least) {
+void cut(const auto& subcell, int cuts, double& least) {
   // An invalid cell is examined no further.
   if (least <= 0 || cuts == max_cuts) return;
-  const auto parts = parts_of(part);
-  std::array<bool, parts.size()> open;
-  for (std::size_t i = 0; i < parts.size(); ++i) open[i] = may_attain_less(parts[i], least);
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    if (open[i]) cut(parts[i], cuts + 1, least);
+  const auto subcells = subcells_of(subcell);
+  std::array<bool, subcells.size()> open;
+  for (std::size_t i = 0; i < subcells.size(); ++i) open[i] = may_attain_less(subcells[i], least);
+  for (std::size_t i = 0; i < subcells.size(); ++i)
+    if (open[i]) cut(subcells[i], cuts + 1, least);
 }
 
 template <class Topology>

@@ -49,22 +49,22 @@ std::vector<Ridge> ridges_among(const std::vector<Ridge>& ridges, std::span<cons
 
 Submesh submesh(const TetMesh& mesh, std::vector<std::int32_t> points, std::vector<std::int32_t> tets,
                 std::vector<std::int32_t> triangles, std::vector<std::int32_t>& scratch) {
-  Submesh part{{}, std::move(points), std::move(tets), std::move(triangles)};
-  part.mesh.points = select(mesh.points, part.points);
-  part.mesh.tets = select(mesh.tets, part.tets);
-  part.mesh.tet_tags = select(mesh.tet_tags, part.tets);
-  part.mesh.triangles = select(mesh.triangles, part.triangles);
-  part.mesh.triangle_tags = select(mesh.triangle_tags, part.triangles);
+  Submesh result{{}, std::move(points), std::move(tets), std::move(triangles)};
+  result.mesh.points = select(mesh.points, result.points);
+  result.mesh.tets = select(mesh.tets, result.tets);
+  result.mesh.tet_tags = select(mesh.tet_tags, result.tets);
+  result.mesh.triangles = select(mesh.triangles, result.triangles);
+  result.mesh.triangle_tags = select(mesh.triangle_tags, result.triangles);
   scratch.resize(mesh.points.size());
-  for (std::size_t i = 0; i < part.points.size(); ++i) scratch[part.points[i]] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < result.points.size(); ++i) scratch[result.points[i]] = static_cast<std::int32_t>(i);
   const auto renumber = [&](auto& cells) {
     for (auto& cell : cells)
       for (Vertex& v : cell) v = scratch[v];
   };
-  renumber(part.mesh.tets);
-  renumber(part.mesh.triangles);
-  if (mesh.ridges) part.mesh.ridges = ridges_among(*mesh.ridges, part.points, scratch);
-  return part;
+  renumber(result.mesh.tets);
+  renumber(result.mesh.triangles);
+  if (mesh.ridges) result.mesh.ridges = ridges_among(*mesh.ridges, result.points, scratch);
+  return result;
 }
 
 Submesh submesh_around(const TetMesh& mesh, const std::vector<bool>& marked, int edges) {

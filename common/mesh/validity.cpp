@@ -1,8 +1,8 @@
 // The sign of Jacobians, exactly. Hexes are judged by Bezier coefficients and subdivision: A. Johnen, J.-C. Weill,
 // J.-F. Remacle, Robust and efficient validation of the linear hexahedral element (IMR 2017). They subdivide the
-// polynomial. Here the points are subdivided, which gives the same coefficients from one formula, because a part of a
-// trilinear hex is a trilinear hex. A filter in doubles comes first; integers of any length, not expansions, then make
-// the answer exact.
+// polynomial. Here the points are subdivided, which gives the same coefficients from one formula, because a subcell of
+// a trilinear hex is a trilinear hex. A filter in doubles comes first; integers of any length, not expansions, then
+// make the answer exact.
 
 #include "common/mesh/validity.hpp"
 
@@ -144,7 +144,7 @@ bool is_valid_exactly(const HexPoints& points, int subdivisions = 0) {
   if (answer != Answer::unsure) return answer == Answer::yes;
   if (subdivisions == max_subdivisions) return false;
   return std::ranges::all_of(split(points),
-                             [&](const HexPoints& part) { return is_valid_exactly(part, subdivisions + 1); });
+                             [&](const HexPoints& subcell) { return is_valid_exactly(subcell, subdivisions + 1); });
 }
 
 // A hex or a subcell of one, relative to a corner of the whole.
@@ -178,10 +178,10 @@ LaneMask are_surely_valid(const HexTangents<LaneVector>& tangents, const LaneVec
   return sure;
 }
 
-HEXPIPE_ANY_REGISTERS std::uint32_t surely_valid_parts(const std::array<LaneVector, 8>& parts, int subdivisions) {
-  const HexTangents<LaneVector> tangents(parts);
+HEXPIPE_ANY_REGISTERS std::uint32_t surely_valid_subcells(const std::array<LaneVector, 8>& subcells, int subdivisions) {
+  const HexTangents<LaneVector> tangents(subcells);
   const LaneVector extent = extent_of(tangents);
-  return bits_of(are_surely_valid(tangents, extent, roundings_of(parts, extent, subdivisions)));
+  return bits_of(are_surely_valid(tangents, extent, roundings_of(subcells, extent, subdivisions)));
 }
 
 Answer judge_in_doubles(const RelativeHex& hex, int subdivisions = 0) {
@@ -202,12 +202,12 @@ Answer judge_in_doubles(const RelativeHex& hex, int subdivisions = 0) {
   auto surely_positive = [&](double value) { return coefficient_bound.positive(value) == Answer::yes; };
   if (std::ranges::all_of(jacobian.bezier(), surely_positive)) return Answer::yes;
   if (subdivisions == max_subdivisions) return Answer::unsure;
-  const auto parts = split(hex);
-  static_assert(parts.size() == lane_count);
-  const std::uint32_t surely_valid = surely_valid_parts(side_by_side(parts), subdivisions + 1);
-  for (int part = 0; part < lane_count; ++part) {
-    if ((surely_valid >> part & 1) != 0) continue;
-    const Answer one = judge_in_doubles(parts[part], subdivisions + 1);
+  const auto subcells = split(hex);
+  static_assert(subcells.size() == lane_count);
+  const std::uint32_t surely_valid = surely_valid_subcells(side_by_side(subcells), subdivisions + 1);
+  for (int subcell = 0; subcell < lane_count; ++subcell) {
+    if ((surely_valid >> subcell & 1) != 0) continue;
+    const Answer one = judge_in_doubles(subcells[subcell], subdivisions + 1);
     if (one == Answer::no) return one;
     if (one == Answer::unsure) answer = one;
   }

@@ -1,7 +1,7 @@
-// METIS' multilevel k-way partition (Karypis and Kumar 1998), not of the graph but of its clusters: a maximal
-// independent set, first come first chosen, and around each chosen vertex the others that come to it first. Candidates
-// that exclude each other lie in one place, so that clusters are compact, and METIS gets a twentieth of the vertices
-// and edges.
+// METIS' multilevel k-way partition (Karypis and Kumar 1998), applied to clusters of the graph. The clusters grow from
+// a maximal independent set, which takes the first vertex that fits; each chosen vertex gets the vertices around it
+// that no other has yet. Candidates that exclude each other are close together, so clusters are compact, and METIS gets
+// a twentieth of the vertices and edges.
 #include "tools/lns-mpi/cut.hpp"
 
 #include <metis.h>
@@ -33,7 +33,7 @@ Clusters cluster(const graph::ConflictGraph& graph) {
   return clusters;
 }
 
-// As METIS takes it: rows, with the number of edges between two clusters.
+// The input of METIS: rows, with the number of edges between two clusters.
 struct ClusterGraph {
   std::vector<idx_t> offsets{0}, neighbours, edge_weights, sizes;
 };

@@ -71,7 +71,7 @@ std::int64_t ExactSolver::solve_component(const ground::DenseGraph& graph, std::
                                           std::int64_t needed, ground::SearchBudget& budget) {
   extract(graph, component);
   const std::int64_t warm = complete_warm_start();
-  const bool found = branch_and_bound_.solve(part_, std::max(warm, needed), budget);
+  const bool found = branch_and_bound_.solve(component_, std::max(warm, needed), budget);
   if (!found) {
     for (const std::uint32_t v : component)
       if (bits::test(warm_.data(), v)) bits::insert(solution_.data(), v);
@@ -96,11 +96,11 @@ void ExactSolver::extract(const ground::DenseGraph& graph, std::span<const std::
     crowding_[v] = around;
   }
   std::ranges::stable_sort(order_, {}, [&](std::uint32_t v) { return crowding_[v]; });
-  part_.reset(order_.size());
+  component_.reset(order_.size());
   for (std::size_t i = 0; i < order_.size(); ++i) {
-    part_.set_weight(i, graph.weight(order_[i]));
+    component_.set_weight(i, graph.weight(order_[i]));
     for (std::size_t j = 0; j < i; ++j)
-      if (graph.has_edge(order_[i], order_[j])) part_.add_edge(i, j);
+      if (graph.has_edge(order_[i], order_[j])) component_.add_edge(i, j);
   }
 }
 
@@ -108,10 +108,10 @@ void ExactSolver::extract(const ground::DenseGraph& graph, std::span<const std::
 // component_.
 std::int64_t ExactSolver::complete_warm_start() {
   std::int64_t weight = 0;
-  covered_.assign(part_.words(), 0);
+  covered_.assign(component_.words(), 0);
   const auto choose = [&](std::size_t i) {
-    weight += part_.weight(i);
-    for (std::size_t w = 0; w < part_.words(); ++w) covered_[w] |= part_.row(i)[w];
+    weight += component_.weight(i);
+    for (std::size_t w = 0; w < component_.words(); ++w) covered_[w] |= component_.row(i)[w];
     bits::insert(covered_.data(), i);
     bits::insert(warm_.data(), order_[i]);
   };

@@ -29,7 +29,7 @@ class ExactSolver {
 
   reduce::DenseReductions reductions_;
   BranchAndBound branch_and_bound_;
-  ground::DenseGraph part_;              // the component that is being solved
+  ground::DenseGraph component_;         // the component that is being solved
   std::vector<std::uint32_t> vertices_;  // of all components, one after another
   std::vector<std::size_t> ends_;        // of each component in vertices_
   std::vector<std::uint32_t> order_;     // the graph's vertex for each vertex of component_

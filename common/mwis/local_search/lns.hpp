@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "common/graph/conflict_graph.hpp"
-#include "common/mwis/local_search/effort.hpp"
+#include "common/mwis/local_search/operator_selection.hpp"
 #include "common/run/deadline.hpp"
 
 namespace hexpipe::mwis::local_search {
@@ -60,11 +60,11 @@ struct LnsResult {
 struct LnsMemory {
   struct Place {
     std::int32_t vertex;
-    std::array<std::uint32_t, all_ways.size()> tries;  // fragments since something changed around it, by operator
-    std::uint32_t size;                                // of the next fragment to be solved exactly
+    std::array<std::uint32_t, all_operators.size()> tries;  // fragments since something changed around it, by operator
+    std::uint32_t size;                                     // of the next fragment to be solved exactly
   };
   std::vector<Place> places;  // ascending
-  Effort::Accounts effort;
+  OperatorScores operator_scores;
 };
 
 // `initial` must be independent. `report` is called for every improvement.

@@ -89,14 +89,14 @@ std::int64_t Reducer::run(ReductionEffort effort, const Deadline& deadline) {
 
 void Reducer::reduce_while_worth(const Deadline& deadline) {
   skim(deadline);
-  open_purse();
+  open_budget();
   settle(deadline, 0);
   if (!is_worth_it()) return;
-  open_purse();
+  open_budget();
   blow_up(deadline);
 }
 
-void Reducer::open_purse() {
+void Reducer::open_budget() {
   const std::int32_t alive = graph_.alive_count();
   double degrees = 0;
   for (std::int32_t v = 0; v < graph_.vertex_count(); ++v)
@@ -104,19 +104,19 @@ void Reducer::open_purse() {
   const double degree = degrees / std::max(1, alive);
   const bool sparse = degree <= sparse_degree, small = alive <= small_count && degree <= small_degree;
   const double first = small ? first_in_small : sparse ? first_in_sparse : first_in_dense;
-  purse_ = {first, first, small || sparse ? pay_in_sparse : pay_in_dense, alive, work_};
+  budget_ = {first, first, small || sparse ? pay_in_sparse : pay_in_dense, alive, work_};
 }
 
 // Without a budget, everything is worth it. The outcome of a try is not known before its end.
 bool Reducer::is_worth_it() {
-  if (!purse_) return true;
+  if (!budget_) return true;
   if (!trying_) {
-    const double earned = purse_->pay * (purse_->alive - graph_.alive_count());
-    purse_->left = std::min(purse_->most, purse_->left + earned) - (work_ - purse_->work);
-    purse_->alive = graph_.alive_count();
-    purse_->work = work_;
+    const double earned = budget_->pay * (budget_->alive - graph_.alive_count());
+    budget_->left = std::min(budget_->most, budget_->left + earned) - (work_ - budget_->work);
+    budget_->alive = graph_.alive_count();
+    budget_->work = work_;
   }
-  return purse_->left > 0;
+  return budget_->left > 0;
 }
 
 void Reducer::skim(const Deadline& deadline) {

@@ -55,7 +55,7 @@ class Reducer {
   };
 
   // The work that reductions may still spend. Each vertex that they decide adds to it.
-  struct Purse {
+  struct WorkBudget {
     double left, most, pay;
     std::int32_t alive;  // when pay was last added
     double work;
@@ -72,7 +72,7 @@ class Reducer {
   void take_back(std::size_t decided, std::int64_t offset);
   void estimate(std::int32_t v, std::int32_t growth);
 
-  void open_purse();
+  void open_budget();
   bool is_worth_it();
 
   void decide(std::int32_t v);
@@ -97,7 +97,7 @@ class Reducer {
   std::int64_t offset_ = 0;
   Queue queue_, set_queue_;
   double work_ = 0;  // roughly in nanoseconds, but the same on every machine
-  std::optional<Purse> purse_;
+  std::optional<WorkBudget> budget_;
 
   // How many vertices a fold of the vertex would add, if that is known. The queue has the fewest first; some of its
   // entries are outdated.

@@ -6,25 +6,25 @@
 
 #include "common/mwis/exact/exact_solver.hpp"
 #include "common/mwis/local_search/annealing.hpp"
-#include "common/mwis/local_search/effort.hpp"
 #include "common/mwis/local_search/fragment.hpp"
+#include "common/mwis/local_search/operator_selection.hpp"
 
 namespace hexpipe::mwis::local_search {
 
 // Reuses its memory for the next fragment.
-class Repair {
+class FragmentSolver {
  public:
   // Comes first, because the operator decides how large the fragment may be.
-  void begin(Way way) { way_ = way; }
-  Way way() const { return way_; }
+  void begin(Operator op) { operator_ = op; }
+  Operator used_operator() const { return operator_; }
   Fragment& fragment() { return fragment_; }
   const Fragment& fragment() const { return fragment_; }
 
   // Copies the graph of the fragment; solve needs nothing else afterwards.
   void extract(FragmentGrower& grower);
-  // `effort` is the greatest number of branch-and-bound nodes for the exact operator, and the number of kicks per
+  // `budget` is the greatest number of branch-and-bound nodes for the exact operator, and the number of kicks per
   // vertex for the others. `usual`: temperatures that suit the whole graph.
-  void solve(std::int64_t effort, Random random, const Deadline& deadline, const Cooling& usual = {});
+  void solve(std::int64_t budget, Random random, const Deadline& deadline, const Cooling& usual = {});
 
   // After solve: by place in fragment().vertices, a set that is not lighter.
   bool chooses(std::size_t i) const { return bits::test(chosen_.data(), i); }
@@ -43,7 +43,7 @@ class Repair {
                              const Deadline& deadline);
   void choose(const graph::IndependentSet& set);
 
-  Way way_ = Way::exact;
+  Operator operator_ = Operator::exact;
   Fragment fragment_;
   std::vector<bits::Word> chosen_;
   bool complete_ = false;
