@@ -61,7 +61,6 @@ class CellSearch {
   template <std::size_t step>
   static constexpr const SearchStep& plan = search_plan<Topology>[step];
   static constexpr std::uint8_t first = first_corner<Topology>;
-  static constexpr int no_quad = -1;
   static constexpr bool is_at_first(const OpenQuad& quad) { return quad.corner == first; }
 
   template <std::size_t step>
@@ -93,7 +92,7 @@ class CellSearch {
   }
 
   // Calls body(vertex, quad) for each vertex that may become the new corner. `quad` is the quad that the vertex came
-  // from and that it closes, or no_quad. Every edge of a cell is a side of one of its facets, so rule 1 follows from
+  // from and that it closes, or no_index. Every edge of a cell is a side of one of its facets, so rule 1 follows from
   // rule 2 and from the facets.
   template <std::size_t step, class Body>
   void for_each_choice(Body&& body) {
@@ -120,14 +119,14 @@ class CellSearch {
       for (std::size_t word = 0; word < fan_->word_count(); ++word)
         for (std::uint64_t bits = choosable_neighbours<step>(word); bits != 0; bits &= bits - 1) {
           places_[corner] = fan_->first_place() + static_cast<int>(64 * word) + std::countr_zero(bits);
-          body(neighbours[places_[corner]], no_quad);
+          body(neighbours[places_[corner]], no_index);
         }
     } else {
       static_assert(plan<step>.is_beside_first);
       const auto neighbours = tables_.links().neighbours_of(corners_[first]);
       for (std::size_t place = exceeds<step>(first) ? fan_->first_place() : 0; place < neighbours.size(); ++place) {
         places_[corner] = static_cast<int>(place);
-        body(neighbours[place], no_quad);
+        body(neighbours[place], no_index);
       }
     }
   }

@@ -66,7 +66,7 @@ TetVerdict CellTets<Topology>::find(const CellCorners& corners, Diagonals of_fir
   star_.move_to(corners[0]);
   for (int c = 0; c < Topology::corner_count; ++c) marks_.corner_bits[corners[c]] = static_cast<std::uint8_t>(bit(c));
   TetVerdict verdict = TetVerdict::no_interior;
-  for (const std::int32_t start : starts(of_first_quad)) {
+  for (const TetIndex start : starts(of_first_quad)) {
     verdict = find_from(start);
     if (verdict == TetVerdict::accepted) break;
   }
@@ -81,8 +81,8 @@ template <class Topology>
 auto CellTets<Topology>::starts(Diagonals of_first_quad) const -> Starts {
   auto inside = [&](int a, int b, int c) { return star_.tet_inside(corners_[a], corners_[b], corners_[c]); };
   Starts all;
-  auto add = [&](std::int32_t tet) {
-    if (tet != TetAdjacency::none && std::find(all.begin(), all.end(), tet) == all.end()) all.push_back(tet);
+  auto add = [&](TetIndex tet) {
+    if (tet != no_index && std::find(all.begin(), all.end(), tet) == all.end()) all.push_back(tet);
   };
   if constexpr (Topology::triangles.size() > 0) {
     const LocalTriangle& t = Topology::triangles[0];
@@ -96,9 +96,9 @@ auto CellTets<Topology>::starts(Diagonals of_first_quad) const -> Starts {
     return all;
   }
   for (const LocalQuad& q : Topology::quads)
-    for (const std::int32_t tet :
+    for (const TetIndex tet :
          {inside(q[0], q[1], q[2]), inside(q[0], q[2], q[3]), inside(q[0], q[1], q[3]), inside(q[1], q[2], q[3])}) {
-      if (tet == TetAdjacency::none) continue;
+      if (tet == no_index) continue;
       const auto b = corner_bits(tables_.flood_tet(tet).vertices);
       if ((b[0] | b[1] | b[2] | b[3]) != bits(q)) add(tet);
     }
@@ -122,20 +122,19 @@ std::array<unsigned, 4> CellTets<Topology>::corner_bits(const Tet& tet) const {
 // The vertex of the tet beyond that is not on the facet. XOR over the eight vertices of both tets cancels those of the
 // facet, which occur twice, and the one opposite.
 template <class Topology>
-Vertex CellTets<Topology>::apex_beyond(TetFacet facet, std::int32_t beyond) const {
-  const Tet &a = tables_.flood_tet(static_cast<std::int32_t>(facet / 4)).vertices,
-            &b = tables_.flood_tet(beyond).vertices;
-  return a[0] ^ a[1] ^ a[2] ^ a[3] ^ a[facet % 4] ^ b[0] ^ b[1] ^ b[2] ^ b[3];
+Vertex CellTets<Topology>::apex_beyond(TetFacet facet, TetIndex beyond) const {
+  const Tet &a = tables_.flood_tet(facet.tet).vertices, &b = tables_.flood_tet(beyond).vertices;
+  return a[0] ^ a[1] ^ a[2] ^ a[3] ^ a[facet.facet] ^ b[0] ^ b[1] ^ b[2] ^ b[3];
 }
 
 template <class Topology>
-TetVerdict CellTets<Topology>::find_from(std::int32_t start) {
+TetVerdict CellTets<Topology>::find_from(TetIndex start) {
   interior_.clear();
   const TetVerdict verdict = judge_from(start);
-  for (const std::int32_t tet : interior_) marks_.interior[tet] = CellMarks::Interior::no;
+  for (const TetIndex tet : interior_) marks_.interior[tet] = CellMarks::Interior::no;
   if (verdict == TetVerdict::accepted) {
-    for (std::int32_t& tet : interior_) tet = tables_.number_in_mesh(tet);
-    for (std::int32_t& tet : boundary_) tet = tables_.number_in_mesh(tet);
+    for (TetIndex& tet : interior_) tet = tables_.number_in_mesh(tet);
+    for (TetIndex& tet : boundary_) tet = tables_.number_in_mesh(tet);
     interior_.sort();
     boundary_.sort();
   }
@@ -143,7 +142,7 @@ TetVerdict CellTets<Topology>::find_from(std::int32_t start) {
 }
 
 template <class Topology>
-TetVerdict CellTets<Topology>::judge_from(std::int32_t start) {
+TetVerdict CellTets<Topology>::judge_from(TetIndex start) {
   TetVerdict verdict = flood_from(start);
   if (verdict == TetVerdict::accepted) verdict = judge_walls();
   boundary_.clear();
@@ -158,7 +157,7 @@ TetVerdict CellTets<Topology>::judge_from(std::int32_t start) {
 
 // Rule 5.
 template <class Topology>
-TetVerdict CellTets<Topology>::flood_from(std::int32_t start) {
+TetVerdict CellTets<Topology>::flood_from(TetIndex start) {
   outer_ = inner_ = 0;
   has_inner_vertex_ = false;
   add_interior(start);
@@ -169,7 +168,7 @@ TetVerdict CellTets<Topology>::flood_from(std::int32_t start) {
 }
 
 template <class Topology>
-inline void CellTets<Topology>::add_interior(std::int32_t tet) {
+inline void CellTets<Topology>::add_interior(TetIndex tet) {
   interior_.push_back_if(marks_.interior[tet] == CellMarks::Interior::no, tet);
   marks_.interior[tet] = CellMarks::Interior::yes;
 }
@@ -177,7 +176,7 @@ inline void CellTets<Topology>::add_interior(std::int32_t tet) {
 // Crosses the facets of an interior tet that are not on the cell's surface. For a facet that is not crossed, the tet
 // itself stands in.
 template <class Topology>
-inline TetVerdict CellTets<Topology>::leave(std::int32_t tet) {
+inline TetVerdict CellTets<Topology>::leave(TetIndex tet) {
   const MeshTables::FloodTet& at = tables_.flood_tet(tet);
   const auto b = corner_bits(at.vertices);
   const unsigned all = b[0] | b[1] | b[2] | b[3];
@@ -186,15 +185,15 @@ inline TetVerdict CellTets<Topology>::leave(std::int32_t tet) {
   for (int facet = 0; facet < 4; ++facet) {
     has_inner_vertex_ |= b[facet] == 0;
     const std::size_t triangle = triangle_of_corners<Topology>[all & ~b[facet]];
-    walls_[triangle] = 4 * TetFacet{tet} + facet;
+    walls_[triangle] = {tet, facet};
     const std::uint32_t wall = 1u << triangle;
     inner_ |= outer_ & wall;
     outer_ ^= wall;
-    next[facet] = triangle == triangle_count ? at.across[facet] : tet;
+    next[facet] = triangle == triangle_count ? at.across[facet].code : tet;
     any_next |= next[facet];
   }
   if (any_next < 0) return stop_at(next);
-  for (const std::int32_t beyond : next) add_interior(beyond);
+  for (const TetIndex beyond : next) add_interior(beyond);
   return interior_.size() > most_tets<Topology> ? TetVerdict::tet_count : TetVerdict::accepted;
 }
 
@@ -222,15 +221,15 @@ TetVerdict CellTets<Topology>::judge_quad(std::size_t quad) {
   const LocalQuad& q = Topology::quads[quad];
   const std::size_t left_out = (outer_ >> 4 * quad & 1) != 0 ? 0 : 1;
   std::array<TetFacet, 2> outermost{walls_[4 * quad + left_out], walls_[4 * quad + left_out + 2]};
-  std::array<std::int32_t, 2> beyond{across(outermost[0]), across(outermost[1])};
+  std::array<Beyond, 2> beyond{across(outermost[0]), across(outermost[1])};
   const auto labels_differ = [&] { return tables_.facet_label(beyond[0]) != tables_.facet_label(beyond[1]); };
   if (labels_differ()) return TetVerdict::half_on_surface;
   unsigned diagonal = bit(q[1 - left_out]) | bit(q[3 - left_out]);
   const auto is_at_sharp_edge = [&] {
     return !rules_.sharp_edges && tables_.facet_label(beyond[0]) != 0 && is_over_sharp_edge(q, diagonal);
   };
-  const std::int32_t sliver = tables_.usable_beyond(beyond[0]);
-  if (sliver == TetAdjacency::none) return is_at_sharp_edge() ? TetVerdict::sharp_edge : TetVerdict::accepted;
+  const TetIndex sliver = tables_.usable_beyond(beyond[0]);
+  if (sliver == no_index) return is_at_sharp_edge() ? TetVerdict::sharp_edge : TetVerdict::accepted;
   // A tet at both triangles has all four corners of the quad.
   if (sliver == tables_.usable_beyond(beyond[1])) {
     if (tables_.facet_label(beyond[0]) != 0) return TetVerdict::crosses_mesh;
@@ -240,7 +239,7 @@ TetVerdict CellTets<Topology>::judge_quad(std::size_t quad) {
     const auto b = corner_bits(tables_.flood_tet(sliver).vertices);
     std::size_t next = 0;
     for (int facet = 0; facet < 4; ++facet)
-      if ((b[facet] & diagonal) != 0) outermost[next++] = 4 * TetFacet{sliver} + facet;
+      if ((b[facet] & diagonal) != 0) outermost[next++] = {sliver, facet};
     diagonal = bits(q) & ~diagonal;
     beyond = {across(outermost[0]), across(outermost[1])};
     if (labels_differ()) return TetVerdict::half_on_surface;
@@ -263,11 +262,11 @@ bool CellTets<Topology>::is_over_sharp_edge(const LocalQuad& quad, unsigned diag
 template <class Topology>
 bool CellTets<Topology>::has_flat_corner(const LocalQuad& quad, unsigned diagonal,
                                          const std::array<TetFacet, 2>& outermost) const {
-  std::array<std::int32_t, 2> beyond{};
+  std::array<TetIndex, 2> beyond{};
   std::array<Vertex, 2> apex{};
   for (std::size_t i = 0; i < 2; ++i) {
     beyond[i] = tables_.usable_beyond(across(outermost[i]));
-    if (beyond[i] == TetAdjacency::none) return false;
+    if (beyond[i] == no_index) return false;
     apex[i] = apex_beyond(outermost[i], beyond[i]);
   }
   if (apex[0] != apex[1]) return false;
@@ -277,7 +276,7 @@ bool CellTets<Topology>::has_flat_corner(const LocalQuad& quad, unsigned diagona
     if ((bit(quad[i]) & diagonal) == 0) continue;
     // In both tets, the facet opposite the other end of the diagonal contains this corner and the apex.
     const Vertex other_end = corners_[quad[(i + 2) % 4]];
-    const bool on_surface = std::ranges::all_of(beyond, [&](std::int32_t t) {
+    const bool on_surface = std::ranges::all_of(beyond, [&](TetIndex t) {
       const auto& [vertices, across] = tables_.flood_tet(t);
       return tables_.facet_label(across[std::find(vertices.begin(), vertices.end(), other_end) - vertices.begin()]) !=
              0;

@@ -66,8 +66,8 @@ class FewTets {
     tets_.fill(unused);
     size_ = 0;
   }
-  void push_back(std::int32_t tet) { tets_[size_++] = tet; }
-  void push_back_if(bool is_kept, std::int32_t tet) {
+  void push_back(TetIndex tet) { tets_[size_++] = tet; }
+  void push_back_if(bool is_kept, TetIndex tet) {
     tets_[size_] = tet;
     size_ += is_kept ? 1 : 0;
   }
@@ -119,8 +119,8 @@ class CellTets {
   TetVerdict find(const CellCorners& corners, Diagonals of_first_quad);
 
   // The tets of an accepted cell, by their numbers in the mesh, ascending.
-  std::span<const std::int32_t> interior() const { return {interior_.begin(), interior_.end()}; }
-  std::span<const std::int32_t> boundary() const { return {boundary_.begin(), boundary_.end()}; }
+  std::span<const TetIndex> interior() const { return {interior_.begin(), interior_.end()}; }
+  std::span<const TetIndex> boundary() const { return {boundary_.begin(), boundary_.end()}; }
 
  private:
   static constexpr std::size_t quad_count = Topology::quads.size();
@@ -128,23 +128,23 @@ class CellTets {
   // Triangles with three corners of a facet of the cell: four on each quad, one on each triangle.
   static constexpr std::size_t triangle_count = 4 * quad_count + Topology::triangles.size();
 
-  // A facet of a tet: 4 times the tet plus the number of the facet.
-  using TetFacet = std::int64_t;
+  struct TetFacet {
+    TetIndex tet;
+    std::int32_t facet;
+  };
   using Starts = FewTets<4 * quad_count>;
 
   Starts starts(Diagonals of_first_quad) const;
   Diagonals diagonals_of(const LocalQuad& quad) const;
   std::array<unsigned, 4> corner_bits(const Tet& tet) const;
-  std::int32_t across(TetFacet facet) const {
-    return tables_.flood_tet(static_cast<std::int32_t>(facet / 4)).across[facet % 4];
-  }
-  Vertex apex_beyond(TetFacet facet, std::int32_t beyond) const;
-  TetVerdict find_from(std::int32_t start);
-  TetVerdict judge_from(std::int32_t start);
-  TetVerdict flood_from(std::int32_t start);
-  TetVerdict leave(std::int32_t tet);
+  Beyond across(TetFacet at) const { return tables_.flood_tet(at.tet).across[at.facet]; }
+  Vertex apex_beyond(TetFacet facet, TetIndex beyond) const;
+  TetVerdict find_from(TetIndex start);
+  TetVerdict judge_from(TetIndex start);
+  TetVerdict flood_from(TetIndex start);
+  TetVerdict leave(TetIndex tet);
   TetVerdict stop_at(const std::array<std::int32_t, 4>& next);
-  void add_interior(std::int32_t tet);
+  void add_interior(TetIndex tet);
   TetVerdict judge_walls() const;
   TetVerdict judge_quad(std::size_t quad);
   bool is_over_sharp_edge(const LocalQuad& quad, unsigned diagonal) const;

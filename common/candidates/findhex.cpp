@@ -78,7 +78,7 @@ class CandidateCollector {
   void keep(const CellCorners& corners, double quality, double volume) {
     Candidates& c = found_.candidates;
     std::array<Vertex, 8>& row = c.vertices.emplace_back();
-    row.fill(-1);
+    row.fill(no_index);
     std::copy(corners.begin(), corners.end(), row.begin());
     c.kind.push_back(Topology::kind);
     c.quality.push_back(quality);

@@ -8,6 +8,7 @@
 #include "common/candidates/cell_tets.hpp"
 #include "common/candidates/mesh_tables.hpp"
 #include "common/mesh/candidates.hpp"
+#include "common/mesh/quality.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "common/run/part.hpp"
 
@@ -17,7 +18,7 @@ enum class CandidateQuality { corner, element };
 
 struct FindhexOptions {
   std::vector<CellKind> kinds{CellKind::hex};  // found one kind after another, in this order
-  double min_quality = 0.3;                    // each corner has to exceed this
+  double min_quality = least_hex_quality;      // each corner has to exceed this
   CandidateQuality quality = CandidateQuality::element;
   bool drop_folded_quads = true;  // rule 8
   CellTetRules tet_rules{};

@@ -71,9 +71,8 @@ bool QuadAngle::has_opposite_among_many(const VertexLinks& links) const {
 }
 
 bool QuadAngle::has_opposite_among_many(const VertexLinks& links, Vertex opposite) const {
-  if (const int place = links.place_of(opposite, corner_); place != VertexLinks::none &&
-                                                           links.are_linked(corner_, place_, place) &&
-                                                           links.are_linked(corner_, other_place_, place))
+  if (const int place = links.place_of(opposite, corner_);
+      place != no_index && links.are_linked(corner_, place_, place) && links.are_linked(corner_, other_place_, place))
     return true;
   return sides_are_linked_ && links.is_facet(side_, other_side_, opposite);
 }
@@ -144,7 +143,7 @@ void QuadFan::find(Vertex first) {
   quads_.clear();
   pairs_.clear();
   outer_edges_.clear();
-  slots_.assign(least_slots, none);
+  slots_.assign(least_slots, no_index);
   are_all_judged_ = true;
   measure_spokes();
   const int count = static_cast<int>(links_.neighbours_of(first).size());
@@ -196,7 +195,7 @@ void QuadFan::find_between(int place, int other_place) {
 void QuadFan::table_pairs() {
   const std::size_t count = spokes_.size(), words = word_count();
   partner_bits_.assign(count * words, 0);
-  if (count <= most_tabled) pair_of_spokes_.assign(count * count, none);
+  if (count <= most_tabled) pair_of_spokes_.assign(count * count, no_index);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const std::size_t a = pairs_[i].places[0] - first_place_, b = pairs_[i].places[1] - first_place_;
     partner_bits_[a * words + b / 64] |= std::uint64_t{1} << b % 64;
@@ -230,7 +229,7 @@ std::size_t QuadFan::first_slot(int place, Vertex end) const {
 std::int32_t QuadFan::outer_edge(int place, Vertex end) {
   const int spoke = place - first_place_;
   std::size_t slot = first_slot(spoke, end);
-  for (; slots_[slot] != none; slot = (slot + 1) & (slots_.size() - 1)) {
+  for (; slots_[slot] != no_index; slot = (slot + 1) & (slots_.size() - 1)) {
     const OuterEdge& edge = outer_edges_[slots_[slot]];
     if (edge.spoke == spoke && edge.end == end) return slots_[slot];
   }
@@ -247,7 +246,7 @@ std::int32_t QuadFan::outer_edge(int place, Vertex end) {
 // Numbers an outer edge that is in a quad.
 void QuadFan::number_outer_edge(std::int32_t outer_edge) {
   OuterEdge& edge = outer_edges_[outer_edge];
-  if (edge.number != none) return;
+  if (edge.number != no_index) return;
   Spoke& spoke = spokes_[edge.spoke];
   edge.place = links_.place_of(edge.end, links_.neighbours_of(first_)[edge.spoke + first_place_]);
   edge.number = spoke.count++;
@@ -255,17 +254,17 @@ void QuadFan::number_outer_edge(std::int32_t outer_edge) {
 }
 
 void QuadFan::widen_slots() {
-  slots_.assign(2 * slots_.size(), none);
+  slots_.assign(2 * slots_.size(), no_index);
   for (std::size_t i = 0; i < outer_edges_.size(); ++i) {
     std::size_t slot = first_slot(outer_edges_[i].spoke, outer_edges_[i].end);
-    while (slots_[slot] != none) slot = (slot + 1) & (slots_.size() - 1);
+    while (slots_[slot] != no_index) slot = (slot + 1) & (slots_.size() - 1);
     slots_[slot] = static_cast<std::int32_t>(i);
   }
 }
 
 void QuadFan::judge_corners_at(const Spoke& spoke) {
   at_spoke_.clear();
-  for (std::int32_t i = spoke.last; i != none; i = outer_edges_[i].before) at_spoke_.push_back(i);
+  for (std::int32_t i = spoke.last; i != no_index; i = outer_edges_[i].before) at_spoke_.push_back(i);
   if (spoke.count > most_numbered) {
     are_all_judged_ = false;
     for (const std::int32_t i : at_spoke_) {

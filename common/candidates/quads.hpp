@@ -54,7 +54,7 @@ class QuadAngle {
     const auto is_linked = [&](std::uint64_t linked, Vertex v) {
       if (linked == 0) return false;
       const int place = links.place_of(opposite, v);
-      return place != VertexLinks::none && (linked >> place & 1) != 0;
+      return place != no_index && (linked >> place & 1) != 0;
     };
     return is_linked(along_, corner_) || is_linked(between_, side_);
   }
@@ -154,7 +154,7 @@ class QuadFan {
     if (spokes_.size() > most_tabled) return find_pair_among_many(place, other_place);
     const std::size_t spoke = place - first_place_, other_spoke = other_place - first_place_;
     const std::int32_t pair = pair_of_spokes_[spoke * spokes_.size() + other_spoke];
-    return pair == none ? nullptr : &pairs_[pair];
+    return pair == no_index ? nullptr : &pairs_[pair];
   }
   // The quads of a pair, by ascending opposite vertex.
   std::span<const Quad> quads_of(const Pair& pair) const {
@@ -187,7 +187,6 @@ class QuadFan {
   }
 
  private:
-  static constexpr std::int32_t none = -1;
   static constexpr std::size_t least_slots = 512;
   static constexpr int most_numbered = 64;
   static constexpr std::size_t most_tabled = 64;
@@ -195,7 +194,7 @@ class QuadFan {
   struct Spoke {
     Vec3 vector;
     double square;  // of its length
-    std::int32_t last = none;
+    std::int32_t last = no_index;
     int count = 0;
   };
   struct OuterEdge {
@@ -203,9 +202,9 @@ class QuadFan {
     double square;
     Vertex end;
     int spoke;
-    bool angle_suffices;              // with the spoke
-    int place = none, number = none;  // at the near end; among the spoke's outer edges that are in quads
-    std::int32_t before = none;       // the spoke's outer edge with the previous number
+    bool angle_suffices;                      // with the spoke
+    int place = no_index, number = no_index;  // at the near end; among the spoke's outer edges that are in quads
+    std::int32_t before = no_index;           // the spoke's outer edge with the previous number
     // Bits by number: the other edges that make a sufficient corner when the other one is next, or before. If the spoke
     // has more edges than bits, all are set, and the edges' numbers are most_numbered.
     std::uint64_t suffices_before = 0, suffices_after = 0;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "common/mesh/cell_topology.hpp"
+#include "common/mesh/tet_mesh.hpp"
 
 namespace hexpipe::candidates {
 
@@ -24,7 +25,7 @@ struct RotationGroup {
 namespace rotation_details {
 
 // Lays facet `from` onto facet `to`, turned so that its corner 0 comes to `shift`, and fills in the corners that `map`
-// leaves open (-1). False if this contradicts the map.
+// leaves open (no_index). False if this contradicts the map.
 template <std::size_t Size, class Map>
 constexpr bool lay_on(const std::array<std::uint8_t, Size>& from, const std::array<std::uint8_t, Size>& to,
                       std::size_t shift, Map& map) {
@@ -34,7 +35,7 @@ constexpr bool lay_on(const std::array<std::uint8_t, Size>& from, const std::arr
     const int image = to[(i + shift) % Size];
     if (map[from[i]] == image)
       ++known;
-    else if (map[from[i]] == -1)
+    else if (map[from[i]] == no_index)
       filled[from[i]] = image;
     else
       return false;
@@ -67,7 +68,7 @@ constexpr auto rotations_of() {
   for (const LocalCorner& corner : Topology::corners)
     for (std::size_t shift = 0; shift < 3; ++shift) {
       Rotation<Topology> map{};
-      map.fill(-1);
+      map.fill(no_index);
       map[first[0]] = corner[0];
       for (std::size_t i = 0; i < 3; ++i) map[first[1 + i]] = corner[1 + (i + shift) % 3];
       // The first round may meet a quad before its corners are known; the second round completes the map.

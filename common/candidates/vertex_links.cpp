@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "common/run/huge_pages.hpp"
+#include "common/run/memory.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe::candidates {
@@ -101,7 +101,7 @@ std::vector<std::int32_t> VertexLinks::wide_within_two_links(Vertex v, int i, in
 
 int VertexLinks::place_among_many(Vertex w, std::span<const Vertex> neighbours) {
   const auto at = std::lower_bound(neighbours.begin(), neighbours.end(), w);
-  return at != neighbours.end() && *at == w ? static_cast<int>(at - neighbours.begin()) : none;
+  return at != neighbours.end() && *at == w ? static_cast<int>(at - neighbours.begin()) : no_index;
 }
 
 bool VertexLinks::are_linked_among_many(Vertex v, int i, int j) const {
@@ -111,7 +111,7 @@ bool VertexLinks::are_linked_among_many(Vertex v, int i, int j) const {
 
 bool VertexLinks::is_facet(Vertex a, Vertex b, Vertex c) const {
   const int i = place_of(b, a), j = place_of(c, a);
-  return i != none && j != none && are_linked(a, i, j);
+  return i != no_index && j != no_index && are_linked(a, i, j);
 }
 
 }  // namespace hexpipe::candidates

@@ -16,20 +16,18 @@ namespace hexpipe::candidates {
 
 class VertexLinks {
  public:
-  static constexpr int none = -1;
-
   // Links the facets of the tets with usable[t]. `adjacency` is that of the mesh, and must outlive this object.
   VertexLinks(const TetMesh& mesh, const TetAdjacency& adjacency, const std::vector<bool>& usable);
 
   std::span<const Vertex> neighbours_of(Vertex v) const { return adjacency_.neighbours_of(v); }
-  // The place of w among the neighbours of v, or none.
+  // The place of w among the neighbours of v, or no_index.
   int place_of(Vertex w, Vertex v) const {
     const auto neighbours = neighbours_of(v);
     if (!is_narrow(v)) return place_among_many(w, neighbours);
     const std::int64_t begin = slot_offsets_[v], mask = slot_offsets_[v + 1] - begin - 1;
     for (std::int64_t slot = first_slot(w) & mask;; slot = (slot + 1) & mask) {
       const std::uint8_t place = slots_[begin + slot];
-      if (place == no_place) return none;
+      if (place == no_place) return no_index;
       if (neighbours[place] == w) return place;
     }
   }

@@ -1,4 +1,4 @@
-#include "common/conflicts/conflict_rules.hpp"
+#include "common/conflicts/conflicts.hpp"
 
 #include <array>
 #include <cstdint>

@@ -11,8 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/conflicts/conflict_rules.hpp"
-
 namespace hexpipe::conflicts {
 namespace {
 

@@ -1,4 +1,4 @@
-#include "common/conflicts/dense_ids.hpp"
+#include "common/conflicts/conflicts.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -8,12 +8,10 @@
 #include <vector>
 
 #include "common/conflicts/conflicts.hpp"
-#include "common/conflicts/dense_ids.hpp"
 #include "common/conflicts/packed_lists.hpp"
 #include "common/conflicts/sorted_set.hpp"
 #include "common/run/error.hpp"
-#include "common/run/freed_memory.hpp"
-#include "common/run/huge_pages.hpp"
+#include "common/run/memory.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe::conflicts {

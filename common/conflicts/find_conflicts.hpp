@@ -1,14 +1,21 @@
 #pragma once
-// Finds the conflict graph of candidates: docs/definitions.md 2.
+// Finds the conflict graph of candidates, and weighs them: docs/definitions.md 2.
 
+#include <cstdint>
 #include <vector>
 
-#include "common/conflicts/weights.hpp"
 #include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
 #include "common/run/part.hpp"
 
 namespace hexpipe::conflicts {
+
+// How the weight of a candidate, an integer, is computed.
+enum class WeightKind { quality, volume, count, quality_volume };
+
+// Returns round(scale * w), at least 0. Throws DataError naming `source` when a quality or volume is negative, or the
+// sum does not fit 64 bits.
+std::vector<std::int64_t> weights_of(const Candidates& candidates, WeightKind kind, double scale, const char* source);
 
 struct ConflictOptions {
   WeightKind weight = WeightKind::quality;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "common/run/huge_pages.hpp"
+#include "common/run/memory.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe::conflicts {
@@ -50,10 +50,10 @@ std::size_t most_pairs(const Candidates& candidates) {
 // appearance.
 class SegmentMaker {
  public:
-  explicit SegmentMaker(std::size_t vertex_count) : number_of_(vertex_count, none) {}
+  explicit SegmentMaker(std::size_t vertex_count) : number_of_(vertex_count, no_index) {}
 
   std::int32_t number(Vertex high) {
-    if (number_of_[high] == none) {
+    if (number_of_[high] == no_index) {
       number_of_[high] = static_cast<std::int32_t>(segments_.size());
       segments_.push_back({high, {0, 0}, 0});
     }
@@ -68,12 +68,11 @@ class SegmentMaker {
   std::vector<Segment>& segments() { return segments_; }
 
   void clear() {
-    for (const Segment& segment : segments_) number_of_[segment.high] = none;
+    for (const Segment& segment : segments_) number_of_[segment.high] = no_index;
     segments_.clear();
   }
 
  private:
-  static constexpr std::int32_t none = -1;
   std::vector<std::int32_t> number_of_;  // by higher vertex
   std::vector<Segment> segments_;
 };

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "common/run/huge_pages.hpp"
+#include "common/run/memory.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe::conflicts {

@@ -202,7 +202,7 @@ void validate(const CliqueCover& cover, const ConflictGraph& graph, const char* 
   check_cliques(cover, graph.vertex_count(), source);
   const auto [offsets, cliques] = cliques_of_vertices(cover, graph.weights.size());
   // For each vertex, the vertex at which it was last seen: as a neighbour (`beside`) and in a clique (`together`).
-  std::vector<std::int32_t> beside(graph.weights.size(), -1), together(graph.weights.size(), -1);
+  std::vector<std::int32_t> beside(graph.weights.size(), no_index), together(graph.weights.size(), no_index);
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
     for (const std::int32_t u : graph.neighbours_of(v)) beside[u] = v;
     std::int64_t found = 0;

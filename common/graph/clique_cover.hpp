@@ -7,6 +7,10 @@
 
 #include "common/graph/conflict_graph.hpp"
 
+namespace hexpipe {
+struct Candidates;
+}
+
 namespace hexpipe::graph {
 
 struct CliqueCover {
@@ -33,6 +37,11 @@ CliqueCover greedy_edge_clique_cover(const ConflictGraph& graph, const CliqueCov
 // Grows each of `cliques` until it is maximal, unless the cliques before it already have all its edges. Those that are
 // no cliques of the graph are left out. Most edges may be in none of the results.
 CliqueCover maximal_cliques(const ConflictGraph& graph, const CliqueCover& cliques);
+
+// One clique for each tet that several candidates have, in the order of the tets. These cliques have a third of the
+// edges of a conflict graph. Made maximal, by candidates that conflict with all members at an edge or a facet, they
+// have more than half.
+CliqueCover cliques_of_tets(const Candidates& candidates);
 
 // Throws DataError naming `source` when offsets do not ascend, members are out of range, unsorted or repeated, two
 // members of a clique are not joined by an edge, or an edge is in no clique. O(edges + pairs in cliques).

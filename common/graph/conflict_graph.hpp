@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "common/mesh/tet_mesh.hpp"
+
 namespace hexpipe::graph {
 
 struct ConflictGraph {
@@ -44,5 +46,11 @@ void validate(const ConflictGraph& graph, const char* source);
 void validate(const IndependentSet& set, const ConflictGraph& graph, const char* source);
 
 std::int64_t total_weight(const IndependentSet& set, const ConflictGraph& graph);
+
+// The subgraph that `vertices` induce. They ascend, and are renumbered in this order.
+ConflictGraph induced_subgraph(const ConflictGraph& graph, std::span<const std::int32_t> vertices);
+
+// The vertices of each connected component, ascending; the smallest component first.
+std::vector<std::vector<std::int32_t>> connected_components(const ConflictGraph& graph);
 
 }  // namespace hexpipe::graph

@@ -1,4 +1,4 @@
-#include "common/graph/tet_cliques.hpp"
+#include "common/graph/clique_cover.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -7,7 +7,7 @@
 
 #include "common/mesh/cell_topology.hpp"
 #include "common/run/error.hpp"
-#include "common/run/huge_pages.hpp"
+#include "common/run/memory.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe {
@@ -79,7 +79,7 @@ std::vector<std::int32_t> match_facets(const TetMesh& mesh, const char* source, 
         tets[1] + 1, tets[2] + 1, lowest + 1, (others >> 32) + 1, (others & 0xffffffff) + 1);
   };
   std::vector<std::int32_t> across;
-  resize_in_huge_pages(across, 4 * mesh.tets.size(), TetAdjacency::none);
+  resize_in_huge_pages(across, 4 * mesh.tets.size(), no_index);
   parallel_for(static_cast<std::int64_t>(mesh.points.size()), 1024, [&](std::int64_t v) {
     const auto begin = filed.begin() + offsets[v], end = filed.begin() + offsets[v + 1];
     std::sort(begin, end, [](const FiledFacet& a, const FiledFacet& b) {
@@ -127,7 +127,7 @@ void TetAdjacency::find_neighbours(const TetMesh& mesh) {
   // The boundary adds little.
   reserve_in_huge_pages(neighbours_, 2 * (vertex_count + mesh.tets.size()));
   PerThread<std::vector<Vertex>> seen_from(
-      std::vector<Vertex>(vertex_count, none));  // by vertex: the last vertex that saw it
+      std::vector<Vertex>(vertex_count, no_index));  // by vertex: the last vertex that saw it
   parallel_in_order(
       static_cast<std::int64_t>(vertex_count), 1024,
       [&](std::int64_t begin, std::int64_t end) {
@@ -171,7 +171,7 @@ std::size_t add_missing_boundary_triangles(TetMesh& mesh, const TetAdjacency& ad
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
     for (int facet = 0; facet < 4; ++facet) {
       const std::int32_t beyond = adjacency.tet_beyond(static_cast<std::int32_t>(t), facet);
-      const bool boundary = beyond == TetAdjacency::none;
+      const bool boundary = beyond == no_index;
       const bool interface =
           !boundary && static_cast<std::size_t>(beyond) > t && mesh.tet_tags[beyond] != mesh.tet_tags[t];
       if (!boundary && !interface) continue;

@@ -12,23 +12,23 @@ namespace hexpipe {
 // Facet i of a tet is opposite its corner i (TetTopology::triangles).
 class TetAdjacency {
  public:
-  static constexpr std::int32_t none = -1;
+  static constexpr std::int32_t none = no_index;  // the older name
 
   // Throws DataError naming `source` when a facet belongs to more than two tets; the message counts tets and vertices
   // from 1. `numbers` holds the numbers that the source gives the tets, from 0, if they differ from their places here.
   TetAdjacency(const TetMesh& mesh, const char* source, std::span<const std::int32_t> numbers = {});
 
-  // The tet beyond a facet, or none at the boundary.
-  std::int32_t tet_beyond(std::int32_t tet, int facet) const {
-    const std::int32_t code = across_[4 * static_cast<std::size_t>(tet) + facet];
-    return code < 0 ? none : code;
+  // The tet beyond a facet, or no_index at the boundary.
+  TetIndex tet_beyond(TetIndex tet, int facet) const {
+    const TetIndex code = across_[4 * static_cast<std::size_t>(tet) + facet];
+    return code < 0 ? no_index : code;
   }
   // The tets beyond all four facets.
-  std::span<const std::int32_t, 4> tets_beyond(std::int32_t tet) const {
-    return std::span<const std::int32_t, 4>(&across_[4 * static_cast<std::size_t>(tet)], 4);
+  std::span<const TetIndex, 4> tets_beyond(TetIndex tet) const {
+    return std::span<const TetIndex, 4>(&across_[4 * static_cast<std::size_t>(tet)], 4);
   }
   // The tets at a vertex, ascending.
-  std::span<const std::int32_t> tets_at(Vertex v) const {
+  std::span<const TetIndex> tets_at(Vertex v) const {
     return std::span(tets_at_vertex_).subspan(tet_offsets_[v], tet_offsets_[v + 1] - tet_offsets_[v]);
   }
   // The vertices joined to v by an edge, ascending.
@@ -45,9 +45,9 @@ class TetAdjacency {
   void file_tets(const TetMesh& mesh);
   void find_neighbours(const TetMesh& mesh);
 
-  std::vector<std::int32_t> across_;       // 4 per tet
+  std::vector<TetIndex> across_;           // 4 per tet
   std::vector<std::int64_t> tet_offsets_;  // vertices + 1
-  std::vector<std::int32_t> tets_at_vertex_;
+  std::vector<TetIndex> tets_at_vertex_;
   std::vector<std::int64_t> neighbour_offsets_;
   std::vector<Vertex> neighbours_;
 };

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/run/error.hpp"
-#include "common/run/huge_pages.hpp"
+#include "common/run/memory.hpp"
 
 namespace hexpipe {
 namespace {
@@ -20,7 +20,7 @@ void check_kind_and_corners(const Candidates& candidates, std::size_t i, const c
   const auto corners = candidates.corners_of(i);
   for (std::size_t c = 0; c < 8; ++c) {
     const Vertex v = candidates.vertices[i][c];
-    if (c >= corners.size() && v != -1)
+    if (c >= corners.size() && v != no_index)
       throw DataError::at(source, "expected -1 after the {} vertices of candidate {}, found {}", corners.size(), i + 1,
                           v);
     if (c < corners.size() && v < 0)

@@ -46,7 +46,7 @@ void validate_against(const MeshPart& part, const Candidates& candidates, const 
 // "part 3 of 16", for messages.
 std::string title_of(const MeshPart& part);
 
-// For each place in `from`, the place in `to` that has the same number, or -1. Both ascend.
+// For each place in `from`, the place in `to` that has the same number, or no_index. Both ascend.
 std::vector<std::int32_t> places_in(const std::vector<std::int64_t>& to, const std::vector<std::int64_t>& from);
 
 // Identifies candidates across all parts. Ascending keys give the order in which a single run has the candidates.

@@ -35,6 +35,10 @@ inline std::array<Vec3, 8> corner_points(std::span<const Vec3> points, std::span
   return result;
 }
 
+// A hex should have this scaled Jacobian at every corner: findhex finds no poorer hexes unless it is told to, assemble
+// lets none in and presses none below it, and tetmesh counts hexes above it.
+inline constexpr double least_hex_quality = 0.3;
+
 // The least scaled Jacobian over the corners; for a pyramid, over the four of its base.
 double least_corner_scaled_jacobian(CellKind kind, std::span<const Vec3> corners);
 

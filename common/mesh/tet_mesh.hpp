@@ -13,6 +13,9 @@
 namespace hexpipe {
 
 using Vertex = std::int32_t;
+using TetIndex = std::int32_t;
+// Stands for no vertex, tet, cell or candidate where an index is expected.
+inline constexpr std::int32_t no_index = -1;
 using Tet = std::array<Vertex, 4>;
 using Triangle = std::array<Vertex, 3>;
 using Quad = std::array<Vertex, 4>;

@@ -1,12 +1,10 @@
-#include "common/run/command_line_errors.hpp"
+#include "common/run/command_line.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <fstream>
 #include <vector>
-
-#include "common/run/near_option.hpp"
 
 namespace hexpipe {
 namespace {

@@ -1,4 +1,4 @@
-#include "common/run/help_formatter.hpp"
+#include "common/run/command_line.hpp"
 
 #include <sstream>
 

@@ -1,6 +1,11 @@
 #include "common/run/memory.hpp"
 
+#include <sys/mman.h>
 #include <sys/resource.h>
+#include <unistd.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <cerrno>
@@ -89,6 +94,27 @@ void expect_memory(std::uint64_t count, std::uint64_t bytes_each, std::string_vi
   throw DataError::at(where, "expected {} of memory, found {} left",
                       readable(static_cast<double>(count) * static_cast<double>(bytes_each)),
                       readable(static_cast<double>(left)));
+}
+
+void FreedMemory::add(std::size_t bytes) {
+  // malloc_trim walks over the allocator's lists; that is well worth this much memory.
+  constexpr std::size_t enough = 2 << 20;
+  freed_ += bytes;
+  if (freed_ < enough) return;
+  freed_ = 0;
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+void use_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+#ifdef MADV_HUGEPAGE
+  constexpr std::size_t page = 4096, huge_page = 512 * page;
+  const std::size_t before = (page - reinterpret_cast<std::uintptr_t>(memory) % page) % page;
+  if (before + huge_page > bytes) return;
+  // The result does not matter: without large pages, the small ones stay.
+  ::madvise(static_cast<char*>(memory) + before, (bytes - before) / page * page, MADV_HUGEPAGE);
+#endif
 }
 
 }  // namespace hexpipe

@@ -1,4 +1,4 @@
-#include "common/run/named_files.hpp"
+#include "common/run/command_line.hpp"
 
 #include <fmt/format.h>
 

@@ -29,4 +29,10 @@ int thread_count() {
   return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 
+void end_worker_threads() {
+  tbb::task_scheduler_handle scheduler{tbb::attach{}};
+  // False only if another thread is in a loop; then there is nothing to end.
+  tbb::finalize(scheduler, std::nothrow);
+}
+
 }  // namespace hexpipe

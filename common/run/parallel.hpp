@@ -108,4 +108,10 @@ void parallel_in_order(std::int64_t count, std::int64_t block, Produce&& produce
                                      tbb::make_filter<std::int64_t, void>(tbb::filter_mode::serial_in_order, give));
 }
 
+// Ends the threads that parallel loops have started; the next loop starts them again. Call it before fork(): if a
+// thread of the parent holds a lock of the memory allocator at that moment, the lock stays taken in the child for ever.
+// (glibc's own allocator takes care of this; those of the sanitizers do not.) Do not call it from within a parallel
+// loop.
+void end_worker_threads();
+
 }  // namespace hexpipe

@@ -12,6 +12,9 @@
 
 namespace hexpipe {
 
+// The version of hexpipe, "major.minor.patch".
+const char* version();
+
 struct ToolInfo {
   std::string name;
   std::string summary;          // one sentence

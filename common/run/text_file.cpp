@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "common/run/error.hpp"
-#include "common/run/links.hpp"
+#include "common/run/open_files.hpp"
 
 namespace hexpipe {
 namespace {

@@ -13,18 +13,16 @@
 #include <memory>
 #include <new>
 
-#include "common/run/command_line_errors.hpp"
+#include "common/run/command_line.hpp"
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
-#include "common/run/help_formatter.hpp"
 #include "common/run/memory.hpp"
 #include "common/run/messages.hpp"
-#include "common/run/named_files.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/parallel.hpp"
 #include "common/run/removed_files.hpp"
+#include "common/run/run_context.hpp"
 #include "common/run/text_file.hpp"
-#include "common/run/version.hpp"
 
 // Defined only in builds with sanitizers, which give it this name and type.
 // NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming)

@@ -79,7 +79,7 @@ class CandParser {
 
   void read_vertices(CellKind kind) {
     std::array<Vertex, 8>& row = candidates_.vertices.emplace_back();
-    row.fill(-1);
+    row.fill(no_index);
     for (int i = 0; i < corner_count(kind); ++i) {
       const std::int32_t v = index("a vertex");
       if (std::find(row.begin(), row.begin() + i, v) != row.begin() + i)

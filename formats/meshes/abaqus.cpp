@@ -116,7 +116,7 @@ class AbaqusWriter {
   void collect_faces(const Block& facets, const std::vector<FacetOwner>& owners, const char* name) {
     for (std::size_t i = 0; i < facets.size(); ++i) {
       const FacetOwner& owner = owners[i];
-      if (owner.cell < 0)
+      if (owner.cell == no_index)
         throw DataError::at(output_.name(),
                             "cannot write {}[{}]: Abaqus surfaces consist of facets of cells, and it is none", name, i);
       const AbaqusNames& names = abaqus_names(owner.kind);

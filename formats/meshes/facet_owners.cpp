@@ -27,7 +27,7 @@ class Owners {
       ++cells_[i];
       if (outward_[i]) return;
       outward_[i] = same_cycle(facets_[i], facet);
-      if (outward_[i] || owners_[i].cell < 0) owners_[i] = cell;
+      if (outward_[i] || owners_[i].cell == no_index) owners_[i] = cell;
     });
   }
 

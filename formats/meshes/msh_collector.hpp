@@ -38,7 +38,7 @@ class MshCollector {
   std::size_t node_count() const { return mesh_.points.size(); }
   // Call it after the last node. Returns a number that two nodes have, if any.
   std::optional<std::int64_t> number_nodes();
-  // The vertex of a node; NumberMap::none: there is no such node.
+  // The vertex of a node; no_index: there is no such node.
   Vertex vertex(std::int64_t node) const { return nodes_.find(node); }
 
   // Calls visit(block, add) for the block of a Gmsh element type; add(corners, numbers) adds an element to it. False

@@ -265,7 +265,7 @@ class NastranReader {
         auto& cell = block.cells.emplace_back();
         for (std::size_t i = 0; i < cell.size(); ++i) {
           cell[i] = points_.find(element.nodes[i]);
-          if (cell[i] == NumberMap::none)
+          if (cell[i] == no_index)
             fail(element.line, fmt::format("expected the number of a point, found {}", element.nodes[i]));
         }
       }

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/run/error.hpp"
-#include "common/run/version.hpp"
+#include "common/run/run_context.hpp"
 #include "formats/streams/text_scanner.hpp"
 
 namespace hexpipe::pipeline {

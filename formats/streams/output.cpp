@@ -12,7 +12,7 @@
 
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
-#include "common/run/links.hpp"
+#include "common/run/open_files.hpp"
 
 namespace hexpipe::formats {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/graph/tet_cliques.hpp"
+#include "common/graph/clique_cover.hpp"
 #include "common/run/error.hpp"
 #include "tools/buildgraph/neighbours.hpp"
 #include "tools/buildgraph/reduce.hpp"

@@ -22,13 +22,13 @@ struct Clusters {
 
 Clusters cluster(const graph::ConflictGraph& graph) {
   Clusters clusters;
-  clusters.of_vertex.assign(graph.weights.size(), -1);
+  clusters.of_vertex.assign(graph.weights.size(), no_index);
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
-    if (clusters.of_vertex[v] >= 0) continue;
+    if (clusters.of_vertex[v] != no_index) continue;
     const std::int32_t c = clusters.count++;
     clusters.of_vertex[v] = c;
     for (const std::int32_t u : graph.neighbours_of(v))
-      if (clusters.of_vertex[u] < 0) clusters.of_vertex[u] = c;
+      if (clusters.of_vertex[u] == no_index) clusters.of_vertex[u] = c;
   }
   return clusters;
 }
@@ -47,7 +47,7 @@ ClusterGraph contract(const graph::ConflictGraph& graph, const Clusters& cluster
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v) members[next[clusters.of_vertex[v]]++] = v;
 
   ClusterGraph result;
-  std::vector<idx_t> place(static_cast<std::size_t>(clusters.count), -1);
+  std::vector<idx_t> place(static_cast<std::size_t>(clusters.count), no_index);
   for (std::int32_t c = 0; c < clusters.count; ++c) {
     const auto row = static_cast<idx_t>(result.neighbours.size());
     for (std::int64_t i = begins[c]; i < begins[c + 1]; ++i)

@@ -16,7 +16,7 @@ struct BlockGraph {
   std::vector<char> incomplete;  // has neighbours in other blocks
 };
 
-// `number` is -1 everywhere, before and after.
+// `number` is no_index everywhere, before and after.
 BlockGraph graph_of(const LocalGraph& local, std::vector<std::int32_t> vertices, std::vector<std::int32_t>& number) {
   BlockGraph block;
   block.vertices = std::move(vertices);
@@ -24,14 +24,14 @@ BlockGraph graph_of(const LocalGraph& local, std::vector<std::int32_t> vertices,
   for (const std::int32_t v : block.vertices) {
     block.incomplete.push_back(0);
     for (const std::int32_t u : local.graph.neighbours_of(v))
-      if (number[u] >= 0)
+      if (number[u] != no_index)
         block.graph.neighbours.push_back(number[u]);
       else
         block.incomplete.back() = 1;
     block.graph.offsets.push_back(static_cast<std::int64_t>(block.graph.neighbours.size()));
     block.graph.weights.push_back(local.graph.weights[v]);
   }
-  for (const std::int32_t v : block.vertices) number[v] = -1;
+  for (const std::int32_t v : block.vertices) number[v] = no_index;
   return block;
 }
 
@@ -81,7 +81,7 @@ void reduce_blocks(Ranks& ranks, LocalGraph& local, const Deadline& deadline) {
   std::vector<std::vector<std::int32_t>> vertices(static_cast<std::size_t>(last - first));
   for (std::int32_t v = 0; v < local.vertex_count(); ++v)
     if (local.owns(v)) vertices[local.block[v] - first].push_back(v);
-  std::vector<std::int32_t> number(local.keys.size(), -1);
+  std::vector<std::int32_t> number(local.keys.size(), no_index);
   for (auto& block : vertices) decide(local, graph_of(local, std::move(block), number), deadline);
   tell_partners(ranks, local);
 }

@@ -21,7 +21,7 @@ Regions::Regions(const LocalGraph& local, std::uint64_t seed, std::int64_t round
   for (std::int32_t v = 0; v < local.vertex_count(); ++v)
     if (block_[v] >= first && block_[v] < last && local.decided[v] == 0 && !stays(v))
       may_change_[block_[v] - first].push_back(v);
-  number_.assign(local.keys.size(), -1);
+  number_.assign(local.keys.size(), no_index);
 }
 
 // Whether a neighbour belongs to an earlier block. A vertex with no other block nearby has none.
@@ -34,7 +34,7 @@ bool Regions::stays(std::int32_t v) const {
 // Whether a chosen vertex outside of the region blocks v.
 bool Regions::is_blocked(std::int32_t v) const {
   return std::ranges::any_of(local_.graph.neighbours_of(v),
-                             [&](std::int32_t u) { return local_.chosen[u] != 0 && number_[u] < 0; });
+                             [&](std::int32_t u) { return local_.chosen[u] != 0 && number_[u] == no_index; });
 }
 
 Region Regions::extract(std::int32_t block) {
@@ -43,7 +43,7 @@ Region Regions::extract(std::int32_t block) {
   for (const std::int32_t v : inside) number_[v] = 0;
   for (const std::int32_t v : inside)
     if (!is_blocked(v)) region.vertices.push_back(v);
-  for (const std::int32_t v : inside) number_[v] = -1;
+  for (const std::int32_t v : inside) number_[v] = no_index;
   for (std::size_t i = 0; i < region.vertices.size(); ++i) number_[region.vertices[i]] = static_cast<std::int32_t>(i);
   for (std::size_t i = 0; i < region.vertices.size(); ++i) {
     const std::int32_t v = region.vertices[i];
@@ -51,13 +51,13 @@ Region Regions::extract(std::int32_t block) {
     region.graph.weights.push_back(local_.graph.weights[v]);
     region.at_edge.push_back(0);
     for (const std::int32_t u : local_.graph.neighbours_of(v))
-      if (number_[u] >= 0)
+      if (number_[u] != no_index)
         region.graph.neighbours.push_back(number_[u]);
       else if (local_.decided[u] == 0)
         region.at_edge.back() = 1;
     region.graph.offsets.push_back(static_cast<std::int64_t>(region.graph.neighbours.size()));
   }
-  for (const std::int32_t v : region.vertices) number_[v] = -1;
+  for (const std::int32_t v : region.vertices) number_[v] = no_index;
   return region;
 }
 

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "common/graph/clique_cover.hpp"
-#include "common/graph/subgraph.hpp"
+#include "common/graph/conflict_graph.hpp"
 #include "common/mwis/bounds/entropy_dual.hpp"
 #include "common/run/random.hpp"
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/graph/subgraph.hpp"
+#include "common/graph/conflict_graph.hpp"
 #include "common/mwis/reduce/kernel.hpp"
 
 namespace hexpipe::mwis::exact {

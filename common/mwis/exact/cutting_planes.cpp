@@ -1,4 +1,3 @@
-#include "common/mwis/exact/cutting_planes.hpp"
 
 #include <utility>
 

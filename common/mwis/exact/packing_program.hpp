@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "common/mwis/bounds/relaxation.hpp"
 #include "common/run/deadline.hpp"
 
 namespace hexpipe::mwis::exact {
@@ -33,5 +34,11 @@ class PackingProgram {
   std::unique_ptr<Simplex> simplex_;
   std::vector<double> fractions_, prices_;
 };
+
+// The relaxation of branch and cut: LP-Clique (Verhetsel 2017, 3.2) by the simplex method on an edge clique cover.
+// Cliques that the fractional solution violates are added until there is none (Nemhauser and Sigismondi 1992). Unlike
+// there, the prices alone prove the bounds, in whole numbers, so nothing depends on the tolerances of the simplex.
+bounds::Relaxation relax_by_cutting_planes(const graph::ConflictGraph& graph, std::int64_t target, int depth,
+                                           const Deadline& deadline);
 
 }  // namespace hexpipe::mwis::exact

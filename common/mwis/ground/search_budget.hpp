@@ -31,7 +31,6 @@ class SearchBudget {
     return !exhausted();
   }
   bool exhausted() const { return left_ <= 0 || out_of_time_; }
-  bool out_of_time() const { return out_of_time_; }
   std::int64_t spent() const { return nodes_ - left_; }
 
  private:

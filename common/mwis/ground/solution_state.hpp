@@ -19,8 +19,6 @@ class SolutionState {
   const graph::ConflictGraph& graph() const { return *graph_; }
   bool contains(std::int32_t v) const { return chosen_[v] != 0; }
   std::int32_t tightness(std::int32_t v) const { return around_[v].tightness; }
-  // The weight of the chosen neighbours.
-  std::int64_t adjacent_weight(std::int32_t v) const { return graph_->weights[v] - around_[v].push_gain; }
   // The sum of the numbers of the chosen neighbours, modulo 2^32. It tells the last one when all others are known.
   std::uint32_t neighbour_sum(std::int32_t v) const { return around_[v].number_sum; }
   // The gain of Push(v): v comes in, its chosen neighbours go out.

@@ -133,7 +133,7 @@ bool Annealing::swap_for_two(std::int32_t v) {
     heaviest = std::max(heaviest, graph.weights[u]);
   }
   std::int64_t best_sum = graph.weights[v];
-  std::int32_t first = -1, second = -1;
+  std::int32_t first = no_index, second = no_index;
   for (std::size_t i = 0; i < loose_.size(); ++i) {
     const std::int32_t a = loose_[i];
     const std::int64_t weight = graph.weights[a];
@@ -147,7 +147,7 @@ bool Annealing::swap_for_two(std::int32_t v) {
       first = a, second = b;
     }
   }
-  if (first < 0) return false;
+  if (first == no_index) return false;
   remove(v);
   add(first);
   add(second);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "common/graph/subgraph.hpp"
+#include "common/graph/conflict_graph.hpp"
 #include "common/mwis/exact/exact_solver.hpp"
 
 namespace hexpipe::mwis::local_search {

@@ -18,7 +18,7 @@
 namespace hexpipe::tetmesh::volume {
 namespace {
 
-constexpr double least_quality = 0.3;    // scaled Jacobian, findhex's default
+constexpr double least_quality = least_hex_quality;
 constexpr double greatest_cosine = 0.7;  // between edges of a corner
 constexpr double furthest = 0.7;  // of a corner from where a parallelepiped has it, in lengths of the longest edge
 constexpr double volume_tolerance = 0.9;  // of the tets against the hex
