@@ -10,7 +10,7 @@
 namespace hexpipe::candidates {
 namespace {
 
-constexpr std::int64_t vertices_a_block = 1024;
+constexpr std::int64_t linked_vertices_a_block = 1024;
 
 // Calls visit(i, j) with the places of two neighbours of v, for each facet of a usable tet at v, in both directions.
 // Facets between two tets come twice.
@@ -42,7 +42,7 @@ VertexLinks::VertexLinks(const TetMesh& mesh, const TetAdjacency& adjacency, con
     slot_offsets_[v + 1] = slot_offsets_[v] + static_cast<std::int64_t>(slots);
   }
   resize_in_huge_pages(slots_, static_cast<std::size_t>(slot_offsets_.back()), no_place);
-  parallel_for(vertex_count, vertices_a_block, [&](std::int64_t v) {
+  parallel_for(vertex_count, linked_vertices_a_block, [&](std::int64_t v) {
     if (!is_narrow(static_cast<Vertex>(v))) return;
     file_places(static_cast<Vertex>(v));
     link_narrow(mesh, usable, static_cast<Vertex>(v));

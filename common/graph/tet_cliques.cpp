@@ -4,6 +4,8 @@
 #include <numeric>
 #include <vector>
 
+#include "common/mesh/candidates.hpp"
+
 namespace hexpipe::graph {
 namespace {
 

@@ -13,7 +13,7 @@
 namespace hexpipe::formats {
 namespace {
 
-constexpr std::string_view magic = "hexpipe-candidates";
+constexpr std::string_view cand_magic = "hexpipe-candidates";
 constexpr int version = 1;
 // The shortest lines are pyramids with one-digit numbers and no tets.
 constexpr std::size_t least_bytes_a_candidate = 20;
@@ -45,7 +45,7 @@ class CandParser {
 
  private:
   void read_header() {
-    scanner_.expect(magic);
+    scanner_.expect(cand_magic);
     if (const int found = scanner_.number<int>("the version"); found != version)
       scanner_.fail(fmt::format("expected version {}, found {}", version, found));
     count_ = scanner_.count("a number of candidates", least_bytes_a_candidate);
@@ -138,7 +138,7 @@ Candidates read_cand(Input& input) {
 
 void write_cand(const Candidates& candidates, Output& output) {
   LineWriter line(output);
-  line << magic << version << candidates.size() << candidates.tets.size() << candidates.boundary_tets.size();
+  line << cand_magic << version << candidates.size() << candidates.tets.size() << candidates.boundary_tets.size();
   line.end_line();
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const auto interior = candidates.interior_tets_of(i), boundary = candidates.boundary_tets_of(i);

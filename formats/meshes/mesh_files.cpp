@@ -53,7 +53,7 @@ bool looks_like_binary_medit(std::string_view text) {
   return text.starts_with("\1\0\0\0"sv) || text.starts_with("\0\0\0\1"sv);
 }
 
-MixedMesh read_by_content(std::string text, const std::string& name, const std::string& path, GroupNames* names) {
+MixedMesh read_mesh_by_content(std::string text, const std::string& name, const std::string& path, GroupNames* names) {
   text.erase(0, text.size() - without_byte_order_mark(text).size());
   if (looks_like_vtu(text)) return read_vtu(std::move(text), name);
   if (looks_like_vtk_legacy(text)) return read_vtk_legacy(text, name);
@@ -76,7 +76,7 @@ MixedMesh read_by_content(std::string text, const std::string& name, const std::
 }  // namespace
 
 MixedMesh read_mixed_mesh(Input& input, GroupNames* names) {
-  MixedMesh mesh = read_by_content(input.read_all(), input.name(), input.path(), names);
+  MixedMesh mesh = read_mesh_by_content(input.read_all(), input.name(), input.path(), names);
   validate(mesh, input.name().c_str());
   return mesh;
 }

@@ -14,7 +14,7 @@
 namespace hexpipe::formats {
 namespace {
 
-constexpr std::string_view magic = "# vtk DataFile Version";
+constexpr std::string_view vtk_magic = "# vtk DataFile Version";
 
 // VTK writes its vtkIdType as int, whatever it is in memory; "long" is as wide as on the systems that we run on.
 constexpr std::pair<std::string_view, ScalarType> type_names[] = {
@@ -62,8 +62,8 @@ class VtkLegacyReader {
  private:
   void read_header() {
     const std::string_view first = scanner_.rest_of_line();
-    if (!first.starts_with(magic)) scanner_.fail_expected(magic, first);
-    TextScanner version(first.substr(magic.size()), file_);
+    if (!first.starts_with(vtk_magic)) scanner_.fail_expected(vtk_magic, first);
+    TextScanner version(first.substr(vtk_magic.size()), file_);
     version_ = version.number<double>("a version of the format");
     if (version_ < 1 || version_ >= 6) version.fail("expected a version from 1.0 to 5.1, found another");
     scanner_.rest_of_line();  // title
@@ -333,7 +333,7 @@ class VtkLegacyReader {
 }  // namespace
 
 bool looks_like_vtk_legacy(std::string_view text) {
-  return text.starts_with(magic);
+  return text.starts_with(vtk_magic);
 }
 
 MixedMesh read_vtk_legacy(std::string_view text, std::string_view file) {

@@ -126,7 +126,7 @@ SizeList read_background(std::string_view text, const std::string& name) {
   return list;
 }
 
-SizeList read_by_content(std::string_view bytes, const std::string& name) {
+SizeList read_sizes_by_content(std::string_view bytes, const std::string& name) {
   if (pipeline::npy_header_size(bytes.substr(0, 10)) > 0) return read_npy(bytes, name);
   bytes = without_byte_order_mark(bytes);
   if (looks_like_msh(bytes)) return read_background(bytes, name);
@@ -137,7 +137,7 @@ SizeList read_by_content(std::string_view bytes, const std::string& name) {
 }  // namespace
 
 SizeList read_sizes(Input& input) {
-  SizeList list = read_by_content(input.read_all(), input.name());
+  SizeList list = read_sizes_by_content(input.read_all(), input.name());
   if (list.sizes.empty()) throw DataError::at(input.name(), "expected sizes, found none");
   list.name = input.name();
   return list;

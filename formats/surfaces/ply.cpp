@@ -109,7 +109,7 @@ bool is_remark(std::string_view keyword) {
   return keyword == "comment" || keyword == "obj_info";
 }
 
-Header read_header(TextScanner& scanner) {
+Header read_ply_header(TextScanner& scanner) {
   Header header;
   scanner.expect("ply");
   while (is_remark(scanner.peek_word())) scanner.rest_of_line();
@@ -368,7 +368,7 @@ bool looks_like_ply(std::string_view bytes) {
 
 SurfaceSoup read_ply(std::string_view bytes, const std::string& name) {
   TextScanner scanner(bytes, name);
-  const Header header = read_header(scanner);
+  const Header header = read_ply_header(scanner);
   if (header.encoding == Encoding::ascii) return BodyReader(header, name, AsciiBody(scanner)).read();
   const bool swap = (header.encoding == Encoding::big) == (std::endian::native == std::endian::little);
   return BodyReader(header, name, BinaryBody(bytes.substr(scanner.position()), swap, name)).read();

@@ -19,8 +19,6 @@
 namespace hexpipe::merge_parts {
 namespace {
 
-constexpr auto unchanged = [](std::size_t, const auto& row) { return row; };
-
 // Rows of vertices, tets or candidates in the numbers of the whole; -1 stays.
 class Renumber {
  public:

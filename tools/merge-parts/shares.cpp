@@ -19,8 +19,6 @@
 namespace hexpipe::merge_parts {
 namespace {
 
-constexpr auto unchanged = [](std::size_t, const auto& row) { return row; };
-
 // The role that is in shares: its members are the last ones before the last history entry.
 struct Shared {
   std::string folder;      // "candidates/" or "graph/"
