@@ -35,7 +35,7 @@ class CandParser {
       next_line();
       read_candidate();
     }
-    // Cut off within its last number, a file would pass for another one.
+    // A file that is cut off within its last number would otherwise be taken for a different one.
     if (!ends_) scanner_.fail_expected("the end of the line", "");
     if (!scanner_.at_end()) scanner_.fail_expected("nothing after the last candidate", scanner_.peek_word());
     check_total("interior tets", tet_count_, candidates_.tets.size());
@@ -104,7 +104,7 @@ class CandParser {
     return found - 1;
   }
 
-  // A candidate is one line: a number that is missing there is not taken from the next line.
+  // A candidate is one line: a missing number is not taken from the next line.
   template <class T>
   T number(std::string_view what) {
     if (scanner_.at_line_end()) scanner_.fail(fmt::format("expected {}, found the end of the line", what));

@@ -21,7 +21,7 @@ class Owners {
         cells_(facets.size()),
         outward_(facets.size()) {}
 
-  // Tells of a facet of a cell, listed counter-clockwise seen from outside.
+  // Considers a facet of a cell, listed counter-clockwise seen from outside.
   void offer(const Facet& facet, const FacetOwner& cell) {
     table_.visit_same(facet, [&](std::size_t i) {
       ++cells_[i];

@@ -27,7 +27,7 @@ void write_msh_as(const MixedMesh& mesh, const MeshWriting& writing, Output& out
   write_msh(mesh, version, coding, writing, output);
 }
 
-// Formats that nothing of `writing` concerns: they have tags, no names.
+// Writes formats that have tags but no names; `writing` does not concern them.
 template <void (*write)(const MixedMesh& mesh, Output& output)>
 void write_tags(const MixedMesh& mesh, const MeshWriting&, Output& output) {
   write(mesh, output);
@@ -83,7 +83,7 @@ MixedMesh read_mixed_mesh(Input& input, GroupNames* names) {
 
 namespace {
 
-// Without what the options leave out; the mesh itself where they leave all. Says what that costs.
+// The mesh without what the options leave out; the mesh itself if they leave everything. Reports what that costs.
 MixedMesh with_options(MixedMesh mesh, const MeshWriting& writing) {
   if (writing.pyramids == PyramidForm::split && mesh.pyramids.size() > 0) {
     writing.say(

@@ -26,8 +26,7 @@ namespace {
 constexpr NameRules openfoam_rules{.format = "OpenFOAM", .longest = 255, .others = "-.:+%@~^"};
 constexpr const char* untagged_patch = "defaultFaces";
 
-// A face with its corners as its first cell sees them from inside out, its lowest corner first; a triangle has no
-// fourth.
+// A face: its corners as its first cell sees them from inside out, the lowest corner first. A triangle has no fourth.
 using Corners = std::array<Vertex, 4>;
 
 template <std::size_t N>
@@ -156,7 +155,7 @@ class PolyMesh {
     if (count > 0) writing_.say(fmt::format("{} faces on no surface become the patch {}", count, untagged_patch));
   }
 
-  // Inside: by owner, then neighbour; after them by patch.
+  // Faces inside come first, by owner and neighbour; then the others, by patch.
   void order_faces() {
     std::ranges::sort(faces_, {}, [](const Face& face) {
       const bool outside = face.neighbour == no_index;
@@ -245,7 +244,7 @@ class PolyMesh {
     output.drain();
   }
 
-  // Of the surfaces that have cells on both sides.
+  // For the surfaces that have cells on both sides.
   void write_face_zones() {
     std::map<std::int32_t, std::vector<std::size_t>> zones;
     for (std::size_t i = 0; i < static_cast<std::size_t>(inside_); ++i)

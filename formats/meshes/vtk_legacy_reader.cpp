@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view vtk_magic = "# vtk DataFile Version";
 
-// VTK writes its vtkIdType as int, whatever it is in memory; "long" is as wide as on the systems that we run on.
+// VTK writes its vtkIdType as int, whatever its size in memory; "long" has the width that it has on our systems.
 constexpr std::pair<std::string_view, ScalarType> type_names[] = {
     {"char", ScalarType::int8},
     {"signed_char", ScalarType::int8},

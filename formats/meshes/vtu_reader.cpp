@@ -54,7 +54,7 @@ class VtuReader {
                         fmt::format("expected well-formed XML, found: {}", result.description()));
   }
 
-  // While they are all there: parsed in place, names and values end with a zero where line ends may have been.
+  // The line ends are searched before parsing: parsing in place ends names and values with zeros where line ends were.
   void find_line_ends(std::string_view xml) {
     for (std::size_t at = xml.find('\n'); at != std::string_view::npos; at = xml.find('\n', at + 1))
       line_ends_.push_back(at);
@@ -186,7 +186,7 @@ class VtuReader {
     return {appended_.substr(offset), appended_base64_, where};
   }
 
-  // Arrays that share their data would let a small file take any memory.
+  // Arrays that share their data would let a small file take any amount of memory.
   void count_appended(std::size_t bytes, const std::string& where) {
     constexpr std::size_t most_compressed = 1032;  // times, by zlib
     taken_ += bytes;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view history_folder = "history/";
 constexpr std::size_t longest_entry = 1 << 20;
-// Entries are copied and written level by level in calls of calls; ours have four levels.
+// Entries are copied and written level by level by nested calls; ours have four levels.
 constexpr int deepest_nesting = 64;
 constexpr std::size_t longest_tool = 64;
 

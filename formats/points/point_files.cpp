@@ -35,7 +35,7 @@ PointList read_npy_points(std::string_view bytes, const std::string& name) {
   return list;
 }
 
-// "n 3 a m" and then a line that begins with 0 or 1 can hardly be two points.
+// "n 3 a m" followed by a line that begins with 0 or 1 can hardly be two points.
 bool looks_like_node(std::string_view text, const std::string& name) {
   TextScanner scanner(text, name, '#');
   std::string_view words[4];

@@ -28,7 +28,7 @@ void add(SizeList& list, const Vec3& point, double size) {
   list.simplices.push_back({number, no_index, no_index, no_index});
 }
 
-// A line is a size, or a place and its size; as the first one is.
+// A line is a size, or a place and its size; the first line tells which.
 SizeList read_text(std::string_view text, const std::string& name) {
   TextScanner scanner(text, name, '#');
   SizeList list;
@@ -86,7 +86,7 @@ SizeList read_npy(std::string_view bytes, const std::string& name) {
   return list;
 }
 
-// Nodes that no simplex uses, which need no size, are left out.
+// Leaves out nodes that no simplex uses; they need no size.
 void keep_used_nodes(SizeList& list) {
   std::vector<Vertex> number(list.points.size(), no_index);
   Vertex count = 0;

@@ -264,7 +264,7 @@ SurfaceSoup BodyReader<Body>::read() {
     } else if (element.name == "face") {
       read_faces(element);
     } else {
-      // Without properties an element has no bytes, whatever its count.
+      // An element without properties has no bytes, whatever its count.
       for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i)
         for (const Property& property : element.properties) skip(element, property, i);
     }
@@ -274,7 +274,7 @@ SurfaceSoup BodyReader<Body>::read() {
   return std::move(soup_);
 }
 
-// Checks, before anything is allocated, that the rest of the file can hold so many items.
+// Checks, before anything is allocated, that the rest of the file can hold this many items.
 template <class Body>
 void BodyReader<Body>::check_count(const Element& element) const {
   std::size_t bytes_each = 0;

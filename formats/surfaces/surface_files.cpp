@@ -54,7 +54,7 @@ SurfaceSoup read_surface_by_content(std::string_view bytes, const std::string& n
   throw DataError::at(name, "expected a surface in STL, OBJ, PLY or OFF, found {}", quote_found(first));
 }
 
-// As of largest_coordinate: volumes and squares of determinants of shorter ones vanish.
+// The counterpart of largest_coordinate: volumes and squares of determinants of shorter extents vanish.
 constexpr double least_extent = 1e-50;
 
 void check_magnitude(const SurfaceSoup& soup) {

@@ -32,7 +32,7 @@ Shared look_through(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     std::error_code unknown;
     if (!std::filesystem::is_regular_file(path, unknown))
-      throw DataError::at(path, "expected a file, for shares and pieces are read twice, found a pipe or a device");
+      throw DataError::at(path, "expected a file, because shares and pieces are read twice, found a pipe or a device");
     PartReader part(path);
     std::string last;
     std::vector<std::uint8_t> kinds;
