@@ -166,7 +166,7 @@ FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* s
   result.findings = tables.findings();
   for (const CellKind kind : options.kinds) result.counts.push_back({kind, {}});
   const auto vertex_count = static_cast<std::int64_t>(tables.mesh().points.size());
-  const std::int64_t first = options.part.begin(vertex_count), count = options.part.end(vertex_count) - first;
+  const std::int64_t first = options.share.begin(vertex_count), count = options.share.end(vertex_count) - first;
   std::vector<Candidates> by_kind(options.kinds.size());
   std::int64_t vertices_done = 0;
   PerThread<CellMarks> marks{CellMarks(tables.mesh())};

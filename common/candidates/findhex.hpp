@@ -10,7 +10,7 @@
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/tet_mesh.hpp"
-#include "common/run/part.hpp"
+#include "common/run/share.hpp"
 
 namespace hexpipe::candidates {
 
@@ -23,7 +23,7 @@ struct FindhexOptions {
   bool drop_folded_quads = true;  // rule 8
   CellTetRules tet_rules{};
   double feature_angle = default_feature_angle;  // rule 10, in degrees
-  Part part{};                                   // only cells whose corner 0 is in this share of the vertices
+  Share share{};                                 // only cells whose corner 0 is in this share of the vertices
 };
 
 // How many cells of a kind got how far.

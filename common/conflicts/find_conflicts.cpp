@@ -34,7 +34,7 @@ void forget_worth(Candidates& candidates) {
   candidates.boundary_tet_offsets = {};
 }
 
-LowerConflicts find_lower_conflicts(const Candidates& candidates, const Part& part, const std::vector<bool>& own) {
+LowerConflicts find_lower_conflicts(const Candidates& candidates, const Share& share, const std::vector<bool>& own) {
   const std::size_t count = candidates.size();
   const std::optional<Candidates> dense = with_dense_ids(candidates);
   const ConflictFinder finder(dense ? *dense : candidates);
@@ -44,9 +44,9 @@ LowerConflicts find_lower_conflicts(const Candidates& candidates, const Part& pa
   };
   PerThread<Scratch> scratches(Scratch{SortedSet{count}, std::vector<std::int32_t>(count, 0)});
   LowerConflicts conflicts;
-  conflicts.first = part.begin(static_cast<std::int64_t>(count));
+  conflicts.first = share.begin(static_cast<std::int64_t>(count));
   parallel_in_order(
-      part.end(static_cast<std::int64_t>(count)) - conflicts.first, candidates_a_block,
+      share.end(static_cast<std::int64_t>(count)) - conflicts.first, candidates_a_block,
       [&](std::int64_t begin, std::int64_t end) {
         Scratch& scratch = scratches.local();
         PackedLists lists;
@@ -86,7 +86,7 @@ graph::ConflictGraph conflict_graph(Candidates candidates, const ConflictOptions
   graph.weights = weights_of(candidates, options.weight, options.weight_scale, source);
 
   forget_worth(candidates);
-  LowerConflicts conflicts = find_lower_conflicts(candidates, options.part, own);
+  LowerConflicts conflicts = find_lower_conflicts(candidates, options.share, own);
   candidates = {};
   graph.offsets.assign(count + 1, 0);
   std::partial_sum(conflicts.degrees.begin(), conflicts.degrees.end(), graph.offsets.begin() + 1);

@@ -6,7 +6,7 @@
 
 #include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
-#include "common/run/part.hpp"
+#include "common/run/share.hpp"
 
 namespace hexpipe::conflicts {
 
@@ -20,7 +20,7 @@ std::vector<std::int64_t> weights_of(const Candidates& candidates, WeightKind ki
 struct ConflictOptions {
   WeightKind weight = WeightKind::quality;
   double weight_scale = 1e6;
-  Part part{};  // only conflicts whose higher end is in this share of the candidates
+  Share share{};  // only conflicts whose higher end is in this share of the candidates
 };
 
 // Vertex i is candidate i. Candidates that are moved in are freed before the graph takes its memory. If `own` is not

@@ -8,7 +8,7 @@ namespace hexpipe {
 namespace {
 
 template <class T>
-std::vector<T> select(const std::vector<T>& items, std::span<const std::int32_t> chosen) {
+std::vector<T> select_items(const std::vector<T>& items, std::span<const std::int32_t> chosen) {
   std::vector<T> selected;
   selected.reserve(chosen.size());
   for (const std::int32_t i : chosen) selected.push_back(items[i]);
@@ -50,11 +50,11 @@ std::vector<Ridge> ridges_among(const std::vector<Ridge>& ridges, std::span<cons
 Submesh submesh(const TetMesh& mesh, std::vector<std::int32_t> points, std::vector<std::int32_t> tets,
                 std::vector<std::int32_t> triangles, std::vector<std::int32_t>& scratch) {
   Submesh result{{}, std::move(points), std::move(tets), std::move(triangles)};
-  result.mesh.points = select(mesh.points, result.points);
-  result.mesh.tets = select(mesh.tets, result.tets);
-  result.mesh.tet_tags = select(mesh.tet_tags, result.tets);
-  result.mesh.triangles = select(mesh.triangles, result.triangles);
-  result.mesh.triangle_tags = select(mesh.triangle_tags, result.triangles);
+  result.mesh.points = select_items(mesh.points, result.points);
+  result.mesh.tets = select_items(mesh.tets, result.tets);
+  result.mesh.tet_tags = select_items(mesh.tet_tags, result.tets);
+  result.mesh.triangles = select_items(mesh.triangles, result.triangles);
+  result.mesh.triangle_tags = select_items(mesh.triangle_tags, result.triangles);
   scratch.resize(mesh.points.size());
   for (std::size_t i = 0; i < result.points.size(); ++i) scratch[result.points[i]] = static_cast<std::int32_t>(i);
   const auto renumber = [&](auto& cells) {

@@ -21,8 +21,8 @@ ThreadLimit::~ThreadLimit() = default;
 
 void ThreadLimit::stay() {
   // The list is never destroyed, not even at exit.
-  static auto* const standing = new std::vector<std::unique_ptr<Control>>;
-  standing->push_back(std::move(control_));
+  static auto* const kept_limits = new std::vector<std::unique_ptr<Control>>;
+  kept_limits->push_back(std::move(control_));
 }
 
 int thread_count() {

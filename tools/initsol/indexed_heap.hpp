@@ -1,6 +1,6 @@
 #pragma once
 // A priority queue of vertices whose keys change. The highest key comes first, and among equal keys the lowest vertex,
-// so that the order does not depend on the history.
+// so that the order does not depend on earlier changes.
 
 #include <cstddef>
 #include <cstdint>

@@ -20,7 +20,7 @@ namespace {
 // For annealing a fragment for the first time. 20 clearly beat 60 on random-33k after 8 s.
 constexpr int kicks_a_vertex = 20;
 // Annealed fragments may be this many times as large as wanted. Only hubs make them so large, and a hub can be
-// exchanged for all its neighbours in no other way.
+// replaced by all its neighbours in no other way.
 constexpr std::size_t hub_factor = 16;
 // The stop rule (--worth) judges nothing before the search has worked as long as annealing the whole graph this many
 // times takes. Large graphs gain for longer: on random-33k, 0.4 times would end at 10,100,430 after 2 s of lns, which
