@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view vtk_magic = "# vtk DataFile Version";
 
 // VTK writes its vtkIdType as int, whatever its size in memory; "long" has the width that it has on our systems.
-constexpr std::pair<std::string_view, ScalarType> type_names[] = {
+constexpr std::pair<std::string_view, ScalarType> legacy_type_names[] = {
     {"char", ScalarType::int8},
     {"signed_char", ScalarType::int8},
     {"unsigned_char", ScalarType::uint8},
@@ -257,8 +257,8 @@ class VtkLegacyReader {
 
   ScalarType scalar_type(std::string_view name) const {
     const auto* const found =
-        std::ranges::find_if(type_names, [&](const auto& known) { return equal_ignoring_case(known.first, name); });
-    if (found == std::end(type_names)) scanner_.fail_expected("a type of numbers", name);
+        std::ranges::find_if(legacy_type_names, [&](const auto& known) { return equal_ignoring_case(known.first, name); });
+    if (found == std::end(legacy_type_names)) scanner_.fail_expected("a type of numbers", name);
     return found->second;
   }
 

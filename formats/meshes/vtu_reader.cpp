@@ -15,7 +15,7 @@
 namespace hexpipe::formats {
 namespace {
 
-constexpr std::pair<std::string_view, ScalarType> type_names[] = {
+constexpr std::pair<std::string_view, ScalarType> vtu_type_names[] = {
     {"Int8", ScalarType::int8},       {"UInt8", ScalarType::uint8},   {"Int16", ScalarType::int16},
     {"UInt16", ScalarType::uint16},   {"Int32", ScalarType::int32},   {"UInt32", ScalarType::uint32},
     {"Int64", ScalarType::int64},     {"UInt64", ScalarType::uint64}, {"Float32", ScalarType::float32},
@@ -217,8 +217,8 @@ class VtuReader {
 
   ScalarType scalar_type(const pugi::xml_node& array) const {
     const std::string_view name = array.attribute("type").value();
-    const auto* const found = std::ranges::find(type_names, name, [](const auto& known) { return known.first; });
-    if (found == std::end(type_names))
+    const auto* const found = std::ranges::find(vtu_type_names, name, [](const auto& known) { return known.first; });
+    if (found == std::end(vtu_type_names))
       fail(array, fmt::format("expected a type of numbers, found {}", quote_found(name)));
     return found->second;
   }
