@@ -1,4 +1,4 @@
-#include "tools/lns-mpi/piece.hpp"
+#include "tools/lns-mpi/local_graph.hpp"
 
 #include <tsl/robin_set.h>
 
@@ -40,7 +40,7 @@ class KeyIndex {
   std::vector<std::int32_t> starts_;
 };
 
-// The standard's hash of a number is the number, whose low bits are the block alone.
+// The standard's hash of a number is the number itself, whose low bits are only the block.
 struct MixedHash {
   std::size_t operator()(std::uint64_t key) const {
     key *= 0x9e3779b97f4a7c15u;
@@ -87,7 +87,7 @@ std::vector<Reach> find_near_blocks(Ranks& ranks, const BlockOwners& owners, con
     std::vector<Bytes> bytes;
     bytes.reserve(to.size());
     for (Packer& packer : to) bytes.push_back(packer.take());
-    for (const Bytes& from : ranks.exchange(std::move(bytes)))
+    for (const Bytes& from : ranks.all_to_all(std::move(bytes)))
       for (Unpacker unpacker(from); !unpacker.at_end();) {
         const auto key = unpacker.get<std::uint64_t>();
         const auto block = unpacker.get<std::int32_t>();
@@ -161,7 +161,7 @@ std::vector<Bytes> pack_halos(const Ranks& ranks, const BlockOwners& owners, con
   return packed;
 }
 
-// All that the rank has of its own, beside what came.
+// Everything that the rank owns, in addition to what was received.
 void append_own(const OwnedRows& rows, std::span<const Reach> reached, Held& held) {
   std::size_t next = 0;
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(rows.keys.size()); ++v) {
@@ -177,53 +177,53 @@ std::vector<std::int64_t> begins_of(const std::vector<std::int32_t>& counts) {
   return begins;
 }
 
-// In the order of the keys, neighbours by their places in it.
-void fill(const Held& held, Piece& piece) {
+// Vertices are in the order of the keys, neighbours by their places in it.
+void build_rows(const Held& held, LocalGraph& local) {
   std::vector<std::int32_t> order(held.keys.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::sort(order, {}, [&](std::int32_t i) { return held.keys[i]; });
   const std::vector<std::int64_t> rows = begins_of(held.degrees), nears = begins_of(held.near_counts);
-  for (const std::int32_t i : order) piece.keys.push_back(held.keys[i]);
-  const KeyIndex index(piece.keys);
-  piece.graph.neighbours.reserve(held.neighbours.size());
+  for (const std::int32_t i : order) local.keys.push_back(held.keys[i]);
+  const KeyIndex index(local.keys);
+  local.graph.neighbours.reserve(held.neighbours.size());
   for (const std::int32_t i : order) {
-    piece.block.push_back(held.blocks[i]);
-    piece.chosen.push_back(held.chosen[i]);
-    piece.graph.weights.push_back(held.weights[i]);
+    local.block.push_back(held.blocks[i]);
+    local.chosen.push_back(held.chosen[i]);
+    local.graph.weights.push_back(held.weights[i]);
     for (std::int64_t e = rows[i]; e < rows[i + 1]; ++e)
-      piece.graph.neighbours.push_back(*index.find(held.neighbours[e]));
-    piece.graph.offsets.push_back(static_cast<std::int64_t>(piece.graph.neighbours.size()));
-    piece.near.insert(piece.near.end(), held.near.begin() + nears[i], held.near.begin() + nears[i + 1]);
-    piece.near_offsets.push_back(static_cast<std::int64_t>(piece.near.size()));
+      local.graph.neighbours.push_back(*index.find(held.neighbours[e]));
+    local.graph.offsets.push_back(static_cast<std::int64_t>(local.graph.neighbours.size()));
+    local.near.insert(local.near.end(), held.near.begin() + nears[i], held.near.begin() + nears[i + 1]);
+    local.near_offsets.push_back(static_cast<std::int64_t>(local.near.size()));
   }
 }
 
-std::vector<Piece::Partner> find_partners(const Piece& piece) {
-  std::vector<std::vector<std::int32_t>> shared(static_cast<std::size_t>(piece.owners.ranks()));
+std::vector<LocalGraph::Partner> find_partners(const LocalGraph& local) {
+  std::vector<std::vector<std::int32_t>> shared(static_cast<std::size_t>(local.owners.ranks()));
   const auto add = [&](std::int32_t v, std::int32_t block) {
-    const int rank = piece.owners.rank_of(block);
-    if (rank != piece.rank && (shared[rank].empty() || shared[rank].back() != v)) shared[rank].push_back(v);
+    const int rank = local.owners.rank_of(block);
+    if (rank != local.rank && (shared[rank].empty() || shared[rank].back() != v)) shared[rank].push_back(v);
   };
-  for (std::int32_t v = 0; v < piece.vertex_count(); ++v) {
-    add(v, piece.block[v]);
-    for (const NearBlock& near : piece.near_of(v)) add(v, near.block);
+  for (std::int32_t v = 0; v < local.vertex_count(); ++v) {
+    add(v, local.block[v]);
+    for (const NearBlock& near : local.near_of(v)) add(v, near.block);
   }
-  std::vector<Piece::Partner> partners;
-  for (int r = 0; r < piece.owners.ranks(); ++r)
+  std::vector<LocalGraph::Partner> partners;
+  for (int r = 0; r < local.owners.ranks(); ++r)
     if (!shared[r].empty()) partners.push_back({r, std::move(shared[r])});
   return partners;
 }
 
 }  // namespace
 
-Piece make_piece(Ranks& ranks, const BlockOwners& owners, OwnedRows rows, std::int32_t overlap) {
+LocalGraph make_local_graph(Ranks& ranks, const BlockOwners& owners, OwnedRows rows, std::int32_t overlap) {
   expect_agreement(ranks, owners, rows);
   Held held;
   {
     const KeyIndex index(rows.keys);
     const std::vector<Reach> reached = find_near_blocks(ranks, owners, rows, index, overlap + 1);
-    std::vector<Bytes> came = ranks.exchange(pack_halos(ranks, owners, rows, reached, overlap));
-    // Here a rank needs most memory: nothing grows, and each message goes when it is taken over.
+    std::vector<Bytes> came = ranks.all_to_all(pack_halos(ranks, owners, rows, reached, overlap));
+    // A rank needs most memory here: nothing grows, and each message is freed when it has been copied.
     std::size_t most = rows.neighbours.size();
     for (const Bytes& bytes : came) most += bytes.size() / sizeof(std::uint64_t);
     held.neighbours.reserve(most);
@@ -234,14 +234,14 @@ Piece make_piece(Ranks& ranks, const BlockOwners& owners, OwnedRows rows, std::i
       bytes = Bytes();
     }
   }
-  Piece piece;
-  piece.owners = owners;
-  piece.rank = ranks.rank();
-  piece.overlap = overlap;
-  fill(held, piece);
-  piece.decided.assign(piece.keys.size(), 0);
-  piece.partners = find_partners(piece);
-  return piece;
+  LocalGraph local;
+  local.owners = owners;
+  local.rank = ranks.rank();
+  local.overlap = overlap;
+  build_rows(held, local);
+  local.decided.assign(local.keys.size(), 0);
+  local.partners = find_partners(local);
+  return local;
 }
 
 }  // namespace hexpipe::lns_mpi

@@ -1,4 +1,4 @@
-#include "common/mwis/local_search/repair.hpp"
+#include "common/mwis/local_search/fragment_solver.hpp"
 
 #include <algorithm>
 
@@ -10,57 +10,59 @@ namespace {
 // Measured on fragments of 100 to 300 vertices and of 2000, of block-28k and random-33k.
 constexpr double work_a_pair = 4, work_a_node = 5000, work_a_touched_neighbour = 3;
 
-// What a fragment is heated to, as a share of what it is when nothing is chosen. Of 0.08, 0.15 and 0.3 mean weights, on
-// random-33k from a solution of initsol: 0.15 gains most after 8 s, a tenth more than 0.3, which forgets the solution.
+// A fragment is heated to this share of the temperature for an empty set. 0.08, 0.15 and 0.3 mean weights were compared
+// on random-33k from a solution of initsol: 0.15 gains most after 8 s, a tenth more than 0.3, which forgets the
+// solution.
 constexpr double reheating = 0.5;
 constexpr std::int64_t cooling_steps = 50;
-// A kick touches some 20 times as many neighbours as a vertex has; beyond 64 times it is one of few hubs that takes the
-// time.
+// A kick touches about 20 times as many neighbours as a vertex has. Beyond 64 times, a few hubs take the time.
 constexpr double touched_a_kick = 20;
 constexpr std::int64_t most_touched_a_kick = 64;
 
 }  // namespace
 
-void Repair::extract(FragmentGrower& grower) {
-  if (way_ == Way::exact) return grower.extract(fragment_, dense_, chosen_);
+void FragmentSolver::extract(FragmentGrower& grower) {
+  if (operator_ == Operator::exact) return grower.extract(fragment_, dense_, chosen_);
   grower.sort(fragment_);
   grower.extract(fragment_, sparse_, start_);
 }
 
-void Repair::solve(std::int64_t effort, Random random, const Deadline& deadline, const Cooling& usual) {
-  if (way_ == Way::exact)
-    solve_exactly(effort, deadline);
-  else if (way_ == Way::anneal)
-    anneal(effort, random, deadline, usual);
+void FragmentSolver::solve(std::int64_t budget, Random random, const Deadline& deadline, const Cooling& usual) {
+  if (operator_ == Operator::exact)
+    solve_exactly(budget, deadline);
+  else if (operator_ == Operator::anneal)
+    anneal(budget, random, deadline, usual);
   else
-    recombine(effort, random, deadline, usual);
+    recombine(budget, random, deadline, usual);
 }
 
-double Repair::work_a_kick(const graph::ConflictGraph& graph) {
+double FragmentSolver::work_a_kick(const graph::ConflictGraph& graph) {
   const auto directed_edges = static_cast<double>(graph.neighbours.size());
   return work_a_touched_neighbour * touched_a_kick * directed_edges / std::max(1, graph.vertex_count());
 }
 
-void Repair::solve_exactly(std::int64_t nodes, const Deadline& deadline) {
+void FragmentSolver::solve_exactly(std::int64_t nodes, const Deadline& deadline) {
   const auto size = static_cast<double>(dense_.size());
   ground::SearchBudget budget(nodes, &deadline);
   complete_ = solver_.solve(dense_, chosen_, budget);
   work_ = work_a_pair * size * size + work_a_node * static_cast<double>(budget.spent());
 }
 
-void Repair::anneal(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline, const Cooling& usual) {
+void FragmentSolver::anneal(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline,
+                            const Cooling& usual) {
   Annealing search(sparse_, start_, random);
   choose(cool(search, {.hot = reheating * usual.hot, .cold = usual.cold}, kicks_a_vertex, deadline));
 }
 
-// Two sets that nothing binds together differ everywhere, and each is the better one in places.
-void Repair::recombine(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline, const Cooling& usual) {
+// Two unrelated sets differ everywhere, and each is the better one in places.
+void FragmentSolver::recombine(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline,
+                               const Cooling& usual) {
   Annealing search(sparse_, {}, random);
   choose(hexpipe::mwis::local_search::recombine(sparse_, start_, cool(search, usual, kicks_a_vertex, deadline)));
 }
 
-graph::IndependentSet Repair::cool(Annealing& search, const Cooling& cooling, std::int64_t kicks_a_vertex,
-                                   const Deadline& deadline) {
+graph::IndependentSet FragmentSolver::cool(Annealing& search, const Cooling& cooling, std::int64_t kicks_a_vertex,
+                                           const Deadline& deadline) {
   const double unit = search.mean_weight();
   const std::int64_t kicks = kicks_a_vertex * sparse_.vertex_count();
   const auto directed_edges = static_cast<std::int64_t>(sparse_.neighbours.size());
@@ -74,7 +76,7 @@ graph::IndependentSet Repair::cool(Annealing& search, const Cooling& cooling, st
   return search.best();
 }
 
-void Repair::choose(const graph::IndependentSet& set) {
+void FragmentSolver::choose(const graph::IndependentSet& set) {
   chosen_.assign(bits::words_for(sparse_.weights.size()), 0);
   for (const std::int32_t i : set) bits::insert(chosen_.data(), static_cast<std::size_t>(i));
   complete_ = false;

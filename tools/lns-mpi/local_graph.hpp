@@ -1,7 +1,7 @@
 #pragma once
-// The share of one rank in a conflict graph that is cut into blocks: its own blocks and a halo around them. It has the
-// rows of all vertices at most `overlap` edges away from a block of its own, and the solution there and one edge
-// further.
+// The part of a conflict graph that one rank holds, when the graph is cut into blocks: the rank's own blocks and a halo
+// around them. It has the rows of all vertices at most `overlap` edges away from a block of its own, and the solution
+// there and one edge further.
 
 #include <cstdint>
 #include <span>
@@ -47,7 +47,7 @@ struct NearBlock {
 };
 
 // Vertices here are numbered in the order of their keys.
-struct Piece {
+struct LocalGraph {
   BlockOwners owners{1, 1};
   int rank = 0;
   std::int32_t overlap = 0;
@@ -75,6 +75,6 @@ struct Piece {
 };
 
 // Sends every rank the rows and solution of its halo. Each row travels once to each rank that holds it.
-Piece make_piece(Ranks& ranks, const BlockOwners& owners, OwnedRows rows, std::int32_t overlap);
+LocalGraph make_local_graph(Ranks& ranks, const BlockOwners& owners, OwnedRows rows, std::int32_t overlap);
 
 }  // namespace hexpipe::lns_mpi

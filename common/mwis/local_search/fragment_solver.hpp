@@ -1,38 +1,38 @@
 #pragma once
-// A fragment taken out of the graph and improved on its own, exactly or by annealing.
+// A fragment copied out of the graph and improved on its own, exactly or by annealing.
 
 #include <cstdint>
 #include <vector>
 
 #include "common/mwis/exact/exact_solver.hpp"
 #include "common/mwis/local_search/annealing.hpp"
-#include "common/mwis/local_search/effort.hpp"
 #include "common/mwis/local_search/fragment.hpp"
+#include "common/mwis/local_search/operator_selection.hpp"
 
 namespace hexpipe::mwis::local_search {
 
-// Keeps its memory from one fragment to the next.
-class Repair {
+// Reuses its memory for the next fragment.
+class FragmentSolver {
  public:
-  // The way decides how large the fragment may be, so it comes first.
-  void begin(Way way) { way_ = way; }
-  Way way() const { return way_; }
+  // Comes first, because the operator decides how large the fragment may be.
+  void begin(Operator op) { operator_ = op; }
+  Operator used_operator() const { return operator_; }
   Fragment& fragment() { return fragment_; }
   const Fragment& fragment() const { return fragment_; }
 
-  // Copies the graph of the fragment, after which solve needs nothing else.
+  // Copies the graph of the fragment; solve needs nothing else afterwards.
   void extract(FragmentGrower& grower);
-  // Exactly: with so many nodes of branch and bound at most; otherwise with so many kicks a vertex, and at
-  // temperatures that suit the whole graph.
-  void solve(std::int64_t effort, Random random, const Deadline& deadline, const Cooling& usual = {});
+  // `budget` is the greatest number of branch-and-bound nodes for the exact operator, and the number of kicks per
+  // vertex for the others. `usual`: temperatures that suit the whole graph.
+  void solve(std::int64_t budget, Random random, const Deadline& deadline, const Cooling& usual = {});
 
   // After solve: by place in fragment().vertices, a set that is not lighter.
   bool chooses(std::size_t i) const { return bits::test(chosen_.data(), i); }
-  // It is proven that no other one is heavier.
+  // Whether it is proven that no other set is heavier.
   bool complete() const { return complete_; }
-  // A rough number of nanoseconds that does not depend on the machine.
+  // The work done, roughly in nanoseconds, but the same on every machine.
   double work() const { return work_; }
-  // What a kick will take in this graph, likewise.
+  // The expected work of a kick in this graph, in the same unit.
   static double work_a_kick(const graph::ConflictGraph& graph);
 
  private:
@@ -43,7 +43,7 @@ class Repair {
                              const Deadline& deadline);
   void choose(const graph::IndependentSet& set);
 
-  Way way_ = Way::exact;
+  Operator operator_ = Operator::exact;
   Fragment fragment_;
   std::vector<bits::Word> chosen_;
   bool complete_ = false;

@@ -1,4 +1,4 @@
-#include "common/run/part.hpp"
+#include "common/run/share.hpp"
 
 #include <fmt/format.h>
 
@@ -8,16 +8,16 @@
 
 namespace hexpipe {
 
-Part parse_part(const std::string& text) {
+Share parse_share(const std::string& text) {
   constexpr std::int64_t too_many = 1000000;
-  Part part;
+  Share share;
   const char* const end = text.data() + text.size();
-  const auto number = std::from_chars(text.data(), end, part.number);
+  const auto number = std::from_chars(text.data(), end, share.number);
   if (number.ec == std::errc() && number.ptr != end && *number.ptr == '/') {
-    const auto count = std::from_chars(number.ptr + 1, end, part.count);
-    if (count.ec == std::errc() && count.ptr == end && 1 <= part.number && part.number <= part.count &&
-        part.count < too_many)
-      return part;
+    const auto count = std::from_chars(number.ptr + 1, end, share.count);
+    if (count.ec == std::errc() && count.ptr == end && 1 <= share.number && share.number <= share.count &&
+        share.count < too_many)
+      return share;
   }
   throw UsageError(fmt::format("--part: expected i/k with 1 <= i <= k, found '{}'", text));
 }
