@@ -78,17 +78,17 @@ double MeshMaker::seconds_for_a_run() const {
 
 }  // namespace
 
-void improve(FilledSurface& filled, const solid::Surface& given, const TetmeshOptions& options) {
+void improve(FilledSurface& filled, const solid::Surface& given, const ImproveOptions& options) {
   const Stopwatch watch;
   stop_searches_on_signal();
   const Deadline deadline(options.time_limit);
-  TetmeshStatistics& statistics = filled.result.statistics;
+  TetmeshStatistics& statistics = filled.statistics;
   MeshMaker maker(options.tetgen_timeout, deadline, statistics);
   search::PointSearchResult found = search::search_points(
       filled.surface(given), std::move(filled.built),
       {.size = filled.size,
        .seed = options.seed,
-       .rounds = options.improve,
+       .rounds = options.rounds,
        .changes_surface = filled.made_surface.has_value(),
        .after_round = options.after_round},
       deadline,

@@ -15,7 +15,7 @@
 #include "formats/points/point_files.hpp"
 #include "formats/points/size_files.hpp"
 #include "formats/surfaces/surface_files.hpp"
-#include "tools/tetmesh/command_line.hpp"
+#include "tools/tetmesh/options.hpp"
 #include "tools/tetmesh/tetmesh.hpp"
 
 using namespace hexpipe;
@@ -24,6 +24,7 @@ using namespace hexpipe::tetmesh;
 namespace {
 
 const std::map<std::string, SurfaceKind> surface_kinds{{"remesh", SurfaceKind::remesh}, {"keep", SurfaceKind::keep}};
+using volume::PointKind;
 const std::map<std::string, PointKind> point_kinds{
     {"best", PointKind::best}, {"frame", PointKind::frame}, {"lattice", PointKind::lattice}, {"none", PointKind::none}};
 const std::map<std::string, solid::ShellRule> shell_rules{{"oriented", solid::ShellRule::oriented},
@@ -37,14 +38,14 @@ formats::Input open_surface(const std::string& path) {
 }
 
 // "3" for all, "inlet=0.5" for a surface.
-void add_size(const std::string& text, TetmeshOptions& options) {
+void add_size(const std::string& text, sizing::SizeRequest& sizes) {
   const std::size_t equals = text.rfind('=');
-  if (equals == std::string::npos && options.size)
+  if (equals == std::string::npos && sizes.size)
     throw UsageError(fmt::format("expected one --size for all, found '{}' beside another", text));
   if (equals == std::string::npos)
-    options.size = sizing::parse_length(text);
+    sizes.size = sizing::parse_length(text);
   else
-    options.named_sizes.push_back({text.substr(0, equals), sizing::parse_length(text.substr(equals + 1))});
+    sizes.named.push_back({text.substr(0, equals), sizing::parse_length(text.substr(equals + 1))});
 }
 
 // Of a file: a bundle passes its surface on as it is.
@@ -94,7 +95,7 @@ int main(int argc, char** argv) {
       .licence = "AGPL-3.0, for it links TetGen"};
   TetmeshOptions options;
   const CLI::App* command_line = nullptr;
-  std::optional<std::string> sizes, least_size;
+  std::optional<std::string> size_file, least_size;
   std::optional<double> scale;
   std::vector<std::string> given_sizes;
   std::vector<std::string> tag_names;
@@ -108,7 +109,7 @@ int main(int argc, char** argv) {
            "[what suits the part]; at a surface alone: inlet=0.5")
         ->allow_extra_args(false)
         ->type_name("LENGTH");
-    app.add_option("--size-field", sizes,
+    app.add_option("--size-field", size_file,
                    "Sizes by place: lines of x y z size, or of one size for each vertex of the surface, or the same in "
                    ".npy, or a background mesh in .msh with $NodeData")
         ->type_name("FILE");
@@ -116,16 +117,16 @@ int main(int argc, char** argv) {
                    "Multiply the coordinates of a surface file by this; all lengths are in the new unit")
         ->check(number_between(1e-12, 1e12))
         ->type_name("FACTOR");
-    app.add_option("--grading", options.grading,
+    app.add_option("--grading", options.sizes.grading,
                    "How much sizes may differ between two places, against their distance, at the most")
         ->check(number_between(0.01, 10));
-    app.add_option("--curvature", options.curvature,
+    app.add_option("--curvature", options.sizes.curvature,
                    "If given: where the surface bends, elements are no longer than an Nth of a turn")
         ->check(number_between(3, 1000))
         ->type_name("N");
     app.add_option("--least-size", least_size, "With --curvature: no size is less [a fifth of --size]")
         ->type_name("LENGTH");
-    app.add_option("--layers", options.layers, "If given: thin walls get at least N elements across, or 2")
+    app.add_option("--layers", options.sizes.layers, "If given: thin walls get at least N elements across, or 2")
         ->expected(0, 1)
         ->default_str("2")
         ->check(CLI::Range(1, 100))
@@ -191,8 +192,8 @@ int main(int argc, char** argv) {
         ->check(number_between(0.001, 1e9));
   };
   const auto run = [&](RunContext& context) {
-    for (const std::string& text : given_sizes) add_size(text, options);
-    if (least_size) options.least_size = sizing::parse_length(*least_size);
+    for (const std::string& text : given_sizes) add_size(text, options.sizes);
+    if (least_size) options.sizes.least = sizing::parse_length(*least_size);
     options.surface = surface_kinds.at(surface_kind);
     choose_points(points, options);
     refuse_idle_options([&](const char* name) { return command_line->count(name) > 0; }, options, points);
@@ -204,7 +205,7 @@ int main(int argc, char** argv) {
     formats::Input input = open_surface(path);
     formats::SurfaceSoup surface = stage.read_surface(input);
     if (scale) scale_surface(*scale, surface);
-    if (sizes) options.size_sources = size_sources(*sizes, surface);
+    if (size_file) options.sizes.sources = size_sources(*size_file, surface);
     Progress progress("tetmesh", context.common.quiet);
     options.after_round = [&](std::size_t round, double share) {
       if (progress.due()) progress.show(fmt::format("round {}, about {:.1f} % in hexes", round + 1, 100 * share));

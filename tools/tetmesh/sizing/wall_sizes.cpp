@@ -1,4 +1,4 @@
-#include "tools/tetmesh/sizing/wall_thickness.hpp"
+#include "tools/tetmesh/sizing/wall_sizes.hpp"
 
 #include <algorithm>
 #include <cmath>
