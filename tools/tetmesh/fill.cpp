@@ -24,11 +24,11 @@ namespace {
 using volume::places_points;
 using volume::PointKind;
 
-// A point given by the user may come as near to the surface as TetGen can bear.
+// Points that the user gives may come as near to the surface as TetGen can bear.
 constexpr double clearance_of_given = 1e-3;  // in sizes
 
-// Of 31 meshes of eleven parts the lattice won only with less than a seventh of the frames turned, or with few tets,
-// where an estimate takes no time.
+// In 31 meshes of eleven models the lattice won only where less than a seventh of the frames was turned, or where there
+// were few tets. With few tets an estimate takes no time.
 constexpr double much_turned = 0.2;
 constexpr std::size_t few_tets = 8000;
 
@@ -44,12 +44,12 @@ class StepWatch {
   Stopwatch watch_;
 };
 
-// TetGen fails on some surfaces of nearly coplanar slivers, by a crash or by losing triangles, in one order of its
-// input and not in another. Of 36 meshes of a CAD tessellation turned out of the axes 9 failed at the first run; the
-// worst needed 6.
+// TetGen fails on some surfaces with slivers that are nearly coplanar: it crashes or loses triangles. With the same
+// input in another order it succeeds. 9 of 36 meshes of a turned CAD tessellation failed at the first run; the worst
+// needed 6 runs.
 constexpr int most_runs = 16;
-// From this one on they are strict, for shells that nearly touch: two cubes on each other, 1e-9 apart, failed at all
-// others.
+// Runs from this number on are strict, for shells that nearly touch: two cubes on top of each other, 1e-9 apart, failed
+// at all other runs.
 constexpr int first_strict_run = 8;
 
 class Filler {
@@ -64,12 +64,12 @@ class Filler {
   FilledSurface fill();
 
  private:
-  // False where no new surface can be made, and the warning says why.
+  // Returns false where no new surface can be made; the warning says why.
   bool fill_new_surface();
   void fill_given_surface();
   void place_points();
   void try_frame_points();
-  // Called while TetGen is at work; false when its mesh is not wanted any more.
+  // Is called while TetGen is at work, and returns false when its mesh is no longer wanted.
   using Meanwhile = std::function<bool()>;
   std::optional<tetgen::BuiltMesh> tetrahedralize(std::span<const Vec3> points, const Meanwhile& meanwhile);
   void describe(const surface::RemeshResult& remeshed);
@@ -82,9 +82,9 @@ class Filler {
   StepWatch watch_;
 
   std::optional<surface::RemeshResult> remeshed_;
-  std::optional<solid::Surface> cut_;        // of a surface in sheets, triangles of about the size
-  const solid::Surface* surface_ = &given_;  // that is filled
-  solid::Axes axes_{};                       // of the part
+  std::optional<solid::Surface> cut_;        // a surface in sheets with its triangles cut to about the size
+  const solid::Surface* surface_ = &given_;  // the surface that is filled
+  solid::Axes axes_{};                       // of the model
   std::vector<Vec3> points_;                 // inside
   std::optional<std::string> points_left_out_;
   std::optional<tetgen::BuiltMesh> built_;
@@ -119,10 +119,11 @@ FilledSurface Filler::fill() {
   return {std::move(made), size_, *std::move(built_), std::move(statistics_), std::move(warnings_)};
 }
 
-// TetGen is at work on the new surface while that is judged. It may fail on that and not on the given one, whose points
-// are elsewhere.
+// TetGen works on the new surface while this thread judges that surface. TetGen may fail on the new surface and not on
+// the given one, because their points differ.
 bool Filler::fill_new_surface() {
-  // What a size may take is nothing beside the part, unless that is thinner than a size.
+  // A deviation in sizes is small beside the model, unless a wall is thinner than a size: then the wall's thickness
+  // counts.
   const bool walls_count = !demand_.layers && !surface::asks_for_too_many_points(given_, size_);
   sizing::SizeDemand one_layer = demand_;
   one_layer.layers = 1;
@@ -189,7 +190,7 @@ void Filler::place_points() {
   watch_.add_to(statistics_.seconds.placing);
 }
 
-// From the mesh with the lattice's points, which stays where it is the better one.
+// Starts from the mesh with the lattice's points, and keeps that mesh if it is the better one.
 void Filler::try_frame_points() {
   const volume::FramePoints frame =
       volume::frame_points(*surface_, built_->mesh, built_->adjacency,
@@ -219,9 +220,9 @@ void Filler::try_frame_points() {
   statistics_.points_kept = PointKind::frame;
 }
 
-// Nothing where the mesh is not wanted.
+// Returns nothing where the mesh is not wanted.
 std::optional<tetgen::BuiltMesh> Filler::tetrahedralize(std::span<const Vec3> points, const Meanwhile& meanwhile) {
-  // With one thread, one after the other.
+  // With one thread, TetGen and the other work follow each other.
   const bool at_once = thread_count() > 1;
   if (!at_once && !meanwhile()) return std::nullopt;
   const Deadline deadline(options_.tetgen_timeout);

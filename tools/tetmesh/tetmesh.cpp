@@ -18,11 +18,11 @@
 namespace hexpipe::tetmesh {
 namespace {
 
-// The sizes that are tried, as factors of the size asked for, in this order. Whole numbers of cells across a model, and
-// so the shares of hexes, differ by several percent between them, in no order.
+// The sizes that are tried, in this order, as factors of the size asked for. The number of whole cells across a model
+// changes with the size, and so does the share of hexes, by several percent and in no particular order.
 constexpr std::array<double, most_tries> tried_sizes{1, 0.95, 1.05, 0.975, 1.025, 0.9625, 1.0375, 0.9875, 1.0125};
 
-// Comes before any memory is used for the points, and before walls are looked for.
+// Runs before any memory is used for points, and before walls are measured.
 void check_number_of_points(const solid::Surface& surface, const TetmeshOptions& options, double greatest_size) {
   const double most = options.most_points;
   const auto given = static_cast<double>(options.given_points.points.size());
