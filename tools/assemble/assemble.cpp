@@ -52,7 +52,7 @@ Prepared checked_input(TetMesh mesh, const Candidates& candidates, const graph::
 
 // Whether a quad of the candidate has tagged triangles along both diagonals: its four vertices span a hole, or an
 // interface around a tet. On the far side nothing can tell the quad from these two triangles.
-bool closes_a_hole(const hybrid::SurfaceTags& tags, const Candidates& candidates, std::int32_t candidate) {
+bool closes_a_hole(const hybrid::SurfaceTags& tags, const Candidates& candidates, CandidateIndex candidate) {
   hybrid::HybridCell cell;
   cell.kind = candidates.kind[candidate];
   cell.corners = candidates.vertices[candidate];
@@ -76,7 +76,7 @@ graph::IndependentSet without_those_at_holes(const hybrid::SurfaceTags& tags, co
                                              const graph::IndependentSet& chosen, GivenBackCounts& given_back) {
   graph::IndependentSet at_holes, rest;
   std::ranges::partition_copy(chosen, std::back_inserter(at_holes), std::back_inserter(rest),
-                              [&](std::int32_t c) { return closes_a_hole(tags, candidates, c); });
+                              [&](CandidateIndex c) { return closes_a_hole(tags, candidates, c); });
   given_back.add(candidates, at_holes, conform::GivenBack::diagonal_on_surface);
   return rest;
 }
@@ -166,15 +166,15 @@ SelectedCells selected(const Prepared& at, const Candidates& candidates, const g
   return exchanged(at, candidates, choice, names);
 }
 
-// With prisms between the selected cells.
+// The result has prisms between the selected cells.
 AssembleResult filled_result_of(Prepared& at, const Candidates& candidates, std::optional<choice::Selection> selection,
                                 const BuildRules& rules, const choice::InputNames& names) {
   const choice::PrismFilling filling = choice::fill_with_prisms(at.input.mesh, at.boundary, candidates, *selection);
   choice::InputNames names_of_cells = names;
-  for (const std::int32_t candidate : selection->chosen()) names_of_cells.origins.push_back({0, candidate});
+  for (const CandidateIndex candidate : selection->chosen()) names_of_cells.origins.push_back({0, candidate});
   // Prisms have no number that a user could know: their numbers follow those of the candidates.
-  const auto first = static_cast<std::int32_t>(candidates.size());
-  for (std::int32_t i = 0; i < filling.prisms; ++i) names_of_cells.origins.push_back({0, first + i});
+  const auto first = static_cast<CandidateIndex>(candidates.size());
+  for (CandidateIndex i = 0; i < filling.prisms; ++i) names_of_cells.origins.push_back({0, first + i});
   selection.reset();
   Cells cells = cells_of(at, filling.cells, choice::all_of(filling.cells), names_of_cells);
   AssembleResult result = result_of(at, filling.cells, std::move(cells), rules, names_of_cells);

@@ -37,7 +37,7 @@ void check_orientation(const TetMesh& mesh, const choice::InputNames& names);
 AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const graph::IndependentSet& chosen,
                         const AssembleOptions& options, const choice::InputNames& names = {});
 
-// For a whole mesh: without a seam.
+// The rules for a whole mesh, which has no seam.
 BuildRules build_rules(const AssembleOptions& options);
 
 // The piece of one part, conforming, from all `cells`. The surface of `mesh` is complete, with the seam's own tags; the

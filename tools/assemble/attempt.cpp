@@ -60,18 +60,18 @@ void sort_unique(graph::IndependentSet& candidates) {
 
 // Candidates whose cells are in the mesh, or went back to their tets.
 void append_candidates(const hybrid::HybridMesh& mesh, bool alive, graph::IndependentSet& out) {
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c)
+  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c)
     if (const hybrid::HybridCell& cell = mesh.cell(c); cell.alive == alive && cell.candidate != no_index)
       out.push_back(cell.candidate);
 }
 
 // By point: the candidate to whose quad the pyramid with this apex belongs. Appends the owners of poor pyramids.
-std::vector<std::int32_t> owners_of_apexes(const hybrid::HybridMesh& mesh, graph::IndependentSet& owners_of_poor) {
-  std::vector<std::int32_t> owner_of_point(mesh.points.size(), no_index);
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
+std::vector<CandidateIndex> owners_of_apexes(const hybrid::HybridMesh& mesh, graph::IndependentSet& owners_of_poor) {
+  std::vector<CandidateIndex> owner_of_point(mesh.points.size(), no_index);
+  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c) {
     const hybrid::HybridCell& cell = mesh.cell(c);
     if (!cell.alive || cell.candidate != no_index) continue;
-    const std::int32_t owner = mesh.cell(mesh.partner_at(cell.quad(0), c)).candidate;
+    const CandidateIndex owner = mesh.cell(mesh.partner_at(cell.quad(0), c)).candidate;
     owner_of_point[cell.corners[4]] = owner;
     if (is_worse(mesh, cell.kind, std::span(cell.corners).first(5), shape::poor_quality))
       owners_of_poor.push_back(owner);
@@ -84,8 +84,8 @@ std::vector<std::int32_t> owners_of_apexes(const hybrid::HybridMesh& mesh, graph
 // start.
 graph::IndependentSet owners_of_poor_elements(const hybrid::HybridMesh& mesh, std::size_t input_points) {
   graph::IndependentSet owners;
-  const std::vector<std::int32_t> owner_of_point = owners_of_apexes(mesh, owners);
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tet_count()); ++t) {
+  const std::vector<CandidateIndex> owner_of_point = owners_of_apexes(mesh, owners);
+  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh.tet_count()); ++t) {
     if (!mesh.is_alive(t)) continue;
     // The vertex added last made the tet.
     const Vertex newest = *std::ranges::max_element(mesh.tet(t));
@@ -217,7 +217,7 @@ bool Builder::mend_flat_tets(Attempt& attempt) const {
 // Candidates that are poor hexes after smoothing, and prisms that some readers would turn round.
 graph::IndependentSet Builder::poor_candidates(const hybrid::HybridMesh& mesh) const {
   graph::IndependentSet result;
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
+  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c) {
     const hybrid::HybridCell& cell = mesh.cell(c);
     if (!cell.alive || cell.candidate == no_index || rules_.is_guest(cell.candidate)) continue;
     const bool is_poor_hex = rules_.smooth_rounds > 0 && cell.kind == CellKind::hex &&
@@ -231,7 +231,7 @@ graph::IndependentSet Builder::poor_candidates(const hybrid::HybridMesh& mesh) c
 // Moving vertices leaves valid cells valid. A cell that is not valid now was not valid in the input, and nothing has
 // mended it.
 void Builder::check_cells_left(const hybrid::HybridMesh& mesh) const {
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
+  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c) {
     const hybrid::HybridCell& cell = mesh.cell(c);
     if (!cell.alive || cell.candidate == no_index) continue;
     const std::span corners = std::span(cell.corners).first(corner_count(cell.kind));
@@ -258,7 +258,7 @@ Built Builder::finish(Attempt attempt, const GivenBackCounts& given_back) const 
           .left = std::move(left)};
 }
 
-// Without the given cells, from the input again.
+// Starts from the input again, without the given cells.
 Attempt Builder::without(graph::IndependentSet& kept, const graph::IndependentSet& given_back) const {
   graph::IndependentSet rest;
   std::ranges::set_difference(kept, given_back, std::back_inserter(rest));
@@ -299,7 +299,7 @@ std::span<const std::uint8_t> BuildRules::is_shared() const {
 void GivenBackCounts::add(const Candidates& candidates, const graph::IndependentSet& given_back,
                           conform::GivenBack reason) {
   cells[static_cast<std::size_t>(reason)] += static_cast<std::int64_t>(given_back.size());
-  for (const std::int32_t candidate : given_back)
+  for (const CandidateIndex candidate : given_back)
     if (candidates.kind[candidate] == CellKind::hex) hex_volume += candidates.volume[candidate];
 }
 

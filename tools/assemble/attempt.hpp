@@ -40,7 +40,7 @@ struct BuildRules {
 
   // By vertex of the input, as in Seam; empty without a seam.
   std::span<const std::uint8_t> is_shared() const;
-  bool is_guest(std::int32_t candidate) const { return seam != nullptr && seam->is_guest[candidate] != 0; }
+  bool is_guest(CandidateIndex candidate) const { return seam != nullptr && seam->is_guest[candidate] != 0; }
 };
 
 // Candidates that went back to their tets between attempts.

@@ -27,7 +27,7 @@ struct KindStatistics {
 };
 using KindTable = std::array<KindStatistics, all_kinds.size()>;  // as in all_kinds
 
-// What smoothing did, to flat tets (conform/flat_tets.hpp) and between the hexes, too.
+// How often smoothing moved vertices, mended flat tets (conform/flat_tets.hpp), and made cells between the hexes fewer.
 struct ImprovementCounts {
   int rounds = 0;
   std::int64_t moves = 0;

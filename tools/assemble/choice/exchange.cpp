@@ -49,7 +49,7 @@ constexpr double worth_of_all = 0x1p52;
 
 // Calls visit(key) for the quads of a candidate that are not on the boundary.
 template <class Visit>
-void for_inner_quads(const hybrid::BoundaryQuads& boundary, const Candidates& candidates, std::int32_t i,
+void for_inner_quads(const hybrid::BoundaryQuads& boundary, const Candidates& candidates, CandidateIndex i,
                      Visit&& visit) {
   hybrid::HybridCell cell;
   cell.kind = candidates.kind[i];
@@ -61,7 +61,7 @@ void for_inner_quads(const hybrid::BoundaryQuads& boundary, const Candidates& ca
 KeySet<4> open_quads(const hybrid::BoundaryQuads& boundary, const Candidates& candidates,
                      const graph::IndependentSet& chosen) {
   KeySet<4> open;
-  for (const std::int32_t i : chosen)
+  for (const CandidateIndex i : chosen)
     for_inner_quads(boundary, candidates, i, [&](const VertexKey<4>& key) {
       if (open.erase(key) == 0) open.insert(key);
     });
@@ -69,7 +69,7 @@ KeySet<4> open_quads(const hybrid::BoundaryQuads& boundary, const Candidates& ca
 }
 
 // Nobody has checked a candidate that is not chosen: it may be anything.
-bool can_come_in(const TetMesh& mesh, const Candidates& candidates, std::int32_t i, double least_quality) {
+bool can_come_in(const TetMesh& mesh, const Candidates& candidates, CandidateIndex i, double least_quality) {
   if (candidates.quality[i] < least_quality || !is_formed_by_its_tets(mesh, candidates, i)) return false;
   const auto corners = corner_points(mesh.points, candidates.vertices[i]);
   return is_valid(CellKind::hex, corners);
@@ -77,21 +77,21 @@ bool can_come_in(const TetMesh& mesh, const Candidates& candidates, std::int32_t
 
 double least_quality_of(const Candidates& candidates, const graph::IndependentSet& chosen) {
   double least = least_hex_quality;
-  for (const std::int32_t i : chosen)
+  for (const CandidateIndex i : chosen)
     if (candidates.kind[i] == CellKind::hex) least = std::min(least, candidates.quality[i]);
   return least;
 }
 
 // The candidates that take part, ascending: hexes at open quads, and all chosen cells that have a vertex of one of
 // these. Cells in conflict share a vertex, and so do cells at one quad.
-std::vector<std::int32_t> find_participants(const TetMesh& mesh, const Candidates& candidates,
-                                            const graph::IndependentSet& chosen, const KeySet<4>& open) {
+std::vector<CandidateIndex> find_participants(const TetMesh& mesh, const Candidates& candidates,
+                                              const graph::IndependentSet& chosen, const KeySet<4>& open) {
   std::vector<bool> is_at_open(mesh.points.size()), is_at_participant(mesh.points.size());
   for (const auto& quad : open)
     for (const Vertex v : quad) is_at_open[v] = true;
   const double least_quality = least_quality_of(candidates, chosen);
-  std::vector<std::int32_t> participants;
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(candidates.size()); ++i) {
+  std::vector<CandidateIndex> participants;
+  for (CandidateIndex i = 0; i < static_cast<CandidateIndex>(candidates.size()); ++i) {
     const auto corners = candidates.corners_of(i);
     if (candidates.kind[i] != CellKind::hex || std::ranges::binary_search(chosen, i)) continue;
     if (std::ranges::count_if(corners, [&](Vertex v) { return is_at_open[v]; }) < least_at_open_quads) continue;
@@ -100,7 +100,7 @@ std::vector<std::int32_t> find_participants(const TetMesh& mesh, const Candidate
     for (const Vertex v : corners) is_at_participant[v] = true;
   }
   const auto others = static_cast<std::ptrdiff_t>(participants.size());
-  for (const std::int32_t i : chosen)
+  for (const CandidateIndex i : chosen)
     if (std::ranges::any_of(candidates.corners_of(i), [&](Vertex v) { return is_at_participant[v]; }))
       participants.push_back(i);
   std::ranges::inplace_merge(participants, participants.begin() + others);
@@ -171,10 +171,10 @@ class Worth {
 
 // Numbers the inner quads of the participants, and counts the other chosen cells at them.
 void number_quads(const hybrid::BoundaryQuads& boundary, const Candidates& candidates,
-                  const graph::IndependentSet& chosen, std::span<const std::int32_t> participants, const Worth& worth,
+                  const graph::IndependentSet& chosen, std::span<const CandidateIndex> participants, const Worth& worth,
                   ExchangeProblem& problem) {
   KeyMap<4, std::int32_t> numbers;
-  for (const std::int32_t i : participants) {
+  for (const CandidateIndex i : participants) {
     auto& row = problem.quads.emplace_back();
     row.fill(no_index);
     std::size_t filled = 0;
@@ -187,14 +187,14 @@ void number_quads(const hybrid::BoundaryQuads& boundary, const Candidates& candi
   problem.fixed_cells.assign(numbers.size(), 0);
   graph::IndependentSet others;
   std::ranges::set_difference(chosen, participants, std::back_inserter(others));
-  for (const std::int32_t i : others)
+  for (const CandidateIndex i : others)
     for_inner_quads(boundary, candidates, i, [&](const VertexKey<4>& key) {
       if (const auto found = numbers.find(key); found != numbers.end()) ++problem.fixed_cells[found->second];
     });
 }
 
 ExchangeProblem problem_of(const TetMesh& mesh, const hybrid::BoundaryQuads& boundary, const Candidates& candidates,
-                           const graph::IndependentSet& chosen, std::span<const std::int32_t> participants) {
+                           const graph::IndependentSet& chosen, std::span<const CandidateIndex> participants) {
   ExchangeProblem problem;
   Candidates cells = select(candidates, participants);
   const Worth worth(cells, mesh.points);
@@ -212,23 +212,23 @@ ExchangeProblem problem_of(const TetMesh& mesh, const hybrid::BoundaryQuads& bou
 
 bool is_independent(const graph::ConflictGraph& graph, const graph::IndependentSet& set) {
   std::vector<bool> is_in(graph.weights.size());
-  for (const std::int32_t i : set) is_in[i] = true;
-  return std::ranges::none_of(set, [&](std::int32_t i) {
-    return std::ranges::any_of(graph.neighbours_of(i), [&](std::int32_t u) { return is_in[u]; });
+  for (const Participant i : set) is_in[i] = true;
+  return std::ranges::none_of(set, [&](Participant i) {
+    return std::ranges::any_of(graph.neighbours_of(i), [&](Participant u) { return is_in[u]; });
   });
 }
 
 // Hexes that could be added to the choice: they were left out on purpose, and their room with them. A maximal choice
 // has none.
-std::vector<std::int32_t> left_out(const graph::ConflictGraph& graph, const graph::IndependentSet& start,
-                                   const std::vector<std::uint8_t>& is_hex) {
+std::vector<Participant> left_out(const graph::ConflictGraph& graph, const graph::IndependentSet& start,
+                                  const std::vector<std::uint8_t>& is_hex) {
   std::vector<bool> is_kept_out(graph.weights.size());
-  for (const std::int32_t i : start) {
+  for (const Participant i : start) {
     is_kept_out[i] = true;
-    for (const std::int32_t u : graph.neighbours_of(i)) is_kept_out[u] = true;
+    for (const Participant u : graph.neighbours_of(i)) is_kept_out[u] = true;
   }
-  std::vector<std::int32_t> result;
-  for (std::int32_t i = 0; i < graph.vertex_count(); ++i)
+  std::vector<Participant> result;
+  for (Participant i = 0; i < graph.vertex_count(); ++i)
     if (is_hex[i] && !is_kept_out[i]) result.push_back(i);
   return result;
 }
@@ -238,13 +238,13 @@ std::vector<std::int32_t> left_out(const graph::ConflictGraph& graph, const grap
 std::vector<std::uint8_t> find_staying(const graph::ConflictGraph& graph, const graph::IndependentSet& start,
                                        const std::vector<std::uint8_t>& is_hex) {
   std::vector<std::uint8_t> stays(graph.weights.size());
-  const auto bar = [&](std::int32_t i) {
+  const auto bar = [&](Participant i) {
     stays[i] = 1;
-    for (const std::int32_t u : graph.neighbours_of(i)) stays[u] = 1;
+    for (const Participant u : graph.neighbours_of(i)) stays[u] = 1;
   };
-  for (const std::int32_t i : start)
+  for (const Participant i : start)
     if (!is_hex[i]) bar(i);
-  for (const std::int32_t i : left_out(graph, start, is_hex)) bar(i);
+  for (const Participant i : left_out(graph, start, is_hex)) bar(i);
   return stays;
 }
 
@@ -269,11 +269,11 @@ Exchange exchange_hexes(const TetMesh& mesh, const hybrid::BoundaryQuads& bounda
   const graph::IndependentSet& chosen = choice.chosen();
   const KeySet<4> open = open_quads(boundary, candidates, chosen);
   const auto open_before = static_cast<std::int64_t>(open.size());
-  const std::vector<std::int32_t> participants = find_participants(mesh, candidates, chosen, open);
+  const std::vector<CandidateIndex> participants = find_participants(mesh, candidates, chosen, open);
   graph::IndependentSet start;
   std::vector<std::uint8_t> is_hex;
-  for (const std::int32_t i : participants) {
-    if (std::ranges::binary_search(chosen, i)) start.push_back(static_cast<std::int32_t>(is_hex.size()));
+  for (const CandidateIndex i : participants) {
+    if (std::ranges::binary_search(chosen, i)) start.push_back(static_cast<Participant>(is_hex.size()));
     is_hex.push_back(candidates.kind[i] == CellKind::hex);
   }
   ExchangeProblem problem = problem_of(mesh, boundary, candidates, chosen, participants);
@@ -284,8 +284,8 @@ Exchange exchange_hexes(const TetMesh& mesh, const hybrid::BoundaryQuads& bounda
   ExchangeSearch search(problem, start, Random(seed));
   search.run(std::min(moves_a_candidate * static_cast<std::int64_t>(participants.size()), most_moves), cooling);
   graph::IndependentSet before, after;
-  for (const std::int32_t i : start) before.push_back(participants[i]);
-  for (const std::int32_t i : search.best()) after.push_back(participants[i]);
+  for (const Participant i : start) before.push_back(participants[i]);
+  for (const Participant i : search.best()) after.push_back(participants[i]);
   Exchange result = replaced(chosen, before, after);
   result.counts.open_quads_before = open_before;
   result.counts.open_quads_after = static_cast<std::int64_t>(open_quads(boundary, candidates, result.chosen).size());

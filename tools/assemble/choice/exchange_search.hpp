@@ -16,15 +16,18 @@
 
 namespace hexpipe::assemble::choice {
 
-// The candidates to choose from. A quad is open if exactly one chosen cell has it.
+// A candidate that takes part, by its place in the graph of the problem.
+using Participant = std::int32_t;
+
+// The participants to choose from. A quad is open if exactly one chosen cell has it.
 struct ExchangeProblem {
-  graph::ConflictGraph graph;  // its weights are the worths of the candidates
+  graph::ConflictGraph graph;  // its weights are the worths of the participants
   std::vector<std::array<std::int32_t, 6>>
-      quads;                              // by candidate, numbered from 0; no_index: on the boundary, or no quad
+      quads;                              // by participant, numbered from 0; no_index: on the boundary, or no quad
   std::vector<std::int64_t> cost;         // by quad: its cost while it is open, in units of weight
   std::vector<std::uint8_t> fixed_cells;  // by quad: the number of cells that have it and are not in the graph
-  std::vector<double> usual;              // by candidate: the usual weight of those around it
-  std::vector<std::uint8_t> stays;        // by candidate: 1 if it stays in or out, as it is at the start
+  std::vector<double> usual;              // by participant: the usual weight of those around it
+  std::vector<std::uint8_t> stays;        // by participant: 1 if it stays in or out, as it is at the start
 };
 
 class ExchangeSearch {
@@ -32,7 +35,7 @@ class ExchangeSearch {
   // `start` is independent; `problem` outlives this.
   ExchangeSearch(const ExchangeProblem& problem, const graph::IndependentSet& start, Random random);
 
-  // Temperatures are in units of the usual weight around the candidate that moves.
+  // Temperatures are in units of the usual weight around the participant that moves.
   void run(std::int64_t moves, const mwis::local_search::Cooling& cooling);
 
   // The weight of the chosen cells less the cost of open quads: now, and for the best set so far.
@@ -44,13 +47,13 @@ class ExchangeSearch {
   bool check() const;
 
  private:
-  void move(std::int32_t candidate, double least_change);
-  void push(std::int32_t candidate);
+  void move(Participant participant, double least_change);
+  void push(Participant participant);
   void use_freed_room();
-  void add(std::int32_t candidate);
-  void remove(std::int32_t candidate);
-  void enter(std::int32_t candidate);
-  std::int64_t gain_of(std::int32_t candidate) const;
+  void add(Participant participant);
+  void remove(Participant participant);
+  void enter(Participant participant);
+  std::int64_t gain_of(Participant participant) const;
   void take_back();
   void keep();
   void forget_what_came_back();
@@ -58,14 +61,14 @@ class ExchangeSearch {
   const ExchangeProblem& problem_;
   mwis::ground::SolutionState state_;
   Random random_;
-  std::vector<std::int32_t> movable_;   // candidates that need not stay
+  std::vector<Participant> movable_;    // participants that need not stay
   std::vector<std::uint8_t> cells_at_;  // by quad
   std::int64_t open_cost_ = 0;
   std::int64_t best_value_ = 0;
-  std::vector<std::int32_t> step_;        // candidates that went in or out during this move
-  std::vector<std::int32_t> since_best_;  // candidates that went in or out since the best set
-  std::vector<std::int32_t> freed_;       // candidates whose last conflict with the chosen ones ended during this move
-  std::vector<std::int32_t> pushed_out_;
+  std::vector<Participant> step_;        // participants that went in or out during this move
+  std::vector<Participant> since_best_;  // participants that went in or out since the best set
+  std::vector<Participant> freed_;       // participants whose last conflict with the chosen ones ended during this move
+  std::vector<Participant> pushed_out_;
 };
 
 }  // namespace hexpipe::assemble::choice

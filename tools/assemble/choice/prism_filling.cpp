@@ -27,7 +27,7 @@ constexpr const char* source = "tets between cells";
 // The tets that no cell replaces or absorbs, and their numbers in `mesh`.
 struct LeftTets {
   TetMesh mesh;
-  std::vector<std::int32_t> number;
+  std::vector<TetIndex> number;
 };
 
 LeftTets left_tets(const TetMesh& mesh, const hybrid::HybridMesh& selected) {
@@ -35,7 +35,7 @@ LeftTets left_tets(const TetMesh& mesh, const hybrid::HybridMesh& selected) {
   left.mesh.points = mesh.points;
   left.mesh.triangles = mesh.triangles;
   left.mesh.triangle_tags = mesh.triangle_tags;
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tets.size()); ++t) {
+  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh.tets.size()); ++t) {
     if (!selected.is_alive(t)) continue;
     left.mesh.tets.push_back(mesh.tets[t]);
     left.mesh.tet_tags.push_back(mesh.tet_tags[t]);
@@ -51,7 +51,7 @@ Candidates prisms_between(const TetMesh& mesh, const hybrid::HybridMesh& selecte
   if (left.number.empty()) return prisms;
   const Candidates found = candidates::findhex(std::move(left.mesh), {.kinds = {CellKind::prism}}, source).candidates;
   const auto same = [](Vertex v) { return v; };
-  const auto in_mesh = [&](std::int32_t t) { return left.number[t]; };
+  const auto in_mesh = [&](TetIndex t) { return left.number[t]; };
   for (std::size_t i = 0; i < found.size(); ++i) {
     const auto at = corner_points(mesh.points, std::span(found.vertices[i]).first(6));
     if (!looks_inverted(CellKind::prism, std::span(at).first(6)))
@@ -60,7 +60,7 @@ Candidates prisms_between(const TetMesh& mesh, const hybrid::HybridMesh& selecte
   return prisms;
 }
 
-std::array<Quad, PrismTopology::quads.size()> quads_of_prism(const Candidates& candidates, std::int32_t prism) {
+std::array<Quad, PrismTopology::quads.size()> quads_of_prism(const Candidates& candidates, CandidateIndex prism) {
   hybrid::HybridCell cell;
   cell.kind = CellKind::prism;
   cell.corners = candidates.vertices[prism];
@@ -74,17 +74,17 @@ class Filling {
  public:
   // `all` holds the chosen cells and, from `first` on, the prisms; `graph` their conflicts.
   Filling(const hybrid::BoundaryQuads& boundary, const Candidates& all, const graph::ConflictGraph& graph,
-          std::int32_t first)
+          CandidateIndex first)
       : boundary_(boundary), all_(all), graph_(graph), barred_(all.size()) {
-    for (std::int32_t i = 0; i < first; ++i) take(i);
-    for (std::int32_t i = first; i < static_cast<std::int32_t>(all.size()); ++i)
+    for (CandidateIndex i = 0; i < first; ++i) take(i);
+    for (CandidateIndex i = first; i < static_cast<CandidateIndex>(all.size()); ++i)
       for (const Quad& quad : quads_of_prism(all, i)) prisms_at_[key_of(quad)].push_back(i);
-    for (std::int32_t i = first; i < static_cast<std::int32_t>(all.size()); ++i) offer(i);
+    for (CandidateIndex i = first; i < static_cast<CandidateIndex>(all.size()); ++i) offer(i);
   }
 
   // The prisms taken, ascending.
-  std::vector<std::int32_t> run() {
-    std::vector<std::int32_t> taken;
+  std::vector<CandidateIndex> run() {
+    std::vector<CandidateIndex> taken;
     while (!offers_.empty()) {
       const Offer best = offers_.top();
       offers_.pop();
@@ -93,7 +93,7 @@ class Filling {
       take(best.prism);
       taken.push_back(best.prism);
       for (const Quad& quad : quads_of_prism(all_, best.prism))
-        for (const std::int32_t beside : prisms_at_.at(key_of(quad))) offer(beside);
+        for (const CandidateIndex beside : prisms_at_.at(key_of(quad))) offer(beside);
     }
     std::ranges::sort(taken);
     return taken;
@@ -103,7 +103,7 @@ class Filling {
   struct Offer {
     int gain;
     double quality;
-    std::int32_t prism;
+    CandidateIndex prism;
     bool operator<(const Offer& other) const {
       if (gain != other.gain) return gain < other.gain;
       if (quality != other.quality) return quality < other.quality;
@@ -111,16 +111,16 @@ class Filling {
     }
   };
 
-  void take(std::int32_t i) {
+  void take(CandidateIndex i) {
     hybrid::HybridCell cell;
     cell.kind = all_.kind[i];
     cell.corners = all_.vertices[i];
     for (int k = 0; k < cell.quad_count(); ++k) quads_.insert(key_of(cell.quad(k)));
     barred_[i] = true;
-    for (const std::int32_t other : graph_.neighbours_of(i)) barred_[other] = true;
+    for (const CandidateIndex other : graph_.neighbours_of(i)) barred_[other] = true;
   }
 
-  int gain_of(std::int32_t prism) const {
+  int gain_of(CandidateIndex prism) const {
     int gain = 0;
     for (const Quad& quad : quads_of_prism(all_, prism)) {
       if (quads_.contains(key_of(quad)))
@@ -131,7 +131,7 @@ class Filling {
     return gain;
   }
 
-  void offer(std::int32_t prism) {
+  void offer(CandidateIndex prism) {
     if (barred_[prism]) return;
     if (const int gain = gain_of(prism); gain >= 0) offers_.push({gain, all_.quality[prism], prism});
   }
@@ -141,7 +141,7 @@ class Filling {
   const graph::ConflictGraph& graph_;
   std::vector<bool> barred_;  // taken, or in conflict with one that is
   KeySet<4> quads_;           // of all cells taken
-  KeyMap<4, std::vector<std::int32_t>> prisms_at_;
+  KeyMap<4, std::vector<CandidateIndex>> prisms_at_;
   std::priority_queue<Offer> offers_;
 };
 
@@ -156,7 +156,7 @@ PrismFilling fill_with_prisms(const TetMesh& mesh, const hybrid::BoundaryQuads& 
   append(all, prisms);
   const graph::ConflictGraph graph =
       conflicts::conflict_graph(all, {.weight = conflicts::WeightKind::count, .weight_scale = 1}, source);
-  const auto taken = Filling(boundary, all, graph, static_cast<std::int32_t>(result.cells.size())).run();
+  const auto taken = Filling(boundary, all, graph, static_cast<CandidateIndex>(result.cells.size())).run();
   append(result.cells, select(all, taken));
   result.prisms = static_cast<std::int64_t>(taken.size());
   return result;

@@ -14,17 +14,17 @@ namespace {
 
 // By tet: which cell replaces it, and whether cells absorb it as a sliver.
 struct Claims {
-  std::vector<std::int32_t> owner;  // candidate, or no_index
+  std::vector<CandidateIndex> owner;  // or no_index
   std::vector<std::uint8_t> absorbed;
 };
 
-[[noreturn]] void fail_conflict(const InputNames& names, std::int32_t a, std::int32_t b, const char* how) {
+[[noreturn]] void fail_conflict(const InputNames& names, CandidateIndex a, CandidateIndex b, const char* how) {
   throw DataError::at(names.solution, "expected candidates that fit together, found {} and {} which {}",
                       title_of(names, a), title_of(names, b), how);
 }
 
-void claim_interior(const InputNames& names, const Candidates& candidates, std::int32_t candidate, Claims& claims) {
-  for (std::int32_t t : candidates.interior_tets_of(candidate)) {
+void claim_interior(const InputNames& names, const Candidates& candidates, CandidateIndex candidate, Claims& claims) {
+  for (TetIndex t : candidates.interior_tets_of(candidate)) {
     if (claims.owner[t] != no_index) fail_conflict(names, claims.owner[t], candidate, "share a tet");
     claims.owner[t] = candidate;
   }
@@ -32,9 +32,9 @@ void claim_interior(const InputNames& names, const Candidates& candidates, std::
 
 // The facets that no two of the interior tets share: the skin of what the cell replaces. There are at most 15 tets, for
 // which a quadratic search is the fastest.
-std::vector<VertexKey<3>> skin_of(const TetMesh& mesh, std::span<const std::int32_t> tets) {
+std::vector<VertexKey<3>> skin_of(const TetMesh& mesh, std::span<const TetIndex> tets) {
   std::vector<VertexKey<3>> skin;
-  for (std::int32_t t : tets)
+  for (TetIndex t : tets)
     for (const auto& f : TetTopology::triangles) {
       const auto key = key_of(Triangle{mesh.tets[t][f[0]], mesh.tets[t][f[1]], mesh.tets[t][f[2]]});
       const auto twin = std::find(skin.begin(), skin.end(), key);
@@ -76,7 +76,7 @@ int quad_with_vertices(const hybrid::HybridCell& cell, const VertexKey<4>& key) 
 }
 
 // The cell that the candidate's tets form, if they do.
-std::optional<hybrid::HybridCell> cell_of(const TetMesh& mesh, const Candidates& candidates, std::int32_t candidate) {
+std::optional<hybrid::HybridCell> cell_of(const TetMesh& mesh, const Candidates& candidates, CandidateIndex candidate) {
   const auto interior = candidates.interior_tets_of(candidate);
   if (interior.empty() || candidates.kind[candidate] == CellKind::tet) return std::nullopt;
   hybrid::HybridCell cell;
@@ -84,12 +84,12 @@ std::optional<hybrid::HybridCell> cell_of(const TetMesh& mesh, const Candidates&
   cell.corners = candidates.vertices[candidate];
   cell.candidate = candidate;
   cell.region = mesh.tet_tags[interior.front()];
-  for (std::int32_t t : interior)
+  for (TetIndex t : interior)
     if (mesh.tet_tags[t] != cell.region) return std::nullopt;
   const auto skin = skin_of(mesh, interior);
   if (!with_topology(cell.kind, [&](auto topology) { return match_skin<decltype(topology)>(skin, cell); }))
     return std::nullopt;
-  for (std::int32_t t : candidates.boundary_tets_of(candidate)) {
+  for (TetIndex t : candidates.boundary_tets_of(candidate)) {
     const int quad = quad_with_vertices(cell, key_of(mesh.tets[t]));
     if (quad < 0 || cell.sliver[quad] != no_index || mesh.tet_tags[t] != cell.region) return std::nullopt;
     cell.sliver[quad] = t;
@@ -99,13 +99,13 @@ std::optional<hybrid::HybridCell> cell_of(const TetMesh& mesh, const Candidates&
 
 // The chosen cells at a quad: a third one is an error, and so is another cyclic order.
 struct QuadOwner {
-  std::int32_t cell;
+  CellIndex cell;
   Quad quad;
-  std::int32_t partner = no_index;
+  CellIndex partner = no_index;
 };
 
 void pair_quads(const InputNames& names, const std::vector<hybrid::HybridCell>& cells, KeyMap<4, QuadOwner>& owners) {
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(cells.size()); ++c)
+  for (CellIndex c = 0; c < static_cast<CellIndex>(cells.size()); ++c)
     for (int i = 0; i < cells[c].quad_count(); ++i) {
       const Quad quad = cells[c].quad(i);
       auto [entry, added] = owners.try_emplace(key_of(quad), QuadOwner{c, quad});
@@ -121,7 +121,7 @@ void absorb_slivers(const InputNames& names, const hybrid::SurfaceTags& tags, co
                     std::vector<hybrid::HybridCell>& cells, Claims& claims) {
   for (auto& cell : cells)
     for (int i = 0; i < cell.quad_count(); ++i) {
-      std::int32_t& sliver = cell.sliver[i];
+      TetIndex& sliver = cell.sliver[i];
       if (sliver == no_index) continue;
       if (claims.owner[sliver] != no_index) fail_conflict(names, claims.owner[sliver], cell.candidate, "share a tet");
       const bool alone = owners.at(key_of(cell.quad(i))).partner == no_index;
@@ -134,7 +134,7 @@ void absorb_slivers(const InputNames& names, const hybrid::SurfaceTags& tags, co
 
 // At a quad of two cells there is no tet between them, and in two regions there is an interface.
 void check_pair(const InputNames& names, const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags,
-                const OpenQuad& at, std::int32_t partner) {
+                const OpenQuad& at, CellIndex partner) {
   const hybrid::HybridCell &cell = mesh.cell(at.cell), &other = mesh.cell(partner);
   const Quad quad = cell.quad(at.quad);
   if (other.region != cell.region && !tags.cover_of(quad))
@@ -164,11 +164,11 @@ bool faces_tets(const InputNames& names, const hybrid::HybridMesh& mesh, const h
 KeyMap<2, std::int32_t> check_quads(const InputNames& names, const hybrid::HybridMesh& mesh,
                                     const hybrid::SurfaceTags& tags) {
   KeyMap<2, std::int32_t> diagonals;
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c)
+  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c)
     for (int i = 0; i < mesh.cell(c).quad_count(); ++i) {
       const hybrid::HybridCell& cell = mesh.cell(c);
       const Quad quad = cell.quad(i);
-      if (const std::int32_t partner = mesh.partner_at(quad, c); partner != no_index) {
+      if (const CellIndex partner = mesh.partner_at(quad, c); partner != no_index) {
         check_pair(names, mesh, tags, {c, i}, partner);
         continue;
       }
@@ -182,7 +182,7 @@ KeyMap<2, std::int32_t> check_quads(const InputNames& names, const hybrid::Hybri
 
 // No cell has an edge that is the diagonal of an open quad.
 void check_edges(const InputNames& names, const hybrid::HybridMesh& mesh, const KeyMap<2, std::int32_t>& diagonals) {
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c)
+  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c)
     with_topology(mesh.cell(c).kind, [&](auto topology) {
       const auto& corners = mesh.cell(c).corners;
       for (const auto& e : decltype(topology)::edges) {
@@ -194,7 +194,7 @@ void check_edges(const InputNames& names, const hybrid::HybridMesh& mesh, const 
 
 }  // namespace
 
-std::string title_of(const InputNames& names, std::int32_t candidate) {
+std::string title_of(const InputNames& names, CandidateIndex candidate) {
   if (names.origins.empty()) return fmt::format("{}", candidate + 1);
   const auto& [bundle, number] = names.origins[candidate];
   return bundle == 0 ? fmt::format("{}", number + 1) : fmt::format("{} of {}", number + 1, names.bundles[bundle]);
@@ -206,7 +206,7 @@ graph::IndependentSet all_of(const Candidates& candidates) {
   return all;
 }
 
-bool is_formed_by_its_tets(const TetMesh& mesh, const Candidates& candidates, std::int32_t candidate) {
+bool is_formed_by_its_tets(const TetMesh& mesh, const Candidates& candidates, CandidateIndex candidate) {
   return cell_of(mesh, candidates, candidate).has_value();
 }
 
@@ -214,10 +214,11 @@ namespace {
 
 hybrid::HybridMesh select_cells(const TetMesh& mesh, const hybrid::SurfaceTags& tags, const Candidates& candidates,
                                 const graph::IndependentSet& chosen, const InputNames& names) {
-  Claims claims{std::vector<std::int32_t>(mesh.tets.size(), no_index), std::vector<std::uint8_t>(mesh.tets.size(), 0)};
+  Claims claims{std::vector<CandidateIndex>(mesh.tets.size(), no_index),
+                std::vector<std::uint8_t>(mesh.tets.size(), 0)};
   std::vector<hybrid::HybridCell> cells;
   cells.reserve(chosen.size());
-  for (std::int32_t candidate : chosen) {
+  for (CandidateIndex candidate : chosen) {
     claim_interior(names, candidates, candidate, claims);
     const auto cell = cell_of(mesh, candidates, candidate);
     if (!cell)
@@ -245,7 +246,7 @@ Selection::Selection(const TetMesh& mesh, const hybrid::SurfaceTags& tags, const
                      graph::IndependentSet chosen, const InputNames& names)
     : choice_(std::move(chosen)), mesh_(select_cells(mesh, tags, candidates, choice_.chosen(), names)) {}
 
-bool is_open(const hybrid::HybridMesh& mesh, std::int32_t cell, int i) {
+bool is_open(const hybrid::HybridMesh& mesh, CellIndex cell, int i) {
   const Quad quad = mesh.cell(cell).quad(i);
   if (mesh.partner_at(quad, cell) != no_index) return false;
   return mesh.tet_at(triangles_of(quad, mesh.cell(cell).outer_diagonal(i))[0]) != no_index;
@@ -253,7 +254,7 @@ bool is_open(const hybrid::HybridMesh& mesh, std::int32_t cell, int i) {
 
 std::vector<OpenQuad> open_quads(const hybrid::HybridMesh& mesh) {
   std::vector<OpenQuad> result;
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
+  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c) {
     if (!mesh.cell(c).alive) continue;
     for (int i = 0; i < mesh.cell(c).quad_count(); ++i)
       if (is_open(mesh, c, i)) result.push_back({c, i});

@@ -29,13 +29,13 @@ struct InputNames {
 };
 
 // The candidate's number as a user of its bundle counts, from 1.
-std::string title_of(const InputNames& names, std::int32_t candidate);
+std::string title_of(const InputNames& names, CandidateIndex candidate);
 
 // All of them, ascending.
 graph::IndependentSet all_of(const Candidates& candidates);
 
 // Whether the candidate's tets form it. False for a candidate of another mesh.
-bool is_formed_by_its_tets(const TetMesh& mesh, const Candidates& candidates, std::int32_t candidate);
+bool is_formed_by_its_tets(const TetMesh& mesh, const Candidates& candidates, CandidateIndex candidate);
 
 // Chosen candidates that are known to fit together: only a Selection makes one.
 class CheckedChoice {
@@ -73,13 +73,13 @@ class Selection {
 
 // A quad of a cell that faces two tets, each with a triangle of it.
 struct OpenQuad {
-  std::int32_t cell;
+  CellIndex cell;
   int quad;
 };
 
 // All open quads, by cell and quad.
 std::vector<OpenQuad> open_quads(const hybrid::HybridMesh& mesh);
 // Whether quad `i` of the cell faces tets, neither another cell nor the boundary.
-bool is_open(const hybrid::HybridMesh& mesh, std::int32_t cell, int i);
+bool is_open(const hybrid::HybridMesh& mesh, CellIndex cell, int i);
 
 }  // namespace hexpipe::assemble::choice

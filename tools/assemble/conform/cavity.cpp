@@ -30,7 +30,7 @@ Cavity::Cavity(const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, 
   mesh.tets_around_edge(a, c, tets_);
   std::sort(tets_.begin(), tets_.end());
   assert(!tets_.empty());
-  const std::int32_t first = mesh.tet_at(triangles_of(quad, diagonal)[0]);
+  const TetIndex first = mesh.tet_at(triangles_of(quad, diagonal)[0]);
   region_ = mesh.region_of(first);
   if (!collect_skin()) obstacle_ = Obstacle::surface;
   const auto diagonal_key = edge_key(a, c);
@@ -41,7 +41,7 @@ Cavity::Cavity(const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, 
   if (obstacle_ == Obstacle::none && !is_sphere()) obstacle_ = Obstacle::cells;
 }
 
-Cavity::Cavity(const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std::int32_t tet)
+Cavity::Cavity(const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, TetIndex tet)
     : mesh_(mesh), tags_(tags), region_(mesh.region_of(tet)), tets_{tet} {
   collect_skin();
 }
@@ -51,7 +51,7 @@ bool Cavity::collect_skin() {
   skin_.clear();
   std::vector<VertexKey<3>> keys;
   bool crossed = false;
-  for (std::int32_t t : tets_)
+  for (TetIndex t : tets_)
     for (const auto& f : TetTopology::triangles) {
       const Tet& tet = mesh_.tet(t);
       const Triangle triangle{tet[f[0]], tet[f[1]], tet[f[2]]};
@@ -174,7 +174,7 @@ std::vector<std::pair<double, Cavity::Facet>> Cavity::worst_facets(const Vec3& a
 // be a ball.
 bool Cavity::take_in(const Facet& facet) {
   if (tags_.contains(facet.triangle)) return false;
-  const std::int32_t behind = mesh_.tet_at(facet.triangle, facet.tet);
+  const TetIndex behind = mesh_.tet_at(facet.triangle, facet.tet);
   if (behind == no_index || mesh_.region_of(behind) != region_) return false;
   const auto skin = skin_;
   tets_.push_back(behind);
@@ -216,7 +216,7 @@ double Cavity::place_vertex(double enough) {
 double Cavity::worst_tet() const {
   double worst = 1;
   shape::PointStar one;
-  for (std::int32_t t : tets_) {
+  for (TetIndex t : tets_) {
     one.clear();
     const auto at = corner_points(mesh_.points, mesh_.tet(t));
     one.add(CellKind::tet, std::span<const Vec3>(at).first(4), 3);
@@ -228,7 +228,7 @@ double Cavity::worst_tet() const {
 void Cavity::split(hybrid::HybridMesh& mesh) const {
   assert(&mesh == &mesh_);
   const Vertex apex = mesh.add_point(at_);
-  for (std::int32_t t : tets_) mesh.remove_tet(t);
+  for (TetIndex t : tets_) mesh.remove_tet(t);
   for (const auto& [triangle, tet] : skin_) mesh.add_tet({triangle[0], triangle[2], triangle[1], apex}, region_);
   if (!quad_) return;
   const auto& [a, b, c, d] = *quad_;

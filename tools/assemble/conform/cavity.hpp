@@ -20,7 +20,7 @@ class Cavity {
   Cavity(const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, const Quad& quad, int diagonal);
 
   // One tet, to be improved; it grows in place_vertex.
-  Cavity(const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std::int32_t tet);
+  Cavity(const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, TetIndex tet);
 
   // Why the ring is no ball with the whole quad on its skin: the diagonal lies on a tagged surface, or other cells use
   // it.
@@ -39,7 +39,7 @@ class Cavity {
  private:
   struct Facet {
     Triangle triangle;  // outward
-    std::int32_t tet;   // inside
+    TetIndex tet;       // inside
   };
 
   bool collect_skin();
@@ -56,7 +56,7 @@ class Cavity {
   int diagonal_ = 0;
   std::int32_t region_ = 0;
   Obstacle obstacle_ = Obstacle::none;
-  std::vector<std::int32_t> tets_;
+  std::vector<TetIndex> tets_;
   std::vector<Facet> skin_;  // without the quad
   shape::PointStar star_;
   Vec3 at_{};

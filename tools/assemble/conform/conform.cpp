@@ -60,8 +60,8 @@ class Conformer {
   double quality_of(const hybrid::HybridCell& pyramid) const;
   void merge(const choice::OpenQuad& at, const hybrid::HybridCell& pyramid);
   std::optional<GivenBack> resolve(const choice::OpenQuad& at, double least);
-  void give_back(std::int32_t cell, std::vector<choice::OpenQuad>& open);
-  void free_quad(const hybrid::HybridCell& cell, int i, std::int32_t partner, std::vector<choice::OpenQuad>& open);
+  void give_back(CellIndex cell, std::vector<choice::OpenQuad>& open);
+  void free_quad(const hybrid::HybridCell& cell, int i, CellIndex partner, std::vector<choice::OpenQuad>& open);
 
   hybrid::HybridMesh& mesh_;
   const hybrid::SurfaceTags& tags_;
@@ -85,7 +85,7 @@ void Conformer::absorb_sliver(const choice::OpenQuad& at) {
   const Quad quad = cell.quad(at.quad);
   const int diagonal = cell.outer_diagonal(at.quad);
   const auto near = triangles_of(quad, diagonal), far = triangles_of(quad, 1 - diagonal);
-  const std::int32_t sliver = mesh_.tet_at(near[0]);
+  const TetIndex sliver = mesh_.tet_at(near[0]);
   if (sliver != mesh_.tet_at(near[1]) || cell.sliver[at.quad] != no_index) return;
   if (tags_.contains(near[0]) || tags_.contains(near[1]) || tags_.covers_partly(quad, 1 - diagonal)) return;
   const bool on_boundary = tags_.cover_of(quad, 1 - diagonal).has_value();
@@ -102,8 +102,8 @@ std::optional<Vertex> Conformer::common_apex(const choice::OpenQuad& at) const {
   const hybrid::HybridCell& cell = mesh_.cell(at.cell);
   const Quad quad = cell.quad(at.quad);
   const auto halves = triangles_of(quad, cell.outer_diagonal(at.quad));
-  const std::int32_t first = mesh_.tet_at(halves[0]), second = mesh_.tet_at(halves[1]);
-  auto apex_of = [&](std::int32_t t) {
+  const TetIndex first = mesh_.tet_at(halves[0]), second = mesh_.tet_at(halves[1]);
+  auto apex_of = [&](TetIndex t) {
     return *std::find_if(mesh_.tet(t).begin(), mesh_.tet(t).end(),
                          [&](Vertex v) { return std::find(quad.begin(), quad.end(), v) == quad.end(); });
   };
@@ -191,9 +191,9 @@ std::optional<GivenBack> Conformer::resolve(const choice::OpenQuad& at, double l
 }
 
 // Quad i of a removed cell: makes what is on its other side conform with the cell's tets.
-void Conformer::free_quad(const hybrid::HybridCell& cell, int i, std::int32_t partner,
+void Conformer::free_quad(const hybrid::HybridCell& cell, int i, CellIndex partner,
                           std::vector<choice::OpenQuad>& open) {
-  const std::int32_t sliver = cell.sliver[i];
+  const TetIndex sliver = cell.sliver[i];
   if (partner == no_index) {
     if (sliver != no_index) mesh_.restore_tet(sliver);
     return;
@@ -215,15 +215,15 @@ void Conformer::free_quad(const hybrid::HybridCell& cell, int i, std::int32_t pa
   open.push_back({partner, theirs});
 }
 
-void Conformer::give_back(std::int32_t c, std::vector<choice::OpenQuad>& open) {
+void Conformer::give_back(CellIndex c, std::vector<choice::OpenQuad>& open) {
   const hybrid::HybridCell cell = mesh_.cell(c);
-  std::array<std::int32_t, 6> partners;
+  std::array<CellIndex, 6> partners;
   for (int i = 0; i < cell.quad_count(); ++i) {
     partners[i] = mesh_.partner_at(cell.quad(i), c);
     if (choice::is_open(mesh_, c, i)) diagonals_.erase(diagonal_of({c, i}));
   }
   mesh_.remove_cell(c);
-  for (std::int32_t t : candidates_.interior_tets_of(cell.candidate)) mesh_.restore_tet(t);
+  for (TetIndex t : candidates_.interior_tets_of(cell.candidate)) mesh_.restore_tet(t);
   for (int i = 0; i < cell.quad_count(); ++i) free_quad(cell, i, partners[i], open);
   if (cell.kind == CellKind::hex) counts_.volume_given_back += candidates_.volume[cell.candidate];
 }

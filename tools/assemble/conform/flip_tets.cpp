@@ -25,14 +25,14 @@ constexpr double least_gain_of_flip = 1e-3;
 // The tets that go and those that take their place.
 struct Flip {
   double worst = 0;  // the quality of the worst new tet
-  std::vector<std::int32_t> out;
+  std::vector<TetIndex> out;
   std::vector<Tet> in;
 };
 
 class Flipper {
  public:
   Flipper(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags) : mesh_(mesh), tags_(tags) {
-    for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
+    for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c) {
       if (!mesh.cell(c).alive) continue;
       for (int i = 0; i < mesh.cell(c).quad_count(); ++i) {
         const Quad quad = mesh.cell(c).quad(i);
@@ -49,9 +49,9 @@ class Flipper {
     const auto at = corner_points(mesh_.points, tet);
     return std::sqrt(2.0) * least_corner_scaled_jacobian(CellKind::tet, std::span<const Vec3>(at).first(4));
   }
-  double worst_of(std::span<const std::int32_t> tets) const {
+  double worst_of(std::span<const TetIndex> tets) const {
     double worst = 1;
-    for (std::int32_t t : tets) worst = std::min(worst, quality(mesh_.tet(t)));
+    for (TetIndex t : tets) worst = std::min(worst, quality(mesh_.tet(t)));
     return worst;
   }
   // No tet may have a diagonal of a quad as an edge: it would lie across the quad.
@@ -59,13 +59,13 @@ class Flipper {
 
   std::optional<std::vector<Vertex>> ring_around(Vertex a, Vertex b);
   std::optional<Flip> without_edge(Vertex a, Vertex b, double bound);
-  std::optional<Flip> without_facet(std::int32_t t, int facet, double bound) const;
-  std::optional<Flip> best_flip(std::int32_t t);
+  std::optional<Flip> without_facet(TetIndex t, int facet, double bound) const;
+  std::optional<Flip> best_flip(TetIndex t);
 
   hybrid::HybridMesh& mesh_;
   const hybrid::SurfaceTags& tags_;
   KeySet<2> diagonals_;
-  std::vector<std::int32_t> around_;
+  std::vector<TetIndex> around_;
 };
 
 // The vertices around edge ab in order, counter-clockwise as seen with b above a, if the tets at the edge close around
@@ -75,7 +75,7 @@ std::optional<std::vector<Vertex>> Flipper::ring_around(Vertex a, Vertex b) {
   if (around_.size() < 3 || around_.size() > longest_ring) return std::nullopt;
   // The other two vertices of each tet, from one to the next.
   std::vector<std::array<Vertex, 2>> steps;
-  for (std::int32_t t : around_) {
+  for (TetIndex t : around_) {
     if (mesh_.region_of(t) != mesh_.region_of(around_[0])) return std::nullopt;
     std::array<Vertex, 2> step{};
     int count = 0;
@@ -142,11 +142,11 @@ std::optional<Flip> Flipper::without_edge(Vertex a, Vertex b, double bound) {
 }
 
 // Three tets around a new edge in place of two at a facet of t.
-std::optional<Flip> Flipper::without_facet(std::int32_t t, int facet, double bound) const {
+std::optional<Flip> Flipper::without_facet(TetIndex t, int facet, double bound) const {
   const auto& f = TetTopology::triangles[facet];
   const Tet& tet = mesh_.tet(t);
   const Triangle triangle{tet[f[0]], tet[f[1]], tet[f[2]]};
-  const std::int32_t behind = mesh_.tet_at(triangle, t);
+  const TetIndex behind = mesh_.tet_at(triangle, t);
   if (behind == no_index || mesh_.region_of(behind) != mesh_.region_of(t) || tags_.contains(triangle))
     return std::nullopt;
   const Vertex here = tet[facet];
@@ -164,7 +164,7 @@ std::optional<Flip> Flipper::without_facet(std::int32_t t, int facet, double bou
   return flip;
 }
 
-std::optional<Flip> Flipper::best_flip(std::int32_t t) {
+std::optional<Flip> Flipper::best_flip(TetIndex t) {
   std::optional<Flip> best;
   const Tet tet = mesh_.tet(t);
   const double own = quality(tet);
@@ -182,12 +182,12 @@ std::optional<Flip> Flipper::best_flip(std::int32_t t) {
 std::int64_t Flipper::pass(double least) {
   std::int64_t flips = 0;
   // New tets are appended and get their turn.
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh_.tet_count()); ++t) {
+  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh_.tet_count()); ++t) {
     if (!mesh_.is_alive(t) || quality(mesh_.tet(t)) >= least) continue;
     const auto flip = best_flip(t);
     if (!flip) continue;
     const std::int32_t region = mesh_.region_of(t);
-    for (std::int32_t old : flip->out) mesh_.remove_tet(old);
+    for (TetIndex old : flip->out) mesh_.remove_tet(old);
     for (const Tet& tet : flip->in) mesh_.add_tet(tet, region);
     ++flips;
   }

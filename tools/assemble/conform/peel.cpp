@@ -22,7 +22,7 @@ constexpr double least_sine = 0.1;
 
 // A tet with its outer edge, between the two facets on the boundary, and its inner edge between the other two.
 struct Peel {
-  std::int32_t tet;
+  TetIndex tet;
   std::array<Vertex, 2> outer, inner;
   std::array<std::int32_t, 2> places;  // of the tagged triangles
   std::array<Triangle, 2> triangles;   // the boundary in their places
@@ -39,7 +39,7 @@ class Peeler {
  private:
   bool is_flat(const Tet& tet) const;
   bool is_at_seam(const Tet& tet) const;
-  std::optional<Peel> peel_of(std::int32_t t) const;
+  std::optional<Peel> peel_of(TetIndex t) const;
   bool has_good_shape(const Peel& peel) const;
   void collect_obstacles(const std::vector<Peel>& peels);
   bool is_free(const Peel& peel) const;
@@ -74,7 +74,7 @@ bool goes_around_alike(const Triangle& a, const Triangle& b) {
   return b[static_cast<std::size_t>(first + 1) % 3] == a[1];
 }
 
-std::optional<Peel> Peeler::peel_of(std::int32_t t) const {
+std::optional<Peel> Peeler::peel_of(TetIndex t) const {
   const Tet& tet = mesh_.tet(t);
   std::array<int, 4> order{};  // facets on the boundary first; facet i is opposite to corner i
   std::array<std::optional<std::int32_t>, 4> places;
@@ -97,7 +97,7 @@ std::optional<Peel> Peeler::peel_of(std::int32_t t) const {
     peel.triangles[i] =
         turned({tet[to[0]], tet[to[1]], tet[to[2]]}, goes_around_alike(outward, tags_.triangle(peel.places[i])));
   }
-  std::vector<std::int32_t> around;
+  std::vector<TetIndex> around;
   mesh_.tets_around_edge(peel.outer[0], peel.outer[1], around);
   if (around.size() != 1 || !has_good_shape(peel)) return std::nullopt;
   return peel;
@@ -146,7 +146,7 @@ void Peeler::collect_obstacles(const std::vector<Peel>& peels) {
   };
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(tags_.size()); ++i)
     for (int k = 0; k < 3; ++k) take(inner, tags_.triangle(i)[k], tags_.triangle(i)[(k + 1) % 3], boundary_edges_);
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh_.cell_count()); ++c) {
+  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh_.cell_count()); ++c) {
     const hybrid::HybridCell& cell = mesh_.cell(c);
     if (!cell.alive) continue;
     with_topology(cell.kind, [&](auto topology) {
@@ -170,7 +170,7 @@ bool Peeler::is_free(const Peel& peel) const {
 
 std::int64_t Peeler::run() {
   std::vector<Peel> peels;
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh_.tet_count()); ++t)
+  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh_.tet_count()); ++t)
     if (mesh_.is_alive(t) && is_flat(mesh_.tet(t)) && !is_at_seam(mesh_.tet(t)))
       if (const auto peel = peel_of(t)) peels.push_back(*peel);
   if (peels.empty()) return 0;

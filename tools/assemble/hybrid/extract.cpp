@@ -42,7 +42,7 @@ void append_facets(MixedMesh& result, const HybridMesh& mesh, const SurfaceTags&
   // By input triangle: whether a quad covers it.
   std::vector<bool> covered(tags.size());
   std::vector<std::pair<std::int32_t, Quad>> quads;
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
+  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c) {
     if (!mesh.cell(c).alive) continue;
     for (int i = 0; i < mesh.cell(c).quad_count(); ++i) {
       const auto cover = tags.cover_of(mesh.cell(c).quad(i));
@@ -89,9 +89,9 @@ void drop_unused_points(Extract& extract, const std::vector<Vec3>& points) {
 
 Extract extract(const HybridMesh& mesh, const SurfaceTags& tags) {
   Extract result;
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c)
+  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c)
     if (mesh.cell(c).alive) append_cell(result.mesh, mesh.cell(c));
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tet_count()); ++t)
+  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh.tet_count()); ++t)
     if (mesh.is_alive(t)) append(result.mesh.tets, mesh.tet(t), mesh.region_of(t));
   append_facets(result.mesh, mesh, tags);
   drop_unused_points(result, mesh.points);

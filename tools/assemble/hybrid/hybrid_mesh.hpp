@@ -11,18 +11,27 @@
 #include "common/mesh/facet_key.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
+namespace hexpipe::assemble {
+
+// Numbers from 0, each kind with a name of its own, as Vertex has; no_index stands for none.
+using TetIndex = std::int32_t;
+using CellIndex = std::int32_t;  // in a HybridMesh
+using CandidateIndex = std::int32_t;
+
+}  // namespace hexpipe::assemble
+
 namespace hexpipe::assemble::hybrid {
 
 struct HybridCell {
   CellKind kind = CellKind::hex;
   std::array<Vertex, 8> corners{};
   std::int32_t region = 0;
-  std::int32_t candidate = no_index;  // no_index: a pyramid built for conformity
+  CandidateIndex candidate = no_index;  // no_index: a pyramid built for conformity
   bool alive = true;
   // By quad: the diagonal (0 or 1, see triangles_of) that the cell's interior tets have there, and the boundary tet on
   // it that the cell has absorbed, or no_index.
   std::array<std::uint8_t, 6> inner_diagonal{};
-  std::array<std::int32_t, 6> sliver{no_index, no_index, no_index, no_index, no_index, no_index};
+  std::array<TetIndex, 6> sliver{no_index, no_index, no_index, no_index, no_index, no_index};
 
   int quad_count() const {
     return with_topology(kind, [](auto t) { return static_cast<int>(decltype(t)::quads.size()); });
@@ -43,33 +52,33 @@ class HybridMesh {
   Vertex add_point(const Vec3& at);
 
   std::size_t tet_count() const { return tets_.size(); }  // including removed ones
-  const Tet& tet(std::int32_t t) const { return tets_[t]; }
-  std::int32_t region_of(std::int32_t t) const { return regions_[t]; }
-  bool is_alive(std::int32_t t) const { return alive_[t] != 0; }
-  std::int32_t add_tet(const Tet& tet, std::int32_t region);
-  void remove_tet(std::int32_t t);
-  void restore_tet(std::int32_t t);
+  const Tet& tet(TetIndex t) const { return tets_[t]; }
+  std::int32_t region_of(TetIndex t) const { return regions_[t]; }
+  bool is_alive(TetIndex t) const { return alive_[t] != 0; }
+  TetIndex add_tet(const Tet& tet, std::int32_t region);
+  void remove_tet(TetIndex t);
+  void restore_tet(TetIndex t);
 
   // Calls visit(tet) for the tets at v, in an order that depends only on how the mesh came about.
   template <class Visit>
   void for_tets_at(Vertex v, Visit&& visit) const {
-    for (std::int64_t slot = first_[v]; slot >= 0; slot = next_[slot]) visit(static_cast<std::int32_t>(slot / 4));
+    for (std::int64_t slot = first_[v]; slot >= 0; slot = next_[slot]) visit(static_cast<TetIndex>(slot / 4));
   }
   // The tet that has the triangle, other than `except`; no_index if there is none.
-  std::int32_t tet_at(const Triangle& triangle, std::int32_t except = no_index) const;
-  void tets_around_edge(Vertex a, Vertex b, std::vector<std::int32_t>& out) const;
+  TetIndex tet_at(const Triangle& triangle, TetIndex except = no_index) const;
+  void tets_around_edge(Vertex a, Vertex b, std::vector<TetIndex>& out) const;
 
   std::size_t cell_count() const { return cells_.size(); }  // including removed ones
-  const HybridCell& cell(std::int32_t c) const { return cells_[c]; }
-  std::int32_t add_cell(const HybridCell& cell);
-  void remove_cell(std::int32_t c);
-  void set_sliver(std::int32_t c, int quad, std::int32_t tet) { cells_[c].sliver[quad] = tet; }
+  const HybridCell& cell(CellIndex c) const { return cells_[c]; }
+  CellIndex add_cell(const HybridCell& cell);
+  void remove_cell(CellIndex c);
+  void set_sliver(CellIndex c, int quad, TetIndex tet) { cells_[c].sliver[quad] = tet; }
   // The other cell at a quad, or no_index.
-  std::int32_t partner_at(const Quad& quad, std::int32_t cell) const;
+  CellIndex partner_at(const Quad& quad, CellIndex cell) const;
 
  private:
-  void link(std::int32_t t);
-  void unlink(std::int32_t t);
+  void link(TetIndex t);
+  void unlink(TetIndex t);
 
   std::vector<Tet> tets_;
   std::vector<std::int32_t> regions_;
@@ -78,7 +87,7 @@ class HybridMesh {
   std::vector<std::int64_t> first_, next_;
 
   std::vector<HybridCell> cells_;
-  KeyMap<4, std::array<std::int32_t, 2>> cells_at_quad_;
+  KeyMap<4, std::array<CellIndex, 2>> cells_at_quad_;
 };
 
 }  // namespace hexpipe::assemble::hybrid

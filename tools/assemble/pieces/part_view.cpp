@@ -39,14 +39,14 @@ class ChosenCells {
   // Adds the chosen candidates of a part that are its own and lie within the view. `points` and `tets` are the places
   // of its points and tets in the view; empty for the part whose numbers the view has.
   void add(const Candidates& from, const CandidateKeys& keys, const graph::IndependentSet& chosen, std::int32_t part,
-           std::span<const std::int32_t> points, std::span<const std::int32_t> tets, const std::string& source) {
+           std::span<const std::int32_t> points, std::span<const TetIndex> tets, const std::string& source) {
     const auto bundle = static_cast<std::int32_t>(view_.bundles.size());
     view_.bundles.push_back(source);
     for (const std::int32_t i : chosen) {
       if (i < 0 || static_cast<std::size_t>(i) >= from.size())
         throw DataError::at(source, "expected candidates from 1 to {} in the solution, found {}", from.size(), i + 1);
       if (keys.part[i] != part || !is_within(from.corners_of(i), points)) continue;
-      const auto tet = [&](std::int32_t t) { return tets.empty() ? t : tets[t]; };
+      const auto tet = [&](TetIndex t) { return tets.empty() ? t : tets[t]; };
       append_candidate(
           view_.cells, from, i, [&](Vertex v) { return points.empty() ? v : points[v]; }, tet, tet);
       view_.keys.key.push_back(keys.key[i]);

@@ -35,14 +35,14 @@ class Cutter {
   }
 
  private:
-  bool is_here(std::int32_t tet) const { return pieces_.of_tet[tet] == view_.part.part; }
+  bool is_here(TetIndex tet) const { return pieces_.of_tet[tet] == view_.part.part; }
 
   void take_tets(const std::vector<std::int32_t>& guests) {
     std::vector<std::uint8_t> taken(view_.mesh.tets.size());
     for (std::size_t t = 0; t < taken.size(); ++t) taken[t] = is_here(static_cast<std::int32_t>(t)) ? 1 : 0;
     for (const std::int32_t i : guests) {
-      for (const std::int32_t t : view_.cells.interior_tets_of(i)) taken[t] = 2;
-      for (const std::int32_t t : view_.cells.boundary_tets_of(i))
+      for (const TetIndex t : view_.cells.interior_tets_of(i)) taken[t] = 2;
+      for (const TetIndex t : view_.cells.boundary_tets_of(i))
         if (pieces_.of_tet[t] == view_.keys.part[i]) taken[t] = 2;
     }
     for (std::size_t t = 0; t < taken.size(); ++t) {
@@ -60,10 +60,10 @@ class Cutter {
     std::vector<std::uint8_t> used(view_.mesh.triangles.size());
     std::vector<Triangle> ends;
     std::vector<std::int32_t> end_tags;
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(tet_place_.size()); ++t) {
+    for (TetIndex t = 0; t < static_cast<TetIndex>(tet_place_.size()); ++t) {
       if (tet_place_[t] == no_index) continue;
       for (int i = 0; i < 4; ++i) {
-        const std::int32_t beyond = adjacency_.tet_beyond(t, i);
+        const TetIndex beyond = adjacency_.tet_beyond(t, i);
         const auto& corners = TetTopology::triangles[i];
         const Tet& tet = view_.mesh.tets[t];
         const Triangle facet{tet[corners[0]], tet[corners[1]], tet[corners[2]]};
@@ -90,7 +90,7 @@ class Cutter {
   }
 
   // The tag of a facet of tet `t`, which the piece or a guest has.
-  std::int32_t tag_of(std::int32_t t, std::int32_t beyond, const std::optional<std::int32_t>& tagged) const {
+  std::int32_t tag_of(TetIndex t, TetIndex beyond, const std::optional<std::int32_t>& tagged) const {
     const hybrid::Seam& seam = result_.seam;
     const bool ends = beyond != no_index && pieces_.of_tet[beyond] != view_.part.part;
     if (!is_here(t)) {
@@ -111,7 +111,7 @@ class Cutter {
       result_.mesh.points.push_back(view_.mesh.points[v]);
       result_.point_number.push_back(view_.part.point_number[v]);
       const bool is_shared =
-          !std::ranges::all_of(adjacency_.tets_at(static_cast<Vertex>(v)), [&](std::int32_t t) { return is_here(t); });
+          !std::ranges::all_of(adjacency_.tets_at(static_cast<Vertex>(v)), [&](TetIndex t) { return is_here(t); });
       result_.seam.is_shared.push_back(is_shared ? 1 : 0);
     }
     for (Tet& tet : result_.mesh.tets)
@@ -124,8 +124,8 @@ class Cutter {
   void take_cell(std::int32_t i) {
     append_candidate(
         result_.cells, view_.cells, i, [&](Vertex v) { return point_place_[v]; },
-        [&](std::int32_t t) { return tet_place_[t]; },
-        [&](std::int32_t t) { return pieces_.of_tet[t] == view_.keys.part[i] ? tet_place_[t] : no_index; });
+        [&](TetIndex t) { return tet_place_[t]; },
+        [&](TetIndex t) { return pieces_.of_tet[t] == view_.keys.part[i] ? tet_place_[t] : no_index; });
     result_.seam.is_guest.push_back(view_.keys.part[i] != view_.part.part ? 1 : 0);
   }
 
@@ -137,7 +137,7 @@ class Cutter {
   const hybrid::SurfaceTags& tags_;
   const Pieces& pieces_;
   PieceInput result_;
-  std::vector<std::int32_t> tet_place_;
+  std::vector<TetIndex> tet_place_;
   std::vector<Vertex> point_place_;
 };
 

@@ -18,7 +18,7 @@ constexpr int furthest_moved = 2;
 // The open quads of some cells and the tets around their diagonals.
 struct OpenRing {
   std::int32_t cell;  // of the view
-  std::vector<std::int32_t> tets;
+  std::vector<TetIndex> tets;
 };
 
 std::vector<OpenRing> open_rings(const hybrid::HybridMesh& mesh) {
@@ -34,7 +34,7 @@ std::vector<OpenRing> open_rings(const hybrid::HybridMesh& mesh) {
   return rings;
 }
 
-std::int32_t home_of(const PartView& view, std::int32_t tet) {
+std::int32_t home_of(const PartView& view, TetIndex tet) {
   const Tet& corners = view.mesh.tets[tet];
   const std::int32_t part = view.part.tet_part[tet];
   const bool has_point = std::ranges::any_of(corners, [&](Vertex v) { return view.part.point_part[v] == part; });
@@ -45,20 +45,20 @@ std::int32_t home_of(const PartView& view, std::int32_t tet) {
 std::vector<std::vector<std::int32_t>> groups_of(const std::vector<OpenRing>& rings, std::size_t tet_count) {
   std::vector<std::int32_t> parent(tet_count);
   std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](std::int32_t t) {
+  const auto root = [&](TetIndex t) {
     while (parent[t] != t) t = parent[t] = parent[parent[t]];
     return t;
   };
-  std::vector<std::int32_t> tets;
+  std::vector<TetIndex> tets;
   for (const OpenRing& ring : rings)
-    for (const std::int32_t t : ring.tets) {
+    for (const TetIndex t : ring.tets) {
       tets.push_back(t);
       parent[root(t)] = root(ring.tets.front());
     }
   std::ranges::sort(tets);
   tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
   std::map<std::int32_t, std::vector<std::int32_t>> groups;
-  for (const std::int32_t t : tets) groups[root(t)].push_back(t);
+  for (const TetIndex t : tets) groups[root(t)].push_back(t);
   std::vector<std::vector<std::int32_t>> result;
   result.reserve(groups.size());
   for (auto& [first, group] : groups) result.push_back(std::move(group));
@@ -70,8 +70,7 @@ class Division {
   Division(const PartView& view, const TetAdjacency& adjacency, const hybrid::HybridMesh& chosen)
       : view_(view), adjacency_(adjacency), rings_(open_rings(chosen)) {
     pieces_.of_tet.resize(view.mesh.tets.size());
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(pieces_.of_tet.size()); ++t)
-      pieces_.of_tet[t] = home_of(view, t);
+    for (TetIndex t = 0; t < static_cast<TetIndex>(pieces_.of_tet.size()); ++t) pieces_.of_tet[t] = home_of(view, t);
   }
 
   void move_groups() {
@@ -79,7 +78,7 @@ class Division {
     for (const OpenRing& ring : rings_) owners[ring.tets.front()].push_back(view_.keys.part[ring.cell]);
     for (const auto& group : groups_of(rings_, view_.mesh.tets.size())) {
       std::map<std::int32_t, int> shares;
-      for (const std::int32_t t : group) {
+      for (const TetIndex t : group) {
         ++shares[pieces_.of_tet[t]];
         for (const std::int32_t part : owners[t]) ++shares[part];
       }
@@ -90,7 +89,7 @@ class Division {
 
   // Tets go where their homes have said.
   void hear(const RoundBefore& before) {
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(pieces_.of_tet.size()); ++t) {
+    for (TetIndex t = 0; t < static_cast<TetIndex>(pieces_.of_tet.size()); ++t) {
       const std::int32_t home = home_of(view_, t);
       if (home == view_.part.part || !std::ranges::binary_search(before.known_homes, home)) continue;
       const auto found = std::ranges::lower_bound(before.moved_tets, view_.part.tet_number[t]);
@@ -100,7 +99,7 @@ class Division {
   }
 
   void note_moved() {
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(pieces_.of_tet.size()); ++t) {
+    for (TetIndex t = 0; t < static_cast<TetIndex>(pieces_.of_tet.size()); ++t) {
       if (pieces_.of_tet[t] == view_.part.part || home_of(view_, t) != view_.part.part) continue;
       pieces_.moved_tets.push_back(view_.part.tet_number[t]);
       pieces_.moved_to.push_back(pieces_.of_tet[t]);
@@ -111,18 +110,18 @@ class Division {
   void take_cells() {
     const Candidates& cells = view_.cells;
     for (std::size_t i = 0; i < cells.size(); ++i)
-      for (const std::int32_t t : cells.boundary_tets_of(i)) pieces_.of_tet[t] = view_.part.parts;
+      for (const TetIndex t : cells.boundary_tets_of(i)) pieces_.of_tet[t] = view_.part.parts;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const std::int32_t owner = view_.keys.part[i];
-      for (const std::int32_t t : cells.interior_tets_of(i)) pieces_.of_tet[t] = owner;
-      for (const std::int32_t t : cells.boundary_tets_of(i)) pieces_.of_tet[t] = std::min(pieces_.of_tet[t], owner);
+      for (const TetIndex t : cells.interior_tets_of(i)) pieces_.of_tet[t] = owner;
+      for (const TetIndex t : cells.boundary_tets_of(i)) pieces_.of_tet[t] = std::min(pieces_.of_tet[t], owner);
     }
   }
 
   Pieces take() { return std::move(pieces_); }
 
  private:
-  bool is_near(std::int32_t tet, std::int32_t part) const {
+  bool is_near(TetIndex tet, std::int32_t part) const {
     std::vector<Vertex> reached(view_.mesh.tets[tet].begin(), view_.mesh.tets[tet].end());
     for (int step = 0;; ++step) {
       if (std::ranges::any_of(reached, [&](Vertex v) { return view_.part.point_part[v] == part; })) return true;
@@ -141,8 +140,8 @@ class Division {
     for (const auto& [part, share] : shares) order.emplace_back(-share, part);
     std::ranges::sort(order);
     for (const auto& [share, part] : order) {
-      if (!std::ranges::all_of(group, [&](std::int32_t t) { return is_near(t, part); })) continue;
-      for (const std::int32_t t : group) pieces_.of_tet[t] = part;
+      if (!std::ranges::all_of(group, [&](TetIndex t) { return is_near(t, part); })) continue;
+      for (const TetIndex t : group) pieces_.of_tet[t] = part;
       return;
     }
   }
@@ -186,7 +185,7 @@ SeamCells cells_at_seams(const PartView& view, const hybrid::SurfaceTags& tags, 
     std::set<std::int32_t> torn, guests;
     for (const OpenRing& ring : open_rings(selection.mesh())) {
       const std::int32_t piece = pieces.of_tet[ring.tets.front()];
-      const bool in_one = std::ranges::all_of(ring.tets, [&](std::int32_t t) { return pieces.of_tet[t] == piece; });
+      const bool in_one = std::ranges::all_of(ring.tets, [&](TetIndex t) { return pieces.of_tet[t] == piece; });
       if (!in_one)
         torn.insert(ring.cell);
       else if (piece == here && !is_own(ring.cell))

@@ -26,9 +26,9 @@ std::vector<double> thickness_behind(const TetMesh& mesh, const TetAdjacency& ad
 
 class InputSurface {
  public:
-  // Where a vertex lies: on no tagged triangle; within a smooth patch of the surface; on a feature curve between two
-  // patches; or where curves meet, end or turn. An edge is a feature if it is a ridge of the mesh, and unless it has
-  // two triangles of one tag whose normals are less than 40 degrees apart.
+  // The place of a vertex: on no tagged triangle; within a smooth patch of the surface; on a feature curve between two
+  // patches; or where curves meet, end or turn. A ridge of the mesh is a feature, and so is an edge unless it has
+  // exactly two triangles, with one tag, whose normals are less than 40 degrees apart.
   enum class Place : std::uint8_t { inside, face, curve, corner };
 
   // `mesh` outlives this, and its surface is complete (surface_tags.hpp). `adjacency` is that of the mesh, and may go.
