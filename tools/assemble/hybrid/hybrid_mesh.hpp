@@ -14,7 +14,6 @@
 namespace hexpipe::assemble {
 
 // Numbers from 0, each kind with a name of its own, as Vertex has; no_index stands for none.
-using TetIndex = std::int32_t;
 using CellIndex = std::int32_t;  // in a HybridMesh
 using CandidateIndex = std::int32_t;
 
