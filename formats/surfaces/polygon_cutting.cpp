@@ -1,4 +1,4 @@
-#include "formats/surfaces/polygon_cutting.hpp"
+#include "formats/surfaces/surface_building.hpp"
 
 #include <algorithm>
 #include <array>
