@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/mesh/candidates.hpp"
 #include "common/run/error.hpp"
 #include "random_graphs.hpp"
 
