@@ -16,4 +16,10 @@ namespace hexpipe {
 // here if a side is warped; a valid tet never is. The result is -1 if a face has no area.
 double least_face_view(CellKind kind, std::span<const Vec3> corners);
 
+// Whether some readers would turn the cell round. True of prisms only: pyramids over warped bases often look so, but no
+// reader is known that turns them, and hexes this warped are poor.
+inline bool looks_inverted(CellKind kind, std::span<const Vec3> corners) {
+  return kind == CellKind::prism && least_face_view(kind, corners) <= 0;
+}
+
 }  // namespace hexpipe

@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
     app.add_option("--title", options.title, "The page's title")->type_name("TEXT");
   };
   const auto run = [&](RunContext& context) {
-    const ViewState state = parse_view_state(options.view);
+    ViewState state = parse_view_state(options.view);
     check(options);
     pipeline::Stage stage(context);
     // The number of weights: a solution chooses among as many.
@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
                                    : *context.streams.operand;
     const Scene::Content content = options.show.empty() ? last_content(data, source) : contents.at(options.show);
     Scene scene = make_scene(std::move(data), content, source);
+    resolve_groups(state, scene);
     if (!options.fragments.empty()) {
       if (content != Scene::Content::candidates && content != Scene::Content::solution)
         throw UsageError("--fragments: expected candidates or a solution to show them in (see --show)");

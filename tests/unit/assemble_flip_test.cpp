@@ -5,7 +5,7 @@
 #include "assemble_lattice.hpp"
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/quality.hpp"
-#include "tools/assemble/conform/reconnect.hpp"
+#include "tools/assemble/conform/flat_tets.hpp"
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
 
 namespace hexpipe {
@@ -51,7 +51,7 @@ void tag_boundary(TetMesh& mesh) {
   add_missing_boundary_triangles(mesh, TetAdjacency(mesh, "test"), 0);
 }
 
-TEST(Reconnect, AFacetGivesWayToAnEdge) {
+TEST(Flip, AFacetGivesWayToAnEdge) {
   // Two flat tets on one large facet: the three around the edge between their tips are better.
   TetMesh mesh = ring(3, 0.3);
   mesh.tets = {{2, 3, 4, 1}, {2, 4, 3, 0}};
@@ -61,14 +61,14 @@ TEST(Reconnect, AFacetGivesWayToAnEdge) {
   const SurfaceTags tags(mesh);
   auto hybrid = hybrid_of(mesh);
   const Sums before(hybrid);
-  EXPECT_EQ(reconnect_poor_tets(hybrid, tags, 0.2), 1);
+  EXPECT_EQ(flip_poor_tets(hybrid, tags, 0.2), 1);
   const Sums after(hybrid);
   EXPECT_EQ(after.tets, 3);
   EXPECT_GT(after.worst, before.worst);
   EXPECT_NEAR(after.volume, before.volume, 1e-12);
 }
 
-TEST(Reconnect, ALongEdgeGivesWayToATriangulationOfItsRing) {
+TEST(Flip, ALongEdgeGivesWayToATriangulationOfItsRing) {
   for (int n = 3; n <= 5; ++n) {
     SCOPED_TRACE(n);
     TetMesh mesh = ring(n, 3);
@@ -77,7 +77,7 @@ TEST(Reconnect, ALongEdgeGivesWayToATriangulationOfItsRing) {
     const SurfaceTags tags(mesh);
     auto hybrid = hybrid_of(mesh);
     const Sums before(hybrid);
-    EXPECT_EQ(reconnect_poor_tets(hybrid, tags, 0.9), 1);
+    EXPECT_EQ(flip_poor_tets(hybrid, tags, 0.9), 1);
     const Sums after(hybrid);
     EXPECT_EQ(after.tets, 2 * (n - 2));
     EXPECT_GT(after.worst, before.worst);
@@ -85,7 +85,7 @@ TEST(Reconnect, ALongEdgeGivesWayToATriangulationOfItsRing) {
   }
 }
 
-TEST(Reconnect, TaggedFacetsRegionsAndDiagonalsOfQuadsStay) {
+TEST(Flip, TaggedFacetsRegionsAndDiagonalsOfQuadsStay) {
   TetMesh mesh = ring(3, 0.3);
   mesh.tets = {{2, 3, 4, 1}, {2, 4, 3, 0}};
   mesh.tet_tags = {1, 1};
@@ -95,23 +95,23 @@ TEST(Reconnect, TaggedFacetsRegionsAndDiagonalsOfQuadsStay) {
   TetMesh two_regions = mesh;
   two_regions.tet_tags = {1, 2};
   auto hybrid = hybrid_of(two_regions);
-  EXPECT_EQ(reconnect_poor_tets(hybrid, SurfaceTags(two_regions), 0.2), 0);
+  EXPECT_EQ(flip_poor_tets(hybrid, SurfaceTags(two_regions), 0.2), 0);
 
   TetMesh with_interface = mesh;
   with_interface.triangles.push_back({2, 3, 4});
   with_interface.triangle_tags.push_back(5);
   hybrid = hybrid_of(with_interface);
-  EXPECT_EQ(reconnect_poor_tets(hybrid, SurfaceTags(with_interface), 0.2), 0);
+  EXPECT_EQ(flip_poor_tets(hybrid, SurfaceTags(with_interface), 0.2), 0);
 
   hybrid = hybrid_of(mesh);
   HybridCell pyramid;
   pyramid.kind = CellKind::pyramid;
   pyramid.corners = {0, 2, 1, 3, 4, -1, -1, -1};  // 0 and 1 are opposite in its base
   hybrid.add_cell(pyramid);
-  EXPECT_EQ(reconnect_poor_tets(hybrid, SurfaceTags(mesh), 0.2), 0);
+  EXPECT_EQ(flip_poor_tets(hybrid, SurfaceTags(mesh), 0.2), 0);
 }
 
-TEST(Reconnect, WorksThroughAWholeMesh) {
+TEST(Flip, WorksThroughAWholeMesh) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
@@ -121,11 +121,11 @@ TEST(Reconnect, WorksThroughAWholeMesh) {
     const SurfaceTags tags(lattice.mesh);
     auto hybrid = hybrid_of(lattice.mesh);
     const Sums before(hybrid);
-    EXPECT_GT(reconnect_poor_tets(hybrid, tags, 0.3), 10);
+    EXPECT_GT(flip_poor_tets(hybrid, tags, 0.3), 10);
     const Sums after(hybrid);
     EXPECT_GT(after.worst, before.worst);
     EXPECT_NEAR(after.volume, before.volume, 1e-9);
-    EXPECT_EQ(reconnect_poor_tets(hybrid, tags, 0.3), 0) << "another pass finds nothing more";
+    EXPECT_EQ(flip_poor_tets(hybrid, tags, 0.3), 0) << "another pass finds nothing more";
   }
 }
 

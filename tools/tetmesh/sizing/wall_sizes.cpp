@@ -1,4 +1,4 @@
-#include "tools/tetmesh/sizing/wall_thickness.hpp"
+#include "tools/tetmesh/sizing/wall_sizes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +10,12 @@
 namespace hexpipe::tetmesh::sizing {
 namespace {
 
-constexpr double least_cosine = 0.70710678118654752;  // of 45 degrees
-constexpr double least_wedge = 0.26794919243112270;   // tangent of 15 degrees
+constexpr double least_cosine = 0.70710678118654752;  // the cosine of 45 degrees
+constexpr double least_wedge = 0.26794919243112270;   // the tangent of 15 degrees
 constexpr double least_part = 1.0 / 32;               // of the size
-// Rays start that far from their triangle, in sizes, and take nothing nearer for another wall.
+// Rays start this far from their triangle, in sizes, and ignore anything nearer.
 constexpr double least_length = 1e-6;
-// Parts of a triangle that are looked at; rays further apart than a size from there on.
+// At most this many pieces of a triangle send rays; beyond it, rays are more than a size apart.
 constexpr std::size_t most_parts = 1u << 20;
 constexpr std::int64_t triangles_at_once = 256;
 
@@ -67,7 +67,7 @@ void WallFinder::look_from(std::size_t triangle, Walls& walls) const {
   if (shell.in_front != solid::outside_region) look(corners, normal, walls);
 }
 
-// In parts of a size.
+// Works in pieces of a size.
 void WallFinder::look(const Corners& corners, const Vec3& inwards, Walls& walls) const {
   std::vector<Corners> parts{corners};
   for (std::size_t looked = 0; !parts.empty(); ++looked) {
@@ -108,12 +108,12 @@ double WallFinder::thickness_at(const Vec3& from, const Vec3& inwards) const {
   return is_wedge(from, inwards, thickness, dot(there, inwards) < 0 ? -there : there) ? none : thickness;
 }
 
-// Whether the two sides meet at an edge, and not just come nearer to each other. They do if, nine tenths of the way to
-// the line in which their planes meet, they are as near as they have to be. `outwards` is the other side's normal.
+// Whether the two sides meet at an edge, instead of just coming nearer to each other. They meet if they are near enough
+// at nine tenths of the way to the line in which their planes meet. `outwards` is the other side's normal.
 bool WallFinder::is_wedge(const Vec3& from, const Vec3& inwards, double thickness, const Vec3& outwards) const {
   constexpr double way = 0.9, left = 1 - way, most_left = 1.5 * left;
   const double cosine = dot(outwards, inwards);
-  const Vec3 to_edge = outwards - cosine * inwards;  // as long as the sine of the angle between the planes
+  const Vec3 to_edge = outwards - cosine * inwards;  // its length is the sine of the angle between the planes
   const double sine = norm(to_edge);
   if (sine < least_wedge * cosine) return false;
   const Vec3 inside = from + (way * thickness * cosine / (sine * sine)) * to_edge + (left / 2 * thickness) * inwards;
@@ -121,13 +121,13 @@ bool WallFinder::is_wedge(const Vec3& from, const Vec3& inwards, double thicknes
   return first_hit(inside, inwards, most) < most && first_hit(inside, -inwards, most) < most;
 }
 
-// Infinite where nothing is hit that near.
+// Infinite where the ray hits nothing within `longest`.
 double WallFinder::first_hit(const Vec3& from, const Vec3& direction, double longest) const {
   return tree_.first_hit(from, direction, longest,
                          [&](std::int32_t triangle) { return length_to(triangle, from, direction); });
 }
 
-// Along a direction of length 1, infinite where the ray misses the triangle.
+// The direction has length 1. Infinite where the ray misses the triangle.
 double WallFinder::length_to(std::int32_t triangle, const Vec3& from, const Vec3& direction) const {
   const auto& [a, b, c] = surface_.triangles[triangle];
   const double length =

@@ -1,11 +1,9 @@
-// Edge removal and its smallest inverse. The ring of vertices around an edge is triangulated so that the worst of the
-// tets between its triangles and the two ends of the edge is best, by dynamic programming (G. T. Klincsek, "Minimal
-// triangulations of polygonal domains", 1980); a facet gives way to the edge between the two vertices that face it.
+// Edge removal and its smallest inverse. Dynamic programming triangulates the ring of vertices around an edge so that
+// the worst of the tets between its triangles and the two ends of the edge is best (G. T. Klincsek, "Minimal
+// triangulations of polygonal domains", 1980). A facet is replaced by the edge between the two vertices that face it.
 // L. A. Freitag, C. Ollivier-Gooch, "Tetrahedral mesh improvement using swapping and smoothing" (1997), section 2, and
 // B. M. Klingner, J. R. Shewchuk, "Aggressive tetrahedral mesh improvement" (2007), section 3. Removing several facets
-// at once is left out: splitting a cavity at a new vertex (repair.hpp) does what is left.
-
-#include "tools/assemble/conform/reconnect.hpp"
+// at once is left out: split_flat_tets() does what is left.
 
 #include <algorithm>
 #include <array>
@@ -14,25 +12,27 @@
 #include <vector>
 
 #include "common/mesh/quality.hpp"
+#include "tools/assemble/conform/flat_tets.hpp"
 
 namespace hexpipe::assemble::conform {
 namespace {
 
 // Longer rings hardly ever have a triangulation that is better.
 constexpr std::size_t longest_ring = 10;
-// A gain below this is not worth it; and exchanges that all gain this much come to an end.
-constexpr double least_gain = 1e-3;
+// A smaller gain is not worth a flip. As every flip gains this much, flips come to an end.
+constexpr double least_gain_of_flip = 1e-3;
 
-struct Exchange {
-  double worst = 0;  // of the new tets
-  std::vector<std::int32_t> out;
+// The tets that go and those that take their place.
+struct Flip {
+  double worst = 0;  // the quality of the worst new tet
+  std::vector<TetIndex> out;
   std::vector<Tet> in;
 };
 
-class Reconnector {
+class Flipper {
  public:
-  Reconnector(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags) : mesh_(mesh), tags_(tags) {
-    for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
+  Flipper(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags) : mesh_(mesh), tags_(tags) {
+    for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c) {
       if (!mesh.cell(c).alive) continue;
       for (int i = 0; i < mesh.cell(c).quad_count(); ++i) {
         const Quad quad = mesh.cell(c).quad(i);
@@ -49,33 +49,33 @@ class Reconnector {
     const auto at = corner_points(mesh_.points, tet);
     return std::sqrt(2.0) * least_corner_scaled_jacobian(CellKind::tet, std::span<const Vec3>(at).first(4));
   }
-  double worst_of(std::span<const std::int32_t> tets) const {
+  double worst_of(std::span<const TetIndex> tets) const {
     double worst = 1;
-    for (std::int32_t t : tets) worst = std::min(worst, quality(mesh_.tet(t)));
+    for (TetIndex t : tets) worst = std::min(worst, quality(mesh_.tet(t)));
     return worst;
   }
-  // Tets may not have a diagonal of a quad as their edge: they would stand across it.
+  // No tet may have a diagonal of a quad as an edge: it would lie across the quad.
   bool may_join(Vertex a, Vertex b) const { return !diagonals_.contains(edge_key(a, b)); }
 
   std::optional<std::vector<Vertex>> ring_around(Vertex a, Vertex b);
-  std::optional<Exchange> without_edge(Vertex a, Vertex b, double bound);
-  std::optional<Exchange> without_facet(std::int32_t t, int facet, double bound) const;
-  std::optional<Exchange> best_exchange(std::int32_t t);
+  std::optional<Flip> without_edge(Vertex a, Vertex b, double bound);
+  std::optional<Flip> without_facet(TetIndex t, int facet, double bound) const;
+  std::optional<Flip> best_flip(TetIndex t);
 
   hybrid::HybridMesh& mesh_;
   const hybrid::SurfaceTags& tags_;
   KeySet<2> diagonals_;
-  std::vector<std::int32_t> around_;
+  std::vector<TetIndex> around_;
 };
 
-// The vertices around edge ab in order, as seen with b above a counter-clockwise, when the tets at the edge close
-// around it, in one region, without tagged facets between them. around_ holds the tets.
-std::optional<std::vector<Vertex>> Reconnector::ring_around(Vertex a, Vertex b) {
+// The vertices around edge ab in order, counter-clockwise as seen with b above a, if the tets at the edge close around
+// it, lie in one region and have no tagged facets between them. Leaves the tets in around_.
+std::optional<std::vector<Vertex>> Flipper::ring_around(Vertex a, Vertex b) {
   mesh_.tets_around_edge(a, b, around_);
   if (around_.size() < 3 || around_.size() > longest_ring) return std::nullopt;
   // The other two vertices of each tet, from one to the next.
   std::vector<std::array<Vertex, 2>> steps;
-  for (std::int32_t t : around_) {
+  for (TetIndex t : around_) {
     if (mesh_.region_of(t) != mesh_.region_of(around_[0])) return std::nullopt;
     std::array<Vertex, 2> step{};
     int count = 0;
@@ -98,13 +98,14 @@ std::optional<std::vector<Vertex>> Reconnector::ring_around(Vertex a, Vertex b) 
   return ring;
 }
 
-// The best triangulation of the ring around ab; none when its worst tet is not better than `bound`.
-std::optional<Exchange> Reconnector::without_edge(Vertex a, Vertex b, double bound) {
+// The best triangulation of the ring around ab; nothing if its worst tet is not better than `bound`.
+std::optional<Flip> Flipper::without_edge(Vertex a, Vertex b, double bound) {
   const auto found = ring_around(a, b);
   if (!found) return std::nullopt;
   const std::vector<Vertex>& ring = *found;
   const std::size_t n = ring.size();
-  // Of the polygon from corner i to corner j: the worst tet of its best triangulation, and the third corner at ij.
+  // For the polygon from corner i to corner j: the worst tet of its best triangulation, and the third corner of the
+  // triangle at ij.
   std::array<std::array<double, longest_ring>, longest_ring> worst{};
   std::array<std::array<std::size_t, longest_ring>, longest_ring> apex{};
   auto is_allowed = [&](std::size_t i, std::size_t j) {
@@ -126,27 +127,27 @@ std::optional<Exchange> Reconnector::without_edge(Vertex a, Vertex b, double bou
     }
   if (worst[0][n - 1] <= bound) return std::nullopt;
 
-  Exchange exchange{worst[0][n - 1], around_, {}};
+  Flip flip{worst[0][n - 1], around_, {}};
   std::vector<std::array<std::size_t, 2>> open{{0, n - 1}};
   while (!open.empty()) {
     const auto [i, j] = open.back();
     open.pop_back();
     if (j < i + 2) continue;
     const std::size_t k = apex[i][j];
-    exchange.in.push_back({ring[i], ring[j], ring[k], a});
-    exchange.in.push_back({ring[i], ring[k], ring[j], b});
+    flip.in.push_back({ring[i], ring[j], ring[k], a});
+    flip.in.push_back({ring[i], ring[k], ring[j], b});
     open.push_back({i, k}), open.push_back({k, j});
   }
-  return exchange;
+  return flip;
 }
 
 // Three tets around a new edge in place of two at a facet of t.
-std::optional<Exchange> Reconnector::without_facet(std::int32_t t, int facet, double bound) const {
+std::optional<Flip> Flipper::without_facet(TetIndex t, int facet, double bound) const {
   const auto& f = TetTopology::triangles[facet];
   const Tet& tet = mesh_.tet(t);
   const Triangle triangle{tet[f[0]], tet[f[1]], tet[f[2]]};
-  const std::int32_t behind = mesh_.tet_at(triangle, t);
-  if (behind == hybrid::HybridMesh::none || mesh_.region_of(behind) != mesh_.region_of(t) || tags_.contains(triangle))
+  const TetIndex behind = mesh_.tet_at(triangle, t);
+  if (behind == no_index || mesh_.region_of(behind) != mesh_.region_of(t) || tags_.contains(triangle))
     return std::nullopt;
   const Vertex here = tet[facet];
   const Tet& other = mesh_.tet(behind);
@@ -154,52 +155,52 @@ std::optional<Exchange> Reconnector::without_facet(std::int32_t t, int facet, do
     return std::find(triangle.begin(), triangle.end(), v) == triangle.end();
   });
   if (!may_join(here, there)) return std::nullopt;
-  Exchange exchange{1, {t, behind}, {}};
+  Flip flip{1, {t, behind}, {}};
   for (int i = 0; i < 3; ++i) {
-    exchange.in.push_back({triangle[i], triangle[(i + 1) % 3], here, there});
-    exchange.worst = std::min(exchange.worst, quality(exchange.in.back()));
-    if (exchange.worst <= bound) return std::nullopt;
+    flip.in.push_back({triangle[i], triangle[(i + 1) % 3], here, there});
+    flip.worst = std::min(flip.worst, quality(flip.in.back()));
+    if (flip.worst <= bound) return std::nullopt;
   }
-  return exchange;
+  return flip;
 }
 
-std::optional<Exchange> Reconnector::best_exchange(std::int32_t t) {
-  std::optional<Exchange> best;
+std::optional<Flip> Flipper::best_flip(TetIndex t) {
+  std::optional<Flip> best;
   const Tet tet = mesh_.tet(t);
   const double own = quality(tet);
-  auto consider = [&](std::optional<Exchange>&& other) {
+  auto consider = [&](std::optional<Flip>&& other) {
     if (!other || (best && other->worst <= best->worst)) return;
     const double before = worst_of(other->out);
-    // Inverted tets lie upon each other: what is around them is no ball.
-    if (before > 0 && other->worst > before + least_gain) best = std::move(other);
+    // Inverted tets overlap others: the tets around them do not fill a ball.
+    if (before > 0 && other->worst > before + least_gain_of_flip) best = std::move(other);
   };
   for (const auto& e : TetTopology::edges) consider(without_edge(tet[e[0]], tet[e[1]], best ? best->worst : own));
   for (int facet = 0; facet < 4; ++facet) consider(without_facet(t, facet, best ? best->worst : own));
   return best;
 }
 
-std::int64_t Reconnector::pass(double least) {
-  std::int64_t exchanges = 0;
-  // New tets come behind and have their turn.
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh_.tet_count()); ++t) {
+std::int64_t Flipper::pass(double least) {
+  std::int64_t flips = 0;
+  // New tets are appended and get their turn.
+  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh_.tet_count()); ++t) {
     if (!mesh_.is_alive(t) || quality(mesh_.tet(t)) >= least) continue;
-    const auto exchange = best_exchange(t);
-    if (!exchange) continue;
+    const auto flip = best_flip(t);
+    if (!flip) continue;
     const std::int32_t region = mesh_.region_of(t);
-    for (std::int32_t old : exchange->out) mesh_.remove_tet(old);
-    for (const Tet& tet : exchange->in) mesh_.add_tet(tet, region);
-    ++exchanges;
+    for (TetIndex old : flip->out) mesh_.remove_tet(old);
+    for (const Tet& tet : flip->in) mesh_.add_tet(tet, region);
+    ++flips;
   }
-  return exchanges;
+  return flips;
 }
 
 }  // namespace
 
-std::int64_t reconnect_poor_tets(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, double least) {
-  Reconnector reconnector(mesh, tags);
-  std::int64_t exchanges = 0;
-  while (const std::int64_t more = reconnector.pass(least)) exchanges += more;
-  return exchanges;
+std::int64_t flip_poor_tets(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, double least) {
+  Flipper flipper(mesh, tags);
+  std::int64_t flips = 0;
+  while (const std::int64_t more = flipper.pass(least)) flips += more;
+  return flips;
 }
 
 }  // namespace hexpipe::assemble::conform

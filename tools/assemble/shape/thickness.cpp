@@ -1,16 +1,15 @@
-// A ray from tet to tet: it leaves each through the facet whose plane it meets first.
-
-#include "tools/assemble/shape/wall_thickness.hpp"
+// A ray walks from tet to tet and leaves each through the facet whose plane it meets first.
 
 #include <algorithm>
 #include <limits>
 
 #include "common/mesh/cell_topology.hpp"
+#include "tools/assemble/shape/input_surface.hpp"
 
 namespace hexpipe::assemble::shape {
 namespace {
 
-// Rays that pass more tets than this within a few edge lengths go round in circles, by rounding.
+// By rounding a ray may go round in circles. One that passes more tets than this within a few edge lengths does.
 constexpr int most_tets = 1000;
 
 struct Facet {
@@ -39,7 +38,7 @@ class RayWalk {
   }
   Exit exit_of(const Facet& entry, const Vec3& from, const Vec3& along) const;
   bool goes_on(std::int32_t tet, std::int32_t beyond) const {
-    return beyond != TetAdjacency::none && mesh_.tet_tags[beyond] == mesh_.tet_tags[tet];
+    return beyond != no_index && mesh_.tet_tags[beyond] == mesh_.tet_tags[tet];
   }
 
   const TetMesh& mesh_;
@@ -77,7 +76,7 @@ double RayWalk::length(Facet entry, double reach) const {
   return reach;
 }
 
-// visit(facet) for the facets of tets, at most two, that the triangle is.
+// Calls visit(facet) for each facet of a tet that the triangle is: at most two.
 template <class Visit>
 void for_each_side(const TetMesh& mesh, const TetAdjacency& adjacency, const Triangle& triangle, Visit&& visit) {
   for (const std::int32_t t : adjacency.tets_at(triangle[0])) {
@@ -90,7 +89,8 @@ void for_each_side(const TetMesh& mesh, const TetAdjacency& adjacency, const Tri
 
 }  // namespace
 
-std::vector<double> wall_thickness(const TetMesh& mesh, const TetAdjacency& adjacency, std::span<const double> reach) {
+std::vector<double> thickness_behind(const TetMesh& mesh, const TetAdjacency& adjacency,
+                                     std::span<const double> reach) {
   std::vector<double> result(reach.begin(), reach.end());
   const RayWalk walk(mesh, adjacency);
   for (std::size_t i = 0; i < result.size(); ++i)
