@@ -79,9 +79,9 @@ void declare_mesh_output(CLI::App& app, MeshOptions& mesh) {
   outside_history(
       app.add_option("--solver", mesh.solver,
                      "Write pyramids, hexes and facets in the way that suits this program; calculix: pyramids "
-                     "collapsed, C3D8I; abaqus: C3D8I; openfoam, su2, nastran: their format is checked"))
+                     "collapsed, C3D8I; abaqus: C3D8I; openfoam, su2, nastran, moose: their format is checked"))
       ->type_name("NAME")
-      ->check(CLI::IsMember({"calculix", "abaqus", "openfoam", "su2", "nastran"}).description(""));
+      ->check(CLI::IsMember({"calculix", "abaqus", "openfoam", "su2", "nastran", "moose"}).description(""));
   outside_history(
       app.add_option(
           "--pyramids", mesh.pyramids,

@@ -4,6 +4,7 @@
 
 #include "common/run/error.hpp"
 #include "formats/meshes/abaqus.hpp"
+#include "formats/meshes/library_formats.hpp"
 #include "formats/meshes/medit.hpp"
 #include "formats/meshes/msh.hpp"
 #include "formats/meshes/nastran.hpp"
@@ -45,6 +46,10 @@ constexpr MeshFormat formats[] = {
     {"su2", write_su2},
     {"bdf", write_nastran},
     {"nas", write_nastran},
+#ifdef HEXPIPE_WITH_EXODUS
+    {"exo", write_exodus},
+    {"e", write_exodus},
+#endif
 };
 
 // The first four bytes of a MEDIT .meshb, in either byte order.
@@ -54,6 +59,7 @@ bool looks_like_binary_medit(std::string_view text) {
 }
 
 MixedMesh read_mesh_by_content(std::string text, const std::string& name, const std::string& path, GroupNames* names) {
+  if (looks_like_library_format(text)) return read_by_library(std::move(text), name, path, names);
   text.erase(0, text.size() - without_byte_order_mark(text).size());
   if (looks_like_vtu(text)) return read_vtu(std::move(text), name);
   if (looks_like_vtk_legacy(text)) return read_vtk_legacy(text, name);
@@ -68,7 +74,7 @@ MixedMesh read_mesh_by_content(std::string text, const std::string& name, const 
                         "expected a text, found MEDIT's binary format; transmesh of libmeshb makes a .mesh of it");
   throw FormatError(
       name, 1,
-      fmt::format("expected a mesh (MEDIT .mesh, Gmsh .msh, VTK, VTU, TetGen .node or .ele, SU2, Nastran; "
+      fmt::format("expected a mesh (MEDIT .mesh, Gmsh .msh, VTK, VTU, TetGen .node or .ele, SU2, Nastran, Exodus II; "
                   "tetmesh makes one of a surface), found {}",
                   quote_found(TextScanner(text, name).peek_word())));
 }

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <utility>
 
@@ -67,7 +68,9 @@ std::string choose_format(const StreamOptions& streams, Role product) {
 }
 
 bool is_text_format(std::string_view format) {
-  return !is_bundle_format(format) && !format.ends_with("-binary") && format != "vtu";
+  constexpr std::array<std::string_view, 3> binary{"vtu", "exo", "e"};
+  return !is_bundle_format(format) && !format.ends_with("-binary") &&
+         std::ranges::find(binary, format) == binary.end();
 }
 
 // The tool that makes this product.

@@ -13,6 +13,8 @@
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "common/run/open_files.hpp"
+#include "formats/streams/input.hpp"
+#include "formats/streams/temporary_file.hpp"
 
 namespace hexpipe::formats {
 namespace {
@@ -87,6 +89,10 @@ void Output::open_beside() {
   descriptor_ = ::open(directory_of(path_).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
   if (descriptor_ >= 0 && access(link_of(descriptor_).c_str(), F_OK) == 0) return;
   if (descriptor_ >= 0) ::close(descriptor_);
+  name_beside();
+}
+
+void Output::name_beside() {
   temporary_ = path_ + ".XXXXXX";
   descriptor_ = mkostemp(temporary_.data(), O_CLOEXEC);
   if (descriptor_ < 0) {
@@ -120,6 +126,29 @@ void Output::write(std::string_view bytes) {
 void Output::flush() {
   write_through(buffer_);
   buffer_.clear();
+}
+
+void Output::write_by_path(const std::function<void(const std::string& path)>& write_file) {
+  if (path_.empty()) {
+    const TemporaryFile file;
+    write_file(file.path());
+    return copy_file(file.path());
+  }
+  if (temporary_.empty()) {
+    ::close(descriptor_);
+    name_beside();
+  }
+  write_file(temporary_);
+  // Some libraries remove the file that is there, and make another.
+  const int written = ::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC);
+  if (written < 0) fail();
+  ::close(std::exchange(descriptor_, written));
+  fchmod(descriptor_, mode_for(path_));
+}
+
+void Output::copy_file(const std::string& path) {
+  Input file = Input::open(path);
+  for (std::string_view bytes = file.read_some(); !bytes.empty(); bytes = file.read_some()) write(bytes);
 }
 
 void Output::drain() {
