@@ -172,7 +172,7 @@ PYTHON
 @test "an interface of two bodies is meshed once, and told" {
   run_apart tetmesh "$DATA/touching/face-touch-two-bodies.off" --size 0.3 -o touch.tar
   assert_success
-  assert_equal "$(head -1 <<<"$stderr")" "tetmesh: warning: $DATA/touching/face-touch-two-bodies.off: bodies touch: 2 triangles that two of them have are one each"
+  assert_equal "$(head -1 <<<"$stderr")" "tetmesh: warning: $DATA/touching/face-touch-two-bodies.off: bodies touch: they share 2 triangles that two of them had"
   findhex touch.tar | buildgraph | initsol --iterations 2000 | assemble -o touch.msh
   run $PYTHON "$CHECKERS/meshstats.py" --json touch.msh
   assert_output --partial '"is_conforming": true'

@@ -9,7 +9,7 @@
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/solid/part_axes.hpp"
+#include "tools/tetmesh/solid/model_axes.hpp"
 #include "tools/tetmesh/surface/edge_splitting.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 #include "tools/tetmesh/tetgen/run_tetgen.hpp"
@@ -174,7 +174,7 @@ void Filler::fill_given_surface() {
 
 void Filler::place_points() {
   if (places_points(options_.points)) {
-    axes_ = solid::axes_of_part(*surface_, options_.feature_angle);
+    axes_ = solid::axes_of_model(*surface_, options_.feature_angle);
     points_ = volume::graded_lattice_points(*surface_, size_,
                                             {.clearance = options_.clearance,
                                              .jitter = options_.jitter.value_or(volume::LatticeOptions{}.jitter),

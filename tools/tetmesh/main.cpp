@@ -164,7 +164,7 @@ int main(int argc, char** argv) {
                    "How many sizes to try, up to 5 % off; the mesh that is estimated to have most hexes is kept")
         ->check(CLI::Range(std::size_t{1}, most_tries));
     app.add_option("--improve", options.improve,
-                   "Rounds of a search that moves, adds and removes points where that brings hexes [0]; a round "
+                   "Rounds of a search that moves, adds and removes points where that brings hexes; a round "
                    "takes five runs of TetGen")
         ->type_name("ROUNDS")
         ->check(CLI::Range(std::size_t{0}, std::size_t{1000000}).description(""));

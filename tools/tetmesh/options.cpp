@@ -56,6 +56,9 @@ void refuse_idle_options(const std::function<bool(const char*)>& is_given, const
 void check_options(const TetmeshOptions& options) {
   if (options.tries > 1 && options.surface == SurfaceKind::keep && !volume::places_points(options.points))
     throw UsageError("--tries has no sizes to try with --surface keep and without points to place");
+  if (const auto given = static_cast<double>(options.given_points.points.size()); given > options.most_points)
+    throw DataError::at(options.given_points.name, "expected at most {:g} points (see --most-points), found {:g}",
+                        options.most_points, given);
   // Each coordinate moves by the jitter, a point by up to sqrt(3) times that; it must not reach the surface.
   if (!volume::places_points(options.points)) return;
   const double jitter = options.jitter.value_or(volume::FramePointsOptions{}.jitter);

@@ -58,7 +58,8 @@ std::vector<char*> words_for_parsing(int argc, char** argv);
 void refuse_idle_options(const std::function<bool(const char*)>& is_given, const TetmeshOptions& options,
                          const std::string& points);
 
-// Throws UsageError where the values of several options contradict each other.
+// Throws UsageError where the values of several options contradict each other, and DataError where the user gives more
+// points than --most-points.
 void check_options(const TetmeshOptions& options);
 
 }  // namespace hexpipe::tetmesh

@@ -63,7 +63,7 @@ Vertex across_of(const formats::SurfaceSoup& soup, HalfEdge h) {
   return geometry::end_of(soup.triangles, geometry::next_in_triangle(h));
 }
 
-// Whether two triangles in one plane should exchange their common edge for the other diagonal.
+// Whether the common edge of two triangles in one plane should be flipped.
 bool wants_flip(const formats::SurfaceSoup& soup, HalfEdge h, HalfEdge k) {
   const Vertex from = geometry::start_of(soup.triangles, h), to = geometry::end_of(soup.triangles, h);
   if (geometry::start_of(soup.triangles, k) != to) return false;
@@ -295,7 +295,7 @@ void SideFinder::nest() {
 // The side below the lowest triangle of another piece above this piece's first vertex; -1 if there is none.
 std::int32_t SideFinder::side_below(std::int32_t piece, const geometry::ColumnIndex& index) const {
   const Vec3& p = soup_.points[soup_.triangles[piece][0]];
-  std::int32_t lowest = -1;
+  std::int32_t lowest = geometry::none;
   double least = 0;
   Sets pieces = *pieces_;
   index.for_each_crossing(p, [&](std::int32_t t) {
@@ -303,7 +303,7 @@ std::int32_t SideFinder::side_below(std::int32_t piece, const geometry::ColumnIn
     const Vec3 n = normal_of(soup_, t);
     const Vec3& on = soup_.points[soup_.triangles[t][0]];
     const double height = n.z == 0 ? 0 : dot(n, on - p) / n.z;
-    if (lowest >= 0 && height >= least) return;
+    if (lowest != geometry::none && height >= least) return;
     least = height;
     lowest = n.z > 0 ? behind(t) : before(t);
   });
@@ -314,7 +314,7 @@ void SideFinder::judge_rooms() {
   const std::int32_t outside = rooms_->of(2 * count());
   std::vector<bool> is_region(2 * soup_.triangles.size() + 1, rule_ == ShellRule::regions);
   std::size_t turned = 0;
-  std::int32_t first_turned = -1;
+  std::int32_t first_turned = geometry::none;
   for (std::int32_t t = 0; t < count(); ++t) {
     if (is_fin(t)) continue;
     is_region[rooms_->of(behind(t))] = true;
@@ -378,10 +378,10 @@ bool has_several_fans(const formats::SurfaceSoup& soup) {
         for (const HalfEdge k : {other, geometry::next_in_triangle(other)})
           if (geometry::start_of(soup.triangles, h) == geometry::start_of(soup.triangles, k)) corners.join(h, k);
   });
-  std::vector<std::int32_t> fan(soup.points.size(), -1);
+  std::vector<std::int32_t> fan(soup.points.size(), geometry::none);
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(3 * soup.triangles.size()); ++h) {
     std::int32_t& known = fan[geometry::start_of(soup.triangles, h)];
-    if (known >= 0 && known != corners.of(h)) return true;
+    if (known != geometry::none && known != corners.of(h)) return true;
     known = corners.of(h);
   }
   return false;
@@ -401,7 +401,7 @@ bool meets_in_sheets(const formats::SurfaceSoup& soup) {
 std::vector<std::string> SheetReport::sentences() const {
   std::vector<std::string> result;
   if (interface_triangles > 0)
-    result.push_back(fmt::format("bodies touch: {} triangles that two of them have are one each", interface_triangles));
+    result.push_back(fmt::format("bodies touch: they share {} triangles that two of them had", interface_triangles));
   if (fins > 0)
     result.push_back(fmt::format("{} with the same on both sides {} left out",
                                  fins == 1 ? "a triangle" : fmt::format("{} triangles", fins),
@@ -432,10 +432,10 @@ Surface find_sheets(formats::SurfaceSoup soup) {
     const std::int32_t t = geometry::triangle_of(edge[0]), u = geometry::triangle_of(edge[1]);
     if (surface.sides[t] == surface.sides[u]) sheets.join(t, u);
   });
-  std::vector<std::int32_t> number(surface.triangles.size(), -1);
+  std::vector<std::int32_t> number(surface.triangles.size(), geometry::none);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     std::int32_t& sheet = number[sheets.of(static_cast<std::int32_t>(t))];
-    if (sheet < 0) {
+    if (sheet == geometry::none) {
       sheet = static_cast<std::int32_t>(surface.shells.size());
       Shell& made = surface.shells.emplace_back();
       made.first_triangle = static_cast<std::int32_t>(t);

@@ -22,7 +22,7 @@ constexpr double in_the_middle = 0.9, beside_the_middle = 1.1;
 // On both sides, the share of all turns that go one way.
 constexpr double least_one_way = 0.9;
 // The most triangles on a way across. If there are more, they are needles without a width.
-constexpr std::size_t most_triangles = 1000;
+constexpr std::size_t most_across = 1000;
 // A line continues from one edge to the next if it turns by less than the angle, and counts if it has the least length
 // in sizes. Other lines nearer to it than the last number belong to the same fillet.
 constexpr double most_line_turn = 40 * degree, least_length = 4, same_fillet = 0.5;
@@ -40,7 +40,7 @@ Across walk_across(const FieldSurface& surface, geometry::HalfEdge start, double
   SurfacePoint at{surface.points[geometry::start_of(surface.triangles, start)] + 0.5 * surface.edge_vector(start),
                   geometry::triangle_of(start)};
   Vec3 way = surface.inward(start);
-  for (double gone = 0; gone < reach && result.triangles.size() < most_triangles;) {
+  for (double gone = 0; gone < reach && result.triangles.size() < most_across;) {
     result.triangles.push_back(at.triangle);
     const Vec3& here = surface.normals[at.triangle];
     result.turn = angle_between(normal, here);

@@ -167,7 +167,7 @@ void FieldSolver::agree_with(std::span<const OppositeSide> opposite) {
   const auto count = static_cast<std::int32_t>(frames_.size());
   std::vector<double> pulls(frames_.size());
   for (std::int32_t f = 0; f < count; ++f) {
-    if (opposite[f].triangle < 0) continue;
+    if (opposite[f].triangle == geometry::none) continue;
     const double thickness = std::max(1.0, opposite[f].distance);
     pulls[f] = opposite_weight * opposite[f].area / (thickness * thickness);
     matrix_.coeffRef(f, f) += pulls[f];

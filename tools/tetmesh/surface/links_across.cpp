@@ -33,11 +33,11 @@ double bend_of(const SurfaceLinks& links, const FieldWalker& walker, std::int32_
 }
 
 // The weight is 0 where there is no link.
-SurfaceLink make_link(const SurfaceLinks& links, const FieldWalker& walker, const OppositeSide& opposite,
-                      std::int32_t f) {
+SurfaceLink link_across(const SurfaceLinks& links, const FieldWalker& walker, const OppositeSide& opposite,
+                        std::int32_t f) {
   SurfaceLink link;
   const std::int32_t g = opposite.triangle;
-  if (g < 0) return link;
+  if (g == geometry::none) return link;
   link.neighbour = g;
   const auto here = links.field.axes(links.surface, f), there = links.field.axes(links.surface, g);
   const double trust = trust_in_match(link.match(here, there));
@@ -64,7 +64,7 @@ LinksAcross::LinksAcross(const SurfaceLinks& links, std::span<const OppositeSide
   std::vector<SurfaceLink> found(opposite.size());
   parallel_for(static_cast<std::int64_t>(found.size()), 64, [&](std::int64_t i) {
     const auto f = static_cast<std::int32_t>(i);
-    found[f] = make_link(links, walker, opposite[f], f);
+    found[f] = link_across(links, walker, opposite[f], f);
   });
   for (std::size_t f = 0; f < found.size(); ++f) {
     if (found[f].weight <= 0) continue;

@@ -4,15 +4,15 @@
 
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/geometry/box_tree.hpp"
-#include "tools/tetmesh/geometry/ray_hit.hpp"
+#include "tools/tetmesh/geometry/triangle_distance.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-constexpr double furthest = 25;  // in sizes
-constexpr double least_cosine = 0.9;
+constexpr double furthest_side = 25;  // in sizes
+constexpr double parallel_cosine = 0.9;
 // In sizes. Anything nearer than that to a triangle is not on another side.
-constexpr double least_distance = 1e-6;
+constexpr double nearest_side = 1e-6;
 // The area that a ray stands for, in squares of the size.
 constexpr double least_area = 0.25;
 
@@ -28,18 +28,18 @@ std::vector<OppositeSide> opposite_sides(const FieldSurface& surface) {
     const double here = surface.sizes[f];
     OppositeSide& side = result[f];
     side.area = samples[i].squares;
-    double best = furthest * here;
+    double best = furthest_side * here;
     tree.first_hit(from, inwards, best, [&](std::int32_t triangle) {
       const auto& [a, b, c] = surface.triangles[triangle];
       const double length =
           geometry::length_to_triangle(from, inwards, surface.points[a], surface.points[b], surface.points[c]);
-      if (length <= least_distance * here || length >= best) return std::numeric_limits<double>::infinity();
+      if (length <= nearest_side * here || length >= best) return std::numeric_limits<double>::infinity();
       best = length;
       side.triangle = triangle;
       side.distance = length / here;
       return length;
     });
-    if (side.triangle >= 0 && !(dot(surface.normals[side.triangle], inwards) > least_cosine)) side.triangle = -1;
+    if (side.triangle >= 0 && !(dot(surface.normals[side.triangle], inwards) > parallel_cosine)) side.triangle = -1;
   });
   return result;
 }

@@ -8,8 +8,8 @@
 namespace hexpipe::tetmesh::surface {
 
 struct OppositeSide {
-  // the first triangle that a ray from the centre meets, inwards along the normal; -1: none
-  std::int32_t triangle = -1;
+  // the first triangle that a ray from the centre meets, inwards along the normal
+  std::int32_t triangle = geometry::none;
   double distance = 0;  // in sizes
   double area = 0;      // the area around that this triangle is a sample of, in squares of the size
 };

@@ -36,7 +36,7 @@ void add_loops_around(const SurfaceLinks& links, geometry::HalfEdge first, field
     FollowedAxis followed{k};
     geometry::HalfEdge h = first;
     do {
-      if (links.of[h].neighbour < 0 || links.of[h].weight <= 0) return loops.drop();
+      if (links.of[h].neighbour == geometry::none || links.of[h].weight <= 0) return loops.drop();
       loops.add_step(followed.cross(links, h));
       h = geometry::next_in_triangle(links.surface.twins[h]);
     } while (h != first);

@@ -37,7 +37,7 @@ constexpr double removal_share = 0.85;
 // Around a fault, the nearest vertex within this many sizes stays, unless a vertex that stays is as near already. If
 // that does not help in `careful_attempts`, all vertices within that reach stay, and in the next attempt those within
 // twice the reach.
-constexpr double repair_reach = 0.5;
+constexpr double fault_reach = 0.5;
 constexpr int careful_attempts = 4, most_attempts = 6;
 // On the new surface; each takes about 2 KB while the surface is made.
 constexpr double most_points = 2e7;
@@ -102,9 +102,9 @@ bool SurfaceRemesher::Work::make() {
 bool SurfaceRemesher::Work::judge() {
   const std::vector<Vec3> faults = find_faults();
   if (result.attempts < careful_attempts)
-    keep_nearest(faults, repair_reach / result.attempts * size_);
+    keep_nearest(faults, fault_reach / result.attempts * size_);
   else
-    keep_around(faults, repair_reach * (result.attempts + 1 - careful_attempts) * size_);
+    keep_around(faults, fault_reach * (result.attempts + 1 - careful_attempts) * size_);
   return faults.empty();
 }
 
@@ -239,7 +239,7 @@ void SurfaceRemesher::Work::keep_nearest(const std::vector<Vec3>& places, const 
   for (const Vec3& place : places) {
     const double here = reach.at(place), size = size_.at(place);
     if (has_within(fresh, place, here)) continue;
-    std::int32_t nearest = -1;
+    std::int32_t nearest = geometry::none;
     double least = size * size;
     removable.for_each_near(place, size, 0, [&](std::int32_t i) {
       const double distance = norm_squared(removable.points()[i] - place);
@@ -249,7 +249,7 @@ void SurfaceRemesher::Work::keep_nearest(const std::vector<Vec3>& places, const 
       }
       return true;
     });
-    if (nearest < 0) continue;
+    if (nearest == geometry::none) continue;
     prepared_.keep(handles[nearest]);
     fresh.add(prepared_.position(handles[nearest]), reach.greatest());
   }
@@ -288,13 +288,6 @@ RemeshResult SurfaceRemesher::take() {
 
 bool asks_for_too_many_points(const solid::Surface& surface, const sizing::SizeField& size) {
   return sizing::points_on_surface(surface, size, most_points) > most_points;
-}
-
-RemeshResult remesh_surface(const solid::Surface& surface, const RemeshOptions& options) {
-  SurfaceRemesher remesher(surface, options);
-  while (remesher.make() && !remesher.judge()) {
-  }
-  return remesher.take();
 }
 
 }  // namespace hexpipe::tetmesh::surface

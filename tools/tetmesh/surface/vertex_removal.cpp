@@ -24,9 +24,9 @@ using VertexH = OpenMesh::VertexHandle;
 // A collapse may turn a face's normal by an angle of this cosine, and make triangles of this shape (1 is equilateral).
 constexpr double least_cosine = 0.3, least_shape = 1e-3;
 // Edges that bend by less than this share of the deviation are flat.
-constexpr double least_bend = 0.05;
+constexpr double flat_bend = 0.05;
 // On the other edges, points are watched at most this many deviations apart.
-constexpr double sample_spacing = 3;
+constexpr double watch_spacing = 3;
 constexpr double most_samples = 64;  // along an edge
 // Removing some vertices makes others removable. More rounds found nothing.
 constexpr int most_rounds = 20;
@@ -66,9 +66,9 @@ Strays samples_of_edges(const FeatureMesh& mesh, const sizing::SizeField& deviat
   for (const Edge e : mesh.edges()) {
     const EdgeDiamond diamond(mesh, e);
     const Vec3 &start = diamond.end_points[0], along = diamond.end_points[1] - start;
-    if (deviation.is_at_least(diamond.height() / least_bend, start)) continue;
+    if (deviation.is_at_least(diamond.height() / flat_bend, start)) continue;
     const Face f = mesh.face_handle(mesh.halfedge_handle(e, 0));
-    const double parts = std::min(most_samples, std::ceil(norm(along) / (sample_spacing * deviation.at(start))));
+    const double parts = std::min(most_samples, std::ceil(norm(along) / (watch_spacing * deviation.at(start))));
     // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter): small whole numbers
     for (double i = 1; i < parts; ++i) strays[f.idx()].push_back(start + i / parts * along);
   }
@@ -124,7 +124,7 @@ class VertexRemover {
 
   FeatureMesh& mesh_;
   const DistanceIndex& original_;
-  std::int32_t nearest_ = -1;  // the triangle of the original that was measured last
+  std::int32_t nearest_ = geometry::none;  // the triangle of the original that was measured last
   const sizing::SizeField& deviation_;
   Strays& strays_;
   const MeshRegions* regions_ = nullptr;  // null: everywhere

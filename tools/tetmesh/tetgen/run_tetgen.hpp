@@ -56,8 +56,4 @@ class TetGenRun {
   std::unique_ptr<Work> work_;
 };
 
-inline TetGenResult run_tetgen(const TetGenInput& input, double timeout) {
-  return TetGenRun(input, timeout).wait();
-}
-
 }  // namespace hexpipe::tetmesh::tetgen
