@@ -88,8 +88,7 @@ class Filler {
 };
 
 FilledSurface Filler::fill(bool estimates) {
-  const bool makes_new = options_.surface == SurfaceKind::remesh && !given_.has_sheets;
-  if (!makes_new || !fill_new_surface()) fill_given_surface();
+  if (options_.surface != SurfaceKind::remesh || !fill_new_surface()) fill_given_surface();
   if (points_left_out_) result_.warnings.push_back(*points_left_out_);
   if (options_.points == PointKind::given && built_->dropped_points > 0)
     result_.warnings.push_back(fmt::format("{}: TetGen left out {} of {} points inside, too near to others",
@@ -147,7 +146,8 @@ bool Filler::fill_new_surface() {
     describe(*remeshed_);
   } else {
     result_.warnings.push_back(
-        fmt::format("the surface is kept as it is: {}", failure.empty() ? remeshed_->failure : failure));
+        fmt::format("the surface is {}: {}", given_.has_sheets ? "only cut to the size" : "kept as it is",
+                    failure.empty() ? remeshed_->failure : failure));
   }
   return built_.has_value();
 }

@@ -106,11 +106,6 @@ solid::Surface surface_of(formats::SurfaceSoup soup, const TetmeshOptions& optio
     solid::check_surface(soup, remedy);
     return solid::find_shells(std::move(soup), options.shells);
   }
-  if (options.surface == SurfaceKind::remesh)
-    warnings.push_back(fmt::format(
-        "{}: sheets meet at edges of more than two triangles, so that triangles are cut to the size, and not "
-        "made anew",
-        soup.name));
   return solid::find_sheets(std::move(soup));
 }
 

@@ -28,7 +28,7 @@ CrossField cross_field(const FieldSurface& surface, std::span<const OppositeSide
 // That with the sides that face each other, and these; found at the same time as far as they do not need each other.
 struct FieldAndSides {
   CrossField field;
-  std::vector<OppositeSide> opposite;  // of each triangle
+  std::vector<OppositeSide> opposite;
 };
 FieldAndSides cross_field_across(const FieldSurface& surface);
 

@@ -52,17 +52,19 @@ class CurveMeasurer {
     return result;
   }
 
-  // The mean of both sides of the curve, from the middle of the one edge to that of the other.
+  // The mean of all sides of the curve, from the middle of the one edge to that of the other.
   double steps_per_size(Vertex before, Vertex v, Vertex after) const {
     const Vec3 p = mesh_.position(v);
     const double sizes = 0.5 * (norm(mesh_.position(before) - p) + norm(mesh_.position(after) - p)) / size_.at(p);
     double sum = 0, count = 0;
-    for (const Vertex to : {before, after}) {
-      const double steps = steps_[half_edge_of(mesh_, mesh_.find_halfedge(v, to))];
-      if (!(steps > 0)) continue;
-      sum += steps / sizes;
-      ++count;
-    }
+    for (const Vertex to : {before, after})
+      for (const auto h : mesh_.copies(mesh_.find_halfedge(v, to))) {
+        if (mesh_.is_boundary(h)) continue;
+        const double steps = steps_[half_edge_of(mesh_, h)];
+        if (!(steps > 0)) continue;
+        sum += steps / sizes;
+        ++count;
+      }
     return count > 0 ? std::clamp(sum / count, 1 / most_stretch, most_stretch) : 0;
   }
 

@@ -42,11 +42,11 @@ class CurveFinder {
     const Vertex start = mesh_.from_vertex_handle(h);
     curve.vertices.push_back(start);
     while (h.is_valid()) {
-      seen_[mesh_.edge_handle(h).idx()] = true;
+      for (const auto copy : mesh_.copies(h)) seen_[mesh_.edge_handle(copy).idx()] = true;
       curve.vertices.push_back(mesh_.to_vertex_handle(h));
       h = continuation(mesh_.to_vertex_handle(h));
     }
-    curve.closed = curve.vertices.back() == start && !mesh_.is_kept(start);
+    curve.closed = mesh_.place(curve.vertices.back()) == mesh_.place(start) && !mesh_.is_kept(start);
     curves_.push_back(std::move(curve));
   }
 

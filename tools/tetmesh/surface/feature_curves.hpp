@@ -23,7 +23,8 @@ struct MeasuredCurve {
   bool closed = false;
 };
 
-// From corner to corner, then the loops without one; in the order of their first vertices.
+// From corner to corner, then the loops without one; in the order of their first vertices. A curve of joints is there
+// once, with vertices of one of the pieces that meet in it.
 std::vector<FeatureCurve> feature_curves(const FeatureMesh& mesh);
 
 // Splits feature edges where a step ends and keeps these vertices. A curve bends away from its chords by at most

@@ -21,8 +21,13 @@ FieldSurface::FieldSurface(const FeatureMesh& mesh, const sizing::SizeField& siz
     normals.push_back(normal * (1 / length));
     areas.push_back(length / 2);
     sizes.push_back(size.at(centres.back()));
+    is_interface.push_back(mesh.is_interface(f));
   }
-  twins = geometry::find_twins(points.size(), triangles);
+  twins.resize(3 * triangles.size());
+  geometry::for_each_edge(points.size(), triangles, [&](std::span<const geometry::HalfEdge> edge) {
+    twins[edge[0]] = edge.back();
+    twins[edge.back()] = edge[0];
+  });
   inwards.reserve(twins.size());
   for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
     inwards.push_back(unit(cross(normals[geometry::triangle_of(h)], edge_vector(h))));

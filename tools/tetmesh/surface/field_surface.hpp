@@ -22,13 +22,14 @@ struct FieldSurface {
 
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
-  std::vector<geometry::HalfEdge> twins;
-  std::vector<bool> feature;  // of each half-edge
+  std::vector<geometry::HalfEdge> twins;  // at a border, where all edges are features, themselves
+  std::vector<bool> feature;              // of each half-edge
   std::vector<bool> crest;    // those of these that are in the middle of a fillet
   std::vector<Vec3> centres;
   std::vector<Vec3> normals;  // of length 1
   std::vector<double> areas;
-  std::vector<double> sizes;  // in the middle of each triangle
+  std::vector<double> sizes;       // in the middle of each triangle
+  std::vector<bool> is_interface;  // of each triangle: a region is on both of its sides
   std::vector<Vec3> inwards;  // of each half-edge, see inward()
 
   Vec3 edge_vector(geometry::HalfEdge h) const {
