@@ -36,7 +36,8 @@ MODELS = {
     "half a sphere on a block": (0.1, "Box(1) = {0,0,0, 1.4,1.4,0.8}; Sphere(2) = {0.7,0.7,0.8, 0.5};"),
     "two plates and a bolt": (0.15, "Box(1) = {0,0,0, 3,2,0.6}; Box(2) = {0,0,0.6, 3,2,0.6}; Cylinder(3) = {1.5,1,-0.3, 0,0,1.8, 0.4};"
                                     " Cylinder(4) = {1.5,1,1.2, 0,0,0.4, 0.7}; Cylinder(5) = {1.5,1,-0.4, 0,0,0.4, 0.7};"
-                                    " BooleanUnion(6) = {Volume{3};Delete;}{Volume{4,5};Delete;};"),
+                                    " BooleanUnion(6) = { Volume{3}; Delete; }{ Volume{4,5}; Delete; };"
+                                    " BooleanDifference{ Volume{1,2}; Delete; }{ Volume{6}; }"),
     "pipe in its lining": (0.12, "Cylinder(1) = {0,0,0, 0,0,2, 1}; Cylinder(2) = {0,0,0, 0,0,2, 0.7}; Cylinder(3) = {0,0,0, 0,0,2, 0.45};"
                                  " BooleanDifference(4) = {Volume{2};}{Volume{3};}; BooleanDifference(5) = {Volume{1};Delete;}{Volume{2};Delete;};"
                                  " Recursive Delete{Volume{3};}"),

@@ -24,6 +24,7 @@ struct FieldSurface {
   std::vector<Triangle> triangles;
   std::vector<geometry::HalfEdge> twins;  // at a border, where all edges are features, themselves
   std::vector<bool> feature;              // of each half-edge
+  std::vector<std::int32_t> joint;        // of each half-edge where sheets meet, the number of its joint; else -1
   std::vector<bool> crest;    // those of these that are in the middle of a fillet
   std::vector<Vec3> centres;
   std::vector<Vec3> normals;  // of length 1

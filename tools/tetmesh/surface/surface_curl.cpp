@@ -1,6 +1,8 @@
 #include "tools/tetmesh/surface/surface_curl.hpp"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "tools/tetmesh/fields/layers_across.hpp"
 #include "tools/tetmesh/surface/feature_fan.hpp"
@@ -130,6 +132,22 @@ void add_same_steps(const SurfaceLinks& links, const FeatureFan& fan, fields::Lo
   loops.close(other->first_ahead - other->last_ahead - fan.first_ahead + fan.last_ahead);
 }
 
+// And so it is in all sheets that meet in a curve.
+void add_same_steps_at_joints(const SurfaceLinks& links, fields::Loops& loops) {
+  std::map<std::pair<std::int32_t, std::int32_t>, FeatureFan> last_known;  // by the joints before and after a vertex
+  const auto& joint = links.surface.joint;
+  for_each_fan(links, [&](const FeatureFan& fan) {
+    if (joint[fan.first] < 0 || joint[fan.last] < 0) return;
+    const auto [known, is_new] = last_known.try_emplace(std::minmax(joint[fan.first], joint[fan.last]), fan);
+    if (is_new) return;
+    const FeatureFan& other = known->second;
+    for (const fields::LoopStep& step : fan.along) loops.add_step(step);
+    for (const fields::LoopStep& step : other.along) loops.add_step(step.number, !step.backwards);
+    loops.close(other.first_ahead - other.last_ahead - fan.first_ahead + fan.last_ahead);
+    known->second = fan;
+  });
+}
+
 // Between two features that are near, rows are counted in the same way everywhere.
 void add_rows_between(const SurfaceLinks& links, geometry::HalfEdge feature, fields::Loops& loops) {
   const auto strip = narrow_strip(links, feature, fields::widest_to_decide);
@@ -168,6 +186,7 @@ std::vector<double> steps_along_features(const SurfaceLinks& links) {
     add_row_along(fan, loops);
     add_same_steps(links, fan, loops);
   });
+  add_same_steps_at_joints(links, loops);
   std::vector<float> distances = distances_of(links);
   const std::vector<float> correction = fields::curl_correction(distances, loops, limits);
   for (std::size_t i = 0; i < distances.size(); ++i) distances[i] += correction[i];
