@@ -40,8 +40,8 @@ void refuse_idle_options(const std::function<bool(const char*)>& is_given, const
   };
   const bool keeps = options.surface == SurfaceKind::keep, places = places_points(options.points);
   if (!options.repair) refuse({"--weld", "--largest-hole"}, "without --repair");
-  if (!is_given("--size-field") && !is_given("--layers") && options.named_sizes.empty() && !options.curvature)
-    refuse({"--grading"}, "without --size-field, --layers, --curvature or the size of a surface");
+  if (!is_given("--size-field") && !is_given("--layers") && options.asked_sizes.empty() && !options.curvature)
+    refuse({"--grading"}, "without --size-field, --layers, --curvature or a --size at a place");
   if (!options.curvature) refuse({"--least-size"}, "without --curvature");
   if (options.improve == 0) refuse({"--time-limit"}, "without --improve");
   if (keeps) refuse({"--deviation", "--stretch"}, "with --surface keep");

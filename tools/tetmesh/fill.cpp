@@ -145,9 +145,9 @@ bool Filler::fill_new_surface() {
     surface_ = &remeshed_->surface;
     describe(*remeshed_);
   } else {
-    result_.warnings.push_back(
-        fmt::format("the surface is {}: {}", given_.has_sheets ? "only cut to the size" : "kept as it is",
-                    failure.empty() ? remeshed_->failure : failure));
+    result_.warnings.push_back(fmt::format("the surface is {}: {}",
+                                           given_.has_sheets ? "only cut to the size" : "kept as it is",
+                                           failure.empty() ? remeshed_->failure : failure));
   }
   return built_.has_value();
 }

@@ -36,7 +36,7 @@ formats::Input open_surface(const std::string& path) {
   return formats::Input::open(path);
 }
 
-// "3" for all, "inlet=0.5" for a surface.
+// "3" for all, else asked_sizes.hpp.
 void add_size(const std::string& text, TetmeshOptions& options) {
   const std::size_t equals = text.rfind('=');
   if (equals == std::string::npos && options.size)
@@ -44,7 +44,7 @@ void add_size(const std::string& text, TetmeshOptions& options) {
   if (equals == std::string::npos)
     options.size = sizing::parse_length(text);
   else
-    options.named_sizes.push_back({text.substr(0, equals), sizing::parse_length(text.substr(equals + 1))});
+    options.asked_sizes.push_back(parse_asked_size(text));
 }
 
 // Of a file: a bundle passes its surface on as it is.
@@ -105,7 +105,8 @@ int main(int argc, char** argv) {
     app.add_option(
            "--size", given_sizes,
            "Distance of points inside, in the surface's units or, with %, in percent of the bounding box's diagonal "
-           "[what suits the part]; at a surface alone: inlet=0.5")
+           "[what suits the part]; at a surface alone: inlet=0.5, in a body: 'body bolt=1', in a box: 'box "
+           "0,0,0,1,1,1=0.2'")
         ->allow_extra_args(false)
         ->type_name("LENGTH");
     app.add_option("--size-field", sizes,

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <exception>
 #include <numbers>
-#include <set>
 #include <string>
 #include <utility>
 
 #include "common/mesh/feature_angle.hpp"
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
+#include "tools/tetmesh/asked_sizes.hpp"
 #include "tools/tetmesh/fill.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/improve.hpp"
@@ -109,34 +109,6 @@ solid::Surface surface_of(formats::SurfaceSoup soup, const TetmeshOptions& optio
   return solid::find_sheets(std::move(soup));
 }
 
-std::set<std::int32_t> tags_named(const solid::Surface& surface, const std::string& name) {
-  std::set<std::int32_t> named, found;
-  for (const auto& [tag, of_tag] : surface.names.surfaces)
-    if (of_tag == name) named.insert(tag);
-  for (const std::int32_t tag : surface.tags)
-    if (named.contains(tag) || name == std::to_string(tag) || name == fmt::format("surface_{}", tag)) found.insert(tag);
-  return found;
-}
-
-// On each triangle of such a surface its size is known.
-void add_named_sizes(const solid::Surface& surface, TetmeshOptions& options) {
-  constexpr Vertex none = sizing::SizeSources::none;
-  for (const auto& [name, length] : options.named_sizes) {
-    const std::set<std::int32_t> tags = tags_named(surface, name);
-    if (tags.empty())
-      throw DataError::at(surface.name, "expected --size of a surface by its name or number, found '{}'", name);
-    const double size = sizing::element_size(surface, length);
-    sizing::SizeSources& sources = options.size_sources;
-    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-      if (!tags.contains(surface.tags[t])) continue;
-      const auto first = static_cast<Vertex>(sources.points.size());
-      for (const Vertex v : surface.triangles[t]) sources.points.push_back(surface.points[v]);
-      sources.sizes.insert(sources.sizes.end(), 3, size);
-      sources.simplices.push_back({first, first + 1, first + 2, none});
-    }
-  }
-}
-
 // Where neighbours on the surface turn by an angle, over the distance of their outer corners from the common edge, the
 // radius is the one over the other.
 void add_curvature_sizes(const solid::Surface& surface, TetmeshOptions& options, double greatest) {
@@ -229,10 +201,12 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& given_opt
   if (given_options.tag_angle) solid::tag_by_angle(given, *given_options.tag_angle);
   solid::name_tags(given, given_options.tag_names);
   const solid::Surface surface = std::move(given);
-  const double greatest = greatest_size(surface, given_options);
+  double greatest = greatest_size(surface, given_options);
   TetmeshOptions options = given_options;
-  add_named_sizes(surface, options);
   if (options.curvature) add_curvature_sizes(surface, options, greatest);
+  AskedSizes asked = asked_sizes(surface, options, greatest);
+  options.size_sources = std::move(asked.sources);
+  greatest = asked.greatest;
   const double least_factor = std::ranges::min(std::span(tried_sizes).first(options.tries));
   check_number_of_points(surface, options, least_factor * greatest);
   const sizing::SizeField size = size_field(surface, options, greatest, options.layers);

@@ -11,6 +11,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "formats/points/point_files.hpp"
 #include "formats/surfaces/surface_files.hpp"
+#include "tools/tetmesh/asked_sizes.hpp"
 #include "tools/tetmesh/search/point_search.hpp"
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/sizing/sizing.hpp"
@@ -40,16 +41,10 @@ constexpr bool places_points(PointKind kind) {
 
 constexpr std::size_t most_tries = 9;
 
-// Of a surface, by its name, or by its number as `surface_3` or `3`.
-struct NamedSize {
-  std::string name;
-  sizing::Length size;
-};
-
 struct TetmeshOptions {
   std::optional<sizing::Length> size = {};  // nothing: see greatest_size()
   sizing::SizeSources size_sources = {};
-  std::vector<NamedSize> named_sizes = {};
+  std::vector<AskedSize> asked_sizes = {};        // at surfaces, in bodies and in boxes
   std::optional<double> curvature = {};           // elements a turn where the surface bends; nothing: it does not count
   std::optional<sizing::Length> least_size = {};  // by curvature; nothing: a fifth of the size
   double grading = 0.3;

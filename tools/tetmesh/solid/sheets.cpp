@@ -129,10 +129,10 @@ class SideFinder {
 
   formats::SurfaceSoup& soup_;
   ShellRule rule_;
-  std::vector<bool> is_interface_;    // of triangles: two bodies had it
-  std::optional<geometry::JoinedSets> rooms_;         // of sides, and of the outside as the last
-  std::optional<geometry::JoinedSets> pieces_;        // of triangles, by common edges
-  std::vector<std::int32_t> region_;  // of rooms, 0: nothing
+  std::vector<bool> is_interface_;              // of triangles: two bodies had it
+  std::optional<geometry::JoinedSets> rooms_;   // of sides, and of the outside as the last
+  std::optional<geometry::JoinedSets> pieces_;  // of triangles, by common edges
+  std::vector<std::int32_t> region_;            // of rooms, 0: nothing
   SheetReport report_;
 };
 

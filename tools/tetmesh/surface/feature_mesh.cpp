@@ -211,7 +211,8 @@ void FeatureMesh::collapse_edge(HalfedgeHandle h) {
                       std::max(edge_role_[edge_handle(next).idx()], edge_role_[edge_handle(last).idx()])};
   }
   collapse(h);
-  for (const auto& [across, role] : std::span(sides).first(count)) edge_role_[edge_handle(find_halfedge(end, across)).idx()] = role;
+  for (const auto& [across, role] : std::span(sides).first(count))
+    edge_role_[edge_handle(find_halfedge(end, across)).idx()] = role;
 }
 
 }  // namespace hexpipe::tetmesh::surface

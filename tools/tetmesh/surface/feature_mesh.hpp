@@ -42,8 +42,8 @@ enum class VertexRole : std::uint8_t {
 class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
  public:
   // Feature edges: where normals of neighbours differ by more than the angle (degrees), where tags meet, and along the
-  // surface's own curves, and joints. Corners, which are kept, are the vertices where other than two feature edges meet,
-  // where a curve turns by more than it, or where pieces touch in the vertex alone.
+  // surface's own curves, and joints. Corners, which are kept, are the vertices where other than two feature edges
+  // meet, where a curve turns by more than it, or where pieces touch in the vertex alone.
   FeatureMesh(const solid::Surface& surface, double feature_angle);
 
   // False where a sheet meets itself along an edge: then the mesh is empty.

@@ -25,13 +25,13 @@ struct FieldSurface {
   std::vector<geometry::HalfEdge> twins;  // at a border, where all edges are features, themselves
   std::vector<bool> feature;              // of each half-edge
   std::vector<std::int32_t> joint;        // of each half-edge where sheets meet, the number of its joint; else -1
-  std::vector<bool> crest;    // those of these that are in the middle of a fillet
+  std::vector<bool> crest;                // those of these that are in the middle of a fillet
   std::vector<Vec3> centres;
   std::vector<Vec3> normals;  // of length 1
   std::vector<double> areas;
   std::vector<double> sizes;       // in the middle of each triangle
   std::vector<bool> is_interface;  // of each triangle: a region is on both of its sides
-  std::vector<Vec3> inwards;  // of each half-edge, see inward()
+  std::vector<Vec3> inwards;       // of each half-edge, see inward()
 
   Vec3 edge_vector(geometry::HalfEdge h) const {
     return points[geometry::end_of(triangles, h)] - points[geometry::start_of(triangles, h)];

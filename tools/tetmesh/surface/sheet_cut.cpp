@@ -26,9 +26,9 @@ class SheetCutter {
     number_vertices();
     for (const HalfEdge h : at_joints_)
       result_.joints.emplace_back(geometry::start_of(result_.triangles, h), geometry::end_of(result_.triangles, h));
-    geometry::for_each_edge(
-        result_.point_of.size(), result_.triangles,
-        [&](std::span<const HalfEdge> edge) { result_.is_manifold = result_.is_manifold && edge.size() <= 2; });
+    geometry::for_each_edge(result_.point_of.size(), result_.triangles, [&](std::span<const HalfEdge> edge) {
+      result_.is_manifold = result_.is_manifold && edge.size() <= 2;
+    });
     return std::move(result_);
   }
 

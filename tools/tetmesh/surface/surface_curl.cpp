@@ -123,7 +123,7 @@ void add_known_steps(const SurfaceLinks& links, const FeatureFan& fan, const std
 // On both sides of a curve it is as far.
 void add_same_steps(const SurfaceLinks& links, const FeatureFan& fan, fields::Loops& loops) {
   const auto& twins = links.surface.twins;
-  if (twins[fan.last] < fan.first) return;                                    // seen from the other side
+  if (twins[fan.last] < fan.first) return;                                   // seen from the other side
   if (twins[fan.last] == fan.last || twins[fan.first] == fan.first) return;  // at a border
   const auto other = feature_fan(links, twins[fan.last]);
   if (!other || other->last != twins[fan.first]) return;
