@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "common/run/error.hpp"
-#include "tetmesh_surfaces.hpp"
+#include "surface_samples.hpp"
 #include "tools/tetmesh/tetgen/build_mesh.hpp"
 
 namespace hexpipe {
@@ -23,7 +23,6 @@ using testing::Facets;
 using ::testing::HasSubstr;
 using testing::inverted;
 using testing::joined;
-using testing::run_tetgen;
 using testing::soup_of;
 using testing::sphere;
 

@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "common/run/error.hpp"
 #include "tetmesh_surfaces.hpp"
+#include "tools/tetmesh/asked_sizes.hpp"
 
 namespace hexpipe {
+using namespace tetmesh;
 using namespace tetmesh::sizing;
 using namespace tetmesh::solid;
 namespace {
@@ -30,17 +33,22 @@ TEST(SizeDemand, HasTheGreatestSizeOfTheRequestOrOfItsPlacesOrOneThatSuitsTheMod
   EXPECT_DOUBLE_EQ(demand_on(surface, request, feature_angle, false).greatest, 0.5);
 }
 
-TEST(SizeDemand, HasTheSizesOfNamedSurfaces) {
+TEST(SizeDemand, TakesTheSizesOfNamedSurfaces) {
   Surface surface = surface_of(cube(0, 4, 4));
   tag_where(surface, 7, [](const Vec3& p) { return p.z < 1e-9; });
   surface.names.surfaces[7] = "floor";
-  for (const std::string name : {"floor", "7", "surface_7"}) {
-    const SizeRequest request{.size = Length{1, false}, .named = {{name, {0.1, false}}}, .grading = 0.2};
-    const SizeField size = field_of(surface, demand_on(surface, request, feature_angle, false));
-    EXPECT_NEAR(size.at({1.3, 2.2, 0}), 0.1, 1e-9) << name;
-    EXPECT_NEAR(size.at({1.3, 2.2, 1}), 0.3, 1e-9) << name;
+  const auto demand_with = [&](const std::string& text) {
+    const std::array asked{parse_asked_size(text)};
+    SizeDemand demand = demand_on(surface, {.size = Length{1, false}, .grading = 0.2}, feature_angle, false);
+    add_asked_sizes(surface, asked, 60, demand);
+    return demand;
+  };
+  for (const std::string text : {"floor=0.1", "7=0.1", "surface_7=0.1"}) {
+    const SizeField size = field_of(surface, demand_with(text));
+    EXPECT_NEAR(size.at({1.3, 2.2, 0}), 0.1, 1e-9) << text;
+    EXPECT_NEAR(size.at({1.3, 2.2, 1}), 0.3, 1e-9) << text;
   }
-  EXPECT_THROW(demand_on(surface, {.named = {{"roof", {0.1, false}}}}, feature_angle, false), DataError);
+  EXPECT_THROW(demand_with("roof=0.1"), DataError);
 }
 
 TEST(SizeDemand, HasAnNthOfATurnWhereTheSurfaceBendsButNoLessThanTheLeastSize) {
@@ -60,7 +68,9 @@ TEST(SizeDemand, HasAnNthOfATurnWhereTheSurfaceBendsButNoLessThanTheLeastSize) {
 
 TEST(SizeDemand, IsScaledAsAWhole) {
   const Surface surface = surface_of(cube(0, 4, 4));
-  const SizeRequest request{.size = Length{1, false}, .named = {{"1", {0.1, false}}}};
+  const SizeRequest request{
+      .size = Length{1, false},
+      .sources = {{{0, 0, 0}}, {0.1}, {{0, SizeSources::none, SizeSources::none, SizeSources::none}}, {}}};
   const SizeDemand demand = demand_on(surface, request, feature_angle, false), half = 0.5 * demand;
   EXPECT_DOUBLE_EQ(half.greatest, 0.5);
   EXPECT_EQ(half.sources.sizes.size(), demand.sources.sizes.size());

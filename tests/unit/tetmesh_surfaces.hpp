@@ -46,10 +46,6 @@ inline std::vector<Vec3> lattice_in_cube(int n, double moved) {
   return inside;
 }
 
-inline TetGenResult run_tetgen(const TetGenInput& input, double timeout) {
-  return TetGenRun(input, timeout).wait();
-}
-
 inline BuiltMesh mesh_of(const Surface& surface, std::span<const Vec3> inside) {
   return build_mesh(
       surface, inside,

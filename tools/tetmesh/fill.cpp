@@ -91,8 +91,7 @@ class Filler {
 };
 
 FilledSurface Filler::fill() {
-  const bool makes_new = options_.remesh && !given_.has_sheets;
-  if (!makes_new || !fill_new_surface()) fill_given_surface();
+  if (!options_.remesh || !fill_new_surface()) fill_given_surface();
   if (points_left_out_) warnings_.push_back(*points_left_out_);
   if (options_.points == PointKind::given && built_->dropped_points > 0)
     warnings_.push_back(fmt::format("{}: TetGen left out {} of {} points inside, too near to others",
@@ -152,8 +151,9 @@ bool Filler::fill_new_surface() {
     surface_ = &remeshed_->surface;
     describe(*remeshed_);
   } else {
-    warnings_.push_back(
-        fmt::format("the surface is kept as it is: {}", failure.empty() ? remeshed_->failure : failure));
+    warnings_.push_back(fmt::format("the surface is {}: {}",
+                                    given_.has_sheets ? "only cut to the size" : "kept as it is",
+                                    failure.empty() ? remeshed_->failure : failure));
   }
   return built_.has_value();
 }

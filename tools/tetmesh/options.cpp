@@ -41,8 +41,8 @@ void refuse_idle_options(const std::function<bool(const char*)>& is_given, const
   };
   const bool keeps = options.surface == SurfaceKind::keep, places = volume::places_points(options.points);
   if (!options.repair) refuse({"--weld", "--largest-hole"}, "without --repair");
-  if (!is_given("--size-field") && !is_given("--layers") && options.sizes.named.empty() && !options.sizes.curvature)
-    refuse({"--grading"}, "without --size-field, --layers, --curvature or the size of a surface");
+  if (!is_given("--size-field") && !is_given("--layers") && options.asked_sizes.empty() && !options.sizes.curvature)
+    refuse({"--grading"}, "without --size-field, --layers, --curvature or a --size at a place");
   if (!options.sizes.curvature) refuse({"--least-size"}, "without --curvature");
   if (options.improve == 0) refuse({"--time-limit"}, "without --improve");
   if (keeps) refuse({"--deviation", "--stretch"}, "with --surface keep");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/points/point_files.hpp"
+#include "tools/tetmesh/asked_sizes.hpp"
 #include "tools/tetmesh/sizing/size_demand.hpp"
 #include "tools/tetmesh/solid/group_tags.hpp"
 #include "tools/tetmesh/solid/repair.hpp"
@@ -25,6 +26,7 @@ constexpr std::size_t most_tries = 9;
 
 struct TetmeshOptions {
   sizing::SizeRequest sizes = {};
+  std::vector<AskedSize> asked_sizes = {};  // at surfaces, in bodies and in boxes
   SurfaceKind surface = SurfaceKind::remesh;
   double feature_angle = default_feature_angle;
   double deviation = surface::RemeshOptions{}.deviation;      // in sizes, or in the thickness of thinner walls

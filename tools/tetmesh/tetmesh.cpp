@@ -8,6 +8,7 @@
 
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
+#include "tools/tetmesh/asked_sizes.hpp"
 #include "tools/tetmesh/fill.hpp"
 #include "tools/tetmesh/improve.hpp"
 #include "tools/tetmesh/solid/boundary.hpp"
@@ -101,16 +102,12 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
   std::vector<std::string> warnings;
   const char* remedy = options.repair ? "" : " (see --repair)";
   solid::Surface tagged = solid::boundary_of(std::move(soup), options.shells, remedy, warnings);
-  if (tagged.has_sheets && options.surface == SurfaceKind::remesh)
-    warnings.push_back(fmt::format(
-        "{}: sheets meet at edges of more than two triangles, so that triangles are cut to the size, and not "
-        "made anew",
-        tagged.name));
   if (options.tag_angle) solid::tag_by_angle(tagged, *options.tag_angle);
   solid::name_tags(tagged, options.tag_names);
   const solid::Surface surface = std::move(tagged);
   const bool triangles_stay = options.surface == SurfaceKind::keep;
-  const sizing::SizeDemand demand = sizing::demand_on(surface, options.sizes, options.feature_angle, triangles_stay);
+  sizing::SizeDemand demand = sizing::demand_on(surface, options.sizes, options.feature_angle, triangles_stay);
+  add_asked_sizes(surface, options.asked_sizes, options.tetgen_timeout, demand);
   const double least_factor = std::ranges::min(std::span(tried_sizes).first(options.tries));
   const bool places = volume::places_points(options.points);
   // Before any memory is used for points, and before walls are measured.

@@ -1,5 +1,6 @@
 #pragma once
-// The vertices and tets that two meshes of nearly the same points have in common: most tets stay when a few points move, come or go.
+// The vertices and tets that two meshes of nearly the same points have in common: most tets stay when a few points
+// move, come or go.
 
 #include <cstdint>
 #include <vector>

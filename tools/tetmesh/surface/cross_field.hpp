@@ -32,7 +32,7 @@ CrossField cross_field(const FieldSurface& surface, std::span<const OppositeSide
 // they do not need each other.
 struct FieldAndSides {
   CrossField field;
-  std::vector<OppositeSide> opposite;  // of each triangle
+  std::vector<OppositeSide> opposite;
 };
 FieldAndSides cross_field_across(const FieldSurface& surface);
 

@@ -56,4 +56,8 @@ class TetGenRun {
   std::unique_ptr<Work> work_;
 };
 
+inline TetGenResult run_tetgen(const TetGenInput& input, double timeout) {
+  return TetGenRun(input, timeout).wait();
+}
+
 }  // namespace hexpipe::tetmesh::tetgen
