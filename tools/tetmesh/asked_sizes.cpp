@@ -110,11 +110,11 @@ void SizeCollector::add_surface(const AskedSize& asked) {
   if (tags.empty())
     throw DataError::at(surface_.name, "expected --size of a surface by its name or number, found '{}'; there are {}",
                         asked.name, list_of(all, surface_.names.surfaces));
+  const double size = length_of(asked);
   for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
     if (!tags.contains(surface_.tags[t])) continue;
     const auto [a, b, c] = surface_.triangles[t];
-    const Vertex first =
-        add_points(std::array{surface_.points[a], surface_.points[b], surface_.points[c]}, length_of(asked));
+    const Vertex first = add_points(std::array{surface_.points[a], surface_.points[b], surface_.points[c]}, size);
     demand_.sources.simplices.push_back({first, first + 1, first + 2, none});
   }
 }
