@@ -466,7 +466,7 @@ PYTHON
   # One warning hides no other.
   assert_equal "$(wc -l <<<"$stderr")" 2
   grep -q "^tetmesh: warning: 100 % of the surface lies in triangles with edges much longer than the size" <<<"$stderr"
-  grep -q "^tetmesh: warning: outside.xyz:2: 3 of 4 points are outside" <<<"$stderr"
+  grep -q "^tetmesh: warning: outside.xyz:2: left out 3 of 4 points, which are outside" <<<"$stderr"
   assert_fails_with 1 "^tetmesh: bad.xyz:2: expected a finite coordinate, found 'x'" tetmesh "$cube" --points bad.xyz
   assert_fails_with 1 "^tetmesh: cut.xyz: expected the last line to have an end, found none; is the file cut off" tetmesh "$cube" --points cut.xyz
   assert_fails_with 1 "^tetmesh: short.node:" tetmesh "$cube" --points short.node
