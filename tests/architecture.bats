@@ -86,7 +86,7 @@ assert_floors() {
 
 @test "rooms stand on floors: mwis, formats, tetmesh, assemble" {
   assert_floors common/mwis ground bounds reduce exact exact/historical local_search .
-  assert_floors formats streams surfaces meshes choice pipeline points
+  assert_floors formats streams surfaces meshes meshes/libraries choice pipeline points
   assert_floors tools/tetmesh geometry fields solid sizing surface volume tetgen search .
   assert_floors tools/assemble hybrid choice shape conform gap pieces .
 }

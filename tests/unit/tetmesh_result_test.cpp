@@ -40,7 +40,7 @@ void expect_triangles_bound_the_tets(const TetMesh& mesh) {
     EXPECT_GT(tet_determinant(mesh.points, mesh.tets[t]), 0);
     for (std::size_t facet = 0; facet < 4; ++facet) {
       const std::int32_t beyond = adjacency.tet_beyond(static_cast<std::int32_t>(t), static_cast<int>(facet));
-      if (beyond != TetAdjacency::none && mesh.tet_tags[beyond] == mesh.tet_tags[t]) continue;
+      if (beyond != no_index && mesh.tet_tags[beyond] == mesh.tet_tags[t]) continue;
       Triangle triangle;
       for (std::size_t i = 0; i < 3; ++i) triangle[i] = mesh.tets[t][TetTopology::triangles[facet][i]];
       std::ranges::rotate(triangle, std::ranges::min_element(triangle));

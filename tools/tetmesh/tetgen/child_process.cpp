@@ -17,7 +17,7 @@
 #include <exception>
 
 #include "common/run/error.hpp"
-#include "common/run/worker_threads.hpp"
+#include "common/run/parallel.hpp"
 
 namespace hexpipe::tetmesh::tetgen {
 namespace {

@@ -19,7 +19,6 @@
 namespace hexpipe::tetmesh::volume {
 namespace {
 
-constexpr double least_quality = 0.3;    // scaled Jacobian, findhex's default
 constexpr double greatest_cosine = 0.7;  // between edges of a corner
 constexpr double furthest_corner =
     0.7;  // of a corner from its place in a parallelepiped, in lengths of the longest edge
@@ -131,7 +130,7 @@ void HexSearch::complete(Vertex lowest, const Side& ab, const Side& ac, const Si
   RoughHex hex{0, 0, {lowest, a, to_c, b, c, to_b, far, to_a}, {}};
   const std::array<Vec3, 8> corners = corner_points(mesh_.points, hex.corners);
   hex.quality = least_corner_scaled_jacobian(CellKind::hex, corners);
-  if (hex.quality <= least_quality) return;
+  if (hex.quality <= least_hex_quality) return;
   collect_tets(hex);
   const double wanted = cell_volume(CellKind::hex, corners);
   if (hex.volume < volume_tolerance * wanted || wanted < volume_tolerance * hex.volume) return;
