@@ -170,13 +170,14 @@ PYTHON
 }
 
 @test "an interface of two bodies is meshed once, and told" {
-  run_apart tetmesh "$DATA/touching/face-touch-two-bodies.off" --size 0.3 -o touch.tar
+  run_apart tetmesh "$DATA/touching/face-touch-two-bodies.off" --size 0.3 --stats stats.json -o touch.tar
   assert_success
-  assert_equal "$(head -1 <<<"$stderr")" "tetmesh: warning: $DATA/touching/face-touch-two-bodies.off: bodies touch: 2 triangles that two of them have are one each"
+  assert_equal "$(stats surface_remeshed)" True
+  assert_equal "$stderr" "tetmesh: warning: $DATA/touching/face-touch-two-bodies.off: bodies touch: they share 2 triangles that two of them had"
   findhex touch.tar | buildgraph | initsol --iterations 2000 | assemble -o touch.msh
   run $PYTHON "$CHECKERS/meshstats.py" --json touch.msh
   assert_output --partial '"is_conforming": true'
-  # Hexes of both bodies share quads across it.
+  # Both bodies are all hexes, which share quads across it.
   run $PYTHON - <<'PYTHON'
 import meshio
 mesh = meshio.read("touch.msh")
@@ -186,9 +187,9 @@ for block, tags in zip(mesh.cells, mesh.cell_data["gmsh:physical"]):
         for cell, tag in zip(block.data, tags):
             for face in ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)):
                 sides.setdefault(frozenset(cell[list(face)].tolist()), set()).add(int(tag))
-print(sum(s == {1, 2} for s in sides.values()) > 0)
+print(sum(s == {1, 2} for s in sides.values()), {block.type for block in mesh.cells})
 PYTHON
-  assert_line True
+  assert_line --regexp "^9 \{'(hexahedron', 'quad|quad', 'hexahedron)'\}$"
 }
 
 @test "a fin is told and goes" {
@@ -395,7 +396,7 @@ PYTHON
   refused --weld "without --repair" --weld 1
   refused --largest-hole "without --repair" --largest-hole 3
   refused --least-size "without --curvature" --least-size 0.1
-  refused --grading "without --size-field, --layers, --curvature or the size of a surface" --grading 0.1
+  refused --grading "without --size-field, --layers, --curvature or a --size at a place" --grading 0.1
   refused --deviation "with --surface keep" --surface keep --deviation 0.1
   refused --stretch "with --surface keep" --surface keep --stretch 0.5
   for points in none own.xyz; do
@@ -465,7 +466,7 @@ PYTHON
   # One warning hides no other.
   assert_equal "$(wc -l <<<"$stderr")" 2
   grep -q "^tetmesh: warning: 100 % of the surface lies in triangles with edges much longer than the size" <<<"$stderr"
-  grep -q "^tetmesh: warning: outside.xyz:2: 3 of 4 points are outside" <<<"$stderr"
+  grep -q "^tetmesh: warning: outside.xyz:2: left out 3 of 4 points, which are outside" <<<"$stderr"
   assert_fails_with 1 "^tetmesh: bad.xyz:2: expected a finite coordinate, found 'x'" tetmesh "$cube" --points bad.xyz
   assert_fails_with 1 "^tetmesh: cut.xyz: expected the last line to have an end, found none; is the file cut off" tetmesh "$cube" --points cut.xyz
   assert_fails_with 1 "^tetmesh: short.node:" tetmesh "$cube" --points short.node

@@ -9,7 +9,7 @@
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/solid/part_axes.hpp"
+#include "tools/tetmesh/solid/model_axes.hpp"
 #include "tools/tetmesh/surface/edge_splitting.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 #include "tools/tetmesh/tetgen/run_tetgen.hpp"
@@ -91,8 +91,7 @@ class Filler {
 };
 
 FilledSurface Filler::fill() {
-  const bool makes_new = options_.remesh && !given_.has_sheets;
-  if (!makes_new || !fill_new_surface()) fill_given_surface();
+  if (!options_.remesh || !fill_new_surface()) fill_given_surface();
   if (points_left_out_) warnings_.push_back(*points_left_out_);
   if (options_.points == PointKind::given && built_->dropped_points > 0)
     warnings_.push_back(fmt::format("{}: TetGen left out {} of {} points inside, too near to others",
@@ -152,8 +151,9 @@ bool Filler::fill_new_surface() {
     surface_ = &remeshed_->surface;
     describe(*remeshed_);
   } else {
-    warnings_.push_back(
-        fmt::format("the surface is kept as it is: {}", failure.empty() ? remeshed_->failure : failure));
+    warnings_.push_back(fmt::format("the surface is {}: {}",
+                                    given_.has_sheets ? "only cut to the size" : "kept as it is",
+                                    failure.empty() ? remeshed_->failure : failure));
   }
   return built_.has_value();
 }
@@ -174,7 +174,7 @@ void Filler::fill_given_surface() {
 
 void Filler::place_points() {
   if (places_points(options_.points)) {
-    axes_ = solid::axes_of_part(*surface_, options_.feature_angle);
+    axes_ = solid::axes_of_model(*surface_, options_.feature_angle);
     points_ = volume::graded_lattice_points(*surface_, size_,
                                             {.clearance = options_.clearance,
                                              .jitter = options_.jitter.value_or(volume::LatticeOptions{}.jitter),

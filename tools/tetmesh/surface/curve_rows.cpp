@@ -8,10 +8,10 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-using Vertex = OpenMesh::VertexHandle;
+using VertexH = OpenMesh::VertexHandle;
 
 // Steps are longer or shorter than the size by at most this factor.
-constexpr double most_stretch = 1.5;
+constexpr double most_step_ratio = 1.5;
 
 class CurveMeasurer {
  public:
@@ -21,10 +21,10 @@ class CurveMeasurer {
   MeasuredCurve measure(const FeatureCurve& curve) const {
     MeasuredCurve result;
     result.closed = curve.closed;
-    for (const Vertex v : curve.vertices) {
+    for (const VertexH v : curve.vertices) {
       const bool own = static_cast<std::size_t>(v.idx()) < own_vertices_;
       result.points.push_back(mesh_.position(v));
-      result.vertices.push_back(own ? v : Vertex());
+      result.vertices.push_back(own ? v : VertexH());
     }
     const std::vector<double> at = steps_per_size_at(curve);
     for (std::size_t i = 0; i + 1 < at.size(); ++i) {
@@ -52,18 +52,20 @@ class CurveMeasurer {
     return result;
   }
 
-  // The mean of both sides of the curve, from the middle of one edge to the middle of the other.
-  double steps_per_size(Vertex before, Vertex v, Vertex after) const {
+  // The mean of all sides of the curve, from the middle of one edge to the middle of the other.
+  double steps_per_size(VertexH before, VertexH v, VertexH after) const {
     const Vec3 p = mesh_.position(v);
     const double sizes = 0.5 * (norm(mesh_.position(before) - p) + norm(mesh_.position(after) - p)) / size_.at(p);
     double sum = 0, count = 0;
-    for (const Vertex to : {before, after}) {
-      const double steps = steps_[half_edge_of(mesh_, mesh_.find_halfedge(v, to))];
-      if (!(steps > 0)) continue;
-      sum += steps / sizes;
-      ++count;
-    }
-    return count > 0 ? std::clamp(sum / count, 1 / most_stretch, most_stretch) : 0;
+    for (const VertexH to : {before, after})
+      for (const auto h : mesh_.copies(mesh_.find_halfedge(v, to))) {
+        if (mesh_.is_boundary(h)) continue;
+        const double steps = steps_[half_edge_of(mesh_, h)];
+        if (!(steps > 0)) continue;
+        sum += steps / sizes;
+        ++count;
+      }
+    return count > 0 ? std::clamp(sum / count, 1 / most_step_ratio, most_step_ratio) : 0;
   }
 
   const FeatureMesh& mesh_;

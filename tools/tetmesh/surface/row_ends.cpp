@@ -17,7 +17,7 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-constexpr geometry::HalfEdge none = -1;
+using geometry::none;
 
 std::int32_t sign_of(bool flipped) {
   return flipped ? -1 : 1;
@@ -92,7 +92,7 @@ void RowJoiner::measure(Vertex v) {
   for (std::size_t k = 0; k < 2 && is_whole; ++k) {
     FollowedAxis followed{k};
     for_each_around(first_[v], [&](geometry::HalfEdge h) {
-      is_whole = links_.of[h].neighbour >= 0 && links_.of[h].weight > 0;
+      is_whole = links_.of[h].neighbour != none && links_.of[h].weight > 0;
       if (!is_whole) return false;
       sums[k] += sign_of(followed.flipped) * jumps_[h][followed.axis];
       followed.cross(links_, h);

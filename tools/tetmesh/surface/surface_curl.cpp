@@ -1,6 +1,8 @@
 #include "tools/tetmesh/surface/surface_curl.hpp"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "tools/tetmesh/fields/layers_across.hpp"
 #include "tools/tetmesh/surface/feature_fan.hpp"
@@ -36,7 +38,7 @@ void add_loops_around(const SurfaceLinks& links, geometry::HalfEdge first, field
     FollowedAxis followed{k};
     geometry::HalfEdge h = first;
     do {
-      if (links.of[h].neighbour < 0 || links.of[h].weight <= 0) return loops.drop();
+      if (links.of[h].neighbour == geometry::none || links.of[h].weight <= 0) return loops.drop();
       loops.add_step(followed.cross(links, h));
       h = geometry::next_in_triangle(links.surface.twins[h]);
     } while (h != first);
@@ -122,12 +124,29 @@ void add_known_steps(const SurfaceLinks& links, const FeatureFan& fan, const std
 // The distance is the same on both sides of a curve.
 void add_same_steps(const SurfaceLinks& links, const FeatureFan& fan, fields::Loops& loops) {
   const auto& twins = links.surface.twins;
-  if (twins[fan.last] < fan.first) return;  // counted already, from the other side
+  if (twins[fan.last] < fan.first) return;                                   // counted already, from the other side
+  if (twins[fan.last] == fan.last || twins[fan.first] == fan.first) return;  // at a border
   const auto other = feature_fan(links, twins[fan.last]);
   if (!other || other->last != twins[fan.first]) return;
   for (const fields::LoopStep& step : fan.along) loops.add_step(step);
   for (const fields::LoopStep& step : other->along) loops.add_step(step.number, !step.backwards);
   loops.close(other->first_ahead - other->last_ahead - fan.first_ahead + fan.last_ahead);
+}
+
+// The distance is also the same in all sheets that meet in a curve.
+void add_same_steps_at_joints(const SurfaceLinks& links, fields::Loops& loops) {
+  std::map<std::pair<std::int32_t, std::int32_t>, FeatureFan> last_known;  // by the joints before and after a vertex
+  const auto& joint = links.surface.joint;
+  for_each_fan(links, [&](const FeatureFan& fan) {
+    if (joint[fan.first] == geometry::none || joint[fan.last] == geometry::none) return;
+    const auto [known, is_new] = last_known.try_emplace(std::minmax(joint[fan.first], joint[fan.last]), fan);
+    if (is_new) return;
+    const FeatureFan& other = known->second;
+    for (const fields::LoopStep& step : fan.along) loops.add_step(step);
+    for (const fields::LoopStep& step : other.along) loops.add_step(step.number, !step.backwards);
+    loops.close(other.first_ahead - other.last_ahead - fan.first_ahead + fan.last_ahead);
+    known->second = fan;
+  });
 }
 
 // Between two features that are near each other, rows are counted in the same way everywhere.
@@ -168,6 +187,7 @@ std::vector<double> steps_along_features(const SurfaceLinks& links) {
     add_row_along(fan, loops);
     add_same_steps(links, fan, loops);
   });
+  add_same_steps_at_joints(links, loops);
   std::vector<float> distances = distances_of(links);
   const std::vector<float> correction = fields::curl_correction(distances, loops, limits);
   for (std::size_t i = 0; i < distances.size(); ++i) distances[i] += correction[i];

@@ -28,7 +28,6 @@ namespace {
 // Pull of a feature edge and of a point on it, against all links of the triangle.
 // Shares of the volume in hexes differ by up to 0.4 % from 2 to 20 for points, on larger parts.
 constexpr double edge_weight = 20, point_weight = 5;
-constexpr double aligned_cosine = 0.94;  // between a feature edge's normal and a direction that it is across
 constexpr fields::DiffusionLimits limits{200, 1e-3};
 constexpr int smoothing_sweeps = 60;  // 20 lose 1 % of the volume in hexes on small parts
 // So that both sides of a wall agree again.

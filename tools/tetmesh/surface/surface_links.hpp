@@ -22,7 +22,7 @@ struct SurfaceLink {
   std::array<fields::Complex, 2> turn{};  // as the distances turn a phase
   std::array<bool, 2> flipped{};
   bool crossed = false;
-  std::int32_t neighbour = -1;
+  std::int32_t neighbour = geometry::none;
   double weight = 0;
 
   // Must be called after the distances were changed.
@@ -55,7 +55,7 @@ struct SurfaceLinks {
   template <class Body>
   void for_each_pair(Body&& body) const {
     for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(of.size()); ++h)
-      if (of[h].neighbour >= 0 && h < surface.twins[h]) body(h);
+      if (of[h].neighbour != geometry::none && h < surface.twins[h]) body(h);
   }
   // Distances are numbered by these half-edges and the directions of their triangles.
   static std::int32_t number_of(geometry::HalfEdge h, std::size_t axis) {

@@ -56,6 +56,4 @@ class SurfaceRemesher {
 // Whether the sizes ask for more points than memory holds. Then no surface is made.
 bool asks_for_too_many_points(const solid::Surface& surface, const sizing::SizeField& size);
 
-RemeshResult remesh_surface(const solid::Surface& surface, const RemeshOptions& options);
-
 }  // namespace hexpipe::tetmesh::surface

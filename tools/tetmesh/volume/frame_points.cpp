@@ -10,7 +10,7 @@
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/solid/surface_clearance.hpp"
 #include "tools/tetmesh/volume/frame_field.hpp"
-#include "tools/tetmesh/volume/jitter.hpp"
+#include "tools/tetmesh/volume/lattice.hpp"
 #include "tools/tetmesh/volume/lattice_field.hpp"
 
 namespace hexpipe::tetmesh::volume {
