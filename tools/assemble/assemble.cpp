@@ -58,7 +58,7 @@ constexpr int most_repairs = 4;
 constexpr double worth_an_exchange = 0.15;
 constexpr double worth_a_vertex = 0.05;
 // Below this they are taken off where they lie on the boundary.
-constexpr double worth_peeling = 0.03;
+constexpr double worth_peeling = 0.1;
 
 void move_points(const hybrid::Extract& from, hybrid::HybridMesh& to) {
   for (std::size_t i = 0; i < from.origin.size(); ++i) to.points[from.origin[i]] = from.mesh.points[i];
@@ -225,7 +225,7 @@ void Assembler::give_back(const std::vector<std::int32_t>& owners, conform::Give
 hybrid::Extract Assembler::merge_and_smooth(hybrid::HybridMesh& hybrid) {
   hybrid::Extract extracted;
   for (int pass = 0; pass < most_merges; ++pass) {
-    const auto fewer = gap::make_fewer_cells(hybrid, tags_, is_shared_, pass == 0);
+    const auto fewer = gap::make_fewer_cells(hybrid, {tags_, surface_}, is_shared_, pass == 0);
     statistics_.fewer += fewer;
     if (pass > 0 && !fewer.any()) break;
     extracted = extract(hybrid, tags_);
@@ -252,7 +252,7 @@ hybrid::Extract Assembler::smooth_and_repair(hybrid::HybridMesh& hybrid) {
     const std::int64_t peeled = conform::peel_flat_tets(hybrid, tags_, surface_, is_shared_, worth_peeling);
     if (exchanges + repaired + peeled == 0) break;
     // New tets let more vertices merge.
-    if (merges()) statistics_.fewer += gap::make_fewer_cells(hybrid, tags_, is_shared_, true);
+    if (merges()) statistics_.fewer += gap::make_fewer_cells(hybrid, {tags_, surface_}, is_shared_, true);
     statistics_.exchanges += exchanges;
     statistics_.repaired += repaired;
     statistics_.peeled += peeled;

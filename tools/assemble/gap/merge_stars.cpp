@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/mesh/quality.hpp"
+#include "tools/assemble/gap/face_costs.hpp"
 #include "tools/assemble/gap/objective.hpp"
 #include "tools/assemble/gap/skin.hpp"
 #include "tools/assemble/shape/point_star.hpp"
@@ -130,10 +131,12 @@ bool StarMerger::carry_out(const StarMerge& merge) {
   const auto room = room_of(gap_, cells_, most_facets_of_two);
   if (!room) return false;
   const Vec3 before = gap_.points()[merge.into];
+  const double faces = cost_of_faces(gap_, cells_);
   gap_.move(merge.into, merge.at);
   std::vector<GapCell> in;
   for (const Facet& facet : room->skin) in.push_back(cell_on(gap_, facet, merge.into, room->region));
-  if (!std::ranges::all_of(in, [&](const GapCell& cell) { return is_valid(gap_, cell); })) {
+  if (!std::ranges::all_of(in, [&](const GapCell& cell) { return is_valid(gap_, cell); }) ||
+      cost_of_faces(gap_, in, cells_) > faces + merge.gain - least_gain) {
     gap_.move(merge.into, before);
     return false;
   }

@@ -1,5 +1,7 @@
 #include "tools/assemble/hybrid/surface_tags.hpp"
 
+#include <algorithm>
+
 namespace hexpipe::assemble::hybrid {
 
 SurfaceTags::SurfaceTags(const TetMesh& mesh) : triangles_(mesh.triangles), tags_(mesh.triangle_tags) {
@@ -16,6 +18,18 @@ void SurfaceTags::peel(const Tet& tet, const std::array<std::int32_t, 2>& places
     numbers_.emplace(key_of(triangles[i]), places[i]);
   }
   peeled_.push_back(tet);
+}
+
+void SurfaceTags::merge(Vertex from, Vertex into, std::span<const std::int32_t> places, std::span<const Tet> between) {
+  for (const std::int32_t place : places) numbers_.erase(key_of(triangles_[place]));
+  for (const std::int32_t place : places) {
+    Triangle& triangle = triangles_[place];
+    if (std::ranges::find(triangle, into) != triangle.end()) continue;
+    std::ranges::replace(triangle, from, into);
+    numbers_.emplace(key_of(triangle), place);
+  }
+  merges_.push_back({from, into});
+  peeled_.insert(peeled_.end(), between.begin(), between.end());
 }
 
 std::optional<std::int32_t> SurfaceTags::find(const Triangle& triangle) const {

@@ -1,6 +1,7 @@
 #pragma once
 // The tagged triangles of the input - its boundary, its interfaces, surfaces inside a region - which nothing may cross;
-// less the flat tets that were taken off the boundary (peel.hpp).
+// less the flat tets that were taken off the boundary (peel.hpp), and the vertices that merged along it
+// (merge_on_surface.hpp).
 
 #include <array>
 #include <cstdint>
@@ -27,7 +28,16 @@ class SurfaceTags {
 
   // Takes a tet off the boundary: two of its facets, tagged triangles, give way to the other two in their places.
   void peel(const Tet& tet, const std::array<std::int32_t, 2>& places, const std::array<Triangle, 2>& triangles);
-  // The tets that were.
+  // Tagged triangles at `from` have `into` for it; those that have both vertices are gone. `places`: those at `from`.
+  // `between`: for each facet of the boundary that moves, the tet between its two places, which counts as taken off:
+  // its volume is negative where the boundary moves outwards.
+  void merge(Vertex from, Vertex into, std::span<const std::int32_t> places, std::span<const Tet> between);
+  struct Merge {
+    Vertex from, into;
+  };
+  // In the order in which they came.
+  std::span<const Merge> merges() const { return merges_; }
+  // The tets that were, and those between old and new boundary.
   std::span<const Tet> peeled() const { return peeled_; }
 
   // The two tagged triangles that a quad consists of, when the diagonal cuts it into two with one tag.
@@ -46,6 +56,7 @@ class SurfaceTags {
   std::vector<std::int32_t> tags_;
   KeyMap<3, std::int32_t> numbers_;
   std::vector<Tet> peeled_;
+  std::vector<Merge> merges_;
 };
 
 }  // namespace hexpipe::assemble::hybrid
