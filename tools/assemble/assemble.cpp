@@ -50,7 +50,7 @@ constexpr int untangling_rounds = 20;
 // Rounds of conforming, untangling and giving back what stays poor. Two nearly always do; the last one takes no risks.
 constexpr int most_attempts = 4;
 // Rounds of merging vertices, each with smoothing behind it: more find little.
-constexpr int most_merges = 2;
+constexpr int most_merges = 3;
 // Rounds of what does more than moving vertices.
 constexpr int most_repairs = 4;
 // Tets that smoothing leaves below the first are exchanged for others on the same vertices; those that this leaves

@@ -3,8 +3,8 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
+#include <vector>
 
 #include "common/mesh/face_measures.hpp"
 #include "tools/assemble/gap/gap_mesh.hpp"
@@ -12,16 +12,22 @@
 
 namespace hexpipe::assemble::gap {
 
-FaceShape shape_of(const GapMesh& gap, const Facet& facet);
-Vec3 centre_of(const GapMesh& gap, const GapCell& cell);
+// A cell as it is, or would be.
+struct FacesOf {
+  CellKind kind = CellKind::tet;
+  std::array<Vertex, 8> corners{};
+  std::array<Vec3, 8> points{};
+  bool is_kept = false;
+};
 
-// The centre of the cell that has the facet as it goes around it, of the gap or chosen, unless it is one of `without`;
-// nothing on the boundary.
-std::optional<Vec3> centre_behind(const GapMesh& gap, const Facet& facet, std::span<const std::int32_t> without);
-
-// Of all faces of these cells, each once; `instead_of`: the cells in whose place they are, or would be.
+// Of all faces of these cells, each once, but those between two that are kept; `instead_of`: the cells of the gap in
+// whose place they are. Beyond them is what the mesh has there.
+double cost_of_faces(const GapMesh& gap, std::span<const FacesOf> cells, std::span<const std::int32_t> instead_of);
 double cost_of_faces(const GapMesh& gap, std::span<const GapCell> cells, std::span<const std::int32_t> instead_of);
 // As it is.
 double cost_of_faces(const GapMesh& gap, std::span<const std::int32_t> cells);
+
+// The cells of the gap with a face that costs something, ascending.
+std::vector<std::int32_t> cells_with_poor_faces(const GapMesh& gap);
 
 }  // namespace hexpipe::assemble::gap

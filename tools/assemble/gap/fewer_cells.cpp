@@ -21,7 +21,7 @@ FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, st
     // Rooms are small: their search gains most after the quick merges, and opens the way to more of these.
     counts.merged += merge_stars(gap);
     const RefillCounts refilled = refill_rooms(gap);
-    counts.merged += refilled.vertices + merge_stars(gap);
+    counts.merged += refilled.vertices + merge_stars(gap, true);
     counts.refilled = refilled.edges + refilled.poor;
   }
   if (counts.any()) gap.write_back();

@@ -101,6 +101,15 @@ void GapMesh::replace(std::span<const std::int32_t> out, std::span<const GapCell
   for (const GapCell& cell : in) add(cell, none);
 }
 
+void GapMesh::relocate(Vertex v, const Vec3& to) {
+  if (mesh_.points[v] == to) return;
+  mesh_.points[v] = to;
+  for (const std::int32_t c : at_[v]) {
+    cells_[c].quality = quality_of(cells_[c].kind, mesh_.points, cells_[c].vertices());
+    for (const Vertex w : cells_[c].vertices()) ++age_[w];
+  }
+}
+
 void GapMesh::write_back() {
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     if (alive_[c] != 0 || source_[c] == none) continue;

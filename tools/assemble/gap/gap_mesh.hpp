@@ -53,6 +53,8 @@ class GapMesh {
   std::span<const std::int32_t> kept_at(Vertex v) const { return kept_at_.at(v); }
   // True where v may move and go: only cells of the gap are there, no tagged facet and no seam.
   bool is_free(Vertex v) const { return holds_[v] == 0 && !at_[v].empty(); }
+  // True where v may move, though chosen cells may use it: on no tagged facet and at no seam.
+  bool is_inside(Vertex v) const { return (holds_[v] & (on_tagged | at_seam)) == 0; }
   // True where v may go along the surface: only cells of the gap are there, and no seam.
   bool is_free_on_surface(Vertex v) const { return holds_[v] == on_tagged && !at_[v].empty(); }
   // Faces count in the objective unless the vertices have not found their places yet.
@@ -72,6 +74,9 @@ class GapMesh {
   void replace(std::span<const std::int32_t> out, std::span<const GapCell> in);
   // To be followed by replace() of all cells at v.
   void move(Vertex v, const Vec3& to) { mesh_.points[v] = to; }
+
+  // Moves a vertex; the cells at it are the same, of another quality.
+  void relocate(Vertex v, const Vec3& to);
 
   void write_back();
 
