@@ -225,7 +225,8 @@ void Assembler::give_back(const std::vector<std::int32_t>& owners, conform::Give
 hybrid::Extract Assembler::merge_and_smooth(hybrid::HybridMesh& hybrid) {
   hybrid::Extract extracted;
   for (int pass = 0; pass < most_merges; ++pass) {
-    const auto fewer = gap::make_fewer_cells(hybrid, {tags_, surface_}, is_shared_, pass == 0);
+    const auto fewer = gap::make_fewer_cells(hybrid, {tags_, surface_}, is_shared_,
+                                             pass == 0 ? gap::Effort::quick : gap::Effort::full);
     statistics_.fewer += fewer;
     if (pass > 0 && !fewer.any()) break;
     extracted = extract(hybrid, tags_);
@@ -252,7 +253,7 @@ hybrid::Extract Assembler::smooth_and_repair(hybrid::HybridMesh& hybrid) {
     const std::int64_t peeled = conform::peel_flat_tets(hybrid, tags_, surface_, is_shared_, worth_peeling);
     if (exchanges + repaired + peeled == 0) break;
     // New tets let more vertices merge.
-    if (merges()) statistics_.fewer += gap::make_fewer_cells(hybrid, {tags_, surface_}, is_shared_, true);
+    if (merges()) statistics_.fewer += gap::make_fewer_cells(hybrid, {tags_, surface_}, is_shared_, gap::Effort::quick);
     statistics_.exchanges += exchanges;
     statistics_.repaired += repaired;
     statistics_.peeled += peeled;
@@ -261,7 +262,10 @@ hybrid::Extract Assembler::smooth_and_repair(hybrid::HybridMesh& hybrid) {
     compute_quality(extracted.mesh);
     if (poor_cells(extracted.mesh).empty()) break;
   }
-  return extracted;
+  if (!merges()) return extracted;
+  move_points(extracted, hybrid);
+  statistics_.fewer += gap::make_fewer_cells(hybrid, {tags_, surface_}, is_shared_, gap::Effort::last);
+  return hybrid::extract(hybrid, tags_);
 }
 
 void Assembler::improve(hybrid::Extract& extracted) {

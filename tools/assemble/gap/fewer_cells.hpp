@@ -1,5 +1,5 @@
 #pragma once
-// Makes the cells between the hexes fewer and better, without a change to any hex.
+// Makes the cells between the hexes fewer and better.
 
 #include <cstdint>
 #include <span>
@@ -14,10 +14,12 @@ struct FewerCells {
   std::int64_t merged = 0;      // vertices that no hex uses, into others
   std::int64_t on_surface = 0;  // of these, along the surface
   std::int64_t refilled = 0;    // rooms
+  std::int64_t mended = 0;      // cells, in the last pass
 
-  bool any() const { return merged + refilled > 0; }
+  bool any() const { return merged + refilled + mended > 0; }
   FewerCells& operator+=(const FewerCells& more) {
     merged += more.merged, on_surface += more.on_surface, refilled += more.refilled;
+    mended += more.mended;
     return *this;
   }
 };
@@ -28,10 +30,13 @@ struct Surface {
   const shape::InputSurface& input;
 };
 
+// How much is done: only merges into neighbours and without a look at faces, for a mesh whose vertices have not been
+// smoothed yet; all; or what is poor alone becomes better (mend.hpp), for a mesh that is not smoothed any more.
+enum class Effort { quick, full, last };
+
 // Lowers the objective (objective.hpp). The mesh has to conform; nothing is done where a tet, or a cell made of tets,
-// is not valid. Vertices of cells that were chosen and shared ones stay where they are, those on tagged facets on
-// these. `quickly`: only merges into neighbours, for a mesh whose vertices have not been smoothed yet.
+// is not valid. Chosen cells stay, shared vertices stay where they are, those on tagged facets on these.
 FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, std::span<const std::uint8_t> is_shared,
-                            bool quickly);
+                            Effort effort);
 
 }  // namespace hexpipe::assemble::gap

@@ -48,7 +48,12 @@ void Patch::take(std::span<const Vertex> moving, const Exchange& exchange) {
       add({gap_.cell(c).kind, false, gap_.cell(c).region, std::min(gap_.cell(c).quality, least_quality), {}},
           gap_.cell(c).vertices());
   for (const GapCell& cell : exchange.in) add({cell.kind, false, cell.region, exchange.floor, {}}, cell.vertices());
-  for (const std::int32_t c : kept) add({gap_.kept_cell(c).kind, true, 0, 1, {}}, gap_.kept_cell(c).vertices());
+  for (const std::int32_t c : kept) {
+    const KeptCell& cell = gap_.kept_cell(c);
+    const double floor = cell.kind == CellKind::hex ? least_hex : least_prism;
+    add({cell.kind, true, 0, std::min(floor, quality_of(cell.kind, gap_.points(), cell.vertices())), {}},
+        cell.vertices());
+  }
   for (const Cell& cell : cells_) vertices_.insert(vertices_.end(), cell.vertices().begin(), cell.vertices().end());
   vertices_.insert(vertices_.end(), moving.begin(), moving.end());
   std::ranges::sort(vertices_);
@@ -124,8 +129,7 @@ double Patch::least() const {
 }
 
 bool Patch::keeps_floors() const {
-  return std::ranges::all_of(
-      cells_, [&](const Cell& cell) { return cell.is_kept || (quality(cell) >= cell.floor && is_good(cell)); });
+  return std::ranges::all_of(cells_, [&](const Cell& cell) { return quality(cell) >= cell.floor && is_good(cell); });
 }
 
 double Patch::cost_before() const {

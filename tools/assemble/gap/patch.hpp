@@ -36,7 +36,7 @@ class Patch {
 
   // The least quality among the cells that are not chosen.
   double least() const;
-  // False where one has become worse than it may: least_quality, or what it was.
+  // False where a cell has become worse than it may: than least_quality, for a hex least_hex, or than it was.
   bool keeps_floors() const;
   // What cells and faces of the gap cost, as they are here.
   double cost() const;
