@@ -95,6 +95,10 @@ void Patch::look_around(std::int32_t i) {
 }
 
 bool Patch::improve(std::int32_t i, double goal) {
+  // Chosen cells are better: most vertices need no look at all of theirs.
+  const bool is_good_here =
+      std::ranges::all_of(at_[i], [&](std::int32_t c) { return cells_[c].is_kept || quality(cells_[c]) >= goal; });
+  if (is_good_here) return false;
   look_around(i);
   Vec3& point = points_[moving_[i]];
   const Vec3 before = point;

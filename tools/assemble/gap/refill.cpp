@@ -133,15 +133,14 @@ void Refill::search(double cost) {
   }
 }
 
-std::optional<std::vector<GapCell>> Refill::find(std::span<const std::int32_t> out, std::optional<double> floor) {
+std::optional<std::vector<GapCell>> Refill::find(std::span<const std::int32_t> out) {
   auto room = room_of(gap_, out, most_facets);
   if (!room || room->vertices.size() > most_corners) return std::nullopt;
   room_ = std::move(*room);
   front_ = room_.skin;
   const Worth now = worth_of(gap_, out);
   out_ = out;
-  floor_ = floor.value_or(now.floor), most_ = now.cost + cost_of_faces(gap_, out) - least_gain,
-  steps_left_ = most_steps;
+  floor_ = now.floor, most_ = now.cost + cost_of_faces(gap_, out) - least_gain, steps_left_ = most_steps;
   placed_.clear(), best_.clear();
   space_ = 0;
   for (const std::int32_t c : out) space_ += volume_of(gap_, gap_.cell(c));

@@ -18,8 +18,8 @@ class Refill {
 
   // Tets, pyramids and prisms in the place of `out` that cost less: the cheapest that a search of bounded length finds.
   // Nothing where there are none, or the cells are no room (skin.hpp) or a large one. All cells of the gap have to be
-  // valid. `floor`: the least quality, unless it is what worth_of() says.
-  std::optional<std::vector<GapCell>> find(std::span<const std::int32_t> out, std::optional<double> floor = {});
+  // valid.
+  std::optional<std::vector<GapCell>> find(std::span<const std::int32_t> out);
 
  private:
   struct Piece {

@@ -5,9 +5,7 @@
 #include <vector>
 
 #include "tools/assemble/gap/objective.hpp"
-#include "tools/assemble/gap/patch.hpp"
 #include "tools/assemble/gap/refill.hpp"
-#include "tools/assemble/gap/skin.hpp"
 
 namespace hexpipe::assemble::gap {
 namespace {
@@ -16,14 +14,11 @@ namespace {
 constexpr int most_passes = 5;
 // Cells around a fixed vertex may be many.
 constexpr std::size_t most_around_poor = 20;
-// Cells above the first may come in where the vertices around them make room, so often.
-constexpr double least_to_yield = 0.02;
-constexpr int rounds_to_yield = 4;
 
 class Rooms {
  public:
   explicit Rooms(GapMesh& gap)
-      : gap_(gap), refill_(gap), patch_(gap), seen_(gap.vertex_count(), std::numeric_limits<std::uint32_t>::max()) {}
+      : gap_(gap), refill_(gap), seen_(gap.vertex_count(), std::numeric_limits<std::uint32_t>::max()) {}
 
   RefillCounts run() {
     for (int pass = 0; pass < most_passes; ++pass) {
@@ -49,11 +44,9 @@ class Rooms {
   bool refill_around(std::int32_t c);
   bool is_beside(std::int32_t c, std::int32_t other) const;
   bool refill();
-  bool refill_with_room();
 
   GapMesh& gap_;
   Refill refill_;
-  Patch patch_;
   std::vector<std::uint32_t> seen_;  // by vertex: its age when it was looked at
   std::vector<std::int32_t> room_;
   RefillCounts counts_;
@@ -65,29 +58,11 @@ bool Rooms::refill() {
   return in.has_value();
 }
 
-// With cells that are too poor, where vertices around can make them better.
-bool Rooms::refill_with_room() {
-  const auto in = refill_.find(room_, least_to_yield);
-  if (!in) return false;
-  std::vector<Vertex> moving;
-  for (const GapCell& cell : *in)
-    for (const Vertex v : cell.vertices())
-      if (gap_.is_inside(v)) moving.push_back(v);
-  std::ranges::sort(moving);
-  moving.erase(std::unique(moving.begin(), moving.end()), moving.end());
-  const Exchange exchange{room_, *in, worth_of(gap_, room_).floor};
-  patch_.take(moving, exchange);
-  patch_.raise(least_quality, rounds_to_yield);
-  if (!patch_.keeps_floors() || patch_.cost() > patch_.cost_before() - least_gain) return false;
-  patch_.carry_out(gap_, exchange);
-  return true;
-}
-
 void Rooms::refill_stars() {
   for (Vertex v = 0; v < static_cast<Vertex>(gap_.vertex_count()); ++v) {
     if (!gap_.is_free(v) || !has_changed(v)) continue;
     room_.assign(gap_.cells_at(v).begin(), gap_.cells_at(v).end());
-    counts_.vertices += refill() || refill_with_room() ? 1 : 0;
+    counts_.vertices += refill() ? 1 : 0;
   }
 }
 

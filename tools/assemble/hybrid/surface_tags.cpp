@@ -4,8 +4,11 @@
 
 namespace hexpipe::assemble::hybrid {
 
-SurfaceTags::SurfaceTags(const TetMesh& mesh) : triangles_(mesh.triangles), tags_(mesh.triangle_tags) {
+SurfaceTags::SurfaceTags(const TetMesh& mesh)
+    : triangles_(mesh.triangles), tags_(mesh.triangle_tags), is_on_any_(mesh.points.size()) {
   numbers_.reserve(triangles_.size());
+  for (const Triangle& triangle : triangles_)
+    for (const Vertex v : triangle) is_on_any_[v] = true;
   for (std::size_t i = 0; i < triangles_.size(); ++i)
     numbers_.try_emplace(key_of(triangles_[i]), static_cast<std::int32_t>(i));
 }
@@ -33,6 +36,8 @@ void SurfaceTags::merge(Vertex from, Vertex into, std::span<const std::int32_t> 
 }
 
 std::optional<std::int32_t> SurfaceTags::find(const Triangle& triangle) const {
+  for (const Vertex v : triangle)
+    if (static_cast<std::size_t>(v) >= is_on_any_.size() || !is_on_any_[v]) return std::nullopt;
   const auto found = numbers_.find(key_of(triangle));
   if (found == numbers_.end()) return std::nullopt;
   return found->second;

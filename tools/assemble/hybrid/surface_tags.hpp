@@ -19,7 +19,7 @@ class SurfaceTags {
   // `mesh` with every facet of its boundary and interfaces among its triangles.
   explicit SurfaceTags(const TetMesh& mesh);
 
-  bool contains(const Triangle& triangle) const { return numbers_.contains(key_of(triangle)); }
+  bool contains(const Triangle& triangle) const { return find(triangle).has_value(); }
   // The index of the tagged triangle with these vertices.
   std::optional<std::int32_t> find(const Triangle& triangle) const;
   std::size_t size() const { return triangles_.size(); }
@@ -55,6 +55,7 @@ class SurfaceTags {
   std::vector<Triangle> triangles_;
   std::vector<std::int32_t> tags_;
   KeyMap<3, std::int32_t> numbers_;
+  std::vector<bool> is_on_any_;  // by vertex: most triangles that are asked for lie inside, and are told so at once
   std::vector<Tet> peeled_;
   std::vector<Merge> merges_;
 };
