@@ -304,6 +304,25 @@ PYTHON
   assert_fails_with 1 "TetGen failed: it took longer than --tetgen-timeout" tetmesh "$fine" --size 0.02 --tetgen-timeout 0.001 -q
 }
 
+@test "--stats tells where rows end, and the bundle has the lines inside" {
+  local part="$DATA/plate-holes.stl"
+  tetmesh -q "$part" --size 11 --points frame -o frame.tar --stats stats.json
+  $PYTHON -c "assert $(stats row_ends) > 0"
+  $PYTHON -c "d = $(stats dislocations); assert d['length'] > 0 and d['surface_ends'] > 0, d
+assert d['at_singularities'] + d['closed'] <= d['length'], d"
+  assert_equal "$(array frame.tar mesh/dislocations.npy 'a.shape[1]')" 6
+  # In sizes; a line along which several rows end counts as many times.
+  local length=$(array frame.tar mesh/dislocations.npy 'float((((a[:, :3] - a[:, 3:]) ** 2).sum(axis=1) ** 0.5).sum()) / 11')
+  $PYTHON -c "assert 0 < $length <= $(stats dislocations)['length'] * 1.000001"
+  findhex -q frame.tar -o candidates.tar
+  assert_equal "$(array candidates.tar mesh/dislocations.npy 'a.tolist()')" "$(array frame.tar mesh/dislocations.npy 'a.tolist()')"
+  tetmesh -q "$part" --size 11 --points lattice -o lattice.tar --stats stats.json
+  run tar tf lattice.tar
+  refute_line mesh/dislocations.npy
+  run stats dislocations
+  assert_failure
+}
+
 @test "--stretch joins rows on faces with features, as far as it may" {
   local part="$DATA/plate-holes.stl"
   tetmesh -q "$part" --size 11 --points none -o base.mesh

@@ -211,6 +211,9 @@ void Filler::try_frame_points() {
   }
   built_ = std::move(bent);
   statistics_.interior_points = frame.points.size();
+  const volume::Dislocations& lines = frame.dislocations;
+  statistics_.dislocations = {lines.length, lines.at_singularities, lines.closed, lines.surface_ends};
+  result_.dislocations = lines.pieces;
   statistics_.points_kept = PointKind::frame;
 }
 
@@ -252,6 +255,7 @@ void Filler::describe(const surface::RemeshResult& remeshed) {
   statistics_.distance_to_input = remeshed.to_input;
   statistics_.distance_from_input = remeshed.from_input;
   statistics_.extra_points = remeshed.extra_points;
+  statistics_.row_ends = remeshed.row_ends;
 }
 
 }  // namespace

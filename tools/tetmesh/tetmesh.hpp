@@ -90,6 +90,12 @@ struct TriedSize {
   std::optional<double> hex_share;  // nothing where TetGen failed
 };
 
+// In sizes; see volume/dislocations.hpp.
+struct DislocationLengths {
+  double all = 0, at_singularities = 0, closed = 0;
+  std::size_t surface_ends = 0;
+};
+
 struct TetmeshStatistics {
   double size = 0;                   // the greatest
   std::optional<double> least_size;  // where sizes differ
@@ -104,6 +110,8 @@ struct TetmeshStatistics {
   PointKind points_kept = PointKind::none;
   // Of the volume, by a rough greedy choice; where several kinds of points were tried.
   std::optional<double> lattice_hex_share, frame_hex_share;
+  std::optional<std::int64_t> row_ends;            // on faces, of a surface made anew
+  std::optional<DislocationLengths> dislocations;  // of points along a frame field
   std::size_t added_points = 0, dropped_points = 0;
   int tetgen_runs = 0;  // those that failed among them
   std::size_t points = 0, tets = 0;
@@ -117,6 +125,7 @@ struct TetmeshStatistics {
 
 struct TetmeshResult {
   TetMesh mesh;
+  std::optional<std::vector<std::array<double, 6>>> dislocations;  // volume/dislocations.hpp: pieces
   formats::GroupNames names;
   TetmeshStatistics statistics;
   std::vector<std::string> warnings;

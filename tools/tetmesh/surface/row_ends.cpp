@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <numbers>
+#include <numeric>
 #include <optional>
 #include <queue>
 #include <tuple>
@@ -191,6 +193,14 @@ void RowJoiner::move(const End& end, geometry::HalfEdge h) {
 
 }  // namespace
 
+RowCoordinates row_coordinates(const fields::PeriodicNumbers<2>& phases) {
+  RowCoordinates coordinates;
+  coordinates.reserve(phases.size());
+  for (const auto& [x, y] : phases)
+    coordinates.push_back({std::arg(x) / (2 * std::numbers::pi), std::arg(y) / (2 * std::numbers::pi)});
+  return coordinates;
+}
+
 RowJumps row_jumps(const SurfaceLinks& links, const RowCoordinates& coordinates) {
   RowJumps jumps(links.of.size());
   links.for_each_pair([&](geometry::HalfEdge h) {
@@ -210,6 +220,11 @@ RowJumps row_jumps(const SurfaceLinks& links, const RowCoordinates& coordinates)
 std::vector<std::int32_t> row_ends(const SurfaceLinks& links, const RowJumps& jumps) {
   RowJumps unchanged = jumps;
   return RowJoiner(links, unchanged).counts();
+}
+
+std::int64_t count_row_ends(const SurfaceLinks& links, const fields::PeriodicNumbers<2>& phases) {
+  const std::vector<std::int32_t> ends = row_ends(links, row_jumps(links, row_coordinates(phases)));
+  return std::accumulate(ends.begin(), ends.end(), std::int64_t{0});
 }
 
 void join_row_ends(const SurfaceLinks& links, double reach, RowJumps& jumps) {

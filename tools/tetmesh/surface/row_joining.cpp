@@ -35,11 +35,7 @@ class RowStraightener {
  public:
   RowStraightener(SurfaceLinks& links, const LinksAcross& across,
                   std::span<const std::array<fields::Complex, 2>> targets, fields::PeriodicNumbers<2>& phases)
-      : links_(links), across_(across), targets_(targets), phases_(phases) {
-    for (const auto& numbers : phases) {
-      auto& coordinates = coordinates_.emplace_back();
-      for (std::size_t k = 0; k < 2; ++k) coordinates[k] = std::arg(numbers[k]) / (2 * std::numbers::pi);
-    }
+      : links_(links), across_(across), targets_(targets), phases_(phases), coordinates_(row_coordinates(phases)) {
     jumps_ = row_jumps(links, coordinates_);
     number_faces();
     are_joined_.resize(static_cast<std::size_t>(face_count_));

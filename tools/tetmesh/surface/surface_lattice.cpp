@@ -19,6 +19,7 @@
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/surface/links_across.hpp"
+#include "tools/tetmesh/surface/row_ends.hpp"
 #include "tools/tetmesh/surface/row_joining.hpp"
 #include "tools/tetmesh/surface/surface_curl.hpp"
 
@@ -85,6 +86,7 @@ class LatticeMaker {
     agree();
     std::ranges::stable_sort(proposals_, std::greater(), &Proposal::trust);
     SurfaceLattice lattice;
+    lattice.row_ends = count_row_ends(links_, phases_);
     lattice.points.reserve(proposals_.size());
     for (const Proposal& p : proposals_) lattice.points.push_back(p.point);
     // Fillets are shorter than what rows are counted on. Steps hardly say so, for links across their narrow strips

@@ -26,6 +26,7 @@ struct RemeshResult {
   std::string failure;                  // where it failed: why, in a sentence; the surface is empty
   double from_input = 0, to_input = 0;  // greatest distances of points of the one from the other
   std::size_t feature_points = 0, front_points = 0;
+  std::int64_t row_ends = 0;  // on faces, of the lattice of the points there
   // Of the input, that stay because the deviation, or a surface that does not intersect itself, asks for them.
   std::size_t extra_points = 0;
   int attempts = 0;
