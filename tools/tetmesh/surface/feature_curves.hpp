@@ -2,6 +2,7 @@
 // Feature curves, and vertices set along them: the segments between corners, and closed loops, get a whole number of
 // steps of about the size.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct MeasuredCurve {
   std::vector<OpenMesh::VertexHandle> vertices;  // at the points; invalid where the mesh has none
   std::vector<double> steps_per_size;            // wanted, of each segment
   bool closed = false;
+  std::optional<int> steps = {};  // all together; nothing: as near to those wanted as a whole number is
 };
 
 // From corner to corner, then the loops without one; in the order of their first vertices.
