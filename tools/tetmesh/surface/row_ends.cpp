@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <queue>
@@ -188,7 +187,7 @@ void RowJoiner::move(const End& end, geometry::HalfEdge h) {
   const std::size_t k = end.axis.axis;
   const std::int32_t change = -sign_of(end.axis.flipped);
   jumps_[h][k] += change;
-  jumps_[links_.surface.twins[h]][link.axis(k)] -= sign_of(link.flipped[k]) * change;
+  jumps_[links_.surface.twins[h]][link.axis[k]] -= sign_of(link.flipped[k]) * change;
 }
 
 }  // namespace
@@ -196,8 +195,7 @@ void RowJoiner::move(const End& end, geometry::HalfEdge h) {
 RowCoordinates row_coordinates(const fields::PeriodicNumbers<2>& phases) {
   RowCoordinates coordinates;
   coordinates.reserve(phases.size());
-  for (const auto& [x, y] : phases)
-    coordinates.push_back({std::arg(x) / (2 * std::numbers::pi), std::arg(y) / (2 * std::numbers::pi)});
+  for (const auto& [x, y] : phases) coordinates.push_back({fields::coordinate_of(x), fields::coordinate_of(y)});
   return coordinates;
 }
 
@@ -207,11 +205,11 @@ RowJumps row_jumps(const SurfaceLinks& links, const RowCoordinates& coordinates)
     const SurfaceLink& link = links.of[h];
     for (std::size_t k = 0; k < 2; ++k) {
       const std::int32_t sign = sign_of(link.flipped[k]);
-      const double there = sign * coordinates[link.neighbour][link.axis(k)];
+      const double there = link.seen_along(coordinates[link.neighbour], k);
       const auto jump =
           static_cast<std::int32_t>(std::lround(there + link.distance[k] - coordinates[geometry::triangle_of(h)][k]));
       jumps[h][k] = jump;
-      jumps[links.surface.twins[h]][link.axis(k)] = -sign * jump;
+      jumps[links.surface.twins[h]][link.axis[k]] = -sign * jump;
     }
   });
   return jumps;

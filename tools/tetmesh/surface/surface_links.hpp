@@ -7,32 +7,23 @@
 #include <vector>
 
 #include "tools/tetmesh/fields/curl_correction.hpp"
-#include "tools/tetmesh/fields/periodic_numbers.hpp"
+#include "tools/tetmesh/fields/periodic_link.hpp"
 #include "tools/tetmesh/surface/crest_lines.hpp"
 #include "tools/tetmesh/surface/cross_field.hpp"
 
 namespace hexpipe::tetmesh::surface {
 
-// Direction k here is direction k there, or the other one where crossed, turned round where flipped, and `distance[k]`
-// further on.
-struct SurfaceLink {
-  std::array<double, 2> distance{};       // between the centres, in sizes and over what fillets would be; corrected
-  std::array<double, 2> way{};            // as it was before
-  std::array<fields::Complex, 2> turn{};  // by the distances
-  std::array<bool, 2> flipped{};
-  bool crossed = false;
-  std::int32_t neighbour = -1;
-  double weight = 0;
+// Between the centres of triangles, along their two directions. Distances are over what fillets would be, and
+// corrected.
+struct SurfaceLink : fields::PeriodicLink<2> {
+  std::array<double, 2> way{};  // the distance as it is
 
-  // To be called when the distances were changed.
-  void set_turn();
   // Matches directions as they are seen here to those there; their mean cosine.
   double match(const std::array<Vec3, 2>& seen, const std::array<Vec3, 2>& there);
   // A direction that was matched to k, turned round if need be.
   Vec3 matched(std::size_t k, const std::array<Vec3, 2>& there) const {
-    return flipped[k] ? -there[axis(k)] : there[axis(k)];
+    return flipped[k] ? -there[axis[k]] : there[axis[k]];
   }
-  std::size_t axis(std::size_t k) const { return crossed ? 1 - k : k; }
   // The same, seen from the neighbour.
   SurfaceLink reversed(std::int32_t from) const;
 };

@@ -49,7 +49,7 @@ class RowCounter {
     const LatticeLink& link = links_[number];
     RowSum result;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double ahead = link.seen(coordinates_[link.node], k) + link.distance[k] - coordinates_[node][k];
+      const double ahead = link.seen_along(coordinates_[link.neighbour], k) + link.distance[k] - coordinates_[node][k];
       result[k] = static_cast<std::int32_t>(std::lround(ahead));
     }
     return result;

@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/fields/curl_correction.hpp"
@@ -20,7 +19,6 @@ constexpr double anchor_weight = 20;
 constexpr double anchor_threshold = 0.3, weakest_anchor = 0.05;
 // 15 sweeps lose 0.1 % of the volume in hexes, 60 and 150 gain nothing.
 constexpr int smoothing_sweeps = 30;
-constexpr double inertia = 0.3;  // of a number's own value, against its links
 // Stretched links along the surface count as a step up to the last, as none up to the first, in sizes.
 constexpr double no_step = 0.2, least_step = 0.75, greatest_step = 1.7;
 // In the volumes of blub, spot and mambo-m1, with their surfaces as before, 84.9 % of the volume in hexes without, 86.6
@@ -106,11 +104,11 @@ void LatticeSolver::correct_curl() {
   for_each_node([&](std::size_t node) {
     links_.for_each_pair_of(static_cast<std::int32_t>(node), [&](std::int32_t i, std::int64_t ij) {
       LatticeLink& t = links_[ij];
-      const double longest = most_strain * norm(nodes_.points[i] - nodes_.points[t.node]) / nodes_.sizes[i];
+      const double longest = most_strain * norm(nodes_.points[i] - nodes_.points[t.neighbour]) / nodes_.sizes[i];
       for (std::size_t k = 0; k < 3; ++k)
         t.distance[k] += std::clamp<double>(correction[number_of(ij, k)], -longest, longest);
       t.set_turn();
-      links_[links_.between(t.node, i)] = t.reversed(i);
+      links_[links_.between(t.neighbour, i)] = t.reversed(i);
     });
   });
 }
@@ -124,7 +122,7 @@ fields::Loops LatticeSolver::triangles() const {
         for (std::int64_t node = begin; node < end; ++node)
           links_.for_each_pair_of(static_cast<std::int32_t>(node), [&](std::int32_t i, std::int64_t ij) {
             for (std::int64_t il = ij + 1; il < nodes_.offsets[i + 1]; ++il)
-              if (const std::int64_t jl = links_.between(links_[ij].node, links_[il].node); jl >= 0)
+              if (const std::int64_t jl = links_.between(links_[ij].neighbour, links_[il].neighbour); jl >= 0)
                 add_loops({.to_second = ij, .to_third = il, .onward = jl}, some);
           });
         return some;
@@ -150,8 +148,8 @@ void LatticeSolver::add_loops(const LinkTriangle& triangle, fields::Loops& loops
 void LatticeSolver::add_steps_on_surface(fields::Loops& loops) const {
   links_.for_each_pair([&](std::int32_t i, std::int64_t ij) {
     const LatticeLink& t = links_[ij];
-    if (!nodes_.is_on_surface(i) || !nodes_.is_on_surface(t.node) || t.weight <= 0) return;
-    const Vec3 &n = nodes_.surface[i].normal, &m = nodes_.surface[t.node].normal;
+    if (!nodes_.is_on_surface(i) || !nodes_.is_on_surface(t.neighbour) || t.weight <= 0) return;
+    const Vec3 &n = nodes_.surface[i].normal, &m = nodes_.surface[t.neighbour].normal;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto steps = steps_on_surface(frames_[i][k], n, m, std::abs(t.distance[k]));
       if (!steps) continue;
@@ -167,7 +165,7 @@ void LatticeSolver::make_anchors(std::size_t i) {
   std::array<double, 3> sum{};
   double count = 0;
   for (const LatticeLink& t : links_.of(i)) {
-    if (!nodes_.is_on_surface(static_cast<std::size_t>(t.node))) continue;
+    if (!nodes_.is_on_surface(static_cast<std::size_t>(t.neighbour))) continue;
     ++count;
     for (std::size_t k = 0; k < 3; ++k) sum[k] += t.turn[k].real();
   }
@@ -182,13 +180,7 @@ void LatticeSolver::make_anchors(std::size_t i) {
 
 Phases LatticeSolver::view_of_neighbours(const std::vector<Phases>& phases, std::size_t i) const {
   Phases sum{};
-  for (const LatticeLink& t : links_.of(i)) {
-    const Phases& theirs = phases[t.node];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const fields::Complex there = theirs[t.axis[k]];
-      sum[k] += t.weight * fields::times(t.flipped[k] ? std::conj(there) : there, t.turn[k]);
-    }
-  }
+  for (const LatticeLink& link : links_.of(i)) link.add_seen(phases[link.neighbour], sum);
   return sum;
 }
 
@@ -203,15 +195,11 @@ void LatticeSolver::diffuse() {
       [&](const std::vector<Phases>& phases, std::size_t i) { return view_of_neighbours(phases, i); });
 }
 
-// All at once from the numbers before, so that the order of the nodes does not count.
 void LatticeSolver::sweep() {
-  std::vector<Phases> next(nodes_.size());
-  for_each_node([&](std::size_t i) {
-    const Phases view = view_of_neighbours(phases_, i);
-    for (std::size_t k = 0; k < 3; ++k)
-      next[i][k] = fields::unit(view[k] + inertia * degree_[i] * phases_[i][k] + anchors_[i][k]);
-  });
-  phases_.swap(next);
+  phases_ = fields::swept<3>(
+      phases_, [&](const auto& body) { for_each_node(body); },
+      [&](std::size_t i) { return view_of_neighbours(phases_, i); }, [&](std::size_t i) { return degree_[i]; },
+      [&](std::size_t i, std::size_t k) { return anchors_[i][k]; });
 }
 
 // By least squares over the distances to the neighbours, which are those of the frame no longer.
@@ -223,7 +211,8 @@ std::array<Vec3, 3> LatticeSolver::steps_of(std::size_t i) const {
     right.col(k) = hold * Eigen::Vector3d(axis.x, axis.y, axis.z);
   }
   for (const LatticeLink& t : links_.of(i)) {
-    const Vec3 back = (2 / (nodes_.sizes[i] + nodes_.sizes[t.node])) * (nodes_.points[i] - nodes_.points[t.node]);
+    const Vec3 back =
+        (2 / (nodes_.sizes[i] + nodes_.sizes[t.neighbour])) * (nodes_.points[i] - nodes_.points[t.neighbour]);
     const Eigen::Vector3d way(back.x, back.y, back.z);
     moments += t.weight * way * way.transpose();
     right += t.weight * way * Eigen::RowVector3d(t.distance[0], t.distance[1], t.distance[2]);
@@ -245,7 +234,7 @@ LatticeField LatticeSolver::result() {
     const Phases view = view_of_neighbours(phases_, i);
     double least = degree_[i];
     for (std::size_t k = 0; k < 3; ++k) {
-      field.coordinates[i][k] = std::arg(phases_[i][k]) / (2 * std::numbers::pi);
+      field.coordinates[i][k] = fields::coordinate_of(phases_[i][k]);
       least = std::min(least, std::abs(view[k]));
     }
     field.agreement[i] = least / degree_[i];

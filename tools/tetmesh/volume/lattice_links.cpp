@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/run/parallel.hpp"
 
@@ -38,22 +37,6 @@ AxisMatch match(const fields::Frame& from, const fields::Frame& to) {
 
 }  // namespace
 
-void LatticeLink::set_turn() {
-  for (std::size_t k = 0; k < 3; ++k) turn[k] = std::polar(1.0, 2 * std::numbers::pi * distance[k]);
-}
-
-LatticeLink LatticeLink::reversed(std::int32_t from) const {
-  LatticeLink back{{}, {}, {}, {}, from, weight};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t there = axis[k];
-    back.axis[there] = static_cast<std::uint8_t>(k);
-    back.flipped[there] = flipped[k];
-    back.distance[there] = flipped[k] ? distance[k] : -distance[k];
-  }
-  back.set_turn();
-  return back;
-}
-
 LatticeLinks::LatticeLinks(const FieldNodes& nodes, const std::vector<fields::Frame>& frames)
     : nodes_(nodes), links_(nodes.links.size()) {
   parallel_for(static_cast<std::int64_t>(nodes.size()), 256, [&](std::int64_t i) {
@@ -65,7 +48,7 @@ LatticeLinks::LatticeLinks(const FieldNodes& nodes, const std::vector<fields::Fr
 LatticeLink LatticeLinks::make(const std::vector<fields::Frame>& frames, std::size_t i, const FieldLink& link) const {
   const auto j = static_cast<std::size_t>(link.node);
   const AxisMatch matched = match(frames[i], frames[j]);
-  LatticeLink made{{}, {}, matched.axis, matched.flipped, link.node, 0};
+  LatticeLink made{.axis = matched.axis, .flipped = matched.flipped, .neighbour = link.node};
   made.weight = static_cast<double>(link.weight) * std::max(0.0, 4 * matched.quality - 3);
   const Vec3 back = (2 / (nodes_.sizes[i] + nodes_.sizes[j])) * (nodes_.points[i] - nodes_.points[j]);
   for (std::size_t k = 0; k < 3; ++k) {

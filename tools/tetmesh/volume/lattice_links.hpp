@@ -8,29 +8,12 @@
 #include <span>
 #include <vector>
 
-#include "tools/tetmesh/fields/periodic_numbers.hpp"
+#include "tools/tetmesh/fields/periodic_link.hpp"
 #include "tools/tetmesh/volume/field_nodes.hpp"
 
 namespace hexpipe::tetmesh::volume {
 
-// Axis k of a node is axis[k] of its neighbour, turned round where flipped, and `distance[k]` further on.
-struct LatticeLink {
-  std::array<double, 3> distance;       // in sizes
-  std::array<fields::Complex, 3> turn;  // by these
-  std::array<std::uint8_t, 3> axis;
-  std::array<bool, 3> flipped;
-  std::int32_t node;
-  double weight;
-
-  // To be called when the distances were changed.
-  void set_turn();
-  // The same, seen from the neighbour.
-  LatticeLink reversed(std::int32_t from) const;
-  // What the neighbour's coordinate would be if its axis were the node's own axis k.
-  double seen(const std::array<double, 3>& there, std::size_t k) const {
-    return flipped[k] ? -there[axis[k]] : there[axis[k]];
-  }
-};
+using LatticeLink = fields::PeriodicLink<3>;
 
 // Three links that close a triangle of nodes, of which the first is the lowest and the last the highest.
 struct LinkTriangle {
@@ -59,7 +42,7 @@ class LatticeLinks {
   template <class Body>
   void for_each_pair_of(std::int32_t i, Body&& body) const {
     for (std::int64_t l = nodes_.offsets[i]; l < nodes_.offsets[i + 1]; ++l)
-      if (links_[l].node > i) body(i, l);
+      if (links_[l].neighbour > i) body(i, l);
   }
   // Whether the axes are the same ones again after a walk around the triangle, which no frame singularity pierces then.
   bool is_regular(const LinkTriangle& triangle) const;
