@@ -109,6 +109,7 @@ TEST(SurfaceCurl, StretchesRowsBetweenThePointsOfFeatures) {
   std::vector<MeasuredCurve> curves = curves_of(mesh, 1);
   for (MeasuredCurve& curve : curves) {
     const double steps = is_along_x(curve) ? 10 / norm(curve.points.back() - curve.points.front()) : 1;
+    curve.steps.reset();
     curve.steps_per_size.assign(curve.steps_per_size.size(), steps);
   }
   sample_feature_curves(mesh, curves, 1, 0.1);
