@@ -11,9 +11,11 @@
 
 namespace hexpipe::tetmesh::volume {
 
+using LinePieces = std::vector<std::array<double, 6>>;  // both ends of each piece
+
 // Lengths are in sizes, and count a line as many times as rows end along it.
 struct Dislocations {
-  std::vector<std::array<double, 6>> pieces;  // both ends of each
+  LinePieces pieces;
   double length = 0;
   double at_singularities = 0;   // of lines that end at a singularity of the frames, at one end at least
   double closed = 0;             // of lines that end nowhere
