@@ -552,7 +552,7 @@ assert d['at_singularities'] + d['closed'] <= d['length'], d"
     assert_conforming $kind.vtu
   done
   local share='["cells"]["hex"]["share_of_volume"]'
-  holds "improved1$share > plain$share + 0.005" plain.json improved1.json
+  holds "improved1$share > plain$share + 0.002" plain.json improved1.json
 }
 
 @test "--improve keeps a kept surface, and every flat face of a new one where it was" {
@@ -566,9 +566,9 @@ assert d['at_singularities'] + d['closed'] <= d['length'], d"
 }
 
 @test "--improve gives up a run of TetGen that does not end" {
-  tetmesh -q "$DATA/endless.off" --size 15% --seed 35 --points frame --improve 8 -o improved.mesh --stats stats.json
+  tetmesh -q "$DATA/endless.off" --size 16% --surface keep --points lattice --improve 8 -o improved.mesh --stats stats.json
   holds 'stats["improved"]["rounds"] == 8' stats.json
-  # Less: no run went on for ever. One seed in ten to twenty meets one.
+  # Less: no run went on for ever. One seed in twelve meets one.
   holds '4 < stats["seconds"] < 60' stats.json
 }
 
