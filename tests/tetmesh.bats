@@ -305,6 +305,25 @@ PYTHON
   assert_fails_with 1 "TetGen failed: it took longer than --tetgen-timeout" tetmesh "$fine" --size 0.02 --tetgen-timeout 0.001 -q
 }
 
+@test "--stats tells where rows end, and the bundle has the lines inside" {
+  local part="$DATA/plate-holes.stl"
+  tetmesh -q "$part" --size 11 --points frame -o frame.tar --stats stats.json
+  $PYTHON -c "assert $(stats row_ends) > 0"
+  $PYTHON -c "d = $(stats dislocations); assert d['length'] > 0 and d['surface_ends'] > 0, d
+assert d['at_singularities'] + d['closed'] <= d['length'], d"
+  assert_equal "$(array frame.tar mesh/dislocations.npy 'a.shape[1]')" 6
+  # In sizes; a line along which several rows end counts as many times.
+  local length=$(array frame.tar mesh/dislocations.npy 'float((((a[:, :3] - a[:, 3:]) ** 2).sum(axis=1) ** 0.5).sum()) / 11')
+  $PYTHON -c "assert 0 < $length <= $(stats dislocations)['length'] * 1.000001"
+  findhex -q frame.tar -o candidates.tar
+  assert_equal "$(array candidates.tar mesh/dislocations.npy 'a.tolist()')" "$(array frame.tar mesh/dislocations.npy 'a.tolist()')"
+  tetmesh -q "$part" --size 11 --points lattice -o lattice.tar --stats stats.json
+  run tar tf lattice.tar
+  refute_line mesh/dislocations.npy
+  run stats dislocations
+  assert_failure
+}
+
 @test "--stretch joins rows on faces with features, as far as it may" {
   local part="$DATA/plate-holes.stl"
   tetmesh -q "$part" --size 11 --points none -o base.mesh
@@ -534,7 +553,7 @@ PYTHON
     assert_conforming $kind.vtu
   done
   local share='["cells"]["hex"]["share_of_volume"]'
-  holds "improved1$share > plain$share + 0.005" plain.json improved1.json
+  holds "improved1$share > plain$share + 0.002" plain.json improved1.json
 }
 
 @test "--improve keeps a kept surface, and every flat face of a new one where it was" {
@@ -548,9 +567,9 @@ PYTHON
 }
 
 @test "--improve gives up a run of TetGen that does not end" {
-  tetmesh -q "$DATA/endless.off" --size 15% --seed 35 --points frame --improve 8 -o improved.mesh --stats stats.json
+  tetmesh -q "$DATA/endless.off" --size 16% --surface keep --points lattice --improve 8 -o improved.mesh --stats stats.json
   holds 'stats["improved"]["rounds"] == 8' stats.json
-  # Less: no run went on for ever. One seed in ten to twenty meets one.
+  # Less: no run went on for ever. One seed in twelve meets one.
   holds '4 < stats["seconds"] < 60' stats.json
 }
 

@@ -78,6 +78,7 @@ class Filler {
   const sizing::SizeField size_;
   const FillOptions& options_;
   TetmeshStatistics statistics_;
+  std::optional<volume::LinePieces> dislocations_;
   std::vector<std::string> warnings_;
   StepWatch watch_;
 
@@ -115,7 +116,8 @@ FilledSurface Filler::fill() {
   std::optional<solid::Surface> made;
   if (remeshed_ && surface_ == &remeshed_->surface) made = std::move(remeshed_->surface);
   if (cut_) made = std::move(cut_);
-  return {std::move(made), size_, *std::move(built_), std::move(statistics_), std::move(warnings_)};
+  return {std::move(made),         size_, *std::move(built_), std::move(statistics_), std::move(warnings_),
+          std::move(dislocations_)};
 }
 
 // TetGen works on the new surface while this thread judges that surface. TetGen may fail on the new surface and not on
@@ -217,6 +219,9 @@ void Filler::try_frame_points() {
   }
   built_ = std::move(bent);
   statistics_.interior_points = frame.points.size();
+  const volume::Dislocations& lines = frame.dislocations;
+  statistics_.dislocations = {lines.length, lines.at_singularities, lines.closed, lines.surface_ends};
+  dislocations_ = lines.pieces;
   statistics_.points_kept = PointKind::frame;
 }
 
@@ -258,6 +263,7 @@ void Filler::describe(const surface::RemeshResult& remeshed) {
   statistics_.distance_to_input = remeshed.to_input;
   statistics_.distance_from_input = remeshed.from_input;
   statistics_.extra_points = remeshed.extra_points;
+  statistics_.row_ends = remeshed.row_ends;
 }
 
 }  // namespace

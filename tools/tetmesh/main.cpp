@@ -234,7 +234,9 @@ int main(int argc, char** argv) {
     context.statistics["seconds_by_step"] = times_of(result.statistics);
     context.statistics["tetgen_seconds"] = result.statistics.seconds.of_tetgen;
     stage.set_names(result.names);
-    stage.write(pipeline::MeshProduct{std::move(result.mesh)}, to_json(result.statistics));
+    pipeline::MeshProduct product{std::move(result.mesh)};
+    product.dislocations = std::move(result.dislocations);
+    stage.write(product, to_json(result.statistics));
   };
   std::vector<char*> words = words_for_parsing(argc, argv);
   return tool_main(argc, words.data(), info, declare, run);

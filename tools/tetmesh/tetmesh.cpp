@@ -74,7 +74,8 @@ TetmeshResult finish(FilledSurface filled, const solid::Surface& given) {
   s.least_dihedral = shape.least_dihedral;
   s.greatest_dihedral = shape.greatest_dihedral;
   s.seconds.building += watch.seconds();
-  return {std::move(filled.built.mesh), given.names, std::move(s), std::move(filled.warnings)};
+  return {std::move(filled.built.mesh), given.names, std::move(s), std::move(filled.warnings),
+          std::move(filled.dislocations)};
 }
 
 FillOptions fill_options(const TetmeshOptions& o) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 namespace hexpipe::tetmesh::fields {
@@ -31,6 +32,27 @@ double product(const PeriodicNumbers<K>& a, const PeriodicNumbers<K>& b) {
   for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t k = 0; k < K; ++k) sum += a[i][k].real() * b[i][k].real() + a[i][k].imag() * b[i][k].imag();
   return sum;
+}
+
+// From -1/2 to 1/2.
+inline double coordinate_of(const Complex& number) {
+  return std::arg(number) / (2 * std::numbers::pi);
+}
+
+inline constexpr double inertia = 0.3;  // of a number's own value, against its links
+
+// Sets each number to the mean of what links and what holds it say, all at once from the numbers before, so that the
+// order of the nodes does not count. view(node) is the weighted sum of the neighbours' numbers, degree(node) the weight
+// of all links, and held(node, k) what holds number k, times its weight.
+template <std::size_t K, class ForEach, class View, class Degree, class Held>
+PeriodicNumbers<K> swept(const PeriodicNumbers<K>& numbers, ForEach&& for_each, View&& view, Degree&& degree,
+                         Held&& held) {
+  PeriodicNumbers<K> next(numbers.size());
+  for_each([&](auto i) {
+    const std::array<Complex, K> seen = view(i);
+    for (std::size_t k = 0; k < K; ++k) next[i][k] = unit(seen[k] + inertia * degree(i) * numbers[i][k] + held(i, k));
+  });
+  return next;
 }
 
 struct DiffusionLimits {

@@ -137,13 +137,14 @@ class CurveSampler {
   void sample(MeasuredCurve curve) {
     if (curve.closed) turn_to_start(curve);
     CurveLength arc(curve, size_);
-    if (arc.is_bent(whole_steps(arc, curve.closed), deviation_)) {  // the deviation asks for more steps than the rows
+    if (arc.is_bent(curve.steps.value_or(whole_steps(arc, curve.closed)), deviation_)) {
+      curve.steps.reset();  // the deviation asks for more steps than the rows
       std::ranges::fill(curve.steps_per_size, 1);
       arc = CurveLength(curve, size_);
     }
     std::vector<VertexH> vertices;
     std::ranges::copy_if(curve.vertices, std::back_inserter(vertices), [](VertexH v) { return v.is_valid(); });
-    const int count = step_count(arc, curve.closed);
+    const int count = step_count(arc, curve.closed, curve.steps);
     if (curve.closed) mesh_.keep(vertices.front());
     const double step = arc.length() / count;
     int next = 1;
@@ -172,8 +173,8 @@ class CurveSampler {
     return std::max(4, 2 * static_cast<int>(std::round(arc.length() / 2)));
   }
 
-  int step_count(const CurveLength& arc, bool closed) const {
-    int count = whole_steps(arc, closed);
+  int step_count(const CurveLength& arc, bool closed, const std::optional<int>& planned) const {
+    int count = planned.value_or(whole_steps(arc, closed));
     const int most = most_refinement * count;
     while (count < most && arc.is_bent(count, deviation_)) count += closed ? 2 : 1;
     return count;

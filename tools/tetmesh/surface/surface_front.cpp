@@ -220,10 +220,10 @@ void SurfaceFront::take_if_free(const SizedPoint& point, const Outlook& outlook)
 
 }  // namespace
 
-std::vector<SurfacePoint> surface_front(const FieldSurface& surface, const CrossField& field,
-                                        std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
-                                        const sizing::SizeField& size, double row_stretch) {
-  return SurfaceFront(surface, field, size).run(surface_lattice(surface, field, opposite, kept, row_stretch), kept);
+FrontPoints surface_front(const FieldSurface& surface, const CrossField& field, std::span<const OppositeSide> opposite,
+                          std::span<const Vertex> kept, const sizing::SizeField& size, double row_stretch) {
+  const SurfaceLattice lattice = surface_lattice(surface, field, opposite, kept, row_stretch);
+  return {SurfaceFront(surface, field, size).run(lattice, kept), lattice.row_ends};
 }
 
 }  // namespace hexpipe::tetmesh::surface

@@ -150,11 +150,12 @@ bool SurfaceRemesher::Work::place_points() {
   const FieldSurface field_surface(prepared_, size_);
   const auto [field, opposite] = cross_field_across(field_surface);
   if (!std::ranges::all_of(field.directions, is_place)) return false;
-  const std::vector<SurfacePoint> points =
+  const auto [points, row_ends] =
       surface_front(field_surface, field, opposite, kept, size_, counts_rows ? row_stretch_ : 0);
   insert_points(prepared_, points, snap * size_);
   result.feature_points = count_places(kept);
   result.front_points = points.size();
+  result.row_ends = row_ends;
   return true;
 }
 
