@@ -577,7 +577,7 @@ TEST(FewerCells, WhatMergesAlongACurvedSurfaceAddsUp) {
     const auto chosen = testing::random_choice(lattice, random.uniform(0.05, 0.6), random);
     const AssembleOptions options{.exchange = AssembleOptions::Exchange::none, .fill = AssembleOptions::Fill::none};
     const auto result = assemble::assemble(lattice.mesh, lattice.cubes, chosen, options);
-    merged += result.statistics.fewer.on_surface;
+    merged += result.statistics.improvement.fewer.on_surface;
   }
   EXPECT_GT(merged, 30);
 }

@@ -87,10 +87,10 @@ void Patch::look_around(std::int32_t i) {
     const Cell& cell = cells_[c];
     const auto at = corner_points(points_, cell.vertices());
     const auto own = static_cast<int>(std::ranges::find(cell.vertices(), moving_[i]) - cell.vertices().begin());
-    shape::Standing standing;
-    if (cell.kind == CellKind::hex) standing = {.weight = hex_weight, .floor = least_hex};
-    if (cell.is_kept && cell.kind == CellKind::prism) standing = {.floor = least_prism};
-    star_.add(cell.kind, std::span<const Vec3>(at).first(cell.vertices().size()), own, standing);
+    shape::CornerRules rules;
+    if (cell.kind == CellKind::hex) rules = {.weight = hex_weight, .floor = least_hex};
+    if (cell.is_kept && cell.kind == CellKind::prism) rules = {.floor = least_prism};
+    star_.add(cell.kind, std::span<const Vec3>(at).first(cell.vertices().size()), own, rules);
   }
 }
 
