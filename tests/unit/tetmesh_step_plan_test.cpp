@@ -42,7 +42,7 @@ struct Curves {
         curve_of[h] = curve_of[surface.twins[h]] = static_cast<std::int32_t>(i);
         length += norm(surface.edge_vector(h));
       }
-      demands.push_back({length, length, curves[i].closed});
+      demands.push_back({length, length, length, curves[i].closed});
     }
   }
 

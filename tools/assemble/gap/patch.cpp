@@ -13,7 +13,7 @@ namespace {
 
 // As in smoothing (shape/smooth.cpp): chosen cells are not pressed below that, and a hex counts as another cell of half
 // its quality.
-constexpr double least_hex = 0.3, least_prism = 0.12;
+constexpr double least_hex = least_hex_quality, least_prism = 0.12;
 constexpr double hex_weight = 0.5;
 constexpr int steps_to_place = 6;
 constexpr double least_rise = 1e-3;

@@ -34,12 +34,13 @@ class CurveMeasurer {
     std::vector<CurveDemand> demands;
     for (std::size_t i = 0; i < curves.size(); ++i) {
       const std::vector<VertexH>& vertices = curves[i].vertices;
-      CurveDemand& demand = demands.emplace_back(CurveDemand{0, 0, curves[i].closed});
+      CurveDemand& demand = demands.emplace_back(CurveDemand{.closed = curves[i].closed});
       for (std::size_t k = 0; k + 1 < vertices.size(); ++k) {
-        const HalfEdge h = half_edge_of(mesh_, mesh_.find_halfedge(vertices[k], vertices[k + 1]));
-        curve_of[h] = curve_of[surface_.twins[h]] = static_cast<std::int32_t>(i);
+        const std::vector<HalfEdge> sides = sides_of(mesh_.find_halfedge(vertices[k], vertices[k + 1]));
+        for (const HalfEdge h : sides) curve_of[h] = static_cast<std::int32_t>(i);
         const Vec3 middle = 0.5 * (mesh_.position(vertices[k]) + mesh_.position(vertices[k + 1]));
-        const double sizes = norm(surface_.edge_vector(h)) / size_.at(middle);
+        const double length = norm(surface_.edge_vector(sides.front())), sizes = length / size_.at(middle);
+        demand.length += length;
         demand.steps += measured[i].steps_per_size[k] * sizes;
         demand.sizes += sizes;
       }
@@ -65,6 +66,15 @@ class CurveMeasurer {
   }
 
  private:
+  // Those of an edge that have a triangle, in all sheets that meet there.
+  std::vector<HalfEdge> sides_of(OpenMesh::HalfedgeHandle edge) const {
+    std::vector<HalfEdge> sides;
+    for (const auto copy : mesh_.copies(edge))
+      for (const auto side : {copy, mesh_.opposite_halfedge_handle(copy)})
+        if (!mesh_.is_boundary(side)) sides.push_back(half_edge_of(mesh_, side));
+    return sides;
+  }
+
   // By vertex; 0 where it is not known.
   std::vector<double> steps_per_size_at(const FeatureCurve& curve) const {
     const std::size_t count = curve.vertices.size() - 1;

@@ -88,14 +88,12 @@ class FaceFinder {
 class EquationFinder {
  public:
   EquationFinder(const SurfaceLinks& links, std::span<const CurveDemand> curves, const CurveOfHalfEdge& curve_of)
-      : links_(links), curves_(curves), curve_of_(curve_of), faces_(links), lengths_(curves.size()) {}
+      : links_(links), curves_(curves), curve_of_(curve_of), faces_(links) {}
 
   // Unknowns beyond those of the curves are half the sums around faces with singularities.
   std::vector<Equation> find() {
     sums_.resize(2 * faces_.count());
     ends_.resize(faces_.count());
-    for (HalfEdge h = 0; h < static_cast<HalfEdge>(curve_of_.size()); ++h)
-      if (curve_of_[h] >= 0) lengths_[curve_of_[h]] += norm(links_.surface.edge_vector(h)) / 2;
     for (HalfEdge h = 0; h < static_cast<HalfEdge>(curve_of_.size()); ++h)
       if (curve_of_[h] >= 0) add(h);
     std::vector<Equation> equations;
@@ -119,7 +117,7 @@ class EquationFinder {
   void add(HalfEdge h) {
     const std::int32_t f = geometry::triangle_of(h), face = faces_.face_of(f), curve = curve_of_[h];
     const Vec3 edge = links_.surface.edge_vector(h);
-    const double part = norm(edge) / lengths_[curve];
+    const double part = norm(edge) / curves_[curve].length;
     ends_[face][curve] += part;
     const FollowedAxis along = FollowedAxis::nearest(links_, f, edge);
     if (dot(along.in(links_, f), unit(edge)) < aligned_cosine) return;
@@ -141,7 +139,6 @@ class EquationFinder {
   std::span<const CurveDemand> curves_;
   const CurveOfHalfEdge& curve_of_;
   FaceFinder faces_;
-  std::vector<double> lengths_;
   std::vector<RealSum> sums_;  // two of each face: curves' parts along each direction
   std::vector<RealSum> ends_;  // of each face: how often each curve is beside it
 };

@@ -9,13 +9,15 @@
 
 namespace hexpipe::tetmesh::surface {
 
-// Of each half-edge of a feature, the curve that it is on; -1 elsewhere.
+// For each half-edge of a feature, the curve that it is on; -1 elsewhere. Where sheets meet in a curve, those of all
+// sheets are.
 using CurveOfHalfEdge = std::vector<std::int32_t>;
 
 struct CurveDemand {
-  double steps;  // wanted: those of the rows that begin there
-  double sizes;  // its length
-  bool closed;
+  double steps = 0;   // wanted: those of the rows that begin there
+  double sizes = 0;   // its length in sizes
+  double length = 0;  // the sum of its edges' lengths
+  bool closed = false;
 };
 
 // As near to the wanted numbers as the faces allow: around a face on which the field has no singularity, the numbers of
