@@ -17,7 +17,7 @@
 namespace hexpipe::assemble::gap {
 namespace {
 
-constexpr int most_passes = 3;
+constexpr int most_mending_passes = 3;
 constexpr int rounds_to_raise = 5;
 constexpr double least_rise = 1e-3;
 // Rooms of more cells have seldom another filling.
@@ -32,7 +32,7 @@ class Mender {
 
   std::int64_t run() {
     std::int64_t changes = 0;
-    for (int pass = 0; pass < most_passes; ++pass) {
+    for (int pass = 0; pass < most_mending_passes; ++pass) {
       const std::int64_t before = changes;
       const auto count = static_cast<std::int32_t>(gap_.cell_count());
       for (std::int32_t c = 0; c < count; ++c)

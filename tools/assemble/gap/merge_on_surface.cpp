@@ -32,7 +32,7 @@ constexpr double least_view = 0.1;
 // The sine of the angles of the facets that come, unless those that go had less: as in peel.cpp.
 constexpr double least_sine = 0.1;
 // Passes over all vertices; few find anything after the second.
-constexpr int most_passes = 4;
+constexpr int most_surface_passes = 4;
 
 // The tagged triangles around a vertex, each with it first, in the order in which they follow each other.
 struct Fan {
@@ -52,7 +52,7 @@ class SurfaceMerger {
 
   std::int64_t run() {
     std::int64_t merged = 0, before = -1;
-    for (int pass = 0; pass < most_passes && merged > before; ++pass) {
+    for (int pass = 0; pass < most_surface_passes && merged > before; ++pass) {
       before = merged;
       for (Vertex v = 0; v < static_cast<Vertex>(gap_.vertex_count()); ++v)
         if (may_leave(v)) merged += merge(v) ? 1 : 0;

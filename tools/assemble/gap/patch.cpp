@@ -15,7 +15,7 @@ namespace {
 // its quality.
 constexpr double least_hex = least_hex_quality, least_prism = 0.12;
 constexpr double hex_weight = 0.5;
-constexpr int steps_to_place = 6;
+constexpr int steps_to_make_room = 6;
 constexpr double least_rise = 1e-3;
 // A move after which a cell is not valid is halved this often.
 constexpr int retreats = 2;
@@ -104,7 +104,7 @@ bool Patch::improve(std::int32_t i, double goal) {
   const Vec3 before = point;
   const double worst = star_.worst(before);
   if (worst >= goal) return false;
-  const shape::Placement place = shape::raise_worst(star_, before, steps_to_place);
+  const shape::Placement place = shape::raise_worst(star_, before, steps_to_make_room);
   Vec3 step = place.at - before;
   for (int retreat = 0; retreat <= retreats; ++retreat, step *= 0.5) {
     const Vec3 at = before + step;

@@ -17,7 +17,6 @@ namespace {
 
 using geometry::HalfEdge;
 
-constexpr double aligned_cosine = 0.94;  // between a feature's edge and the direction of the field along it
 // A curve's part in a sum around a face, if it is nearer than that to a whole one.
 constexpr double whole_tolerance = 0.1;
 // By how much a curve's number of steps may differ from what is wanted, as a factor.

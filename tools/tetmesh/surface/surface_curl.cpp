@@ -21,7 +21,6 @@ constexpr fields::CurlLimits limits_of_rows{.stiffness = 0.003f, .most_iteration
 // A distance may gain or lose this share of its length. Where more is wanted, rows have to end.
 constexpr double most_strain = 0.3;
 
-constexpr double aligned_cosine = 0.94;  // between a feature's edge and the direction of the field along it
 // Rows stretch for steps along features of these lengths, in sizes. Where the deviation asks for shorter steps, rows
 // end.
 constexpr double shortest_step = 0.55, longest_step = 1.8;
