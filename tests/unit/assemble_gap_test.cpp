@@ -533,7 +533,12 @@ struct Scene {
 
 TEST(FewerCells, NothingButTheCellsBetweenHexesChangesInThousandsOfMeshes) {
   std::int64_t changed = 0, merged_on_surface = 0;
-  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+#ifdef __SANITIZE_ADDRESS__
+  constexpr std::int64_t seeds = 400;  // they are slow then
+#else
+  constexpr std::int64_t seeds = 2000;
+#endif
+  for (std::int64_t seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
     Scene scene(seed, Random(seed));
     const Census before(scene.hybrid);
@@ -561,8 +566,8 @@ TEST(FewerCells, NothingButTheCellsBetweenHexesChangesInThousandsOfMeshes) {
     ASSERT_EQ(hexes(after), hexes(before));
     changed += counts.any();
   }
-  EXPECT_GT(changed, 1000);
-  EXPECT_GT(merged_on_surface, 300);
+  EXPECT_GT(changed, seeds / 2);
+  EXPECT_GT(merged_on_surface, seeds * 3 / 20);
 }
 
 // assemble checks its results itself: volumes have to add up over a surface that is not flat.
