@@ -105,3 +105,8 @@ has_ended() {
 sanitized() {
   [[ -n "${HEXPIPE_SANITIZE:-}" ]]
 }
+
+# optimized_only WHY: skips a test that takes long under the sanitizers and runs no code there that others do not run.
+optimized_only() {
+  if sanitized; then skip "$1"; fi
+}

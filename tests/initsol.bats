@@ -144,7 +144,8 @@ PYTHON
   whole --time-limit 0.5 -o out.sol --log log.jsonl
   end=$(date +%s%N)
   assert [ $(((end - begin) / 1000000)) -ge 500 ]
-  sanitized || assert [ $(((end - begin) / 1000000)) -le 1500 ]  # a machine under load
+  # Nothing else would end it for minutes; a machine under load takes its time to begin and to end.
+  assert [ $(((end - begin) / 1000000)) -le 20000 ]
   "$PYTHON" - "$(weight_of out.sol)" <<'PYTHON'
 import json, sys
 points = [json.loads(line) for line in open("log.jsonl")]
@@ -152,7 +153,7 @@ assert points[-1]["weight"] == int(sys.argv[1])
 for key in ("seconds", "iteration", "weight"):
     values = [point[key] for point in points]
     assert values == sorted(values), key
-assert 0.5 <= points[-1]["seconds"] < 1.5
+assert 0.5 <= points[-1]["seconds"] < 20
 PYTHON
 }
 

@@ -67,6 +67,7 @@ weight_of() {
 }
 
 @test "every option changes the search" {
+  optimized_only "it is about results"
   whole() { lns-mpi --graph ring.graph --solution start.sol --iterations 60 --no-reductions "$@"; }
   whole -o base.sol
   whole --blocks 9 -o blocks.sol
@@ -284,6 +285,7 @@ parts_of() {
 }
 
 @test "parts that were made apart are searched together, and their solutions merge into one" {
+  optimized_only "it is about results"
   "$PYTHON" "$DATA/lattices/lattice.py" kuhn 3 >lattice.mesh
   parts_of part lattice.mesh
   for ranks in 1 3; do

@@ -489,6 +489,7 @@ PYTHON
 }
 
 @test "the commands of docs/many-machines.md split a mesh, and assemble its parts in as many rounds as they need" {
+  optimized_only "it is about the commands"
   # page FIRST LAST: the indented lines between two that begin like these.
   page() { sed -n "/^    $1/,/^    $2/s/^    //p" "$HEXPIPE_SOURCE/docs/many-machines.md"; }
   # Parts of these points settle in the third round.

@@ -45,6 +45,7 @@ assert reader.GetErrorCode() == 0"
 }
 
 @test "a plate of one and a half sizes becomes hexes, for it has as many layers everywhere" {
+  optimized_only "it is about results"
   for size in 8 8.4 8.8; do
     shell "tetmesh -q '$DATA/plate-holes.stl' --size $size | findhex -q | buildgraph -q |
       initsol -q --iterations 2000 | assemble -q --stats stats.json -o plate.vtu"
@@ -110,6 +111,7 @@ assert share > 0.94, share'
 }
 
 @test "the whole pipeline gives the same bytes for 1 and 2 threads" {
+  optimized_only "it is about results"
   for threads in 1 2; do
     shell "tetmesh '$DATA/bracket.stl' --size 8 -q --threads $threads | findhex --threads $threads |
       buildgraph --threads $threads | initsol --iterations 500 --threads $threads |
