@@ -13,7 +13,7 @@
 namespace hexpipe {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 // Two tets on the facet 1 2 3, and vertex 5 that no tet uses.
 TetMesh two_tets() {
@@ -49,7 +49,7 @@ TEST(TetAdjacency, ThreeTetsAtAFacetAreAnError) {
   mesh.tet_tags.push_back(1);
   EXPECT_THAT(
       [&] { TetAdjacency(mesh, "m.mesh"); },
-      testing::ThrowsMessage<DataError>("m.mesh: expected at most two tets at each facet, found tets 1, 2 and 3 "
+      ::testing::ThrowsMessage<DataError>("m.mesh: expected at most two tets at each facet, found tets 1, 2 and 3 "
                                         "at vertices 2 3 4"));
 }
 

@@ -37,7 +37,7 @@ TEST(Deadline, PassesAtItsTime) {
 
 // Each in a process of its own: signal state is the process's.
 TEST(SignalsDeathTest, TheFirstEndsAToolThatDoesNotSearchAndRemovesItsFile) {
-  const std::string path = testing::TempDir() + "signal_test";
+  const std::string path = ::testing::TempDir() + "signal_test";
   std::ofstream(path) << "half";
   EXPECT_EXIT(
       {
@@ -47,12 +47,12 @@ TEST(SignalsDeathTest, TheFirstEndsAToolThatDoesNotSearchAndRemovesItsFile) {
         raise(SIGTERM);
         _exit(0);
       },
-      testing::KilledBySignal(SIGTERM), "");
+      ::testing::KilledBySignal(SIGTERM), "");
   EXPECT_FALSE(std::ifstream(path).good());
 }
 
 TEST(SignalsDeathTest, EveryRegisteredFileIsRemoved) {
-  const auto path = [](int i) { return testing::TempDir() + "signal_test_" + std::to_string(i); };
+  const auto path = [](int i) { return ::testing::TempDir() + "signal_test_" + std::to_string(i); };
   for (int i = 0; i < 6; ++i) std::ofstream(path(i)) << "half";
   EXPECT_EXIT(
       {
@@ -73,7 +73,7 @@ TEST(SignalsDeathTest, EveryRegisteredFileIsRemoved) {
         raise(SIGTERM);
         _exit(0);
       },
-      testing::KilledBySignal(SIGTERM), "");
+      ::testing::KilledBySignal(SIGTERM), "");
   for (int i = 0; i < 6; ++i) {
     EXPECT_EQ(std::ifstream(path(i)).good(), i > 3) << i;
     unlink(path(i).c_str());
@@ -91,7 +91,7 @@ TEST(SignalsDeathTest, TheFirstStopsASearchTheSecondEndsIt) {
         raise(SIGINT);
         _exit(0);
       },
-      testing::KilledBySignal(SIGINT), "");
+      ::testing::KilledBySignal(SIGINT), "");
 }
 
 // Blocked in read(2) on a pipe where nothing comes, as `signal_number` arrives before the read or in it.
@@ -117,7 +117,7 @@ void wait_for_nothing(int signal_number, bool before) {
 TEST(SignalsDeathTest, ASearchThatWaitsForInputEndsByOneSignalThatIsNoInterrupt) {
   for (const bool before : {true, false})
     for (const int number : {SIGTERM, SIGHUP})
-      EXPECT_EXIT(wait_for_nothing(number, before), testing::KilledBySignal(number), "") << number << before;
+      EXPECT_EXIT(wait_for_nothing(number, before), ::testing::KilledBySignal(number), "") << number << before;
 }
 
 // Blocked in write(2) on a pipe that is full and that nobody reads.
@@ -133,11 +133,11 @@ void wait_for_nobody() {
 }
 
 TEST(SignalsDeathTest, ASearchWhoseAnswerNobodyReadsEndsByOneSignalThatIsNoInterrupt) {
-  EXPECT_EXIT(wait_for_nobody(), testing::KilledBySignal(SIGTERM), "");
+  EXPECT_EXIT(wait_for_nobody(), ::testing::KilledBySignal(SIGTERM), "");
 }
 
 TEST(SignalsDeathTest, ASearchThatIsInterruptedWaitsForWhatComesDownThePipe) {
-  EXPECT_EXIT(wait_for_nothing(SIGINT, false), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(wait_for_nothing(SIGINT, false), ::testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ std::string mutated(std::string bytes, Random& random) {
 }
 
 // A reader takes microseconds, a tool milliseconds.
-class FuzzReplay : public testing::TestWithParam<FuzzTarget> {
+class FuzzReplay : public ::testing::TestWithParam<FuzzTarget> {
  protected:
   static bool is_tool() { return std::ranges::count(tool_targets(), std::string_view(GetParam().name), &name_of) > 0; }
   static std::string_view name_of(const FuzzTarget& target) { return target.name; }
@@ -105,8 +105,8 @@ TEST_P(FuzzReplay, EndsWellOnMutatedSeeds) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, FuzzReplay, testing::ValuesIn(fuzz_targets()),
-                         [](const testing::TestParamInfo<FuzzTarget>& reader) {
+INSTANTIATE_TEST_SUITE_P(Targets, FuzzReplay, ::testing::ValuesIn(fuzz_targets()),
+                         [](const ::testing::TestParamInfo<FuzzTarget>& reader) {
                            std::string name = reader.param.name;
                            std::ranges::replace(name, '-', '_');
                            return name;

@@ -15,7 +15,7 @@ namespace {
 TEST(Random, GivesTheSameSequenceForever) {
   Random random(1);
   const std::vector<std::uint64_t> first{random.next(), random.next(), random.next()};
-  EXPECT_THAT(first, testing::ElementsAre(12966619160104079557u, 9600361134598540522u, 10590380919521690900u));
+  EXPECT_THAT(first, ::testing::ElementsAre(12966619160104079557u, 9600361134598540522u, 10590380919521690900u));
 }
 
 TEST(Random, DrawsEveryValueBelowTheBoundAboutEquallyOften) {

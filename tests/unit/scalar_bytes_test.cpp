@@ -7,9 +7,9 @@ namespace hexpipe {
 using namespace formats;
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 constexpr std::endian other_order = std::endian::native == std::endian::little ? std::endian::big : std::endian::little;
 

@@ -16,8 +16,8 @@ namespace hexpipe {
 using namespace formats;
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 SurfaceSoup read(const std::string& bytes) {
   Input input = Input::from_memory(bytes, "part");

@@ -9,8 +9,8 @@ namespace hexpipe {
 using namespace formats;
 namespace {
 
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 TEST(TextScanner, TakesWordsAndNumbersWithTheirLines) {
   TextScanner scanner("one 2\n\n 3.5e1 # four\n+5", "f", '#');

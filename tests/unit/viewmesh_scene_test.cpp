@@ -86,8 +86,8 @@ TEST(Scene, KindsFollowEachOther) {
   EXPECT_EQ(scene.kind_begin, (std::array{0, 0, 0, 1, 3}));
   EXPECT_EQ(scene.kind_of(0), CellKind::pyramid);
   EXPECT_EQ(scene.kind_of(1), CellKind::tet);
-  EXPECT_THAT(scene.corners_of(2), testing::ElementsAre(0, 3, 2, 5));
-  EXPECT_THAT(scene.region, testing::ElementsAre(1, 2, 2));
+  EXPECT_THAT(scene.corners_of(2), ::testing::ElementsAre(0, 3, 2, 5));
+  EXPECT_THAT(scene.region, ::testing::ElementsAre(1, 2, 2));
 }
 
 TEST(Scene, SaysWhatIsMissing) {
