@@ -152,6 +152,7 @@ assert share > 0.94, share'
 }
 
 @test "a user's own mesh from Gmsh, with regions, is the start" {
+  optimized_only "it is about results"
   cat >two.geo <<'GEO'
 SetFactory("OpenCASCADE");
 Box(1) = {0, 0, 0, 1, 1, 1};

@@ -4,7 +4,9 @@
 load helpers
 
 @test "random meshes, graphs and surfaces of every kind pass the independent checkers" {
-  run "$PYTHON" "$HEXPIPE_SOURCE/tests/random/random_pipelines.py" --cases 36
+  local cases=36
+  if sanitized; then cases=18; fi
+  run "$PYTHON" "$HEXPIPE_SOURCE/tests/random/random_pipelines.py" --cases $cases
   assert_success
   assert_output --partial "0 failed"
 }

@@ -339,6 +339,7 @@ assert d['at_singularities'] + d['closed'] <= d['length'], d"
 }
 
 @test "--feature-angle and --deviation say what of a surface stays" {
+  optimized_only "it is about results"
   local part="$DATA/bracket.stl"
   tetmesh -q "$part" --size 8 --points none -o base.mesh --stats stats.json
   local points=$(stats surface_points)
@@ -389,6 +390,7 @@ assert d['at_singularities'] + d['closed'] <= d['length'], d"
 }
 
 @test "far more points than --most-points are told before any is placed where sizes differ by place, too" {
+  optimized_only "it is about results"
   $SURFACES sized
   for _ in 1 2 3 4 5 6 7 8; do echo 1e-4; done >fine.txt
   assert_fails_with 1 "^tetmesh: cube.obj: expected sizes that make at most 1e\+06 points inside .* 0.0001 to 2, which make more than 4e\+06" \
@@ -750,6 +752,7 @@ assert not any('second' in key for key in entry), entry"
 }
 
 @test "--curvature makes elements small where the surface bends, down to --least-size" {
+  optimized_only "it is about results"
   points() { tetmesh -q "$DATA/bracket.stl" --size 8 "$@" --stats stats.json -o curved.mesh && $PYTHON -c 'import json; s = json.load(open("stats.json")); print(s["points"], s.get("least_size"))'; }
   read -r plain least <<<"$(points)"
   assert_equal "$least" None
