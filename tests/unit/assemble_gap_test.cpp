@@ -15,10 +15,8 @@
 #include "tools/assemble/gap/face_costs.hpp"
 #include "tools/assemble/gap/fewer_cells.hpp"
 #include "tools/assemble/gap/gap_mesh.hpp"
-#include "tools/assemble/gap/merge_on_surface.hpp"
-#include "tools/assemble/gap/merge_stars.hpp"
-#include "tools/assemble/gap/merge_vertices.hpp"
 #include "tools/assemble/gap/objective.hpp"
+#include "tools/assemble/gap/passes.hpp"
 #include "tools/assemble/gap/refill.hpp"
 #include "tools/assemble/gap/skin.hpp"
 
