@@ -74,7 +74,7 @@ void name_blocks_by_kind(GroupedMesh& mesh);
 void join_blocks_of_kinds(GroupedMesh& mesh);
 
 // The mesh in a file. Groups whose names tell a tag (region_3) have it, the others their numbers, or free ones where
-// two have the same. Of facets with the same corners, the first counts.
+// two have the same. The first of several facets with the same corners counts.
 MixedMesh ungrouped(GroupedMesh mesh, GroupNames* names);
 
 }  // namespace hexpipe::formats

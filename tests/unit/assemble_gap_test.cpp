@@ -58,7 +58,7 @@ struct Census {
   std::map<CellKind, int> count;
   double volume = 0, worst = 1;
   bool valid = true;
-  // By facet: how often it bounds a cell one way less the other. What is left is the skin.
+  // By facet: how often it bounds a cell one way, less how often the other way. The skin is left.
   std::map<std::vector<Vertex>, int> uses;
   bool crowded = false;  // three cells or more at a facet
 

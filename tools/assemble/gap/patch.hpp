@@ -26,9 +26,6 @@ class Patch {
  public:
   explicit Patch(const GapMesh& gap) : gap_(gap) {}
 
-  // True where a vertex is inside, and at no seam: then it may move, though a chosen cell uses it.
-  static bool may_move(const GapMesh& gap, Vertex v) { return gap.is_inside(v); }
-
   // The cells at `moving` after the change.
   void take(std::span<const Vertex> moving, const Replacement& replacement);
   void place(Vertex v, const Vec3& at) { points_[local_of(v)] = at; }

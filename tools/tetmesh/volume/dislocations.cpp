@@ -1,4 +1,4 @@
-// A line goes from tet to tet through the triangles that it pierces. What rows around a tet add up to is the same
+// A line goes from tet to tet through the triangles that it pierces. The sum of the rows around a tet is the same
 // through all of its facets, as that of its edges is, so that lines end at the surface and at singularities only.
 
 #include "tools/tetmesh/volume/dislocations.hpp"
