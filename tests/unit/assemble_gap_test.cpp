@@ -15,10 +15,8 @@
 #include "tools/assemble/gap/face_costs.hpp"
 #include "tools/assemble/gap/fewer_cells.hpp"
 #include "tools/assemble/gap/gap_mesh.hpp"
-#include "tools/assemble/gap/merge_on_surface.hpp"
-#include "tools/assemble/gap/merge_stars.hpp"
-#include "tools/assemble/gap/merge_vertices.hpp"
 #include "tools/assemble/gap/objective.hpp"
+#include "tools/assemble/gap/passes.hpp"
 #include "tools/assemble/gap/refill.hpp"
 #include "tools/assemble/gap/skin.hpp"
 
@@ -60,7 +58,7 @@ struct Census {
   std::map<CellKind, int> count;
   double volume = 0, worst = 1;
   bool valid = true;
-  // By facet: how often it bounds a cell one way less the other. What is left is the skin.
+  // By facet: how often it bounds a cell one way, less how often the other way. The skin is left.
   std::map<std::vector<Vertex>, int> uses;
   bool crowded = false;  // three cells or more at a facet
 

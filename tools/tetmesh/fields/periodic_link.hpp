@@ -17,7 +17,7 @@ struct PeriodicLink {
   std::array<Complex, K> turn{};     // by the distances
   std::array<std::uint8_t, K> axis{};
   std::array<bool, K> flipped{};
-  std::int32_t neighbour = -1;
+  std::int32_t neighbour = no_index;
   double weight = 0;
 
   // To be called when the distances were changed.

@@ -128,7 +128,7 @@ class VertexRemover {
 
   FeatureMesh& mesh_;
   const DistanceIndex& original_;
-  std::int32_t nearest_ = geometry::none;  // the triangle of the original that was measured last
+  std::int32_t nearest_ = no_index;  // the triangle of the original that was measured last
   const sizing::SizeField& deviation_;
   Strays& strays_;
   const MeshRegions* regions_ = nullptr;  // null: everywhere
