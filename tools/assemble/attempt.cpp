@@ -160,6 +160,12 @@ gap::FewerCells Builder::make_fewer_cells(Attempt& attempt, gap::Passes passes) 
   const gap::FewerCells fewer =
       gap::make_fewer_cells(attempt.mesh, {attempt.tags, input_.surface}, rules_.is_shared(), passes);
   attempt.improvement.fewer += fewer;
+  conform::ConformityCounts& counts = attempt.conformity;
+  for (const CellIndex c : fewer.opened) {
+    const hybrid::HybridCell& cell = attempt.mesh.cell(c);
+    ++counts.given_back[static_cast<std::size_t>(conform::GivenBack::poor_elements)];
+    if (cell.kind == CellKind::hex) counts.volume_given_back += candidates_.volume[cell.candidate];
+  }
   return fewer;
 }
 

@@ -41,6 +41,8 @@ FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, st
       break;
     case Passes::mend:
       counts.mended = mend(gap);
+      // The pieces of a mesh would have to agree on it.
+      if (is_shared.empty()) counts.opened = open_hexes(gap);
       break;
   }
   if (counts.any()) gap.write_back();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
 #include "tools/assemble/hybrid/surface_tags.hpp"
@@ -15,11 +16,13 @@ struct FewerCells {
   std::int64_t on_surface = 0;  // of these, along the surface
   std::int64_t refilled = 0;    // rooms
   std::int64_t mended = 0;      // cells, in the last pass
+  std::vector<CellIndex> opened;  // chosen cells that are gone
 
-  bool any() const { return merged + refilled + mended > 0; }
+  bool any() const { return merged + refilled + mended > 0 || !opened.empty(); }
   FewerCells& operator+=(const FewerCells& more) {
     merged += more.merged, on_surface += more.on_surface, refilled += more.refilled;
     mended += more.mended;
+    opened.insert(opened.end(), more.opened.begin(), more.opened.end());
     return *this;
   }
 };

@@ -41,7 +41,7 @@ GapMesh::GapMesh(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std:
       std::ranges::copy(corners, own.begin());
       add(cell_of(cell.kind, own, cell.region, mesh.points), c);
     } else {
-      kept_.push_back({cell.kind, cell.corners});
+      kept_.push_back({cell.kind, cell.corners, c, cell.region});
       for (const Vertex v : corners) holds_[v] |= of_kept;
     }
   }
@@ -49,6 +49,7 @@ GapMesh::GapMesh(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std:
     for (const Vertex v : tags.triangle(i)) holds_[v] |= on_tagged;
   for (std::size_t v = 0; v < is_shared.size(); ++v)
     if (is_shared[v] != 0) holds_[v] |= at_seam;
+  first_new_ = mesh.points.size();
   kept_at_ = VertexItems(mesh.points.size(), [&](auto&& visit) {
     for (std::size_t c = 0; c < kept_.size(); ++c)
       for (const Vertex v : kept_[c].vertices()) visit(v, static_cast<std::int32_t>(c));
@@ -77,21 +78,66 @@ void GapMesh::add(const GapCell& cell, std::int32_t source) {
   cells_.push_back(cell);
   alive_.push_back(1);
   source_.push_back(source);
-  for (const Vertex v : cell.vertices()) {
+  link(c);
+}
+
+void GapMesh::link(std::int32_t c) {
+  alive_[c] = 1;
+  for (const Vertex v : cells_[c].vertices()) {
     at_[v].push_back(c);
     ++age_[v];
   }
 }
 
-void GapMesh::replace(std::span<const std::int32_t> out, std::span<const GapCell> in) {
-  for (const std::int32_t c : out) {
-    alive_[c] = 0;
-    for (const Vertex v : cells_[c].vertices()) {
-      std::erase(at_[v], c);
-      ++age_[v];
-    }
+void GapMesh::unlink(std::int32_t c) {
+  alive_[c] = 0;
+  for (const Vertex v : cells_[c].vertices()) {
+    std::erase(at_[v], c);
+    ++age_[v];
   }
+}
+
+void GapMesh::replace(std::span<const std::int32_t> out, std::span<const GapCell> in) {
+  for (const std::int32_t c : out) unlink(c);
   for (const GapCell& cell : in) add(cell, no_index);
+}
+
+void GapMesh::undo_replace(std::span<const std::int32_t> out, std::int32_t first_new) {
+  for (auto c = first_new; c < static_cast<std::int32_t>(cells_.size()); ++c) unlink(c);
+  const auto left = static_cast<std::size_t>(first_new);
+  cells_.resize(left), alive_.resize(left), source_.resize(left);
+  for (const std::int32_t c : out) link(c);
+}
+
+std::optional<std::array<Triangle, 2>> GapMesh::boundary_triangles(std::int32_t kept, int i) const {
+  if (has_partner(kept, i)) return std::nullopt;
+  const Quad quad = mesh_.cell(kept_[kept].source).quad(i);
+  for (const int diagonal : {0, 1})
+    if (tags_.cover_of(quad, diagonal)) return triangles_of(quad, diagonal);
+  return std::nullopt;
+}
+
+bool GapMesh::has_partner(std::int32_t kept, int i) const {
+  const CellIndex c = kept_[kept].source;
+  return mesh_.partner_at(mesh_.cell(c).quad(i), c) != no_index;
+}
+
+void GapMesh::set_alive(std::int32_t kept, bool is_alive) {
+  kept_[kept].is_alive = is_alive;
+  for (const Vertex v : kept_[kept].vertices()) {
+    if (kept_at(v).empty())
+      holds_[v] &= static_cast<std::uint8_t>(~of_kept);
+    else
+      holds_[v] |= of_kept;
+    ++age_[v];
+  }
+}
+
+Vertex GapMesh::add_vertex(const Vec3& at) {
+  at_.emplace_back();
+  age_.push_back(0);
+  holds_.push_back(0);
+  return mesh_.add_point(at);
 }
 
 void GapMesh::relocate(Vertex v, const Vec3& to) {
@@ -104,6 +150,8 @@ void GapMesh::relocate(Vertex v, const Vec3& to) {
 }
 
 void GapMesh::write_back() {
+  for (const KeptCell& cell : kept_)
+    if (!cell.is_alive && mesh_.cell(cell.source).alive) mesh_.remove_cell(cell.source);
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     if (alive_[c] != 0 || source_[c] == no_index) continue;
     if (cells_[c].kind == CellKind::tet)

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <ranges>
 #include <span>
 #include <vector>
 
@@ -25,10 +27,13 @@ struct GapCell {
   bool has(Vertex v) const;
 };
 
-// A cell that was chosen: it stays, though vertices of it may move.
+// A cell that was chosen: it stays, though vertices of it may move; only open_hexes() takes some away.
 struct KeptCell {
   CellKind kind = CellKind::hex;
   std::array<Vertex, 8> corners{};
+  CellIndex source = no_index;
+  std::int32_t region = 0;
+  bool is_alive = true;
 
   std::span<const Vertex> vertices() const {
     return std::span(corners).first(static_cast<std::size_t>(corner_count(kind)));
@@ -48,7 +53,15 @@ class GapMesh {
   bool is_alive(std::int32_t c) const { return alive_[c] != 0; }
   std::span<const std::int32_t> cells_at(Vertex v) const { return at_[v]; }
   const KeptCell& kept_cell(std::int32_t c) const { return kept_[c]; }
-  std::span<const std::int32_t> kept_at(Vertex v) const { return kept_at_.at(v); }
+  std::size_t kept_count() const { return kept_.size(); }  // with those that are gone
+  // Those at v that are not gone: a view.
+  auto kept_at(Vertex v) const {
+    return std::views::filter(kept_at_of(v), [this](std::int32_t c) { return kept_[c].is_alive; });
+  }
+  // The tagged triangles of which quad `i` of a chosen cell consists, as the cell goes around them, where it lies on the
+  // boundary; nothing where another cell has the quad, too.
+  std::optional<std::array<Triangle, 2>> boundary_triangles(std::int32_t kept, int i) const;
+  bool has_partner(std::int32_t kept, int i) const;
   // True where v may move and go: only cells of the gap are there, no tagged facet and no seam.
   bool is_free(Vertex v) const { return holds_[v] == 0 && !at_[v].empty(); }
   // True where v may move, though chosen cells may use it: on no tagged facet and at no seam.
@@ -70,6 +83,11 @@ class GapMesh {
 
   // Replaces cells by others that fill the same room.
   void replace(std::span<const std::int32_t> out, std::span<const GapCell> in);
+  // After replace(out, ...), when no cell has come since but those from `first_new` on.
+  void undo_replace(std::span<const std::int32_t> out, std::int32_t first_new);
+  // A chosen cell goes, or comes back. Its room is to be filled.
+  void set_alive(std::int32_t kept, bool is_alive);
+  Vertex add_vertex(const Vec3& at);
   // To be followed by replace() of all cells at v.
   void move(Vertex v, const Vec3& to) { mesh_.points[v] = to; }
 
@@ -83,6 +101,11 @@ class GapMesh {
   static constexpr std::uint8_t of_kept = 1, on_tagged = 2, at_seam = 4;
 
   void add(const GapCell& cell, std::int32_t source);
+  void link(std::int32_t c);
+  void unlink(std::int32_t c);
+  std::span<const std::int32_t> kept_at_of(Vertex v) const {
+    return static_cast<std::size_t>(v) < first_new_ ? kept_at_.at(v) : std::span<const std::int32_t>();
+  }
 
   hybrid::HybridMesh& mesh_;
   const hybrid::SurfaceTags& tags_;
@@ -94,6 +117,7 @@ class GapMesh {
   bool counts_faces_ = true;
   std::vector<std::uint8_t> holds_;
   std::vector<KeptCell> kept_;
+  std::size_t first_new_ = 0;  // vertices from here on were added: no chosen cell has them
   VertexItems kept_at_;
 };
 

@@ -12,6 +12,8 @@ namespace hexpipe::assemble::gap {
 // No cell may become worse than this, or than the worst of those that it replaces. It is what smoothing keeps as good
 // enough (shape/smooth.hpp).
 inline constexpr double least_quality = 0.12;
+// Where a cell is worse than this, and nothing else helps, a chosen cell beside it goes (open_hexes() in passes.hpp).
+inline constexpr double least_wanted = 0.1;
 // Changes that gain less are not worth it; and changes that all gain this much come to an end.
 inline constexpr double least_gain = 0.01;
 

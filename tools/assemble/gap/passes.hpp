@@ -3,6 +3,7 @@
 // of `gap` have to be valid, and stay so.
 
 #include <cstdint>
+#include <vector>
 
 #include "tools/assemble/gap/gap_mesh.hpp"
 #include "tools/assemble/hybrid/surface_tags.hpp"
@@ -40,5 +41,10 @@ RefillCounts refill_rooms(GapMesh& gap);
 // something. It fills the room around them anew, moves vertices of theirs that are inside, or raises the worst cells at
 // the vertices of a cell below least_quality together. Returns the number of changes.
 std::int64_t mend(GapMesh& gap);
+
+// Opens chosen cells beside cells of the gap that are worse than least_wanted: pyramids and tets take the room, none of
+// them so poor, and the poor cell becomes better. No other cell comes to less than least_quality where it did not before.
+// At most one in a thousand goes. Returns those that are gone.
+std::vector<CellIndex> open_hexes(GapMesh& gap);
 
 }  // namespace hexpipe::assemble::gap

@@ -36,7 +36,7 @@ void Patch::take(std::span<const Vertex> moving, const Replacement& replacement)
   before_.assign(replacement.out.begin(), replacement.out.end());
   for (const Vertex v : moving) {
     before_.insert(before_.end(), gap_.cells_at(v).begin(), gap_.cells_at(v).end());
-    kept.insert(kept.end(), gap_.kept_at(v).begin(), gap_.kept_at(v).end());
+    for (const std::int32_t c : gap_.kept_at(v)) kept.push_back(c);
   }
   for (auto* list : {&before_, &kept}) {
     std::ranges::sort(*list);

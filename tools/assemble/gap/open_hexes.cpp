@@ -1,0 +1,233 @@
+// A poor cell that nothing mends stands between hexes that may not become worse. One of them gives way: its room, with
+// cells beside it, is filled by pyramids and tets around a new vertex. These are positive everywhere, and their skin is
+// that of the room, so that they fill it and nothing else (refill.cpp).
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "common/mesh/cell_topology.hpp"
+#include "common/mesh/facet_key.hpp"
+#include "tools/assemble/gap/objective.hpp"
+#include "tools/assemble/gap/passes.hpp"
+#include "tools/assemble/gap/patch.hpp"
+#include "tools/assemble/gap/skin.hpp"
+
+namespace hexpipe::assemble::gap {
+namespace {
+
+// One chosen cell in so many may go, for each costs share of the volume.
+constexpr std::size_t chosen_per_opened = 1000;
+// Of the chosen cells around a poor one, those with the most vertices of it. Later ones seldom help.
+constexpr std::size_t most_tries = 8;
+constexpr int rounds_to_raise = 10;
+
+// Whether each edge is one of two facets: only then do two of the cells around a vertex in the room meet at it.
+bool is_ball(std::span<const Facet> skin) {
+  std::vector<VertexKey<2>> edges;
+  for (const Facet& facet : skin) {
+    const auto corners = facet.vertices();
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      edges.push_back(edge_key(corners[i], corners[(i + 1) % corners.size()]));
+  }
+  std::ranges::sort(edges);
+  for (std::size_t i = 0; i < edges.size(); i += 2)
+    if (i + 1 == edges.size() || edges[i] != edges[i + 1] || (i + 2 < edges.size() && edges[i + 2] == edges[i]))
+      return false;
+  return true;
+}
+
+class HexOpener {
+ public:
+  explicit HexOpener(GapMesh& gap) : gap_(gap), patch_(gap) {}
+
+  std::vector<CellIndex> run();
+
+ private:
+  std::vector<std::int32_t> chosen_around(const GapCell& poor) const;
+  std::optional<std::vector<Facet>> skin_of(std::int32_t kept) const;
+  std::vector<std::vector<std::int32_t>> rooms_beside(std::span<const Facet> skin, std::int32_t poor) const;
+  bool add_to(std::vector<Facet>& skin, std::int32_t c) const;
+  std::vector<Vertex> movable(const GapCell& poor, std::int32_t kept) const;
+  bool fill(std::int32_t kept, std::vector<Facet> skin, std::span<const std::int32_t> out, std::int32_t poor);
+  bool is_good_enough(const GapCell& poor, std::int32_t first_new) const;
+  bool open(std::int32_t kept, std::int32_t poor);
+
+  GapMesh& gap_;
+  Patch patch_;
+  Vertex spare_ = no_index;  // a vertex that a failed try has left
+};
+
+std::vector<std::int32_t> HexOpener::chosen_around(const GapCell& poor) const {
+  std::vector<std::int32_t> all;
+  for (const Vertex v : poor.vertices())
+    for (const std::int32_t k : gap_.kept_at(v)) all.push_back(k);
+  std::ranges::sort(all);
+  std::vector<std::pair<std::ptrdiff_t, std::int32_t>> by_count;  // fewest common vertices last
+  for (auto at = all.begin(); at != all.end();) {
+    const auto end = std::ranges::find_if(at, all.end(), [&](std::int32_t k) { return k != *at; });
+    if (end - at >= 2) by_count.emplace_back(at - end, *at);
+    at = end;
+  }
+  std::ranges::sort(by_count);
+  if (by_count.size() > most_tries) by_count.resize(most_tries);
+  std::vector<std::int32_t> result;
+  for (const auto& [count, k] : by_count) result.push_back(k);
+  return result;
+}
+
+// The facets of a chosen cell, on the boundary as the tagged triangles.
+std::optional<std::vector<Facet>> HexOpener::skin_of(std::int32_t kept) const {
+  const KeptCell& cell = gap_.kept_cell(kept);
+  std::vector<Facet> skin;
+  bool is_whole = true;
+  with_topology(cell.kind, [&](auto topology) {
+    int i = 0;
+    for (const auto& quad : decltype(topology)::quads) {
+      const std::array<Vertex, 4> own{cell.corners[quad[0]], cell.corners[quad[1]], cell.corners[quad[2]],
+                                      cell.corners[quad[3]]};
+      const auto on_boundary = gap_.boundary_triangles(kept, i);
+      if (on_boundary) {
+        for (const Triangle& triangle : *on_boundary) skin.push_back(Facet::of(triangle));
+      } else {
+        skin.push_back(Facet::of(own));
+        is_whole = is_whole && gap_.has_partner(kept, i);
+      }
+      ++i;
+    }
+    for (const auto& triangle : decltype(topology)::triangles)
+      skin.push_back(Facet::of(
+          std::array{cell.corners[triangle[0]], cell.corners[triangle[1]], cell.corners[triangle[2]]}));
+  });
+  if (!is_whole) return std::nullopt;
+  return skin;
+}
+
+// False where the cell has no facet in common with the room, or one that is tagged.
+bool HexOpener::add_to(std::vector<Facet>& skin, std::int32_t c) const {
+  bool touches = false, is_blocked = false;
+  for_facets(gap_.cell(c).kind, gap_.cell(c).vertices(), [&](const Facet& facet) {
+    const auto twin = std::ranges::find(skin, facet.reversed());
+    if (twin == skin.end()) {
+      skin.push_back(facet);
+      return;
+    }
+    skin.erase(twin);
+    touches = true;
+    is_blocked = is_blocked ||
+                 (!facet.is_quad() && gap_.is_tagged({facet.corners[0], facet.corners[1], facet.corners[2]}));
+  });
+  return touches && !is_blocked;
+}
+
+// Which cells of the gap to fill anew with the chosen one: none; the poor one; those that touch both; all of these.
+std::vector<std::vector<std::int32_t>> HexOpener::rooms_beside(std::span<const Facet> skin, std::int32_t poor) const {
+  std::vector<std::int32_t> between;
+  for (const Facet& facet : skin)
+    for (const std::int32_t c : gap_.cells_at(facet.corners[0])) {
+      const auto common =
+          std::ranges::count_if(gap_.cell(c).vertices(), [&](Vertex v) { return gap_.cell(poor).has(v); });
+      if (c == poor || common < 2 || std::ranges::find(between, c) != between.end()) continue;
+      bool touches = false;
+      for_facets(gap_.cell(c).kind, gap_.cell(c).vertices(),
+                 [&](const Facet& own) { touches = touches || own.reversed() == facet; });
+      if (touches) between.push_back(c);
+    }
+  std::vector<std::vector<std::int32_t>> rooms{{}, {poor}};
+  if (between.empty()) return rooms;
+  rooms.push_back(between);
+  between.push_back(poor);
+  rooms.push_back(std::move(between));
+  return rooms;
+}
+
+std::vector<Vertex> HexOpener::movable(const GapCell& poor, std::int32_t kept) const {
+  std::vector<Vertex> vertices;
+  for (const std::span<const Vertex> corners : {poor.vertices(), gap_.kept_cell(kept).vertices()})
+    for (const Vertex v : corners)
+      if (gap_.is_inside(v)) vertices.push_back(v);
+  std::ranges::sort(vertices);
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+// Whether the poor cell and those that came for it are, as they are now.
+bool HexOpener::is_good_enough(const GapCell& poor, std::int32_t first_new) const {
+  for (auto c = first_new; c < static_cast<std::int32_t>(gap_.cell_count()); ++c)
+    if (gap_.cell(c).quality < least_wanted || !is_valid(gap_, gap_.cell(c))) return false;
+  return quality_of(poor.kind, gap_.points(), poor.vertices()) >= least_wanted;
+}
+
+// Fills the room within `skin` around a vertex in its middle, and moves vertices around. Everything is as it was where
+// that does not turn out well.
+bool HexOpener::fill(std::int32_t kept, std::vector<Facet> skin, std::span<const std::int32_t> out,
+                     std::int32_t poor) {
+  const GapCell poor_cell = gap_.cell(poor);
+  const std::int32_t region = poor_cell.region;
+  for (const std::int32_t c : out)
+    if (gap_.cell(c).region != region || !add_to(skin, c)) return false;
+  if (!is_ball(skin)) return false;
+  Vec3 middle{};
+  for (const Vertex v : gap_.kept_cell(kept).vertices()) middle += gap_.points()[v];
+  middle *= 1 / static_cast<double>(gap_.kept_cell(kept).vertices().size());
+  if (spare_ == no_index) spare_ = gap_.add_vertex(middle);
+  gap_.move(spare_, middle);
+
+  std::vector<GapCell> in;
+  for (const Facet& facet : skin) in.push_back(cell_on(gap_, facet, spare_, region));
+  gap_.set_alive(kept, false);
+  const auto first_new = static_cast<std::int32_t>(gap_.cell_count());
+  gap_.replace(out, in);
+
+  std::vector<Vertex> moving = movable(poor_cell, kept);
+  moving.push_back(spare_);
+  std::vector<Vec3> places;
+  for (const Vertex v : moving) places.push_back(gap_.points()[v]);
+  patch_.take(moving, {});
+  patch_.raise(least_quality, rounds_to_raise);
+  if (patch_.keeps_floors()) {
+    patch_.carry_out(gap_, {});
+    const bool is_gone = std::ranges::find(out, poor) != out.end();
+    if (is_good_enough(is_gone ? in.front() : poor_cell, first_new)) {
+      spare_ = no_index;
+      return true;
+    }
+    for (std::size_t i = 0; i < moving.size(); ++i) gap_.relocate(moving[i], places[i]);
+  }
+  gap_.undo_replace(out, first_new);
+  gap_.set_alive(kept, true);
+  return false;
+}
+
+bool HexOpener::open(std::int32_t kept, std::int32_t poor) {
+  if (gap_.kept_cell(kept).region != gap_.cell(poor).region) return false;
+  const auto skin = skin_of(kept);
+  if (!skin) return false;
+  for (const auto& out : rooms_beside(*skin, poor))
+    if (fill(kept, *skin, out, poor)) return true;
+  return false;
+}
+
+std::vector<CellIndex> HexOpener::run() {
+  std::vector<CellIndex> opened;
+  const std::size_t most = gap_.kept_count() / chosen_per_opened + 1;
+  const auto count = static_cast<std::int32_t>(gap_.cell_count());
+  for (std::int32_t c = 0; c < count && opened.size() < most; ++c) {
+    if (!gap_.is_alive(c) || gap_.cell(c).quality >= least_wanted) continue;
+    for (const std::int32_t kept : chosen_around(gap_.cell(c)))
+      if (open(kept, c)) {
+        opened.push_back(gap_.kept_cell(kept).source);
+        break;
+      }
+  }
+  return opened;
+}
+
+}  // namespace
+
+std::vector<CellIndex> open_hexes(GapMesh& gap) {
+  return HexOpener(gap).run();
+}
+
+}  // namespace hexpipe::assemble::gap
