@@ -1,0 +1,107 @@
+#include "tools/wrap/wrap.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/run/error.hpp"
+#include "tools/wrap/restoring.hpp"
+#include "tools/wrap/shrink_wrap.hpp"
+#include "tools/wrap/surface.hpp"
+#include "tools/wrap/triangle_tree.hpp"
+
+namespace hexpipe::wrap {
+namespace {
+
+// Of half the gap. The surface is that far out at first, and stays so where it cannot go to the input; CGAL's authors
+// suggest this ratio.
+constexpr double offset_of_alpha = 1.0 / 30;
+
+double area_of(const Surface& surface) {
+  double area = 0;
+  for (const auto& [a, b, c] : surface.triangles)
+    area += norm(cross(surface.points[b] - surface.points[a], surface.points[c] - surface.points[a])) / 2;
+  return area;
+}
+
+double volume_of(const Surface& surface) {
+  double volume = 0;
+  const Vec3 origin = surface.points.front();
+  for (const auto& [a, b, c] : surface.triangles)
+    volume += det(surface.points[a] - origin, surface.points[b] - origin, surface.points[c] - origin) / 6;
+  return volume;
+}
+
+void check_that_it_encloses(const Surface& wrapped, double offset, const std::string& name, double gap) {
+  // Around a plate without thickness the wrap is two offsets thick.
+  constexpr double thin = 3;
+  const double thickness = 2 * volume_of(wrapped) / area_of(wrapped);
+  if (thickness < thin * offset)
+    throw DataError::at(name,
+                        "expected a surface that encloses a room but for gaps up to {:.4g}, found that the outside gets "
+                        "in, so that only a shell of {:.2g} is left: close wider holes by a larger --gap",
+                        gap, thickness);
+}
+
+void give_tags(const formats::SurfaceSoup& soup, const TriangleTree& input, formats::SurfaceSoup& surface) {
+  for (const auto& [a, b, c] : surface.triangles) {
+    const Vec3 middle = (1.0 / 3) * (surface.points[a] + surface.points[b] + surface.points[c]);
+    surface.tags.push_back(soup.tags[input.nearest(middle).triangle]);
+  }
+  surface.names = soup.names;
+  surface.has_own_tags = soup.has_own_tags;
+}
+
+}  // namespace
+
+double diagonal_of(const formats::SurfaceSoup& soup) {
+  Vec3 low = soup.points.front(), high = low;
+  for (const Vec3& p : soup.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return norm(high - low);
+}
+
+WrapResult wrap(const formats::SurfaceSoup& soup, const WrapOptions& options) {
+  const Surface input{soup.points, soup.triangles};
+  if (!(area_of(input) > 0)) throw DataError::at(soup.name, "expected triangles with an area, found none");
+  WrapResult result;
+  result.gap = options.gap;
+  const double alpha = options.gap / 2;
+  result.offset = offset_of_alpha * alpha;
+  const Surface wrapped = shrink_wrap(input, alpha, result.offset);
+  check_that_it_encloses(wrapped, result.offset, soup.name, options.gap);
+
+  const TriangleTree tree(input);
+  constexpr double no_features = 180;
+  // The ball of radius alpha stays 0.41 alpha away from an inner edge of 90 degrees, 0.73 alpha from an inner corner.
+  RestoredSurface restored =
+      restore_shape(wrapped, tree, {0.75 * alpha, options.features ? options.feature_angle : no_features});
+  result.points_on_input = restored.points_on_input;
+  result.points_off_input = restored.points_off_input;
+  result.sharp_points = restored.sharp_points;
+  result.to_input = distances(restored.surface, tree, alpha / 2, 2 * result.offset);
+  result.from_input = distances(input, TriangleTree(restored.surface), alpha / 2, 2 * result.offset);
+  result.surface.name = soup.name;
+  result.surface.points = std::move(restored.surface.points);
+  result.surface.triangles = std::move(restored.surface.triangles);
+  give_tags(soup, tree, result.surface);
+  return result;
+}
+
+nlohmann::ordered_json to_json(const WrapResult& result) {
+  const auto summary = [](const DistanceSummary& distance) {
+    return nlohmann::ordered_json{
+        {"greatest", distance.greatest}, {"mean", distance.mean}, {"share_beyond", distance.share_beyond}};
+  };
+  return {{"triangles", result.surface.triangles.size()},
+          {"gap", result.gap},
+          {"offset", result.offset},
+          {"points_on_input", result.points_on_input},
+          {"points_off_input", result.points_off_input},
+          {"sharp_points", result.sharp_points},
+          {"distance_to_input", summary(result.to_input)},
+          {"distance_from_input", summary(result.from_input)}};
+}
+
+}  // namespace hexpipe::wrap
