@@ -1,4 +1,4 @@
-#include "common/conflicts/conflict_rules.hpp"
+#include "common/conflicts/conflicts.hpp"
 
 #include <array>
 #include <cstdint>
@@ -7,7 +7,7 @@
 namespace hexpipe::conflicts {
 namespace {
 
-// Corners of a cell, as bits.
+// The corners of a cell, as bits.
 using CornerSet = std::uint8_t;
 
 template <class Corners>
@@ -17,10 +17,10 @@ constexpr CornerSet set_of(const Corners& corners) {
   return static_cast<CornerSet>(set);
 }
 
-// What the corners of each set make together.
+// Tells what a set of corners forms in a cell.
 struct CellParts {
   std::array<bool, 256> edge_or_triangle{};
-  std::array<CornerSet, 256> diagonal{};  // one of the quad that they are; empty where they are none
+  std::array<CornerSet, 256> diagonal{};  // a diagonal of the quad that these corners form; empty if they form none
 };
 
 template <class Topology>
@@ -59,7 +59,7 @@ SharedCorners shared_corners(std::span<const Vertex> i, std::span<const Vertex> 
   return shared;
 }
 
-// All are compared, without a branch.
+// Compares all pairs, without a branch.
 int shared_corner_count(std::span<const Vertex> i, std::span<const Vertex> j) {
   int count = 0;
   for (const Vertex v : i)
@@ -76,7 +76,8 @@ bool share_interior_tet(std::span<const std::int32_t> i, std::span<const std::in
   return false;
 }
 
-// A quad's cyclic order is known by who lies opposite whom: its diagonals are those of the other.
+// The diagonals of a quad determine its cyclic order, so two quads are the same if the diagonals of one are those of
+// the other.
 bool are_same_quad(CornerSet diagonal_i, CornerSet diagonal_j, const SharedCorners& shared) {
   if (diagonal_i == 0 || diagonal_j == 0) return false;
   int on_both_or_none = 0;

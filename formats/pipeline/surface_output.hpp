@@ -1,5 +1,5 @@
 #pragma once
-// What a tool that makes surfaces writes: a bundle for tetmesh, or a file for other people's meshers.
+// What a tool that makes surfaces writes: a bundle for tetmesh, or a file for other meshers.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -15,8 +15,8 @@ namespace hexpipe::pipeline {
 // a bundle would go to a terminal.
 std::string_view surface_format_of(const std::string& path);
 
-// OBJ: a group for each tag; STL: a solid in ASCII for each; .msh: physical surfaces. Returns what had to be changed of
-// the names, in sentences.
+// OBJ: a group for each tag. STL: a solid in ASCII for each. .msh: physical surfaces. Returns, in sentences, how names
+// had to be changed.
 std::vector<std::string> write_surface(const formats::SurfaceSoup& surface, std::string_view format,
                                        formats::Output& output);
 

@@ -8,7 +8,7 @@ namespace hexpipe::formats {
 namespace {
 
 constexpr std::size_t most_corners = 10'000;
-// By rounding, a corner on a straight side may turn by this share of the polygon's area.
+// Rounding may turn a corner on a straight side by this share of the polygon's area.
 constexpr double least_turn = 1e-14;
 
 Vec3 area_of(std::span<const Vec3> points, const Triangle& t) {
@@ -20,12 +20,12 @@ struct Place {
   bool operator==(const Place&) const = default;
 };
 
-// Positive where a, b, c turn to the left.
+// Positive if a, b, c turn to the left.
 double turn(const Place& a, const Place& b, const Place& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// Seen so that it turns to the left.
+// The polygon in the projection in which it turns to the left.
 std::vector<Place> projected(std::span<const Vec3> points, std::span<const Vertex> corners, const Vec3& normal) {
   int axis = 0;
   for (const int other : {1, 2})
@@ -64,7 +64,7 @@ class EarCutter {
       around_[after].before = before;
       --left;
       passed = 0;
-      // Cutting an ear off makes corners beside it convex, never the other way round.
+      // Cutting off an ear makes corners beside it convex, never the other way round.
       std::erase_if(others_, [&](std::int32_t k) { return k == i || ((k == before || k == after) && is_convex(k)); });
       // Any other ear was an ear of the whole polygon.
       for (const std::int32_t k : {before, after}) is_ear_[k] = has_no_other_inside(k);
@@ -83,7 +83,7 @@ class EarCutter {
     return turn(places_[around_[i].before], places_[i], places_[around_[i].after]) > 0;
   }
 
-  // Only a corner that is not convex may lie in the triangle of a convex one.
+  // Only a corner that is not convex can be inside the triangle of a convex one.
   bool has_no_other_inside(std::int32_t i) const {
     if (!is_convex(i)) return false;
     const Place &a = places_[around_[i].before], &b = places_[i], &c = places_[around_[i].after];

@@ -28,8 +28,8 @@ class PointMerger {
   tsl::robin_map<Vec3, Vertex, Hash> indices_;
 };
 
-// The soup with one point in place of equal ones, in the order of first use, and without points that no triangle uses.
-// Curves are edges of triangles.
+// The soup with one point instead of equal ones, in the order of first use, and without points that no triangle uses.
+// Curves must be edges of triangles.
 SurfaceSoup merge_equal_points(SurfaceSoup soup);
 
 // Throws DataError where there are more points than can be numbered.
@@ -42,7 +42,7 @@ class PolygonReader {
  public:
   // Appends a polygon of at least three corners as a fan.
   void append(SurfaceSoup& soup, std::span<const Vertex> corners, std::int32_t tag, std::int64_t place);
-  // Cuts concave polygons anew. Call it when all points are there and corners are known to be among them.
+  // Cuts concave polygons again. Call it when all points are there and corners are known to be among them.
   void cut_concave(SurfaceSoup& soup) const;
 
  private:

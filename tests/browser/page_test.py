@@ -237,14 +237,14 @@ def check_groups(page):
     page.settles_with(colour="surface", hidden="none")
     groups = page.browser.find_elements(By.CSS_SELECTOR, "#legend .group")
     assert len(groups) > 1, page.text("legend")
-    whole = page.picture()
+    whole, count, tag = page.picture(), len(groups), groups[0].get_attribute("value")
     groups[0].click()
-    page.settles_with(hidden=f"surface:{groups[0].get_attribute('value')}")
+    page.settles_with(hidden=f"surface:{tag}")
     assert difference(page.picture(), whole) > 0.1, "the surface is still there"
     page.shot("surface-hidden")
     last = page.browser.find_elements(By.CSS_SELECTOR, "#legend .group")[-1]
     ActionChains(page.browser).key_down(Keys.SHIFT).click(last).key_up(Keys.SHIFT).perform()
-    page.wait(lambda: page.state()["hidden"].count("surface:") == len(groups) - 1)
+    page.wait(lambda: page.state()["hidden"].count("surface:") == count - 1)
     page.find("#legend .all").click()
     page.settles_with(hidden="none")
     page.choose("colour", "hexes")

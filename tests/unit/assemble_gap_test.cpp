@@ -92,7 +92,7 @@ struct Census {
       const HybridCell& cell = mesh.cell(c);
       if (!cell.alive) continue;
       const std::span corners = std::span(cell.corners).first(static_cast<std::size_t>(corner_count(cell.kind)));
-      add(mesh, cell.kind, corners, cell.candidate != HybridCell::none);
+      add(mesh, cell.kind, corners, cell.candidate != no_index);
     }
   }
 
@@ -337,8 +337,9 @@ struct Scene {
   Scene(std::uint64_t seed, Random random)
       : lattice(lattice_of(seed, random)),
         tags(lattice.mesh),
-        hybrid(choice::build_selection(lattice.mesh, tags, lattice.cubes,
-                                       testing::random_choice(lattice, random.uniform(0.1, 0.9), random), {})) {
+        hybrid(choice::Selection(lattice.mesh, tags, lattice.cubes,
+                                 testing::random_choice(lattice, random.uniform(0.1, 0.9), random))
+                   .take_mesh()) {
     conform::make_conforming(hybrid, tags, lattice.cubes, 1e-4);
   }
 };
@@ -386,8 +387,8 @@ TEST(FewerCells, AssembleMergesUnlessToldNotTo) {
   const auto merged = assemble::assemble(lattice.mesh, lattice.cubes, chosen, options);
   options.merge = AssembleOptions::Merge::none;
   const auto plain = assemble::assemble(lattice.mesh, lattice.cubes, chosen, options);
-  EXPECT_GT(merged.statistics.fewer.merged, 0);
-  EXPECT_FALSE(plain.statistics.fewer.any());
+  EXPECT_GT(merged.statistics.improvement.fewer.merged, 0);
+  EXPECT_FALSE(plain.statistics.improvement.fewer.any());
   EXPECT_EQ(merged.mesh.hexes.size(), plain.mesh.hexes.size());
   EXPECT_LT(merged.mesh.tets.size(), plain.mesh.tets.size());
 }

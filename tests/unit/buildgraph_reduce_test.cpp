@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "common/graph/subgraph.hpp"
+#include "common/graph/conflict_graph.hpp"
 #include "random_graphs.hpp"
 #include "tools/buildgraph/domination.hpp"
 

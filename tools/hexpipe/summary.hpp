@@ -1,5 +1,5 @@
 #pragma once
-// What came out, in three lines for people.
+// The result, in three lines for people.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace hexpipe::front_door {
 
-// Of what assemble wrote by --stats; `output` names the file, `seconds` are by the clock.
+// `assembled` is what assemble wrote by --stats; `output` names the file; `seconds` are by the clock.
 std::vector<std::string> summary_of(const nlohmann::ordered_json& assembled, const std::string& output, double seconds);
 
 }  // namespace hexpipe::front_door

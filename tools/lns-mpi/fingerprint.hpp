@@ -1,10 +1,10 @@
 #pragma once
-// Checks that all ranks hold parts of one graph, and that a checkpoint was made of the same graph: by sums of hashes,
-// which do not depend on which rank holds what.
+// Checks that all ranks hold parts of one graph, and that a checkpoint belongs to the same graph. It compares sums of
+// hashes, which do not depend on which rank holds what.
 
 #include <cstdint>
 
-#include "tools/lns-mpi/piece.hpp"
+#include "tools/lns-mpi/local_graph.hpp"
 #include "tools/lns-mpi/ranks.hpp"
 
 namespace hexpipe::lns_mpi {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/run/run_context.hpp"
-#include "tools/lns-mpi/piece.hpp"
+#include "tools/lns-mpi/local_graph.hpp"
 #include "tools/lns-mpi/ranks.hpp"
 
 namespace hexpipe::lns_mpi {
@@ -20,7 +20,7 @@ class Source {
   virtual ~Source() = default;
   // All ranks call these together. Throws on all of them when one cannot read or write.
   virtual OwnedRows read(Ranks& ranks) = 0;
-  virtual void write(Ranks& ranks, const Piece& piece, const nlohmann::ordered_json& details) = 0;
+  virtual void write(Ranks& ranks, const LocalGraph& local, const nlohmann::ordered_json& details) = 0;
 
   // Valid after read(), the same on all ranks.
   std::int32_t blocks() const { return blocks_; }

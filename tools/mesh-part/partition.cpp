@@ -28,7 +28,7 @@ DualGraph dual_graph(const TetAdjacency& adjacency, std::int64_t tet_count) {
   graph.neighbours.reserve(4 * tet_count);
   for (std::int64_t t = 0; t < tet_count; ++t) {
     for (const std::int32_t beyond : adjacency.tets_beyond(static_cast<std::int32_t>(t)))
-      if (beyond != TetAdjacency::none) graph.neighbours.push_back(beyond);
+      if (beyond != no_index) graph.neighbours.push_back(beyond);
     graph.offsets.push_back(static_cast<idx_t>(graph.neighbours.size()));
   }
   return graph;

@@ -8,14 +8,14 @@
 
 namespace hexpipe::tessellate {
 
-// Names by what shapes are, wherever they stand: the faces of all instances of a part have one name.
+// Names by shape, wherever the shape is placed: the faces of all instances of a part have the same name.
 class ShapeNames {
  public:
   // The first name stays.
   void set(const TopoDS_Shape& shape, std::string name) {
     if (!shape.IsNull() && !name.empty()) names_.try_emplace(shape.TShape().get(), Entry{shape, std::move(name)});
   }
-  // Empty: it has none.
+  // Empty if it has no name.
   std::string of(const TopoDS_Shape& shape) const {
     const auto found = shape.IsNull() ? names_.end() : names_.find(shape.TShape().get());
     return found == names_.end() ? std::string() : found->second.name;
@@ -34,14 +34,14 @@ struct CadBody {
   std::string name;  // may be empty
 };
 
-// How long a unit is.
+// The length of a unit.
 struct LengthUnit {
   std::string name = "millimetre";
   double millimetres = 1;
 };
 
 struct CadModel {
-  std::vector<CadBody> bodies;  // in millimetres, or in the file's own unit where it names none
+  std::vector<CadBody> bodies;  // in millimetres, or in the file's own unit if it names none
   ShapeNames names;             // of faces and edges
   LengthUnit unit;              // of the file
   bool names_unit = true;

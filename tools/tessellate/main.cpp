@@ -37,7 +37,8 @@ int main(int argc, char** argv) {
   std::string path = "-", output_path;
   bool compress = false;
   const auto declare = [&](CLI::App& app) {
-    app.add_option("cad", path, "A file in STEP, IGES or BREP; '-' or nothing: standard input")->type_name("FILE");
+    app.add_option("cad", path, "A file in STEP, IGES or BREP; standard input if it is '-' or missing")
+        ->type_name("FILE");
     app.add_option("--deviation", options.deviation,
                    "How far triangles may be from the CAD's surface [a hundredth of the size that tetmesh chooses]")
         ->check(number_between(1e-12, 1e12))
@@ -46,7 +47,7 @@ int main(int argc, char** argv) {
         ->check(number_between(1, 60));
     app.add_option("--unit", options.unit, "Write lengths in metres or millimetres [the file's own unit]")
         ->check(CLI::IsMember({"m", "mm"}));
-    app.add_flag("--join", options.join, "Bodies that touch share the faces, edges and corners where they do");
+    app.add_flag("--join", options.join, "Let bodies that touch share their common faces, edges and corners");
     outside_history(
         app.add_option("-o,--output", output_path, "Write to a file, not to standard output: .tar, .obj, .stl or .msh"))
         ->type_name("FILE");

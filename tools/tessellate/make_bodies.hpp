@@ -1,5 +1,5 @@
 #pragma once
-// Bodies out of what is none yet, or is faulty: shells and faces, shapes that do not hold together, bodies that touch.
+// Makes bodies of shells and faces, heals faulty bodies, and joins bodies that touch.
 
 #include <TopoDS_Shape.hxx>
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace hexpipe::tessellate {
 
-// Where a file has no solids: closed shells become bodies, loose faces are sewn. Throws DataError where nothing closed
-// comes of it.
+// For files without solids: closed shells become bodies, loose faces are sewn. Throws DataError if that gives nothing
+// closed.
 void make_bodies(const TopoDS_Shape& whole, const std::string& source, CadModel& model);
 
 // Heals the bodies that OpenCASCADE finds faulty, with a warning.
 void heal_bodies(CadModel& model);
 
-// Bodies that touch share the faces, edges and vertices where they do. Throws DataError for bodies that overlap.
+// Lets bodies that touch share their common faces, edges and vertices. Throws DataError for bodies that overlap.
 void join_bodies(const std::string& source, CadModel& model);
 
 }  // namespace hexpipe::tessellate

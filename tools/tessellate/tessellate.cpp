@@ -15,7 +15,7 @@
 namespace hexpipe::tessellate {
 namespace {
 
-// What OpenCASCADE has to say goes to standard output, where the bundle goes.
+// OpenCASCADE prints its messages to standard output, where the bundle goes.
 class SilentOpenCascade {
  public:
   SilentOpenCascade() : buffer_(std::cout.rdbuf(nullptr)) { Message::DefaultMessenger()->ChangePrinters().Clear(); }

@@ -73,7 +73,7 @@ void collect(const Candidates& candidates, const TetMesh& mesh, std::size_t i, C
             tets.empty() ? 0 : mesh.tet_tags[tets.front()], static_cast<std::int32_t>(i));
 }
 
-// Chosen candidates, and the tets that none of them takes.
+// The chosen candidates, and the tets that none of them takes.
 void collect(const graph::IndependentSet& chosen, const Candidates& candidates, const TetMesh& mesh,
              const std::string& source, CellCollector& cells) {
   std::vector<char> taken(mesh.tets.size());
@@ -157,7 +157,7 @@ void fill(Scene& scene, CellCollector& cells, const std::vector<Vec3>& points, c
   place(points, scene);
 }
 
-// Only what facets are found by: candidates overlap, so the surface is told by the tets.
+// Only what finding facets needs: candidates overlap, so the tets tell where the surface is.
 Scene tets_of(const TetMesh& mesh) {
   Scene scene;
   scene.points.resize(mesh.points.size());

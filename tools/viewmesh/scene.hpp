@@ -62,8 +62,8 @@ struct Scene {
 
 const char* name_of(Scene::Content content);
 
-// The last one that is there of mesh, candidates, solution and result. Throws DataError naming `source` when none is
-// there, there are no cells, or candidates come without the mesh that has their points.
+// The last one in the input of mesh, candidates, solution and result. Throws DataError naming `source` when there is
+// none, there are no cells, or candidates come without the mesh that has their points.
 Scene::Content last_content(const pipeline::StageData& data, const std::string& source);
 Scene make_scene(pipeline::StageData data, Scene::Content content, const std::string& source);
 

@@ -43,7 +43,7 @@ GapMesh::GapMesh(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std:
     const hybrid::HybridCell& cell = mesh.cell(c);
     if (!cell.alive) continue;
     const std::span corners = std::span(cell.corners).first(static_cast<std::size_t>(corner_count(cell.kind)));
-    if (cell.candidate == hybrid::HybridCell::none) {
+    if (cell.candidate == no_index) {
       std::array<Vertex, 6> own{};
       std::ranges::copy(corners, own.begin());
       add(cell_of(cell.kind, own, cell.region, mesh.points), c);

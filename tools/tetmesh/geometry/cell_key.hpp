@@ -9,7 +9,7 @@ namespace hexpipe::tetmesh::geometry {
 
 using GridCell = std::array<std::int64_t, 3>;
 
-// Different for cells within 2^20 of the origin.
+// Keys differ for cells within 2^20 of the origin.
 constexpr std::uint64_t cell_key(const GridCell& cell) {
   constexpr std::int64_t middle = 1 << 20;
   std::uint64_t key = 0;

@@ -7,8 +7,9 @@
 
 namespace hexpipe::tetmesh::geometry {
 
-// How far along a direction, in its lengths, maybe behind; infinite where the ray's line misses the triangle
-// (T. Möller, B. Trumbore: Fast, minimum storage ray/triangle intersection, 1997).
+// How far along the direction the ray's line meets the triangle, in lengths of the direction; negative behind the
+// start. Infinite where the line misses the triangle (T. Möller, B. Trumbore: Fast, minimum storage ray/triangle
+// intersection, 1997).
 inline double length_to_triangle(const Vec3& from, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c) {
   constexpr double miss = std::numeric_limits<double>::infinity();
   const Vec3 first = b - a, second = c - a, across = cross(direction, second), to_origin = from - a;

@@ -9,7 +9,8 @@ namespace hexpipe::tetmesh::search {
 
 std::size_t MeshIndex::PlaceHash::operator()(const Vec3& p) const {
   std::uint64_t key = 0;
-  for (int axis = 0; axis < 3; ++axis) key = mix(key ^ std::bit_cast<std::uint64_t>(p[axis] + 0.0));  // -0 is 0
+  // makes -0 and 0 the same
+  for (int axis = 0; axis < 3; ++axis) key = mix(key ^ std::bit_cast<std::uint64_t>(p[axis] + 0.0));
   return static_cast<std::size_t>(key);
 }
 
@@ -33,14 +34,14 @@ MeshChange::MeshChange(const MeshIndex& before, const TetMesh& now)
   for (std::size_t t = 0; t < now.tets.size(); ++t) {
     Tet corners = now.tets[t];
     for (Vertex& v : corners) v = vertex_before[v];
-    // Of a vertex that was not there the key has none, and is not found.
+    // The key of a tet with a new vertex contains `none`, and is not found.
     const auto found = before.tet_of_.find(key_of(corners));
     if (found != before.tet_of_.end())
       tet_now[found->second] = static_cast<std::int32_t>(t);
     else
       for (const Vertex v : now.tets[t]) is_touched[v] = true;
   }
-  // A sliver on the boundary goes without another in its place where the surface exchanges the diagonal under it.
+  // A sliver on the boundary disappears without another in its place if the surface exchanges the diagonal under it.
   for (const auto& [corners, t] : before.tet_of_) {
     if (tet_now[t] != none) continue;
     for (const Vertex v : corners)

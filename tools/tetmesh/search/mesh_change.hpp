@@ -9,7 +9,7 @@
 
 namespace hexpipe::tetmesh::search {
 
-// A mesh as the one after it looks things up there.
+// A mesh, prepared for look-ups by the mesh that follows it.
 class MeshIndex {
  public:
   explicit MeshIndex(const TetMesh& mesh);
@@ -31,7 +31,7 @@ struct MeshChange {
 
   std::vector<Vertex> vertex_now;     // by vertex before, or none
   std::vector<std::int32_t> tet_now;  // by tet before, or none
-  std::vector<bool> is_touched;       // by vertex now: a tet has come or gone there
+  std::vector<bool> is_touched;       // by vertex now: a tet at it has come or gone
 };
 
 }  // namespace hexpipe::tetmesh::search

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double coarse_edge = 2.5, fine_edge = 0.4;
 constexpr double tolerated_share = 0.25;
-// Over a part of a triangle this long, in sizes, the size is taken to be that of its centre.
+// In a piece of a triangle up to this long, in sizes, the size counts as that of its centre.
 constexpr double longest_part = 2;
 
 double area_of(const solid::Surface& surface, const Triangle& t) {
@@ -24,7 +24,7 @@ double area_of(const solid::Surface& surface, const Triangle& t) {
   return norm(cross(surface.points[t[1]] - origin, surface.points[t[2]] - origin)) / 2;
 }
 
-// Which side of a triangle is the longest.
+// The longest side of a triangle.
 std::size_t longest_side(const std::array<Vec3, 3>& corners) {
   std::size_t longest = 0;
   for (std::size_t i = 1; i < 3; ++i)

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t most_listed = 10;
 
-// Of each triangle, the first triangle of its piece.
+// Finds for each triangle the first triangle of its piece.
 class SmoothPieces {
  public:
   SmoothPieces(const Surface& surface, double angle)
@@ -68,7 +68,7 @@ class SmoothPieces {
 }  // namespace
 
 void tag_by_angle(Surface& surface, double angle) {
-  // The name of the whole tells nothing apart.
+  // A name that all triangles have tells nothing apart.
   if (std::ranges::adjacent_find(surface.tags, std::not_equal_to()) == surface.tags.end())
     surface.names.surfaces.clear();
   SmoothPieces pieces(surface, angle);

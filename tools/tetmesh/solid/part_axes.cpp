@@ -1,6 +1,6 @@
-// Normals of nearly the same direction, or the opposite, are put together with their areas. Two of these directions at
-// right angles make a frame, judged by the area at right angles to its axes; where a direction has no partner, feature
-// edges take the place of the second.
+// Normals of nearly the same or the opposite direction are put together, with their areas. Two such directions at right
+// angles make a frame, which is judged by the area at right angles to its axes. If a direction has no partner, feature
+// edges take the place of the second direction.
 
 #include "tools/tetmesh/solid/part_axes.hpp"
 
@@ -13,16 +13,16 @@ namespace hexpipe::tetmesh::solid {
 namespace {
 
 constexpr Axes coordinate_axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-// Directions this near are one: of an angle of 0.1 degrees, over which a lattice of 500 steps leaves a face by one.
+// Directions within 0.1 degrees count as one. Over that angle a lattice of 500 steps leaves a face by one step.
 constexpr double same_cosine = 1 - 1.5e-6, right_angle_cosine = 1.7e-3;
-// Directions that are tried; the area falls quickly behind the first.
+// The number of directions that are tried. The areas fall quickly behind the first ones.
 constexpr std::size_t most_directions = 24;
-// What another frame must have more than the coordinate axes have, of the whole surface; and an edge of length l counts
-// as an area of l times this part of the longest one.
+// Another frame must have this share of the surface more than the coordinate axes have. An edge of length l counts as
+// an area of l times this share of the longest edge.
 constexpr double least_gain = 0.01, edge_weight = 0.01;
 
 struct Direction {
-  Vec3 sum;  // of the normals, all to one side, by area
+  Vec3 sum;  // of the normals, all turned to one side, by area
   double weight = 0;
 
   Vec3 mean() const { return unit(sum); }
@@ -31,7 +31,7 @@ struct Direction {
 // Directions up to their sign, the heaviest first.
 class DirectionList {
  public:
-  // Sorted by the weight of what comes, so that the first of its kind is the heaviest.
+  // The vectors are sorted by their weight, so that the first vector of a direction is the heaviest.
   explicit DirectionList(std::vector<Vec3> vectors) {
     std::ranges::stable_sort(vectors, std::ranges::greater(), [](const Vec3& v) { return norm_squared(v); });
     for (const Vec3& v : vectors) add(v);
@@ -51,7 +51,7 @@ class DirectionList {
       d.weight += weight;
       return;
     }
-    // Those that come late are the many small ones of curved faces.
+    // Vectors that come late are the many small ones of curved faces.
     if (directions_.size() < most_kept) directions_.push_back({v, weight});
   }
 
@@ -69,7 +69,7 @@ class AxesFinder {
     Axes best = coordinate_axes;
     double most = score(coordinate_axes) + least_gain * total_area_;
     for (const Direction& first : candidates) {
-      if (3 * first.weight < most) break;  // no frame with lesser faces only has more
+      if (3 * first.weight < most) break;  // a frame of lesser faces cannot have more
       for (const DirectionList* list : {&faces_, &edges_})
         for (const Direction& second : list->directions()) {
           const Vec3 a = first.mean(), b = second.mean();
@@ -95,7 +95,7 @@ class AxesFinder {
     return normals;
   }
 
-  // Lengths weighted so that all edges together count little beside the surface.
+  // The lengths are weighted so that all edges together count little beside the surface.
   std::vector<Vec3> feature_edges(double feature_cosine) const {
     std::vector<Vec3> edges;
     double total = 0;
@@ -134,7 +134,7 @@ class AxesFinder {
     return sum;
   }
 
-  // All faces along the axes have a say, not only the two that the frame was made from.
+  // All faces along the axes contribute, not only the two that the frame was made from.
   Axes refined(const Axes& axes) const {
     Axes sums{};
     std::array<double, 3> weights{};
@@ -150,7 +150,7 @@ class AxesFinder {
     return frame_of(summed(order[0]), summed(order[1]));
   }
 
-  // The same axes in the order and with the signs that turn the coordinate axes least.
+  // The same axes, with the order and the signs that turn the coordinate axes least.
   static Axes nearest_to_coordinates(const Axes& axes) {
     Axes nearest = axes;
     double most = -1;

@@ -1,5 +1,5 @@
 #pragma once
-// Three axes at right angles along which most of a part's flat faces lie.
+// Three axes at right angles along which most of a model's flat faces lie.
 
 #include <array>
 
@@ -10,9 +10,9 @@ namespace hexpipe::tetmesh::solid {
 
 using Axes = std::array<Vec3, 3>;
 
-// Orthonormal, right-handed; each the nearest to its coordinate axis that the part allows. The coordinate axes
-// themselves where no others have more of the surface at right angles to them: on parts that are along these, and on
-// those without flat faces. Edges where the surface turns by more than `feature_angle` degrees are features.
+// The axes are orthonormal and right-handed, and each is as near to its coordinate axis as the model allows. They are
+// the coordinate axes themselves unless other axes have more of the surface at right angles to them. Edges where the
+// surface turns by more than `feature_angle` degrees are features.
 Axes axes_of_part(const Surface& surface, double feature_angle = default_feature_angle);
 
 }  // namespace hexpipe::tetmesh::solid

@@ -23,7 +23,7 @@ namespace {
 
 using geometry::HalfEdge;
 
-// Sets of numbers from 0.
+// Disjoint sets of the numbers from 0.
 class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -31,7 +31,7 @@ class Sets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  // The lower one stays.
+  // The lower number stays.
   void join(std::int32_t i, std::int32_t j) {
     i = of(i), j = of(j);
     parent_[std::max(i, j)] = std::min(i, j);
@@ -41,7 +41,7 @@ class Sets {
   std::vector<std::int32_t> parent_;
 };
 
-// Each triangle has two sides: 2 t behind it, 2 t + 1 before it.
+// Each triangle has two sides: 2 t is the side behind it, 2 t + 1 the side in front of it.
 constexpr std::int32_t behind(std::int32_t triangle) {
   return 2 * triangle;
 }
@@ -56,7 +56,7 @@ Vec3 normal_of(const formats::SurfaceSoup& soup, std::int32_t t) {
 
 constexpr std::size_t most_overlaps = 100'000;
 constexpr int most_flip_rounds = 1000;
-// Of sines and of volumes beside the lengths of their edges: what counts as flat, and as on one circle.
+// Sines, and volumes over the lengths of their edges, below this count as 0: flat, or on one circle.
 constexpr double flatness = 1e-9;
 
 Vertex across_of(const formats::SurfaceSoup& soup, HalfEdge h) {
@@ -85,7 +85,7 @@ bool wants_flip(const formats::SurfaceSoup& soup, HalfEdge h, HalfEdge k) {
   return of_sum < 0;
 }
 
-// The triangles at an edge in the order in which they come on a walk around it.
+// The triangles at an edge, in the order of a walk around it.
 class EdgeWalk {
  public:
   EdgeWalk(const formats::SurfaceSoup& soup, std::span<const HalfEdge> edge) {
@@ -100,13 +100,13 @@ class EdgeWalk {
       away = unit(away - dot(away, axis) * axis);
       if (!first) first = away;
       const double angle = std::atan2(dot(away, cross(axis, *first)), dot(away, *first));
-      // A triangle that has the edge in its direction shows its normal to those that come next.
+      // A triangle that has the edge in its own direction shows its normal to the triangles that come next.
       steps_.push_back({angle, geometry::triangle_of(h), start(soup, h) == low});
     }
     std::ranges::sort(steps_, {}, [](const Step& s) { return std::pair(s.angle, s.triangle); });
   }
 
-  // visit(side, side) for each two sides that face each other across a wedge.
+  // Calls visit(side, side) for every two sides that face each other across a wedge.
   template <class Visit>
   void for_each_wedge(Visit&& visit) const {
     for (std::size_t i = 0; i < steps_.size(); ++i) {
@@ -179,15 +179,15 @@ class SideFinder {
 
   formats::SurfaceSoup& soup_;
   ShellRule rule_;
-  std::vector<bool> is_interface_;    // of triangles: two bodies had it
-  std::optional<Sets> rooms_;         // of sides, and of the outside as the last
-  std::optional<Sets> pieces_;        // of triangles, by common edges
-  std::vector<std::int32_t> region_;  // of rooms, 0: nothing
+  std::vector<bool> is_interface_;    // by triangle: two bodies had it
+  std::optional<Sets> rooms_;         // sets of sides; the last number is the outside
+  std::optional<Sets> pieces_;        // sets of triangles, joined by common edges
+  std::vector<std::int32_t> region_;  // by room; 0: nothing
   SheetReport report_;
 };
 
-// Bodies that touch in a face may cut it into triangles in different ways. Where these overlap, flips lead both to the
-// same ones: Delaunay's, and of those with corners on one circle the ones at the lowest corner.
+// Bodies that touch in a face may cut the face into different triangles. Where these overlap, flips turn both into the
+// same triangles: Delaunay triangles, and where corners lie on one circle, the diagonals at the lowest corner.
 void SideFinder::agree_on_overlaps() {
   const auto found = geometry::find_intersections(soup_.points, soup_.triangles, most_overlaps);
   std::vector<bool> overlaps(soup_.triangles.size());
@@ -218,7 +218,7 @@ bool SideFinder::flip_round(const std::vector<bool>& overlaps) {
   return !flips.empty();
 }
 
-// Two bodies that touch in a face have its triangles twice, turned against each other.
+// Two bodies that touch in a face have the triangles of the face twice, with opposite orientations.
 void SideFinder::join_repeated() {
   std::map<VertexKey<3>, std::int32_t> first;
   std::vector<bool> kept(soup_.triangles.size(), true);
@@ -235,7 +235,7 @@ void SideFinder::join_repeated() {
       first_repeated = {t, known->second};
     is_interface_[known->second] = true;
     kept[t] = false;
-    // Of one body they are a fold, with the same on both sides.
+    // If both belong to one body, they are a fold, with the same region on both sides.
     const bool is_fold = !soup_.sides.empty() && soup_.sides[known->second][0] == soup_.sides[t][0];
     if (!soup_.sides.empty()) soup_.sides[known->second] = {soup_.sides[known->second][0], soup_.sides[t][0]};
     report_.interface_triangles += is_fold ? 0 : 1;
@@ -264,10 +264,10 @@ void SideFinder::walk_around_edges() {
   });
 }
 
-// The room around each piece is that in which it lies: what is below the first triangle over one of its vertices.
+// Finds the room around each piece: the room below the first triangle above one of the piece's vertices.
 void SideFinder::nest() {
   const std::int32_t outside = 2 * count();
-  std::map<std::int32_t, double> volumes;  // of rooms as the triangles of one piece enclose them
+  std::map<std::int32_t, double> volumes;  // of rooms, as the triangles of one piece enclose them
   for (std::int32_t t = 0; t < count(); ++t) {
     const auto [a, b, c] = soup_.triangles[t];
     const Vec3& origin = soup_.points[soup_.triangles[pieces_->of(t)][0]];
@@ -292,7 +292,7 @@ void SideFinder::nest() {
   for (const auto& [room, other] : same) rooms_->join(room, other);
 }
 
-// Of the lowest triangle of another piece above the piece's first vertex; -1 where there is none.
+// The side below the lowest triangle of another piece above this piece's first vertex; -1 if there is none.
 std::int32_t SideFinder::side_below(std::int32_t piece, const geometry::ColumnIndex& index) const {
   const Vec3& p = soup_.points[soup_.triangles[piece][0]];
   std::int32_t lowest = -1;
@@ -344,7 +344,7 @@ void SideFinder::set_sides() {
   drop_fins();
 }
 
-// Triangles with the same on both sides, and what only they have.
+// Drops triangles with the same region on both sides, and the vertices and edges that only they have.
 void SideFinder::drop_fins() {
   std::vector<bool> kept;
   for (const auto& [back, front] : soup_.sides) kept.push_back(back != front);
@@ -365,12 +365,12 @@ void SideFinder::drop_fins() {
   }
   soup_.curves.resize(next);
   soup_.curve_tags.resize(next);
-  soup_ = formats::merge_equal_points(std::move(soup_));  // and drops those of fins
+  soup_ = formats::merge_equal_points(std::move(soup_));  // also drops the points of fins
   soup_.file_vertices.clear();
 }
 
 bool has_several_fans(const formats::SurfaceSoup& soup) {
-  // By corners: those of one fan are one set.
+  // Corners of one fan are one set.
   Sets corners(3 * soup.triangles.size());
   geometry::for_each_edge(soup.points.size(), soup.triangles, [&](std::span<const HalfEdge> edge) {
     for (const HalfEdge other : edge)

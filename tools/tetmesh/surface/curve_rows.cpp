@@ -10,7 +10,7 @@ namespace {
 
 using Vertex = OpenMesh::VertexHandle;
 
-// Steps are longer or shorter than the size by that factor at most.
+// Steps are longer or shorter than the size by at most this factor.
 constexpr double most_stretch = 1.5;
 
 class CurveMeasurer {
@@ -37,12 +37,12 @@ class CurveMeasurer {
  private:
   static std::vector<double> steps(const FeatureMesh& mesh, const sizing::SizeField& size) {
     const FieldSurface surface(mesh, size);
-    // Whether sides agree makes no difference to how many rows there are: 93.0 or 93.1 % in hexes on five parts.
+    // Whether opposite sides agree makes no difference to the number of rows: 93.0 or 93.1 % in hexes on five models.
     const CrossField field = cross_field(surface);
     return steps_along_features({surface, field});
   }
 
-  // At each vertex; 0 where it is not known.
+  // By vertex; 0 where it is not known.
   std::vector<double> steps_per_size_at(const FeatureCurve& curve) const {
     const std::size_t count = curve.vertices.size() - 1;
     std::vector<double> result(count + 1);
@@ -52,7 +52,7 @@ class CurveMeasurer {
     return result;
   }
 
-  // The mean of both sides of the curve, from the middle of the one edge to that of the other.
+  // The mean of both sides of the curve, from the middle of one edge to the middle of the other.
   double steps_per_size(Vertex before, Vertex v, Vertex after) const {
     const Vec3 p = mesh_.position(v);
     const double sizes = 0.5 * (norm(mesh_.position(before) - p) + norm(mesh_.position(after) - p)) / size_.at(p);
@@ -67,9 +67,9 @@ class CurveMeasurer {
   }
 
   const FeatureMesh& mesh_;
-  std::size_t own_vertices_;  // those that the mesh had before it was refined
+  std::size_t own_vertices_;  // the number of vertices that the mesh had before it was refined
   const sizing::SizeField& size_;
-  std::vector<double> steps_;  // of half-edges
+  std::vector<double> steps_;  // by half-edge
 };
 
 }  // namespace

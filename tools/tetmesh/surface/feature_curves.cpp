@@ -10,11 +10,11 @@ namespace {
 
 using Vertex = OpenMesh::VertexHandle;
 
-// Step ends nearer to a vertex of the curve than this part of a step are moved there.
+// The end of a step that is nearer to a vertex of the curve than this share of a step moves to the vertex.
 constexpr double snapping = 1e-3;
-// Steps are added for the deviation up to this many times the steps of the size.
+// The deviation adds steps up to this many times the number that the size asks for.
 constexpr int most_refinement = 16;
-// Where sizes differ, lengths are measured in so many parts a size.
+// Where sizes differ, lengths are measured in this many pieces a size.
 constexpr double parts_a_size = 4, most_parts = 1e5;
 
 class CurveFinder {
@@ -62,7 +62,7 @@ class CurveFinder {
   std::vector<FeatureCurve> curves_;
 };
 
-// A curve by its length in steps.
+// The length of a curve, in steps.
 class CurveLength {
  public:
   CurveLength(const MeasuredCurve& curve, const sizing::SizeField& size)
@@ -98,7 +98,7 @@ class CurveLength {
   }
 
  private:
-  // In parts over which the size hardly changes.
+  // Adds it in pieces over which the size hardly changes.
   void add_segment(const Vec3& from, const Vec3& to, double steps_per_size, const sizing::SizeField& size) {
     const double length = norm(to - from);
     const int parts =
@@ -114,11 +114,11 @@ class CurveLength {
 
   std::vector<Vec3> points_;
   std::vector<double> lengths_;        // up to each point
-  std::vector<std::size_t> vertices_;  // those of the points that are vertices of the curve
+  std::vector<std::size_t> vertices_;  // the points that are vertices of the curve
 };
 
-// Where loops that are copies of each other, like the rims of a hole, start at the same angle, and where their four
-// quarters lie along the axes: in the direction, from the loop's centre, of the axis that lies most in its plane.
+// The direction, from the loop's centre, of the axis that lies most in the loop's plane. With it, loops that are copies
+// of each other, like the rims of a hole, start at the same angle, and their four quarters lie along the axes.
 Vec3 start_direction(const std::vector<Vec3>& loop) {
   Vec3 area;
   for (std::size_t i = 1; i < loop.size(); ++i) area += cross(loop[i - 1] - loop[0], loop[i] - loop[0]);
@@ -137,7 +137,7 @@ class CurveSampler {
   void sample(MeasuredCurve curve) {
     if (curve.closed) turn_to_start(curve);
     CurveLength arc(curve, size_);
-    if (arc.is_bent(whole_steps(arc, curve.closed), deviation_)) {  // what it needs is not what rows do
+    if (arc.is_bent(whole_steps(arc, curve.closed), deviation_)) {  // the deviation asks for more steps than the rows
       std::ranges::fill(curve.steps_per_size, 1);
       arc = CurveLength(curve, size_);
     }
@@ -179,7 +179,7 @@ class CurveSampler {
     return count;
   }
 
-  // Cuts the loop at its start, a vertex of the mesh, and turns it so that it begins there.
+  // Cuts the loop at its start, a vertex of the mesh, and rotates it so that it begins there.
   void turn_to_start(MeasuredCurve& curve) const {
     const Vec3 direction = start_direction(curve.points);
     std::size_t first = curve.points.size();

@@ -1,5 +1,5 @@
 #pragma once
-// The surface as a half-edge mesh that can be split, flipped and collapsed, with what must survive that: feature edges,
+// The surface as a half-edge mesh that can be split, flipped and collapsed. It knows what must survive: feature edges,
 // corners, and the triangle of the input that each face lies on.
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
@@ -19,36 +19,36 @@ struct HalfEdgeTraits : OpenMesh::DefaultTraits {
   FaceAttributes(OpenMesh::Attributes::Status);
 };
 
-// Normals of length 1 that differ by less are those of one plane; so are edges that bend by less than that part of
-// their length.
+// Normals of length 1 that differ by less belong to one plane. Edges that bend by less than this share of their length
+// lie in one plane.
 inline constexpr double plane_tolerance = 1e-5;
 
 enum class EdgeRole : std::uint8_t {
   none,
-  crest,   // the middle of a fillet (crest_lines.hpp), which is kept as a feature is
-  feature  // one of the surface
+  crest,   // the middle of a fillet (crest_lines.hpp), which is kept like a feature
+  feature  // an edge of the surface's own features
 };
 
 enum class VertexRole : std::uint8_t {
-  removable,  // of the input, or added to refine it
+  removable,  // from the input, or added to refine it
   kept        // a vertex of the result
 };
 
 class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
  public:
-  // Feature edges: where normals of neighbours differ by more than the angle (degrees), where tags meet, and along the
-  // surface's own curves. Corners,
-  // which are kept, are the vertices where other than two feature edges meet or where a curve turns by more than it.
+  // Feature edges are those where the normals of neighbours differ by more than the angle (degrees), where tags meet,
+  // and along the surface's own curves. Corners are the vertices where one feature edge or more than two meet, or where
+  // a curve turns by more than the angle. Corners are kept.
   FeatureMesh(const solid::Surface& surface, double feature_angle);
 
   Vec3 position(VertexHandle v) const {
     const Point& p = point(v);
     return {p[0], p[1], p[2]};
   }
-  // Twice the area long.
+  // Its length is twice the area.
   Vec3 area_normal(FaceHandle f) const;
   std::array<VertexHandle, 3> corners(FaceHandle f) const;
-  // Whether its faces lie in one plane.
+  // Whether the faces around v lie in one plane.
   bool is_flat_around(VertexHandle v) const;
 
   bool is_feature(EdgeHandle e) const { return edge_role_[e.idx()] != EdgeRole::none; }
@@ -56,16 +56,16 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
   bool is_on_feature(VertexHandle v) const { return on_feature_[v.idx()] != 0; }
   bool is_kept(VertexHandle v) const { return vertex_role_[v.idx()] == VertexRole::kept; }
   void keep(VertexHandle v) { vertex_role_[v.idx()] = VertexRole::kept; }
-  // The triangle of the input surface that a face lies on, or was before its corners were moved.
+  // The triangle of the input surface that a face lies on, or lay on before its corners were moved.
   std::int32_t source(FaceHandle f) const { return source_[f.idx()]; }
 
-  // Makes edges features that are none.
+  // Makes features of edges that are none.
   void add_crests(std::span<const EdgeHandle> edges);
 
-  // Split at a point of the edge or face, which becomes a removable vertex.
+  // Splits at a point of the edge or face; the point becomes a removable vertex.
   VertexHandle split_edge_at(EdgeHandle e, const Vec3& p);
   VertexHandle split_face_at(FaceHandle f, const Vec3& p);
-  // Moves the start of a half-edge to its end. Check is_collapse_ok() first.
+  // Moves the start of a half-edge to its end. Call is_collapse_ok() first.
   void collapse_edge(HalfedgeHandle h);
 
  private:
@@ -78,9 +78,9 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
 
   double corner_cosine_;
   std::vector<EdgeRole> edge_role_;
-  std::vector<std::uint8_t> on_feature_;  // of vertices
+  std::vector<std::uint8_t> on_feature_;  // by vertex
   std::vector<VertexRole> vertex_role_;
-  std::vector<std::int32_t> source_;  // of faces
+  std::vector<std::int32_t> source_;  // by face
 };
 
 inline OpenMesh::Vec3d to_open_mesh(const Vec3& p) {

@@ -6,9 +6,9 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-// A walk that goes around a vertex without getting on is given up after so many triangles.
+// A walk that circles around a vertex without getting on is given up after this many triangles.
 constexpr int most_triangles = 10'000;
-// Of a direction of length 1, what it must advance from the edge through which a triangle was entered.
+// A direction of length 1 must advance by this much from the edge through which a triangle was entered.
 constexpr double least_advance = 1e-3;
 
 }  // namespace

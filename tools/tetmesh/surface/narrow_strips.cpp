@@ -6,9 +6,9 @@ namespace hexpipe::tetmesh::surface {
 namespace {
 
 constexpr std::size_t most_triangles = 1000;
-constexpr double aligned_cosine = 0.94;  // between the way and what is at right angles to a feature
+constexpr double aligned_cosine = 0.94;  // between the way and the direction at right angles to a feature
 
-// From one place to another in a triangle, along a direction, in sizes.
+// The distance in a triangle from one place to another, along a direction, in sizes.
 double length_in(const SurfaceLinks& links, std::int32_t triangle, const Vec3& direction, const Vec3& from,
                  const Vec3& to) {
   return links.stretch.in_direction(triangle, direction) * dot(direction, to - from) / links.surface.sizes[triangle];

@@ -11,9 +11,9 @@ namespace {
 
 constexpr double furthest = 25;  // in sizes
 constexpr double least_cosine = 0.9;
-// Of the size; nothing nearer than that to a triangle is on another side.
+// In sizes. Anything nearer than that to a triangle is not on another side.
 constexpr double least_distance = 1e-6;
-// That a ray stands for, in squares of the size.
+// The area that a ray stands for, in squares of the size.
 constexpr double least_area = 0.25;
 
 }  // namespace

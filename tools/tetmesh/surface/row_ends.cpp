@@ -1,8 +1,8 @@
-// A row ends where the jumps around a vertex do not add up to zero: a dislocation of the lattice, with the sum as its
-// Burgers vector. A path of edges to another vertex moves it there when the jump across each edge of the path changes
-// by that vector; two opposite ones then cancel. This is how QuadriFlow (Huang, Zhou, Niessner, Shewchuk, Guibas 2018)
-// makes the jumps of a periodic field consistent, by a flow, and for all of the surface; here by paths, nearest first,
-// and the ends that find no partner stay.
+// A row ends where the jumps around a vertex do not add up to zero. Such a vertex is a dislocation of the lattice, and
+// the sum is its Burgers vector. If the jump across each edge of a path changes by that vector, the dislocation moves
+// along the path to another vertex; two opposite dislocations then cancel. QuadriFlow (Huang, Zhou, Niessner, Shewchuk,
+// Guibas 2018) makes the jumps of a periodic field consistent in this way on the whole surface, by a flow. Here paths
+// do it, the nearest first, and ends without a partner stay.
 
 #include "tools/tetmesh/surface/row_ends.hpp"
 
@@ -55,7 +55,7 @@ class RowJoiner {
   };
   static constexpr double shortest_reach = 1;
 
-  // Calls body(h) for the half-edges from a vertex, beginning with one, until it returns false or all were seen.
+  // Calls body(h) for the half-edges from a vertex, beginning with `first`, until it returns false or all were visited.
   template <class Body>
   void for_each_around(geometry::HalfEdge first, Body&& body) const {
     geometry::HalfEdge h = first;
@@ -75,11 +75,13 @@ class RowJoiner {
 
   const SurfaceLinks& links_;
   RowJumps& jumps_;
-  std::vector<geometry::HalfEdge> first_;  // from each vertex; none where a feature is, or the field turns around it
-  std::vector<std::array<std::int32_t, 2>> ends_;  // of each vertex, as the triangle of the first half-edge sees them
-  // Of one search: ways to the vertices reached, and the half-edges by which.
+  // from each vertex; none on a feature, and where the field turns around the vertex
+  std::vector<geometry::HalfEdge> first_;
+  std::vector<std::array<std::int32_t, 2>> ends_;  // at each vertex, as seen from the triangle of the first half-edge
+  // The state of one search: the lengths of the ways to the vertices reached, and the half-edges by which they were
+  // reached.
   std::vector<std::pair<Vertex, double>> touched_;
-  std::vector<double> lengths_;  // 0 where not reached
+  std::vector<double> lengths_;  // 0: not reached
   std::vector<std::pair<geometry::HalfEdge, End>> reached_from_;
 };
 
@@ -148,7 +150,7 @@ bool RowJoiner::join_one(Vertex v, std::size_t axis, double radius) {
   return partner.has_value();
 }
 
-// By Dijkstra's way.
+// Dijkstra's algorithm.
 std::optional<Vertex> RowJoiner::find_partner(Vertex v, const End& end, double radius) {
   using Way = std::tuple<double, Vertex, geometry::HalfEdge>;
   std::priority_queue<Way, std::vector<Way>, std::greater<>> ways;
@@ -180,7 +182,7 @@ std::optional<Vertex> RowJoiner::find_partner(Vertex v, const End& end, double r
   return std::nullopt;
 }
 
-// From the start of the half-edge to its end.
+// Moves the end of a row from the start of the half-edge to its end.
 void RowJoiner::move(const End& end, geometry::HalfEdge h) {
   const SurfaceLink& link = links_.of[h];
   const std::size_t k = end.axis.axis;

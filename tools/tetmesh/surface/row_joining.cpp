@@ -1,8 +1,8 @@
-// Whole numbers first, then real coordinates: the jumps of the periodic coordinates across links are made to add up,
-// as far as that goes, and with them fixed the coordinates are those that change the links' distances least. Bommes,
-// Zimmer, Kobbelt: Mixed-integer quadrangulation (2009) solve the same energy; their jumps are rounded one after the
-// other on a surface that is cut open, here they come from the periodic solution, which has rounded all of them at
-// once.
+// Whole numbers come first, then real coordinates. The jumps of the periodic coordinates across links are made to add
+// up as far as possible. With these fixed, the coordinates are those that change the distances of the links least.
+// Bommes, Zimmer, Kobbelt: Mixed-integer quadrangulation (2009) solve the same energy. Their jumps are rounded one
+// after the other on a surface that is cut open; here they come from the periodic solution, which has rounded all of
+// them at once.
 
 #include "tools/tetmesh/surface/row_joining.hpp"
 
@@ -19,11 +19,12 @@ namespace {
 
 using geometry::HalfEdge;
 
-// Ends that far apart are joined, in sizes: a face takes the first of these with which no row stretches too much. With
-// 12 and 6 alone mambo-s27 gains where it loses with these, plate-holes and mambo-m6 the other way round.
+// The distances in sizes over which ends are joined. A face takes the first of these with which no row stretches too
+// much. With 12 and 6 alone, mambo-s27 gains where it loses with these; plate-holes and mambo-m6 behave the other way
+// round.
 constexpr std::array<double, 4> reaches{40, 20, 12, 6};
 constexpr fields::DiffusionLimits joining_limits{150, 1e-3};
-// Sides that face each other count where their rows are that near to each other, in rows.
+// Sides that face each other count where their rows are this near to each other, in rows.
 constexpr double same_row = 0.3;
 constexpr double least_degree = 1e-9;
 
@@ -80,9 +81,9 @@ class RowStraightener {
   fields::PeriodicNumbers<2>& phases_;
   RowCoordinates coordinates_;
   RowJumps jumps_;
-  std::vector<std::int32_t> face_of_;  // of each triangle: those joined by links
+  std::vector<std::int32_t> face_of_;  // by triangle; links join the triangles of a face
   std::int32_t face_count_ = 0;
-  std::vector<bool> are_joined_;  // rows of a face
+  std::vector<bool> are_joined_;  // by face: its rows are joined
 };
 
 void RowStraightener::number_faces() {
@@ -106,7 +107,7 @@ void RowStraightener::number_faces() {
   }
 }
 
-// Ends are counted at vertices within a face only, so that any triangle there tells which.
+// Ends are counted only at vertices within a face, so any triangle at the vertex tells the face.
 std::vector<std::int32_t> RowStraightener::ends_by_face(const RowJumps& jumps) const {
   const std::vector<std::int32_t> at_vertices = row_ends(links_, jumps);
   std::vector<std::int32_t> by_face(static_cast<std::size_t>(face_count_));
@@ -150,7 +151,7 @@ std::vector<double> RowStraightener::stretch_by_face(const RowJumps& jumps, cons
   return most;
 }
 
-// body(link, direction, the distance of the neighbour's coordinate, as it is seen, with its jump).
+// Calls body(link, direction, d); d is the distance to the neighbour's coordinate as it is seen, with its jump.
 template <class Body>
 void RowStraightener::for_each_link(std::int32_t f, const RowJumps& jumps, const RowCoordinates& start,
                                     bool with_across, Body&& body) const {
@@ -167,7 +168,8 @@ void RowStraightener::for_each_link(std::int32_t f, const RowJumps& jumps, const
     }
 }
 
-// Least squares of what distances change, from where they are; held as before, by the whole numbers that are nearest.
+// Minimizes the squares of the changes of the distances. Coordinates that were held before are held at the nearest
+// whole numbers.
 RowCoordinates RowStraightener::solve(const RowJumps& jumps, const RowCoordinates& start, bool with_across) const {
   RowCoordinates degree(size());
   fields::PeriodicNumbers<2> rest(size());

@@ -9,14 +9,15 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-// The less stiff, the further from where they have to do rows stretch: at 0.005, on the fine size of
-// tests/bench/points, 0.1 % more of the volume in hexes on larger parts, 1.6 less on simp; at 0.05, 0.4 less than at
-// 0.02 on larger ones.
+// The smaller the stiffness, the further from the place of need do rows stretch. On the fine size of
+// tests/bench/points, 0.005 gives 0.1 % more of the volume in hexes on larger models and 1.6 % less on simp; 0.05 gives
+// 0.4 % less than 0.02 on larger ones.
 constexpr fields::CurlLimits limits{.stiffness = 0.01f, .most_iterations = 300, .tolerance = 1e-3};
-// Of its length, what a distance may gain or lose; where more is wanted, rows have to end.
+// A distance may gain or lose this share of its length. Where more is wanted, rows have to end.
 constexpr double most_strain = 0.3;
 
-// Of steps along features, in sizes, for which rows stretch; where the deviation asks for shorter ones, rows end.
+// Rows stretch for steps along features of these lengths, in sizes. Where the deviation asks for shorter steps, rows
+// end.
 constexpr double shortest_step = 0.55, longest_step = 1.8;
 
 std::vector<float> distances_of(const SurfaceLinks& links) {
@@ -28,8 +29,8 @@ std::vector<float> distances_of(const SurfaceLinks& links) {
   return distances;
 }
 
-// Around the start of a half-edge, along both directions of its triangle, unless a feature is in the way or they are
-// not the same at the end.
+// Adds a loop around the start of a half-edge for both directions of its triangle, unless a feature is in the way or
+// the direction comes back as another one.
 void add_loops_around(const SurfaceLinks& links, geometry::HalfEdge first, fields::Loops& loops) {
   for (std::size_t k = 0; k < 2; ++k) {
     FollowedAxis followed{k};
@@ -69,8 +70,8 @@ void add_row_along(const FeatureFan& fan, fields::Loops& loops) {
   loops.close(fan.apart);
 }
 
-// Of each half-edge of a feature, the length of the curve between the kept vertices before and after it; 0 where there
-// are none, and of other half-edges.
+// For each half-edge of a feature: the length of the curve between the kept vertices before and after it. 0 where there
+// are none, and for other half-edges.
 std::vector<double> step_lengths(const FieldSurface& surface, std::span<const Vertex> kept) {
   std::vector<bool> is_kept(surface.points.size());
   for (const Vertex v : kept) is_kept[v] = true;
@@ -100,7 +101,7 @@ std::vector<double> step_lengths(const FieldSurface& surface, std::span<const Ve
   return lengths;
 }
 
-// From the middle of the one edge to that of the other it is as many steps as they are parts of.
+// The distance from the middle of one edge to the middle of the other is as many steps as the edges are parts of.
 void add_known_steps(const SurfaceLinks& links, const FeatureFan& fan, const std::vector<double>& step_length,
                      fields::Loops& loops) {
   const double first_length = step_length[fan.first], last_length = step_length[fan.last];
@@ -118,10 +119,10 @@ void add_known_steps(const SurfaceLinks& links, const FeatureFan& fan, const std
   loops.close(steps - first_ahead + last_ahead);
 }
 
-// On both sides of a curve it is as far.
+// The distance is the same on both sides of a curve.
 void add_same_steps(const SurfaceLinks& links, const FeatureFan& fan, fields::Loops& loops) {
   const auto& twins = links.surface.twins;
-  if (twins[fan.last] < fan.first) return;  // seen from the other side
+  if (twins[fan.last] < fan.first) return;  // counted already, from the other side
   const auto other = feature_fan(links, twins[fan.last]);
   if (!other || other->last != twins[fan.first]) return;
   for (const fields::LoopStep& step : fan.along) loops.add_step(step);
@@ -129,7 +130,7 @@ void add_same_steps(const SurfaceLinks& links, const FeatureFan& fan, fields::Lo
   loops.close(other->first_ahead - other->last_ahead - fan.first_ahead + fan.last_ahead);
 }
 
-// Between two features that are near, rows are counted in the same way everywhere.
+// Between two features that are near each other, rows are counted in the same way everywhere.
 void add_rows_between(const SurfaceLinks& links, geometry::HalfEdge feature, fields::Loops& loops) {
   const auto strip = narrow_strip(links, feature, fields::widest_to_decide);
   if (!strip || strip->width < shortest_step) return;

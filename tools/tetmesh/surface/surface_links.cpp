@@ -11,7 +11,7 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-// Of the triangle of h, to that beyond it, as both lie unfolded.
+// From the triangle of h to the one beyond it, as both lie unfolded.
 SurfaceLink make_link(const SurfaceLinks& links, geometry::HalfEdge h) {
   const FieldSurface& surface = links.surface;
   const geometry::HalfEdge twin = surface.twins[h];

@@ -1,6 +1,6 @@
-// Features, and the middles of small fillets, are sampled first, as densely as rows of points are to begin there, the
-// field's triangles made from what is there, a front puts points on them, these are inserted, and the rest of the
-// vertices taken out. What comes out is judged as a whole; around a fault the input's own vertices stay the next time.
+// The steps: sample features, and the middles of small fillets, as densely as rows of points should begin there; make
+// the triangles that carry the field; put points on them by a front; insert these points; remove all other vertices.
+// The result is judged as a whole. Around a fault the input's own vertices stay in the next attempt.
 
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 
@@ -22,23 +22,24 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-// The field's triangles are at most that long, in sizes; those on which rows are counted, at most that.
+// The longest edges of the triangles that carry the field, and of those on which rows are counted, in sizes.
 constexpr double field_edge = 1.3, row_edge = 2.6;
-// Points on features, as a part of all on the surface, that make no difference by their number.
+// If the points on features are less than this share of all points on the surface, their number makes no difference.
 constexpr double few_features = 0.05;
-// Flips that move the surface by less than that, in sizes, do not count as moving it.
+// Flips that move the surface by less than this, in sizes, do not count as moving it.
 constexpr double flatness = 1e-5;
-// Points nearer than that, in sizes, to a vertex or an edge of the field's triangles become one with it.
+// Points nearer than this, in sizes, to a vertex or an edge of the field's triangles become one with it.
 constexpr double snap = 0.02;
-// Distances are measured at points so far apart, in sizes.
+// Distances are measured at points this far apart, in sizes.
 constexpr double sample_spacing = 0.34;
-// The part of the deviation that removing vertices may use, by the distances that it knows: those of vertices.
+// The share of the deviation that removing vertices may use. It knows only the distances of vertices.
 constexpr double removal_share = 0.85;
-// Of the vertices nearer to a fault than that, in sizes, the nearest stays, but none for a fault as near to one that
-// stays. If that does not help in so many attempts, all of them stay, and those within the double of it the next time.
+// Around a fault, the nearest vertex within this many sizes stays, unless a vertex that stays is as near already. If
+// that does not help in `careful_attempts`, all vertices within that reach stay, and in the next attempt those within
+// twice the reach.
 constexpr double repair_reach = 0.5;
 constexpr int careful_attempts = 4, most_attempts = 6;
-// On the new surface, about 2 KB each while it is made.
+// On the new surface; each takes about 2 KB while the surface is made.
 constexpr double most_points = 2e7;
 constexpr std::size_t most_intersections = 1000;
 
@@ -69,7 +70,7 @@ class SurfaceRemesher::Work {
 
  private:
   bool prepare();
-  // False where triangles are too thin for a field.
+  // False if triangles are too thin for a field.
   bool place_points();
   bool rows_go_across() const;
   void remove_vertices_of_input();
@@ -84,7 +85,7 @@ class SurfaceRemesher::Work {
   sizing::SizeField size_, deviation_;
   double row_stretch_;
   double expected_points_ = 0;  // on the new surface
-  FeatureMesh prepared_;        // with all points inserted, and the vertices of the input
+  FeatureMesh prepared_;        // with all points inserted, and with the vertices of the input
   std::optional<DistanceIndex> input_;
 };
 
@@ -119,7 +120,7 @@ bool SurfaceRemesher::Work::prepare() {
   return placed;
 }
 
-// Rows end where sizes are to differ. Where features are few, what counts is between them.
+// Rows end where sizes differ. Where features are few, the surface between them matters more.
 bool SurfaceRemesher::Work::rows_go_across() const {
   if (!size_.is_uniform()) return false;
   double steps = 0;
@@ -192,8 +193,8 @@ Vec3 SurfaceRemesher::Work::centre_of(std::size_t triangle) const {
   return (points[a] + points[b] + points[c]) * (1.0 / 3);
 }
 
-// Places where the new surface is not what was promised. Its edges and vertices are manifold and its orientation is
-// right by construction.
+// Places where the new surface is not as promised. Its edges and vertices are manifold and its orientation is right by
+// construction.
 std::vector<Vec3> SurfaceRemesher::Work::find_faults() {
   const solid::Surface& made = result.surface;
   std::vector<Vec3> faults;
@@ -203,7 +204,7 @@ std::vector<Vec3> SurfaceRemesher::Work::find_faults() {
   }
   result.failure = "the new surface has triangles without an area";
   if (!faults.empty()) return faults;
-  // Both at once, for the first is seldom in vain.
+  // Both are measured at once, because the second is seldom measured in vain.
   SurfaceDistance there, back;
   both_at_once(
       [&] {

@@ -1,5 +1,5 @@
-// Halves boxes across their longest side until one is as wide as three sizes, or so far from the surface that all of it
-// lies on one side, with sizes that are much the same; then its centre tells what is in it.
+// Halves boxes across their longest side until a box is at most three sizes wide, or lies on one side of the surface
+// with nearly the same size everywhere. Then its centre tells what is in it.
 
 #include "tools/tetmesh/volume/expected_points.hpp"
 
@@ -13,9 +13,9 @@ namespace hexpipe::tetmesh::volume {
 namespace {
 
 constexpr double widest = 3;  // in sizes
-// Of the size at the centre, what sizes in a box may be less.
+// Sizes in a box may be less than the size at its centre by this factor.
 constexpr double most_difference = 0.6;
-// Against the box around the part; no lattice is finer (graded_lattice.cpp).
+// Against the box around the model; no lattice is finer (graded_lattice.cpp).
 constexpr double narrowest = 1.0 / (1 << 20);
 
 double volume_of(const geometry::Box& box) {

@@ -16,25 +16,25 @@
 namespace hexpipe::tetmesh::volume {
 namespace {
 
-// Least distance of two points in the frame's maximum norm, in steps of the lattice: 0.5 and 0.8 lose 1 % of the volume
-// in hexes, 0.7 loses 0.3.
+// The least distance of two points in the frame's maximum norm, in steps of the lattice. 0.5 and 0.8 lose 1 % of the
+// volume in hexes, 0.7 loses 0.3 %.
 constexpr double least_spacing = 0.6;
-// Nodes that see a point of the lattice within this distance of each other, in sizes, see the same one.
+// Nodes that see a point of the lattice within this distance of each other, in sizes, see the same point.
 constexpr double same_point = 0.3;
-// A node sees points of the lattice up to one cell away, trusted less with the distance.
+// A node sees points of the lattice up to one cell away, and trusts them less with the distance.
 constexpr double furthest = 1 + 1e-6, distrust_begins = 1.5;
-// Frames further out of a lattice's axes than that are turned.
+// Frames further out of a lattice's axes than this are turned.
 constexpr double straight_angle = 10;  // degrees
 
 // A point of the lattice as a node sees it.
 struct Proposal {
   Vec3 point;
-  double size = 0;  // there, as nearly as its node can tell
+  double size = 0;  // at the point, as nearly as its node can tell
   std::int32_t node = 0;
   double trust = 0;
 };
 
-// Of a vector in units of the frame's axes.
+// The norm of a vector in units of the frame's axes.
 double maximum_norm(const fields::Frame& frame, const Vec3& v) {
   return std::max({std::abs(dot(frame[0], v)), std::abs(dot(frame[1], v)), std::abs(dot(frame[2], v))});
 }
@@ -99,7 +99,7 @@ void PointPlacer::propose(std::size_t i, const LatticeField& field, std::vector<
   }
 }
 
-// Moves every proposal to the mean of those that see the same point, and trusts it as much as all of them.
+// Moves every proposal to the mean of those that see the same point. It is trusted as much as all of these together.
 void PointPlacer::agree() {
   geometry::SizedPointGrid grid(surface_.points.front());
   for (const Proposal& p : proposals_) grid.add(p.point, 2 * same_point * p.size);
@@ -124,7 +124,7 @@ Proposal PointPlacer::agreed(const geometry::SizedPointGrid& grid, const Proposa
   return trust > 0 ? Proposal{sum * (1 / trust), proposal.size, proposal.node, trust} : proposal;
 }
 
-// The most trusted first.
+// The most trusted proposals come first.
 std::vector<Vec3> PointPlacer::accept() const {
   std::vector<std::int32_t> order(proposals_.size());
   std::iota(order.begin(), order.end(), 0);
@@ -143,8 +143,8 @@ std::vector<Vec3> PointPlacer::accept() const {
 }
 
 bool PointPlacer::is_free(const geometry::SizedPointGrid& taken, const Proposal& proposal) const {
-  fields::Frame units = frames_[proposal.node];  // of which the frame's coordinates are numbers of least spacings
-  Vec3 reach;                                    // of a box of these, along the coordinate axes
+  fields::Frame units = frames_[proposal.node];  // in these units, the frame's coordinates count least spacings
+  Vec3 reach;                                    // of a box of one unit, along the coordinate axes
   for (std::size_t k = 0; k < 3; ++k) {
     const double spacing = least_spacing * spacing_[proposal.node][k] * proposal.size;
     const Vec3& axis = units[k];

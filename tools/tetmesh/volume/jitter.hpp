@@ -8,7 +8,7 @@
 
 namespace hexpipe::tetmesh::volume {
 
-// Up to `reach` along each axis; depends on the seed and the point's number only.
+// Up to `reach` along each axis. It depends only on the seed and the point's number.
 inline Vec3 jitter_of(std::size_t number, double reach, std::uint64_t seed) {
   Random random(seed, number);
   Vec3 jitter;
