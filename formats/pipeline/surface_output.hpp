@@ -11,8 +11,8 @@
 
 namespace hexpipe::pipeline {
 
-// The format of a file by its ending: obj, stl or msh; empty for a bundle. Throws UsageError for other endings, and where
-// a bundle would go to a terminal.
+// The format of a file by its ending: obj, stl or msh; empty for a bundle. Throws UsageError for other endings, and
+// where a bundle would go to a terminal.
 std::string_view surface_format_of(const std::string& path);
 
 // OBJ: a group for each tag. STL: a solid in ASCII for each. .msh: physical surfaces. Returns, in sentences, how names

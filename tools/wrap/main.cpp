@@ -35,7 +35,8 @@ double parse_gap(const std::string& text, const formats::SurfaceSoup& surface) {
   const char* const last = text.data() + text.size() - (percent ? 1 : 0);
   const auto [end, error] = std::from_chars(text.data(), last, value);
   if (error != std::errc() || end != last || !(value > 0))
-    throw UsageError(fmt::format("--gap: expected a positive length, or a percentage of the diagonal, found '{}'", text));
+    throw UsageError(
+        fmt::format("--gap: expected a positive length, or a percentage of the diagonal, found '{}'", text));
   const double diagonal = wrap::diagonal_of(surface);
   const double gap = percent ? value / 100 * diagonal : value;
   if (gap > diagonal || gap < wrap::least_gap_of_diagonal * diagonal)
@@ -45,10 +46,11 @@ double parse_gap(const std::string& text, const formats::SurfaceSoup& surface) {
 }
 
 std::string summary(const wrap::WrapResult& result) {
-  return fmt::format("{} triangles, {:.3g} from the input at most and {:.3g} in the mean; the input is {:.3g} from them "
-                     "at most, {:.3g} in the mean",
-                     result.surface.triangles.size(), result.to_input.greatest, result.to_input.mean,
-                     result.from_input.greatest, result.from_input.mean);
+  return fmt::format(
+      "{} triangles, {:.3g} from the input at most and {:.3g} in the mean; the input is {:.3g} from them "
+      "at most, {:.3g} in the mean",
+      result.surface.triangles.size(), result.to_input.greatest, result.to_input.mean, result.from_input.greatest,
+      result.from_input.mean);
 }
 
 }  // namespace
@@ -60,6 +62,7 @@ int main(int argc, char** argv) {
       .example = "wrap scan.obj --gap 2% | tetmesh --size 3 | findhex | buildgraph | initsol | assemble -o scan.vtu",
       .reads = {},
       .product = std::nullopt,
+      .licence = "GPL-3.0, because it links CGAL",
   };
   std::string path = "-", gap = "2%", output_path;
   wrap::WrapOptions options{.gap = 0, .feature_angle = default_feature_angle, .features = true};
@@ -92,9 +95,9 @@ int main(int argc, char** argv) {
     if (format.empty()) {
       nlohmann::ordered_json entry = pipeline::history_entry_of(context);
       entry.update(to_json(result));
-      pipeline::write_surface_bundle(
-          result.surface, entry,
-          compress || pipeline::ending_of(output_path) == pipeline::compressed_bundle_format, output);
+      pipeline::write_surface_bundle(result.surface, entry,
+                                     compress || pipeline::ending_of(output_path) == pipeline::compressed_bundle_format,
+                                     output);
     } else {
       for (const std::string& change : pipeline::write_surface(result.surface, format, output)) context.warn(change);
     }

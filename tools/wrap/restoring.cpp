@@ -13,7 +13,9 @@
 namespace hexpipe::wrap {
 namespace {
 
-Vec3 area_normal(const Vec3& a, const Vec3& b, const Vec3& c) { return cross(b - a, c - a); }
+Vec3 area_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return cross(b - a, c - a);
+}
 
 // A triangle that has this little of its area, or turns by more than this, would make slivers and folds.
 constexpr double least_share_of_area = 0.02, least_cosine = 0.1;
@@ -44,8 +46,9 @@ class SharpPointFinder {
     const auto [i, j] = most_different(planes);
     if (dot(planes[i].normal, planes[j].normal) > sharp_cosine_) return std::nullopt;
     const Vec3 middle = (1.0 / 3) * (corners[0] + corners[1] + corners[2]);
-    const double size = std::sqrt(std::max({norm_squared(corners[1] - corners[0]), norm_squared(corners[2] - corners[1]),
-                                            norm_squared(corners[0] - corners[2])}));
+    const double size =
+        std::sqrt(std::max({norm_squared(corners[1] - corners[0]), norm_squared(corners[2] - corners[1]),
+                            norm_squared(corners[0] - corners[2])}));
     std::array<Plane, 3> meeting{planes[i], planes[j], planes[3 - i - j]};
     const Vec3 along = unit(cross(meeting[0].normal, meeting[1].normal));
     const bool corner = std::abs(dot(along, meeting[2].normal)) > corner_cosine;
@@ -53,7 +56,8 @@ class SharpPointFinder {
     auto point = meeting_point(meeting);
     // Where faces are curved the planes of their triangles near the point say it better than those of the corners.
     for (int round = 0; round < 3 && point && norm(*point - middle) < 1.5 * size; ++round) {
-      for (int k = 0; k < (corner ? 3 : 2); ++k) meeting[k] = input_.facing_plane(*point, meeting[k].normal, 0.1 * size);
+      for (int k = 0; k < (corner ? 3 : 2); ++k)
+        meeting[k] = input_.facing_plane(*point, meeting[k].normal, 0.1 * size);
       if (!corner) meeting[2].normal = unit(cross(meeting[0].normal, meeting[1].normal));
       point = meeting_point(meeting);
     }
@@ -73,7 +77,8 @@ class SharpPointFinder {
     double least = 2;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = i + 1; j < 3; ++j)
-        if (const double cosine = dot(planes[i].normal, planes[j].normal); cosine < least) least = cosine, pair = {i, j};
+        if (const double cosine = dot(planes[i].normal, planes[j].normal); cosine < least)
+          least = cosine, pair = {i, j};
     return pair;
   }
 
@@ -119,9 +124,7 @@ class Restorer {
   }
 
  private:
-  std::array<Vec3, 3> placed(const Triangle& t) const {
-    return {place_of(t[0]), place_of(t[1]), place_of(t[2])};
-  }
+  std::array<Vec3, 3> placed(const Triangle& t) const { return {place_of(t[0]), place_of(t[1]), place_of(t[2])}; }
   Vec3 place_of(Vertex v) const { return moves_[v] ? targets_[v] : wrapped_.points[v]; }
   Vec3 wrapped_normal(const Triangle& t) const {
     return area_normal(wrapped_.points[t[0]], wrapped_.points[t[1]], wrapped_.points[t[2]]);
@@ -150,7 +153,8 @@ class Restorer {
     for (std::size_t t = 0; t < wrapped_.triangles.size(); ++t) {
       const Triangle& triangle = wrapped_.triangles[t];
       if (std::all_of(triangle.begin(), triangle.end(), [&](Vertex v) { return moves_[v]; }))
-        sharp_points_[t] = finder.find(placed(triangle), {planes_[triangle[0]], planes_[triangle[1]], planes_[triangle[2]]});
+        sharp_points_[t] =
+            finder.find(placed(triangle), {planes_[triangle[0]], planes_[triangle[1]], planes_[triangle[2]]});
     }
   }
 
@@ -205,12 +209,15 @@ class Restorer {
     flip_to_input();
   }
 
-  // Edges give way to the other diagonal where that lies nearer to the input: so points on one sharp edge come together.
+  // Edges give way to the other diagonal where that lies nearer to the input: so points on one sharp edge come
+  // together.
   void flip_to_input() {
     auto& [points, triangles] = result_.surface;
     for (int round = 0; round < 3; ++round) {
       std::unordered_map<std::uint64_t, std::int32_t> triangle_of;  // by directed edge
-      const auto key = [](Vertex from, Vertex to) { return std::uint64_t(std::uint32_t(from)) << 32 | std::uint32_t(to); };
+      const auto key = [](Vertex from, Vertex to) {
+        return std::uint64_t(std::uint32_t(from)) << 32 | std::uint32_t(to);
+      };
       for (std::size_t t = 0; t < triangles.size(); ++t)
         for (int i = 0; i < 3; ++i)
           triangle_of[key(triangles[t][i], triangles[t][(i + 1) % 3])] = static_cast<std::int32_t>(t);
@@ -267,7 +274,7 @@ class Restorer {
   std::vector<std::optional<Vec3>> sharp_points_;  // of each triangle of the wrap
   std::vector<char> moves_;                        // each point of the wrap: to its target
   std::vector<Vec3> targets_;
-  std::vector<Plane> planes_;                // of the input, at the targets
+  std::vector<Plane> planes_;  // of the input, at the targets
   RestoredSurface result_;
   std::vector<std::int32_t> owner_of_point_;  // the triangle of the wrap that a sharp point stands in; -1 for others
 };

@@ -15,8 +15,9 @@ struct RestoreOptions {
 
 struct RestoredSurface {
   Surface surface;
-  std::size_t points_on_input = 0, points_off_input = 0;  // the latter span gaps, or would make the surface cross itself
-  std::size_t sharp_points = 0;                           // were added on sharp edges and at corners
+  std::size_t points_on_input = 0,
+              points_off_input = 0;  // the latter span gaps, or would make the surface cross itself
+  std::size_t sharp_points = 0;      // were added on sharp edges and at corners
 };
 
 // The wrap must not cross itself; neither does the result.

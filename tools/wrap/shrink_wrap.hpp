@@ -7,8 +7,8 @@
 
 namespace hexpipe::wrap {
 
-// A closed, oriented surface without crossings that holds all triangles inside, about `offset` outside them. It does not
-// go through what a ball of radius `alpha` does not pass, and its triangles are about that large. (C. Portaneri, M.
+// A closed, oriented surface without crossings that holds all triangles inside, about `offset` outside them. It does
+// not go through what a ball of radius `alpha` does not pass, and its triangles are about that large. (C. Portaneri, M.
 // Rouxel-Labbé, M. Hemmer, D. Cohen-Steiner, P. Alliez: Alpha wrapping with an offset, 2022.)
 Surface shrink_wrap(const Surface& surface, double alpha, double offset);
 

@@ -10,7 +10,9 @@
 namespace hexpipe::wrap {
 namespace {
 
-bool has(const Triangle& t, Vertex v) { return t[0] == v || t[1] == v || t[2] == v; }
+bool has(const Triangle& t, Vertex v) {
+  return t[0] == v || t[1] == v || t[2] == v;
+}
 
 using TrianglesAround = std::vector<std::vector<std::int32_t>>;
 
@@ -116,8 +118,8 @@ class StraySettler {
     return common.size() == 2 && a.size() > 3;
   }
 
-  // Calls visit(before, after) with the corners of each triangle around a point that goes to `place`, but for those that
-  // have `into` and so vanish.
+  // Calls visit(before, after) with the corners of each triangle around a point that goes to `place`, but for those
+  // that have `into` and so vanish.
   template <class Visit>
   void for_each_changed(Vertex v, Vertex into, const Vec3& place, const std::vector<std::int32_t>& around,
                         Visit&& visit) const {
@@ -140,8 +142,8 @@ class StraySettler {
     for_each_changed(v, into, place, around, [&](const auto& before, const auto& after) {
       const Vec3 old_normal = cross(before[1] - before[0], before[2] - before[0]);
       const Vec3 normal = cross(after[1] - after[0], after[2] - after[0]);
-      const double longest = std::max({norm_squared(after[1] - after[0]), norm_squared(after[2] - after[1]),
-                                       norm_squared(after[0] - after[2])});
+      const double longest = std::max(
+          {norm_squared(after[1] - after[0]), norm_squared(after[2] - after[1]), norm_squared(after[0] - after[2])});
       keeps = keeps && norm(normal) >= least_share * longest && dot(old_normal, normal) > least_cosine;
     });
     return keeps;

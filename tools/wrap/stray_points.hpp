@@ -8,10 +8,10 @@
 
 namespace hexpipe::wrap {
 
-// Each stray point goes to its target (`targets`, of each point), or merges into a neighbour that is no stray: what brings
-// the triangles around it nearest to the input, if that is nearer than they are, no triangle folds or loses its area, and
-// the surface does not cross itself. As long as some can. Points that merged are in no triangle afterwards. `is_stray`
-// keeps those that found no way. The surface must be closed and not cross itself.
+// Each stray point goes to its target (`targets`, of each point), or merges into a neighbour that is no stray: what
+// brings the triangles around it nearest to the input, if that is nearer than they are, no triangle folds or loses its
+// area, and the surface does not cross itself. As long as some can. Points that merged are in no triangle afterwards.
+// `is_stray` keeps those that found no way. The surface must be closed and not cross itself.
 void settle_strays(Surface& surface, std::vector<char>& is_stray, const std::vector<Vec3>& targets,
                    const TriangleTree& input);
 

@@ -18,8 +18,12 @@ using Triangles = std::vector<Kernel::Triangle_3>;
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
 using Boxes = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
-Kernel::Point_3 to_cgal(const Vec3& p) { return {p.x, p.y, p.z}; }
-Vec3 from_cgal(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
+Kernel::Point_3 to_cgal(const Vec3& p) {
+  return {p.x, p.y, p.z};
+}
+Vec3 from_cgal(const Kernel::Point_3& p) {
+  return {p.x(), p.y(), p.z()};
+}
 
 }  // namespace
 

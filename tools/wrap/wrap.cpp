@@ -1,5 +1,7 @@
 #include "tools/wrap/wrap.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -36,10 +38,11 @@ void check_that_it_encloses(const Surface& wrapped, double offset, const std::st
   constexpr double thin = 3;
   const double thickness = 2 * volume_of(wrapped) / area_of(wrapped);
   if (thickness < thin * offset)
-    throw DataError::at(name,
-                        "expected a surface that encloses a room but for gaps up to {:.4g}, found that the outside gets "
-                        "in, so that only a shell of {:.2g} is left: close wider holes by a larger --gap",
-                        gap, thickness);
+    throw DataError::at(
+        name,
+        "expected a surface that encloses a room but for gaps up to {:.4g}, found that the outside gets "
+        "in, so that only a shell of {:.2g} is left: close wider holes by a larger --gap",
+        gap, thickness);
 }
 
 void give_tags(const formats::SurfaceSoup& soup, const TriangleTree& input, formats::SurfaceSoup& surface) {
@@ -82,6 +85,13 @@ WrapResult wrap(const formats::SurfaceSoup& soup, const WrapOptions& options) {
   result.sharp_points = restored.sharp_points;
   result.to_input = distances(restored.surface, tree, alpha / 2, 2 * result.offset);
   result.from_input = distances(input, TriangleTree(restored.surface), alpha / 2, 2 * result.offset);
+  // Less than this is what comes out of rounded corners.
+  constexpr double told_share = 0.005;
+  if (result.from_input.share_beyond > told_share)
+    result.warnings.push_back(fmt::format(
+        "{:.1f} % of the input's area is not on the surface but up to {:.3g} away from it: it is inside, in "
+        "narrow places, or at rounded edges",
+        100 * result.from_input.share_beyond, result.from_input.greatest));
   result.surface.name = soup.name;
   result.surface.points = std::move(restored.surface.points);
   result.surface.triangles = std::move(restored.surface.triangles);

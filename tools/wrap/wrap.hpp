@@ -1,5 +1,5 @@
 #pragma once
-// From triangles of any kind to the closed surface near them.
+// Makes a closed surface near triangles of any kind.
 
 #include <nlohmann/json.hpp>
 #include <string>
