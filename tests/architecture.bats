@@ -92,7 +92,7 @@ assert_floors() {
 }
 
 @test "tetmesh's options end at its driver, and the files at its root stand on floors" {
-  local file below="(options|statistics)"
+  local file below="(asked_sizes|options|statistics)"
   includes_of tools/tetmesh | grep ':tools/tetmesh/options\.hpp$' | grep -vE '^tools/tetmesh/(main\.cpp|options\.cpp|tetmesh\.hpp):' |
     assert_none "inner code includes the options"
   for file in fill improve tetmesh main; do

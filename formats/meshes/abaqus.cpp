@@ -12,7 +12,7 @@
 #include "formats/meshes/facet_owners.hpp"
 #include "formats/meshes/group_naming.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
-#include "formats/streams/short_number.hpp"
+#include "formats/streams/number_writer.hpp"
 
 namespace hexpipe::formats {
 namespace {

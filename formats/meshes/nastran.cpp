@@ -16,7 +16,7 @@
 #include "formats/meshes/group_naming.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
 #include "formats/streams/number_map.hpp"
-#include "formats/streams/short_number.hpp"
+#include "formats/streams/number_writer.hpp"
 #include "formats/streams/text_scanner.hpp"
 
 namespace hexpipe::formats {

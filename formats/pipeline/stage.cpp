@@ -174,6 +174,7 @@ void write_role(Role role, const StageData& data, BundleWriter& writer) {
 
 void write_members(BundleWriter& writer, const MeshProduct& product) {
   write_members(writer, product.mesh);
+  if (product.dislocations) write_dislocations(writer, *product.dislocations);
 }
 
 void write_members(BundleWriter& writer, const CandidatesProduct& product) {

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "common/run/error.hpp"
-#include "formats/surfaces/polygon_cutting.hpp"
 
 namespace hexpipe::formats {
 

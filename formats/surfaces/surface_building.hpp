@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/mesh/tet_mesh.hpp"
 #include "formats/streams/text_scanner.hpp"
 #include "formats/surfaces/surface_files.hpp"
 
@@ -36,6 +37,12 @@ SurfaceSoup merge_equal_points(SurfaceSoup soup);
 void check_point_count(std::uint64_t count, std::string_view name);
 
 void append_triangle(SurfaceSoup& soup, const Triangle& triangle, std::int32_t tag, std::int64_t place);
+
+// `fan` has the triangles of one polygon, fanned from its first corner. If one of them is turned against the polygon,
+// as happens where it is concave, cuts the polygon again into as many triangles, by cutting off ears in the projection
+// along an axis (G. H. Meisters: Polygons have ears, 1975). A polygon without ears, because it crosses itself, or with
+// more than 10,000 corners stays a fan. The time grows with the square of the number of corners.
+void cut_if_concave(std::span<const Vec3> points, std::span<Triangle> fan);
 
 // Collects the polygons of a file that may have faces before the vertices.
 class PolygonReader {

@@ -7,7 +7,6 @@
 
 #include "common/graph/conflict_graph.hpp"
 #include "random_graphs.hpp"
-#include "tools/buildgraph/domination.hpp"
 
 namespace hexpipe {
 using namespace buildgraph;

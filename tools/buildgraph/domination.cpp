@@ -2,7 +2,7 @@
 // ends a comparison at the first neighbour that tells them apart. After the first round, only vertices that have lost a
 // neighbour can dominate others anew.
 
-#include "tools/buildgraph/domination.hpp"
+#include "tools/buildgraph/reduce.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "tools/buildgraph/domination.hpp"
-
 namespace hexpipe::buildgraph {
 
 namespace {

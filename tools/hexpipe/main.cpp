@@ -10,7 +10,6 @@
 #include "common/run/tool_main.hpp"
 #include "tools/hexpipe/plan.hpp"
 #include "tools/hexpipe/run_stages.hpp"
-#include "tools/hexpipe/summary.hpp"
 
 using namespace hexpipe;
 using namespace hexpipe::front_door;

@@ -28,4 +28,8 @@ struct RunOptions {
 // is that of a bad command line.
 std::vector<StageOutcome> run(const Plan& plan, const RunOptions& options);
 
+// The result, in three lines for people.
+// `assembled` is what assemble wrote by --stats; `output` names the file; `seconds` are by the clock.
+std::vector<std::string> summary_of(const nlohmann::ordered_json& assembled, const std::string& output, double seconds);
+
 }  // namespace hexpipe::front_door

@@ -2,7 +2,7 @@
 // a maximal independent set, which takes the first vertex that fits; each chosen vertex gets the vertices around it
 // that no other has yet. Candidates that exclude each other are close together, so clusters are compact, and METIS gets
 // a twentieth of the vertices and edges.
-#include "tools/lns-mpi/cut.hpp"
+#include "tools/lns-mpi/source.hpp"
 
 #include <metis.h>
 

@@ -1,4 +1,4 @@
-#include "tools/lns-mpi/fingerprint.hpp"
+#include "tools/lns-mpi/local_graph.hpp"
 
 #include <fmt/format.h>
 

@@ -12,7 +12,7 @@
 #include "formats/choice/fragments_file.hpp"
 #include "formats/streams/output.hpp"
 #include "tools/lns-mpi/checkpoint.hpp"
-#include "tools/lns-mpi/fingerprint.hpp"
+#include "tools/lns-mpi/local_graph.hpp"
 #include "tools/lns-mpi/shared_dual.hpp"
 #include "tools/lns-mpi/source.hpp"
 

@@ -7,8 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "tools/lns-mpi/fingerprint.hpp"
-
 namespace hexpipe::lns_mpi {
 namespace {
 

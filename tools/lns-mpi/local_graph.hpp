@@ -77,4 +77,14 @@ struct LocalGraph {
 // Sends every rank the rows and solution of its halo. Each row travels once to each rank that holds it.
 LocalGraph make_local_graph(Ranks& ranks, const BlockOwners& owners, OwnedRows rows, std::int32_t overlap);
 
+// Two checks, by sums of hashes, which do not depend on which rank holds what: all ranks hold parts of one graph, and a
+// checkpoint belongs to the same graph.
+//
+// The fingerprint of vertices, weights, edges and blocks of all ranks together.
+std::uint64_t fingerprint_of(Ranks& ranks, const OwnedRows& rows);
+
+// Throws DataError on all ranks when an edge between two blocks is in the rows of only one of its ends; the message
+// names the blocks.
+void expect_agreement(Ranks& ranks, const BlockOwners& owners, const OwnedRows& rows);
+
 }  // namespace hexpipe::lns_mpi

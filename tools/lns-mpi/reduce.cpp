@@ -1,7 +1,7 @@
 // Quick reductions take a vertex or leave out a neighbour of it, for reasons within the neighbourhood of one vertex. If
 // that neighbourhood is in one block, decisions of other blocks at the same time do not change the reason. So blocks
 // need not hear of each other until all are done, and the result does not depend on the number of ranks.
-#include "tools/lns-mpi/reduce.hpp"
+#include "tools/lns-mpi/rounds.hpp"
 
 #include <algorithm>
 

@@ -7,7 +7,6 @@
 
 #include "common/mwis/ground/solution_state.hpp"
 #include "common/run/random.hpp"
-#include "tools/lns-mpi/reduce.hpp"
 #include "tools/lns-mpi/regions.hpp"
 
 namespace hexpipe::lns_mpi {

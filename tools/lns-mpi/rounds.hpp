@@ -44,6 +44,10 @@ struct RoundCosts {
   Traffic traffic;
 };
 
+// In each block alone, takes or leaves out the vertices that can be decided without search, so that some heaviest
+// solution agrees. The solution may lose a little until the search has caught up. All ranks call this together.
+void reduce_blocks(Ranks& ranks, LocalGraph& local, const Deadline& deadline);
+
 // Begins with the solution in `local`, or continues from `progress` with the choice of an `earlier` run (its keys,
 // ascending, of at least the vertices that this rank owns). A search that was stopped in between has the same result,
 // which is not lighter than the solution in `local`. Chosen vertices may be neighbours if they are in different blocks.

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "common/graph/conflict_graph.hpp"
 #include "common/run/run_context.hpp"
 #include "tools/lns-mpi/local_graph.hpp"
 #include "tools/lns-mpi/ranks.hpp"
@@ -31,6 +32,12 @@ class Source {
   std::int32_t blocks_ = 0;
   std::optional<std::int64_t> bound_;
 };
+
+// Cuts a conflict graph into blocks of about the same size, with few edges between them.
+//
+// The block of each vertex. Every block from 0 on is used unless there are fewer vertices. Depends only on the graph
+// and the number of blocks.
+std::vector<std::int32_t> cut_into_blocks(const graph::ConflictGraph& graph, std::int32_t blocks);
 
 // The first rank reads the graph and cuts it into `blocks` blocks (0: as many as its size asks for), and sends the
 // other ranks theirs.

@@ -5,7 +5,6 @@
 
 #include "common/mwis/ground/target_weight.hpp"
 #include "formats/pipeline/stage.hpp"
-#include "tools/lns-mpi/cut.hpp"
 #include "tools/lns-mpi/source.hpp"
 
 namespace hexpipe::lns_mpi {

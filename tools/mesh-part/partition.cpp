@@ -3,7 +3,7 @@
 // scheme for irregular graphs (J. Parallel Distrib. Comput. 48, 1998), by their METIS; it may leave a part empty, which
 // gets a tet of the largest one here.
 
-#include "tools/mesh-part/partition.hpp"
+#include "tools/mesh-part/mesh_cutter.hpp"
 
 #include <metis.h>
 

@@ -1,10 +1,12 @@
 #pragma once
-// A CAD model as it was read: bodies, and names of shapes.
+// A CAD model: how it is read (STEP, IGES and BREP, recognized by content), its bodies, and the names of its shapes.
 
 #include <TopoDS_Shape.hxx>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "formats/streams/input.hpp"
 
 namespace hexpipe::tessellate {
 
@@ -47,5 +49,19 @@ struct CadModel {
   bool names_unit = true;
   std::vector<std::string> warnings;  // what was healed or left out
 };
+
+// Throws DataError if the file is empty, cut off, not CAD, or without bodies. Closed shells and faces that can be sewn
+// to such become bodies, with a warning.
+CadModel read_cad(formats::Input& input);
+
+// For files without solids: closed shells become bodies, loose faces are sewn. Throws DataError if that gives nothing
+// closed.
+void make_bodies(const TopoDS_Shape& whole, const std::string& source, CadModel& model);
+
+// Heals the bodies that OpenCASCADE finds faulty, with a warning.
+void heal_bodies(CadModel& model);
+
+// Lets bodies that touch share their common faces, edges and vertices. Throws DataError for bodies that overlap.
+void join_bodies(const std::string& source, CadModel& model);
 
 }  // namespace hexpipe::tessellate

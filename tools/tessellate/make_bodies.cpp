@@ -1,4 +1,4 @@
-#include "tools/tessellate/make_bodies.hpp"
+#include "tools/tessellate/cad_model.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "tools/tessellate/read_cad.hpp"
+#include "tools/tessellate/cad_model.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -25,7 +25,6 @@
 
 #include "common/run/error.hpp"
 #include "formats/streams/text_scanner.hpp"
-#include "tools/tessellate/make_bodies.hpp"
 #include "tools/tessellate/occt_names.hpp"
 
 namespace hexpipe::tessellate {

@@ -8,8 +8,7 @@
 #include <iostream>
 
 #include "common/run/error.hpp"
-#include "tools/tessellate/make_bodies.hpp"
-#include "tools/tessellate/read_cad.hpp"
+#include "tools/tessellate/cad_model.hpp"
 #include "tools/tessellate/triangulate.hpp"
 
 namespace hexpipe::tessellate {

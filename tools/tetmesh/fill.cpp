@@ -9,7 +9,7 @@
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/solid/part_axes.hpp"
+#include "tools/tetmesh/solid/model_axes.hpp"
 #include "tools/tetmesh/surface/edge_splitting.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 #include "tools/tetmesh/tetgen/run_tetgen.hpp"
@@ -78,6 +78,7 @@ class Filler {
   const sizing::SizeField size_;
   const FillOptions& options_;
   TetmeshStatistics statistics_;
+  std::optional<volume::LinePieces> dislocations_;
   std::vector<std::string> warnings_;
   StepWatch watch_;
 
@@ -91,8 +92,7 @@ class Filler {
 };
 
 FilledSurface Filler::fill() {
-  const bool makes_new = options_.remesh && !given_.has_sheets;
-  if (!makes_new || !fill_new_surface()) fill_given_surface();
+  if (!options_.remesh || !fill_new_surface()) fill_given_surface();
   if (points_left_out_) warnings_.push_back(*points_left_out_);
   if (options_.points == PointKind::given && built_->dropped_points > 0)
     warnings_.push_back(fmt::format("{}: TetGen left out {} of {} points inside, too near to others",
@@ -116,7 +116,8 @@ FilledSurface Filler::fill() {
   std::optional<solid::Surface> made;
   if (remeshed_ && surface_ == &remeshed_->surface) made = std::move(remeshed_->surface);
   if (cut_) made = std::move(cut_);
-  return {std::move(made), size_, *std::move(built_), std::move(statistics_), std::move(warnings_)};
+  return {std::move(made),         size_, *std::move(built_), std::move(statistics_), std::move(warnings_),
+          std::move(dislocations_)};
 }
 
 // TetGen works on the new surface while this thread judges that surface. TetGen may fail on the new surface and not on
@@ -152,8 +153,9 @@ bool Filler::fill_new_surface() {
     surface_ = &remeshed_->surface;
     describe(*remeshed_);
   } else {
-    warnings_.push_back(
-        fmt::format("the surface is kept as it is: {}", failure.empty() ? remeshed_->failure : failure));
+    warnings_.push_back(fmt::format("the surface is {}: {}",
+                                    given_.has_sheets ? "only cut to the size" : "kept as it is",
+                                    failure.empty() ? remeshed_->failure : failure));
   }
   return built_.has_value();
 }
@@ -174,7 +176,7 @@ void Filler::fill_given_surface() {
 
 void Filler::place_points() {
   if (places_points(options_.points)) {
-    axes_ = solid::axes_of_part(*surface_, options_.feature_angle);
+    axes_ = solid::axes_of_model(*surface_, options_.feature_angle);
     points_ = volume::graded_lattice_points(*surface_, size_,
                                             {.clearance = options_.clearance,
                                              .jitter = options_.jitter.value_or(volume::LatticeOptions{}.jitter),
@@ -217,6 +219,9 @@ void Filler::try_frame_points() {
   }
   built_ = std::move(bent);
   statistics_.interior_points = frame.points.size();
+  const volume::Dislocations& lines = frame.dislocations;
+  statistics_.dislocations = {lines.length, lines.at_singularities, lines.closed, lines.surface_ends};
+  dislocations_ = lines.pieces;
   statistics_.points_kept = PointKind::frame;
 }
 
@@ -258,6 +263,7 @@ void Filler::describe(const surface::RemeshResult& remeshed) {
   statistics_.distance_to_input = remeshed.to_input;
   statistics_.distance_from_input = remeshed.from_input;
   statistics_.extra_points = remeshed.extra_points;
+  statistics_.row_ends = remeshed.row_ends;
 }
 
 }  // namespace

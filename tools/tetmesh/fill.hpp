@@ -12,6 +12,7 @@
 #include "tools/tetmesh/solid/shells.hpp"
 #include "tools/tetmesh/statistics.hpp"
 #include "tools/tetmesh/tetgen/build_mesh.hpp"
+#include "tools/tetmesh/volume/dislocations.hpp"
 
 namespace hexpipe::tetmesh {
 
@@ -35,6 +36,7 @@ struct FilledSurface {
   tetgen::BuiltMesh built;
   TetmeshStatistics statistics;  // without repair, seconds.checking, and the figures of surface and mesh
   std::vector<std::string> warnings;
+  std::optional<volume::LinePieces> dislocations;  // of points along a frame field
 
   const solid::Surface& surface(const solid::Surface& given) const { return made_surface ? *made_surface : given; }
 };

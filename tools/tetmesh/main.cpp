@@ -37,15 +37,15 @@ formats::Input open_surface(const std::string& path) {
   return formats::Input::open(path);
 }
 
-// Reads "3" as the size everywhere, and "inlet=0.5" as the size at one surface.
-void add_size(const std::string& text, sizing::SizeRequest& sizes) {
+// Reads "3" as the size everywhere; for other texts see asked_sizes.hpp.
+void add_size(const std::string& text, TetmeshOptions& options) {
   const std::size_t equals = text.rfind('=');
-  if (equals == std::string::npos && sizes.size)
+  if (equals == std::string::npos && options.sizes.size)
     throw UsageError(fmt::format("expected one --size for the whole model, found a second one: '{}'", text));
   if (equals == std::string::npos)
-    sizes.size = sizing::parse_length(text);
+    options.sizes.size = sizing::parse_length(text);
   else
-    sizes.named.push_back({text.substr(0, equals), sizing::parse_length(text.substr(equals + 1))});
+    options.asked_sizes.push_back(parse_asked_size(text));
 }
 
 // Files alone are scaled: a bundle passes its surface on as it is.
@@ -106,7 +106,8 @@ int main(int argc, char** argv) {
     app.add_option(
            "--size", given_sizes,
            "Distance of points inside, in the surface's units or, with %, in percent of the bounding box's diagonal "
-           "[a size that suits the model]; inlet=0.5 is the size at one surface")
+           "[a size that suits the model]; inlet=0.5 is the size at a surface, 'body bolt=1' in a body, 'box "
+           "0,0,0,1,1,1=0.2' in a box")
         ->allow_extra_args(false)
         ->type_name("LENGTH");
     app.add_option(
@@ -164,7 +165,7 @@ int main(int argc, char** argv) {
                    "How many sizes to try, up to 5 % off; the mesh that is estimated to have most hexes is kept")
         ->check(CLI::Range(std::size_t{1}, most_tries));
     app.add_option("--improve", options.improve,
-                   "Rounds of a search that moves, adds and removes points where that brings hexes [0]; a round "
+                   "Rounds of a search that moves, adds and removes points where that brings hexes; a round "
                    "takes five runs of TetGen")
         ->type_name("ROUNDS")
         ->check(CLI::Range(std::size_t{0}, std::size_t{1000000}).description(""));
@@ -202,7 +203,7 @@ int main(int argc, char** argv) {
         ->check(number_between(0.001, 1e9));
   };
   const auto run = [&](RunContext& context) {
-    for (const std::string& text : given_sizes) add_size(text, options.sizes);
+    for (const std::string& text : given_sizes) add_size(text, options);
     if (least_size) options.sizes.least = sizing::parse_length(*least_size);
     options.surface = surface_kinds.at(surface_kind);
     choose_points(points, options);
@@ -233,7 +234,9 @@ int main(int argc, char** argv) {
     context.statistics["seconds_by_step"] = times_of(result.statistics);
     context.statistics["tetgen_seconds"] = result.statistics.seconds.of_tetgen;
     stage.set_names(result.names);
-    stage.write(pipeline::MeshProduct{std::move(result.mesh)}, to_json(result.statistics));
+    pipeline::MeshProduct product{std::move(result.mesh)};
+    product.dislocations = std::move(result.dislocations);
+    stage.write(product, to_json(result.statistics));
   };
   std::vector<char*> words = words_for_parsing(argc, argv);
   return tool_main(argc, words.data(), info, declare, run);

@@ -41,8 +41,8 @@ void refuse_idle_options(const std::function<bool(const char*)>& is_given, const
   };
   const bool keeps = options.surface == SurfaceKind::keep, places = volume::places_points(options.points);
   if (!options.repair) refuse({"--weld", "--largest-hole"}, "without --repair");
-  if (!is_given("--size-field") && !is_given("--layers") && options.sizes.named.empty() && !options.sizes.curvature)
-    refuse({"--grading"}, "without --size-field, --layers, --curvature or the size of a surface");
+  if (!is_given("--size-field") && !is_given("--layers") && options.asked_sizes.empty() && !options.sizes.curvature)
+    refuse({"--grading"}, "without --size-field, --layers, --curvature or a --size at a place");
   if (!options.sizes.curvature) refuse({"--least-size"}, "without --curvature");
   if (options.improve == 0) refuse({"--time-limit"}, "without --improve");
   if (keeps) refuse({"--deviation", "--stretch"}, "with --surface keep");
@@ -56,6 +56,9 @@ void refuse_idle_options(const std::function<bool(const char*)>& is_given, const
 void check_options(const TetmeshOptions& options) {
   if (options.tries > 1 && options.surface == SurfaceKind::keep && !volume::places_points(options.points))
     throw UsageError("--tries has no sizes to try with --surface keep and without points to place");
+  if (const auto given = static_cast<double>(options.given_points.points.size()); given > options.most_points)
+    throw DataError::at(options.given_points.name, "expected at most {:g} points (see --most-points), found {:g}",
+                        options.most_points, given);
   // Each coordinate moves by the jitter, a point by up to sqrt(3) times that; it must not reach the surface.
   if (!volume::places_points(options.points)) return;
   const double jitter = options.jitter.value_or(volume::FramePointsOptions{}.jitter);

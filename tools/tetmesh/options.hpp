@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/points/point_files.hpp"
+#include "tools/tetmesh/asked_sizes.hpp"
 #include "tools/tetmesh/sizing/size_demand.hpp"
 #include "tools/tetmesh/solid/group_tags.hpp"
 #include "tools/tetmesh/solid/repair.hpp"
@@ -25,6 +26,7 @@ constexpr std::size_t most_tries = 9;
 
 struct TetmeshOptions {
   sizing::SizeRequest sizes = {};
+  std::vector<AskedSize> asked_sizes = {};  // at surfaces, in bodies and in boxes
   SurfaceKind surface = SurfaceKind::remesh;
   double feature_angle = default_feature_angle;
   double deviation = surface::RemeshOptions{}.deviation;      // in sizes, or in the thickness of thinner walls
@@ -58,7 +60,8 @@ std::vector<char*> words_for_parsing(int argc, char** argv);
 void refuse_idle_options(const std::function<bool(const char*)>& is_given, const TetmeshOptions& options,
                          const std::string& points);
 
-// Throws UsageError where the values of several options contradict each other.
+// Throws UsageError where the values of several options contradict each other, and DataError where the user gives more
+// points than --most-points.
 void check_options(const TetmeshOptions& options);
 
 }  // namespace hexpipe::tetmesh

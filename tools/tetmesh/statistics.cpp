@@ -35,6 +35,12 @@ nlohmann::ordered_json to_json(const TetmeshStatistics& s) {
                               {"volume", s.volume},
                               {"least_dihedral", s.least_dihedral},
                               {"greatest_dihedral", s.greatest_dihedral}};
+  if (s.row_ends) json["row_ends"] = *s.row_ends;
+  if (s.dislocations)
+    json["dislocations"] = {{"length", s.dislocations->all},
+                            {"at_singularities", s.dislocations->at_singularities},
+                            {"closed", s.dislocations->closed},
+                            {"surface_ends", s.dislocations->surface_ends}};
   if (s.least_size) json["least_size"] = *s.least_size;
   if (s.repair) json["repair"] = solid::to_json(*s.repair);
   if (s.lattice_hex_share)

@@ -2,6 +2,7 @@
 // The figures that tetmesh reports: of the surface, the points, the mesh, and the time of each step.
 
 #include <cstddef>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
@@ -26,6 +27,12 @@ struct TriedSize {
   std::optional<double> hex_share;  // nothing where TetGen failed
 };
 
+// In sizes; see volume/dislocations.hpp.
+struct DislocationLengths {
+  double all = 0, at_singularities = 0, closed = 0;
+  std::size_t surface_ends = 0;
+};
+
 struct TetmeshStatistics {
   double size = 0;                   // the greatest
   std::optional<double> least_size;  // where sizes differ
@@ -40,6 +47,8 @@ struct TetmeshStatistics {
   volume::PointKind points_kept = volume::PointKind::none;
   // Shares of the volume in hexes, by a rough greedy choice; where several kinds of points were tried.
   std::optional<double> lattice_hex_share, frame_hex_share;
+  std::optional<std::int64_t> row_ends;            // on faces, of a surface made anew
+  std::optional<DislocationLengths> dislocations;  // of points along a frame field
   std::size_t added_points = 0, dropped_points = 0;
   int tetgen_runs = 0;  // with those that failed
   std::size_t points = 0, tets = 0;

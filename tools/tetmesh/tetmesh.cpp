@@ -8,10 +8,10 @@
 
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
+#include "tools/tetmesh/asked_sizes.hpp"
 #include "tools/tetmesh/fill.hpp"
 #include "tools/tetmesh/improve.hpp"
-#include "tools/tetmesh/solid/sheets.hpp"
-#include "tools/tetmesh/solid/surface_check.hpp"
+#include "tools/tetmesh/solid/boundary.hpp"
 #include "tools/tetmesh/tetgen/mesh_shape.hpp"
 #include "tools/tetmesh/volume/expected_points.hpp"
 
@@ -21,61 +21,6 @@ namespace {
 // The sizes that are tried, in this order, as factors of the size asked for. The number of whole cells across a model
 // changes with the size, and so does the share of hexes, by several percent and in no particular order.
 constexpr std::array<double, most_tries> tried_sizes{1, 0.95, 1.05, 0.975, 1.025, 0.9625, 1.0375, 0.9875, 1.0125};
-
-// Runs before any memory is used for points, and before walls are measured.
-void check_number_of_points(const solid::Surface& surface, const TetmeshOptions& options, double greatest_size) {
-  const double most = options.most_points;
-  const auto given = static_cast<double>(options.given_points.points.size());
-  if (given > most)
-    throw DataError::at(options.given_points.name, "expected at most {:g} points (see --most-points), found {:g}", most,
-                        given);
-  const double expected = sizing::points_expected(surface, greatest_size);
-  if (volume::places_points(options.points) && expected > most)
-    throw DataError::at(surface.name,
-                        "expected a size that makes at most {:g} points inside (see --most-points), found {:g}, which "
-                        "makes about {:.3g}",
-                        most, greatest_size, expected);
-}
-
-// Refuses far too many points early where sizes differ by place; otherwise graded_lattice_points() counts them.
-void check_points_by_place(const solid::Surface& surface, const TetmeshOptions& options,
-                           const sizing::SizeField& size) {
-  const double far_too_many = 4 * options.most_points;
-  if (volume::places_points(options.points) && !size.is_uniform() &&
-      volume::points_inside(surface, size, options.clearance, far_too_many) > far_too_many)
-    throw DataError::at(surface.name,
-                        "expected sizes that make at most {:g} points inside (see --most-points), found {:g} to {:g}, "
-                        "which make more than {:g}",
-                        options.most_points, size.least(), size.greatest(), far_too_many);
-}
-
-solid::RepairReport repair(formats::SurfaceSoup& soup, const sizing::Length& weld, std::size_t largest_hole) {
-  const double unit = weld.percent_of_diagonal ? sizing::bounding_box_diagonal(soup) / 100 : 1;
-  return solid::repair(soup, {weld.value * unit, largest_hole});
-}
-
-// The checked surface with its shells, or with its sheets where more than two triangles meet at an edge.
-solid::Surface surface_of(formats::SurfaceSoup soup, const TetmeshOptions& options,
-                          std::vector<std::string>& warnings) {
-  const char* remedy = options.repair ? "" : " (see --repair)";
-  if (solid::meets_in_sheets(soup)) {
-    solid::check_areas(soup, remedy);
-    const bool has_sides = !soup.sides.empty();
-    const solid::SheetReport found = has_sides ? solid::join_bodies(soup) : solid::find_sides(soup, options.shells);
-    for (const std::string& sentence : found.sentences())
-      warnings.push_back(fmt::format("{}: {}", soup.name, sentence));
-  }
-  if (!solid::meets_in_sheets(soup)) {
-    solid::check_surface(soup, remedy);
-    return solid::find_shells(std::move(soup), options.shells);
-  }
-  if (options.surface == SurfaceKind::remesh)
-    warnings.push_back(fmt::format(
-        "{}: sheets meet at edges of more than two triangles, so that triangles are cut to the size, and not "
-        "made anew",
-        soup.name));
-  return solid::find_sheets(std::move(soup));
-}
 
 FilledSurface fill_at(double factor, const solid::Surface& surface, const sizing::SizeDemand& demand,
                       const sizing::SizeField& size, const FillOptions& options) {
@@ -129,7 +74,8 @@ TetmeshResult finish(FilledSurface filled, const solid::Surface& given) {
   s.least_dihedral = shape.least_dihedral;
   s.greatest_dihedral = shape.greatest_dihedral;
   s.seconds.building += watch.seconds();
-  return {std::move(filled.built.mesh), given.names, std::move(s), std::move(filled.warnings)};
+  return {std::move(filled.built.mesh), given.names, std::move(s), std::move(filled.warnings),
+          std::move(filled.dislocations)};
 }
 
 FillOptions fill_options(const TetmeshOptions& o) {
@@ -153,18 +99,22 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
   check_options(options);
   const Stopwatch watch;
   std::optional<solid::RepairReport> repaired;
-  if (options.repair) repaired = repair(soup, options.weld, options.largest_hole);
+  if (options.repair) repaired = solid::repair(soup, {sizing::in_units(options.weld, soup), options.largest_hole});
   std::vector<std::string> warnings;
-  solid::Surface tagged = surface_of(std::move(soup), options, warnings);
+  const char* remedy = options.repair ? "" : " (see --repair)";
+  solid::Surface tagged = solid::boundary_of(std::move(soup), options.shells, remedy, warnings);
   if (options.tag_angle) solid::tag_by_angle(tagged, *options.tag_angle);
   solid::name_tags(tagged, options.tag_names);
   const solid::Surface surface = std::move(tagged);
   const bool triangles_stay = options.surface == SurfaceKind::keep;
-  const sizing::SizeDemand demand = sizing::demand_on(surface, options.sizes, options.feature_angle, triangles_stay);
+  sizing::SizeDemand demand = sizing::demand_on(surface, options.sizes, options.feature_angle, triangles_stay);
+  add_asked_sizes(surface, options.asked_sizes, options.tetgen_timeout, demand);
   const double least_factor = std::ranges::min(std::span(tried_sizes).first(options.tries));
-  check_number_of_points(surface, options, least_factor * demand.greatest);
+  const bool places = volume::places_points(options.points);
+  // Before any memory is used for points, and before walls are measured.
+  if (places) volume::check_point_count(surface, least_factor * demand.greatest, options.most_points);
   const sizing::SizeField size = sizing::field_of(surface, demand);
-  check_points_by_place(surface, options, least_factor * size);
+  if (places) volume::check_point_count(surface, least_factor * size, options.clearance, options.most_points);
   const double seconds_checking = watch.seconds();
 
   FilledSurface filled = best_of_tries(surface, demand, size, options.tries, fill_options(options));

@@ -1,6 +1,7 @@
 #pragma once
 // From a surface to tetrahedra: checks it, finds its shells, places points inside, calls TetGen, judges what it made.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "formats/surfaces/surface_files.hpp"
 #include "tools/tetmesh/options.hpp"
 #include "tools/tetmesh/statistics.hpp"
+#include "tools/tetmesh/volume/dislocations.hpp"
 
 namespace hexpipe::tetmesh {
 
@@ -16,6 +18,7 @@ struct TetmeshResult {
   formats::GroupNames names;
   TetmeshStatistics statistics;
   std::vector<std::string> warnings;
+  std::optional<volume::LinePieces> dislocations;  // of points along a frame field
 };
 
 // Throws DataError where the surface is not the boundary of a solid and where TetGen fails; UsageError where options

@@ -30,7 +30,7 @@ class ReductionLog {
   struct Step {
     std::int32_t vertex;
     std::int32_t created;
-    std::size_t first_set, last_set;  // unset for a vertex that is taken
+    std::size_t first_set, last_set;  // an empty range for a vertex that is taken
   };
   std::span<const std::int32_t> set(std::size_t i) const {
     return std::span(members_).subspan(ends_[i], ends_[i + 1] - ends_[i]);

@@ -1,5 +1,7 @@
 #include "tools/assemble/hybrid/surface_tags.hpp"
 
+#include <algorithm>
+
 #include "common/mesh/cell_topology.hpp"
 
 namespace hexpipe::assemble::hybrid {
@@ -31,8 +33,11 @@ void complete_surface(TetMesh& mesh, const TetAdjacency& adjacency) {
   add_missing_boundary_triangles(mesh, adjacency, untagged);
 }
 
-SurfaceTags::SurfaceTags(const TetMesh& mesh) : triangles_(mesh.triangles), tags_(mesh.triangle_tags) {
+SurfaceTags::SurfaceTags(const TetMesh& mesh)
+    : triangles_(mesh.triangles), tags_(mesh.triangle_tags), is_on_any_(mesh.points.size()) {
   numbers_.reserve(triangles_.size());
+  for (const Triangle& triangle : triangles_)
+    for (const Vertex v : triangle) is_on_any_[v] = true;
   for (std::size_t i = 0; i < triangles_.size(); ++i)
     numbers_.try_emplace(key_of(triangles_[i]), static_cast<std::int32_t>(i));
 }
@@ -47,7 +52,21 @@ void SurfaceTags::peel(const Tet& tet, const std::array<std::int32_t, 2>& places
   peeled_.push_back(tet);
 }
 
+void SurfaceTags::merge(Vertex from, Vertex into, std::span<const std::int32_t> places, std::span<const Tet> between) {
+  for (const std::int32_t place : places) numbers_.erase(key_of(triangles_[place]));
+  for (const std::int32_t place : places) {
+    Triangle& triangle = triangles_[place];
+    if (std::ranges::find(triangle, into) != triangle.end()) continue;
+    std::ranges::replace(triangle, from, into);
+    numbers_.emplace(key_of(triangle), place);
+  }
+  merges_.push_back({from, into});
+  peeled_.insert(peeled_.end(), between.begin(), between.end());
+}
+
 std::optional<std::int32_t> SurfaceTags::find(const Triangle& triangle) const {
+  for (const Vertex v : triangle)
+    if (static_cast<std::size_t>(v) >= is_on_any_.size() || !is_on_any_[v]) return std::nullopt;
   const auto found = numbers_.find(key_of(triangle));
   if (found == numbers_.end()) return std::nullopt;
   return found->second;

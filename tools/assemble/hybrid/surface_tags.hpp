@@ -18,13 +18,14 @@ namespace hexpipe::assemble::hybrid {
 // than facets of tets.
 void complete_surface(TetMesh& mesh, const TetAdjacency& adjacency);
 
-// The tagged triangles and what covers a quad, less the flat tets that were peeled off the boundary (flat_tets.hpp).
+// The tagged triangles and what covers a quad, less the flat tets that were peeled off the boundary (flat_tets.hpp)
+// and the vertices that merged along it (merge_on_surface.hpp).
 class SurfaceTags {
  public:
   // The surface of `mesh` is complete.
   explicit SurfaceTags(const TetMesh& mesh);
 
-  bool contains(const Triangle& triangle) const { return numbers_.contains(key_of(triangle)); }
+  bool contains(const Triangle& triangle) const { return find(triangle).has_value(); }
   // The index of the tagged triangle with these vertices.
   std::optional<std::int32_t> find(const Triangle& triangle) const;
   std::size_t size() const { return triangles_.size(); }
@@ -33,6 +34,16 @@ class SurfaceTags {
 
   // Peels a tet off the boundary: the tagged triangles at `places`, two of its facets, become the other two.
   void peel(const Tet& tet, const std::array<std::int32_t, 2>& places, const std::array<Triangle, 2>& triangles);
+  // Tagged triangles at `from` have `into` for it; those that have both vertices are gone. `places`: those at `from`.
+  // `between`: for each facet of the boundary that moves, the tet between its two places, which counts as taken off:
+  // its volume is negative where the boundary moves outwards.
+  void merge(Vertex from, Vertex into, std::span<const std::int32_t> places, std::span<const Tet> between);
+  struct Merge {
+    Vertex from, into;
+  };
+  // In the order in which they came.
+  std::span<const Merge> merges() const { return merges_; }
+  // The tets that were, and those between old and new boundary.
   std::span<const Tet> peeled() const { return peeled_; }
 
   // The two tagged triangles that a quad consists of, if the diagonal cuts it into two with one tag.
@@ -50,7 +61,9 @@ class SurfaceTags {
   std::vector<Triangle> triangles_;
   std::vector<std::int32_t> tags_;
   KeyMap<3, std::int32_t> numbers_;
+  std::vector<bool> is_on_any_;  // by vertex: most triangles that are asked for lie inside, and are told so at once
   std::vector<Tet> peeled_;
+  std::vector<Merge> merges_;
 };
 
 // Which quads lie on the boundary of the input: they need no cell on their other side.

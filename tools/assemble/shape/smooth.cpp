@@ -41,7 +41,7 @@ constexpr double worth_of_growth = 0.2;
 // If the worst cell, so weighted, is better than this, the average counts, and growth.
 constexpr double good_enough = 0.12;
 // If the worst cell, so weighted, is worse than this, vertices slide on curved surfaces.
-constexpr double slides_below = 0.06;
+constexpr double slides_below = 0.12;
 // A vertex stays if all its cells are at least this good.
 constexpr double excellent = 0.9;
 constexpr int steps_for_worst = 8;

@@ -7,15 +7,34 @@
 #include <tsl/robin_map.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "common/mesh/vec3.hpp"
 #include "tools/tetmesh/geometry/box_tree.hpp"
-#include "tools/tetmesh/geometry/cell_key.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
 
 namespace hexpipe::tetmesh::geometry {
+
+// A cell of a grid of cubes; its key in a hash map.
+using GridCell = std::array<std::int64_t, 3>;
+
+// Keys differ for cells within 2^20 of the origin.
+constexpr std::uint64_t cell_key(const GridCell& cell) {
+  constexpr std::int64_t middle = 1 << 20;
+  std::uint64_t key = 0;
+  for (const std::int64_t i : cell) key = key << 21 | static_cast<std::uint64_t>(i + middle);
+  return key;
+}
+
+struct CellKeyHash {
+  std::size_t operator()(std::uint64_t key) const {
+    key *= 0x9e3779b97f4a7c15u;
+    return key ^ key >> 32;
+  }
+};
 
 class SizedPointGrid {
  public:
@@ -52,7 +71,6 @@ class SizedPointGrid {
   }
 
  private:
-  static constexpr std::int32_t none = -1;
   static constexpr double most_cells = 1e6;  // along an axis
 
   struct Octave {

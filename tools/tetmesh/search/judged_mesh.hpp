@@ -5,14 +5,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/search/hex_choice.hpp"
 #include "tools/tetmesh/tetgen/build_mesh.hpp"
 
 namespace hexpipe::tetmesh::search {
 
 struct JudgedMesh {
-  static constexpr std::int32_t none = -1;
-
   tetgen::BuiltMesh built;
   std::vector<ChosenHex> hexes;          // chosen
   std::vector<std::int32_t> hex_of_tet;  // or none

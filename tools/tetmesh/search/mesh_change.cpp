@@ -23,8 +23,10 @@ MeshIndex::MeshIndex(const TetMesh& mesh) : tet_count_(mesh.tets.size()) {
 }
 
 MeshChange::MeshChange(const MeshIndex& before, const TetMesh& now)
-    : vertex_now(before.vertex_at_.size(), none), tet_now(before.tet_count_, none), is_touched(now.points.size()) {
-  std::vector<Vertex> vertex_before(now.points.size(), none);
+    : vertex_now(before.vertex_at_.size(), geometry::none),
+      tet_now(before.tet_count_, geometry::none),
+      is_touched(now.points.size()) {
+  std::vector<Vertex> vertex_before(now.points.size(), geometry::none);
   for (std::size_t v = 0; v < now.points.size(); ++v) {
     const auto found = before.vertex_at_.find(now.points[v]);
     if (found == before.vertex_at_.end()) continue;
@@ -41,11 +43,11 @@ MeshChange::MeshChange(const MeshIndex& before, const TetMesh& now)
     else
       for (const Vertex v : now.tets[t]) is_touched[v] = true;
   }
-  // A sliver on the boundary disappears without another in its place if the surface exchanges the diagonal under it.
+  // A sliver on the boundary disappears without another in its place if the edge of the surface under it is flipped.
   for (const auto& [corners, t] : before.tet_of_) {
-    if (tet_now[t] != none) continue;
+    if (tet_now[t] != geometry::none) continue;
     for (const Vertex v : corners)
-      if (vertex_now[v] != none) is_touched[vertex_now[v]] = true;
+      if (vertex_now[v] != geometry::none) is_touched[vertex_now[v]] = true;
   }
 }
 

@@ -1,11 +1,13 @@
 #pragma once
-// What two meshes of nearly the same points have in common: most tets stay when a few points move, come or go.
+// The vertices and tets that two meshes of nearly the same points have in common: most tets stay when a few points
+// move, come or go.
 
 #include <cstdint>
 #include <vector>
 
 #include "common/mesh/facet_key.hpp"
 #include "common/mesh/tet_mesh.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
 
 namespace hexpipe::tetmesh::search {
 
@@ -25,8 +27,6 @@ class MeshIndex {
 };
 
 struct MeshChange {
-  static constexpr std::int32_t none = -1;
-
   MeshChange(const MeshIndex& before, const TetMesh& now);
 
   std::vector<Vertex> vertex_now;     // by vertex before, or none

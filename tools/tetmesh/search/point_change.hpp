@@ -23,7 +23,7 @@ struct PointChange {
 };
 
 // Draws a change at a tet that is left. One of its points moves, goes, or joins another; a point comes to its middle,
-// or to the middle of an edge on the surface; a diagonal there is exchanged; or a hex is set on the hex beside the tet,
+// or to the middle of an edge on the surface; an edge there is flipped; or a hex is set on the hex beside the tet,
 // and near points move to its corners, or new ones come.
 class ChangeDrawer {
  public:

@@ -1,6 +1,6 @@
 #pragma once
 // Changes of a surface's triangles that leave the surface where it is: points move, go and come within flat faces and
-// along straight edges, and two triangles of a flat face exchange their diagonal.
+// along straight edges, and edges within a flat face are flipped.
 
 #include <cstdint>
 #include <optional>
@@ -9,12 +9,13 @@
 #include <vector>
 
 #include "common/mesh/vertex_items.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 
 namespace hexpipe::tetmesh::search {
 
 struct NewTriangle {
-  Triangle corners;         // -1 for the point that comes
+  Triangle corners;         // geometry::none for the point that comes
   std::int32_t instead_of;  // shell, tag and place are those of this triangle
 };
 
@@ -50,8 +51,8 @@ class FlatSurface {
   // How a vertex may move: within a plane, along a line, or not at all.
   struct Freedom {
     int dimensions = 0;
-    Vec3 direction{};                         // the normal of the plane, or the direction of the line; of length 1
-    std::pair<Vertex, Vertex> along{-1, -1};  // the neighbours on the line
+    Vec3 direction{};  // the normal of the plane, or the direction of the line; of length 1
+    std::pair<Vertex, Vertex> along{geometry::none, geometry::none};  // the neighbours on the line
   };
 
   std::vector<std::int32_t> triangles_of_edge(Vertex a, Vertex b) const;

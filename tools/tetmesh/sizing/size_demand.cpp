@@ -1,17 +1,13 @@
 #include "tools/tetmesh/sizing/size_demand.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <set>
 #include <span>
 #include <utility>
 
 #include "common/mesh/feature_angle.hpp"
-#include "common/run/error.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/sizing/wall_sizes.hpp"
 
@@ -26,31 +22,6 @@ constexpr double flat_angle = 1e-3;
 double greatest_size(const solid::Surface& surface, const SizeRequest& request, bool triangles_stay) {
   if (request.size || request.sources.empty()) return element_size(surface, request.size, triangles_stay);
   return std::ranges::max(request.sources.sizes);
-}
-
-std::set<std::int32_t> tags_named(const solid::Surface& surface, const std::string& name) {
-  std::set<std::int32_t> named, found;
-  for (const auto& [tag, of_tag] : surface.names.surfaces)
-    if (of_tag == name) named.insert(tag);
-  for (const std::int32_t tag : surface.tags)
-    if (named.contains(tag) || name == std::to_string(tag) || name == fmt::format("surface_{}", tag)) found.insert(tag);
-  return found;
-}
-
-void add_named_sizes(const solid::Surface& surface, std::span<const NamedSize> named_sizes, SizeSources& sources) {
-  for (const auto& [name, length] : named_sizes) {
-    const std::set<std::int32_t> tags = tags_named(surface, name);
-    if (tags.empty())
-      throw DataError::at(surface.name, "expected --size of a surface by its name or number, found '{}'", name);
-    const double size = element_size(surface, length);
-    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-      if (!tags.contains(surface.tags[t])) continue;
-      const auto first = static_cast<Vertex>(sources.points.size());
-      for (const Vertex v : surface.triangles[t]) sources.points.push_back(surface.points[v]);
-      sources.sizes.insert(sources.sizes.end(), 3, size);
-      sources.simplices.push_back({first, first + 1, first + 2, SizeSources::none});
-    }
-  }
 }
 
 // Takes the radius of a bend from two neighbouring triangles: the distance between their outer corners, measured from
@@ -92,7 +63,6 @@ SizeDemand operator*(double factor, SizeDemand demand) {
 SizeDemand demand_on(const solid::Surface& surface, const SizeRequest& request, double feature_angle,
                      bool triangles_stay) {
   SizeDemand demand{greatest_size(surface, request, triangles_stay), request.sources, request.grading, request.layers};
-  add_named_sizes(surface, request.named, demand.sources);
   if (request.curvature) {
     const double least = request.least ? element_size(surface, request.least) : least_of_greatest * demand.greatest;
     add_curvature_sizes(surface, *request.curvature, least, demand.greatest, feature_angle, demand.sources);

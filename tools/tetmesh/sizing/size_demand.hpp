@@ -1,9 +1,7 @@
 #pragma once
-// The sizes that a user asks for, as lengths on one model.
+// The sizes that the user asks for, as lengths on one model.
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/sizing/sizing.hpp"
@@ -11,16 +9,9 @@
 
 namespace hexpipe::tetmesh::sizing {
 
-// The size at the triangles of one surface tag.
-struct NamedSize {
-  std::string name;  // of the tag, or its number as `3` or `surface_3`
-  Length size;
-};
-
 struct SizeRequest {
   std::optional<Length> size = {};       // the greatest; nothing: the greatest of `sources`, or what suits the model
   SizeSources sources = {};              // sizes at places
-  std::vector<NamedSize> named = {};     // sizes at surfaces
   std::optional<double> curvature = {};  // elements in a turn where the surface bends; nothing: bends do not count
   std::optional<Length> least = {};      // the least size that bends ask for; nothing: a fifth of the greatest size
   double grading = 0.3;
@@ -36,9 +27,8 @@ struct SizeDemand {
   friend SizeDemand operator*(double factor, SizeDemand demand);
 };
 
-// Adds the sizes at named surfaces and at bends to the places that the request has. Edges that turn by more than
-// `feature_angle` degrees are no bends. `triangles_stay`: see element_size(). Throws DataError when no surface has the
-// name of a NamedSize.
+// Adds the sizes at bends to the places that the request has. Edges that turn by more than `feature_angle` degrees are
+// no bends. `triangles_stay`: see element_size().
 SizeDemand demand_on(const solid::Surface& surface, const SizeRequest& request, double feature_angle,
                      bool triangles_stay);
 

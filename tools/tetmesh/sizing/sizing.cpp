@@ -56,8 +56,12 @@ double bounding_box_diagonal(const formats::SurfaceSoup& surface) {
   return norm(high - low);
 }
 
+double in_units(const Length& length, const formats::SurfaceSoup& surface) {
+  return length.percent_of_diagonal ? length.value / 100 * bounding_box_diagonal(surface) : length.value;
+}
+
 double element_size(const solid::Surface& surface, const std::optional<Length>& length, bool triangles_stay) {
-  if (length) return length->percent_of_diagonal ? length->value / 100 * bounding_box_diagonal(surface) : length->value;
+  if (length) return in_units(*length, surface);
   double area = 0;
   for (const Triangle& t : surface.triangles) area += area_of(surface, t);
   const double volume = surface.volume();
@@ -123,8 +127,7 @@ std::optional<std::string> SizeFit::complaint(double size) const {
   const bool mostly_coarse = coarse_share >= fine_share;
   return fmt::format(
       "{:.0f} % of the surface lies in triangles with edges {} the size {:.3g} (the median edge is {:.3g}); the "
-      "surface is "
-      "kept as it is, so that few hexes will touch it there",
+      "surface is kept as it is, so few hexes will touch it there",
       100 * (mostly_coarse ? coarse_share : fine_share), mostly_coarse ? "much longer than" : "much shorter than", size,
       median_edge);
 }

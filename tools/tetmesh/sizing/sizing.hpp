@@ -18,6 +18,9 @@ struct Length {
 // Reads "2.5" or "3%". Throws UsageError unless the number is positive and finite.
 Length parse_length(std::string_view text);
 
+// The length in the units of the surface.
+double in_units(const Length& length, const formats::SurfaceSoup& surface);
+
 // The diagonal of the box around the points, along the axes.
 double bounding_box_diagonal(const formats::SurfaceSoup& surface);
 

@@ -5,7 +5,8 @@
 
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/geometry/box_tree.hpp"
-#include "tools/tetmesh/geometry/ray_hit.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
+#include "tools/tetmesh/geometry/triangle_distance.hpp"
 
 namespace hexpipe::tetmesh::sizing {
 namespace {
@@ -92,20 +93,20 @@ void WallFinder::look(const Corners& corners, const Vec3& inwards, Walls& walls)
 
 // Infinite where there is no wall.
 double WallFinder::thickness_at(const Vec3& from, const Vec3& inwards) const {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  std::int32_t hit = -1;
+  constexpr double no_wall = std::numeric_limits<double>::infinity();
+  std::int32_t hit = geometry::none;
   double best = layers_ * size_;
   const double thickness = tree_.first_hit(from, inwards, best, [&](std::int32_t triangle) {
     const double length = length_to(triangle, from, inwards);
     if (length < best) best = length, hit = triangle;
     return length;
   });
-  if (hit < 0) return none;
+  if (hit == geometry::none) return no_wall;
   const auto& [a, b, c] = surface_.triangles[hit];
   const Vec3 area = cross(surface_.points[b] - surface_.points[a], surface_.points[c] - surface_.points[a]);
   const Vec3 there = unit(area);
-  if (std::abs(dot(there, inwards)) < least_cosine) return none;
-  return is_wedge(from, inwards, thickness, dot(there, inwards) < 0 ? -there : there) ? none : thickness;
+  if (std::abs(dot(there, inwards)) < least_cosine) return no_wall;
+  return is_wedge(from, inwards, thickness, dot(there, inwards) < 0 ? -there : there) ? no_wall : thickness;
 }
 
 // Whether the two sides meet at an edge, instead of just coming nearer to each other. They meet if they are near enough

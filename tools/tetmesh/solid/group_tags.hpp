@@ -9,8 +9,6 @@
 
 namespace hexpipe::tetmesh::solid {
 
-inline constexpr double default_tag_angle = 40;
-
 // Gives each piece of the surface a tag of its own. Pieces end at edges that turn by more than the angle (degrees), and
 // at curves. The numbers go up from 1 in the order of the pieces' first triangles. Triangles whose tag has a name keep
 // the tag, unless all triangles have the same tag.

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -19,7 +18,7 @@
 namespace hexpipe::tetmesh::solid {
 namespace {
 
-constexpr geometry::HalfEdge none = -1;
+using geometry::none;
 
 class Repairer {
  public:
@@ -83,12 +82,13 @@ void Repairer::weld() {
   std::vector<Vertex> new_index;
   new_index.reserve(soup_.points.size());
   for (const Vec3& p : soup_.points) {
-    Vertex nearest = std::numeric_limits<Vertex>::max();
+    Vertex nearest = none;
     kept.for_each_near(p, options_.tolerance, 0, [&](std::int32_t i) {
-      if (norm_squared(kept.points()[i] - p) <= options_.tolerance * options_.tolerance) nearest = std::min(nearest, i);
+      if (norm_squared(kept.points()[i] - p) <= options_.tolerance * options_.tolerance)
+        nearest = nearest == none ? i : std::min(nearest, i);
       return true;
     });
-    if (nearest == std::numeric_limits<Vertex>::max()) {
+    if (nearest == none) {
       nearest = static_cast<Vertex>(kept.points().size());
       kept.add(p, options_.tolerance);
     }
@@ -227,15 +227,14 @@ void Repairer::orient() {
 void Repairer::fill_holes() {
   find_twins_and_borders();
   if (borders_.empty()) return;
-  constexpr std::ptrdiff_t nowhere = -1;
   std::vector<std::vector<geometry::HalfEdge>> ending_at(soup_.points.size());
   for (const geometry::HalfEdge h : borders_) ending_at[geometry::end_of(soup_.triangles, h)].push_back(h);
   // the place of the border that ends at each vertex
-  std::vector<std::ptrdiff_t> place_on_walk(soup_.points.size(), nowhere);
+  std::vector<std::ptrdiff_t> place_on_walk(soup_.points.size(), none);
   std::vector<geometry::HalfEdge> walk;
   const auto cut_off = [&](std::ptrdiff_t length) {
     for (auto h = walk.begin() + length; h != walk.end(); ++h)
-      place_on_walk[geometry::end_of(soup_.triangles, *h)] = nowhere;
+      place_on_walk[geometry::end_of(soup_.triangles, *h)] = none;
     walk.resize(static_cast<std::size_t>(length));
   };
   // The borders of the triangles that were there before: filling holes adds no borders.
@@ -248,7 +247,7 @@ void Repairer::fill_holes() {
       walk.push_back(h);
       at = geometry::start_of(soup_.triangles, h);
       const std::ptrdiff_t begin = place_on_walk[at];
-      if (begin == nowhere) continue;
+      if (begin == none) continue;
       const std::vector<geometry::HalfEdge> loop(walk.begin() + begin, walk.end());
       cut_off(begin);
       if (loop.size() >= 3 && loop.size() <= options_.largest_hole) fill(loop);
@@ -305,12 +304,11 @@ void Repairer::turn_outward() {
 }
 
 void Repairer::drop_unused_points() {
-  constexpr Vertex unused = -1;
-  std::vector<Vertex> new_index(soup_.points.size(), unused);
+  std::vector<Vertex> new_index(soup_.points.size(), none);
   std::vector<Vec3> points;
   for (Triangle& t : soup_.triangles)
     for (Vertex& v : t) {
-      if (new_index[v] == unused) {
+      if (new_index[v] == none) {
         new_index[v] = static_cast<Vertex>(points.size());
         points.push_back(soup_.points[v]);
       }
@@ -321,7 +319,7 @@ void Repairer::drop_unused_points() {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < soup_.curves.size(); ++i) {
     const formats::CurveEdge edge{new_index[soup_.curves[i][0]], new_index[soup_.curves[i][1]]};
-    if (edge[0] == unused || edge[1] == unused || edge[0] == edge[1]) continue;
+    if (edge[0] == none || edge[1] == none || edge[0] == edge[1]) continue;
     soup_.curves[kept] = edge;
     soup_.curve_tags[kept++] = soup_.curve_tags[i];
   }

@@ -15,7 +15,7 @@
 namespace hexpipe::tetmesh::solid {
 namespace {
 
-// What is known about a shell beyond its result.
+// The facts about a shell that its result leaves out.
 struct Draft {
   double signed_volume = 0;            // positive: normals point outward
   std::optional<std::int32_t> parent;  // the innermost shell around it
@@ -24,12 +24,11 @@ struct Draft {
 
 // The number of each triangle's connected component. Components are ordered by their first triangles.
 std::vector<std::int32_t> number_components(std::size_t point_count, std::span<const Triangle> triangles) {
-  constexpr std::int32_t unknown = -1;
   const std::vector<geometry::HalfEdge> twins = geometry::find_twins(point_count, triangles);
-  std::vector<std::int32_t> component(triangles.size(), unknown), stack;
+  std::vector<std::int32_t> component(triangles.size(), geometry::none), stack;
   std::int32_t count = 0;
   for (std::size_t start = 0; start < triangles.size(); ++start) {
-    if (component[start] != unknown) continue;
+    if (component[start] != geometry::none) continue;
     component[start] = count;
     stack.assign(1, static_cast<std::int32_t>(start));
     while (!stack.empty()) {
@@ -37,7 +36,7 @@ std::vector<std::int32_t> number_components(std::size_t point_count, std::span<c
       stack.pop_back();
       for (geometry::HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
         const std::int32_t neighbour = geometry::triangle_of(twins[h]);
-        if (component[neighbour] != unknown) continue;
+        if (component[neighbour] != geometry::none) continue;
         component[neighbour] = count;
         stack.push_back(neighbour);
       }

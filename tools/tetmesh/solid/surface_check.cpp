@@ -19,7 +19,7 @@ namespace {
 // Intersections are counted up to this number: n copies of a triangle have n²/2 of them.
 constexpr std::size_t most_intersections = 10'000;
 // At most this many triangles of an edge are listed.
-constexpr std::size_t most_listed = 8;
+constexpr std::size_t most_triangles_listed = 8;
 
 std::string count_of(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
@@ -36,7 +36,7 @@ std::string list_of(const formats::SurfaceSoup& soup, const Triangles& triangles
   places.reserve(std::size(triangles));
   for (const auto t : triangles) places.push_back(soup.places[t]);
   std::ranges::sort(places);
-  const std::size_t listed = std::min(places.size(), most_listed);
+  const std::size_t listed = std::min(places.size(), most_triangles_listed);
   std::string text =
       fmt::format("{}s {}", soup.place_unit(), fmt::join(places.begin(), places.begin() + listed - 1, ", "));
   return text + (listed < places.size() ? fmt::format(", {}, ...", places[listed - 1])
@@ -170,7 +170,7 @@ void check_vertices(const formats::SurfaceSoup& soup, std::span<const geometry::
     for (const Vertex v : t) ++unseen[v];
   std::vector<bool> walked(soup.points.size());
   std::size_t count = 0;
-  geometry::HalfEdge first = -1;
+  geometry::HalfEdge first = geometry::none;
   const auto half_edge_count = static_cast<geometry::HalfEdge>(twins.size());
   for (geometry::HalfEdge h = 0; h < half_edge_count; ++h) {
     const Vertex v = geometry::start_of(soup.triangles, h);
@@ -190,7 +190,7 @@ void check_vertices(const formats::SurfaceSoup& soup, std::span<const geometry::
                       count == 1 ? "1 vertex" : fmt::format("{} vertices", count), text_of(soup.points[v]));
 }
 
-// What tessellate can do about intersections. Only bundles of tessellate say what is on the sides.
+// The options of tessellate that may help with intersections. Only bundles of tessellate say what is on the sides.
 const char* hint_for_cad(const formats::SurfaceSoup& soup) {
   if (soup.sides.empty()) return "";
   const auto is_first = [](const auto& sides) { return sides[0] <= 1 && sides[1] <= 1; };

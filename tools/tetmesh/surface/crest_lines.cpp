@@ -10,22 +10,22 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double one_degree = std::numbers::pi / 180;
 // A fillet turns by this much; beyond its reach on either side, in sizes, the surface turns by no more than flat_turn.
-constexpr double least_turn = 60 * degree, most_turn = 125 * degree, flat_turn = 8 * degree;
+constexpr double least_turn = 60 * one_degree, most_turn = 125 * one_degree, flat_turn = 8 * one_degree;
 constexpr double fillet_reach = 0.85, flat_reach = 1.25;
 // Edges that bend by less than the first angle lie in one plane. A strip of a fillet is plane up to a fraction of that.
-constexpr double least_bend = 1 * degree, strip_bend = 0.1 * degree;
+constexpr double least_bend = 1 * one_degree, strip_bend = 0.1 * one_degree;
 // In the middle of a fillet, the turns on both sides of an edge differ by less than the first share of the edge's own
 // bend. At a side of the middle strip they differ by up to the second share.
 constexpr double in_the_middle = 0.9, beside_the_middle = 1.1;
 // On both sides, the share of all turns that go one way.
 constexpr double least_one_way = 0.9;
 // The most triangles on a way across. If there are more, they are needles without a width.
-constexpr std::size_t most_triangles = 1000;
+constexpr std::size_t most_across = 1000;
 // A line continues from one edge to the next if it turns by less than the angle, and counts if it has the least length
 // in sizes. Other lines nearer to it than the last number belong to the same fillet.
-constexpr double most_line_turn = 40 * degree, least_length = 4, same_fillet = 0.5;
+constexpr double most_line_turn = 40 * one_degree, least_length = 4, same_fillet = 0.5;
 
 struct Across {
   double turn_near = 0, turn = 0;  // of the normal, within `near` and over all of the way
@@ -40,7 +40,7 @@ Across walk_across(const FieldSurface& surface, geometry::HalfEdge start, double
   SurfacePoint at{surface.points[geometry::start_of(surface.triangles, start)] + 0.5 * surface.edge_vector(start),
                   geometry::triangle_of(start)};
   Vec3 way = surface.inward(start);
-  for (double gone = 0; gone < reach && result.triangles.size() < most_triangles;) {
+  for (double gone = 0; gone < reach && result.triangles.size() < most_across;) {
     result.triangles.push_back(at.triangle);
     const Vec3& here = surface.normals[at.triangle];
     result.turn = angle_between(normal, here);

@@ -164,21 +164,21 @@ void FieldSolver::solve() {
 }
 
 void FieldSolver::agree_with(std::span<const OppositeSide> opposite) {
-  const auto count = static_cast<std::int32_t>(frames_.size());
-  std::vector<double> pulls(frames_.size());
-  for (std::int32_t f = 0; f < count; ++f) {
-    if (opposite[f].triangle < 0) continue;
-    const double thickness = std::max(1.0, opposite[f].distance);
-    pulls[f] = opposite_weight * opposite[f].area / (thickness * thickness);
-    matrix_.coeffRef(f, f) += pulls[f];
+  std::vector<double> pulls;
+  for (const OppositeSide& side : opposite) {
+    const double thickness = std::max(1.0, side.distance);
+    pulls.push_back(opposite_weight * side.area / (thickness * thickness));
+    matrix_.coeffRef(side.from, side.from) += pulls.back();
   }
   factors_.factorize(matrix_);
   for (int round = 0; round < opposite_rounds; ++round) {
     Eigen::VectorXcd pulled = right_;
-    for (std::int32_t f = 0; f < count; ++f)
-      if (pulls[f] > 0)
-        pulled[f] += pulls[f] * 0.5 *
-                     (bounded(solution_[f]) + seen_from(f, opposite[f].triangle, solution_[opposite[f].triangle]));
+    for (std::size_t i = 0; i < opposite.size(); ++i) {
+      const OppositeSide& side = opposite[i];
+      pulled[side.from] +=
+          pulls[i] * 0.5 *
+          (bounded(solution_[side.from]) + seen_from(side.from, side.triangle, solution_[side.triangle]));
+    }
     solution_ = factors_.solve(pulled);
   }
 }

@@ -11,6 +11,9 @@
 
 namespace hexpipe::tetmesh::surface {
 
+// A direction that is nearer than that to another, by about 20 degrees, runs along it.
+inline constexpr double aligned_cosine = 0.94;
+
 struct CrossField {
   // One of the four directions of each triangle, of length 1 and in the triangle's plane.
   std::vector<Vec3> directions;
@@ -29,7 +32,7 @@ CrossField cross_field(const FieldSurface& surface, std::span<const OppositeSide
 // they do not need each other.
 struct FieldAndSides {
   CrossField field;
-  std::vector<OppositeSide> opposite;  // of each triangle
+  std::vector<OppositeSide> opposite;
 };
 FieldAndSides cross_field_across(const FieldSurface& surface);
 

@@ -2,6 +2,7 @@
 // Feature curves, and the vertices set along them: segments between corners, and closed loops, get a whole number of
 // steps of about one size.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,9 +22,11 @@ struct MeasuredCurve {
   std::vector<OpenMesh::VertexHandle> vertices;  // at the points; invalid where the mesh has no vertex
   std::vector<double> steps_per_size;            // the number that is wanted, for each segment
   bool closed = false;
+  std::optional<int> steps = {};  // all together; nothing: as near to those wanted as a whole number is
 };
 
-// Curves from corner to corner come first, then loops without a corner, both in the order of their first vertices.
+// Curves from corner to corner come first, then loops without a corner, both in the order of their first vertices. A
+// curve of joints comes once, with vertices of one of the pieces that meet in it.
 std::vector<FeatureCurve> feature_curves(const FeatureMesh& mesh);
 
 // Splits feature edges where a step ends, and keeps these vertices. If a curve bends away from its chords by more than

@@ -22,14 +22,16 @@ struct FieldSurface {
 
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
-  std::vector<geometry::HalfEdge> twins;
-  std::vector<bool> feature;  // by half-edge
-  std::vector<bool> crest;    // the features in the middle of a fillet
+  std::vector<geometry::HalfEdge> twins;  // at a border, where all edges are features: the half-edge itself
+  std::vector<bool> feature;              // by half-edge
+  std::vector<std::int32_t> joint;        // by half-edge: the number of its joint, where sheets meet, or none
+  std::vector<bool> crest;                // the features in the middle of a fillet
   std::vector<Vec3> centres;
   std::vector<Vec3> normals;  // of length 1
   std::vector<double> areas;
-  std::vector<double> sizes;  // in the middle of each triangle
-  std::vector<Vec3> inwards;  // by half-edge, see inward()
+  std::vector<double> sizes;       // in the middle of each triangle
+  std::vector<bool> is_interface;  // by triangle: a region is on both of its sides
+  std::vector<Vec3> inwards;       // by half-edge, see inward()
 
   Vec3 edge_vector(geometry::HalfEdge h) const {
     return points[geometry::end_of(triangles, h)] - points[geometry::start_of(triangles, h)];

@@ -32,12 +32,10 @@ double bend_of(const SurfaceLinks& links, const FieldWalker& walker, std::int32_
   return most;
 }
 
-// The weight is 0 where there is no link.
-SurfaceLink make_link(const SurfaceLinks& links, const FieldWalker& walker, const OppositeSide& opposite,
-                      std::int32_t f) {
+// The weight is 0 if they have too little in common.
+SurfaceLink link_across(const SurfaceLinks& links, const FieldWalker& walker, const OppositeSide& opposite) {
   SurfaceLink link;
-  const std::int32_t g = opposite.triangle;
-  if (g < 0) return link;
+  const std::int32_t f = opposite.from, g = opposite.triangle;
   link.neighbour = g;
   const auto here = links.field.axes(links.surface, f), there = links.field.axes(links.surface, g);
   const double trust = trust_in_match(link.match(here, there));
@@ -62,22 +60,20 @@ LinksAcross::LinksAcross(const SurfaceLinks& links, std::span<const OppositeSide
     : offsets_(links.surface.sizes.size() + 1) {
   const FieldWalker walker(links.surface, links.field);
   std::vector<SurfaceLink> found(opposite.size());
-  parallel_for(static_cast<std::int64_t>(found.size()), 64, [&](std::int64_t i) {
-    const auto f = static_cast<std::int32_t>(i);
-    found[f] = make_link(links, walker, opposite[f], f);
-  });
-  for (std::size_t f = 0; f < found.size(); ++f) {
-    if (found[f].weight <= 0) continue;
-    ++offsets_[f + 1];
-    ++offsets_[found[f].neighbour + 1];
+  parallel_for(static_cast<std::int64_t>(found.size()), 64,
+               [&](std::int64_t i) { found[i] = link_across(links, walker, opposite[i]); });
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i].weight <= 0) continue;
+    ++offsets_[opposite[i].from + 1];
+    ++offsets_[found[i].neighbour + 1];
   }
   std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
   links_.resize(static_cast<std::size_t>(offsets_.back()));
   std::vector<std::int64_t> next(offsets_.begin(), offsets_.end() - 1);
-  for (std::size_t f = 0; f < found.size(); ++f) {
-    if (found[f].weight <= 0) continue;
-    links_[next[f]++] = found[f];
-    links_[next[found[f].neighbour]++] = found[f].reversed(static_cast<std::int32_t>(f));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i].weight <= 0) continue;
+    links_[next[opposite[i].from]++] = found[i];
+    links_[next[found[i].neighbour]++] = found[i].reversed(opposite[i].from);
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the triangles of a surface see of the triangles that face them across the inside of the model.
+// How the triangles of a surface see the triangles that face them across the inside of the model.
 
 #include <cstdint>
 #include <span>

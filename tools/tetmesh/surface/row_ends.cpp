@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <queue>
 #include <tuple>
@@ -17,7 +18,7 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-constexpr geometry::HalfEdge none = -1;
+using geometry::none;
 
 std::int32_t sign_of(bool flipped) {
   return flipped ? -1 : 1;
@@ -92,7 +93,7 @@ void RowJoiner::measure(Vertex v) {
   for (std::size_t k = 0; k < 2 && is_whole; ++k) {
     FollowedAxis followed{k};
     for_each_around(first_[v], [&](geometry::HalfEdge h) {
-      is_whole = links_.of[h].neighbour >= 0 && links_.of[h].weight > 0;
+      is_whole = links_.of[h].neighbour != none && links_.of[h].weight > 0;
       if (!is_whole) return false;
       sums[k] += sign_of(followed.flipped) * jumps_[h][followed.axis];
       followed.cross(links_, h);
@@ -188,10 +189,17 @@ void RowJoiner::move(const End& end, geometry::HalfEdge h) {
   const std::size_t k = end.axis.axis;
   const std::int32_t change = -sign_of(end.axis.flipped);
   jumps_[h][k] += change;
-  jumps_[links_.surface.twins[h]][link.axis(k)] -= sign_of(link.flipped[k]) * change;
+  jumps_[links_.surface.twins[h]][link.axis[k]] -= sign_of(link.flipped[k]) * change;
 }
 
 }  // namespace
+
+RowCoordinates row_coordinates(const fields::PeriodicNumbers<2>& phases) {
+  RowCoordinates coordinates;
+  coordinates.reserve(phases.size());
+  for (const auto& [x, y] : phases) coordinates.push_back({fields::coordinate_of(x), fields::coordinate_of(y)});
+  return coordinates;
+}
 
 RowJumps row_jumps(const SurfaceLinks& links, const RowCoordinates& coordinates) {
   RowJumps jumps(links.of.size());
@@ -199,11 +207,11 @@ RowJumps row_jumps(const SurfaceLinks& links, const RowCoordinates& coordinates)
     const SurfaceLink& link = links.of[h];
     for (std::size_t k = 0; k < 2; ++k) {
       const std::int32_t sign = sign_of(link.flipped[k]);
-      const double there = sign * coordinates[link.neighbour][link.axis(k)];
+      const double there = link.seen_along(coordinates[link.neighbour], k);
       const auto jump =
           static_cast<std::int32_t>(std::lround(there + link.distance[k] - coordinates[geometry::triangle_of(h)][k]));
       jumps[h][k] = jump;
-      jumps[links.surface.twins[h]][link.axis(k)] = -sign * jump;
+      jumps[links.surface.twins[h]][link.axis[k]] = -sign * jump;
     }
   });
   return jumps;
@@ -212,6 +220,11 @@ RowJumps row_jumps(const SurfaceLinks& links, const RowCoordinates& coordinates)
 std::vector<std::int32_t> row_ends(const SurfaceLinks& links, const RowJumps& jumps) {
   RowJumps unchanged = jumps;
   return RowJoiner(links, unchanged).counts();
+}
+
+std::int64_t count_row_ends(const SurfaceLinks& links, const fields::PeriodicNumbers<2>& phases) {
+  const std::vector<std::int32_t> ends = row_ends(links, row_jumps(links, row_coordinates(phases)));
+  return std::accumulate(ends.begin(), ends.end(), std::int64_t{0});
 }
 
 void join_row_ends(const SurfaceLinks& links, double reach, RowJumps& jumps) {

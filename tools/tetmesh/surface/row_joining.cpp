@@ -28,19 +28,11 @@ constexpr fields::DiffusionLimits joining_limits{150, 1e-3};
 constexpr double same_row = 0.3;
 constexpr double least_degree = 1e-9;
 
-double seen_through(const SurfaceLink& link, std::size_t k, double there) {
-  return link.flipped[k] ? -there : there;
-}
-
 class RowStraightener {
  public:
   RowStraightener(SurfaceLinks& links, const LinksAcross& across,
                   std::span<const std::array<fields::Complex, 2>> targets, fields::PeriodicNumbers<2>& phases)
-      : links_(links), across_(across), targets_(targets), phases_(phases) {
-    for (const auto& numbers : phases) {
-      auto& coordinates = coordinates_.emplace_back();
-      for (std::size_t k = 0; k < 2; ++k) coordinates[k] = std::arg(numbers[k]) / (2 * std::numbers::pi);
-    }
+      : links_(links), across_(across), targets_(targets), phases_(phases), coordinates_(row_coordinates(phases)) {
     jumps_ = row_jumps(links, coordinates_);
     number_faces();
     are_joined_.resize(static_cast<std::size_t>(face_count_));
@@ -70,8 +62,7 @@ class RowStraightener {
   RowCoordinates solve(const RowJumps& jumps, const RowCoordinates& start, bool with_across) const;
   double distance_between(HalfEdge h, std::size_t k, const RowJumps& jumps, const RowCoordinates& coordinates) const {
     const SurfaceLink& link = links_.of[h];
-    return coordinates[geometry::triangle_of(h)][k] + jumps[h][k] -
-           seen_through(link, k, coordinates[link.neighbour][link.axis(k)]);
+    return coordinates[geometry::triangle_of(h)][k] + jumps[h][k] - link.seen_along(coordinates[link.neighbour], k);
   }
   void apply();
 
@@ -87,21 +78,21 @@ class RowStraightener {
 };
 
 void RowStraightener::number_faces() {
-  face_of_.assign(size(), -1);
+  face_of_.assign(size(), geometry::none);
   std::vector<std::int32_t> queue;
   const auto reach = [&](std::int32_t f) {
-    if (face_of_[f] >= 0) return;
+    if (face_of_[f] != geometry::none) return;
     face_of_[f] = face_count_;
     queue.push_back(f);
   };
   for (std::int32_t seed = 0; seed < static_cast<std::int32_t>(size()); ++seed) {
-    if (face_of_[seed] >= 0) continue;
+    if (face_of_[seed] != geometry::none) continue;
     reach(seed);
     while (!queue.empty()) {
       const std::int32_t f = queue.back();
       queue.pop_back();
       for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h)
-        if (links_.of[h].neighbour >= 0) reach(links_.of[h].neighbour);
+        if (links_.of[h].neighbour != geometry::none) reach(links_.of[h].neighbour);
     }
     ++face_count_;
   }
@@ -156,13 +147,13 @@ template <class Body>
 void RowStraightener::for_each_link(std::int32_t f, const RowJumps& jumps, const RowCoordinates& start,
                                     bool with_across, Body&& body) const {
   for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
-    if (links_.of[h].neighbour < 0) continue;
+    if (links_.of[h].neighbour == geometry::none) continue;
     for (std::size_t k = 0; k < 2; ++k) body(links_.of[h], k, links_.of[h].distance[k] - jumps[h][k]);
   }
   if (!with_across) return;
   for (const SurfaceLink& link : across_.of(f))
     for (std::size_t k = 0; k < 2; ++k) {
-      const double there = seen_through(link, k, start[link.neighbour][link.axis(k)]);
+      const double there = link.seen_along(start[link.neighbour], k);
       const double apart = start[f][k] - there - link.distance[k], rows = std::round(apart);
       if (std::abs(apart - rows) < same_row) body(link, k, link.distance[k] + rows);
     }
@@ -181,7 +172,7 @@ RowCoordinates RowStraightener::solve(const RowJumps& jumps, const RowCoordinate
       rest[f][k] = hold * (away - std::round(away));
     }
     for_each_link(f, jumps, start, with_across, [&](const SurfaceLink& link, std::size_t k, double distance) {
-      const double there = seen_through(link, k, start[link.neighbour][link.axis(k)]);
+      const double there = link.seen_along(start[link.neighbour], k);
       degree[f][k] += link.weight;
       rest[f][k] += link.weight * (there + distance - start[f][k]);
     });
@@ -193,8 +184,8 @@ RowCoordinates RowStraightener::solve(const RowJumps& jumps, const RowCoordinate
         std::array<fields::Complex, 2> sum{};
         for_each_link(static_cast<std::int32_t>(f), jumps, start, with_across,
                       [&](const SurfaceLink& link, std::size_t k, double) {
-                        const double there = numbers[link.neighbour][link.axis(k)].real();
-                        sum[k] += link.weight * seen_through(link, k, there);
+                        const auto& [x, y] = numbers[link.neighbour];
+                        sum[k] += link.weight * link.seen_along(std::array{x.real(), y.real()}, k);
                       });
         return sum;
       });

@@ -25,7 +25,7 @@ int parts_of(double length, double spacing) {
 class SurfaceSampler {
  public:
   SurfaceSampler(std::span<const Vec3> points, std::span<const Triangle> triangles, const sizing::SizeField& spacing)
-      : points_(points), triangles_(triangles), spacing_(spacing), owner_(points.size(), -1) {
+      : points_(points), triangles_(triangles), spacing_(spacing), owner_(points.size(), geometry::none) {
     for (std::size_t t = triangles.size(); t-- > 0;)
       for (const Vertex v : triangles[t]) owner_[v] = static_cast<std::int32_t>(t);
   }
@@ -115,7 +115,7 @@ void DistanceIndex::for_each_cell(const Triangle& t, Visit&& visit) const {
 
 double DistanceIndex::distance(const Vec3& p, std::int32_t& nearest, double enough) const {
   Search search{nearest, std::numeric_limits<double>::max(), enough * enough};
-  if (nearest >= 0) {
+  if (nearest != geometry::none) {
     const auto [a, b, c] = triangles_[nearest];
     search.best = geometry::TriangleDistance(points_[a], points_[b], points_[c]).squared(p);
   }

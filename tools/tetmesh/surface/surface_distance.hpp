@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/mesh/tet_mesh.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/sizing/size_field.hpp"
 
 namespace hexpipe::tetmesh::surface {
@@ -15,11 +16,11 @@ class DistanceIndex {
   // The arrays must outlive the index.
   DistanceIndex(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
-  // `nearest` is a guess of the nearest triangle, or -1, and becomes the nearest triangle. A good guess saves most of
+  // `nearest` is a guess of the nearest triangle, or none, and becomes the nearest triangle. A good guess saves most of
   // the work. So does `enough`: a triangle that is no further away than that is taken without looking for a nearer one.
   double distance(const Vec3& p, std::int32_t& nearest, double enough = 0) const;
   double distance(const Vec3& p) const {
-    std::int32_t nearest = -1;
+    std::int32_t nearest = geometry::none;
     return distance(p, nearest);
   }
 

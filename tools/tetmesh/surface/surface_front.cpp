@@ -22,7 +22,7 @@ namespace {
 constexpr double least_distance = 0.7;
 // The normals of points that may be in each other's way have at least this cosine. Those of the two sides of a wall do
 // not.
-constexpr double least_normal_cosine = 0.3;
+constexpr double same_side_cosine = 0.3;
 // A triangle of the field is about one size long and has no room for more points at that distance. In a triangle that
 // is so thin that its plane is noise, walks leave the surface, and a front would go on for ever in it.
 constexpr int most_in_triangle = 9;
@@ -34,7 +34,7 @@ constexpr double same_way = 0.999;
 // The number of places on the way to a feature at which the size is asked for.
 constexpr std::size_t size_samples = 32;
 
-// What is known about the way ahead.
+// The knowledge about the way ahead.
 struct Outlook {
   Vec3 heading;
   double step = 0;   // the length to walk, in sizes
@@ -103,14 +103,14 @@ class SurfaceFront {
 };
 
 void SurfaceFront::add_kept(std::span<const Vertex> kept) {
-  std::vector<std::int32_t> number(surface_.points.size(), -1);
+  std::vector<std::int32_t> number(surface_.points.size(), geometry::none);
   for (const Vertex v : kept) {
     number[v] = grid_.add(surface_.points[v], size_.at(surface_.points[v]));
     normals_.emplace_back();
   }
   for (std::size_t f = 0; f < surface_.triangles.size(); ++f)
     for (const Vertex v : surface_.triangles[f]) {
-      if (number[v] < 0) continue;
+      if (number[v] == geometry::none) continue;
       std::vector<Vec3>& normals = normals_[number[v]];
       const Vec3& n = surface_.normals[f];
       if (std::ranges::none_of(normals, [&](const Vec3& m) { return dot(n, m) > 0.99; })) normals.push_back(n);
@@ -202,7 +202,7 @@ bool SurfaceFront::is_free(const SizedPoint& point, double distance) const {
       return here * here + off * off >= wanted * wanted;
     };
     if (is_far(x, along * least) || is_far(y, across * least)) return true;
-    is_free = std::ranges::none_of(normals_[i], [&](const Vec3& m) { return dot(n, m) > least_normal_cosine; });
+    is_free = std::ranges::none_of(normals_[i], [&](const Vec3& m) { return dot(n, m) > same_side_cosine; });
     return is_free;
   });
   return is_free;
@@ -220,10 +220,10 @@ void SurfaceFront::take_if_free(const SizedPoint& point, const Outlook& outlook)
 
 }  // namespace
 
-std::vector<SurfacePoint> surface_front(const FieldSurface& surface, const CrossField& field,
-                                        std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
-                                        const sizing::SizeField& size, double row_stretch) {
-  return SurfaceFront(surface, field, size).run(surface_lattice(surface, field, opposite, kept, row_stretch), kept);
+FrontPoints surface_front(const FieldSurface& surface, const CrossField& field, std::span<const OppositeSide> opposite,
+                          std::span<const Vertex> kept, const sizing::SizeField& size, double row_stretch) {
+  const SurfaceLattice lattice = surface_lattice(surface, field, opposite, kept, row_stretch);
+  return {SurfaceFront(surface, field, size).run(lattice, kept), lattice.row_ends};
 }
 
 }  // namespace hexpipe::tetmesh::surface

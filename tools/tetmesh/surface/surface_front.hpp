@@ -10,10 +10,14 @@
 
 namespace hexpipe::tetmesh::surface {
 
+struct FrontPoints {
+  std::vector<SurfacePoint> points;
+  std::int64_t row_ends = 0;  // of the lattice, on faces
+};
+
 // `kept` holds the vertices of the surface that are points already: those of its feature curves. `row_stretch`: see
 // surface_lattice.hpp.
-std::vector<SurfacePoint> surface_front(const FieldSurface& surface, const CrossField& field,
-                                        std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
-                                        const sizing::SizeField& size, double row_stretch);
+FrontPoints surface_front(const FieldSurface& surface, const CrossField& field, std::span<const OppositeSide> opposite,
+                          std::span<const Vertex> kept, const sizing::SizeField& size, double row_stretch);
 
 }  // namespace hexpipe::tetmesh::surface

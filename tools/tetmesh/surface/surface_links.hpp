@@ -7,33 +7,23 @@
 #include <vector>
 
 #include "tools/tetmesh/fields/curl_correction.hpp"
-#include "tools/tetmesh/fields/periodic_numbers.hpp"
+#include "tools/tetmesh/fields/periodic_link.hpp"
 #include "tools/tetmesh/surface/crest_lines.hpp"
 #include "tools/tetmesh/surface/cross_field.hpp"
 
 namespace hexpipe::tetmesh::surface {
 
-// Direction k of this triangle is direction k of the neighbour, or the other one if crossed; it is reversed if flipped.
-// The neighbour is `distance[k]` further along it.
-struct SurfaceLink {
-  // between the centres, in sizes, measured over the unrounded edges of fillets; corrected
-  std::array<double, 2> distance{};
-  std::array<double, 2> way{};            // the distance before the correction
-  std::array<fields::Complex, 2> turn{};  // as the distances turn a phase
-  std::array<bool, 2> flipped{};
-  bool crossed = false;
-  std::int32_t neighbour = -1;
-  double weight = 0;
+// Between the centres of triangles, along their two directions. Distances are measured over the unrounded edges of
+// fillets, and corrected.
+struct SurfaceLink : fields::PeriodicLink<2> {
+  std::array<double, 2> way{};  // the distance before the correction
 
-  // Must be called after the distances were changed.
-  void set_turn();
   // Matches the directions as they are seen here to those of the neighbour. Returns their mean cosine.
   double match(const std::array<Vec3, 2>& seen, const std::array<Vec3, 2>& there);
   // The neighbour's direction that was matched to k, reversed if need be.
   Vec3 matched(std::size_t k, const std::array<Vec3, 2>& there) const {
-    return flipped[k] ? -there[axis(k)] : there[axis(k)];
+    return flipped[k] ? -there[axis[k]] : there[axis[k]];
   }
-  std::size_t axis(std::size_t k) const { return crossed ? 1 - k : k; }
   // The same link, seen from the neighbour.
   SurfaceLink reversed(std::int32_t from) const;
 };
@@ -55,7 +45,7 @@ struct SurfaceLinks {
   template <class Body>
   void for_each_pair(Body&& body) const {
     for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(of.size()); ++h)
-      if (of[h].neighbour >= 0 && h < surface.twins[h]) body(h);
+      if (of[h].neighbour != geometry::none && h < surface.twins[h]) body(h);
   }
   // Distances are numbered by these half-edges and the directions of their triangles.
   static std::int32_t number_of(geometry::HalfEdge h, std::size_t axis) {

@@ -48,9 +48,11 @@ void halve_long_edges(FeatureMesh& mesh, const sizing::SizeField& longest, const
     if (squared_length(mesh, e, longest) != length) continue;  // it was halved or flipped since
     const auto [from, to] = ends_of(mesh, e);
     const auto middle = mesh.split_edge_at(e, 0.5 * (from + to));
-    for (const auto part : mesh.ve_range(middle)) offer(part);
-    for (const auto f : mesh.vf_range(middle))
-      for (const auto around : mesh.fe_range(f)) changed.push(around);
+    mesh.for_each_copy(middle, [&](OpenMesh::VertexHandle copy) {
+      for (const auto part : mesh.ve_range(copy)) offer(part);
+      for (const auto f : mesh.vf_range(copy))
+        for (const auto around : mesh.fe_range(f)) changed.push(around);
+    });
     flip_flat_edges(mesh, changed, flatness, offer);
   }
 }

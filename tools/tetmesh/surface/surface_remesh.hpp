@@ -26,6 +26,7 @@ struct RemeshResult {
   std::string failure;                  // if it failed: the reason, in a sentence; the surface is empty
   double from_input = 0, to_input = 0;  // greatest distance of a point of one surface from the other
   std::size_t feature_points = 0, front_points = 0;
+  std::int64_t row_ends = 0;  // on faces, of the lattice of the points there
   // Vertices of the input that stay because of the deviation, or because the surface would intersect itself without
   // them.
   std::size_t extra_points = 0;
@@ -55,7 +56,5 @@ class SurfaceRemesher {
 
 // Whether the sizes ask for more points than memory holds. Then no surface is made.
 bool asks_for_too_many_points(const solid::Surface& surface, const sizing::SizeField& size);
-
-RemeshResult remesh_surface(const solid::Surface& surface, const RemeshOptions& options);
 
 }  // namespace hexpipe::tetmesh::surface

@@ -1,7 +1,7 @@
 // Half-edge collapses in rounds, each followed by Lawson's flips around it. Faces carry the removed vertices that lie
 // nearest to them, and points on edges, so that the distance from the original surface is known at each step (Klein,
-// Liebich, Straßer 1996). Regions come first, at the same time, then the places where they meet. The regions do not
-// depend on the number of threads.
+// Liebich, Straßer 1996). Edges where sheets meet come first, then regions, at the same time, then the places where
+// regions meet. The regions do not depend on the number of threads.
 
 #include "tools/tetmesh/surface/vertex_removal.hpp"
 
@@ -24,9 +24,9 @@ using VertexH = OpenMesh::VertexHandle;
 // A collapse may turn a face's normal by an angle of this cosine, and make triangles of this shape (1 is equilateral).
 constexpr double least_cosine = 0.3, least_shape = 1e-3;
 // Edges that bend by less than this share of the deviation are flat.
-constexpr double least_bend = 0.05;
+constexpr double flat_bend = 0.05;
 // On the other edges, points are watched at most this many deviations apart.
-constexpr double sample_spacing = 3;
+constexpr double watch_spacing = 3;
 constexpr double most_samples = 64;  // along an edge
 // Removing some vertices makes others removable. More rounds found nothing.
 constexpr int most_rounds = 20;
@@ -64,11 +64,12 @@ using Strays = std::vector<std::vector<Vec3>>;
 Strays samples_of_edges(const FeatureMesh& mesh, const sizing::SizeField& deviation) {
   Strays strays(mesh.n_faces());
   for (const Edge e : mesh.edges()) {
-    const EdgeDiamond diamond(mesh, e);
-    const Vec3 &start = diamond.end_points[0], along = diamond.end_points[1] - start;
-    if (deviation.is_at_least(diamond.height() / least_bend, start)) continue;
-    const Face f = mesh.face_handle(mesh.halfedge_handle(e, 0));
-    const double parts = std::min(most_samples, std::ceil(norm(along) / (sample_spacing * deviation.at(start))));
+    const HalfEdgeH h = mesh.halfedge_handle(e, 0);
+    const Vec3 start = mesh.position(mesh.from_vertex_handle(h));
+    const Vec3 along = mesh.position(mesh.to_vertex_handle(h)) - start;
+    if (!mesh.is_boundary(e) && deviation.is_at_least(EdgeDiamond(mesh, e).height() / flat_bend, start)) continue;
+    const Face f = mesh.face_at(e);
+    const double parts = std::min(most_samples, std::ceil(norm(along) / (watch_spacing * deviation.at(start))));
     // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter): small whole numbers
     for (double i = 1; i < parts; ++i) strays[f.idx()].push_back(start + i / parts * along);
   }
@@ -113,6 +114,9 @@ class VertexRemover {
   };
 
   bool remove(VertexH v);
+  bool remove_with_copies(VertexH v);
+  bool fit_all(std::span<const HalfEdgeH> collapses);
+  void collapse(HalfEdgeH h);
   double shape_after(HalfEdgeH collapse);
   void describe_collapse(HalfEdgeH collapse);
   bool fits() { return strays_fit() && (change_.flat || faces_fit()); }
@@ -124,7 +128,7 @@ class VertexRemover {
 
   FeatureMesh& mesh_;
   const DistanceIndex& original_;
-  std::int32_t nearest_ = -1;  // the triangle of the original that was measured last
+  std::int32_t nearest_ = geometry::none;  // the triangle of the original that was measured last
   const sizing::SizeField& deviation_;
   Strays& strays_;
   const MeshRegions* regions_ = nullptr;  // null: everywhere
@@ -137,6 +141,7 @@ class VertexRemover {
 
 bool VertexRemover::remove(VertexH v) {
   if (regions_ && !regions_->has_around(region_, mesh_, v)) return false;
+  if (mesh_.has_copies(v)) return !regions_ && remove_with_copies(v);
   choices_.clear();
   const bool on_feature = mesh_.is_on_feature(v);
   for (const HalfEdgeH h : mesh_.voh_range(v)) {
@@ -148,16 +153,53 @@ bool VertexRemover::remove(VertexH v) {
     if (!mesh_.is_collapse_ok(choice.collapse)) continue;
     describe_collapse(choice.collapse);
     if (!fits()) continue;
-    const VertexH target = mesh_.to_vertex_handle(choice.collapse);
-    mesh_.collapse_edge(choice.collapse);
-    settle_strays();
-    for (const Edge e : mesh_.ve_range(target)) queue_.push(e);
-    for (const Face f : mesh_.vf_range(target))
-      for (const Edge e : mesh_.fe_range(f)) queue_.push(e);
+    collapse(choice.collapse);
     flip_queued();
     return true;
   }
   return false;
+}
+
+// Does the collapse that was described last.
+void VertexRemover::collapse(HalfEdgeH h) {
+  const VertexH target = mesh_.to_vertex_handle(h);
+  mesh_.collapse_edge(h);
+  settle_strays();
+  for (const Edge e : mesh_.ve_range(target)) queue_.push(e);
+  for (const Face f : mesh_.vf_range(target))
+    for (const Edge e : mesh_.fe_range(f)) queue_.push(e);
+}
+
+// Removes all copies in the same way along the joint, or none.
+bool VertexRemover::remove_with_copies(VertexH v) {
+  choices_.clear();
+  for (const HalfEdgeH h : mesh_.voh_range(v)) {
+    if (!mesh_.is_joint(mesh_.edge_handle(h))) continue;
+    double shape = std::numeric_limits<double>::max();
+    for (const HalfEdgeH copy : mesh_.copies(h)) shape = std::min(shape, shape_after(copy));
+    if (shape > least_shape) choices_.push_back({shape, h});
+  }
+  std::ranges::stable_sort(choices_, std::ranges::greater(), &Choice::shape);
+  for (const Choice& choice : choices_) {
+    const std::vector<HalfEdgeH> collapses = mesh_.copies(choice.collapse);
+    if (!fit_all(collapses)) continue;
+    for (const HalfEdgeH h : collapses) {
+      describe_collapse(h);
+      fits();
+      collapse(h);
+    }
+    flip_queued();
+    return true;
+  }
+  return false;
+}
+
+bool VertexRemover::fit_all(std::span<const HalfEdgeH> collapses) {
+  return std::ranges::all_of(collapses, [&](HalfEdgeH h) {
+    if (!mesh_.is_collapse_ok(h)) return false;
+    describe_collapse(h);
+    return fits();
+  });
 }
 
 // The least shape of the faces that move; negative if one of them turns too far.
@@ -268,13 +310,18 @@ std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, co
   const auto on_features_first = [&](std::vector<VertexH>& vertices) {
     std::ranges::stable_partition(vertices, [&](VertexH v) { return mesh.is_on_feature(v); });
   };
+  Strays strays = samples_of_edges(mesh, deviation);
+  VertexRemover everywhere(mesh, original, deviation, strays);
+  std::vector<VertexH> at_joints;
+  for (const VertexH v : mesh.vertices())
+    if (!mesh.is_kept(v) && mesh.has_copies(v) && mesh.place(v) == v.idx()) at_joints.push_back(v);
+  const std::size_t left_at_joints = everywhere.remove(std::move(at_joints)).size();
+
   const MeshRegions regions(mesh, region_vertices);
   std::vector<std::vector<VertexH>> waiting(regions.size());
   for (const VertexH v : mesh.vertices())
-    if (!mesh.is_kept(v)) waiting[regions.of(v)].push_back(v);
+    if (!mesh.is_kept(v) && !mesh.has_copies(v)) waiting[regions.of(v)].push_back(v);
 
-  Strays strays = samples_of_edges(mesh, deviation);
-  VertexRemover everywhere(mesh, original, deviation, strays);
   std::vector<VertexRemover> removers;
   for (std::size_t region = 0; region < regions.size(); ++region) removers.emplace_back(everywhere, regions, region);
   parallel_for(static_cast<std::int64_t>(regions.size()), 1, [&](std::int64_t i) {
@@ -288,7 +335,7 @@ std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, co
   on_features_first(left);
   left = everywhere.remove(std::move(left));
   everywhere.flip(std::vector<Edge>(mesh.edges().begin(), mesh.edges().end()));
-  return left.size();
+  return left.size() + left_at_joints;
 }
 
 }  // namespace hexpipe::tetmesh::surface

@@ -11,4 +11,11 @@ namespace hexpipe::tetmesh::volume {
 // stops when it comes to more than `enough`.
 double points_inside(const solid::Surface& surface, const sizing::SizeField& size, double clearance, double enough);
 
+// Throws DataError if the size makes more than `most` points inside.
+void check_point_count(const solid::Surface& surface, double size, double most);
+
+// Throws DataError if the sizes differ by place and make far more than `most` points inside. For smaller excesses see
+// graded_lattice_points().
+void check_point_count(const solid::Surface& surface, const sizing::SizeField& size, double clearance, double most);
+
 }  // namespace hexpipe::tetmesh::volume

@@ -19,7 +19,7 @@ struct FieldLink {
   float weight;
 };
 
-// What is known at a vertex of the surface.
+// The directions known at a vertex of the surface.
 struct SurfaceNode {
   enum class Kind : std::uint8_t {
     smooth,  // one axis is the normal; the triangles' legs may suggest the others

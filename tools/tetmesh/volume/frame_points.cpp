@@ -5,12 +5,13 @@
 #include <functional>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/solid/surface_clearance.hpp"
 #include "tools/tetmesh/volume/frame_field.hpp"
-#include "tools/tetmesh/volume/jitter.hpp"
+#include "tools/tetmesh/volume/lattice.hpp"
 #include "tools/tetmesh/volume/lattice_field.hpp"
 
 namespace hexpipe::tetmesh::volume {
@@ -45,6 +46,8 @@ class PointPlacer {
               const FramePointsOptions& options)
       : surface_(surface),
         options_(options),
+        background_(background),
+        adjacency_(adjacency),
         nodes_(make_field_nodes(surface, background, adjacency, options.size, options.feature_angle)),
         frames_(solve_frame_field(nodes_)) {}
 
@@ -54,6 +57,7 @@ class PointPlacer {
     return accept();
   }
   double turned_share() const;
+  Dislocations take_dislocations() { return std::move(dislocations_); }
 
  private:
   void propose();
@@ -65,10 +69,13 @@ class PointPlacer {
 
   const solid::Surface& surface_;
   const FramePointsOptions& options_;
+  const TetMesh& background_;
+  const TetAdjacency& adjacency_;
   FieldNodes nodes_;
   std::vector<fields::Frame> frames_;
   std::vector<Vec3> spacing_;  // of the lattice along the frames' axes, in sizes
   std::vector<Proposal> proposals_;
+  Dislocations dislocations_;
 };
 
 void PointPlacer::propose() {
@@ -82,6 +89,7 @@ void PointPlacer::propose() {
         return proposals;
       },
       [&](const std::vector<Proposal>& some) { proposals_.insert(proposals_.end(), some.begin(), some.end()); });
+  dislocations_ = find_dislocations(field.links, field.coordinates, background_, adjacency_);
 }
 
 void PointPlacer::propose(std::size_t i, const LatticeField& field, std::vector<Proposal>& proposals) const {
@@ -178,7 +186,7 @@ FramePoints frame_points(const solid::Surface& surface, const TetMesh& backgroun
   std::vector<Vec3> points = placer.place();
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i] += jitter_of(i, options.jitter * options.size.at(points[i]), options.seed);
-  return {std::move(points), placer.turned_share()};
+  return {std::move(points), placer.turned_share(), placer.take_dislocations()};
 }
 
 }  // namespace hexpipe::tetmesh::volume

@@ -17,6 +17,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
+#include "tools/tetmesh/volume/dislocations.hpp"
 
 namespace hexpipe::tetmesh::volume {
 
@@ -32,8 +33,9 @@ struct FramePointsOptions {
 };
 
 struct FramePoints {
-  std::vector<Vec3> points;  // in the order in which they were accepted
-  double turned_share = 0;   // share of the vertices whose frame is more than 10 degrees out of the lattice's axes
+  std::vector<Vec3> points;   // in the order in which they were accepted
+  double turned_share = 0;    // share of the vertices whose frame is more than 10 degrees out of the lattice's axes
+  Dislocations dislocations;  // of their lattice
 };
 
 // `background` is a mesh of the surface with points inside at about the same distance. Its first vertices are those of

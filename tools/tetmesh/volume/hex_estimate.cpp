@@ -13,15 +13,17 @@
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/geometry/cell_key.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
+#include "tools/tetmesh/geometry/sized_point_grid.hpp"
 
 namespace hexpipe::tetmesh::volume {
 namespace {
 
 constexpr double greatest_cosine = 0.7;  // between edges of a corner
-constexpr double furthest = 0.7;  // of a corner from its place in a parallelepiped, in lengths of the longest edge
+constexpr double furthest_corner =
+    0.7;  // of a corner from its place in a parallelepiped, in lengths of the longest edge
 constexpr double volume_tolerance = 0.9;  // of the volume of the tets from that of the hex
-constexpr Vertex none = -1;
+using geometry::none;
 
 constexpr std::array<unsigned, 6> quad_masks = [] {
   std::array<unsigned, 6> masks{};
@@ -97,7 +99,7 @@ void HexSearch::collect_sides(Vertex lowest) {
     for (std::size_t j = i + 1; j < edges_.size(); ++j) {
       const Vec3 a = point(edges_[i]) - origin, b = point(edges_[j]) - origin;
       if (!is_square(a, b)) continue;
-      const double reach = furthest * std::sqrt(std::max(norm_squared(a), norm_squared(b)));
+      const double reach = furthest_corner * std::sqrt(std::max(norm_squared(a), norm_squared(b)));
       const Vertex opposite = nearest_common(std::array{edges_[i], edges_[j]}, lowest, origin + a + b, reach);
       if (opposite != none) sides_.push_back({i, j, opposite});
     }
@@ -120,7 +122,7 @@ void HexSearch::complete(Vertex lowest, const Side& ab, const Side& ac, const Si
   if (to_a == to_b || to_b == to_c || to_a == to_c) return;
   const Vec3 along_a = point(a) - point(lowest), along_b = point(b) - point(lowest), along_c = point(c) - point(lowest);
   const double reach =
-      furthest * std::sqrt(std::max({norm_squared(along_a), norm_squared(along_b), norm_squared(along_c)}));
+      furthest_corner * std::sqrt(std::max({norm_squared(along_a), norm_squared(along_b), norm_squared(along_c)}));
   const Vec3 place = point(to_a) + point(to_b) + point(to_c) - point(a) - point(b) - point(c) + point(lowest);
   const Vertex far = nearest_common(std::array{to_a, to_b, to_c}, lowest, place, reach);
   if (far == none || far == a || far == b || far == c) return;

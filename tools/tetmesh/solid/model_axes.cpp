@@ -2,7 +2,7 @@
 // angles make a frame, which is judged by the area at right angles to its axes. If a direction has no partner, feature
 // edges take the place of the second direction.
 
-#include "tools/tetmesh/solid/part_axes.hpp"
+#include "tools/tetmesh/solid/model_axes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -175,7 +175,7 @@ class AxesFinder {
 
 }  // namespace
 
-Axes axes_of_part(const Surface& surface, double feature_angle) {
+Axes axes_of_model(const Surface& surface, double feature_angle) {
   return AxesFinder(surface, feature_angle).find();
 }
 
