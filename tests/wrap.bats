@@ -61,7 +61,7 @@ PYTHON
   cubes overlapping >two.off
   run wrap two.off --gap 6% -o two.stl --stats two.json
   assert_success
-  assert_output --regexp "^wrap: two.off: [0-9.]+ % of the input's area is not on the surface but up to 0.5 away"
+  assert_output --regexp "^wrap: warning: two.off: [0-9.]+ % of the input's area is not on the surface but up to 0.5 away"
   # The volume of both less that of the overlap; edges inward stay a little round.
   read -r closed volume _ <<<"$(facts two.stl)"
   assert_equal "$closed" True
@@ -73,22 +73,35 @@ PYTHON
 
 @test "a hole wider than the gap is an error that says what to do, one that is narrower closes" {
   cubes open >open.off
-  assert_fails_with 1 "^wrap: open.off: expected a surface that encloses a room .* close wider holes by a larger --gap" \
+  assert_fails_with 1 "^wrap: open.off: expected a surface that encloses a room .* its widest hole, 3 edges around \(0.666667, 0.333333, 1\), is about 0.586 wide; close wider holes by a larger --gap" \
     wrap open.off --gap 4% -o no.stl
   assert [ ! -e no.stl ]
   wrap open.off --gap 90% -q -o closed.stl
   read -r closed volume _ <<<"$(facts closed.stl)"
   assert_equal "$closed" True
   "$PYTHON" -c "assert $volume > 0.8, $volume"
+  # Without a room: a sheet has no other side.
+  printf 'OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n' >sheet.off
+  assert_fails_with 1 "^wrap: sheet.off: expected a surface that encloses a room .* only a shell" wrap sheet.off -o no.stl
 }
 
 @test "tetmesh fills what comes out, with the input's groups" {
   if ! command -v tetmesh; then skip "tetmesh fills the surface"; fi
-  wrap "$DATA/two_hexes.msh" --gap 6% -q -o boxes.tar
-  run "$PYTHON" -c "import json, tarfile; print(json.load(tarfile.open('boxes.tar').extractfile('names.json'))['surfaces'])"
-  assert_output --partial "inlet"
-  tetmesh -q boxes.tar --size 0.3 -o boxes.mesh --stats tets.json
-  "$PYTHON" -c "import json; v = json.load(open('tets.json'))['volume']; assert abs(v - 2) < 0.02, v"
+  cubes overlapping >two.off
+  "$PYTHON" - <<'PYTHON' >two.obj
+lines = open("two.off").read().split("\n")
+count = int(lines[1].split()[1])
+for point in lines[2:2 + 3 * count]:
+    print("v", point)
+for i in range(count):
+    if i % 12 == 0:
+        print("g", ["left", "right"][i // 12])
+    print("f", 3 * i + 1, 3 * i + 2, 3 * i + 3)
+PYTHON
+  wrap two.obj --gap 6% -q | tetmesh -q --size 0.3 --stats tets.json -o two.tar
+  run "$PYTHON" -c "import json, tarfile; print(*json.load(tarfile.open('two.tar').extractfile('names.json'))['surfaces'].values())"
+  assert_output "left right"
+  "$PYTHON" -c "import json; v = json.load(open('tets.json'))['volume']; assert abs(v - 1.875) < 0.02, v"
 }
 
 @test "--feature-angle and --no-features change the result, and so does the gap" {

@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
       .example = "wrap scan.obj --gap 2% | tetmesh --size 3 | findhex | buildgraph | initsol | assemble -o scan.vtu",
       .reads = {},
       .product = std::nullopt,
-      .licence = "GPL-3.0, because it links CGAL",
+      .licence = "GPL-3.0, because it links the GPL parts of CGAL",
   };
   std::string path = "-", gap = "2%", output_path;
   wrap::WrapOptions options{.gap = 0, .feature_angle = default_feature_angle, .features = true};

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "tools/wrap/shrink_wrap.hpp"
+#include "tools/wrap/slivers.hpp"
 #include "tools/wrap/stray_points.hpp"
 
 namespace hexpipe::wrap {
@@ -119,7 +120,8 @@ class Restorer {
       for (const std::int32_t t : crossing) take_back(result_.surface.triangles[t]);
       keep_sides();
     }
-    settle_what_stayed();
+    tidy_up();
+    leave_out_unused_points();
     return result_;
   }
 
@@ -159,18 +161,26 @@ class Restorer {
   }
 
   // Several points of the wrap may belong to one place of the input, as a corner: one goes there, and the others are in
-  // its way. Those that span a gap stay.
-  void settle_what_stayed() {
-    std::vector<char> is_stray(result_.surface.points.size());
+  // its way. Sharp points that fall onto points of the wrap, or onto its edges, leave triangles of almost no area. Where
+  // these are gone, more points find room.
+  void tidy_up() {
+    std::vector<char> is_stray(result_.surface.points.size()), spans_gap(result_.surface.points.size());
     std::vector<Vec3> targets = result_.surface.points;
     for (std::size_t v = 0; v < wrapped_.points.size(); ++v) {
-      is_stray[v] = !moves_[v] && norm(targets_[v] - wrapped_.points[v]) <= reach_;
+      spans_gap[v] = norm(targets_[v] - wrapped_.points[v]) > reach_;
+      is_stray[v] = !moves_[v] && !spans_gap[v];
       targets[v] = targets_[v];
     }
-    const auto strays = std::count(is_stray.begin(), is_stray.end(), true);
-    settle_strays(result_.surface, is_stray, targets, input_);
-    result_.points_off_input -= static_cast<std::size_t>(strays - std::count(is_stray.begin(), is_stray.end(), true));
-    leave_out_unused_points();
+    for (int round = 0; round < 2; ++round) {
+      settle_strays(result_.surface, is_stray, targets, input_);
+      flip_what_cuts_edges();
+      result_.slivers = remove_slivers(result_.surface, input_, {0.03 * reach_, 0.05 * reach_});
+    }
+    std::vector<char> is_used(result_.surface.points.size());
+    for (const Triangle& t : result_.surface.triangles)
+      for (const Vertex v : t) is_used[v] = true;
+    for (std::size_t v = 0; v < is_used.size(); ++v)
+      if (is_used[v]) ++(spans_gap[v] || is_stray[v] ? result_.points_off_input : result_.points_on_input);
   }
 
   void leave_out_unused_points() {
@@ -188,10 +198,8 @@ class Restorer {
   void build() {
     result_ = {};
     Surface& surface = result_.surface;
-    for (std::size_t v = 0; v < wrapped_.points.size(); ++v) {
+    for (std::size_t v = 0; v < wrapped_.points.size(); ++v)
       surface.points.push_back(place_of(static_cast<Vertex>(v)));
-      ++(moves_[v] ? result_.points_on_input : result_.points_off_input);
-    }
     owner_of_point_.assign(wrapped_.points.size(), -1);
     for (std::size_t t = 0; t < wrapped_.triangles.size(); ++t) {
       const auto [a, b, c] = wrapped_.triangles[t];
@@ -206,12 +214,13 @@ class Restorer {
         surface.triangles.push_back(part);
       ++result_.sharp_points;
     }
-    flip_to_input();
+    flip_to_input(false);
   }
 
   // Edges give way to the other diagonal where that lies nearer to the input: so points on one sharp edge come
-  // together.
-  void flip_to_input() {
+  // together. At first only those at sharp points, because what was no edge of the wrap and joins none is as good as any
+  // other diagonal.
+  void flip_to_input(bool everywhere) {
     auto& [points, triangles] = result_.surface;
     for (int round = 0; round < 3; ++round) {
       std::unordered_map<std::uint64_t, std::int32_t> triangle_of;  // by directed edge
@@ -231,8 +240,8 @@ class Restorer {
           if (u > v || other == triangle_of.end() || touched[other->second]) continue;
           Triangle& beyond = triangles[other->second];
           const Vertex w = opposite(beyond, u, v);
-          // What was no edge of the wrap and joins no sharp point is as good as any other diagonal.
-          if (owner_of_point_[s] < 0 && owner_of_point_[w] < 0) continue;
+          if (!everywhere && owner_of_point_[s] < 0 && owner_of_point_[w] < 0) continue;
+          if (!keeps_edges_.empty() && (keeps_edges_[u] || keeps_edges_[v] || keeps_edges_[s] || keeps_edges_[w])) continue;
           if (triangle_of.contains(key(s, w)) || triangle_of.contains(key(w, s)) || !pays(u, v, s, w)) continue;
           touched[t] = touched[other->second] = true;
           triangles[t] = {s, w, v};
@@ -240,6 +249,20 @@ class Restorer {
           changed = true;
         }
       if (!changed) return;
+    }
+  }
+
+  // Points that came to a sharp edge late are joined along it. Where the surface would cross itself edges stay.
+  void flip_what_cuts_edges() {
+    const std::vector<Triangle> before = result_.surface.triangles;
+    keeps_edges_.assign(result_.surface.points.size(), false);
+    for (;;) {
+      flip_to_input(true);
+      const auto crossing = crossing_triangles(result_.surface);
+      if (crossing.empty()) return;
+      for (const std::int32_t t : crossing)
+        for (const Vertex v : result_.surface.triangles[t]) keeps_edges_[v] = true;
+      result_.surface.triangles = before;
     }
   }
 
@@ -276,6 +299,7 @@ class Restorer {
   std::vector<Vec3> targets_;
   std::vector<Plane> planes_;  // of the input, at the targets
   RestoredSurface result_;
+  std::vector<char> keeps_edges_;             // points whose edges may not flip; empty: none
   std::vector<std::int32_t> owner_of_point_;  // the triangle of the wrap that a sharp point stands in; -1 for others
 };
 

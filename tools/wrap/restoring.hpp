@@ -18,6 +18,7 @@ struct RestoredSurface {
   std::size_t points_on_input = 0,
               points_off_input = 0;  // the latter span gaps, or would make the surface cross itself
   std::size_t sharp_points = 0;      // were added on sharp edges and at corners
+  std::size_t slivers = 0;           // nearly flat or folded triangles that had to stay
 };
 
 // The wrap must not cross itself; neither does the result.

@@ -2,42 +2,25 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
+#include <compare>
 #include <optional>
 
+#include "tools/wrap/neighbourhood.hpp"
 #include "tools/wrap/shrink_wrap.hpp"
 
 namespace hexpipe::wrap {
 namespace {
 
-bool has(const Triangle& t, Vertex v) {
-  return t[0] == v || t[1] == v || t[2] == v;
-}
-
-using TrianglesAround = std::vector<std::vector<std::int32_t>>;
-
-TrianglesAround triangles_around(const Surface& surface) {
-  TrianglesAround around(surface.points.size());
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-    for (const Vertex v : surface.triangles[t]) around[v].push_back(static_cast<std::int32_t>(t));
-  return around;
-}
-
-std::vector<Vertex> neighbours(const Surface& surface, const std::vector<std::int32_t>& around, Vertex v) {
-  std::vector<Vertex> result;
-  for (const std::int32_t t : around)
-    for (const Vertex w : surface.triangles[t])
-      if (w != v) result.push_back(w);
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
-}
-
 class StraySettler {
  public:
   StraySettler(Surface& surface, std::vector<char>& is_stray, const std::vector<Vec3>& targets,
-               const TriangleTree& input)
-      : surface_(surface), is_stray_(is_stray), targets_(targets), input_(input), stays_(surface.points.size()) {}
+               const TriangleTree& input, bool lets_sum_decide)
+      : surface_(surface),
+        is_stray_(is_stray),
+        targets_(targets),
+        input_(input),
+        lets_sum_decide_(lets_sum_decide),
+        stays_(surface.points.size()) {}
 
   // As many as do not touch each other; false: none. What makes the surface cross itself is taken back and not tried
   // again.
@@ -86,7 +69,7 @@ class StraySettler {
       for (const Vertex w : ring) touched[w] = true;
       steps_.push_back(*step);
     }
-    std::erase_if(surface_.triangles, [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+    leave_out_merged_triangles(surface_);
   }
 
   void take(const Step& step, const std::vector<std::int32_t>& around) {
@@ -98,24 +81,19 @@ class StraySettler {
   }
 
   std::optional<Step> best_step(Vertex v, const std::vector<Vertex>& ring, const TrianglesAround& around) const {
-    double least = misfit(v, -1, surface_.points[v], around[v]);
+    const Misfit now = misfit(v, -1, surface_.points[v], around[v]);
+    Misfit least = now;
     std::optional<Step> best;
     const auto consider = [&](const Step& step, const Vec3& place) {
       if (!keeps_sides(v, step.into, place, around[v])) return;
-      if (const double found = misfit(v, step.into, place, around[v]); found < least) least = found, best = step;
+      const Misfit found = misfit(v, step.into, place, around[v]);
+      if (found.greatest >= now.greatest && (step.into >= 0 || !lets_sum_decide_)) return;
+      if (found < least) least = found, best = step;
     };
     consider({v, -1}, targets_[v]);
     for (const Vertex w : ring)
-      if (!is_stray_[w] && links_allow(v, w, around)) consider({v, w}, surface_.points[w]);
+      if (!is_stray_[w] && may_merge(surface_, around, v, w)) consider({v, w}, surface_.points[w]);
     return best;
-  }
-
-  // On a closed surface an edge may be merged when its ends have two neighbours in common, those opposite it.
-  bool links_allow(Vertex v, Vertex w, const TrianglesAround& around) const {
-    const auto a = neighbours(surface_, around[v], v), b = neighbours(surface_, around[w], w);
-    std::vector<Vertex> common;
-    std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
-    return common.size() == 2 && a.size() > 3;
   }
 
   // Calls visit(before, after) with the corners of each triangle around a point that goes to `place`, but for those
@@ -149,21 +127,31 @@ class StraySettler {
     return keeps;
   }
 
-  // How far middles of triangles and edges are from the input at most.
-  double misfit(Vertex v, Vertex into, const Vec3& place, const std::vector<std::int32_t>& around) const {
-    double greatest = 0;
+  // How far middles of triangles and edges are from the input.
+  struct Misfit {
+    double greatest = 0, sum = 0;
+    auto operator<=>(const Misfit&) const = default;
+  };
+
+  Misfit misfit(Vertex v, Vertex into, const Vec3& place, const std::vector<std::int32_t>& around) const {
+    Misfit result;
+    const auto count = [&](const Vec3& middle) {
+      const double distance = input_.distance(middle);
+      result.greatest = std::max(result.greatest, distance);
+      result.sum += distance;
+    };
     for_each_changed(v, into, place, around, [&](const auto&, const auto& at) {
-      greatest = std::max(greatest, input_.distance((1.0 / 3) * (at[0] + at[1] + at[2])));
-      for (std::size_t i = 0; i < 3; ++i)
-        greatest = std::max(greatest, input_.distance(0.5 * (at[i] + at[(i + 1) % 3])));
+      count((1.0 / 3) * (at[0] + at[1] + at[2]));
+      for (std::size_t i = 0; i < 3; ++i) count(0.5 * (at[i] + at[(i + 1) % 3]));
     });
-    return greatest;
+    return result;
   }
 
   Surface& surface_;
   std::vector<char>& is_stray_;
   const std::vector<Vec3>& targets_;
   const TriangleTree& input_;
+  bool lets_sum_decide_;
   std::vector<char> stays_;
   std::vector<Step> steps_;
 };
@@ -172,8 +160,12 @@ class StraySettler {
 
 void settle_strays(Surface& surface, std::vector<char>& is_stray, const std::vector<Vec3>& targets,
                    const TriangleTree& input) {
-  StraySettler settler(surface, is_stray, targets, input);
-  while (settler.round()) {
+  // First the steps that bring the greatest distance down. Where several strays are neighbours that may be another
+  // one's, so then a point goes to its target if the sum becomes less.
+  for (const bool lets_sum_decide : {false, true}) {
+    StraySettler settler(surface, is_stray, targets, input, lets_sum_decide);
+    while (settler.round()) {
+    }
   }
 }
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "common/run/error.hpp"
+#include "tools/wrap/open_sheets.hpp"
 #include "tools/wrap/restoring.hpp"
 #include "tools/wrap/shrink_wrap.hpp"
 #include "tools/wrap/surface.hpp"
@@ -25,24 +27,30 @@ double area_of(const Surface& surface) {
   return area;
 }
 
-double volume_of(const Surface& surface) {
-  double volume = 0;
-  const Vec3 origin = surface.points.front();
-  for (const auto& [a, b, c] : surface.triangles)
-    volume += det(surface.points[a] - origin, surface.points[b] - origin, surface.points[c] - origin) / 6;
-  return volume;
+std::string name_of_hole(const Surface& input) {
+  const auto hole = widest_hole(input);
+  if (!hole) return "it has no hole, so it is a sheet without a room";
+  return fmt::format("its widest hole, {} edges around ({:.6g}, {:.6g}, {:.6g}), is about {:.3g} wide", hole->edges,
+                     hole->middle.x, hole->middle.y, hole->middle.z, hole->width);
 }
 
-void check_that_it_encloses(const Surface& wrapped, double offset, const std::string& name, double gap) {
-  // Around a plate without thickness the wrap is two offsets thick.
-  constexpr double thin = 3;
-  const double thickness = 2 * volume_of(wrapped) / area_of(wrapped);
-  if (thickness < thin * offset)
-    throw DataError::at(
-        name,
-        "expected a surface that encloses a room but for gaps up to {:.4g}, found that the outside gets "
-        "in, so that only a shell of {:.2g} is left: close wider holes by a larger --gap",
-        gap, thickness);
+// Throws where the outside got in; returns a warning where that may be so.
+std::optional<std::string> check_that_it_encloses(const Surface& wrapped, const Surface& input,
+                                                  const TriangleTree& tree, double offset, const std::string& name,
+                                                  double gap) {
+  // Sheets that stand out from a body, as fins, are wrapped on both sides as well.
+  constexpr double most = 0.5, told = 0.01;
+  const double share = sheet_share(wrapped, tree, offset);
+  if (share > most)
+    throw DataError::at(name,
+                        "expected a surface that encloses a room but for gaps up to {:.4g}, found that the outside gets "
+                        "in, so that only a shell of {:.2g} is left: {}; close wider holes by a larger --gap",
+                        gap, 2 * offset, name_of_hole(input));
+  if (share > told)
+    return fmt::format("{:.1f} % of the result is a shell of {:.2g} around sheets with the outside on both sides: {}; "
+                       "a larger --gap closes wider holes",
+                       100 * share, 2 * offset, name_of_hole(input));
+  return std::nullopt;
 }
 
 void give_tags(const formats::SurfaceSoup& soup, const TriangleTree& input, formats::SurfaceSoup& surface) {
@@ -73,9 +81,10 @@ WrapResult wrap(const formats::SurfaceSoup& soup, const WrapOptions& options) {
   const double alpha = options.gap / 2;
   result.offset = offset_of_alpha * alpha;
   const Surface wrapped = shrink_wrap(input, alpha, result.offset);
-  check_that_it_encloses(wrapped, result.offset, soup.name, options.gap);
-
   const TriangleTree tree(input);
+  if (auto warning = check_that_it_encloses(wrapped, input, tree, result.offset, soup.name, options.gap))
+    result.warnings.push_back(*warning);
+
   constexpr double no_features = 180;
   // The ball of radius alpha stays 0.41 alpha away from an inner edge of 90 degrees, 0.73 alpha from an inner corner.
   RestoredSurface restored =
@@ -83,6 +92,7 @@ WrapResult wrap(const formats::SurfaceSoup& soup, const WrapOptions& options) {
   result.points_on_input = restored.points_on_input;
   result.points_off_input = restored.points_off_input;
   result.sharp_points = restored.sharp_points;
+  result.slivers = restored.slivers;
   result.to_input = distances(restored.surface, tree, alpha / 2, 2 * result.offset);
   result.from_input = distances(input, TriangleTree(restored.surface), alpha / 2, 2 * result.offset);
   // Less than this is what comes out of rounded corners.
@@ -110,6 +120,7 @@ nlohmann::ordered_json to_json(const WrapResult& result) {
           {"points_on_input", result.points_on_input},
           {"points_off_input", result.points_off_input},
           {"sharp_points", result.sharp_points},
+          {"slivers", result.slivers},
           {"distance_to_input", summary(result.to_input)},
           {"distance_from_input", summary(result.from_input)}};
 }

@@ -21,6 +21,7 @@ struct WrapResult {
   double gap = 0, offset = 0;                             // lengths
   std::size_t points_on_input = 0, points_off_input = 0;  // the latter span gaps, mostly
   std::size_t sharp_points = 0;
+  std::size_t slivers = 0;  // nearly flat or folded triangles that had to stay
   DistanceSummary to_input, from_input;
   std::vector<std::string> warnings;
 };
