@@ -73,7 +73,7 @@ PYTHON
 
 @test "a hole wider than the gap is an error that says what to do, one that is narrower closes" {
   cubes open >open.off
-  assert_fails_with 1 "^wrap: open.off: expected a surface that encloses a room .* its widest hole, 3 edges around \(0.666667, 0.333333, 1\), is about 0.586 wide; close wider holes by a larger --gap" \
+  assert_fails_with 1 "^wrap: open.off: expected a surface that encloses a room .*; its widest hole, 3 edges around \(0.666667, 0.333333, 1\), is about 0.586 wide; close wider holes by a larger --gap" \
     wrap open.off --gap 4% -o no.stl
   assert [ ! -e no.stl ]
   wrap open.off --gap 90% -q -o closed.stl
@@ -83,6 +83,16 @@ PYTHON
   # Without a room: a sheet has no other side.
   printf 'OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n' >sheet.off
   assert_fails_with 1 "^wrap: sheet.off: expected a surface that encloses a room .* only a shell" wrap sheet.off -o no.stl
+}
+
+@test "a fin goes and is told, so that tetmesh can fill the rest" {
+  run wrap "$DATA/touching/fin-on-edge.off" --gap 6% -o body.stl
+  assert_success
+  assert_output --regexp "^wrap: warning: .*fin-on-edge.off: 1 triangle\(s\), 16 % of the input's area, have the outside on both sides and are left out"
+  read -r closed volume _ <<<"$(facts body.stl)"
+  assert_equal "$closed" True
+  "$PYTHON" -c "assert abs($volume - 1) < 0.01, $volume"
+  if command -v tetmesh; then tetmesh -q body.stl --size 0.3 -o body.mesh; fi
 }
 
 @test "tetmesh fills what comes out, with the input's groups" {

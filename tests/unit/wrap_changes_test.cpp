@@ -86,8 +86,10 @@ TEST(OpenSheets, TheWidestHoleHasAPlaceAndAWidth) {
 
 TEST(OpenSheets, AWrapOfASheetIsDoubledAndThatOfABodyIsNot) {
   const Surface body = corner(), sheet{body.points, {body.triangles[0]}};
-  EXPECT_LT(sheet_share(shrink_wrap(body, 0.1, 0.01), TriangleTree(body), 0.01), 0.02);
-  EXPECT_GT(sheet_share(shrink_wrap(sheet, 0.1, 0.01), TriangleTree(sheet), 0.01), 0.8);
+  EXPECT_LT(find_sheets(shrink_wrap(body, 0.1, 0.01), TriangleTree(body), 4, 0.01).share, 0.02);
+  const Sheets sheets = find_sheets(shrink_wrap(sheet, 0.1, 0.01), TriangleTree(sheet), 1, 0.01);
+  EXPECT_GT(sheets.share, 0.8);
+  EXPECT_TRUE(sheets.is_sheet[0]);
 }
 
 }  // namespace

@@ -67,20 +67,26 @@ Hole measure(const std::vector<Vertex>& ring, const std::vector<Vec3>& points) {
 
 }  // namespace
 
-double sheet_share(const Surface& wrapped, const TriangleTree& input, double offset) {
+Sheets find_sheets(const Surface& wrapped, const TriangleTree& input, std::size_t count, double offset) {
   const TriangleTree tree(wrapped);
   double area = 0, doubled = 0;
+  std::vector<double> excess(count);  // of doubled area, near each triangle of the input
   for (const auto& [a, b, c] : wrapped.triangles) {
     const Vec3 &p = wrapped.points[a], &q = wrapped.points[b], &r = wrapped.points[c];
     const Vec3 middle = (1.0 / 3) * (p + q + r);
-    const Vec3 on_input = input.nearest(middle).point;
+    const NearestPoint on_input = input.nearest(middle);
     // Farther out it spans a gap or rounds an inner edge.
-    if (norm(on_input - middle) > 1.5 * offset) continue;
+    if (norm(on_input.point - middle) > 1.5 * offset) continue;
     const double share = norm(cross(q - p, r - p)) / 2;
+    const bool is_double = tree.distance(2 * on_input.point - middle) < 0.5 * offset;
     area += share;
-    if (tree.distance(2 * on_input - middle) < 0.5 * offset) doubled += share;
+    if (is_double) doubled += share;
+    excess[on_input.triangle] += is_double ? share : -share;
   }
-  return area > 0 ? doubled / area : 0;
+  Sheets sheets;
+  if (area > 0) sheets.share = doubled / area;
+  for (const double of_triangle : excess) sheets.is_sheet.push_back(of_triangle > 0);
+  return sheets;
 }
 
 std::optional<Hole> widest_hole(const Surface& surface) {

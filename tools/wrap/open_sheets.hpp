@@ -2,15 +2,20 @@
 // Did the outside get in? Then the wrap is a thin shell on both sides of the input's triangles.
 
 #include <optional>
+#include <vector>
 
 #include "tools/wrap/surface.hpp"
 #include "tools/wrap/triangle_tree.hpp"
 
 namespace hexpipe::wrap {
 
-// The share of the wrap's area that has the wrap on the other side of the input, too. `offset` is the wrap's distance
-// from the input.
-double sheet_share(const Surface& wrapped, const TriangleTree& input, double offset);
+struct Sheets {
+  double share = 0;            // of the wrap's area that has the wrap on the other side of the input, too
+  std::vector<char> is_sheet;  // each triangle of the input: most of the wrap near it is so
+};
+
+// `offset` is the wrap's distance from the input, which has `count` triangles.
+Sheets find_sheets(const Surface& wrapped, const TriangleTree& input, std::size_t count, double offset);
 
 struct Hole {
   Vec3 middle;

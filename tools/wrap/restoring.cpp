@@ -236,16 +236,19 @@ class Restorer {
       for (std::size_t t = 0; t < count; ++t)
         for (int i = 0; i < 3 && !touched[t]; ++i) {
           const Vertex u = triangles[t][i], v = triangles[t][(i + 1) % 3], s = triangles[t][(i + 2) % 3];
-          const auto other = triangle_of.find(key(v, u));
-          if (u > v || other == triangle_of.end() || touched[other->second]) continue;
-          Triangle& beyond = triangles[other->second];
+          const auto found = triangle_of.find(key(v, u));
+          if (u > v || found == triangle_of.end() || touched[found->second]) continue;
+          const std::int32_t other = found->second;
+          Triangle& beyond = triangles[other];
           const Vertex w = opposite(beyond, u, v);
           if (!everywhere && owner_of_point_[s] < 0 && owner_of_point_[w] < 0) continue;
           if (!keeps_edges_.empty() && (keeps_edges_[u] || keeps_edges_[v] || keeps_edges_[s] || keeps_edges_[w])) continue;
           if (triangle_of.contains(key(s, w)) || triangle_of.contains(key(w, s)) || !pays(u, v, s, w)) continue;
-          touched[t] = touched[other->second] = true;
+          touched[t] = touched[other] = true;
           triangles[t] = {s, w, v};
           beyond = {w, s, u};
+          triangle_of[key(s, w)] = static_cast<std::int32_t>(t);
+          triangle_of[key(w, s)] = other;
           changed = true;
         }
       if (!changed) return;

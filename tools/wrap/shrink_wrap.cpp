@@ -53,13 +53,18 @@ std::vector<std::int32_t> crossing_triangles(const Surface& surface) {
   Mesh mesh;
   std::vector<Mesh::Vertex_index> vertices;
   for (const auto& p : points_of(surface)) vertices.push_back(mesh.add_vertex(p));
-  for (const auto& [a, b, c] : surface.triangles) mesh.add_face(vertices[a], vertices[b], vertices[c]);
+  std::vector<std::int32_t> triangle_of_face, crossing;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& [a, b, c] = surface.triangles[t];
+    // An edge that has two triangles already takes no more.
+    const bool fits = mesh.add_face(vertices[a], vertices[b], vertices[c]) != Mesh::null_face();
+    (fits ? triangle_of_face : crossing).push_back(static_cast<std::int32_t>(t));
+  }
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
   CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs));
-  std::vector<std::int32_t> crossing;
   for (const auto& [first, second] : pairs) {
-    crossing.push_back(static_cast<std::int32_t>(first.idx()));
-    crossing.push_back(static_cast<std::int32_t>(second.idx()));
+    crossing.push_back(triangle_of_face[first]);
+    crossing.push_back(triangle_of_face[second]);
   }
   std::sort(crossing.begin(), crossing.end());
   crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());

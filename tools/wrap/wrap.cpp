@@ -27,30 +27,48 @@ double area_of(const Surface& surface) {
   return area;
 }
 
+// Empty if there is none.
 std::string name_of_hole(const Surface& input) {
   const auto hole = widest_hole(input);
-  if (!hole) return "it has no hole, so it is a sheet without a room";
-  return fmt::format("its widest hole, {} edges around ({:.6g}, {:.6g}, {:.6g}), is about {:.3g} wide", hole->edges,
+  if (!hole) return {};
+  return fmt::format("; its widest hole, {} edges around ({:.6g}, {:.6g}, {:.6g}), is about {:.3g} wide", hole->edges,
                      hole->middle.x, hole->middle.y, hole->middle.z, hole->width);
 }
 
-// Throws where the outside got in; returns a warning where that may be so.
-std::optional<std::string> check_that_it_encloses(const Surface& wrapped, const Surface& input,
-                                                  const TriangleTree& tree, double offset, const std::string& name,
-                                                  double gap) {
-  // Sheets that stand out from a body, as fins, are wrapped on both sides as well.
-  constexpr double most = 0.5, told = 0.01;
-  const double share = sheet_share(wrapped, tree, offset);
-  if (share > most)
-    throw DataError::at(name,
+// A wrap around the input, without the sheets that stand out from bodies, as fins do. A wrap of them would be a shell
+// that is too thin to be meshed.
+struct Wrapped {
+  Surface input, surface;
+};
+
+Surface without(const Surface& input, const std::vector<char>& left_out) {
+  Surface result{input.points, {}};
+  for (std::size_t t = 0; t < input.triangles.size(); ++t)
+    if (!left_out[t]) result.triangles.push_back(input.triangles[t]);
+  return result;
+}
+
+Wrapped wrap_bodies(const formats::SurfaceSoup& soup, double alpha, double offset, std::vector<std::string>& warnings) {
+  constexpr double most = 0.3, told = 1e-3;
+  Wrapped result{{soup.points, soup.triangles}, {}};
+  result.surface = shrink_wrap(result.input, alpha, offset);
+  const Sheets sheets =
+      find_sheets(result.surface, TriangleTree(result.input), result.input.triangles.size(), offset);
+  if (sheets.share > most)
+    throw DataError::at(soup.name,
                         "expected a surface that encloses a room but for gaps up to {:.4g}, found that the outside gets "
-                        "in, so that only a shell of {:.2g} is left: {}; close wider holes by a larger --gap",
-                        gap, 2 * offset, name_of_hole(input));
-  if (share > told)
-    return fmt::format("{:.1f} % of the result is a shell of {:.2g} around sheets with the outside on both sides: {}; "
-                       "a larger --gap closes wider holes",
-                       100 * share, 2 * offset, name_of_hole(input));
-  return std::nullopt;
+                        "in, so that only a shell of {:.2g} is left{}; close wider holes by a larger --gap",
+                        2 * alpha, 2 * offset, name_of_hole(result.input));
+  Surface bodies = without(result.input, sheets.is_sheet);
+  if (sheets.share < told || area_of(bodies) == area_of(result.input)) return result;
+  warnings.push_back(fmt::format("{} triangle(s), {:.2g} % of the input's area, have the outside on both sides and are "
+                                 "left out: they are fins, or the room behind them is open to gaps of {:.4g}{}",
+                                 result.input.triangles.size() - bodies.triangles.size(),
+                                 100 * (1 - area_of(bodies) / area_of(result.input)), 2 * alpha,
+                                 name_of_hole(result.input)));
+  result.surface = shrink_wrap(bodies, alpha, offset);
+  result.input = std::move(bodies);
+  return result;
 }
 
 void give_tags(const formats::SurfaceSoup& soup, const TriangleTree& input, formats::SurfaceSoup& surface) {
@@ -80,15 +98,13 @@ WrapResult wrap(const formats::SurfaceSoup& soup, const WrapOptions& options) {
   result.gap = options.gap;
   const double alpha = options.gap / 2;
   result.offset = offset_of_alpha * alpha;
-  const Surface wrapped = shrink_wrap(input, alpha, result.offset);
-  const TriangleTree tree(input);
-  if (auto warning = check_that_it_encloses(wrapped, input, tree, result.offset, soup.name, options.gap))
-    result.warnings.push_back(*warning);
+  const Wrapped wrapped = wrap_bodies(soup, alpha, result.offset, result.warnings);
+  const TriangleTree bodies(wrapped.input), tree(input);
 
   constexpr double no_features = 180;
   // The ball of radius alpha stays 0.41 alpha away from an inner edge of 90 degrees, 0.73 alpha from an inner corner.
   RestoredSurface restored =
-      restore_shape(wrapped, tree, {0.75 * alpha, options.features ? options.feature_angle : no_features});
+      restore_shape(wrapped.surface, bodies, {0.75 * alpha, options.features ? options.feature_angle : no_features});
   result.points_on_input = restored.points_on_input;
   result.points_off_input = restored.points_off_input;
   result.sharp_points = restored.sharp_points;
