@@ -17,8 +17,7 @@ std::vector<Vertex> first_at_place(const std::vector<Vec3>& points) {
   std::vector<Vertex> result;
   result.reserve(points.size());
   for (std::size_t v = 0; v < points.size(); ++v)
-    result.push_back(
-        first.try_emplace({points[v].x, points[v].y, points[v].z}, static_cast<Vertex>(v)).first->second);
+    result.push_back(first.try_emplace({points[v].x, points[v].y, points[v].z}, static_cast<Vertex>(v)).first->second);
   return result;
 }
 

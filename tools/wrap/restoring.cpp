@@ -161,8 +161,8 @@ class Restorer {
   }
 
   // Several points of the wrap may belong to one place of the input, as a corner: one goes there, and the others are in
-  // its way. Sharp points that fall onto points of the wrap, or onto its edges, leave triangles of almost no area. Where
-  // these are gone, more points find room.
+  // its way. Sharp points that fall onto points of the wrap, or onto its edges, leave triangles of almost no area.
+  // Where these are gone, more points find room.
   void tidy_up() {
     std::vector<char> is_stray(result_.surface.points.size()), spans_gap(result_.surface.points.size());
     std::vector<Vec3> targets = result_.surface.points;
@@ -198,8 +198,7 @@ class Restorer {
   void build() {
     result_ = {};
     Surface& surface = result_.surface;
-    for (std::size_t v = 0; v < wrapped_.points.size(); ++v)
-      surface.points.push_back(place_of(static_cast<Vertex>(v)));
+    for (std::size_t v = 0; v < wrapped_.points.size(); ++v) surface.points.push_back(place_of(static_cast<Vertex>(v)));
     owner_of_point_.assign(wrapped_.points.size(), -1);
     for (std::size_t t = 0; t < wrapped_.triangles.size(); ++t) {
       const auto [a, b, c] = wrapped_.triangles[t];
@@ -218,8 +217,8 @@ class Restorer {
   }
 
   // Edges give way to the other diagonal where that lies nearer to the input: so points on one sharp edge come
-  // together. At first only those at sharp points, because what was no edge of the wrap and joins none is as good as any
-  // other diagonal.
+  // together. At first only those at sharp points, because what was no edge of the wrap and joins none is as good as
+  // any other diagonal.
   void flip_to_input(bool everywhere) {
     auto& [points, triangles] = result_.surface;
     for (int round = 0; round < 3; ++round) {
@@ -242,7 +241,8 @@ class Restorer {
           Triangle& beyond = triangles[other];
           const Vertex w = opposite(beyond, u, v);
           if (!everywhere && owner_of_point_[s] < 0 && owner_of_point_[w] < 0) continue;
-          if (!keeps_edges_.empty() && (keeps_edges_[u] || keeps_edges_[v] || keeps_edges_[s] || keeps_edges_[w])) continue;
+          if (!keeps_edges_.empty() && (keeps_edges_[u] || keeps_edges_[v] || keeps_edges_[s] || keeps_edges_[w]))
+            continue;
           if (triangle_of.contains(key(s, w)) || triangle_of.contains(key(w, s)) || !pays(u, v, s, w)) continue;
           touched[t] = touched[other] = true;
           triangles[t] = {s, w, v};

@@ -52,20 +52,20 @@ Wrapped wrap_bodies(const formats::SurfaceSoup& soup, double alpha, double offse
   constexpr double most = 0.3, told = 1e-3;
   Wrapped result{{soup.points, soup.triangles}, {}};
   result.surface = shrink_wrap(result.input, alpha, offset);
-  const Sheets sheets =
-      find_sheets(result.surface, TriangleTree(result.input), result.input.triangles.size(), offset);
+  const Sheets sheets = find_sheets(result.surface, TriangleTree(result.input), result.input.triangles.size(), offset);
   if (sheets.share > most)
-    throw DataError::at(soup.name,
-                        "expected a surface that encloses a room but for gaps up to {:.4g}, found that the outside gets "
-                        "in, so that only a shell of {:.2g} is left{}; close wider holes by a larger --gap",
-                        2 * alpha, 2 * offset, name_of_hole(result.input));
+    throw DataError::at(
+        soup.name,
+        "expected a surface that encloses a room but for gaps up to {:.4g}, found that the outside gets "
+        "in, so that only a shell of {:.2g} is left{}; close wider holes by a larger --gap",
+        2 * alpha, 2 * offset, name_of_hole(result.input));
   Surface bodies = without(result.input, sheets.is_sheet);
   if (sheets.share < told || area_of(bodies) == area_of(result.input)) return result;
-  warnings.push_back(fmt::format("{} triangle(s), {:.2g} % of the input's area, have the outside on both sides and are "
-                                 "left out: they are fins, or the room behind them is open to gaps of {:.4g}{}",
-                                 result.input.triangles.size() - bodies.triangles.size(),
-                                 100 * (1 - area_of(bodies) / area_of(result.input)), 2 * alpha,
-                                 name_of_hole(result.input)));
+  warnings.push_back(
+      fmt::format("{} triangle(s), {:.2g} % of the input's area, have the outside on both sides and are "
+                  "left out: they are fins, or the room behind them is open to gaps of {:.4g}{}",
+                  result.input.triangles.size() - bodies.triangles.size(),
+                  100 * (1 - area_of(bodies) / area_of(result.input)), 2 * alpha, name_of_hole(result.input)));
   result.surface = shrink_wrap(bodies, alpha, offset);
   result.input = std::move(bodies);
   return result;
