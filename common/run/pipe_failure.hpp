@@ -1,10 +1,10 @@
 #pragma once
 // A pipe of tools fails once: the tool at fault says why, and its neighbours end without a word.
 //
-// The failing tool leaves a mark on its pipes that costs no byte of data: it sets their time of modification, which both
-// ends of a pipe see. The nanoseconds tell which end failed, the seconds how many bytes were written, so that a mark is
-// void when another program wrote more (`wrap scan.stl || cat closed.stl`). Only nameless pipes are marked. Where the
-// system does not keep the mark, each tool reports what it finds.
+// The failing tool leaves a mark on its pipes that costs no byte of data: it sets their time of modification, which
+// both ends of a pipe see. The nanoseconds tell which end failed, the seconds how many bytes were written, so that a
+// mark is void when another program wrote more (`wrap scan.stl || cat closed.stl`). Only nameless pipes are marked.
+// Where the system does not keep the mark, each tool reports what it finds.
 
 #include <cstddef>
 
