@@ -250,3 +250,42 @@ PYTHON
     assert [ ! -e out.tar ]
   done
 }
+
+# Tests of failing pipes write each tool's messages to a file of its own.
+@test "a pipe fails once: the first tool says why, those behind it end with code 1 without a word" {
+  printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >open.off
+  tetmesh open.off 2>1.txt | findhex 2>2.txt | buildgraph 2>3.txt | initsol 2>4.txt | lns 2>5.txt |
+    assemble -o no.vtu 2>6.txt || assert_equal "${PIPESTATUS[*]}" "1 1 1 1 1 1"
+  assert_equal "$(cat ?.txt)" "tetmesh: open.off:6: expected a closed surface, found 3 edges of a single triangle; the first is from (0, 0, 0) to (1, 0, 0) (see --repair)"
+  assert [ ! -e no.vtu ]
+  # A bad command line, too.
+  assert_fails_with 1 "^tetmesh: The following argument" shell 'tetmesh --no-such open.off | findhex | buildgraph'
+}
+
+@test "in a pipe that another program fills, a tool says what it found" {
+  assert_fails_with 1 "^findhex: stdin: expected a bundle or the mesh, found nothing" shell 'true | findhex'
+  tetmesh -q "$DATA/cube.stl" -o cube.tar
+  assert_fails_with 1 "^findhex: stdin: .*Truncated" shell 'head -c 1500 cube.tar | findhex'
+  # What comes in place of a failed tool's product is judged for itself.
+  assert_fails_with 1 "Truncated" shell '{ tetmesh no.stl 2>/dev/null || head -c 1500 cube.tar; } | findhex'
+  shell '{ tetmesh no.stl 2>/dev/null || cat cube.tar; } | findhex -q | buildgraph -q -o cube.graph'
+}
+
+@test "a tool whose reader failed ends without a word" {
+  tetmesh -q "$DATA/bracket.stl" --size 6 -o bracket.tar
+  mkfifo go
+  # findhex has more to write than a pipe holds, and does so when buildgraph has failed.
+  { cat go >/dev/null; findhex -q bracket.tar; } 2>1.txt | { buildgraph --no-such 2>2.txt; echo >go; } || true
+  assert_equal "$(cat ?.txt)" "buildgraph: The following argument was not expected: --no-such (see buildgraph --help)"
+}
+
+@test "after a signal those behind the tool that it ended are silent" {
+  mkfifo feed
+  { findhex feed 2>1.txt & echo $! >pid; wait; } | { buildgraph 2>2.txt || echo $? >code; } | { initsol 2>3.txt || true; } &
+  exec {feeder}>feed
+  kill -TERM "$(<pid)"
+  wait %1 || true
+  exec {feeder}>&-
+  assert_equal "$(cat code)" 1
+  assert_equal "$(cat ?.txt)" ""
+}

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <limits>
 
+#include "common/run/pipe_failure.hpp"
 #include "common/run/removed_files.hpp"
 
 namespace hexpipe {
@@ -23,6 +24,7 @@ constexpr unsigned patience_with_writers = 1, patience_with_readers = 3;  // sec
 
 void end_by(int signal_number) {
   remove_registered_files();
+  mark_pipes_as_failed();
   signal(signal_number, SIG_DFL);
   raise(signal_number);
 }

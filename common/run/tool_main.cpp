@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -20,6 +21,7 @@
 #include "common/run/messages.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/parallel.hpp"
+#include "common/run/pipe_failure.hpp"
 #include "common/run/removed_files.hpp"
 #include "common/run/run_context.hpp"
 #include "common/run/text_file.hpp"
@@ -202,7 +204,21 @@ void keep_standard_streams_apart() {
 
 int report(const std::string& tool, std::string_view message, int code) {
   print_message(tool, message);
+  mark_pipes_as_failed();
   return code;
+}
+
+// Bad data, or failed input or output. If a neighbour in the pipe failed, it has said why.
+int report_failure(const std::string& tool, std::string_view message) {
+  if (reader_has_failed()) {
+    mark_pipes_as_failed();
+    // As programs end whose reader has gone.
+    signal(SIGPIPE, SIG_DFL);
+    raise(SIGPIPE);
+  }
+  if (!writer_has_failed()) return report(tool, message, exit_data);
+  mark_pipes_as_failed();
+  return exit_data;
 }
 
 // The standard streams hold nothing but help, and show() has checked that it was written.
@@ -240,6 +256,7 @@ void end_without_memory() {
   } catch (const std::bad_alloc&) {
     dprintf(STDERR_FILENO, "%s: not enough memory\n", program_invocation_short_name);
     remove_registered_files();
+    mark_pipes_as_failed();
     _exit(exit_data);
   } catch (...) {
     usual_end();
@@ -293,7 +310,7 @@ int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<v
   } catch (const std::bad_alloc&) {
     return report(info.name, "not enough memory", exit_data);
   } catch (const std::exception& error) {
-    return report(info.name, error.what(), exit_data);
+    return report_failure(info.name, error.what());
   }
 }
 

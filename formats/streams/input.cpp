@@ -10,6 +10,7 @@
 
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
+#include "common/run/pipe_failure.hpp"
 
 namespace hexpipe::formats {
 namespace {
@@ -78,7 +79,11 @@ bool Input::fill() {
   while (got < 0 && errno == EINTR);
   if (got < 0) throw DataError::at(name_, "cannot read: {}", std::strerror(errno));
   at_end_ = got == 0;
-  if (at_end_ && path_.empty()) leave_interrupt_upstream(false);
+  if (path_.empty()) {
+    count_read_from_stdin(static_cast<std::size_t>(got));
+    if (at_end_) note_end_of_stdin();
+    if (at_end_) leave_interrupt_upstream(false);
+  }
   end_ += static_cast<std::size_t>(got);
   return got > 0;
 }

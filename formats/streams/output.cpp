@@ -13,6 +13,7 @@
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "common/run/open_files.hpp"
+#include "common/run/pipe_failure.hpp"
 #include "formats/streams/input.hpp"
 #include "formats/streams/temporary_file.hpp"
 
@@ -163,7 +164,9 @@ void Output::write_through(std::string_view bytes) {
     const ssize_t written =
         ::write(descriptor_, bytes.data(), may_wait_ ? std::min(bytes.size(), most_before_wait) : bytes.size());
     if (written < 0 && errno == EINTR) continue;
+    if (written < 0 && errno == EPIPE && descriptor_ == STDOUT_FILENO) note_broken_stdout();
     if (written < 0) fail();
+    if (descriptor_ == STDOUT_FILENO) count_written_to_stdout(static_cast<std::size_t>(written));
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
 }

@@ -257,10 +257,11 @@ void PipeRun::wait() {
 }
 
 // A tool that writes into a pipe whose reader is gone fails, too, but has nothing to say of its own: the tool that
-// broke the pipe comes after it.
+// broke the pipe comes after it. It ends by SIGPIPE if that tool is ours.
 void PipeRun::judge() const {
   const auto says_why = [](const Process& process) {
-    return process.exit_code != 0 && process.withheld.find("Broken pipe") == std::string::npos;
+    return process.exit_code != 0 && process.exit_code != 128 + SIGPIPE &&
+           process.withheld.find("Broken pipe") == std::string::npos;
   };
   auto failed = std::ranges::find_if(processes_, says_why);
   if (failed == processes_.end())

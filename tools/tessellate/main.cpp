@@ -1,22 +1,17 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
-#include "formats/pipeline/bundle.hpp"
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/output_format.hpp"
-#include "formats/pipeline/surface_bundle.hpp"
+#include "formats/pipeline/surface_output.hpp"
 #include "formats/streams/output.hpp"
 #include "tools/tessellate/tessellate.hpp"
-#include "tools/tessellate/write_surface.hpp"
 
 using namespace hexpipe;
 
@@ -26,30 +21,6 @@ formats::Input open_cad(const std::string& path) {
   if (path == "-" && isatty(STDIN_FILENO))
     throw UsageError("nothing to read: name a CAD file, or pipe one to standard input (see tessellate --help)");
   return formats::Input::open(path);
-}
-
-// Empty for a bundle.
-std::string_view format_of(const std::string& path) {
-  const bool to_stdout = path.empty() || path == "-";
-  if (to_stdout && isatty(STDOUT_FILENO))
-    throw UsageError("standard output is a terminal: pipe it to tetmesh, or write a file with -o");
-  const std::string_view ending = pipeline::ending_of(path);
-  if (to_stdout || path.starts_with("/dev/") || pipeline::is_bundle_format(ending)) return {};
-  const auto& known = tessellate::surface_format_names();
-  if (std::ranges::find(known, ending) == known.end())
-    throw UsageError(fmt::format("expected a surface as {} or tar, tar.zst, found '{}'", fmt::join(known, ", "), path));
-  return ending;
-}
-
-void write_bundle(const tessellate::TessellateResult& result, const RunContext& context, bool compress,
-                  formats::Output& output) {
-  pipeline::BundleWriter writer(output, compress);
-  pipeline::write_surface_members(writer, result.surface);
-  if (!result.surface.names.empty()) writer.add_text(std::string(formats::names_member), text_of(result.surface.names));
-  nlohmann::ordered_json entry = pipeline::history_entry_of(context);
-  entry.update(to_json(result));
-  pipeline::write_history_entry(writer, pipeline::history_member(1, entry), entry);
-  writer.close();
 }
 
 }  // namespace
@@ -83,16 +54,19 @@ int main(int argc, char** argv) {
     outside_history(app.add_flag("--compress", compress, "Compress the bundle with zstd"));
   };
   const auto run = [&](RunContext& context) {
-    const std::string_view format = format_of(output_path);
+    const std::string_view format = pipeline::surface_format_of(output_path);
     formats::Input input = open_cad(path);
     const tessellate::TessellateResult result = tessellate::tessellate(input, options);
     for (const std::string& warning : result.warnings) context.warn(input.name() + ": " + warning);
     formats::Output output(output_path);
-    if (format.empty())
-      write_bundle(result, context, compress || pipeline::ending_of(output_path) == pipeline::compressed_bundle_format,
-                   output);
-    else
-      for (const std::string& change : tessellate::write_surface(result.surface, format, output)) context.warn(change);
+    if (format.empty()) {
+      nlohmann::ordered_json entry = pipeline::history_entry_of(context);
+      entry.update(to_json(result));
+      pipeline::write_surface_bundle(result.surface, entry,
+                           compress || pipeline::ending_of(output_path) == pipeline::compressed_bundle_format, output);
+    } else {
+      for (const std::string& change : pipeline::write_surface(result.surface, format, output)) context.warn(change);
+    }
     output.commit();
     context.note(fmt::format("{} bodies of {} faces, {} triangles within {:.4g} of them, lengths in {}", result.bodies,
                              result.faces, result.surface.triangles.size(), result.deviation,

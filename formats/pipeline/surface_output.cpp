@@ -1,6 +1,8 @@
-#include "tools/tessellate/write_surface.hpp"
+#include "formats/pipeline/surface_output.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <map>
@@ -8,8 +10,12 @@
 
 #include "common/run/error.hpp"
 #include "formats/meshes/mesh_files.hpp"
+#include "formats/pipeline/bundle.hpp"
+#include "formats/pipeline/history.hpp"
+#include "formats/pipeline/output_format.hpp"
+#include "formats/pipeline/surface_bundle.hpp"
 
-namespace hexpipe::tessellate {
+namespace hexpipe::pipeline {
 namespace {
 
 // Triangles by tag, ascending.
@@ -77,13 +83,17 @@ constexpr std::pair<std::string_view, Writer> writers[] = {{"obj", write_obj}, {
 
 }  // namespace
 
-const std::vector<std::string_view>& surface_format_names() {
-  static const std::vector<std::string_view> names = [] {
-    std::vector<std::string_view> list;
-    for (const auto& [name, writer] : writers) list.push_back(name);
-    return list;
-  }();
-  return names;
+std::string_view surface_format_of(const std::string& path) {
+  const bool to_stdout = path.empty() || path == "-";
+  if (to_stdout && isatty(STDOUT_FILENO))
+    throw UsageError("standard output is a terminal: pipe it to tetmesh, or write a file with -o");
+  const std::string_view ending = ending_of(path);
+  if (to_stdout || path.starts_with("/dev/") || is_bundle_format(ending)) return {};
+  std::vector<std::string_view> known;
+  for (const auto& [name, writer] : writers) known.push_back(name);
+  if (std::ranges::find(known, ending) == known.end())
+    throw UsageError(fmt::format("expected a surface as {} or tar, tar.zst, found '{}'", fmt::join(known, ", "), path));
+  return ending;
 }
 
 std::vector<std::string> write_surface(const formats::SurfaceSoup& surface, std::string_view format,
@@ -93,4 +103,13 @@ std::vector<std::string> write_surface(const formats::SurfaceSoup& surface, std:
   throw UsageError(fmt::format("expected a surface as obj, stl or msh, found '{}'", format));
 }
 
-}  // namespace hexpipe::tessellate
+void write_surface_bundle(const formats::SurfaceSoup& surface, const nlohmann::ordered_json& history_entry,
+                          bool compress, formats::Output& output) {
+  BundleWriter writer(output, compress);
+  write_surface_members(writer, surface);
+  if (!surface.names.empty()) writer.add_text(std::string(formats::names_member), text_of(surface.names));
+  write_history_entry(writer, history_member(1, history_entry), history_entry);
+  writer.close();
+}
+
+}  // namespace hexpipe::pipeline
