@@ -1,9 +1,11 @@
 #include "tools/tetmesh/fill.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "common/mesh/adjacency.hpp"
 #include "common/run/deadline.hpp"
@@ -67,6 +69,8 @@ class Filler {
   void fill_given_surface();
   void place_points();
   void try_frame_points();
+  void try_points_by_body(const tetgen::BuiltMesh& lattice, const volume::HexEstimate& of_lattice,
+                          const tetgen::BuiltMesh& frame, const volume::HexEstimate& of_frame);
   // Called while TetGen is at work; false when its mesh is not wanted any more.
   using Meanwhile = std::function<bool()>;
   std::optional<tetgen::BuiltMesh> tetrahedralize(std::span<const Vec3> points, const Meanwhile& meanwhile);
@@ -104,8 +108,9 @@ FilledSurface Filler::fill(bool estimates) {
     }
   }
   if (estimates) {
-    const auto& known =
-        statistics_.points_kept == PointKind::frame ? statistics_.frame_hex_share : statistics_.lattice_hex_share;
+    const auto& known = statistics_.points_kept == PointKind::mixed   ? statistics_.mixed_hex_share
+                        : statistics_.points_kept == PointKind::frame ? statistics_.frame_hex_share
+                                                                      : statistics_.lattice_hex_share;
     statistics_.hex_share = known ? *known : volume::estimate_hex_share(built_->mesh, built_->adjacency);
     watch_.add_to(statistics_.seconds.comparing);
   }
@@ -195,23 +200,65 @@ void Filler::try_frame_points() {
                             .feature_angle = options_.feature_angle,
                             .axes = axes_});
   watch_.add_to(statistics_.seconds.placing);
-  const bool compares = options_.points == PointKind::best &&
-                        !frame_plainly_wins(statistics_.remeshed, frame.turned_share, built_->mesh.tets.size());
-  double lattice_share = 0;
+  const bool has_bodies = surface_->region_count > 1;
+  const bool compares =
+      options_.points == PointKind::best &&
+      (has_bodies || !frame_plainly_wins(statistics_.remeshed, frame.turned_share, built_->mesh.tets.size()));
+  volume::HexEstimate of_lattice, of_frame;
   std::optional<tetgen::BuiltMesh> bent = tetrahedralize(frame.points, [&] {
-    if (compares) lattice_share = volume::estimate_hex_share(built_->mesh, built_->adjacency);
+    if (compares) of_lattice = volume::estimate_hexes(built_->mesh, built_->adjacency);
     watch_.add_to(statistics_.seconds.comparing);
     return true;
   });
   if (compares) {
-    statistics_.lattice_hex_share = lattice_share;
-    statistics_.frame_hex_share = volume::estimate_hex_share(bent->mesh, bent->adjacency);
+    of_frame = volume::estimate_hexes(bent->mesh, bent->adjacency);
+    statistics_.lattice_hex_share = of_lattice.share();
+    statistics_.frame_hex_share = of_frame.share();
     watch_.add_to(statistics_.seconds.comparing);
-    if (lattice_share >= *statistics_.frame_hex_share) return;
   }
-  built_ = std::move(bent);
-  statistics_.interior_points = frame.points.size();
-  statistics_.points_kept = PointKind::frame;
+  const bool lattice_wins = compares && *statistics_.lattice_hex_share >= *statistics_.frame_hex_share;
+  if (!lattice_wins) {
+    std::swap(built_, bent);
+    statistics_.interior_points = frame.points.size();
+    statistics_.points_kept = PointKind::frame;
+  }
+  if (!compares || !has_bodies) return;
+  if (lattice_wins)
+    try_points_by_body(*built_, of_lattice, *bent, of_frame);
+  else
+    try_points_by_body(*bent, of_lattice, *built_, of_frame);
+}
+
+// Each body its better kind of points, if that is not the same one.
+void Filler::try_points_by_body(const tetgen::BuiltMesh& lattice, const volume::HexEstimate& of_lattice,
+                                const tetgen::BuiltMesh& frame, const volume::HexEstimate& of_frame) {
+  std::vector<bool> takes_frame(of_lattice.volumes.size());
+  for (std::size_t region = 0; region < takes_frame.size(); ++region)
+    takes_frame[region] = of_frame.share_of(region) > of_lattice.share_of(region);
+  std::vector<Vec3> points;
+  std::size_t of_kind[2] = {};
+  for (const bool is_frame : {false, true}) {
+    const tetgen::BuiltMesh& built = is_frame ? frame : lattice;
+    const std::size_t last = built.mesh.points.size() - built.added_points;
+    for (std::size_t v = surface_->points.size(); v < last; ++v) {
+      const std::int32_t region = built.mesh.tet_tags[built.adjacency.tets_at(static_cast<Vertex>(v)).front()];
+      if (takes_frame[region] != is_frame) continue;
+      points.push_back(built.mesh.points[v]);
+      ++of_kind[is_frame];
+    }
+  }
+  if (of_kind[0] == 0 || of_kind[1] == 0) return;
+  try {
+    std::optional<tetgen::BuiltMesh> mixed = tetrahedralize(points, [] { return true; });
+    statistics_.mixed_hex_share = volume::estimate_hex_share(mixed->mesh, mixed->adjacency);
+    watch_.add_to(statistics_.seconds.comparing);
+    if (*statistics_.mixed_hex_share <= std::max(*statistics_.lattice_hex_share, *statistics_.frame_hex_share)) return;
+    built_ = std::move(mixed);
+    statistics_.interior_points = points.size();
+    statistics_.points_kept = PointKind::mixed;
+  } catch (const tetgen::TetGenFailure&) {
+    // One of the others stands.
+  }
 }
 
 // Nothing where the mesh is not wanted.

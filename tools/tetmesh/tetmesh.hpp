@@ -27,7 +27,8 @@ namespace hexpipe::tetmesh {
 enum class SurfaceKind { remesh, keep };
 
 enum class PointKind {
-  best,     // of lattice and frame, the one whose mesh is estimated to merge into more hexes
+  best,     // of lattice and frame, the one whose mesh is estimated to merge into more hexes, or in each body
+  mixed,    // of best, where bodies have different ones
   frame,    // along a frame field: frame_points.hpp
   lattice,  // along the part's axes: lattice.hpp
   given,    // by the user
@@ -98,7 +99,7 @@ struct TetmeshStatistics {
   std::optional<solid::RepairReport> repair;
   PointKind points_kept = PointKind::none;
   // Of the volume, by a rough greedy choice; where several kinds of points were tried.
-  std::optional<double> lattice_hex_share, frame_hex_share;
+  std::optional<double> lattice_hex_share, frame_hex_share, mixed_hex_share;
   std::size_t added_points = 0, dropped_points = 0;
   int tetgen_runs = 0;  // those that failed among them
   std::size_t points = 0, tets = 0;

@@ -249,7 +249,11 @@ void LatticeSolver::add_steps_on_surface(fields::Loops& loops) const {
   for_each_pair([&](std::int32_t i, std::int64_t ij) {
     const Transition& t = transitions_[ij];
     if (!nodes_.is_on_surface(i) || !nodes_.is_on_surface(t.node) || t.weight <= 0) return;
-    const Vec3 &n = nodes_.surface[i].normal, &m = nodes_.surface[t.node].normal;
+    const Vec3& n = nodes_.surface[i].normal;
+    // An interface faces both ways.
+    const bool is_turned = (nodes_.surface[i].is_on_interface || nodes_.surface[t.node].is_on_interface) &&
+                           dot(n, nodes_.surface[t.node].normal) > 0;
+    const Vec3 m = is_turned ? -nodes_.surface[t.node].normal : nodes_.surface[t.node].normal;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto steps = steps_on_surface(frames_[i][k], n, m, std::abs(t.distance[k]));
       if (!steps) continue;
