@@ -1,5 +1,5 @@
 # `cpack` in the build directory makes Debian packages: hexpipe (MIT), and apart from it hexpipe-tetmesh (AGPL),
-# hexpipe-cad (MIT, needs OpenCASCADE) and hexpipe-mpi (MIT, needs MPI), which it only suggests. Included last, when every component is known. What they depend on is found from the executables.
+# hexpipe-cad (MIT, needs OpenCASCADE), hexpipe-formats (MIT, needs NetCDF) and hexpipe-mpi (MIT, needs MPI), which it only suggests. Included last, when every component is known. What they depend on is found from the executables.
 
 # Whoever makes a package answers for it: the variables are those of Debian's own tools.
 set(maintainer "The hexpipe developers")
@@ -30,7 +30,7 @@ set(CPACK_COMPONENT_HEXPIPE_DESCRIPTION
  A pipeline of small tools that finds every way to merge tetrahedra into
  hexahedra, chooses the best set of them that fit together as a maximum weight
  independent set, and builds a conforming mesh for finite elements.")
-set(CPACK_DEBIAN_HEXPIPE_PACKAGE_SUGGESTS "hexpipe-tetmesh, hexpipe-cad, hexpipe-mpi")
+set(CPACK_DEBIAN_HEXPIPE_PACKAGE_SUGGESTS "hexpipe-tetmesh, hexpipe-cad, hexpipe-formats, hexpipe-mpi")
 
 if(WITH_OCCT)
   list(APPEND CPACK_COMPONENTS_ALL hexpipe-cad)
@@ -40,6 +40,15 @@ if(WITH_OCCT)
  Makes triangles of STEP, IGES and BREP by OpenCASCADE, with curves, bodies and
  names, for tetmesh and for other mesh generators.")
   set(CPACK_DEBIAN_HEXPIPE-CAD_PACKAGE_RECOMMENDS hexpipe)
+endif()
+
+if(WITH_EXODUS)
+  list(APPEND CPACK_COMPONENTS_ALL hexpipe-formats)
+  set(CPACK_DEBIAN_HEXPIPE-FORMATS_PACKAGE_NAME hexpipe-formats)
+  set(CPACK_COMPONENT_HEXPIPE-FORMATS_DESCRIPTION
+"Exodus II for hexpipe
+ Modules that the tools load to read and write meshes of this format.")
+  set(CPACK_DEBIAN_HEXPIPE-FORMATS_PACKAGE_RECOMMENDS hexpipe)
 endif()
 
 if(WITH_TETGEN)

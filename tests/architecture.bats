@@ -86,9 +86,20 @@ assert_floors() {
 
 @test "rooms stand on floors: mwis, formats, tetmesh, assemble" {
   assert_floors common/mwis ground bounds reduce exact exact/historical local_search .
-  assert_floors formats streams surfaces meshes choice pipeline points
+  assert_floors formats streams surfaces meshes meshes/libraries choice pipeline points
   assert_floors tools/tetmesh geometry fields solid sizing surface volume tetgen search .
   assert_floors tools/assemble hybrid choice shape conform gap pieces .
+}
+
+@test "tetmesh's options end at its driver, and the files at its root stand on floors" {
+  local file below="(asked_sizes|options|statistics)"
+  includes_of tools/tetmesh | grep ':tools/tetmesh/options\.hpp$' | grep -vE '^tools/tetmesh/(main\.cpp|options\.cpp|tetmesh\.hpp):' |
+    assert_none "inner code includes the options"
+  for file in fill improve tetmesh main; do
+    includes_of tools/tetmesh | grep -E "^tools/tetmesh/$file\.[ch]pp:tools/tetmesh/[^/]+\.hpp$" |
+      grep -vE ":tools/tetmesh/($below|$file)\.hpp$" | assert_none "$file includes a file above it"
+    below+="|$file"
+  done
 }
 
 @test "run includes nothing of its neighbours in common, mesh only run" {

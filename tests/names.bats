@@ -145,7 +145,7 @@ print(max(counts, key=counts.get))
 PYTHON
   assert_line 3
   assert_fails_with 1 "cube.stl: expected --size of a surface by its name or number, found 'outlet'; there are 1 \(cube\)$" tetmesh "$DATA/cube.stl" --size outlet=1 -o x.mesh
-  assert_fails_with 2 "expected one --size for all, found '2' beside another" tetmesh "$DATA/cube.stl" --size 1 --size 2 -o x.mesh
+  assert_fails_with 2 "expected one --size for the whole model, found a second one: '2'" tetmesh "$DATA/cube.stl" --size 1 --size 2 -o x.mesh
   assert_fails_with 2 "expected a positive length such as" tetmesh "$DATA/cube.stl" --size 1=x -o x.mesh
 }
 

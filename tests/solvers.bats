@@ -228,11 +228,15 @@ PYTHON
   assert_same_bytes b.inp c.inp
   # The other commands of docs/solvers.md.
   grep -oE 'assemble stages.tar --solver [a-z0-9]+ -o part[.][a-z0-9]+' "$HEXPIPE_SOURCE/docs/solvers.md" >commands
-  assert_equal "$(wc -l <commands)" 4
+  assert_equal "$(wc -l <commands)" 5
   cp solved.tar stages.tar
   while read -r command; do
     rm -f part.*
-    $command
+    if ! $command 2>said; then
+      # A format that needs a library, where it was not built.
+      grep -q 'expected result as' said
+      continue
+    fi
     assert [ -s part.* ]
   done <commands
   assemble solved.tar --no-facets -o cells.vtu

@@ -26,6 +26,7 @@ const std::vector<Solver>& solvers() {
       {"openfoam", {"polyMesh", "msh22"}, PyramidForm::keep, "C3D8"},
       {"su2", {"su2"}, PyramidForm::keep, "C3D8"},
       {"nastran", {"bdf", "nas"}, PyramidForm::keep, "C3D8"},
+      {"moose", {"e", "exo"}, PyramidForm::keep, "C3D8"},
   };
   return list;
 }

@@ -12,14 +12,16 @@
 
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
-#include "common/run/links.hpp"
+#include "common/run/open_files.hpp"
+#include "formats/streams/input.hpp"
+#include "formats/streams/temporary_file.hpp"
 
 namespace hexpipe::formats {
 namespace {
 
 constexpr int most_names_tried = 100;
-// A pipe takes as much in one call of write(2): a reader that takes 22 kB/s makes progress within the time that it is
-// given.
+// A pipe gets this much in one call of write(2): then a reader that takes 22 kB/s makes progress within the time that
+// it has.
 constexpr std::size_t most_before_wait = 1 << 16;
 
 bool is_regular(int descriptor) {
@@ -37,12 +39,12 @@ std::string directory_of(const std::string& path) {
   return slash == std::string::npos ? "." : path.substr(0, slash + 1);
 }
 
-// Where the kernel shows an open file, so that it can be given a name.
+// The path under which the kernel shows an open file, so that the file can be given a name.
 std::string link_of(int descriptor) {
   return fmt::format("/proc/self/fd/{}", descriptor);
 }
 
-// The permissions that the finished file gets: those of the file that it replaces, or those that the umask leaves.
+// The permissions for the finished file: those of the file that it replaces, or those that the umask leaves.
 mode_t mode_for(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) return status.st_mode & 07777;
@@ -87,6 +89,10 @@ void Output::open_beside() {
   descriptor_ = ::open(directory_of(path_).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
   if (descriptor_ >= 0 && access(link_of(descriptor_).c_str(), F_OK) == 0) return;
   if (descriptor_ >= 0) ::close(descriptor_);
+  name_beside();
+}
+
+void Output::name_beside() {
   temporary_ = path_ + ".XXXXXX";
   descriptor_ = mkostemp(temporary_.data(), O_CLOEXEC);
   if (descriptor_ < 0) {
@@ -122,6 +128,29 @@ void Output::flush() {
   buffer_.clear();
 }
 
+void Output::write_by_path(const std::function<void(const std::string& path)>& write_file) {
+  if (path_.empty()) {
+    const TemporaryFile file;
+    write_file(file.path());
+    return copy_file(file.path());
+  }
+  if (temporary_.empty()) {
+    ::close(descriptor_);
+    name_beside();
+  }
+  write_file(temporary_);
+  // Some libraries remove the file that is there, and make another.
+  const int written = ::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC);
+  if (written < 0) fail();
+  ::close(std::exchange(descriptor_, written));
+  fchmod(descriptor_, mode_for(path_));
+}
+
+void Output::copy_file(const std::string& path) {
+  Input file = Input::open(path);
+  for (std::string_view bytes = file.read_some(); !bytes.empty(); bytes = file.read_some()) write(bytes);
+}
+
 void Output::drain() {
   flush();
   buffer_.shrink_to_fit();
@@ -139,12 +168,12 @@ void Output::write_through(std::string_view bytes) {
   }
 }
 
-// A link cannot replace a file, a rename can: for a moment the new file stands beside the old one.
+// A link cannot replace a file, but a rename can: for a moment the new file is beside the old one.
 void Output::put_in_place(int descriptor) {
   const std::string unnamed = link_of(descriptor);
   for (int attempt = 0; temporary_.empty(); ++attempt) {
     std::string name = fmt::format("{}.{}-{}", path_, getpid(), attempt);
-    removed_.set(name.c_str());  // before it is there, for a signal may come with it
+    removed_.set(name.c_str());  // before the file exists, because a signal may come at once
     if (linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
       temporary_ = std::move(name);  // which needs no memory
     } else {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <string>
 #include <string_view>
@@ -33,6 +34,9 @@ class Output {
     fmt::format_to(std::back_inserter(buffer_), text, std::forward<Args>(args)...);
     if (buffer_.size() >= buffer_limit) flush();
   }
+  // For libraries that write a file by its path, and nothing else: `write_file` makes the file of this path, which is in
+  // place of the output's own, or is copied where that is no new file. Throws DataError as write does.
+  void write_by_path(const std::function<void(const std::string& path)>& write_file);
   // Writes the buffer and frees its memory: commit() may come much later. Throws DataError when the disk is full.
   void drain();
   // Ends the output: flushes, closes, puts the file in place. Throws DataError when any of it fails.
@@ -41,16 +45,18 @@ class Output {
  private:
   static constexpr std::size_t buffer_limit = 1 << 20;
   void open_beside();
+  void name_beside();
   void put_in_place(int descriptor);
   [[noreturn]] void fail() const;
   void flush();
   void write_through(std::string_view bytes);
+  void copy_file(const std::string& path);
 
   std::string name_, path_;
   std::string temporary_;  // the file beside path_ while it has a name
   RemovedFile removed_;    // that file
   int descriptor_ = -1;
-  bool may_wait_ = true;  // for a reader, as it is not a file
+  bool may_wait_ = true;  // for a reader, because it is not a file
   std::string buffer_;
   bool committed_ = false;
 };

@@ -21,8 +21,10 @@ MixedMesh as_carried_by(std::string_view format, MixedMesh mesh) {
 }
 
 TEST(MeshFiles, NamesEveryFormatThatItWrites) {
-  EXPECT_THAT(mesh_format_names(), ::testing::ElementsAre("mesh", "msh", "msh-binary", "msh22", "msh22-binary", "vtk",
-                                                          "vtu", "inp", "su2", "bdf", "nas"));
+  // Behind these come formats of libraries, where they were built.
+  const std::vector<std::string_view> names(mesh_format_names().begin(), mesh_format_names().begin() + 11);
+  EXPECT_THAT(names, ::testing::ElementsAre("mesh", "msh", "msh-binary", "msh22", "msh22-binary", "vtk", "vtu", "inp", "su2",
+                                            "bdf", "nas"));
   EXPECT_THROW(written(one_cell_of_each_kind(), "stl"), UsageError);
 }
 

@@ -13,7 +13,6 @@
 #include "tools/tetmesh/surface/opposite_sides.hpp"
 #include "tools/tetmesh/surface/sheet_cut.hpp"
 #include "tools/tetmesh/surface/surface_refine.hpp"
-#include "tools/tetmesh/surface/surface_remesh.hpp"
 #include "tools/tetmesh/volume/field_nodes.hpp"
 
 namespace hexpipe {
@@ -27,6 +26,7 @@ using testing::box;
 using testing::Facets;
 using testing::joined;
 using testing::mesh_of;
+using testing::remesh_surface;
 using testing::ring;
 using testing::soup_of;
 
@@ -130,7 +130,7 @@ TEST(Remesh, BoxesThatTouchBecomeGridsWithOneInterface) {
 
 TEST(FieldNodes, ThoseWithinAnInterfaceFaceBothWays) {
   const Surface surface = remesh_surface(sheets_of(boxes_with_common_face()), {.size = 0.25}).surface;
-  const BuiltMesh built = mesh_of(surface, {});
+  const tetmesh::tetgen::BuiltMesh built = mesh_of(surface, {});
   const auto nodes = tetmesh::volume::make_field_nodes(surface, built.mesh, built.adjacency, 0.25, 40);
   int within = 0;
   for (std::size_t v = 0; v < nodes.surface.size(); ++v) {

@@ -11,7 +11,6 @@
 
 #include "common/run/error.hpp"
 #include "tools/tetmesh/tetgen/build_mesh.hpp"
-#include "tools/tetmesh/tetmesh.hpp"
 
 namespace hexpipe::tetmesh {
 namespace {
@@ -24,7 +23,7 @@ constexpr std::size_t most_listed = 12;  // names in a message
       fmt::format("expected a box by its lowest and its highest corner, as 'box 0,0,0,1,1,1=0.2', found '{}'", text));
 }
 
-// "0,0,0,1,1,1"
+// Reads "0,0,0,1,1,1".
 std::array<Vec3, 2> parse_box(std::string_view numbers, std::string_view text) {
   std::array<double, 6> values{};
   const char* at = numbers.data();
@@ -44,7 +43,7 @@ std::array<Vec3, 2> parse_box(std::string_view numbers, std::string_view text) {
 
 using Names = std::map<std::int32_t, std::string>;
 
-// "3 (inlet), 4 and 7 more"
+// For example "3 (inlet), 4 and 7 more".
 std::string list_of(const std::set<std::int32_t>& tags, const Names& names) {
   std::string list;
   std::size_t listed = 0;
@@ -57,7 +56,7 @@ std::string list_of(const std::set<std::int32_t>& tags, const Names& names) {
   return list;
 }
 
-// Those of the tags that have the name, or are the number.
+// The tags that have the name, or are the number.
 std::set<std::int32_t> tags_named(const std::string& name, const std::set<std::int32_t>& tags, const Names& names,
                                   std::string_view kind) {
   std::set<std::int32_t> found;
@@ -71,23 +70,23 @@ std::set<std::int32_t> tags_named(const std::string& name, const std::set<std::i
 
 class SizeCollector {
  public:
-  SizeCollector(const solid::Surface& surface, const TetmeshOptions& options, double greatest)
-      : surface_(surface), options_(options), result_{options.size_sources, greatest} {}
+  SizeCollector(const solid::Surface& surface, std::span<const AskedSize> asked, double tetgen_timeout,
+                sizing::SizeDemand& demand)
+      : surface_(surface), asked_(asked), tetgen_timeout_(tetgen_timeout), demand_(demand) {}
 
-  AskedSizes collect() {
+  void collect() {
     add_bodies();
-    for (const AskedSize& asked : options_.asked_sizes) {
+    for (const AskedSize& asked : asked_) {
       if (asked.place == AskedSize::Place::surface) add_surface(asked);
       if (asked.place == AskedSize::Place::box) add_box(asked);
     }
-    return std::move(result_);
   }
 
  private:
   double length_of(const AskedSize& asked) const { return sizing::element_size(surface_, asked.size); }
-  // Returns the number of the first of the points, which all have the size.
+  // Gives all of the points the size. Returns the number of the first one.
   Vertex add_points(std::span<const Vec3> points, double size) {
-    sizing::SizeSources& sources = result_.sources;
+    sizing::SizeSources& sources = demand_.sources;
     const auto first = static_cast<Vertex>(sources.points.size());
     sources.points.insert(sources.points.end(), points.begin(), points.end());
     sources.sizes.insert(sources.sizes.end(), points.size(), size);
@@ -100,27 +99,27 @@ class SizeCollector {
   TetMesh tets_of_bodies() const;
 
   const solid::Surface& surface_;
-  const TetmeshOptions& options_;
-  AskedSizes result_;
+  std::span<const AskedSize> asked_;
+  double tetgen_timeout_;
+  sizing::SizeDemand& demand_;
 };
 
-// On each triangle of such a surface its size is known.
 void SizeCollector::add_surface(const AskedSize& asked) {
   const std::set<std::int32_t> all(surface_.tags.begin(), surface_.tags.end());
   const std::set<std::int32_t> tags = tags_named(asked.name, all, surface_.names.surfaces, "surface");
   if (tags.empty())
     throw DataError::at(surface_.name, "expected --size of a surface by its name or number, found '{}'; there are {}",
                         asked.name, list_of(all, surface_.names.surfaces));
+  const double size = length_of(asked);
   for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
     if (!tags.contains(surface_.tags[t])) continue;
     const auto [a, b, c] = surface_.triangles[t];
-    const Vertex first =
-        add_points(std::array{surface_.points[a], surface_.points[b], surface_.points[c]}, length_of(asked));
-    result_.sources.simplices.push_back({first, first + 1, first + 2, none});
+    const Vertex first = add_points(std::array{surface_.points[a], surface_.points[b], surface_.points[c]}, size);
+    demand_.sources.simplices.push_back({first, first + 1, first + 2, none});
   }
 }
 
-// As six tets around the diagonal from its lowest corner.
+// A box becomes six tets around the diagonal from its lowest corner.
 void SizeCollector::add_box(const AskedSize& asked) {
   const auto& [low, high] = asked.box;
   Vec3 least = surface_.points.front(), most = least;
@@ -139,16 +138,16 @@ void SizeCollector::add_box(const AskedSize& asked) {
     corners[i] = {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
   const Vertex first = add_points(corners, length_of(asked));
   for (const auto& [i, j] : {std::pair(1, 3), {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}})
-    result_.sources.simplices.push_back({first, first + i, first + j, first + 7});
+    demand_.sources.simplices.push_back({first, first + i, first + j, first + 7});
 }
 
-// Where a body's size is more than that of the others, it is theirs that is a source.
+// The bodies with less than the greatest size become places.
 void SizeCollector::add_bodies() {
   std::map<std::int32_t, double> size_of;
   std::set<std::int32_t> all;
   for (std::int32_t region = 1; region <= surface_.region_count; ++region) all.insert(region);
-  const double elsewhere = result_.greatest;
-  for (const AskedSize& asked : options_.asked_sizes) {
+  const double elsewhere = demand_.greatest;
+  for (const AskedSize& asked : asked_) {
     if (asked.place != AskedSize::Place::body) continue;
     const std::set<std::int32_t> tags = tags_named(asked.name, all, surface_.names.regions, "region");
     if (tags.empty())
@@ -157,14 +156,14 @@ void SizeCollector::add_bodies() {
     for (const std::int32_t tag : tags) size_of[tag] = length_of(asked);
   }
   if (size_of.empty()) return;
-  for (const auto& [region, size] : size_of) result_.greatest = std::max(result_.greatest, size);
+  for (const auto& [region, size] : size_of) demand_.greatest = std::max(demand_.greatest, size);
   if (size_of.size() == all.size()) {
-    result_.greatest = 0;
-    for (const auto& [region, size] : size_of) result_.greatest = std::max(result_.greatest, size);
+    demand_.greatest = 0;
+    for (const auto& [region, size] : size_of) demand_.greatest = std::max(demand_.greatest, size);
   } else {
     for (const std::int32_t region : all) size_of.try_emplace(region, elsewhere);
   }
-  std::erase_if(size_of, [&](const auto& known) { return known.second >= result_.greatest; });
+  std::erase_if(size_of, [&](const auto& known) { return known.second >= demand_.greatest; });
   if (!size_of.empty()) add_tets(tets_of_bodies(), size_of);
 }
 
@@ -173,12 +172,12 @@ void SizeCollector::add_tets(const TetMesh& mesh, const std::map<std::int32_t, d
     const Vertex first = add_points(mesh.points, size);
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
       const auto [a, b, c, d] = mesh.tets[t];
-      if (mesh.tet_tags[t] == region) result_.sources.simplices.push_back({first + a, first + b, first + c, first + d});
+      if (mesh.tet_tags[t] == region) demand_.sources.simplices.push_back({first + a, first + b, first + c, first + d});
     }
   }
 }
 
-// As few as fill them.
+// The fewest tets that fill the bodies.
 TetMesh SizeCollector::tets_of_bodies() const {
   constexpr std::uint64_t most_runs = 8;
   for (std::uint64_t run = 0;; ++run) {
@@ -190,7 +189,7 @@ TetMesh SizeCollector::tets_of_bodies() const {
                                                     .shuffle = run,
                                                     .strict = run + 1 == most_runs,
                                                     .names_intersecting = false},
-                                                   options_.tetgen_timeout))
+                                                   tetgen_timeout_))
           .mesh;
     } catch (const tetgen::TetGenFailure&) {
       if (run + 1 == most_runs) throw;
@@ -211,8 +210,9 @@ AskedSize parse_asked_size(std::string_view text) {
   return {AskedSize::Place::surface, std::string(place), {}, size};
 }
 
-AskedSizes asked_sizes(const solid::Surface& surface, const TetmeshOptions& options, double greatest) {
-  return SizeCollector(surface, options, greatest).collect();
+void add_asked_sizes(const solid::Surface& surface, std::span<const AskedSize> asked, double tetgen_timeout,
+                     sizing::SizeDemand& demand) {
+  SizeCollector(surface, asked, tetgen_timeout, demand).collect();
 }
 
 }  // namespace hexpipe::tetmesh

@@ -1,5 +1,5 @@
 #pragma once
-// The triangles at an edge in the order in which a walk around it meets them.
+// The triangles at an edge, in the order of a walk around it.
 
 #include <span>
 #include <vector>
@@ -9,14 +9,14 @@
 namespace hexpipe::tetmesh::geometry {
 
 struct EdgeWalkStep {
-  double angle;  // around the edge, from the first half-edge's triangle
+  double angle;  // around the edge, from the triangle of the first half-edge
   HalfEdge half_edge;
-  // Whether the half-edge leads from the edge's lower vertex to the higher one: then its triangle shows its normal to
-  // those that come next, else its back.
+  // Whether the half-edge leads from the edge's lower vertex to the higher one. If so, its triangle shows its normal to
+  // the triangles that come next, otherwise its back.
   bool is_along;
 };
 
-// `edge`: all half-edges of an edge, of either direction.
+// `edge` holds all half-edges of an edge, of either direction.
 std::vector<EdgeWalkStep> walk_around_edge(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                            std::span<const HalfEdge> edge);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Sets of numbers from 0 that are joined more and more.
+// Disjoint sets of the numbers from 0, which are joined step by step.
 
 #include <algorithm>
 #include <cstdint>
@@ -12,7 +12,7 @@ class JoinedSets {
  public:
   explicit JoinedSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
 
-  // The set that has i, by its lowest number.
+  // The set of i, by its lowest number.
   std::int32_t of(std::int32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;

@@ -199,7 +199,8 @@ FeatureMesh::VertexHandle FeatureMesh::split_face_at(FaceHandle f, const Vec3& p
   return v;
 }
 
-// Two pairs of edges fall into one each, at a border one pair: what survives is a feature if one of them was.
+// Two pairs of edges become one edge each; at a border it is one pair. The edge that survives is a feature if one of
+// its pair was.
 void FeatureMesh::collapse_edge(HalfedgeHandle h) {
   const VertexHandle end = to_vertex_handle(h);
   std::array<std::pair<VertexHandle, EdgeRole>, 2> sides;

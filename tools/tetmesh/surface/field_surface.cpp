@@ -19,11 +19,11 @@ FieldSurface::FieldSurface(const FeatureMesh& mesh, const sizing::SizeField& siz
   for (const auto f : mesh.faces()) {
     const auto [a, b, c] = mesh.corners(f);
     triangles.push_back({a.idx(), b.idx(), c.idx()});
-    auto h = mesh.halfedge_handle(f);  // half_edge_of() counts from here, too
+    auto h = mesh.halfedge_handle(f);  // half_edge_of() starts here, too
     for (int i = 0; i < 3; ++i, h = mesh.next_halfedge_handle(h)) {
       feature.push_back(mesh.is_feature(mesh.edge_handle(h)));
       crest.push_back(mesh.is_crest(mesh.edge_handle(h)));
-      joint.push_back(mesh.is_joint(mesh.edge_handle(h)) ? joint_of(h) : -1);
+      joint.push_back(mesh.is_joint(mesh.edge_handle(h)) ? joint_of(h) : geometry::none);
     }
     centres.push_back((points[a.idx()] + points[b.idx()] + points[c.idx()]) * (1.0 / 3));
     const Vec3 normal = mesh.area_normal(f);

@@ -9,13 +9,14 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-// Of a square of the size on the other side of a wall of one size. Six parts at two levels and three sizes each of
-// tests/bench/points have 93.9 % of the volume in hexes without, 94.5 at 1, 94.6 at 4, 94.5 at 10.
+// The weight of a square of the size on the other side of a wall of one size. Six models at two levels and three sizes
+// each of tests/bench/points have 93.9 % of the volume in hexes without it, 94.5 % at 1, 94.6 % at 4, 94.5 % at 10.
 constexpr double weight_across = 4;
-// Over so many sizes either way a triangle is asked how the surface bends: flat facets of a cylinder are narrower.
+// The bend of the surface at a triangle is measured over this many sizes either way: flat facets of a cylinder are
+// narrower.
 constexpr double bend_reach = 1.5, shortest_walk = 0.5;
 
-// In radians by sizes, along the direction of the field in which it bends most.
+// In radians by sizes, along the direction of the field in which the surface bends most.
 double bend_of(const SurfaceLinks& links, const FieldWalker& walker, std::int32_t f) {
   const SurfacePoint centre{links.surface.centres[f], f};
   const double reach = bend_reach * links.surface.sizes[f];
@@ -31,14 +32,15 @@ double bend_of(const SurfaceLinks& links, const FieldWalker& walker, std::int32_
   return most;
 }
 
-// Of weight 0 where they have too little in common.
-SurfaceLink make_link(const SurfaceLinks& links, const FieldWalker& walker, const OppositeSide& opposite) {
+// The weight is 0 if they have too little in common.
+SurfaceLink link_across(const SurfaceLinks& links, const FieldWalker& walker, const OppositeSide& opposite) {
   SurfaceLink link;
   const std::int32_t f = opposite.from, g = opposite.triangle;
   link.neighbour = g;
   const auto here = links.field.axes(links.surface, f), there = links.field.axes(links.surface, g);
   const double trust = trust_in_match(link.match(here, there));
-  // Of the numbers of rows on both sides, as a part of one of them: by their lengths, and by what sizes are asked for.
+  // By which share the numbers of rows on the two sides differ: because of the sizes asked for, and because a bend
+  // makes one side longer.
   const auto [finer, coarser] = std::minmax(links.surface.sizes[f], links.surface.sizes[g]);
   double difference = coarser / finer - 1;
   if (trust > 0 && difference < 1) difference += bend_of(links, walker, f) * opposite.distance;
@@ -59,7 +61,7 @@ LinksAcross::LinksAcross(const SurfaceLinks& links, std::span<const OppositeSide
   const FieldWalker walker(links.surface, links.field);
   std::vector<SurfaceLink> found(opposite.size());
   parallel_for(static_cast<std::int64_t>(found.size()), 64,
-               [&](std::int64_t i) { found[i] = make_link(links, walker, opposite[i]); });
+               [&](std::int64_t i) { found[i] = link_across(links, walker, opposite[i]); });
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found[i].weight <= 0) continue;
     ++offsets_[opposite[i].from + 1];

@@ -58,21 +58,20 @@ class SheetCutter {
       }
   }
 
-  // Corners that stayed together are one vertex; the first ones at a point have its number.
+  // Corners that stayed together are one vertex. The first vertex at a point has the point's number.
   void number_vertices() {
-    constexpr Vertex none = -1;
     result_.point_of.resize(surface_.points.size());
     std::iota(result_.point_of.begin(), result_.point_of.end(), 0);
-    std::vector<Vertex> number(3 * surface_.triangles.size(), none);  // of the lowest corner of each vertex
+    std::vector<Vertex> number(3 * surface_.triangles.size(), geometry::none);  // by the lowest corner of each vertex
     std::vector<bool> is_taken(surface_.points.size());
     result_.triangles = surface_.triangles;
     for (HalfEdge corner = 0; corner < static_cast<HalfEdge>(number.size()); ++corner) {
       Vertex& here = result_.triangles[corner / 3][corner % 3];
       Vertex& known = number[corners_.of(corner)];
-      if (known == none && is_taken[here]) {
+      if (known == geometry::none && is_taken[here]) {
         known = static_cast<Vertex>(result_.point_of.size());
         result_.point_of.push_back(here);
-      } else if (known == none) {
+      } else if (known == geometry::none) {
         known = here;
         is_taken[here] = true;
       }
@@ -81,7 +80,7 @@ class SheetCutter {
   }
 
   const solid::Surface& surface_;
-  geometry::JoinedSets corners_;  // of triangles, by their half-edges
+  geometry::JoinedSets corners_;  // corners of triangles, by their half-edges
   std::vector<HalfEdge> at_joints_;
   SheetCut result_;
 };

@@ -8,13 +8,13 @@
 
 namespace hexpipe::tetmesh::surface {
 
-// At an edge of more than two triangles two of them stay together where what is on their sides is the same, and they
-// are beside each other: those of a body that touches another one in the edge. The others part there. A vertex whose
-// triangles are in several pieces then, or touch in it alone, is there once for each: as copies.
+// Two triangles at an edge of more than two stay together if they are beside each other and have the same regions on
+// their sides, like those of a body that touches another one in the edge. The other triangles part there. A vertex gets
+// a copy for each piece of its triangles, also where pieces touch in the vertex alone.
 struct SheetCut {
-  std::vector<Triangle> triangles;                // of the vertices below
-  std::vector<Vertex> point_of;                   // of each vertex, its point of the surface; its number where it can
-  std::vector<std::pair<Vertex, Vertex>> joints;  // the edges of more than two triangles, once for each piece's side
+  std::vector<Triangle> triangles;  // of the vertices below
+  std::vector<Vertex> point_of;     // by vertex: its point of the surface; the two numbers are the same where possible
+  std::vector<std::pair<Vertex, Vertex>> joints;  // the edges of more than two triangles, once for each side of a piece
   bool is_manifold = true;                        // false: a piece meets itself along an edge
 };
 

@@ -1,6 +1,6 @@
-// Features, and the middles of small fillets, are sampled first, as densely as rows of points are to begin there, the
-// field's triangles made from what is there, a front puts points on them, these are inserted, and the rest of the
-// vertices taken out. What comes out is judged as a whole; around a fault the input's own vertices stay the next time.
+// The steps: sample features, and the middles of small fillets, as densely as rows of points should begin there; make
+// the triangles that carry the field; put points on them by a front; insert these points; remove all other vertices.
+// The result is judged as a whole. Around a fault the input's own vertices stay in the next attempt.
 
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 
@@ -24,23 +24,24 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-// The field's triangles are at most that long, in sizes; those on which rows are counted, at most that.
+// The longest edges of the triangles that carry the field, and of those on which rows are counted, in sizes.
 constexpr double field_edge = 1.3, row_edge = 2.6;
-// Points on features, as a part of all on the surface, that make no difference by their number.
+// If the points on features are less than this share of all points on the surface, their number makes no difference.
 constexpr double few_features = 0.05;
-// Flips that move the surface by less than that, in sizes, do not count as moving it.
+// Flips that move the surface by less than this, in sizes, do not count as moving it.
 constexpr double flatness = 1e-5;
-// Points nearer than that, in sizes, to a vertex or an edge of the field's triangles become one with it.
+// Points nearer than this, in sizes, to a vertex or an edge of the field's triangles become one with it.
 constexpr double snap = 0.02;
-// Distances are measured at points so far apart, in sizes.
+// Distances are measured at points this far apart, in sizes.
 constexpr double sample_spacing = 0.34;
-// The part of the deviation that removing vertices may use, by the distances that it knows: those of vertices.
+// The share of the deviation that removing vertices may use. It knows only the distances of vertices.
 constexpr double removal_share = 0.85;
-// Of the vertices nearer to a fault than that, in sizes, the nearest stays, but none for a fault as near to one that
-// stays. If that does not help in so many attempts, all of them stay, and those within the double of it the next time.
-constexpr double repair_reach = 0.5;
+// Around a fault, the nearest vertex within this many sizes stays, unless a vertex that stays is as near already. If
+// that does not help in `careful_attempts`, all vertices within that reach stay, and in the next attempt those within
+// twice the reach.
+constexpr double fault_reach = 0.5;
 constexpr int careful_attempts = 4, most_attempts = 6;
-// On the new surface, about 2 KB each while it is made.
+// On the new surface; each takes about 2 KB while the surface is made.
 constexpr double most_points = 2e7;
 constexpr std::size_t most_intersections = 1000;
 
@@ -71,7 +72,7 @@ class SurfaceRemesher::Work {
 
  private:
   bool prepare();
-  // False where triangles are too thin for a field.
+  // False if triangles are too thin for a field.
   bool place_points();
   bool rows_go_across() const;
   void remove_vertices_of_input();
@@ -88,7 +89,7 @@ class SurfaceRemesher::Work {
   sizing::SizeField size_, deviation_;
   double row_stretch_;
   double expected_points_ = 0;  // on the new surface
-  FeatureMesh prepared_;        // with all points inserted, and the vertices of the input
+  FeatureMesh prepared_;        // with all points inserted, and with the vertices of the input
   std::optional<DistanceIndex> input_;
 };
 
@@ -105,9 +106,9 @@ bool SurfaceRemesher::Work::make() {
 bool SurfaceRemesher::Work::judge() {
   const std::vector<Vec3> faults = find_faults();
   if (result.attempts < careful_attempts)
-    keep_nearest(faults, repair_reach / result.attempts * size_);
+    keep_nearest(faults, fault_reach / result.attempts * size_);
   else
-    keep_around(faults, repair_reach * (result.attempts + 1 - careful_attempts) * size_);
+    keep_around(faults, fault_reach * (result.attempts + 1 - careful_attempts) * size_);
   return faults.empty();
 }
 
@@ -127,7 +128,7 @@ bool SurfaceRemesher::Work::prepare() {
   return placed;
 }
 
-// Rows end where sizes are to differ. Where features are few, what counts is between them.
+// Rows end where sizes differ. Where features are few, the surface between them matters more.
 bool SurfaceRemesher::Work::rows_go_across() const {
   if (!size_.is_uniform()) return false;
   double steps = 0;
@@ -149,11 +150,12 @@ bool SurfaceRemesher::Work::place_points() {
   const FieldSurface field_surface(prepared_, size_);
   const auto [field, opposite] = cross_field_across(field_surface);
   if (!std::ranges::all_of(field.directions, is_place)) return false;
-  const std::vector<SurfacePoint> points =
+  const auto [points, row_ends] =
       surface_front(field_surface, field, opposite, kept, size_, counts_rows ? row_stretch_ : 0);
   insert_points(prepared_, points, snap * size_);
   result.feature_points = count_places(kept);
   result.front_points = points.size();
+  result.row_ends = row_ends;
   return true;
 }
 
@@ -180,7 +182,7 @@ solid::Surface SurfaceRemesher::Work::surface_of(const FeatureMesh& mesh) const 
   formats::SurfaceSoup soup;
   soup.text = surface_.text;
   soup.name = surface_.name;
-  std::vector<Vertex> number(mesh.n_vertices(), -1);  // of places: sheets are joined again where they were cut
+  std::vector<Vertex> number(mesh.n_vertices(), geometry::none);  // by place: sheets are joined again
   for (const auto v : mesh.vertices()) {
     Vertex& known = number[mesh.place(v)];
     if (known >= 0) continue;
@@ -208,7 +210,7 @@ Vec3 SurfaceRemesher::Work::centre_of(std::size_t triangle) const {
   return (points[a] + points[b] + points[c]) * (1.0 / 3);
 }
 
-// Edges at which a region has no boundary all around. Within a sheet there are none by construction.
+// Edges at which the boundary of a region has a gap. Within a sheet there are none by construction.
 std::vector<Vec3> SurfaceRemesher::Work::find_gaps() const {
   const solid::Surface& made = result.surface;
   std::vector<Vec3> gaps;
@@ -237,8 +239,8 @@ std::vector<Vec3> SurfaceRemesher::Work::find_gaps() const {
   return gaps;
 }
 
-// Places where the new surface is not what was promised. Its edges and vertices are manifold within each sheet and its
-// orientation is right by construction.
+// Places where the new surface is not as promised. By construction, its edges and vertices are manifold within each
+// sheet and its orientation is right.
 std::vector<Vec3> SurfaceRemesher::Work::find_faults() {
   const solid::Surface& made = result.surface;
   std::vector<Vec3> faults;
@@ -251,7 +253,7 @@ std::vector<Vec3> SurfaceRemesher::Work::find_faults() {
   faults = find_gaps();
   result.failure = "sheets of the new surface do not meet";
   if (!faults.empty()) return faults;
-  // Both at once, for the first is seldom in vain.
+  // Both are measured at once, because the second is seldom measured in vain.
   SurfaceDistance there, back;
   both_at_once(
       [&] {
@@ -286,7 +288,7 @@ void SurfaceRemesher::Work::keep_nearest(const std::vector<Vec3>& places, const 
   for (const Vec3& place : places) {
     const double here = reach.at(place), size = size_.at(place);
     if (has_within(fresh, place, here)) continue;
-    std::int32_t nearest = -1;
+    std::int32_t nearest = geometry::none;
     double least = size * size;
     removable.for_each_near(place, size, 0, [&](std::int32_t i) {
       const double distance = norm_squared(removable.points()[i] - place);
@@ -296,7 +298,7 @@ void SurfaceRemesher::Work::keep_nearest(const std::vector<Vec3>& places, const 
       }
       return true;
     });
-    if (nearest < 0) continue;
+    if (nearest == geometry::none) continue;
     prepared_.keep(handles[nearest]);
     fresh.add(prepared_.position(handles[nearest]), reach.greatest());
   }
@@ -335,13 +337,6 @@ RemeshResult SurfaceRemesher::take() {
 
 bool asks_for_too_many_points(const solid::Surface& surface, const sizing::SizeField& size) {
   return sizing::points_on_surface(surface, size, most_points) > most_points;
-}
-
-RemeshResult remesh_surface(const solid::Surface& surface, const RemeshOptions& options) {
-  SurfaceRemesher remesher(surface, options);
-  while (remesher.make() && !remesher.judge()) {
-  }
-  return remesher.take();
 }
 
 }  // namespace hexpipe::tetmesh::surface

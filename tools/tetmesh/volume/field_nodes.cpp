@@ -12,7 +12,8 @@ namespace hexpipe::tetmesh::volume {
 namespace {
 
 constexpr double aligned_cosine = 0.9396926207859084;  // of 20 degrees between a normal and the nearest axis
-// Squared ratio from which the longest side of a triangle is taken for the diagonal of a square, not for a side.
+// If the squared ratio is at least this, the longest side of a triangle counts as the diagonal of a square, not as a
+// side.
 constexpr double diagonal_ratio = 1.21;
 
 Vec3 normalized(const Vec3& v) {
@@ -42,7 +43,7 @@ class SurfaceReader {
   }
 
  private:
-  // The crosses of a vertex's edges, diagonals left out.
+  // The crosses of a vertex's edges, without diagonals.
   struct Legs {
     fields::Harmonics sum = fields::Harmonics::Zero();
     double weight = 0;
@@ -67,7 +68,7 @@ class SurfaceReader {
   std::vector<bool> creased_;
 };
 
-// Weighted by the triangles' angles at the vertex.
+// The weights are the triangles' angles at the vertex.
 void SurfaceReader::add_normals() {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(surface_.triangles.size()); ++t) {
     const Vec3 normal = normalized(cross(end(3 * t) - start(3 * t), end(3 * t + 1) - start(3 * t)));
@@ -114,7 +115,7 @@ void SurfaceReader::add_edge(std::span<const geometry::HalfEdge> edge) {
 }
 
 void SurfaceReader::add_leg(Vertex v, const Vec3& along, double weight) {
-  constexpr double steepest = 0.5;  // an edge that points out of the tangent plane more says little about it
+  constexpr double steepest = 0.5;  // an edge that points further out of the tangent plane says little about it
   const Vec3& normal = nodes_[v].normal;
   const Vec3 in_plane = along - dot(along, normal) * normal;
   if (norm(in_plane) < steepest) return;
@@ -148,7 +149,7 @@ void SurfaceReader::find_vague() {
 
 FieldNodes make_field_nodes(const solid::Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency,
                             const sizing::SizeField& size, double feature_angle) {
-  constexpr double nearest = 0.25;  // squared; keeps a single link from ruling
+  constexpr double nearest = 0.25;  // squared; keeps a single link from dominating
   FieldNodes nodes;
   nodes.points = mesh.points;
   nodes.sizes.resize(nodes.points.size());

@@ -1,8 +1,10 @@
 #pragma once
-// How much of a tet mesh merges into hexes, quickly: enough to tell which of two meshes of a part is the better one.
+// Estimates quickly how much of a tet mesh merges into hexes: precisely enough to tell which of two meshes of a model
+// is better.
 //
-// A small relative of findhex with a greedy choice: from each vertex along three edges that are nearly at right angles,
-// with the common neighbours that come nearest to a parallelepiped. Hexes far from that are not looked for.
+// It is a small relative of findhex with a greedy choice. It looks from each vertex along three edges that are nearly
+// at right angles, and takes the common neighbours that come nearest to a parallelepiped. It does not look for hexes
+// that are far from that.
 
 #include <vector>
 
@@ -11,10 +13,12 @@
 
 namespace hexpipe::tetmesh::volume {
 
+// By the region's tag.
 struct HexEstimate {
-  std::vector<double> volumes, hexes;  // of each region, by its tag: of all of it, and of hexes in it
+  std::vector<double> volumes;  // of the whole region
+  std::vector<double> hexes;    // of the hexes in it
 
-  // The part of the volume, from 0 to 1: of a region, and of all.
+  // The share of the volume, from 0 to 1: of a region, and of the whole mesh.
   double share_of(std::size_t region) const { return volumes[region] > 0 ? hexes[region] / volumes[region] : 0; }
   double share() const;
 };

@@ -1,0 +1,79 @@
+#pragma once
+// A mesh as lists of elements of one kind and one group: regions, surfaces. Formats that libraries read and write hold
+// it so. Plain data, which the modules of these formats take and give.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/mesh/mixed_mesh.hpp"
+#include "formats/meshes/group_naming.hpp"
+#include "formats/meshes/mesh_writing.hpp"
+#include "formats/streams/group_names.hpp"
+
+namespace hexpipe::formats {
+
+// The side of a cell that a facet lies on.
+struct CellSide {
+  std::int64_t cell = -1;  // its place among all cells, in the order of all formats; -1: none
+  CellKind kind = CellKind::tet;
+  std::uint8_t facet = 0;  // in the topology's list of triangles or of quads
+};
+
+// The number of corners of an element of VTK's code; 0 for those that are none of ours.
+constexpr int corners_of_kind(std::uint8_t vtk) {
+  switch (vtk) {
+    case 5:
+      return 3;
+    case 9:
+      return 4;
+    case 10:
+    case 12:
+    case 13:
+    case 14:
+      return corner_count(static_cast<CellKind>(vtk));
+    default:
+      return 0;
+  }
+}
+
+// Cells of a region, or facets of a surface.
+struct ElementGroup {
+  std::uint8_t kind = 0;             // VTK's code
+  std::int32_t number = 0;           // of the region or surface
+  std::string name;                  // of the region or surface; of a file, it may be empty
+  std::vector<Vertex> corners{};       // from 0, one element after the other
+  std::vector<std::int64_t> places{};  // of each element among all cells or all facets; empty: as they stand
+  std::vector<CellSide> sides{};       // of each facet; empty for cells, and of a file
+
+  std::size_t size() const { return corners.size() / static_cast<std::size_t>(corners_of_kind(kind)); }
+};
+
+// Groups of one region have one number and one name. In the order of kinds, then of numbers.
+struct GroupedMesh {
+  std::vector<Vec3> points;
+  std::vector<ElementGroup> cells, facets;
+};
+
+// What a format asks of names and numbers.
+struct GroupRules {
+  NameRules names;
+  bool apart = false;  // no name and no number for a region and a surface
+  bool needs_sides = false;  // surfaces are lists of sides of cells
+};
+
+// `output`: for messages. Tags of one name are one group, with the number of the first of them. Throws DataError where
+// the format needs sides, and a facet is none of a cell.
+GroupedMesh grouped(const MixedMesh& mesh, const MeshWriting& writing, const GroupRules& rules, std::string_view output);
+
+// In formats whose blocks have names of their own, regions of several kinds of cells have a block for each: steel_hex,
+// steel_tet. These set such names, and take them off again.
+void name_blocks_by_kind(GroupedMesh& mesh);
+void join_blocks_of_kinds(GroupedMesh& mesh);
+
+// The mesh in a file. Groups whose names tell a tag (region_3) have it, the others their numbers, or free ones where
+// two have the same. Of facets with the same corners, the first counts.
+MixedMesh ungrouped(GroupedMesh mesh, GroupNames* names);
+
+}  // namespace hexpipe::formats

@@ -1,0 +1,50 @@
+#pragma once
+// How the modules of libraries say what is wrong: in one message, which whoever called them begins with a file's name.
+
+#include <sys/stat.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+
+namespace hexpipe::formats {
+
+[[noreturn]] inline void fail(const std::string& reason) {
+  throw std::runtime_error(reason);
+}
+
+[[noreturn]] inline void fail_expected(const std::string& what, const std::string& found) {
+  fail("expected " + what + ", found " + found);
+}
+template <class Number>
+[[noreturn]] void fail_expected(const std::string& what, Number found) {
+  fail_expected(what, std::to_string(found));
+}
+
+// More numbers than this a file does not hold: zlib makes 1032 bytes of one at most, and a number has 4.
+inline std::uint64_t most_numbers_in(const std::string& path) {
+  struct stat status {};
+  stat(path.c_str(), &status);
+  return static_cast<std::uint64_t>(status.st_size) * 1032 / 4;
+}
+
+// Libraries print what goes wrong, line after line, though they also return it. While this lives, they print nowhere.
+class QuietLibrary {
+ public:
+  QuietLibrary() : kept_(stderr), nowhere_(std::fopen("/dev/null", "w")) {
+    if (nowhere_ != nullptr) stderr = nowhere_;
+  }
+  ~QuietLibrary() {
+    stderr = kept_;
+    if (nowhere_ != nullptr) std::fclose(nowhere_);
+  }
+  QuietLibrary(const QuietLibrary&) = delete;
+  QuietLibrary& operator=(const QuietLibrary&) = delete;
+
+ private:
+  std::FILE* kept_;
+  std::FILE* nowhere_;
+};
+
+}  // namespace hexpipe::formats
