@@ -11,6 +11,7 @@
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/pipeline/bundle.hpp"
+#include "formats/pipeline/exact_shape.hpp"
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/output_format.hpp"
 #include "formats/pipeline/surface_bundle.hpp"
@@ -45,6 +46,7 @@ void write_bundle(const tessellate::TessellateResult& result, const RunContext& 
                   formats::Output& output) {
   pipeline::BundleWriter writer(output, compress);
   pipeline::write_surface_members(writer, result.surface);
+  pipeline::write_shape_members(writer, result.shape);
   if (!result.surface.names.empty()) writer.add_text(std::string(formats::names_member), text_of(result.surface.names));
   nlohmann::ordered_json entry = pipeline::history_entry_of(context);
   entry.update(to_json(result));
