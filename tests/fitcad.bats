@@ -106,6 +106,24 @@ ON_CYLINDER='sorted(abs(from_axis(q) - 2).max() < 7.5e-6 for q in of.values()) =
   assert_same_bytes all.tar again.tar
 }
 
+@test "--cad takes the CAD's faces from a bundle beside the result, which may be a file" {
+  cad ball 'Sphere(1) = {0, 0, 0, 1};'
+  tessellate -q ball.step -o surface.tar
+  result ball 0.4
+  fitcad ball.tar -o one.tar
+  mkdir ball && tar xf ball.tar -C ball
+  (cd ball && tar cf ../ball.tar $(tar tf ../ball.tar | grep -v /shape))
+  assert_fails_with 1 "expected the CAD's faces beside the result, found none" fitcad ball.tar -o x.tar
+  fitcad ball.tar --cad surface.tar -o two.tar
+  mkdir one two
+  tar xf one.tar -C one && tar xf two.tar -C two
+  assert_same_bytes one/result/points.npy two/result/points.npy
+  assemble -q ball.tar -o ball.vtu
+  fitcad ball.vtu --cad surface.tar -o fitted.tar
+  holds_for fitted.tar 'abs(from_origin(p) - 1).max() < 2e-6'
+  assert_fails_with 1 "^fitcad: ball.vtu: expected a bundle" fitcad ball.tar --cad ball.vtu -o x.tar
+}
+
 @test "names stay; a result without CAD, and a shape that is damaged, are errors" {
   $PYTHON "$DATA/step.py" named >named.step
   result named 4

@@ -5,6 +5,8 @@
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
+#include "formats/pipeline/bundle.hpp"
+#include "formats/pipeline/exact_shape.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "tools/fitcad/fitcad.hpp"
 
@@ -31,13 +33,25 @@ void report(RunContext& context, const FitcadResult& result) {
                              result.strays, result.boundary));
 }
 
-void run(RunContext& context, const FitcadOptions& options) {
+// The CAD's faces in a bundle of tessellate.
+pipeline::ExactShape read_shape(const std::string& path) {
+  formats::Input input = formats::Input::open(path);
+  pipeline::ExactShape shape;
+  if (!pipeline::looks_like_bundle(input))
+    throw DataError::at(path, "expected a bundle, as tessellate writes it, found another file");
+  pipeline::BundleReader reader(input);
+  while (reader.next()) pipeline::read_shape_member(reader, shape, nullptr);
+  return shape;
+}
+
+void run(RunContext& context, const FitcadOptions& options, const std::string& cad) {
   pipeline::Stage stage(context);
-  pipeline::StageData data = stage.read({.needs = {Role::result}, .shape = true});
-  const std::string source = stage.source_of(Role::result);
+  pipeline::StageData data = stage.read({.needs = {Role::result}, .shape = cad.empty()});
+  const std::string source = cad.empty() ? stage.source_of(Role::result) : cad;
+  if (!cad.empty()) data.shape = read_shape(cad);
   if (!data.shape || data.shape->empty())
     throw DataError::at(source,
-                        "expected the CAD's faces beside the result, found none; tessellate puts them into the "
+                        "expected the CAD's faces beside the result, found none; tessellate puts them into its "
                         "bundle");
   const CadShape shape(*data.shape, source);
   const FitcadResult result = fit_to_cad(*data.result, shape, options);
@@ -58,10 +72,15 @@ int main(int argc, char** argv) {
       .product = Role::result,
   };
   FitcadOptions options;
+  std::string cad;
   const auto declare = [&](CLI::App& app) {
     app.add_option("--reach", options.reach,
                    "How far a vertex may be from its place on the CAD, in lengths of the edges there")
         ->check(number_between(0, 1));
+    outside_history(app.add_option("--cad", cad,
+                                   "The bundle of tessellate that has the CAD's faces, for a result without them: that "
+                                   "of a file, or of parts that were merged"))
+        ->type_name("FILE");
   };
-  return tool_main(argc, argv, info, declare, [&](RunContext& context) { run(context, options); });
+  return tool_main(argc, argv, info, declare, [&](RunContext& context) { run(context, options, cad); });
 }
