@@ -66,8 +66,18 @@ setup_file() {
   assert_output --partial "tetmesh a.stl --improve 100000 --time-limit 60 |"
   run hexpipe part.STEP -o x.vtu --dry-run
   assert_line --index 0 "tessellate part.STEP |"
+  assert_line "  fitcad -o x.vtu"
   run hexpipe --mesh tets.msh -o x.vtu --dry-run
   assert_line --index 0 "findhex --mesh tets.msh |"
+}
+
+@test "the boundary of a mesh from CAD lies on the CAD, and --from knows that it is CAD" {
+  [[ -x "$HEXPIPE_BIN/fitcad" ]] || skip "fitcad is not built"
+  hexpipe -q "$DATA/simp.step" --size 14 --effort quick --initsol '--iterations 100' --lns '--iterations 10' --keep stages -o simp.vtu --stats simp.json
+  holds "simp['fitcad']['distance']['vertices'] < 1e-6 * simp['fitcad']['diagonal'] < simp['fitcad']['distance_before']['vertices'] * 1e3" simp.json
+  assert_conforming simp.vtu
+  hexpipe -q --keep stages --from result -o again.vtu
+  assert_same_bytes simp.vtu again.vtu
 }
 
 @test "tets of another program go in by --mesh" {
@@ -97,7 +107,9 @@ setup_file() {
   assert_fails_with 2 "expected -o FILE" hexpipe part.stl
   assert_fails_with 2 "expected one of a surface, --mesh and --from" hexpipe part.stl --mesh tets.msh -o x.vtu
   assert_fails_with 2 "--from needs --keep" hexpipe --from choice -o x.vtu
-  assert_fails_with 2 "expected --from surface, mesh" hexpipe --keep k --from result -o x.vtu
+  assert_fails_with 2 "expected --from surface, mesh" hexpipe --keep k --from nothing -o x.vtu
+  assert_fails_with 2 "--from result goes with CAD" hexpipe --keep k --from result -o x.vtu
+  assert_fails_with 2 "--fitcad does nothing without CAD" hexpipe part.stl --fitcad "--reach 0.1" -o x.vtu
   assert_fails_with 2 "--size does nothing" hexpipe --mesh tets.msh --size 3 -o x.vtu
   assert_fails_with 2 "--tetmesh does nothing" hexpipe --mesh tets.msh --tetmesh --repair -o x.vtu
   assert_fails_with 2 "--lns: expected a ' at the end" hexpipe part.stl --lns "--seed '3" -o x.vtu

@@ -3,7 +3,7 @@
 load helpers
 
 TOOLS="merge-parts findhex buildgraph initsol lns certify assemble"
-for optional in tessellate wrap tetmesh mesh-part lns-mpi viewmesh; do
+for optional in tessellate fitcad wrap tetmesh mesh-part lns-mpi viewmesh; do
   if [[ -x "$HEXPIPE_BIN/$optional" ]]; then TOOLS="$TOOLS $optional"; fi
 done
 MANUAL="$HEXPIPE_BIN/../manual"

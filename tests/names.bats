@@ -107,6 +107,51 @@ PYTHON
   assert_fails_with 1 "tets.mesh: expected a surface, found a mesh of [0-9]+ cells; findhex takes it where they are tets" tetmesh tets.mesh -o x.mesh
 }
 
+@test "tetmesh takes surfaces in .vtp, as VTK writes them in each encoding, without their lines and points" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  $PYTHON - <<'PYTHON'
+import vtk
+points = vtk.vtkPoints()
+for z in (0, 1):
+    for y in (0, 1):
+        for x in (0, 1):
+            points.InsertNextPoint(x, y, z)
+surface = vtk.vtkPolyData()
+surface.SetPoints(points)
+def cells(lists):
+    array = vtk.vtkCellArray()
+    for corners in lists:
+        array.InsertNextCell(len(corners))
+        for corner in corners:
+            array.InsertCellPoint(corner)
+    return array
+surface.SetVerts(cells([(0,), (7,)]))
+surface.SetLines(cells([(0, 1, 2)]))
+surface.SetPolys(cells([(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7), (2, 0, 4), (2, 4, 6)]))
+tags = vtk.vtkIntArray()
+tags.SetName("tag")
+for tag in (90, 91, 92, 1, 2, 3, 4, 5, 6, 6):
+    tags.InsertNextValue(tag)
+surface.GetCellData().AddArray(tags)
+writer = vtk.vtkXMLPolyDataWriter()
+writer.SetInputData(surface)
+for mode in ("Ascii", "Binary", "Appended"):
+    getattr(writer, f"SetDataModeTo{mode}")()
+    writer.SetFileName(f"{mode}.vtp")
+    writer.Write()
+surface.SetPolys(cells([(0, 2, 3, 1, 5)]))
+surface.GetCellData().Initialize()
+writer.SetFileName("five.vtp")
+writer.Write()
+PYTHON
+  for mode in Ascii Binary Appended; do
+    tetmesh $mode.vtp --surface keep --points none --stats stats.json -o $mode.mesh
+    assert_equal "$($PYTHON -c 'import json; s = json.load(open("stats.json")); print(s["surface_triangles"], s["volume"])')" "12 1.0"
+    assert_equal "$(awk '/^Triangles/ {on = 1; getline; next} on && NF == 4 {print $4}' $mode.mesh | sort -n | uniq -c | tr -s ' \n' ' ')" " 2 1 2 2 2 3 2 4 2 5 2 6 "
+  done
+  assert_fails_with 1 "five.vtp:[0-9]+: expected triangles and quads, found a polygon of 5 corners" tetmesh five.vtp -o x.mesh
+}
+
 @test "tetmesh --tags-by-angle makes groups, and --name names them" {
   if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
   tetmesh "$DATA/cube.stl" --size 0.4 --tags-by-angle --name 3=inlet --name 'region 1=steel' -o cube.tar

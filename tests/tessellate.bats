@@ -24,7 +24,7 @@ with tarfile.open(sys.argv[1]) as bundle:
         data = bundle.extractfile(member).read()
         if member.name == "names.json":
             names = json.loads(data)
-        elif member.name.startswith(("surface/", "mesh/")):
+        elif member.name.startswith(("surface/", "mesh/")) and member.name.endswith(".npy"):
             arrays[member.name.replace("mesh/", "mesh_").replace("surface/", "")[:-4]] = np.load(io.BytesIO(data))
 globals().update(arrays)
 

@@ -517,6 +517,32 @@ assert d['at_singularities'] + d['closed'] <= d['length'], d"
   done
 }
 
+@test "best keeps other points in one body than in another where that is estimated to be the best" {
+  # A box turned by half a radian, and a prism of six sides.
+  $PYTHON - >two.off <<'PYTHON'
+import math
+cosine, sine = math.cos(0.5), math.sin(0.5)
+points = [(cosine * x - sine * y, sine * x + cosine * y, z) for z in (0, 2) for y in (0, 2) for x in (0, 3)]
+triangles = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5)]
+points += [(1.5 * math.cos(math.pi * k / 3) - 4, 1.5 * math.sin(math.pi * k / 3), z) for z in (0, 2) for k in range(6)] + [(-4, 0, 0), (-4, 0, 2)]
+for k in range(6):
+    l = (k + 1) % 6
+    triangles += [(8 + a, 8 + b, 8 + c) for a, b, c in ((k, l, 6 + l), (k, 6 + l, 6 + k), (12, l, k), (13, 6 + k, 6 + l))]
+print("OFF")
+print(len(points), len(triangles), 0)
+for p in points: print(*p)
+for t in triangles: print(3, *t)
+PYTHON
+  local size best
+  for size in 0.4 0.5; do
+    tetmesh -q two.off --size $size -o two.mesh --stats two.json
+    best=$($PYTHON -c "share = $(stats_in two.json estimated_hex_share); print(max(share, key=share.get))")
+    holds "two['points_kept'] == '$best'" two.json
+    cat two.json >>both.json
+  done
+  grep -q '"mixed"' both.json
+}
+
 @test "--tries keeps the size of which most is estimated to become hexes" {
   optimized_only "it is about results"
   local part="$DATA/bracket.stl"

@@ -22,6 +22,9 @@ constexpr std::pair<std::string_view, ScalarType> vtu_type_names[] = {
     {"Float64", ScalarType::float64},
 };
 
+constexpr const char *unstructured_type = "UnstructuredGrid", *polygons_type = "PolyData";
+constexpr std::uint8_t vtk_triangle = 5, vtk_quad = 9;
+
 class VtuReader {
  public:
   VtuReader(std::string text, std::string_view file) : text_(std::move(text)), file_(file) {}
@@ -29,10 +32,15 @@ class VtuReader {
   MixedMesh read() {
     parse_xml();
     const pugi::xml_node root = document_.child("VTKFile");
+    const std::string type = root.attribute("type").value();
+    if (type != unstructured_type && type != polygons_type)
+      fail(root, fmt::format("expected VTKFile of type {} or {}, found {}", unstructured_type, polygons_type,
+                             quote_found(type)));
     read_encoding(root);
-    const pugi::xml_node unstructured = child(root, "UnstructuredGrid");
-    child(unstructured, "Piece");
-    for (const pugi::xml_node piece : unstructured.children("Piece")) read_piece(piece);
+    const pugi::xml_node content = child(root, type.c_str());
+    child(content, "Piece");
+    for (const pugi::xml_node piece : content.children("Piece"))
+      type == polygons_type ? read_polygons(piece) : read_piece(piece);
     return to_mixed_mesh(std::move(grid_), file_);
   }
 
@@ -78,9 +86,6 @@ class VtuReader {
   }
 
   void read_encoding(const pugi::xml_node& root) {
-    const std::string_view type = root.attribute("type").value();
-    if (type != "UnstructuredGrid")
-      fail(root, fmt::format("expected VTKFile of type UnstructuredGrid, found {}", quote_found(type)));
     const std::string_view order = root.attribute("byte_order").as_string("LittleEndian");
     encoding_.order = order == "BigEndian" ? std::endian::big : std::endian::little;
     const std::string_view header = root.attribute("header_type").as_string("UInt32");
@@ -98,14 +103,47 @@ class VtuReader {
   }
 
   void read_piece(const pugi::xml_node& piece) {
-    const auto point_count = count_attribute(piece, "NumberOfPoints");
+    const Vertex first_point = read_points_of(piece);
     const auto cell_count = count_attribute(piece, "NumberOfCells");
+    const pugi::xml_node cells = child(piece, "Cells");
+    append(grid_.types, read_array<std::uint8_t>(named_array(cells, "types"), cell_count));
+    read_cells(cells, cell_count, first_point);
+    for (const pugi::xml_node array : piece.child("CellData").children("DataArray"))
+      read_cell_data(array, 0, cell_count);
+  }
+
+  // Points and lines, which come first, say nothing of a surface.
+  void read_polygons(const pugi::xml_node& piece) {
+    const Vertex first_point = read_points_of(piece);
+    const auto optional_count = [&](const char* name) {
+      return piece.attribute(name) ? count_attribute(piece, name) : std::size_t{0};
+    };
+    if (optional_count("NumberOfStrips") > 0) fail(piece, "expected polygons, found strips of triangles");
+    const std::size_t others = optional_count("NumberOfVerts") + optional_count("NumberOfLines");
+    const auto count = count_attribute(piece, "NumberOfPolys");
+    if (count == 0) return;
+    const pugi::xml_node polygons = child(piece, "Polys");
+    const std::size_t first = grid_.ends.size();
+    std::int64_t begin = static_cast<std::int64_t>(grid_.connectivity.size());
+    read_cells(polygons, count, first_point);
+    for (std::size_t i = first; i < grid_.ends.size(); ++i) {
+      const std::int64_t corners = grid_.ends[i] - begin;
+      if (corners != 3 && corners != 4)
+        fail(polygons, fmt::format("expected triangles and quads, found a polygon of {} corners", corners));
+      grid_.types.push_back(corners == 3 ? vtk_triangle : vtk_quad);
+      begin = grid_.ends[i];
+    }
+    for (const pugi::xml_node array : piece.child("CellData").children("DataArray"))
+      read_cell_data(array, others, count);
+  }
+
+  Vertex read_points_of(const pugi::xml_node& piece) {
+    const auto point_count = count_attribute(piece, "NumberOfPoints");
     const auto first_point = grid_.points.size();
     if (first_point + point_count > static_cast<std::size_t>(std::numeric_limits<Vertex>::max()))
       fail(piece, fmt::format("expected fewer than 2^31 points, found {}", first_point + point_count));
     read_points(child(piece, "Points"), point_count);
-    read_cells(child(piece, "Cells"), cell_count, static_cast<Vertex>(first_point));
-    for (const pugi::xml_node array : piece.child("CellData").children("DataArray")) read_cell_data(array, cell_count);
+    return static_cast<Vertex>(first_point);
   }
 
   void read_points(const pugi::xml_node& node, std::size_t count) {
@@ -118,7 +156,6 @@ class VtuReader {
   }
 
   void read_cells(const pugi::xml_node& cells, std::size_t count, Vertex first_point) {
-    append(grid_.types, read_array<std::uint8_t>(named_array(cells, "types"), count));
     auto ends = read_array<std::int64_t>(named_array(cells, "offsets"), count);
     const std::int64_t corner_count = ends.empty() ? 0 : ends.back();
     if (corner_count < 0) fail(cells, fmt::format("expected offsets from 0 up, found {}", corner_count));
@@ -145,13 +182,18 @@ class VtuReader {
     }
   }
 
-  void read_cell_data(const pugi::xml_node& array, std::size_t count) {
+  // An array has a number for each cell: `others` come before those that count.
+  void read_cell_data(const pugi::xml_node& array, std::size_t others, std::size_t count) {
     const std::string_view name = array.attribute("Name").value();
     if (array.attribute("NumberOfComponents").as_int(1) != 1) return;
+    const auto take = [&](auto& to, auto numbers) {
+      numbers.erase(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(others));
+      append(to, std::move(numbers));
+    };
     if (is_vtk_tag_name(name))
-      append(grid_.tags[std::string(name)], read_array<std::int32_t>(array, count));
+      take(grid_.tags[std::string(name)], read_array<std::int32_t>(array, others + count));
     else if (name == quality_name)
-      append(grid_.quality, read_array<double>(array, count));
+      take(grid_.quality, read_array<double>(array, others + count));
   }
 
   template <class T>

@@ -69,8 +69,7 @@ std::string choose_format(const StreamOptions& streams, Role product) {
 
 bool is_text_format(std::string_view format) {
   constexpr std::array<std::string_view, 3> binary{"vtu", "exo", "e"};
-  return !is_bundle_format(format) && !format.ends_with("-binary") &&
-         std::ranges::find(binary, format) == binary.end();
+  return !is_bundle_format(format) && !format.ends_with("-binary") && std::ranges::find(binary, format) == binary.end();
 }
 
 // The tool that makes this product.
@@ -250,6 +249,7 @@ struct Stage::State {
 
   std::optional<formats::Input> open_inputs(std::map<Role, formats::Input>& files) const;
   void read_bundle(formats::Input& input, StageData& data);
+  bool read_shape(BundleReader& reader, StageData& data, BundleWriter* copy);
   void pass_history_entry(BundleReader& reader, std::vector<nlohmann::ordered_json>& history);
   void write_names();
   void read_files(std::map<Role, formats::Input>& files, StageData& data);
@@ -363,6 +363,7 @@ void Stage::State::read_bundle(formats::Input& input, StageData& data) {
       if (request.weights_only && read_weights(reader, data, copy)) continue;
       if (takes(*role) && read_member(reader, data, copy, request.cover)) continue;
     }
+    if (request.shape && read_shape(reader, data, copy)) continue;
     if (is_history_entry(reader.name())) {
       pass_history_entry(reader, data.history);
     } else if (reader.name() == formats::names_member && !is_replaced) {
@@ -373,6 +374,13 @@ void Stage::State::read_bundle(formats::Input& input, StageData& data) {
       reader.copy_to(*copy);
     }
   }
+}
+
+bool Stage::State::read_shape(BundleReader& reader, StageData& data, BundleWriter* copy) {
+  ExactShape shape = data.shape.value_or(ExactShape{});
+  if (!is_surface_member(reader.name()) || !read_shape_member(reader, shape, copy)) return false;
+  data.shape = std::move(shape);
+  return true;
 }
 
 void Stage::State::pass_history_entry(BundleReader& reader, std::vector<nlohmann::ordered_json>& history) {

@@ -15,6 +15,7 @@
 #include "common/mesh/mesh_piece.hpp"
 #include "common/mesh/mixed_mesh.hpp"
 #include "common/mesh/tet_mesh.hpp"
+#include "formats/pipeline/exact_shape.hpp"
 #include "formats/streams/group_names.hpp"
 
 namespace hexpipe::pipeline {
@@ -36,6 +37,7 @@ struct StageData {
   std::optional<MixedMesh> result;
   std::optional<MeshPart> part;                 // with StageRequest::part, where the mesh is a part of another
   std::optional<CandidateKeys> candidate_keys;  // likewise
+  std::optional<ExactShape> shape;              // with StageRequest::shape
   formats::GroupNames names;                    // of the tags of mesh and result
   std::vector<nlohmann::ordered_json> history;
 };

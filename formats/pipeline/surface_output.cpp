@@ -104,9 +104,10 @@ std::vector<std::string> write_surface(const formats::SurfaceSoup& surface, std:
 }
 
 void write_surface_bundle(const formats::SurfaceSoup& surface, const nlohmann::ordered_json& history_entry,
-                          bool compress, formats::Output& output) {
+                          bool compress, formats::Output& output, const ExactShape* shape) {
   BundleWriter writer(output, compress);
   write_surface_members(writer, surface);
+  if (shape != nullptr) write_shape_members(writer, *shape);
   if (!surface.names.empty()) writer.add_text(std::string(formats::names_member), text_of(surface.names));
   write_history_entry(writer, history_member(1, history_entry), history_entry);
   writer.close();

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/pipeline/exact_shape.hpp"
 #include "formats/streams/output.hpp"
 #include "formats/surfaces/surface_files.hpp"
 
@@ -20,8 +21,8 @@ std::string_view surface_format_of(const std::string& path);
 std::vector<std::string> write_surface(const formats::SurfaceSoup& surface, std::string_view format,
                                        formats::Output& output);
 
-// A bundle that begins with this tool's entry of the history.
+// A bundle that begins with this tool's entry of the history. `shape`: the CAD's faces from which the surface comes.
 void write_surface_bundle(const formats::SurfaceSoup& surface, const nlohmann::ordered_json& history_entry,
-                          bool compress, formats::Output& output);
+                          bool compress, formats::Output& output, const ExactShape* shape = nullptr);
 
 }  // namespace hexpipe::pipeline

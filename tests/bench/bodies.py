@@ -6,8 +6,8 @@ tessellate | tetmesh | findhex | buildgraph | initsol | lns | assemble, and each
 Prints a table: the hexes' share of each body's volume in the joined mesh and in its own, in percent. Meshes are checked by
 tests/checkers/meshstats.py --exact. The goal: no body loses more than a point by being joined, and so says the last line.
 
---cad: also joins the STEP files of this folder (simple mechanical parts of HexMe, as tests/data/simp.step) with a plate under
-them.
+--cad: also joins each STEP file of a folder (parts of HexMe, as tests/data/simp.step) with a plate under it, and with a block in
+which its lower fifth sits.
 """
 import argparse
 import json
@@ -42,7 +42,10 @@ MODELS = {
                                  " BooleanDifference(4) = {Volume{2};}{Volume{3};}; BooleanDifference(5) = {Volume{1};Delete;}{Volume{2};Delete;};"
                                  " Recursive Delete{Volume{3};}"),
 }
-CAD = 'v() = ShapeFromFile("%s"); b() = BoundingBox Volume{v()}; dx = b(3)-b(0); dy = b(4)-b(1); dz = b(5)-b(2); Box(1000) = {b(0)-dx/10, b(1)-dy/10, b(2)-dz/5, 1.2*dx, 1.2*dy, dz/5};'
+# A STEP file on a plate, and with its lower fifth in a block.
+CAD = 'v() = ShapeFromFile("%s"); b() = BoundingBox Volume{v()}; dx = b(3)-b(0); dy = b(4)-b(1); dz = b(5)-b(2); low = Round(1e4*b(2))/1e4;'
+ON_A_PLATE = CAD + " Box(1000) = {b(0)-dx/10, b(1)-dy/10, low-dz/5, 1.2*dx, 1.2*dy, dz/5};"
+IN_A_BLOCK = CAD + " Box(1000) = {b(0)-dx/10, b(1)-dy/10, low-dz/5, 1.2*dx, 1.2*dy, 0.4*dz}; BooleanDifference{ Volume{1000}; Delete; }{ Volume{v()}; }"
 
 
 class Failed(Exception):
@@ -157,7 +160,9 @@ def main():
     if args.cad:
         for file in sorted(os.listdir(args.cad)):
             if file.endswith(".step"):
-                models[f"{file[:-5]} on a plate"] = (None, CAD % os.path.abspath(os.path.join(args.cad, file)))
+                path = os.path.abspath(os.path.join(args.cad, file))
+                models[f"{file[:-5]} on a plate"] = (None, ON_A_PLATE % path)
+                models[f"{file[:-5]} in a block"] = (None, IN_A_BLOCK % path)
     print("| model | body | alone % | joined % | gain | |\n|---|---|---|---|---|---|", flush=True)
     gains = []
     for name, (size, commands) in models.items():
@@ -165,7 +170,7 @@ def main():
             continue
         with tempfile.TemporaryDirectory() as folder:
             try:
-                gains += compare(name, size or "4%", commands, folder, args)
+                gains += compare(name, size or "2.5%", commands, folder, args)
             except Failed as failure:
                 print(f"| {name} | | | | | {failure} |", flush=True)
                 gains.append(-100.0)

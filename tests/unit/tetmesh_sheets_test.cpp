@@ -13,6 +13,7 @@
 #include "tools/tetmesh/surface/opposite_sides.hpp"
 #include "tools/tetmesh/surface/sheet_cut.hpp"
 #include "tools/tetmesh/surface/surface_refine.hpp"
+#include "tools/tetmesh/volume/field_nodes.hpp"
 
 namespace hexpipe {
 using namespace formats;
@@ -24,6 +25,7 @@ namespace {
 using testing::box;
 using testing::Facets;
 using testing::joined;
+using testing::mesh_of;
 using testing::remesh_surface;
 using testing::ring;
 using testing::soup_of;
@@ -124,6 +126,18 @@ TEST(Remesh, BoxesThatTouchBecomeGridsWithOneInterface) {
   std::map<std::array<std::int32_t, 2>, int> triangles;  // by what is on their sides
   for (const auto& sides : result.surface.sides) ++triangles[sides];
   EXPECT_EQ((triangles[{1, 2}]), 2 * 4 * 4);
+}
+
+TEST(FieldNodes, ThoseWithinAnInterfaceFaceBothWays) {
+  const Surface surface = remesh_surface(sheets_of(boxes_with_common_face()), {.size = 0.25}).surface;
+  const tetmesh::tetgen::BuiltMesh built = mesh_of(surface, {});
+  const auto nodes = tetmesh::volume::make_field_nodes(surface, built.mesh, built.adjacency, 0.25, 40);
+  int within = 0;
+  for (std::size_t v = 0; v < nodes.surface.size(); ++v) {
+    within += nodes.surface[v].is_on_interface;
+    EXPECT_TRUE(!nodes.surface[v].is_on_interface || std::abs(nodes.points[v].x - 1) < 1e-9);
+  }
+  EXPECT_EQ(within, 3 * 3);
 }
 
 // A pipe in its lining.

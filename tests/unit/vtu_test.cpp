@@ -201,7 +201,8 @@ TEST(Vtu, NamesTheDefect) {
   const auto expect = [](std::string_view from, std::string_view to, const std::string& message) {
     EXPECT_EQ(message_of_reading(changed(from, to)), message);
   };
-  expect("\"UnstructuredGrid\"", "\"PolyData\"", "test:3: expected VTKFile of type UnstructuredGrid, found 'PolyData'");
+  expect("\"UnstructuredGrid\"", "\"ImageData\"",
+         "test:3: expected VTKFile of type UnstructuredGrid or PolyData, found 'ImageData'");
   expect("byte_order", "header_type=\"UInt16\" byte_order",
          "test:3: expected header_type UInt32 or UInt64, found 'UInt16'");
   expect("byte_order", "compressor=\"vtkLZ4DataCompressor\" byte_order",

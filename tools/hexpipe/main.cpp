@@ -60,13 +60,14 @@ int main(int argc, char** argv) {
     app.add_option("--mesh", options.mesh, "Tets of another program, instead of a surface")->type_name("FILE");
     app.add_option("--keep", options.keep, "Keep what each stage makes in this folder, as NAME.tar")
         ->type_name("FOLDER");
-    app.add_option("--from", options.from,
-                   "Go on from what an earlier run kept: surface, mesh, candidates, conflicts, solution or choice")
+    app.add_option(
+           "--from", options.from,
+           "Go on from what an earlier run kept: surface, mesh, candidates, conflicts, solution, choice or result")
         ->type_name("NAME");
     app.add_option("--seed", seed, "Seed of the random numbers of all stages")->type_name("N");
     app.add_flag("--dry-run", dry_run, "Print the pipe as a shell command, and do nothing");
     for (const char* tool :
-         {"tessellate", "tetmesh", "findhex", "buildgraph", "initsol", "lns", "assemble", "viewmesh"})
+         {"tessellate", "tetmesh", "findhex", "buildgraph", "initsol", "lns", "assemble", "fitcad", "viewmesh"})
       app.add_option_function<std::string>(
              fmt::format("--{}", tool), [&, tool](const std::string& words) { options.stage_options[tool] = words; },
              fmt::format("More options of {}, in quotes", tool))
@@ -82,7 +83,7 @@ int main(int argc, char** argv) {
     stop_searches_on_signal();
     const Stopwatch watch;
     for (StageOutcome& outcome : run(plan, {.quiet = context.common.quiet, .verbose = context.common.verbose})) {
-      if (outcome.tool == "assemble" && outcome.statistics.is_object() && !context.common.quiet)
+      if (outcome.tool == plan.pipe.back().tool && outcome.statistics.is_object() && !context.common.quiet)
         for (const std::string& line : summary_of(outcome.statistics, options.output, watch.seconds()))
           print_message(info.name, line);
       context.statistics[outcome.tool] = std::move(outcome.statistics);

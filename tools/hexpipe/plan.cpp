@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <filesystem>
 #include <iterator>
 #include <string_view>
 
@@ -13,7 +14,8 @@
 namespace hexpipe::front_door {
 namespace {
 
-// The stages in order, each with the name of what it makes: --keep writes FOLDER/NAME.tar, --from takes a NAME.
+// The stages in order, each with the name of what it makes: --keep writes FOLDER/NAME.tar, --from takes a NAME. The
+// first and the last run for CAD only.
 struct Stage {
   const char* tool;
   const char* product;
@@ -21,13 +23,17 @@ struct Stage {
 constexpr std::array stages{Stage{"tessellate", "surface"}, Stage{"tetmesh", "mesh"},
                             Stage{"findhex", "candidates"}, Stage{"buildgraph", "conflicts"},
                             Stage{"initsol", "solution"},   Stage{"lns", "choice"},
-                            Stage{"assemble", "result"}};
-constexpr std::size_t tetmesh_stage = 1, findhex_stage = 2;
+                            Stage{"assemble", "result"},    Stage{"fitcad", "fitted result"}};
+constexpr std::size_t tetmesh_stage = 1, findhex_stage = 2, fitcad_stage = 7;
 
 bool has_ending(const std::string& path, std::initializer_list<std::string_view> endings) {
   std::string lower = path;
   std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return std::ranges::any_of(endings, [&](std::string_view ending) { return lower.ends_with(ending); });
+}
+
+bool is_cad(const std::string& path) {
+  return has_ending(path, {".step", ".stp", ".iges", ".igs", ".brep"});
 }
 
 std::string kept_file(const PipeOptions& options, std::string_view product) {
@@ -39,12 +45,21 @@ std::size_t first_stage(const PipeOptions& options) {
   if (options.from) {
     const auto found = std::ranges::find(stages, std::string_view(*options.from), &Stage::product);
     if (found == stages.end() || found + 1 == stages.end())
-      throw UsageError(fmt::format(
-          "expected --from surface, mesh, candidates, conflicts, solution or choice, found '{}'", *options.from));
+      throw UsageError(
+          fmt::format("expected --from surface, mesh, candidates, conflicts, solution, choice or result, found '{}'",
+                      *options.from));
     return static_cast<std::size_t>(found - stages.begin()) + 1;
   }
   if (options.mesh) return findhex_stage;
-  return has_ending(options.input, {".step", ".stp", ".iges", ".igs", ".brep"}) ? 0 : tetmesh_stage;
+  return is_cad(options.input) ? 0 : tetmesh_stage;
+}
+
+// The last stage that runs. What an earlier run kept began with CAD if it has a surface.
+std::size_t last_stage(const PipeOptions& options) {
+  const bool from_cad = options.from ? std::filesystem::exists(kept_file(options, "surface")) : is_cad(options.input);
+  if (!from_cad && options.from == stages[fitcad_stage - 1].product)
+    throw UsageError("--from result goes with CAD, whose faces the result is moved onto; the result is the last stage");
+  return from_cad ? fitcad_stage : fitcad_stage - 1;
 }
 
 // Seconds for the searches, and whether to search for points.
@@ -84,8 +99,11 @@ void check(const PipeOptions& options) {
     throw UsageError("--size does nothing behind tetmesh, which has placed the points already");
   for (const auto& [tool, text] : options.stage_options) {
     const auto stage = std::ranges::find(stages, std::string_view(tool), &Stage::tool);
-    if (stage != stages.end() && static_cast<std::size_t>(stage - stages.begin()) < first_stage(options))
+    const auto number = static_cast<std::size_t>(stage - stages.begin());
+    if (stage == stages.end()) continue;
+    if (number < first_stage(options))
       throw UsageError(fmt::format("--{} does nothing: the pipe starts behind it", tool));
+    if (number > last_stage(options)) throw UsageError(fmt::format("--{} does nothing without CAD", tool));
   }
 }
 
@@ -117,7 +135,8 @@ Plan plan_of(const PipeOptions& options) {
   check(options);
   Plan plan;
   plan.folder = options.keep;
-  for (std::size_t s = first_stage(options); s < stages.size(); ++s) {
+  const std::size_t last = last_stage(options);
+  for (std::size_t s = first_stage(options); s <= last; ++s) {
     const std::string tool = stages[s].tool;
     Command command{tool, words_of(tool, options), std::nullopt};
     if (plan.pipe.empty()) {
@@ -128,7 +147,7 @@ Plan plan_of(const PipeOptions& options) {
       else
         command.words.insert(command.words.begin(), options.input);
     }
-    if (s + 1 == stages.size())
+    if (s == last)
       command.words.insert(command.words.end(), {"-o", options.output});
     else if (options.keep)
       command.kept_in = kept_file(options, stages[s].product);

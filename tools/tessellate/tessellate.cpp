@@ -46,6 +46,8 @@ TessellateResult tessellate(formats::Input& input, const TessellateOptions& opti
     if (options.deviation) triangulation.deviation = *options.deviation * unit.millimetres;
     Triangulation made = triangulate(model, triangulation, input.name());
     result.surface = std::move(made.surface);
+    result.shape = std::move(made.shape);
+    result.shape.unit = unit.millimetres;
     result.faces = made.faces;
     result.curves = made.curves;
     result.deviation = made.deviation / unit.millimetres;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/pipeline/exact_shape.hpp"
 #include "formats/streams/input.hpp"
 #include "formats/surfaces/surface_files.hpp"
 
@@ -20,6 +21,7 @@ struct TessellateOptions {
 
 struct TessellateResult {
   formats::SurfaceSoup surface;
+  pipeline::ExactShape shape;
   std::size_t bodies = 0, faces = 0, curves = 0;
   double deviation = 0;  // in the units that are written
   std::string unit;      // of the output; empty if the file names none

@@ -9,6 +9,7 @@
 #include <BRepGProp.hxx>
 #include <BRepLib.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
@@ -29,6 +30,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <sstream>
 #include <utility>
 
 #include "common/mesh/default_size.hpp"
@@ -92,6 +94,7 @@ class Triangulator {
     number_points();
     check_closed();
     name_regions();
+    keep_shape();
     return std::move(result_);
   }
 
@@ -117,6 +120,7 @@ class Triangulator {
   void drop_curves_without_triangles(const std::vector<Vertex>& number);
   void check_closed() const;
   void name_regions();
+  void keep_shape();
   std::string title_of(const TopoDS_Face& face) const;
 
   const CadModel& model_;
@@ -283,12 +287,14 @@ void Triangulator::join_edge(const TopoDS_Edge& edge, const Handle(Poly_PolygonO
 }
 
 void Triangulator::add_curves() {
+  result_.shape.edge_tags.assign(faces_of_edge_.Extent(), 0);
   for (const auto& [number, nodes] : nodes_of_edge_) {
     const TopoDS_Edge& edge = TopoDS::Edge(faces_of_edge_.FindKey(number));
     const TopTools_ListOfShape& faces = faces_of_edge_.FindFromIndex(number);
     const bool has_two_names = faces.Extent() == 2 && group_of(faces.First()) != group_of(faces.Last());
     if (!has_two_names && is_smooth(edge, faces)) continue;
     const auto tag = static_cast<std::int32_t>(++result_.curves);
+    result_.shape.edge_tags[number - 1] = tag;
     for (std::size_t i = 1; i < nodes.size(); ++i) {
       const formats::CurveEdge ends{same_.of(nodes[i - 1]), same_.of(nodes[i])};
       if (ends[0] == ends[1]) continue;
@@ -381,6 +387,14 @@ void Triangulator::name_regions() {
   for (std::size_t body = 0; body < model_.bodies.size(); ++body)
     if (!model_.bodies[body].name.empty())
       result_.surface.names.regions[static_cast<std::int32_t>(body + 1)] = model_.bodies[body].name;
+}
+
+// With its triangles, so that what is near a triangle is found on the face itself at once.
+void Triangulator::keep_shape() {
+  std::ostringstream text;
+  BRepTools::Write(whole_, text, Standard_True, Standard_False, TopTools_FormatVersion_CURRENT);
+  result_.shape.brep = std::move(text).str();
+  result_.shape.face_tags = tags_;
 }
 
 }  // namespace

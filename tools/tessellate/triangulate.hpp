@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "formats/pipeline/exact_shape.hpp"
 #include "formats/surfaces/surface_files.hpp"
 #include "tools/tessellate/cad_model.hpp"
 
@@ -17,6 +18,7 @@ struct TriangulationOptions {
 
 struct Triangulation {
   formats::SurfaceSoup surface;  // in the model's units; sides, curves, names
+  pipeline::ExactShape shape;    // what it was made of
   std::size_t faces = 0, curves = 0;
   double deviation = 0;
 };

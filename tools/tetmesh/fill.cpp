@@ -1,9 +1,12 @@
 #include "tools/tetmesh/fill.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "common/mesh/adjacency.hpp"
 #include "common/run/deadline.hpp"
@@ -69,6 +72,10 @@ class Filler {
   void fill_given_surface();
   void place_points();
   void try_frame_points();
+  void describe(const volume::FramePoints& frame);
+  void try_points_by_body(const tetgen::BuiltMesh& lattice, const volume::HexEstimate& of_lattice,
+                          const tetgen::BuiltMesh& frame, const volume::HexEstimate& of_frame);
+  std::optional<double> known_hex_share() const;
   // Is called while TetGen is at work, and returns false when its mesh is no longer wanted.
   using Meanwhile = std::function<bool()>;
   std::optional<tetgen::BuiltMesh> tetrahedralize(std::span<const Vec3> points, const Meanwhile& meanwhile);
@@ -108,8 +115,7 @@ FilledSurface Filler::fill() {
     }
   }
   if (options_.estimates) {
-    const auto& known =
-        statistics_.points_kept == PointKind::frame ? statistics_.frame_hex_share : statistics_.lattice_hex_share;
+    const std::optional<double> known = known_hex_share();
     statistics_.hex_share = known ? *known : volume::estimate_hex_share(built_->mesh, built_->adjacency);
     watch_.add_to(statistics_.seconds.comparing);
   }
@@ -203,26 +209,67 @@ void Filler::try_frame_points() {
                             .feature_angle = options_.feature_angle,
                             .axes = axes_});
   watch_.add_to(statistics_.seconds.placing);
-  const bool compares = options_.points == PointKind::best &&
-                        !frame_plainly_wins(statistics_.remeshed, frame.turned_share, built_->mesh.tets.size());
-  double lattice_share = 0;
+  const bool has_bodies = surface_->region_count > 1;
+  const bool compares =
+      options_.points == PointKind::best &&
+      (has_bodies || !frame_plainly_wins(statistics_.remeshed, frame.turned_share, built_->mesh.tets.size()));
+  volume::HexEstimate of_lattice;
   std::optional<tetgen::BuiltMesh> bent = tetrahedralize(frame.points, [&] {
-    if (compares) lattice_share = volume::estimate_hex_share(built_->mesh, built_->adjacency);
+    if (compares) of_lattice = volume::estimate_hexes(built_->mesh, built_->adjacency);
     watch_.add_to(statistics_.seconds.comparing);
     return true;
   });
-  if (compares) {
-    statistics_.lattice_hex_share = lattice_share;
-    statistics_.frame_hex_share = volume::estimate_hex_share(bent->mesh, bent->adjacency);
-    watch_.add_to(statistics_.seconds.comparing);
-    if (lattice_share >= *statistics_.frame_hex_share) return;
+  if (!compares) {
+    built_ = std::move(bent);
+    describe(frame);
+    return;
   }
-  built_ = std::move(bent);
-  statistics_.interior_points = frame.points.size();
-  const volume::Dislocations& lines = frame.dislocations;
-  statistics_.dislocations = {lines.length, lines.at_singularities, lines.closed, lines.surface_ends};
-  dislocations_ = lines.segments;
-  statistics_.points_kept = PointKind::frame;
+  const volume::HexEstimate of_frame = volume::estimate_hexes(bent->mesh, bent->adjacency);
+  statistics_.lattice_hex_share = of_lattice.share();
+  statistics_.frame_hex_share = of_frame.share();
+  watch_.add_to(statistics_.seconds.comparing);
+  const bool frame_wins = of_frame.share() > of_lattice.share();
+  if (frame_wins) {
+    std::swap(built_, bent);
+    describe(frame);
+  }
+  if (!has_bodies) return;
+  const auto& [of_the_lattice, of_the_frame] = frame_wins ? std::tie(*bent, *built_) : std::tie(*built_, *bent);
+  try_points_by_body(of_the_lattice, of_lattice, of_the_frame, of_frame);
+}
+
+// Gives each body the kind of points that is better in it, where that is not the same kind in all of them.
+void Filler::try_points_by_body(const tetgen::BuiltMesh& lattice, const volume::HexEstimate& of_lattice,
+                                const tetgen::BuiltMesh& frame, const volume::HexEstimate& of_frame) {
+  std::vector<bool> takes_frame(of_lattice.volumes.size());
+  for (std::size_t region = 0; region < takes_frame.size(); ++region)
+    takes_frame[region] = of_frame.share_of(region) > of_lattice.share_of(region);
+  std::vector<Vec3> points;
+  std::size_t of_kind[2] = {};
+  for (const bool is_frame : {false, true}) {
+    const tetgen::BuiltMesh& built = is_frame ? frame : lattice;
+    const std::size_t last = built.mesh.points.size() - built.added_points;
+    for (std::size_t v = surface_->points.size(); v < last; ++v) {
+      const std::int32_t region = built.mesh.tet_tags[built.adjacency.tets_at(static_cast<Vertex>(v)).front()];
+      if (takes_frame[region] != is_frame) continue;
+      points.push_back(built.mesh.points[v]);
+      ++of_kind[is_frame];
+    }
+  }
+  if (of_kind[0] == 0 || of_kind[1] == 0) return;
+  try {
+    std::optional<tetgen::BuiltMesh> mixed = tetrahedralize(points, [] { return true; });
+    statistics_.mixed_hex_share = volume::estimate_hex_share(mixed->mesh, mixed->adjacency);
+    watch_.add_to(statistics_.seconds.comparing);
+    if (*statistics_.mixed_hex_share <= std::max(of_lattice.share(), of_frame.share())) return;
+    built_ = std::move(mixed);
+    statistics_.interior_points = points.size();
+    statistics_.points_kept = PointKind::mixed;
+    statistics_.dislocations.reset();
+    dislocations_.reset();
+  } catch (const tetgen::TetGenFailure&) {
+    // One of the others stands.
+  }
 }
 
 // Returns nothing where the mesh is not wanted.
@@ -264,6 +311,20 @@ void Filler::describe(const surface::RemeshResult& remeshed) {
   statistics_.distance_from_input = remeshed.from_input;
   statistics_.extra_points = remeshed.extra_points;
   statistics_.row_ends = remeshed.row_ends;
+}
+
+void Filler::describe(const volume::FramePoints& frame) {
+  statistics_.interior_points = frame.points.size();
+  const volume::Dislocations& lines = frame.dislocations;
+  statistics_.dislocations = {lines.length, lines.at_singularities, lines.closed, lines.surface_ends};
+  dislocations_ = lines.segments;
+  statistics_.points_kept = PointKind::frame;
+}
+
+// The share of hexes in the mesh that is kept, where it was estimated.
+std::optional<double> Filler::known_hex_share() const {
+  if (statistics_.points_kept == PointKind::mixed) return statistics_.mixed_hex_share;
+  return statistics_.points_kept == PointKind::frame ? statistics_.frame_hex_share : statistics_.lattice_hex_share;
 }
 
 }  // namespace

@@ -45,6 +45,7 @@ nlohmann::ordered_json to_json(const TetmeshStatistics& s) {
   if (s.repair) json["repair"] = solid::to_json(*s.repair);
   if (s.lattice_hex_share)
     json["estimated_hex_share"] = {{"lattice", *s.lattice_hex_share}, {"frame", *s.frame_hex_share}};
+  if (s.mixed_hex_share) json["estimated_hex_share"]["mixed"] = *s.mixed_hex_share;
   if (s.improved)
     json["improved"] = {{"rounds", s.improved->rounds},
                         {"changes", s.improved->changes},

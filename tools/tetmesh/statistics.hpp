@@ -46,7 +46,7 @@ struct TetmeshStatistics {
   std::optional<solid::RepairReport> repair;
   volume::PointKind points_kept = volume::PointKind::none;
   // Shares of the volume in hexes, by a rough greedy choice; where several kinds of points were tried.
-  std::optional<double> lattice_hex_share, frame_hex_share;
+  std::optional<double> lattice_hex_share, frame_hex_share, mixed_hex_share;
   std::optional<std::int64_t> row_ends;            // on faces, of a surface made anew
   std::optional<DislocationLengths> dislocations;  // of points along a frame field
   std::size_t added_points = 0, dropped_points = 0;

@@ -1,110 +1,12 @@
 #pragma once
-// Things in a tree of boxes. It finds the thing with the least value, where values grow with the distance.
+// Trees of boxes around triangles.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <span>
-#include <vector>
-
-#include "common/mesh/tet_mesh.hpp"
+#include "common/mesh/box_tree.hpp"
 
 namespace hexpipe::tetmesh::geometry {
 
-struct Box {
-  Vec3 low, high;
-
-  static Box around(std::span<const Vec3> points) {
-    Box box{points.front(), points.front()};
-    for (const Vec3& p : points) box.add({p, p});
-    return box;
-  }
-  void add(const Box& other) {
-    low = {std::min(low.x, other.low.x), std::min(low.y, other.low.y), std::min(low.z, other.low.z)};
-    high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y), std::max(high.z, other.high.z)};
-  }
-  Vec3 centre() const { return 0.5 * (low + high); }
-  // The first of the axes along which it is longest.
-  int longest_axis() const {
-    const Vec3 extent = high - low;
-    return extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-  }
-  double distance(const Vec3& p) const {
-    const auto outside = [](double x, double from, double to) { return std::max({from - x, x - to, 0.0}); };
-    return norm(Vec3{outside(p.x, low.x, high.x), outside(p.y, low.y, high.y), outside(p.z, low.z, high.z)});
-  }
-  // Where a ray enters the box, in lengths of its direction; `inverse` holds the reciprocals of the direction's
-  // components. Infinite where the ray misses the box.
-  double entry(const Vec3& from, const Vec3& inverse) const;
-};
-
-class BoxTree {
- public:
-  // The number of a thing is the number of its box. `values` has a lower bound for each thing of what least() looks
-  // for.
-  BoxTree(std::span<const Box> boxes, std::span<const double> values);
-  // A thing may have several boxes that cover it together: `owners` says to which thing each box belongs.
-  BoxTree(std::span<const Box> boxes, std::span<const double> values, std::span<const std::int32_t> owners);
-
-  // The least of value_of(thing) over the things, to 10^-9 of it, or `most` if no value is below that. A value must be
-  // at least the thing's lower bound plus `slope` times the distance of p from the nearest of its boxes.
-  template <class ValueOf>
-  double least(const Vec3& p, double slope, double most, ValueOf&& value_of) const {
-    return search(most, value_of, [&](const Node& node) { return node.value + slope * node.box.distance(p); });
-  }
-
-  // The least of length_to(thing) over the things whose boxes the ray meets, or `most` if no length is below that.
-  template <class LengthTo>
-  double first_hit(const Vec3& from, const Vec3& direction, double most, LengthTo&& length_to) const {
-    const Vec3 inverse{1 / direction.x, 1 / direction.y, 1 / direction.z};
-    return search(most, length_to, [&](const Node& node) { return node.box.entry(from, inverse); });
-  }
-
- private:
-  struct Node {
-    Box box;
-    double value;
-    // In a leaf: how many things it has, and where they begin. Otherwise: 0, and where its second child is; the first
-    // child follows the node.
-    std::int32_t count, first;
-  };
-  struct Pending {
-    double bound;
-    std::int32_t node;
-  };
-  // Keeps rounding from making the search look at every one of many things that are as good as the best.
-  static constexpr double tolerance = 1 - 1e-9;
-  static constexpr std::int32_t most_in_leaf = 2;
-  static constexpr std::size_t most_pending = 128;  // twice the halvings of 2^31 things
-
-  std::int32_t build(std::span<const Box> boxes, std::span<const double> values, std::span<std::int32_t> things);
-
-  template <class ValueOf, class Bound>
-  double search(double best, ValueOf&& value_of, Bound&& bound) const {
-    std::array<Pending, most_pending> stack;
-    std::size_t depth = 0;
-    if (!nodes_.empty()) stack[depth++] = {bound(nodes_[0]), 0};
-    while (depth > 0) {
-      const Pending next = stack[--depth];
-      if (!(next.bound < tolerance * best)) continue;
-      const Node& node = nodes_[next.node];
-      if (node.count > 0) {
-        for (std::int32_t i = node.first; i < node.first + node.count; ++i) best = std::min(best, value_of(things_[i]));
-        continue;
-      }
-      Pending near{bound(nodes_[next.node + 1]), next.node + 1}, far{bound(nodes_[node.first]), node.first};
-      if (far.bound < near.bound) std::swap(near, far);
-      stack[depth++] = far;
-      stack[depth++] = near;
-    }
-    return best;
-  }
-
-  std::vector<Node> nodes_;
-  std::vector<std::int32_t> things_;  // leaf by leaf
-};
+using hexpipe::Box;
+using hexpipe::BoxTree;
 
 // The values are 0, so that least() with a slope of 1 finds distances.
 BoxTree tree_of_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles);

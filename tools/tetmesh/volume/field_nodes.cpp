@@ -33,6 +33,7 @@ class SurfaceReader {
   std::vector<SurfaceNode> read() {
     add_normals();
     for (SurfaceNode& node : nodes_) node.normal = normalized(node.normal);
+    find_interfaces();
     geometry::for_each_edge(surface_.points.size(), surface_.triangles,
                             [&](std::span<const geometry::HalfEdge> edge) { add_edge(edge); });
     parallel_for(static_cast<std::int64_t>(nodes_.size()), 64,
@@ -51,6 +52,7 @@ class SurfaceReader {
   const Vec3& start(geometry::HalfEdge h) const { return surface_.points[geometry::start_of(surface_.triangles, h)]; }
   const Vec3& end(geometry::HalfEdge h) const { return surface_.points[geometry::end_of(surface_.triangles, h)]; }
   void add_normals();
+  void find_interfaces();
   void add_edge(std::span<const geometry::HalfEdge> edge);
   bool is_diagonal(geometry::HalfEdge h) const;
   void add_leg(Vertex v, const Vec3& along, double weight);
@@ -80,6 +82,13 @@ void SurfaceReader::add_normals() {
       node.suggested += angle * harmonics;
     }
   }
+}
+
+void SurfaceReader::find_interfaces() {
+  for (SurfaceNode& node : nodes_) node.is_on_interface = true;
+  for (std::size_t t = 0; t < surface_.triangles.size(); ++t)
+    if (surface_.shells[surface_.shell_of[t]].in_front == solid::outside_region)
+      for (const Vertex v : surface_.triangles[t]) nodes_[v].is_on_interface = false;
 }
 
 bool SurfaceReader::is_diagonal(geometry::HalfEdge h) const {

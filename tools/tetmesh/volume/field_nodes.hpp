@@ -27,6 +27,7 @@ struct SurfaceNode {
     vague    // on other features: no frame fits, and one is suggested
   };
   Kind kind = Kind::smooth;
+  bool is_on_interface = false;  // a region is on both sides of all that is around it
   Vec3 normal;
   fields::Frame frame{};  // of a fixed node
   fields::Harmonics suggested =

@@ -196,26 +196,37 @@ class ChosenPairs {
   tsl::robin_map<std::uint64_t, std::uint64_t, geometry::CellKeyHash> roles_;
 };
 
-// The best hexes come first.
-double volume_of_greedy_choice(const TetMesh& mesh, std::span<const RoughHex> hexes) {
+std::size_t region_of(const TetMesh& mesh, std::int32_t tet) {
+  return mesh.tet_tags.empty() ? 0 : static_cast<std::size_t>(mesh.tet_tags[tet]);
+}
+
+// The best hexes come first. Their volumes are added to those of their regions.
+void choose_greedily(const TetMesh& mesh, std::span<const RoughHex> hexes, std::vector<double>& volumes) {
   std::vector<std::int32_t> order(hexes.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, std::greater(), [&](std::int32_t i) { return hexes[i].quality; });
   std::vector<bool> taken(mesh.tets.size());
   ChosenPairs pairs;
-  double volume = 0;
   for (const std::int32_t i : order) {
     const RoughHex& hex = hexes[i];
-    if (std::ranges::any_of(hex.tets, [&](std::int32_t t) { return taken[t]; }) || !pairs.add(hex)) continue;
+    const std::size_t region = region_of(mesh, hex.tets.front());
+    const auto is_lost = [&](std::int32_t t) { return taken[t] || region_of(mesh, t) != region; };
+    if (std::ranges::any_of(hex.tets, is_lost) || !pairs.add(hex)) continue;
     for (const std::int32_t t : hex.tets) taken[t] = true;
-    volume += hex.volume;
+    volumes[region] += hex.volume;
   }
-  return volume;
 }
 
 }  // namespace
 
-double estimate_hex_share(const TetMesh& mesh, const TetAdjacency& adjacency) {
+double HexEstimate::share() const {
+  double chosen = 0, whole = 0;
+  for (const double volume : hexes) chosen += volume;
+  for (const double volume : volumes) whole += volume;
+  return chosen / whole;
+}
+
+HexEstimate estimate_hexes(const TetMesh& mesh, const TetAdjacency& adjacency) {
   std::vector<RoughHex> hexes;
   parallel_in_order(
       static_cast<std::int64_t>(mesh.points.size()), 256,
@@ -226,9 +237,15 @@ double estimate_hex_share(const TetMesh& mesh, const TetAdjacency& adjacency) {
         return found;
       },
       [&](std::vector<RoughHex>&& found) { std::ranges::move(found, std::back_inserter(hexes)); });
-  double volume = 0;
-  for (const Tet& tet : mesh.tets) volume += tet_determinant(mesh.points, tet) / 6;
-  return volume_of_greedy_choice(mesh, hexes) / volume;
+  HexEstimate estimate;
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tets.size()); ++t) {
+    const std::size_t region = region_of(mesh, t);
+    if (region >= estimate.volumes.size()) estimate.volumes.resize(region + 1);
+    estimate.volumes[region] += tet_determinant(mesh.points, mesh.tets[t]) / 6;
+  }
+  estimate.hexes.resize(estimate.volumes.size());
+  choose_greedily(mesh, hexes, estimate.hexes);
+  return estimate;
 }
 
 }  // namespace hexpipe::tetmesh::volume

@@ -152,7 +152,11 @@ void LatticeSolver::add_steps_on_surface(fields::Loops& loops) const {
   links_.for_each_pair([&](std::int32_t i, std::int64_t ij) {
     const LatticeLink& t = links_[ij];
     if (!nodes_.is_on_surface(i) || !nodes_.is_on_surface(t.neighbour) || t.weight <= 0) return;
-    const Vec3 &n = nodes_.surface[i].normal, &m = nodes_.surface[t.neighbour].normal;
+    const Vec3& n = nodes_.surface[i].normal;
+    // An interface faces both ways.
+    const bool is_turned = (nodes_.surface[i].is_on_interface || nodes_.surface[t.neighbour].is_on_interface) &&
+                           dot(n, nodes_.surface[t.neighbour].normal) > 0;
+    const Vec3 m = is_turned ? -nodes_.surface[t.neighbour].normal : nodes_.surface[t.neighbour].normal;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto steps = steps_on_surface(frames_[i][k], n, m, std::abs(t.distance[k]));
       if (!steps) continue;

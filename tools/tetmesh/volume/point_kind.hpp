@@ -5,6 +5,7 @@ namespace hexpipe::tetmesh::volume {
 
 enum class PointKind {
   best,     // makes the meshes of lattice and frame, and keeps the one that is estimated to merge into more hexes
+  mixed,    // a result of best: some bodies have the frame's points, the others the lattice's
   frame,    // along a frame field: frame_points.hpp
   lattice,  // along the model's axes: lattice.hpp
   given,    // by the user
@@ -17,7 +18,7 @@ constexpr bool places_points(PointKind kind) {
 }
 
 constexpr const char* name_of(PointKind kind) {
-  constexpr const char* names[] = {"best", "frame", "lattice", "given", "none"};
+  constexpr const char* names[] = {"best", "mixed", "frame", "lattice", "given", "none"};
   return names[static_cast<int>(kind)];
 }
 

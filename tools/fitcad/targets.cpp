@@ -1,0 +1,119 @@
+#include "tools/fitcad/targets.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/mesh/facet_key.hpp"
+
+namespace hexpipe::fitcad {
+namespace {
+
+// tetmesh and assemble leave vertices where curves of the CAD end or meet in their place, to rounding.
+constexpr double corner_reach = 1e-3;  // of the length of an edge
+// An edge of the mesh is one along a curve if its ends and its middle are this near to one: all curves that are
+// features are edges of the mesh.
+constexpr double curve_reach = 0.1;
+
+// What the facets say of an edge of the boundary.
+struct BoundaryEdge {
+  std::int32_t facets = 0;
+  std::int32_t tag = 0;
+  bool between_tags = false;
+};
+
+class TargetSearch {
+ public:
+  TargetSearch(const MixedMesh& mesh, const CadShape& shape, double reach) : mesh_(mesh), shape_(shape), reach_(reach) {
+    add_facets(mesh.triangles);
+    add_facets(mesh.quads);
+  }
+
+  Targets run() && {
+    for (std::size_t v = 0; v < lengths_.size(); ++v) lengths_[v] /= std::max(edge_counts_[v], 1);
+    find_curve_vertices();
+    Targets result;
+    result.of.resize(mesh_.points.size());
+    for (std::size_t v = 0; v < mesh_.points.size(); ++v) {
+      if (edge_counts_[v] == 0) continue;
+      const auto vertex = static_cast<Vertex>(v);
+      result.of[v] = target_of(vertex);
+      if (norm(result.of[v].at - mesh_.points[v]) <= reach_ * lengths_[v]) continue;
+      result.of[v].at = mesh_.points[v];
+      result.strays.push_back(vertex);
+    }
+    result.lengths = std::move(lengths_);
+    result.tags = std::move(tags_);
+    return result;
+  }
+
+ private:
+  template <int N>
+  void add_facets(const CellBlock<N>& facets) {
+    lengths_.resize(mesh_.points.size());
+    edge_counts_.resize(mesh_.points.size());
+    tags_.resize(mesh_.points.size());
+    for (std::size_t i = 0; i < facets.size(); ++i)
+      for (int k = 0; k < N; ++k) add_edge(facets.cells[i][k], facets.cells[i][(k + 1) % N], facets.tags[i]);
+  }
+
+  void add_edge(Vertex a, Vertex b, std::int32_t tag) {
+    BoundaryEdge& edge = edges_[edge_key(a, b)];
+    edge.between_tags = edge.between_tags || (edge.facets > 0 && edge.tag != tag);
+    edge.tag = tag;
+    ++edge.facets;
+    for (const Vertex v : {a, b}) {
+      lengths_[v] += norm(mesh_.points[a] - mesh_.points[b]);
+      ++edge_counts_[v];
+      if (std::ranges::find(tags_[v], tag) == tags_[v].end()) tags_[v].push_back(tag);
+    }
+  }
+
+  void find_curve_vertices() {
+    on_curve_.resize(mesh_.points.size());
+    for (const auto& [ends, edge] : edges_) {
+      if (!edge.between_tags && edge.facets == 2 && !is_along_curve(ends)) continue;
+      for (const Vertex v : ends) on_curve_[v] = true;
+    }
+  }
+
+  bool is_along_curve(const VertexKey<2>& ends) const {
+    const Vec3 &a = mesh_.points[ends[0]], &b = mesh_.points[ends[1]];
+    const double reach = curve_reach * norm(b - a);
+    return shape_.on_curves(a, reach) && shape_.on_curves(b, reach) && shape_.on_curves(0.5 * (a + b), 2 * reach);
+  }
+
+  Target target_of(Vertex v) const {
+    const Vec3& p = mesh_.points[v];
+    const double length = lengths_[v];
+    if (on_curve_[v]) {
+      if (const auto corner = shape_.on_corners(p, corner_reach * length)) return {Place::corner, *corner};
+      if (const auto foot = shape_.on_curves(p, reach_ * length)) return {Place::curve, foot->at};
+    }
+    return {Place::face, shape_.on_faces(p, curve_reach * length, tags_[v]).at};
+  }
+
+  const MixedMesh& mesh_;
+  const CadShape& shape_;
+  const double reach_;
+  KeyMap<2, BoundaryEdge> edges_;
+  std::vector<double> lengths_;
+  std::vector<std::int32_t> edge_counts_;
+  std::vector<std::vector<std::int32_t>> tags_;
+  std::vector<bool> on_curve_;
+};
+
+}  // namespace
+
+Vec3 Targets::slid(const CadShape& shape, Vertex v, const Vec3& to) const {
+  const Target& target = of[v];
+  if (target.place == Place::face) return shape.on_faces(to, curve_reach * lengths[v], tags[v]).at;
+  if (target.place != Place::curve) return target.at;
+  const auto foot = shape.on_curves(to, lengths[v]);
+  return foot ? foot->at : target.at;
+}
+
+Targets find_targets(const MixedMesh& mesh, const CadShape& shape, double reach) {
+  return TargetSearch(mesh, shape, reach).run();
+}
+
+}  // namespace hexpipe::fitcad
