@@ -227,8 +227,8 @@ PYTHON
   assemble solved.tar -o c.inp
   assert_same_bytes b.inp c.inp
   # The other commands of docs/solvers.md.
-  grep -oE 'assemble stages.tar --solver [a-z0-9]+ -o part[.][a-z0-9]+' "$HEXPIPE_SOURCE/docs/solvers.md" >commands
-  assert_equal "$(wc -l <commands)" 5
+  grep -oE 'assemble stages.tar --solver [a-z0-9-]+ -o part[.][a-z0-9]+' "$HEXPIPE_SOURCE/docs/solvers.md" >commands
+  assert_equal "$(wc -l <commands)" 6
   cp solved.tar stages.tar
   while read -r command; do
     rm -f part.*

@@ -2,6 +2,7 @@
 // A mesh as lists of elements of one kind and one group: regions, surfaces. Formats that libraries read and write hold
 // it so. Plain data, which the modules of these formats take and give.
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -40,9 +41,9 @@ constexpr int corners_of_kind(std::uint8_t vtk) {
 
 // Cells of a region, or facets of a surface.
 struct ElementGroup {
-  std::uint8_t kind = 0;             // VTK's code
-  std::int32_t number = 0;           // of the region or surface
-  std::string name;                  // of the region or surface; of a file, it may be empty
+  std::uint8_t kind = 0;               // VTK's code
+  std::int32_t number = 0;             // of the region or surface
+  std::string name;                    // of the region or surface; of a file, it may be empty
   std::vector<Vertex> corners{};       // from 0, one element after the other
   std::vector<std::int64_t> places{};  // of each element among all cells or all facets; empty: as they stand
   std::vector<CellSide> sides{};       // of each facet; empty for cells, and of a file
@@ -59,13 +60,15 @@ struct GroupedMesh {
 // What a format asks of names and numbers.
 struct GroupRules {
   NameRules names;
-  bool apart = false;  // no name and no number for a region and a surface
-  bool needs_sides = false;  // surfaces are lists of sides of cells
+  bool apart = false;                     // no name and no number for a region and a surface
+  bool needs_sides = false;               // surfaces are lists of sides of cells
+  std::array<const char*, 4> reserved{};  // names that no group may have; null: none
 };
 
 // `output`: for messages. Tags of one name are one group, with the number of the first of them. Throws DataError where
 // the format needs sides, and a facet is none of a cell.
-GroupedMesh grouped(const MixedMesh& mesh, const MeshWriting& writing, const GroupRules& rules, std::string_view output);
+GroupedMesh grouped(const MixedMesh& mesh, const MeshWriting& writing, const GroupRules& rules,
+                    std::string_view output);
 
 // In formats whose blocks have names of their own, regions of several kinds of cells have a block for each: steel_hex,
 // steel_tet. These set such names, and take them off again.

@@ -50,6 +50,12 @@ constexpr MeshFormat formats[] = {
     {"exo", write_exodus},
     {"e", write_exodus},
 #endif
+#ifdef HEXPIPE_WITH_MED
+    {"med", write_med},
+#endif
+#ifdef HEXPIPE_WITH_CGNS
+    {"cgns", write_cgns},
+#endif
 };
 
 // The first four bytes of a MEDIT .meshb, in either byte order.
@@ -74,7 +80,7 @@ MixedMesh read_by_content(std::string text, const std::string& name, const std::
                         "expected a text, found MEDIT's binary format; transmesh of libmeshb makes a .mesh of it");
   throw FormatError(
       name, 1,
-      fmt::format("expected a mesh (MEDIT .mesh, Gmsh .msh, VTK, VTU, TetGen .node or .ele, SU2, Nastran, Exodus II; "
+      fmt::format("expected a mesh (MEDIT .mesh, Gmsh .msh, VTK, VTU, TetGen .node or .ele, SU2, Nastran, Exodus II, MED; "
                   "tetmesh makes one of a surface), found {}",
                   quote_found(TextScanner(text, name).peek_word())));
 }
