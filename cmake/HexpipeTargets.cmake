@@ -17,8 +17,10 @@ if(HEXPIPE_SANITIZE)
     # sanitizer anyway.
     target_compile_options(hexpipe_flags INTERFACE -fno-sanitize=null,vptr,object-size,pointer-overflow)
     # The sanitizers' tables have 600,000 addresses, which the loader would have to fill in at every start of a tool.
-    target_compile_options(hexpipe_flags INTERFACE -fno-pie)
-    target_link_options(hexpipe_flags INTERFACE -no-pie)
+    # Modules, which tools load, stay independent of their place.
+    set(is_module $<STREQUAL:$<TARGET_PROPERTY:TYPE>,MODULE_LIBRARY>)
+    target_compile_options(hexpipe_flags INTERFACE $<$<NOT:${is_module}>:-fno-pie>)
+    target_link_options(hexpipe_flags INTERFACE $<$<NOT:${is_module}>:-no-pie>)
   endif()
   target_link_options(hexpipe_flags INTERFACE -fsanitize=${HEXPIPE_SANITIZE})
 endif()

@@ -91,6 +91,17 @@ assert_floors() {
   assert_floors tools/assemble hybrid choice shape conform gap pieces .
 }
 
+@test "tetmesh's options end at its driver, and the files at its root stand on floors" {
+  local file below="(asked_sizes|options|statistics)"
+  includes_of tools/tetmesh | grep ':tools/tetmesh/options\.hpp$' | grep -vE '^tools/tetmesh/(main\.cpp|options\.cpp|tetmesh\.hpp):' |
+    assert_none "inner code includes the options"
+  for file in fill improve tetmesh main; do
+    includes_of tools/tetmesh | grep -E "^tools/tetmesh/$file\.[ch]pp:tools/tetmesh/[^/]+\.hpp$" |
+      grep -vE ":tools/tetmesh/($below|$file)\.hpp$" | assert_none "$file includes a file above it"
+    below+="|$file"
+  done
+}
+
 @test "run includes nothing of its neighbours in common, mesh only run" {
   includes_of common/run | grep -E ':common/' | grep -vE ':common/run/' | assert_none "common/run includes its neighbours"
   includes_of common/mesh | grep -E ':common/' | grep -vE ':common/(run|mesh)/' | assert_none "common/mesh includes rooms above it"

@@ -70,7 +70,7 @@ product_ending() {
 @test "--version names tool, version and licence" {
   for tool in $TOOLS; do
     local licence=MIT
-    if [[ $tool == tetmesh ]]; then licence="AGPL-3.0, for it links TetGen"; fi
+    if [[ $tool == tetmesh ]]; then licence="AGPL-3.0, because it links TetGen"; fi
     run_apart $tool --version
     assert_success
     assert_line --index 0 --regexp "^$tool \(hexpipe\) [0-9]+\.[0-9]+\.[0-9]+$"

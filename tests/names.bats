@@ -144,9 +144,51 @@ for block, tags in zip(mesh.cells, mesh.cell_data["medit:ref"]):
 print(max(counts, key=counts.get))
 PYTHON
   assert_line 3
-  assert_fails_with 1 "cube.stl: expected --size of a surface by its name or number, found 'outlet'" tetmesh "$DATA/cube.stl" --size outlet=1 -o x.mesh
-  assert_fails_with 2 "expected one --size for all, found '2' beside another" tetmesh "$DATA/cube.stl" --size 1 --size 2 -o x.mesh
+  assert_fails_with 1 "cube.stl: expected --size of a surface by its name or number, found 'outlet'; there are 1 \(cube\)$" tetmesh "$DATA/cube.stl" --size outlet=1 -o x.mesh
+  assert_fails_with 2 "expected one --size for the whole model, found a second one: '2'" tetmesh "$DATA/cube.stl" --size 1 --size 2 -o x.mesh
   assert_fails_with 2 "expected a positive length such as" tetmesh "$DATA/cube.stl" --size 1=x -o x.mesh
+}
+
+@test "tetmesh --size 'body NAME=LENGTH' is the size in a body, smaller or larger than elsewhere" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  local bodies="$DATA/touching/face-touch-two-bodies.off"
+  # tets_in ARGUMENTS...: of both bodies.
+  tets_in() { tetmesh -q "$bodies" --name 'region 2=bolt' --grading 1 "$@" -o bodies.mesh && $PYTHON -c '
+import meshio
+mesh = meshio.read("bodies.mesh")
+tags = [int(tag) for block, tags in zip(mesh.cells, mesh.cell_data["medit:ref"]) if block.type == "tetra" for tag in tags]
+print(tags.count(1), tags.count(2))' | tail -1; }
+  local plain coarse fine
+  read -r plain _ < <(tets_in --size 0.4 --size 'body 1=0.4')
+  read -r coarse fine < <(tets_in --size 0.4 --size 'body bolt=0.1')
+  assert [ "$fine" -gt $((4 * coarse)) ]
+  assert [ "$coarse" -gt "$plain" ]  # at the interface
+  # The size of all the others is the smaller one.
+  assert_equal "$(tets_in --size 0.1 --size 'body 1=0.4')" "$coarse $fine"
+  assert_equal "$(tets_in --size 'body region_1=0.4' --size 'body 2=0.1')" "$coarse $fine"
+  assert_fails_with 1 "expected --size of a body by its name or number, found 'nut'; there are 1, 2 \(bolt\)$" \
+    tetmesh "$bodies" --name 'region 2=bolt' --size 'body nut=1' -o x.mesh
+}
+
+@test "tetmesh --size 'box X,Y,Z,X,Y,Z=LENGTH' is the size in a box" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  # Lengths are those of the scaled model.
+  tetmesh "$DATA/cube.stl" --scale 10 --size 3 --size 'box 0,0,0, 4,4,4=0.8' --grading 1 -o box.mesh
+  run $PYTHON - <<'PYTHON'
+import meshio, numpy as np
+points = meshio.read("box.mesh").points
+inside = (points < 4.4).all(axis=1)
+print(inside.sum() > 100, 20 < (~inside).sum() < inside.sum())
+PYTHON
+  assert_line "True True"
+  assert_fails_with 1 "cube.stl: expected --size in a box that meets the model, from 0,0,0 to 1,1,1, found 'box 2,0,0,3,1,1'" \
+    tetmesh "$DATA/cube.stl" --size 'box 2,0,0,3,1,1=0.1' -o x.mesh
+  local box
+  for box in '0,0,0,0,1,1' '1,0,0,0,1,1' '0,0,0,1,1' '0,0,0,1,1,1,1' '0,0,0,1,1,x' '' '0,0,0,1,1,nan'; do
+    assert_fails_with 2 "expected a box by its lowest and its highest corner, .* found 'box $box=0.1'" tetmesh "$DATA/cube.stl" --size "box $box=0.1" -o x.mesh
+  done
+  assert_fails_with 2 "expected a positive length such as .* found '0'" tetmesh "$DATA/cube.stl" --size 'box 0,0,0,1,1,1=0' -o x.mesh
+  assert_fails_with 2 "expected a positive length such as .* found '-1'" tetmesh "$DATA/cube.stl" --size 'body 1=-1' -o x.mesh
 }
 
 @test "names pass through all stages, shares and parts" {

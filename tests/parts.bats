@@ -162,7 +162,7 @@ PYTHON
   assert_fails_with 1 "whole.tar: expected a part of a mesh as four/graph-0000.tar, found a whole" $merged whole.tar -o out.tar
   assert_fails_with 1 "bar.mesh: expected a bundle" $merged bar.mesh -o out.tar
   findhex -q --mesh bar.mesh --part 1/1 -o share.tar
-  assert_fails_with 1 "/dev/fd/[0-9]+: expected a file, for shares and pieces are read twice, found a pipe" shell "merge-parts <(cat share.tar) -o out.tar"
+  assert_fails_with 1 "/dev/fd/[0-9]+: expected a file, because shares and pieces are read twice, found a pipe" shell "merge-parts <(cat share.tar) -o out.tar"
   assert_fails_with 2 "expected an output as tar, tar.zst, found 'out.graph'" $merged four/graph-0003.tar -o out.graph
   head -c 20000 four/graph-0003.tar >cut.tar
   assert_fails_with 1 "cut.tar: .*(found: |expected)" $merged cut.tar -o out.tar

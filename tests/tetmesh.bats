@@ -170,13 +170,14 @@ PYTHON
 }
 
 @test "an interface of two bodies is meshed once, and told" {
-  run_apart tetmesh "$DATA/touching/face-touch-two-bodies.off" --size 0.3 -o touch.tar
+  run_apart tetmesh "$DATA/touching/face-touch-two-bodies.off" --size 0.3 --stats stats.json -o touch.tar
   assert_success
-  assert_equal "$(head -1 <<<"$stderr")" "tetmesh: warning: $DATA/touching/face-touch-two-bodies.off: bodies touch: 2 triangles that two of them have are one each"
+  assert_equal "$(stats surface_remeshed)" True
+  assert_equal "$stderr" "tetmesh: warning: $DATA/touching/face-touch-two-bodies.off: bodies touch: they share 2 triangles that two of them had"
   findhex touch.tar | buildgraph | initsol --iterations 2000 | assemble -o touch.msh
   run $PYTHON "$CHECKERS/meshstats.py" --json touch.msh
   assert_output --partial '"is_conforming": true'
-  # Hexes of both bodies share quads across it.
+  # Both bodies are all hexes, which share quads across it.
   run $PYTHON - <<'PYTHON'
 import meshio
 mesh = meshio.read("touch.msh")
@@ -186,9 +187,9 @@ for block, tags in zip(mesh.cells, mesh.cell_data["gmsh:physical"]):
         for cell, tag in zip(block.data, tags):
             for face in ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)):
                 sides.setdefault(frozenset(cell[list(face)].tolist()), set()).add(int(tag))
-print(sum(s == {1, 2} for s in sides.values()) > 0)
+print(sum(s == {1, 2} for s in sides.values()), {block.type for block in mesh.cells})
 PYTHON
-  assert_line True
+  assert_line --regexp "^9 \{'(hexahedron', 'quad|quad', 'hexahedron)'\}$"
 }
 
 @test "a fin is told and goes" {
@@ -304,6 +305,25 @@ PYTHON
   assert_fails_with 1 "TetGen failed: it took longer than --tetgen-timeout" tetmesh "$fine" --size 0.02 --tetgen-timeout 0.001 -q
 }
 
+@test "--stats tells where rows end, and the bundle has the lines inside" {
+  local part="$DATA/plate-holes.stl"
+  tetmesh -q "$part" --size 11 --points frame -o frame.tar --stats stats.json
+  $PYTHON -c "assert $(stats row_ends) > 0"
+  $PYTHON -c "d = $(stats dislocations); assert d['length'] > 0 and d['surface_ends'] > 0, d
+assert d['at_singularities'] + d['closed'] <= d['length'], d"
+  assert_equal "$(array frame.tar mesh/dislocations.npy 'a.shape[1]')" 6
+  # In sizes; a line along which several rows end counts as many times.
+  local length=$(array frame.tar mesh/dislocations.npy 'float((((a[:, :3] - a[:, 3:]) ** 2).sum(axis=1) ** 0.5).sum()) / 11')
+  $PYTHON -c "assert 0 < $length <= $(stats dislocations)['length'] * 1.000001"
+  findhex -q frame.tar -o candidates.tar
+  assert_equal "$(array candidates.tar mesh/dislocations.npy 'a.tolist()')" "$(array frame.tar mesh/dislocations.npy 'a.tolist()')"
+  tetmesh -q "$part" --size 11 --points lattice -o lattice.tar --stats stats.json
+  run tar tf lattice.tar
+  refute_line mesh/dislocations.npy
+  run stats dislocations
+  assert_failure
+}
+
 @test "--stretch joins rows on faces with features, as far as it may" {
   local part="$DATA/plate-holes.stl"
   tetmesh -q "$part" --size 11 --points none -o base.mesh
@@ -395,7 +415,7 @@ PYTHON
   refused --weld "without --repair" --weld 1
   refused --largest-hole "without --repair" --largest-hole 3
   refused --least-size "without --curvature" --least-size 0.1
-  refused --grading "without --size-field, --layers, --curvature or the size of a surface" --grading 0.1
+  refused --grading "without --size-field, --layers, --curvature or a --size at a place" --grading 0.1
   refused --deviation "with --surface keep" --surface keep --deviation 0.1
   refused --stretch "with --surface keep" --surface keep --stretch 0.5
   for points in none own.xyz; do
@@ -465,7 +485,7 @@ PYTHON
   # One warning hides no other.
   assert_equal "$(wc -l <<<"$stderr")" 2
   grep -q "^tetmesh: warning: 100 % of the surface lies in triangles with edges much longer than the size" <<<"$stderr"
-  grep -q "^tetmesh: warning: outside.xyz:2: 3 of 4 points are outside" <<<"$stderr"
+  grep -q "^tetmesh: warning: outside.xyz:2: left out 3 of 4 points, which are outside" <<<"$stderr"
   assert_fails_with 1 "^tetmesh: bad.xyz:2: expected a finite coordinate, found 'x'" tetmesh "$cube" --points bad.xyz
   assert_fails_with 1 "^tetmesh: cut.xyz: expected the last line to have an end, found none; is the file cut off" tetmesh "$cube" --points cut.xyz
   assert_fails_with 1 "^tetmesh: short.node:" tetmesh "$cube" --points short.node
@@ -517,14 +537,20 @@ PYTHON
 }
 
 @test "--improve finds points that become more hexes" {
-  local part="$DATA/bracket.stl" threads kind
+  local part="$DATA/bracket.stl" threads kind rounds=12
+  # Each round takes TetGen five runs. Few are enough to look for faults of memory.
+  if sanitized; then rounds=3; fi
   tetmesh -q "$part" --size 8 -o plain.mesh
   for threads in 1 2; do
-    tetmesh -q "$part" --size 8 --improve 12 --threads $threads -o improved$threads.mesh --stats stats.json
+    tetmesh -q "$part" --size 8 --improve $rounds --threads $threads -o improved$threads.mesh --stats stats.json
   done
   assert_same_bytes improved1.mesh improved2.mesh
   run --separate-stderr tetmesh -v "$part" --size 8 --improve 2 -o two.mesh
   assert_regex "$stderr" "tetmesh: [0-9]+ changes in 2 rounds: about [0-9.]+ % in hexes, in place of [0-9.]+"
+  if sanitized; then
+    holds 'stats["improved"]["rounds"] == 3 and stats["improved"]["changes"] > 0' stats.json
+    return
+  fi
   holds 'stats["improved"]["rounds"] == 12 and stats["improved"]["changes"] > 10' stats.json
   holds 'stats["improved"]["estimated_hex_share"] > stats["improved"]["estimated_hex_share_before"] + 0.005' stats.json
   holds 'stats["tetgen_runs"] > 5 * 12 and stats["seconds_by_step"]["improving"] > 0' stats.json
@@ -533,23 +559,25 @@ PYTHON
     assert_conforming $kind.vtu
   done
   local share='["cells"]["hex"]["share_of_volume"]'
-  holds "improved1$share > plain$share + 0.005" plain.json improved1.json
+  holds "improved1$share > plain$share + 0.002" plain.json improved1.json
 }
 
 @test "--improve keeps a kept surface, and every flat face of a new one where it was" {
+  local rounds=12 kept_rounds=5
+  if sanitized; then rounds=2 kept_rounds=2; fi
   tetmesh -q "$DATA/notch.stl" --surface keep --size 0.1 -o before.mesh
-  tetmesh -q "$DATA/notch.stl" --surface keep --size 0.1 --improve 5 -o kept.mesh --stats stats.json
+  tetmesh -q "$DATA/notch.stl" --surface keep --size 0.1 --improve $kept_rounds -o kept.mesh --stats stats.json
   tetmesh -q "$DATA/bracket.stl" --size 8 -o plain.mesh
-  tetmesh -q "$DATA/bracket.stl" --size 8 --improve 12 -o improved.mesh
+  tetmesh -q "$DATA/bracket.stl" --size 8 --improve $rounds -o improved.mesh
   $CONTENTS same_surface before.mesh kept.mesh
   holds 'stats["improved"]["changes"] > 0' stats.json
   $CONTENTS same_shape plain.mesh improved.mesh
 }
 
 @test "--improve gives up a run of TetGen that does not end" {
-  tetmesh -q "$DATA/endless.off" --size 15% --seed 35 --points frame --improve 8 -o improved.mesh --stats stats.json
+  tetmesh -q "$DATA/endless.off" --size 16% --surface keep --points lattice --improve 8 -o improved.mesh --stats stats.json
   holds 'stats["improved"]["rounds"] == 8' stats.json
-  # Less: no run went on for ever. One seed in ten to twenty meets one.
+  # Less: no run went on for ever. One seed in twelve meets one.
   holds '4 < stats["seconds"] < 60' stats.json
 }
 

@@ -130,7 +130,7 @@ PYTHON
 @test "every part of --view changes the picture, and the page opens with it" {
   viewmesh result.vtu --size 320,200 --png plain.png
   for part in clip=x:0.5 clip=-x:0.5 clip=1,1,0:0.5 quality=0,0.15 peel=1 kinds=hex,tet colour=quality colour=kind \
-    colour=region edges=off theme=dark camera=10,20,1,0,0,0 camera=-52,28,2,0,0,0 camera=-52,28,1,0.3,0,0; do
+    colour=region colour=surface edges=off theme=dark camera=10,20,1,0,0,0 camera=-52,28,2,0,0,0 camera=-52,28,1,0.3,0,0; do
     viewmesh result.vtu --size 320,200 --view "$part" --png part.png -o part.html
     assert_different_bytes plain.png part.png
     run scene part.html state
@@ -140,6 +140,44 @@ PYTHON
   state=$(scene part.html state)
   viewmesh result.vtu --size 320,200 --view "${state//\"/}" --png again.png
   assert_same_bytes part.png again.png
+}
+
+@test "surfaces and regions have their names, and go and come by them" {
+  viewmesh "$DATA/two_hexes.msh" -o page.html --png whole.png --size 320,200 --view 'colour=surface&camera=-130,20,1,0,0,0'
+  run scene page.html groups
+  assert_output '{"region": [{"tag": 1, "name": "steel"}, {"tag": 2, "name": "air"}], "surface": [{"tag": 3, "name": "inlet"}, {"tag": 4, "name": "outer wall"}, {"tag": 5, "name": "surface_5"}]}'
+  assert_equal "$(scene page.html volume)" "[2.0, 0.0, 0.0, 0.0]"
+  for hidden in region:air surface:inlet 'surface:outer wall' 'region:2,surface:5'; do
+    viewmesh "$DATA/two_hexes.msh" --png part.png --size 320,200 --view "hidden=$hidden&color=surface&camera=-130,20,1,0,0,0"
+    assert_different_bytes whole.png part.png
+  done
+  # A name and its number are the same group; a page has the number.
+  viewmesh "$DATA/two_hexes.msh" --png name.png --view 'hidden=region:steel,surface:inlet' -o page.html
+  viewmesh "$DATA/two_hexes.msh" --png number.png --view 'hidden=region:1,surface:3'
+  assert_same_bytes name.png number.png
+  run scene page.html state
+  assert_output --partial "hidden=region:1,surface:3&"
+  assert_fails_with 2 "--view: hidden: expected a region of steel, air, found 'water'" \
+    viewmesh "$DATA/two_hexes.msh" -o no.html --view hidden=region:water
+  assert_fails_with 2 "--view: hidden: expected a surface of inlet, outer wall, surface_5, found '7'" \
+    viewmesh "$DATA/two_hexes.msh" -o no.html --view hidden=surface:7
+  assert [ ! -e no.html ]
+}
+
+@test "a quad of a candidate has the surface of its two triangles" {
+  "$PYTHON" "$DATA/bar.py" --regions --kuhn --length 3 | findhex -o lattice.tar
+  viewmesh lattice.tar --show candidates --view colour=surface -o page.html
+  run "$PYTHON" - <<'PYTHON'
+import base64, json, re, zlib
+import numpy as np
+data = json.loads(re.search(r'id="data">(.*?)</script>', open("page.html").read())[1])
+raw = np.frombuffer(zlib.decompress(base64.b64decode(data["surfaceFacets"]["facets"])), np.uint8)
+coded = np.ascontiguousarray(raw.reshape(4, -1).T).view("<u4").ravel().astype(np.int64)
+facets = np.cumsum((coded >> 1) ^ -(coded & 1))
+# The bar of 3 x 3 x 3 cubes has 9 quads on each end and 9 on either side of the interface.
+assert len(facets) >= 36 and data["groups"]["surface"], facets
+PYTHON
+  assert_success
 }
 
 @test "wrong words in --view end with 2" {
@@ -250,7 +288,7 @@ PYTHON
 @test "the page works in a browser, as a file" {
   if sanitized; then skip "the browser is not sanitized"; fi
   if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
-  tetmesh "$DATA/bracket.stl" --size 5 | findhex | buildgraph | initsol --iterations 20000 |
+  tetmesh "$DATA/bracket.stl" --size 5 --tags-by-angle 40 | findhex | buildgraph | initsol --iterations 20000 |
     certify --iterations 20 -o chosen.tar
   assemble chosen.tar | viewmesh -o bracket.html
   viewmesh chosen.tar --show candidates -o candidates.html

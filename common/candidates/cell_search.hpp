@@ -1,5 +1,6 @@
 #pragma once
-// The search for all cells of one kind: rules 1 to 3 and 8 of docs/definitions.md 1, along the plan of search_plan.hpp.
+// The search for all cells of one kind: rules 1 to 3 and 8 of docs/definitions.md 1. It follows the plan of
+// search_plan.hpp.
 
 #include <algorithm>
 #include <array>
@@ -16,7 +17,7 @@
 
 namespace hexpipe::candidates {
 
-// body(std::integral_constant) for 0 .. count - 1, at compile time.
+// Calls body(std::integral_constant) for 0 .. count - 1, at compile time.
 template <std::size_t count, class Body>
 constexpr void for_each_index(Body&& body) {
   [&]<std::size_t... i>(std::index_sequence<i...>) {
@@ -25,7 +26,7 @@ constexpr void for_each_index(Body&& body) {
   (std::make_index_sequence<count>{});
 }
 
-// The same until a body is false; whether none was.
+// The same until a body returns false; returns whether none did.
 template <std::size_t count, class Body>
 constexpr bool all_of_indices(Body&& body) {
   return [&]<std::size_t... i>(std::index_sequence<i...>) {
@@ -34,8 +35,8 @@ constexpr bool all_of_indices(Body&& body) {
   (std::make_index_sequence<count>{});
 }
 
-// Visit: called as visit(corners, points, diagonals) with arrays of a cell's vertices and their points, in the
-// numbering of Topology, and the diagonals of its first quad, seen from corner 0.
+// Visit is called as visit(corners, points, diagonals): arrays of a cell's vertices and their points in the numbering
+// of Topology, and the diagonals of its first quad, seen from corner 0.
 template <class Topology, class Visit>
 class CellSearch {
  public:
@@ -46,9 +47,9 @@ class CellSearch {
   CellSearch(const MeshTables& tables, const QuadFilter& filter, Visit visit)
       : tables_(tables), filter_(filter), visit_(std::move(visit)) {}
 
-  // Visits the cells whose corner 0 is this vertex, of which `fan` has the quads: all quads and triangles are there,
-  // and the scaled Jacobian of every corner exceeds the least quality. Each cell has one labelling under which it is
-  // visited.
+  // Visits the cells whose corner 0 is this vertex; `fan` has the quads of this vertex. In these cells all quads and
+  // triangles exist, and the scaled Jacobian of every corner exceeds the least quality. Each cell is visited under one
+  // of its labellings.
   void visit_cells_at(Vertex corner_0, const QuadFan& fan) {
     fan_ = &fan;
     corners_[first] = corner_0;
@@ -60,7 +61,6 @@ class CellSearch {
   template <std::size_t step>
   static constexpr const SearchStep& plan = search_plan<Topology>[step];
   static constexpr std::uint8_t first = first_corner<Topology>;
-  static constexpr int no_quad = -1;
   static constexpr bool is_at_first(const OpenQuad& quad) { return quad.corner == first; }
 
   template <std::size_t step>
@@ -91,9 +91,9 @@ class CellSearch {
     });
   }
 
-  // body(vertex, quad): the vertices that may take the place of the new corner, and the quad from which each comes,
-  // which it closes, or no_quad. Every edge of a cell is a side of one of its facets, so that rule 1 follows from rule
-  // 2 and from the facets.
+  // Calls body(vertex, quad) for each vertex that may become the new corner. `quad` is the quad that the vertex came
+  // from and that it closes, or no_index. Every edge of a cell is a side of one of its facets, so rule 1 follows from
+  // rule 2 and from the facets.
   template <std::size_t step, class Body>
   void for_each_choice(Body&& body) {
     constexpr std::uint8_t corner = plan<step>.corner;
@@ -119,21 +119,21 @@ class CellSearch {
       for (std::size_t word = 0; word < fan_->word_count(); ++word)
         for (std::uint64_t bits = choosable_neighbours<step>(word); bits != 0; bits &= bits - 1) {
           places_[corner] = fan_->first_place() + static_cast<int>(64 * word) + std::countr_zero(bits);
-          body(neighbours[places_[corner]], no_quad);
+          body(neighbours[places_[corner]], no_index);
         }
     } else {
       static_assert(plan<step>.is_beside_first);
       const auto neighbours = tables_.links().neighbours_of(corners_[first]);
       for (std::size_t place = exceeds<step>(first) ? fan_->first_place() : 0; place < neighbours.size(); ++place) {
         places_[corner] = static_cast<int>(place);
-        body(neighbours[place], no_quad);
+        body(neighbours[place], no_index);
       }
     }
   }
 
-  // Of up to 64 quads at the first corner, as bits, those whose vertex may stand opposite, and whose outer edges go
-  // with those that stand (rule 3) and with some of each pair where one is to come. Which these are is hard to foresee:
-  // all is computed for all, without branches.
+  // Takes up to 64 quads at the first corner. Returns, as bits, those whose fourth vertex may stand opposite. Their
+  // outer edges must fit the placed ones (rule 3) and, where a pair is still open, some edge of it. These answers are
+  // hard to predict, so everything is computed for all quads, without branches.
   template <std::size_t step, OpenQuad quad>
   std::uint64_t choosable(std::span<const QuadFan::Quad> quads) const {
     const auto side_of = [&](std::uint8_t corner) -> std::size_t {
@@ -161,7 +161,7 @@ class CellSearch {
     return bits;
   }
 
-  // Of the quads that the new corner closes, the one away from the first corner that leaves least choice.
+  // Among the quads that the new corner closes, away from the first corner: the one that leaves the fewest choices.
   template <std::size_t step>
   int quad_with_fewest() const {
     int fewest = plan<step>.closed_quads[0].quad;
@@ -173,8 +173,8 @@ class CellSearch {
     return fewest;
   }
 
-  // Of the neighbours of the first vertex, 64 to a word, those that are beside it in some quad with each other side
-  // that stands, and go with two others at the first corner (rule 3) where they complete it.
+  // Returns, as bits (64 to a word), the neighbours of the first vertex that are beside it in some quad with each other
+  // placed side. If the new corner completes the first one, they also fit the two other edges there (rule 3).
   template <std::size_t step>
   std::uint64_t choosable_neighbours(std::size_t word) const {
     constexpr std::uint8_t corner = plan<step>.corner;
@@ -202,7 +202,7 @@ class CellSearch {
     return false;
   }
 
-  // The new corner is sought opposite the first one in a quad.
+  // The new corner is sought as the opposite of the first one in a quad.
   template <std::size_t step>
   static constexpr bool closes_at_first() {
     return plan<step>.closed_quads.size() > 0 && is_at_first(plan<step>.closed_quads[0]);
@@ -214,7 +214,7 @@ class CellSearch {
     return plan<step>.opened_quads.size() > 0 && is_at_first(plan<step>.opened_quads[0]);
   }
 
-  // One labelling of each cell, and no vertex twice. All is compared: a branch for each would cost more.
+  // One labelling per cell, and no vertex twice. Everything is compared, because a branch for each would cost more.
   template <std::size_t step>
   bool may_stand(Vertex v) const {
     bool may = true;
@@ -223,7 +223,7 @@ class CellSearch {
     return may;
   }
 
-  // Rule 3, where the choice was not made by it.
+  // Rule 3, unless the choice already obeyed it.
   template <std::size_t step>
   bool outer_corners_suffice() const {
     return (closes_at_first<step>() && fan_->are_all_corners_judged()) ||
@@ -232,7 +232,7 @@ class CellSearch {
              return fan_->corner_suffices(outer_edges_[c.corner][c.end], outer_edges_[c.corner][c.next_end]);
            });
   }
-  // A look ahead: some quad has an outer edge that goes with the one that stands now.
+  // A look ahead: some quad has an outer edge that fits the one just placed.
   template <OpenCorner open>
   bool open_corner_may_suffice(std::int32_t outer_edge) const {
     const QuadFan::Pair& pair = *pairs_[open.quad];
@@ -243,7 +243,7 @@ class CellSearch {
   template <std::size_t step>
   bool corners_suffice() const {
     return all_of_indices<plan<step>.corners.size()>([&](auto i) {
-      if (opens_at_first<step>() && plan<step>.corners[i][0] == first) return true;  // it was chosen by that
+      if (opens_at_first<step>() && plan<step>.corners[i][0] == first) return true;  // the choice already obeyed it
       constexpr CornerEdges c = corner_edges<Topology>(plan<step>.corners[i]);
       const double determinant = det(edges_[c.edges[0]], edges_[c.edges[1]], edges_[c.edges[2]]);
       return scaled_jacobian_exceeds(c.is_turned ? -determinant : determinant,
@@ -265,7 +265,7 @@ class CellSearch {
            });
   }
 
-  // A look ahead: there is a fourth corner for each quad with three.
+  // A look ahead: each quad with three corners has a possible fourth.
   template <std::size_t step>
   bool quads_open() {
     return all_of_indices<plan<step>.opened_quads.size()>([&](auto i) {
@@ -274,7 +274,7 @@ class CellSearch {
     });
   }
 
-  // The quads at the first corner have been found and judged for all cells there.
+  // The quads at the first corner were found and judged once for all cells there.
   template <OpenQuad quad>
   bool opens() {
     if constexpr (is_at_first(quad)) {
@@ -287,7 +287,7 @@ class CellSearch {
     return angles_[quad.quad].has_opposite(links);
   }
 
-  // The place of a corner among the neighbours of one beside the first.
+  // The place of `corner` among the neighbours of the corner `beside`.
   template <std::uint8_t corner, std::uint8_t beside>
   int place_beside() const {
     if constexpr (is_outer_edge<Topology>(beside, corner))
@@ -327,14 +327,14 @@ class CellSearch {
   const QuadFan* fan_ = nullptr;
   CellCorners corners_{};
   CellPoints points_{};
-  std::array<Vec3, Topology::edges.size()> edges_{};  // from their first corner to their second, of those that stand
-  std::array<double, Topology::edges.size()> squares_{};  // of their lengths
-  std::array<int, corner_count> places_{};  // among the neighbours of the first corner, of those beside it
-  std::array<std::array<std::int32_t, corner_count>, corner_count> outer_edges_{};  // of the fan, by their two corners
-  // By quad, once it is open: what closes it, found before at the first corner; or where that is to be found.
+  std::array<Vec3, Topology::edges.size()> edges_{};  // of placed corners, from the edge's first corner to its second
+  std::array<double, Topology::edges.size()> squares_{};  // their squared lengths
+  std::array<int, corner_count> places_{};  // of corners beside the first one: the place among its neighbours
+  std::array<std::array<std::int32_t, corner_count>, corner_count> outer_edges_{};  // in the fan, by their two corners
+  // By quad, once it is open: the quads that close it if it is at the first corner, or where to find them.
   std::array<const QuadFan::Pair*, Topology::quads.size()> pairs_{};
   std::array<QuadAngle, Topology::quads.size()> angles_{};
-  std::array<Diagonals, Topology::quads.size()> diagonals_{};  // seen from the first corner, of the closed ones there
+  std::array<Diagonals, Topology::quads.size()> diagonals_{};  // of closed quads at the first corner, seen from there
   std::vector<OppositeCorner> found_;
 };
 

@@ -1,7 +1,7 @@
-// The tets of a candidate, by a flood that does not cross the facets of the cell: J. Pellerin, A. Johnen, K. Verhetsel,
-// J.-F. Remacle, Identifying combinations of tetrahedra into hexahedra: a vertex based strategy (IMR 2017),
-// section 3.4. There the flood starts from any tet that joins four corners, which may lie outside; here from a tet
-// behind a triangle that has to be on the cell's surface, and what was reached counts only if its outer facets are
+// The tets of a candidate, found by a flood that does not cross the facets of the cell: J. Pellerin, A. Johnen, K.
+// Verhetsel, J.-F. Remacle, Identifying combinations of tetrahedra into hexahedra: a vertex based strategy (IMR 2017),
+// section 3.4. Their flood starts from any tet that joins four corners, which may lie outside. This one starts from a
+// tet behind a triangle that must be on the cell's surface, and the tets reached count only if their outer facets are
 // those of the cell.
 
 #include "common/candidates/cell_tets.hpp"
@@ -25,8 +25,9 @@ constexpr unsigned bits(const std::array<std::uint8_t, Size>& corners) {
   return set;
 }
 
-// The triangle of a cell's facets that three of its corners are, by their bits: 4 times the number of the quad plus the
-// place of the corner left out, then the triangles; their count where there is none.
+// Maps three corners, as bits, to the number of the triangle that they form on a facet of the cell: 4 times the number
+// of the quad plus the place of the corner left out; the cell's triangles follow. Corners that form no such triangle
+// get the number of all triangles.
 template <class Topology>
 constexpr auto make_triangle_of_corners() {
   constexpr std::size_t count = 4 * Topology::quads.size() + Topology::triangles.size();
@@ -42,7 +43,8 @@ constexpr auto make_triangle_of_corners() {
 template <class Topology>
 constexpr auto triangle_of_corners = make_triangle_of_corners<Topology>();
 
-// Of each quad the two triangles that leave out opposite corners, and every triangle, as bits.
+// Whether these triangles (bits) enclose the cell: on each quad two that leave out opposite corners, and every
+// triangle.
 template <class Topology>
 constexpr bool encloses(std::uint32_t triangles) {
   constexpr std::size_t quad_bits = 4 * Topology::quads.size();
@@ -52,7 +54,8 @@ constexpr bool encloses(std::uint32_t triangles) {
          triangles >> quad_bits == (1u << Topology::triangles.size()) - 1;
 }
 
-// Rule 9: a scaled Jacobian that differs from that of three edges in one plane by no more than coordinates are rounded.
+// Rule 9: up to this scaled Jacobian, three edges cannot be told from edges in one plane, because coordinates are
+// rounded.
 constexpr double flat = 1e-6;
 
 }  // namespace
@@ -63,7 +66,7 @@ TetVerdict CellTets<Topology>::find(const CellCorners& corners, Diagonals of_fir
   star_.move_to(corners[0]);
   for (int c = 0; c < Topology::corner_count; ++c) marks_.corner_bits[corners[c]] = static_cast<std::uint8_t>(bit(c));
   TetVerdict verdict = TetVerdict::no_interior;
-  for (const std::int32_t start : starts(of_first_quad)) {
+  for (const TetIndex start : starts(of_first_quad)) {
     verdict = find_from(start);
     if (verdict == TetVerdict::accepted) break;
   }
@@ -71,15 +74,15 @@ TetVerdict CellTets<Topology>::find(const CellCorners& corners, Diagonals of_fir
   return verdict;
 }
 
-// The tets behind triangles of the cell's surface. One is enough where a facet is a triangle or only one diagonal of a
-// quad has its triangles in the mesh. Otherwise some of those found may be outside, and all have to be tried; the tet
-// of a quad's four corners is on either side of none.
+// The tets from which the flood may start: tets behind triangles of the cell's surface. One is enough if a facet is a
+// triangle, or if the mesh has the triangles of only one diagonal of a quad. Otherwise some of these tets may be
+// outside, and all have to be tried. A tet with all four corners of a quad starts no flood.
 template <class Topology>
 auto CellTets<Topology>::starts(Diagonals of_first_quad) const -> Starts {
   auto inside = [&](int a, int b, int c) { return star_.tet_inside(corners_[a], corners_[b], corners_[c]); };
   Starts all;
-  auto add = [&](std::int32_t tet) {
-    if (tet != TetAdjacency::none && std::find(all.begin(), all.end(), tet) == all.end()) all.push_back(tet);
+  auto add = [&](TetIndex tet) {
+    if (tet != no_index && std::find(all.begin(), all.end(), tet) == all.end()) all.push_back(tet);
   };
   if constexpr (Topology::triangles.size() > 0) {
     const LocalTriangle& t = Topology::triangles[0];
@@ -93,9 +96,9 @@ auto CellTets<Topology>::starts(Diagonals of_first_quad) const -> Starts {
     return all;
   }
   for (const LocalQuad& q : Topology::quads)
-    for (const std::int32_t tet :
+    for (const TetIndex tet :
          {inside(q[0], q[1], q[2]), inside(q[0], q[2], q[3]), inside(q[0], q[1], q[3]), inside(q[1], q[2], q[3])}) {
-      if (tet == TetAdjacency::none) continue;
+      if (tet == no_index) continue;
       const auto b = corner_bits(tables_.flood_tet(tet).vertices);
       if ((b[0] | b[1] | b[2] | b[3]) != bits(q)) add(tet);
     }
@@ -116,23 +119,22 @@ std::array<unsigned, 4> CellTets<Topology>::corner_bits(const Tet& tet) const {
   return {bits_of[tet[0]], bits_of[tet[1]], bits_of[tet[2]], bits_of[tet[3]]};
 }
 
-// The vertex of the tet beyond that the facet does not have: what is left of the eight of both tets when those of the
-// facet, which come twice, and the one opposite cancel out.
+// The vertex of the tet beyond that is not on the facet. XOR over the eight vertices of both tets cancels those of the
+// facet, which occur twice, and the one opposite.
 template <class Topology>
-Vertex CellTets<Topology>::apex_beyond(TetFacet facet, std::int32_t beyond) const {
-  const Tet &a = tables_.flood_tet(static_cast<std::int32_t>(facet / 4)).vertices,
-            &b = tables_.flood_tet(beyond).vertices;
-  return a[0] ^ a[1] ^ a[2] ^ a[3] ^ a[facet % 4] ^ b[0] ^ b[1] ^ b[2] ^ b[3];
+Vertex CellTets<Topology>::apex_beyond(TetFacet facet, TetIndex beyond) const {
+  const Tet &a = tables_.flood_tet(facet.tet).vertices, &b = tables_.flood_tet(beyond).vertices;
+  return a[0] ^ a[1] ^ a[2] ^ a[3] ^ a[facet.facet] ^ b[0] ^ b[1] ^ b[2] ^ b[3];
 }
 
 template <class Topology>
-TetVerdict CellTets<Topology>::find_from(std::int32_t start) {
+TetVerdict CellTets<Topology>::find_from(TetIndex start) {
   interior_.clear();
   const TetVerdict verdict = judge_from(start);
-  for (const std::int32_t tet : interior_) marks_.interior[tet] = CellMarks::Interior::no;
+  for (const TetIndex tet : interior_) marks_.interior[tet] = CellMarks::Interior::no;
   if (verdict == TetVerdict::accepted) {
-    for (std::int32_t& tet : interior_) tet = tables_.number_in_mesh(tet);
-    for (std::int32_t& tet : boundary_) tet = tables_.number_in_mesh(tet);
+    for (TetIndex& tet : interior_) tet = tables_.number_in_mesh(tet);
+    for (TetIndex& tet : boundary_) tet = tables_.number_in_mesh(tet);
     interior_.sort();
     boundary_.sort();
   }
@@ -140,7 +142,7 @@ TetVerdict CellTets<Topology>::find_from(std::int32_t start) {
 }
 
 template <class Topology>
-TetVerdict CellTets<Topology>::judge_from(std::int32_t start) {
+TetVerdict CellTets<Topology>::judge_from(TetIndex start) {
   TetVerdict verdict = flood_from(start);
   if (verdict == TetVerdict::accepted) verdict = judge_walls();
   boundary_.clear();
@@ -155,7 +157,7 @@ TetVerdict CellTets<Topology>::judge_from(std::int32_t start) {
 
 // Rule 5.
 template <class Topology>
-TetVerdict CellTets<Topology>::flood_from(std::int32_t start) {
+TetVerdict CellTets<Topology>::flood_from(TetIndex start) {
   outer_ = inner_ = 0;
   has_inner_vertex_ = false;
   add_interior(start);
@@ -166,14 +168,15 @@ TetVerdict CellTets<Topology>::flood_from(std::int32_t start) {
 }
 
 template <class Topology>
-inline void CellTets<Topology>::add_interior(std::int32_t tet) {
+inline void CellTets<Topology>::add_interior(TetIndex tet) {
   interior_.push_back_if(marks_.interior[tet] == CellMarks::Interior::no, tet);
   marks_.interior[tet] = CellMarks::Interior::yes;
 }
 
-// Crosses the facets of an interior tet that are not on the cell's surface. A tet that is left stands for none beyond.
+// Crosses the facets of an interior tet that are not on the cell's surface. For a facet that is not crossed, the tet
+// itself stands in.
 template <class Topology>
-inline TetVerdict CellTets<Topology>::leave(std::int32_t tet) {
+inline TetVerdict CellTets<Topology>::leave(TetIndex tet) {
   const MeshTables::FloodTet& at = tables_.flood_tet(tet);
   const auto b = corner_bits(at.vertices);
   const unsigned all = b[0] | b[1] | b[2] | b[3];
@@ -182,27 +185,27 @@ inline TetVerdict CellTets<Topology>::leave(std::int32_t tet) {
   for (int facet = 0; facet < 4; ++facet) {
     has_inner_vertex_ |= b[facet] == 0;
     const std::size_t triangle = triangle_of_corners<Topology>[all & ~b[facet]];
-    walls_[triangle] = 4 * TetFacet{tet} + facet;
+    walls_[triangle] = {tet, facet};
     const std::uint32_t wall = 1u << triangle;
     inner_ |= outer_ & wall;
     outer_ ^= wall;
-    next[facet] = triangle == triangle_count ? at.across[facet] : tet;
+    next[facet] = triangle == triangle_count ? at.across[facet].code : tet;
     any_next |= next[facet];
   }
   if (any_next < 0) return stop_at(next);
-  for (const std::int32_t beyond : next) add_interior(beyond);
+  for (const TetIndex beyond : next) add_interior(beyond);
   return interior_.size() > most_tets<Topology> ? TetVerdict::tet_count : TetVerdict::accepted;
 }
 
-// At the first facet that cannot be crossed, unless there are too many tets before.
+// Adds the tets before the first facet that cannot be crossed. Too many tets are the more important verdict.
 template <class Topology>
 TetVerdict CellTets<Topology>::stop_at(const std::array<std::int32_t, 4>& next) {
   for (std::size_t facet = 0; next[facet] >= 0; ++facet) add_interior(next[facet]);
   return interior_.size() > most_tets<Topology> ? TetVerdict::tet_count : TetVerdict::crosses_mesh;
 }
 
-// The flood may have come to both sides of a wall, where a triangle with three corners of a quad lies inside. The
-// others are outside: one on each triangle of the cell, and two on each quad, at one of its diagonals.
+// The flood may have come to both sides of a wall: there, a triangle with three corners of a quad lies inside. The
+// other walls must be the outside: one on each triangle of the cell, and two, at one of the diagonals, on each quad.
 template <class Topology>
 TetVerdict CellTets<Topology>::judge_walls() const {
   constexpr std::uint32_t all = (1u << triangle_count) - 1;
@@ -211,31 +214,32 @@ TetVerdict CellTets<Topology>::judge_walls() const {
   return encloses<Topology>(outer_ & all) ? TetVerdict::accepted : TetVerdict::no_interior;
 }
 
-// The two triangles that the interior tets have on a quad, the boundary tet on it if there is one, and rules 7, 9 and
-// 10 for what is outermost.
+// Finds the two triangles that the interior tets have on a quad, and the boundary tet on it if there is one. Checks
+// rules 7, 9 and 10 for the outermost triangles.
 template <class Topology>
 TetVerdict CellTets<Topology>::judge_quad(std::size_t quad) {
   const LocalQuad& q = Topology::quads[quad];
   const std::size_t left_out = (outer_ >> 4 * quad & 1) != 0 ? 0 : 1;
   std::array<TetFacet, 2> outermost{walls_[4 * quad + left_out], walls_[4 * quad + left_out + 2]};
-  std::array<std::int32_t, 2> beyond{across(outermost[0]), across(outermost[1])};
+  std::array<Beyond, 2> beyond{across(outermost[0]), across(outermost[1])};
   const auto labels_differ = [&] { return tables_.facet_label(beyond[0]) != tables_.facet_label(beyond[1]); };
   if (labels_differ()) return TetVerdict::half_on_surface;
   unsigned diagonal = bit(q[1 - left_out]) | bit(q[3 - left_out]);
   const auto is_at_sharp_edge = [&] {
     return !rules_.sharp_edges && tables_.facet_label(beyond[0]) != 0 && is_over_sharp_edge(q, diagonal);
   };
-  const std::int32_t sliver = tables_.usable_beyond(beyond[0]);
-  if (sliver == TetAdjacency::none) return is_at_sharp_edge() ? TetVerdict::sharp_edge : TetVerdict::accepted;
-  // A tet at both triangles has the four corners of the quad.
+  const TetIndex sliver = tables_.usable_beyond(beyond[0]);
+  if (sliver == no_index) return is_at_sharp_edge() ? TetVerdict::sharp_edge : TetVerdict::accepted;
+  // A tet at both triangles has all four corners of the quad.
   if (sliver == tables_.usable_beyond(beyond[1])) {
     if (tables_.facet_label(beyond[0]) != 0) return TetVerdict::crosses_mesh;
     boundary_.push_back(sliver);
-    // Its two facets opposite the corners of the diagonal that the interior tets have are outside, at the other one.
+    // The interior tets have one diagonal. The sliver's two facets opposite the corners of that diagonal are outside,
+    // at the other one.
     const auto b = corner_bits(tables_.flood_tet(sliver).vertices);
     std::size_t next = 0;
     for (int facet = 0; facet < 4; ++facet)
-      if ((b[facet] & diagonal) != 0) outermost[next++] = 4 * TetFacet{sliver} + facet;
+      if ((b[facet] & diagonal) != 0) outermost[next++] = {sliver, facet};
     diagonal = bits(q) & ~diagonal;
     beyond = {across(outermost[0]), across(outermost[1])};
     if (labels_differ()) return TetVerdict::half_on_surface;
@@ -246,7 +250,7 @@ TetVerdict CellTets<Topology>::judge_quad(std::size_t quad) {
   return TetVerdict::accepted;
 }
 
-// Rule 10 for a quad on a surface, of which the triangles there meet at this diagonal.
+// Rule 10 for a quad on a surface whose triangles there meet at this diagonal.
 template <class Topology>
 bool CellTets<Topology>::is_over_sharp_edge(const LocalQuad& quad, unsigned diagonal) const {
   const std::size_t first = (bit(quad[0]) & diagonal) != 0 ? 0 : 1;
@@ -254,15 +258,15 @@ bool CellTets<Topology>::is_over_sharp_edge(const LocalQuad& quad, unsigned diag
   return tables_.is_sharp(corner(0), corner(1), corner(2), corner(3));
 }
 
-// Rule 9 for a quad inside the mesh, of which the outermost triangles meet at this diagonal.
+// Rule 9 for a quad inside the mesh whose outermost triangles meet at this diagonal.
 template <class Topology>
 bool CellTets<Topology>::has_flat_corner(const LocalQuad& quad, unsigned diagonal,
                                          const std::array<TetFacet, 2>& outermost) const {
-  std::array<std::int32_t, 2> beyond{};
+  std::array<TetIndex, 2> beyond{};
   std::array<Vertex, 2> apex{};
   for (std::size_t i = 0; i < 2; ++i) {
     beyond[i] = tables_.usable_beyond(across(outermost[i]));
-    if (beyond[i] == TetAdjacency::none) return false;
+    if (beyond[i] == no_index) return false;
     apex[i] = apex_beyond(outermost[i], beyond[i]);
   }
   if (apex[0] != apex[1]) return false;
@@ -270,9 +274,9 @@ bool CellTets<Topology>::has_flat_corner(const LocalQuad& quad, unsigned diagona
   const auto& points = tables_.mesh().points;
   for (std::size_t i = 0; i < 4; ++i) {
     if ((bit(quad[i]) & diagonal) == 0) continue;
-    // In both tets the facet opposite the other end of the diagonal is one at this corner and the apex.
+    // In both tets, the facet opposite the other end of the diagonal contains this corner and the apex.
     const Vertex other_end = corners_[quad[(i + 2) % 4]];
-    const bool on_surface = std::ranges::all_of(beyond, [&](std::int32_t t) {
+    const bool on_surface = std::ranges::all_of(beyond, [&](TetIndex t) {
       const auto& [vertices, across] = tables_.flood_tet(t);
       return tables_.facet_label(across[std::find(vertices.begin(), vertices.end(), other_end) - vertices.begin()]) !=
              0;

@@ -16,7 +16,7 @@
 
 namespace hexpipe::candidates {
 
-// Rule 6, by kind: at least this many interior tets, at most this many tets in all.
+// Rule 6, by kind: the least number of interior tets, and the greatest number of tets in all.
 template <class Topology>
 inline constexpr std::size_t least_interior_tets = 0;
 template <>
@@ -42,7 +42,7 @@ struct CellTetRules {
   bool sharp_edges = false;   // allow quads over them: rule 10
 };
 
-// Why a cell with all its facets in the mesh is no candidate, by the rule that it breaks.
+// Why a cell whose facets all exist in the mesh is no candidate; the number is the rule that it breaks.
 enum class TetVerdict {
   accepted,
   no_interior,      // 5: no tets fill the space between its facets
@@ -50,15 +50,15 @@ enum class TetVerdict {
   boundary_tets,    // 6: more than the option allows
   crosses_mesh,     // 6, 7: a boundary, a tagged surface, another region or an unusable tet lies within
   half_on_surface,  // 7: the two outer triangles of a quad differ
-  inner_vertex,     // the option forbids them
+  inner_vertex,     // the option forbids such cells
   flat_corner,      // 9
   sharp_edge,       // 10
 };
 
-// Which way a flood goes is hard to foresee, for a processor too: what follows decides by arithmetic where it can, not
-// by branches.
+// The way of a flood is hard to predict, for a processor too. So the code below decides by arithmetic, not by branches,
+// where it can.
 
-// A few tets, to be sorted in the end.
+// A few tets, sorted at the end.
 template <std::size_t Most>
 class FewTets {
  public:
@@ -66,12 +66,12 @@ class FewTets {
     tets_.fill(unused);
     size_ = 0;
   }
-  void push_back(std::int32_t tet) { tets_[size_++] = tet; }
-  void push_back_if(bool is_kept, std::int32_t tet) {
+  void push_back(TetIndex tet) { tets_[size_++] = tet; }
+  void push_back_if(bool is_kept, TetIndex tet) {
     tets_[size_] = tet;
     size_ += is_kept ? 1 : 0;
   }
-  // Each tet goes to where as many places are before it as there are less ones.
+  // The place of each tet is the number of lesser ones.
   void sort() {
     tets_[size_] = unused;
     const auto unsorted = tets_;
@@ -89,23 +89,23 @@ class FewTets {
   const std::int32_t* end() const { return tets_.data() + size_; }
 
  private:
-  static constexpr std::int32_t unused = std::numeric_limits<std::int32_t>::min();  // less than all
+  static constexpr std::int32_t unused = std::numeric_limits<std::int32_t>::min();  // less than every tet
 
-  std::array<std::int32_t, (Most + 4) / 4 * 4> tets_;  // behind the last, one that was not kept, then unused
+  std::array<std::int32_t, (Most + 4) / 4 * 4> tets_;  // the tets, one that was not kept, then unused
   std::size_t size_ = 0;
 };
 
-// What is known of the cell at hand by vertex and by tet of the mesh, for one thread; all 0 between cells.
+// Marks of the current cell on vertices and tets of the mesh, for one thread. All are 0 between cells.
 struct CellMarks {
   enum class Interior : std::uint8_t { no, yes };
 
   explicit CellMarks(const TetMesh& mesh) : corner_bits(mesh.points.size(), 0), interior(mesh.tets.size()) {}
 
-  std::vector<std::uint8_t> corner_bits;  // of a vertex: bit c where it is corner c
-  std::vector<Interior> interior;         // of a tet
+  std::vector<std::uint8_t> corner_bits;  // by vertex: bit c is set if it is corner c
+  std::vector<Interior> interior;         // by tet
 };
 
-// Finds and judges the tets of one cell after another. Topology: HexTopology, PrismTopology or PyramidTopology.
+// Finds and judges the tets of one cell after another. Topology is HexTopology, PrismTopology or PyramidTopology.
 template <class Topology>
 class CellTets {
  public:
@@ -114,37 +114,37 @@ class CellTets {
   CellTets(const MeshTables& tables, const CellTetRules& rules, CellMarks& marks)
       : tables_(tables), rules_(rules), marks_(marks), star_(tables) {}
 
-  // Of a cell whose quads are triangulated quads of the mesh and whose triangles are facets; with the diagonals of its
-  // first quad, seen from corner 0.
+  // The cell's quads must be triangulated quads of the mesh, and its triangles must be facets. `of_first_quad`: the
+  // diagonals of its first quad, seen from corner 0.
   TetVerdict find(const CellCorners& corners, Diagonals of_first_quad);
 
-  // Of an accepted cell, by their numbers in the mesh; both ascending.
-  std::span<const std::int32_t> interior() const { return {interior_.begin(), interior_.end()}; }
-  std::span<const std::int32_t> boundary() const { return {boundary_.begin(), boundary_.end()}; }
+  // The tets of an accepted cell, by their numbers in the mesh, ascending.
+  std::span<const TetIndex> interior() const { return {interior_.begin(), interior_.end()}; }
+  std::span<const TetIndex> boundary() const { return {boundary_.begin(), boundary_.end()}; }
 
  private:
   static constexpr std::size_t quad_count = Topology::quads.size();
 
-  // Of the cell, from three corners each: four on each quad, one on each triangle.
+  // Triangles with three corners of a facet of the cell: four on each quad, one on each triangle.
   static constexpr std::size_t triangle_count = 4 * quad_count + Topology::triangles.size();
 
-  // A facet of a tet: 4 times the number of the tet, plus that of the facet.
-  using TetFacet = std::int64_t;
+  struct TetFacet {
+    TetIndex tet;
+    std::int32_t facet;
+  };
   using Starts = FewTets<4 * quad_count>;
 
   Starts starts(Diagonals of_first_quad) const;
   Diagonals diagonals_of(const LocalQuad& quad) const;
   std::array<unsigned, 4> corner_bits(const Tet& tet) const;
-  std::int32_t across(TetFacet facet) const {
-    return tables_.flood_tet(static_cast<std::int32_t>(facet / 4)).across[facet % 4];
-  }
-  Vertex apex_beyond(TetFacet facet, std::int32_t beyond) const;
-  TetVerdict find_from(std::int32_t start);
-  TetVerdict judge_from(std::int32_t start);
-  TetVerdict flood_from(std::int32_t start);
-  TetVerdict leave(std::int32_t tet);
+  Beyond across(TetFacet at) const { return tables_.flood_tet(at.tet).across[at.facet]; }
+  Vertex apex_beyond(TetFacet facet, TetIndex beyond) const;
+  TetVerdict find_from(TetIndex start);
+  TetVerdict judge_from(TetIndex start);
+  TetVerdict flood_from(TetIndex start);
+  TetVerdict leave(TetIndex tet);
   TetVerdict stop_at(const std::array<std::int32_t, 4>& next);
-  void add_interior(std::int32_t tet);
+  void add_interior(TetIndex tet);
   TetVerdict judge_walls() const;
   TetVerdict judge_quad(std::size_t quad);
   bool is_over_sharp_edge(const LocalQuad& quad, unsigned diagonal) const;
@@ -155,11 +155,11 @@ class CellTets {
   CellMarks& marks_;
   TetStar star_;
   CellCorners corners_{};
-  FewTets<most_tets<Topology> + 4> interior_;  // a flood that finds too many ends when it has left a tet
+  FewTets<most_tets<Topology> + 4> interior_;  // a flood notices too many tets only after it has left one
   FewTets<quad_count> boundary_;
-  // Facets of interior tets whose vertices lie on one facet of the cell, so that the flood did not cross them, by
-  // triangle of the cell; which there are with interior tets on one side, and on both, as bits. One more for no
-  // triangle.
+  // Facets of interior tets that lie on a facet of the cell, so that the flood did not cross them; by triangle of the
+  // cell, with one more entry for facets that lie on none. As bits: triangles with interior tets on one side (outer),
+  // and on both (inner).
   std::array<TetFacet, triangle_count + 1> walls_{};
   std::uint32_t outer_ = 0, inner_ = 0;
   bool has_inner_vertex_ = false;

@@ -27,8 +27,8 @@ void append_tets(std::span<const std::int32_t> added, std::vector<std::int32_t>&
   offsets.push_back(static_cast<std::int64_t>(tets.size()));
 }
 
-// Rules 4 to 7, 9 and 10 for cells that the search has completed; keeps those that hold them all. A few cells are
-// measured side by side.
+// Applies rules 4 to 7, 9 and 10 to the cells that the search has completed, and keeps those that obey them all. It
+// measures a few cells side by side.
 template <class Topology>
 class CandidateCollector {
  public:
@@ -51,7 +51,7 @@ class CandidateCollector {
   }
 
  private:
-  // Of those that wait; lanes beyond hold what was there before.
+  // Judges the waiting cells. Lanes without a cell hold old values.
   void judge() {
     const auto points = side_by_side(points_);
     std::uint32_t surely_valid = 0;
@@ -78,7 +78,7 @@ class CandidateCollector {
   void keep(const CellCorners& corners, double quality, double volume) {
     Candidates& c = found_.candidates;
     std::array<Vertex, 8>& row = c.vertices.emplace_back();
-    row.fill(-1);
+    row.fill(no_index);
     std::copy(corners.begin(), corners.end(), row.begin());
     c.kind.push_back(Topology::kind);
     c.quality.push_back(quality);
@@ -96,7 +96,7 @@ class CandidateCollector {
   int waiting_ = 0;
 };
 
-// The search for one kind of cell at one vertex after another.
+// The search for one kind of cell, at one vertex after another.
 class KindSearch {
  public:
   virtual ~KindSearch() = default;
@@ -129,7 +129,7 @@ struct FoundInBlock {
   std::vector<Found> by_kind;  // in the order of FindhexOptions::kinds
 };
 
-// All kinds together, so that the quads of a vertex are found once.
+// Searches for all kinds together, so that the quads of a vertex are found once.
 FoundInBlock find_cells_at(std::int64_t begin, std::int64_t end, const MeshTables& tables,
                            const FindhexOptions& options, const SearchScope& scope, CellMarks& marks) {
   const QuadFilter filter{options.min_quality, options.drop_folded_quads};
@@ -166,7 +166,7 @@ FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* s
   result.findings = tables.findings();
   for (const CellKind kind : options.kinds) result.counts.push_back({kind, {}});
   const auto vertex_count = static_cast<std::int64_t>(tables.mesh().points.size());
-  const std::int64_t first = options.part.begin(vertex_count), count = options.part.end(vertex_count) - first;
+  const std::int64_t first = options.share.begin(vertex_count), count = options.share.end(vertex_count) - first;
   std::vector<Candidates> by_kind(options.kinds.size());
   std::int64_t vertices_done = 0;
   PerThread<CellMarks> marks{CellMarks(tables.mesh())};

@@ -1,5 +1,5 @@
 #pragma once
-// All hexes, prisms and pyramids that could be built by merging tets of a mesh: docs/definitions.md 1.
+// Finds all hexes, prisms and pyramids that could be built by merging tets of a mesh: docs/definitions.md 1.
 
 #include <array>
 #include <cstdint>
@@ -8,21 +8,22 @@
 #include "common/candidates/cell_tets.hpp"
 #include "common/candidates/mesh_tables.hpp"
 #include "common/mesh/candidates.hpp"
+#include "common/mesh/quality.hpp"
 #include "common/mesh/tet_mesh.hpp"
-#include "common/run/part.hpp"
+#include "common/run/share.hpp"
 
 namespace hexpipe::candidates {
 
 enum class CandidateQuality { corner, element };
 
 struct FindhexOptions {
-  std::vector<CellKind> kinds{CellKind::hex};  // found one kind after the other, in this order
-  double min_quality = 0.3;                    // of the least corner, to be exceeded
+  std::vector<CellKind> kinds{CellKind::hex};  // found one kind after another, in this order
+  double min_quality = least_hex_quality;      // each corner has to exceed this
   CandidateQuality quality = CandidateQuality::element;
   bool drop_folded_quads = true;  // rule 8
   CellTetRules tet_rules{};
   double feature_angle = default_feature_angle;  // rule 10, in degrees
-  Part part{};                                   // only cells whose corner 0 is in this part of the vertices
+  Share share{};                                 // only cells whose corner 0 is in this share of the vertices
 };
 
 // How many cells of a kind got how far.
@@ -41,17 +42,17 @@ struct KindCounts {
 };
 
 struct FindhexResult {
-  // Of each kind by the vertex at corner 0, ascending; the same for any number of threads.
+  // Sorted by kind, then by the vertex at corner 0; the same for any number of threads.
   Candidates candidates;
   std::vector<KindCounts> counts;
   MeshFindings findings;
   std::int64_t triangulated_quads = 0;
 };
 
-// What is known of a mesh that is cut out of another.
+// Facts about a mesh that is cut out of another one, if they are known.
 struct SearchScope {
   std::vector<bool> begins_at;     // vertices where cells may begin; empty: all
-  std::vector<std::int8_t> turns;  // TetOrientation::turns; empty: to be found
+  std::vector<std::int8_t> turns;  // TetOrientation::turns; empty: not known yet
 };
 
 // Throws DataError naming `source` when a facet of the mesh belongs to more than two tets.

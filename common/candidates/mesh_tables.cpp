@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
-#include "common/candidates/tet_order.hpp"
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/orientation.hpp"
 #include "common/mesh/reorder.hpp"
-#include "common/run/huge_pages.hpp"
+#include "common/run/memory.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe::candidates {
@@ -15,7 +15,24 @@ namespace {
 
 constexpr std::int32_t derived_tag = 0;
 
-// Which facet of a tet these three of its vertices are, and whether in the sense of TetTopology::triangles.
+Vertex lowest_vertex(const Tet& tet) {
+  return std::min(std::min(tet[0], tet[1]), std::min(tet[2], tet[3]));
+}
+
+// The numbers of the mesh's tets by lowest vertex, ascending at each vertex; empty if they are already in this order. A
+// search goes from vertex to vertex, so the tets that it asks about are then close in memory to those before.
+std::vector<TetIndex> order_by_lowest_vertex(const TetMesh& mesh) {
+  std::vector<TetIndex> order;
+  if (std::ranges::is_sorted(mesh.tets, {}, lowest_vertex)) return order;
+  std::vector<TetIndex> next(mesh.points.size() + 1, 0);
+  for (const Tet& tet : mesh.tets) ++next[lowest_vertex(tet) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  order.resize(mesh.tets.size());
+  for (std::size_t t = 0; t < order.size(); ++t) order[next[lowest_vertex(mesh.tets[t])]++] = static_cast<TetIndex>(t);
+  return order;
+}
+
+// Which facet of a tet these three vertices are, and whether in the sense of TetTopology::triangles.
 struct FoundFacet {
   int facet;
   bool from_outside;
@@ -47,7 +64,7 @@ MeshTables::MeshTables(TetMesh mesh, const char* source, const std::vector<std::
                });
 }
 
-// Returns which of them are usable, in the new order.
+// Returns which tets are usable, in the new order.
 std::vector<bool> MeshTables::order_tets() {
   if (!tet_order_.empty()) {
     reorder(mesh_.tets, tet_order_);
@@ -55,7 +72,7 @@ std::vector<bool> MeshTables::order_tets() {
   }
   std::vector<bool> usable(mesh_.tets.size());
   for (std::size_t t = 0; t < usable.size(); ++t)
-    usable[t] = findings_.orientation.signs[number_in_mesh(static_cast<std::int32_t>(t))] > 0;
+    usable[t] = findings_.orientation.signs[number_in_mesh(static_cast<TetIndex>(t))] > 0;
   return usable;
 }
 
@@ -67,15 +84,15 @@ void MeshTables::for_each_tet_at(const Triangle& facet, Visit&& visit) const {
   const auto has = [](const Tet& tet, Vertex v) {
     return (tet[0] == v) | (tet[1] == v) | (tet[2] == v) | (tet[3] == v);
   };
-  for (const std::int32_t t : tets) {
+  for (const TetIndex t : tets) {
     const Tet& tet = mesh_.tets[t];
     if (has(tet, facet[0]) && has(tet, facet[1]) && has(tet, facet[2])) visit(t, facet_of(tet, facet));
   }
 }
 
-std::int32_t MeshTables::tet_inside(Vertex a, Vertex b, Vertex c) const {
-  std::int32_t inside = TetAdjacency::none;
-  for_each_tet_at({a, b, c}, [&](std::int32_t t, const FoundFacet& found) {
+TetIndex MeshTables::tet_inside(Vertex a, Vertex b, Vertex c) const {
+  TetIndex inside = no_index;
+  for_each_tet_at({a, b, c}, [&](TetIndex t, const FoundFacet& found) {
     if (usable_[t] && found.from_outside) inside = t;
   });
   return inside;
@@ -94,35 +111,37 @@ void MeshTables::make_flood_tets() {
   for (std::size_t t = 0; t < flood_tets_.size(); ++t) {
     FloodTet& tet = flood_tets_[t];
     tet.vertices = mesh_.tets[t];
-    const auto beyond = adjacency_.tets_beyond(static_cast<std::int32_t>(t));
-    std::copy(beyond.begin(), beyond.end(), tet.across.begin());
-    for (std::int32_t& across : tet.across) {
-      if (across != TetAdjacency::none && usable_[across]) continue;
-      across = ~static_cast<std::int32_t>(walls_.size());
-      walls_.push_back({TetAdjacency::none, 0});
+    const auto beyond = adjacency_.tets_beyond(static_cast<TetIndex>(t));
+    for (std::size_t facet = 0; facet < beyond.size(); ++facet) {
+      if (beyond[facet] != no_index && usable_[beyond[facet]]) {
+        tet.across[facet] = {beyond[facet]};
+        continue;
+      }
+      tet.across[facet] = Beyond::wall(walls_.size());
+      walls_.push_back({no_index, 0});
     }
   }
 }
 
-// Every facet on the boundary or between regions has a triangle then.
+// Afterwards, every facet on the boundary or between regions has a triangle.
 void MeshTables::label_walls() {
   findings_.derived_triangles =
       static_cast<std::int64_t>(add_missing_boundary_triangles(mesh_, adjacency_, derived_tag));
   std::vector<std::int32_t> tags = mesh_.triangle_tags;
   std::sort(tags.begin(), tags.end());
   tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
-  // The first of several triangles at one place counts.
+  // If several triangles are at one place, the first one counts.
   for (std::size_t i = mesh_.triangles.size(); i-- > 0;) {
     const auto tag =
         static_cast<std::int32_t>(std::lower_bound(tags.begin(), tags.end(), mesh_.triangle_tags[i]) - tags.begin());
-    for_each_tet_at(mesh_.triangles[i], [&](std::int32_t t, const FoundFacet& found) {
-      const bool is_inside = adjacency_.tet_beyond(t, found.facet) != TetAdjacency::none;
-      std::int32_t& across = flood_tets_[t].across[found.facet];
-      if (across >= 0) {
-        walls_.push_back({across, 0});
-        across = ~static_cast<std::int32_t>(walls_.size() - 1);
+    for_each_tet_at(mesh_.triangles[i], [&](TetIndex t, const FoundFacet& found) {
+      const bool is_inside = adjacency_.tet_beyond(t, found.facet) != no_index;
+      Beyond& across = flood_tets_[t].across[found.facet];
+      if (!across.is_wall()) {
+        walls_.push_back({across.tet(), 0});
+        across = Beyond::wall(walls_.size() - 1);
       }
-      walls_[~across].label = 2 * (tag + 1) + (is_inside ? 1 : 0);
+      walls_[across.wall_number()].label = 2 * (tag + 1) + (is_inside ? 1 : 0);
     });
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What the search asks about a mesh, prepared once: which tets may be used, its facets, and the surface tags on them.
+// What the search asks about a mesh, prepared once: which tets are usable, the facets, and the surface tags on them.
 
 #include <array>
 #include <cstdint>
@@ -15,57 +15,69 @@
 
 namespace hexpipe::candidates {
 
-// What the mesh needed before it could be searched.
+// What had to be done to the mesh before it could be searched.
 struct MeshFindings {
   TetOrientation orientation;  // inverted and flat tets are unusable
   std::int64_t derived_triangles = 0;
 };
 
+// A tet that a cell may reach across a facet, or a wall that no cell may reach across.
+struct Beyond {
+  std::int32_t code = 0;  // the tet, or ~ the number of the wall
+
+  static Beyond wall(std::size_t number) { return {~static_cast<std::int32_t>(number)}; }
+  bool is_wall() const { return code < 0; }
+  TetIndex tet() const { return code; }
+  std::int32_t wall_number() const { return ~code; }
+};
+
 class MeshTables {
  public:
-  // `turns`: which tets are to be turned (TetOrientation::turns) where that is known. Throws DataError naming `source`
+  // `turns`: which tets have to be turned (TetOrientation::turns), if that is known. Throws DataError naming `source`
   // when a facet belongs to more than two tets.
   MeshTables(TetMesh mesh, const char* source, const std::vector<std::int8_t>& turns = {},
              double feature_angle = default_feature_angle);
 
-  // Its tets stand in an order of their own, and all else here and in what is made of this counts them so.
+  // The mesh with its tets in a new order. All tet numbers here, and in everything made from this, refer to that order.
   const TetMesh& mesh() const { return mesh_; }
-  // What a tet's number was in the mesh as it came.
-  std::int32_t number_in_mesh(std::int32_t tet) const { return tet_order_.empty() ? tet : tet_order_[tet]; }
+  // The number that a tet had in the original mesh.
+  TetIndex number_in_mesh(TetIndex tet) const { return tet_order_.empty() ? tet : tet_order_[tet]; }
   const TetAdjacency& adjacency() const { return adjacency_; }
   const VertexLinks& links() const { return *links_; }
   const MeshFindings& findings() const { return findings_; }
-  bool usable(std::int32_t tet) const { return usable_[tet]; }
-  // The usable tet of which (a, b, c) is a facet, counter-clockwise seen from outside, or none.
-  std::int32_t tet_inside(Vertex a, Vertex b, Vertex c) const;
+  bool usable(TetIndex tet) const { return usable_[tet]; }
+  // The usable tet that has (a, b, c) as a facet, counter-clockwise seen from outside, or no_index.
+  TetIndex tet_inside(Vertex a, Vertex b, Vertex c) const;
 
-  // A tet with what is asked at each step of a flood, in half a cache line.
+  // A tet with everything that a flood asks about it, in half a cache line.
   struct FloodTet {
     Tet vertices;
-    // The tet beyond each facet where a cell may reach across it: a usable one, in the same region, no tag between
-    // them. Else negative.
-    std::array<std::int32_t, 4> across;
+    // By facet. A cell may reach a tet that is usable and in the same region if no tag is between them.
+    std::array<Beyond, 4> across;
   };
-  const FloodTet& flood_tet(std::int32_t tet) const { return flood_tets_[tet]; }
-  // The usable tet beyond a facet, whatever lies between, or none; of an entry of FloodTet::across.
-  std::int32_t usable_beyond(std::int32_t across) const { return across >= 0 ? across : walls_[~across].usable_beyond; }
-  // 0 where a facet lies inside a region and has no surface tag; else a number that two facets share when they have the
-  // same tag and are both on the boundary of the mesh or both inside it.
-  std::int32_t facet_label(std::int32_t across) const { return across >= 0 ? 0 : walls_[~across].label; }
-  // Rule 10: the edge ac between the surface's triangles abc and acd is a ridge, or they turn by more than the feature
-  // angle there.
+  const FloodTet& flood_tet(TetIndex tet) const { return flood_tets_[tet]; }
+  // The usable tet beyond a facet, even if a wall is between, or no_index.
+  TetIndex usable_beyond(Beyond across) const {
+    return across.is_wall() ? walls_[across.wall_number()].usable_beyond : across.tet();
+  }
+  // 0 for a facet inside a region that has no surface tag. For other facets a number; two facets share it if they have
+  // the same tag and are both on the boundary of the mesh or both inside it.
+  std::int32_t facet_label(Beyond across) const { return across.is_wall() ? walls_[across.wall_number()].label : 0; }
+  // Rule 10: the edge ac between the surface's triangles abc and acd is a ridge, or the surface turns there by more
+  // than the feature angle.
   bool is_sharp(Vertex a, Vertex b, Vertex c, Vertex d) const;
 
  private:
   // A facet that no cell may reach across.
   struct Wall {
-    std::int32_t usable_beyond, label;
+    TetIndex usable_beyond;
+    std::int32_t label;
   };
 
   std::vector<bool> order_tets();
   void make_flood_tets();
   void label_walls();
-  // visit(tet, FoundFacet) of the tets, one or two, that have this facet.
+  // Calls visit(tet, FoundFacet) for the one or two tets that have this facet.
   template <class Visit>
   void for_each_tet_at(const Triangle& facet, Visit&& visit) const;
 
@@ -73,7 +85,7 @@ class MeshTables {
   double feature_cosine_;
   KeySet<2> ridges_;
   MeshFindings findings_;
-  std::vector<std::int32_t> tet_order_;  // numbers in the mesh as it came; empty: the same
+  std::vector<TetIndex> tet_order_;  // the original numbers; empty: the same
   std::vector<bool> usable_;
   TetAdjacency adjacency_;
   std::optional<VertexLinks> links_;

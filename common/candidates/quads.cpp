@@ -13,10 +13,10 @@
 namespace hexpipe::candidates {
 namespace {
 
-// The angles are a filter before the test of the corners, so its rounding must not reject what that one accepts.
+// The angles are a filter before the test of the corners; its rounding must not reject corners that the test accepts.
 constexpr double filter_slack = 1 - 1e-9;
 
-// By edge of a row: bits of those with which rule 3 holds for the corner that begins with a spoke and this edge.
+// By edge of a row: bits of the edges for which rule 3 holds at the corner formed with a spoke and this edge.
 using CornerBits = std::array<std::uint64_t, EdgeRow::most>;
 
 HEXPIPE_ANY_REGISTERS void judge_corners(const Vec3& spoke, double spoke_square, const EdgeRow& row, double min_quality,
@@ -37,7 +37,7 @@ HEXPIPE_ANY_REGISTERS void judge_corners(const Vec3& spoke, double spoke_square,
   }
 }
 
-// The edges of a row that may be the third at a corner, as bits.
+// The edges of a row that may be the third one at a corner, as bits.
 HEXPIPE_ANY_REGISTERS std::uint64_t judge_third_edges(const Vec3& edge, const Vec3& next, double two_squares,
                                                       const EdgeRow& row, double min_quality) {
   std::uint64_t suffices = 0;
@@ -71,14 +71,13 @@ bool QuadAngle::has_opposite_among_many(const VertexLinks& links) const {
 }
 
 bool QuadAngle::has_opposite_among_many(const VertexLinks& links, Vertex opposite) const {
-  if (const int place = links.place_of(opposite, corner_); place != VertexLinks::none &&
-                                                           links.are_linked(corner_, place_, place) &&
-                                                           links.are_linked(corner_, other_place_, place))
+  if (const int place = links.place_of(opposite, corner_);
+      place != no_index && links.are_linked(corner_, place_, place) && links.are_linked(corner_, other_place_, place))
     return true;
   return sides_are_linked_ && links.is_facet(side_, other_side_, opposite);
 }
 
-// The corner itself is linked to its sides: it is among those at their other diagonal, and written over.
+// The corner itself is linked to its sides, so it is among the vertices at their other diagonal. It is overwritten.
 std::span<const OppositeCorner> QuadAngle::find_opposites(const VertexLinks& links,
                                                           std::vector<OppositeCorner>& memory) const {
   if (!is_narrow_) return find_among_many(links, memory);
@@ -144,7 +143,7 @@ void QuadFan::find(Vertex first) {
   quads_.clear();
   pairs_.clear();
   outer_edges_.clear();
-  slots_.assign(least_slots, none);
+  slots_.assign(least_slots, no_index);
   are_all_judged_ = true;
   measure_spokes();
   const int count = static_cast<int>(links_.neighbours_of(first).size());
@@ -196,7 +195,7 @@ void QuadFan::find_between(int place, int other_place) {
 void QuadFan::table_pairs() {
   const std::size_t count = spokes_.size(), words = word_count();
   partner_bits_.assign(count * words, 0);
-  if (count <= most_tabled) pair_of_spokes_.assign(count * count, none);
+  if (count <= most_tabled) pair_of_spokes_.assign(count * count, no_index);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const std::size_t a = pairs_[i].places[0] - first_place_, b = pairs_[i].places[1] - first_place_;
     partner_bits_[a * words + b / 64] |= std::uint64_t{1} << b % 64;
@@ -230,7 +229,7 @@ std::size_t QuadFan::first_slot(int place, Vertex end) const {
 std::int32_t QuadFan::outer_edge(int place, Vertex end) {
   const int spoke = place - first_place_;
   std::size_t slot = first_slot(spoke, end);
-  for (; slots_[slot] != none; slot = (slot + 1) & (slots_.size() - 1)) {
+  for (; slots_[slot] != no_index; slot = (slot + 1) & (slots_.size() - 1)) {
     const OuterEdge& edge = outer_edges_[slots_[slot]];
     if (edge.spoke == spoke && edge.end == end) return slots_[slot];
   }
@@ -244,10 +243,10 @@ std::int32_t QuadFan::outer_edge(int place, Vertex end) {
   return number;
 }
 
-// Of one that is in a quad.
+// Numbers an outer edge that is in a quad.
 void QuadFan::number_outer_edge(std::int32_t outer_edge) {
   OuterEdge& edge = outer_edges_[outer_edge];
-  if (edge.number != none) return;
+  if (edge.number != no_index) return;
   Spoke& spoke = spokes_[edge.spoke];
   edge.place = links_.place_of(edge.end, links_.neighbours_of(first_)[edge.spoke + first_place_]);
   edge.number = spoke.count++;
@@ -255,17 +254,17 @@ void QuadFan::number_outer_edge(std::int32_t outer_edge) {
 }
 
 void QuadFan::widen_slots() {
-  slots_.assign(2 * slots_.size(), none);
+  slots_.assign(2 * slots_.size(), no_index);
   for (std::size_t i = 0; i < outer_edges_.size(); ++i) {
     std::size_t slot = first_slot(outer_edges_[i].spoke, outer_edges_[i].end);
-    while (slots_[slot] != none) slot = (slot + 1) & (slots_.size() - 1);
+    while (slots_[slot] != no_index) slot = (slot + 1) & (slots_.size() - 1);
     slots_[slot] = static_cast<std::int32_t>(i);
   }
 }
 
 void QuadFan::judge_corners_at(const Spoke& spoke) {
   at_spoke_.clear();
-  for (std::int32_t i = spoke.last; i != none; i = outer_edges_[i].before) at_spoke_.push_back(i);
+  for (std::int32_t i = spoke.last; i != no_index; i = outer_edges_[i].before) at_spoke_.push_back(i);
   if (spoke.count > most_numbered) {
     are_all_judged_ = false;
     for (const std::int32_t i : at_spoke_) {

@@ -16,34 +16,34 @@
 
 namespace hexpipe::candidates {
 
-// Rule 8 is broken by the quad abcd with diagonal ac: the normals of abc and acd do not agree.
+// The quad abcd with diagonal ac breaks rule 8: the normals of abc and acd disagree.
 inline bool is_folded(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 diagonal = c - a;
   return !(dot(cross(b - a, diagonal), cross(diagonal, d - a)) > 0);
 }
 
-// Which quads can be part of a candidate.
+// Which quads may be part of a candidate.
 struct QuadFilter {
-  double min_quality;  // the sine of no angle may be below: it bounds the scaled Jacobian there
-  bool drop_folded;    // rule 8; where the mesh has both diagonals, one of them has to hold it
+  double min_quality;  // no angle's sine may be below; it bounds the scaled Jacobian there
+  bool drop_folded;    // rule 8; if the mesh has both diagonals, one of them has to obey it
 };
 
-// The diagonals of a quad both triangles of which are in the mesh, as bits; seen from one of its corners.
+// The diagonals, as bits, for which both triangles of a quad are in the mesh; seen from one of its corners.
 using Diagonals = std::uint8_t;
 inline constexpr Diagonals from_corner = 1, between_sides = 2;
 
-// A fourth corner of a quad.
+// A possible fourth corner of a quad.
 struct OppositeCorner {
   Vertex vertex;
   Diagonals diagonals;
 };
 
-// Three corners of a quad, and rule 2 for the fourth: one diagonal leads from the corner to a vertex that is linked to
-// both sides; the other one joins the sides, and the vertex is at one more facet with it. Rule 8 is not judged here.
+// Three corners of a quad, and rule 2 for the fourth. Either a diagonal joins the corner to a vertex that is linked to
+// both sides, or the diagonal joins the sides, and the vertex is on another facet with it. Rule 8 is not judged here.
 class QuadAngle {
  public:
   QuadAngle() = default;
-  // The sides as places among the neighbours of the corner.
+  // The sides are given by their places among the neighbours of the corner.
   QuadAngle(const VertexLinks& links, Vertex corner, int place, int other_place);
 
   bool has_opposite(const VertexLinks& links) const {
@@ -54,19 +54,19 @@ class QuadAngle {
     const auto is_linked = [&](std::uint64_t linked, Vertex v) {
       if (linked == 0) return false;
       const int place = links.place_of(opposite, v);
-      return place != VertexLinks::none && (linked >> place & 1) != 0;
+      return place != no_index && (linked >> place & 1) != 0;
     };
     return is_linked(along_, corner_) || is_linked(between_, side_);
   }
-  // How many there are, or one or two less; of vertices with many neighbours, more.
+  // The number of opposite vertices, or one or two less; if a vertex has many neighbours, a greater number.
   int opposite_count() const { return is_narrow_ ? bit_count(along_) + bit_count(between_) : most; }
-  // The vertices opposite, ascending; in `memory`.
+  // The opposite vertices, ascending. They are stored in `memory`.
   std::span<const OppositeCorner> find_opposites(const VertexLinks& links, std::vector<OppositeCorner>& memory) const;
 
  private:
   static constexpr int most = std::numeric_limits<int>::max();
 
-  // As std::popcount, which is a call where not all processors have it as an instruction.
+  // Like std::popcount, which is a function call if not all processors have the instruction.
   static int bit_count(std::uint64_t bits) {
     constexpr std::uint64_t pairs = 0x3333333333333333, nibbles = 0x0f0f0f0f0f0f0f0f, bytes = 0x0101010101010101;
     bits -= bits >> 1 & 0x5555555555555555;
@@ -79,25 +79,25 @@ class QuadAngle {
   std::span<const OppositeCorner> find_among_many(const VertexLinks& links, std::vector<OppositeCorner>& memory) const;
 
   Vertex corner_ = 0, side_ = 0, other_side_ = 0;
-  int place_ = 0, other_place_ = 0;  // of the sides among the neighbours of the corner
+  int place_ = 0, other_place_ = 0;  // of the sides, among the neighbours of the corner
   bool sides_are_linked_ = false;
   bool is_narrow_ = true;
-  // By place at the corner, what is linked to both sides; by place at the side, what is linked to the other one, if
-  // this one is linked to it.
+  // along_: bits by place at the corner; set for vertices linked to both sides. between_: if the sides are linked, bits
+  // by place at the side; set for vertices linked to the other side.
   std::uint64_t along_ = 0, between_ = 0;
 };
 
-// Rules 2 and 8 for the quad with these vertices in a cycle, not all diagonals of which may be there; seen from a in
-// the second case.
+// Rules 2 and 8 for the quad with these vertices in cyclic order. The first function allows that a diagonal is missing;
+// the second gets the diagonals, seen from a.
 bool has_unfolded_diagonal(const TetMesh& mesh, const VertexLinks& links, Vertex a, Vertex b, Vertex c, Vertex d);
 bool has_unfolded_diagonal(const TetMesh& mesh, Diagonals diagonals, Vertex a, Vertex b, Vertex c, Vertex d);
 
-// Up to 64 edges from one vertex, side by side. Lanes behind the last hold anything.
+// Up to 64 edges from one vertex, side by side. Lanes after the last edge hold any values.
 struct alignas(lane_bytes) EdgeRow {
   static constexpr int most = 64;
 
   std::array<LaneVector, most / lane_count> vectors;
-  std::array<Lanes, most / lane_count> squares;  // of their lengths
+  std::array<Lanes, most / lane_count> squares;  // the squared lengths
   int size = 0;
 
   void add(const Vec3& vector, double square) {
@@ -111,21 +111,21 @@ struct alignas(lane_bytes) EdgeRow {
   }
 };
 
-// The quads of which one vertex, the first, is the least: found once and used by all cells that have it as corner 0. An
-// outer edge is a side of such quads that does not meet the first vertex.
+// The quads whose least vertex is the `first` one. They are found once, and all cells with this corner 0 use them. An
+// outer edge is a side of such a quad that does not touch the first vertex.
 class QuadFan {
  public:
   struct Quad {
     Vertex opposite;
-    std::array<std::int32_t, 2> outer_edges;  // from its two sides to the opposite vertex, the lower side first
+    std::array<std::int32_t, 2> outer_edges;  // from its two sides, the lower one first, to the opposite vertex
     Diagonals diagonals;                      // seen from the first vertex
-    std::array<std::uint8_t, 2> numbers{};    // of the outer edges, each at its side
+    std::array<std::uint8_t, 2> numbers{};    // of the outer edges at their sides
   };
-  // Two neighbours of the first vertex that lie beside it in some quads.
+  // Two neighbours of the first vertex that are beside it in some quads.
   struct Pair {
     std::array<int, 2> places;                   // among the neighbours of the first vertex, ascending
-    std::int32_t begin, end;                     // of the quads
-    std::array<std::uint64_t, 2> outer_edges{};  // of the quads, at either one: bits by number
+    std::int32_t begin, end;                     // of its quads
+    std::array<std::uint64_t, 2> outer_edges{};  // of the quads at each of the two: bits by number
   };
   QuadFan(const TetMesh& mesh, const VertexLinks& links, const QuadFilter& filter)
       : mesh_(mesh), links_(links), filter_(filter) {}
@@ -133,52 +133,52 @@ class QuadFan {
   // Finds the quads of this vertex.
   void find(Vertex first);
 
-  // The places of the neighbours of the first vertex that are greater begin here.
+  // The place at which the greater neighbours of the first vertex begin.
   int first_place() const { return first_place_; }
-  // The greater neighbours as bits, from that place on, 64 to a word.
+  // The greater neighbours are bits that begin with that place, 64 to a word.
   std::size_t word_count() const { return (spokes_.size() + 63) / 64; }
-  // Those with which a neighbour makes a pair.
+  // The neighbours that form a pair with this one.
   std::uint64_t partners_of(int place, std::size_t word) const {
     return partner_bits_[(place - first_place_) * word_count() + word];
   }
-  // Those at greater places.
+  // The neighbours at greater places.
   std::uint64_t greater_than(int place, std::size_t word) const {
     const int before = place + 1 - first_place_ - static_cast<int>(64 * word);
     return before >= 64 ? 0 : ~std::uint64_t{0} << std::max(before, 0);
   }
-  // Those for which rule 3 holds at the first vertex, with edges to two of its neighbours and to them in the positive
-  // sense.
+  // The neighbours for which rule 3 holds at the first vertex, when edges lead to two given neighbours and then to them
+  // in the positive sense.
   std::uint64_t third_edges(int place, int next_place, std::size_t word) const;
-  // The pair of these two neighbours, or nullptr where the first vertex lies between them in no quad.
+  // The pair of these two neighbours, or nullptr if the first vertex is between them in no quad.
   const Pair* find_pair(int place, int other_place) const {
     if (spokes_.size() > most_tabled) return find_pair_among_many(place, other_place);
     const std::size_t spoke = place - first_place_, other_spoke = other_place - first_place_;
     const std::int32_t pair = pair_of_spokes_[spoke * spokes_.size() + other_spoke];
-    return pair == none ? nullptr : &pairs_[pair];
+    return pair == no_index ? nullptr : &pairs_[pair];
   }
-  // By ascending opposite vertex.
+  // The quads of a pair, by ascending opposite vertex.
   std::span<const Quad> quads_of(const Pair& pair) const {
     return std::span(quads_).subspan(pair.begin, pair.end - pair.begin);
   }
   std::size_t size() const { return quads_.size(); }
 
-  // Of the far end of an outer edge, among the neighbours of the near one.
+  // The place of an outer edge's far end among the neighbours of its near end.
   int place_at_near_end(std::int32_t outer_edge) const { return outer_edges_[outer_edge].place; }
 
-  // Rule 3 for the corner at a neighbour of the first vertex with an edge to this one and two outer edges, in the
-  // positive sense.
+  // Rule 3 for a corner at a neighbour of the first vertex: its edges lead to the first vertex and along two outer
+  // edges, in the positive sense.
   bool corner_suffices(std::int32_t outer_edge, std::int32_t next) const {
     const OuterEdge &a = outer_edges_[outer_edge], &b = outer_edges_[next];
     return b.number < most_numbered ? (a.suffices_before >> b.number & 1) != 0 : corner_suffices(a, b);
   }
-  // By number, the outer edges that go with this one as the next at their neighbour of the first vertex, or as the one
-  // before. Where there are too many for bits they are all in, with number 0, and not all corners are judged.
+  // Bits by number: the outer edges that fit (rule 3) after this one at their neighbour of the first vertex, or before
+  // it. If there are more edges than bits, all are set and have number 0, and are_all_corners_judged() is false.
   std::uint64_t suffices_before(std::int32_t outer_edge) const { return outer_edges_[outer_edge].suffices_before; }
   std::uint64_t suffices_after(std::int32_t outer_edge) const { return outer_edges_[outer_edge].suffices_after; }
   bool are_all_corners_judged() const { return are_all_judged_; }
 
-  // Rule 3 may hold for the corner with this outer edge and the next (or the one before) from some quad of the pair,
-  // both at the same neighbour of the first vertex, which is at `side` of the pair.
+  // Whether rule 3 may hold for a corner with this outer edge and, as the next one (or the one before), an edge from
+  // some quad of the pair. Both are at the same neighbour of the first vertex, which is at `side` of the pair.
   bool may_suffice_before(std::int32_t outer_edge, const Pair& pair, std::size_t side) const {
     return (outer_edges_[outer_edge].suffices_before & pair.outer_edges[side]) != 0;
   }
@@ -187,15 +187,14 @@ class QuadFan {
   }
 
  private:
-  static constexpr std::int32_t none = -1;
   static constexpr std::size_t least_slots = 512;
   static constexpr int most_numbered = 64;
   static constexpr std::size_t most_tabled = 64;
-  // An edge to a neighbour of the first vertex, and the outer edges that go on from there.
+  // An edge to a neighbour of the first vertex; the outer edges begin at that neighbour.
   struct Spoke {
     Vec3 vector;
     double square;  // of its length
-    std::int32_t last = none;
+    std::int32_t last = no_index;
     int count = 0;
   };
   struct OuterEdge {
@@ -203,11 +202,11 @@ class QuadFan {
     double square;
     Vertex end;
     int spoke;
-    bool angle_suffices;              // with the spoke
-    int place = none, number = none;  // at the near end; among those of the spoke that are in quads
-    std::int32_t before = none;       // the one of the spoke numbered before
-    // By number, the others with which the corner suffices, the other the next one or the one before. All, where the
-    // spoke has more than bits; their numbers are then most_numbered.
+    bool angle_suffices;                      // with the spoke
+    int place = no_index, number = no_index;  // at the near end; among the spoke's outer edges that are in quads
+    std::int32_t before = no_index;           // the spoke's outer edge with the previous number
+    // Bits by number: the other edges that make a sufficient corner when the other one is next, or before. If the spoke
+    // has more edges than bits, all are set, and the edges' numbers are most_numbered.
     std::uint64_t suffices_before = 0, suffices_after = 0;
   };
 
@@ -232,16 +231,16 @@ class QuadFan {
   int first_place_ = 0;
   bool are_all_judged_ = true;
   std::vector<Spoke> spokes_;        // by place, of the greater neighbours
-  std::vector<EdgeRow> spoke_rows_;  // the same, 64 to a row, as far as there are some
+  std::vector<EdgeRow> spoke_rows_;  // the same edges, 64 to a row
   std::vector<OuterEdge> outer_edges_;
-  std::vector<std::int32_t> slots_;  // of outer edges, a hash table at most half full
+  std::vector<std::int32_t> slots_;  // a hash table of outer edges, at most half full
   std::vector<Quad> quads_;
   std::vector<Pair> pairs_;                   // ascending by place
-  std::vector<std::int32_t> pair_of_spokes_;  // by both, where there are not many
-  std::vector<std::uint64_t> partner_bits_;   // word_count() for each spoke
+  std::vector<std::int32_t> pair_of_spokes_;  // by both spokes, if these are not too many
+  std::vector<std::uint64_t> partner_bits_;   // word_count() words per spoke
   std::vector<OppositeCorner> found_;
   std::vector<std::int32_t> at_spoke_;  // outer edges, by number
-  EdgeRow row_;                         // the same
+  EdgeRow row_;                         // the same edges
 };
 
 }  // namespace hexpipe::candidates

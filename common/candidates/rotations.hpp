@@ -1,10 +1,11 @@
 #pragma once
-// The rotations of a cell onto itself, from its topology table: all the labellings of one and the same cell.
+// The rotations that map a cell onto itself: all labellings of the same cell. They are derived from its topology table.
 
 #include <array>
 #include <cstdint>
 
 #include "common/mesh/cell_topology.hpp"
+#include "common/mesh/tet_mesh.hpp"
 
 namespace hexpipe::candidates {
 
@@ -23,8 +24,8 @@ struct RotationGroup {
 
 namespace rotation_details {
 
-// Where facet `from`, turned so that corner 0 lies at `shift`, lies on facet `to`; the corners that `map` leaves open
-// (-1) are filled in. False where it contradicts.
+// Lays facet `from` onto facet `to`, turned so that its corner 0 comes to `shift`, and fills in the corners that `map`
+// leaves open (no_index). False if this contradicts the map.
 template <std::size_t Size, class Map>
 constexpr bool lay_on(const std::array<std::uint8_t, Size>& from, const std::array<std::uint8_t, Size>& to,
                       std::size_t shift, Map& map) {
@@ -34,7 +35,7 @@ constexpr bool lay_on(const std::array<std::uint8_t, Size>& from, const std::arr
     const int image = to[(i + shift) % Size];
     if (map[from[i]] == image)
       ++known;
-    else if (map[from[i]] == -1)
+    else if (map[from[i]] == no_index)
       filled[from[i]] = image;
     else
       return false;
@@ -44,7 +45,7 @@ constexpr bool lay_on(const std::array<std::uint8_t, Size>& from, const std::arr
   return true;
 }
 
-// Lays each facet on some facet, in the same sense of rotation.
+// Lays each facet onto some facet in the same sense of rotation.
 template <class Facets, class Map>
 constexpr bool lay_all(const Facets& facets, Map& map) {
   bool all = true;
@@ -59,7 +60,7 @@ constexpr bool lay_all(const Facets& facets, Map& map) {
 
 }  // namespace rotation_details
 
-// A rotation is known by where corner 0 and the three edges at it go; the facets then carry it over the cell.
+// A rotation is determined by the images of corner 0 and of its three edges; the facets then extend it over the cell.
 template <class Topology>
 constexpr auto rotations_of() {
   RotationGroup<Topology, 3 * Topology::corners.size()> group;
@@ -67,10 +68,10 @@ constexpr auto rotations_of() {
   for (const LocalCorner& corner : Topology::corners)
     for (std::size_t shift = 0; shift < 3; ++shift) {
       Rotation<Topology> map{};
-      map.fill(-1);
+      map.fill(no_index);
       map[first[0]] = corner[0];
       for (std::size_t i = 0; i < 3; ++i) map[first[1 + i]] = corner[1 + (i + shift) % 3];
-      // The first round may meet a quad before its corners are known; the second is complete.
+      // The first round may meet a quad before its corners are known; the second round completes the map.
       rotation_details::lay_all(Topology::quads, map);
       if (rotation_details::lay_all(Topology::quads, map) && rotation_details::lay_all(Topology::triangles, map))
         group.rotations[group.count++] = map;

@@ -1,11 +1,11 @@
 #pragma once
-// The search for cells as a plan: in which order corners are placed, where each new corner is looked for, and what can
-// be tested as soon as it stands. All of it follows from the topology table of a cell and the order.
+// The search for cells as a plan: the order in which corners are placed, where each new corner is sought, and what can
+// be tested as soon as it is placed. Everything follows from the topology table of a cell and that order.
 //
 // J. Pellerin, A. Johnen, K. Verhetsel, J.-F. Remacle: Identifying combinations of tetrahedra into hexahedra: a vertex
-// based strategy (IMR 2017). There a corner comes from the intersection of its neighbours' neighbourhoods and its quads
-// are tested afterwards; here a corner comes from the quads that it closes, and what can close a quad is found once,
-// when its third corner stands.
+// based strategy (IMR 2017). They take a corner from the intersection of its neighbours' neighbourhoods and test its
+// quads afterwards. Here a corner comes from the quads that it closes, and the vertices that can close a quad are found
+// once, when its third corner is placed.
 
 #include <array>
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace hexpipe::candidates {
 
-// A list with room for what a step of any cell may have.
+// A list with enough room for a step of any cell.
 template <class T, std::size_t Most>
 struct ShortList {
   std::array<T, Most> items{};
@@ -27,40 +27,42 @@ struct ShortList {
   constexpr const T& operator[](std::size_t i) const { return items[i]; }
 };
 
-// A quad with one corner to come: the one opposite `corner`, between the sides.
+// A quad that lacks one corner: the one opposite `corner`, between the two sides.
 struct OpenQuad {
-  std::uint8_t quad;  // of the topology
+  std::uint8_t quad;  // number in the topology
   std::uint8_t corner, side, other_side;
 };
 
-// A corner beside the first one whose two other edges are outer edges (quads.hpp), in the positive sense after the one
-// to the first.
+// A corner beside the first one whose two other edges are outer edges (quads.hpp). They follow the edge to the first
+// corner in the positive sense.
 struct OuterCorner {
   std::uint8_t corner, end, next_end;
 };
 
-// An outer corner with one of its outer edges to come, from one of the quads in which the first corner is opposite.
+// An outer corner that lacks one of its outer edges; the edge will come from a quad in which the first corner is
+// opposite.
 struct OpenCorner {
   OuterCorner corner;
-  bool next_is_open = false;  // the edge to come is the one to next_end
-  std::uint8_t quad = 0;      // of the topology
+  bool next_is_open = false;  // the missing edge is the one to next_end
+  std::uint8_t quad = 0;      // number in the topology
 };
 
-// What there is to do with one corner; all others that it names are placed already.
+// What to do with one corner. All other corners named here are placed already.
 struct SearchStep {
   std::uint8_t corner = 0;
-  bool is_beside_first = false;         // an edge joins it to the first corner
-  ShortList<std::uint8_t, 4> edges;     // of the topology, to corners placed before
-  ShortList<std::uint8_t, 8> greater;   // its vertex has to be greater than theirs: one labelling of each cell is found
+  bool is_beside_first = false;      // an edge joins it to the first corner
+  ShortList<std::uint8_t, 4> edges;  // numbers in the topology; they lead to corners placed before
+  ShortList<std::uint8_t, 8>
+      greater;  // its vertex has to be greater than theirs, so that each cell is found under one labelling
   ShortList<OpenQuad, 3> opened_quads;  // it is the third corner of these
   ShortList<OpenQuad, 3> closed_quads;  // it is the fourth corner of these
   ShortList<LocalTriangle, 4> triangles;
-  ShortList<LocalCorner, 4> corners;        // whose edges stand now, but for
+  ShortList<LocalCorner, 4> corners;        // corners whose edges are all placed now, except
   ShortList<OuterCorner, 3> outer_corners;  // those beside the first corner that have two outer edges
-  ShortList<OpenCorner, 3> open_corners;    // of these, one of whose outer edges stands now
+  ShortList<OpenCorner, 3> open_corners;    // outer corners, one of whose outer edges is placed now
 };
 
-// Corners in the order in which they are placed.
+// The order in which corners are placed.
 template <class Topology>
 inline constexpr std::array<std::uint8_t, Topology::corner_count> placement_order{};
 template <>
@@ -70,7 +72,7 @@ inline constexpr std::array<std::uint8_t, 6> placement_order<PrismTopology>{0, 1
 template <>
 inline constexpr std::array<std::uint8_t, 5> placement_order<PyramidTopology>{0, 1, 3, 4, 2};
 
-// The edges at a corner as the topology lists them, and whether that turns their determinant's sign.
+// The edges at a corner, as the topology lists them, and whether their directions turn the determinant's sign.
 struct CornerEdges {
   std::array<std::uint8_t, 3> edges{};
   bool is_turned = false;
@@ -93,7 +95,7 @@ constexpr CornerEdges corner_edges(const LocalCorner& corner) {
 template <class Topology>
 inline constexpr std::uint8_t first_corner = placement_order<Topology>[0];
 
-// Some quad has the first corner, and the other end opposite to it.
+// Whether some quad has the first corner and, opposite to it, the other end.
 template <class Topology>
 constexpr bool is_outer_edge(std::uint8_t near_end, std::uint8_t end) {
   for (const LocalQuad& q : Topology::quads)
@@ -109,7 +111,7 @@ namespace plan_details {
 template <class Topology>
 using Placed = std::array<bool, Topology::corner_count>;
 
-// All corners of a facet or of a LocalCorner are placed, `corner` among them.
+// Whether all corners of a facet or of a LocalCorner are placed, with `corner` among them.
 template <class Topology, class Corners>
 constexpr bool completed_by(const Corners& corners, std::uint8_t corner, const Placed<Topology>& placed) {
   bool among = false;
@@ -144,8 +146,8 @@ constexpr std::optional<OuterCorner> as_outer_corner(const LocalCorner& corner) 
   return std::nullopt;
 }
 
-// The labelling found is the least in placement order: each corner's vertex is the least of those that rotations put in
-// its place while the corners before it stay.
+// Each cell is found under the labelling that is least in placement order: the vertex of each corner is the least of
+// those that rotations put in its place while the corners before it stay.
 template <class Topology>
 constexpr void order_against_rotations(std::array<SearchStep, Topology::corner_count>& plan) {
   constexpr auto& order = placement_order<Topology>;

@@ -15,8 +15,8 @@ class TetStar {
  public:
   explicit TetStar(const MeshTables& tables) : tables_(tables) {}
 
-  // Files the usable tets at this vertex by the two other vertices of their facets there, in a hash table that is never
-  // more than half full; vertices with more tets have none.
+  // Files the usable tets at this vertex by the two other vertices of their facets there, in a hash table that is at
+  // most half full. Vertices with too many tets get no table.
   void move_to(Vertex centre) {
     if (centre == centre_) return;
     centre_ = centre;
@@ -28,8 +28,8 @@ class TetStar {
       if (tables_.usable(t)) file(t);
   }
 
-  // As MeshTables::tet_inside.
-  std::int32_t tet_inside(Vertex a, Vertex b, Vertex c) const {
+  // Answers as MeshTables::tet_inside does.
+  TetIndex tet_inside(Vertex a, Vertex b, Vertex c) const {
     if (!is_filed_ || (a != centre_ && b != centre_ && c != centre_)) return tables_.tet_inside(a, b, c);
     if (b == centre_) return find(c, a);
     return c == centre_ ? find(a, b) : find(b, c);
@@ -38,8 +38,8 @@ class TetStar {
  private:
   static constexpr std::size_t slot_count = 512;
   struct Slot {
-    Vertex next = -1, after = -1;  // behind the centre, counter-clockwise seen from outside
-    std::int32_t tet = TetAdjacency::none;
+    Vertex next = no_index, after = no_index;  // the vertices after the centre, counter-clockwise seen from outside
+    TetIndex tet = no_index;
   };
 
   static std::size_t first_slot(Vertex next, Vertex after) {
@@ -55,7 +55,7 @@ class TetStar {
       if (at == 3) continue;
       const Vertex next = tet[facet[(at + 1) % 3]], after = tet[facet[(at + 2) % 3]];
       std::size_t slot = first_slot(next, after);
-      while (slots_[slot].next >= 0) slot = (slot + 1) % slot_count;
+      while (slots_[slot].next != no_index) slot = (slot + 1) % slot_count;
       slots_[slot] = {next, after, t};
     }
   }
@@ -63,12 +63,12 @@ class TetStar {
   std::int32_t find(Vertex next, Vertex after) const {
     for (std::size_t slot = first_slot(next, after);; slot = (slot + 1) % slot_count) {
       const Slot& at = slots_[slot];
-      if (at.next < 0 || (at.next == next && at.after == after)) return at.tet;
+      if (at.next == no_index || (at.next == next && at.after == after)) return at.tet;
     }
   }
 
   const MeshTables& tables_;
-  Vertex centre_ = -1;
+  Vertex centre_ = no_index;
   bool is_filed_ = false;
   std::array<Slot, slot_count> slots_{};
 };

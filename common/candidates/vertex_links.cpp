@@ -4,16 +4,16 @@
 #include <array>
 #include <utility>
 
-#include "common/run/huge_pages.hpp"
+#include "common/run/memory.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe::candidates {
 namespace {
 
-constexpr std::int64_t vertices_a_block = 1024;
+constexpr std::int64_t linked_vertices_a_block = 1024;
 
-// visit(i, j): the places of two neighbours of v, for each facet of a usable tet at v, both ways; facets between two
-// tets come twice.
+// Calls visit(i, j) with the places of two neighbours of v, for each facet of a usable tet at v, in both directions.
+// Facets between two tets come twice.
 template <class Visit>
 void for_each_link(const TetMesh& mesh, const TetAdjacency& adjacency, const std::vector<bool>& usable,
                    const VertexLinks& links, Vertex v, Visit&& visit) {
@@ -42,7 +42,7 @@ VertexLinks::VertexLinks(const TetMesh& mesh, const TetAdjacency& adjacency, con
     slot_offsets_[v + 1] = slot_offsets_[v] + static_cast<std::int64_t>(slots);
   }
   resize_in_huge_pages(slots_, static_cast<std::size_t>(slot_offsets_.back()), no_place);
-  parallel_for(vertex_count, vertices_a_block, [&](std::int64_t v) {
+  parallel_for(vertex_count, linked_vertices_a_block, [&](std::int64_t v) {
     if (!is_narrow(static_cast<Vertex>(v))) return;
     file_places(static_cast<Vertex>(v));
     link_narrow(mesh, usable, static_cast<Vertex>(v));
@@ -101,7 +101,7 @@ std::vector<std::int32_t> VertexLinks::wide_within_two_links(Vertex v, int i, in
 
 int VertexLinks::place_among_many(Vertex w, std::span<const Vertex> neighbours) {
   const auto at = std::lower_bound(neighbours.begin(), neighbours.end(), w);
-  return at != neighbours.end() && *at == w ? static_cast<int>(at - neighbours.begin()) : none;
+  return at != neighbours.end() && *at == w ? static_cast<int>(at - neighbours.begin()) : no_index;
 }
 
 bool VertexLinks::are_linked_among_many(Vertex v, int i, int j) const {
@@ -111,7 +111,7 @@ bool VertexLinks::are_linked_among_many(Vertex v, int i, int j) const {
 
 bool VertexLinks::is_facet(Vertex a, Vertex b, Vertex c) const {
   const int i = place_of(b, a), j = place_of(c, a);
-  return i != none && j != none && are_linked(a, i, j);
+  return i != no_index && j != no_index && are_linked(a, i, j);
 }
 
 }  // namespace hexpipe::candidates

@@ -1,8 +1,8 @@
 #pragma once
-// Which facets there are, as seen from each vertex: its neighbours are numbered by their places in its sorted list, and
-// two of them are linked where the three vertices are a facet. The links of a vertex with up to 64 neighbours are a
-// word of bits for each of them, so that what is linked to two neighbours is one operation. Few vertices have more:
-// their links are lists.
+// Which facets exist, as seen from each vertex. The neighbours of a vertex are numbered by their places in its sorted
+// list; two of them are linked if the three vertices form a facet. For a vertex with up to 64 neighbours, the links of
+// each neighbour are one word of bits, so one operation finds what is linked to two neighbours. The few vertices with
+// more neighbours have lists.
 
 #include <bit>
 #include <cstdint>
@@ -16,48 +16,46 @@ namespace hexpipe::candidates {
 
 class VertexLinks {
  public:
-  static constexpr int none = -1;
-
-  // Of the facets of tets with usable[t]. `adjacency` is that of the mesh, and stays.
+  // Links the facets of the tets with usable[t]. `adjacency` is that of the mesh, and must outlive this object.
   VertexLinks(const TetMesh& mesh, const TetAdjacency& adjacency, const std::vector<bool>& usable);
 
   std::span<const Vertex> neighbours_of(Vertex v) const { return adjacency_.neighbours_of(v); }
-  // The place of w among the neighbours of v, or none.
+  // The place of w among the neighbours of v, or no_index.
   int place_of(Vertex w, Vertex v) const {
     const auto neighbours = neighbours_of(v);
     if (!is_narrow(v)) return place_among_many(w, neighbours);
     const std::int64_t begin = slot_offsets_[v], mask = slot_offsets_[v + 1] - begin - 1;
     for (std::int64_t slot = first_slot(w) & mask;; slot = (slot + 1) & mask) {
       const std::uint8_t place = slots_[begin + slot];
-      if (place == no_place) return none;
+      if (place == no_place) return no_index;
       if (neighbours[place] == w) return place;
     }
   }
 
-  // v and its neighbours at places i and j are a facet.
+  // Whether v and its neighbours at places i and j form a facet.
   bool are_linked(Vertex v, int i, int j) const {
     return is_narrow(v) ? (row(v, i) >> j & 1) != 0 : are_linked_among_many(v, i, j);
   }
   bool is_facet(Vertex a, Vertex b, Vertex c) const;
 
-  // Some neighbour of v is linked to both i and j.
+  // Whether some neighbour of v is linked to both i and j.
   bool have_common_link(Vertex v, int i, int j) const {
     if (is_narrow(v)) return (row(v, i) & row(v, j)) != 0;
     bool found = false;
     for_each_linked_to_both(v, i, j, [&](int) { found = true; });
     return found;
   }
-  // v has so few neighbours that its links are bits.
+  // Whether v has few enough neighbours for its links to be bits.
   bool is_narrow(Vertex v) const { return neighbours_of(v).size() <= most_narrow; }
-  // Of such a vertex, by place: the neighbours linked to i.
+  // For such a vertex: the neighbours linked to i, as bits by place.
   std::uint64_t links_of(Vertex v, int i) const { return row(v, i); }
 
-  // More than one neighbour of v is linked to i.
+  // Whether more than one neighbour of v is linked to i.
   bool link_count_exceeds_one(Vertex v, int i) const {
     return is_narrow(v) ? (row(v, i) & (row(v, i) - 1)) != 0 : wide_row(v, i).size() > 1;
   }
 
-  // visit(place), ascending: of the neighbours of v that are linked to i.
+  // Calls visit(place), ascending, for the neighbours of v that are linked to i.
   template <class Visit>
   void for_each_linked(Vertex v, int i, Visit&& visit) const {
     if (is_narrow(v))
@@ -66,7 +64,7 @@ class VertexLinks {
       for (const std::int32_t place : wide_row(v, i)) visit(place);
   }
 
-  // visit(place), ascending: of the neighbours of v that are linked to both i and j.
+  // Calls visit(place), ascending, for the neighbours of v that are linked to both i and j.
   template <class Visit>
   void for_each_linked_to_both(Vertex v, int i, int j, Visit&& visit) const {
     if (is_narrow(v))
@@ -76,8 +74,8 @@ class VertexLinks {
         if (are_linked(v, j, place)) visit(place);
   }
 
-  // visit(place), ascending: of the neighbours j > i of v that are linked to i, or to some neighbour beyond
-  // `first` - 1 that is linked to i.
+  // Calls visit(place), ascending, for the neighbours j > i of v that are linked to i, or to some neighbour at place
+  // `first` or later that is linked to i.
   template <class Visit>
   void for_each_within_two_links(Vertex v, int i, int first, Visit&& visit) const {
     if (is_narrow(v)) {
@@ -113,10 +111,11 @@ class VertexLinks {
   void link_wide(const TetMesh& mesh, const std::vector<bool>& usable, Vertex v);
 
   const TetAdjacency& adjacency_;
-  // For vertices with bits, a hash table of the places of their neighbours, at least twice as long as these.
+  // For vertices with bits: a hash table of the places of their neighbours, at least twice as long as their number.
   std::vector<std::int64_t> slot_offsets_;  // vertices + 1
   std::vector<std::uint8_t> slots_;
-  // By vertex and place of a neighbour: bits, by place; for vertices with more neighbours, which row of wide_ it is.
+  // By vertex and place of a neighbour: the links as bits; for vertices with more neighbours, the number of the row in
+  // wide_.
   std::vector<std::uint64_t> rows_;
   std::vector<std::int64_t> wide_offsets_{0};
   std::vector<std::int32_t> wide_places_;  // ascending in a row

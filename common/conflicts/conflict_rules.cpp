@@ -1,4 +1,4 @@
-#include "common/conflicts/conflict_rules.hpp"
+#include "common/conflicts/conflicts.hpp"
 
 #include <array>
 #include <cstdint>
@@ -7,7 +7,7 @@
 namespace hexpipe::conflicts {
 namespace {
 
-// Corners of a cell, as bits.
+// The corners of a cell, as bits.
 using CornerSet = std::uint8_t;
 
 template <class Corners>
@@ -17,25 +17,25 @@ constexpr CornerSet set_of(const Corners& corners) {
   return static_cast<CornerSet>(set);
 }
 
-// What the corners of each set make together.
-struct CellParts {
+// Tells what a set of corners forms in a cell.
+struct CellFaces {
   std::array<bool, 256> edge_or_triangle{};
-  std::array<CornerSet, 256> diagonal{};  // one of the quad that they are; empty where they are none
+  std::array<CornerSet, 256> diagonal{};  // a diagonal of the quad that these corners form; empty if they form none
 };
 
 template <class Topology>
-constexpr CellParts find_parts() {
-  CellParts parts;
-  for (const LocalEdge& e : Topology::edges) parts.edge_or_triangle[set_of(e)] = true;
-  for (const LocalTriangle& t : Topology::triangles) parts.edge_or_triangle[set_of(t)] = true;
-  for (const LocalQuad& q : Topology::quads) parts.diagonal[set_of(q)] = set_of(std::array{q[0], q[2]});
-  return parts;
+constexpr CellFaces find_faces() {
+  CellFaces faces;
+  for (const LocalEdge& e : Topology::edges) faces.edge_or_triangle[set_of(e)] = true;
+  for (const LocalTriangle& t : Topology::triangles) faces.edge_or_triangle[set_of(t)] = true;
+  for (const LocalQuad& q : Topology::quads) faces.diagonal[set_of(q)] = set_of(std::array{q[0], q[2]});
+  return faces;
 }
 template <class Topology>
-constexpr CellParts parts_of_kind = find_parts<Topology>();
+constexpr CellFaces faces_of_kind = find_faces<Topology>();
 
-const CellParts& parts_of(CellKind kind) {
-  return with_topology(kind, []<class Topology>(Topology) -> const CellParts& { return parts_of_kind<Topology>; });
+const CellFaces& faces_of(CellKind kind) {
+  return with_topology(kind, []<class Topology>(Topology) -> const CellFaces& { return faces_of_kind<Topology>; });
 }
 
 // The corners that two cells share, as local numbers in each.
@@ -59,7 +59,7 @@ SharedCorners shared_corners(std::span<const Vertex> i, std::span<const Vertex> 
   return shared;
 }
 
-// All are compared, without a branch.
+// Compares all pairs, without a branch.
 int shared_corner_count(std::span<const Vertex> i, std::span<const Vertex> j) {
   int count = 0;
   for (const Vertex v : i)
@@ -76,7 +76,8 @@ bool share_interior_tet(std::span<const std::int32_t> i, std::span<const std::in
   return false;
 }
 
-// A quad's cyclic order is known by who lies opposite whom: its diagonals are those of the other.
+// The diagonals of a quad determine its cyclic order, so two quads are the same if the diagonals of one are those of
+// the other.
 bool are_same_quad(CornerSet diagonal_i, CornerSet diagonal_j, const SharedCorners& shared) {
   if (diagonal_i == 0 || diagonal_j == 0) return false;
   int on_both_or_none = 0;
@@ -92,16 +93,16 @@ bool in_conflict(const Candidates& candidates, std::size_t i, std::size_t j) {
   if (shared_corner_count(candidates.corners_of(i), candidates.corners_of(j)) > most_compatible) return true;
   if (share_interior_tet(candidates.interior_tets_of(i), candidates.interior_tets_of(j))) return true;
   const SharedCorners shared = shared_corners(candidates.corners_of(i), candidates.corners_of(j));
-  const CellParts &parts_i = parts_of(candidates.kind[i]), &parts_j = parts_of(candidates.kind[j]);
+  const CellFaces &faces_i = faces_of(candidates.kind[i]), &faces_j = faces_of(candidates.kind[j]);
   switch (shared.count) {
     case 0:
     case 1:
       return false;
     case 2:
     case 3:
-      return !(parts_i.edge_or_triangle[shared.set_i] && parts_j.edge_or_triangle[shared.set_j]);
+      return !(faces_i.edge_or_triangle[shared.set_i] && faces_j.edge_or_triangle[shared.set_j]);
     case 4:
-      return !are_same_quad(parts_i.diagonal[shared.set_i], parts_j.diagonal[shared.set_j], shared);
+      return !are_same_quad(faces_i.diagonal[shared.set_i], faces_j.diagonal[shared.set_j], shared);
     default:
       return true;
   }

@@ -1,9 +1,9 @@
-// The conflicts of docs/definitions.md 2 by sharing. Two cells without a common interior tet, all of whose shared
-// corners are joined by edges in both, are never in conflict: their shared corners are one, an edge or a triangle of
-// both, for no four corners of a hex, prism or pyramid are all joined, and no three of a hex. Two cells that share an
-// interior tet, or two corners that are no edge in one of them, are in conflict unless they meet at a quad of both. So
-// the candidates found at a tet or at such a pair are those in conflict, but for some of those at a common quad, which
-// are compared in full.
+// Finds the conflicts of docs/definitions.md 2 from what candidates share. Take two cells without a common interior tet
+// whose shared corners are all joined by edges in both. They are never in conflict: the corners that they share are one
+// corner, an edge or a triangle of both, because no four corners of a hex, prism or pyramid are all joined, and no
+// three of a hex. Two cells that share an interior tet, or two corners that are no edge in one of them, are in conflict
+// unless they meet at a quad of both. So the candidates found at a tet or at such a pair are in conflict, except for
+// some at a common quad; those are compared in full.
 
 #include "common/conflicts/conflicts.hpp"
 
@@ -11,12 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "common/conflicts/conflict_rules.hpp"
-
 namespace hexpipe::conflicts {
 namespace {
 
-// Quads are filed under their lowest vertex. The key is a hash: two quads under one key cost a comparison, no more.
+// Quads are filed under their lowest vertex. The key is a hash: two quads with the same key only cost a comparison.
 std::uint32_t quad_key(Vertex opposite, Vertex side, Vertex other_side) {
   std::uint64_t hash = static_cast<std::uint64_t>(opposite);
   hash = hash * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(std::min(side, other_side));
@@ -24,7 +22,7 @@ std::uint32_t quad_key(Vertex opposite, Vertex side, Vertex other_side) {
   return static_cast<std::uint32_t>(hash * 0x9e3779b97f4a7c15u >> 32);
 }
 
-// visit(lowest vertex, key)
+// Calls visit(lowest vertex, key) for each quad.
 template <class Topology, class Visit>
 void for_each_quad(const std::array<Vertex, 8>& corners, Visit&& visit) {
   for (const LocalQuad& q : Topology::quads) {

@@ -1,7 +1,9 @@
 #pragma once
-// All conflicts of a candidate, from what it shares with others, without comparing it with everything near by.
+// When two candidates cannot both be chosen, by the table of docs/definitions.md 2. And all conflicts of a candidate,
+// from what it shares with others, without comparing it with everything near it.
 
-#include <cstdint>
+#include <cstddef>
+#include <optional>
 
 #include "common/conflicts/segment_index.hpp"
 #include "common/conflicts/sharing_index.hpp"
@@ -10,11 +12,20 @@
 
 namespace hexpipe::conflicts {
 
+// Decides for one pair, from nothing but its tets and vertices.
+bool in_conflict(const Candidates& candidates, std::size_t i, std::size_t j);
+
+// Candidates may use vertex and tet numbers that are far larger than their count. If a table by these numbers would
+// take far more memory than the candidates: the candidates with vertices and tets renumbered from 0 in the same order.
+// Otherwise nothing.
+std::optional<Candidates> with_dense_ids(const Candidates& candidates);
+
 class ConflictFinder {
  public:
   explicit ConflictFinder(const Candidates& candidates);
 
-  // Inserts the candidates below i that conflict with candidate i into an empty set with room for all.
+  // Inserts the candidates below i that conflict with candidate i. The set must be empty and have room for all
+  // candidates.
   void collect_lower(std::size_t i, SortedSet& found) const;
 
  private:

@@ -1,4 +1,4 @@
-#include "common/conflicts/dense_ids.hpp"
+#include "common/conflicts/conflicts.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -6,7 +6,7 @@
 namespace hexpipe::conflicts {
 namespace {
 
-// A mesh has a few tets a candidate, or some more where candidates are few; a single candidate may name any number.
+// A mesh has a few tets per candidate, or some more if candidates are few; a single candidate may name any number.
 constexpr std::size_t ids_a_candidate = 64, ids_in_any_case = 1 << 20;
 
 std::vector<std::int32_t> sorted_distinct(std::vector<std::int32_t> ids) {

@@ -8,12 +8,10 @@
 #include <vector>
 
 #include "common/conflicts/conflicts.hpp"
-#include "common/conflicts/dense_ids.hpp"
 #include "common/conflicts/packed_lists.hpp"
 #include "common/conflicts/sorted_set.hpp"
 #include "common/run/error.hpp"
-#include "common/run/freed_memory.hpp"
-#include "common/run/huge_pages.hpp"
+#include "common/run/memory.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe::conflicts {
@@ -21,14 +19,14 @@ namespace {
 
 constexpr std::int64_t candidates_a_block = 256;
 
-// The conflicts of each candidate with lower ones, packed, and how many conflicts each one has in all.
+// The conflicts of each candidate with lower ones, packed, and the number of all its conflicts.
 struct LowerConflicts {
   std::int64_t first = 0;           // the candidate of the first list
   std::vector<PackedLists> blocks;  // of candidates_a_block lists each
   std::vector<std::int64_t> degrees;
 };
 
-// What conflicts do not depend on is a third of the memory that candidates take.
+// Conflicts do not depend on these arrays, and they are a third of the memory of the candidates.
 void forget_worth(Candidates& candidates) {
   candidates.quality = {};
   candidates.volume = {};
@@ -36,7 +34,7 @@ void forget_worth(Candidates& candidates) {
   candidates.boundary_tet_offsets = {};
 }
 
-LowerConflicts find_lower_conflicts(const Candidates& candidates, const Part& part, const std::vector<bool>& own) {
+LowerConflicts find_lower_conflicts(const Candidates& candidates, const Share& share, const std::vector<bool>& own) {
   const std::size_t count = candidates.size();
   const std::optional<Candidates> dense = with_dense_ids(candidates);
   const ConflictFinder finder(dense ? *dense : candidates);
@@ -46,9 +44,9 @@ LowerConflicts find_lower_conflicts(const Candidates& candidates, const Part& pa
   };
   PerThread<Scratch> scratches(Scratch{SortedSet{count}, std::vector<std::int32_t>(count, 0)});
   LowerConflicts conflicts;
-  conflicts.first = part.begin(static_cast<std::int64_t>(count));
+  conflicts.first = share.begin(static_cast<std::int64_t>(count));
   parallel_in_order(
-      part.end(static_cast<std::int64_t>(count)) - conflicts.first, candidates_a_block,
+      share.end(static_cast<std::int64_t>(count)) - conflicts.first, candidates_a_block,
       [&](std::int64_t begin, std::int64_t end) {
         Scratch& scratch = scratches.local();
         PackedLists lists;
@@ -76,9 +74,9 @@ LowerConflicts find_lower_conflicts(const Candidates& candidates, const Part& pa
 
 }  // namespace
 
-// Conflicts are found once, from their higher end. They are packed until all are counted, and what they were found by
-// is gone before the graph takes its memory. Then they are written at both ends: as higher ends come in ascending
-// order, so do all lists, and none goes further than the higher ends so far. So the graph grows as the lists are freed.
+// Conflicts are found once, from their higher end. They stay packed until all are counted, and the indices are freed
+// before the graph takes its memory. Then both ends are written. Higher ends come in ascending order, so all lists
+// ascend, too, and no list names a vertex above the higher ends so far. So the graph grows while the lists are freed.
 graph::ConflictGraph conflict_graph(Candidates candidates, const ConflictOptions& options, const char* source,
                                     const std::vector<bool>& own) {
   const std::size_t count = candidates.size();
@@ -88,7 +86,7 @@ graph::ConflictGraph conflict_graph(Candidates candidates, const ConflictOptions
   graph.weights = weights_of(candidates, options.weight, options.weight_scale, source);
 
   forget_worth(candidates);
-  LowerConflicts conflicts = find_lower_conflicts(candidates, options.part, own);
+  LowerConflicts conflicts = find_lower_conflicts(candidates, options.share, own);
   candidates = {};
   graph.offsets.assign(count + 1, 0);
   std::partial_sum(conflicts.degrees.begin(), conflicts.degrees.end(), graph.offsets.begin() + 1);

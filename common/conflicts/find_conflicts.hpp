@@ -1,22 +1,29 @@
 #pragma once
-// The conflict graph of candidates: docs/definitions.md 2.
+// Finds the conflict graph of candidates, and weighs them: docs/definitions.md 2.
 
+#include <cstdint>
 #include <vector>
 
-#include "common/conflicts/weights.hpp"
 #include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
-#include "common/run/part.hpp"
+#include "common/run/share.hpp"
 
 namespace hexpipe::conflicts {
+
+// How the weight of a candidate, an integer, is computed.
+enum class WeightKind { quality, volume, count, quality_volume };
+
+// Returns round(scale * w), at least 0. Throws DataError naming `source` when a quality or volume is negative, or the
+// sum does not fit 64 bits.
+std::vector<std::int64_t> weights_of(const Candidates& candidates, WeightKind kind, double scale, const char* source);
 
 struct ConflictOptions {
   WeightKind weight = WeightKind::quality;
   double weight_scale = 1e6;
-  Part part{};  // only conflicts whose higher end is in this part of the candidates
+  Share share{};  // only conflicts whose higher end is in this share of the candidates
 };
 
-// Vertex i is candidate i. Candidates that are moved in are gone before the graph takes its memory. Where `own` is not
+// Vertex i is candidate i. Candidates that are moved in are freed before the graph takes its memory. If `own` is not
 // empty, conflicts between two candidates that are not own are left out. Throws DataError naming `source` when weights
 // do not fit (see weights_of) or there are 2^31 candidates or more.
 graph::ConflictGraph conflict_graph(Candidates candidates, const ConflictOptions& options, const char* source,

@@ -1,6 +1,6 @@
 #pragma once
-// Ascending lists of small integers, one after another, as differences of one to five bytes. Neighbours in a conflict
-// graph are near each other: a list takes about a third of what it would take as it is.
+// Ascending lists of small integers, one after another, stored as differences of one to five bytes. Neighbours in a
+// conflict graph are close to each other, so a list takes about a third of its usual memory.
 
 #include <cstdint>
 #include <vector>
@@ -9,7 +9,7 @@ namespace hexpipe::conflicts {
 
 class PackedLists {
  public:
-  // Items ascend within a list, and are 0 or greater.
+  // Items ascend within a list and are 0 or more.
   void add(std::int32_t item) {
     put(static_cast<std::uint32_t>(item) - last_);
     last_ = static_cast<std::uint32_t>(item);
@@ -19,7 +19,7 @@ class PackedLists {
     last_ = before_first;
   }
 
-  // visit_item(list, item) for all items of all lists, in order; lists are counted from `first_list`.
+  // Calls visit_item(list, item) for all items of all lists, in order; lists are counted from `first_list`.
   template <class Visit>
   void for_each(std::int64_t first_list, Visit&& visit_item) const {
     std::int64_t list = first_list;
@@ -41,9 +41,10 @@ class PackedLists {
   std::size_t bytes() const { return bytes_.size(); }
 
  private:
-  static constexpr std::uint32_t before_first = ~std::uint32_t{0};  // -1: unsigned numbers wrap around
+  static constexpr std::uint32_t before_first = ~std::uint32_t{0};  // -1, because unsigned numbers wrap around
 
-  // Seven bits a byte, lowest first; the eighth says that more follow. No difference is 0: that ends a list.
+  // Seven bits per byte, lowest first; the eighth bit says that more follow. A difference is never 0, so a 0 ends a
+  // list.
   void put(std::uint32_t difference) {
     for (; difference > 127; difference >>= 7) bytes_.push_back(static_cast<std::uint8_t>(difference | 128u));
     bytes_.push_back(static_cast<std::uint8_t>(difference));

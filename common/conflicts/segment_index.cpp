@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "common/run/huge_pages.hpp"
+#include "common/run/memory.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe::conflicts {
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t vertices_a_block = 256;
 
-// Where corner_pairs has a pair of corners.
+// The place of a pair of corners in corner_pairs.
 template <class Topology>
 constexpr auto make_pair_numbers() {
   std::array<std::array<std::uint8_t, Topology::corner_count>, Topology::corner_count> numbers{};
@@ -24,7 +24,7 @@ constexpr auto make_pair_numbers() {
 template <class Topology>
 constexpr auto pair_numbers = make_pair_numbers<Topology>();
 
-// visit(pair, higher vertex, whether they are an edge) for the pairs of which `low` is the lower vertex.
+// Calls visit(pair, higher vertex, whether they are an edge) for the pairs whose lower vertex is `low`.
 template <class Visit>
 void for_each_pair_above(const Candidates& candidates, std::size_t i, Vertex low, Visit&& visit) {
   with_topology(candidates.kind[i], [&]<class Topology>(Topology) {
@@ -46,13 +46,14 @@ std::size_t most_pairs(const Candidates& candidates) {
   return most;
 }
 
-// The segments at one lower vertex after another: numbers them by their higher vertex as they come.
+// Collects the segments at one lower vertex after another, and numbers them by their higher vertex in order of
+// appearance.
 class SegmentMaker {
  public:
-  explicit SegmentMaker(std::size_t vertex_count) : number_of_(vertex_count, none) {}
+  explicit SegmentMaker(std::size_t vertex_count) : number_of_(vertex_count, no_index) {}
 
   std::int32_t number(Vertex high) {
-    if (number_of_[high] == none) {
+    if (number_of_[high] == no_index) {
       number_of_[high] = static_cast<std::int32_t>(segments_.size());
       segments_.push_back({high, {0, 0}, 0});
     }
@@ -61,18 +62,17 @@ class SegmentMaker {
 
   struct Segment {
     Vertex high;
-    std::array<std::int32_t, 2> counts;  // as an edge, otherwise
+    std::array<std::int32_t, 2> counts;  // of candidates where it is an edge, and where it is not
     std::uint32_t begin;
   };
   std::vector<Segment>& segments() { return segments_; }
 
   void clear() {
-    for (const Segment& segment : segments_) number_of_[segment.high] = none;
+    for (const Segment& segment : segments_) number_of_[segment.high] = no_index;
     segments_.clear();
   }
 
  private:
-  static constexpr std::int32_t none = -1;
   std::vector<std::int32_t> number_of_;  // by higher vertex
   std::vector<Segment> segments_;
 };
@@ -101,7 +101,7 @@ SegmentIndex::Filed SegmentIndex::file(const Candidates& candidates, std::size_t
 
 void SegmentIndex::make_segments(const Candidates& candidates, std::size_t vertex_count) {
   const Filed filed = file(candidates, vertex_count);
-  // visit(candidate, pair, higher vertex, whether they are an edge)
+  // Calls visit(candidate, pair, higher vertex, whether they are an edge).
   const auto for_each_pair_at = [&](std::int64_t v, auto&& visit) {
     for (std::int64_t at = filed.offsets[v]; at < filed.offsets[v + 1]; ++at) {
       const auto i = static_cast<std::size_t>(filed.candidates[at]);

@@ -1,6 +1,6 @@
 #pragma once
 // Which candidates share two vertices, and for which of them the two are an edge. Every pair of corners of a candidate
-// knows its place here, so that nothing is searched for afterwards.
+// knows its place here, so no search is needed afterwards.
 
 #include <array>
 #include <cstdint>
@@ -36,14 +36,14 @@ inline constexpr auto corner_pairs = make_corner_pairs<Topology>();
 
 class SegmentIndex {
  public:
-  // The candidates that have two vertices, ascending.
+  // The candidates that have both vertices, ascending.
   struct Segment {
     std::span<const std::int32_t> as_edge, not_as_edge;
   };
 
   SegmentIndex(const Candidates& candidates, std::size_t vertex_count);
 
-  // Of two corners of a candidate: `pair` counts those of its kind, in the order of corner_pairs.
+  // The segment of two corners of a candidate. `pair` is the place of these corners in corner_pairs of its kind.
   Segment segment_of(std::size_t candidate, std::size_t pair, Vertex lower_vertex) const {
     const std::int32_t* const at = entries_.data() + offsets_[lower_vertex] + places_[stride_ * candidate + pair];
     const auto edges = static_cast<std::size_t>(at[0]), others = static_cast<std::size_t>(at[1]);
@@ -59,10 +59,12 @@ class SegmentIndex {
   static Filed file(const Candidates& candidates, std::size_t vertex_count);
   void make_segments(const Candidates& candidates, std::size_t vertex_count);
 
-  std::size_t stride_;                 // pairs of the kind that has most
-  std::vector<std::uint32_t> places_;  // by candidate and pair: of the segment, from the lower vertex's first
+  std::size_t stride_;  // the number of pairs of the kind with the most
+  std::vector<std::uint32_t>
+      places_;  // by candidate and pair: the place of the segment, counted from the lower vertex's first
   std::vector<std::int64_t> offsets_;  // vertices + 1
-  std::vector<std::int32_t> entries_;  // a segment: how many have it as edge, how many not; these candidates; those
+  std::vector<std::int32_t> entries_;  // for each segment: how many candidates have it as an edge, how many do not,
+                                       // then the former, then the latter
 };
 
 }  // namespace hexpipe::conflicts

@@ -1,6 +1,6 @@
 #pragma once
-// Which candidates have something in common: a tet, a quad (pairs of vertices are in segment_index.hpp). Things are
-// filed in buckets and told apart within one by a key of 32 bits.
+// Which candidates have a tet or a quad in common. (segment_index.hpp does this for pairs of vertices.) Things are
+// filed in buckets; a key of 32 bits distinguishes them within a bucket.
 
 #include <algorithm>
 #include <cstdint>
@@ -8,18 +8,19 @@
 #include <span>
 #include <vector>
 
-#include "common/run/huge_pages.hpp"
+#include "common/run/memory.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe::conflicts {
 
 class SharingIndex {
  public:
-  // A key above, a candidate below.
+  // The key in the high bits, the candidate in the low bits.
   using Entry = std::uint64_t;
   static std::int32_t candidate_of(Entry entry) { return static_cast<std::int32_t>(entry); }
 
-  // things_of(candidate, visit) calls visit(bucket, key) for each thing of a candidate, the same ones each time.
+  // things_of(candidate, visit) calls visit(bucket, key) for each thing of a candidate; each call gives the same
+  // things.
   template <class ThingsOf>
   SharingIndex(std::size_t bucket_count, std::size_t candidate_count, ThingsOf&& things_of)
       : offsets_(bucket_count + 1, 0) {

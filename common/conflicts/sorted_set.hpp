@@ -1,6 +1,7 @@
 #pragma once
-// A set of small integers that is filled, listed in order and emptied again and again. Insertion is two bit operations
-// and listing touches only what was inserted, so that thousands of insertions, most of them repeated, need no sorting.
+// A set of small integers that is filled, listed in order and emptied again and again. Insertion takes two bit
+// operations, and listing touches only inserted items. So thousands of insertions, most of them repeated, need no
+// sorting.
 
 #include <algorithm>
 #include <bit>
@@ -11,7 +12,7 @@ namespace hexpipe::conflicts {
 
 class SortedSet {
  public:
-  // Of integers below `bound`.
+  // For integers below `bound`.
   explicit SortedSet(std::size_t bound) : words_(bound / 64 + 1), groups_(bound / 4096 + 1), lowest_(groups_.size()) {}
 
   void insert(std::int32_t item) {
@@ -26,7 +27,7 @@ class SortedSet {
     words_[i >> 6] &= ~(std::uint64_t{1} << (i & 63));
   }
 
-  // Calls visit(item) in ascending order, and empties the set.
+  // Calls visit(item) in ascending order and empties the set.
   template <class Visit>
   void drain(Visit&& visit) {
     for (std::size_t group = lowest_; group <= highest_ && group < groups_.size(); ++group) {
@@ -44,8 +45,8 @@ class SortedSet {
 
  private:
   std::vector<std::uint64_t> words_;
-  std::vector<std::uint64_t> groups_;  // a bit for each word that may hold something
-  std::size_t lowest_, highest_ = 0;   // groups
+  std::vector<std::uint64_t> groups_;  // a bit for each word that may hold items
+  std::size_t lowest_, highest_ = 0;   // of the groups in use
 };
 
 }  // namespace hexpipe::conflicts

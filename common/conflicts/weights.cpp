@@ -1,4 +1,4 @@
-#include "common/conflicts/weights.hpp"
+#include "common/conflicts/find_conflicts.hpp"
 
 #include <cmath>
 

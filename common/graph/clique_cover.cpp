@@ -13,7 +13,7 @@ class CoverBuilder {
   explicit CoverBuilder(const ConflictGraph& graph)
       : graph_(graph), covered_(graph.neighbours.size(), false), mark_(graph.weights.size(), 0) {}
 
-  // Those that are no cliques are left out.
+  // Grows each of the given cliques. Those that are no cliques of the graph are left out.
   void grow(const CliqueCover& cliques) {
     for (std::int64_t c = 0; c < cliques.size(); ++c) {
       clique_.assign(cliques.clique(c).begin(), cliques.clique(c).end());
@@ -40,8 +40,8 @@ class CoverBuilder {
   CliqueCover take() { return std::move(cover_); }
 
  private:
-  // Calls visit(whether it is an edge, its place among the neighbours) for all pairs of the clique, which ascends, both
-  // ways. Both lists ascend, so that members are found in one walk over the neighbours of each.
+  // Calls visit(whether it is an edge, its place among the neighbours) for all pairs of the ascending clique, in both
+  // directions. Both lists ascend, so one walk over the neighbours of each member finds the others.
   template <class Visit>
   void for_each_pair(Visit&& visit) const {
     for (const std::int32_t v : clique_) {
@@ -55,7 +55,7 @@ class CoverBuilder {
     }
   }
 
-  // Adds the clique, grown until it is maximal. What it grows by are common neighbours of its members, those first
+  // Grows the clique until it is maximal, and adds it. It grows by common neighbours of its members. First come those
   // whose edge to the member of least degree is not covered yet.
   void add_grown() {
     std::iter_swap(clique_.begin(),
@@ -79,7 +79,7 @@ class CoverBuilder {
   }
 
   void keep_neighbours_of(std::int32_t v) {
-    // Looking up a few takes less than marking all neighbours.
+    // Searching for a few takes less time than marking all neighbours.
     constexpr std::int64_t steps_a_search = 10;
     if (steps_a_search * static_cast<std::int64_t>(candidates_.size()) < graph_.degree(v)) {
       const auto neighbours = graph_.neighbours_of(v);
@@ -99,7 +99,7 @@ class CoverBuilder {
   std::vector<std::int32_t> clique_, candidates_;
 };
 
-// Maximal cliques, grown from each vertex by the largest fractions first.
+// Finds maximal cliques; each is grown from a vertex by adding the largest fractions first.
 class ViolatedCliques {
  public:
   ViolatedCliques(const ConflictGraph& graph, const std::vector<double>& fractions, CliqueCover& cover)
@@ -117,7 +117,8 @@ class ViolatedCliques {
   }
 
  private:
-  // Smaller fractions start no clique, so that the cliques found differ; nor do vertices that are in so many already.
+  // Vertices with smaller fractions start no clique, so that the cliques found differ. Vertices that are already in
+  // many cliques start none either.
   static constexpr double worth_it = 0.05;
   static constexpr int often = 2;
   static constexpr double most = 1.02;
@@ -200,8 +201,8 @@ CliqueCover maximal_cliques(const ConflictGraph& graph, const CliqueCover& cliqu
 void validate(const CliqueCover& cover, const ConflictGraph& graph, const char* source) {
   check_cliques(cover, graph.vertex_count(), source);
   const auto [offsets, cliques] = cliques_of_vertices(cover, graph.weights.size());
-  // The vertex that each one was last seen beside, as a neighbour and in a clique.
-  std::vector<std::int32_t> beside(graph.weights.size(), -1), together(graph.weights.size(), -1);
+  // For each vertex, the vertex at which it was last seen: as a neighbour (`beside`) and in a clique (`together`).
+  std::vector<std::int32_t> beside(graph.weights.size(), no_index), together(graph.weights.size(), no_index);
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
     for (const std::int32_t u : graph.neighbours_of(v)) beside[u] = v;
     std::int64_t found = 0;

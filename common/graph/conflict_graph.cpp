@@ -59,8 +59,8 @@ bool ConflictGraph::has_edge(std::int32_t a, std::int32_t b) const {
 
 std::optional<OneSidedEdge> find_one_sided_edge(const ConflictGraph& graph) {
   const std::int32_t n = graph.vertex_count();
-  // Vertices are visited in ascending order, so every vertex sees its lower neighbours confirm the edge in the order of
-  // its list: `confirmed` is where the next one is expected.
+  // Vertices are visited in ascending order, so every vertex sees its lower neighbours confirm their edges in the order
+  // of its list. `confirmed` is the place of the next expected one.
   std::vector<std::int64_t> confirmed(graph.offsets.begin(), graph.offsets.end() - 1);
   for (std::int32_t v = 0; v < n; ++v) {
     const std::int64_t end = graph.offsets[v + 1];
@@ -69,7 +69,7 @@ std::optional<OneSidedEdge> find_one_sided_edge(const ConflictGraph& graph) {
     for (std::int64_t i = confirmed[v]; i < end; ++i) {
       const std::int32_t u = graph.neighbours[i];
       if (confirmed[u] == graph.offsets[u + 1] || graph.neighbours[confirmed[u]] != v) {
-        // u expects a lower vertex that did not name it, or does not name v.
+        // u expects a lower vertex that did not name it, or does not name v itself.
         const bool skipped = confirmed[u] < graph.offsets[u + 1] && graph.neighbours[confirmed[u]] < v;
         return skipped ? OneSidedEdge{u, graph.neighbours[confirmed[u]]} : OneSidedEdge{v, u};
       }

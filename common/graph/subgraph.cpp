@@ -1,20 +1,20 @@
-#include "common/graph/subgraph.hpp"
+#include "common/graph/conflict_graph.hpp"
 
 #include <algorithm>
 
 namespace hexpipe::graph {
 
 ConflictGraph induced_subgraph(const ConflictGraph& graph, std::span<const std::int32_t> vertices) {
-  std::vector<std::int32_t> numbers(graph.weights.size(), -1);
+  std::vector<std::int32_t> numbers(graph.weights.size(), no_index);
   for (std::size_t i = 0; i < vertices.size(); ++i) numbers[vertices[i]] = static_cast<std::int32_t>(i);
-  ConflictGraph part;
+  ConflictGraph result;
   for (const std::int32_t v : vertices) {
-    part.weights.push_back(graph.weights[v]);
+    result.weights.push_back(graph.weights[v]);
     for (const std::int32_t u : graph.neighbours_of(v))
-      if (numbers[u] >= 0) part.neighbours.push_back(numbers[u]);
-    part.offsets.push_back(static_cast<std::int64_t>(part.neighbours.size()));
+      if (numbers[u] != no_index) result.neighbours.push_back(numbers[u]);
+    result.offsets.push_back(static_cast<std::int64_t>(result.neighbours.size()));
   }
-  return part;
+  return result;
 }
 
 std::vector<std::vector<std::int32_t>> connected_components(const ConflictGraph& graph) {

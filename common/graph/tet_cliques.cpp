@@ -1,13 +1,16 @@
-#include "common/graph/tet_cliques.hpp"
+#include "common/graph/clique_cover.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <vector>
 
+#include "common/mesh/candidates.hpp"
+
 namespace hexpipe::graph {
 namespace {
 
-// Tets by their places among those that candidates have: the numbers may be any, the memory is that of the places.
+// Renumbers tets by their places among those that candidates have: any numbers are allowed, and memory depends on the
+// places only.
 std::vector<std::int32_t> dense_tets(const Candidates& candidates) {
   std::vector<std::int32_t> distinct = candidates.tets;
   std::ranges::sort(distinct);

@@ -7,19 +7,20 @@
 
 #include "common/mesh/cell_topology.hpp"
 #include "common/run/error.hpp"
-#include "common/run/huge_pages.hpp"
+#include "common/run/memory.hpp"
 #include "common/run/parallel.hpp"
 
 namespace hexpipe {
 namespace {
 
-// A facet filed under its lowest vertex: the two others, the middle one above the highest, and 4 * tet + facet.
+// A facet, filed under its lowest vertex. `others` holds its middle vertex in the high bits and its highest in the low
+// bits; `code` is 4 * tet + facet.
 struct FiledFacet {
   std::uint64_t others;
   std::int64_t code;
 };
 
-// The corners of a tet by ascending vertex.
+// The corners of a tet, sorted by vertex.
 std::array<int, 4> ascending_corners(const Tet& tet) {
   std::array<std::int64_t, 4> keys;
   for (int corner = 0; corner < 4; ++corner) keys[corner] = std::int64_t{tet[corner]} * 4 + corner;
@@ -37,7 +38,7 @@ std::array<int, 4> ascending_corners(const Tet& tet) {
           static_cast<int>(keys[3] & 3)};
 }
 
-// visit(lowest, middle, highest, facet), of the facets of a tet: all but the one opposite the lowest vertex have that.
+// Calls visit(lowest, middle, highest, facet) for the three facets of a tet that contain its lowest vertex.
 template <class Visit>
 void for_each_sorted_facet(const Tet& tet, Visit&& visit) {
   const auto c = ascending_corners(tet);
@@ -47,7 +48,7 @@ void for_each_sorted_facet(const Tet& tet, Visit&& visit) {
   visit(tet[c[1]], tet[c[2]], tet[c[3]], c[0]);
 }
 
-// Counts become offsets: entry v holds the sum of the counts before v, the last entry the total.
+// Turns counts into offsets: entry v becomes the sum of the counts before v, the last entry the total.
 std::vector<std::int64_t> offsets_from_counts(std::vector<std::int64_t> counts) {
   counts.push_back(0);
   std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), std::int64_t{0});
@@ -78,7 +79,7 @@ std::vector<std::int32_t> match_facets(const TetMesh& mesh, const char* source, 
         tets[1] + 1, tets[2] + 1, lowest + 1, (others >> 32) + 1, (others & 0xffffffff) + 1);
   };
   std::vector<std::int32_t> across;
-  resize_in_huge_pages(across, 4 * mesh.tets.size(), TetAdjacency::none);
+  resize_in_huge_pages(across, 4 * mesh.tets.size(), no_index);
   parallel_for(static_cast<std::int64_t>(mesh.points.size()), 1024, [&](std::int64_t v) {
     const auto begin = filed.begin() + offsets[v], end = filed.begin() + offsets[v + 1];
     std::sort(begin, end, [](const FiledFacet& a, const FiledFacet& b) {
@@ -122,9 +123,11 @@ void TetAdjacency::file_tets(const TetMesh& mesh) {
 void TetAdjacency::find_neighbours(const TetMesh& mesh) {
   const std::size_t vertex_count = mesh.points.size();
   neighbour_offsets_.assign(vertex_count + 1, 0);
-  // As many edges as vertices and tets, by Euler's formula, each at both ends; what the boundary adds is little.
+  // By Euler's formula there are about as many edges as vertices and tets together, and each is listed at both ends.
+  // The boundary adds little.
   reserve_in_huge_pages(neighbours_, 2 * (vertex_count + mesh.tets.size()));
-  PerThread<std::vector<Vertex>> seen_from(std::vector<Vertex>(vertex_count, none));  // by vertex, the last one
+  PerThread<std::vector<Vertex>> seen_from(
+      std::vector<Vertex>(vertex_count, no_index));  // by vertex: the last vertex that saw it
   parallel_in_order(
       static_cast<std::int64_t>(vertex_count), 1024,
       [&](std::int64_t begin, std::int64_t end) {
@@ -168,7 +171,7 @@ std::size_t add_missing_boundary_triangles(TetMesh& mesh, const TetAdjacency& ad
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
     for (int facet = 0; facet < 4; ++facet) {
       const std::int32_t beyond = adjacency.tet_beyond(static_cast<std::int32_t>(t), facet);
-      const bool boundary = beyond == TetAdjacency::none;
+      const bool boundary = beyond == no_index;
       const bool interface =
           !boundary && static_cast<std::size_t>(beyond) > t && mesh.tet_tags[beyond] != mesh.tet_tags[t];
       if (!boundary && !interface) continue;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/run/error.hpp"
-#include "common/run/huge_pages.hpp"
+#include "common/run/memory.hpp"
 
 namespace hexpipe {
 namespace {
@@ -20,7 +20,7 @@ void check_kind_and_corners(const Candidates& candidates, std::size_t i, const c
   const auto corners = candidates.corners_of(i);
   for (std::size_t c = 0; c < 8; ++c) {
     const Vertex v = candidates.vertices[i][c];
-    if (c >= corners.size() && v != -1)
+    if (c >= corners.size() && v != no_index)
       throw DataError::at(source, "expected -1 after the {} vertices of candidate {}, found {}", corners.size(), i + 1,
                           v);
     if (c < corners.size() && v < 0)
@@ -56,20 +56,20 @@ void check_tets(std::size_t count, const std::vector<std::int64_t>& offsets, con
 
 void check_against_mesh(const std::vector<std::int64_t>& offsets, const std::vector<std::int32_t>& tets,
                         const TetMesh& mesh, std::size_t i, const char* source) {
-  // Ascending: the last is the largest.
+  // The tets ascend, so the last one is the largest.
   if (offsets[i] == offsets[i + 1]) return;
   const std::int32_t last = tets[offsets[i + 1] - 1];
   if (static_cast<std::size_t>(last) >= mesh.tets.size())
     throw DataError::at(source, "expected tets below {} in candidate {}, found {}", mesh.tets.size(), i + 1, last);
 }
 
-// Room for the whole, by what is there of it, and a little more.
+// Reserves room for the final size, estimated from what is there so far, and a little more.
 template <class T>
 void make_room(std::vector<T>& items, std::size_t added, double share_of_all) {
   const std::size_t wanted = items.size() + added;
   if (wanted <= items.capacity()) return;
   constexpr double margin = 1.05;
-  // No estimate makes more than an eightfold growth.
+  // An estimate enlarges the memory at most eightfold.
   const double whole = std::min(share_of_all < 1 ? margin / share_of_all : 1.0, 8.0) * static_cast<double>(wanted);
   reserve_in_huge_pages(items, std::max(wanted, static_cast<std::size_t>(whole)));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The cells that could be built by merging tets: what findhex finds, buildgraph compares and assemble builds.
+// The cells that could be built by merging tets: findhex finds them, buildgraph compares them, assemble builds some.
 
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace hexpipe {
 struct Candidates {
   std::vector<std::array<Vertex, 8>> vertices;  // in the numbering of cell_topology.hpp, padded with -1
   std::vector<CellKind> kind;
-  std::vector<double> quality;  // least scaled Jacobian, of the corners or over the element
+  std::vector<double> quality;  // the least scaled Jacobian, over the corners or over the whole element
   std::vector<double> volume;
   std::vector<std::int64_t> tet_offsets{0};  // k+1: interior tets of candidate i are tets[offsets[i]..offsets[i+1])
   std::vector<std::int32_t> tets;            // ascending within a candidate
@@ -35,11 +35,11 @@ struct Candidates {
   bool operator==(const Candidates&) const = default;
 };
 
-// Puts candidates behind others. Where `to` will go on growing, `share_of_all` tells how much of the whole will then be
-// there: memory for the rest is set aside, so that it need not move again and again.
+// Appends candidates. If `to` will go on growing, `share_of_all` says how much of the final list will then be there;
+// the memory for the rest is reserved at once, so that the list need not move again and again.
 void append(Candidates& to, const Candidates& from, double share_of_all = 1);
 
-// Appends candidate i of `from` with its vertices and tets renumbered; tets whose number becomes negative are left out.
+// Appends candidate i of `from` with its vertices and tets renumbered. Tets whose new number is negative are left out.
 template <class Point, class InteriorTet, class BoundaryTet>
 void append_candidate(Candidates& to, const Candidates& from, std::size_t i, Point&& point, InteriorTet&& interior_tet,
                       BoundaryTet&& boundary_tet) {
@@ -57,7 +57,7 @@ void append_candidate(Candidates& to, const Candidates& from, std::size_t i, Poi
   to.boundary_tet_offsets.push_back(static_cast<std::int64_t>(to.boundary_tets.size()));
 }
 
-// Those of `kept`, in its order.
+// The candidates named by `kept`, in its order.
 Candidates select(const Candidates& candidates, std::span<const std::int32_t> kept);
 
 // Throws DataError naming `source` when arrays disagree in length, a kind is unknown, the padding is wrong, offsets do

@@ -1,6 +1,6 @@
 #pragma once
-// The formulas of a cell's quality and volume, for one cell (Vec3) or for several side by side (LaneVector): the same
-// bits either way. What they measure stands in quality.hpp.
+// The formulas of a cell's quality and volume, for one cell (Vec3) or for several side by side (LaneVector). Both give
+// the same bits. quality.hpp says what they measure.
 
 #include <array>
 #include <limits>
@@ -11,7 +11,8 @@
 
 namespace hexpipe {
 
-// The corner is chosen by squares, with the sign of the determinant, so that roots are taken at one corner only.
+// The worst corner is found by comparing squares that keep the determinant's sign, so that roots are taken at one
+// corner only.
 template <class Topology, class Points>
 auto least_corner_scaled_jacobian_of(const Points& p) {
   using Number = decltype(norm_squared(p[0]));
@@ -34,7 +35,7 @@ auto least_corner_scaled_jacobian_of(const Points& p) {
 }
 
 // The sum of the tets from corner 0 to the facets. A bilinear quad encloses the mean of its two triangulations, abc +
-// acd and abd + bcd; their four determinants are det(a, b, c + d) + det(c, d, a + b).
+// acd and abd + bcd. Their four determinants add up to det(a, b, c + d) + det(c, d, a + b).
 template <class Topology, class Points>
 auto cell_volume_of(const Points& p) {
   using Number = decltype(norm_squared(p[0]));
@@ -48,7 +49,7 @@ auto cell_volume_of(const Points& p) {
   return triangles / 6 + quads / 12;
 }
 
-// As for one corner, in quality.hpp.
+// Compares as the function for one corner in quality.hpp does.
 inline LaneMask scaled_jacobian_exceeds(const Lanes& determinant, const Lanes& squared_lengths, double threshold) {
   return determinant * absolute(determinant) > threshold * threshold * squared_lengths;
 }
@@ -58,7 +59,7 @@ struct alignas(lane_bytes) CellMeasures {
   Lanes volume;
 };
 
-// Of cells side by side: hexes, prisms or pyramids.
+// Measures cells side by side: hexes, prisms or pyramids.
 void measure_cells(const std::array<LaneVector, 8>& corners, CellMeasures& measures);
 void measure_cells(const std::array<LaneVector, 6>& corners, CellMeasures& measures);
 void measure_cells(const std::array<LaneVector, 5>& corners, CellMeasures& measures);

@@ -23,20 +23,20 @@
 
 namespace hexpipe {
 
-// The values are VTK's cell codes, which is what candidates/kind.npy holds. VTK says "wedge" where we say prism.
+// The values are VTK's cell codes, as candidates/kind.npy holds them. VTK calls a prism "wedge".
 enum class CellKind : std::uint8_t { tet = 10, hex = 12, prism = 13, pyramid = 14 };
 
 using LocalEdge = std::array<std::uint8_t, 2>;
 using LocalTriangle = std::array<std::uint8_t, 3>;
 using LocalQuad = std::array<std::uint8_t, 4>;
-// A corner with the three others that its edges lead to, in the order in which a valid cell has a positive determinant.
+// A corner and the three corners that its edges lead to, in the order that gives a valid cell a positive determinant.
 using LocalCorner = std::array<std::uint8_t, 4>;
 
 struct TetTopology {
   static constexpr CellKind kind = CellKind::tet;
   static constexpr int corner_count = 4;
   static constexpr std::array<LocalEdge, 6> edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-  // Facet i lies opposite corner i.
+  // Facet i is opposite corner i.
   static constexpr std::array<LocalTriangle, 4> triangles{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
   static constexpr std::array<LocalQuad, 0> quads{};
   static constexpr std::array<LocalCorner, 4> corners{{{0, 1, 2, 3}, {1, 2, 0, 3}, {2, 0, 1, 3}, {3, 0, 2, 1}}};
@@ -65,7 +65,7 @@ struct PrismTopology {
       {{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5}, {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}}};
 };
 
-// The apex has four edges, so it is no corner in the sense of LocalCorner: only the base corners are listed.
+// Four edges meet at the apex, so it is no LocalCorner: only the corners of the base are listed.
 struct PyramidTopology {
   static constexpr CellKind kind = CellKind::pyramid;
   static constexpr int corner_count = 5;
@@ -75,7 +75,7 @@ struct PyramidTopology {
   static constexpr std::array<LocalCorner, 4> corners{{{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}}};
 };
 
-// Calls visit(Topology{}) for the topology of a kind, so that code is written once for all kinds.
+// Calls visit(Topology{}) with the topology of a kind, so that code for all kinds is written once.
 template <class Visitor>
 constexpr decltype(auto) with_topology(CellKind kind, Visitor&& visit) {
   switch (kind) {
@@ -111,7 +111,7 @@ constexpr const char* name_of(CellKind kind) {
 
 namespace topology_checks {
 
-// Every edge of a closed cell is walked once in each direction by its facets, and is in the edge list.
+// The facets of a closed cell walk along every edge once in each direction, and every edge is in the edge list.
 template <class Topology>
 constexpr bool facets_close() {
   auto directed = [](int from, int to) {

@@ -1,5 +1,5 @@
 #pragma once
-// The checks that tet meshes and mixed meshes share. Items are named as in the arrays of a bundle, counted from 0.
+// The checks that tet meshes and mixed meshes share. Messages name items as the arrays of a bundle do, counted from 0.
 
 #include <array>
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace hexpipe {
 
-// Throws DataError naming `source` when a coordinate is too large or NaN, or there are more points than a Vertex can
-// number.
+// Throws DataError naming `source` when a coordinate is too large or NaN, or when there are more points than a Vertex
+// can number.
 inline void check_points(std::span<const Vec3> points, const char* source) {
   if (points.size() > static_cast<std::size_t>(std::numeric_limits<Vertex>::max()))
     throw DataError::at(source, "expected fewer than 2^31 points, found {}", points.size());
@@ -24,7 +24,7 @@ inline void check_points(std::span<const Vec3> points, const char* source) {
                           points[i].x, points[i].y, points[i].z);
 }
 
-// Throws DataError naming `source` when a cell names a vertex that is not there or one twice.
+// Throws DataError naming `source` when a cell names a missing vertex, or one vertex twice.
 template <std::size_t Corners>
 void check_corners(const std::vector<std::array<Vertex, Corners>>& cells, std::size_t point_count, const char* name,
                    const char* source) {
@@ -39,7 +39,7 @@ void check_corners(const std::vector<std::array<Vertex, Corners>>& cells, std::s
     }
 }
 
-// Likewise, and when tags are too few or too many.
+// The same check; it also throws when there are not as many tags as cells.
 template <std::size_t Corners>
 void check_cells(const std::vector<std::array<Vertex, Corners>>& cells, const std::vector<std::int32_t>& tags,
                  std::size_t point_count, const char* name, const char* source) {

@@ -6,8 +6,8 @@ namespace hexpipe {
 namespace {
 
 struct Face {
-  Vec3 area;    // outward, as long as the face is large
-  Vec3 centre;  // mean of the triangles between the edges and the mean of the corners, by area
+  Vec3 area;    // outward normal, as long as the face is large
+  Vec3 centre;  // area-weighted mean of the triangles between the edges and the mean of the corners
 };
 
 template <class Corners>

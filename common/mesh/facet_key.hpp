@@ -30,7 +30,7 @@ struct VertexKeyHash {
   std::size_t operator()(const VertexKey<N>& key) const {
     std::uint64_t h = 0;
     for (Vertex v : key) {
-      // Multiply and fold, as in splitmix64: consecutive vertex numbers must not share low bits.
+      // Multiply and fold, as in splitmix64, because consecutive vertex numbers must not share their low bits.
       h = (h ^ static_cast<std::uint32_t>(v)) * 0x9e3779b97f4a7c15u;
       h ^= h >> 32;
     }
@@ -50,14 +50,14 @@ inline KeySet<2> ridges_of(const TetMesh& mesh) {
   return keys;
 }
 
-// The two triangles into which a diagonal cuts a quad, with the quad's orientation. `diagonal` 0 joins corners 0 and 2,
-// 1 joins corners 1 and 3.
+// The two triangles into which a diagonal cuts a quad; they keep its orientation. Diagonal 0 joins corners 0 and 2,
+// diagonal 1 joins corners 1 and 3.
 inline std::array<Triangle, 2> triangles_of(const Quad& q, int diagonal) {
   if (diagonal == 0) return {{{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}};
   return {{{q[1], q[2], q[3]}, {q[1], q[3], q[0]}}};
 }
 
-// True when both quads, which have the same four vertices, have the same diagonals.
+// Whether two quads with the same four vertices have the same diagonals.
 inline bool same_diagonals(const Quad& a, const Quad& b) {
   return edge_key(a[0], a[2]) == edge_key(b[0], b[2]) || edge_key(a[0], a[2]) == edge_key(b[1], b[3]);
 }

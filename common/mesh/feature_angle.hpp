@@ -1,12 +1,12 @@
 #pragma once
-// Where a surface has an edge that is kept.
+// Which edges of a surface are kept.
 
 #include <cmath>
 #include <numbers>
 
 namespace hexpipe {
 
-// An edge of the surface is a feature where the normals of its triangles differ by more, in degrees.
+// An edge of the surface is a feature if the normals of its two triangles differ by more than this angle, in degrees.
 inline constexpr double default_feature_angle = 40;
 
 inline double cosine_of_degrees(double angle) {

@@ -1,6 +1,6 @@
 #pragma once
-// The Jacobian determinants of hexes and prisms as polynomials in Bezier form, for any vectors that have -, + and det:
-// doubles for quality, integers for the exact test of validity.
+// The Jacobian determinants of hexes and prisms as polynomials in Bezier form. They work for any vectors that have -, +
+// and det: doubles for quality, integers for the exact test of validity.
 //
 // A. Johnen, J.-C. Weill, J.-F. Remacle: Robust and efficient validation of the linear hexahedral element (IMR 2017),
 // section 3: the Jacobian of a trilinear hex is triquadratic and follows from 20 determinants.
@@ -12,7 +12,7 @@ namespace hexpipe {
 // The corner of a hex at parameters (i, j, k): i along 01, j along 03, k along 04.
 inline constexpr int hex_corner_at[2][2][2] = {{{0, 4}, {3, 7}}, {{1, 5}, {2, 6}}};
 
-// The twelve edge vectors of a hex by direction; the two indices are the other parameters in the order i, j, k.
+// The twelve edge vectors of a hex, by direction. The two indices are the other two parameters, in the order i, j, k.
 template <class Vector>
 struct HexTangents {
   Vector along_i[2][2], along_j[2][2], along_k[2][2];
@@ -47,7 +47,8 @@ class HexJacobian {
   // At corner (i, j, k).
   const Number& at_corner(int i, int j, int k) const { return corner_[i][j][k]; }
 
-  // True when test(value) holds for the 8 corners and for 4 times the Jacobian at the 12 midpoints of edges.
+  // True if test(value) holds for the Jacobian at the 8 corners and for 4 times the Jacobian at the 12 midpoints of
+  // edges.
   template <class Test>
   bool all_determinants(Test&& test) const {
     for (int a = 0; a < 2; ++a)
@@ -58,7 +59,7 @@ class HexJacobian {
     return true;
   }
 
-  // 8 times the 27 Bezier coefficients (8 keeps integers whole), with index 9 i + 3 j + k.
+  // 8 times the 27 Bezier coefficients (the factor 8 keeps integers whole); their index is 9 i + 3 j + k.
   std::array<Number, 27> bezier() const {
     std::array<Number, 27> b;
     Number corners_of_face[3][2]{}, edges_of_face[3][2]{}, all_corners{}, all_edges{};
@@ -102,8 +103,8 @@ class HexJacobian {
   Number edge_[3][2][2];  // [direction][the two other parameters, in order], times 4
 };
 
-// The Jacobian of a prism is linear over the triangle and quadratic along the three edges 03, 14, 25: 2 times the
-// Bezier coefficients, [edge][from bottom to top].
+// The Jacobian of a prism is linear over the triangle and quadratic along the three edges 03, 14, 25. Returns 2 times
+// the Bezier coefficients, [edge][from bottom to top].
 template <class Vector, class Points>
 auto prism_bezier(const Points& p) {
   const Vector a0 = p[1] - p[0], b0 = p[2] - p[0], a1 = p[4] - p[3], b1 = p[5] - p[3];
@@ -116,9 +117,9 @@ auto prism_bezier(const Points& p) {
   return b;
 }
 
-// Cells cut into cells of the same kind by halving their parameters: a part of a cell is again one, exactly.
-// Coordinates are multiplied by 8 (hex) or 4 (prism, pyramid), so that integers stay whole; signs and scaled Jacobians
-// do not mind.
+// Cut cells into subcells of the same kind by halving their parameters; a subcell is again exactly such a cell.
+// Coordinates are multiplied by 8 (hex) or 4 (prism, pyramid) to keep integers whole; signs and scaled Jacobians stay
+// the same.
 
 template <class Vector>
 std::array<std::array<Vector, 8>, 8> split(const std::array<Vector, 8>& p) {
@@ -136,13 +137,13 @@ std::array<std::array<Vector, 8>, 8> split(const std::array<Vector, 8>& p) {
     for (int k = 0; k < 3; k += 2) halve(grid[i][0][k], grid[i][1][k], grid[i][2][k]);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) halve(grid[i][j][0], grid[i][j][1], grid[i][j][2]);
-  std::array<std::array<Vector, 8>, 8> parts;
-  for (int part = 0; part < 8; ++part)
+  std::array<std::array<Vector, 8>, 8> subcells;
+  for (int subcell = 0; subcell < 8; ++subcell)
     for (int c = 0; c < 8; ++c) {
       const int a = c & 1, b = c >> 1 & 1, d = c >> 2;
-      parts[part][hex_corner_at[a][b][d]] = grid[(part & 1) + a][(part >> 1 & 1) + b][(part >> 2) + d];
+      subcells[subcell][hex_corner_at[a][b][d]] = grid[(subcell & 1) + a][(subcell >> 1 & 1) + b][(subcell >> 2) + d];
     }
-  return parts;
+  return subcells;
 }
 
 template <class Vector>
@@ -154,27 +155,27 @@ std::array<std::array<Vector, 6>, 8> split(const std::array<Vector, 6>& p) {
     const Vector bottom = p[node[n][0]] + p[node[n][1]], top = p[3 + node[n][0]] + p[3 + node[n][1]];
     return (2 - level) * bottom + level * top;
   };
-  std::array<std::array<Vector, 6>, 8> parts;
-  for (int part = 0; part < 8; ++part)
-    for (int c = 0; c < 6; ++c) parts[part][c] = point(triangle[part % 4][c % 3], part / 4 + c / 3);
-  return parts;
+  std::array<std::array<Vector, 6>, 8> subcells;
+  for (int subcell = 0; subcell < 8; ++subcell)
+    for (int c = 0; c < 6; ++c) subcells[subcell][c] = point(triangle[subcell % 4][c % 3], subcell / 4 + c / 3);
+  return subcells;
 }
 
 template <class Vector>
 std::array<std::array<Vector, 5>, 4> split(const std::array<Vector, 5>& p) {
   constexpr int at[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};  // the parameters of the base's corners
   constexpr int weight[3][2] = {{2, 0}, {1, 1}, {0, 2}};
-  std::array<std::array<Vector, 5>, 4> parts;
-  for (int part = 0; part < 4; ++part) {
+  std::array<std::array<Vector, 5>, 4> subcells;
+  for (int subcell = 0; subcell < 4; ++subcell) {
     for (int c = 0; c < 4; ++c) {
-      const int i = at[part][0] + at[c][0], j = at[part][1] + at[c][1];
+      const int i = at[subcell][0] + at[c][0], j = at[subcell][1] + at[c][1];
       Vector sum{};
       for (int q = 0; q < 4; ++q) sum = sum + weight[i][at[q][0]] * weight[j][at[q][1]] * p[q];
-      parts[part][c] = sum;
+      subcells[subcell][c] = sum;
     }
-    parts[part][4] = 4 * p[4];
+    subcells[subcell][4] = 4 * p[4];
   }
-  return parts;
+  return subcells;
 }
 
 }  // namespace hexpipe

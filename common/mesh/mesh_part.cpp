@@ -11,7 +11,7 @@
 namespace hexpipe {
 namespace {
 
-// Multiplication and shifts mix each word into all bits: enough against mistakes, not against intent.
+// Multiplication and shifts mix each word into all bits. This detects mistakes, not attacks.
 class Checksum {
  public:
   void add(std::uint64_t word) {
@@ -102,7 +102,7 @@ void validate_against(const MeshPart& part, const Candidates& candidates, const 
 }
 
 std::vector<std::int32_t> places_in(const std::vector<std::int64_t>& to, const std::vector<std::int64_t>& from) {
-  std::vector<std::int32_t> places(from.size(), -1);
+  std::vector<std::int32_t> places(from.size(), no_index);
   std::size_t at = 0;
   for (std::size_t i = 0; i < from.size(); ++i) {
     while (at < to.size() && to[at] < from[i]) ++at;

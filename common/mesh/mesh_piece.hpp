@@ -1,6 +1,6 @@
 #pragma once
-// A piece of a result: what assemble made of one part of a mesh, and how it fits to the other pieces.
-// docs/definitions.md 5 has the rules; formats/README.md the members of a bundle.
+// A piece of a result: the mesh that assemble made of one part, and how it fits to the other pieces.
+// docs/definitions.md 5 has the rules; formats/README.md describes the members of a bundle.
 
 #include <cstdint>
 #include <string>
@@ -14,20 +14,20 @@ namespace hexpipe {
 struct MeshPiece {
   std::int32_t part = 0, parts = 1;  // counted from 0
   MeshFingerprint whole;
-  // Whether another round, with what all pieces say here, would find nothing new to say.
+  // Whether another round, given what all pieces report here, would find nothing new to report.
   bool settled = false;
-  // Of each point of the result: its number in the whole mesh, or one from there on that no other point has.
+  // For each point of the result: its number in the whole mesh, or a larger number that no other point has.
   std::vector<std::int64_t> point_number;
-  // Tets that are at home in this part, but belong to the piece of another, by number in the whole, ascending.
+  // Tets that this part owns but that belong to another part's piece: their numbers in the whole mesh, ascending.
   std::vector<std::int64_t> moved_tets;
   std::vector<std::int32_t> moved_to;
-  // Keys of chosen candidates, of this part or another, that went back to their tets, ascending.
+  // Keys of chosen candidates, of this part or another, that were replaced by their tets; ascending.
   std::vector<std::uint64_t> given_back;
 };
 
-// Throws DataError naming `source` when arrays disagree in length, do not ascend or exceed the whole.
+// Throws DataError naming `source` when arrays disagree in length, do not ascend or are not in the whole mesh.
 void validate(const MeshPiece& piece, const char* source);
-// Throws DataError naming `source` when there is not one number for each point.
+// Throws DataError naming `source` when there is not one number per point.
 void validate_against(const MeshPiece& piece, const MixedMesh& mesh, const char* source);
 
 }  // namespace hexpipe

@@ -1,6 +1,6 @@
 #pragma once
-// A mesh of hexes, prisms, pyramids and tets with tagged boundary facets: the result of assemble, and the common
-// currency of the mesh formats.
+// A mesh of hexes, prisms, pyramids and tets with tagged boundary facets. assemble makes it, and all mesh formats read
+// or write it.
 
 #include <array>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace hexpipe {
 
-// Cells or facets of one kind. `tags` has one entry each; `quality` has one each or is empty.
+// Cells or facets of one kind. `tags` has one entry per cell; `quality` has one per cell or is empty.
 template <int Corners>
 struct CellBlock {
   std::vector<std::array<Vertex, Corners>> cells;
@@ -29,19 +29,19 @@ struct MixedMesh {
   CellBlock<6> prisms;
   CellBlock<5> pyramids;
   CellBlock<4> tets;
-  CellBlock<3> triangles;  // boundary and interfaces, outward where they have an outside
+  CellBlock<3> triangles;  // boundary and interfaces; they point outward if they have an outside
   CellBlock<4> quads;
-  std::optional<std::vector<Ridge>> ridges{};  // as those of a TetMesh
+  std::optional<std::vector<Ridge>> ridges{};  // as in TetMesh
 
   std::size_t cell_count() const { return hexes.size() + prisms.size() + pyramids.size() + tets.size(); }
   bool operator==(const MixedMesh&) const = default;
 };
 
-// The same mesh in the other form. to_tet_mesh throws DataError naming `source` when there are other cells than tets.
+// The same mesh in the other form. to_tet_mesh throws DataError naming `source` when there are cells other than tets.
 MixedMesh to_mixed_mesh(TetMesh mesh);
 TetMesh to_tet_mesh(MixedMesh mesh, const char* source);
 
-// As validate(TetMesh), for every block.
+// Checks every block as validate(TetMesh) does.
 void validate(const MixedMesh& mesh, const char* source);
 
 }  // namespace hexpipe

@@ -27,7 +27,7 @@ std::vector<std::int8_t> signs_of(const TetMesh& mesh) {
   return signs;
 }
 
-// The facet opposite corner i of a tet, as three vertices from the lowest on, in the sense of TetTopology::triangles.
+// The facet opposite corner i of a tet, beginning with its lowest vertex, in the sense of TetTopology::triangles.
 Triangle facet_from_lowest(const Tet& tet, int facet) {
   const LocalTriangle& c = TetTopology::triangles[facet];
   Triangle triangle{tet[c[0]], tet[c[1]], tet[c[2]]};
@@ -35,7 +35,7 @@ Triangle facet_from_lowest(const Tet& tet, int facet) {
   return triangle;
 }
 
-// Two tets at a facet are listed in the same sense when one lists the facet the other way round.
+// Two tets at a facet are listed in the same sense if they list the facet in opposite senses.
 bool listed_alike(const Tet& tet, int facet, const Tet& other) {
   const Triangle triangle = facet_from_lowest(tet, facet);
   for (int i = 0; i < 4; ++i) {
@@ -47,47 +47,47 @@ bool listed_alike(const Tet& tet, int facet, const Tet& other) {
 
 enum class Turn : std::int8_t { unknown, keep, turn };
 
-// Decides for the tets that hang together with `start`; appends them to `part`.
-void spread(const TetMesh& mesh, const TetAdjacency& adjacency, std::int32_t start, std::vector<Turn>& turns,
-            std::vector<std::int32_t>& part) {
+// Decides for all tets that are connected to `start` by facets; puts them into `component`.
+void spread(const TetMesh& mesh, const TetAdjacency& adjacency, TetIndex start, std::vector<Turn>& turns,
+            std::vector<TetIndex>& component) {
   turns[start] = Turn::keep;
-  part.assign(1, start);
-  for (std::size_t next = 0; next < part.size(); ++next) {
-    const std::int32_t tet = part[next];
+  component.assign(1, start);
+  for (std::size_t next = 0; next < component.size(); ++next) {
+    const TetIndex tet = component[next];
     for (int facet = 0; facet < 4; ++facet) {
-      const std::int32_t beyond = adjacency.tet_beyond(tet, facet);
-      if (beyond == TetAdjacency::none || turns[beyond] != Turn::unknown) continue;
+      const TetIndex beyond = adjacency.tet_beyond(tet, facet);
+      if (beyond == no_index || turns[beyond] != Turn::unknown) continue;
       const bool alike = listed_alike(mesh.tets[tet], facet, mesh.tets[beyond]);
       turns[beyond] = alike == (turns[tet] == Turn::keep) ? Turn::keep : Turn::turn;
-      part.push_back(beyond);
+      component.push_back(beyond);
     }
   }
 }
 
-// The sense in which more tets of the part are positive.
-void prefer_positive(std::span<const std::int32_t> part, const std::vector<std::int8_t>& signs,
+// Chooses the sense in which more tets of the component are positive.
+void prefer_positive(std::span<const TetIndex> component, const std::vector<std::int8_t>& signs,
                      std::vector<Turn>& turns) {
   std::int64_t balance = 0;
-  for (const std::int32_t t : part) balance += turns[t] == Turn::keep ? signs[t] : -signs[t];
+  for (const TetIndex t : component) balance += turns[t] == Turn::keep ? signs[t] : -signs[t];
   if (balance >= 0) return;
-  for (const std::int32_t t : part) turns[t] = turns[t] == Turn::keep ? Turn::turn : Turn::keep;
+  for (const TetIndex t : component) turns[t] = turns[t] == Turn::keep ? Turn::turn : Turn::keep;
 }
 
 std::vector<std::int8_t> find_turns(const TetMesh& mesh, const std::vector<std::int8_t>& signs, const char* source) {
   const TetAdjacency adjacency(mesh, source);
   std::vector<Turn> turns(mesh.tets.size(), Turn::unknown);
-  std::vector<std::int32_t> part;
+  std::vector<TetIndex> component;
   for (std::size_t start = 0; start < mesh.tets.size(); ++start) {
     if (turns[start] != Turn::unknown) continue;
-    spread(mesh, adjacency, static_cast<std::int32_t>(start), turns, part);
-    prefer_positive(part, signs, turns);
+    spread(mesh, adjacency, static_cast<TetIndex>(start), turns, component);
+    prefer_positive(component, signs, turns);
   }
   std::vector<std::int8_t> turned(turns.size());
   for (std::size_t t = 0; t < turns.size(); ++t) turned[t] = turns[t] == Turn::turn ? 1 : 0;
   return turned;
 }
 
-// `turns` empty: none.
+// An empty `turns` turns none.
 TetOrientation turn_tets(TetMesh& mesh, std::vector<std::int8_t> signs, std::vector<std::int8_t> turns) {
   TetOrientation result{.signs = std::move(signs), .turns = std::move(turns)};
   for (std::size_t t = 0; t < result.turns.size(); ++t) {
@@ -119,7 +119,7 @@ void check_sides(const TetMesh& mesh, const TetAdjacency& adjacency, const char*
   parallel_for(static_cast<std::int64_t>(mesh.tets.size()), tets_a_block, [&](std::int64_t t) {
     const auto across = adjacency.tets_beyond(static_cast<std::int32_t>(t));
     for (int facet = 0; facet < 4; ++facet) {
-      const std::int32_t beyond = across[facet];
+      const TetIndex beyond = across[facet];
       if (beyond <= t || listed_alike(mesh.tets[t], facet, mesh.tets[beyond])) continue;
       if (sign_of(mesh, t) <= 0 || sign_of(mesh, beyond) <= 0) continue;
       const auto [first, second] = std::minmax({number_of(t), number_of(beyond)});

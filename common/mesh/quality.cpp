@@ -1,10 +1,10 @@
-// Scaled Jacobians and volumes. The minimum over an element is found by branch and bound on the element cut into parts,
-// each an element of the same kind: A. Johnen, J.-C. Weill, J.-F. Remacle, Robust and efficient validation of the
-// linear hexahedral element (IMR 2017), section 4. Where they bound the lengths of the tangents by constants on each
-// part, here the product of the lengths is bounded from above by a polynomial of the Jacobian's own degrees: a tangent
-// is linear along each parameter, so its length is convex and lies below the interpolation between its ends. Where
-// Jacobian >= q lengths holds coefficient by coefficient in Bezier form, the scaled Jacobian is at least q. Both sides
-// agree at the corners, so that most cells need no cut at all.
+// Scaled Jacobians and volumes. The minimum over an element is found by branch and bound, which cuts the element into
+// subcells of the same kind: A. Johnen, J.-C. Weill, J.-F. Remacle, Robust and efficient validation of the linear
+// hexahedral element (IMR 2017), section 4. They bound the lengths of the tangents by constants on each subcell. Here a
+// polynomial of the Jacobian's own degrees bounds the product of the lengths from above: a tangent is linear along each
+// parameter, so its length is convex and lies below the interpolation between its ends. If Jacobian >= q * lengths
+// holds for each coefficient of the Bezier form, the scaled Jacobian is at least q. Both sides agree at the corners, so
+// most cells need no cut at all.
 
 #include "common/mesh/quality.hpp"
 
@@ -17,21 +17,22 @@
 namespace hexpipe {
 namespace {
 
-// Parts get smaller than any feature of a cell; the gap that a cut leaves shrinks with the square of their size.
+// Subcells then are smaller than any feature of a cell. The gap that a cut leaves shrinks with the square of their
+// size.
 constexpr int max_cuts = 36;
 
 template <class Topology>
 using Corners = std::array<Vec3, Topology::corner_count>;
 
-// The Jacobian of a part, and an upper bound of the product of its tangents' lengths, as Bezier coefficients. At
-// `corners` the two are those of a corner.
+// The Jacobian of a subcell, and an upper bound of the product of its tangents' lengths, as Bezier coefficients. The
+// coefficients in `corners` are the exact values at corners.
 template <std::size_t Count, std::size_t CornerCount>
 struct Bounds {
   std::array<double, Count> jacobian, lengths;
   std::array<int, CornerCount> corners;
 };
 
-// The mean over the ways to split an index of a product of two linear functions.
+// The coefficients of a product of two linear functions are means over the ways to split the index.
 constexpr double ways[3] = {1, 0.5, 1};
 
 Bounds<27, 8> bounds_of(const Corners<HexTopology>& p) {
@@ -46,7 +47,7 @@ Bounds<27, 8> bounds_of(const Corners<HexTopology>& p) {
 
   Bounds<27, 8> bounds{HexJacobian<Vec3>(t).bezier(), {}, {0, 2, 6, 8, 18, 20, 24, 26}};
   for (double& jacobian : bounds.jacobian) jacobian /= 8;
-  // Each parameter is in two of the three factors. First the product of those with i, then that with the third.
+  // Each parameter occurs in two of the three factors. First multiply the two that have i, then the third.
   for (int jk = 0; jk < 4; ++jk) {
     const int j2 = jk & 1, k2 = jk >> 1;
     double product[3] = {};
@@ -60,7 +61,7 @@ Bounds<27, 8> bounds_of(const Corners<HexTopology>& p) {
   return bounds;
 }
 
-// The Jacobian is the same for each two sides of the triangle; the lengths are not.
+// The Jacobian is the same for any two sides of the triangle; the lengths are not.
 Bounds<27, 18> bounds_of(const Corners<PrismTopology>& p) {
   double side[3][2], up[3];
   for (int i = 0; i < 3; ++i) {
@@ -85,8 +86,8 @@ Bounds<27, 18> bounds_of(const Corners<PrismTopology>& p) {
   return bounds;
 }
 
-// At every height the tangents of the base and the direction to the apex are the base's, up to their lengths: what is
-// left is a function of the place in the base, with a bilinear Jacobian.
+// At every height, the tangents and the direction to the apex are those of the base, up to their lengths. That leaves a
+// function of the place in the base, with a bilinear Jacobian.
 Bounds<9, 4> bounds_of(const Corners<PyramidTopology>& p) {
   constexpr int corner_at[2][2] = {{0, 3}, {1, 2}};
   double jacobian[2][2], length_p[2][2], length_i[2], length_j[2];
@@ -112,10 +113,10 @@ Bounds<9, 4> bounds_of(const Corners<PyramidTopology>& p) {
   return bounds;
 }
 
-// Lowers `least` to what corners of a part attain. Returns whether it may attain less within, by more than the
-// tolerance.
-bool may_attain_less(const auto& part, double& least) {
-  const auto bounds = bounds_of(part);
+// Lowers `least` to the values at the corners of a subcell. Returns whether the subcell may have lower values inside,
+// by more than the tolerance.
+bool may_attain_less(const auto& subcell, double& least) {
+  const auto bounds = bounds_of(subcell);
   for (const int corner : bounds.corners)
     if (bounds.jacobian[corner] < least * bounds.lengths[corner])
       least = bounds.jacobian[corner] / bounds.lengths[corner];
@@ -124,8 +125,8 @@ bool may_attain_less(const auto& part, double& least) {
   return false;
 }
 
-// The parameter along which the tangents change most for their lengths: what the bound loses there falls to a quarter
-// when it is halved. Many hexes are nearly swept, and need no cut along one or two parameters.
+// The parameter along which the tangents change most relative to their lengths. Halving it reduces the loss of the
+// bound there to a quarter. Many hexes are nearly swept and need no cut along one or two parameters.
 int most_bent_parameter(const Corners<HexTopology>& p) {
   const HexTangents<Vec3> t(p);
   auto bend = [](const Vec3& from, const Vec3& to) {
@@ -140,7 +141,7 @@ int most_bent_parameter(const Corners<HexTopology>& p) {
   return static_cast<int>(std::max_element(bends, bends + 3) - bends);
 }
 
-std::array<Corners<HexTopology>, 2> parts_of(const Corners<HexTopology>& p) {
+std::array<Corners<HexTopology>, 2> subcells_of(const Corners<HexTopology>& p) {
   const int parameter = most_bent_parameter(p);
   std::array<Corners<HexTopology>, 2> halves{p, p};
   for (int c = 0; c < 4; ++c) {
@@ -155,21 +156,21 @@ std::array<Corners<HexTopology>, 2> parts_of(const Corners<HexTopology>& p) {
   }
   return halves;
 }
-auto parts_of(const Corners<PrismTopology>& p) {
+auto subcells_of(const Corners<PrismTopology>& p) {
   return split(p);
 }
-auto parts_of(const Corners<PyramidTopology>& p) {
+auto subcells_of(const Corners<PyramidTopology>& p) {
   return split(p);
 }
 
-void cut(const auto& part, int cuts, double& least) {
-  // A cell that is not valid is not looked at any closer.
+void cut(const auto& subcell, int cuts, double& least) {
+  // An invalid cell is examined no further.
   if (least <= 0 || cuts == max_cuts) return;
-  const auto parts = parts_of(part);
-  std::array<bool, parts.size()> open;
-  for (std::size_t i = 0; i < parts.size(); ++i) open[i] = may_attain_less(parts[i], least);
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    if (open[i]) cut(parts[i], cuts + 1, least);
+  const auto subcells = subcells_of(subcell);
+  std::array<bool, subcells.size()> open;
+  for (std::size_t i = 0; i < subcells.size(); ++i) open[i] = may_attain_less(subcells[i], least);
+  for (std::size_t i = 0; i < subcells.size(); ++i)
+    if (open[i]) cut(subcells[i], cuts + 1, least);
 }
 
 template <class Topology>
@@ -203,7 +204,7 @@ double cell_volume(CellKind kind, std::span<const Vec3> corners) {
 
 Vec3 cell_volume_gradient(CellKind kind, std::span<const Vec3> corners, int corner) {
   Vec3 triangles{}, quads{};
-  // The facet's other corners, in its order, as the corner sees them.
+  // The facet's other corners, in its order, relative to the corner.
   const auto at = [&](const auto& facet, std::size_t i) { return corners[facet[i % facet.size()]] - corners[corner]; };
   with_topology(kind, [&]<class Topology>(Topology) {
     for (const LocalTriangle& t : Topology::triangles)

@@ -5,7 +5,7 @@
 
 namespace hexpipe {
 
-// Puts item order[i] in place i, for all of them.
+// Moves item order[i] to place i, for all i.
 template <class T, class Index>
 void reorder(std::vector<T>& items, const std::vector<Index>& order) {
   std::vector<T> reordered;

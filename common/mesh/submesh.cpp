@@ -8,7 +8,7 @@ namespace hexpipe {
 namespace {
 
 template <class T>
-std::vector<T> select(const std::vector<T>& items, std::span<const std::int32_t> chosen) {
+std::vector<T> select_items(const std::vector<T>& items, std::span<const std::int32_t> chosen) {
   std::vector<T> selected;
   selected.reserve(chosen.size());
   for (const std::int32_t i : chosen) selected.push_back(items[i]);
@@ -32,7 +32,7 @@ std::vector<std::int32_t> where_true(const std::vector<bool>& marked) {
   return places;
 }
 
-// Those with both ends among the points, `places` being the numbers there of these points.
+// The ridges with both ends among the points. places[p] is the new number of point p.
 std::vector<Ridge> ridges_among(const std::vector<Ridge>& ridges, std::span<const std::int32_t> points,
                                 std::span<const std::int32_t> places) {
   std::vector<Ridge> selected;
@@ -49,22 +49,22 @@ std::vector<Ridge> ridges_among(const std::vector<Ridge>& ridges, std::span<cons
 
 Submesh submesh(const TetMesh& mesh, std::vector<std::int32_t> points, std::vector<std::int32_t> tets,
                 std::vector<std::int32_t> triangles, std::vector<std::int32_t>& scratch) {
-  Submesh part{{}, std::move(points), std::move(tets), std::move(triangles)};
-  part.mesh.points = select(mesh.points, part.points);
-  part.mesh.tets = select(mesh.tets, part.tets);
-  part.mesh.tet_tags = select(mesh.tet_tags, part.tets);
-  part.mesh.triangles = select(mesh.triangles, part.triangles);
-  part.mesh.triangle_tags = select(mesh.triangle_tags, part.triangles);
+  Submesh result{{}, std::move(points), std::move(tets), std::move(triangles)};
+  result.mesh.points = select_items(mesh.points, result.points);
+  result.mesh.tets = select_items(mesh.tets, result.tets);
+  result.mesh.tet_tags = select_items(mesh.tet_tags, result.tets);
+  result.mesh.triangles = select_items(mesh.triangles, result.triangles);
+  result.mesh.triangle_tags = select_items(mesh.triangle_tags, result.triangles);
   scratch.resize(mesh.points.size());
-  for (std::size_t i = 0; i < part.points.size(); ++i) scratch[part.points[i]] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < result.points.size(); ++i) scratch[result.points[i]] = static_cast<std::int32_t>(i);
   const auto renumber = [&](auto& cells) {
     for (auto& cell : cells)
       for (Vertex& v : cell) v = scratch[v];
   };
-  renumber(part.mesh.tets);
-  renumber(part.mesh.triangles);
-  if (mesh.ridges) part.mesh.ridges = ridges_among(*mesh.ridges, part.points, scratch);
-  return part;
+  renumber(result.mesh.tets);
+  renumber(result.mesh.triangles);
+  if (mesh.ridges) result.mesh.ridges = ridges_among(*mesh.ridges, result.points, scratch);
+  return result;
 }
 
 Submesh submesh_around(const TetMesh& mesh, const std::vector<bool>& marked, int edges) {

@@ -1,5 +1,5 @@
 #pragma once
-// Some tets of a mesh as a mesh of its own, in which all keeps its order.
+// Some tets of a mesh as a mesh of its own; everything keeps its order.
 
 #include <cstdint>
 #include <vector>
@@ -10,16 +10,16 @@ namespace hexpipe {
 
 struct Submesh {
   TetMesh mesh;
-  // Of each point, tet and triangle, which it is in the mesh, ascending.
+  // For each point, tet and triangle here: its number in the mesh. Ascending.
   std::vector<std::int32_t> points, tets, triangles;
 };
 
-// Of these points, tets and triangles, ascending, of which the points are all that the others use. `scratch` may hold
-// anything; who takes many submeshes saves its memory by giving the same one.
+// The submesh with these points, tets and triangles. All three lists ascend, and `points` has all the points that the
+// others use. `scratch` may hold anything; callers that take many submeshes pass the same one to save memory.
 Submesh submesh(const TetMesh& mesh, std::vector<std::int32_t> points, std::vector<std::int32_t> tets,
                 std::vector<std::int32_t> triangles, std::vector<std::int32_t>& scratch);
 
-// The tets with a point that is at most `edges` edges away from a marked one, and the triangles whose points they have.
+// The tets that have a point at most `edges` edges away from a marked one, and the triangles between their points.
 Submesh submesh_around(const TetMesh& mesh, const std::vector<bool>& marked, int edges);
 
 }  // namespace hexpipe

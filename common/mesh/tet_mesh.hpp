@@ -1,6 +1,6 @@
 #pragma once
-// A tetrahedral mesh with its regions and its tagged boundary and interface triangles: what tetmesh makes and what
-// findhex starts from.
+// A tetrahedral mesh with its regions and its tagged boundary and interface triangles. tetmesh makes it and findhex
+// starts from it.
 
 #include <array>
 #include <cstdint>
@@ -13,6 +13,9 @@
 namespace hexpipe {
 
 using Vertex = std::int32_t;
+using TetIndex = std::int32_t;
+// Stands for no vertex, tet, cell or candidate where an index is expected.
+inline constexpr std::int32_t no_index = -1;
 using Tet = std::array<Vertex, 4>;
 using Triangle = std::array<Vertex, 3>;
 using Quad = std::array<Vertex, 4>;
@@ -24,7 +27,7 @@ struct TetMesh {
   std::vector<std::int32_t> tet_tags;       // region of each tet
   std::vector<Triangle> triangles;          // boundary and interfaces between regions
   std::vector<std::int32_t> triangle_tags;  // surface tag of each triangle
-  // Edges of the surface that are sharp whatever their angle, if the mesh says so; empty in a part without some.
+  // Edges of the surface that are sharp at any angle, if the mesh names some; empty in a part that has none.
   std::optional<std::vector<Ridge>> ridges{};
 
   bool operator==(const TetMesh&) const = default;
@@ -37,7 +40,7 @@ inline double tet_determinant(std::span<const Vec3> points, const Tet& t) {
 }
 
 // Throws DataError naming `source` when arrays disagree in length, an index is out of range, a tet or triangle repeats
-// a vertex, or a coordinate is not finite. Orientation is not judged here: see tet_determinant.
+// a vertex, or a coordinate is not finite. It does not judge orientation: see tet_determinant.
 void validate(const TetMesh& mesh, const char* source);
 
 }  // namespace hexpipe

@@ -1,7 +1,8 @@
-// The sign of Jacobians, exactly. Hexes by Bezier coefficients and subdivision: A. Johnen, J.-C. Weill, J.-F. Remacle,
-// Robust and efficient validation of the linear hexahedral element (IMR 2017). They subdivide the polynomial; here the
-// points are subdivided, which gives the same coefficients (a part of a trilinear hex is a trilinear hex) from one
-// formula. Exactness comes from integers of any length after a filter in doubles, not from expansions.
+// The sign of Jacobians, exactly. Hexes are judged by Bezier coefficients and subdivision: A. Johnen, J.-C. Weill,
+// J.-F. Remacle, Robust and efficient validation of the linear hexahedral element (IMR 2017). They subdivide the
+// polynomial. Here the points are subdivided, which gives the same coefficients from one formula, because a subcell of
+// a trilinear hex is a trilinear hex. A filter in doubles comes first; integers of any length, not expansions, then
+// make the answer exact.
 
 #include "common/mesh/validity.hpp"
 
@@ -35,7 +36,7 @@ Integer det(const IntegerVector& a, const IntegerVector& b, const IntegerVector&
   return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
 }
 
-// mantissa * 2^exponent, with a whole mantissa; an exponent of INT_MAX for zero.
+// mantissa * 2^exponent, with a whole mantissa. The exponent of zero is INT_MAX.
 struct Dyadic {
   std::int64_t mantissa = 0;
   int exponent = std::numeric_limits<int>::max();
@@ -48,7 +49,7 @@ struct Dyadic {
   }
 };
 
-// The points on a common scale, a power of two.
+// The points as integers on a common scale, which is a power of two.
 template <std::size_t Count>
 std::array<IntegerVector, Count> to_integers(std::span<const Vec3> points) {
   int lowest = std::numeric_limits<int>::max();
@@ -65,9 +66,9 @@ std::array<IntegerVector, Count> to_integers(std::span<const Vec3> points) {
 
 enum class Answer { no, yes, unsure };
 
-// Of sums of determinants, counted in determinants of vectors whose components are at most `extent` along each axis.
-// Such a one is a sum of 6 products, with less than 16 roundings in the way of each (differences and sums of points
-// included).
+// The rounding error of sums of determinants. The sums are counted in determinants of vectors whose components are at
+// most `extent` along each axis. Such a determinant is a sum of 6 products; each product goes through fewer than 16
+// roundings, including those of the differences and sums of points.
 class ErrorBound {
  public:
   static constexpr double roundings = 16;
@@ -82,19 +83,19 @@ class ErrorBound {
     return value > bound_ ? Answer::yes : value < -bound_ ? Answer::no : Answer::unsure;
   }
 
-  // What is to be multiplied by the extent along each axis.
+  // The factor that, multiplied by the extent along each axis, gives the bound.
   template <class Roundings>
   static constexpr Roundings of_sum(double determinants, const Roundings& roundings_of_each) {
     return determinants * 6 * roundings_of_each * epsilon;
   }
-  // Beyond these a product of two or three may overflow, or lose its digits.
+  // Beyond these limits, a product of two or three numbers may overflow or lose digits.
   static constexpr double smallest = 1e-90, largest = 1e90;
 
  private:
   double bound_;
 };
 
-// The largest determinant of a hex is one of an edge: two of its vectors are sums of two.
+// The largest determinant of a hex is that of an edge: two of its vectors are sums of two.
 constexpr double determinants_at_edge = 4;
 // The coefficient at the centre sums 12 determinants at edges and 5 times 8 at corners, with up to 24 additions.
 constexpr double determinants_in_coefficient = 4 * (12 * 4 + 5 * 8);
@@ -131,7 +132,7 @@ bool is_positive(const Integer& value) {
   return value.sign() > 0;
 }
 
-// unsure: positive at the 20 places, but not everywhere as far as the Bezier coefficients can tell.
+// unsure: positive at the 20 places, but the Bezier coefficients do not show that it is positive everywhere.
 Answer judge_exactly(const HexPoints& points) {
   const HexJacobian<IntegerVector> jacobian{HexTangents<IntegerVector>(points)};
   if (!jacobian.all_determinants(is_positive)) return Answer::no;
@@ -143,14 +144,14 @@ bool is_valid_exactly(const HexPoints& points, int subdivisions = 0) {
   if (answer != Answer::unsure) return answer == Answer::yes;
   if (subdivisions == max_subdivisions) return false;
   return std::ranges::all_of(split(points),
-                             [&](const HexPoints& part) { return is_valid_exactly(part, subdivisions + 1); });
+                             [&](const HexPoints& subcell) { return is_valid_exactly(subcell, subdivisions + 1); });
 }
 
-// A hex, or a part of one, given relative to a corner of the whole.
+// A hex or a subcell of one, relative to a corner of the whole.
 using RelativeHex = std::array<Vec3, 8>;
 
-// A coordinate is off by a rounding of the greatest one, and cutting, which adds up 8 points and multiplies coordinates
-// by 8, makes that 8 more each time; each of the three vectors of a determinant is off by twice as much.
+// A coordinate is off by one rounding of the largest one. Cutting adds up 8 points and multiplies coordinates by 8,
+// which adds 8 roundings each time. Each of the three vectors of a determinant is off by twice as much.
 template <class Vector>
 auto roundings_of(const std::array<Vector, 8>& hex, const Vector& extent, int subdivisions) {
   Vector reach;
@@ -159,7 +160,7 @@ auto roundings_of(const std::array<Vector, 8>& hex, const Vector& extent, int su
   return ErrorBound::roundings + 2 * 3 * 2 * (1 + 8 * subdivisions) * ratio;
 }
 
-// Of hexes with these tangents, whose determinants have so many roundings in the way of each product.
+// Judges hexes with these tangents; each product of their determinants goes through this many roundings.
 template <class Roundings>
 LaneMask are_surely_valid(const HexTangents<LaneVector>& tangents, const LaneVector& extent,
                           const Roundings& roundings) {
@@ -177,10 +178,10 @@ LaneMask are_surely_valid(const HexTangents<LaneVector>& tangents, const LaneVec
   return sure;
 }
 
-HEXPIPE_ANY_REGISTERS std::uint32_t surely_valid_parts(const std::array<LaneVector, 8>& parts, int subdivisions) {
-  const HexTangents<LaneVector> tangents(parts);
+HEXPIPE_ANY_REGISTERS std::uint32_t surely_valid_subcells(const std::array<LaneVector, 8>& subcells, int subdivisions) {
+  const HexTangents<LaneVector> tangents(subcells);
   const LaneVector extent = extent_of(tangents);
-  return bits_of(are_surely_valid(tangents, extent, roundings_of(parts, extent, subdivisions)));
+  return bits_of(are_surely_valid(tangents, extent, roundings_of(subcells, extent, subdivisions)));
 }
 
 Answer judge_in_doubles(const RelativeHex& hex, int subdivisions = 0) {
@@ -201,12 +202,12 @@ Answer judge_in_doubles(const RelativeHex& hex, int subdivisions = 0) {
   auto surely_positive = [&](double value) { return coefficient_bound.positive(value) == Answer::yes; };
   if (std::ranges::all_of(jacobian.bezier(), surely_positive)) return Answer::yes;
   if (subdivisions == max_subdivisions) return Answer::unsure;
-  const auto parts = split(hex);
-  static_assert(parts.size() == lane_count);
-  const std::uint32_t surely_valid = surely_valid_parts(side_by_side(parts), subdivisions + 1);
-  for (int part = 0; part < lane_count; ++part) {
-    if ((surely_valid >> part & 1) != 0) continue;
-    const Answer one = judge_in_doubles(parts[part], subdivisions + 1);
+  const auto subcells = split(hex);
+  static_assert(subcells.size() == lane_count);
+  const std::uint32_t surely_valid = surely_valid_subcells(side_by_side(subcells), subdivisions + 1);
+  for (int subcell = 0; subcell < lane_count; ++subcell) {
+    if ((surely_valid >> subcell & 1) != 0) continue;
+    const Answer one = judge_in_doubles(subcells[subcell], subdivisions + 1);
     if (one == Answer::no) return one;
     if (one == Answer::unsure) answer = one;
   }
@@ -220,7 +221,7 @@ bool is_valid_hex(std::span<const Vec3> corners) {
   return answer == Answer::unsure ? is_valid_exactly(to_integers<8>(corners)) : answer == Answer::yes;
 }
 
-// Whether the quadratic with these Bezier coefficients (the middle one may be negative) is positive on [0, 1].
+// Whether the quadratic with these Bezier coefficients is positive on [0, 1]. The middle coefficient may be negative.
 template <class Number>
 bool is_positive_quadratic(const std::array<Number, 3>& b) {
   if (b[0] <= 0 || b[2] <= 0) return false;
@@ -258,7 +259,7 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return det(p[1] - p[0], p[2] - p[0], p[3] - p[0]).sign();
 }
 
-// The tangents are differences of the points themselves, each rounded once.
+// The tangents are differences of the given points; each is rounded once.
 HEXPIPE_ANY_REGISTERS std::uint32_t surely_valid_hexes(const std::array<LaneVector, 8>& corners) {
   const HexTangents<LaneVector> tangents(corners);
   return bits_of(are_surely_valid(tangents, extent_of(tangents), ErrorBound::roundings));

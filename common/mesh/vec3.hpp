@@ -1,5 +1,5 @@
 #pragma once
-// A point or a vector in space: three doubles in a row, so that an array of them is an (n,3) array of f8.
+// A point or a vector in space: three doubles in a row, so an array of them is an (n,3) array of f8.
 
 #include <cmath>
 
@@ -48,19 +48,19 @@ constexpr double norm_squared(const Vec3& a) {
 inline double norm(const Vec3& a) {
   return std::sqrt(norm_squared(a));
 }
-// In radians, of full precision near 0 and pi too; 0 where one vanishes.
+// In radians, with full precision near 0 and pi, too; 0 if one vector vanishes.
 inline double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(norm(cross(a, b)), dot(a, b));
 }
-// In the direction of a; zero where a is, or too short for its square to be told from zero.
+// The unit vector in the direction of a; zero if a is zero or too short for its square to differ from zero.
 inline Vec3 unit(const Vec3& a) {
   const double length = norm(a);
   return length > 0 ? a * (1 / length) : Vec3{};
 }
 
-// Squares of determinants of points within that are finite.
+// Squares of determinants of points within this bound are finite.
 inline constexpr double largest_coordinate = 1e50;
-// False for NaN.
+// False for NaN, too.
 inline bool is_place(const Vec3& a) {
   return std::abs(a.x) <= largest_coordinate && std::abs(a.y) <= largest_coordinate &&
          std::abs(a.z) <= largest_coordinate;

@@ -1,5 +1,5 @@
 #pragma once
-// Which items, say triangles or cells, are at each vertex, in flat arrays.
+// Which items (triangles or cells, for example) are at each vertex, in flat arrays.
 
 #include <cstdint>
 #include <numeric>
@@ -14,7 +14,7 @@ class VertexItems {
  public:
   VertexItems() = default;
 
-  // each_corner(visit) calls visit(vertex, item) for every corner of every item, items ascending; twice the same.
+  // each_corner(visit) calls visit(vertex, item) for every corner of every item, items ascending. It is called twice.
   template <class EachCorner>
   VertexItems(std::size_t vertex_count, EachCorner&& each_corner) : offsets_(vertex_count + 1) {
     each_corner([&](Vertex v, std::int32_t) { ++offsets_[v + 1]; });
@@ -24,7 +24,7 @@ class VertexItems {
     each_corner([&](Vertex v, std::int32_t item) { items_[next[v]++] = item; });
   }
 
-  // Ascending.
+  // The items at a vertex, ascending.
   std::span<const std::int32_t> at(Vertex v) const {
     return std::span(items_).subspan(offsets_[v], offsets_[v + 1] - offsets_[v]);
   }

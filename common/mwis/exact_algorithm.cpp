@@ -5,7 +5,7 @@
 #include "common/mwis/bounds/clique_dual.hpp"
 #include "common/mwis/exact/historical/searches_on_bits.hpp"
 #ifdef HEXPIPE_WITH_CLP
-#include "common/mwis/exact/cutting_planes.hpp"
+#include "common/mwis/exact/packing_program.hpp"
 #endif
 
 namespace hexpipe::mwis {

@@ -15,22 +15,22 @@ namespace hexpipe::mwis {
 enum class ExactAlgorithm {
   branch_and_reduce,
   branch_and_cut,
-  // exact/historical: to compare with
+  // exact/historical: for comparison
   complete_search,
   clique_partition,
   clique_cover,
   clique_lp,
 };
 
-// The algorithms that this build has: branch and cut needs CLP.
+// The algorithms in this build; branch and cut needs CLP.
 const std::map<std::string, ExactAlgorithm>& exact_algorithms();
-// The name of the best of them.
+// The name of the best algorithm in this build.
 std::string default_exact_algorithm();
 
-// The relaxation by which branch and reduce, or branch and cut, bounds a reduced graph.
+// The relaxation that branch and reduce, or branch and cut, uses to bound a reduced graph.
 bounds::Relax relaxation_of(ExactAlgorithm algorithm);
 
-// Throws DataError where a graph has too many vertices for a search without reductions, or weights too large for
+// Throws DataError if a graph has too many vertices for a search without reductions, or weights too large for
 // clique_lp.
 void expect_room_for(ExactAlgorithm algorithm, const graph::ConflictGraph& graph);
 

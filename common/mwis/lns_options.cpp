@@ -8,27 +8,27 @@
 namespace hexpipe::mwis {
 
 void declare_lns_options(CLI::App& app, local_search::LnsOptions& options, TargetOptions& target) {
-  app.add_option("--fragment-size", options.fragment_size, "Vertices of the first fragments; the size adapts")
+  app.add_option("--fragment-size", options.fragment_size, "Number of vertices of the first fragments; the size adapts")
       ->check(CLI::Range(1, 4096).description(""));
-  app.add_option("--largest-fragment", options.largest_fragment, "The most vertices of a fragment")
+  app.add_option("--largest-fragment", options.largest_fragment, "Greatest number of vertices of a fragment")
       ->check(CLI::Range(1, 4096).description(""));
-  app.add_option("--node-limit", options.node_limit, "The most nodes of branch and bound for a fragment")
+  app.add_option("--node-limit", options.node_limit, "Greatest number of branch-and-bound nodes for a fragment")
       ->check(CLI::Range(1, 1000000000).description(""));
   app.add_option("--annealed-fragment", options.annealed_fragment,
-                 "Vertices of the larger fragments that are annealed in between; 0: no such fragments")
+                 "Number of vertices of the larger fragments, which are annealed; 0: no such fragments")
       ->check(CLI::Range(0, 1000000).description(""));
-  app.add_option(
-         "--recombined-fragment", options.recombined_fragment,
-         "Vertices of fragments that are annealed from nothing and recombined with the choice; 0: no such fragments")
+  app.add_option("--recombined-fragment", options.recombined_fragment,
+                 "Number of vertices of fragments that are annealed from an empty set and recombined with the "
+                 "solution; 0: none")
       ->check(CLI::Range(0, 1000000).description(""));
-  app.add_option("--batch", options.batch, "Fragments in a round: they are solved in parallel and applied in order")
+  app.add_option("--batch", options.batch, "Fragments per round; they are solved in parallel and applied in order")
       ->check(CLI::Range(1, 10000).description(""));
   app.add_flag("!--no-reductions", options.reduce,
-               "Search the whole graph and not the kernel that exact reductions leave");
+               "Search the whole graph, not the kernel that exact reductions leave");
   app.add_flag("--free-running", options.free_running,
-               "Threads do not wait for each other: faster, but the result depends on the timing");
+               "Threads do not wait for each other; this is faster, but the result depends on the timing");
   app.add_option("--target-gap", target.gap,
-                 "Stop when (bound - weight) / bound is at most this; certify leaves the bound in the bundle")
+                 "Stop when (bound - weight) / bound is at most this; certify writes the bound into the bundle")
       ->type_name("FRACTION")
       ->check(number_between(0, 1));
   app.add_option("--bound", target.bound, "A known upper bound, for --target-gap")

@@ -15,7 +15,7 @@ struct TargetOptions {
 
 void declare_lns_options(CLI::App& app, local_search::LnsOptions& options, TargetOptions& target);
 
-// Throws UsageError when options do nothing without others.
+// Throws UsageError for options that have no effect without another one.
 void check(const TargetOptions& target);
 
 }  // namespace hexpipe::mwis

@@ -1,4 +1,4 @@
-#include "common/run/command_line_errors.hpp"
+#include "common/run/command_line.hpp"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,10 @@
 #include <fstream>
 #include <vector>
 
-#include "common/run/near_option.hpp"
-
 namespace hexpipe {
 namespace {
 
-// "did you mean --size? " where something that begins as an option does is like one that there is.
+// "did you mean --size? " when something that looks like an option resembles a known one.
 std::string guess(const CLI::App& app, const std::vector<std::string>& given) {
   std::vector<std::string> known;
   for (const CLI::Option* option : app.get_options())
@@ -23,13 +21,13 @@ std::string guess(const CLI::App& app, const std::vector<std::string>& given) {
   return {};
 }
 
-// CLI11 lists what is left over from the last to the first.
+// CLI11 lists the leftover arguments from the last to the first.
 std::string left_over(const std::vector<std::string>& arguments) {
   return fmt::format("The following argument{} not expected: {}", arguments.size() > 1 ? "s were" : " was",
                      fmt::join(arguments, " "));
 }
 
-// The number of the line that gives this key a value; 0 if there is none, as of keys in a section.
+// The number of the line that gives this key a value; 0 if no line does (keys in a section are not looked for).
 std::size_t line_of(const std::string& key, const std::string& path) {
   std::ifstream file(path);
   std::string line;
@@ -40,7 +38,7 @@ std::size_t line_of(const std::string& key, const std::string& path) {
   return 0;
 }
 
-// CLI11's messages may run over several lines; ours are one.
+// CLI11's messages may have several lines; ours have one.
 std::string one_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -55,7 +53,7 @@ std::string explanation_of(const CLI::App& app, const CLI::ParseError& error) {
     text = left_over(app.remaining());
     meant = guess(app, app.remaining());
   }
-  // What CLI11 calls INI is the file of --config.
+  // CLI11 calls the file of --config "INI".
   constexpr std::string_view of_config = "INI was not able to parse ";
   if (text.starts_with(of_config)) {
     std::string key = text.substr(of_config.size());

@@ -11,13 +11,13 @@
 namespace hexpipe {
 namespace {
 
-// Only lock-free atomics: signal handlers touch them.
+// Signal handlers touch these, so they are lock-free atomics.
 std::atomic<bool> stop_flag{false};
 std::atomic<bool> first_signal_stops_searches{false};
 std::atomic<bool> upstream_may_answer{false};
 std::atomic<bool> interrupted{false};
-std::atomic<unsigned> patience{0};     // seconds that the call underway may wait after a signal; 0: none waits
-std::atomic<int> impatient_signal{0};  // that stopped the search and does not let it wait
+std::atomic<unsigned> patience{0};     // seconds that a waiting call may go on after a signal; 0: no call waits
+std::atomic<int> impatient_signal{0};  // the signal that stopped the search and ends its waiting
 
 constexpr unsigned patience_with_writers = 1, patience_with_readers = 3;  // seconds
 
@@ -49,7 +49,7 @@ void on_alarm(int) {
 void handle(int signal_number, void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;
-  // SA_NODEFER: the raise() inside the handler takes effect at once. SA_RESTART: a stop request does not make reads
+  // SA_NODEFER: raise() inside the handler takes effect at once. SA_RESTART: a request to stop does not make reads
   // fail.
   action.sa_flags = SA_RESTART | SA_NODEFER;
   sigemptyset(&action.sa_mask);
@@ -82,7 +82,7 @@ void leave_interrupt_upstream(bool on) {
   upstream_may_answer = on;
 }
 
-// The alarm is set here or in the handler, whichever comes second.
+// The alarm is set here or in the handler, whichever runs second.
 WaitForOther::WaitForOther(unsigned seconds) {
   patience = seconds;
   if (impatient_signal.load() != 0) alarm(seconds);

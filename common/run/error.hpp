@@ -1,5 +1,5 @@
 #pragma once
-// How a tool says that its input is bad (exit 1) or its command line is (exit 2). tool_main prints both.
+// How a tool reports bad input (exit 1) and a bad command line (exit 2). tool_main prints both.
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 namespace hexpipe {
 
-// Bad data, or I/O that failed.
+// Bad data, or failed I/O.
 class DataError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -20,14 +20,14 @@ class DataError : public std::runtime_error {
   }
 };
 
-// Bad data at a line (counted from 1) of a text file.
+// Bad data at a line of a text file, counted from 1.
 class FormatError : public DataError {
  public:
   FormatError(std::string_view file, long line, std::string_view message)
       : DataError(fmt::format("{}:{}: {}", file, line, message)) {}
 };
 
-// A command line that cannot be obeyed, found only after it was parsed.
+// A command line that turns out to be wrong only after it was parsed.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

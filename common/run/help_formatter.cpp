@@ -1,4 +1,4 @@
-#include "common/run/help_formatter.hpp"
+#include "common/run/command_line.hpp"
 
 #include <sstream>
 
@@ -8,7 +8,7 @@ namespace {
 constexpr std::size_t option_column = 28;
 constexpr std::size_t page_width = 100;
 
-// CLI11 shows what a flag sets, as in --no-reductions{false}, which is not to be typed.
+// CLI11 shows what a flag sets, as in --no-reductions{false}; users do not type that.
 std::string plain_name(const std::string& name) {
   const std::size_t brace = name.find('{');
   return brace == std::string::npos ? name : name.substr(0, brace);
@@ -18,7 +18,7 @@ std::string line_break() {
   return "\n" + std::string(option_column, ' ');
 }
 
-// The values to choose from may be more than a line holds; cmake/Completion.cmake puts them together again.
+// The list of values to choose from may be longer than a line; cmake/Completion.cmake joins the lines again.
 std::string broken_at_comma(const std::string& text) {
   const std::size_t comma = text.size() > page_width ? text.rfind(',', page_width - 1) : std::string::npos;
   return comma == std::string::npos ? text : text.substr(0, comma + 1) + line_break() + text.substr(comma + 1);
@@ -51,8 +51,8 @@ std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positi
   return text + "\n";
 }
 
-// CLI11 shows a default of several values in brackets, which are not to be typed, even where there is none, and a
-// default of options that have to be given.
+// CLI11 shows a default of several values in brackets, which users do not type, and shows empty brackets when there is
+// no default. It also shows a default for required options.
 std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
   std::string text = CLI::Formatter::make_option_opts(option);
   const std::string shown = option->get_default_str();

@@ -1,6 +1,11 @@
 #include "common/run/memory.hpp"
 
+#include <sys/mman.h>
 #include <sys/resource.h>
+#include <unistd.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <cerrno>
@@ -16,7 +21,7 @@ namespace {
 
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
-// The number behind `name` in a file of lines "name number"; 0 where there is none.
+// The number that follows `name` in a file of lines "name number"; 0 if it is not there.
 std::uint64_t number_behind(std::string_view name, const std::string& file) {
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);)
@@ -25,7 +30,7 @@ std::uint64_t number_behind(std::string_view name, const std::string& file) {
   return 0;
 }
 
-// The number behind `name` in a file of lines "name: number kB", in bytes; 0 where there is none.
+// The number that follows `name` in a file of lines "name: number kB", in bytes; 0 if it is not there.
 std::uint64_t bytes_in(const char* file, std::string_view name) {
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);)
@@ -34,7 +39,7 @@ std::uint64_t bytes_in(const char* file, std::string_view name) {
   return 0;
 }
 
-// A file of one number; `unlimited` where there is none ("max").
+// The number in a file that holds only that; `unlimited` if it holds "max".
 std::uint64_t number_in(const std::string& file) {
   std::ifstream stream(file);
   std::uint64_t number = 0;
@@ -89,6 +94,27 @@ void expect_memory(std::uint64_t count, std::uint64_t bytes_each, std::string_vi
   throw DataError::at(where, "expected {} of memory, found {} left",
                       readable(static_cast<double>(count) * static_cast<double>(bytes_each)),
                       readable(static_cast<double>(left)));
+}
+
+void FreedMemory::add(std::size_t bytes) {
+  // malloc_trim walks over the allocator's lists; that is well worth this much memory.
+  constexpr std::size_t enough = 2 << 20;
+  freed_ += bytes;
+  if (freed_ < enough) return;
+  freed_ = 0;
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+void use_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+#ifdef MADV_HUGEPAGE
+  constexpr std::size_t page = 4096, huge_page = 512 * page;
+  const std::size_t before = (page - reinterpret_cast<std::uintptr_t>(memory) % page) % page;
+  if (before + huge_page > bytes) return;
+  // The result does not matter: without large pages, the small ones stay.
+  ::madvise(static_cast<char*>(memory) + before, (bytes - before) / page * page, MADV_HUGEPAGE);
+#endif
 }
 
 }  // namespace hexpipe

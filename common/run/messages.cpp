@@ -10,7 +10,7 @@ namespace {
 
 std::atomic<bool> silent{false};
 
-// Of ASCII, and those from U+0080 to U+009F as UTF-8 has them: U+009B does as ESC and '[' do.
+// Replaces control characters: those of ASCII, and U+0080 to U+009F in UTF-8 (U+009B has the effect of ESC '[').
 std::string without_control_characters(std::string text) {
   constexpr char lead = '\xc2';
   for (std::size_t i = 0; i < text.size(); ++i) {

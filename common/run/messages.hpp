@@ -6,15 +6,15 @@
 
 namespace hexpipe {
 
-// "tool: text" as a line of its own on standard error. Control characters, which names and files may hold and a
-// terminal would obey, are shown as '?'. Never fails: a closed or full standard error must not end a tool that has its
-// data right.
+// Prints "tool: text" as a line on standard error. Names and files may hold control characters that a terminal would
+// obey; they are shown as '?'. It never fails: a closed or full standard error must not end a tool whose data are
+// right.
 void print_message(std::string_view tool, std::string_view text);
 
-// Text as it is, such as progress that is written over. Never fails either.
+// Prints the text as it is; for progress lines that are overwritten. It never fails either.
 void print_text(const std::string& text);
 
-// While on, nothing is printed: of several processes that do the same work one speaks.
+// While this is on, nothing is printed. When several processes do the same work, only one prints.
 void silence_messages(bool on);
 
 }  // namespace hexpipe

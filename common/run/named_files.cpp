@@ -1,4 +1,4 @@
-#include "common/run/named_files.hpp"
+#include "common/run/command_line.hpp"
 
 #include <fmt/format.h>
 
@@ -15,12 +15,13 @@
 namespace hexpipe {
 namespace {
 
-// What is written beside the product. viewmesh reads its --fragments: nothing may be written there either.
+// Options that name files written beside the product. viewmesh reads its --fragments; that file must not be overwritten
+// either.
 constexpr std::array<std::string_view, 6> beside_product{
     "stats", "log", "certificate", "fragments", "reduced-candidates", "png"};
 
 struct NamedFile {
-  std::string option;  // as it is typed
+  std::string option;  // as the user types it
   std::string file;
 };
 
@@ -30,7 +31,7 @@ bool is_same_file(const std::string& a, const std::string& b) {
          std::filesystem::equivalent(a, b, none);
 }
 
-// What lies in /dev may be named twice.
+// Files in /dev may be named twice.
 bool is_device(const std::string& file) {
   return file.starts_with("/dev/");
 }
@@ -55,7 +56,7 @@ bool names_files(const CLI::Option& option) {
   return option.get_type_name().find("FILE") != std::string::npos || option.get_type_name() == "DIR";
 }
 
-// A variable of the shell that is not set leaves a name empty.
+// An unset shell variable leaves an empty name.
 void check_none_is_empty(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options())
     if (names_files(*option) && std::ranges::find(option->results(), "") != option->results().end())
@@ -79,8 +80,8 @@ void check_named_files(const CLI::App& app) {
   const std::vector<NamedFile> read = inputs(app);
   std::vector<NamedFile> written;
   if (const CLI::Option* const product = app.get_option_no_throw("--output")) {
-    // Without it standard output, but where it names a directory, and where viewmesh makes a picture in place of the
-    // page.
+    // A missing -o means standard output. Exceptions: -o that names a directory, and viewmesh when it makes a picture
+    // in place of the page.
     if (product->count() > 0)
       written.push_back({"--output", product->results().front()});
     else if (product->get_type_name() != "DIR" && !is_given(app, "--png"))

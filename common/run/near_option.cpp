@@ -1,4 +1,4 @@
-#include "common/run/near_option.hpp"
+#include "common/run/command_line.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -6,7 +6,7 @@
 namespace hexpipe {
 namespace {
 
-// Restricted Damerau-Levenshtein distance.
+// The restricted Damerau-Levenshtein distance.
 std::size_t distance_between(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last, last(b.size() + 1), now(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
@@ -30,7 +30,7 @@ std::string_view name_in(std::string_view given) {
 }  // namespace
 
 std::string near_option(std::string_view given, const std::vector<std::string>& known) {
-  constexpr std::size_t longest = 40;  // no option is as long, and what is typed may be a megabyte
+  constexpr std::size_t longest = 40;  // no option is this long, but users may type a megabyte
   const std::string_view name = name_in(given);
   if (name.empty() || name.size() > longest) return {};
   const auto is_begun = [&](const std::string& other) { return other.starts_with(name); };

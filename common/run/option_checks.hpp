@@ -1,6 +1,6 @@
 #pragma once
-// What CLI11 lacks: checks of values (its own ranges let NaN pass, and its unsigned integers wrap around), and a mark
-// for options that stay out of the history.
+// Two things that CLI11 lacks: stricter checks of values (its ranges let NaN pass, and its unsigned integers wrap
+// around), and a mark for options that stay out of the history.
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 namespace hexpipe {
 
-// A number in [low, high].
+// Accepts a number in [low, high].
 inline CLI::Validator number_between(double low, double high) {
   return CLI::Validator(
       [low, high](const std::string& text) {
@@ -22,7 +22,7 @@ inline CLI::Validator number_between(double low, double high) {
       "");
 }
 
-// An unsigned integer of 64 bits in decimal digits.
+// Accepts an unsigned integer of 64 bits in decimal digits.
 inline CLI::Validator whole_number_of_64_bits() {
   return CLI::Validator(
       [](const std::string& text) {
@@ -37,9 +37,9 @@ inline CLI::Validator whole_number_of_64_bits() {
 
 inline constexpr const char* outside_history_mark = "outside history";
 
-// Marks an option that says where things are or how to run, but not what comes out. It stays out of the history, so
-// that the same input and options give the same bytes. The mark is a named check that lets every value pass, as CLI11
-// has no other place to keep it.
+// Marks an option that says where files are or how to run, but does not change the result. It stays out of the history,
+// so that the same input and options give the same bytes. CLI11 has no place for such a mark, so it is a named check
+// that accepts every value.
 inline CLI::Option* outside_history(CLI::Option* option) {
   return option->check(CLI::Validator([](std::string&) { return std::string(); }, ""), outside_history_mark);
 }

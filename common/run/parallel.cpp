@@ -20,13 +20,19 @@ ThreadLimit::ThreadLimit(int threads)
 ThreadLimit::~ThreadLimit() = default;
 
 void ThreadLimit::stay() {
-  // Nobody destroys the list, at exit neither.
-  static auto* const standing = new std::vector<std::unique_ptr<Control>>;
-  standing->push_back(std::move(control_));
+  // The list is never destroyed, not even at exit.
+  static auto* const kept_limits = new std::vector<std::unique_ptr<Control>>;
+  kept_limits->push_back(std::move(control_));
 }
 
 int thread_count() {
   return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+void end_worker_threads() {
+  tbb::task_scheduler_handle scheduler{tbb::attach{}};
+  // False only if another thread is in a loop; then there is nothing to end.
+  tbb::finalize(scheduler, std::nothrow);
 }
 
 }  // namespace hexpipe

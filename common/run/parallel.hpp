@@ -1,6 +1,6 @@
 #pragma once
-// Parallel loops whose results do not depend on the number of threads: work is cut into blocks by its size alone, and
-// what blocks produce is put together in block order.
+// Parallel loops whose results do not depend on the number of threads: the size of the work alone decides how it is cut
+// into blocks, and the results of blocks are put together in block order.
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -18,7 +18,7 @@
 
 namespace hexpipe {
 
-// While one stands, parallel loops use `threads` threads; 0 means all that the machine has.
+// While an object exists, parallel loops use `threads` threads; 0 means all that the machine has.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
@@ -26,7 +26,8 @@ class ThreadLimit {
   ThreadLimit(const ThreadLimit&) = delete;
   ThreadLimit& operator=(const ThreadLimit&) = delete;
 
-  // Lets it stand until the process ends. Where memory was missing for one of TBB's threads, to lift it waits for ever.
+  // Keeps the limit until the process ends. If TBB could not start a thread for lack of memory, lifting the limit would
+  // wait for ever.
   void stay();
 
  private:
@@ -37,14 +38,14 @@ class ThreadLimit {
 // The number of threads that parallel loops use now.
 int thread_count();
 
-// Scratch memory: a copy of `model` for each thread that asks for one. What bodies produce must not depend on what
-// others left in it.
+// Scratch memory: each thread that asks for one gets a copy of `model`. Results must not depend on what earlier bodies
+// left in it.
 template <class T>
 class PerThread {
  public:
   explicit PerThread(const T& model) : copies_(model) {}
   T& local() { return copies_.local(); }
-  // In no order: what is made of them must not depend on it.
+  // Visits the copies in no particular order; results must not depend on it.
   template <class Visit>
   void for_each(Visit&& visit) {
     for (T& copy : copies_) visit(copy);
@@ -54,7 +55,7 @@ class PerThread {
   tbb::enumerable_thread_specific<T> copies_;
 };
 
-// body(i) for i in [0, count), in any order; bodies write to places of their own.
+// Calls body(i) for i in [0, count), in any order. Each body writes to its own places.
 template <class Body>
 void parallel_for(std::int64_t count, std::int64_t grain, Body&& body) {
   tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, count, grain), [&](const auto& range) {
@@ -62,28 +63,27 @@ void parallel_for(std::int64_t count, std::int64_t grain, Body&& body) {
   });
 }
 
-// one() and other(), at the same time where there are threads; neither writes what the other one reads.
+// Calls one() and other(), at the same time if there are threads for both. Neither may write what the other one reads.
 template <class One, class Other>
 void both_at_once(One&& one, Other&& other) {
   tbb::parallel_invoke(std::forward<One>(one), std::forward<Other>(other));
 }
 
-// body(), whose parallel loops leave one thread to another process, if there are more. A ThreadLimit would not do:
-// where a thread cannot be started, to lift it ends the process.
+// Calls body(); its parallel loops leave one thread to another process, if there are more than one. A ThreadLimit would
+// not do: where a thread cannot be started, lifting the limit ends the process.
 template <class Body>
 void leaving_one_thread(Body&& body) {
   tbb::task_arena(std::max(1, thread_count() - 1)).execute(std::forward<Body>(body));
 }
 
-// Cuts [0, count) into blocks of `block` items, calls produce(begin, end) -> Product in parallel and consume(Product&&)
-// one at a time in block order. At most a few blocks per thread are held at once.
+// Cuts [0, count) into blocks of `block` items. Calls produce(begin, end) -> Product in parallel, and
+// consume(Product&&) one at a time in block order. At most a few blocks per thread are held at once.
 template <class Produce, class Consume>
 void parallel_in_order(std::int64_t count, std::int64_t block, Produce&& produce, Consume&& consume) {
   using Product = decltype(produce(std::int64_t{}, std::int64_t{}));
   const std::size_t tokens = 4 * static_cast<std::size_t>(thread_count());
-  // A block's product waits in the slot of its number modulo the tokens: blocks leave in order, so the slot is free
-  // again. What flows through the pipeline is a plain number, because oneTBB leaks what is under way when a block
-  // throws.
+  // A block's product waits in slot (block number modulo tokens). Blocks leave in order, so the slot is free again by
+  // then. Only a plain number flows through the pipeline, because oneTBB leaks the items in flight when a block throws.
   std::vector<std::optional<Product>> slots(tokens);
   const auto slot = [&](std::int64_t begin) -> std::optional<Product>& {
     return slots[static_cast<std::size_t>(begin / block) % tokens];
@@ -107,5 +107,11 @@ void parallel_in_order(std::int64_t count, std::int64_t block, Produce&& produce
                                      tbb::make_filter<std::int64_t, std::int64_t>(tbb::filter_mode::parallel, make) &
                                      tbb::make_filter<std::int64_t, void>(tbb::filter_mode::serial_in_order, give));
 }
+
+// Ends the threads that parallel loops have started; the next loop starts them again. Call it before fork(): if a
+// thread of the parent holds a lock of the memory allocator at that moment, the lock stays taken in the child for ever.
+// (glibc's own allocator takes care of this; those of the sanitizers do not.) Do not call it from within a parallel
+// loop.
+void end_worker_threads();
 
 }  // namespace hexpipe

@@ -1,5 +1,5 @@
 #pragma once
-// Where a tool's time goes, for --stats.
+// Measures where a tool spends its time, for --stats.
 
 #include <ctime>
 #include <nlohmann/json.hpp>
@@ -9,10 +9,10 @@
 
 namespace hexpipe {
 
-// Counts from its making on.
+// The first phase begins with construction.
 class Phases {
  public:
-  // Ends the phase that ran until now.
+  // Ends the current phase and gives it a name.
   void end(const std::string& name) {
     const std::clock_t cpu = std::clock();
     const double wall = stopwatch_.seconds();
@@ -21,7 +21,7 @@ class Phases {
     cpu_began_ = cpu;
     wall_began_ = wall;
   }
-  // cpu_seconds (over all threads) and wall_seconds of each phase.
+  // The cpu_seconds (of all threads) and wall_seconds of each phase.
   const nlohmann::ordered_json& seconds() const { return seconds_; }
 
  private:

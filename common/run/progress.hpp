@@ -1,5 +1,5 @@
 #pragma once
-// A progress line on standard error, only where a person can see it: a terminal, and not with -q.
+// A progress line on standard error. It is shown only on a terminal, and not with -q.
 
 #include <string>
 
@@ -9,14 +9,15 @@ namespace hexpipe {
 
 class Progress {
  public:
-  // `label` stands before the line.
+  // `label` precedes the line.
   Progress(std::string label, bool quiet);
   // Clears the line.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // True when the line is due again (some ten times a second, never when there is no terminal): ask before making text.
+  // True when the line should be printed again (about ten times a second; never without a terminal). Ask before making
+  // text.
   bool due();
   void show(const std::string& text);
 

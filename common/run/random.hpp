@@ -1,6 +1,6 @@
 #pragma once
-// Random numbers that are the same on every machine: the standard's distributions and shuffle are not. The generator is
-// xoshiro256** (Blackman and Vigna 2018), seeded by splitmix64; bounded draws by Lemire 2019.
+// Random numbers that are the same on every machine; the standard library's distributions and shuffle are not. The
+// generator is xoshiro256** (Blackman and Vigna 2018), seeded by splitmix64. Bounded draws follow Lemire 2019.
 
 #include <array>
 #include <bit>
@@ -10,7 +10,8 @@
 
 namespace hexpipe {
 
-// The finalizer of splitmix64 (Steele, Lea, Flood 2014): one to one, and every bit of x moves every bit of the result.
+// The finalizer of splitmix64 (Steele, Lea, Flood 2014): it is one to one, and every bit of x changes every bit of the
+// result.
 constexpr std::uint64_t mix(std::uint64_t x) {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
@@ -22,7 +23,7 @@ class Random {
   explicit Random(std::uint64_t seed) {
     for (auto& word : state_) word = splitmix(seed);
   }
-  // An independent stream for part `index` of a computation, so that parts can run in any order.
+  // An independent stream for part `index` of a computation; parts can run in any order.
   Random(std::uint64_t seed, std::uint64_t index) : Random(seed ^ (0x9e3779b97f4a7c15u * (index + 1))) {}
 
   std::uint64_t next() {
@@ -47,11 +48,11 @@ class Random {
     return static_cast<std::uint64_t>(product >> 64);
   }
 
-  // Uniform in [0, 1), a multiple of 2^-53.
+  // Uniform in [0, 1): a multiple of 2^-53.
   double uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
-  // Fisher and Yates.
+  // The Fisher-Yates shuffle.
   template <class T>
   void shuffle(std::span<T> items) {
     for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[below(i)]);

@@ -10,10 +10,10 @@ namespace hexpipe {
 namespace {
 
 enum class State {
-  unused,   // nobody's
-  no_file,  // its owner may write the path
-  file,     // whoever ends the process may take it
-  taken,    // for good: the process ends
+  unused,   // free for the next owner
+  no_file,  // owned, and no file is named: the owner may write the path
+  file,     // a file is named: a thread that ends the process may take it
+  taken,    // taken for good: the process is ending
 };
 
 }  // namespace
@@ -28,7 +28,7 @@ namespace {
 
 static_assert(std::atomic<State>::is_always_lock_free && std::atomic<RemovedFileSlot*>::is_always_lock_free);
 
-// Slots are used again but never freed, so that a signal handler can go along them at any time.
+// Slots are reused but never freed, so that a signal handler can walk along them at any time.
 std::atomic<RemovedFileSlot*> first_slot{nullptr};
 
 bool change(RemovedFileSlot& slot, State from, State to) {

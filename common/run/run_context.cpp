@@ -4,6 +4,10 @@
 
 namespace hexpipe {
 
+const char* version() {
+  return HEXPIPE_VERSION;
+}
+
 Deadline RunContext::deadline() const {
   if (common.time_limit) return Deadline(common.time_limit);
   if (common.iterations) return Deadline();

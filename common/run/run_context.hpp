@@ -1,5 +1,5 @@
 #pragma once
-// What a tool says of itself, and what its run function is given.
+// What a tool says about itself, and what its run function gets.
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -12,16 +12,19 @@
 
 namespace hexpipe {
 
+// The version of hexpipe, "major.minor.patch".
+const char* version();
+
 struct ToolInfo {
   std::string name;
   std::string summary;          // one sentence
   std::string example;          // a worked example for --help
-  std::vector<Role> reads;      // roles that may come from files; the first is what a plain operand holds
-  std::optional<Role> product;  // what -o FILE writes; none: the tool writes no stream
+  std::vector<Role> reads;      // roles that may come from files; the first one is that of a plain operand
+  std::optional<Role> product;  // what -o FILE writes; nothing: the tool writes no stream
   bool random = false;          // has --seed
-  bool searches = false;        // has --time-limit, --iterations and --log, and stops gracefully on signals
-  std::optional<double> default_time_limit{};  // of a search that is given neither limit, seconds
-  std::string ends_by_itself{};  // or when a search ends that is given neither limit
+  bool searches = false;        // has --time-limit, --iterations and --log, and ends gracefully on signals
+  std::optional<double> default_time_limit{};  // seconds, for a search without --time-limit and --iterations
+  std::string ends_by_itself{};                // or the condition that ends such a search
   std::string licence{"MIT"};                  // of the executable as a whole, for --version
 };
 
@@ -37,19 +40,19 @@ struct CommonOptions {
   bool quiet = false;
 };
 
-// What a tool's run function is given.
+// What a tool's run function gets.
 struct RunContext {
   ToolInfo info;
   CommonOptions common;
   StreamOptions streams;
-  // Objects from the beginning: what becomes one only by its first entry cannot be destroyed when memory is missing
-  // then (nlohmann-json 3.11.2).
-  nlohmann::ordered_json options = nlohmann::ordered_json::object();     // all that decide the result, for the history
-  nlohmann::ordered_json statistics = nlohmann::ordered_json::object();  // goes to --stats FILE, filled by the tool
+  // These are objects from the start. nlohmann-json 3.11.2 cannot destroy one that becomes an object by its first entry
+  // when memory is exhausted at that moment.
+  nlohmann::ordered_json options = nlohmann::ordered_json::object();     // all that decide the result; for the history
+  nlohmann::ordered_json statistics = nlohmann::ordered_json::object();  // the tool fills it; it goes to --stats FILE
 
-  // The limit of a search: --time-limit, else the tool's default unless --iterations is given.
+  // The limit of a search: --time-limit, or the tool's default unless --iterations is given.
   Deadline deadline() const;
-  // Prints a line on standard error: with -v, or (warn) unless -q.
+  // Prints a line on standard error: note() with -v, warn() unless -q.
   void note(const std::string& text) const;
   void warn(const std::string& text) const;
 };

@@ -1,6 +1,5 @@
 #pragma once
-// What the command line says about a tool's inputs and output. tool_main declares these options;
-// formats/pipeline/stage.hpp obeys them.
+// The options for a tool's inputs and output. tool_main declares them; formats/pipeline/stage.hpp obeys them.
 
 #include <array>
 #include <map>
@@ -10,7 +9,7 @@
 
 namespace hexpipe {
 
-// The products of the pipeline in the order in which they arise; each depends on the ones before it.
+// The products of the pipeline in the order in which they are made; each depends on those before it.
 enum class Role { mesh, candidates, graph, solution, result };
 inline constexpr std::array all_roles{Role::mesh, Role::candidates, Role::graph, Role::solution, Role::result};
 
@@ -19,29 +18,29 @@ constexpr const char* name_of(Role role) {
   return names[static_cast<int>(role)];
 }
 
-// What the user says of a graph that comes from a file of its own (formats/choice/graph_reading.hpp).
+// How to read a graph that comes from a file of its own (formats/choice/graph_reading.hpp).
 struct GraphFileOptions {
-  std::string format;  // empty: told by the first bytes
+  std::string format;  // empty: the first bytes tell
   std::optional<double> weight_scale;
   bool tolerant = false, complement = false;
   bool any() const { return !format.empty() || weight_scale || tolerant || complement; }
 };
 
-// How a mesh is written, in a format of other programs.
+// How to write a mesh in a format of other programs.
 struct MeshOptions {
-  std::string solver;       // the program that is to read it; empty: none in particular
-  std::string pyramids;     // keep, collapsed or split; empty: as the solver takes them, else keep
-  std::string hex_element;  // Abaqus' type of hexes; empty: as is best for the solver, else C3D8
-  bool no_facets = false;   // cells alone
+  std::string solver;       // the program that will read it; empty: no particular one
+  std::string pyramids;     // keep, collapsed or split; empty: what suits the solver, otherwise keep
+  std::string hex_element;  // Abaqus' type of hexes; empty: what suits the solver, otherwise C3D8
+  bool no_facets = false;   // write cells only
 };
 
 struct StreamOptions {
-  std::optional<std::string> operand;  // a bundle, or a file of the tool's primary role; "-" is standard input
+  std::optional<std::string> operand;  // a bundle, or a file of the tool's first role; "-" is standard input
   std::map<Role, std::string> files;   // --mesh FILE and so on
   std::string output;                  // -o FILE; empty or "-": standard output
-  std::string format;                  // --format; empty: by the ending of `output`, a bundle on standard output
+  std::string format;                  // --format; empty: `output`'s ending decides; standard output gets a bundle
   GraphFileOptions graph_file;
-  bool compress = false;  // bundles are written with zstd
+  bool compress = false;  // write bundles with zstd
   MeshOptions mesh{};
 };
 

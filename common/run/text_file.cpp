@@ -8,12 +8,12 @@
 #include <optional>
 
 #include "common/run/error.hpp"
-#include "common/run/links.hpp"
+#include "common/run/open_files.hpp"
 
 namespace hexpipe {
 namespace {
 
-// A copy of the caller's own descriptor shares its place in the file with it: what either writes next comes behind.
+// A duplicate of the caller's descriptor shares the position in the file, so the texts of both follow each other.
 std::FILE* open_to_write(const std::string& path) {
   const std::optional<int> open_already = path == "-" ? STDOUT_FILENO : open_descriptor(path);
   if (!open_already) return std::fopen(path.c_str(), "we");

@@ -1,5 +1,5 @@
 #pragma once
-// A text beside the product, as statistics and logs are.
+// A text beside the product, such as statistics or a log.
 
 #include <cstdio>
 #include <memory>
@@ -10,13 +10,13 @@ namespace hexpipe {
 
 class TextFile {
  public:
-  // "-" is standard output. Replaces what is there; goes on behind it where the caller has the file open already, as
-  // /dev/stderr. Throws DataError where it cannot be written.
+  // "-" is standard output. An existing file is replaced; a file that the caller has already open, such as /dev/stderr,
+  // is continued. Throws DataError when it cannot be written.
   explicit TextFile(const std::string& path);
 
-  // At once, so that others can follow it. Nothing more is written after a failure.
+  // Writes at once, so that others can follow the file. After a failure nothing more is written.
   void write(std::string_view text);
-  // Throws DataError when something could not be written.
+  // Throws DataError when some text could not be written.
   void close();
 
  private:

@@ -13,20 +13,18 @@
 #include <memory>
 #include <new>
 
-#include "common/run/command_line_errors.hpp"
+#include "common/run/command_line.hpp"
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
-#include "common/run/help_formatter.hpp"
 #include "common/run/memory.hpp"
 #include "common/run/messages.hpp"
-#include "common/run/named_files.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/parallel.hpp"
 #include "common/run/removed_files.hpp"
+#include "common/run/run_context.hpp"
 #include "common/run/text_file.hpp"
-#include "common/run/version.hpp"
 
-// Of the sanitizers, where there are any: with the name and the type that they give it.
+// Defined only in builds with sanitizers, which give it this name and type.
 // NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming)
 extern "C" __attribute__((weak)) void __sanitizer_set_report_fd(void* descriptor);
 
@@ -44,7 +42,7 @@ std::string default_value(const CLI::Option& option) {
   return text;
 }
 
-// CLI11 gives a flag that switches something off, as --no-reductions, the value that it leaves to what is switched off.
+// For a flag that switches something off, such as --no-reductions, CLI11 gives the value of what is switched off.
 std::vector<std::string> given_values(const CLI::Option& option) {
   std::vector<std::string> values = option.results();
   if (option.check_fname(option.get_lnames().front()))
@@ -56,7 +54,7 @@ nlohmann::ordered_json options_for_history(CLI::App& app) {
   nlohmann::ordered_json options = nlohmann::ordered_json::object();
   for (CLI::Option* const option : app.get_options({})) {
     if (option->get_lnames().empty() || is_outside_history(*option)) continue;
-    // Not by CLI11's join: a stream without memory cuts its text off and says nothing.
+    // CLI11's join is not used: a stream without memory cuts its text off and says nothing.
     const std::string value =
         option->count() > 0 ? fmt::format("{}", fmt::join(given_values(*option), ",")) : default_value(*option);
     if (!value.empty()) options[option->get_lnames().front()] = value;
@@ -66,28 +64,29 @@ nlohmann::ordered_json options_for_history(CLI::App& app) {
 
 void declare_graph_file(CLI::App& app, GraphFileOptions& options) {
   app.add_option("--graph-format", options.format,
-                 "What a graph file is [told by its first bytes, METIS where these say nothing]")
+                 "The format of a graph file [its first bytes tell; METIS if they do not]")
       ->check(CLI::IsMember({"metis", "dimacs", "matrix-market", "edges"}));
   app.add_option("--weight-scale", options.weight_scale,
-                 "Weights in a graph file are any numbers: multiply them by this, then round")
+                 "Multiply the weights of a graph file, which may be any numbers, by this, then round")
       ->check(number_between(1e-300, 1e300));
   app.add_flag("--complement", options.complement,
-               "Take the edges that a graph file does not have: its cliques are the independent sets then");
-  app.add_flag("--tolerant", options.tolerant, "Leave out loops and repeated edges of a graph file, with a warning");
+               "Use the complement of the graph file: its cliques become the independent sets");
+  app.add_flag("--tolerant", options.tolerant, "Ignore loops and repeated edges of a graph file, with a warning");
 }
 
-// Of tools that write meshes. None of them changes a bundle.
+// Options of tools that write meshes. None of them changes a bundle.
 void declare_mesh_output(CLI::App& app, MeshOptions& mesh) {
   outside_history(
       app.add_option("--solver", mesh.solver,
-                     "Write a mesh as this program takes it best: its pyramids, hexes and facets; calculix: pyramids "
-                     "collapsed, C3D8I; abaqus: C3D8I; openfoam, su2, nastran, moose: their format is checked; code-aster: names of 24 characters"))
+                     "Write pyramids, hexes and facets in the way that suits this program; calculix: pyramids "
+                     "collapsed, C3D8I; abaqus: C3D8I; openfoam, su2, nastran, moose: their format is checked; "
+                     "code-aster: names of 24 characters"))
       ->type_name("NAME")
       ->check(CLI::IsMember({"calculix", "abaqus", "openfoam", "su2", "nastran", "moose", "code-aster"}).description(""));
   outside_history(
       app.add_option(
           "--pyramids", mesh.pyramids,
-          "In files of other programs: keep; collapsed: as hexes with the apex four times (.inp); split: as two "
+          "How other formats get pyramids: keep; collapsed: as hexes with the apex four times (.inp); split: as two "
           "tets each"))
       ->type_name("FORM")
       ->check(CLI::IsMember({"keep", "collapsed", "split"}).description(""));
@@ -95,32 +94,33 @@ void declare_mesh_output(CLI::App& app, MeshOptions& mesh) {
       ->type_name("TYPE")
       ->check(CLI::IsMember({"C3D8", "C3D8I", "C3D8R"}).description(""));
   outside_history(app.add_flag("--no-facets", mesh.no_facets,
-                               "In files of other programs: cells alone, for readers that take no facets among them"));
+                               "Leave facets out of other formats, for readers that take only cells"));
 }
 
 void declare_streams(CLI::App& app, RunContext& context) {
   StreamOptions& streams = context.streams;
   const auto& reads = context.info.reads;
   if (!reads.empty()) {
-    app.add_option(
-           "input", streams.operand,
-           fmt::format("A bundle, or the {} in any format; '-' or nothing: standard input", name_of(reads.front())))
+    app.add_option("input", streams.operand,
+                   fmt::format("A bundle, or the {} in any format; standard input if it is '-' or missing",
+                               name_of(reads.front())))
         ->type_name("FILE");
     for (const Role role : reads)
       outside_history(
           app.add_option(fmt::format("--{}", name_of(role)), streams.files[role],
-                         fmt::format("Take the {} from this file, whatever the bundle holds", name_of(role))))
+                         fmt::format("Take the {} from this file, even if the bundle has one", name_of(role))))
           ->type_name("FILE");
   }
   if (std::ranges::find(reads, Role::graph) != reads.end()) declare_graph_file(app, streams.graph_file);
   if (!context.info.product) return;
   outside_history(
       app.add_option("-o,--output", streams.output,
-                     fmt::format("Write to a file: a bundle (.tar, .tar.zst), else the {} alone, in the format that "
+                     fmt::format("Write to a file: a bundle (.tar, .tar.zst), or only the {}, in the format that "
                                  "the ending names",
                                  name_of(*context.info.product))))
       ->type_name("FILE");
-  outside_history(app.add_option("--format", streams.format, "The format of the output, whatever its name"))
+  outside_history(
+      app.add_option("--format", streams.format, "The format of the output; it overrides the ending of its name"))
       ->type_name("NAME");
   outside_history(app.add_flag("--compress", streams.compress, "Compress the bundle with zstd"));
   if (*context.info.product == Role::mesh || *context.info.product == Role::result)
@@ -130,11 +130,11 @@ void declare_streams(CLI::App& app, RunContext& context) {
 void declare_common(CLI::App& app, RunContext& context) {
   CommonOptions& common = context.common;
   const ToolInfo& info = context.info;
-  outside_history(app.add_option("--threads", common.threads, "Threads to use; 0: as many as the machine has"))
+  outside_history(app.add_option("--threads", common.threads, "Threads to use; 0: all that the machine has"))
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
-  outside_history(app.add_option("--memory", common.memory,
-                                 "Take no more memory than this, as 8G; else: what the machine has left"))
+  outside_history(
+      app.add_option("--memory", common.memory, "Use at most this much memory, such as 8G [what the machine has left]"))
       ->type_name("BYTES")
       ->transform(CLI::AsSizeValue(false).description(""))
       ->check(CLI::Range(std::uint64_t{1} << 20, std::uint64_t{1} << 62).description(""));
@@ -147,7 +147,7 @@ void declare_common(CLI::App& app, RunContext& context) {
     const std::string note = info.default_time_limit
                                  ? fmt::format(" [{:g} unless --iterations is given]", *info.default_time_limit)
                              : info.ends_by_itself.empty() ? std::string()
-                                                           : fmt::format(" [else it ends {}]", info.ends_by_itself);
+                                                           : fmt::format(" [it ends {}]", info.ends_by_itself);
     app.add_option("--time-limit", common.time_limit, "Stop after this many seconds" + note)
         ->type_name("SECONDS")
         ->check(number_between(0, 1e9));
@@ -156,13 +156,13 @@ void declare_common(CLI::App& app, RunContext& context) {
         ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 62).description(""));
     outside_history(
         app.add_option("--log", common.log_file,
-                       "Write the course of the search to a file, a JSON object a line; '-': to standard output"))
+                       "Write the course of the search to a file, one JSON object per line; '-': to standard output"))
         ->type_name("FILE");
   }
   outside_history(
       app.add_option("--stats", common.stats_file, "Write counts and times to a file as JSON; '-': to standard output"))
       ->type_name("FILE");
-  outside_history(app.add_flag("-v,--verbose", common.verbose, "Say what is done, on standard error"));
+  outside_history(app.add_flag("-v,--verbose", common.verbose, "Report what is done, on standard error"));
   outside_history(app.add_flag("-q,--quiet", common.quiet, "No warnings"));
   outside_history(app.set_config("--config", "", "Read options from a file (name=value)"))->type_name("FILE");
   app.allow_config_extras(CLI::config_extras_mode::error);
@@ -174,7 +174,7 @@ std::string footer(const ToolInfo& info) {
       info.example);
 }
 
-// Before the run, so that hours of work do not end in an error. What is there stays as it is.
+// Checked before the run, so that hours of work do not end in an error. An existing file stays as it is.
 void check_writable(const std::string& path) {
   if (path.empty() || path == "-") return;
   const bool is_new = access(path.c_str(), F_OK) != 0;
@@ -194,8 +194,8 @@ void write_statistics(const RunContext& context, double seconds) {
   file.close();
 }
 
-// A standard stream that the caller closed would be the next file opened, and messages would land in the data. In its
-// place stands one that only gives errors.
+// If the caller closed a standard stream, the next file opened would take its place, and messages would land in the
+// data. This puts a stream there on which reading and writing fail.
 void keep_standard_streams_apart() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0) open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
@@ -206,16 +206,16 @@ int report(const std::string& tool, std::string_view message, int code) {
   return code;
 }
 
-// Standard streams hold nothing but help, whose fate is known: see show().
+// The standard streams hold nothing but help, and show() has checked that it was written.
 void end_at_once(int code, void*) {
   std::cout.flush();
   std::fflush(nullptr);
   _exit(code);
 }
 
-// Ends the process behind main() without the destructors of libraries, which have nothing to do for us: OpenBLAS's
-// waits for threads that try without end to allocate what --memory does not leave them. Sanitizers look for leaks
-// there.
+// Ends the process after main() without the destructors of libraries, which do nothing useful here: OpenBLAS's waits
+// for threads that keep trying to allocate memory that --memory does not leave them. The sanitizers search for leaks in
+// these destructors, so their builds run them.
 void leave_libraries_out_at_exit() {
   static const bool sanitized = __sanitizer_set_report_fd != nullptr;
   static const int registered = sanitized ? 0 : on_exit(end_at_once, nullptr);
@@ -231,10 +231,10 @@ int show(const CLI::App& app, const CLI::Success& text, const ToolInfo& info) {
 
 [[noreturn]] void end_without_memory();
 
-// From before main() on; the usual handler stays in charge of everything but missing memory.
+// Installed before main(); the usual handler remains responsible for everything except missing memory.
 const std::terminate_handler usual_end = std::set_terminate(end_without_memory);
 
-// Memory may also be missing where no exception can pass: in a destructor, or before tool_main.
+// Memory may also run out where no exception can pass: in a destructor, or before tool_main.
 void end_without_memory() {
   try {
     if (const std::exception_ptr current = std::current_exception()) std::rethrow_exception(current);

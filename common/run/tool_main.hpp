@@ -1,6 +1,6 @@
 #pragma once
-// The frame of every tool: common options, the mapping of errors to messages and exit codes (0 done, 1 bad data or
-// failed I/O, 2 bad command line), signals, and --stats.
+// The frame of every tool: common options, signals, --stats, and the mapping of errors to messages and exit codes (0
+// done, 1 bad data or failed I/O, 2 bad command line).
 
 #include <CLI/CLI.hpp>
 #include <functional>

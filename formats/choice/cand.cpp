@@ -13,7 +13,7 @@
 namespace hexpipe::formats {
 namespace {
 
-constexpr std::string_view magic = "hexpipe-candidates";
+constexpr std::string_view cand_magic = "hexpipe-candidates";
 constexpr int version = 1;
 // The shortest lines are pyramids with one-digit numbers and no tets.
 constexpr std::size_t least_bytes_a_candidate = 20;
@@ -35,7 +35,7 @@ class CandParser {
       next_line();
       read_candidate();
     }
-    // Cut off within its last number, a file would pass for another one.
+    // A file that is cut off within its last number would otherwise be taken for a different one.
     if (!ends_) scanner_.fail_expected("the end of the line", "");
     if (!scanner_.at_end()) scanner_.fail_expected("nothing after the last candidate", scanner_.peek_word());
     check_total("interior tets", tet_count_, candidates_.tets.size());
@@ -45,7 +45,7 @@ class CandParser {
 
  private:
   void read_header() {
-    scanner_.expect(magic);
+    scanner_.expect(cand_magic);
     if (const int found = scanner_.number<int>("the version"); found != version)
       scanner_.fail(fmt::format("expected version {}, found {}", version, found));
     count_ = scanner_.count("a number of candidates", least_bytes_a_candidate);
@@ -79,7 +79,7 @@ class CandParser {
 
   void read_vertices(CellKind kind) {
     std::array<Vertex, 8>& row = candidates_.vertices.emplace_back();
-    row.fill(-1);
+    row.fill(no_index);
     for (int i = 0; i < corner_count(kind); ++i) {
       const std::int32_t v = index("a vertex");
       if (std::find(row.begin(), row.begin() + i, v) != row.begin() + i)
@@ -104,7 +104,7 @@ class CandParser {
     return found - 1;
   }
 
-  // A candidate is one line: a number that is missing there is not taken from the next line.
+  // A candidate is one line: a missing number is not taken from the next line.
   template <class T>
   T number(std::string_view what) {
     if (scanner_.at_line_end()) scanner_.fail(fmt::format("expected {}, found the end of the line", what));
@@ -138,7 +138,7 @@ Candidates read_cand(Input& input) {
 
 void write_cand(const Candidates& candidates, Output& output) {
   LineWriter line(output);
-  line << magic << version << candidates.size() << candidates.tets.size() << candidates.boundary_tets.size();
+  line << cand_magic << version << candidates.size() << candidates.tets.size() << candidates.boundary_tets.size();
   line.end_line();
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const auto interior = candidates.interior_tets_of(i), boundary = candidates.boundary_tets_of(i);

@@ -55,7 +55,8 @@ class EdgeListParser : NumberLines {
     return result;
   }
 
-  // Numbers that are no numbering, as those of people, would make a graph of nothing but isolated vertices.
+  // Numbers that are not a numbering (those of people, for example) would make a graph of almost only isolated
+  // vertices.
   void check_vertex_count(std::int64_t count) const {
     constexpr std::int64_t isolated = 1000000;
     const auto most = static_cast<std::int64_t>(ends_.size()) + isolated;

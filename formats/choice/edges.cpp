@@ -20,7 +20,7 @@ graph::ConflictGraph graph_of_edges(std::vector<std::int64_t> weights, const std
     lists[places[ends[i]]++] = ends[i + 1];
     lists[places[ends[i + 1]]++] = ends[i];
   }
-  // Now places[v] is where the list of v ends.
+  // places[v] is now where the list of v ends.
   std::int64_t begin = 0, kept = 0;
   for (std::size_t v = 0; v < graph.weights.size(); ++v) {
     const auto list = std::span(lists).subspan(begin, places[v] - begin);

@@ -1,5 +1,5 @@
 #pragma once
-// A graph from a file in any of the formats that are read, with what the user says of the file.
+// Reads a graph from a file in any of the known formats, as the options say.
 
 #include <cstdint>
 #include <map>
@@ -21,7 +21,7 @@ struct GraphReading {
   bool complement = false;               // the edges are those that the file does not have
 };
 
-// What was left out, to be told to the user.
+// What was left out; the user is told.
 struct LeftOut {
   std::int64_t loops = 0, repeated = 0;
 };

@@ -107,7 +107,7 @@ class MetisParser : NumberLines {
     graph_.neighbours.resize(graph_.neighbours.size() - rest.size());
   }
 
-  // Where they are real numbers they are left out as well.
+  // Real numbers are left out as well.
   void take_edge_weight() {
     if (reading_.weight_scale)
       scaled_weight("the edge weight", reading_.weight_scale);
@@ -129,7 +129,7 @@ class MetisParser : NumberLines {
                         directed_count_ / 2, directed_count_, graph_.neighbours.size());
   }
 
-  // The header may count what is left out: repeated edges, and loops by one of their ends or by both.
+  // The header may count what is left out: repeated edges, and loops at one of their ends or at both.
   bool is_counted(std::size_t found) const {
     const auto loops = static_cast<std::size_t>(left_out_.loops);
     for (const std::size_t with_repeated : {found, found + repeated_ends_})
@@ -138,7 +138,8 @@ class MetisParser : NumberLines {
     return false;
   }
 
-  // What is cut off may end with the beginning of a number. A neighbour would have been missed at its other end.
+  // A file that is cut off may end with the beginning of a number. A missing neighbour would be noticed at its other
+  // end.
   void check_last_number() const {
     if (has_last_end_ || !vertex_weights_ || vertex_count_ == 0 || graph_.degree(vertex_count_ - 1) > 0) return;
     throw DataError::at(file(),

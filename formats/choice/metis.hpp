@@ -22,8 +22,8 @@ graph::ConflictGraph read_metis(Input& input, const GraphReading& reading, LeftO
 // Writes `n m 10`, neighbours ascending.
 void write_metis(const graph::ConflictGraph& graph, Output& output);
 
-// A warning when other programs cannot hold these weights: METIS itself holds them in 31 bits, KaMIS sums them in 32,
-// and neither reports an overflow. It names the --weight-scale that would fit, as a factor of the present one.
+// A warning if other programs cannot hold these weights: METIS holds them in 31 bits, KaMIS sums them in 32, and
+// neither reports an overflow. It names the --weight-scale that would fit, as a factor of the current one.
 std::optional<std::string> metis_weight_warning(const graph::ConflictGraph& graph);
 
 }  // namespace hexpipe::formats

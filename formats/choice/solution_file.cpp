@@ -84,7 +84,7 @@ graph::IndependentSet read_solution(Input& input, std::int64_t vertex_count) {
   const std::string text = input.read_all();
   if (!text.empty()) expect_last_line_end(text, input.name());
   const auto lines = read_lines(text, input.name());
-  // An empty file is what a failed program leaves: the empty set is a solution of the empty graph only.
+  // A failed program leaves an empty file. The empty set is a solution of the empty graph only.
   if (lines.empty() && vertex_count > 0) throw DataError::at(input.name(), "expected a solution, found no numbers");
   return is_line_for_each_vertex(lines, vertex_count) ? from_flags(lines)
                                                       : from_numbers(lines, vertex_count, input.name());

@@ -12,12 +12,12 @@
 #include "formats/meshes/facet_owners.hpp"
 #include "formats/meshes/group_naming.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
-#include "formats/streams/short_number.hpp"
+#include "formats/streams/number_writer.hpp"
 
 namespace hexpipe::formats {
 namespace {
 
-// CalculiX cuts fields here, without a word: of -9.52639091424853e-05 it keeps -9.52639091424853e-0.
+// CalculiX silently cuts fields at this width: it keeps -9.52639091424853e-0 of -9.52639091424853e-05.
 constexpr int field_width = 20;
 // CalculiX reads lines of 132 characters, Abaqus of 256; both take 16 numbers a line.
 constexpr std::size_t line_width = 80;
@@ -116,7 +116,7 @@ class AbaqusWriter {
   void collect_faces(const Block& facets, const std::vector<FacetOwner>& owners, const char* name) {
     for (std::size_t i = 0; i < facets.size(); ++i) {
       const FacetOwner& owner = owners[i];
-      if (owner.cell < 0)
+      if (owner.cell == no_index)
         throw DataError::at(output_.name(),
                             "cannot write {}[{}]: Abaqus surfaces consist of facets of cells, and it is none", name, i);
       const AbaqusNames& names = abaqus_names(owner.kind);

@@ -15,8 +15,8 @@ bool looks_like_abaqus(std::string_view text);
 // where there are any; surfaces of faces become surfaces. Throws FormatError or DataError.
 MixedMesh read_abaqus(std::string_view text, std::string_view file, GroupNames* names = nullptr);
 
-// Regions become element sets and node sets, surfaces node sets and element-based surfaces. Throws DataError when a
-// facet belongs to no cell, as it has no name then. Qualities are not written.
+// Regions become element sets and node sets, surfaces become node sets and element-based surfaces. Throws DataError
+// when a facet belongs to no cell, because it has no name then. Qualities are not written.
 void write_abaqus(const MixedMesh& mesh, const MeshWriting& writing, Output& output);
 
 }  // namespace hexpipe::formats

@@ -36,7 +36,7 @@ void add_facets(const MixedMesh& mesh, const Block& facets, const std::vector<Fa
     std::int32_t region = 0;
     std::uint8_t kind = own_kind;
     double quality = 1;
-    if (const FacetOwner& owner = owners[i]; owner.cell >= 0) {
+    if (const FacetOwner& owner = owners[i]; owner.cell != no_index) {
       kind = static_cast<std::uint8_t>(owner.kind);
       with_cell_block(mesh, owner.kind, [&](const auto& cells) {
         const auto cell = static_cast<std::size_t>(owner.cell);

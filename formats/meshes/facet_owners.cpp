@@ -21,13 +21,13 @@ class Owners {
         cells_(facets.size()),
         outward_(facets.size()) {}
 
-  // Tells of a facet of a cell, listed counter-clockwise seen from outside.
+  // Considers a facet of a cell, listed counter-clockwise seen from outside.
   void offer(const Facet& facet, const FacetOwner& cell) {
     table_.visit_same(facet, [&](std::size_t i) {
       ++cells_[i];
       if (outward_[i]) return;
       outward_[i] = same_cycle(facets_[i], facet);
-      if (outward_[i] || owners_[i].cell < 0) owners_[i] = cell;
+      if (outward_[i] || owners_[i].cell == no_index) owners_[i] = cell;
     });
   }
 

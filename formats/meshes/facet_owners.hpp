@@ -10,7 +10,7 @@
 namespace hexpipe::formats {
 
 struct FacetOwner {
-  std::int64_t cell = -1;  // within the block of its kind; -1: the facet belongs to no cell
+  std::int64_t cell = no_index;  // within the block of its kind; no_index: the facet belongs to no cell
   CellKind kind = CellKind::tet;
   std::uint8_t facet = 0;  // in the topology's list of triangles or of quads
   std::int32_t cells = 0;  // how many have the facet: 1 on the boundary, 2 inside

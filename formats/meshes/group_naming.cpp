@@ -10,16 +10,10 @@
 #include <utility>
 
 #include "formats/meshes/mesh_blocks.hpp"
+#include "formats/streams/text_scanner.hpp"
 
 namespace hexpipe::formats {
 namespace {
-
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
 
 bool is_allowed(char c, const NameRules& rules) {
   if (is_letter(c) || is_digit(c) || c == '_') return true;

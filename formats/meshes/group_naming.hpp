@@ -16,13 +16,13 @@ namespace hexpipe::formats {
 
 enum class GroupKind { surface, region };
 
-// The name of a tag, or where it has none surface_3, region_-1.
+// The name of a tag; without one, surface_3 or region_-1.
 std::string group_name(const GroupNames& names, GroupKind kind, std::int32_t tag);
 
-// The tag that such a name of an unnamed group tells, also with m for the minus sign: surface_3, region_m1.
+// The tag in such a name of an unnamed group, also with m for the minus sign: surface_3, region_m1.
 std::optional<std::int32_t> told_tag(std::string_view name, GroupKind kind);
 
-// What a format's readers take as one name.
+// The names that a format's readers accept.
 struct NameRules {
   const char* format;       // for messages
   std::size_t longest;      // bytes
@@ -32,9 +32,9 @@ struct NameRules {
   bool ascii_only = true;
 };
 
-// The names of all tags of a kind, each changed as little as the rules need: what is not allowed becomes _, what is too
-// long is cut, and where two names become one, the later gets _2. Tags of the same name stay of the same name: they are
-// one group. Each change is told. Names that are `reserved` are given to none.
+// The names of all tags of a kind, each changed as little as the rules require: characters that are not allowed become
+// _, long names are cut, and if two names become the same, the later one gets _2. Tags with the same name keep the same
+// name: they are one group. Each change is reported. `reserved` names are given to none.
 class GroupNaming {
  public:
   GroupNaming(const MixedMesh& mesh, GroupKind kind, const MeshWriting& writing, const NameRules& rules,
@@ -43,14 +43,14 @@ class GroupNaming {
   const std::string& of(std::int32_t tag) const { return names_.at(tag); }
   // By ascending tag.
   const std::map<std::int32_t, std::string>& all() const { return names_; }
-  // Each once, in the order of their first tags.
+  // Each name once, in the order of their first tags.
   std::vector<std::string> list() const;
 
  private:
   std::map<std::int32_t, std::string> names_;
 };
 
-// The names of surfaces and regions where one name must not stand for both: the surfaces' come first.
+// The names of surfaces and regions, if one name must not stand for both: the surfaces' names come first.
 struct GroupNamings {
   GroupNaming surfaces, regions;
 

@@ -23,10 +23,6 @@ std::string_view usual_spelling(std::string_view keyword) {
   return keyword;
 }
 
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
 class MeditReader {
  public:
   MeditReader(std::string_view text, std::string_view file) : scanner_(text, file, '#') {}

@@ -28,7 +28,7 @@ void write_msh_as(const MixedMesh& mesh, const MeshWriting& writing, Output& out
   write_msh(mesh, version, coding, writing, output);
 }
 
-// Formats that nothing of `writing` concerns: they have tags, no names.
+// Writes formats that have tags but no names; `writing` does not concern them.
 template <void (*write)(const MixedMesh& mesh, Output& output)>
 void write_tags(const MixedMesh& mesh, const MeshWriting&, Output& output) {
   write(mesh, output);
@@ -64,7 +64,7 @@ bool looks_like_binary_medit(std::string_view text) {
   return text.starts_with("\1\0\0\0"sv) || text.starts_with("\0\0\0\1"sv);
 }
 
-MixedMesh read_by_content(std::string text, const std::string& name, const std::string& path, GroupNames* names) {
+MixedMesh read_mesh_by_content(std::string text, const std::string& name, const std::string& path, GroupNames* names) {
   if (looks_like_library_format(text)) return read_by_library(std::move(text), name, path, names);
   text.erase(0, text.size() - without_byte_order_mark(text).size());
   if (looks_like_vtu(text)) return read_vtu(std::move(text), name);
@@ -89,14 +89,14 @@ MixedMesh read_by_content(std::string text, const std::string& name, const std::
 }  // namespace
 
 MixedMesh read_mixed_mesh(Input& input, GroupNames* names) {
-  MixedMesh mesh = read_by_content(input.read_all(), input.name(), input.path(), names);
+  MixedMesh mesh = read_mesh_by_content(input.read_all(), input.name(), input.path(), names);
   validate(mesh, input.name().c_str());
   return mesh;
 }
 
 namespace {
 
-// Without what the options leave out; the mesh itself where they leave all. Says what that costs.
+// The mesh without what the options leave out; the mesh itself if they leave everything. Reports what that costs.
 MixedMesh with_options(MixedMesh mesh, const MeshWriting& writing) {
   if (writing.pyramids == PyramidForm::split && mesh.pyramids.size() > 0) {
     writing.say(

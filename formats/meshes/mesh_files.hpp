@@ -24,7 +24,7 @@ MixedMesh read_mixed_mesh(Input& input, GroupNames* names = nullptr);
 // and where they were built: exo, e, med, cgns.
 void write_mixed_mesh(const MixedMesh& mesh, std::string_view format, Output& output, const MeshWriting& writing = {});
 
-// All format names that write_mixed_mesh knows; the ending of a file is one of those without a hyphen, but for msh22.
+// All format names that write_mixed_mesh knows. The endings of files are those without a hyphen, except msh22.
 const std::vector<std::string_view>& mesh_format_names();
 
 // The format that is a folder of files, OpenFOAM's. Folders of this name have it.

@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "common/run/error.hpp"
-#include "common/run/version.hpp"
+#include "common/run/run_context.hpp"
 
 namespace hexpipe::formats {
 namespace {

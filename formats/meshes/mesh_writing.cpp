@@ -18,13 +18,13 @@ void add_quads(const Block& block, KeySet<4>& quads) {
     for (const LocalQuad& corners : Topology::quads) quads.insert(key_of(pick(cell, corners)));
 }
 
-// Turned so that the lowest vertex is the first.
+// The same quad, beginning with its lowest vertex.
 std::array<Vertex, 4> from_lowest(std::array<Vertex, 4> quad) {
   std::ranges::rotate(quad, std::ranges::min_element(quad));
   return quad;
 }
 
-// The pyramids' tets, and the facets with those of pyramids alone cut in two.
+// Adds the pyramids' tets, and cuts facets of pyramids alone in two.
 void split_cells(const CellBlock<5>& pyramids, CellBlock<4>& tets) {
   for (std::size_t i = 0; i < pyramids.size(); ++i) {
     const auto& cell = pyramids.cells[i];
@@ -45,7 +45,7 @@ MixedMesh with_split_pyramids(const MixedMesh& mesh) {
   add_quads<HexTopology>(mesh.hexes, others);
   add_quads<PrismTopology>(mesh.prisms, others);
   result.pyramids = {};
-  // A part of a cell has no quality of its own yet.
+  // The new cells have no quality yet.
   for_each_block(result, [](const ElementNames&, auto& block) { block.quality.clear(); });
   split_cells(mesh.pyramids, result.tets);
   result.quads = {};

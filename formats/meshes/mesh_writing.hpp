@@ -1,5 +1,5 @@
 #pragma once
-// How a mesh is to be written, beside its format: what solvers want and formats allow.
+// How a mesh is to be written apart from its format: what solvers want and formats allow.
 
 #include <cstddef>
 #include <functional>
@@ -28,18 +28,18 @@ struct MeshWriting {
   }
 };
 
-// With two tets for each pyramid. The diagonal of a base begins at its lowest vertex, so that two pyramids on one base
-// agree. A facet that only pyramids have becomes two triangles; beside a hex or a prism it stays a quad, whose other
-// side is two triangles now: vertices fit, but the mesh no longer conforms there, and finite elements do not pass the
-// patch test.
+// The mesh with two tets for each pyramid. The diagonal of a base begins at its lowest vertex, so that two pyramids on
+// one base agree. A facet that only pyramids have becomes two triangles. Beside a hex or a prism it stays a quad whose
+// other side is two triangles now: vertices fit, but the mesh no longer conforms there, and finite elements do not pass
+// the patch test.
 MixedMesh with_split_pyramids(const MixedMesh& mesh);
 
-// Throws DataError, beginning with `name`, where a format has too few numbers for so many points or elements.
+// Throws DataError, beginning with `name`, if there are more points or elements than a format can number.
 inline constexpr std::size_t most_of_31_bits = 2147483647;
 void check_numbers(std::size_t count, std::size_t most, std::string_view name);
 
-// A length that is nothing beside the mesh: 1e-15 of the diagonal of its bounding box. Coordinates below it are written
-// as 0 by formats with short fields, where they would take digits.
+// A length that is negligible in the mesh: 1e-15 of the diagonal of its bounding box. Formats with short fields write
+// smaller coordinates as 0, because they would take digits.
 double negligible_length(const MixedMesh& mesh);
 
 }  // namespace hexpipe::formats

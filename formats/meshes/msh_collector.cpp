@@ -48,7 +48,7 @@ void erase_marked(std::vector<T>& items, const std::vector<bool>& marked) {
 
 namespace {
 
-// What we and others write where there is no name: region 3, region_3.
+// The name that we and others write for a tag without one: region 3, region_3.
 bool is_default_name(std::string_view name, std::int32_t number, int dimension) {
   const std::string_view word = msh_group_word(dimension);
   return name.starts_with(word) && name.size() > word.size() &&

@@ -1,5 +1,5 @@
 #pragma once
-// Collects what a .msh file of either version says, and makes a mesh of it.
+// Collects the content of a .msh file of either version, and makes a mesh of it.
 
 #include <cstdint>
 #include <cstdlib>
@@ -18,7 +18,7 @@
 
 namespace hexpipe::formats {
 
-// The numbers of an element beside its corners. Physical group 0: it is in no group.
+// The numbers of an element apart from its corners. Physical group 0: it is in no group.
 struct MshElementNumbers {
   std::int64_t element = 0;
   std::int32_t physical = 0;
@@ -38,7 +38,7 @@ class MshCollector {
   std::size_t node_count() const { return mesh_.points.size(); }
   // Call it after the last node. Returns a number that two nodes have, if any.
   std::optional<std::int64_t> number_nodes();
-  // The vertex of a node; NumberMap::none: there is no such node.
+  // The vertex of a node; no_index: there is no such node.
   Vertex vertex(std::int64_t node) const { return nodes_.find(node); }
 
   // Calls visit(block, add) for the block of a Gmsh element type; add(corners, numbers) adds an element to it. False
@@ -50,7 +50,7 @@ class MshCollector {
   void add_quality(std::int64_t element, double quality) { quality_.emplace_back(element, quality); }
 
   MixedMesh take_mesh();
-  // Of the tags that the mesh has, once it is taken; without those that say no more than the number.
+  // The names of tags that the mesh has, once it is taken, except those that only repeat the number.
   const GroupNames& names() const { return names_; }
 
  private:

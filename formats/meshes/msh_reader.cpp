@@ -323,7 +323,7 @@ class MshReader {
 
   Vertex vertex_of(std::int64_t node) {
     const Vertex v = mesh_.vertex(node);
-    if (v == NumberMap::none) scanner_.fail_expected("the number of a node", std::to_string(node));
+    if (v == no_index) scanner_.fail_expected("the number of a node", std::to_string(node));
     return v;
   }
 

@@ -16,7 +16,7 @@
 #include "formats/meshes/group_naming.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
 #include "formats/streams/number_map.hpp"
-#include "formats/streams/short_number.hpp"
+#include "formats/streams/number_writer.hpp"
 #include "formats/streams/text_scanner.hpp"
 
 namespace hexpipe::formats {
@@ -32,7 +32,7 @@ struct CardName {
   std::uint8_t vtk;
   std::string_view name;
 };
-// The first of each kind is the one that is written.
+// The first card of each kind is the one that is written.
 constexpr CardName cards[] = {{12, "CHEXA"}, {13, "CPENTA"}, {14, "CPYRAM"}, {14, "CPYRA"}, {10, "CTETRA"},
                               {5, "CTRIA3"}, {9, "CQUAD4"},  {5, "CTRIAR"},  {9, "CQUADR"}};
 constexpr std::string_view higher_order[] = {"CTRIA6", "CQUAD8", "CQUAD9", "CTRAX6"};
@@ -124,7 +124,7 @@ class NastranReader {
     return line;
   }
 
-  // What comes before the bulk data, where they are announced, is for the solver alone.
+  // Skips what precedes the bulk data, if the file announces them: it is for the solver only.
   void skip_to_bulk() {
     const std::size_t at = at_;
     while (const auto line = next_line())
@@ -265,7 +265,7 @@ class NastranReader {
         auto& cell = block.cells.emplace_back();
         for (std::size_t i = 0; i < cell.size(); ++i) {
           cell[i] = points_.find(element.nodes[i]);
-          if (cell[i] == NumberMap::none)
+          if (cell[i] == no_index)
             fail(element.line, fmt::format("expected the number of a point, found {}", element.nodes[i]));
         }
       }
@@ -372,7 +372,7 @@ class NastranWriter {
 
 }  // namespace
 
-// Decks begin with much that is not bulk data.
+// Decks begin with many lines that are not bulk data.
 bool looks_like_nastran(std::string_view text) {
   constexpr int most_lines = 1000;
   for (int line = 0; line < most_lines && !text.empty(); ++line) {

@@ -25,21 +25,19 @@ namespace {
 // Other characters end a word of a dictionary, or mean a pattern.
 constexpr NameRules openfoam_rules{.format = "OpenFOAM", .longest = 255, .others = "-.:+%@~^"};
 constexpr const char* untagged_patch = "defaultFaces";
-constexpr Vertex no_corner = -1;
 
-// A face with its corners as its first cell sees them from inside out, its lowest corner first; a triangle has no
-// fourth.
+// A face: its corners as its first cell sees them from inside out, the lowest corner first. A triangle has no fourth.
 using Corners = std::array<Vertex, 4>;
 
 template <std::size_t N>
 Corners face_corners(const std::array<Vertex, N>& corners) {
-  Corners face{no_corner, no_corner, no_corner, no_corner};
+  Corners face{no_index, no_index, no_index, no_index};
   std::ranges::copy(corners, face.begin());
   return face;
 }
 
 std::size_t corner_count_of(const Corners& face) {
-  return face[3] == no_corner ? 3 : 4;
+  return face[3] == no_index ? 3 : 4;
 }
 
 Corners sorted(Corners face) {
@@ -51,8 +49,8 @@ struct Face {
   Corners key;      // sorted
   Corners corners;  // outward from the owner
   std::int32_t owner;
-  std::int32_t neighbour = -1;
-  std::int32_t surface = -1;  // an index of names
+  std::int32_t neighbour = no_index;
+  std::int32_t surface = no_index;  // the place of its name; no_index: it has no tag
 };
 
 bool same_cycle(const Corners& a, const Corners& b) {
@@ -88,8 +86,6 @@ class PolyMesh {
   }
 
  private:
-  static constexpr std::int32_t untagged = -1;
-
   void collect_faces() {
     std::int32_t cell_number = 0;
     const auto collect = [&](auto topology, const auto& block) {
@@ -116,7 +112,7 @@ class PolyMesh {
         continue;
       }
       Face& first = faces_[kept - 1];
-      if (first.neighbour >= 0)
+      if (first.neighbour != no_index)
         throw DataError::at(folder_.name(), "cannot write cell {}: its face is one of two others, too",
                             faces_[i].owner + 1);
       first.neighbour = faces_[i].owner;
@@ -134,7 +130,7 @@ class PolyMesh {
                             corners_of_block<Block> == 3 ? "triangles" : "quads", i);
       const std::string& name = names_.surfaces.of(block.tags[i]);
       found->surface = static_cast<std::int32_t>(std::ranges::find(surface_names_, name) - surface_names_.begin());
-      if (found->neighbour >= 0) flipped_[found->key] = !same_cycle(corners, found->corners);
+      if (found->neighbour != no_index) flipped_[found->key] = !same_cycle(corners, found->corners);
     }
   }
 
@@ -146,7 +142,7 @@ class PolyMesh {
       return found != faces_.end() && found->key == key && found->neighbour < 0;
     };
     for (const Face& face : faces_) {
-      if (face.neighbour >= 0 || corner_count_of(face.corners) != 4) continue;
+      if (face.neighbour != no_index || corner_count_of(face.corners) != 4) continue;
       for (int diagonal = 0; diagonal < 2; ++diagonal)
         if (std::ranges::all_of(triangles_of(face.corners, diagonal), is_open))
           throw DataError::at(folder_.name(), "cannot write cell {}: a quad of it faces two triangles", face.owner + 1);
@@ -154,18 +150,18 @@ class PolyMesh {
   }
 
   void tell_of_untagged() const {
-    const auto count =
-        std::ranges::count_if(faces_, [](const Face& face) { return face.neighbour < 0 && face.surface == untagged; });
+    const auto count = std::ranges::count_if(
+        faces_, [](const Face& face) { return face.neighbour == no_index && face.surface == no_index; });
     if (count > 0) writing_.say(fmt::format("{} faces on no surface become the patch {}", count, untagged_patch));
   }
 
-  // Inside: by owner, then neighbour; after them by patch.
+  // Faces inside come first, by owner and neighbour; then the others, by patch.
   void order_faces() {
     std::ranges::sort(faces_, {}, [](const Face& face) {
-      const bool outside = face.neighbour < 0;
+      const bool outside = face.neighbour == no_index;
       return std::tuple(outside, outside ? face.surface : 0, face.owner, face.neighbour, face.key);
     });
-    inside_ = std::ranges::count_if(faces_, [](const Face& face) { return face.neighbour >= 0; });
+    inside_ = std::ranges::count_if(faces_, [](const Face& face) { return face.neighbour != no_index; });
   }
 
   Output& open(const char* file, const char* type, const std::string& note = "") {
@@ -206,7 +202,7 @@ class PolyMesh {
     Output& neighbours = open("neighbour", "labelList", note);
     neighbours.print("{}\n(\n", inside_);
     for (const Face& face : faces_)
-      if (face.neighbour >= 0) neighbours.print("{}\n", face.neighbour);
+      if (face.neighbour != no_index) neighbours.print("{}\n", face.neighbour);
     neighbours.print(")\n");
     neighbours.drain();
   }
@@ -226,7 +222,7 @@ class PolyMesh {
     output.print("{}\n(\n", patches.size());
     for (const Patch& patch : patches)
       output.print("    {}\n    {{\n        type patch;\n        nFaces {};\n        startFace {};\n    }}\n",
-                   patch.surface == untagged ? untagged_patch : surface_names_[static_cast<std::size_t>(patch.surface)],
+                   patch.surface == no_index ? untagged_patch : surface_names_[static_cast<std::size_t>(patch.surface)],
                    patch.count, patch.start);
     output.print(")\n");
     output.drain();
@@ -248,11 +244,11 @@ class PolyMesh {
     output.drain();
   }
 
-  // Of the surfaces that have cells on both sides.
+  // For the surfaces that have cells on both sides.
   void write_face_zones() {
     std::map<std::int32_t, std::vector<std::size_t>> zones;
     for (std::size_t i = 0; i < static_cast<std::size_t>(inside_); ++i)
-      if (faces_[i].surface != untagged) zones[faces_[i].surface].push_back(i);
+      if (faces_[i].surface != no_index) zones[faces_[i].surface].push_back(i);
     Output& output = open("faceZones", "regIOobject");
     output.print("{}\n(\n", zones.size());
     for (const auto& [surface, list] : zones) {

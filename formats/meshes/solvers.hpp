@@ -1,5 +1,5 @@
 #pragma once
-// What solvers take, for --solver.
+// What solvers accept, for --solver.
 
 #include <string>
 #include <string_view>
@@ -9,10 +9,10 @@
 
 namespace hexpipe::formats {
 
-// How a mesh is written for what the command line asks. Throws UsageError where the solver does not read the format.
+// How to write a mesh as the command line asks. Throws UsageError if the solver does not read the format.
 MeshWriting mesh_writing(const MeshOptions& options, std::string_view format);
 
-// One line: what is written for the solver; empty where none is named.
+// One line that says what is written for the solver; empty if none is named.
 std::string solver_summary(const MeshOptions& options, const MeshWriting& writing);
 
 }  // namespace hexpipe::formats

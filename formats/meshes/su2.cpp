@@ -20,7 +20,7 @@
 namespace hexpipe::formats {
 namespace {
 
-// Markers stand in lists of configurations: ( inlet, outlet ).
+// Configuration files list markers as ( inlet, outlet ).
 constexpr NameRules su2_rules{.format = "SU2", .longest = 255, .others = "-.:+"};
 
 std::string upper(std::string_view word) {
@@ -93,7 +93,7 @@ class Su2Reader {
     } else if (key == "FFD_NBOX" || key == "NCHUNK" || key == "NPERIODIC") {
       if (number_value<int>("a number") != 0) scanner_.fail(key + ": expected none of these, found some");
     }
-    // Others (NMARK, SEND_RECV) say nothing about the mesh.
+    // Other keywords (NMARK, SEND_RECV) say nothing about the mesh.
     if (!scanner_.at_line_end()) scanner_.rest_of_line();
   }
 
@@ -155,7 +155,7 @@ class Su2Reader {
                                 static_cast<std::int64_t>(mesh_.points.size()) - 1, greatest_));
   }
 
-  // surface_5 is 5, and the others have the free numbers in their order.
+  // surface_5 gets 5; the others get the free numbers, in their order.
   void set_surfaces(GroupNames* names) {
     std::vector<std::int32_t> tags(names_.size(), 0);
     std::map<std::int32_t, std::size_t> used;

@@ -11,8 +11,8 @@ namespace hexpipe::formats {
 
 bool looks_like_su2(std::string_view text);
 
-// Markers become surfaces, numbered from 1 in their order but for those that tell their tag (surface_5). The format has
-// no regions: all cells are in region 1. Throws FormatError or DataError.
+// Markers become surfaces, numbered from 1 in their order, except markers whose name has a tag (surface_5). The format
+// has no regions: all cells are in region 1. Throws FormatError or DataError.
 MixedMesh read_su2(std::string_view text, std::string_view file, GroupNames* names = nullptr);
 
 // Surfaces become markers. Regions and qualities are not written.

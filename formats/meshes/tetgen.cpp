@@ -126,13 +126,13 @@ class TetgenReader {
   std::vector<char> faces_inside_regions() const {
     const FacetTable<3> faces(mesh_.triangles.cells, mesh_.points.size());
     std::vector<char> inside(mesh_.triangles.size(), 0);
-    std::vector<std::int64_t> first_tet(mesh_.triangles.size(), -1);
+    std::vector<std::int64_t> first_tet(mesh_.triangles.size(), no_index);
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t)
       for (const LocalTriangle& corners : TetTopology::triangles)
         faces.visit_same(pick(mesh_.tets.cells[t], corners), [&](std::size_t face) {
           const auto tet = static_cast<std::int64_t>(t);
           std::int64_t& first = first_tet[face];
-          if (first < 0) first = tet;
+          if (first == no_index) first = tet;
           if (first != tet)
             inside[face] = mesh_.tets.tags[t] == mesh_.tets.tags[static_cast<std::size_t>(first)] ? 1 : 0;
         });

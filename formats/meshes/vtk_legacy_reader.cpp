@@ -14,10 +14,10 @@
 namespace hexpipe::formats {
 namespace {
 
-constexpr std::string_view magic = "# vtk DataFile Version";
+constexpr std::string_view vtk_magic = "# vtk DataFile Version";
 
-// VTK writes its vtkIdType as int, whatever it is in memory; "long" is as wide as on the systems that we run on.
-constexpr std::pair<std::string_view, ScalarType> type_names[] = {
+// VTK writes its vtkIdType as int, whatever its size in memory; "long" has the width that it has on our systems.
+constexpr std::pair<std::string_view, ScalarType> legacy_type_names[] = {
     {"char", ScalarType::int8},
     {"signed_char", ScalarType::int8},
     {"unsigned_char", ScalarType::uint8},
@@ -62,8 +62,8 @@ class VtkLegacyReader {
  private:
   void read_header() {
     const std::string_view first = scanner_.rest_of_line();
-    if (!first.starts_with(magic)) scanner_.fail_expected(magic, first);
-    TextScanner version(first.substr(magic.size()), file_);
+    if (!first.starts_with(vtk_magic)) scanner_.fail_expected(vtk_magic, first);
+    TextScanner version(first.substr(vtk_magic.size()), file_);
     version_ = version.number<double>("a version of the format");
     if (version_ < 1 || version_ >= 6) version.fail("expected a version from 1.0 to 5.1, found another");
     scanner_.rest_of_line();  // title
@@ -257,8 +257,8 @@ class VtkLegacyReader {
 
   ScalarType scalar_type(std::string_view name) const {
     const auto* const found =
-        std::ranges::find_if(type_names, [&](const auto& known) { return equal_ignoring_case(known.first, name); });
-    if (found == std::end(type_names)) scanner_.fail_expected("a type of numbers", name);
+        std::ranges::find_if(legacy_type_names, [&](const auto& known) { return equal_ignoring_case(known.first, name); });
+    if (found == std::end(legacy_type_names)) scanner_.fail_expected("a type of numbers", name);
     return found->second;
   }
 
@@ -333,7 +333,7 @@ class VtkLegacyReader {
 }  // namespace
 
 bool looks_like_vtk_legacy(std::string_view text) {
-  return text.starts_with(magic);
+  return text.starts_with(vtk_magic);
 }
 
 MixedMesh read_vtk_legacy(std::string_view text, std::string_view file) {

@@ -44,7 +44,7 @@ std::string inflate_blocks(EncodedBytes& bytes, const VtkXmlEncoding& encoding, 
   for (std::uint64_t i = 0; i < blocks; ++i) {
     const std::uint64_t size = i + 1 == blocks && last_size != 0 ? last_size : block_size;
     const std::string_view compressed = bytes.take(compressed_sizes[i]);
-    // Deflate makes nothing smaller than by 1032 to 1.
+    // Deflate shrinks nothing by more than 1032 to 1.
     if (size > 1032 * (compressed.size() + 1))
       throw DataError::at(where, "expected {} bytes out of {} compressed ones, which is impossible", size,
                           compressed.size());

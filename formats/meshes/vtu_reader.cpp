@@ -15,7 +15,7 @@
 namespace hexpipe::formats {
 namespace {
 
-constexpr std::pair<std::string_view, ScalarType> type_names[] = {
+constexpr std::pair<std::string_view, ScalarType> vtu_type_names[] = {
     {"Int8", ScalarType::int8},       {"UInt8", ScalarType::uint8},   {"Int16", ScalarType::int16},
     {"UInt16", ScalarType::uint16},   {"Int32", ScalarType::int32},   {"UInt32", ScalarType::uint32},
     {"Int64", ScalarType::int64},     {"UInt64", ScalarType::uint64}, {"Float32", ScalarType::float32},
@@ -54,7 +54,7 @@ class VtuReader {
                         fmt::format("expected well-formed XML, found: {}", result.description()));
   }
 
-  // While they are all there: parsed in place, names and values end with a zero where line ends may have been.
+  // The line ends are searched before parsing: parsing in place ends names and values with zeros where line ends were.
   void find_line_ends(std::string_view xml) {
     for (std::size_t at = xml.find('\n'); at != std::string_view::npos; at = xml.find('\n', at + 1))
       line_ends_.push_back(at);
@@ -186,7 +186,7 @@ class VtuReader {
     return {appended_.substr(offset), appended_base64_, where};
   }
 
-  // Arrays that share their data would let a small file take any memory.
+  // Arrays that share their data would let a small file take any amount of memory.
   void count_appended(std::size_t bytes, const std::string& where) {
     constexpr std::size_t most_compressed = 1032;  // times, by zlib
     taken_ += bytes;
@@ -217,8 +217,8 @@ class VtuReader {
 
   ScalarType scalar_type(const pugi::xml_node& array) const {
     const std::string_view name = array.attribute("type").value();
-    const auto* const found = std::ranges::find(type_names, name, [](const auto& known) { return known.first; });
-    if (found == std::end(type_names))
+    const auto* const found = std::ranges::find(vtu_type_names, name, [](const auto& known) { return known.first; });
+    if (found == std::end(vtu_type_names))
       fail(array, fmt::format("expected a type of numbers, found {}", quote_found(name)));
     return found->second;
   }

@@ -101,14 +101,14 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-// Every array lies behind its length in the appended data, the last one of the document first: meshio rewrites offsets
-// while it looks arrays up by them, and in this order it cannot take one for another. `offset` counts from the mark
-// '_'; on the way in it is where this section's data ends, on the way out where it begins.
+// Every array follows its length in the appended data, the last one of the document first: meshio rewrites offsets
+// while it looks arrays up by them, and in this order it cannot mistake one for another. `offset` counts from the mark
+// '_'. It comes in as the end of this section's data and goes out as their beginning.
 void write_section(const Section& section, std::uint64_t& offset, Output& output) {
   output.print("      <{}{}>\n", section.name, section.attributes);
   for (const DataArray& array : section.arrays) {
     offset -= sizeof array.bytes + array.bytes;
-    // Without a number of components an array has one: meshio makes a column of one that says so.
+    // An array has one component unless it says otherwise; meshio makes a column of an array that says 1.
     const std::string components =
         array.components == 1 ? "" : fmt::format("NumberOfComponents=\"{}\" ", array.components);
     output.print("        <DataArray type=\"{}\" Name=\"{}\" {}format=\"appended\" offset=\"{}\"/>\n", array.type,

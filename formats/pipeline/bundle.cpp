@@ -42,7 +42,7 @@ EntryPointer new_entry() {
   return entry;
 }
 
-// Names stand in messages, and pass on to other programs.
+// Names appear in messages and go on to other programs.
 bool is_printable_name(std::string_view name) {
   const bool printable = std::all_of(name.begin(), name.end(), [](char c) { return c >= ' ' && c <= '~'; });
   return printable && name.size() <= longest_name;
@@ -58,7 +58,7 @@ bool is_safe_name(std::string_view name) {
   }
 }
 
-// Numbers of one type into numbers of another where every one fits; false at the first that does not.
+// Converts numbers of one type into another, if each one fits; false at the first that does not.
 template <class From, class To>
 bool convert(const char* from, To* to, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -232,7 +232,7 @@ bool BundleReader::next() {
   // libarchive takes the end of the input between two members for the end of the archive. Ours ends with blocks of
   // zeros.
   const la_int64_t before = archive_filter_bytes(archive_.get(), 0);
-  // One of ours: libarchive does not look whether there was memory for its own.
+  // An entry of our own, because libarchive does not check whether there was memory for its own.
   const EntryPointer owner = new_entry();
   archive_entry* const entry = owner.get();
   const int result = archive_read_next_header2(archive_.get(), entry);
@@ -254,7 +254,7 @@ bool BundleReader::next() {
   name_ = name;
   if (archive_entry_filetype(entry) != AE_IFREG || archive_entry_hardlink(entry) || !archive_entry_size_is_set(entry))
     throw DataError::at(where(), "expected a plain file in the bundle, found a link, directory or device");
-  // Its holes would be read as zeros without end.
+  // Its holes would be read as endless zeros.
   if (archive_entry_sparse_count(entry) > 0)
     throw DataError::at(where(), "expected a plain file in the bundle, found one with holes");
   if (++members_ > most_members)

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/run/huge_pages.hpp"
+#include "common/run/memory.hpp"
 #include "formats/pipeline/npy.hpp"
 #include "formats/streams/input.hpp"
 #include "formats/streams/output.hpp"

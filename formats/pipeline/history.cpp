@@ -6,15 +6,15 @@
 #include <utility>
 
 #include "common/run/error.hpp"
-#include "common/run/version.hpp"
+#include "common/run/run_context.hpp"
 #include "formats/streams/text_scanner.hpp"
 
 namespace hexpipe::pipeline {
 namespace {
 
-constexpr std::string_view folder = "history/";
+constexpr std::string_view history_folder = "history/";
 constexpr std::size_t longest_entry = 1 << 20;
-// Entries are copied and written level by level in calls of calls; ours have four levels.
+// Entries are copied and written level by level by nested calls; ours have four levels.
 constexpr int deepest_nesting = 64;
 constexpr std::size_t longest_tool = 64;
 
@@ -48,7 +48,7 @@ void check_tool_name(const std::string& name, const std::string& where) {
 }  // namespace
 
 bool is_history_entry(std::string_view member) {
-  return member.starts_with(folder);
+  return member.starts_with(history_folder);
 }
 
 nlohmann::ordered_json history_entry_of(const RunContext& context) {
@@ -76,7 +76,7 @@ std::string tool_of(const nlohmann::ordered_json& entry) {
 }
 
 std::string history_member(int number, const nlohmann::ordered_json& entry) {
-  return fmt::format("{}{:02}-{}.json", folder, number, tool_of(entry));
+  return fmt::format("{}{:02}-{}.json", history_folder, number, tool_of(entry));
 }
 
 void write_history_entry(BundleWriter& writer, const std::string& member, const nlohmann::ordered_json& entry) {

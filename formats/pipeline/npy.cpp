@@ -14,7 +14,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "arrays are written as they lie in memory");
 
-constexpr std::string_view magic = "\x93NUMPY";
+constexpr std::string_view npy_magic = "\x93NUMPY";
 constexpr std::size_t preamble = 10;  // magic, version, length of the dictionary
 
 // The text after `'key':` in the dictionary, from its first character that is no space.
@@ -70,7 +70,7 @@ std::string npy_header(const NpyHeader& header) {
   const std::size_t unpadded = preamble + dictionary.size() + 1;
   dictionary.append((64 - unpadded % 64) % 64, ' ');
   dictionary += '\n';
-  std::string bytes(magic);
+  std::string bytes(npy_magic);
   bytes += '\x01';
   bytes += '\x00';
   bytes += static_cast<char>(dictionary.size() & 0xff);
@@ -79,7 +79,7 @@ std::string npy_header(const NpyHeader& header) {
 }
 
 std::size_t npy_header_size(std::string_view first_ten) {
-  if (first_ten.size() < preamble || first_ten.substr(0, magic.size()) != magic || first_ten[6] != 1) return 0;
+  if (first_ten.size() < preamble || first_ten.substr(0, npy_magic.size()) != npy_magic || first_ten[6] != 1) return 0;
   return preamble + static_cast<unsigned char>(first_ten[8]) + 256u * static_cast<unsigned char>(first_ten[9]);
 }
 

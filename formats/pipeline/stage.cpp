@@ -73,7 +73,7 @@ bool is_text_format(std::string_view format) {
          std::ranges::find(binary, format) == binary.end();
 }
 
-// The tool whose product it is.
+// The tool that makes this product.
 const char* maker_of(Role role) {
   constexpr const char* tools[] = {"tetmesh", "findhex", "buildgraph", "initsol", "assemble"};
   return tools[static_cast<int>(role)];
@@ -174,6 +174,7 @@ void write_role(Role role, const StageData& data, BundleWriter& writer) {
 
 void write_members(BundleWriter& writer, const MeshProduct& product) {
   write_members(writer, product.mesh);
+  if (product.dislocations) write_dislocations(writer, *product.dislocations);
 }
 
 void write_members(BundleWriter& writer, const CandidatesProduct& product) {
@@ -243,8 +244,8 @@ struct Stage::State {
   Role product() const { return *context.info.product; }
   void choose_output();
   bool takes(Role role) const { return contains(request.needs, role) || contains(request.wants, role); }
-  // Whether members of this role go on to the output: the tool makes its product anew, and what depended on the old one
-  // is void.
+  // Whether members of this role go on to the output: the tool makes its own product again, and everything that
+  // depended on the old one is void.
   bool passes(Role role) const { return bundle && role < product() && !contains(request.hold_back, role); }
 
   std::optional<formats::Input> open_inputs(std::map<Role, formats::Input>& files) const;
@@ -381,7 +382,7 @@ void Stage::State::pass_history_entry(BundleReader& reader, std::vector<nlohmann
   if (bundle) bundle->add_text(reader.name(), text);
 }
 
-// Once: where they were read, or behind the product where the tool sets them.
+// Writes the names once: where they were read, or after the product if the tool sets them.
 void Stage::State::write_names() {
   if (!bundle || names.empty() || std::exchange(names_are_written, true)) return;
   bundle->add_text(std::string(formats::names_member), text_of(names));
@@ -393,7 +394,7 @@ void Stage::State::orient(TetMesh& mesh, const std::string& name) const {
   if (const auto warning = turned_tets_warning(orient_tets(mesh, name.c_str()))) context.warn(name + ": " + *warning);
 }
 
-// In the order of the pipeline: a solution needs to know its graph.
+// Reads in the order of the pipeline, because a solution needs to know its graph.
 void Stage::State::read_files(std::map<Role, formats::Input>& files, StageData& data) {
   for (auto& [role, input] : files) {
     seen.insert(role);

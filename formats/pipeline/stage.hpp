@@ -14,7 +14,7 @@
 
 namespace hexpipe::pipeline {
 
-// What a stage wants of its input.
+// What a stage wants from its input.
 struct StageRequest {
   std::vector<Role> needs{};  // an error when one is missing
   std::vector<Role> wants{};  // taken where they are there
@@ -23,7 +23,7 @@ struct StageRequest {
   // A bundle's graph gives its weights only, as a graph without edges: the edges may be most of what there is to hold.
   // A graph in a file of its own has them.
   bool weights_only = false;
-  // Members of these roles do not pass: the tool writes them anew with its product, or leaves them out.
+  // Members of these roles do not pass: the tool writes them again with its product, or leaves them out.
   std::vector<Role> hold_back{};
 };
 
@@ -45,8 +45,8 @@ class Stage {
   // The file (or stream) that a role was read from, for messages about it.
   std::string source_of(Role role) const;
 
-  // For tetmesh: reads a surface of any format. What else a bundle has passes, but for the stages behind. Begins the
-  // output.
+  // For tetmesh: reads a surface of any format and begins the output. The bundle's other members pass, except those of
+  // the stages after tetmesh.
   formats::SurfaceSoup read_surface(formats::Input& input);
   // Before writing: names that go into the bundle, or the file, with the product.
   void set_names(formats::GroupNames names);

@@ -11,7 +11,7 @@
 namespace hexpipe::pipeline {
 namespace {
 
-constexpr std::string_view folder = "surface/";
+constexpr std::string_view surface_folder = "surface/";
 
 // Each member once, for reading and writing: visit(member name, array).
 template <class Soup, class Visit>
@@ -102,7 +102,7 @@ bool take_member(BundleReader& reader, formats::SurfaceSoup& soup, BundleWriter*
 }  // namespace
 
 bool is_surface_member(std::string_view name) {
-  return name.starts_with(folder);
+  return name.starts_with(surface_folder);
 }
 
 formats::SurfaceSoup read_surface_bundle(formats::Input& input, const std::function<void(BundleReader&)>& other,

@@ -11,13 +11,13 @@ namespace hexpipe::pipeline {
 
 bool is_surface_member(std::string_view name);
 
-// Takes the surface and the names of a bundle and passes each other member to `other`, if that is given, which may read
-// it. `copy`, if not null, gets the members of the surface as they come. Points without a triangle and those that are
-// equal to another are left out, as of all formats.
+// Takes the surface and the names of a bundle. Passes each other member to `other`, if that is given, which may read
+// it. `copy`, if not null, gets the members of the surface as they come. Points without a triangle and points equal to
+// another one are left out, as for all formats.
 formats::SurfaceSoup read_surface_bundle(formats::Input& input, const std::function<void(BundleReader&)>& other,
                                          BundleWriter* copy = nullptr);
 
-// All members that have something to say, but not the names.
+// Writes all members that have content, except the names.
 void write_surface_members(BundleWriter& writer, const formats::SurfaceSoup& surface);
 
 }  // namespace hexpipe::pipeline

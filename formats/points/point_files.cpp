@@ -35,7 +35,7 @@ PointList read_npy_points(std::string_view bytes, const std::string& name) {
   return list;
 }
 
-// "n 3 a m" and then a line that begins with 0 or 1 can hardly be two points.
+// "n 3 a m" followed by a line that begins with 0 or 1 can hardly be two points.
 bool looks_like_node(std::string_view text, const std::string& name) {
   TextScanner scanner(text, name, '#');
   std::string_view words[4];
@@ -75,7 +75,7 @@ PointList read_xyz_points(std::string_view text, const std::string& name) {
   return list;
 }
 
-PointList read_by_content(std::string_view bytes, const std::string& name) {
+PointList read_points_by_content(std::string_view bytes, const std::string& name) {
   if (pipeline::npy_header_size(bytes.substr(0, 10)) > 0) return read_npy_points(bytes, name);
   bytes = without_byte_order_mark(bytes);
   if (looks_like_ply(bytes)) return {read_ply(bytes, name).points, {}, {}};
@@ -91,7 +91,7 @@ std::string PointList::place_of(std::size_t point) const {
 }
 
 PointList read_points(Input& input) {
-  PointList list = read_by_content(input.read_all(), input.name());
+  PointList list = read_points_by_content(input.read_all(), input.name());
   list.name = input.name();
   for (std::size_t i = 0; i < list.points.size(); ++i)
     if (!is_place(list.points[i]))

@@ -25,10 +25,10 @@ void add(SizeList& list, const Vec3& point, double size) {
   const auto number = static_cast<Vertex>(list.points.size());
   list.points.push_back(point);
   list.sizes.push_back(size);
-  list.simplices.push_back({number, SizeList::none, SizeList::none, SizeList::none});
+  list.simplices.push_back({number, no_index, no_index, no_index});
 }
 
-// A line is a size, or a place and its size; as the first one is.
+// A line is a size, or a place and its size; the first line tells which.
 SizeList read_text(std::string_view text, const std::string& name) {
   TextScanner scanner(text, name, '#');
   SizeList list;
@@ -86,19 +86,19 @@ SizeList read_npy(std::string_view bytes, const std::string& name) {
   return list;
 }
 
-// Nodes that no simplex uses, which need no size, are left out.
+// Leaves out nodes that no simplex uses; they need no size.
 void keep_used_nodes(SizeList& list) {
-  std::vector<Vertex> number(list.points.size(), SizeList::none);
+  std::vector<Vertex> number(list.points.size(), no_index);
   Vertex count = 0;
   for (auto& simplex : list.simplices)
     for (Vertex& v : simplex) {
-      if (v == SizeList::none) continue;
-      if (number[v] == SizeList::none) number[v] = count++;
+      if (v == no_index) continue;
+      if (number[v] == no_index) number[v] = count++;
       v = number[v];
     }
   SizeList used{std::vector<double>(count), std::vector<Vec3>(count), std::move(list.simplices), {}};
   for (std::size_t v = 0; v < number.size(); ++v) {
-    if (number[v] == SizeList::none) continue;
+    if (number[v] == no_index) continue;
     used.points[number[v]] = list.points[v];
     used.sizes[number[v]] = list.sizes[v];
   }
@@ -114,11 +114,11 @@ SizeList read_background(std::string_view text, const std::string& name) {
   SizeList list{std::move(field.values), mesh.points, {}, {}};
   for (const Tet& tet : mesh.tets.cells) list.simplices.push_back(tet);
   if (list.simplices.empty())
-    for (const auto& [a, b, c] : mesh.triangles.cells) list.simplices.push_back({a, b, c, SizeList::none});
+    for (const auto& [a, b, c] : mesh.triangles.cells) list.simplices.push_back({a, b, c, no_index});
   if (list.simplices.empty()) throw DataError::at(name, "expected a background mesh of tets or triangles, found none");
   for (const auto& simplex : list.simplices)
     for (const Vertex v : simplex)
-      if (v != SizeList::none && !is_size(list.sizes[v]))
+      if (v != no_index && !is_size(list.sizes[v]))
         throw DataError::at(name,
                             "expected a positive size at every node of $NodeData, found {:g} at ({:g}, {:g}, {:g})",
                             list.sizes[v], list.points[v].x, list.points[v].y, list.points[v].z);
@@ -126,7 +126,7 @@ SizeList read_background(std::string_view text, const std::string& name) {
   return list;
 }
 
-SizeList read_by_content(std::string_view bytes, const std::string& name) {
+SizeList read_sizes_by_content(std::string_view bytes, const std::string& name) {
   if (pipeline::npy_header_size(bytes.substr(0, 10)) > 0) return read_npy(bytes, name);
   bytes = without_byte_order_mark(bytes);
   if (looks_like_msh(bytes)) return read_background(bytes, name);
@@ -137,7 +137,7 @@ SizeList read_by_content(std::string_view bytes, const std::string& name) {
 }  // namespace
 
 SizeList read_sizes(Input& input) {
-  SizeList list = read_by_content(input.read_all(), input.name());
+  SizeList list = read_sizes_by_content(input.read_all(), input.name());
   if (list.sizes.empty()) throw DataError::at(input.name(), "expected sizes, found none");
   list.name = input.name();
   return list;
@@ -155,7 +155,7 @@ SizeList on_surface(SizeList sizes, const SurfaceSoup& surface) {
                         surface.name, sizes.sizes.size());
   SizeList list{{}, surface.points, {}, sizes.name};
   for (const Vertex v : surface.file_vertices) list.sizes.push_back(sizes.sizes[v]);
-  for (const auto& [a, b, c] : surface.triangles) list.simplices.push_back({a, b, c, SizeList::none});
+  for (const auto& [a, b, c] : surface.triangles) list.simplices.push_back({a, b, c, no_index});
   return list;
 }
 

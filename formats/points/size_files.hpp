@@ -13,11 +13,10 @@
 namespace hexpipe::formats {
 
 struct SizeList {
-  static constexpr Vertex none = -1;
-
   std::vector<double> sizes;  // positive and finite
-  std::vector<Vec3> points;   // where they hold; empty: at the vertices of a surface, in the order of its file
-  // The tets of a background mesh, or its triangles, whose last corner is `none`. Sizes are linear between the corners.
+  std::vector<Vec3> points;   // the places of the sizes; empty: the vertices of a surface, in the order of its file
+  // The tets of a background mesh, or its triangles, whose last corner is no_index. Sizes are linear between the
+  // corners.
   std::vector<std::array<Vertex, 4>> simplices;
   std::string name;  // of the input, for messages
 };

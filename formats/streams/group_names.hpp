@@ -19,11 +19,11 @@ struct GroupNames {
 
 inline constexpr std::string_view names_member = "names.json";
 
-// A name as a file gives it: without blanks around it, control characters become blanks, and bytes that are no UTF-8
-// are taken for Latin-1. May be empty: then it is none.
+// A name cleaned up: blanks around it are removed, control characters become blanks, and bytes that are not UTF-8 are
+// taken for Latin-1. It may become empty: then there is no name.
 std::string clean_name(std::string_view bytes);
 
-// The text of names.json. Throws DataError that begins with `where` for what is no such text.
+// Parses the text of names.json. Throws DataError that begins with `where` if it is not such a text.
 GroupNames parse_group_names(const std::string& text, const std::string& where);
 std::string text_of(const GroupNames& names);
 

@@ -32,7 +32,7 @@ Input Input::open(const std::string& path) {
   struct stat status {};
   if (fstat(input.descriptor_, &status) == 0 && S_ISDIR(status.st_mode))
     throw DataError::at(input.name_, "expected a file, found a directory");
-  // A larger pipe means fewer switches between the stages; where it is refused, the default serves.
+  // A larger pipe means fewer switches between the stages; if it is refused, the default serves.
   if (S_ISFIFO(status.st_mode)) fcntl(input.descriptor_, F_SETPIPE_SZ, buffer_size);
   if (S_ISFIFO(status.st_mode) && path == "-") leave_interrupt_upstream(true);
   input.buffer_.resize(buffer_size);
@@ -69,7 +69,7 @@ Input::~Input() {
   if (path_.empty()) leave_interrupt_upstream(false);
 }
 
-// Adds bytes behind those at hand, at least one unless the end is reached. The buffer must have room.
+// Appends bytes to those at hand, at least one unless the end is reached. The buffer must have room.
 bool Input::fill() {
   if (at_end_) return false;
   const WaitForInput wait;

@@ -1,6 +1,6 @@
 #pragma once
 // Lines of whole numbers, for the readers of graphs. They read a text once, byte by byte: these files have hundreds of
-// megabytes of short numbers, and to find words first and read them afterwards takes several times as long.
+// megabytes of short numbers, and finding words first and reading them afterwards takes several times as long.
 
 #include <fmt/format.h>
 

@@ -23,10 +23,10 @@ NumberMap::NumberMap(const std::vector<std::int64_t>& numbers) {
 }
 
 void NumberMap::fill_table(const std::vector<std::int64_t>& numbers, std::uint64_t range) {
-  table_.assign(range + 1, none);
+  table_.assign(range + 1, no_index);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     std::int32_t& place = table_[static_cast<std::size_t>(numbers[i] - first_)];
-    if (place != none) repeated_ = numbers[i];
+    if (place != no_index) repeated_ = numbers[i];
     place = static_cast<std::int32_t>(i);
   }
 }
@@ -40,12 +40,12 @@ void NumberMap::fill_list(const std::vector<std::int64_t>& numbers) {
 }
 
 std::int32_t NumberMap::find(std::int64_t number) const {
-  if (number < first_) return none;
+  if (number < first_) return no_index;
   const auto offset = static_cast<std::uint64_t>(number - first_);
   if (offset < static_cast<std::uint64_t>(sequence_)) return static_cast<std::int32_t>(offset);
-  if (!table_.empty()) return offset < table_.size() ? table_[offset] : none;
+  if (!table_.empty()) return offset < table_.size() ? table_[offset] : no_index;
   const auto found = std::ranges::lower_bound(list_, number, {}, &std::pair<std::int64_t, std::int32_t>::first);
-  return found != list_.end() && found->first == number ? found->second : none;
+  return found != list_.end() && found->first == number ? found->second : no_index;
 }
 
 }  // namespace hexpipe::formats

@@ -6,18 +6,18 @@
 #include <utility>
 #include <vector>
 
+#include "common/mesh/tet_mesh.hpp"
+
 namespace hexpipe::formats {
 
 class NumberMap {
  public:
-  static constexpr std::int32_t none = -1;
-
   NumberMap() = default;
   // The item at position i has number numbers[i], which is not negative. Numbers in sequence take no memory, other
   // numbers that lie close together a table, and the rest a sorted list.
   explicit NumberMap(const std::vector<std::int64_t>& numbers);
 
-  // The position of an item, or none.
+  // The position of an item, or no_index.
   std::int32_t find(std::int64_t number) const;
   // A number that two items have, if any.
   std::optional<std::int64_t> repeated() const { return repeated_; }

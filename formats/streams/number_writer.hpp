@@ -1,14 +1,20 @@
 #pragma once
 // Writes numbers to an Output: as text, or as the machine's bytes. A double becomes the shortest text that reads back
-// as the same number.
+// as the same number. Formats whose fields have a greatest width get shorter texts: a reader cuts what is longer, and
+// reads another number.
 
 #include <charconv>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
 #include "formats/streams/output.hpp"
 
 namespace hexpipe::formats {
+
+// The text of at most `width` characters (8 or more) that reads back nearest to the number; exactly equal if that fits.
+// With `needs_point` it has a decimal point; without one, some formats take a number for an integer.
+std::string number_within(double number, int width, bool needs_point = false);
 
 // Writes lines of numbers and words, separated by blanks.
 class LineWriter {

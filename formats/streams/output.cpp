@@ -12,7 +12,7 @@
 
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
-#include "common/run/links.hpp"
+#include "common/run/open_files.hpp"
 #include "formats/streams/input.hpp"
 #include "formats/streams/temporary_file.hpp"
 
@@ -20,8 +20,8 @@ namespace hexpipe::formats {
 namespace {
 
 constexpr int most_names_tried = 100;
-// A pipe takes as much in one call of write(2): a reader that takes 22 kB/s makes progress within the time that it is
-// given.
+// A pipe gets this much in one call of write(2): then a reader that takes 22 kB/s makes progress within the time that
+// it has.
 constexpr std::size_t most_before_wait = 1 << 16;
 
 bool is_regular(int descriptor) {
@@ -39,12 +39,12 @@ std::string directory_of(const std::string& path) {
   return slash == std::string::npos ? "." : path.substr(0, slash + 1);
 }
 
-// Where the kernel shows an open file, so that it can be given a name.
+// The path under which the kernel shows an open file, so that the file can be given a name.
 std::string link_of(int descriptor) {
   return fmt::format("/proc/self/fd/{}", descriptor);
 }
 
-// The permissions that the finished file gets: those of the file that it replaces, or those that the umask leaves.
+// The permissions for the finished file: those of the file that it replaces, or those that the umask leaves.
 mode_t mode_for(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) return status.st_mode & 07777;
@@ -168,12 +168,12 @@ void Output::write_through(std::string_view bytes) {
   }
 }
 
-// A link cannot replace a file, a rename can: for a moment the new file stands beside the old one.
+// A link cannot replace a file, but a rename can: for a moment the new file is beside the old one.
 void Output::put_in_place(int descriptor) {
   const std::string unnamed = link_of(descriptor);
   for (int attempt = 0; temporary_.empty(); ++attempt) {
     std::string name = fmt::format("{}.{}-{}", path_, getpid(), attempt);
-    removed_.set(name.c_str());  // before it is there, for a signal may come with it
+    removed_.set(name.c_str());  // before the file exists, because a signal may come at once
     if (linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
       temporary_ = std::move(name);  // which needs no memory
     } else {

@@ -56,7 +56,7 @@ class Output {
   std::string temporary_;  // the file beside path_ while it has a name
   RemovedFile removed_;    // that file
   int descriptor_ = -1;
-  bool may_wait_ = true;  // for a reader, as it is not a file
+  bool may_wait_ = true;  // for a reader, because it is not a file
   std::string buffer_;
   bool committed_ = false;
 };

@@ -13,7 +13,7 @@
 #include <system_error>
 
 #include "common/run/error.hpp"
-#include "common/run/links.hpp"
+#include "common/run/open_files.hpp"
 
 namespace hexpipe::formats {
 namespace {

@@ -13,8 +13,8 @@ namespace hexpipe::formats {
 
 class OutputFolder {
  public:
-  // What is at `path` already must be a folder, and each of its entries one of `own` (with .gz or not): others than a
-  // folder of the same kind are not replaced. Throws DataError.
+  // If something is at `path` already, it must be a folder whose entries all are among `own` (with .gz or not): only a
+  // folder of the same kind is replaced. Throws DataError.
   OutputFolder(const std::string& path, const std::vector<std::string_view>& own);
   // Without commit(), nothing is left of what was written.
   ~OutputFolder();

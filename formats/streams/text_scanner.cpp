@@ -91,7 +91,7 @@ void TextScanner::skip_past(std::string_view word) {
 
 std::size_t TextScanner::count(std::string_view what, std::size_t bytes_each) {
   const auto announced = number<std::uint64_t>(what);
-  // The last item needs no separator behind it.
+  // The last item needs no separator after it.
   if (announced > (bytes_left() + 1) / bytes_each)
     fail(fmt::format("expected {} that the rest of the file can hold, found {}", what, announced));
   return announced;

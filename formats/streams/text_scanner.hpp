@@ -72,6 +72,14 @@ class TextScanner {
 
 bool equal_ignoring_case(std::string_view a, std::string_view b);
 
+// For ASCII, whatever the locale.
+constexpr bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+constexpr bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
 // A word of a file as messages show it: in quotes, cut after 40 characters, '?' in place of anything but printable
 // ASCII; "end of file" when it is empty.
 std::string quote_found(std::string_view word);

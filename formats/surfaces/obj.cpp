@@ -70,7 +70,7 @@ SurfaceSoup ObjReader::read() {
   return std::move(soup_);
 }
 
-// Materials tell faces apart where no group does.
+// Materials distinguish faces that are in no group.
 void ObjReader::set_tags() {
   const bool by_material = groups_.known().empty() && !materials_.known().empty();
   if (by_material) soup_.tags = std::move(material_tags_);
@@ -101,7 +101,7 @@ void ObjReader::skip_statement() {
   }
 }
 
-// Blanks around a name say nothing. Within a word, '#' is part of the name: Face#12.
+// Blanks around a name do not count. Within a word, '#' is part of the name: Face#12.
 std::string ObjReader::read_group_name() {
   constexpr std::string_view blanks = " \t\r";
   std::string_view line = text_.substr(scanner_.position());

@@ -14,7 +14,7 @@ std::string_view without_optional_prefixes(std::string_view word) {
   return word;
 }
 
-void read_header(TextScanner& scanner) {
+void read_off_header(TextScanner& scanner) {
   const std::string_view keyword = scanner.word("OFF");
   if (!is_off_keyword(keyword)) scanner.fail_expected("OFF", keyword);
   if (keyword.find_first_of("4n") != std::string_view::npos) scanner.fail_expected("OFF in three dimensions", keyword);
@@ -45,7 +45,7 @@ bool is_off_keyword(std::string_view word) {
 
 SurfaceSoup read_off(std::string_view text, const std::string& name) {
   TextScanner scanner(text, name, '#');
-  read_header(scanner);
+  read_off_header(scanner);
   // The shortest vertex is "0 0 0" with its line end, the shortest face "3 0 0 0".
   const std::size_t vertex_count = scanner.count("the number of vertices", 6);
   check_point_count(vertex_count, name);

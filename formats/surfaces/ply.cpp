@@ -109,7 +109,7 @@ bool is_remark(std::string_view keyword) {
   return keyword == "comment" || keyword == "obj_info";
 }
 
-Header read_header(TextScanner& scanner) {
+Header read_ply_header(TextScanner& scanner) {
   Header header;
   scanner.expect("ply");
   while (is_remark(scanner.peek_word())) scanner.rest_of_line();
@@ -264,7 +264,7 @@ SurfaceSoup BodyReader<Body>::read() {
     } else if (element.name == "face") {
       read_faces(element);
     } else {
-      // Without properties an element has no bytes, whatever its count.
+      // An element without properties has no bytes, whatever its count.
       for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i)
         for (const Property& property : element.properties) skip(element, property, i);
     }
@@ -274,7 +274,7 @@ SurfaceSoup BodyReader<Body>::read() {
   return std::move(soup_);
 }
 
-// Checks, before anything is allocated, that the rest of the file can hold so many items.
+// Checks, before anything is allocated, that the rest of the file can hold this many items.
 template <class Body>
 void BodyReader<Body>::check_count(const Element& element) const {
   std::size_t bytes_each = 0;
@@ -368,7 +368,7 @@ bool looks_like_ply(std::string_view bytes) {
 
 SurfaceSoup read_ply(std::string_view bytes, const std::string& name) {
   TextScanner scanner(bytes, name);
-  const Header header = read_header(scanner);
+  const Header header = read_ply_header(scanner);
   if (header.encoding == Encoding::ascii) return BodyReader(header, name, AsciiBody(scanner)).read();
   const bool swap = (header.encoding == Encoding::big) == (std::endian::native == std::endian::little);
   return BodyReader(header, name, BinaryBody(bytes.substr(scanner.position()), swap, name)).read();

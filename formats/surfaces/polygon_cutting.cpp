@@ -1,4 +1,4 @@
-#include "formats/surfaces/polygon_cutting.hpp"
+#include "formats/surfaces/surface_building.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,31 +8,31 @@ namespace hexpipe::formats {
 namespace {
 
 constexpr std::size_t most_corners = 10'000;
-// By rounding, a corner on a straight side may turn by this share of the polygon's area.
+// Rounding may turn a corner on a straight side by this share of the polygon's area.
 constexpr double least_turn = 1e-14;
 
 Vec3 area_of(std::span<const Vec3> points, const Triangle& t) {
   return cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]);
 }
 
-struct Place {
+struct PlanePoint {
   double x, y;
-  bool operator==(const Place&) const = default;
+  bool operator==(const PlanePoint&) const = default;
 };
 
-// Positive where a, b, c turn to the left.
-double turn(const Place& a, const Place& b, const Place& c) {
+// Positive if a, b, c turn to the left.
+double turn(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// Seen so that it turns to the left.
-std::vector<Place> projected(std::span<const Vec3> points, std::span<const Vertex> corners, const Vec3& normal) {
+// The polygon in the projection in which it turns to the left.
+std::vector<PlanePoint> projected(std::span<const Vec3> points, std::span<const Vertex> corners, const Vec3& normal) {
   int axis = 0;
   for (const int other : {1, 2})
     if (std::abs(normal[other]) > std::abs(normal[axis])) axis = other;
   int first = (axis + 1) % 3, second = (axis + 2) % 3;
   if (normal[axis] < 0) std::swap(first, second);
-  std::vector<Place> places;
+  std::vector<PlanePoint> places;
   places.reserve(corners.size());
   for (const Vertex v : corners) places.push_back({points[v][first], points[v][second]});
   return places;
@@ -40,7 +40,7 @@ std::vector<Place> projected(std::span<const Vec3> points, std::span<const Verte
 
 class EarCutter {
  public:
-  explicit EarCutter(std::vector<Place> places) : places_(std::move(places)) {
+  explicit EarCutter(std::vector<PlanePoint> places) : places_(std::move(places)) {
     const auto count = static_cast<std::int32_t>(places_.size());
     for (std::int32_t i = 0; i < count; ++i) around_.push_back({(i + count - 1) % count, (i + 1) % count});
     for (std::int32_t i = 0; i < count; ++i)
@@ -64,7 +64,7 @@ class EarCutter {
       around_[after].before = before;
       --left;
       passed = 0;
-      // Cutting an ear off makes corners beside it convex, never the other way round.
+      // Cutting off an ear makes corners beside it convex, never the other way round.
       std::erase_if(others_, [&](std::int32_t k) { return k == i || ((k == before || k == after) && is_convex(k)); });
       // Any other ear was an ear of the whole polygon.
       for (const std::int32_t k : {before, after}) is_ear_[k] = has_no_other_inside(k);
@@ -83,18 +83,18 @@ class EarCutter {
     return turn(places_[around_[i].before], places_[i], places_[around_[i].after]) > 0;
   }
 
-  // Only a corner that is not convex may lie in the triangle of a convex one.
+  // Only a corner that is not convex can be inside the triangle of a convex one.
   bool has_no_other_inside(std::int32_t i) const {
     if (!is_convex(i)) return false;
-    const Place &a = places_[around_[i].before], &b = places_[i], &c = places_[around_[i].after];
+    const PlanePoint &a = places_[around_[i].before], &b = places_[i], &c = places_[around_[i].after];
     return std::ranges::none_of(others_, [&](std::int32_t k) {
-      const Place& p = places_[k];
+      const PlanePoint& p = places_[k];
       if (p == a || p == b || p == c) return false;
       return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
     });
   }
 
-  std::vector<Place> places_;
+  std::vector<PlanePoint> places_;
   std::vector<Neighbours> around_;
   std::vector<char> is_ear_;
   std::vector<std::int32_t> others_;  // the corners that are left and not convex

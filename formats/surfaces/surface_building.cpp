@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "common/run/error.hpp"
-#include "formats/surfaces/polygon_cutting.hpp"
 
 namespace hexpipe::formats {
 
@@ -33,15 +32,14 @@ void check_point_count(std::uint64_t count, std::string_view name) {
 }
 
 SurfaceSoup merge_equal_points(SurfaceSoup soup) {
-  constexpr Vertex unknown = -1;
   std::vector<Vec3> merged;
   PointMerger merger(merged);
-  std::vector<Vertex> new_index(soup.points.size(), unknown);
+  std::vector<Vertex> new_index(soup.points.size(), no_index);
   soup.file_vertices.clear();
   for (Triangle& triangle : soup.triangles) {
     for (Vertex& corner : triangle) {
       Vertex& index = new_index[corner];
-      if (index == unknown) index = merger.index_of(soup.points[corner]);
+      if (index == no_index) index = merger.index_of(soup.points[corner]);
       if (merged.size() > soup.file_vertices.size()) soup.file_vertices.push_back(corner);
       corner = index;
     }

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/mesh/tet_mesh.hpp"
 #include "formats/streams/text_scanner.hpp"
 #include "formats/surfaces/surface_files.hpp"
 
@@ -28,8 +29,8 @@ class PointMerger {
   tsl::robin_map<Vec3, Vertex, Hash> indices_;
 };
 
-// The soup with one point in place of equal ones, in the order of first use, and without points that no triangle uses.
-// Curves are edges of triangles.
+// The soup with one point instead of equal ones, in the order of first use, and without points that no triangle uses.
+// Curves must be edges of triangles.
 SurfaceSoup merge_equal_points(SurfaceSoup soup);
 
 // Throws DataError where there are more points than can be numbered.
@@ -37,12 +38,18 @@ void check_point_count(std::uint64_t count, std::string_view name);
 
 void append_triangle(SurfaceSoup& soup, const Triangle& triangle, std::int32_t tag, std::int64_t place);
 
+// `fan` has the triangles of one polygon, fanned from its first corner. If one of them is turned against the polygon,
+// as happens where it is concave, cuts the polygon again into as many triangles, by cutting off ears in the projection
+// along an axis (G. H. Meisters: Polygons have ears, 1975). A polygon without ears, because it crosses itself, or with
+// more than 10,000 corners stays a fan. The time grows with the square of the number of corners.
+void cut_if_concave(std::span<const Vec3> points, std::span<Triangle> fan);
+
 // Collects the polygons of a file that may have faces before the vertices.
 class PolygonReader {
  public:
   // Appends a polygon of at least three corners as a fan.
   void append(SurfaceSoup& soup, std::span<const Vertex> corners, std::int32_t tag, std::int64_t place);
-  // Cuts concave polygons anew. Call it when all points are there and corners are known to be among them.
+  // Cuts concave polygons again. Call it when all points are there and corners are known to be among them.
   void cut_concave(SurfaceSoup& soup) const;
 
  private:

@@ -34,7 +34,7 @@ std::optional<std::string_view> hint_for_cad(std::string_view bytes) {
   return std::nullopt;
 }
 
-SurfaceSoup read_by_content(std::string_view bytes, const std::string& name) {
+SurfaceSoup read_surface_by_content(std::string_view bytes, const std::string& name) {
   if (bytes.empty())
     throw DataError::at(name, "expected a surface in STL, OBJ, PLY or OFF, found nothing: it is empty");
   if (is_archive(bytes))
@@ -54,7 +54,7 @@ SurfaceSoup read_by_content(std::string_view bytes, const std::string& name) {
   throw DataError::at(name, "expected a surface in STL, OBJ, PLY or OFF, found {}", quote_found(first));
 }
 
-// As of largest_coordinate: volumes and squares of determinants of shorter ones vanish.
+// The counterpart of largest_coordinate: volumes and squares of determinants of shorter extents vanish.
 constexpr double least_extent = 1e-50;
 
 void check_magnitude(const SurfaceSoup& soup) {
@@ -82,7 +82,7 @@ std::string SurfaceSoup::place_of(std::size_t triangle) const {
 }
 
 SurfaceSoup read_surface(Input& input) {
-  SurfaceSoup soup = read_by_content(input.read_all(), input.name());
+  SurfaceSoup soup = read_surface_by_content(input.read_all(), input.name());
   soup.name = input.name();
   check_extent(soup);
   return soup;

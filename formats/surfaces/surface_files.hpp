@@ -28,10 +28,10 @@ struct SurfaceSoup {
   std::vector<Vertex> file_vertices = {};
   std::size_t file_vertex_count = 0;
   std::string name;  // of the input, for messages
-  // Of each triangle, the region that its normal points away from and the one that it points to, 0 outside. Empty where
-  // nothing says so.
+  // For each triangle: the region that its normal points away from and the one that it points to; 0 outside. Empty if
+  // the format does not tell.
   std::vector<std::array<std::int32_t, 2>> sides = {};
-  // Edges of the CAD's own curves, which are features however little the surface turns there.
+  // Edges of the CAD's own curves; they are features even where the surface hardly turns.
   std::vector<CurveEdge> curves = {};
   std::vector<std::int32_t> curve_tags = {};
   bool from_bundle = false;
@@ -48,7 +48,7 @@ struct SurfaceSoup {
 // pipeline/surface_bundle.hpp reads the surfaces of bundles.
 SurfaceSoup read_surface(Input& input);
 
-// What all readers promise: there are triangles, not too many, of a size that can be computed with.
+// Checks what all readers promise: there are triangles, not too many, of a size that allows computation.
 void check_extent(const SurfaceSoup& soup);
 
 }  // namespace hexpipe::formats

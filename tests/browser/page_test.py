@@ -216,7 +216,7 @@ def check_turning(page):
 
 def check_colours(page):
     before = [0] * 3 * 60 * 40
-    for colour in "quality", "kind", "region", "hexes":
+    for colour in "quality", "kind", "surface", "region", "hexes":
         page.choose("colour", colour)
         page.settles_with(colour=colour)
         assert page.text("legend")
@@ -229,6 +229,26 @@ def check_colours(page):
     page.find("#theme").click()
     page.settles_with(theme="dark")
     page.shot("dark")
+
+
+def check_groups(page):
+    """The legend of surfaces hides one, shows one alone, and shows all again."""
+    page.choose("colour", "surface")
+    page.settles_with(colour="surface", hidden="none")
+    groups = page.browser.find_elements(By.CSS_SELECTOR, "#legend .group")
+    assert len(groups) > 1, page.text("legend")
+    whole, count, tag = page.picture(), len(groups), groups[0].get_attribute("value")
+    groups[0].click()
+    page.settles_with(hidden=f"surface:{tag}")
+    assert difference(page.picture(), whole) > 0.1, "the surface is still there"
+    page.shot("surface-hidden")
+    last = page.browser.find_elements(By.CSS_SELECTOR, "#legend .group")[-1]
+    ActionChains(page.browser).key_down(Keys.SHIFT).click(last).key_up(Keys.SHIFT).perform()
+    page.wait(lambda: page.state()["hidden"].count("surface:") == count - 1)
+    page.find("#legend .all").click()
+    page.settles_with(hidden="none")
+    page.choose("colour", "hexes")
+    page.settles_with(colour="hexes")
 
 
 HISTORY = {
@@ -282,8 +302,8 @@ def check_link(page, address):
     page.open(address + "#" + "&".join(WRONG_VIEWS))  # what is no view changes nothing
     assert page.state() == before, page.state()
     page.browser.get("about:blank")
-    page.open(address + "#camera=1e1,-90,.5,0,0,0&clip=-x:0.25&quality=-1,0.5&peel=1.5&kinds=none&fragment=0")
-    page.settles_with(camera="10,-90,0.5,0,0,0", clip="-x:0.25", quality="-1,0.5", peel="1", kinds="none")
+    page.open(address + "#camera=1e1,-90,.5,0,0,0&clip=-x:0.25&quality=-1,0.5&peel=1.5&kinds=none&fragment=0&color=kind")
+    page.settles_with(camera="10,-90,0.5,0,0,0", clip="-x:0.25", quality="-1,0.5", peel="1", kinds="none", colour="kind")
 
 
 def check_console(page):
@@ -313,6 +333,7 @@ def main():
             check_peeling_and_kinds(page, cells)
             check_picking(page)
             check_turning(page)
+            check_groups(page)
             check_colours(page)
             check_history(page)
             check_png(page, downloads)

@@ -13,7 +13,7 @@ import numpy as np
 
 MEMBERS = {  # member: (dtype, columns; 0 = one dimension)
     "mesh/points.npy": ("<f8", 3), "mesh/tets.npy": ("<i4", 4), "mesh/tet_tags.npy": ("<i4", 0),
-    "mesh/triangles.npy": ("<i4", 3), "mesh/triangle_tags.npy": ("<i4", 0),
+    "mesh/triangles.npy": ("<i4", 3), "mesh/triangle_tags.npy": ("<i4", 0), "mesh/dislocations.npy": ("<f8", 6),
     "candidates/vertices.npy": ("<i4", 8), "candidates/kind.npy": ("|u1", 0), "candidates/quality.npy": ("<f8", 0),
     "candidates/volume.npy": ("<f8", 0), "candidates/tets.npy": ("<i4", 0), "candidates/tet_offsets.npy": ("<i8", 0),
     "candidates/boundary_tets.npy": ("<i4", 0), "candidates/boundary_tet_offsets.npy": ("<i8", 0),

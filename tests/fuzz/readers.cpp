@@ -152,7 +152,7 @@ void read_size_list(std::string_view bytes) {
   promise(list.points.empty() || list.points.size() == list.sizes.size(), "a size each");
   for (const auto& simplex : list.simplices)
     for (const Vertex v : simplex)
-      promise(v == SizeList::none || list.sizes.at(static_cast<std::size_t>(v)) > 0, "sizes are positive");
+      promise(v == no_index || list.sizes.at(static_cast<std::size_t>(v)) > 0, "sizes are positive");
 }
 
 void read_members(std::string_view bytes) {

@@ -46,7 +46,10 @@ void read_as_solid(std::string_view bytes) {
   const Surface surface = find_shells(std::move(soup), rules[(choice / 2 % 4) % rules.size()]);
   for (const Shell& shell : surface.shells) promise(shell.volume >= 0, "shells enclose a volume");
   if ((choice & 8u) == 0 || surface.triangles.size() > most_to_remesh) return;
-  const RemeshResult remeshed = remesh_surface(surface, {.size = size * diagonal});
+  SurfaceRemesher remesher(surface, {.size = size * diagonal});
+  while (remesher.make() && !remesher.judge()) {
+  }
+  const RemeshResult remeshed = remesher.take();
   promise(!remeshed.failure.empty() || is_boundary_of_a_solid(remeshed.surface), "a new surface bounds a solid");
 }
 

@@ -1,9 +1,15 @@
 #!/usr/bin/env bash
-# results.sh [--with BIN] SURFACE... - does every stage make the same bytes of a surface whatever way it is run?
+# results.sh [--with BIN] SURFACE... - does every stage make the same bytes, however it is run?
 #
-# The whole pipeline runs by files with one thread, twice; by files with two threads; as one pipe with two threads; and by
-# the executables of another build (--with, for example build-sanitize/bin). Prints a line for each surface; ends with 1
-# when any file differs. SIZE (8%) is that of tetmesh, HEXPIPE_BIN where the tools are (build/bin).
+# It has two uses. Same input, options and seed have to give the same bytes for any number of threads, by files or by a
+# pipe: so the whole pipeline runs by files with one thread, twice; by files with two threads; and as one pipe with two
+# threads. And a change that only moves or renames code has to leave all results as they were: --with runs the
+# executables of another build, too (the one before the change, or build-sanitize/bin).
+#
+#   HEXPIPE_BIN=build/bin tests/reproducible/results.sh --with ../before/build/bin tests/data/bracket.stl
+#
+# Prints a line for each surface, with the hash of its last product. Ends with 1 when any file differs. SIZE (8%) is that
+# of tetmesh, HEXPIPE_BIN the folder of the tools (build/bin).
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 bin=${HEXPIPE_BIN:-$here/../../build/bin}
@@ -12,6 +18,10 @@ other=
 if [[ ${1:-} == --with ]]; then
   other=$2
   shift 2
+fi
+if (($# == 0)); then
+  echo "usage: results.sh [--with BIN] SURFACE..." >&2
+  exit 2
 fi
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT

@@ -91,7 +91,7 @@ TEST(TetAdjacency, AgreesWithBruteForceOnALattice) {
   const TetAdjacency adjacency(mesh, "test");
   for (std::int32_t a = 0; a < std::ssize(mesh.tets); ++a)
     for (int facet = 0; facet < 4; ++facet) {
-      std::int32_t expected = TetAdjacency::none;
+      std::int32_t expected = no_index;
       for (std::int32_t b = 0; b < std::ssize(mesh.tets); ++b) {
         int shared = 0;
         for (const auto corner : TetTopology::triangles[facet])

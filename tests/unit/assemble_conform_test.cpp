@@ -29,7 +29,7 @@ TEST(Conform, OneCubeAmongTetsKeepsItsHexAndGetsAPyramidOnEachSide) {
   EXPECT_EQ(result.mesh.hexes.size(), 1u);
   EXPECT_EQ(result.mesh.pyramids.size(), 6u);
   EXPECT_EQ(result.statistics.volumes.nonconforming_quads, 0);
-  EXPECT_NEAR(result.statistics.volumes.parts, 27, 1e-9);
+  EXPECT_NEAR(result.statistics.volumes.cells, 27, 1e-9);
   EXPECT_GT(result.statistics.kinds[2].least, 0.1);
 }
 

@@ -14,7 +14,7 @@
 #include "tools/assemble/assemble.hpp"
 #include "tools/assemble/choice/exchange.hpp"
 #include "tools/assemble/choice/exchange_search.hpp"
-#include "tools/assemble/hybrid/complete_surface.hpp"
+#include "tools/assemble/hybrid/surface_tags.hpp"
 
 namespace hexpipe {
 using namespace assemble;
@@ -43,7 +43,9 @@ class Scene {
     boundary.emplace(mesh, adjacency, *tags);
   }
 
-  Exchange exchange(const IndependentSet& chosen) const { return exchange_hexes(mesh, *boundary, candidates, chosen); }
+  Exchange exchange(const IndependentSet& chosen) const {
+    return exchange_hexes(mesh, *boundary, candidates, Selection(mesh, *tags, candidates, chosen).choice());
+  }
 
   // `first`, and whatever else fits, in random order.
   IndependentSet maximal_choice(const IndependentSet& first, Random& random) const {
@@ -58,8 +60,8 @@ class Scene {
 
   std::int64_t open_quads(const IndependentSet& chosen) const {
     const SurfaceTags fresh(mesh);
-    const HybridMesh built = build_selection(mesh, fresh, candidates, chosen);
-    return static_cast<std::int64_t>(hexpipe::open_quads(built).size());
+    const Selection selection(mesh, fresh, candidates, chosen);
+    return static_cast<std::int64_t>(choice::open_quads(selection.mesh()).size());
   }
 
   double volume_of_hexes(const IndependentSet& chosen) const {
@@ -111,7 +113,7 @@ TEST(Exchange, ACellAcrossCubesGivesWayToThem) {
   EXPECT_GT(across, 10);
 }
 
-// build_selection, which counts the open quads here, refuses cells that cannot stand together.
+// Selection, from which open quads are counted here, refuses cells that cannot stand together.
 TEST(Exchange, LeavesFewerQuadsOpenAndHexesWithMoreVolume) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
@@ -299,15 +301,15 @@ ExchangeProblem random_problem(std::int32_t count, Random& random) {
     problem.graph.weights.push_back(500 + static_cast<std::int64_t>(random.below(500)));
   }
   problem.quads.resize(count);
-  for (auto& row : problem.quads) row.fill(ExchangeProblem::none);
+  for (auto& row : problem.quads) row.fill(no_index);
   for (std::int32_t a = 0; a < count; ++a)
     for (int k = 0; k < 3; ++k) {
       const auto quad = static_cast<std::int32_t>(problem.cost.size());
       problem.cost.push_back(50 + static_cast<std::int64_t>(random.below(100)));
-      problem.standing.push_back(random.uniform() < 0.1 ? 1 : 0);
+      problem.fixed_cells.push_back(random.uniform() < 0.1 ? 1 : 0);
       problem.quads[a][k] = quad;
       const auto b = static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(count)));
-      if (b != a && problem.standing.back() == 0) problem.quads[b][3 + k] = quad;
+      if (b != a && problem.fixed_cells.back() == 0) problem.quads[b][3 + k] = quad;
     }
   problem.usual.assign(count, 700);
   problem.stays.assign(count, 0);
@@ -317,10 +319,10 @@ ExchangeProblem random_problem(std::int32_t count, Random& random) {
 // From the definition.
 std::int64_t value_of(const ExchangeProblem& problem, const IndependentSet& set) {
   std::int64_t value = total_weight(set, problem.graph);
-  auto cells = problem.standing;
+  auto cells = problem.fixed_cells;
   for (const std::int32_t i : set)
     for (const std::int32_t quad : problem.quads[i])
-      if (quad != ExchangeProblem::none) ++cells[quad];
+      if (quad != no_index) ++cells[quad];
   for (std::size_t quad = 0; quad < cells.size(); ++quad)
     if (cells[quad] == 1) value -= problem.cost[quad];
   return value;

@@ -2,7 +2,7 @@
 
 #include "common/mesh/adjacency.hpp"
 #include "common/run/error.hpp"
-#include "tools/assemble/conform/peel.hpp"
+#include "tools/assemble/conform/flat_tets.hpp"
 #include "tools/assemble/hybrid/extract.hpp"
 #include "tools/assemble/self_check.hpp"
 
@@ -84,7 +84,7 @@ TEST(Peel, TheSelfCheckKnowsOfIt) {
   ASSERT_EQ(peel_flat_tets(hybrid, tags, surface, {}, 0.03), 1);
   const auto volumes = check_result(extract(hybrid, tags), mesh, tags, surface, true);
   EXPECT_NEAR(volumes.peeled, 0.01 / 3, 1e-12);
-  EXPECT_NEAR(volumes.parts, volumes.input - volumes.peeled, 1e-12);
+  EXPECT_NEAR(volumes.cells, volumes.input - volumes.peeled, 1e-12);
   EXPECT_NEAR(volumes.deviation, 0.01, 1e-5);
   EXPECT_THROW(check_result(extract(hybrid, tags), mesh, SurfaceTags(mesh), surface, true), DataError);
 }

@@ -98,8 +98,8 @@ TEST(Selection, PartsAddUpWithTheBulgesOfWarpedQuads) {
     const auto chosen = random_choice(lattice, 0.6, random);
     const auto volumes = assemble::assemble(lattice.mesh, lattice.cubes, chosen, plain).statistics.volumes;
     EXPECT_NE(volumes.open_bulge, 0);
-    EXPECT_NEAR(volumes.parts, volumes.input + volumes.bulge + volumes.open_bulge, 1e-9);
-    EXPECT_NEAR(volumes.skin, volumes.parts, 1e-9);
+    EXPECT_NEAR(volumes.cells, volumes.input + volumes.bulge + volumes.open_bulge, 1e-9);
+    EXPECT_NEAR(volumes.skin, volumes.cells, 1e-9);
   }
 }
 

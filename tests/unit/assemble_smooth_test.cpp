@@ -5,8 +5,7 @@
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/quality.hpp"
 #include "tools/assemble/assemble.hpp"
-#include "tools/assemble/conform/repair.hpp"
-#include "tools/assemble/shape/freedom.hpp"
+#include "tools/assemble/conform/flat_tets.hpp"
 #include "tools/assemble/shape/point_star.hpp"
 #include "tools/assemble/shape/smooth.hpp"
 
@@ -310,14 +309,14 @@ TEST(Smooth, RoundsChangeTheResult) {
   const auto often =
       assemble::assemble(lattice.mesh, lattice.cubes, chosen, {.merge = AssembleOptions::Merge::none, .smooth = 5});
   EXPECT_NE(once.mesh.points, often.mesh.points);
-  EXPECT_EQ(once.statistics.smoothing.rounds, 1);
+  EXPECT_EQ(once.statistics.improvement.rounds, 1);
   EXPECT_GT(often.statistics.kinds[3].least, often.statistics.before_smoothing[3].least);
-  EXPECT_NEAR(often.statistics.volumes.parts, 64, 1e-9);
+  EXPECT_NEAR(often.statistics.volumes.cells, 64, 1e-9);
 }
 
 // A box of 2 x 2 x 2 cubes without a vertex in its middle but one close to a corner: the tets there are flat, and a
 // vertex of its own where there is room makes the worst of them better.
-TEST(Repair, AVertexBesideFlatTets) {
+TEST(Split, AVertexBesideFlatTets) {
   auto lattice = make_lattice(2);
   TetMesh& mesh = lattice.mesh;
   mesh.points[static_cast<std::size_t>(testing::lattice_vertex(2, 1, 1, 1))] = {1, 1, 1.95};
@@ -334,7 +333,7 @@ TEST(Repair, AVertexBesideFlatTets) {
     return worst;
   };
   const double before = worst_tet();
-  EXPECT_GT(repair_flat_tets(hybrid, tags, 0.1), 0);
+  EXPECT_GT(split_flat_tets(hybrid, tags, 0.1), 0);
   EXPECT_GT(worst_tet(), before);
 }
 

@@ -5,8 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "common/conflicts/conflict_rules.hpp"
-#include "common/conflicts/dense_ids.hpp"
+#include "common/conflicts/conflicts.hpp"
 #include "common/conflicts/sorted_set.hpp"
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"

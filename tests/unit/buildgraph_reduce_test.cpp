@@ -5,9 +5,8 @@
 
 #include <algorithm>
 
-#include "common/graph/subgraph.hpp"
+#include "common/graph/conflict_graph.hpp"
 #include "random_graphs.hpp"
-#include "tools/buildgraph/domination.hpp"
 
 namespace hexpipe {
 using namespace buildgraph;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "common/graph/tet_cliques.hpp"
+#include "common/mesh/candidates.hpp"
 #include "common/run/error.hpp"
 #include "random_graphs.hpp"
 

@@ -85,7 +85,7 @@ TEST_P(Links, AreTheFacetsOfUsableTets) {
       EXPECT_EQ(found, expected);
       EXPECT_EQ(links.link_count_exceeds_one(v, i), expected.size() > 1);
     }
-    EXPECT_EQ(links.place_of(v, v), VertexLinks::none);
+    EXPECT_EQ(links.place_of(v, v), no_index);
   }
 }
 

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "common/mwis/local_search/fragment.hpp"
+#include "common/mwis/local_search/fragment_solver.hpp"
 #include "common/mwis/local_search/lns.hpp"
-#include "common/mwis/local_search/repair.hpp"
 #include "common/mwis/local_search/schedule.hpp"
 #include "common/run/parallel.hpp"
 #include "random_graphs.hpp"
@@ -203,16 +203,16 @@ TEST(FragmentGrower, LetsGoOfFragmentsInAnyOrder) {
   EXPECT_TRUE(grower.is_free(6));
 }
 
-TEST(Effort, FollowsTheYield) {
+TEST(OperatorSelection, FollowsTheYield) {
   constexpr double work = 1e8;
-  Effort effort({Way::exact, Way::anneal});
-  EXPECT_EQ(effort.share_of(Way::exact), 0.5);
+  OperatorSelection selection({Operator::exact, Operator::anneal});
+  EXPECT_EQ(selection.share_of(Operator::exact), 0.5);
   const auto share_done = [&](double exact_gain, double anneal_gain) {
     int exact = 0;
     for (int i = 0; i < 100; ++i) {
-      const Way way = effort.next();
-      exact += way == Way::exact;
-      effort.record(way, work, way == Way::exact ? exact_gain : anneal_gain);
+      const Operator op = selection.next();
+      exact += op == Operator::exact;
+      selection.record(op, work, op == Operator::exact ? exact_gain : anneal_gain);
     }
     return exact;
   };
@@ -221,34 +221,35 @@ TEST(Effort, FollowsTheYield) {
   EXPECT_NEAR(share_done(1, 100), 20, 10);
 }
 
-TEST(Effort, CountsWorkThatTakesNoTime) {
-  Effort effort({Way::exact, Way::anneal});
+TEST(OperatorSelection, CountsWorkThatTakesNoTime) {
+  OperatorSelection selection({Operator::exact, Operator::anneal});
   int exact = 0;
   for (int i = 0; i < 100; ++i) {
-    const Way way = effort.next();
-    exact += way == Way::exact;
-    effort.record(way, way == Way::exact ? 5000 : 0, 0);
+    const Operator op = selection.next();
+    exact += op == Operator::exact;
+    selection.record(op, op == Operator::exact ? 5000 : 0, 0);
   }
   EXPECT_GT(exact, 10);
 }
 
-TEST(Effort, SharesAmongTheWaysItIsGiven) {
-  Effort all, alone({Way::recombine});
-  EXPECT_NEAR(all.share_of(Way::exact) + all.share_of(Way::anneal) + all.share_of(Way::recombine), 1, 1e-12);
-  EXPECT_EQ(alone.next(), Way::recombine);
-  EXPECT_NEAR(alone.share_of(Way::recombine), 1, 1e-12);
-  std::array<int, all_ways.size()> done{};
+TEST(OperatorSelection, SharesAmongTheOperatorsItIsGiven) {
+  OperatorSelection all, alone({Operator::recombine});
+  EXPECT_NEAR(all.share_of(Operator::exact) + all.share_of(Operator::anneal) + all.share_of(Operator::recombine), 1,
+              1e-12);
+  EXPECT_EQ(alone.next(), Operator::recombine);
+  EXPECT_NEAR(alone.share_of(Operator::recombine), 1, 1e-12);
+  std::array<int, all_operators.size()> done{};
   for (int i = 0; i < 300; ++i) {
-    const Way way = all.next();
-    ++done[static_cast<std::size_t>(way)];
-    all.record(way, 1e8, way == Way::recombine ? 100 : 0);
+    const Operator op = all.next();
+    ++done[index_of(op)];
+    all.record(op, 1e8, op == Operator::recombine ? 100 : 0);
   }
-  EXPECT_GT(done[static_cast<std::size_t>(Way::recombine)], 150);
-  EXPECT_GT(done[static_cast<std::size_t>(Way::exact)], 20);
-  EXPECT_GT(done[static_cast<std::size_t>(Way::anneal)], 20);
+  EXPECT_GT(done[index_of(Operator::recombine)], 150);
+  EXPECT_GT(done[index_of(Operator::exact)], 20);
+  EXPECT_GT(done[index_of(Operator::anneal)], 20);
 }
 
-TEST(Repair, NeverLosesInAnyWay) {
+TEST(FragmentSolver, NeverLosesWithAnyOperator) {
   Random random(11);
   for (int i = 0; i < 40; ++i) {
     const ConflictGraph graph = hexpipe::testing::random_clique_graph(200, 150, 1000, random);
@@ -256,25 +257,25 @@ TEST(Repair, NeverLosesInAnyWay) {
     state.make_maximal();
     FragmentGrower grower(state, Random(9));
     const std::int32_t seed = state.to_set()[random.below(state.to_set().size())];
-    for (const Way way : all_ways) {
+    for (const Operator op : all_operators) {
       grower.let_go();
-      Repair repair;
-      repair.begin(way);
-      grower.grow(seed, 60, 120, repair.fragment());
-      repair.extract(grower);
-      repair.solve(way == Way::exact ? 1000 : 20, Random(i), no_deadline);
+      FragmentSolver solver;
+      solver.begin(op);
+      grower.grow(seed, 60, 120, solver.fragment());
+      solver.extract(grower);
+      solver.solve(op == Operator::exact ? 1000 : 20, Random(i), no_deadline);
       std::int64_t before = 0, after = 0;
       IndependentSet chosen;
-      const auto& vertices = repair.fragment().vertices;
+      const auto& vertices = solver.fragment().vertices;
       for (std::size_t place = 0; place < vertices.size(); ++place) {
         if (state.contains(vertices[place])) before += graph.weights[vertices[place]];
-        if (repair.chooses(place)) chosen.push_back(vertices[place]);
+        if (solver.chooses(place)) chosen.push_back(vertices[place]);
       }
       std::ranges::sort(chosen);
-      ASSERT_NO_THROW(validate(chosen, graph, "repair"));
+      ASSERT_NO_THROW(validate(chosen, graph, "fragment"));
       after = total_weight(chosen, graph);
       EXPECT_GE(after, before);
-      EXPECT_GT(repair.work(), 0);
+      EXPECT_GT(solver.work(), 0);
     }
   }
 }

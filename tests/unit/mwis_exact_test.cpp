@@ -66,7 +66,6 @@ TEST(BranchAndBound, StopsAtItsBudget) {
   const Deadline passed(0.0);
   SearchBudget no_time(1000000, &passed);
   solver.solve(graph, -1, no_time);
-  EXPECT_TRUE(no_time.out_of_time());
   EXPECT_TRUE(no_time.exhausted());
   SearchBudget at_once(1000000, &passed, 1);
   EXPECT_FALSE(at_once.spend());
@@ -75,7 +74,6 @@ TEST(BranchAndBound, StopsAtItsBudget) {
   EXPECT_TRUE(in_a_node.spend());
   EXPECT_FALSE(in_a_node.look_at_clock());
   EXPECT_FALSE(in_a_node.spend());
-  EXPECT_TRUE(in_a_node.out_of_time());
 }
 
 TEST(DenseReductions, KeepTheOptimum) {

@@ -1,4 +1,4 @@
-#include "common/run/near_option.hpp"
+#include "common/run/command_line.hpp"
 
 #include <gtest/gtest.h>
 

@@ -23,13 +23,13 @@ TEST(NumberMap, FindsNumbersInSequence) {
   const NumberMap map({5, 6, 7});
   for (const std::int64_t absent :
        {std::int64_t{4}, std::int64_t{8}, std::int64_t{0}, std::int64_t{-1}, std::numeric_limits<std::int64_t>::max()})
-    EXPECT_EQ(map.find(absent), NumberMap::none);
+    EXPECT_EQ(map.find(absent), no_index);
 }
 
 TEST(NumberMap, FindsNumbersThatLieClose) {
   expect_found({7, 3, 5, 9});
   const NumberMap map({7, 3, 5, 9});
-  for (const std::int64_t absent : {2, 4, 6, 8, 10, 1000}) EXPECT_EQ(map.find(absent), NumberMap::none);
+  for (const std::int64_t absent : {2, 4, 6, 8, 10, 1000}) EXPECT_EQ(map.find(absent), no_index);
 }
 
 TEST(NumberMap, FindsNumbersFarApart) {
@@ -37,7 +37,7 @@ TEST(NumberMap, FindsNumbersFarApart) {
   expect_found({greatest, 0, 1, 5000000000});
   const NumberMap map({greatest, 0, 5000000000});
   for (const std::int64_t absent : {std::int64_t{1}, greatest - 1, std::int64_t{-1}})
-    EXPECT_EQ(map.find(absent), NumberMap::none);
+    EXPECT_EQ(map.find(absent), no_index);
 }
 
 TEST(NumberMap, TellsARepeatedNumber) {
@@ -47,8 +47,8 @@ TEST(NumberMap, TellsARepeatedNumber) {
 }
 
 TEST(NumberMap, IsEmptyWithoutNumbers) {
-  EXPECT_EQ(NumberMap().find(0), NumberMap::none);
-  EXPECT_EQ(NumberMap(std::vector<std::int64_t>{}).find(0), NumberMap::none);
+  EXPECT_EQ(NumberMap().find(0), no_index);
+  EXPECT_EQ(NumberMap(std::vector<std::int64_t>{}).find(0), no_index);
 }
 
 TEST(NumberMap, AgreesWithAHashTable) {
@@ -64,7 +64,7 @@ TEST(NumberMap, AgreesWithAHashTable) {
     const NumberMap map(numbers);
     for (std::int64_t number = 0; number < static_cast<std::int64_t>(range); ++number) {
       const auto found = expected.find(number);
-      ASSERT_EQ(map.find(number), found == expected.end() ? NumberMap::none : found->second) << "round " << round;
+      ASSERT_EQ(map.find(number), found == expected.end() ? no_index : found->second) << "round " << round;
     }
   }
 }

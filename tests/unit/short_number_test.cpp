@@ -1,4 +1,4 @@
-#include "formats/streams/short_number.hpp"
+#include "formats/streams/number_writer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "tetmesh_surfaces.hpp"
-#include "tools/tetmesh/surface/surface_remesh.hpp"
 
 namespace hexpipe {
 using namespace tetmesh::solid;
@@ -21,6 +20,7 @@ using testing::box;
 using testing::Facet;
 using testing::Facets;
 using testing::prism;
+using testing::remesh_surface;
 using testing::sphere;
 using testing::surface_of;
 

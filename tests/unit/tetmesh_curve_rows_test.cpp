@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <vector>
 
 #include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/surface/surface_curl.hpp"
@@ -79,18 +80,22 @@ TEST(CurveRows, GiveWayToTheDeviation) {
 
 TEST(CurveRows, AreNearlyAsManyOnBothSidesOfATrapezoid) {
   double below = 0, above = 0;
+  std::vector<int> along;
   for (const MeasuredCurve& curve : curves_of(mesh_of(trapezoid(0.8)), 1)) {
     const Vec3 from = curve.points.front(), to = curve.points.back();
     double steps = 0;
     for (std::size_t i = 0; i + 1 < curve.points.size(); ++i)
       steps += curve.steps_per_size[i] * norm(curve.points[i + 1] - curve.points[i]);
-    if (from.y == to.y && from.z == to.z)
+    if (from.y == to.y && from.z == to.z) {
       (from.z == 0 ? below : above) = steps;
-    else
+      along.push_back(curve.steps.value_or(0));
+    } else {
       EXPECT_NEAR(steps, norm(to - from), 0.35);
+    }
   }
-  EXPECT_NEAR(below, 11.1, 0.2) << "12 long";
-  EXPECT_NEAR(above, 10.4, 0.2) << "9.6 long";
+  EXPECT_NEAR(below, 10.8, 0.2) << "12 long";
+  EXPECT_NEAR(above, 10.7, 0.2) << "9.6 long";
+  EXPECT_EQ(along, std::vector<int>(4, 11)) << "whole, and the same on both sides";
 }
 
 TEST(CurveRows, OfASmoothSurfaceAreNone) {
@@ -104,6 +109,7 @@ TEST(SurfaceCurl, StretchesRowsBetweenThePointsOfFeatures) {
   std::vector<MeasuredCurve> curves = curves_of(mesh, 1);
   for (MeasuredCurve& curve : curves) {
     const double steps = is_along_x(curve) ? 10 / norm(curve.points.back() - curve.points.front()) : 1;
+    curve.steps.reset();
     curve.steps_per_size.assign(curve.steps_per_size.size(), steps);
   }
   sample_feature_curves(mesh, curves, 1, 0.1);

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tetmesh_surfaces.hpp"
-#include "tools/tetmesh/sizing/wall_thickness.hpp"
+#include "tools/tetmesh/sizing/wall_sizes.hpp"
 #include "tools/tetmesh/volume/expected_points.hpp"
 #include "tools/tetmesh/volume/graded_lattice.hpp"
 

@@ -12,7 +12,7 @@
 #include "tools/tetmesh/fields/octahedral.hpp"
 #include "tools/tetmesh/geometry/column_index.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
-#include "tools/tetmesh/solid/part_axes.hpp"
+#include "tools/tetmesh/solid/model_axes.hpp"
 #include "tools/tetmesh/solid/surface_clearance.hpp"
 #include "tools/tetmesh/volume/lattice.hpp"
 
@@ -148,7 +148,7 @@ TEST(FramePoints, TellHowMuchOfThePartALatticeDoesNotFit) {
   EXPECT_EQ(place(surface_of(straight), {.size = 1. / 8}).turned_share, 0);
   EXPECT_EQ(place(surface_of(turned(straight)), {.size = 1. / 8}).turned_share, 1);
   const Surface box_turned = surface_of(turned(straight));
-  EXPECT_EQ(place(box_turned, {.size = 1. / 8, .axes = axes_of_part(box_turned)}).turned_share, 0);
+  EXPECT_EQ(place(box_turned, {.size = 1. / 8, .axes = axes_of_model(box_turned)}).turned_share, 0);
   const double round = place(surface_of(sphere({0, 0, 0}, 1, 12)), {.size = 0.2}).turned_share;
   EXPECT_GT(round, 0.3);
   EXPECT_LT(round, 1);

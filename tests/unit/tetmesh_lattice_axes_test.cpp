@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "tetmesh_surfaces.hpp"
-#include "tools/tetmesh/solid/part_axes.hpp"
+#include "tools/tetmesh/solid/model_axes.hpp"
 #include "tools/tetmesh/volume/lattice.hpp"
 
 namespace hexpipe {
@@ -53,19 +53,19 @@ Facets prism(int sides, double radius, double height) {
 }
 
 TEST(PartAxes, AreTheCoordinateAxesWherePartsAreAlongThese) {
-  EXPECT_EQ(axes_of_part(surface_of(box({1, 2, 3}, {2, 5, 9}, 3))), coordinate_axes);
+  EXPECT_EQ(axes_of_model(surface_of(box({1, 2, 3}, {2, 5, 9}, 3))), coordinate_axes);
   const Facets step = joined(box({0, 0, 0}, {4, 4, 1}), turned(box({9, 0, 0}, {11, 1, 1}), turned_axes(0.4, 0.3)));
-  EXPECT_EQ(axes_of_part(surface_of(step)), coordinate_axes);
+  EXPECT_EQ(axes_of_model(surface_of(step)), coordinate_axes);
 }
 
 TEST(PartAxes, AreTheCoordinateAxesWhereNothingIsFlat) {
-  EXPECT_EQ(axes_of_part(surface_of(sphere({0, 0, 0}, 1, 12))), coordinate_axes);
+  EXPECT_EQ(axes_of_model(surface_of(sphere({0, 0, 0}, 1, 12))), coordinate_axes);
 }
 
 TEST(PartAxes, FollowTheFlatFaces) {
   for (const double angle : {0.01, 0.3, 0.7}) {
     const Axes wanted = turned_axes(angle, angle / 2);
-    const Axes found = axes_of_part(surface_of(turned(box({0, 0, 0}, {3, 2, 1}, 2), wanted)));
+    const Axes found = axes_of_model(surface_of(turned(box({0, 0, 0}, {3, 2, 1}, 2), wanted)));
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(dot(found[i], wanted[i]), 1, 1e-12) << angle << " " << i;
   }
 }
@@ -73,14 +73,14 @@ TEST(PartAxes, FollowTheFlatFaces) {
 TEST(PartAxes, FollowTheLargestFacesOfSeveral) {
   const Axes wanted = turned_axes(0.5, 0.2);
   const Facets parts = joined(turned(cube(0, 4), wanted), cube(20, 3));
-  const Axes found = axes_of_part(surface_of(parts));
+  const Axes found = axes_of_model(surface_of(parts));
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(std::abs(dot(found[i], wanted[i])), 1, 1e-12);
 }
 
 // A prism of seven sides has no faces at right angles to each other but its ends.
 TEST(PartAxes, TakeEndsAndASideOfAPrism) {
   const Axes wanted = turned_axes(0.2, 0.6);
-  const Axes found = axes_of_part(surface_of(turned(prism(7, 1, 0.5), wanted)));
+  const Axes found = axes_of_model(surface_of(turned(prism(7, 1, 0.5), wanted)));
   EXPECT_NEAR(std::abs(dot(found[2], wanted[2])), 1, 1e-12);
   EXPECT_NEAR(det(found[0], found[1], found[2]), 1, 1e-12);
 }

@@ -10,7 +10,6 @@
 #include "tools/tetmesh/solid/surface_check.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
 #include "tools/tetmesh/surface/surface_refine.hpp"
-#include "tools/tetmesh/surface/surface_remesh.hpp"
 
 namespace hexpipe {
 using namespace formats;
@@ -25,6 +24,7 @@ using testing::inverted;
 using testing::joined;
 using testing::naive_distance;
 using testing::prism;
+using testing::remesh_surface;
 using testing::soup_of;
 using testing::sphere;
 using testing::surface_of;

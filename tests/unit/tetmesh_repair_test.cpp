@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <ranges>
+#include <set>
+
 #include "common/run/error.hpp"
 #include "common/run/random.hpp"
 #include "surface_samples.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/solid/hole_filling.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 #include "tools/tetmesh/solid/surface_check.hpp"
@@ -12,8 +16,10 @@
 namespace hexpipe {
 using namespace formats;
 using namespace tetmesh::solid;
+namespace geometry = tetmesh::geometry;
 namespace {
 
+using testing::box;
 using testing::cube;
 using testing::Facets;
 using testing::inverted;
@@ -141,14 +147,35 @@ TEST(Repair, FillsHolesThatTouchInAVertex) {
   EXPECT_GT(touching, 100);
 }
 
-TEST(HoleFilling, HasTheLeastArea) {
+TEST(HoleFilling, StaysWithinAPolygonThatIsNotConvex) {
   // An arrow: the other diagonal lies outside it.
-  const std::vector<Vec3> points{{0, 0, 0}, {2, 1, 0}, {4, 0, 0}, {2, 4, 0}};
-  const auto triangles = triangulate_polygon(points, std::vector<Vertex>{0, 1, 2, 3});
+  const std::vector<Vec3> points{{0, 0, 0}, {2, 1, 0}, {4, 0, 0}, {2, 4, 0}, {2, -4, 0}, {9, 9, 0}};
+  const auto triangles = fill_hole(points, std::vector<HoleEdge>{{0, 4}, {1, 4}, {2, 5}, {3, 5}});
   ASSERT_EQ(triangles.size(), 2u);
   double area = 0;
   for (const auto& [a, b, c] : triangles) area += cross(points[b] - points[a], points[c] - points[a]).z / 2;
   EXPECT_DOUBLE_EQ(area, 6);
+}
+
+// Around edges and corners of a box, where a triangulation of least area may lie in the faces beside the hole.
+TEST(Repair, FillsHolesAcrossEdgesSoThatNothingIntersects) {
+  const SurfaceSoup whole = soup_of(box({0, 0, 0}, {1, 2, 3}, 3));
+  const auto twins = geometry::find_twins(whole.points.size(), whole.triangles);
+  for (std::size_t start = 0; start < whole.triangles.size(); ++start) {
+    std::set<std::int32_t> patch{static_cast<std::int32_t>(start)};
+    for (int ring = 0; ring < 2; ++ring)
+      for (const std::int32_t t : std::set(patch))
+        for (int i = 0; i < 3; ++i) patch.insert(geometry::triangle_of(twins[3 * t + i]));
+    SurfaceSoup soup = whole;
+    for (const std::int32_t t : patch | std::views::reverse) {
+      soup.triangles.erase(soup.triangles.begin() + t);
+      soup.tags.pop_back();
+      soup.places.pop_back();
+    }
+    const RepairReport report = repaired(soup);
+    EXPECT_EQ(report.filled_holes, 1u);
+    EXPECT_NEAR(volume_of(soup), 6, 0.5);
+  }
 }
 
 TEST(Repair, SaysWhatItDid) {

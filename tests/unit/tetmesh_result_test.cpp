@@ -16,6 +16,7 @@ using namespace formats;
 using namespace tetmesh;
 using namespace tetmesh::sizing;
 using namespace tetmesh::solid;
+using tetmesh::volume::PointKind;
 namespace {
 
 using testing::box;
@@ -39,7 +40,7 @@ void expect_triangles_bound_the_tets(const TetMesh& mesh) {
     EXPECT_GT(tet_determinant(mesh.points, mesh.tets[t]), 0);
     for (std::size_t facet = 0; facet < 4; ++facet) {
       const std::int32_t beyond = adjacency.tet_beyond(static_cast<std::int32_t>(t), static_cast<int>(facet));
-      if (beyond != TetAdjacency::none && mesh.tet_tags[beyond] == mesh.tet_tags[t]) continue;
+      if (beyond != no_index && mesh.tet_tags[beyond] == mesh.tet_tags[t]) continue;
       Triangle triangle;
       for (std::size_t i = 0; i < 3; ++i) triangle[i] = mesh.tets[t][TetTopology::triangles[facet][i]];
       std::ranges::rotate(triangle, std::ranges::min_element(triangle));
@@ -63,7 +64,7 @@ TEST(Tetmesh, FillsWhatTheShellsEnclose) {
     const Surface surface = find_shells(soup_of(facets), ShellRule::oriented);
     for (const PointKind points : {PointKind::lattice, PointKind::none}) {
       const TetmeshResult result =
-          run(facets, {.size = Length{0.3, false}, .surface = SurfaceKind::keep, .points = points});
+          run(facets, {.sizes = {.size = Length{0.3, false}}, .surface = SurfaceKind::keep, .points = points});
       const auto volumes = surface.region_volumes();
       EXPECT_NEAR(result.statistics.volume, std::accumulate(volumes.begin(), volumes.end(), 0.0), 1e-9);
       EXPECT_EQ(result.statistics.dropped_points, 0u);
@@ -76,7 +77,7 @@ TEST(Tetmesh, FillsWhatTheShellsEnclose) {
 
 TEST(Tetmesh, TagsComeFromTheFileOrFromTheShells) {
   SurfaceSoup soup = soup_of(joined(cube(0, 1), cube(2, 1)));
-  const TetmeshOptions options{.size = Length{0.5, false}, .surface = SurfaceKind::keep};
+  const TetmeshOptions options{.sizes = {.size = Length{0.5, false}}, .surface = SurfaceKind::keep};
   const auto by_shell = tetmesh::tetmesh(soup, options).mesh.triangle_tags;
   EXPECT_EQ(by_shell.front(), 1);
   EXPECT_EQ(by_shell.back(), 2);
@@ -86,16 +87,18 @@ TEST(Tetmesh, TagsComeFromTheFileOrFromTheShells) {
 
 TEST(Tetmesh, RefusesAJitterThatReachesTheSurface) {
   EXPECT_THROW(run(cube(), {.clearance = 0.5, .jitter = 0.25}), UsageError);
-  EXPECT_NO_THROW(run(cube(), {.size = Length{0.2, false}, .clearance = 0.5, .jitter = 0.24}));
+  EXPECT_NO_THROW(run(cube(), {.sizes = {.size = Length{0.2, false}}, .clearance = 0.5, .jitter = 0.24}));
   EXPECT_NO_THROW(run(cube(), {.points = PointKind::none, .clearance = 0.5, .jitter = 0.25}));
 }
 
 TEST(Tetmesh, WarnsOfASurfaceFarFromTheSize) {
-  EXPECT_EQ(run(cube(), {.size = Length{0.2, false}, .surface = SurfaceKind::keep}).warnings.size(), 1u);
-  EXPECT_TRUE(run(cube(), {.size = Length{0.2, false}}).warnings.empty());
-  EXPECT_TRUE(run(cube(0, 1, 5), {.size = Length{0.2, false}, .surface = SurfaceKind::keep}).warnings.empty());
-  EXPECT_TRUE(run(cube(), {.size = Length{0.2, false}, .surface = SurfaceKind::keep, .points = PointKind::none})
-                  .warnings.empty());
+  EXPECT_EQ(run(cube(), {.sizes = {.size = Length{0.2, false}}, .surface = SurfaceKind::keep}).warnings.size(), 1u);
+  EXPECT_TRUE(run(cube(), {.sizes = {.size = Length{0.2, false}}}).warnings.empty());
+  EXPECT_TRUE(
+      run(cube(0, 1, 5), {.sizes = {.size = Length{0.2, false}}, .surface = SurfaceKind::keep}).warnings.empty());
+  EXPECT_TRUE(
+      run(cube(), {.sizes = {.size = Length{0.2, false}}, .surface = SurfaceKind::keep, .points = PointKind::none})
+          .warnings.empty());
 }
 
 TEST(Tetmesh, MeasuresDihedralAngles) {
@@ -117,8 +120,8 @@ Facets leaf() {
 }
 
 TEST(Tetmesh, FillsNoSurfaceThatTurnsOutToBeFaulty) {
-  const TetmeshOptions mended{.size = Length{0.8, false}, .deviation = 0.5};
-  const TetmeshOptions given_up{.size = Length{0.2, false}, .deviation = 0.05};
+  const TetmeshOptions mended{.sizes = {.size = Length{0.8, false}}, .deviation = 0.5};
+  const TetmeshOptions given_up{.sizes = {.size = Length{0.2, false}}, .deviation = 0.05};
   for (const TetmeshOptions& options : {mended, given_up}) {
     const auto with_threads = [&](int threads) {
       const ThreadLimit limit(threads);
@@ -127,7 +130,7 @@ TEST(Tetmesh, FillsNoSurfaceThatTurnsOutToBeFaulty) {
     // On two threads it is filled before it is known to be faulty.
     const TetmeshResult one = with_threads(1), two = with_threads(2);
     EXPECT_GT(two.statistics.surfaces_tried, 1);
-    EXPECT_EQ(two.statistics.remeshed, options.size->value == 0.8);
+    EXPECT_EQ(two.statistics.remeshed, options.sizes.size->value == 0.8);
     EXPECT_EQ(two.warnings.empty(), two.statistics.remeshed);
     EXPECT_EQ(two.mesh.points, one.mesh.points);
     EXPECT_EQ(two.mesh.tets, one.mesh.tets);

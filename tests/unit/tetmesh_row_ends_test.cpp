@@ -46,7 +46,7 @@ struct Rows {
   void add_row(HalfEdge h, std::size_t axis) {
     const SurfaceLink& link = links.of[h];
     ++jumps[h][axis];
-    jumps[surface.twins[h]][link.axis(axis)] += link.flipped[axis] ? 1 : -1;
+    jumps[surface.twins[h]][link.axis[axis]] += link.flipped[axis] ? 1 : -1;
   }
 
  private:

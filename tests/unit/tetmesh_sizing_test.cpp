@@ -5,7 +5,7 @@
 
 #include "common/run/error.hpp"
 #include "tetmesh_surfaces.hpp"
-#include "tools/tetmesh/sizing/wall_thickness.hpp"
+#include "tools/tetmesh/sizing/wall_sizes.hpp"
 
 namespace hexpipe {
 using namespace tetmesh::sizing;

@@ -11,6 +11,7 @@
 #include "surface_samples.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
+#include "tools/tetmesh/surface/surface_remesh.hpp"
 #include "tools/tetmesh/tetgen/build_mesh.hpp"
 #include "tools/tetmesh/tetgen/run_tetgen.hpp"
 
@@ -49,6 +50,15 @@ inline BuiltMesh mesh_of(const Surface& surface, std::span<const Vec3> inside) {
   return build_mesh(
       surface, inside,
       run_tetgen({.surface_points = surface.points, .triangles = surface.triangles, .interior_points = inside}, 60));
+}
+
+// Makes the triangles anew until they are as promised.
+inline tetmesh::surface::RemeshResult remesh_surface(const Surface& surface,
+                                                     const tetmesh::surface::RemeshOptions& options) {
+  tetmesh::surface::SurfaceRemesher remesher(surface, options);
+  while (remesher.make() && !remesher.judge()) {
+  }
+  return remesher.take();
 }
 
 // By a look at every triangle.

@@ -145,14 +145,16 @@ TEST(ViewState, FiltersByQuality) {
 }
 
 TEST(ViewState, TextAndBack) {
-  for (const char* text : {"camera=-52,28,1,0,0,0&clip=none&quality=-1,1&peel=0&kinds=hex,prism,pyramid,tet&colour="
-                           "hexes&edges=on&theme=light"
-                           "&fragment=0",
-                           "camera=12.5,-90,3,0.1,-0.2,0.3&clip=-y:0.25&quality=0.1,0.75&peel=3&kinds=none&colour="
-                           "region&edges=off&theme=dark"
-                           "&fragment=7",
-                           "camera=0,0,1,0,0,0&clip=0.6,0,0.8:1&quality=-1,1&peel=0&kinds=tet&colour=kind&edges=on&"
-                           "theme=light&fragment=0"})
+  for (const char* text :
+       {"camera=-52,28,1,0,0,0&clip=none&quality=-1,1&peel=0&kinds=hex,prism,pyramid,tet&hidden=none&colour="
+        "hexes&edges=on&theme=light"
+        "&fragment=0",
+        "camera=12.5,-90,3,0.1,-0.2,0.3&clip=-y:0.25&quality=0.1,0.75&peel=3&kinds=none&hidden=region:3,surface:-7&"
+        "colour="
+        "surface&edges=off&theme=dark"
+        "&fragment=7",
+        "camera=0,0,1,0,0,0&clip=0.6,0,0.8:1&quality=-1,1&peel=0&kinds=tet&hidden=none&colour=kind&edges=on&"
+        "theme=light&fragment=0"})
     EXPECT_EQ(to_text(parse_view_state(text)), text);
 }
 

@@ -1,54 +1,61 @@
 #pragma once
-// From a choice of candidates to the hex-dominant mesh.
+// From a choice of candidates to the hex-dominant mesh: of a whole mesh, or of one part of a mesh (docs/definitions.md
+// 5).
+
+#include <string>
+#include <vector>
 
 #include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
+#include "common/mesh/mesh_piece.hpp"
 #include "common/mesh/mixed_mesh.hpp"
 #include "common/mesh/tet_mesh.hpp"
+#include "tools/assemble/attempt.hpp"
 #include "tools/assemble/choice/selection.hpp"
-#include "tools/assemble/hybrid/seam.hpp"
+#include "tools/assemble/options.hpp"
+#include "tools/assemble/pieces/part_view.hpp"
 #include "tools/assemble/statistics.hpp"
 
 namespace hexpipe::assemble {
 
-struct AssembleOptions {
-  enum class Conformity { pyramids, none };
-  Conformity conformity = Conformity::pyramids;
-  // Chosen hexes are exchanged for others that leave fewer quads open (exchange.hpp), where the result is to conform
-  // and is no piece of a mesh.
-  enum class Exchange { quads, none };
-  Exchange exchange = Exchange::quads;
-  // Then prisms are made of the tets between the chosen cells, in the same case.
-  enum class Fill { prisms, none };
-  Fill fill = Fill::prisms;
-  // Vertices between the cells that no hex uses merge, and rooms there are filled anew (gap/fewer_cells.hpp), where the
-  // result is to conform and is smoothed.
-  enum class Merge { vertices, none };
-  Merge merge = Merge::vertices;
-  int smooth = 5;  // rounds over all vertices
-};
-
 struct AssembleResult {
   MixedMesh mesh;  // with quality
   AssembleStatistics statistics;
-  // By point the input's vertex that it was, or a number from theirs on for one that was added.
+  // By point: its vertex in the input, or for an added point a number from the input's number of points on.
   std::vector<Vertex> origin;
-  graph::IndependentSet left;  // of a piece: the chosen candidates that are cells of the mesh, ascending
+  graph::IndependentSet left;  // the candidates that are cells of the mesh, ascending
 };
 
-// Throws DataError, with the mesh's name and the number of the tet from 1, when one is not positively oriented.
+// Throws DataError, with the mesh's name and the number of the tet from 1, if one is not positively oriented.
 void check_orientation(const TetMesh& mesh, const choice::InputNames& names);
 
-// The chosen cells, or what they are exchanged for, and the tets that remain, with the input's regions and tagged
-// facets; with Conformity::pyramids conforming. The result is checked (self_check.hpp) before it is returned.
+// The chosen cells, or others in exchange, and the tets that remain, with the input's regions and tagged facets; with
+// Conformity::pyramids conforming. The result is checked (self_check.hpp) before it is returned.
 //
-// Throws DataError, with the name of the input, when a tet is not positively oriented, the candidates are not of this
-// mesh, or the chosen ones cannot stand together or are not valid.
-//
-// Of a piece of a mesh, with its `seam`, the triangles have every facet of its boundary and interfaces; the result is
-// without the guests and without facets that have the tags of `seam`.
+// Throws DataError, with the name of the input, if a tet is not positively oriented, if candidates are not of this
+// mesh, or if chosen ones do not fit together or are not valid.
 AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const graph::IndependentSet& chosen,
-                        const AssembleOptions& options, const choice::InputNames& names = {},
-                        const hybrid::Seam* seam = nullptr);
+                        const AssembleOptions& options, const choice::InputNames& names = {});
+
+// The rules for a whole mesh, which has no seam.
+BuildRules build_rules(const AssembleOptions& options);
+
+// The piece of one part, conforming, from all `cells`. The surface of `mesh` is complete, with the seam's own tags; the
+// seam is in the rules. The result is without guests and without facets that have the seam's tags. Throws as assemble()
+// does.
+AssembleResult assemble_piece(TetMesh mesh, const Candidates& cells, const BuildRules& rules,
+                              const choice::InputNames& names);
+
+struct PartResult {
+  MixedMesh mesh;
+  AssembleStatistics statistics;
+  MeshPiece piece;
+};
+
+// The piece of the view's own part, after the pieces that the previous round made of this part and its neighbours:
+// paths in `before`, among which other pieces are skipped; empty in the first round. Throws as assemble() does, and if
+// a piece is missing or of another mesh. `rules` without a seam; `names` are those of the part's own bundle.
+PartResult assemble_part(pieces::PartView view, const std::vector<std::string>& before, BuildRules rules,
+                         const choice::InputNames& names);
 
 }  // namespace hexpipe::assemble

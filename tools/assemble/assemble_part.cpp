@@ -1,22 +1,20 @@
-// The parts of a mesh are assembled apart, each piece with its seam as it is. What a piece needs from others is said in
-// rounds: which cells went back to their tets, so that the cells beside them face tets now. Nothing but lists of cells
-// crosses from part to part, lists only grow, and each round starts from the input, so that the last one, in which no
-// list has grown, is one in which all pieces agree.
-
-#include "tools/assemble/assemble_part.hpp"
+// Each part of a mesh is assembled on its own, and its seam stays as it is. In rounds each piece tells the others which
+// cells went back to their tets, because cells beside these now face tets. Only lists of cells and tets go from part to
+// part, lists only grow, and each round starts from the input. So all pieces agree in a round in which no list has
+// grown.
 
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <span>
 #include <utility>
 
+#include "common/mesh/adjacency.hpp"
 #include "common/mesh/orientation.hpp"
 #include "common/run/error.hpp"
 #include "formats/pipeline/part_bundle.hpp"
-#include "tools/assemble/hybrid/complete_surface.hpp"
-#include "tools/assemble/pieces/piece_input.hpp"
+#include "tools/assemble/assemble.hpp"
+#include "tools/assemble/hybrid/surface_tags.hpp"
 #include "tools/assemble/pieces/pieces.hpp"
 
 namespace hexpipe::assemble {
@@ -71,7 +69,7 @@ Before read_round_before(const MeshPart& part, const std::vector<std::string>& p
   return before;
 }
 
-// The numbers of points that were added begin behind those of the whole, and tell the part.
+// Added points are numbered behind those of the whole, with a number that tells the part.
 std::vector<std::int64_t> point_numbers(const std::vector<Vertex>& origin, const pieces::PieceInput& input,
                                         const MeshPart& part) {
   std::vector<std::int64_t> numbers;
@@ -84,7 +82,7 @@ std::vector<std::int64_t> point_numbers(const std::vector<Vertex>& origin, const
   return numbers;
 }
 
-// For messages about some of the view's cells, in this order.
+// Names for messages about these cells of the view.
 choice::InputNames names_of_cells(choice::InputNames names, const pieces::PartView& view,
                                   std::span<const std::int32_t> cells) {
   names.bundles = view.bundles;
@@ -93,19 +91,13 @@ choice::InputNames names_of_cells(choice::InputNames names, const pieces::PartVi
   return names;
 }
 
-graph::IndependentSet all_of(const Candidates& cells) {
-  graph::IndependentSet all(cells.size());
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
-
 }  // namespace
 
-PartResult assemble_part(pieces::PartView view, const std::vector<std::string>& before_paths,
-                         const AssembleOptions& options, const choice::InputNames& bundle_names) {
+PartResult assemble_part(pieces::PartView view, const std::vector<std::string>& before_paths, BuildRules rules,
+                         const choice::InputNames& bundle_names) {
   const Before before = read_round_before(view.part, before_paths, bundle_names.solution);
-  const choice::InputNames names = names_of_cells(bundle_names, view, all_of(view.cells));
-  // Here, for the piece's tets are not numbered as the bundle's.
+  const choice::InputNames names = names_of_cells(bundle_names, view, choice::all_of(view.cells));
+  // This is checked here, because the piece's tets are not numbered as the bundle's.
   check_orientation(view.mesh, names);
   const TetAdjacency adjacency(view.mesh, names.mesh.c_str());
   check_sides(view.mesh, adjacency, names.mesh.c_str());
@@ -125,11 +117,11 @@ PartResult assemble_part(pieces::PartView view, const std::vector<std::string>& 
   piece.given_back = before.said.given_back;
   for (const std::int32_t i : cells.given_back) piece.given_back.push_back(view.keys.key[i]);
   if (!input.mesh.tets.empty()) {
-    const graph::IndependentSet all = all_of(input.cells);
-    AssembleResult assembled = assemble(std::move(input.mesh), input.cells, all, options,
-                                        names_of_cells(bundle_names, view, input.view_cells), &input.seam);
+    rules.seam = &input.seam;
+    AssembleResult assembled =
+        assemble_piece(std::move(input.mesh), input.cells, rules, names_of_cells(bundle_names, view, input.view_cells));
     graph::IndependentSet given_back;
-    std::ranges::set_difference(all, assembled.left, std::back_inserter(given_back));
+    std::ranges::set_difference(choice::all_of(input.cells), assembled.left, std::back_inserter(given_back));
     for (const std::int32_t c : given_back) piece.given_back.push_back(view.keys.key[input.view_cells[c]]);
     piece.point_number = point_numbers(assembled.origin, input, view.part);
     result.mesh = std::move(assembled.mesh);

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "common/mwis/ground/target_weight.hpp"
 #include "common/run/error.hpp"
@@ -9,14 +11,101 @@
 #include "common/run/tool_main.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "tools/assemble/assemble.hpp"
-#include "tools/assemble/assemble_part.hpp"
+#include "tools/assemble/options.hpp"
 
 using namespace hexpipe;
 using namespace hexpipe::assemble;
 
 namespace {
 
-// How good the choice is, where certify has proven a bound for its graph: weight, bound and gap.
+const std::map<std::string, AssembleOptions::Conformity> conformities{
+    {"pyramids", AssembleOptions::Conformity::pyramids}, {"none", AssembleOptions::Conformity::none}};
+const std::map<std::string, AssembleOptions::Exchange> exchanges{{"quads", AssembleOptions::Exchange::quads},
+                                                                 {"none", AssembleOptions::Exchange::none}};
+const std::map<std::string, AssembleOptions::Fill> fills{{"prisms", AssembleOptions::Fill::prisms},
+                                                         {"none", AssembleOptions::Fill::none}};
+const std::map<std::string, AssembleOptions::Merge> merges{{"vertices", AssembleOptions::Merge::vertices},
+                                                           {"none", AssembleOptions::Merge::none}};
+
+struct CommandLine {
+  std::string conformity = "pyramids", exchange = "quads", fill = "prisms", merge = "vertices";
+  const CLI::Option *exchange_option = nullptr, *fill_option = nullptr, *merge_option = nullptr;
+  int smooth = AssembleOptions{}.smooth;
+  std::vector<std::string> neighbours, before;
+
+  bool by_part() const { return !neighbours.empty(); }
+};
+
+void declare_options(CLI::App& app, CommandLine& line) {
+  app.add_option("--conformity", line.conformity,
+                 "pyramids: every quad has a cell on its other side; none: quads may face two triangles")
+      ->check(CLI::IsMember(conformities))
+      ->capture_default_str();
+  line.exchange_option =
+      app.add_option("--exchange", line.exchange,
+                     "quads: exchanges chosen hexes for other candidates, by volume and quality, less a cost for each "
+                     "quad that faces tets; none: keeps the choice, as always with --conformity none and with "
+                     "--neighbours")
+          ->check(CLI::IsMember(exchanges))
+          ->capture_default_str();
+  line.fill_option =
+      app.add_option("--fill", line.fill,
+                     "prisms: makes prisms of tets between the cells where they close at least as many quads as they "
+                     "open; none: keeps the tets, as always with --conformity none and with --neighbours")
+          ->check(CLI::IsMember(fills))
+          ->capture_default_str();
+  line.merge_option =
+      app.add_option("--merge", line.merge,
+                     "vertices: vertices that no hex uses merge, and rooms between the hexes are filled anew, where "
+                     "this leaves fewer or better cells; none: keeps them, as always with --conformity none and with "
+                     "--smooth 0")
+          ->check(CLI::IsMember(merges))
+          ->capture_default_str();
+  app.add_option("--smooth", line.smooth,
+                 "rounds of moving vertices and flipping tets to make the worst cells better and hexes larger; 0: none")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  outside_history(
+      app.add_option(
+          "--neighbours", line.neighbours,
+          "With a part of a mesh: bundles of the other parts' solutions; reads those of the parts beside it"))
+      ->type_name("FILE");
+  outside_history(app.add_option("--before", line.before, "With --neighbours: the pieces of the previous round"))
+      ->type_name("FILE");
+}
+
+// Checks that involve several options.
+AssembleOptions options_of(CommandLine& line) {
+  const bool may_change_cells = !line.by_part() && line.conformity == "pyramids";
+  if (!may_change_cells && line.exchange_option->count() > 0 && line.exchange == "quads")
+    throw UsageError("--exchange quads goes with --conformity pyramids, without --neighbours");
+  if (!may_change_cells && line.fill_option->count() > 0 && line.fill == "prisms")
+    throw UsageError("--fill prisms goes with --conformity pyramids, without --neighbours");
+  if (!may_change_cells) line.exchange = line.fill = "none";
+  const bool may_merge = line.conformity == "pyramids" && line.smooth > 0;
+  if (!may_merge && line.merge_option->count() > 0 && line.merge == "vertices")
+    throw UsageError("--merge vertices goes with --conformity pyramids, and with --smooth of 1 or more");
+  if (!may_merge) line.merge = "none";
+  if (line.by_part() && line.conformity == "none")
+    throw UsageError("--conformity none does not go with --neighbours: pieces fit because they conform");
+  if (!line.by_part() && !line.before.empty()) throw UsageError("--before goes with --neighbours");
+  return {.conformity = conformities.at(line.conformity),
+          .exchange = exchanges.at(line.exchange),
+          .fill = fills.at(line.fill),
+          .merge = merges.at(line.merge),
+          .smooth = line.smooth};
+}
+
+pipeline::StageData read_input(pipeline::Stage& stage, bool by_part) {
+  pipeline::StageRequest request{.needs = {Role::mesh, Role::candidates, Role::solution}, .part = true};
+  if (by_part)
+    request.hold_back = {Role::mesh, Role::candidates, Role::graph, Role::solution};
+  else
+    request.weights_only = true;  // for the gap: tets tell which cells do not fit together
+  return stage.read(request);
+}
+
+// The weight of the choice beside the best possible one, if certify has proven a bound for its graph.
 nlohmann::ordered_json proven_gap(const pipeline::StageData& data) {
   const auto bound = mwis::ground::bound_in(data.history);
   if (!data.graph || !bound) return nullptr;
@@ -45,11 +134,54 @@ PartResult assemble_whole(pipeline::StageData data, const AssembleOptions& optio
   return {std::move(result.mesh), std::move(result.statistics), {}};
 }
 
+PartResult assemble_one_part(pipeline::StageData data, const CommandLine& line, const AssembleOptions& options,
+                             const choice::InputNames& names) {
+  pieces::PartView view = pieces::view_part(solved_part(std::move(data), names), line.neighbours, names.solution);
+  return assemble_part(std::move(view), line.before, build_rules(options), names);
+}
+
+// Notes what a user wants to know, and returns the details for the history.
+nlohmann::ordered_json report(RunContext& context, const AssembleStatistics& statistics,
+                              const nlohmann::ordered_json& choice) {
+  context.statistics = to_json(statistics);
+  for (const auto& line : summary_lines(statistics)) context.note(line);
+  nlohmann::ordered_json details{{"counts", context.statistics["cells"]}};
+  if (choice.is_null()) return details;
+  context.statistics["choice"] = details["choice"] = choice;
+  context.note(fmt::format("the choice weighs {}, at most {} is possible: gap {:.4f} %",
+                           choice["weight"].get<std::int64_t>(), choice["bound"].get<std::int64_t>(),
+                           100 * choice["gap"].get<double>()));
+  return details;
+}
+
+void run(RunContext& context, CommandLine& line) {
+  const AssembleOptions options = options_of(line);
+  context.options["conformity"] = line.conformity;
+  context.options["exchange"] = line.exchange;
+  context.options["fill"] = line.fill;
+  context.options["merge"] = line.merge;
+  context.options["smooth"] = line.smooth;
+  pipeline::Stage stage(context);
+  pipeline::StageData data = read_input(stage, line.by_part());
+  const choice::InputNames names{.mesh = stage.source_of(Role::mesh),
+                                 .candidates = stage.source_of(Role::candidates),
+                                 .solution = stage.source_of(Role::solution)};
+  const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
+  const auto choice = graph_of_bundle ? proven_gap(data) : nullptr;
+  PartResult result = line.by_part() ? assemble_one_part(std::move(data), line, options, names)
+                                     : assemble_whole(std::move(data), options, names);
+  const auto details = report(context, result.statistics, choice);
+  if (line.by_part())
+    context.note(result.piece.settled ? "this piece is settled"
+                                      : "this piece has something new to say: another round has to follow");
+  pipeline::ResultProduct product{.mesh = std::move(result.mesh)};
+  if (line.by_part()) product.piece = std::move(result.piece);
+  stage.write(product, details);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::map<std::string, AssembleOptions::Conformity> conformities{
-      {"pyramids", AssembleOptions::Conformity::pyramids}, {"none", AssembleOptions::Conformity::none}};
   const ToolInfo info{
       .name = "assemble",
       .summary = "Build the hex-dominant mesh from the chosen candidates and the tets that remain.",
@@ -57,108 +189,8 @@ int main(int argc, char** argv) {
       .reads = {Role::mesh, Role::candidates, Role::graph, Role::solution},
       .product = Role::result,
   };
-  std::vector<std::string> neighbours, before;
-  const std::map<std::string, AssembleOptions::Fill> fills{{"prisms", AssembleOptions::Fill::prisms},
-                                                           {"none", AssembleOptions::Fill::none}};
-  const std::map<std::string, AssembleOptions::Exchange> exchanges{{"quads", AssembleOptions::Exchange::quads},
-                                                                   {"none", AssembleOptions::Exchange::none}};
-  const std::map<std::string, AssembleOptions::Merge> merges{{"vertices", AssembleOptions::Merge::vertices},
-                                                             {"none", AssembleOptions::Merge::none}};
-  std::string conformity = "pyramids", exchange = "quads", fill = "prisms", merge = "vertices";
-  const CLI::Option *exchange_option = nullptr, *fill_option = nullptr, *merge_option = nullptr;
-  int smooth = AssembleOptions{}.smooth;
-  auto declare = [&](CLI::App& app) {
-    app.add_option("--conformity", conformity,
-                   "pyramids: every quad gets a cell on its other side; none: quads may face two triangles")
-        ->check(CLI::IsMember(conformities))
-        ->capture_default_str();
-    exchange_option =
-        app.add_option("--exchange", exchange,
-                       "quads: chosen hexes give way to other candidates by volume and quality, less a price for each "
-                       "quad that faces tets; none: the choice stays, as always with --conformity none and with "
-                       "--neighbours")
-            ->check(CLI::IsMember(exchanges))
-            ->capture_default_str();
-    fill_option = app.add_option("--fill", fill,
-                                 "prisms: tets between the cells become prisms where these close as many quads as they "
-                                 "open; none: they stay, as always with --conformity none and with --neighbours")
-                      ->check(CLI::IsMember(fills))
-                      ->capture_default_str();
-    merge_option =
-        app.add_option("--merge", merge,
-                       "vertices: vertices that no hex uses merge, and rooms between the hexes are filled anew, where "
-                       "this leaves fewer or better cells; none: they stay, as always with --conformity none and with "
-                       "--smooth 0")
-            ->check(CLI::IsMember(merges))
-            ->capture_default_str();
-    app.add_option(
-           "--smooth", smooth,
-           "rounds of moving vertices and exchanging tets to make the worst cells better and hexes larger; 0: none")
-        ->check(CLI::Range(0, 1000))
-        ->capture_default_str();
-    outside_history(
-        app.add_option("--neighbours", neighbours,
-                       "With a part of a mesh: bundles of the other parts' solutions; those beside this part are read"))
-        ->type_name("FILE");
-    outside_history(app.add_option("--before", before, "With --neighbours: the pieces that the round before made"))
-        ->type_name("FILE");
-  };
-  auto run = [&](RunContext& context) {
-    const bool by_part = !neighbours.empty();
-    const bool may_change_cells = !by_part && conformity == "pyramids";
-    if (!may_change_cells && exchange_option->count() > 0 && exchange == "quads")
-      throw UsageError("--exchange quads goes with --conformity pyramids, without --neighbours");
-    if (!may_change_cells && fill_option->count() > 0 && fill == "prisms")
-      throw UsageError("--fill prisms goes with --conformity pyramids, without --neighbours");
-    if (!may_change_cells) exchange = fill = "none";
-    const bool may_merge = conformity == "pyramids" && smooth > 0;
-    if (!may_merge && merge_option->count() > 0 && merge == "vertices")
-      throw UsageError("--merge vertices goes with --conformity pyramids, and with --smooth of 1 or more");
-    if (!may_merge) merge = "none";
-    const AssembleOptions options{.conformity = conformities.at(conformity),
-                                  .exchange = exchanges.at(exchange),
-                                  .fill = fills.at(fill),
-                                  .merge = merges.at(merge),
-                                  .smooth = smooth};
-    context.options["conformity"] = conformity;
-    context.options["exchange"] = exchange;
-    context.options["fill"] = fill;
-    context.options["merge"] = merge;
-    context.options["smooth"] = smooth;
-    if (by_part && options.conformity == AssembleOptions::Conformity::none)
-      throw UsageError("--conformity none does not go with --neighbours: pieces fit because they conform");
-    if (!by_part && !before.empty()) throw UsageError("--before goes with --neighbours");
-    pipeline::Stage stage(context);
-    pipeline::StageRequest request{.needs = {Role::mesh, Role::candidates, Role::solution}, .part = true};
-    if (by_part)
-      request.hold_back = {Role::mesh, Role::candidates, Role::graph, Role::solution};
-    else
-      request.weights_only = true;  // for the gap: the tets of cells tell which cannot stand together
-    pipeline::StageData data = stage.read(request);
-    const choice::InputNames names{.mesh = stage.source_of(Role::mesh),
-                                   .candidates = stage.source_of(Role::candidates),
-                                   .solution = stage.source_of(Role::solution)};
-    const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
-    const auto choice = graph_of_bundle ? proven_gap(data) : nullptr;
-    PartResult result =
-        by_part ? assemble_part(pieces::view_part(solved_part(std::move(data), names), neighbours, names.solution),
-                                before, options, names)
-                : assemble_whole(std::move(data), options, names);
-    context.statistics = to_json(result.statistics);
-    for (const auto& line : summary_lines(result.statistics)) context.note(line);
-    nlohmann::ordered_json details{{"counts", context.statistics["cells"]}};
-    if (!choice.is_null()) {
-      context.statistics["choice"] = details["choice"] = choice;
-      context.note(fmt::format("the choice weighs {}, at most {} is possible: gap {:.4f} %",
-                               choice["weight"].get<std::int64_t>(), choice["bound"].get<std::int64_t>(),
-                               100 * choice["gap"].get<double>()));
-    }
-    if (by_part)
-      context.note(result.piece.settled ? "this piece is settled"
-                                        : "this piece has something new to say: another round has to follow");
-    pipeline::ResultProduct product{.mesh = std::move(result.mesh)};
-    if (by_part) product.piece = std::move(result.piece);
-    stage.write(product, details);
-  };
-  return tool_main(argc, argv, info, declare, run);
+  CommandLine line;
+  return tool_main(
+      argc, argv, info, [&](CLI::App& app) { declare_options(app, line); },
+      [&](RunContext& context) { run(context, line); });
 }

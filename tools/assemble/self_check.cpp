@@ -12,10 +12,10 @@
 namespace hexpipe::assemble {
 namespace {
 
-// Part of the input's volume. A million terms lose no more by rounding.
+// A fraction of the input's volume. A million terms lose no more by rounding.
 constexpr double volume_tolerance = 1e-9;
-// Part of the bounding box's diagonal. Surfaces written as floats leave planes uneven by 1e-7, and vertices slide
-// there.
+// A fraction of the bounding box's diagonal. Planes of surfaces written as floats are uneven by 1e-7, and vertices
+// slide there.
 constexpr double surface_tolerance = 1e-6;
 
 template <class... Args>
@@ -41,7 +41,7 @@ void mark_tagged(const CellBlock<Corners>& block, hybrid::CellFacets& table) {
   }
 }
 
-// The quad with the orientation in which the entry's first cell goes around it.
+// The quad as the entry's first cell goes around it.
 Quad quad_of(const hybrid::CellFacets::Entry& entry) {
   const auto& [least, opposite, low, high] = entry.vertices;
   return entry.forward ? Quad{least, low, opposite, high} : Quad{least, high, opposite, low};
@@ -54,7 +54,7 @@ double bulge_of(std::span<const Vec3> points, const Quad& quad, int diagonal) {
   return diagonal == 0 ? half_tet : -half_tet;
 }
 
-// The diagonal along which two facets of one cell each, marked as used, lie under the quad.
+// The diagonal along which two facets of one cell each lie under the quad; marks these as tagged.
 std::optional<int> open_diagonal(const Quad& quad, hybrid::CellFacets& table) {
   for (int diagonal = 0; diagonal < 2; ++diagonal) {
     const auto halves = triangles_of(quad, diagonal);
@@ -79,7 +79,7 @@ double volume_over(std::span<const Vec3> points, const Vec3& origin, const Quad&
   return sum / 2;
 }
 
-// Enclosed by the facets of one cell.
+// The volume inside the facets that only one cell has.
 double skin_volume(const MixedMesh& mesh, hybrid::CellFacets& table) {
   double sum = 0;
   for (const auto& entry : table.entries()) {
@@ -106,7 +106,7 @@ void check_facets(const hybrid::Extract& result, const hybrid::SurfaceTags& tags
       fail("expected interfaces to be tagged, found one at vertex {} that is not", at);
     if (entry.uses == 2 || !entry.is_quad()) continue;
     const Quad quad = quad_of(entry);
-    // First, since an interface quad can be both tagged and open.
+    // This comes first, because an interface quad can be both tagged and open.
     if (const auto diagonal = conforming ? std::nullopt : open_diagonal(quad, table)) {
       volumes.open_bulge += bulge_of(mesh.points, quad, *diagonal);
       ++volumes.nonconforming_quads;
@@ -157,7 +157,7 @@ double volume_of(std::span<const Vec3> points, std::span<const Tet> tets) {
   return sum;
 }
 
-// Where the input's vertices are now; vertices inside that are gone do not count in the sum over all tets.
+// The present places of the input's vertices. Vertices inside that are gone do not matter in the sum over all tets.
 std::vector<Vec3> moved_input_points(const hybrid::Extract& result, const TetMesh& input) {
   std::vector<Vec3> points = input.points;
   for (std::size_t v = 0; v < result.origin.size(); ++v)
@@ -166,10 +166,10 @@ std::vector<Vec3> moved_input_points(const hybrid::Extract& result, const TetMes
 }
 
 void check_volumes(const CheckedVolumes& volumes) {
-  if (!(std::abs(volumes.skin - volumes.parts) <= volume_tolerance * volumes.input))
-    fail("expected the volume of the parts, {}, inside the skin, found {}", volumes.parts, volumes.skin);
+  if (!(std::abs(volumes.skin - volumes.cells) <= volume_tolerance * volumes.input))
+    fail("expected the volume of the cells, {}, inside the skin, found {}", volumes.cells, volumes.skin);
   if (!(std::abs(volumes.drift) <= volume_tolerance * volumes.input))
-    fail("expected a volume of {} with the bulges of quads, found {}", volumes.parts - volumes.drift, volumes.parts);
+    fail("expected a volume of {} with the bulges of quads, found {}", volumes.cells - volumes.drift, volumes.cells);
 }
 
 }  // namespace
@@ -185,14 +185,14 @@ CheckedVolumes check_result(const hybrid::Extract& result, const TetMesh& input,
   check_surface(result, input, surface, volumes);
   volumes.skin = skin_volume(mesh, table);
   hybrid::for_each_cell(mesh, [&](CellKind kind, std::span<const Vertex> corners, std::int32_t) {
-    volumes.parts +=
+    volumes.cells +=
         cell_volume(kind, std::span<const Vec3>(corner_points(mesh.points, corners)).first(corners.size()));
   });
   volumes.input = volume_of(input.points, input.tets);
   const auto moved = moved_input_points(result, input);
   volumes.slide = volume_of(moved, input.tets) - volumes.input;
   volumes.peeled = volume_of(moved, tags.peeled());
-  volumes.drift = volumes.parts - volumes.input - volumes.bulge - volumes.open_bulge - volumes.slide + volumes.peeled;
+  volumes.drift = volumes.cells - volumes.input - volumes.bulge - volumes.open_bulge - volumes.slide + volumes.peeled;
   check_volumes(volumes);
   return volumes;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The proof that a result is what assemble promises, made from the result itself before anything is written.
+// Checks a result from the result itself, before anything is written: it is what assemble promises.
 
 #include <cstdint>
 
@@ -10,25 +10,25 @@
 
 namespace hexpipe::assemble {
 
-// They add up: parts = skin = input + bulge + open_bulge + slide - peeled, but for rounding.
+// They add up, to rounding: cells = skin = input + bulge + open_bulge + slide - peeled.
 struct CheckedVolumes {
-  double input = 0;        // of the tets
-  double parts = 0;        // of the cells, with bilinear sides
-  double skin = 0;         // enclosed by the facets that one cell has
-  double bulge = 0;        // of boundary quads over the two triangles that they replace
-  double open_bulge = 0;   // of non-conforming quads over the tets that they face
-  double slide = 0;        // what the input's triangles enclose more since vertices slid on its surface
-  double peeled = 0;       // of the flat tets that were taken off the boundary
-  double drift = 0;        // parts - input - bulge - open_bulge - slide + peeled: rounding
-  double deviation = 0;    // greatest distance of the boundary from the input's surface (boundary_deviation.hpp)
-  std::int64_t moved = 0;  // vertices on the boundary and on interfaces
+  double input = 0;        // the volume of the tets
+  double cells = 0;        // the volume of the cells, with bilinear sides
+  double skin = 0;         // the volume inside the facets that only one cell has
+  double bulge = 0;        // between boundary quads and the two triangles that they replace
+  double open_bulge = 0;   // between non-conforming quads and the tets that they face
+  double slide = 0;        // how much more the input's triangles enclose since vertices slid on its surface
+  double peeled = 0;       // the volume of the flat tets that were peeled off the boundary
+  double drift = 0;        // cells - input - bulge - open_bulge - slide + peeled: rounding
+  double deviation = 0;    // the greatest distance of the boundary from the input's surface (boundary_deviation.hpp)
+  std::int64_t moved = 0;  // vertices on the boundary and on interfaces that moved
   std::int64_t nonconforming_quads = 0;
 };
 
-// Throws DataError when a cell is not valid everywhere, a facet has more than two cells or two on the same side, a
-// facet of one cell or between two regions is not tagged, a tagged facet is none of a cell, a vertex is unused, or
-// a vertex of the boundary is not on the input's surface, volumes do not add up; and, for a conforming result, when a
-// quad faces two triangles.
+// Throws DataError if a cell is not valid everywhere, a facet has more than two cells or two on the same side, a facet
+// of one cell or between two regions is not tagged, a tagged facet belongs to no cell, a vertex is unused, a vertex of
+// the boundary is not on the input's surface, volumes do not add up, or, in a conforming result, a quad faces two
+// triangles.
 CheckedVolumes check_result(const hybrid::Extract& result, const TetMesh& input, const hybrid::SurfaceTags& tags,
                             const shape::InputSurface& surface, bool conforming);
 

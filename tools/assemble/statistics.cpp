@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/mesh/quality.hpp"
+#include "tools/assemble/shape/smooth.hpp"
 
 namespace hexpipe::assemble {
 namespace {
@@ -50,8 +51,8 @@ void compute_quality(MixedMesh& mesh) {
   });
 }
 
-std::array<KindStatistics, all_kinds.size()> kind_statistics(const MixedMesh& mesh) {
-  std::array<KindStatistics, all_kinds.size()> result;
+KindTable kind_statistics(const MixedMesh& mesh) {
+  KindTable result;
   for_each_block(mesh, [&](CellKind kind, const auto& block) {
     auto& statistics = result[index_of(kind)];
     statistics.count = static_cast<std::int64_t>(block.size());
@@ -64,19 +65,6 @@ std::array<KindStatistics, all_kinds.size()> kind_statistics(const MixedMesh& me
       ++statistics.histogram[static_cast<std::size_t>(std::clamp(std::floor(10 * quality), 0.0, 9.0))];
     }
     if (statistics.count > 0) statistics.mean /= static_cast<double>(statistics.count);
-  });
-  return result;
-}
-
-std::array<double, all_kinds.size()> least_inside(const MixedMesh& mesh) {
-  std::array<double, all_kinds.size()> result{};
-  for_each_block(mesh, [&](CellKind kind, const auto& block) {
-    double least = block.size() == 0 ? 0 : 1;
-    for (const auto& cell : block.cells) {
-      const auto at = corner_points(mesh.points, cell);
-      least = std::min(least, least_scaled_jacobian(kind, std::span<const Vec3>(at).first(cell.size())));
-    }
-    result[index_of(kind)] = least;
   });
   return result;
 }
@@ -98,6 +86,35 @@ std::vector<PoorCell> poor_cells(const MixedMesh& mesh) {
 
 namespace {
 
+// The least scaled Jacobian anywhere in a cell, by kind (quality.hpp: to quality_tolerance).
+std::array<double, all_kinds.size()> least_inside(const MixedMesh& mesh) {
+  std::array<double, all_kinds.size()> result{};
+  for_each_block(mesh, [&](CellKind kind, const auto& block) {
+    double least = block.size() == 0 ? 0 : 1;
+    for (const auto& cell : block.cells) {
+      const auto at = corner_points(mesh.points, cell);
+      least = std::min(least, least_scaled_jacobian(kind, std::span<const Vec3>(at).first(cell.size())));
+    }
+    result[index_of(kind)] = least;
+  });
+  return result;
+}
+
+}  // namespace
+
+void count_cells(MixedMesh& mesh, AssembleStatistics& statistics) {
+  compute_quality(mesh);
+  statistics.kinds = kind_statistics(mesh);
+  const auto inside = least_inside(mesh);
+  for (std::size_t i = 0; i < inside.size(); ++i) statistics.kinds[i].least_inside = inside[i];
+  statistics.poor = poor_cells(mesh);
+  statistics.points = static_cast<std::int64_t>(mesh.points.size());
+  statistics.triangles = static_cast<std::int64_t>(mesh.triangles.size());
+  statistics.quads = static_cast<std::int64_t>(mesh.quads.size());
+}
+
+namespace {
+
 nlohmann::ordered_json scaled_jacobian_of(const KindStatistics& kind) {
   return {{"least", kind.least}, {"mean", kind.mean}, {"histogram", kind.histogram}};
 }
@@ -110,11 +127,11 @@ std::string histogram_line(CellKind kind, const char* when, const KindStatistics
 }
 
 void append_histograms(const AssembleStatistics& statistics, std::vector<std::string>& lines) {
+  const ImprovementCounts& made = statistics.improvement;
   lines.push_back(
-      fmt::format("smoothing: {} rounds, {} moves, {} exchanges of tets, {} vertices added at flat tets, {} flat tets "
+      fmt::format("smoothing: {} rounds, {} moves, {} flips of tets, {} vertices added at flat tets, {} flat tets "
                   "taken off the boundary; cells by scaled Jacobian, 0 to 1 in tenths",
-                  statistics.smoothing.rounds, statistics.smoothing.moves, statistics.exchanges, statistics.repaired,
-                  statistics.peeled));
+                  made.rounds, made.moves, made.flips, made.vertices, made.peeled));
   for (std::size_t i = 0; i < all_kinds.size(); ++i) {
     if (statistics.kinds[i].count == 0) continue;
     lines.push_back(histogram_line(all_kinds[i], "before", statistics.before_smoothing[i]));
@@ -136,7 +153,7 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
                                             {"share_of_volume", share(kind.volume, volume)},
                                             {"scaled_jacobian", scaled_jacobian_of(kind)}};
     json["cells"][name_of(all_kinds[i])]["scaled_jacobian"]["least_inside"] = kind.least_inside;
-    if (statistics.smoothing.rounds > 0)
+    if (statistics.improvement.rounds > 0)
       json["cells"][name_of(all_kinds[i])]["before_smoothing"] = scaled_jacobian_of(statistics.before_smoothing[i]);
   }
   json["points"] = statistics.points;
@@ -144,19 +161,20 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
   json["quads"] = statistics.quads;
   const auto& volumes = statistics.volumes;
   json["volume"] = {{"input", volumes.input},
-                    {"cells", volumes.parts},
+                    {"cells", volumes.cells},
                     {"bulge_of_boundary_quads", volumes.bulge},
                     {"bulge_of_nonconforming_quads", volumes.open_bulge},
                     {"moved_on_the_surface", volumes.slide},
                     {"flat_tets_taken_off", volumes.peeled},
                     {"drift", volumes.drift}};
   json["boundary"] = {{"vertices_moved", volumes.moved}, {"greatest_deviation", volumes.deviation}};
-  json["smoothing"] = {{"rounds", statistics.smoothing.rounds},
-                       {"moves", statistics.smoothing.moves},
-                       {"exchanges_of_tets", statistics.exchanges},
-                       {"vertices_added_at_flat_tets", statistics.repaired},
-                       {"flat_tets_taken_off", statistics.peeled}};
-  json["merging"] = {{"vertices_gone", statistics.fewer.merged}, {"rooms_filled_anew", statistics.fewer.refilled}};
+  json["smoothing"] = {{"rounds", statistics.improvement.rounds},
+                       {"moves", statistics.improvement.moves},
+                       {"flips_of_tets", statistics.improvement.flips},
+                       {"vertices_added_at_flat_tets", statistics.improvement.vertices},
+                       {"flat_tets_taken_off", statistics.improvement.peeled}};
+  const gap::FewerCells& fewer = statistics.improvement.fewer;
+  json["merging"] = {{"vertices_gone", fewer.merged}, {"rooms_filled_anew", fewer.refilled}};
   json["nonconforming_quads"] = volumes.nonconforming_quads;
   if (const auto& exchange = statistics.exchange)
     json["exchange"] = {{"hexes_out", exchange->hexes_out},
@@ -212,17 +230,17 @@ std::vector<std::string> summary_lines(const AssembleStatistics& statistics) {
         "{} quads faced tets: {} pyramids merged, {} vertices added, {} cells given back "
         "({:.2f} % of the volume in hexes)",
         counts.open_quads, counts.merged, counts.split, given_back, 100 * share(counts.volume_given_back, volume)));
-  if (statistics.fewer.any())
+  if (const gap::FewerCells& fewer = statistics.improvement.fewer; fewer.any())
     lines.push_back(
         fmt::format("{} vertices between the hexes merged into others, {} rooms there filled with better cells",
-                    statistics.fewer.merged, statistics.fewer.refilled));
+                    fewer.merged, fewer.refilled));
   if (!statistics.poor.empty())
     lines.push_back(fmt::format("{} poor cells are left (hexes below 0.1, others below 0.02); --stats lists them",
                                 statistics.poor.size()));
   if (statistics.volumes.deviation > 0)
     lines.push_back(
         fmt::format("the boundary lies within {:.3g} of the input's surface", statistics.volumes.deviation));
-  if (statistics.smoothing.rounds > 0) append_histograms(statistics, lines);
+  if (statistics.improvement.rounds > 0) append_histograms(statistics, lines);
   return lines;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a result holds, for people (-v) and for programs (--stats).
+// The numbers of a result, for people (-v) and for programs (--stats).
 
 #include <array>
 #include <cstdint>
@@ -13,7 +13,6 @@
 #include "tools/assemble/conform/conform.hpp"
 #include "tools/assemble/gap/fewer_cells.hpp"
 #include "tools/assemble/self_check.hpp"
-#include "tools/assemble/shape/smooth.hpp"
 
 namespace hexpipe::assemble {
 
@@ -22,12 +21,23 @@ inline constexpr std::array all_kinds{CellKind::hex, CellKind::prism, CellKind::
 struct KindStatistics {
   std::int64_t count = 0;
   double volume = 0;
-  double least_inside = 0;     // of the scaled Jacobian anywhere in the cells
-  double least = 0, mean = 0;  // of the cells' least scaled Jacobian over corners; 0 when there are no cells
-  std::array<std::int64_t, 10> histogram{};  // of the same, by tenths; below 0.1 (and below 0) first
+  double least_inside = 0;     // the least scaled Jacobian anywhere in the cells
+  double least = 0, mean = 0;  // of the cells' least scaled Jacobian over corners; 0 if there are no cells
+  std::array<std::int64_t, 10> histogram{};  // of the same, in tenths; all below 0.1 come first
+};
+using KindTable = std::array<KindStatistics, all_kinds.size()>;  // as in all_kinds
+
+// How often smoothing moved vertices, mended flat tets (conform/flat_tets.hpp), and made cells between the hexes fewer.
+struct ImprovementCounts {
+  int rounds = 0;
+  std::int64_t moves = 0;
+  std::int64_t flips = 0;
+  std::int64_t vertices = 0;  // inserted beside flat tets
+  std::int64_t peeled = 0;    // flat tets peeled off the boundary
+  gap::FewerCells fewer;
 };
 
-// A cell that is worse than meshes should have: a hex below 0.1, another below 0.02 (a tet times the square root of 2).
+// A hex below poor_hex, or another cell below poor_quality (smooth.hpp).
 struct PoorCell {
   CellKind kind;
   std::int64_t index;  // among its kind, from 0
@@ -36,34 +46,30 @@ struct PoorCell {
 };
 
 struct AssembleStatistics {
-  std::array<KindStatistics, all_kinds.size()> kinds;  // as in all_kinds
+  KindTable kinds;
   std::int64_t points = 0, triangles = 0, quads = 0;
   CheckedVolumes volumes;
-  std::optional<choice::ExchangeCounts> exchange;  // where hexes may be exchanged
+  std::optional<choice::ExchangeCounts> exchange;  // if hexes may be exchanged
   conform::ConformityCounts conformity;
-  std::int64_t filling_prisms = 0;  // made of the tets between the chosen cells; some may have gone back since
-  shape::SmoothCounts smoothing;
-  std::vector<PoorCell> poor;                                     // all that are left
-  gap::FewerCells fewer;                                          // between the hexes
-  std::int64_t exchanges = 0;                                     // of poor tets for others on the same vertices
-  std::int64_t repaired = 0;                                      // vertices put beside flat tets
-  std::int64_t peeled = 0;                                        // flat tets taken off the boundary
-  std::array<KindStatistics, all_kinds.size()> before_smoothing;  // when there was smoothing
+  std::int64_t filling_prisms = 0;  // some may have gone back to their tets since
+  ImprovementCounts improvement;
+  KindTable before_smoothing;  // if there was smoothing
+  std::vector<PoorCell> poor;  // all that are left
 
   std::int64_t cells() const;
 };
 
-// Fills in the quality of every cell, the least scaled Jacobian over its corners.
+// Computes the quality of every cell: the least scaled Jacobian over its corners.
 void compute_quality(MixedMesh& mesh);
 
 // By kind; `mesh` has quality.
-std::array<KindStatistics, all_kinds.size()> kind_statistics(const MixedMesh& mesh);
-
-// The least scaled Jacobian anywhere in a cell, by kind (quality.hpp: to 1e-4).
-std::array<double, all_kinds.size()> least_inside(const MixedMesh& mesh);
+KindTable kind_statistics(const MixedMesh& mesh);
 
 // By kind and index; `mesh` has quality.
 std::vector<PoorCell> poor_cells(const MixedMesh& mesh);
+
+// Computes quality, and counts and judges the cells and facets of a result.
+void count_cells(MixedMesh& mesh, AssembleStatistics& statistics);
 
 nlohmann::ordered_json to_json(const AssembleStatistics& statistics);
 std::vector<std::string> summary_lines(const AssembleStatistics& statistics);

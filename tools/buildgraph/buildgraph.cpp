@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/graph/tet_cliques.hpp"
+#include "common/graph/clique_cover.hpp"
 #include "common/run/error.hpp"
 #include "tools/buildgraph/neighbours.hpp"
 #include "tools/buildgraph/reduce.hpp"
@@ -52,7 +52,7 @@ pipeline::GraphProduct graph_of_part(PartCandidates all, std::int32_t part, cons
 
 pipeline::GraphProduct read_graph_of_part(pipeline::StageData data, const BuildgraphOptions& options,
                                           const std::string& source) {
-  if (options.conflicts.part.count > 1 || options.reduce || options.cover)
+  if (options.conflicts.share.count > 1 || options.reduce || options.cover)
     throw UsageError(
         fmt::format("--part, --reduce and --cover need the whole graph, not that of {}", title_of(*data.part)));
   if (!data.candidate_keys)

@@ -2,7 +2,7 @@
 // ends a comparison at the first neighbour that tells them apart. After the first round, only vertices that have lost a
 // neighbour can dominate others anew.
 
-#include "tools/buildgraph/domination.hpp"
+#include "tools/buildgraph/reduce.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -15,7 +15,7 @@ class Domination {
   explicit Domination(const graph::ConflictGraph& graph)
       : graph_(graph),
         degrees_(graph.weights.size()),
-        mark_(graph.weights.size(), -1),
+        mark_(graph.weights.size(), no_index),
         gone_(graph.weights.size(), 0),
         changed_(graph.weights.size(), 1) {
     for (std::int32_t v = 0; v < graph.vertex_count(); ++v) degrees_[v] = graph.degree(v);

@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
   };
   const auto run = [&](RunContext& context) {
     options.conflicts.weight = weights.at(weight);
-    options.conflicts.part = parse_part(part);
+    options.conflicts.share = parse_share(part);
     Phases phases;
     pipeline::Stage stage(context);
     check(options, stage.writes_bundle());

@@ -11,8 +11,6 @@
 namespace hexpipe::buildgraph {
 namespace {
 
-constexpr std::int32_t none = -1;
-
 // Adds to the candidates of a part other parts' candidates that may be in conflict with them.
 class HaloCollector {
  public:
@@ -50,17 +48,17 @@ class HaloCollector {
                     const std::vector<std::int32_t>& tets) const {
     const auto corners = others.corners_of(i);
     const auto shared = std::count_if(corners.begin(), corners.end(),
-                                      [&](Vertex v) { return points[v] != none && corners_[points[v]]; });
+                                      [&](Vertex v) { return points[v] != no_index && corners_[points[v]]; });
     if (shared >= 2) return true;
     const auto interior = others.interior_tets_of(i);
     return std::any_of(interior.begin(), interior.end(),
-                       [&](std::int32_t tet) { return tets[tet] != none && tets_[tets[tet]]; });
+                       [&](std::int32_t tet) { return tets[tet] != no_index && tets_[tets[tet]]; });
   }
 
   void add(const pipeline::PartBundle& other, std::size_t i, const std::vector<std::int32_t>& points,
            const std::vector<std::int32_t>& tets) {
     const auto place = [&](const std::vector<std::int32_t>& places, std::int32_t item) {
-      if (places[item] != none) return places[item];
+      if (places[item] != no_index) return places[item];
       throw DataError::at(other.name, "expected candidates at {} to lie within its ghosts, found one beyond them",
                           title_of(part_));
     };

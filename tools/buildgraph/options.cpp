@@ -5,7 +5,7 @@
 namespace hexpipe::buildgraph {
 
 void check(const BuildgraphOptions& options, bool to_bundle) {
-  if (options.conflicts.part.count > 1 && (options.reduce || options.cover))
+  if (options.conflicts.share.count > 1 && (options.reduce || options.cover))
     throw UsageError("--part does not go with --reduce and --cover: they need the whole graph");
   if (!options.reduce && !options.reduced_candidates.empty())
     throw UsageError("--reduced-candidates does nothing without --reduce");

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "tools/buildgraph/domination.hpp"
-
 namespace hexpipe::buildgraph {
 
 namespace {
@@ -46,15 +44,14 @@ void keep_only(CandidateKeys& keys, std::span<const std::int32_t> kept) {
 }
 
 void keep_only(graph::ConflictGraph& graph, std::span<const std::int32_t> kept) {
-  constexpr std::int32_t none = -1;
-  std::vector<std::int32_t> numbers(graph.weights.size(), none);
+  std::vector<std::int32_t> numbers(graph.weights.size(), no_index);
   for (std::size_t i = 0; i < kept.size(); ++i) numbers[kept[i]] = static_cast<std::int32_t>(i);
   std::int64_t end = 0, read = 0;
   for (std::size_t v = 0; v < numbers.size(); ++v) {
     const std::int64_t read_end = graph.offsets[v + 1];
-    if (numbers[v] != none) {
+    if (numbers[v] != no_index) {
       for (; read < read_end; ++read)
-        if (const std::int32_t number = numbers[graph.neighbours[read]]; number != none)
+        if (const std::int32_t number = numbers[graph.neighbours[read]]; number != no_index)
           graph.neighbours[end++] = number;
       graph.weights[numbers[v]] = graph.weights[v];
       graph.offsets[numbers[v] + 1] = end;

@@ -1,7 +1,7 @@
 #include <optional>
 #include <utility>
 
-#include "common/graph/tet_cliques.hpp"
+#include "common/graph/clique_cover.hpp"
 #include "common/mwis/bounds/gap_shares.hpp"
 #include "common/mwis/ground/search_log.hpp"
 #include "common/run/option_checks.hpp"

@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
   const auto run = [&](RunContext& context) {
     if (folded_quads == "keep" && feature_angle->count() > 0)
       throw UsageError("--feature-angle does nothing with --folded-quads keep");
-    options.part = parse_part(part);
+    options.share = parse_share(part);
     options.kinds.clear();
     for (const auto& [name, kind] : kinds)
       if (std::find(cells.begin(), cells.end(), name) != cells.end()) options.kinds.push_back(kind);
@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
     phases.end("read");
     if (data.mesh->tets.empty())
       throw DataError::at(source, "expected tets, found none (tetmesh makes them from a surface)");
-    if (data.part && options.part.count > 1)
+    if (data.part && options.share.count > 1)
       throw UsageError(fmt::format("--part does not go with a mesh that is {} already", title_of(*data.part)));
     candidates::FindhexResult result = data.part ? findhex_of_part(*data.mesh, *data.part, options, source.c_str())
                                                  : candidates::findhex(std::move(*data.mesh), options, source.c_str());

@@ -10,7 +10,6 @@
 #include "common/run/tool_main.hpp"
 #include "tools/hexpipe/plan.hpp"
 #include "tools/hexpipe/run_stages.hpp"
-#include "tools/hexpipe/summary.hpp"
 
 using namespace hexpipe;
 using namespace hexpipe::front_door;
@@ -48,16 +47,17 @@ int main(int argc, char** argv) {
         ->type_name("FILE")
         ->default_str("");
     app.add_option("--size", options.size,
-                   "Edge length of the hexes; with %, of the bounding box's diagonal [what suits]")
+                   "Edge length of the hexes; with %, of the bounding box's diagonal [one that suits the model]")
         ->type_name("LENGTH");
     app.add_option("-o,--output", options.output, "The mesh, in the format that the ending names")
         ->type_name("FILE")
         ->default_str("");
     app.add_option("--page", options.page, "A page that shows it, for a browser")->type_name("FILE");
     app.add_option("--png", options.picture, "A picture of it")->type_name("FILE");
-    app.add_option("--effort", effort, "quick: seconds for the choice of hexes; thorough: minutes, for points, too")
+    app.add_option("--effort", effort,
+                   "quick: seconds for the choice of hexes; thorough: minutes, also for a search for better points")
         ->check(CLI::IsMember(efforts));
-    app.add_option("--mesh", options.mesh, "Tets of another program, in place of a surface")->type_name("FILE");
+    app.add_option("--mesh", options.mesh, "Tets of another program, instead of a surface")->type_name("FILE");
     app.add_option("--keep", options.keep, "Keep what each stage makes in this folder, as NAME.tar")
         ->type_name("FOLDER");
     app.add_option("--from", options.from,

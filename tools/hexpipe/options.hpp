@@ -1,5 +1,5 @@
 #pragma once
-// What the command line of hexpipe asks for.
+// The options of hexpipe.
 
 #include <map>
 #include <optional>
@@ -11,7 +11,7 @@ namespace hexpipe::front_door {
 enum class Effort { quick, usual, thorough };
 
 struct PipeOptions {
-  std::string input;                         // a surface, or CAD; empty: the pipe starts behind it
+  std::string input;                         // a surface or CAD; empty: the pipe starts after it
   std::optional<std::string> mesh;           // tets of another program, in place of a surface
   std::string output;                        // the result, in the format that the ending names
   std::optional<std::string> page, picture;  // of viewmesh
@@ -21,7 +21,7 @@ struct PipeOptions {
   Effort effort = Effort::usual;
   std::optional<int> threads;
   std::optional<std::uint64_t> seed;
-  std::map<std::string, std::string> stage_options;  // by tool, more options as a shell would take them
+  std::map<std::string, std::string> stage_options;  // by tool: more options, in a shell's syntax
 };
 
 }  // namespace hexpipe::front_door

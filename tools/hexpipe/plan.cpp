@@ -47,7 +47,7 @@ std::size_t first_stage(const PipeOptions& options) {
   return has_ending(options.input, {".step", ".stp", ".iges", ".igs", ".brep"}) ? 0 : tetmesh_stage;
 }
 
-// Seconds of the searches, and whether points are searched for.
+// Seconds for the searches, and whether to search for points.
 std::vector<std::string> words_of_effort(std::string_view tool, Effort effort) {
   if (effort == Effort::quick && tool == "initsol") return {"--time-limit", "1"};
   if (effort == Effort::quick && tool == "lns") return {"--time-limit", "3"};
@@ -66,7 +66,7 @@ std::vector<std::string> words_of(const std::string& tool, const PipeOptions& op
   const auto more = options.stage_options.find(tool);
   const std::vector<std::string> own =
       more == options.stage_options.end() ? std::vector<std::string>{} : shell_words(more->second, "--" + tool);
-  // What the user says of a stage takes the place of what the effort says of it.
+  // The user's options for a stage replace those of the effort.
   const std::vector<std::string> of_effort = words_of_effort(tool, options.effort);
   for (std::size_t i = 0; i < of_effort.size(); i += 2)
     if (std::ranges::find(own, of_effort[i]) == own.end()) add({of_effort[i], of_effort[i + 1]});
@@ -89,7 +89,7 @@ void check(const PipeOptions& options) {
   }
 }
 
-// viewmesh reads these; of any other format it is shown the bundle.
+// viewmesh reads these formats; for any other format it gets the bundle.
 bool is_shown_from_file(const std::string& path) {
   return has_ending(path, {".vtu", ".vtk", ".msh", ".mesh", ".tar", ".tar.zst"});
 }

@@ -53,14 +53,14 @@ int checked(int result, const char* what) {
   return result;
 }
 
-// Both ends close in a process that is started, but for those that it is given.
+// Both ends close in a process that is started, unless they are given to it.
 std::pair<Descriptor, Descriptor> make_pipe() {
   std::array<int, 2> ends{};
   checked(pipe2(ends.data(), O_CLOEXEC), "make a pipe");
   return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
-// The tools stand beside this one; where they do not, the PATH knows them.
+// The tools are beside this one; otherwise the PATH has to know them.
 std::string path_of(const std::string& tool) {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
@@ -74,7 +74,7 @@ struct Process {
   bool is_done = false;
   int exit_code = 0;
   Descriptor messages;         // its standard error
-  std::string line, withheld;  // of that: what has not ended yet, and the last line
+  std::string line, withheld;  // of that: an unfinished line, and the last line
   Descriptor statistics;       // a file in memory
 };
 
@@ -85,7 +85,7 @@ std::vector<char*> arguments(std::vector<std::string>& words) {
   return result;
 }
 
-// In the new process: nothing but system calls.
+// Runs in the new process: it may only make system calls.
 [[noreturn]] void become(const std::string& path, std::vector<char*>& words, int in, int out, int messages,
                          pid_t parent, pid_t group) {
   setpgid(0, group);
@@ -131,7 +131,7 @@ class PipeRun {
   Progress progress_;
   Stopwatch watch_;
   std::vector<Process> processes_;
-  pid_t group_ = 0;  // of all that is started, apart from ours: a terminal's Ctrl-C reaches us alone
+  pid_t group_ = 0;  // of all processes started, apart from ours: a terminal's Ctrl-C reaches only us
   std::size_t running_ = 0;
   bool told_to_stop_ = false;
   std::vector<std::string> kept_;  // files that get their names when all is well
@@ -167,7 +167,7 @@ void PipeRun::start(const Command& command, Descriptor in, Descriptor out) {
   if (!has_own) process.statistics = std::move(statistics);
 }
 
-// What is kept has its name only when all of it is there.
+// A kept file gets its name only when all of it is there.
 void PipeRun::start_tee(const std::string& file, Descriptor in, Descriptor out) {
   kept_.push_back(file);
   launch("tee", "tee", {"tee", file + ".part"}, std::move(in), std::move(out));
@@ -190,8 +190,8 @@ void PipeRun::start(const std::vector<Command>& commands) {
   }
 }
 
-// Lines go on as they come, but for the last one: where the tool fails, that says why, and only the first tool of a
-// pipe that fails is to be heard.
+// Lines are passed on as they come, except the last one: if the tool fails, that line says why, and only the first tool
+// of a pipe that fails is heard.
 void PipeRun::read_messages(Process& process) {
   std::array<char, 4096> buffer;
   const ssize_t count = read(process.messages.get(), buffer.data(), buffer.size());
@@ -256,8 +256,8 @@ void PipeRun::wait() {
   judge();
 }
 
-// A tool that writes into a pipe whose reader is gone fails, too, but has nothing to say of its own: what broke the
-// pipe stands behind it.
+// A tool that writes into a pipe whose reader is gone fails, too, but has nothing to say of its own: the tool that
+// broke the pipe comes after it.
 void PipeRun::judge() const {
   const auto says_why = [](const Process& process) {
     return process.exit_code != 0 && process.withheld.find("Broken pipe") == std::string::npos;

@@ -1,4 +1,4 @@
-#include "tools/hexpipe/summary.hpp"
+#include "tools/hexpipe/run_stages.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,20 +1,22 @@
 #pragma once
 // A priority queue of vertices whose keys change. The highest key comes first, and among equal keys the lowest vertex,
-// so that the order does not depend on the history.
+// so that the order does not depend on earlier changes.
 
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "common/mesh/tet_mesh.hpp"
+
 namespace hexpipe::initsol {
 
 class IndexedHeap {
  public:
-  explicit IndexedHeap(std::size_t vertices) : places_(vertices, none) {}
+  explicit IndexedHeap(std::size_t vertices) : places_(vertices, no_index) {}
 
   bool empty() const { return heap_.empty(); }
-  bool contains(std::int32_t v) const { return places_[v] != none; }
+  bool contains(std::int32_t v) const { return places_[v] != no_index; }
   std::int32_t top() const { return heap_.front().vertex; }
   std::int64_t top_key() const { return heap_.front().key; }
 
@@ -35,7 +37,7 @@ class IndexedHeap {
     const auto at = static_cast<std::size_t>(places_[v]);
     swap_entries(at, heap_.size() - 1);
     heap_.pop_back();
-    places_[v] = none;
+    places_[v] = no_index;
     if (at == heap_.size()) return;
     const std::int32_t moved = heap_[at].vertex;
     rise(at);
@@ -43,7 +45,7 @@ class IndexedHeap {
   }
 
   void clear() {
-    for (const Entry& entry : heap_) places_[entry.vertex] = none;
+    for (const Entry& entry : heap_) places_[entry.vertex] = no_index;
     heap_.clear();
   }
 
@@ -57,7 +59,6 @@ class IndexedHeap {
   }
 
  private:
-  static constexpr std::int32_t none = -1;
   struct Entry {
     std::int64_t key;
     std::int32_t vertex;

@@ -13,9 +13,9 @@
 namespace hexpipe::initsol {
 namespace {
 
-// Moves between two looks at which start is ahead; some milliseconds.
+// Moves between two checks of which start is ahead; they take some milliseconds.
 constexpr std::int64_t most_moves_a_round = 1000;
-// Few iterations cool down in as many steps.
+// A search with few iterations cools down in at least this many steps.
 constexpr std::int64_t least_rounds = 100;
 
 graph::IndependentSet start_solution(const graph::ConflictGraph& graph, std::vector<double> merits,
@@ -30,7 +30,7 @@ graph::IndependentSet start_solution(const graph::ConflictGraph& graph, std::vec
 class Search {
  public:
   virtual ~Search() = default;
-  // `progress` from 0 to 1 is what was used of the iterations or of the time.
+  // `progress`, from 0 to 1, is the share used of the iterations or of the time.
   virtual void run(std::int64_t moves, double progress, const Deadline& deadline) = 0;
   virtual std::int64_t moves() const = 0;
   virtual std::int64_t best_weight() const = 0;
@@ -79,7 +79,7 @@ std::unique_ptr<Search> make_search(const graph::ConflictGraph& graph, const gra
   return std::make_unique<AnnealedStart>(graph, start, options, random, deadline);
 }
 
-// The best parts of all: two starts of random-33k differ by 0.1 to 0.3 %, and together gain 0.1 %.
+// Combines the best regions of all: two starts of random-33k differ by 0.1 to 0.3 %; combining them gains 0.1 %.
 graph::IndependentSet recombined(const graph::ConflictGraph& graph,
                                  const std::vector<std::unique_ptr<Search>>& searches) {
   graph::IndependentSet set = searches.front()->best();
@@ -105,7 +105,7 @@ std::int64_t iterations_for(const graph::ConflictGraph& graph, const InitsolOpti
 
 using Report = std::function<void(const InitsolProgress&)>;
 
-// From start(i) for each i.
+// Searches from start(i) for each i.
 InitsolResult search(const graph::ConflictGraph& graph, const std::function<graph::IndependentSet(std::int64_t)>& start,
                      const InitsolOptions& options, const Deadline& deadline, const Report& report) {
   InitsolResult result;
@@ -118,7 +118,7 @@ InitsolResult search(const graph::ConflictGraph& graph, const std::function<grap
   const auto leader = [&] {
     return std::ranges::max_element(searches, {}, [](const auto& search) { return search->best_weight(); })->get();
   };
-  // Of the last round only some, where time ran out in it.
+  // If time ran out in the last round, only some of its moves were made.
   const auto moves_made = [&] {
     std::int64_t sum = 0;
     for (const auto& search : searches) sum += search->moves();

@@ -22,8 +22,8 @@ const std::map<std::string, Method> methods{
 const std::map<std::string, Escape> escapes{
     {"restart", Escape::restart}, {"rebuild", Escape::rebuild}, {"best", Escape::best}};
 
-// Of a search that nobody limits. On random-33k 27 find all that cooling more slowly does (tests/bench/mwis/README.md);
-// half of that leaves the rest to lns, and a lattice of 6 x 6 x 6 hexes takes half a second.
+// For a search without a limit. On random-33k, 27 find all that slower cooling does (tests/bench/mwis/README.md). Half
+// of that leaves the rest to lns, and a lattice of 6 x 6 x 6 hexes takes half a second.
 constexpr std::int64_t usual_iterations_a_vertex = 15;
 
 std::vector<double> quality_for(const pipeline::StageData& data) {
@@ -43,13 +43,14 @@ struct CommandLine {
 };
 
 void declare_annealing(CLI::App& app, CommandLine& line) {
-  line.of_annealing = {app.add_option("--hot", line.options.hot,
-                                      "Annealing: the first temperature, in mean weights of a chosen vertex [0.3, "
-                                      "higher where few are chosen]")
-                           ->check(number_between(1e-6, 1e6)),
-                       app.add_option("--cold", line.options.cold,
-                                      "Annealing: the last temperature, likewise [0.03, higher where few are chosen]")
-                           ->check(number_between(1e-6, 1e6))};
+  line.of_annealing = {
+      app.add_option("--hot", line.options.hot,
+                     "Annealing: the first temperature, in mean weights of a chosen vertex [0.3, "
+                     "higher if few are chosen]")
+          ->check(number_between(1e-6, 1e6)),
+      app.add_option("--cold", line.options.cold,
+                     "Annealing: the last temperature, in the same unit [0.03, higher if few are chosen]")
+          ->check(number_between(1e-6, 1e6))};
 }
 
 void declare_tabu_search(CLI::App& app, CommandLine& line) {

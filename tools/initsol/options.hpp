@@ -19,13 +19,13 @@ enum class Method {
 struct InitsolOptions {
   GreedyOrder order = GreedyOrder::weight_degree;
   Method method = Method::anneal;
-  // Temperatures in mean weights of a chosen vertex; what suits the graph, where they are not given.
+  // Temperatures in mean weights of a chosen vertex; if not given, those that suit the graph.
   std::optional<double> hot{}, cold{};
   TabuOptions tabu{};
   int starts = 1;
   std::uint64_t seed = 1;
   std::int64_t iterations = std::numeric_limits<std::int64_t>::max();  // moves or kicks of each start
-  // Likewise for each vertex that reductions leave; a search that cools more slowly gains little.
+  // The same for each vertex that reductions leave. A search that cools more slowly gains little.
   std::int64_t iterations_a_vertex = std::numeric_limits<std::int64_t>::max();
   bool reduce = true;  // search what exact reductions leave
 };

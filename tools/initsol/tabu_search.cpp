@@ -110,7 +110,7 @@ void TabuSearch::take_way_out() {
   if (state_.weight() > best_weight_) note_best();
 }
 
-// Takes back the moves since then, so that the cost depends on their number and not on the size of the graph.
+// Undoes the moves since then, so that the cost depends on their number and not on the size of the graph.
 void TabuSearch::return_to_best() {
   const std::vector<std::int32_t> undo(since_best_.rbegin(), since_best_.rend());
   for (const std::int32_t v : undo) {

@@ -14,7 +14,7 @@
 
 namespace hexpipe::initsol {
 
-// The way out when no better solution was found for long (algorithms 8, 9 and 10).
+// The way to escape after a long time without a better solution (algorithms 8, 9 and 10).
 enum class Escape {
   restart,  // a random maximal independent set
   rebuild,  // a greedy set of the vertices that were moved least
@@ -27,7 +27,7 @@ struct TabuOptions {
   // 30, 100, 150, 200, 300 and 1000 on graphs of 28,000 to 56,000 vertices in 3 s: with 10, the search stays in one
   // corner of the graph (0.6 to 9 % worse than the best value), with 1000 it opens more gaps than it closes.
   std::int64_t tenure = 200;
-  // The search takes the way out after this many moves without a new best solution.
+  // The search escapes after this many moves without a new best solution.
   std::int64_t patience = 100000;
 };
 

@@ -15,7 +15,7 @@ bool is_near_edge(const Region& region, std::int32_t v) {
 
 mwis::local_search::LnsMemory BlockMemory::recall(const Region& region, std::span<const std::uint64_t> keys) const {
   mwis::local_search::LnsMemory memory;
-  memory.effort = effort_;
+  memory.operator_scores = operator_scores_;
   auto known = places_.begin();
   for (const std::int32_t v : region.chosen) {
     const std::uint64_t key = keys[region.vertices[v]];
@@ -27,7 +27,7 @@ mwis::local_search::LnsMemory BlockMemory::recall(const Region& region, std::spa
 
 void BlockMemory::remember(const mwis::local_search::LnsMemory& memory, const Region& region,
                            std::span<const std::uint64_t> keys) {
-  effort_ = memory.effort;
+  operator_scores_ = memory.operator_scores;
   places_.clear();
   places_.reserve(memory.places.size());
   for (const mwis::local_search::LnsMemory::Place& place : memory.places) {

@@ -17,15 +17,15 @@ class BlockMemory {
  public:
   struct Place {
     std::uint64_t key;
-    std::array<std::uint32_t, mwis::local_search::all_ways.size()> tries;
+    std::array<std::uint32_t, mwis::local_search::all_operators.size()> tries;
     std::uint32_t size;
   };
 
   BlockMemory() = default;
-  BlockMemory(std::vector<Place> places, const mwis::local_search::Effort::Accounts& effort)
-      : places_(std::move(places)), effort_(effort) {}
+  BlockMemory(std::vector<Place> places, const mwis::local_search::OperatorScores& operator_scores)
+      : places_(std::move(places)), operator_scores_(operator_scores) {}
 
-  // What is known of this region, in its numbers; `keys` are those of the piece.
+  // What is known about this region, in its numbers; `keys` are those of the rank's local graph.
   mwis::local_search::LnsMemory recall(const Region& region, std::span<const std::uint64_t> keys) const;
   // Keeps only the size of places at the edge of the region, because what lies beyond may change before the next round.
   // Everything further inside stays as this search leaves it, because no other block may change it meanwhile.
@@ -35,11 +35,11 @@ class BlockMemory {
   std::size_t usual_size() const;
 
   const std::vector<Place>& places() const { return places_; }
-  const mwis::local_search::Effort::Accounts& effort() const { return effort_; }
+  const mwis::local_search::OperatorScores& operator_scores() const { return operator_scores_; }
 
  private:
   std::vector<Place> places_;  // ascending
-  mwis::local_search::Effort::Accounts effort_;
+  mwis::local_search::OperatorScores operator_scores_;
 };
 
 }  // namespace hexpipe::lns_mpi

@@ -47,17 +47,17 @@ Title read_title(const std::string& path) {
   return title;
 }
 
-// The state of one rank: rows of the same length for places, and a row of `effort` for each of its blocks.
+// The state of one rank: rows of the same length for places, and a row of `operator_scores` for each of its blocks.
 struct RankState {
   std::vector<std::uint64_t> chosen, keys;
   std::vector<std::int32_t> blocks;
-  std::vector<std::array<std::uint32_t, 4>> places;  // tries by way, and the size
-  std::vector<std::array<double, 9>> effort;         // credit, cost and yield by way
+  std::vector<std::array<std::uint32_t, 4>> places;    // tries by operator, and the size
+  std::vector<std::array<double, 9>> operator_scores;  // credit, cost and yield by operator
 
   template <class Visit>
   void visit(Visit&& each) {
     each("chosen.npy", chosen), each("place_key.npy", keys), each("place_block.npy", blocks);
-    each("place_state.npy", places), each("effort.npy", effort);
+    each("place_state.npy", places), each("effort.npy", operator_scores);
   }
 
   void add(std::int32_t block, const BlockMemory& memory) {
@@ -66,10 +66,10 @@ struct RankState {
       blocks.push_back(block);
       places.push_back({place.tries[0], place.tries[1], place.tries[2], place.size});
     }
-    auto& row = effort.emplace_back();
-    for (std::size_t way = 0; way < memory.effort().size(); ++way) {
-      const mwis::local_search::Effort::Account& account = memory.effort()[way];
-      row[3 * way] = account.credit, row[3 * way + 1] = account.cost, row[3 * way + 2] = account.yield;
+    auto& row = operator_scores.emplace_back();
+    for (std::size_t i = 0; i < memory.operator_scores().size(); ++i) {
+      const mwis::local_search::OperatorScore& score = memory.operator_scores()[i];
+      row[3 * i] = score.credit, row[3 * i + 1] = score.cost, row[3 * i + 2] = score.yield;
     }
   }
 };
@@ -80,10 +80,9 @@ BlockMemory memory_of(std::int32_t block, const RankState& state, const std::arr
     const auto& place = state.places[i];
     if (state.blocks[i] == block) places.push_back({state.keys[i], {place[0], place[1], place[2]}, place[3]});
   }
-  mwis::local_search::Effort::Accounts accounts;
-  for (std::size_t way = 0; way < accounts.size(); ++way)
-    accounts[way] = {row[3 * way], row[3 * way + 1], row[3 * way + 2]};
-  return {std::move(places), accounts};
+  mwis::local_search::OperatorScores scores;
+  for (std::size_t i = 0; i < scores.size(); ++i) scores[i] = {row[3 * i], row[3 * i + 1], row[3 * i + 2]};
+  return {std::move(places), scores};
 }
 
 bool is_sound(const RankState& state, std::size_t blocks) {
@@ -95,8 +94,8 @@ bool is_sound(const RankState& state, std::size_t blocks) {
     return std::ranges::all_of(row, [](double value) { return std::isfinite(value); });
   };
   return state.blocks.size() == state.keys.size() && state.places.size() == state.keys.size() &&
-         state.effort.size() == blocks && std::ranges::all_of(state.places, has_bounded_tries) &&
-         std::ranges::all_of(state.effort, is_finite);
+         state.operator_scores.size() == blocks && std::ranges::all_of(state.places, has_bounded_tries) &&
+         std::ranges::all_of(state.operator_scores, is_finite);
 }
 
 RankState read_state(const std::string& path, std::size_t blocks) {
@@ -157,7 +156,7 @@ std::optional<std::vector<std::uint64_t>> Checkpoint::resume(const BlockOwners& 
                                          static_cast<std::size_t>(end - begin));
       chosen.insert(chosen.end(), state.chosen.begin(), state.chosen.end());
       for (std::int32_t block = std::max(first, begin); block < std::min(last + 1, end); ++block)
-        memories.push_back(memory_of(block, state, state.effort[block - begin]));
+        memories.push_back(memory_of(block, state, state.operator_scores[block - begin]));
     }
     std::ranges::sort(chosen);
     progress = title.progress;
@@ -166,7 +165,7 @@ std::optional<std::vector<std::uint64_t>> Checkpoint::resume(const BlockOwners& 
   return chosen;
 }
 
-// The one before, and what a run left that was killed while it wrote. Where that fails it does no harm.
+// Removes the round before, and files that a run left when it was killed while writing. A failure here does no harm.
 void Checkpoint::remove_rounds_but(const std::filesystem::path& kept) const {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(directory_, ignored))
@@ -180,7 +179,8 @@ bool Checkpoint::is_due() {
   return due[0] != 0;
 }
 
-void Checkpoint::write(const Piece& piece, const RoundsProgress& progress, const std::vector<BlockMemory>& memories) {
+void Checkpoint::write(const LocalGraph& local, const RoundsProgress& progress,
+                       const std::vector<BlockMemory>& memories) {
   if (round_ == progress.round) return;
   next_ = watch_.seconds() + seconds_between_;
   const std::filesystem::path folder = folder_of(progress.round);
@@ -191,9 +191,9 @@ void Checkpoint::write(const Piece& piece, const RoundsProgress& progress, const
   });
   ranks_.together([&] {
     RankState state;
-    for (std::int32_t v = 0; v < piece.vertex_count(); ++v)
-      if (piece.chosen[v] != 0 && piece.owns(v)) state.chosen.push_back(piece.keys[v]);
-    for (std::int32_t block = piece.owners.first_of(piece.rank); const BlockMemory& memory : memories)
+    for (std::int32_t v = 0; v < local.vertex_count(); ++v)
+      if (local.chosen[v] != 0 && local.owns(v)) state.chosen.push_back(local.keys[v]);
+    for (std::int32_t block = local.owners.first_of(local.rank); const BlockMemory& memory : memories)
       state.add(block++, memory);
     formats::Output output((folder / fmt::format("{:04}.tar", ranks_.rank())).string());
     pipeline::BundleWriter writer(output, false);
@@ -206,7 +206,7 @@ void Checkpoint::write(const Piece& piece, const RoundsProgress& progress, const
     nlohmann::ordered_json title;
     visit_numbers(progress, [&](const char* name, std::int64_t number) { title[name] = number; });
     title["ranks"] = ranks_.count();
-    title["blocks"] = piece.owners.blocks();
+    title["blocks"] = local.owners.blocks();
     title["fingerprint"] = fingerprint_;
     formats::Output output((directory_ / "checkpoint.json").string());
     output.write(title.dump(2) + "\n");

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/lns-mpi/piece.hpp"
+#include "tools/lns-mpi/local_graph.hpp"
 #include "tools/lns-mpi/ranks.hpp"
 #include "tools/lns-mpi/rounds.hpp"
 
@@ -32,7 +32,7 @@ class Checkpoint {
 
   // Whether it is time for the next checkpoint.
   bool is_due();
-  void write(const Piece& piece, const RoundsProgress& progress, const std::vector<BlockMemory>& memories);
+  void write(const LocalGraph& local, const RoundsProgress& progress, const std::vector<BlockMemory>& memories);
 
  private:
   std::filesystem::path folder_of(std::int64_t round) const;

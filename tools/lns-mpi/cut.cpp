@@ -1,8 +1,8 @@
-// METIS' multilevel k-way partition (Karypis and Kumar 1998), not of the graph but of its clusters: a maximal
-// independent set, first come first chosen, and around each chosen vertex the others that come to it first. Candidates
-// that exclude each other lie in one place, so that clusters are compact, and METIS gets a twentieth of the vertices
-// and edges.
-#include "tools/lns-mpi/cut.hpp"
+// METIS' multilevel k-way partition (Karypis and Kumar 1998), applied to clusters of the graph. The clusters grow from
+// a maximal independent set, which takes the first vertex that fits; each chosen vertex gets the vertices around it
+// that no other has yet. Candidates that exclude each other are close together, so clusters are compact, and METIS gets
+// a twentieth of the vertices and edges.
+#include "tools/lns-mpi/source.hpp"
 
 #include <metis.h>
 
@@ -22,18 +22,18 @@ struct Clusters {
 
 Clusters cluster(const graph::ConflictGraph& graph) {
   Clusters clusters;
-  clusters.of_vertex.assign(graph.weights.size(), -1);
+  clusters.of_vertex.assign(graph.weights.size(), no_index);
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
-    if (clusters.of_vertex[v] >= 0) continue;
+    if (clusters.of_vertex[v] != no_index) continue;
     const std::int32_t c = clusters.count++;
     clusters.of_vertex[v] = c;
     for (const std::int32_t u : graph.neighbours_of(v))
-      if (clusters.of_vertex[u] < 0) clusters.of_vertex[u] = c;
+      if (clusters.of_vertex[u] == no_index) clusters.of_vertex[u] = c;
   }
   return clusters;
 }
 
-// As METIS takes it: rows, with the number of edges between two clusters.
+// The input of METIS: rows, with the number of edges between two clusters.
 struct ClusterGraph {
   std::vector<idx_t> offsets{0}, neighbours, edge_weights, sizes;
 };
@@ -47,7 +47,7 @@ ClusterGraph contract(const graph::ConflictGraph& graph, const Clusters& cluster
   for (std::int32_t v = 0; v < graph.vertex_count(); ++v) members[next[clusters.of_vertex[v]]++] = v;
 
   ClusterGraph result;
-  std::vector<idx_t> place(static_cast<std::size_t>(clusters.count), -1);
+  std::vector<idx_t> place(static_cast<std::size_t>(clusters.count), no_index);
   for (std::int32_t c = 0; c < clusters.count; ++c) {
     const auto row = static_cast<idx_t>(result.neighbours.size());
     for (std::int64_t i = begins[c]; i < begins[c + 1]; ++i)

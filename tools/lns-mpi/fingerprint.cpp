@@ -1,4 +1,4 @@
-#include "tools/lns-mpi/fingerprint.hpp"
+#include "tools/lns-mpi/local_graph.hpp"
 
 #include <fmt/format.h>
 
@@ -46,7 +46,7 @@ std::uint64_t fingerprint_of(Ranks& ranks, const OwnedRows& rows) {
 void expect_agreement(Ranks& ranks, const BlockOwners& owners, const OwnedRows& rows) {
   // By block of the rank's own, and by another one: the conflicts between both, as the rows of the first have them.
   std::map<std::pair<std::int32_t, std::int32_t>, std::uint64_t> sums;
-  auto sum = sums.end();  // of the last edge: the next one mostly joins the same blocks
+  auto sum = sums.end();  // of the last edge, because the next one mostly joins the same blocks
   for (std::size_t v = 0; v < rows.keys.size(); ++v)
     for (std::int64_t e = rows.offsets[v]; e < rows.offsets[v + 1]; ++e) {
       const std::pair both(rows.blocks[v], rows.neighbour_blocks[e]);
@@ -60,7 +60,7 @@ void expect_agreement(Ranks& ranks, const BlockOwners& owners, const OwnedRows& 
   std::vector<Bytes> to;
   to.reserve(packers.size());
   for (Packer& packer : packers) to.push_back(packer.take());
-  const std::vector<Bytes> seen_by_others = ranks.exchange(std::move(to));
+  const std::vector<Bytes> seen_by_others = ranks.all_to_all(std::move(to));
   ranks.together([&] {
     for (const Bytes& bytes : seen_by_others)
       for (Unpacker unpacker(bytes); !unpacker.at_end();) {

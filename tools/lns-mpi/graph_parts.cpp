@@ -35,7 +35,7 @@ void append_rows(const pipeline::StageData& part, OwnedRows& rows) {
   }
 }
 
-// Keys ascend within each part, not over several.
+// Sorts by keys: they ascend within each part, but not over several.
 OwnedRows in_order(const OwnedRows& rows) {
   std::vector<std::size_t> order(rows.keys.size());
   std::iota(order.begin(), order.end(), 0);
@@ -78,14 +78,14 @@ class GraphParts : public Source {
     return own_.size() == 1 ? std::move(rows) : in_order(rows);
   }
 
-  void write(Ranks& ranks, const Piece& piece, const nlohmann::ordered_json& details) override {
+  void write(Ranks& ranks, const LocalGraph& local, const nlohmann::ordered_json& details) override {
     ranks.together([&] {
       for (Part& part : own_) {
         pipeline::SolutionProduct product;
         for (std::size_t v = 0; v < part.keys.size(); ++v) {
-          const auto found = std::ranges::lower_bound(piece.keys, part.keys[v]);
-          const bool is_held = found != piece.keys.end() && *found == part.keys[v];
-          if (is_held && piece.chosen[found - piece.keys.begin()] != 0)
+          const auto found = std::ranges::lower_bound(local.keys, part.keys[v]);
+          const bool is_held = found != local.keys.end() && *found == part.keys[v];
+          if (is_held && local.chosen[found - local.keys.begin()] != 0)
             product.solution.push_back(static_cast<std::int32_t>(v));
         }
         part.stage->write(product, details);

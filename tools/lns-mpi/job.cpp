@@ -12,14 +12,14 @@
 #include "formats/choice/fragments_file.hpp"
 #include "formats/streams/output.hpp"
 #include "tools/lns-mpi/checkpoint.hpp"
-#include "tools/lns-mpi/fingerprint.hpp"
+#include "tools/lns-mpi/local_graph.hpp"
 #include "tools/lns-mpi/shared_dual.hpp"
 #include "tools/lns-mpi/source.hpp"
 
 namespace hexpipe::lns_mpi {
 namespace {
 
-// How much all ranks together sent, and how much the rank that sent most.
+// How much all ranks sent together, and how much the busiest rank sent.
 struct Sent {
   std::int64_t messages = 0, bytes = 0, most_messages = 0, most_bytes = 0;
 };
@@ -55,27 +55,27 @@ class Job {
     const BlockOwners owners(source_->blocks(), ranks_.count());
     choose_target();
     const std::optional<std::vector<std::uint64_t>> earlier = resume(owners, rows);
-    Piece piece = make_piece(ranks_, owners, std::move(rows), options_.overlap);
+    LocalGraph local = make_local_graph(ranks_, owners, std::move(rows), options_.overlap);
     setup_ = put_together(ranks_, ranks_.traffic());
-    note_size(piece);
+    note_size(local);
 
     Packer improved;
     if (!options_.fragments.empty())
       rounds_.improved = [&](std::span<const std::int32_t> fragment) {
         std::vector<std::uint64_t> numbers;
         numbers.reserve(fragment.size());
-        for (const std::int32_t v : fragment) numbers.push_back(piece.keys[v]);
+        for (const std::int32_t v : fragment) numbers.push_back(local.keys[v]);
         improved.put_all(std::span<const std::uint64_t>(numbers));
       };
-    improve_in_rounds(ranks_, piece, rounds_, deadline_, earlier, progress_, memories_,
+    improve_in_rounds(ranks_, local, rounds_, deadline_, earlier, progress_, memories_,
                       [&](const RoundsProgress&, const RoundCosts& costs, bool last) {
                         report(costs);
                         if (!options_.fragments.empty()) write_fragments(improved.take());
                         if (checkpoint_ && (last || checkpoint_->is_due()))
-                          checkpoint_->write(piece, progress_, memories_);
+                          checkpoint_->write(local, progress_, memories_);
                       });
-    if (options_.passes > 0) prove(piece);
-    finish(piece);
+    if (options_.passes > 0) prove(local);
+    finish(local);
   }
 
  private:
@@ -108,15 +108,15 @@ class Job {
     return earlier;
   }
 
-  void note_size(const Piece& piece) {
-    std::array<std::int64_t, 4> sizes{0, piece.vertex_count(), piece.graph.edge_count(),
-                                      static_cast<std::int64_t>(piece.partners.size())};
-    for (std::int32_t v = 0; v < piece.vertex_count(); ++v) sizes[0] += piece.owns(v) ? 1 : 0;
+  void note_size(const LocalGraph& local) {
+    std::array<std::int64_t, 4> sizes{0, local.vertex_count(), local.graph.edge_count(),
+                                      static_cast<std::int64_t>(local.partners.size())};
+    for (std::int32_t v = 0; v < local.vertex_count(); ++v) sizes[0] += local.owns(v) ? 1 : 0;
     ranks_.sum(sizes);
-    std::array<std::int64_t, 1> most{piece.vertex_count()};
+    std::array<std::int64_t, 1> most{local.vertex_count()};
     ranks_.maximum(most);
     context_.statistics["ranks"] = ranks_.count();
-    context_.statistics["blocks"] = piece.owners.blocks();
+    context_.statistics["blocks"] = local.owners.blocks();
     context_.statistics["vertices"] = sizes[0];
     context_.statistics["held_vertices"] = sizes[1];
     context_.statistics["most_held_vertices"] = most[0];
@@ -124,7 +124,7 @@ class Job {
     context_.statistics["partners"] = sizes[3];
     context_.statistics["setup_bytes"] = setup_.bytes;
     context_.note(fmt::format("{} ranks, {} blocks, {} vertices, {} held with halos, {} bytes sent for that",
-                              ranks_.count(), piece.owners.blocks(), sizes[0], sizes[1], setup_.bytes));
+                              ranks_.count(), local.owners.blocks(), sizes[0], sizes[1], setup_.bytes));
   }
 
   void report(const RoundCosts& costs) {
@@ -143,7 +143,7 @@ class Job {
   void write_fragments(Bytes own) {
     std::vector<Bytes> to(static_cast<std::size_t>(ranks_.count()));
     to.front() = std::move(own);
-    const std::vector<Bytes> all = ranks_.exchange(std::move(to));
+    const std::vector<Bytes> all = ranks_.all_to_all(std::move(to));
     ranks_.together([&] {
       for (const Bytes& from : all)
         for (Unpacker unpacker(from); fragments_ && !unpacker.at_end();) {
@@ -154,18 +154,18 @@ class Job {
     });
   }
 
-  void prove(const Piece& piece) {
+  void prove(const LocalGraph& local) {
     proof_ =
-        prove_bound(ranks_, piece, options_.passes, rounds_.search.seed, Deadline(), !options_.certificate.empty());
+        prove_bound(ranks_, local, options_.passes, rounds_.search.seed, Deadline(), !options_.certificate.empty());
     const double gap = mwis::ground::gap_to(proof_->bound, progress_.weight);
     context_.statistics["bound"] = proof_->bound;
     context_.statistics["gap"] = gap;
     context_.note(fmt::format("at most {} is possible: gap {:.4f} %", proof_->bound, 100 * gap));
   }
 
-  void finish(const Piece& piece) {
+  void finish(const LocalGraph& local) {
     std::array<std::int64_t, 1> chosen{0};
-    for (std::int32_t v = 0; v < piece.vertex_count(); ++v) chosen[0] += piece.chosen[v] != 0 && piece.owns(v) ? 1 : 0;
+    for (std::int32_t v = 0; v < local.vertex_count(); ++v) chosen[0] += local.chosen[v] != 0 && local.owns(v) ? 1 : 0;
     ranks_.sum(chosen);
     context_.statistics["weight"] = progress_.weight;
     context_.statistics["chosen"] = chosen[0];
@@ -181,8 +181,8 @@ class Job {
     if (proof_) details["bound"] = proof_->bound;
     if (rounds_.search.free_running) details["depends_on_timing"] = true;
     const double seconds = deadline_.elapsed();
-    source_->write(ranks_, piece, details);
-    // After the solution, so that a full disk here does not cost it; what took longest comes first.
+    source_->write(ranks_, local, details);
+    // Written after the solution, so that a full disk does not cost it. The file that took longest comes first.
     ranks_.together([&] {
       if (certificate_) write_certificate();
       if (fragments_) fragments_->commit();

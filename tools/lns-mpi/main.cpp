@@ -20,7 +20,7 @@ void run_on_all_ranks(RunContext& context, const LnsMpiOptions& options) {
   try {
     run_job(ranks, context, options);
   } catch (const ErrorOfAll& error) {
-    // The first rank that ends with an error makes mpirun end the others: all wait until one of them has said why.
+    // The first rank that ends with an error makes mpirun end the others, so all wait until one of them has said why.
     print_message(context.info.name, error.what());
     ranks.together([] {});
     silence_messages(true);

@@ -25,7 +25,8 @@ struct LnsMpiOptions {
   double checkpoint_interval = 600;  // seconds
 };
 
-// Throws UsageError where options exclude each other, do nothing without others, or do not go with a graph in parts.
+// Throws UsageError where options exclude each other, have no effect without others, or do not go with a graph in
+// parts.
 void check(const LnsMpiOptions& options, bool round_is_given, const RunContext& context);
 
 bool writes_standard_output(const RunContext& context);

@@ -13,12 +13,13 @@
 namespace hexpipe::lns_mpi {
 namespace {
 
-// MPI counts in int; longer messages travel in pieces.
-constexpr std::size_t longest_piece = std::size_t{1} << 30;
+// MPI counts in int, so longer messages are split.
+constexpr std::size_t longest_message = std::size_t{1} << 30;
 constexpr int tag = 1;
 
-// After some tries at once, from a tenth of a millisecond up: far below what was waited for already, far above a switch
-// of processes. A rank that waits while the first one reads and cuts a graph takes nearly no time of a processor then.
+// A few tries follow each other at once. Then the pauses begin at a tenth of a millisecond, far below the time waited
+// so far and far above a switch of processes. So a rank that waits while the first one reads and cuts a graph takes
+// almost no processor time.
 void pause(int tries) {
   constexpr int at_once = 200;
   constexpr int shortest = 100, longest = 10000;  // microseconds
@@ -62,7 +63,7 @@ void Ranks::wait() {
 }
 
 void Ranks::agree(Failure failure, const std::string& error) {
-  // The first rank that failed, and how: each has a number of its own, greater for ranks that come before.
+  // The first rank that failed, and how. Each rank has its own number, greater for ranks that come before.
   const std::int64_t behind = count_ - rank_;
   std::array<std::int64_t, 1> first{failure == Failure::none ? 0 : 2 * behind + (failure == Failure::usage ? 1 : 0)};
   maximum(first);
@@ -102,23 +103,23 @@ void Ranks::broadcast(Bytes& bytes) {
 void Ranks::post_send(int to, const Bytes& bytes) {
   ++traffic_.messages;
   traffic_.bytes += static_cast<std::int64_t>(bytes.size());
-  for (std::size_t at = 0; at < bytes.size(); at += longest_piece) {
+  for (std::size_t at = 0; at < bytes.size(); at += longest_message) {
     requests_.emplace_back();
-    MPI_Isend(bytes.data() + at, static_cast<int>(std::min(longest_piece, bytes.size() - at)), MPI_CHAR, to, tag,
+    MPI_Isend(bytes.data() + at, static_cast<int>(std::min(longest_message, bytes.size() - at)), MPI_CHAR, to, tag,
               MPI_COMM_WORLD, &requests_.back());
   }
 }
 
-// As many bytes as there are.
+// Receives into all bytes of `bytes`.
 void Ranks::post_receive(int from, Bytes& bytes) {
-  for (std::size_t at = 0; at < bytes.size(); at += longest_piece) {
+  for (std::size_t at = 0; at < bytes.size(); at += longest_message) {
     requests_.emplace_back();
-    MPI_Irecv(bytes.data() + at, static_cast<int>(std::min(longest_piece, bytes.size() - at)), MPI_CHAR, from, tag,
+    MPI_Irecv(bytes.data() + at, static_cast<int>(std::min(longest_message, bytes.size() - at)), MPI_CHAR, from, tag,
               MPI_COMM_WORLD, &requests_.back());
   }
 }
 
-std::vector<Bytes> Ranks::exchange(std::vector<Bytes> to) {
+std::vector<Bytes> Ranks::all_to_all(std::vector<Bytes> to) {
   std::vector<std::int64_t> sizes(to.size()), coming(to.size());
   std::ranges::transform(to, sizes.begin(), [](const Bytes& bytes) { return static_cast<std::int64_t>(bytes.size()); });
   ++traffic_.collectives;
@@ -138,7 +139,7 @@ std::vector<Bytes> Ranks::exchange(std::vector<Bytes> to) {
   return from;
 }
 
-std::vector<Bytes> Ranks::exchange(std::span<const int> partners, const std::vector<Bytes>& to) {
+std::vector<Bytes> Ranks::all_to_all(std::span<const int> partners, const std::vector<Bytes>& to) {
   std::vector<std::int64_t> sizes(partners.size()), coming(partners.size());
   for (std::size_t i = 0; i < partners.size(); ++i) {
     sizes[i] = static_cast<std::int64_t>(to[i].size());

@@ -78,9 +78,9 @@ class Ranks {
 
   // to[r] goes to rank r; returns what came from each rank. For the few times when any rank may have data for any
   // other.
-  std::vector<Bytes> exchange(std::vector<Bytes> to);
+  std::vector<Bytes> all_to_all(std::vector<Bytes> to);
   // to[i] goes to partners[i], which must have this rank among its partners, too; returns what came from each partner.
-  std::vector<Bytes> exchange(std::span<const int> partners, const std::vector<Bytes>& to);
+  std::vector<Bytes> all_to_all(std::span<const int> partners, const std::vector<Bytes>& to);
   // Sends to one rank, which has to call receive.
   void send(int to, const Bytes& bytes);
   Bytes receive(int from);

@@ -1,8 +1,7 @@
-// Quick reductions take a vertex or leave out a neighbour of it, for reasons that lie in the neighbourhood of one
-// vertex. Where that neighbourhood is in one block, decisions of other blocks at the same time do not change the
-// reason. So blocks need not hear of each other until all are done, and the result does not depend on the number of
-// ranks.
-#include "tools/lns-mpi/reduce.hpp"
+// Quick reductions take a vertex or leave out a neighbour of it, for reasons within the neighbourhood of one vertex. If
+// that neighbourhood is in one block, decisions of other blocks at the same time do not change the reason. So blocks
+// need not hear of each other until all are done, and the result does not depend on the number of ranks.
+#include "tools/lns-mpi/rounds.hpp"
 
 #include <algorithm>
 
@@ -12,31 +11,31 @@ namespace hexpipe::lns_mpi {
 namespace {
 
 struct BlockGraph {
-  std::vector<std::int32_t> vertices;  // of the piece, ascending
+  std::vector<std::int32_t> vertices;  // of the local graph, ascending
   graph::ConflictGraph graph;
   std::vector<char> incomplete;  // has neighbours in other blocks
 };
 
-// `number` is -1 everywhere, and again in the end.
-BlockGraph graph_of(const Piece& piece, std::vector<std::int32_t> vertices, std::vector<std::int32_t>& number) {
+// `number` is no_index everywhere, before and after.
+BlockGraph graph_of(const LocalGraph& local, std::vector<std::int32_t> vertices, std::vector<std::int32_t>& number) {
   BlockGraph block;
   block.vertices = std::move(vertices);
   for (std::size_t i = 0; i < block.vertices.size(); ++i) number[block.vertices[i]] = static_cast<std::int32_t>(i);
   for (const std::int32_t v : block.vertices) {
     block.incomplete.push_back(0);
-    for (const std::int32_t u : piece.graph.neighbours_of(v))
-      if (number[u] >= 0)
+    for (const std::int32_t u : local.graph.neighbours_of(v))
+      if (number[u] != no_index)
         block.graph.neighbours.push_back(number[u]);
       else
         block.incomplete.back() = 1;
     block.graph.offsets.push_back(static_cast<std::int64_t>(block.graph.neighbours.size()));
-    block.graph.weights.push_back(piece.graph.weights[v]);
+    block.graph.weights.push_back(local.graph.weights[v]);
   }
-  for (const std::int32_t v : block.vertices) number[v] = -1;
+  for (const std::int32_t v : block.vertices) number[v] = no_index;
   return block;
 }
 
-void decide(Piece& piece, const BlockGraph& block, const Deadline& deadline) {
+void decide(LocalGraph& local, const BlockGraph& block, const Deadline& deadline) {
   mwis::reduce::ReductionLog log;
   mwis::reduce::Reducer reducer(block.graph, log, block.incomplete);
   reducer.run(mwis::reduce::ReductionEffort::quick, deadline);
@@ -44,47 +43,47 @@ void decide(Piece& piece, const BlockGraph& block, const Deadline& deadline) {
   log.lift(taken);
   for (std::size_t i = 0; i < block.vertices.size(); ++i) {
     if (reducer.graph().alive(static_cast<std::int32_t>(i))) continue;
-    piece.decided[block.vertices[i]] = 1;
-    piece.chosen[block.vertices[i]] = taken[i];
+    local.decided[block.vertices[i]] = 1;
+    local.chosen[block.vertices[i]] = taken[i];
   }
 }
 
 // Sends partners the decisions on shared vertices, by place in the list that both have.
-void tell_partners(Ranks& ranks, Piece& piece) {
+void tell_partners(Ranks& ranks, LocalGraph& local) {
   struct Decision {
     std::uint32_t place, taken;
   };
   std::vector<int> to;
   std::vector<Bytes> news;
-  for (const Piece::Partner& partner : piece.partners) {
+  for (const LocalGraph::Partner& partner : local.partners) {
     Packer packer;
     for (std::size_t i = 0; i < partner.shared.size(); ++i) {
       const std::int32_t v = partner.shared[i];
-      if (piece.owns(v) && piece.decided[v] != 0) packer.put(Decision{static_cast<std::uint32_t>(i), piece.chosen[v]});
+      if (local.owns(v) && local.decided[v] != 0) packer.put(Decision{static_cast<std::uint32_t>(i), local.chosen[v]});
     }
     to.push_back(partner.rank);
     news.push_back(packer.take());
   }
-  const std::vector<Bytes> heard = ranks.exchange(to, news);
+  const std::vector<Bytes> heard = ranks.all_to_all(to, news);
   for (std::size_t i = 0; i < heard.size(); ++i)
     for (Unpacker unpacker(heard[i]); !unpacker.at_end();) {
       const auto decision = unpacker.get<Decision>();
-      const std::int32_t v = piece.partners[i].shared[decision.place];
-      piece.decided[v] = 1;
-      piece.chosen[v] = static_cast<std::uint8_t>(decision.taken);
+      const std::int32_t v = local.partners[i].shared[decision.place];
+      local.decided[v] = 1;
+      local.chosen[v] = static_cast<std::uint8_t>(decision.taken);
     }
 }
 
 }  // namespace
 
-void reduce_blocks(Ranks& ranks, Piece& piece, const Deadline& deadline) {
-  const std::int32_t first = piece.owners.first_of(piece.rank), last = piece.owners.first_of(piece.rank + 1);
+void reduce_blocks(Ranks& ranks, LocalGraph& local, const Deadline& deadline) {
+  const std::int32_t first = local.owners.first_of(local.rank), last = local.owners.first_of(local.rank + 1);
   std::vector<std::vector<std::int32_t>> vertices(static_cast<std::size_t>(last - first));
-  for (std::int32_t v = 0; v < piece.vertex_count(); ++v)
-    if (piece.owns(v)) vertices[piece.block[v] - first].push_back(v);
-  std::vector<std::int32_t> number(piece.keys.size(), -1);
-  for (auto& block : vertices) decide(piece, graph_of(piece, std::move(block), number), deadline);
-  tell_partners(ranks, piece);
+  for (std::int32_t v = 0; v < local.vertex_count(); ++v)
+    if (local.owns(v)) vertices[local.block[v] - first].push_back(v);
+  std::vector<std::int32_t> number(local.keys.size(), no_index);
+  for (auto& block : vertices) decide(local, graph_of(local, std::move(block), number), deadline);
+  tell_partners(ranks, local);
 }
 
 }  // namespace hexpipe::lns_mpi

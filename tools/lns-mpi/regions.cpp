@@ -7,57 +7,57 @@
 
 namespace hexpipe::lns_mpi {
 
-Regions::Regions(const Piece& piece, std::uint64_t seed, std::int64_t round)
-    : piece_(piece), priority_(static_cast<std::size_t>(piece.owners.blocks())) {
+Regions::Regions(const LocalGraph& local, std::uint64_t seed, std::int64_t round)
+    : local_(local), priority_(static_cast<std::size_t>(local.owners.blocks())) {
   std::iota(priority_.begin(), priority_.end(), 0);
   Random(seed, static_cast<std::uint64_t>(round)).shuffle(std::span(priority_));
 
-  const std::int32_t first = piece.owners.first_of(piece.rank), last = piece.owners.first_of(piece.rank + 1);
+  const std::int32_t first = local.owners.first_of(local.rank), last = local.owners.first_of(local.rank + 1);
   may_change_.resize(static_cast<std::size_t>(last - first));
-  block_ = piece.block;
-  for (std::int32_t v = 0; v < piece.vertex_count(); ++v)
-    for (const NearBlock& near : piece.near_of(v))
-      if (near.distance <= piece.overlap && priority_[near.block] < priority_[block_[v]]) block_[v] = near.block;
-  for (std::int32_t v = 0; v < piece.vertex_count(); ++v)
-    if (block_[v] >= first && block_[v] < last && piece.decided[v] == 0 && !stays(v))
+  block_ = local.block;
+  for (std::int32_t v = 0; v < local.vertex_count(); ++v)
+    for (const NearBlock& near : local.near_of(v))
+      if (near.distance <= local.overlap && priority_[near.block] < priority_[block_[v]]) block_[v] = near.block;
+  for (std::int32_t v = 0; v < local.vertex_count(); ++v)
+    if (block_[v] >= first && block_[v] < last && local.decided[v] == 0 && !stays(v))
       may_change_[block_[v] - first].push_back(v);
-  number_.assign(piece.keys.size(), -1);
+  number_.assign(local.keys.size(), no_index);
 }
 
-// A neighbour belongs to a block that comes before. Vertices with no other block near have none.
+// Whether a neighbour belongs to an earlier block. A vertex with no other block nearby has none.
 bool Regions::stays(std::int32_t v) const {
-  if (piece_.near_of(v).empty()) return false;
-  return std::ranges::any_of(piece_.graph.neighbours_of(v),
+  if (local_.near_of(v).empty()) return false;
+  return std::ranges::any_of(local_.graph.neighbours_of(v),
                              [&](std::int32_t u) { return priority_[block_[u]] < priority_[block_[v]]; });
 }
 
-// By a chosen vertex outside of the region.
+// Whether a chosen vertex outside of the region blocks v.
 bool Regions::is_blocked(std::int32_t v) const {
-  return std::ranges::any_of(piece_.graph.neighbours_of(v),
-                             [&](std::int32_t u) { return piece_.chosen[u] != 0 && number_[u] < 0; });
+  return std::ranges::any_of(local_.graph.neighbours_of(v),
+                             [&](std::int32_t u) { return local_.chosen[u] != 0 && number_[u] == no_index; });
 }
 
 Region Regions::extract(std::int32_t block) {
   Region region;
-  const auto& inside = may_change_[block - piece_.owners.first_of(piece_.rank)];
+  const auto& inside = may_change_[block - local_.owners.first_of(local_.rank)];
   for (const std::int32_t v : inside) number_[v] = 0;
   for (const std::int32_t v : inside)
     if (!is_blocked(v)) region.vertices.push_back(v);
-  for (const std::int32_t v : inside) number_[v] = -1;
+  for (const std::int32_t v : inside) number_[v] = no_index;
   for (std::size_t i = 0; i < region.vertices.size(); ++i) number_[region.vertices[i]] = static_cast<std::int32_t>(i);
   for (std::size_t i = 0; i < region.vertices.size(); ++i) {
     const std::int32_t v = region.vertices[i];
-    if (piece_.chosen[v] != 0) region.chosen.push_back(static_cast<std::int32_t>(i));
-    region.graph.weights.push_back(piece_.graph.weights[v]);
+    if (local_.chosen[v] != 0) region.chosen.push_back(static_cast<std::int32_t>(i));
+    region.graph.weights.push_back(local_.graph.weights[v]);
     region.at_edge.push_back(0);
-    for (const std::int32_t u : piece_.graph.neighbours_of(v))
-      if (number_[u] >= 0)
+    for (const std::int32_t u : local_.graph.neighbours_of(v))
+      if (number_[u] != no_index)
         region.graph.neighbours.push_back(number_[u]);
-      else if (piece_.decided[u] == 0)
+      else if (local_.decided[u] == 0)
         region.at_edge.back() = 1;
     region.graph.offsets.push_back(static_cast<std::int64_t>(region.graph.neighbours.size()));
   }
-  for (const std::int32_t v : region.vertices) number_[v] = -1;
+  for (const std::int32_t v : region.vertices) number_[v] = no_index;
   return region;
 }
 

@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "tools/lns-mpi/piece.hpp"
+#include "tools/lns-mpi/local_graph.hpp"
 
 namespace hexpipe::lns_mpi {
 
 // The vertices that may be chosen in a region while everything around it stays.
 struct Region {
-  std::vector<std::int32_t> vertices;  // of the piece, ascending
+  std::vector<std::int32_t> vertices;  // of the local graph, ascending
   graph::ConflictGraph graph;          // of these, numbered in this order
   graph::IndependentSet chosen;
   std::vector<char> at_edge;  // has a neighbour that another region may change, in this round or in another one
@@ -22,7 +22,7 @@ struct Region {
 class Regions {
  public:
   // Every rank draws the same order.
-  Regions(const Piece& piece, std::uint64_t seed, std::int64_t round);
+  Regions(const LocalGraph& local, std::uint64_t seed, std::int64_t round);
 
   // The region of one of the rank's own blocks.
   Region extract(std::int32_t block);
@@ -31,11 +31,11 @@ class Regions {
   bool stays(std::int32_t v) const;
   bool is_blocked(std::int32_t v) const;
 
-  const Piece& piece_;
+  const LocalGraph& local_;
   std::vector<std::uint64_t> priority_;                // of each block, all different
   std::vector<std::int32_t> block_;                    // of each vertex, in this round
   std::vector<std::vector<std::int32_t>> may_change_;  // by block of the rank's own
-  std::vector<std::int32_t> number_;                   // in the region that is extracted
+  std::vector<std::int32_t> number_;                   // by vertex: its number in the region that is extracted
 };
 
 }  // namespace hexpipe::lns_mpi

@@ -7,7 +7,6 @@
 
 #include "common/mwis/ground/solution_state.hpp"
 #include "common/run/random.hpp"
-#include "tools/lns-mpi/reduce.hpp"
 #include "tools/lns-mpi/regions.hpp"
 
 namespace hexpipe::lns_mpi {
@@ -21,26 +20,26 @@ constexpr double share_for_reductions = 0.1;
 // The search ends after this many rounds in which no region was improved.
 constexpr std::int64_t most_quiet_rounds = 10;
 
-std::int64_t own_weight(const Piece& piece) {
+std::int64_t own_weight(const LocalGraph& local) {
   std::int64_t sum = 0;
-  for (std::int32_t v = 0; v < piece.vertex_count(); ++v)
-    if (piece.chosen[v] != 0 && piece.owns(v)) sum += piece.graph.weights[v];
+  for (std::int32_t v = 0; v < local.vertex_count(); ++v)
+    if (local.chosen[v] != 0 && local.owns(v)) sum += local.graph.weights[v];
   return sum;
 }
 
 class Rounds {
  public:
-  Rounds(Ranks& ranks, Piece& piece, const RoundsOptions& options, const Deadline& deadline, RoundsProgress& progress,
-         std::vector<BlockMemory>& memories)
+  Rounds(Ranks& ranks, LocalGraph& local, const RoundsOptions& options, const Deadline& deadline,
+         RoundsProgress& progress, std::vector<BlockMemory>& memories)
       : ranks_(ranks),
-        piece_(piece),
+        local_(local),
         options_(options),
         deadline_(deadline),
         progress_(progress),
         memories_(memories),
-        block_sizes_(static_cast<std::size_t>(piece.owners.blocks()), 0) {
-    for (std::int32_t v = 0; v < piece.vertex_count(); ++v)
-      if (piece.owns(v)) ++block_sizes_[piece.block[v]];
+        block_sizes_(static_cast<std::size_t>(local.owners.blocks()), 0) {
+    for (std::int32_t v = 0; v < local.vertex_count(); ++v)
+      if (local.owns(v)) ++block_sizes_[local.block[v]];
     ranks_.sum(block_sizes_);
     for (const std::int64_t size : block_sizes_) vertices_ += size;
     round_seconds_ = std::isfinite(deadline.remaining()) ? std::min(longest_round, round_share * deadline.remaining())
@@ -51,16 +50,16 @@ class Rounds {
   void make_independent() {
     changed_.clear();
     const auto outweighs = [&](std::int32_t u, std::int32_t v) {
-      const auto& weights = piece_.graph.weights;
-      return piece_.chosen[u] != 0 && (weights[u] != weights[v] ? weights[u] > weights[v] : u < v);
+      const auto& weights = local_.graph.weights;
+      return local_.chosen[u] != 0 && (weights[u] != weights[v] ? weights[u] > weights[v] : u < v);
     };
-    for (std::int32_t v = 0; v < piece_.vertex_count(); ++v)
-      if (piece_.chosen[v] != 0 && piece_.owns(v) &&
-          std::ranges::any_of(piece_.graph.neighbours_of(v), [&](std::int32_t u) { return outweighs(u, v); }))
+    for (std::int32_t v = 0; v < local_.vertex_count(); ++v)
+      if (local_.chosen[v] != 0 && local_.owns(v) &&
+          std::ranges::any_of(local_.graph.neighbours_of(v), [&](std::int32_t u) { return outweighs(u, v); }))
         changed_.push_back(v);
-    for (const std::int32_t v : changed_) piece_.chosen[v] = 0;
+    for (const std::int32_t v : changed_) local_.chosen[v] = 0;
     tell_partners();
-    progress_.weight = total_weight(ranks_, piece_);
+    progress_.weight = total_weight(ranks_, local_);
   }
 
   bool goes_on() const {
@@ -69,17 +68,17 @@ class Rounds {
   }
 
   void keep_given() {
-    given_ = piece_.chosen;
+    given_ = local_.chosen;
     given_weight_ = progress_.weight;
   }
 
   void take_up(const std::vector<std::uint64_t>& keys) {
     changed_.clear();
-    for (std::int32_t v = 0; v < piece_.vertex_count(); ++v) {
-      if (!piece_.owns(v)) continue;
-      const std::uint8_t chosen = std::ranges::binary_search(keys, piece_.keys[v]) ? 1 : 0;
-      if (chosen == piece_.chosen[v]) continue;
-      piece_.chosen[v] = chosen;
+    for (std::int32_t v = 0; v < local_.vertex_count(); ++v) {
+      if (!local_.owns(v)) continue;
+      const std::uint8_t chosen = std::ranges::binary_search(keys, local_.keys[v]) ? 1 : 0;
+      if (chosen == local_.chosen[v]) continue;
+      local_.chosen[v] = chosen;
       changed_.push_back(v);
     }
     tell_partners();
@@ -88,36 +87,36 @@ class Rounds {
 
   void reduce() {
     const double left = deadline_.remaining();
-    reduce_blocks(ranks_, piece_, std::isfinite(left) ? Deadline(share_for_reductions * left) : Deadline());
-    progress_.weight = total_weight(ranks_, piece_);
+    reduce_blocks(ranks_, local_, std::isfinite(left) ? Deadline(share_for_reductions * left) : Deadline());
+    progress_.weight = total_weight(ranks_, local_);
   }
 
   // Takes vertices that have no chosen neighbour: reductions left them out, or a search that ended early left them
   // where borders were. The solution may then still be lighter than the given one, as reductions cost weight at first.
   void complete() {
-    std::ranges::fill(piece_.decided, 0);
+    std::ranges::fill(local_.decided, 0);
     make_maximal();
     if (progress_.weight >= given_weight_) return;
-    piece_.chosen = given_;
+    local_.chosen = given_;
     make_maximal();
   }
 
   void make_maximal() {
     for (std::int64_t round = progress_.round; count_free() > 0; ++round) {
-      Regions regions(piece_, options_.search.seed, round);
+      Regions regions(local_, options_.search.seed, round);
       changed_.clear();
-      const std::int32_t first = piece_.owners.first_of(piece_.rank), last = piece_.owners.first_of(piece_.rank + 1);
+      const std::int32_t first = local_.owners.first_of(local_.rank), last = local_.owners.first_of(local_.rank + 1);
       for (std::int32_t b = first; b < last; ++b) add_free(regions.extract(b));
       tell_partners();
     }
-    progress_.weight = total_weight(ranks_, piece_);
+    progress_.weight = total_weight(ranks_, local_);
   }
 
   RoundCosts run_one() {
     RoundCosts costs;
     const Traffic before = ranks_.traffic();
     const Stopwatch watch;
-    Regions regions(piece_, options_.search.seed, progress_.round);
+    Regions regions(local_, options_.search.seed, progress_.round);
     changed_.clear();
     improvements_ = iterations_ = unproven_ = 0;
     search_own(regions);
@@ -130,12 +129,12 @@ class Rounds {
   }
 
  private:
-  // On all ranks.
+  // The number on all ranks.
   std::int64_t count_free() {
     std::array<std::int64_t, 1> count{0};
-    for (std::int32_t v = 0; v < piece_.vertex_count(); ++v)
-      if (piece_.chosen[v] == 0 && piece_.owns(v) &&
-          std::ranges::none_of(piece_.graph.neighbours_of(v), [&](std::int32_t u) { return piece_.chosen[u] != 0; }))
+    for (std::int32_t v = 0; v < local_.vertex_count(); ++v)
+      if (local_.chosen[v] == 0 && local_.owns(v) &&
+          std::ranges::none_of(local_.graph.neighbours_of(v), [&](std::int32_t u) { return local_.chosen[u] != 0; }))
         ++count[0];
     ranks_.sum(count);
     return count[0];
@@ -147,7 +146,7 @@ class Rounds {
     put_back(region, state.to_set());
   }
 
-  // The round's fragments up to a block, by the vertices up to there.
+  // The number of fragments of this round up to a block, in proportion to the vertices up to there.
   std::int64_t allotment() const {
     const std::int64_t wanted = std::max<std::int64_t>(options_.fragments_a_round * vertices_ / 1000, 1);
     return std::min(wanted, options_.search.iterations - progress_.allotted);
@@ -158,7 +157,7 @@ class Rounds {
   }
 
   void search_own(Regions& regions) {
-    const std::int32_t first = piece_.owners.first_of(piece_.rank), last = piece_.owners.first_of(piece_.rank + 1);
+    const std::int32_t first = local_.owners.first_of(local_.rank), last = local_.owners.first_of(local_.rank + 1);
     const Stopwatch watch;
     std::int64_t own = 0, before = 0;
     for (std::int32_t b = first; b < last; ++b) own += block_sizes_[b];
@@ -170,7 +169,7 @@ class Rounds {
           std::isfinite(left)
               ? Deadline(left * static_cast<double>(size) / static_cast<double>(std::max<std::int64_t>(own, 1)))
               : Deadline();
-      // A limit in time alone has no fragments to share.
+      // A time limit alone gives no number of fragments to share.
       const bool timed_alone = options_.search.iterations == std::numeric_limits<std::int64_t>::max();
       const std::int64_t fragments = timed_alone && std::isfinite(left)
                                          ? options_.search.iterations
@@ -187,16 +186,16 @@ class Rounds {
       return;
     }
     const Region region = regions.extract(block);
-    BlockMemory& known = memories_[block - piece_.owners.first_of(piece_.rank)];
+    BlockMemory& known = memories_[block - local_.owners.first_of(local_.rank)];
     mwis::local_search::LnsOptions options = options_.search;
     options.iterations = fragments;
     options.target = std::numeric_limits<std::int64_t>::max();
-    // Places that came to this block with the round begin with the size that fragments have reached elsewhere in it.
+    // Places that are new to this block begin with the size that fragments have reached elsewhere in it.
     if (known.usual_size() > 0) options.fragment_size = known.usual_size();
-    // Another number for every region.
+    // A different seed for every region.
     options.seed =
         Random(options.seed, static_cast<std::uint64_t>(progress_.round)).next() + static_cast<std::uint64_t>(block);
-    mwis::local_search::LnsMemory memory = known.recall(region, piece_.keys);
+    mwis::local_search::LnsMemory memory = known.recall(region, local_.keys);
     std::vector<std::int32_t> fragment;
     const auto report = [&](const mwis::local_search::LnsProgress& now) {
       if (!options_.improved) return;
@@ -206,7 +205,7 @@ class Rounds {
     };
     const mwis::local_search::LnsResult result =
         mwis::local_search::continue_lns(region.graph, region.chosen, options, deadline, memory, report);
-    known.remember(memory, region, piece_.keys);
+    known.remember(memory, region, local_.keys);
     iterations_ += result.iterations;
     improvements_ += result.improvements;
     unproven_ += result.complete ? 0 : 1;
@@ -218,7 +217,7 @@ class Rounds {
     std::ranges::set_symmetric_difference(region.chosen, solution, std::back_inserter(changed_));
     for (std::size_t i = before; i < changed_.size(); ++i) {
       changed_[i] = region.vertices[changed_[i]];
-      piece_.chosen[changed_[i]] ^= 1;
+      local_.chosen[changed_[i]] ^= 1;
     }
   }
 
@@ -227,7 +226,7 @@ class Rounds {
     std::ranges::sort(changed_);
     std::vector<int> to;
     std::vector<Bytes> news;
-    for (const Piece::Partner& partner : piece_.partners) {
+    for (const LocalGraph::Partner& partner : local_.partners) {
       Packer packer;
       auto at = partner.shared.begin();
       for (const std::int32_t v : changed_) {
@@ -238,14 +237,14 @@ class Rounds {
       to.push_back(partner.rank);
       news.push_back(packer.take());
     }
-    const std::vector<Bytes> heard = ranks_.exchange(to, news);
+    const std::vector<Bytes> heard = ranks_.all_to_all(to, news);
     for (std::size_t i = 0; i < heard.size(); ++i)
       for (Unpacker unpacker(heard[i]); !unpacker.at_end();)
-        piece_.chosen[piece_.partners[i].shared[unpacker.get<std::uint32_t>()]] ^= 1;
+        local_.chosen[local_.partners[i].shared[unpacker.get<std::uint32_t>()]] ^= 1;
   }
 
   void put_together() {
-    std::array<std::int64_t, 5> sums{own_weight(piece_), iterations_, improvements_, unproven_,
+    std::array<std::int64_t, 5> sums{own_weight(local_), iterations_, improvements_, unproven_,
                                      stop_requested() || deadline_.passed() ? 1 : 0};
     const std::int64_t allotted = allotment();
     ranks_.sum(sums);
@@ -259,7 +258,7 @@ class Rounds {
   }
 
   Ranks& ranks_;
-  Piece& piece_;
+  LocalGraph& local_;
   const RoundsOptions& options_;
   const Deadline& deadline_;
   RoundsProgress& progress_;
@@ -269,26 +268,26 @@ class Rounds {
   double round_seconds_ = 0;
   std::vector<std::uint8_t> given_;  // the solution that the run began with
   std::int64_t given_weight_ = 0;
-  std::vector<std::int32_t> changed_;  // vertices of the piece, in this round
+  std::vector<std::int32_t> changed_;  // vertices of the local graph, in this round
   std::int64_t iterations_ = 0, improvements_ = 0, unproven_ = 0;
   bool stopped_ = false;
 };
 
 }  // namespace
 
-std::int64_t total_weight(Ranks& ranks, const Piece& piece) {
-  std::array<std::int64_t, 1> sum{own_weight(piece)};
+std::int64_t total_weight(Ranks& ranks, const LocalGraph& local) {
+  std::array<std::int64_t, 1> sum{own_weight(local)};
   ranks.sum(sum);
   return sum[0];
 }
 
-void improve_in_rounds(Ranks& ranks, Piece& piece, const RoundsOptions& options, const Deadline& deadline,
+void improve_in_rounds(Ranks& ranks, LocalGraph& local, const RoundsOptions& options, const Deadline& deadline,
                        const std::optional<std::vector<std::uint64_t>>& earlier, RoundsProgress& progress,
                        std::vector<BlockMemory>& memories,
                        const std::function<void(const RoundsProgress&, const RoundCosts&, bool)>& report) {
-  const std::int32_t blocks = piece.owners.first_of(piece.rank + 1) - piece.owners.first_of(piece.rank);
+  const std::int32_t blocks = local.owners.first_of(local.rank + 1) - local.owners.first_of(local.rank);
   memories.resize(static_cast<std::size_t>(blocks));
-  Rounds rounds(ranks, piece, options, deadline, progress, memories);
+  Rounds rounds(ranks, local, options, deadline, progress, memories);
   std::array<std::int64_t, 1> passed{deadline.passed() ? 1 : 0};
   ranks.maximum(passed);
   rounds.make_independent();

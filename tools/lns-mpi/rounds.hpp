@@ -16,7 +16,7 @@
 #include "common/mwis/local_search/lns.hpp"
 #include "common/run/deadline.hpp"
 #include "tools/lns-mpi/block_memory.hpp"
-#include "tools/lns-mpi/piece.hpp"
+#include "tools/lns-mpi/local_graph.hpp"
 #include "tools/lns-mpi/ranks.hpp"
 
 namespace hexpipe::lns_mpi {
@@ -24,7 +24,7 @@ namespace hexpipe::lns_mpi {
 struct RoundsOptions {
   mwis::local_search::LnsOptions search;  // `iterations` and `target` over all rounds and blocks
   std::int64_t fragments_a_round = 20;    // for a thousand vertices of the whole graph
-  // Called with each fragment that this rank improved, as vertices of the piece; may be empty.
+  // Called with each fragment that this rank improved, as vertices of the local graph; may be empty.
   std::function<void(std::span<const std::int32_t>)> improved;
 };
 
@@ -44,17 +44,21 @@ struct RoundCosts {
   Traffic traffic;
 };
 
-// Begins with the solution in `piece`, or goes on from `progress` with the choice of an `earlier` run (its keys,
+// In each block alone, takes or leaves out the vertices that can be decided without search, so that some heaviest
+// solution agrees. The solution may lose a little until the search has caught up. All ranks call this together.
+void reduce_blocks(Ranks& ranks, LocalGraph& local, const Deadline& deadline);
+
+// Begins with the solution in `local`, or continues from `progress` with the choice of an `earlier` run (its keys,
 // ascending, of at least the vertices that this rank owns). A search that was stopped in between has the same result,
-// which is not lighter than the solution in `piece`. Chosen vertices may be neighbours where they are in different
-// blocks. `memories` has an entry for each block of this rank, in order; it is empty before the search. `report` is
-// called after every round on all ranks, and its last argument is true after the last round.
-void improve_in_rounds(Ranks& ranks, Piece& piece, const RoundsOptions& options, const Deadline& deadline,
+// which is not lighter than the solution in `local`. Chosen vertices may be neighbours if they are in different blocks.
+// `memories` has an entry for each block of this rank, in order; it is empty before the search. `report` is called
+// after every round on all ranks; its last argument is true after the last round.
+void improve_in_rounds(Ranks& ranks, LocalGraph& local, const RoundsOptions& options, const Deadline& deadline,
                        const std::optional<std::vector<std::uint64_t>>& earlier, RoundsProgress& progress,
                        std::vector<BlockMemory>& memories,
                        const std::function<void(const RoundsProgress&, const RoundCosts&, bool)>& report);
 
 // The weight of all vertices that are chosen, on all ranks together.
-std::int64_t total_weight(Ranks& ranks, const Piece& piece);
+std::int64_t total_weight(Ranks& ranks, const LocalGraph& local);
 
 }  // namespace hexpipe::lns_mpi

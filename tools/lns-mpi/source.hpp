@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "common/graph/conflict_graph.hpp"
 #include "common/run/run_context.hpp"
-#include "tools/lns-mpi/piece.hpp"
+#include "tools/lns-mpi/local_graph.hpp"
 #include "tools/lns-mpi/ranks.hpp"
 
 namespace hexpipe::lns_mpi {
@@ -20,7 +21,7 @@ class Source {
   virtual ~Source() = default;
   // All ranks call these together. Throws on all of them when one cannot read or write.
   virtual OwnedRows read(Ranks& ranks) = 0;
-  virtual void write(Ranks& ranks, const Piece& piece, const nlohmann::ordered_json& details) = 0;
+  virtual void write(Ranks& ranks, const LocalGraph& local, const nlohmann::ordered_json& details) = 0;
 
   // Valid after read(), the same on all ranks.
   std::int32_t blocks() const { return blocks_; }
@@ -31,6 +32,12 @@ class Source {
   std::int32_t blocks_ = 0;
   std::optional<std::int64_t> bound_;
 };
+
+// Cuts a conflict graph into blocks of about the same size, with few edges between them.
+//
+// The block of each vertex. Every block from 0 on is used unless there are fewer vertices. Depends only on the graph
+// and the number of blocks.
+std::vector<std::int32_t> cut_into_blocks(const graph::ConflictGraph& graph, std::int32_t blocks);
 
 // The first rank reads the graph and cuts it into `blocks` blocks (0: as many as its size asks for), and sends the
 // other ranks theirs.

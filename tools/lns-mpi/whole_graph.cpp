@@ -5,7 +5,6 @@
 
 #include "common/mwis/ground/target_weight.hpp"
 #include "formats/pipeline/stage.hpp"
-#include "tools/lns-mpi/cut.hpp"
 #include "tools/lns-mpi/source.hpp"
 
 namespace hexpipe::lns_mpi {
@@ -23,13 +22,13 @@ Bytes pack(const OwnedRows& rows) {
   return packer.take();
 }
 
-// Regions large enough for the search to have room, and as many as a small machine has processors.
+// Regions are large enough to give the search room, and as many as a small machine has processors.
 std::int32_t usual_blocks(std::int64_t vertices) {
   constexpr std::int64_t least = 4, most = 1 << 20, vertices_a_block = 50000;
   return static_cast<std::int32_t>(std::clamp(vertices / vertices_a_block, least, most));
 }
 
-// On the first rank: sends the others their rows and returns its own. The numbers of the vertices are their keys.
+// For the first rank: sends the others their rows and returns its own. The numbers of the vertices are their keys.
 OwnedRows scatter_rows(Ranks& ranks, const BlockOwners& owners, const graph::ConflictGraph& graph,
                        const graph::IndependentSet& solution, const std::vector<std::int32_t>& blocks) {
   std::vector<std::uint8_t> chosen(graph.weights.size(), 0);
@@ -54,7 +53,7 @@ OwnedRows scatter_rows(Ranks& ranks, const BlockOwners& owners, const graph::Con
   return rows_of(0);
 }
 
-// On the other ranks.
+// For the other ranks.
 OwnedRows receive_rows(Ranks& ranks) {
   const Bytes bytes = ranks.receive(0);
   OwnedRows rows;
@@ -64,21 +63,21 @@ OwnedRows receive_rows(Ranks& ranks) {
   return rows;
 }
 
-// The first gets the whole solution, the others nothing.
-graph::IndependentSet gather_solution(Ranks& ranks, const Piece& piece) {
+// The first rank gets the whole solution, the others nothing.
+graph::IndependentSet gather_solution(Ranks& ranks, const LocalGraph& local) {
   Packer packer;
-  for (std::int32_t v = 0; v < piece.vertex_count(); ++v)
-    if (piece.chosen[v] != 0 && piece.owns(v)) packer.put(static_cast<std::int32_t>(piece.keys[v]));
+  for (std::int32_t v = 0; v < local.vertex_count(); ++v)
+    if (local.chosen[v] != 0 && local.owns(v)) packer.put(static_cast<std::int32_t>(local.keys[v]));
   std::vector<Bytes> to(static_cast<std::size_t>(ranks.count()));
   to[0] = packer.take();
   graph::IndependentSet solution;
-  for (const Bytes& bytes : ranks.exchange(std::move(to)))
+  for (const Bytes& bytes : ranks.all_to_all(std::move(to)))
     for (Unpacker unpacker(bytes); !unpacker.at_end();) solution.push_back(unpacker.get<std::int32_t>());
   std::ranges::sort(solution);
   return solution;
 }
 
-// As it is sent; a bound is never below 0.
+// The value that is sent for it; a bound is never negative.
 constexpr std::int64_t unknown_bound = -1;
 
 class WholeGraph : public Source {
@@ -111,8 +110,8 @@ class WholeGraph : public Source {
     return scatter_rows(ranks, BlockOwners(blocks_, ranks.count()), *data.graph, *data.solution, cut);
   }
 
-  void write(Ranks& ranks, const Piece& piece, const nlohmann::ordered_json& details) override {
-    const pipeline::SolutionProduct product{gather_solution(ranks, piece)};
+  void write(Ranks& ranks, const LocalGraph& local, const nlohmann::ordered_json& details) override {
+    const pipeline::SolutionProduct product{gather_solution(ranks, local)};
     ranks.together([&] {
       if (ranks.is_first()) stage_->write(product, details);
     });

@@ -19,8 +19,8 @@ using namespace hexpipe;
 
 namespace {
 
-// Of a search that nobody limits. What each doubling of the time gains falls by half or more, so that what is left to
-// gain when it ends is about as much.
+// For a search without a limit. Each doubling of the time gains half as much or less, so about this share is left to
+// gain when the search ends.
 constexpr double usual_worth = 5e-5;
 
 }  // namespace
@@ -42,8 +42,8 @@ int main(int argc, char** argv) {
   const auto declare = [&](CLI::App& app) {
     mwis::declare_lns_options(app, options, target);
     app.add_option("--worth", worth,
-                   "End when the last half of the search gained less than this share of the weight [5e-5 where neither "
-                   "--time-limit nor --iterations is given, else 0: go on to the limit]")
+                   "End when the last half of the search gained less than this share of the weight [5e-5 if neither "
+                   "--time-limit nor --iterations is given, otherwise 0: go on to the limit]")
         ->type_name("SHARE")
         ->check(number_between(0, 1));
     outside_history(

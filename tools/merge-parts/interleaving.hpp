@@ -91,6 +91,9 @@ class RowWriter {
   std::vector<T> block_;
 };
 
+// A change for the functions below that leaves rows as they are.
+inline constexpr auto unchanged = [](std::size_t, const auto& row) { return row; };
+
 // Writes the member at which all parts stand, with change(part, row) in place of each row.
 template <class T, class Change>
 void merge_rows(PartReaders& parts, const Interleaving& order, pipeline::BundleWriter& out, Change&& change) {

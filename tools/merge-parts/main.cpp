@@ -2,7 +2,7 @@
 
 #include "common/run/error.hpp"
 #include "common/run/tool_main.hpp"
-#include "tools/merge-parts/merge_parts.hpp"
+#include "tools/merge-parts/merges.hpp"
 
 using namespace hexpipe;
 using namespace hexpipe::merge_parts;

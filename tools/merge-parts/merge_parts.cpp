@@ -1,4 +1,3 @@
-#include "tools/merge-parts/merge_parts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

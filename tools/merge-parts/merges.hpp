@@ -5,9 +5,15 @@
 #include <vector>
 
 #include "formats/pipeline/bundle.hpp"
+#include "tools/merge-parts/options.hpp"
 #include "tools/merge-parts/part_reader.hpp"
 
 namespace hexpipe::merge_parts {
+
+// The first bundle tells the kind of all: pieces that assemble made, parts of a mesh, or shares . Throws
+// UsageError when the output cannot be written in the form that its name asks for, and DataError when the bundles do
+// not belong together.
+void merge_parts(const MergePartsOptions& options);
 
 // Puts together the parts of a mesh, in any order: the mesh, and its candidates, graph and solution where they are
 // there. Writes what a single run would have written, except the end of the archive. Every part has to be there once,

@@ -1,5 +1,5 @@
 #pragma once
-// Finds the numbers in the whole of what a part has.
+// Finds the numbers in the whole mesh of the items that a part has.
 
 #include <cstdint>
 #include <vector>

@@ -19,9 +19,7 @@
 namespace hexpipe::merge_parts {
 namespace {
 
-constexpr auto unchanged = [](std::size_t, const auto& row) { return row; };
-
-// Rows of vertices, tets or candidates in the numbers of the whole; -1 stays.
+// Rows of vertices, tets or candidates in the numbers of the whole; no_index stays.
 class Renumber {
  public:
   // Throws DataError when the numbers are still to come.
@@ -99,7 +97,7 @@ class Merger {
                           "expected members of mesh, candidates, graph and solution, found one that cannot be merged");
   }
 
-  // Takes a member that only parts have; false when it is another one.
+  // Takes a member that only parts have; false if it is another member.
   bool take_about_part(const std::string& name);
   bool merge_names(const std::string& name);
   bool merge_mesh(const std::string& name);
@@ -147,7 +145,7 @@ bool Merger::take_about_part(const std::string& name) {
   return true;
 }
 
-// All parts have those of the whole.
+// All parts have the names of the whole.
 bool Merger::merge_names(const std::string& name) {
   if (name != formats::names_member) return false;
   const std::string text = parts_.front().bundle().read_text();
@@ -177,7 +175,7 @@ bool Merger::merge_mesh(const std::string& name) {
   return true;
 }
 
-// A part has those between its points; the whole lists them by their vertices (medit.cpp).
+// A part has the ridges between its points; the whole lists them by their vertices (medit.cpp).
 void Merger::merge_ridges() {
   const Renumber renumber = to_points();
   std::vector<Ridge> ridges;

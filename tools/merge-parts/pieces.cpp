@@ -104,7 +104,7 @@ class Joiner {
     each_block(piece.mesh, [&](auto member) { append(mesh_.*member, piece.mesh.*member, begin); });
   }
 
-  // Points in the order of their numbers; those of several pieces are one.
+  // Points in the order of their numbers; a point that several pieces have is one.
   MixedMesh take() {
     std::ranges::sort(points_, {}, [](const Point& p) { return std::tie(p.number, p.place); });
     std::vector<Vertex> places(points_.size());

@@ -21,7 +21,7 @@ SeamCheck::Facet SeamCheck::facet_of(const MeshPiece& piece, const Vertex* corne
   const auto least =
       static_cast<std::size_t>(std::min_element(number.begin(), number.begin() + count) - number.begin());
   const std::int64_t next = number[(least + 1) % count], last = number[(least + count - 1) % count];
-  return {number[least], count == 4 ? number[(least + 2) % 4] : -1, std::min(next, last), std::max(next, last)};
+  return {number[least], count == 4 ? number[(least + 2) % 4] : no_index, std::min(next, last), std::max(next, last)};
 }
 
 void SeamCheck::add(const MixedMesh& mesh, const MeshPiece& piece, const std::string& source) {

@@ -22,8 +22,8 @@ class SeamCheck {
   void end() const;
 
  private:
-  // The points of a facet by their numbers in the whole: the lowest, the one opposite to it (-1 in a triangle), and the
-  // other two ascending.
+  // The points of a facet by their numbers in the whole: the lowest, the one opposite to it (no_index in a triangle),
+  // and the other two ascending.
   using Facet = std::array<std::int64_t, 4>;
   struct Hash {
     std::size_t operator()(const Facet& facet) const;

@@ -19,8 +19,6 @@
 namespace hexpipe::merge_parts {
 namespace {
 
-constexpr auto unchanged = [](std::size_t, const auto& row) { return row; };
-
 // The role that is in shares: its members are the last ones before the last history entry.
 struct Shared {
   std::string folder;      // "candidates/" or "graph/"
@@ -34,7 +32,7 @@ Shared look_through(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     std::error_code unknown;
     if (!std::filesystem::is_regular_file(path, unknown))
-      throw DataError::at(path, "expected a file, for shares and pieces are read twice, found a pipe or a device");
+      throw DataError::at(path, "expected a file, because shares and pieces are read twice, found a pipe or a device");
     PartReader part(path);
     std::string last;
     std::vector<std::uint8_t> kinds;

@@ -3,7 +3,7 @@
 // scheme for irregular graphs (J. Parallel Distrib. Comput. 48, 1998), by their METIS; it may leave a part empty, which
 // gets a tet of the largest one here.
 
-#include "tools/mesh-part/partition.hpp"
+#include "tools/mesh-part/mesh_cutter.hpp"
 
 #include <metis.h>
 
@@ -28,7 +28,7 @@ DualGraph dual_graph(const TetAdjacency& adjacency, std::int64_t tet_count) {
   graph.neighbours.reserve(4 * tet_count);
   for (std::int64_t t = 0; t < tet_count; ++t) {
     for (const std::int32_t beyond : adjacency.tets_beyond(static_cast<std::int32_t>(t)))
-      if (beyond != TetAdjacency::none) graph.neighbours.push_back(beyond);
+      if (beyond != no_index) graph.neighbours.push_back(beyond);
     graph.offsets.push_back(static_cast<idx_t>(graph.neighbours.size()));
   }
   return graph;

@@ -1,21 +1,23 @@
 #pragma once
-// A CAD model as it was read: bodies, and names of shapes.
+// A CAD model: how it is read (STEP, IGES and BREP, recognized by content), its bodies, and the names of its shapes.
 
 #include <TopoDS_Shape.hxx>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "formats/streams/input.hpp"
+
 namespace hexpipe::tessellate {
 
-// Names by what shapes are, wherever they stand: the faces of all instances of a part have one name.
+// Names by shape, wherever the shape is placed: the faces of all instances of a part have the same name.
 class ShapeNames {
  public:
   // The first name stays.
   void set(const TopoDS_Shape& shape, std::string name) {
     if (!shape.IsNull() && !name.empty()) names_.try_emplace(shape.TShape().get(), Entry{shape, std::move(name)});
   }
-  // Empty: it has none.
+  // Empty if it has no name.
   std::string of(const TopoDS_Shape& shape) const {
     const auto found = shape.IsNull() ? names_.end() : names_.find(shape.TShape().get());
     return found == names_.end() ? std::string() : found->second.name;
@@ -34,18 +36,32 @@ struct CadBody {
   std::string name;  // may be empty
 };
 
-// How long a unit is.
+// The length of a unit.
 struct LengthUnit {
   std::string name = "millimetre";
   double millimetres = 1;
 };
 
 struct CadModel {
-  std::vector<CadBody> bodies;  // in millimetres, or in the file's own unit where it names none
+  std::vector<CadBody> bodies;  // in millimetres, or in the file's own unit if it names none
   ShapeNames names;             // of faces and edges
   LengthUnit unit;              // of the file
   bool names_unit = true;
   std::vector<std::string> warnings;  // what was healed or left out
 };
+
+// Throws DataError if the file is empty, cut off, not CAD, or without bodies. Closed shells and faces that can be sewn
+// to such become bodies, with a warning.
+CadModel read_cad(formats::Input& input);
+
+// For files without solids: closed shells become bodies, loose faces are sewn. Throws DataError if that gives nothing
+// closed.
+void make_bodies(const TopoDS_Shape& whole, const std::string& source, CadModel& model);
+
+// Heals the bodies that OpenCASCADE finds faulty, with a warning.
+void heal_bodies(CadModel& model);
+
+// Lets bodies that touch share their common faces, edges and vertices. Throws DataError for bodies that overlap.
+void join_bodies(const std::string& source, CadModel& model);
 
 }  // namespace hexpipe::tessellate

@@ -28,7 +28,7 @@ formats::Input open_cad(const std::string& path) {
   return formats::Input::open(path);
 }
 
-// Empty: a bundle.
+// Empty for a bundle.
 std::string_view format_of(const std::string& path) {
   const bool to_stdout = path.empty() || path == "-";
   if (to_stdout && isatty(STDOUT_FILENO))
@@ -66,7 +66,8 @@ int main(int argc, char** argv) {
   std::string path = "-", output_path;
   bool compress = false;
   const auto declare = [&](CLI::App& app) {
-    app.add_option("cad", path, "A file in STEP, IGES or BREP; '-' or nothing: standard input")->type_name("FILE");
+    app.add_option("cad", path, "A file in STEP, IGES or BREP; standard input if it is '-' or missing")
+        ->type_name("FILE");
     app.add_option("--deviation", options.deviation,
                    "How far triangles may be from the CAD's surface [a hundredth of the size that tetmesh chooses]")
         ->check(number_between(1e-12, 1e12))
@@ -75,7 +76,7 @@ int main(int argc, char** argv) {
         ->check(number_between(1, 60));
     app.add_option("--unit", options.unit, "Write lengths in metres or millimetres [the file's own unit]")
         ->check(CLI::IsMember({"m", "mm"}));
-    app.add_flag("--join", options.join, "Bodies that touch share the faces, edges and corners where they do");
+    app.add_flag("--join", options.join, "Let bodies that touch share their common faces, edges and corners");
     outside_history(
         app.add_option("-o,--output", output_path, "Write to a file, not to standard output: .tar, .obj, .stl or .msh"))
         ->type_name("FILE");

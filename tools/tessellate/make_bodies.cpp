@@ -1,4 +1,4 @@
-#include "tools/tessellate/make_bodies.hpp"
+#include "tools/tessellate/cad_model.hpp"
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@
 namespace hexpipe::tessellate {
 namespace {
 
-// Edges of loose faces nearer than that, as a part of the diagonal, are one.
+// Edges of loose faces within this share of the diagonal are one.
 constexpr double sewing_tolerance = 1e-5;
 
 int count_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum type) {
@@ -72,7 +72,7 @@ int add_closed_shells(const TopoDS_Shape& shape, CadModel& model) {
   return open;
 }
 
-// Names go from the parts of a shape to those that a change made of them.
+// Passes names from the parts of a shape to the parts that a change made of them.
 template <class ChangeOf>
 void carry_names(const TopoDS_Shape& shape, ShapeNames& names, ChangeOf&& changed) {
   for (const TopAbs_ShapeEnum type : {TopAbs_FACE, TopAbs_EDGE})

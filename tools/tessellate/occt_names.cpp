@@ -32,7 +32,7 @@ bool has_own_name(const TopoDS_Shape& shape) {
   return type == TopAbs_FACE || type == TopAbs_EDGE || type == TopAbs_SOLID;
 }
 
-// #rrggbb as screens have it.
+// #rrggbb, in the colours of screens.
 std::string name_of_colour(const Quantity_Color& colour) {
   Standard_Real red = 0, green = 0, blue = 0;
   colour.Values(red, green, blue, Quantity_TOC_sRGB);
@@ -120,7 +120,7 @@ class BodyCollector {
 
 std::string cad_name(const std::string& text) {
   std::string name = formats::clean_name(text);
-  // What OpenCASCADE and NX write where there is none.
+  // OpenCASCADE and NX write these if there is no name.
   const bool is_none = name == "NONE" || name.starts_with("=>[") || name.starts_with("Open CASCADE STEP translator");
   return is_none ? std::string() : name;
 }

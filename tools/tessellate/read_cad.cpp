@@ -1,4 +1,4 @@
-#include "tools/tessellate/read_cad.hpp"
+#include "tools/tessellate/cad_model.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -25,7 +25,6 @@
 
 #include "common/run/error.hpp"
 #include "formats/streams/text_scanner.hpp"
-#include "tools/tessellate/make_bodies.hpp"
 #include "tools/tessellate/occt_names.hpp"
 
 namespace hexpipe::tessellate {
@@ -43,12 +42,12 @@ bool looks_like_brep(std::string_view bytes) {
   return bytes.starts_with("DBRep_DrawableShape") || bytes.starts_with("CASCADE Topology");
 }
 
-// Blanks and comments behind the last word do not count.
+// Blanks and comments after the last word do not count.
 bool ends_with_word(std::string_view bytes, std::string_view word) {
   return bytes.substr(bytes.size() - std::min<std::size_t>(bytes.size(), 4096)).rfind(word) != std::string_view::npos;
 }
 
-// By a part of its name, in STEP and IGES.
+// Recognized by a part of its name in STEP and IGES.
 LengthUnit unit_named(std::string name) {
   std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   struct Known {

@@ -8,14 +8,13 @@
 #include <iostream>
 
 #include "common/run/error.hpp"
-#include "tools/tessellate/make_bodies.hpp"
-#include "tools/tessellate/read_cad.hpp"
+#include "tools/tessellate/cad_model.hpp"
 #include "tools/tessellate/triangulate.hpp"
 
 namespace hexpipe::tessellate {
 namespace {
 
-// What OpenCASCADE has to say goes to standard output, where the bundle goes.
+// OpenCASCADE prints its messages to standard output, where the bundle goes.
 class SilentOpenCascade {
  public:
   SilentOpenCascade() : buffer_(std::cout.rdbuf(nullptr)) { Message::DefaultMessenger()->ChangePrinters().Clear(); }

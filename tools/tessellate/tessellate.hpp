@@ -1,5 +1,5 @@
 #pragma once
-// From a CAD file to the surface that stands for it.
+// From a CAD file to a surface of triangles.
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -15,14 +15,14 @@ struct TessellateOptions {
   std::optional<double> deviation = {};  // in the units that are written; nothing: a hundredth of tetmesh's size
   double angle = 15;                     // degrees
   std::optional<std::string> unit = {};  // m or mm; nothing: the file's own
-  bool join = false;                     // bodies that touch share what they have in common
+  bool join = false;                     // bodies that touch share their common faces, edges and vertices
 };
 
 struct TessellateResult {
   formats::SurfaceSoup surface;
   std::size_t bodies = 0, faces = 0, curves = 0;
   double deviation = 0;  // in the units that are written
-  std::string unit;      // of what is written; empty where the file names none
+  std::string unit;      // of the output; empty if the file names none
   std::vector<std::string> warnings;
 };
 

@@ -1,5 +1,5 @@
-// Each face has triangles of its own, whose nodes along an edge OpenCASCADE lists in the order of the edge. So nodes of
-// neighbours are made one by the edges and vertices that the faces share, never by their distance.
+// Each face has triangles of its own, and OpenCASCADE lists their nodes along an edge in the order of the edge. So
+// nodes of neighbouring faces become one by the edges and vertices that the faces share, never because they are close.
 
 #include "tools/tessellate/triangulate.hpp"
 
@@ -52,7 +52,7 @@ double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
 }
 
-// Numbers that become one.
+// Numbers of which some become one.
 class UnionFind {
  public:
   std::int32_t add() {
@@ -96,7 +96,7 @@ class Triangulator {
   }
 
  private:
-  // Of a face that has been triangulated.
+  // The nodes of a face that has been triangulated.
   struct FaceNodes {
     std::int32_t first = 0;  // number of its first node
     std::vector<std::size_t> triangles;
@@ -153,7 +153,7 @@ std::string Triangulator::title_of(const TopoDS_Face& face) const {
   return fmt::format("face {}{}", faces_.FindIndex(face), name.empty() ? "" : fmt::format(" ('{}')", name));
 }
 
-// Whether the surface goes on over the edge without a bend. One of a single face is a seam.
+// Whether the surface goes on over the edge without a bend. An edge of a single face is a seam.
 bool Triangulator::is_smooth(const TopoDS_Edge& edge, const TopTools_ListOfShape& faces) const {
   if (faces.Extent() > 2) return false;
   const TopoDS_Face one = TopoDS::Face(faces.First()), other = TopoDS::Face(faces.Last());
@@ -161,7 +161,7 @@ bool Triangulator::is_smooth(const TopoDS_Edge& edge, const TopTools_ListOfShape
   return BRepLib::ContinuityOfFaces(edge, one, other, radians(options_.smooth_angle)) >= GeomAbs_G1;
 }
 
-// One tag for a name, and one for faces without a name that run on smoothly.
+// One tag for each name, and one for each group of faces without a name that continue each other smoothly.
 void Triangulator::choose_tags() {
   UnionFind pieces;
   for (int i = 0; i < faces_.Extent(); ++i) pieces.add();
@@ -189,7 +189,7 @@ void Triangulator::add_body(std::size_t body) {
   const std::size_t first = result_.surface.triangles.size();
   for (TopExp_Explorer face(model_.bodies[body].solid, TopAbs_FACE); face.More(); face.Next())
     add_face(TopoDS::Face(face.Current()), region);
-  // A solid whose faces point inward. Of one that shares faces with another, the orientation is right.
+  // A solid's faces may point inward. A solid that shares faces with another one has the right orientation.
   double volume = 0;
   bool is_alone = true;
   for (std::size_t i = first; i < result_.surface.triangles.size(); ++i) {
@@ -206,7 +206,8 @@ void Triangulator::add_face(const TopoDS_Face& face, std::int32_t region) {
   if (face.Orientation() == TopAbs_INTERNAL || face.Orientation() == TopAbs_EXTERNAL) return;
   const int number = faces_.FindIndex(face);
   if (const auto found = done_.find(number); found != done_.end()) {
-    // Of the body on the other side, or, where that is the same, a wall inside, which goes.
+    // The triangles of the body on the other side get this region. If it is the same body, they are a wall inside and
+    // go.
     for (const std::size_t t : found->second.triangles) {
       auto& sides = result_.surface.sides[t];
       sides = sides[0] == region ? std::array<std::int32_t, 2>{0, 0} : std::array<std::int32_t, 2>{sides[0], region};
@@ -298,7 +299,8 @@ void Triangulator::add_curves() {
   }
 }
 
-// Nodes that are one become one point; triangles of less than three points, at poles, go, and walls inside.
+// Nodes that are one become one point. Triangles with fewer than three points, which occur at poles, go, and so do
+// walls inside.
 void Triangulator::number_points() {
   formats::SurfaceSoup& surface = result_.surface;
   std::vector<Vertex> number(nodes_.size(), -1);
@@ -330,7 +332,7 @@ void Triangulator::number_points() {
   std::iota(surface.places.begin(), surface.places.end(), 1);
 }
 
-// Those on walls inside.
+// Drops the curves on walls inside.
 void Triangulator::drop_curves_without_triangles(const std::vector<Vertex>& number) {
   formats::SurfaceSoup& surface = result_.surface;
   KeySet<2> edges;
@@ -347,7 +349,7 @@ void Triangulator::drop_curves_without_triangles(const std::vector<Vertex>& numb
   surface.curve_tags.resize(kept);
 }
 
-// Around each region, edges have as many triangles one way round as the other.
+// Around each region, every edge has as many triangles in one direction as in the other.
 void Triangulator::check_closed() const {
   const formats::SurfaceSoup& surface = result_.surface;
   struct Balance {

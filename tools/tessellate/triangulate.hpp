@@ -1,5 +1,5 @@
 #pragma once
-// Triangles of a CAD model: near enough to its surface, and the same along an edge for all faces that meet there.
+// Triangles of a CAD model: close to its surface, and the same along an edge for all faces that meet there.
 
 #include <optional>
 #include <string>
@@ -12,7 +12,7 @@ namespace hexpipe::tessellate {
 struct TriangulationOptions {
   std::optional<double> deviation = {};  // nothing: a hundredth of the size that tetmesh would choose
   double angle = 15;                     // degrees, between neighbours on a smooth face
-  double smooth_angle = 2;               // degrees: a curve between faces that differ by no more is none
+  double smooth_angle = 2;               // degrees: a curve between faces that differ by no more does not count
 };
 
 struct Triangulation {
@@ -21,10 +21,10 @@ struct Triangulation {
   double deviation = 0;
 };
 
-// The distance of points that suits the bodies, as tetmesh chooses it.
+// The suitable distance of points for the bodies, as tetmesh chooses it.
 double default_size_of(const CadModel& model);
 
-// Throws DataError where a face cannot be triangulated, or its triangles leave a gap.
+// Throws DataError if a face cannot be triangulated, or its triangles leave a gap.
 Triangulation triangulate(const CadModel& model, const TriangulationOptions& options, const std::string& source);
 
 }  // namespace hexpipe::tessellate

@@ -30,7 +30,7 @@ std::string obj_name(const std::string& name, std::vector<std::string>& changes)
   std::ranges::replace_if(
       result, [](char c) { return c == ' ' || c == '#'; }, '_');
   if (result != name)
-    changes.push_back(fmt::format("the name '{}' is written as {}, for OBJ has no blanks", name, result));
+    changes.push_back(fmt::format("the name '{}' is written as {}, because OBJ has no blanks", name, result));
   return result;
 }
 

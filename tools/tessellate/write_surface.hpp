@@ -1,5 +1,5 @@
 #pragma once
-// Surfaces in files for other people's meshers.
+// Writes surfaces to files for other meshers.
 
 #include <string>
 #include <string_view>
@@ -10,11 +10,11 @@
 
 namespace hexpipe::tessellate {
 
-// obj, stl and msh, by the ending of a file.
+// The endings of files: obj, stl and msh.
 const std::vector<std::string_view>& surface_format_names();
 
-// OBJ: a group for each tag; STL: a solid in ASCII for each; .msh: physical surfaces. Returns what had to be changed of
-// the names, in sentences.
+// OBJ: a group for each tag. STL: a solid in ASCII for each. .msh: physical surfaces. Returns, in sentences, how names
+// had to be changed.
 std::vector<std::string> write_surface(const formats::SurfaceSoup& surface, std::string_view format,
                                        formats::Output& output);
 

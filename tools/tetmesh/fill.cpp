@@ -9,11 +9,9 @@
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/sizing/wall_thickness.hpp"
-#include "tools/tetmesh/solid/part_axes.hpp"
+#include "tools/tetmesh/solid/model_axes.hpp"
 #include "tools/tetmesh/surface/edge_splitting.hpp"
-#include "tools/tetmesh/tetgen/build_mesh.hpp"
-#include "tools/tetmesh/tetgen/mesh_shape.hpp"
+#include "tools/tetmesh/surface/surface_remesh.hpp"
 #include "tools/tetmesh/tetgen/run_tetgen.hpp"
 #include "tools/tetmesh/volume/frame_points.hpp"
 #include "tools/tetmesh/volume/given_points.hpp"
@@ -23,11 +21,14 @@
 namespace hexpipe::tetmesh {
 namespace {
 
-// A point given by the user may come as near to the surface as TetGen can bear.
+using volume::places_points;
+using volume::PointKind;
+
+// Points that the user gives may come as near to the surface as TetGen can bear.
 constexpr double clearance_of_given = 1e-3;  // in sizes
 
-// Of 31 meshes of eleven parts the lattice won only with less than a seventh of the frames turned, or with few tets,
-// where an estimate takes no time.
+// In 31 meshes of eleven models the lattice won only where less than a seventh of the frames was turned, or where there
+// were few tets. With few tets an estimate takes no time.
 constexpr double much_turned = 0.2;
 constexpr std::size_t few_tets = 8000;
 
@@ -43,57 +44,59 @@ class StepWatch {
   Stopwatch watch_;
 };
 
-// TetGen fails on some surfaces of nearly coplanar slivers, by a crash or by losing triangles, in one order of its
-// input and not in another. Of 36 meshes of a CAD tessellation turned out of the axes 9 failed at the first run; the
-// worst needed 6.
+// TetGen fails on some surfaces with slivers that are nearly coplanar: it crashes or loses triangles. With the same
+// input in another order it succeeds. 9 of 36 meshes of a turned CAD tessellation failed at the first run; the worst
+// needed 6 runs.
 constexpr int most_runs = 16;
-// From this one on they are strict, for shells that nearly touch: two cubes on each other, 1e-9 apart, failed at all
-// others.
+// Runs from this number on are strict, for shells that nearly touch: two cubes on top of each other, 1e-9 apart, failed
+// at all other runs.
 constexpr int first_strict_run = 8;
 
 class Filler {
  public:
-  Filler(const solid::Surface& given, const TetmeshOptions& options, sizing::SizeField size)
-      : given_(given), options_(options), size_(std::move(size)) {
+  Filler(const solid::Surface& given, const sizing::SizeDemand& demand, sizing::SizeField size,
+         const FillOptions& options)
+      : given_(given), demand_(demand), size_(std::move(size)), options_(options) {
     statistics_.size = size_.greatest();
     if (!size_.is_uniform()) statistics_.least_size = size_.least();
   }
 
-  FilledSurface fill(bool estimates);
+  FilledSurface fill();
 
  private:
-  // False where no new surface can be made, and the warning says why.
+  // Returns false where no new surface can be made; the warning says why.
   bool fill_new_surface();
   void fill_given_surface();
   void place_points();
   void try_frame_points();
-  // Called while TetGen is at work; false when its mesh is not wanted any more.
+  // Is called while TetGen is at work, and returns false when its mesh is no longer wanted.
   using Meanwhile = std::function<bool()>;
   std::optional<tetgen::BuiltMesh> tetrahedralize(std::span<const Vec3> points, const Meanwhile& meanwhile);
   void describe(const surface::RemeshResult& remeshed);
   const solid::Surface& given_;
-  const TetmeshOptions& options_;
+  const sizing::SizeDemand& demand_;
   const sizing::SizeField size_;
-  TetmeshResult result_;
-  TetmeshStatistics& statistics_ = result_.statistics;
+  const FillOptions& options_;
+  TetmeshStatistics statistics_;
+  std::optional<volume::LinePieces> dislocations_;
+  std::vector<std::string> warnings_;
   StepWatch watch_;
 
   std::optional<surface::RemeshResult> remeshed_;
-  std::optional<solid::Surface> cut_;        // of a surface in sheets, triangles of about the size
-  const solid::Surface* surface_ = &given_;  // that is filled
-  solid::Axes axes_{};                       // of the part
+  std::optional<solid::Surface> cut_;        // a surface in sheets with its triangles cut to about the size
+  const solid::Surface* surface_ = &given_;  // the surface that is filled
+  solid::Axes axes_{};                       // of the model
   std::vector<Vec3> points_;                 // inside
   std::optional<std::string> points_left_out_;
   std::optional<tetgen::BuiltMesh> built_;
 };
 
-FilledSurface Filler::fill(bool estimates) {
-  const bool makes_new = options_.surface == SurfaceKind::remesh && !given_.has_sheets;
-  if (!makes_new || !fill_new_surface()) fill_given_surface();
-  if (points_left_out_) result_.warnings.push_back(*points_left_out_);
+FilledSurface Filler::fill() {
+  if (!options_.remesh || !fill_new_surface()) fill_given_surface();
+  if (points_left_out_) warnings_.push_back(*points_left_out_);
   if (options_.points == PointKind::given && built_->dropped_points > 0)
-    result_.warnings.push_back(fmt::format("{}: TetGen left out {} of {} points inside, too near to others",
-                                           options_.given_points.name, built_->dropped_points, points_.size()));
+    warnings_.push_back(fmt::format("{}: TetGen left out {} of {} points inside, too near to others",
+                                    options_.given_points.name, built_->dropped_points, points_.size()));
   statistics_.points_kept = places_points(options_.points) ? PointKind::lattice : options_.points;
   statistics_.interior_points = points_.size();
   if (options_.points == PointKind::frame || options_.points == PointKind::best) {
@@ -101,10 +104,10 @@ FilledSurface Filler::fill(bool estimates) {
       try_frame_points();
     } catch (const tetgen::TetGenFailure& failure) {
       if (options_.points == PointKind::frame) throw;
-      result_.warnings.push_back(fmt::format("the points along the frame field are left out: {}", failure.what()));
+      warnings_.push_back(fmt::format("the points along the frame field are left out: {}", failure.what()));
     }
   }
-  if (estimates) {
+  if (options_.estimates) {
     const auto& known =
         statistics_.points_kept == PointKind::frame ? statistics_.frame_hex_share : statistics_.lattice_hex_share;
     statistics_.hex_share = known ? *known : volume::estimate_hex_share(built_->mesh, built_->adjacency);
@@ -113,15 +116,19 @@ FilledSurface Filler::fill(bool estimates) {
   std::optional<solid::Surface> made;
   if (remeshed_ && surface_ == &remeshed_->surface) made = std::move(remeshed_->surface);
   if (cut_) made = std::move(cut_);
-  return {std::move(made), size_, *std::move(built_), std::move(result_)};
+  return {std::move(made),         size_, *std::move(built_), std::move(statistics_), std::move(warnings_),
+          std::move(dislocations_)};
 }
 
-// TetGen is at work on the new surface while that is judged. It may fail on that and not on the given one, whose points
-// are elsewhere.
+// TetGen works on the new surface while this thread judges that surface. TetGen may fail on the new surface and not on
+// the given one, because their points differ.
 bool Filler::fill_new_surface() {
-  // What a size may take is nothing beside the part, unless that is thinner than a size.
-  const bool walls_count = !options_.layers && !surface::asks_for_too_many_points(given_, size_);
-  const sizing::SizeField unit = walls_count ? size_field(given_, options_, size_.greatest(), 1) : size_;
+  // A deviation in sizes is small beside the model, unless a wall is thinner than a size: then the wall's thickness
+  // counts.
+  const bool walls_count = !demand_.layers && !surface::asks_for_too_many_points(given_, size_);
+  sizing::SizeDemand one_layer = demand_;
+  one_layer.layers = 1;
+  const sizing::SizeField unit = walls_count ? sizing::field_of(given_, std::move(one_layer)) : size_;
   surface::SurfaceRemesher remesher(given_,
                                     {size_, options_.feature_angle, options_.deviation, unit, options_.row_stretch});
   std::string failure;
@@ -146,21 +153,22 @@ bool Filler::fill_new_surface() {
     surface_ = &remeshed_->surface;
     describe(*remeshed_);
   } else {
-    result_.warnings.push_back(
-        fmt::format("the surface is kept as it is: {}", failure.empty() ? remeshed_->failure : failure));
+    warnings_.push_back(fmt::format("the surface is {}: {}",
+                                    given_.has_sheets ? "only cut to the size" : "kept as it is",
+                                    failure.empty() ? remeshed_->failure : failure));
   }
   return built_.has_value();
 }
 
 void Filler::fill_given_surface() {
-  if (options_.surface == SurfaceKind::remesh && given_.has_sheets) {
+  if (options_.remesh && given_.has_sheets) {
     cut_.emplace(surface::split_long_edges(given_, size_));
     watch_.add_to(statistics_.seconds.remeshing);
   }
   surface_ = cut_ ? &*cut_ : &given_;
-  if (options_.points != PointKind::none && result_.warnings.empty()) {
+  if (options_.points != PointKind::none && warnings_.empty()) {
     const auto complaint = sizing::fit_to_size(*surface_, size_).complaint(statistics_.size);
-    if (complaint) result_.warnings.push_back(*complaint);
+    if (complaint) warnings_.push_back(*complaint);
   }
   place_points();
   built_ = tetrahedralize(points_, [] { return true; });
@@ -168,7 +176,7 @@ void Filler::fill_given_surface() {
 
 void Filler::place_points() {
   if (places_points(options_.points)) {
-    axes_ = solid::axes_of_part(*surface_, options_.feature_angle);
+    axes_ = solid::axes_of_model(*surface_, options_.feature_angle);
     points_ = volume::graded_lattice_points(*surface_, size_,
                                             {.clearance = options_.clearance,
                                              .jitter = options_.jitter.value_or(volume::LatticeOptions{}.jitter),
@@ -184,7 +192,7 @@ void Filler::place_points() {
   watch_.add_to(statistics_.seconds.placing);
 }
 
-// From the mesh with the lattice's points, which stays where it is the better one.
+// Starts from the mesh with the lattice's points, and keeps that mesh if it is the better one.
 void Filler::try_frame_points() {
   const volume::FramePoints frame =
       volume::frame_points(*surface_, built_->mesh, built_->adjacency,
@@ -211,12 +219,15 @@ void Filler::try_frame_points() {
   }
   built_ = std::move(bent);
   statistics_.interior_points = frame.points.size();
+  const volume::Dislocations& lines = frame.dislocations;
+  statistics_.dislocations = {lines.length, lines.at_singularities, lines.closed, lines.surface_ends};
+  dislocations_ = lines.pieces;
   statistics_.points_kept = PointKind::frame;
 }
 
-// Nothing where the mesh is not wanted.
+// Returns nothing where the mesh is not wanted.
 std::optional<tetgen::BuiltMesh> Filler::tetrahedralize(std::span<const Vec3> points, const Meanwhile& meanwhile) {
-  // With one thread, one after the other.
+  // With one thread, TetGen and the other work follow each other.
   const bool at_once = thread_count() > 1;
   if (!at_once && !meanwhile()) return std::nullopt;
   const Deadline deadline(options_.tetgen_timeout);
@@ -252,6 +263,7 @@ void Filler::describe(const surface::RemeshResult& remeshed) {
   statistics_.distance_to_input = remeshed.to_input;
   statistics_.distance_from_input = remeshed.from_input;
   statistics_.extra_points = remeshed.extra_points;
+  statistics_.row_ends = remeshed.row_ends;
 }
 
 }  // namespace
@@ -260,37 +272,9 @@ bool frame_plainly_wins(bool remeshed, double turned_share, std::size_t tets) {
   return remeshed && turned_share > much_turned && tets > few_tets;
 }
 
-sizing::SizeField size_field(const solid::Surface& surface, const TetmeshOptions& options, double greatest,
-                             std::optional<int> layers) {
-  sizing::SizeSources sources = options.size_sources;
-  if (layers) sources.prisms = sizing::wall_sizes(surface, greatest, *layers);
-  return {std::move(sources), greatest, options.grading};
-}
-
-FilledSurface fill(const solid::Surface& given, const TetmeshOptions& options, sizing::SizeField size, bool estimates) {
-  return Filler(given, options, std::move(size)).fill(estimates);
-}
-
-TetmeshResult finish(FilledSurface filled, const solid::Surface& given) {
-  const Stopwatch watch;
-  const solid::Surface& surface = filled.surface(given);
-  const tetgen::BuiltMesh& built = filled.built;
-  TetmeshStatistics& s = filled.result.statistics;
-  const tetgen::MeshShape shape = tetgen::shape_of(built.mesh);
-  s.surface_points = surface.points.size();
-  s.surface_triangles = surface.triangles.size();
-  s.shells = surface.shells.size();
-  s.regions = static_cast<std::size_t>(surface.region_count);
-  s.points = built.mesh.points.size();
-  s.tets = built.mesh.tets.size();
-  s.added_points = built.added_points;
-  s.dropped_points = built.dropped_points;
-  s.volume = shape.volume;
-  s.least_dihedral = shape.least_dihedral;
-  s.greatest_dihedral = shape.greatest_dihedral;
-  filled.result.mesh = std::move(filled.built.mesh);
-  s.seconds.building += watch.seconds();
-  return std::move(filled.result);
+FilledSurface fill(const solid::Surface& given, const sizing::SizeDemand& demand, sizing::SizeField size,
+                   const FillOptions& options) {
+  return Filler(given, demand, std::move(size), options).fill();
 }
 
 }  // namespace hexpipe::tetmesh

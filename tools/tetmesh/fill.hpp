@@ -1,41 +1,53 @@
 #pragma once
 // From a surface that bounds a solid to a mesh: makes its triangles anew, places points inside, calls TetGen, and
-// places them again along the field that the first mesh carries.
+// places the points again along the frame field of the first mesh.
 
+#include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
-#include "tools/tetmesh/sizing/size_field.hpp"
+#include "formats/points/point_files.hpp"
+#include "tools/tetmesh/sizing/size_demand.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
+#include "tools/tetmesh/statistics.hpp"
 #include "tools/tetmesh/tetgen/build_mesh.hpp"
-#include "tools/tetmesh/tetmesh.hpp"
+#include "tools/tetmesh/volume/dislocations.hpp"
 
 namespace hexpipe::tetmesh {
 
-// The sizes given by place, and those of walls, if they count, for so many layers.
-sizing::SizeField size_field(const solid::Surface& surface, const TetmeshOptions& options, double greatest,
-                             std::optional<int> layers);
-
-// Whether it is plain that the points along the frame field give more hexes than the lattice's, so that nothing needs
-// to be estimated: where much of the part is turned out of the lattice's axes, on a surface made anew. `tets`: of the
-// mesh with the lattice's points.
-bool frame_plainly_wins(bool remeshed, double turned_share, std::size_t tets);
+struct FillOptions {
+  bool remesh = true;  // false: the surface's triangles stay
+  double feature_angle, deviation, row_stretch;
+  volume::PointKind points;
+  const formats::PointList& given_points;  // for PointKind::given
+  double clearance;                        // in sizes
+  std::optional<double> jitter;            // in sizes; nothing: the default of the kind of points
+  std::uint64_t seed;
+  double most_points;     // inside
+  double tetgen_timeout;  // seconds for all runs that make one mesh
+  bool estimates;         // fills in TetmeshStatistics::hex_share
+};
 
 // A mesh and what it was made of.
 struct FilledSurface {
   std::optional<solid::Surface> made_surface;  // nothing: the given one
   sizing::SizeField size;
   tetgen::BuiltMesh built;
-  TetmeshResult result;  // without the mesh, and what describes it
+  TetmeshStatistics statistics;  // without repair, seconds.checking, and the figures of surface and mesh
+  std::vector<std::string> warnings;
+  std::optional<volume::LinePieces> dislocations;  // of points along a frame field
 
   const solid::Surface& surface(const solid::Surface& given) const { return made_surface ? *made_surface : given; }
 };
 
-// `size` takes the place of options.size and is what size_field() makes of the others. With `estimates`,
-// TetmeshStatistics::hex_share is there. Of the statistics, repair and seconds.checking stay empty. Throws
-// TetGenFailure.
-FilledSurface fill(const solid::Surface& given, const TetmeshOptions& options, sizing::SizeField size, bool estimates);
+// `size` is field_of() the demand. Throws TetGenFailure.
+FilledSurface fill(const solid::Surface& given, const sizing::SizeDemand& demand, sizing::SizeField size,
+                   const FillOptions& options);
 
-// Describes the mesh, and moves it to where it is wanted.
-TetmeshResult finish(FilledSurface filled, const solid::Surface& given);
+// Whether the points along the frame field plainly give more hexes than the lattice's, so that no estimate is needed:
+// the surface was made anew, and much of the model is turned out of the lattice's axes. `tets` is the number of tets of
+// the mesh with the lattice's points.
+bool frame_plainly_wins(bool remeshed, double turned_share, std::size_t tets);
 
 }  // namespace hexpipe::tetmesh

@@ -14,12 +14,12 @@
 namespace hexpipe::tetmesh {
 namespace {
 
-// TetGen goes on for ever on a few meshes, and the others take about as long as each other: one that takes this many
-// times the mean of those before, and this many seconds, is given up.
+// TetGen never ends on a few meshes, and takes about the same time for all others. A run is given up when it has taken
+// this many times the mean of the runs before, and at least this many seconds.
 constexpr double most_times_the_mean = 50;
 constexpr double least_limit = 5;
 
-// Runs TetGen on many surfaces with points, as many at a time as there are threads.
+// Runs TetGen on many surfaces with points, one run for each thread at a time.
 class MeshMaker {
  public:
   MeshMaker(double tetgen_timeout, const Deadline& deadline, TetmeshStatistics& statistics)
@@ -43,7 +43,7 @@ void MeshMaker::make(std::span<const search::SurfaceWithPoints> all, const searc
   const auto start_more = [&] {
     while (running_.size() < at_once && started < all.size() && !deadline_.passed()) start(all[started++]);
   };
-  running_.clear();  // of a call that threw
+  running_.clear();  // left by a call that threw
   start_more();
   for (std::size_t number = 0; !running_.empty(); ++number) {
     const std::unique_ptr<tetgen::TetGenRun> run = std::move(running_.front());
@@ -52,11 +52,11 @@ void MeshMaker::make(std::span<const search::SurfaceWithPoints> all, const searc
       tetgen::TetGenResult made = run->wait();
       ++statistics_.tetgen_runs;
       statistics_.seconds.of_tetgen += made.seconds;
-      // While the mesh is judged here TetGen makes the next one, but with one thread.
+      // TetGen makes the next mesh while this one is judged, unless there is only one thread.
       if (at_once > 1) start_more();
       take(number, tetgen::build_mesh(all[number].surface, all[number].inside, std::move(made)));
     } catch (const DataError&) {
-      // It failed, or had not enough memory: the mesh that stands is good.
+      // TetGen failed or ran out of memory. The current mesh is still good.
     }
     start_more();
   }
@@ -78,17 +78,17 @@ double MeshMaker::seconds_for_a_run() const {
 
 }  // namespace
 
-void improve(FilledSurface& filled, const solid::Surface& given, const TetmeshOptions& options) {
+void improve(FilledSurface& filled, const solid::Surface& given, const ImproveOptions& options) {
   const Stopwatch watch;
   stop_searches_on_signal();
   const Deadline deadline(options.time_limit);
-  TetmeshStatistics& statistics = filled.result.statistics;
+  TetmeshStatistics& statistics = filled.statistics;
   MeshMaker maker(options.tetgen_timeout, deadline, statistics);
   search::PointSearchResult found = search::search_points(
       filled.surface(given), std::move(filled.built),
       {.size = filled.size,
        .seed = options.seed,
-       .rounds = options.improve,
+       .rounds = options.rounds,
        .changes_surface = filled.made_surface.has_value(),
        .after_round = options.after_round},
       deadline,

@@ -1,12 +1,24 @@
 #pragma once
-// The points of a mesh that stands, made better by search: search/point_search.hpp with TetGen behind it.
+// Makes the points of a finished mesh better by search: search/point_search.hpp with TetGen behind it.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
 
 #include "tools/tetmesh/fill.hpp"
 
 namespace hexpipe::tetmesh {
 
-// From here on a first SIGINT or SIGTERM ends the search and not the process. Statistics of the search and of TetGen's
-// time are added to those that are there.
-void improve(FilledSurface& filled, const solid::Surface& given, const TetmeshOptions& options);
+struct ImproveOptions {
+  std::size_t rounds;
+  std::uint64_t seed;
+  std::optional<double> time_limit;  // seconds
+  double tetgen_timeout;             // seconds for one mesh
+  std::function<void(std::size_t round, double share)> after_round;
+};
+
+// From this call on, a first SIGINT or SIGTERM ends the search and not the process. The figures of the search and the
+// time of TetGen are added to the statistics of `filled`.
+void improve(FilledSurface& filled, const solid::Surface& given, const ImproveOptions& options);
 
 }  // namespace hexpipe::tetmesh

@@ -15,7 +15,7 @@
 #include "formats/points/point_files.hpp"
 #include "formats/points/size_files.hpp"
 #include "formats/surfaces/surface_files.hpp"
-#include "tools/tetmesh/command_line.hpp"
+#include "tools/tetmesh/options.hpp"
 #include "tools/tetmesh/tetmesh.hpp"
 
 using namespace hexpipe;
@@ -24,6 +24,7 @@ using namespace hexpipe::tetmesh;
 namespace {
 
 const std::map<std::string, SurfaceKind> surface_kinds{{"remesh", SurfaceKind::remesh}, {"keep", SurfaceKind::keep}};
+using volume::PointKind;
 const std::map<std::string, PointKind> point_kinds{
     {"best", PointKind::best}, {"frame", PointKind::frame}, {"lattice", PointKind::lattice}, {"none", PointKind::none}};
 const std::map<std::string, solid::ShellRule> shell_rules{{"oriented", solid::ShellRule::oriented},
@@ -36,18 +37,18 @@ formats::Input open_surface(const std::string& path) {
   return formats::Input::open(path);
 }
 
-// "3" for all, "inlet=0.5" for a surface.
+// Reads "3" as the size everywhere; for other texts see asked_sizes.hpp.
 void add_size(const std::string& text, TetmeshOptions& options) {
   const std::size_t equals = text.rfind('=');
-  if (equals == std::string::npos && options.size)
-    throw UsageError(fmt::format("expected one --size for all, found '{}' beside another", text));
+  if (equals == std::string::npos && options.sizes.size)
+    throw UsageError(fmt::format("expected one --size for the whole model, found a second one: '{}'", text));
   if (equals == std::string::npos)
-    options.size = sizing::parse_length(text);
+    options.sizes.size = sizing::parse_length(text);
   else
-    options.named_sizes.push_back({text.substr(0, equals), sizing::parse_length(text.substr(equals + 1))});
+    options.asked_sizes.push_back(parse_asked_size(text));
 }
 
-// Of a file: a bundle passes its surface on as it is.
+// Files alone are scaled: a bundle passes its surface on as it is.
 void scale_surface(double factor, formats::SurfaceSoup& surface) {
   if (surface.from_bundle)
     throw DataError::at(surface.name,
@@ -91,10 +92,10 @@ int main(int argc, char** argv) {
       .reads = {},
       .product = Role::mesh,
       .random = true,
-      .licence = "AGPL-3.0, for it links TetGen"};
+      .licence = "AGPL-3.0, because it links TetGen"};
   TetmeshOptions options;
   const CLI::App* command_line = nullptr;
-  std::optional<std::string> sizes, least_size;
+  std::optional<std::string> size_file, least_size;
   std::optional<double> scale;
   std::vector<std::string> given_sizes;
   std::vector<std::string> tag_names;
@@ -105,85 +106,96 @@ int main(int argc, char** argv) {
     app.add_option(
            "--size", given_sizes,
            "Distance of points inside, in the surface's units or, with %, in percent of the bounding box's diagonal "
-           "[what suits the part]; at a surface alone: inlet=0.5")
+           "[a size that suits the model]; inlet=0.5 is the size at a surface, 'body bolt=1' in a body, 'box "
+           "0,0,0,1,1,1=0.2' in a box")
         ->allow_extra_args(false)
         ->type_name("LENGTH");
-    app.add_option("--size-field", sizes,
-                   "Sizes by place: lines of x y z size, or of one size for each vertex of the surface, or the same in "
-                   ".npy, or a background mesh in .msh with $NodeData")
+    app.add_option(
+           "--size-field", size_file,
+           "Sizes by place: lines of x y z size, or one size for each vertex of the surface, or either of them in "
+           ".npy, or a background mesh in .msh with $NodeData")
         ->type_name("FILE");
     app.add_option("--scale", scale,
                    "Multiply the coordinates of a surface file by this; all lengths are in the new unit")
         ->check(number_between(1e-12, 1e12))
         ->type_name("FACTOR");
-    app.add_option("--grading", options.grading,
-                   "How much sizes may differ between two places, against their distance, at the most")
+    app.add_option("--grading", options.sizes.grading,
+                   "How much sizes may differ between two places, as a share of their distance")
         ->check(number_between(0.01, 10));
-    app.add_option("--curvature", options.curvature,
-                   "If given: where the surface bends, elements are no longer than an Nth of a turn")
+    app.add_option("--curvature", options.sizes.curvature,
+                   "If given: where the surface bends, elements span at most an Nth of a turn")
         ->check(number_between(3, 1000))
         ->type_name("N");
-    app.add_option("--least-size", least_size, "With --curvature: no size is less [a fifth of --size]")
+    app.add_option("--least-size", least_size,
+                   "With --curvature: the least size that bends ask for [a fifth of --size]")
         ->type_name("LENGTH");
-    app.add_option("--layers", options.layers, "If given: thin walls get at least N elements across, or 2")
+    app.add_option("--layers", options.sizes.layers,
+                   "If given: thin walls get at least N elements across (2 without N)")
         ->expected(0, 1)
         ->default_str("2")
         ->check(CLI::Range(1, 100))
         ->type_name("[N]");
     app.add_option("--surface", surface_kind, "The surface's triangles: made anew to suit hexes, or kept")
         ->check(CLI::IsMember(surface_kinds));
-    app.add_option("--feature-angle", options.feature_angle,
-                   "Edges where the surface turns by more are kept, and corners where they turn, in degrees")
+    app.add_option(
+           "--feature-angle", options.feature_angle,
+           "Edges where the surface turns by more than this, in degrees, are kept, and corners where they turn by more")
         ->check(number_between(1, 180));
-    app.add_option("--deviation", options.deviation,
-                   "How far the new surface may be from the old one, in sizes, or in thicknesses of a thinner wall")
+    app.add_option(
+           "--deviation", options.deviation,
+           "How far the new surface may be from the old one, in sizes; in walls thinner than a size, in thicknesses")
         ->check(number_between(1e-6, 1));
     app.add_option(
            "--stretch", options.row_stretch,
-           "How much rows of points may stretch, from one triangle of their field to the next, in sizes, so that "
-           "none has to end on a face; 0: not for that")
+           "How much rows of points may stretch so that fewer end on faces: from one triangle of the field to the "
+           "next, in sizes; 0: not at all")
         ->check(number_between(0, 10));
     app.add_option("--points", points,
                    "Points inside: best, frame (along a frame field that follows the surface), lattice (along the "
-                   "part's own axes), none, or a file of your own (.xyz, .node, .npy, .ply)")
+                   "model's own axes), none, or a file of your own (.xyz, .node, .npy, .ply)")
         ->type_name("KIND|FILE");
     app.add_option("--clearance", options.clearance, "Least distance of points inside from the surface, in sizes")
         ->check(number_between(0.1, 10));
     app.add_option("--jitter", options.jitter,
                    "How far points inside are moved at random along each axis, in sizes [0.04; on a lattice 0.01]")
         ->check(number_between(0, 1));
-    app.add_option("--most-points", options.most_points, "Points inside that are allowed, lest memory runs out")
+    app.add_option("--most-points", options.most_points, "Most points inside, to protect memory")
         ->check(number_between(1, 1e9));
     app.add_option("--tries", options.tries,
-                   "Sizes that are tried, up to 5 % off, to keep the mesh that is estimated to have most hexes")
+                   "How many sizes to try, up to 5 % off; the mesh that is estimated to have most hexes is kept")
         ->check(CLI::Range(std::size_t{1}, most_tries));
     app.add_option("--improve", options.improve,
-                   "Rounds of a search that moves, adds and removes points where that brings hexes [0]; a round "
+                   "Rounds of a search that moves, adds and removes points where that brings hexes; a round "
                    "takes five runs of TetGen")
         ->type_name("ROUNDS")
         ->check(CLI::Range(std::size_t{0}, std::size_t{1000000}).description(""));
-    app.add_option("--time-limit", options.time_limit, "With --improve: stop it after this many seconds")
+    app.add_option("--time-limit", options.time_limit, "With --improve: stop the search after this many seconds")
         ->type_name("SECONDS")
         ->check(number_between(0, 1e9));
-    app.add_flag("--repair", options.repair,
-                 "Weld points, remove triangles that are flat or repeated, turn them to agree, fill small holes");
-    app.add_option("--weld", weld, "With --repair: points this near become one; a length, or with % of the diagonal")
+    app.add_flag(
+        "--repair", options.repair,
+        "Weld points, remove flat and repeated triangles, turn triangles that disagree with their neighbours, fill "
+        "small holes");
+    app.add_option("--weld", weld,
+                   "With --repair: points this near to each other become one; a length, or with % of the diagonal")
         ->type_name("LENGTH")
         ->capture_default_str();
-    app.add_option("--largest-hole", options.largest_hole, "With --repair: edges of a hole that is filled, at most")
+    app.add_option("--largest-hole", options.largest_hole, "With --repair: most edges of a hole that is filled")
         ->check(CLI::Range(0, 1000));
     app.add_option("--shells", shells,
-                   "Shells in shells: holes where oriented inward and regions else; all regions; or alternately holes")
+                   "Shells inside shells: holes if they point inward and regions otherwise; all regions; or holes and "
+                   "regions in "
+                   "turn")
         ->check(CLI::IsMember(shell_rules));
     app.add_option(
            "--tags-by-angle", options.tag_angle,
-           "If given: where nothing is named, pieces of the surface within edges that turn by more than so many "
-           "degrees get tags, or than 40")
+           "If given: pieces of the surface without a name get tags of their own; they end at edges that turn by more "
+           "than this many degrees (40 without ANGLE)")
         ->expected(0, 1)
         ->default_str("40")
         ->check(number_between(1, 180))
         ->type_name("[ANGLE]");
-    app.add_option("--name", tag_names, "Name a surface by its tag, or a region: 3=inlet, 'region 1=steel'; repeatable")
+    app.add_option("--name", tag_names, "Name a surface or a region by its tag: 3=inlet, 'region 1=steel'; repeatable")
         ->allow_extra_args(false)
         ->type_name("TAG=NAME");
     outside_history(app.add_option("--tetgen-timeout", options.tetgen_timeout,
@@ -192,7 +204,7 @@ int main(int argc, char** argv) {
   };
   const auto run = [&](RunContext& context) {
     for (const std::string& text : given_sizes) add_size(text, options);
-    if (least_size) options.least_size = sizing::parse_length(*least_size);
+    if (least_size) options.sizes.least = sizing::parse_length(*least_size);
     options.surface = surface_kinds.at(surface_kind);
     choose_points(points, options);
     refuse_idle_options([&](const char* name) { return command_line->count(name) > 0; }, options, points);
@@ -204,7 +216,7 @@ int main(int argc, char** argv) {
     formats::Input input = open_surface(path);
     formats::SurfaceSoup surface = stage.read_surface(input);
     if (scale) scale_surface(*scale, surface);
-    if (sizes) options.size_sources = size_sources(*sizes, surface);
+    if (size_file) options.sizes.sources = size_sources(*size_file, surface);
     Progress progress("tetmesh", context.common.quiet);
     options.after_round = [&](std::size_t round, double share) {
       if (progress.due()) progress.show(fmt::format("round {}, about {:.1f} % in hexes", round + 1, 100 * share));
@@ -222,7 +234,9 @@ int main(int argc, char** argv) {
     context.statistics["seconds_by_step"] = times_of(result.statistics);
     context.statistics["tetgen_seconds"] = result.statistics.seconds.of_tetgen;
     stage.set_names(result.names);
-    stage.write(pipeline::MeshProduct{std::move(result.mesh)}, to_json(result.statistics));
+    pipeline::MeshProduct product{std::move(result.mesh)};
+    product.dislocations = std::move(result.dislocations);
+    stage.write(product, to_json(result.statistics));
   };
   std::vector<char*> words = words_for_parsing(argc, argv);
   return tool_main(argc, words.data(), info, declare, run);

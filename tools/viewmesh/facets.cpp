@@ -15,14 +15,14 @@ std::uint8_t sense_of(const FacetCorners& facet) {
   return next < before ? 0 : 1;
 }
 
+}  // namespace
+
 int facet_count(CellKind kind) {
   return with_topology(kind, [](auto topology) {
     using Topology = decltype(topology);
     return static_cast<int>(Topology::triangles.size() + Topology::quads.size());
   });
 }
-
-}  // namespace
 
 FacetCorners facet_corners(const Scene& scene, std::int32_t cell, int facet) {
   const auto corners = scene.corners_of(cell);

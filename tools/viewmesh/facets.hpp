@@ -22,6 +22,7 @@ struct FacetCorners {
   std::array<std::int32_t, 4> vertices;
   int count;
 };
+int facet_count(CellKind kind);
 FacetCorners facet_corners(const Scene& scene, std::int32_t cell, int facet);
 
 // All sides of all facets; the sides of one facet stand together.

@@ -41,7 +41,8 @@ int main(int argc, char** argv) {
                                                        {"mesh", Scene::Content::mesh}};
   ViewmeshOptions options;
   const auto declare = [&](CLI::App& app) {
-    app.add_option("-o,--output", options.page, "Write the page to a file; without it and --png: to standard output")
+    app.add_option("-o,--output", options.page,
+                   "Write the page to a file; without -o and --png it goes to standard output")
         ->type_name("FILE");
     app.add_option("--png", options.picture, "Write a picture to a file")->type_name("FILE");
     app.add_option("--size", options.size, "Width and height of the picture in pixels")
@@ -51,11 +52,11 @@ int main(int argc, char** argv) {
         ->allow_extra_args(false)
         ->check(CLI::Range(16, 8192).description(""));
     app.add_option("--show", options.show,
-                   "The stage to show: result, solution, candidates or mesh [the last one that is there]")
+                   "The stage to show: result, solution, candidates or mesh [the last one in the bundle]")
         ->type_name("WHAT")
         ->check(CLI::IsMember(contents).description(""));
     app.add_option("--view", options.view,
-                   "The view of page and picture, as links of the page have it after the #, for example "
+                   "The view of page and picture, as the page's links have it after the #, for example "
                    "'clip=y:0.5&colour=quality&theme=dark' (man viewmesh has all keys)")
         ->type_name("STATE");
     app.add_option("--fragments", options.fragments,
@@ -64,7 +65,7 @@ int main(int argc, char** argv) {
     app.add_option("--title", options.title, "The page's title")->type_name("TEXT");
   };
   const auto run = [&](RunContext& context) {
-    const ViewState state = parse_view_state(options.view);
+    ViewState state = parse_view_state(options.view);
     check(options);
     pipeline::Stage stage(context);
     // The number of weights: a solution chooses among as many.
@@ -75,6 +76,7 @@ int main(int argc, char** argv) {
                                    : *context.streams.operand;
     const Scene::Content content = options.show.empty() ? last_content(data, source) : contents.at(options.show);
     Scene scene = make_scene(std::move(data), content, source);
+    resolve_groups(state, scene);
     if (!options.fragments.empty()) {
       if (content != Scene::Content::candidates && content != Scene::Content::solution)
         throw UsageError("--fragments: expected candidates or a solution to show them in (see --show)");

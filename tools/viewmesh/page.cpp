@@ -71,6 +71,22 @@ nlohmann::ordered_json packed_fragments(const Scene& scene) {
   return {{"sizes", pack_integers(sizes, 1)}, {"cells", pack_integers(cells, 1)}};
 }
 
+nlohmann::ordered_json groups_to_json(const std::vector<Group>& groups) {
+  auto json = nlohmann::ordered_json::array();
+  for (const Group& group : groups) json.push_back({{"tag", group.tag}, {"name", group.name}});
+  return json;
+}
+
+// Facets as the page numbers them: eight times the cell, and the facet's number in it.
+nlohmann::ordered_json packed_surfaces(const Scene& scene) {
+  std::vector<std::int32_t> facets, surfaces;
+  for (const auto& facet : scene.surface_facets) {
+    facets.push_back(8 * facet.cell + facet.facet);
+    surfaces.push_back(facet.surface);
+  }
+  return {{"facets", pack_integers(facets, 1)}, {"surfaces", pack_integers(surfaces, 1)}};
+}
+
 nlohmann::ordered_json to_json(const Scene& scene, const ViewState& state, const std::string& title) {
   nlohmann::ordered_json json{{"title", title},
                               {"content", name_of(scene.content)},
@@ -88,6 +104,9 @@ nlohmann::ordered_json to_json(const Scene& scene, const ViewState& state, const
   json["region"] = pack_integers(scene.region, 1);
   json["layer"] = pack_integers({scene.layer.begin(), scene.layer.end()}, 1);
   json["number"] = pack_integers(scene.number, 1);
+  json["volume"] = scene.volume;
+  json["groups"] = {{"region", groups_to_json(scene.regions)}, {"surface", groups_to_json(scene.surfaces)}};
+  json["surfaceFacets"] = packed_surfaces(scene);
   json["fragments"] = packed_fragments(scene);
   json["history"] = scene.history;
   return json;

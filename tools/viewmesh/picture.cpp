@@ -27,7 +27,7 @@ struct FreeContext {
   void operator()(OSMesaContext context) const { OSMesaDestroyContext(context); }
 };
 
-// Mesa with a picture in memory; everything made while one stands goes with it.
+// Mesa with a picture in memory. Everything that is made while an object exists goes with it.
 class Renderer {
  public:
   Renderer(int width, int height) : width_(width), height_(height), screen_(std::size_t{4} * width * height) {
@@ -48,7 +48,7 @@ class Renderer {
     glViewport(0, 0, width, height);
   }
 
-  // A program of which uniforms are set by name; current until the next one is made.
+  // A program whose uniforms are set by name; it stays current until the next one is made.
   GLuint use_program(std::string_view vertex, std::string_view fragment) {
     const GLuint program = glCreateProgram();
     attach(program, GL_VERTEX_SHADER, vertex);
@@ -194,7 +194,7 @@ void append_bytes(png_structp png, png_bytep bytes, std::size_t count) {
   static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(bytes), count);
 }
 
-// libpng leaves by longjmp, so nothing that has a destructor is made here. False: it failed.
+// libpng leaves by longjmp, so nothing that has a destructor is made here. False if it failed.
 bool encode(png_structp png, png_infop info, const Picture& picture, std::string& bytes) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_write_fn(png, &bytes, append_bytes, nullptr);

@@ -73,7 +73,7 @@ void collect(const Candidates& candidates, const TetMesh& mesh, std::size_t i, C
             tets.empty() ? 0 : mesh.tet_tags[tets.front()], static_cast<std::int32_t>(i));
 }
 
-// Chosen candidates, and the tets that none of them takes.
+// The chosen candidates, and the tets that none of them takes.
 void collect(const graph::IndependentSet& chosen, const Candidates& candidates, const TetMesh& mesh,
              const std::string& source, CellCollector& cells) {
   std::vector<char> taken(mesh.tets.size());
@@ -88,6 +88,29 @@ void collect(const graph::IndependentSet& chosen, const Candidates& candidates, 
     if (!taken[i])
       cells.add(CellKind::tet, mesh.tets[i], quality_of(CellKind::tet, mesh.points, mesh.tets[i]), mesh.tet_tags[i],
                 static_cast<std::int32_t>(i));
+}
+
+std::vector<TaggedTriangle> surface_of(const MixedMesh& mesh) {
+  std::vector<TaggedTriangle> surface;
+  append_tagged(mesh.triangles.cells, mesh.triangles.tags, surface);
+  append_tagged(mesh.quads.cells, mesh.quads.tags, surface);
+  return surface;
+}
+
+std::vector<TaggedTriangle> surface_of(const TetMesh& mesh) {
+  std::vector<TaggedTriangle> surface;
+  append_tagged(mesh.triangles, mesh.triangle_tags, surface);
+  return surface;
+}
+
+std::array<double, 4> volumes_of(const Scene& scene, std::span<const Vec3> points) {
+  std::array<double, 4> volume{};
+  for (std::int32_t cell = 0; cell < scene.cell_count(); ++cell) {
+    const auto corners = scene.corners_of(cell);
+    const auto at = corner_points(points, corners);
+    volume[scene.kind_index(cell)] += cell_volume(scene.kind_of(cell), std::span(at).first(corners.size()));
+  }
+  return volume;
 }
 
 void collect(const TetMesh& mesh, CellCollector& cells) {
@@ -134,7 +157,7 @@ void fill(Scene& scene, CellCollector& cells, const std::vector<Vec3>& points, c
   place(points, scene);
 }
 
-// Only what facets are found by: candidates overlap, so the surface is told by the tets.
+// Only what finding facets needs: candidates overlap, so the tets tell where the surface is.
 Scene tets_of(const TetMesh& mesh) {
   Scene scene;
   scene.points.resize(mesh.points.size());
@@ -185,6 +208,8 @@ Scene make_scene(pipeline::StageData data, Scene::Content content, const std::st
     collect(*data.result, cells);
     fill(scene, cells, data.result->points, source);
     scene.layer = layers_from_surface(scene, surface_points(scene));
+    scene.volume = volumes_of(scene, data.result->points);
+    find_groups(data.names, surface_of(*data.result), scene);
     return scene;
   }
   expect_parts(data, content, source);
@@ -195,6 +220,8 @@ Scene make_scene(pipeline::StageData data, Scene::Content content, const std::st
   if (content == Scene::Content::mesh) collect(*data.mesh, cells);
   fill(scene, cells, data.mesh->points, source);
   scene.layer = layers_from_surface(scene, surface_points(tets_of(*data.mesh)));
+  scene.volume = volumes_of(scene, data.mesh->points);
+  find_groups(data.names, surface_of(*data.mesh), scene);
   return scene;
 }
 

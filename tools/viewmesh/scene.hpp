@@ -13,6 +13,7 @@
 #include "common/mesh/vec3.hpp"
 #include "formats/pipeline/stage_data.hpp"
 #include "formats/streams/input.hpp"
+#include "tools/viewmesh/groups.hpp"
 
 namespace hexpipe::viewmesh {
 
@@ -37,6 +38,15 @@ struct Scene {
   std::vector<std::uint8_t> layer;   // 1: touches the surface; 2: touches those; ...
   std::vector<std::int32_t> number;  // in its block of the file, or as a candidate, from 0
   std::int32_t candidate_count = 0;  // all candidates, shown or not
+  // Groups by tag, and the facets that lie on a surface, by cell and facet. Between two regions a facet of both does.
+  struct SurfaceFacet {
+    std::int32_t cell;
+    std::int32_t facet;    // as facet_corners counts them
+    std::int32_t surface;  // place in `surfaces`
+  };
+  std::vector<Group> regions, surfaces;
+  std::vector<SurfaceFacet> surface_facets;
+  std::array<double, 4> volume{};  // of all cells of a kind, in the mesh's own units
   // The fragments that a search freed, if asked for: the cells of each, ascending.
   std::vector<std::vector<std::int32_t>> fragments;
   std::vector<nlohmann::ordered_json> history;
@@ -52,8 +62,8 @@ struct Scene {
 
 const char* name_of(Scene::Content content);
 
-// The last one that is there of mesh, candidates, solution and result. Throws DataError naming `source` when none is
-// there, there are no cells, or candidates come without the mesh that has their points.
+// The last one in the input of mesh, candidates, solution and result. Throws DataError naming `source` when there is
+// none, there are no cells, or candidates come without the mesh that has their points.
 Scene::Content last_content(const pipeline::StageData& data, const std::string& source);
 Scene make_scene(pipeline::StageData data, Scene::Content content, const std::string& source);
 

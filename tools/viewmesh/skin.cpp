@@ -2,13 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <utility>
 
 #include "tools/viewmesh/facets.hpp"
 #include "tools/viewmesh/resources.hpp"
 
 namespace hexpipe::viewmesh {
 namespace {
+
+constexpr std::int32_t no_surface = -1;
+
+// The surface of each facet of each cell, as far as it is asked for.
+class SurfaceOfFacet {
+ public:
+  explicit SurfaceOfFacet(const Scene& scene) : facets_(scene.surface_facets) {}
+
+  std::int32_t operator()(std::int32_t cell, std::int32_t facet) const {
+    const auto found = std::lower_bound(facets_.begin(), facets_.end(), std::pair{cell, facet},
+                                        [](const Scene::SurfaceFacet& a, const auto& b) {
+                                          return std::pair{a.cell, a.facet} < b;
+                                        });
+    return found != facets_.end() && found->cell == cell && found->facet == facet ? found->surface : no_surface;
+  }
+
+ private:
+  const std::vector<Scene::SurfaceFacet>& facets_;  // ascending
+};
 
 class Painter {
  public:
@@ -17,19 +36,18 @@ class Painter {
     plain_ = parse_colour(colours["plain"]), invalid_ = parse_colour(colours["invalid"]);
     for (const auto& stop : colours["quality"]) quality_.push_back(parse_colour(stop));
     for (std::size_t k = 0; k < kinds_.size(); ++k) kinds_[k] = parse_colour(colours["kinds"][name_of(scene_kinds[k])]);
-    for (const auto& region : colours["regions"]) region_colours_.push_back(parse_colour(region));
-    const std::set<std::int32_t> regions(scene.region.begin(), scene.region.end());
-    regions_.assign(regions.begin(), regions.end());
+    for (const auto& group : colours["groups"]) groups_.push_back(parse_colour(group));
   }
 
-  Rgb colour_of(std::int32_t cell) const {
+  // `surface`: the place of the facet's surface, or no_surface.
+  Rgb colour_of(std::int32_t cell, std::int32_t surface) const {
     switch (colour_) {
       case ViewState::Colour::kind:
         return kinds_[scene_.kind_index(cell)];
-      case ViewState::Colour::region: {
-        const auto place = std::lower_bound(regions_.begin(), regions_.end(), scene_.region[cell]) - regions_.begin();
-        return region_colours_[place % region_colours_.size()];
-      }
+      case ViewState::Colour::region:
+        return groups_[place_of(scene_.regions, scene_.region[cell]) % groups_.size()];
+      case ViewState::Colour::surface:
+        return surface == no_surface ? plain_ : groups_[surface % groups_.size()];
       case ViewState::Colour::hexes:
         return scene_.kind_of(cell) == CellKind::hex ? by_quality(scene_.quality[cell]) : plain_;
       case ViewState::Colour::quality:
@@ -54,9 +72,8 @@ class Painter {
   const Scene& scene_;
   ViewState::Colour colour_;
   Rgb plain_, invalid_;
-  std::vector<Rgb> quality_, region_colours_;
+  std::vector<Rgb> quality_, groups_;
   std::array<Rgb, 4> kinds_;
-  std::vector<std::int32_t> regions_;
 };
 
 // The normal of a facet's mean plane (half the cross product of the diagonals of a quad).
@@ -86,6 +103,8 @@ void add_facet(const Scene& scene, const FacetCorners& facet, const Rgb& colour,
 std::vector<SkinVertex> visible_skin(const Scene& scene, const ViewState& state) {
   const Painter painter(scene, state);
   const std::vector<bool> visible = visible_cells(scene, state);
+  const auto hidden = hidden_places(state, ViewState::HiddenGroup::Kind::surface, scene.surfaces);
+  const SurfaceOfFacet surface_of(scene);
   const auto sides = facet_sides(scene);
   std::vector<SkinVertex> skin;
   for_each_facet(sides, [&](std::span<const FacetSide> facet) {
@@ -94,7 +113,9 @@ std::vector<SkinVertex> visible_skin(const Scene& scene, const ViewState& state)
       if (visible[side.cell] && !first[side.side]) first[side.side] = &side;
     if ((first[0] == nullptr) == (first[1] == nullptr)) return;
     const FacetSide& shown = first[0] ? *first[0] : *first[1];
-    add_facet(scene, facet_corners(scene, shown.cell, shown.facet), painter.colour_of(shown.cell), skin);
+    const std::int32_t surface = surface_of(shown.cell, shown.facet);
+    if (surface != no_surface && hidden[surface]) return;
+    add_facet(scene, facet_corners(scene, shown.cell, shown.facet), painter.colour_of(shown.cell, surface), skin);
   });
   return skin;
 }

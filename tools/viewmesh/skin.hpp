@@ -11,7 +11,7 @@
 
 namespace hexpipe::viewmesh {
 
-// As page/skin.vert wants it.
+// The layout that page/skin.vert expects.
 struct SkinVertex {
   std::array<float, 3> position;
   std::array<std::int8_t, 4> normal;   // of the facet, 127 is 1; the fourth is not used
@@ -20,7 +20,7 @@ struct SkinVertex {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-// Three vertices a triangle.
+// Three vertices per triangle.
 std::vector<SkinVertex> visible_skin(const Scene& scene, const ViewState& state);
 
 // The colours of the page, from page/colours.json.

@@ -15,7 +15,8 @@
 namespace hexpipe::viewmesh {
 namespace {
 
-constexpr std::array colour_names{"hexes", "quality", "kind", "region"};
+constexpr std::array colour_names{"hexes", "quality", "kind", "region", "surface"};
+constexpr std::array group_kinds{"region", "surface"};
 constexpr std::array axis_names{"x", "y", "z"};
 constexpr std::array axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
 
@@ -84,6 +85,32 @@ std::array<bool, 4> parse_kinds(std::string_view text) {
   return kinds;
 }
 
+std::vector<ViewState::HiddenGroup> parse_hidden(std::string_view text) {
+  std::vector<ViewState::HiddenGroup> hidden;
+  if (text == "none") return hidden;
+  for (const auto part : split(text, ',')) {
+    const std::size_t colon = part.find(':');
+    if (colon == std::string_view::npos || colon + 1 == part.size())
+      fail("hidden", "none, or region:NAME or surface:NAME (a name or a number) joined by commas", part);
+    const auto kind =
+        static_cast<ViewState::HiddenGroup::Kind>(parse_name("hidden", part.substr(0, colon), group_kinds));
+    const auto word = part.substr(colon + 1);
+    std::int32_t tag = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), tag);
+    const bool number = error == std::errc() && end == word.data() + word.size();
+    hidden.push_back({kind, number ? std::optional(tag) : std::nullopt, std::string(word)});
+  }
+  return hidden;
+}
+
+std::string hidden_text(const std::vector<ViewState::HiddenGroup>& hidden) {
+  std::vector<std::string> words;
+  for (const auto& group : hidden)
+    words.push_back(fmt::format("{}:{}", group_kinds[static_cast<int>(group.kind)],
+                                group.tag ? std::to_string(*group.tag) : group.name));
+  return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ","));
+}
+
 std::string direction_text(const Vec3& direction) {
   for (std::size_t i = 0; i < axes.size(); ++i) {
     if (direction == axes[i]) return axis_names[i];
@@ -105,6 +132,9 @@ bool parse_switch(std::string_view key, std::string_view text) {
 
 // The setter of each key.
 std::map<std::string_view, std::function<void(std::string_view)>> setters_of(ViewState& state) {
+  const auto set_colour = [&](std::string_view text) {
+    state.colour = static_cast<ViewState::Colour>(parse_name("colour", text, colour_names));
+  };
   return {
       {"camera",
        [&](std::string_view text) {
@@ -122,10 +152,9 @@ std::map<std::string_view, std::function<void(std::string_view)>> setters_of(Vie
        }},
       {"peel", [&](std::string_view text) { state.peel = static_cast<int>(parse_number("peel", text, 0, 255)); }},
       {"kinds", [&](std::string_view text) { state.kinds = parse_kinds(text); }},
-      {"colour",
-       [&](std::string_view text) {
-         state.colour = static_cast<ViewState::Colour>(parse_name("colour", text, colour_names));
-       }},
+      {"colour", set_colour},
+      {"color", set_colour},
+      {"hidden", [&](std::string_view text) { state.hidden = parse_hidden(text); }},
       {"edges", [&](std::string_view text) { state.edges = parse_switch("edges", text); }},
       {"theme",
        [&](std::string_view text) {
@@ -159,13 +188,42 @@ ViewState parse_view_state(std::string_view text) {
 
 std::string to_text(const ViewState& state) {
   return fmt::format(
-      "camera={:g},{:g},{:g},{:g},{:g},{:g}&clip={}&quality={:g},{:g}&peel={}&kinds={}&colour={}&edges={}"
-      "&theme={}&fragment={}",
+      "camera={:g},{:g},{:g},{:g},{:g},{:g}&clip={}&quality={:g},{:g}&peel={}&kinds={}&hidden={}&colour={}"
+      "&edges={}&theme={}&fragment={}",
       state.azimuth, state.elevation, state.zoom, state.target.x, state.target.y, state.target.z,
       state.clip ? fmt::format("{}:{:g}", direction_text(state.clip->normal), state.clip->fraction) : "none",
-      state.least_quality, state.greatest_quality, state.peel, kinds_text(state.kinds),
+      state.least_quality, state.greatest_quality, state.peel, kinds_text(state.kinds), hidden_text(state.hidden),
       colour_names[static_cast<int>(state.colour)], state.edges ? "on" : "off", state.dark ? "dark" : "light",
       state.fragment);
+}
+
+void resolve_groups(ViewState& state, const Scene& scene) {
+  for (auto& hidden : state.hidden) {
+    const auto& groups = hidden.kind == ViewState::HiddenGroup::Kind::region ? scene.regions : scene.surfaces;
+    const auto fits = [&](const Group& group) {
+      return hidden.tag ? group.tag == *hidden.tag : group.name == hidden.name;
+    };
+    const auto found = std::find_if(groups.begin(), groups.end(), fits);
+    if (found == groups.end()) {
+      std::vector<std::string> names;
+      for (const Group& group : groups) names.push_back(group.name);
+      const std::string kind = group_kinds[static_cast<int>(hidden.kind)];
+      fail("hidden",
+           groups.empty() ? fmt::format("no {}, for there is none", kind)
+                          : fmt::format("a {} of {}", kind, fmt::join(names, ", ")),
+           hidden.name);
+    }
+    hidden.tag = found->tag;
+  }
+}
+
+std::vector<bool> hidden_places(const ViewState& state, ViewState::HiddenGroup::Kind kind,
+                                const std::vector<Group>& groups) {
+  std::vector<bool> places(groups.size());
+  for (const auto& hidden : state.hidden)
+    if (hidden.kind == kind && hidden.tag)
+      if (const std::size_t place = place_of(groups, *hidden.tag); place < groups.size()) places[place] = true;
+  return places;
 }
 
 std::vector<bool> visible_cells(const Scene& scene, const ViewState& state) {
@@ -179,11 +237,14 @@ std::vector<bool> visible_cells(const Scene& scene, const ViewState& state) {
       }
     beyond = low + state.clip->fraction * (high - low);
   }
+  const auto hidden = hidden_places(state, ViewState::HiddenGroup::Kind::region, scene.regions);
+  const bool any_hidden = std::find(hidden.begin(), hidden.end(), true) != hidden.end();
   std::vector<bool> visible(scene.cell_count());
   for (std::int32_t cell = 0; cell < scene.cell_count(); ++cell)
     visible[cell] = state.kinds[scene.kind_index(cell)] && scene.layer[cell] > state.peel &&
                     scene.quality[cell] >= static_cast<float>(state.least_quality) &&
                     scene.quality[cell] <= static_cast<float>(state.greatest_quality) &&
+                    !(any_hidden && hidden[place_of(scene.regions, scene.region[cell])]) &&
                     (!state.clip || dot(state.clip->normal, scene.middle_of(cell)) <= beyond);
   if (state.fragment > 0 && static_cast<std::size_t>(state.fragment) <= scene.fragments.size()) {
     const auto& fragment = scene.fragments[state.fragment - 1];

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/mesh/vec3.hpp"
 #include "tools/viewmesh/scene.hpp"
@@ -12,7 +13,13 @@
 namespace hexpipe::viewmesh {
 
 struct ViewState {
-  enum class Colour { hexes, quality, kind, region };
+  enum class Colour { hexes, quality, kind, region, surface };
+  // A group that is not shown, by its tag, or by its name until resolve_groups() has found the tag.
+  struct HiddenGroup {
+    enum class Kind { region, surface } kind;
+    std::optional<std::int32_t> tag;
+    std::string name;
+  };
   // Cells whose middle lies beyond `fraction` of the way along `normal` are taken away.
   struct Clip {
     Vec3 normal;
@@ -27,6 +34,7 @@ struct ViewState {
   double least_quality = -1, greatest_quality = 1;
   int peel = 0;                                       // layers of cells taken off the surface
   std::array<bool, 4> kinds{true, true, true, true};  // as scene_kinds
+  std::vector<HiddenGroup> hidden;                    // cells of a region, facets of a surface
   Colour colour = Colour::hexes;
   bool edges = true;
   bool dark = false;
@@ -36,6 +44,13 @@ struct ViewState {
 // Keys that `text` does not name keep their defaults. Throws UsageError for unknown keys and for wrong values.
 ViewState parse_view_state(std::string_view text);
 std::string to_text(const ViewState& state);
+
+// Gives hidden groups that are named their tags. Throws UsageError for groups that the scene does not have.
+void resolve_groups(ViewState& state, const Scene& scene);
+
+// For each place of `groups`, whether the state hides that group.
+std::vector<bool> hidden_places(const ViewState& state, ViewState::HiddenGroup::Kind kind,
+                                const std::vector<Group>& groups);
 
 // For each cell whether the state shows it.
 std::vector<bool> visible_cells(const Scene& scene, const ViewState& state);

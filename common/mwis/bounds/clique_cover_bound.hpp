@@ -11,8 +11,8 @@ namespace hexpipe::mwis::bounds {
 
 class CliqueCoverBound {
  public:
-  // True when a cover proves that no independent set within `set` (of graph.words() words) is heavier than `limit`,
-  // false as soon as that is out of reach. Empties `set` on the way.
+  // True if a cover proves that no independent set within `set` (of graph.words() words) is heavier than `limit`; false
+  // as soon as that is out of reach. Empties `set`.
   bool at_most(const ground::DenseGraph& graph, bits::Word* set, std::int64_t limit);
 
  private:

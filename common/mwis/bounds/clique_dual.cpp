@@ -17,13 +17,13 @@ class SmoothedDual {
         prices_(static_cast<std::size_t>(cover.size()), 0.0),
         costs_(graph.weights.begin(), graph.weights.end()) {}
 
-  // In one price after the other, forth and back.
+  // Steps through all prices, forth and back.
   void pass(double temperature) {
     for (std::int64_t c = 0; c < cover_.size(); ++c) step(c, temperature);
     for (std::int64_t c = cover_.size(); c-- > 0;) step(c, temperature);
   }
 
-  // Adds cliques that the relaxed solution of the last pass violates, at a price of 0.
+  // Adds cliques that the relaxed solution of the last pass violates; their price is 0.
   void add_cliques(const graph::ConflictGraph& graph, graph::CliqueCover& cover, double temperature) {
     std::vector<double> fractions(costs_.size());
     std::ranges::transform(costs_, fractions.begin(),
@@ -51,10 +51,10 @@ class SmoothedDual {
 // Passes in branch and reduce: before the first branch, and in a node.
 constexpr std::int64_t root_passes = 900, node_passes = 60;
 
-// All weights together are no more.
+// The sum of all weights is at most this.
 constexpr std::int64_t no_bound = std::numeric_limits<std::int64_t>::max();
 
-// Goes by the passes or by the time, whichever is further.
+// Counts passes or time, whichever has come further.
 double progress(std::int64_t passes, const CliqueDualOptions& options, const Deadline& deadline) {
   const double of_passes = static_cast<double>(passes) / static_cast<double>(options.passes);
   const double of_time = deadline.elapsed() / (deadline.elapsed() + std::max(deadline.remaining(), 0.0));
@@ -76,7 +76,7 @@ std::int64_t bound_of_prices(const graph::ConflictGraph& graph, const graph::Cli
   std::int64_t bound = 0;
   for (const std::int64_t price : prices)
     if (__builtin_add_overflow(bound, price, &bound)) return no_bound;
-  // No cost is below minus the sum of the prices, and those above 0 sum up to no more than the weights do.
+  // No cost is below minus the sum of the prices, and the costs above 0 sum up to at most the sum of the weights.
   std::int64_t left = 0;
   for (const std::int64_t cost : reduced_costs(graph, cover, prices)) left += std::max<std::int64_t>(0, cost);
   return __builtin_add_overflow(bound, left, &bound) ? no_bound : bound;

@@ -6,8 +6,9 @@
 namespace hexpipe::mwis::bounds {
 namespace {
 
-// A third of the effort goes into the cliques there are, from `hottest`, where all prices move at once, geometrically
-// to the coldest, where few still do; then cliques are added and all prices warmed up again, ten times.
+// A third of the work goes into the cliques given at first. Its temperature falls geometrically from `hottest`, where
+// all prices move at once, to the coldest, where few still do. Then cliques are added and all prices are warmed up
+// again, ten times.
 constexpr double hottest = 0.3, warmed_up = 0.02;
 constexpr int rounds = 10;
 constexpr double first_share = 1.0 / 3;
@@ -26,7 +27,7 @@ double step_price(std::span<const std::int32_t> members, double price, double te
 }
 
 std::int64_t whole_price(std::span<const std::int32_t> members, double price, std::span<const std::int64_t> weights) {
-  // Prices that some member is worth are most of them, and told by the first ones.
+  // Most prices are below the weight of some member, and the first members show it.
   std::int64_t heaviest = 0;
   for (const std::int32_t v : members) {
     heaviest = std::max(heaviest, weights[v]);

@@ -6,20 +6,21 @@
 namespace hexpipe::mwis::bounds {
 namespace {
 
-// On block-28k and sphere-56k, after initsol, this much lies at 12 % and 7 % of the solution.
+// On block-28k and sphere-56k, after initsol, 12 % and 7 % of the solution hold this share.
 constexpr double most_of_gap = 0.8;
 
 class GapDivider {
  public:
   GapDivider(const graph::ConflictGraph& graph, const graph::IndependentSet& solution)
-      : graph_(graph), places_(graph.weights.size(), none), shares_(solution.size(), 0) {
+      : graph_(graph), places_(graph.weights.size(), no_index), shares_(solution.size(), 0) {
     for (std::size_t i = 0; i < solution.size(); ++i) places_[solution[i]] = static_cast<std::int32_t>(i);
   }
 
-  bool is_chosen(std::int32_t v) const { return places_[v] != none; }
+  bool is_chosen(std::int32_t v) const { return places_[v] != no_index; }
   void charge(std::int32_t chosen, std::int64_t amount) { shares_[places_[chosen]] += amount; }
 
-  // To the chosen neighbours of these vertices, in equal parts; the first ones take what does not divide.
+  // Divides an amount equally among the chosen neighbours of these vertices; the first ones get the rest of the
+  // division.
   void divide(std::span<const std::int32_t> vertices, std::int64_t amount) {
     near_.clear();
     for (const std::int32_t v : vertices)
@@ -34,8 +35,6 @@ class GapDivider {
   std::vector<std::int64_t> take() { return std::move(shares_); }
 
  private:
-  static constexpr std::int32_t none = -1;
-
   const graph::ConflictGraph& graph_;
   std::vector<std::int32_t> places_;  // by vertex: its place in the solution
   std::vector<std::int64_t> shares_;

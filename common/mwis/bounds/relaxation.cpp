@@ -8,16 +8,16 @@
 namespace hexpipe::mwis::bounds {
 namespace {
 
-// Prices are whole numbers of 2^-20 of a weight, or of more where sums would not fit.
+// Prices are whole multiples of 2^-20 of a weight, or of more if sums would not fit.
 constexpr int finest = 20;
-// Sums of prices and costs stay under four times that of all weights, and fit 64 bits where that has no more than so
-// many.
+// Sums of prices and costs stay below four times the sum of all weights; they fit 64 bits if that sum has at most this
+// many bits.
 constexpr int most_bits = 60;
 
 __extension__ using Wide = __int128;
 
-// In whole numbers of 2^-shift of a weight, which `Sum` has room for. Sets that weigh more than all vertices there are
-// none of.
+// Computes in whole multiples of 2^-shift of a weight; `Sum` has room for them. No set is heavier than all vertices
+// together.
 template <class Sum>
 void bring_down(const graph::ConflictGraph& graph, const graph::CliqueCover& cover, const std::vector<double>& prices,
                 int shift, Relaxation& result) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the searches on bits have in common: a row of candidates for each depth, the current set, and the best one.
+// The common part of the searches on bits: a row of candidates for each depth, the current set, and the best set.
 
 #include <cstdint>
 #include <span>
@@ -10,18 +10,18 @@
 
 namespace hexpipe::mwis::exact {
 
-// Keeps its memory from one graph to the next.
+// Reuses its memory for the next graph.
 class BitSearch {
  public:
-  // Valid after a search that found something; vertices in no particular order.
+  // Valid after a search that found a set. The vertices are in no particular order.
   std::span<const std::uint32_t> best() const { return best_; }
   std::int64_t best_weight() const { return best_weight_; }
 
  protected:
-  // `rows` of bits a depth, of which the first are the candidates.
+  // Each depth has `rows` rows of bits; the first row holds the candidates.
   explicit BitSearch(std::size_t rows) : rows_(rows) {}
 
-  // All vertices are candidates at depth 0; what is found has to be heavier than `lower_bound`.
+  // At depth 0, all vertices are candidates. Only sets heavier than `lower_bound` count.
   void begin(const ground::DenseGraph& graph, std::int64_t lower_bound, ground::SearchBudget& budget) {
     graph_ = &graph;
     budget_ = &budget;
@@ -35,7 +35,7 @@ class BitSearch {
 
   bits::Word* row(std::size_t depth, std::size_t which) { return levels_.data() + (rows_ * depth + which) * words_; }
 
-  // Adds v to the current set; the candidates of the next depth are those of this one that v leaves.
+  // Adds v to the current set. The candidates of the next depth are those of this depth that do not conflict with v.
   void enter(std::size_t v, std::size_t depth) {
     const bits::Word* const candidates = row(depth, 0);
     const bits::Word* const neighbours = graph_->row(v);
@@ -45,7 +45,7 @@ class BitSearch {
   }
   void leave() { current_.pop_back(); }
 
-  // The current set, which weighs `weight`, is the best one if it is heavier.
+  // Makes the current set, which weighs `weight`, the best one if it is heavier.
   void offer(std::int64_t weight) {
     if (weight <= best_weight_) return;
     best_weight_ = weight;

@@ -12,7 +12,7 @@ bool BranchAndBound::solve(const ground::DenseGraph& graph, std::int64_t lower_b
   return found_;
 }
 
-// The candidates of this level may still be added to the current set, which weighs `weight`.
+// The candidates of this depth may still be added to the current set, which weighs `weight`.
 void BranchAndBound::expand(std::size_t depth, std::int64_t weight) {
   if (!budget_->spend()) return;
   bits::Word* const candidates = row(depth, 0);
@@ -20,8 +20,8 @@ void BranchAndBound::expand(std::size_t depth, std::int64_t weight) {
   if (bits::empty(candidates, words_)) return offer(weight);
   find_branches(candidates, branches, best_weight_ - weight);
 
-  // A branch excludes the branches after it, so the last ones, which the cover reached last, have the smallest subtrees
-  // when they go first.
+  // A branch excludes the branches after it. The cover reached the last ones last; their subtrees are smallest if they
+  // go first.
   for (std::size_t w = words_; w-- > 0;)
     while (branches[w] != 0) {
       const std::size_t v = 64 * w + 63 - static_cast<std::size_t>(std::countl_zero(branches[w]));
@@ -34,7 +34,7 @@ void BranchAndBound::expand(std::size_t depth, std::int64_t weight) {
     }
 }
 
-// Leaves in `branches` those candidates that a weighted clique cover of total weight at most `allowance` does not cover
+// Leaves in `branches` the candidates that a weighted clique cover of total weight at most `allowance` does not cover
 // fully. Any set of candidates heavier than `allowance` has one of them.
 void BranchAndBound::find_branches(const bits::Word* candidates, bits::Word* branches, std::int64_t allowance) {
   std::copy_n(candidates, words_, branches);
@@ -49,8 +49,8 @@ void BranchAndBound::find_branches(const bits::Word* candidates, bits::Word* bra
     }
 }
 
-// Builds a clique of uncovered vertices around `first` and takes the least residual weight from all of it. Returns this
-// weight, or -1 when it exceeds the allowance.
+// Builds a clique of uncovered vertices around `first` and subtracts the least residual weight from all its members.
+// Returns this weight, or -1 if it exceeds the allowance.
 std::int64_t BranchAndBound::take_clique(bits::Word* uncovered, std::size_t first_word, std::size_t first,
                                          std::int64_t allowance) {
   clique_.assign(1, static_cast<std::uint32_t>(first));

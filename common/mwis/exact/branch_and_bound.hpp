@@ -1,8 +1,7 @@
 #pragma once
-// Branch and bound for small graphs (Verhetsel 2017, 3.2, algorithms 2 and 4): the bound of a node is a weighted clique
-// cover with weight splitting (Babel 1994; Held, Cook, Sewell 2012). Deviates in using the cover for the choice of
-// branches too, as Jiang, Li, Liu, Manyà 2018 do for cliques: what a cover of no more than the missing weight covers
-// needs no branch of its own.
+// Branch and bound for small graphs (Verhetsel 2017, 3.2, algorithms 2 and 4). The bound of a node is a weighted clique
+// cover with weight splitting (Babel 1994; Held, Cook, Sewell 2012). Unlike there, the cover also chooses the branches,
+// as Jiang, Li, Liu, Manyà 2018 do for cliques: vertices covered within the missing weight need no branch of their own.
 
 #include <cstdint>
 #include <vector>
@@ -15,8 +14,8 @@ class BranchAndBound : public BitSearch {
  public:
   BranchAndBound() : BitSearch(2) {}
 
-  // Looks for the heaviest independent set among those heavier than `lower_bound`; true when one was found, which is
-  // then best(). With budget.exhausted() afterwards there may be a heavier one, otherwise there is none.
+  // Looks for the heaviest independent set among those heavier than `lower_bound`. True if one was found; it is then
+  // best(). If budget.exhausted() afterwards, there may be a heavier one; otherwise there is none.
   bool solve(const ground::DenseGraph& graph, std::int64_t lower_bound, ground::SearchBudget& budget);
 
  private:

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/graph/subgraph.hpp"
+#include "common/graph/conflict_graph.hpp"
 #include "common/mwis/reduce/kernel.hpp"
 
 namespace hexpipe::mwis::exact {
@@ -28,8 +28,8 @@ std::vector<std::int32_t> without_neighbourhood(const graph::ConflictGraph& grap
   return rest;
 }
 
-// The one for which the relaxation is least decided, by weight. A vertex with many neighbours decides most of the rest,
-// which counts where the relaxation decides all.
+// The vertex, by weight, for which the relaxation is least decided. A vertex with many neighbours decides most of the
+// others, which counts when the relaxation decides all.
 std::int32_t branching_vertex(const graph::ConflictGraph& graph, const bounds::Relaxation& relaxation) {
   const auto rank = [&](std::int32_t v) {
     const double fraction = relaxation.fractions.empty() ? 0 : relaxation.fractions[v];
@@ -44,10 +44,10 @@ std::int32_t branching_vertex(const graph::ConflictGraph& graph, const bounds::R
 }  // namespace
 
 struct BranchAndReduce::Component {
-  std::vector<std::int32_t> vertices;  // of the graph that it is a part of
+  std::vector<std::int32_t> vertices;  // in the graph that the component belongs to
   graph::ConflictGraph graph;
   bounds::Relaxation relaxation;
-  std::optional<graph::IndependentSet> optimum;  // where it is known
+  std::optional<graph::IndependentSet> optimum;  // if it is known
 };
 
 std::optional<graph::IndependentSet> BranchAndReduce::solve(const graph::ConflictGraph& graph, std::int64_t needed) {
@@ -74,8 +74,8 @@ std::optional<graph::IndependentSet> BranchAndReduce::reduce(const graph::Confli
   return kernel.lift(*found);
 }
 
-// The smallest first. What the others may reach tells the last one, which is the largest, what its bound has to be to
-// end this node.
+// The smallest component comes first. The bounds of the others tell how low the bound of the last and largest one has
+// to be to end this node.
 std::vector<BranchAndReduce::Component> BranchAndReduce::bound_components(const graph::ConflictGraph& graph,
                                                                           std::int64_t needed, int depth) {
   std::vector<Component> components;
@@ -94,7 +94,7 @@ std::vector<BranchAndReduce::Component> BranchAndReduce::bound_components(const 
   return components;
 }
 
-// Each component has to bring what is needed beyond the bounds of the others.
+// Each component has to contribute what is needed beyond the bounds of the others.
 std::optional<graph::IndependentSet> BranchAndReduce::solve_components(const graph::ConflictGraph& graph,
                                                                        std::int64_t needed, int depth) {
   const std::vector<Component> components = bound_components(graph, needed, depth);
@@ -147,7 +147,7 @@ void BranchAndReduce::solve_small(Component& component) {
                                         : std::reduce(graph.weights.begin(), graph.weights.end(), std::int64_t{0});
 }
 
-// With a vertex, then without it.
+// Branches: with a vertex, then without it.
 std::optional<graph::IndependentSet> BranchAndReduce::branch(const Component& component, std::int64_t needed,
                                                              int depth) {
   const graph::ConflictGraph& graph = component.graph;

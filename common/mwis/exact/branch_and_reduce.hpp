@@ -1,7 +1,7 @@
 #pragma once
 // The heaviest independent set of a large sparse graph, with proof: branch and reduce (Lamm et al. 2019). A node is
-// reduced, cut into connected components, and bounded by a relaxation, whose reduced costs decide more vertices
-// (Verhetsel 2017, 3.2); what is small enough is left to branch and bound. Deviates in bounding each component by what
+// reduced and cut into connected components. A relaxation bounds each component, and its reduced costs decide more
+// vertices (Verhetsel 2017, 3.2). Branch and bound solves small ones. Unlike there, each component is bounded by what
 // the others may still reach.
 
 #include <cstdint>
@@ -16,28 +16,28 @@
 
 namespace hexpipe::mwis::exact {
 
-// What an exact search for a set heavier than a given weight found.
+// The result of an exact search for a set heavier than a given weight.
 struct ExactResult {
-  std::optional<graph::IndependentSet> better;  // the heaviest set found, where it is heavier than that weight
-  bool complete = false;                        // it, or that there is none, is proven
-  std::int64_t bound = 0;                       // on every set: where it is complete, the optimum or that weight
+  std::optional<graph::IndependentSet> better;  // the heaviest set found, if it is heavier than that weight
+  bool complete = false;                        // whether it, or that there is none, is proven
+  std::int64_t bound = 0;                       // on every set; if complete, the optimum or that weight
   std::int64_t nodes = 0;
 };
 
 class BranchAndReduce {
  public:
-  // Components of at most `small` vertices go to branch and bound on bits.
+  // Branch and bound on bits solves components of at most `small` vertices.
   BranchAndReduce(bounds::Relax relax, const Deadline& deadline, std::int32_t small = 100)
       : relax_(std::move(relax)), deadline_(deadline), small_(small) {}
 
-  // The heaviest set among those heavier than `needed`; nothing where there is no such set, or where the deadline
-  // passed before one was found.
+  // The heaviest set among those heavier than `needed`. Nothing if there is no such set, or if the deadline passed
+  // before one was found.
   std::optional<graph::IndependentSet> solve(const graph::ConflictGraph& graph, std::int64_t needed);
 
-  // The deadline did not pass: what solve() returned is proven.
+  // True if the deadline did not pass: the result of solve() is proven.
   bool complete() const { return !stopped_; }
   std::int64_t nodes() const { return nodes_; }
-  // On every set, from before the first branch; that of all weights where the deadline passed before.
+  // A bound on every set, from before the first branch; if the deadline passed before that, the sum of all weights.
   std::int64_t bound() const { return bound_; }
 
  private:

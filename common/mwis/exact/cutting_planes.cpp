@@ -1,4 +1,3 @@
-#include "common/mwis/exact/cutting_planes.hpp"
 
 #include <utility>
 
@@ -8,7 +7,7 @@
 namespace hexpipe::mwis::exact {
 namespace {
 
-// Rounds of adding cliques before the first branch, and in a node, where the branches do what later rounds would.
+// Rounds of adding cliques: before the first branch, and in a node, where branches do the work of later rounds.
 constexpr int root_rounds = 100, node_rounds = 5;
 
 }  // namespace

@@ -24,7 +24,7 @@ bool ExactSolver::solve(ground::DenseGraph& graph, std::span<bits::Word> chosen,
   std::int64_t weight = reductions_.offset();
   std::size_t begin = 0;
   for (const std::size_t end : ends_) {
-    // The last component, which is the largest, is worth a search only for what makes the whole better.
+    // The last component is the largest. It is worth a search only for a set that makes the whole better.
     const std::int64_t needed = end == vertices_.size() && !budget.exhausted() ? incumbent - weight : -1;
     weight += solve_component(graph, std::span(vertices_).subspan(begin, end - begin), needed, budget);
     begin = end;
@@ -36,7 +36,7 @@ bool ExactSolver::solve(ground::DenseGraph& graph, std::span<bits::Word> chosen,
   return !budget.exhausted();
 }
 
-// Components of the undecided vertices, the smallest first.
+// Finds the components of the undecided vertices, the smallest first.
 void ExactSolver::find_components(const ground::DenseGraph& graph) {
   const std::size_t words = graph.words();
   vertices_.clear();
@@ -66,13 +66,12 @@ void ExactSolver::find_components(const ground::DenseGraph& graph) {
   }
 }
 
-// Adds the component's solution to solution_ and returns its weight. Nothing that is not heavier than `needed` is
-// looked for.
+// Adds the component's solution to solution_ and returns its weight. Searches only for sets heavier than `needed`.
 std::int64_t ExactSolver::solve_component(const ground::DenseGraph& graph, std::span<const std::uint32_t> component,
                                           std::int64_t needed, ground::SearchBudget& budget) {
   extract(graph, component);
   const std::int64_t warm = complete_warm_start();
-  const bool found = branch_and_bound_.solve(part_, std::max(warm, needed), budget);
+  const bool found = branch_and_bound_.solve(component_, std::max(warm, needed), budget);
   if (!found) {
     for (const std::uint32_t v : component)
       if (bits::test(warm_.data(), v)) bits::insert(solution_.data(), v);
@@ -82,10 +81,10 @@ std::int64_t ExactSolver::solve_component(const ground::DenseGraph& graph, std::
   return branch_and_bound_.best_weight();
 }
 
-// The component as a graph of its own, in the order in which covers are built: vertices with little weight around them
-// first, so that those in the middle of many conflicts are left for branching. Measured in lns on block-28k and
-// random-33k, 4 s each: 0.02 % and 1 % better than by decreasing weight, which is the dissertation's order. Relative to
-// the vertex's own weight it is as good on the first and 0.2 % worse on the second.
+// Copies the component into a graph of its own, in the order in which covers are built: vertices with little weight
+// around them come first, so that those in the middle of many conflicts are left for branching. Measured in lns on
+// block-28k and random-33k, 4 s each: this is 0.02 % and 1 % better than decreasing weight, the dissertation's order.
+// Crowding relative to the vertex's own weight is as good on the first and 0.2 % worse on the second.
 void ExactSolver::extract(const ground::DenseGraph& graph, std::span<const std::uint32_t> component) {
   order_.assign(component.begin(), component.end());
   crowding_.resize(graph.size());
@@ -97,21 +96,22 @@ void ExactSolver::extract(const ground::DenseGraph& graph, std::span<const std::
     crowding_[v] = around;
   }
   std::ranges::stable_sort(order_, {}, [&](std::uint32_t v) { return crowding_[v]; });
-  part_.reset(order_.size());
+  component_.reset(order_.size());
   for (std::size_t i = 0; i < order_.size(); ++i) {
-    part_.set_weight(i, graph.weight(order_[i]));
+    component_.set_weight(i, graph.weight(order_[i]));
     for (std::size_t j = 0; j < i; ++j)
-      if (graph.has_edge(order_[i], order_[j])) part_.add_edge(i, j);
+      if (graph.has_edge(order_[i], order_[j])) component_.add_edge(i, j);
   }
 }
 
-// What the incumbent chose in the component, made maximal, the heaviest first. Returns its weight in part_.
+// Takes the incumbent's choice in the component and makes it maximal, the heaviest first. Returns its weight in
+// component_.
 std::int64_t ExactSolver::complete_warm_start() {
   std::int64_t weight = 0;
-  covered_.assign(part_.words(), 0);
+  covered_.assign(component_.words(), 0);
   const auto choose = [&](std::size_t i) {
-    weight += part_.weight(i);
-    for (std::size_t w = 0; w < part_.words(); ++w) covered_[w] |= part_.row(i)[w];
+    weight += component_.weight(i);
+    for (std::size_t w = 0; w < component_.words(); ++w) covered_[w] |= component_.row(i)[w];
     bits::insert(covered_.data(), i);
     bits::insert(warm_.data(), order_[i]);
   };

@@ -1,5 +1,5 @@
 #pragma once
-// The heaviest independent set of a small graph: reductions, then branch and bound on each connected component of what
+// The heaviest independent set of a small graph: reductions, then branch and bound on each connected component that
 // they leave, then the lift.
 
 #include <cstdint>
@@ -13,11 +13,11 @@
 
 namespace hexpipe::mwis::exact {
 
-// Keeps its memory from one graph to the next.
+// Reuses its memory for the next graph.
 class ExactSolver {
  public:
-  // `chosen` (one word for each 64 vertices) holds an independent set, and gets one that is not lighter. True when this
-  // is proven to be the heaviest; false when the budget ran out before. The weights of `graph` are used up.
+  // `chosen` (one word per 64 vertices) holds an independent set; it is replaced by one that is not lighter. True if
+  // that one is proven to be the heaviest, false if the budget ran out before. The weights of `graph` are used up.
   bool solve(ground::DenseGraph& graph, std::span<bits::Word> chosen, ground::SearchBudget& budget);
 
  private:
@@ -29,10 +29,10 @@ class ExactSolver {
 
   reduce::DenseReductions reductions_;
   BranchAndBound branch_and_bound_;
-  ground::DenseGraph part_;              // the component that is being solved
-  std::vector<std::uint32_t> vertices_;  // of all components, one after the other
+  ground::DenseGraph component_;         // the component that is being solved
+  std::vector<std::uint32_t> vertices_;  // of all components, one after another
   std::vector<std::size_t> ends_;        // of each component in vertices_
-  std::vector<std::uint32_t> order_;     // vertex of the graph for each of part_
+  std::vector<std::uint32_t> order_;     // the graph's vertex for each vertex of component_
   std::vector<bits::Word> unseen_, covered_, warm_, solution_;
   std::vector<double> crowding_;
 };

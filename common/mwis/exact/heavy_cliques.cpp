@@ -6,15 +6,16 @@
 namespace hexpipe::mwis::exact {
 namespace {
 
-// What a simplex calls 0 may be a little more.
+// A simplex may return a little more than this for 0.
 constexpr double nothing = 1e-6;
-// How much more than 1 a clique has to have. Smaller ones move the bound less than they cost the simplex.
+// The fractions of a clique have to exceed 1 by this much. Smaller excess moves the bound less than it costs the
+// simplex.
 constexpr double least_excess = 0.01;
-// Cliques a call that one vertex may be in: more of them are much the same.
+// A vertex may be in this many cliques per call; more of them are nearly the same.
 constexpr int most_of_a_vertex = 2;
-// Of branch and bound around a vertex, where some tens of vertices are fractional.
+// For branch and bound around a vertex, where some tens of vertices are fractional.
 constexpr std::int64_t most_nodes = 300;
-// Fractions as whole weights.
+// Fractions become whole weights by this factor.
 constexpr double unit = 1e6;
 
 std::int64_t whole(double fraction) {
@@ -42,7 +43,7 @@ std::int64_t HeavyCliques::add(const std::vector<double>& fractions, graph::Cliq
   return cover.size() - before;
 }
 
-// Leaves in clique_ the heaviest clique of fractional vertices with v, where it is heavy enough.
+// Leaves in clique_ the heaviest clique of fractional vertices around v. False if it is not heavy enough.
 bool HeavyCliques::find_around(std::int32_t v) {
   around_.clear();
   for (const std::int32_t u : graph_.neighbours_of(v))
@@ -64,7 +65,7 @@ void HeavyCliques::make_complement() {
   }
 }
 
-// The heaviest first of what can be added.
+// Adds what can be added, the heaviest first.
 void HeavyCliques::make_maximal() {
   const std::int32_t first = clique_.front();
   const auto neighbours = graph_.neighbours_of(first);

@@ -7,7 +7,7 @@
 namespace hexpipe::mwis::exact {
 namespace {
 
-// The simplex asks it after each iteration.
+// The simplex calls this after each iteration.
 class StopAtDeadline : public ClpEventHandler {
  public:
   explicit StopAtDeadline(const Deadline& deadline) : deadline_(&deadline) {}
@@ -36,7 +36,7 @@ class PackingProgram::Simplex {
     offsets_.push_back(static_cast<CoinBigIndex>(members_.size()));
   }
 
-  // Warmly from the last basis: with more rows this still fits the dual simplex.
+  // Starts from the last basis: with more rows, it is still valid for the dual simplex.
   bool solve(const Deadline& deadline) {
     add_waiting_rows();
     const StopAtDeadline handler(deadline);
@@ -61,7 +61,7 @@ class PackingProgram::Simplex {
   }
 
   ClpSimplex model_;
-  std::vector<CoinBigIndex> offsets_{0};  // of rows that wait to be added
+  std::vector<CoinBigIndex> offsets_{0};  // of rows that still have to be added
   std::vector<int> members_;
 };
 
@@ -77,7 +77,7 @@ bool PackingProgram::solve(const Deadline& deadline) {
   fractions_.assign(simplex_->values().begin(), simplex_->values().end());
   for (double& fraction : fractions_) fraction = std::clamp(fraction, 0.0, 1.0);
   prices_.assign(simplex_->prices().begin(), simplex_->prices().end());
-  // CLP minimizes, so that prices come negative.
+  // CLP minimizes, so its prices are negative.
   for (double& price : prices_) price = std::max(0.0, -price);
   return optimal;
 }

@@ -1,12 +1,13 @@
 #pragma once
-// A linear program with a variable from 0 to 1 for each vertex and a row for each clique, of which at most 1 is chosen:
-// COIN-OR's simplex (CLP), which other cliques may be added to and which starts again from where it was.
+// A linear program with a variable from 0 to 1 for each vertex and a row for each clique, of which at most 1 is chosen.
+// It uses COIN-OR's simplex (CLP). Cliques may be added, and the simplex then continues from the last basis.
 
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "common/mwis/bounds/relaxation.hpp"
 #include "common/run/deadline.hpp"
 
 namespace hexpipe::mwis::exact {
@@ -20,12 +21,12 @@ class PackingProgram {
 
   void add_row(std::span<const std::int32_t> clique);
 
-  // False when the deadline passed first, or the solver gave up. Prices are worth something even then.
+  // False if the deadline passed first, or the solver gave up. Its prices are useful even then.
   bool solve(const Deadline& deadline);
 
-  // How much of each vertex the heaviest fractional set has, from 0 to 1.
+  // By vertex: how much of it the heaviest fractional set has, from 0 to 1.
   const std::vector<double>& fractions() const { return fractions_; }
-  // Of each row, in the order in which they were added; 0 or more.
+  // By row, in the order in which rows were added; 0 or more.
   const std::vector<double>& prices() const { return prices_; }
 
  private:
@@ -33,5 +34,11 @@ class PackingProgram {
   std::unique_ptr<Simplex> simplex_;
   std::vector<double> fractions_, prices_;
 };
+
+// The relaxation of branch and cut: LP-Clique (Verhetsel 2017, 3.2) by the simplex method on an edge clique cover.
+// Cliques that the fractional solution violates are added until there is none (Nemhauser and Sigismondi 1992). Unlike
+// there, the prices alone prove the bounds, in whole numbers, so nothing depends on the tolerances of the simplex.
+bounds::Relaxation relax_by_cutting_planes(const graph::ConflictGraph& graph, std::int64_t target, int depth,
+                                           const Deadline& deadline);
 
 }  // namespace hexpipe::mwis::exact

@@ -41,14 +41,14 @@ constexpr std::size_t count(const Word* set, std::size_t words) {
   return sum;
 }
 
-// Every member of `part` is one of `set`.
+// Every member of `part` is a member of `set`.
 constexpr bool includes(const Word* set, const Word* part, std::size_t words) {
   for (std::size_t w = 0; w < words; ++w)
     if ((part[w] & ~set[w]) != 0) return false;
   return true;
 }
 
-// Calls visit(i) for every member, ascending. Members that `visit` erases from words not yet reached are skipped.
+// Calls visit(i) for every member, ascending. Members that `visit` erases from later words are skipped.
 template <class Visit>
 constexpr void for_each(const Word* set, std::size_t words, Visit&& visit) {
   for (std::size_t w = 0; w < words; ++w)
@@ -56,7 +56,7 @@ constexpr void for_each(const Word* set, std::size_t words, Visit&& visit) {
       visit(64 * w + static_cast<std::size_t>(std::countr_zero(word)));
 }
 
-// As for_each, until visit returns false; false when it did.
+// Like for_each, until visit returns false; returns false if it did.
 template <class Visit>
 constexpr bool all_of(const Word* set, std::size_t words, Visit&& visit) {
   for (std::size_t w = 0; w < words; ++w)

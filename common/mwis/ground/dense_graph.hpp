@@ -1,5 +1,5 @@
 #pragma once
-// A small graph as a bit matrix: what branch and bound and the reductions of fragments work on.
+// A small graph as a bit matrix. Branch and bound and the reductions of fragments work on it.
 
 #include <algorithm>
 #include <cstddef>
@@ -18,7 +18,7 @@ class DenseGraph {
   DenseGraph() = default;
   explicit DenseGraph(std::size_t vertices) { reset(vertices); }
 
-  // `vertices` vertices of weight 0, no edges.
+  // Resets to `vertices` vertices of weight 0 without edges.
   void reset(std::size_t vertices) {
     words_ = bits::words_for(vertices);
     weights_.assign(vertices, 0);
@@ -26,7 +26,7 @@ class DenseGraph {
   }
 
   std::size_t size() const { return weights_.size(); }
-  // Words in a row.
+  // The number of words in a row.
   std::size_t words() const { return words_; }
   const bits::Word* row(std::size_t v) const { return rows_.data() + v * words_; }
   bits::Word* row(std::size_t v) { return rows_.data() + v * words_; }
@@ -46,7 +46,7 @@ class DenseGraph {
   std::vector<bits::Word> rows_;
 };
 
-// With the same numbers.
+// The same graph with the same vertex numbers.
 DenseGraph dense_graph_of(const graph::ConflictGraph& graph);
 
 }  // namespace hexpipe::mwis::ground

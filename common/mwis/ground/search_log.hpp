@@ -1,5 +1,5 @@
 #pragma once
-// The anytime curve of a search: a file of JSON objects, one a line, for --log.
+// The progress of a search over time, for --log: a file with one JSON object per line.
 
 #include <cstdint>
 #include <optional>
@@ -11,13 +11,13 @@ namespace hexpipe::mwis::ground {
 
 class SearchLog {
  public:
-  // An empty path: nothing is written. Throws DataError when the file cannot be written.
+  // With an empty path nothing is written. Throws DataError when the file cannot be written.
   explicit SearchLog(const std::string& path, std::string value_name = "weight");
 
-  // {"seconds":...,"iteration":...,"weight":...} or another value's name, at most fifty times a second: the first
-  // thousands of improvements come faster than anyone can plot.
+  // Writes {"seconds":...,"iteration":...,"weight":...}, or another value's name, at most fifty times a second: the
+  // first thousands of improvements come faster than anyone can plot.
   void record(double seconds, std::int64_t iteration, std::int64_t value);
-  // The last point, whenever it comes. Throws DataError when the disk is full.
+  // Always writes the last point. Throws DataError when the disk is full.
   void finish(double seconds, std::int64_t iteration, std::int64_t value);
 
  private:

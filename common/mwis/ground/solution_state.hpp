@@ -1,6 +1,6 @@
 #pragma once
-// An independent set under change, with what every search asks of it: how many chosen neighbours a vertex has
-// (tightness), what they weigh, and, when there is one, which it is.
+// An independent set that changes, with what every search asks about it: how many chosen neighbours a vertex has
+// (tightness), their weight and, if there is only one, which one it is.
 
 #include <cassert>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace hexpipe::mwis::ground {
 
-// add and remove are the only two mutators; each costs O(degree).
+// add and remove are the only two mutators. Each costs O(degree).
 class SolutionState {
  public:
   explicit SolutionState(const graph::ConflictGraph& graph);
@@ -19,24 +19,22 @@ class SolutionState {
   const graph::ConflictGraph& graph() const { return *graph_; }
   bool contains(std::int32_t v) const { return chosen_[v] != 0; }
   std::int32_t tightness(std::int32_t v) const { return around_[v].tightness; }
-  // The weight of the chosen neighbours.
-  std::int64_t adjacent_weight(std::int32_t v) const { return graph_->weights[v] - around_[v].push_gain; }
-  // The sum of the numbers of the chosen neighbours, modulo 2^32: names the last one when all others are known.
+  // The sum of the numbers of the chosen neighbours, modulo 2^32. It tells the last one when all others are known.
   std::uint32_t neighbour_sum(std::int32_t v) const { return around_[v].number_sum; }
-  // What Push(v) would gain: v in, its chosen neighbours out.
+  // The gain of Push(v): v comes in, its chosen neighbours go out.
   std::int64_t push_gain(std::int32_t v) const { return around_[v].push_gain; }
   std::int64_t weight() const { return weight_; }
 
-  // v is neither chosen nor has a chosen neighbour.
+  // v must be neither chosen nor have a chosen neighbour.
   void add(std::int32_t v);
-  // v is chosen. Calls touched(u) for each neighbour when what is kept of it is right again.
+  // v must be chosen. Calls touched(u) for each neighbour once its values are right again.
   template <class Touched>
   void remove(std::int32_t v, Touched&& touched);
   void remove(std::int32_t v) {
     remove(v, [](std::int32_t) {});
   }
 
-  // Calls visit(u) for the chosen neighbours of v, ascending; the state must not change meanwhile.
+  // Calls visit(u) for the chosen neighbours of v, ascending. The state must not change meanwhile.
   template <class Visit>
   void for_each_chosen_neighbour(std::int32_t v, Visit&& visit) const {
     std::int32_t left = around_[v].tightness;
@@ -48,12 +46,13 @@ class SolutionState {
       }
   }
 
-  // Adds free vertices, the heaviest first, until none is left. Zero weights count: a set is maximal with them.
+  // Adds free vertices, the heaviest first, until none is left. Vertices of weight zero count, too: a set is maximal
+  // with them.
   void make_maximal();
 
   graph::IndependentSet to_set() const;
 
-  // True when everything kept agrees with the chosen vertices, and these are independent. O(vertices + edges), for
+  // True if all stored values agree with the chosen vertices, and these are independent. O(vertices + edges), for
   // tests.
   bool check() const;
 

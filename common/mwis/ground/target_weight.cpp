@@ -8,7 +8,7 @@
 namespace hexpipe::mwis::ground {
 namespace {
 
-// Whether the stage made what is chosen from, or took it from a file in place of what the bundle held.
+// Whether the stage made the graph (or the candidates behind it), or read it from a file instead of the bundle.
 bool brings_another_graph(const nlohmann::ordered_json& entry) {
   const auto tool = entry.find("tool");
   if (tool != entry.end() && (*tool == "tetmesh" || *tool == "findhex" || *tool == "buildgraph")) return true;
@@ -24,11 +24,11 @@ std::optional<std::int64_t> bound_in(const std::vector<nlohmann::ordered_json>& 
   std::optional<std::int64_t> lowest;
   for (const auto& entry : history) {
     if (!entry.is_object()) continue;
-    // Before the entry's own bound, which is that of the graph it was given.
+    // This comes before the entry's own bound, because that is a bound for the graph that the stage was given.
     if (brings_another_graph(entry)) lowest.reset();
     const auto tool = entry.find("tool"), bound = entry.find("bound");
     if (tool == entry.end() || *tool != "certify" || bound == entry.end() || !bound->is_number_integer()) continue;
-    const auto proven = bound->get<std::int64_t>();  // below 0 where it fits no 64 bits
+    const auto proven = bound->get<std::int64_t>();  // negative if it does not fit 64 bits
     if (proven >= 0) lowest = std::min(lowest.value_or(proven), proven);
   }
   return lowest;

@@ -1,5 +1,5 @@
 #pragma once
-// The weight at which a search may stop, from a bound that is known.
+// The weight at which a search may stop because of a known bound.
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -8,13 +8,14 @@
 
 namespace hexpipe::mwis::ground {
 
-// The lowest bound that certify has proven since the graph was made or came from a file, by the history of a bundle.
+// The lowest bound that certify has proven for this graph, according to the history of a bundle. Bounds from before the
+// graph was made or read from a file do not count.
 std::optional<std::int64_t> bound_in(const std::vector<nlohmann::ordered_json>& history);
 
-// How far a weight is from a bound, as a share of the bound; 0 where the bound is.
+// How far a weight is from a bound, as a share of the bound; 0 if the bound is 0.
 double gap_to(std::int64_t bound, std::int64_t weight);
 
-// The least weight whose gap to the bound is no more than this. Throws DataError when no bound is known.
+// The least weight whose gap to the bound is at most `gap`. Throws DataError when no bound is known.
 std::int64_t target_weight(double gap, std::optional<std::int64_t> bound);
 
 }  // namespace hexpipe::mwis::ground

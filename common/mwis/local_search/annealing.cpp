@@ -8,9 +8,9 @@
 namespace hexpipe::mwis::local_search {
 namespace {
 
-// In graphs that no cache holds, kicks go to random vertices of a window that moves on over all of them: neighbours
-// mostly have numbers near each other. A million vertices take a third of the time then; random-33k, which needs no
-// window, loses 0.4 % by one.
+// If a graph fits in no cache, kicks go to random vertices of a window that moves over all of them, because most
+// neighbours have numbers near each other. A million vertices then take a third of the time. random-33k needs no window
+// and would lose 0.4 % by one.
 constexpr std::int64_t least_for_windows = 1 << 18;
 constexpr std::int64_t window = 4096;
 constexpr std::int64_t kicks_a_window = 512;
@@ -21,11 +21,12 @@ double Cooling::at(double progress) const {
   return hot * std::pow(cold / hot, progress);
 }
 
-// At a temperature T a solution of so many places is lighter than the best by about chosen * T^2, and varies by T *
-// sqrt(chosen * T): it comes upon the best by itself up to a T that goes with 1 / chosen. What is colder only takes
-// time. A large graph needs all of its places right at once, and has to be cold in the end. Measured: C2000.9 (69
-// chosen) reaches 10,928 in 2 s at 1 to 0.3, 10,614 at 0.3 to 0.1; 1dc.2048 (172) its optimum of 172, 143 from 0.3 on;
-// frb59-26-5 (59) 6,558 at 1.5 to 0.5, 6,497 from 0.3 on; graphs of 1,400 and 1,900 chosen lose up to 3 % when hotter.
+// At a temperature T, a solution of `chosen` vertices is lighter than the best by about chosen * T^2, and varies by T *
+// sqrt(chosen * T). So it reaches the best by itself up to a T proportional to 1 / chosen; lower temperatures only take
+// time. A large graph needs all its vertices right at once, so it must be cold in the end. Measured: C2000.9 (69
+// chosen) reaches 10,928 in 2 s from 1 to 0.3, but 10,614 from 0.3 to 0.1; 1dc.2048 (172 chosen) reaches its optimum of
+// 172, but 143 when it starts at 0.3; frb59-26-5 (59 chosen) reaches 6,558 from 1.5 to 0.5, but 6,497 when it starts at
+// 0.3. Graphs of 1,400 and 1,900 chosen lose up to 3 % when hotter.
 Cooling Cooling::for_chosen(std::int64_t chosen) {
   constexpr double chosen_at_once = 25, coldest_of_few = 0.3;
   const Cooling of_many;
@@ -78,7 +79,7 @@ void Annealing::kick(std::int32_t v) {
     push(v);
 }
 
-// In rounds, each in random order: what a change touched is looked at when the changes of its round are made.
+// Works in rounds, each in random order. What a change touches is looked at in the next round.
 void Annealing::settle() {
   while (!waiting_.empty()) {
     begin_round();
@@ -86,7 +87,7 @@ void Annealing::settle() {
   }
 }
 
-// The whole graph takes seconds where it has a hundred million edges.
+// On a graph with a hundred million edges, settling the whole graph takes seconds.
 void Annealing::settle_first(const Deadline& deadline) {
   while (!waiting_.empty()) {
     begin_round();
@@ -121,7 +122,7 @@ void Annealing::push(std::int32_t v) {
   add(v);
 }
 
-// The best swap of v for two of the vertices that it alone keeps out; false when none gains.
+// Makes the best swap of v for two of the vertices that only v keeps out. False if no swap gains.
 bool Annealing::swap_for_two(std::int32_t v) {
   const graph::ConflictGraph& graph = state_.graph();
   loose_.clear();
@@ -132,7 +133,7 @@ bool Annealing::swap_for_two(std::int32_t v) {
     heaviest = std::max(heaviest, graph.weights[u]);
   }
   std::int64_t best_sum = graph.weights[v];
-  std::int32_t first = -1, second = -1;
+  std::int32_t first = no_index, second = no_index;
   for (std::size_t i = 0; i < loose_.size(); ++i) {
     const std::int32_t a = loose_[i];
     const std::int64_t weight = graph.weights[a];
@@ -146,7 +147,7 @@ bool Annealing::swap_for_two(std::int32_t v) {
       first = a, second = b;
     }
   }
-  if (first < 0) return false;
+  if (first == no_index) return false;
   remove(v);
   add(first);
   add(second);
@@ -165,7 +166,7 @@ void Annealing::remove(std::int32_t v) {
   state_.remove(v, [&](std::int32_t u) {
     if (state_.push_gain(u) > 0)
       wait(u);
-    else if (state_.tightness(u) == 1)  // a swap with the one that keeps it out may gain now
+    else if (state_.tightness(u) == 1)  // swapping the one that keeps it out may gain now
       wait(static_cast<std::int32_t>(state_.neighbour_sum(u)));
   });
   step_.push_back(v);

@@ -16,7 +16,7 @@ FragmentGrower::FragmentGrower(const ground::SolutionState& state, Random random
     : state_(state), random_(random), marks_(static_cast<std::size_t>(state.graph().vertex_count())) {}
 
 void FragmentGrower::let_go() {
-  // Stamps are never used twice; before they run out (after 2 billion fragments) all marks are taken back.
+  // Stamps are never reused. Before they run out (after 2 billion fragments), all marks are reset.
   if (stamp_ > std::numeric_limits<std::uint32_t>::max() / 2) {
     std::ranges::fill(marks_, Mark{});
     stamp_ = 0;
@@ -104,16 +104,17 @@ void FragmentGrower::queue(std::int32_t v, Fragment& fragment) {
     fragment.frontier.push_back(v);
 }
 
-// Breadth first, but not the same fragment twice from one seed: one of the next few comes first. The one for which most
-// vertices wait, which makes compact fragments, was worse: by 0.8 % on random-33k and 0.003 % on block-28k after 6 s.
+// Breadth first, but not the same fragment twice from one seed: one of the next few goes first. Choosing the one that
+// most vertices wait for makes compact fragments, but was worse: by 0.8 % on random-33k and 0.003 % on block-28k after
+// 6 s.
 void FragmentGrower::vary(std::size_t next, Fragment& fragment) {
   constexpr std::size_t few = 8;
   const std::size_t choices = std::min(few, fragment.frontier.size() - next);
   std::swap(fragment.frontier[next], fragment.frontier[next + random_.below(choices)]);
 }
 
-// For when no vertex waits for a single one any more: queues what is chosen beside vertices that wait for several, then
-// what is chosen two edges away from the fragment. False when there is nothing, and the component is complete.
+// Called when no vertex waits for a single chosen one any more. Queues chosen vertices beside those that wait for
+// several, then chosen vertices two edges away from the fragment. False if there are none: the component is complete.
 bool FragmentGrower::queue_beyond(Fragment& fragment) {
   const std::size_t before = fragment.frontier.size();
   const auto queue_chosen_at = [&](std::int32_t v) {

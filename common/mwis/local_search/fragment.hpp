@@ -1,5 +1,5 @@
 #pragma once
-// Fragments: connected parts of the conflict graph that are freed and solved anew while everything else stays.
+// Fragments: connected subgraphs of the conflict graph that are freed and solved anew while everything else stays.
 
 #include <cstdint>
 #include <deque>
@@ -12,50 +12,51 @@
 
 namespace hexpipe::mwis::local_search {
 
-// Everything that can be chosen once `released` are no longer: these and the vertices with no other chosen neighbour.
+// Everything that can be chosen once `released` are not: these, and the vertices without other chosen neighbours.
 struct Fragment {
   std::vector<std::int32_t> released;  // chosen vertices, from the seed outwards
-  std::vector<std::int32_t> vertices;  // free ones, the released among them
+  std::vector<std::int32_t> vertices;  // the free vertices, with the released ones
   std::vector<std::int32_t> frontier;  // chosen vertices that would have been released next
-  bool whole_component = false;        // nothing of the connected component is outside
+  bool whole_component = false;        // the fragment is a whole connected component
   std::uint32_t stamp = 0;
 
   void clear();
 };
 
 // Grows fragments from seeds, each at a cost of O(sum of the degrees of its vertices), without allocation once its
-// memory has grown. Fragments do not touch those that are held, so that they can be solved at the same time.
+// memory has grown. Fragments do not touch fragments that are held, so they can be solved at the same time.
 class FragmentGrower {
  public:
   FragmentGrower(const ground::SolutionState& state, Random random);
 
-  // Lets go of all fragments; the state may have changed.
+  // Releases the hold on all fragments; the state may have changed.
   void let_go();
-  // Lets go of one; the state may have changed in it.
+  // Releases the hold on one fragment; the state may have changed in it.
   void let_go(const Fragment& fragment);
-  // False when a held fragment has the vertex or a neighbour of it.
+  // False if a held fragment has the vertex or a neighbour of it.
   bool is_free(std::int32_t v) const { return !is_held(marks_[v].claim); }
-  // Releases chosen vertices around `seed`, itself free and chosen, until at least `target` vertices are free or the
-  // component is. No more than `limit` become free, which matters at vertices of high degree. The fragment is held.
+  // Releases chosen vertices around `seed`, which is free and chosen, until at least `target` vertices are free or the
+  // component is complete. At most `limit` become free, which matters at vertices of high degree. The fragment is then
+  // held.
   void grow(std::int32_t seed, std::size_t target, std::size_t limit, Fragment& fragment);
 
-  // The graph of the fragment's vertices; `chosen` gets the released ones. Safe to call at the same time for several
-  // fragments that are held.
+  // The graph of the fragment's vertices; `chosen` gets the released ones. Several held fragments may be extracted at
+  // the same time.
   void extract(const Fragment& fragment, ground::DenseGraph& graph, std::vector<bits::Word>& chosen) const;
-  // Likewise for fragments that are too large for a matrix; the fragment's vertices have to ascend.
+  // The same for fragments that are too large for a matrix. The fragment's vertices must ascend.
   void extract(const Fragment& fragment, graph::ConflictGraph& graph, graph::IndependentSet& chosen) const;
-  // Brings the fragment's vertices into ascending order.
+  // Sorts the fragment's vertices.
   void sort(Fragment& fragment);
 
  private:
   struct Mark {
     std::uint32_t claim = 0;    // fragment that has this vertex or a neighbour of it
     std::uint32_t member = 0;   // fragment that has this vertex
-    std::int32_t index = 0;     // in its vertices
-    std::uint32_t touched = 0;  // fragment for which the next two count
+    std::int32_t index = 0;     // of the vertex in that fragment
+    std::uint32_t touched = 0;  // fragment for which the next two values count
     std::int32_t released_neighbours = 0;
-    std::uint32_t released_sum = 0;  // of their numbers
-    std::uint32_t queued = 0;        // fragment whose frontier this chosen vertex is in
+    std::uint32_t released_sum = 0;  // sum of their numbers
+    std::uint32_t queued = 0;        // fragment whose frontier has this chosen vertex
   };
 
   void release(std::int32_t v, std::size_t limit, Fragment& fragment);
@@ -71,10 +72,10 @@ class FragmentGrower {
   std::vector<Mark> marks_;
   std::vector<std::int32_t> partly_freed_;  // touched vertices that were not freed at once
   std::size_t next_partly_freed_ = 0;
-  std::size_t next_vertex_ = 0;  // of the fragment, whose neighbours were not looked at for want of anything nearer
+  std::size_t next_vertex_ = 0;  // in the fragment; its neighbours are examined when nothing nearer is left
   std::uint32_t stamp_ = 0;
   std::uint32_t oldest_held_ = 1;
-  std::deque<char> held_;  // by stamp, from the oldest that is held on
+  std::deque<char> held_;  // by stamp, from the oldest held one
   bool left_out_ = false;  // a vertex was not freed because of another fragment or the limit
 };
 

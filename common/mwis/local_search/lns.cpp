@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "common/mwis/local_search/fragment.hpp"
+#include "common/mwis/local_search/fragment_solver.hpp"
 #include "common/mwis/local_search/remainder.hpp"
-#include "common/mwis/local_search/repair.hpp"
 #include "common/mwis/local_search/schedule.hpp"
 #include "common/mwis/local_search/stop_rule.hpp"
 #include "common/run/parallel.hpp"
@@ -17,15 +17,15 @@
 namespace hexpipe::mwis::local_search {
 namespace {
 
-// Of annealing a fragment for the first time. Of 20 and 60, on random-33k after 8 s: 20, by far.
+// For annealing a fragment for the first time. 20 clearly beat 60 on random-33k after 8 s.
 constexpr int kicks_a_vertex = 20;
-// Annealed fragments may be so many times as large as wanted, which only hubs make them: these can be exchanged for all
-// of their neighbours in no other way.
+// Annealed fragments may be this many times as large as wanted. Only hubs make them so large, and a hub can be
+// replaced by all its neighbours in no other way.
 constexpr std::size_t hub_factor = 16;
-// Before anybody asks whether it is worth it, a search works as long as annealing the whole graph some times takes.
-// Large graphs gain for longer: on random-33k 0.4 times end at 10,100,430 after 2 s of lns, which finds 10,129,518 in a
-// minute. On a lattice of 6 x 6 x 6 hexes (5,300 vertices), whose best choice is found at once, 0.4 times are half a
-// second.
+// The stop rule (--worth) judges nothing before the search has worked as long as annealing the whole graph this many
+// times takes. Large graphs gain for longer: on random-33k, 0.4 times would end at 10,100,430 after 2 s of lns, which
+// finds 10,129,518 in a minute. On a lattice of 6 x 6 x 6 hexes (5,300 vertices), whose best solution is found at once,
+// 0.4 times are half a second.
 double least_coolings(const graph::ConflictGraph& graph) {
   constexpr double vertices_a_cooling = 12500, least = 0.4, most = 5;
   return std::clamp(static_cast<double>(graph.vertex_count()) / vertices_a_cooling, least, most);
@@ -48,7 +48,7 @@ class Lns {
                      Random(options.seed, 2)),
             Schedule(graph.weights.size(), options.recombined_fragment, options.recombined_fragment,
                      Random(options.seed, 3))},
-        effort_(ways_of(options)),
+        selection_(operators_of(options)),
         stop_rule_(options.worth * static_cast<double>(total_weight(initial, graph) + decided),
                    least_coolings(graph) * work_of_cooling(graph)) {
     state_.make_maximal();
@@ -59,11 +59,12 @@ class Lns {
       if (!state_.contains(v)) continue;
       wait(v);
       // Other places wait as if one fragment had been tried there.
-      if (!options.first_places.empty() && !options.first_places[v]) schedule_of(Way::exact).retire(v);
+      if (!options.first_places.empty() && !options.first_places[v]) schedule_of(Operator::exact).retire(v);
     }
     const auto largest = std::min<std::size_t>(graph.weights.size(), options.recombined_fragment);
-    effort_.expect(Way::recombine, static_cast<double>(options.free_running ? 1 : batch_of(Way::recombine)) *
-                                       static_cast<double>(largest) * kicks_a_vertex * Repair::work_a_kick(graph));
+    selection_.expect(Operator::recombine,
+                      static_cast<double>(options.free_running ? 1 : batch_of(Operator::recombine)) *
+                          static_cast<double>(largest) * kicks_a_vertex * FragmentSolver::work_a_kick(graph));
   }
 
   LnsResult run() {
@@ -78,21 +79,21 @@ class Lns {
 
  private:
   static double work_of_cooling(const graph::ConflictGraph& graph) {
-    return static_cast<double>(graph.vertex_count()) * kicks_a_vertex * Repair::work_a_kick(graph);
+    return static_cast<double>(graph.vertex_count()) * kicks_a_vertex * FragmentSolver::work_a_kick(graph);
   }
   bool is_complete() const { return closed_ == state_.graph().vertex_count(); }
   bool goes_on() const {
     return begun_ < options_.iterations && state_.weight() < options_.target && !is_complete() &&
            !stop_rule_.is_done() && !deadline_.passed();
   }
-  static std::vector<Way> ways_of(const LnsOptions& options) {
-    std::vector<Way> ways{Way::exact};
-    if (options.annealed_fragment > 0) ways.push_back(Way::anneal);
-    if (options.recombined_fragment > 0) ways.push_back(Way::recombine);
-    return ways;
+  static std::vector<Operator> operators_of(const LnsOptions& options) {
+    std::vector<Operator> operators{Operator::exact};
+    if (options.annealed_fragment > 0) operators.push_back(Operator::anneal);
+    if (options.recombined_fragment > 0) operators.push_back(Operator::recombine);
+    return operators;
   }
-  Schedule& schedule_of(Way way) { return schedules_[static_cast<std::size_t>(way)]; }
-  const Schedule& schedule_of(Way way) const { return schedules_[static_cast<std::size_t>(way)]; }
+  Schedule& schedule_of(Operator op) { return schedules_[index_of(op)]; }
+  const Schedule& schedule_of(Operator op) const { return schedules_[index_of(op)]; }
   void renew(std::int32_t v) {
     for (Schedule& schedule : schedules_) schedule.renew(v);
   }
@@ -102,12 +103,13 @@ class Lns {
 
   void recall() {
     for (const LnsMemory::Place& place : memory_->places)
-      for (const Way way : all_ways) {
-        Schedule& schedule = schedule_of(way);
-        const auto size = way == Way::exact ? place.size : static_cast<std::uint32_t>(schedule.size_at(place.vertex));
-        schedule.recall(place.vertex, place.tries[static_cast<std::size_t>(way)], size);
+      for (const Operator op : all_operators) {
+        Schedule& schedule = schedule_of(op);
+        const auto size =
+            op == Operator::exact ? place.size : static_cast<std::uint32_t>(schedule.size_at(place.vertex));
+        schedule.recall(place.vertex, place.tries[index_of(op)], size);
       }
-    effort_.recall(memory_->effort);
+    selection_.recall(memory_->operator_scores);
   }
   void remember() {
     memory_->places.clear();
@@ -115,53 +117,53 @@ class Lns {
       if (!state_.contains(v)) continue;
       LnsMemory::Place& place = memory_->places.emplace_back();
       place.vertex = v;
-      for (const Way way : all_ways) place.tries[static_cast<std::size_t>(way)] = schedule_of(way).tries_at(v);
-      place.size = static_cast<std::uint32_t>(schedule_of(Way::exact).size_at(v));
+      for (const Operator op : all_operators) place.tries[index_of(op)] = schedule_of(op).tries_at(v);
+      place.size = static_cast<std::uint32_t>(schedule_of(Operator::exact).size_at(v));
     }
-    memory_->effort = effort_.accounts();
+    memory_->operator_scores = selection_.scores();
   }
 
   void run_rounds() {
-    std::vector<Repair> repairs(static_cast<std::size_t>(options_.batch));
+    std::vector<FragmentSolver> solvers(static_cast<std::size_t>(options_.batch));
     while (goes_on()) {
       const std::int64_t first = begun_;
-      const std::int64_t size = grow_round(repairs);
+      const std::int64_t size = grow_round(solvers);
       if (size == 0) return;
       parallel_for(size, 1, [&](std::int64_t i) {
-        repairs[i].extract(grower_);
-        solve(repairs[i], first + i);
+        solvers[i].extract(grower_);
+        solve(solvers[i], first + i);
       });
       grower_.let_go();
-      for (std::int64_t i = 0; i < size; ++i) apply(repairs[i]);
+      for (std::int64_t i = 0; i < size; ++i) apply(solvers[i]);
       take_left_out();
     }
   }
 
-  // Larger fragments come fewer at a time.
-  std::int64_t batch_of(Way way) const {
-    constexpr std::array parts{1, 4, 8};
-    const int part = parts[static_cast<std::size_t>(way)];
-    return (options_.batch + part - 1) / part;
+  // Operators with larger fragments solve fewer at a time.
+  std::int64_t batch_of(Operator op) const {
+    constexpr std::array divisors{1, 4, 8};
+    const int divisor = divisors[index_of(op)];
+    return (options_.batch + divisor - 1) / divisor;
   }
 
   // Fills the round with fragments that do not touch each other.
-  std::int64_t grow_round(std::vector<Repair>& repairs) {
-    const Way way = effort_.next();
-    const std::int64_t batch = batch_of(way);
+  std::int64_t grow_round(std::vector<FragmentSolver>& solvers) {
+    const Operator op = selection_.next();
+    const std::int64_t batch = batch_of(op);
     const std::int64_t wanted = std::min(batch, options_.iterations - begun_);
     std::int64_t size = 0;
-    while (size < wanted && grow(way, repairs[size], batch)) ++size;
+    while (size < wanted && grow(op, solvers[size], batch)) ++size;
     return size;
   }
 
   struct FreeRun {
     std::mutex mutex;
-    std::condition_variable put_back;
+    std::condition_variable fragment_done;
     bool failed = false;
   };
 
-  // Each thread takes a fragment, solves it beside the others, and puts it back, on its own. What one of them throws
-  // ends all: nobody else would wake those that wait for its fragment.
+  // Each thread takes a fragment, solves it beside the others and puts it back, on its own. An exception in one thread
+  // ends all, because nobody else would wake the threads that wait for its fragment.
   void run_free() {
     FreeRun run;
     parallel_for(thread_count(), 1, [&](std::int64_t) {
@@ -171,38 +173,38 @@ class Lns {
       } catch (...) {
         if (!lock.owns_lock()) lock.lock();
         run.failed = true;
-        run.put_back.notify_all();
+        run.fragment_done.notify_all();
         throw;
       }
-      run.put_back.notify_all();
+      run.fragment_done.notify_all();
     });
   }
 
-  // One thread, which holds the lock but while it solves.
+  // One thread. It holds the lock except while it solves.
   void take_turns(FreeRun& run, std::unique_lock<std::mutex>& lock) {
-    Repair repair;
+    FragmentSolver solver;
     while (!run.failed && goes_on()) {
-      if (!grow(effort_.next(), repair, options_.batch)) {
+      if (!grow(selection_.next(), solver, options_.batch)) {
         if (begun_ == iterations_) return;
-        run.put_back.wait(lock);
+        run.fragment_done.wait(lock);
         continue;
       }
-      repair.extract(grower_);
+      solver.extract(grower_);
       const std::int64_t index = begun_ - 1;
-      const std::int64_t effort = effort_for(repair);
+      const std::int64_t budget = budget_for(solver);
       lock.unlock();
-      repair.solve(effort, random_for(index), deadline_, usual_);
+      solver.solve(budget, random_for(index), deadline_, usual_);
       lock.lock();
-      grower_.let_go(repair.fragment());
-      apply(repair);
+      grower_.let_go(solver.fragment());
+      apply(solver);
       take_left_out();
-      run.put_back.notify_all();
+      run.fragment_done.notify_all();
     }
   }
 
-  // Grows a fragment from the next seed that is free; false when there is none among so many.
-  bool grow(Way way, Repair& repair, std::int64_t most_postponed) {
-    Schedule& schedule = schedule_of(way);
+  // Grows a fragment from the next free seed. False if there is none within this many.
+  bool grow(Operator op, FragmentSolver& solver, std::int64_t most_postponed) {
+    Schedule& schedule = schedule_of(op);
     postponed_.clear();
     bool grown = false;
     while (!grown && std::ssize(postponed_) < most_postponed) {
@@ -214,9 +216,10 @@ class Lns {
         continue;
       }
       const std::size_t size = schedule.size_at(*seed);
-      const std::size_t limit = way == Way::exact ? std::min(options_.largest_fragment, 2 * size) : hub_factor * size;
-      repair.begin(way);
-      grower_.grow(*seed, size, limit, repair.fragment());
+      const std::size_t limit =
+          op == Operator::exact ? std::min(options_.largest_fragment, 2 * size) : hub_factor * size;
+      solver.begin(op);
+      grower_.grow(*seed, size, limit, solver.fragment());
       ++begun_;
       grown = true;
     }
@@ -226,50 +229,50 @@ class Lns {
 
   Random random_for(std::int64_t index) const { return {options_.seed, static_cast<std::uint64_t>(4 + index)}; }
 
-  // Where annealing did not help, the next one is slower.
-  std::int64_t effort_for(const Repair& repair) const {
-    if (repair.way() == Way::exact) return options_.node_limit;
-    const std::int64_t tries = schedule_of(repair.way()).tries_at(repair.fragment().released.front());
+  // The next annealing of a place where annealing did not help is slower.
+  std::int64_t budget_for(const FragmentSolver& solver) const {
+    if (solver.used_operator() == Operator::exact) return options_.node_limit;
+    const std::int64_t tries = schedule_of(solver.used_operator()).tries_at(solver.fragment().released.front());
     return kicks_a_vertex * (1 + std::min<std::int64_t>(tries, 15));
   }
 
-  void solve(Repair& repair, std::int64_t index) const {
-    repair.solve(effort_for(repair), random_for(index), deadline_, usual_);
+  void solve(FragmentSolver& solver, std::int64_t index) const {
+    solver.solve(budget_for(solver), random_for(index), deadline_, usual_);
   }
 
-  void apply(const Repair& repair) {
+  void apply(const FragmentSolver& solver) {
     ++iterations_;
     const std::int64_t before = state_.weight();
-    if (exchange(repair) && state_.weight() > before) {
+    if (put_back(solver) && state_.weight() > before) {
       ++improvements_;
-      if (report_) report_({iterations_, state_.weight(), repair.fragment().vertices});
-      renew_around(repair);
+      if (report_) report_({iterations_, state_.weight(), solver.fragment().vertices});
+      renew_around(solver);
     } else {
-      hand_over(repair);
-      retire_around(repair);
+      hand_over(solver);
+      retire_around(solver);
     }
-    effort_.record(repair.way(), repair.work(), static_cast<double>(state_.weight() - before));
-    work_ += std::max(repair.work(), Effort::least_work);
+    selection_.record(solver.used_operator(), solver.work(), static_cast<double>(state_.weight() - before));
+    work_ += std::max(solver.work(), OperatorSelection::least_work);
     stop_rule_.record(work_, state_.weight());
-    if (repair.complete() && repair.fragment().whole_component) close(repair.fragment());
+    if (solver.complete() && solver.fragment().whole_component) close(solver.fragment());
   }
 
-  // False when nothing was changed: what free-running threads applied meanwhile, next to the fragment, is in conflict.
-  bool exchange(const Repair& repair) {
-    const auto& vertices = repair.fragment().vertices;
+  // False if nothing was changed, because a fragment that another thread (free running) put back nearby is in conflict.
+  bool put_back(const FragmentSolver& solver) {
+    const auto& vertices = solver.fragment().vertices;
     removed_.clear();
     added_.clear();
     for (std::size_t i = 0; i < vertices.size(); ++i)
-      if (state_.contains(vertices[i]) && !repair.chooses(i)) removed_.push_back(vertices[i]);
+      if (state_.contains(vertices[i]) && !solver.chooses(i)) removed_.push_back(vertices[i]);
     for (const std::int32_t v : removed_) state_.remove(v);
     for (std::size_t i = 0; i < vertices.size(); ++i)
-      if (repair.chooses(i) && state_.tightness(vertices[i]) != 0) {
+      if (solver.chooses(i) && state_.tightness(vertices[i]) != 0) {
         for (const std::int32_t v : removed_) state_.add(v);
         return false;
       }
     for (std::size_t i = 0; i < vertices.size(); ++i)
-      if (repair.chooses(i) && !state_.contains(vertices[i])) add(vertices[i]);
-    // What a search found before its limit need not be maximal.
+      if (solver.chooses(i) && !state_.contains(vertices[i])) add(vertices[i]);
+    // The result of a search that ended at its limit need not be maximal.
     for (const std::int32_t v : vertices)
       if (!state_.contains(v) && state_.tightness(v) == 0) add(v);
     for (const std::int32_t v : removed_)
@@ -278,8 +281,8 @@ class Lns {
     return true;
   }
 
-  // What no fragment had room for may have lost its last chosen neighbour. Fragments grow from what is chosen, and
-  // would never come upon it.
+  // A vertex that was in no fragment may have lost its last chosen neighbour. Fragments grow from chosen vertices and
+  // would never reach it.
   void take_left_out() {
     std::ranges::stable_sort(left_out_, std::ranges::greater(),
                              [&](std::int32_t v) { return state_.graph().weights[v]; });
@@ -296,11 +299,11 @@ class Lns {
     added_.push_back(v);
   }
 
-  // What came in without a gain is a seed as well: a new place for the other ways, but not for the one that brought it,
-  // which would stay there for ever where weights are equal.
-  void hand_over(const Repair& repair) {
-    const std::int32_t seed = repair.fragment().released.front();
-    Schedule& own = schedule_of(repair.way());
+  // Vertices that came in without a gain are seeds as well: new ones for the other operators. The operator that brought
+  // them counts one more try; otherwise it would stay there for ever where weights are equal.
+  void hand_over(const FragmentSolver& solver) {
+    const std::int32_t seed = solver.fragment().released.front();
+    Schedule& own = schedule_of(solver.used_operator());
     const std::uint32_t tries = own.tries_at(seed) + 1;
     for (const std::int32_t v : added_) {
       renew(v);
@@ -309,9 +312,9 @@ class Lns {
   }
 
   // Everything that could be better now, because it is in the fragment or could share one with it.
-  void renew_around(const Repair& repair) {
-    const Fragment& fragment = repair.fragment();
-    Schedule& exact = schedule_of(Way::exact);
+  void renew_around(const FragmentSolver& solver) {
+    const Fragment& fragment = solver.fragment();
+    Schedule& exact = schedule_of(Operator::exact);
     const std::size_t size = exact.size_at(fragment.released.front());
     for (const std::int32_t v : fragment.vertices) {
       if (!state_.contains(v)) continue;
@@ -321,16 +324,16 @@ class Lns {
     for (const std::int32_t v : fragment.frontier) renew(v);
   }
 
-  // The inner half of the fragment has its surroundings solved too.
-  void retire_around(const Repair& repair) {
-    const auto& released = repair.fragment().released;
+  // For the inner half of the fragment, the surroundings are solved, too.
+  void retire_around(const FragmentSolver& solver) {
+    const auto& released = solver.fragment().released;
     const std::size_t inner = (released.size() + 1) / 2;
-    Schedule& schedule = schedule_of(repair.way());
+    Schedule& schedule = schedule_of(solver.used_operator());
     for (std::size_t i = 0; i < inner; ++i) {
       if (!state_.contains(released[i])) continue;
-      if (repair.way() == Way::exact && repair.complete())
+      if (solver.used_operator() == Operator::exact && solver.complete())
         schedule.enlarge(released[i]);
-      else if (repair.way() == Way::exact)
+      else if (solver.used_operator() == Operator::exact)
         schedule.shrink(released[i]);
       schedule.retire(released[i]);
     }
@@ -348,22 +351,22 @@ class Lns {
   LnsMemory* const memory_;
   ground::SolutionState state_;
   FragmentGrower grower_;
-  std::array<Schedule, all_ways.size()> schedules_;  // by way
-  Effort effort_;
+  std::array<Schedule, all_operators.size()> schedules_;  // by operator
+  OperatorSelection selection_;
   StopRule stop_rule_;
   double work_ = 0;  // of all fragments
   Cooling usual_;    // temperatures for this graph
   std::vector<std::int32_t> postponed_, removed_, added_, left_out_;
-  std::int64_t begun_ = 0, iterations_ = 0;  // fragments grown, and put back
+  std::int64_t begun_ = 0, iterations_ = 0;  // fragments grown, and fragments put back
   std::int64_t improvements_ = 0;
-  std::int32_t closed_ = 0;  // vertices of components that are solved to the end
+  std::int32_t closed_ = 0;  // vertices of components that are solved completely
 };
 
 Deadline earlier(const Deadline& deadline, double seconds) {
   return std::isfinite(deadline.remaining()) ? Deadline(deadline.remaining() - seconds) : Deadline();
 }
 
-// What reductions made of several vertices may be first.
+// Vertices that reductions made of several ones count as first places.
 std::vector<bool> of_remainder(const std::vector<bool>& of_graph, const Remainder& rest) {
   std::vector<bool> result(of_graph.empty() ? 0 : rest.graph().weights.size(), true);
   for (std::size_t i = 0; i < result.size(); ++i) {
@@ -374,8 +377,8 @@ std::vector<bool> of_remainder(const std::vector<bool>& of_graph, const Remainde
   return result;
 }
 
-// Solutions of the remainder as solutions of the whole graph, whenever they are better than the start, which loses
-// where reductions decided otherwise until the search has caught up.
+// Reports solutions of the remainder as solutions of the whole graph once they are better than the start. At first they
+// are worse, because the reductions decided differently and the search has to catch up.
 LnsResult search_remainder(const graph::ConflictGraph& graph, const graph::IndependentSet& start,
                            const LnsOptions& options, const Deadline& deadline,
                            const std::function<void(const LnsProgress&)>& report) {
@@ -408,7 +411,7 @@ LnsResult improve_by_lns(const graph::ConflictGraph& graph, const graph::Indepen
   ground::SolutionState state(graph, initial);
   state.make_maximal();
   const graph::IndependentSet start = state.to_set();
-  // The lift at the end costs as much as this: a quarter of a second at 33 million edges.
+  // The lift at the end takes as long as this did: a quarter of a second at 33 million edges.
   const Deadline search_deadline = earlier(deadline, watch.seconds());
   const bool idle = options.iterations == 0 || state.weight() >= options.target || deadline.passed();
   LnsResult result = options.reduce && !idle ? search_remainder(graph, start, options, search_deadline, report)

@@ -28,8 +28,8 @@ struct Arc {
 };
 using Network = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, Node, Arc>;
 
-// Flow from the source through the vertices of one side, along conflicts, through those of the other to the sink: what
-// a cut takes from the source or the sink is left out, and conflicts cannot be cut.
+// The flow goes from the source through the vertices of one side, along conflicts, through those of the other side to
+// the sink. A vertex that the cut separates from source or sink is left out; conflicts cannot be cut.
 class Cut {
  public:
   explicit Cut(std::size_t vertices) : network_(vertices + 2), source_(vertices), sink_(vertices + 1) {}

@@ -4,18 +4,18 @@
 #include <cmath>
 #include <utility>
 
-#include "common/graph/subgraph.hpp"
+#include "common/graph/conflict_graph.hpp"
 #include "common/mwis/exact/exact_solver.hpp"
 
 namespace hexpipe::mwis::local_search {
 namespace {
 
-// Reductions of sparse graphs bring more than any search of the same time, on others they decide little.
+// Reductions of sparse graphs bring more than any search of the same time; on other graphs they decide little.
 constexpr double sparse_degree = 16, share_in_sparse = 0.6, share_in_dense = 0.1;
-// Larger components are left to the search, and so are those that take more nodes: tenths of a second.
+// Larger components are left to the search, and so are those that take more nodes, which is tenths of a second.
 constexpr std::size_t most_solved = 512;
 constexpr std::int64_t most_nodes = 5000;
-// So many components of similar size that take too long show that the larger ones would, too.
+// When this many components of similar size took too long, the larger ones would, too.
 constexpr int most_failures = 3;
 
 Deadline share_of(const Deadline& deadline, const graph::ConflictGraph& graph) {

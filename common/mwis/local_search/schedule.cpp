@@ -55,8 +55,8 @@ void Schedule::recall(std::int32_t v, std::uint32_t tries, std::uint32_t size) {
   wait(v);
 }
 
-// The factors are the usual gentle ones; what matters is that growing is the slower of the two per unit of time,
-// because a larger fragment costs more.
+// These factors are common gentle ones. Growing must be the slower of the two per unit of time, because a larger
+// fragment costs more.
 void Schedule::enlarge(std::int32_t v) {
   places_[v].size = static_cast<std::uint32_t>(std::min<std::size_t>(largest_size_, places_[v].size * 5 / 4 + 1));
 }

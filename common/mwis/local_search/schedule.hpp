@@ -1,5 +1,5 @@
 #pragma once
-// Where the next fragment is grown, and how large: memory of what was tried around each chosen vertex.
+// Where the next fragment is grown, and how large: it remembers what was tried around each chosen vertex.
 
 #include <cstdint>
 #include <optional>
@@ -9,33 +9,33 @@
 
 namespace hexpipe::mwis::local_search {
 
-// A chosen vertex is a possible seed. Seeds around which fewest fragments were solved since the solution last changed
-// there go first, in random order, so that the whole graph is worked through before anything is tried again; where
-// fragments are solved to the end without gain the next ones are larger, where they are not they are smaller (Verhetsel
-// 2017, algorithm 12, kept per place).
+// Any chosen vertex is a possible seed. Seeds go first around which the fewest fragments were solved since the solution
+// last changed there, in random order. So the whole graph is worked through before anything is tried again. If
+// fragments are solved completely without gain, the next ones are larger; if they are not solved completely, smaller
+// (Verhetsel 2017, algorithm 12, kept per place).
 class Schedule {
  public:
-  // Places are told apart by no more tries: there is a list for each number.
+  // Places with more tries are not distinguished: each number of tries has its own list.
   static constexpr std::uint32_t most_tries = 1 << 16;
 
   // No seed waits at first.
   Schedule(std::size_t vertices, std::size_t first_size, std::size_t largest_size, Random random);
 
-  // The next seed; it waits no more until renew, retire or wait. Empty when none waits.
+  // The next seed. It waits no more until renew, retire or wait. Empty if none waits.
   std::optional<std::int32_t> take();
 
-  // v waits as a seed around which nothing was tried.
+  // v waits as a seed with no tries around it.
   void renew(std::int32_t v);
-  // v waits as a seed around which one fragment more was tried.
+  // v waits as a seed with one more try around it.
   void retire(std::int32_t v);
   // v waits as it did before.
   void wait(std::int32_t v);
-  // v waits as a seed around which so many fragments were tried in an earlier search, and the next one has this size.
+  // v waits as a seed with this many tries from an earlier search; its next fragment has this size.
   void recall(std::int32_t v, std::uint32_t tries, std::uint32_t size);
-  // v is no seed any more.
+  // v is no longer a seed.
   void close(std::int32_t v) { places_[v].closed = true; }
 
-  // Fragments tried around v since it was renewed.
+  // The fragments tried around v since it was renewed.
   std::uint32_t tries_at(std::int32_t v) const { return places_[v].tries; }
   std::size_t size_at(std::int32_t v) const { return places_[v].size; }
   void set_size(std::int32_t v, std::size_t size) { places_[v].size = static_cast<std::uint32_t>(size); }
@@ -47,7 +47,7 @@ class Schedule {
 
   struct Place {
     std::uint32_t tries;
-    std::uint32_t waiting_at;  // the tries under which it waits
+    std::uint32_t waiting_at;  // the number of tries under which it waits
     std::uint32_t size;
     bool closed;
   };
@@ -55,7 +55,7 @@ class Schedule {
   std::size_t largest_size_;
   Random random_;
   std::vector<Place> places_;
-  // By the number of tries. An entry counts only where its vertex waits under that number.
+  // By the number of tries. An entry counts only if its vertex waits under that number.
   std::vector<std::vector<std::int32_t>> waiting_;
   std::size_t lowest_ = 0;
 };

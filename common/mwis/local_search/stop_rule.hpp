@@ -10,10 +10,11 @@ namespace hexpipe::mwis::local_search {
 // Counts work, not seconds, so that a search ends at the same place on every machine.
 class StopRule {
  public:
-  // `least_gain`, of the last half, in units of weight; 0: goes on for ever. Before `least_work` nothing is judged.
+  // `least_gain` is for the last half, in units of weight; 0: the search goes on for ever. Nothing is judged before
+  // `least_work`.
   StopRule(double least_gain, double least_work) : least_gain_(least_gain), least_work_(least_work) {}
 
-  // What was done, and reached, in all; neither falls.
+  // The total work done and the weight reached; neither decreases.
   void record(double work, std::int64_t weight);
   bool is_done() const;
 
@@ -25,8 +26,8 @@ class StopRule {
 
   double least_gain_, least_work_;
   double work_ = 0;
-  std::vector<Point> points_;  // where the weight rose
-  std::size_t half_ = 0;       // the last of them in the first half of the work, where there is one
+  std::vector<Point> points_;  // the points where the weight rose
+  std::size_t half_ = 0;       // the last of them in the first half of the work, if there is one
 };
 
 }  // namespace hexpipe::mwis::local_search

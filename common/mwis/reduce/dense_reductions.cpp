@@ -25,7 +25,7 @@ void DenseReductions::reduce(ground::DenseGraph& graph) {
   }
 }
 
-// Tries every rule at v, the cheap ones first; true when one of them changed the graph.
+// Tries every rule at v, the cheap ones first. True if one of them changed the graph.
 bool DenseReductions::decide(std::uint32_t v) {
   if (graph_->weight(v) == 0) return drop(v), true;
   const bits::Word* const row = graph_->row(v);
@@ -59,8 +59,8 @@ bool DenseReductions::neighbourhood_is_clique() const {
   });
 }
 
-// The neighbours of v are a clique, and some are heavier: v is chosen unless one of these is, which then brings only
-// the difference.
+// The neighbours of v are a clique, and some are heavier. v is chosen unless one of these is; that one then contributes
+// only the difference.
 void DenseReductions::transfer_weight(std::uint32_t v) {
   const std::int64_t weight = graph_->weight(v);
   offset_ += weight;
@@ -77,8 +77,8 @@ void DenseReductions::transfer_weight(std::uint32_t v) {
   });
 }
 
-// Basic single edge, which has domination as a special case: a neighbour u with what it would push out beside v is
-// worth at least v and that, so that v is not needed.
+// Basic single edge, with domination as a special case: a neighbour u, with what it would push out beside v, weighs at
+// least as much as v and that. So v is not needed.
 bool DenseReductions::some_neighbour_replaces(std::uint32_t v) {
   const std::int64_t weight = graph_->weight(v);
   const bits::Word* const own = graph_->row(v);
@@ -92,8 +92,8 @@ bool DenseReductions::some_neighbour_replaces(std::uint32_t v) {
   });
 }
 
-// Extended single edge: when v outweighs its neighbourhood without u, one of the two is chosen, and no common
-// neighbour.
+// Extended single edge: if v outweighs its neighbourhood without u, one of the two is chosen, and no common neighbour
+// is.
 bool DenseReductions::drop_common_neighbours(std::uint32_t v, std::int64_t neighbour_sum) {
   const std::int64_t weight = graph_->weight(v);
   bool changed = false;

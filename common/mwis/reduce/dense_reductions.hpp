@@ -1,8 +1,7 @@
 #pragma once
-// Exact reductions of a small graph: vertices that can be decided without search are decided, and the solution of what
-// is left is lifted back. The rules are those of Lamm et al. 2019 and Gu et al. 2021; where these add up the weights of
-// a set of neighbours, we bound its heaviest independent set by a clique cover, because the conflicts of cells come in
-// cliques.
+// Exact reductions of a small graph: vertices that can be decided without search are decided, and the solution of the
+// rest is lifted back. The rules are those of Lamm et al. 2019 and Gu et al. 2021. They add up the weights of a set of
+// neighbours; here a clique cover bounds its heaviest independent set, because the conflicts of cells come in cliques.
 
 #include <cstdint>
 #include <span>
@@ -13,16 +12,16 @@
 
 namespace hexpipe::mwis::reduce {
 
-// Keeps its memory from one graph to the next.
+// Reuses its memory for the next graph.
 class DenseReductions {
  public:
-  // Changes the weights of `graph`, whose vertices stay; left() says which of them are undecided. Every solution of
-  // these is offset() lighter than what lift() makes of it, and an optimal one is lifted to an optimal one.
+  // Changes the weights of `graph`, whose vertices stay; left() tells which are undecided. lift() makes each of their
+  // solutions heavier by offset(), and an optimal one optimal.
   void reduce(ground::DenseGraph& graph);
 
   const bits::Word* left() const { return alive_.data(); }
   std::int64_t offset() const { return offset_; }
-  // `chosen` holds a solution of the vertices left, and gets one of the whole graph.
+  // `chosen` holds a solution of the vertices left; it becomes one of the whole graph.
   void lift(bits::Word* chosen) const;
 
  private:
@@ -47,7 +46,7 @@ class DenseReductions {
   std::size_t words_ = 0;
   std::int64_t offset_ = 0;
   std::vector<bits::Word> alive_, touched_;
-  std::vector<bits::Word> around_;  // the undecided neighbours of the vertex that is looked at
+  std::vector<bits::Word> around_;  // the undecided neighbours of the current vertex
   std::vector<bits::Word> scratch_;
   bounds::CliqueCoverBound bound_;
   std::vector<Decision> decisions_;

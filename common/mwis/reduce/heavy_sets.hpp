@@ -1,5 +1,5 @@
 #pragma once
-// All independent sets of a small graph that are heavier than a limit: what a vertex has to compete with in its
+// All independent sets of a small graph that are heavier than a limit: a vertex has to compete with those in its
 // neighbourhood.
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace hexpipe::mwis::reduce {
 
-// Keeps its memory from one graph to the next.
+// Reuses its memory for the next graph.
 class HeavySets {
  public:
-  // True when all sets heavier than `limit` were found; false when there are more than `most`, or when the search takes
-  // more than `nodes`.
+  // True if all sets heavier than `limit` were found; false if there are more than `most`, or if the search takes more
+  // than `nodes`.
   bool find(const ground::DenseGraph& graph, std::int64_t limit, std::size_t most, std::int64_t nodes);
 
   std::size_t size() const { return weights_.size(); }
@@ -31,7 +31,7 @@ class HeavySets {
   std::int64_t nodes_ = 0;
   std::vector<bits::Word> sets_;
   std::vector<std::int64_t> weights_;
-  std::vector<bits::Word> candidates_;  // a row for each depth, and one to bound
+  std::vector<bits::Word> candidates_;  // a row for each depth, and one for bounds
   std::vector<bits::Word> current_;
   bounds::CliqueCoverBound bound_;
 };

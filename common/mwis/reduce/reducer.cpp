@@ -7,8 +7,8 @@
 namespace hexpipe::mwis::reduce {
 namespace {
 
-// Places count from the second word of a row, so that what is nowhere has a bit as well, in the first: then rows are
-// built without branches, which would be guessed wrong half of the time.
+// Places count from the second word of a row, so that a vertex that is nowhere has a bit, too, in the first word. Rows
+// are then built without branches, which processors would predict wrong half of the time.
 constexpr std::int32_t nowhere = 0, first_place = 64;
 constexpr std::int32_t place_of(std::size_t i) {
   return first_place + static_cast<std::int32_t>(i);
@@ -17,30 +17,30 @@ constexpr std::size_t index_of(std::int32_t place) {
   return static_cast<std::size_t>(place - first_place);
 }
 
-// Neighbourhoods are looked into up to this size; beyond it the cost (its square) exceeds what hubs ever gave.
+// Neighbourhoods are examined up to this size. Beyond it, the cost (its square) exceeds what hubs ever gave.
 constexpr std::size_t largest_neighbourhood = 512;
-// Quick reductions end when of so many vertices looked at fewer than so many were decided. On conflict graphs of
-// meshes, where low degrees come first, that keeps what decides 3 % of the vertices and leaves out two thirds of the
-// time.
+// Quick reductions end when, among this many vertices examined, fewer than this many were decided. On conflict graphs
+// of meshes, where vertices of low degree come first, that keeps the work that decides 3 % of the vertices and saves
+// two thirds of the time.
 constexpr std::size_t window = 1024;
 constexpr std::int32_t least_yield = 16;
-// Sets are enumerated around vertices up to this degree, and up to so many more sets than neighbours.
+// Sets are enumerated around vertices up to this degree, and up to this many more sets than neighbours.
 constexpr std::size_t largest_folded = 96;
 constexpr std::size_t most_added = 256;
-// Reductions that have to be worth their work. A vertex fewer saves a search of sparse graphs little, but they often
-// end with no vertex at all: what decides a vertex takes 3 to 50 us of roads and 190 us of a finite element mesh, whose
-// kernels are (nearly) empty then. Graphs of hexes have a degree of 50 to 80; all but the quick rules take 6 ms for a
-// vertex there before they come to folds that add vertices, and 250 us then.
+// For reductions that have to be worth their work. One vertex fewer saves a search little on sparse graphs, but
+// reductions often decide all vertices: deciding a vertex takes 3 to 50 us on roads and 190 us on a finite element
+// mesh, and their kernels are then (nearly) empty. Graphs of hexes have a degree of 50 to 80. There, all but the quick
+// rules take 6 ms per vertex before they come to folds that add vertices, and 250 us then.
 constexpr double sparse_degree = 16, pay_in_sparse = 3e5, pay_in_dense = 1e5;
-// What is spent before anything is decided: a fiftieth of a short search, or what small graphs of hexes take to the
-// end.
+// May be spent before anything is decided: a fiftieth of a short search, or enough for small graphs of hexes to be
+// reduced completely.
 constexpr double first_in_sparse = 3e8, first_in_dense = 1.5e7, first_in_small = 4e8;
 constexpr std::int32_t small_count = 4096;
 constexpr double small_degree = 100;
-// Measured on roads and block-28k: of a look around a vertex, and a neighbour of a neighbour.
+// Measured on roads and block-28k: the work of examining a vertex, a neighbour of a neighbour, and a set.
 constexpr double work_a_look = 150, work_a_neighbour = 2, work_a_set = 30;
-// A try that removed nothing after so many vertices were looked at is given up. Cascades that are worth it remove
-// hundreds by then.
+// A try that removed nothing after this many vertices were examined is given up. Cascades that are worth it have
+// removed hundreds by then.
 constexpr std::size_t patience = 2048;
 
 }  // namespace
@@ -89,14 +89,14 @@ std::int64_t Reducer::run(ReductionEffort effort, const Deadline& deadline) {
 
 void Reducer::reduce_while_worth(const Deadline& deadline) {
   skim(deadline);
-  open_purse();
+  open_budget();
   settle(deadline, 0);
   if (!is_worth_it()) return;
-  open_purse();
+  open_budget();
   blow_up(deadline);
 }
 
-void Reducer::open_purse() {
+void Reducer::open_budget() {
   const std::int32_t alive = graph_.alive_count();
   double degrees = 0;
   for (std::int32_t v = 0; v < graph_.vertex_count(); ++v)
@@ -104,19 +104,19 @@ void Reducer::open_purse() {
   const double degree = degrees / std::max(1, alive);
   const bool sparse = degree <= sparse_degree, small = alive <= small_count && degree <= small_degree;
   const double first = small ? first_in_small : sparse ? first_in_sparse : first_in_dense;
-  purse_ = {first, first, small || sparse ? pay_in_sparse : pay_in_dense, alive, work_};
+  budget_ = {first, first, small || sparse ? pay_in_sparse : pay_in_dense, alive, work_};
 }
 
-// Where nothing has to be, everything is. What a try will come to is not known before its end.
+// Without a budget, everything is worth it. The outcome of a try is not known before its end.
 bool Reducer::is_worth_it() {
-  if (!purse_) return true;
+  if (!budget_) return true;
   if (!trying_) {
-    const double earned = purse_->pay * (purse_->alive - graph_.alive_count());
-    purse_->left = std::min(purse_->most, purse_->left + earned) - (work_ - purse_->work);
-    purse_->alive = graph_.alive_count();
-    purse_->work = work_;
+    const double earned = budget_->pay * (budget_->alive - graph_.alive_count());
+    budget_->left = std::min(budget_->most, budget_->left + earned) - (work_ - budget_->work);
+    budget_->alive = graph_.alive_count();
+    budget_->work = work_;
   }
-  return purse_->left > 0;
+  return budget_->left > 0;
 }
 
 void Reducer::skim(const Deadline& deadline) {
@@ -131,7 +131,7 @@ void Reducer::skim(const Deadline& deadline) {
   }
 }
 
-// Ends early when not fewer than `wanted` vertices are left for too long; none ends it where `wanted` is 0.
+// Ends early if at least `wanted` vertices are left for too long; never early if `wanted` is 0.
 void Reducer::settle(const Deadline& deadline, std::int32_t wanted) {
   for (std::size_t seen = 1; !queue_.vertices.empty() || !set_queue_.vertices.empty(); ++seen) {
     const bool quick = !queue_.vertices.empty();
@@ -142,12 +142,13 @@ void Reducer::settle(const Deadline& deadline, std::int32_t wanted) {
   }
 }
 
-// Folds that add vertices, the fewest first, where fewer are left in the end (cyclic blow-up, Gellner et al. 2021).
+// Tries folds that add vertices, those that add fewest first, and keeps them if fewer vertices are left in the end
+// (cyclic blow-up, Gellner et al. 2021).
 void Reducer::blow_up(const Deadline& deadline) {
   while (!growths_.empty() && !deadline.passed() && is_worth_it()) {
     const auto [growth, v] = growths_.top();
     growths_.pop();
-    // Tries that were taken back leave entries of vertices that never were.
+    // Tries that were taken back leave entries of vertices that no longer exist.
     if (v < graph_.vertex_count() && graph_.alive(v) && growth_[v] == growth) try_fold(v, deadline);
   }
 }
@@ -200,7 +201,7 @@ void Reducer::decide(std::int32_t v) {
   if (!drop_replaceable(v)) set_queue_.push(v);
 }
 
-// False when there are too many neighbours.
+// False if there are too many neighbours.
 bool Reducer::look_around(std::int32_t v) {
   const auto neighbours = graph_.neighbours_of(v);
   if (neighbours.size() > largest_neighbourhood) return false;
@@ -221,8 +222,8 @@ bool Reducer::look_around(std::int32_t v) {
   return true;
 }
 
-// The neighbours of v that have places. In one word what is nowhere is shifted in as a 0; in several it is marked in
-// the first, which is left behind.
+// The row gets the neighbours of v that have places. With one word, a vertex that is nowhere is shifted in as a 0. With
+// several, it is marked in the first word, which is then dropped.
 void Reducer::build_row(std::int32_t v, bits::Word* row) {
   work_ += work_a_neighbour * static_cast<double>(graph_.neighbours_of(v).size());
   if (local_.words() == 1) {
@@ -238,7 +239,7 @@ void Reducer::build_row(std::int32_t v, bits::Word* row) {
   std::copy_n(marked.begin() + 1, local_.words(), row);
 }
 
-// A clique cover shows that no independent set of neighbours, without those in `excluded`, outweighs `limit`.
+// Whether a clique cover shows that no independent set of neighbours, without those in `excluded`, outweighs `limit`.
 bool Reducer::bound_without(const bits::Word* excluded, std::int64_t limit) {
   bits::fill(set_.data(), around_.size());
   if (excluded != nullptr)
@@ -246,7 +247,7 @@ bool Reducer::bound_without(const bits::Word* excluded, std::int64_t limit) {
   return bound_.at_most(local_, set_.data(), limit);
 }
 
-// Drops neighbours whose place v can take together with that of all that v pushes out beside them.
+// Drops neighbours that v can replace, together with all that v pushes out beside them.
 bool Reducer::drop_replaceable(std::int32_t v) {
   std::vector<bits::Word> dropped(local_.words(), 0);
   bool any = false;
@@ -295,7 +296,8 @@ bool Reducer::drop_outside_sets() {
   return any;
 }
 
-// Keeps the heavy sets that no other one replaces: one that is at least as heavy and in no more conflict outside.
+// Keeps the heavy sets that no other one replaces. A set replaces another if it is at least as heavy and has no more
+// conflicts outside.
 void Reducer::collect_sets() {
   look_outside();
   std::vector<std::size_t> order(heavy_sets_.size());
@@ -320,7 +322,7 @@ void Reducer::collect_sets() {
 }
 
 void Reducer::look_outside() {
-  // Marks those around as well, so that they are not outside.
+  // Marks the neighbourhood as well, so that it does not count as outside.
   for (const std::int32_t u : around_) places_[u] = first_place;
   outside_.clear();
   for (const std::int32_t u : around_)

@@ -1,11 +1,11 @@
 #pragma once
-// Exact reductions of a conflict graph, from the centre of a neighbourhood. All rules are consequences of one question:
-// which independent sets of neighbours outweigh the centre v? A solution has v or one of these sets. None: v is taken
-// (neighbourhood removal); neighbours in no such set are dropped (domination, basic and extended single edge); and when
-// they are few, vertices that stand for the sets replace v and its neighbours (extended struction, Gellner et al. 2021,
-// with simplicial weight transfer and the folds of small degree as special cases). Deviates from there in bounding
-// neighbourhoods by clique covers, because the conflicts of cells come in cliques, and in leaving out sets that another
-// one dominates.
+// Exact reductions of a conflict graph, from the centre of a neighbourhood. All rules follow from one question: which
+// independent sets of neighbours outweigh the centre v? A solution has v or one of these sets. If there is none, v is
+// taken (neighbourhood removal). Neighbours in no such set are dropped (domination, basic and extended single edge). If
+// the sets are few, vertices that stand for them replace v and its neighbours (extended struction, Gellner et al. 2021,
+// with simplicial weight transfer and the folds of small degree as special cases). Two things differ from there: clique
+// covers bound neighbourhoods, because the conflicts of cells come in cliques, and sets that another one dominates are
+// left out.
 
 #include <cstdint>
 #include <deque>
@@ -26,26 +26,26 @@
 namespace hexpipe::mwis::reduce {
 
 enum class ReductionEffort {
-  quick,     // what clique covers prove, while it decides something often enough: a fraction of a second
-  worth,     // as quick, then as full and as thorough for as long as what they decide is worth their work
+  quick,     // what clique covers prove, while this decides vertices often enough: a fraction of a second
+  worth,     // like quick, then like full and thorough while the decisions are worth their work
   full,      // all rules that leave fewer vertices at once
-  thorough,  // all rules, and folds that add vertices where other rules then remove more: seconds to minutes
+  thorough,  // all rules, and folds that add vertices if other rules then remove more: seconds to minutes
 };
 
 class Reducer {
  public:
-  // Around those in `incomplete`, which have neighbours that the graph does not show, nothing is decided.
+  // Decides nothing around vertices in `incomplete`, because they have neighbours that the graph does not show.
   Reducer(const graph::ConflictGraph& graph, ReductionLog& log, std::vector<char> incomplete = {});
 
-  // Until no rule applies any more, or to the deadline. Returns how much heavier solutions become by the lift.
+  // Runs until no rule applies any more, or until the deadline. Returns how much heavier solutions become by the lift.
   std::int64_t run(ReductionEffort effort, const Deadline& deadline);
-  // Of run, so far: roughly nanoseconds, the same on every machine.
+  // The work of run so far: roughly nanoseconds, but the same on every machine.
   double work() const { return work_; }
 
   ReducibleGraph& graph() { return graph_; }
 
  private:
-  // Vertices whose neighbourhood changed, each named once.
+  // Vertices whose neighbourhood changed, each listed once.
   struct Queue {
     std::deque<std::int32_t> vertices;
     std::vector<char> waiting;
@@ -54,10 +54,10 @@ class Reducer {
     void clear();
   };
 
-  // What reductions may still spend, in units of work: each vertex that they decide pays something in.
-  struct Purse {
+  // The work that reductions may still spend. Each vertex that they decide adds to it.
+  struct WorkBudget {
     double left, most, pay;
-    std::int32_t alive;  // when pay was counted last
+    std::int32_t alive;  // when pay was last added
     double work;
   };
 
@@ -72,7 +72,7 @@ class Reducer {
   void take_back(std::size_t decided, std::int64_t offset);
   void estimate(std::int32_t v, std::int32_t growth);
 
-  void open_purse();
+  void open_budget();
   bool is_worth_it();
 
   void decide(std::int32_t v);
@@ -96,30 +96,30 @@ class Reducer {
   const std::vector<char> incomplete_;
   std::int64_t offset_ = 0;
   Queue queue_, set_queue_;
-  double work_ = 0;  // roughly in nanoseconds, the same on every machine
-  std::optional<Purse> purse_;
+  double work_ = 0;  // roughly in nanoseconds, but the same on every machine
+  std::optional<WorkBudget> budget_;
 
-  // How many vertices a fold of the vertex would add, where that is known; the fewest first, with entries that are no
-  // longer true.
+  // How many vertices a fold of the vertex would add, if that is known. The queue has the fewest first; some of its
+  // entries are outdated.
   static constexpr std::int32_t unknown = std::numeric_limits<std::int32_t>::max();
-  using Growth = std::pair<std::int32_t, std::int32_t>;  // and the vertex
+  using Growth = std::pair<std::int32_t, std::int32_t>;  // the growth and the vertex
   std::vector<std::int32_t> growth_;
   std::priority_queue<Growth, std::vector<Growth>, std::greater<>> growths_;
   bool trying_ = false;
-  std::vector<Growth> growth_before_;  // the try
+  std::vector<Growth> growth_before_;  // the current try
 
-  // The neighbourhood that is looked at, the heaviest first, as a small graph.
+  // The neighbourhood that is being examined, the heaviest vertex first, as a small graph.
   std::vector<std::int32_t> around_;
   std::vector<std::int32_t> places_;  // in around_, while local_ is built
   ground::DenseGraph local_;
   std::vector<bits::Word> set_, excluded_;
   bounds::CliqueCoverBound bound_;
   HeavySets heavy_sets_;
-  std::vector<std::size_t> sets_;      // those of heavy_sets_ that a fold has to keep, the heaviest first
-  std::vector<std::int32_t> outside_;  // ascending, what the neighbours have for neighbours outside
+  std::vector<std::size_t> sets_;      // the heavy_sets_ that a fold has to keep, the heaviest first
+  std::vector<std::int32_t> outside_;  // the neighbours' other neighbours, ascending
   std::size_t outside_words_ = 0;
-  std::vector<bits::Word> conflicts_;      // a row of outside_ for each of around_
-  std::vector<bits::Word> set_conflicts_;  // a row of outside_ for each of sets_
+  std::vector<bits::Word> conflicts_;      // a row over outside_ for each of around_
+  std::vector<bits::Word> set_conflicts_;  // a row over outside_ for each of sets_
 };
 
 }  // namespace hexpipe::mwis::reduce

@@ -47,7 +47,7 @@ std::int32_t ReducibleGraph::add(std::int64_t weight, std::span<const std::int32
   return v;
 }
 
-// New vertices have the highest numbers, so that lists stay ascending.
+// New vertices have the highest numbers, so lists stay ascending.
 void ReducibleGraph::append(std::int32_t v, std::int32_t neighbour) {
   neighbours_of(v);
   if (lists_[v].size == lists_[v].capacity || lists_[v].begin < marked_end_) move_to_end(v, 2 * lists_[v].size + 4);
@@ -66,7 +66,7 @@ void ReducibleGraph::move_to_end(std::int32_t v, std::int64_t capacity) {
 
 void ReducibleGraph::mark() {
   if (pool_.size() > 2 * packed_size_ + 1024) pack();
-  pool_.push_back(0);  // so that an empty list at the end begins before the mark, too
+  pool_.push_back(0);  // so that an empty list at the end, too, begins before the mark
   marked_end_ = static_cast<std::int64_t>(pool_.size());
   marked_vertices_ = vertex_count();
   marked_alive_ = alive_count_;

@@ -1,5 +1,5 @@
 #pragma once
-// A conflict graph that reductions change: vertices go, and new ones come for what is decided together.
+// A conflict graph that reductions change: vertices go, and new ones come for joint decisions.
 
 #include <cstdint>
 #include <span>
@@ -14,23 +14,23 @@ class ReducibleGraph {
  public:
   explicit ReducibleGraph(const graph::ConflictGraph& graph);
 
-  // Vertices that are or were there; numbers are not used again.
+  // The number of vertices that are or were there; numbers are never reused.
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(weights_.size()); }
   std::int32_t alive_count() const { return alive_count_; }
   bool alive(std::int32_t v) const { return alive_[v] != 0; }
   std::int64_t weight(std::int32_t v) const { return weights_[v]; }
-  // Ascending, of a vertex that is there. Valid until a vertex is added.
+  // The neighbours of an existing vertex, ascending. Valid until a vertex is added.
   std::span<const std::int32_t> neighbours_of(std::int32_t v);
 
   void remove(std::int32_t v);
-  // `neighbours` ascend; none is named twice.
+  // `neighbours` must ascend without repeats.
   std::int32_t add(std::int64_t weight, std::span<const std::int32_t> neighbours);
 
-  // From mark() on, everything can be taken back at once by rollback(), until the next mark().
+  // Everything after mark() can be undone at once by rollback(), until the next mark().
   void mark();
   void rollback();
 
-  // What is there, numbered in ascending order of the vertices, which `vertices` gets.
+  // The remaining graph, renumbered in ascending order of its vertices; `vertices` gets their numbers here.
   graph::ConflictGraph compress(std::vector<std::int32_t>& vertices);
 
  private:
@@ -47,12 +47,12 @@ class ReducibleGraph {
   std::vector<char> alive_, stale_;  // a stale list names vertices that are gone
   std::int32_t alive_count_;
 
-  // Since mark(), lists change only behind marked_end_, where they are copied before.
+  // Since mark(), lists change only behind marked_end_; earlier lists are copied there first.
   std::int64_t marked_end_ = 0;
   std::int32_t marked_vertices_ = 0, marked_alive_ = 0;
   std::vector<std::int32_t> removed_;
   std::vector<std::pair<std::int32_t, List>> moved_;
-  std::size_t packed_size_;  // of the pool, when it had no holes
+  std::size_t packed_size_;  // of the pool when it had no holes
 };
 
 }  // namespace hexpipe::mwis::reduce

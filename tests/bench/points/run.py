@@ -3,7 +3,8 @@
 let become hexes.
 
 Runs the pipeline on models of ../shared/models (or on the files named) once for every kind of points, and prints, worst first
-within each kind, the share of the volume in hexes after a greedy choice and after lns, candidates per vertex, the least scaled
+within each kind, the share of the volume in hexes after a greedy choice and after lns, how many rows of points end on faces, the length of
+dislocations inside in sizes, candidates per vertex, the least scaled
 Jacobian, and the time of tetmesh per 100,000 tets and against TetGen's own in the same run. The rows of Gmsh stand beside.
 The kinds are surface+points: keep+lattice is the reference that every other has to beat. With +improve behind them tetmesh searches
 for better points for --seconds, on all threads; without, it has one thread. Tools are taken from build/bin, or from HEXPIPE_BIN;
@@ -83,13 +84,17 @@ def measure(path, level, kind, options):
             "lns": best, "number": number, "gmsh": GMSH.get(name, (None,) * 3)[level], "candidates": candidates["candidates"] / mesh["points"],
             "least": least, "per_tets": 1e5 * sum(seconds.values()) / mesh["tets"],
             "ratio": sum(seconds.values()) / mesh["tetgen_seconds"], "away": mesh["distance_to_input"] / mesh["size"],
-            "extra": mesh["extra_points"], "remeshed": mesh["surface_remeshed"] or surface == "keep"}
+            "extra": mesh["extra_points"], "row_ends": mesh.get("row_ends"), "dislocations": mesh.get("dislocations", {}).get("length"), "remeshed": mesh["surface_remeshed"] or surface == "keep"}
+
+
+def counted(value):
+    return "-" if value is None else f"{value:.0f}"
 
 
 def row(r, first):
     against = f"{r['lns'] - first[r['model']]:+.1f}" if r["model"] in first else "-"
     return (f"| {r['model']} | {r['size']:.4g} | {r['kind']}{'' if r['remeshed'] else ' (kept: remeshing failed)'} | {r['points']} | "
-            f"{r['tets']} | {r['greedy']:.1f} | {r['lns']:.1f} | {r['number']:.1f} | {against} | {r['gmsh'] or '-'} | {r['candidates']:.1f} | "
+            f"{r['tets']} | {r['greedy']:.1f} | {r['lns']:.1f} | {r['number']:.1f} | {counted(r['row_ends'])} | {counted(r['dislocations'])} | {against} | {r['gmsh'] or '-'} | {r['candidates']:.1f} | "
             f"{r['least']:.2f} | {r['extra']} | {r['away']:.3f} | {r['per_tets']:.2f} | {r['ratio']:.1f} |")
 
 
@@ -108,9 +113,9 @@ def main():
     if missing:
         print(f"skipped: {missing[0]} is not there")
         return
-    print("| model | size | surface+points | points | tets | hex volume %, greedy | after lns | hex number % | against keep+lattice | Gmsh | candidates / "
+    print("| model | size | surface+points | points | tets | hex volume %, greedy | after lns | hex number % | row ends | dislocations, sizes | against keep+lattice | Gmsh | candidates / "
           "vertex | least scaled Jacobian | extra points | distance / size | tetmesh s / 100k tets | tetmesh / TetGen |")
-    print("|---" * 16 + "|")
+    print("|---" * 18 + "|")
     for level in options.level or ("middle", "fine"):
         first = {}
         for kind in options.kind or KINDS:

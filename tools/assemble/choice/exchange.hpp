@@ -1,12 +1,13 @@
 #pragma once
-// Chosen hexes exchanged for other candidates, where hexes gain, or fewer quads stand open against tets.
+// Exchanges chosen hexes for other candidates, so that hexes gain or fewer quads are open.
 
 #include <cstdint>
 
 #include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/tet_mesh.hpp"
-#include "tools/assemble/hybrid/boundary_quads.hpp"
+#include "tools/assemble/choice/selection.hpp"
+#include "tools/assemble/hybrid/surface_tags.hpp"
 
 namespace hexpipe::assemble::choice {
 
@@ -21,14 +22,15 @@ struct Exchange {
   ExchangeCounts counts;
 };
 
-// A choice that is worth more than `chosen`, or this: what is summed up is the volume of hexes times a power of their
-// quality, less what open quads cost, for each takes a pyramid, and pyramids take room from the hexes beside them.
+// Searches for a choice of more worth than the given one, and returns that or the given one. The worth is the sum of
+// the volumes of hexes, each times a power of its quality, less a cost for each open quad: an open quad takes a
+// pyramid, and pyramids take room from the hexes beside them.
 //
-// Hexes come in where they push chosen ones out, or into the room of these: those that their tets form, that are valid,
-// and not poorer than both the poorest of `chosen` and what findhex takes where it is not told otherwise. What could
-// stand beside `chosen` at its open quads was left out on purpose: neither it nor what would take its room comes in.
-// Chosen cells of other kinds stay. `chosen` can be built (build_selection).
+// A hex comes in if it pushes chosen ones out or takes their room, if its tets form it, if it is valid, and if it is
+// not poorer than both least_hex_quality and the poorest chosen hex. A candidate that could be added to the given
+// choice at its open quads was left out on purpose: it stays out, and so does all that would take its room. Chosen
+// cells of other kinds stay. The new choice is not checked.
 Exchange exchange_hexes(const TetMesh& mesh, const hybrid::BoundaryQuads& boundary, const Candidates& candidates,
-                        const graph::IndependentSet& chosen);
+                        const CheckedChoice& choice);
 
 }  // namespace hexpipe::assemble::choice

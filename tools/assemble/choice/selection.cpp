@@ -2,36 +2,39 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <numeric>
 #include <optional>
+#include <utility>
 
 #include "common/run/error.hpp"
 
 namespace hexpipe::assemble::choice {
 namespace {
 
-// Interior tets by the cell that replaces them, slivers by how many cells absorb them.
+// By tet: which cell replaces it, and whether cells absorb it as a sliver.
 struct Claims {
-  std::vector<std::int32_t> owner;  // candidate, or HybridCell::none
+  std::vector<CandidateIndex> owner;  // or no_index
   std::vector<std::uint8_t> absorbed;
 };
 
-[[noreturn]] void fail_conflict(const InputNames& names, std::int32_t a, std::int32_t b, const char* how) {
+[[noreturn]] void fail_conflict(const InputNames& names, CandidateIndex a, CandidateIndex b, const char* how) {
   throw DataError::at(names.solution, "expected candidates that fit together, found {} and {} which {}",
                       title_of(names, a), title_of(names, b), how);
 }
 
-void claim_interior(const InputNames& names, const Candidates& candidates, std::int32_t candidate, Claims& claims) {
-  for (std::int32_t t : candidates.interior_tets_of(candidate)) {
-    if (claims.owner[t] != hybrid::HybridCell::none) fail_conflict(names, claims.owner[t], candidate, "share a tet");
+void claim_interior(const InputNames& names, const Candidates& candidates, CandidateIndex candidate, Claims& claims) {
+  for (TetIndex t : candidates.interior_tets_of(candidate)) {
+    if (claims.owner[t] != no_index) fail_conflict(names, claims.owner[t], candidate, "share a tet");
     claims.owner[t] = candidate;
   }
 }
 
-// The facets of the interior tets that no two of them share: the skin of what the cell replaces. At most 15 tets, so
-// quadratic search is the fast one.
-std::vector<VertexKey<3>> skin_of(const TetMesh& mesh, std::span<const std::int32_t> tets) {
+// The facets that no two of the interior tets share: the skin of what the cell replaces. There are at most 15 tets, for
+// which a quadratic search is the fastest.
+std::vector<VertexKey<3>> skin_of(const TetMesh& mesh, std::span<const TetIndex> tets) {
   std::vector<VertexKey<3>> skin;
-  for (std::int32_t t : tets)
+  for (TetIndex t : tets)
     for (const auto& f : TetTopology::triangles) {
       const auto key = key_of(Triangle{mesh.tets[t][f[0]], mesh.tets[t][f[1]], mesh.tets[t][f[2]]});
       const auto twin = std::find(skin.begin(), skin.end(), key);
@@ -50,7 +53,7 @@ bool contains_all(const std::vector<VertexKey<3>>& skin, std::span<const Triangl
                      [&](const Triangle& t) { return std::find(skin.begin(), skin.end(), key_of(t)) != skin.end(); });
 }
 
-// Finds each facet of the cell on the skin, and each quad's diagonal; nullopt when the skin is not the cell's.
+// Finds each facet of the cell on the skin, and each quad's diagonal. False if the skin is not the cell's.
 template <class Topology>
 bool match_skin(const std::vector<VertexKey<3>>& skin, hybrid::HybridCell& cell) {
   if (skin.size() != Topology::triangles.size() + 2 * Topology::quads.size()) return false;
@@ -72,8 +75,8 @@ int quad_with_vertices(const hybrid::HybridCell& cell, const VertexKey<4>& key) 
   return -1;
 }
 
-// Nothing where the tets do not form it.
-std::optional<hybrid::HybridCell> cell_of(const TetMesh& mesh, const Candidates& candidates, std::int32_t candidate) {
+// The cell that the candidate's tets form, if they do.
+std::optional<hybrid::HybridCell> cell_of(const TetMesh& mesh, const Candidates& candidates, CandidateIndex candidate) {
   const auto interior = candidates.interior_tets_of(candidate);
   if (interior.empty() || candidates.kind[candidate] == CellKind::tet) return std::nullopt;
   hybrid::HybridCell cell;
@@ -81,35 +84,34 @@ std::optional<hybrid::HybridCell> cell_of(const TetMesh& mesh, const Candidates&
   cell.corners = candidates.vertices[candidate];
   cell.candidate = candidate;
   cell.region = mesh.tet_tags[interior.front()];
-  for (std::int32_t t : interior)
+  for (TetIndex t : interior)
     if (mesh.tet_tags[t] != cell.region) return std::nullopt;
   const auto skin = skin_of(mesh, interior);
   if (!with_topology(cell.kind, [&](auto topology) { return match_skin<decltype(topology)>(skin, cell); }))
     return std::nullopt;
-  for (std::int32_t t : candidates.boundary_tets_of(candidate)) {
+  for (TetIndex t : candidates.boundary_tets_of(candidate)) {
     const int quad = quad_with_vertices(cell, key_of(mesh.tets[t]));
-    if (quad < 0 || cell.sliver[quad] != hybrid::HybridCell::none || mesh.tet_tags[t] != cell.region)
-      return std::nullopt;
+    if (quad < 0 || cell.sliver[quad] != no_index || mesh.tet_tags[t] != cell.region) return std::nullopt;
     cell.sliver[quad] = t;
   }
   return cell;
 }
 
-// Which chosen cell has a quad, to notice a third and one in another cyclic order.
+// The chosen cells at a quad: a third one is an error, and so is another cyclic order.
 struct QuadOwner {
-  std::int32_t cell;
+  CellIndex cell;
   Quad quad;
-  std::int32_t partner = hybrid::HybridCell::none;
+  CellIndex partner = no_index;
 };
 
 void pair_quads(const InputNames& names, const std::vector<hybrid::HybridCell>& cells, KeyMap<4, QuadOwner>& owners) {
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(cells.size()); ++c)
+  for (CellIndex c = 0; c < static_cast<CellIndex>(cells.size()); ++c)
     for (int i = 0; i < cells[c].quad_count(); ++i) {
       const Quad quad = cells[c].quad(i);
       auto [entry, added] = owners.try_emplace(key_of(quad), QuadOwner{c, quad});
       if (added) continue;
       QuadOwner& owner = entry.value();
-      if (owner.partner != hybrid::HybridCell::none || !same_diagonals(owner.quad, quad))
+      if (owner.partner != no_index || !same_diagonals(owner.quad, quad))
         fail_conflict(names, cells[owner.cell].candidate, cells[c].candidate, "cross at a quad");
       owner.partner = c;
     }
@@ -119,46 +121,68 @@ void absorb_slivers(const InputNames& names, const hybrid::SurfaceTags& tags, co
                     std::vector<hybrid::HybridCell>& cells, Claims& claims) {
   for (auto& cell : cells)
     for (int i = 0; i < cell.quad_count(); ++i) {
-      std::int32_t& sliver = cell.sliver[i];
-      if (sliver == hybrid::HybridCell::none) continue;
-      if (claims.owner[sliver] != hybrid::HybridCell::none)
-        fail_conflict(names, claims.owner[sliver], cell.candidate, "share a tet");
-      const bool alone = owners.at(key_of(cell.quad(i))).partner == hybrid::HybridCell::none;
+      TetIndex& sliver = cell.sliver[i];
+      if (sliver == no_index) continue;
+      if (claims.owner[sliver] != no_index) fail_conflict(names, claims.owner[sliver], cell.candidate, "share a tet");
+      const bool alone = owners.at(key_of(cell.quad(i))).partner == no_index;
       if (alone && tags.covers_partly(cell.quad(i), cell.outer_diagonal(i)))
-        sliver = hybrid::HybridCell::none;
+        sliver = no_index;
       else
         claims.absorbed[sliver] = 1;
     }
 }
 
-// Each half of a quad without a partner has to face a tet or lie on the boundary; else another cell stands across it.
-// Likewise no other cell may use its diagonal, which conformity is going to split.
-void check_open_sides(const InputNames& names, const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags) {
+// At a quad of two cells there is no tet between them, and in two regions there is an interface.
+void check_pair(const InputNames& names, const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags,
+                const OpenQuad& at, CellIndex partner) {
+  const hybrid::HybridCell &cell = mesh.cell(at.cell), &other = mesh.cell(partner);
+  const Quad quad = cell.quad(at.quad);
+  if (other.region != cell.region && !tags.cover_of(quad))
+    fail_conflict(names, cell.candidate, other.candidate, "stand in two regions without an interface between them");
+  if (mesh.tet_at(triangles_of(quad, cell.inner_diagonal[at.quad])[0]) != no_index)
+    fail_conflict(names, cell.candidate, other.candidate, "have a tet between them");
+}
+
+// Whether both halves of a quad of one cell face tets. If they do not, both lie on the boundary, or another cell
+// crosses the quad.
+bool faces_tets(const InputNames& names, const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags,
+                const OpenQuad& at) {
+  const hybrid::HybridCell& cell = mesh.cell(at.cell);
+  const Quad quad = cell.quad(at.quad);
+  const int diagonal = cell.outer_diagonal(at.quad);
+  int tets = 0;
+  for (const auto& half : triangles_of(quad, diagonal)) tets += mesh.tet_at(half) != no_index;
+  if (tets == 0 && tags.cover_of(quad, diagonal)) return false;
+  if (tets == 2) return true;
+  throw DataError::at(names.solution,
+                      "expected candidates that fit together, found {} with a quad that another crosses",
+                      title_of(names, cell.candidate));
+}
+
+// The candidates at the diagonals of open quads, after checking both sides of every quad. Conformity is going to split
+// these diagonals, so no two quads may have one in common.
+KeyMap<2, std::int32_t> check_quads(const InputNames& names, const hybrid::HybridMesh& mesh,
+                                    const hybrid::SurfaceTags& tags) {
   KeyMap<2, std::int32_t> diagonals;
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c)
+  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c)
     for (int i = 0; i < mesh.cell(c).quad_count(); ++i) {
-      const Quad quad = mesh.cell(c).quad(i);
-      const auto inner = triangles_of(quad, mesh.cell(c).inner_diagonal[i]);
-      if (const std::int32_t partner = mesh.partner_at(quad, c); partner != hybrid::HybridMesh::none) {
-        if (mesh.cell(partner).region != mesh.cell(c).region && !tags.cover_of(quad))
-          fail_conflict(names, mesh.cell(c).candidate, mesh.cell(partner).candidate,
-                        "stand in two regions without an interface between them");
-        if (mesh.tet_at(inner[0]) == hybrid::HybridMesh::none) continue;
-        fail_conflict(names, mesh.cell(c).candidate, mesh.cell(partner).candidate, "have a tet between them");
+      const hybrid::HybridCell& cell = mesh.cell(c);
+      const Quad quad = cell.quad(i);
+      if (const CellIndex partner = mesh.partner_at(quad, c); partner != no_index) {
+        check_pair(names, mesh, tags, {c, i}, partner);
+        continue;
       }
-      const int diagonal = mesh.cell(c).outer_diagonal(i);
-      int tets = 0;
-      for (const auto& half : triangles_of(quad, diagonal)) tets += mesh.tet_at(half) != hybrid::HybridMesh::none;
-      if (tets == 0 && tags.cover_of(quad, diagonal)) continue;
-      const auto candidate = mesh.cell(c).candidate;
-      if (tets != 2)
-        throw DataError::at(names.solution,
-                            "expected candidates that fit together, found {} with a quad that another crosses",
-                            title_of(names, candidate));
-      const auto [other, added] = diagonals.try_emplace(edge_key(quad[diagonal], quad[diagonal + 2]), candidate);
-      if (!added) fail_conflict(names, other->second, candidate, "cross at an edge");
+      if (!faces_tets(names, mesh, tags, {c, i})) continue;
+      const int diagonal = cell.outer_diagonal(i);
+      const auto [other, added] = diagonals.try_emplace(edge_key(quad[diagonal], quad[diagonal + 2]), cell.candidate);
+      if (!added) fail_conflict(names, other->second, cell.candidate, "cross at an edge");
     }
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c)
+  return diagonals;
+}
+
+// No cell has an edge that is the diagonal of an open quad.
+void check_edges(const InputNames& names, const hybrid::HybridMesh& mesh, const KeyMap<2, std::int32_t>& diagonals) {
+  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c)
     with_topology(mesh.cell(c).kind, [&](auto topology) {
       const auto& corners = mesh.cell(c).corners;
       for (const auto& e : decltype(topology)::edges) {
@@ -170,23 +194,31 @@ void check_open_sides(const InputNames& names, const hybrid::HybridMesh& mesh, c
 
 }  // namespace
 
-std::string title_of(const InputNames& names, std::int32_t candidate) {
+std::string title_of(const InputNames& names, CandidateIndex candidate) {
   if (names.origins.empty()) return fmt::format("{}", candidate + 1);
   const auto& [bundle, number] = names.origins[candidate];
   return bundle == 0 ? fmt::format("{}", number + 1) : fmt::format("{} of {}", number + 1, names.bundles[bundle]);
 }
 
-bool is_formed_by_its_tets(const TetMesh& mesh, const Candidates& candidates, std::int32_t candidate) {
+graph::IndependentSet all_of(const Candidates& candidates) {
+  graph::IndependentSet all(candidates.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+bool is_formed_by_its_tets(const TetMesh& mesh, const Candidates& candidates, CandidateIndex candidate) {
   return cell_of(mesh, candidates, candidate).has_value();
 }
 
-hybrid::HybridMesh build_selection(const TetMesh& mesh, const hybrid::SurfaceTags& tags, const Candidates& candidates,
-                                   const graph::IndependentSet& chosen, const InputNames& names) {
-  Claims claims{std::vector<std::int32_t>(mesh.tets.size(), hybrid::HybridCell::none),
+namespace {
+
+hybrid::HybridMesh select_cells(const TetMesh& mesh, const hybrid::SurfaceTags& tags, const Candidates& candidates,
+                                const graph::IndependentSet& chosen, const InputNames& names) {
+  Claims claims{std::vector<CandidateIndex>(mesh.tets.size(), no_index),
                 std::vector<std::uint8_t>(mesh.tets.size(), 0)};
   std::vector<hybrid::HybridCell> cells;
   cells.reserve(chosen.size());
-  for (std::int32_t candidate : chosen) {
+  for (CandidateIndex candidate : chosen) {
     claim_interior(names, candidates, candidate, claims);
     const auto cell = cell_of(mesh, candidates, candidate);
     if (!cell)
@@ -201,23 +233,28 @@ hybrid::HybridMesh build_selection(const TetMesh& mesh, const hybrid::SurfaceTag
   absorb_slivers(names, tags, owners, cells, claims);
 
   std::vector<bool> removed(mesh.tets.size());
-  for (std::size_t t = 0; t < removed.size(); ++t)
-    removed[t] = claims.owner[t] != hybrid::HybridCell::none || claims.absorbed[t];
+  for (std::size_t t = 0; t < removed.size(); ++t) removed[t] = claims.owner[t] != no_index || claims.absorbed[t];
   hybrid::HybridMesh result(mesh, removed);
   for (const auto& cell : cells) result.add_cell(cell);
-  check_open_sides(names, result, tags);
+  check_edges(names, result, check_quads(names, result, tags));
   return result;
 }
 
-bool is_open(const hybrid::HybridMesh& mesh, std::int32_t cell, int i) {
+}  // namespace
+
+Selection::Selection(const TetMesh& mesh, const hybrid::SurfaceTags& tags, const Candidates& candidates,
+                     graph::IndependentSet chosen, const InputNames& names)
+    : choice_(std::move(chosen)), mesh_(select_cells(mesh, tags, candidates, choice_.chosen(), names)) {}
+
+bool is_open(const hybrid::HybridMesh& mesh, CellIndex cell, int i) {
   const Quad quad = mesh.cell(cell).quad(i);
-  if (mesh.partner_at(quad, cell) != hybrid::HybridMesh::none) return false;
-  return mesh.tet_at(triangles_of(quad, mesh.cell(cell).outer_diagonal(i))[0]) != hybrid::HybridMesh::none;
+  if (mesh.partner_at(quad, cell) != no_index) return false;
+  return mesh.tet_at(triangles_of(quad, mesh.cell(cell).outer_diagonal(i))[0]) != no_index;
 }
 
 std::vector<OpenQuad> open_quads(const hybrid::HybridMesh& mesh) {
   std::vector<OpenQuad> result;
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
+  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c) {
     if (!mesh.cell(c).alive) continue;
     for (int i = 0; i < mesh.cell(c).quad_count(); ++i)
       if (is_open(mesh, c, i)) result.push_back({c, i});

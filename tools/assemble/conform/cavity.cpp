@@ -1,9 +1,9 @@
 // Splits the ring of tets around a quad's diagonal at a new vertex, so that a pyramid stands on the quad: S. J. Owen,
 // S. A. Canann, S. Saigal, "Pyramid elements for maintaining tetrahedra to hexahedra conformability" (1997), and
 // S. J. Owen, S. Saigal, "Formation of pyramid elements for hexahedra to tetrahedra transitions" (2001).
-// They put the vertex at a fixed fraction above the quad and smooth later; here it goes where the worst new element is
-// best (point_star.hpp), and where that is poor the cavity grows over its worst facets, as in the vertex insertion of
-// B. M. Klingner, J. R. Shewchuk, "Aggressive tetrahedral mesh improvement" (2007).
+// They put the vertex at a fixed fraction above the quad and smooth later. Here it goes where the worst new element is
+// best (point_star.hpp), and if that is poor, the cavity grows over its worst facets, as in the vertex insertion of B.
+// M. Klingner, J. R. Shewchuk, "Aggressive tetrahedral mesh improvement" (2007).
 
 #include "tools/assemble/conform/cavity.hpp"
 
@@ -15,10 +15,10 @@
 namespace hexpipe::assemble::conform {
 namespace {
 
-// Ascent steps; smoothing goes on from here. Twice as many cost three times the time, for nothing after smoothing.
+// Ascent steps. Smoothing goes on from here: twice as many take three times as long, and after smoothing gain nothing.
 constexpr int first_steps = 8;
 constexpr int growth_steps = 8;
-// Growing pays in the first few tets; more only cost time.
+// The first few tets that are taken in help; more only cost time.
 constexpr int most_growth_attempts = 24;
 constexpr std::size_t most_tets = 60;
 
@@ -30,7 +30,7 @@ Cavity::Cavity(const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, 
   mesh.tets_around_edge(a, c, tets_);
   std::sort(tets_.begin(), tets_.end());
   assert(!tets_.empty());
-  const std::int32_t first = mesh.tet_at(triangles_of(quad, diagonal)[0]);
+  const TetIndex first = mesh.tet_at(triangles_of(quad, diagonal)[0]);
   region_ = mesh.region_of(first);
   if (!collect_skin()) obstacle_ = Obstacle::surface;
   const auto diagonal_key = edge_key(a, c);
@@ -41,17 +41,17 @@ Cavity::Cavity(const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, 
   if (obstacle_ == Obstacle::none && !is_sphere()) obstacle_ = Obstacle::cells;
 }
 
-Cavity::Cavity(const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std::int32_t tet)
+Cavity::Cavity(const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, TetIndex tet)
     : mesh_(mesh), tags_(tags), region_(mesh.region_of(tet)), tets_{tet} {
   collect_skin();
 }
 
-// False when a tagged triangle lies inside, or another region.
+// False if a tagged triangle or another region lies inside.
 bool Cavity::collect_skin() {
   skin_.clear();
   std::vector<VertexKey<3>> keys;
   bool crossed = false;
-  for (std::int32_t t : tets_)
+  for (TetIndex t : tets_)
     for (const auto& f : TetTopology::triangles) {
       const Tet& tet = mesh_.tet(t);
       const Triangle triangle{tet[f[0]], tet[f[1]], tet[f[2]]};
@@ -78,7 +78,7 @@ bool Cavity::collect_skin() {
   return !crossed;
 }
 
-// True when skin and quad are a closed surface of genus 0: every edge has two facets, and Euler's formula holds.
+// Whether skin and quad are a closed surface of genus 0: every edge has two facets, and Euler's formula holds.
 bool Cavity::is_sphere() const {
   std::vector<VertexKey<2>> edges;
   std::vector<Vertex> vertices;
@@ -127,7 +127,8 @@ std::vector<shape::Plane> Cavity::planes() const {
   return result;
 }
 
-// From the best of a few places: between the middle of the quad and the middle of the rest, or at the middle.
+// Starts from the best of a few places: between the middle of the quad and the middle of the other vertices, or,
+// without a quad, at the middle.
 shape::Placement Cavity::search(int steps) const {
   Vec3 base{}, rest{};
   double count = 0;
@@ -169,12 +170,12 @@ std::vector<std::pair<double, Cavity::Facet>> Cavity::worst_facets(const Vec3& a
   return result;
 }
 
-// Adds the tet behind a facet of the skin; false, and nothing changed, when there is none or the cavity would be no
-// ball.
+// Adds the tet behind a facet of the skin. Changes nothing and returns false if there is none or the cavity would not
+// be a ball.
 bool Cavity::take_in(const Facet& facet) {
   if (tags_.contains(facet.triangle)) return false;
-  const std::int32_t behind = mesh_.tet_at(facet.triangle, facet.tet);
-  if (behind == hybrid::HybridMesh::none || mesh_.region_of(behind) != region_) return false;
+  const TetIndex behind = mesh_.tet_at(facet.triangle, facet.tet);
+  if (behind == no_index || mesh_.region_of(behind) != region_) return false;
   const auto skin = skin_;
   tets_.push_back(behind);
   if (collect_skin() && is_sphere()) return true;
@@ -215,7 +216,7 @@ double Cavity::place_vertex(double enough) {
 double Cavity::worst_tet() const {
   double worst = 1;
   shape::PointStar one;
-  for (std::int32_t t : tets_) {
+  for (TetIndex t : tets_) {
     one.clear();
     const auto at = corner_points(mesh_.points, mesh_.tet(t));
     one.add(CellKind::tet, std::span<const Vec3>(at).first(4), 3);
@@ -224,10 +225,10 @@ double Cavity::worst_tet() const {
   return worst;
 }
 
-void Cavity::fill(hybrid::HybridMesh& mesh) const {
+void Cavity::split(hybrid::HybridMesh& mesh) const {
   assert(&mesh == &mesh_);
   const Vertex apex = mesh.add_point(at_);
-  for (std::int32_t t : tets_) mesh.remove_tet(t);
+  for (TetIndex t : tets_) mesh.remove_tet(t);
   for (const auto& [triangle, tet] : skin_) mesh.add_tet({triangle[0], triangle[2], triangle[1], apex}, region_);
   if (!quad_) return;
   const auto& [a, b, c, d] = *quad_;

@@ -1,6 +1,6 @@
 #pragma once
-// A cavity: tets to be replaced by tets on the facets of the cavity's skin, all joined to one new vertex; around the
-// diagonal of an open quad also by a pyramid on the quad.
+// A cavity: tets that give way to tets between the facets of the cavity's skin and one new vertex. Around the diagonal
+// of an open quad, a pyramid on the quad is among the new elements.
 
 #include <cstdint>
 #include <optional>
@@ -20,26 +20,26 @@ class Cavity {
   Cavity(const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, const Quad& quad, int diagonal);
 
   // One tet, to be improved; it grows in place_vertex.
-  Cavity(const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std::int32_t tet);
+  Cavity(const hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, TetIndex tet);
 
-  // What keeps the ring from being a ball that shows the whole quad: the diagonal lies on a tagged surface, or other
-  // cells use it.
+  // Why the ring is no ball with the whole quad on its skin: the diagonal lies on a tagged surface, or other cells use
+  // it.
   Obstacle obstacle() const { return obstacle_; }
 
-  // Looks for the best place of the new vertex. While the worst element is below `enough`, tries to take in the tets
-  // behind the worst facets. Returns the quality of the worst new element; not positive when no place is valid.
+  // Finds the best place for the new vertex. While the worst element is below `enough`, tries to take in the tets
+  // behind the worst facets. Returns the quality of the worst new element, which is not positive if no place is valid.
   double place_vertex(double enough);
 
-  // The quality of the worst tet that fill() would remove.
+  // The quality of the worst tet that split() would remove.
   double worst_tet() const;
 
   // Replaces the tets by the new elements.
-  void fill(hybrid::HybridMesh& mesh) const;
+  void split(hybrid::HybridMesh& mesh) const;
 
  private:
   struct Facet {
     Triangle triangle;  // outward
-    std::int32_t tet;   // inside
+    TetIndex tet;       // inside
   };
 
   bool collect_skin();
@@ -56,7 +56,7 @@ class Cavity {
   int diagonal_ = 0;
   std::int32_t region_ = 0;
   Obstacle obstacle_ = Obstacle::none;
-  std::vector<std::int32_t> tets_;
+  std::vector<TetIndex> tets_;
   std::vector<Facet> skin_;  // without the quad
   shape::PointStar star_;
   Vec3 at_{};

@@ -1,8 +1,8 @@
-// Puts a pyramid on every quad that faces two tets: the two are merged into it where they share their fourth vertex,
-// else the ring of tets around the quad's diagonal is filled anew from a vertex inside (cavity.hpp); a cell for whose
-// quad neither gives acceptable elements goes back to its tets, and its neighbours' quads come up in the next round. S.
-// J. Owen, S. A. Canann, S. Saigal, "Pyramid elements for maintaining tetrahedra to hexahedra conformability" (1997).
-// Where they leave bad pyramids to smoothing, cells are given back: the mesh has to be valid.
+// Puts a pyramid on every quad that faces two tets. If the two share their fourth vertex, they merge into the pyramid;
+// otherwise the ring of tets around the quad's diagonal is filled anew from a vertex inside (cavity.hpp). If neither
+// gives acceptable elements, the cell goes back to its tets, and its neighbours' quads come up in the next round.
+// S. J. Owen, S. A. Canann, S. Saigal, "Pyramid elements for maintaining tetrahedra to hexahedra conformability"
+// (1997). They leave bad pyramids to smoothing; here the cells are given back, because the mesh has to be valid.
 
 #include "tools/assemble/conform/conform.hpp"
 
@@ -15,20 +15,20 @@
 #include "common/mesh/quality.hpp"
 #include "tools/assemble/choice/selection.hpp"
 #include "tools/assemble/conform/cavity.hpp"
-#include "tools/assemble/shape/smooth.hpp"
+#include "tools/assemble/shape/point_star.hpp"
 
 namespace hexpipe::assemble::conform {
 namespace {
 
-// A merged pyramid that is this good is taken at once: it adds no vertex, and a split seldom does better.
+// A merged pyramid this good is taken at once: it adds no vertex, and a split is seldom better.
 constexpr double good_pyramid = 0.25;
-// Below this a cavity is grown.
+// Below this the cavity grows.
 constexpr double good_cavity = 0.06;
-// What a quad has to reach at its first turn. The rest wait until all others have taken their tets.
+// Elements at a quad have to reach this at its first turn. The other quads wait until these have taken their tets.
 constexpr double accepted_at_once = 0.02;
 
-// The scaled Jacobian of a corner between planes that are one, but for the precision of surface files. On curved
-// surfaces corners of 0.01, and even inverted ones, have been opened by sliding vertices.
+// A corner with a smaller scaled Jacobian lies in one plane, to the precision of surface files. On curved surfaces,
+// sliding vertices have opened corners of 0.01 and even inverted ones.
 constexpr double flat_corner = 1e-3;
 
 class Conformer {
@@ -60,8 +60,8 @@ class Conformer {
   double quality_of(const hybrid::HybridCell& pyramid) const;
   void merge(const choice::OpenQuad& at, const hybrid::HybridCell& pyramid);
   std::optional<GivenBack> resolve(const choice::OpenQuad& at, double least);
-  void give_back(std::int32_t cell, std::vector<choice::OpenQuad>& open);
-  void free_quad(const hybrid::HybridCell& cell, int i, std::int32_t partner, std::vector<choice::OpenQuad>& open);
+  void give_back(CellIndex cell, std::vector<choice::OpenQuad>& open);
+  void free_quad(const hybrid::HybridCell& cell, int i, CellIndex partner, std::vector<choice::OpenQuad>& open);
 
   hybrid::HybridMesh& mesh_;
   const hybrid::SurfaceTags& tags_;
@@ -79,31 +79,31 @@ VertexKey<2> Conformer::diagonal_of(const choice::OpenQuad& at) const {
   return edge_key(quad[diagonal], quad[diagonal + 2]);
 }
 
-// Where both triangles of the quad belong to one tet, the quad takes its other diagonal.
+// If both triangles of the quad belong to one tet, the quad takes its other diagonal.
 void Conformer::absorb_sliver(const choice::OpenQuad& at) {
   const hybrid::HybridCell& cell = mesh_.cell(at.cell);
   const Quad quad = cell.quad(at.quad);
   const int diagonal = cell.outer_diagonal(at.quad);
   const auto near = triangles_of(quad, diagonal), far = triangles_of(quad, 1 - diagonal);
-  const std::int32_t sliver = mesh_.tet_at(near[0]);
-  if (sliver != mesh_.tet_at(near[1]) || cell.sliver[at.quad] != hybrid::HybridCell::none) return;
+  const TetIndex sliver = mesh_.tet_at(near[0]);
+  if (sliver != mesh_.tet_at(near[1]) || cell.sliver[at.quad] != no_index) return;
   if (tags_.contains(near[0]) || tags_.contains(near[1]) || tags_.covers_partly(quad, 1 - diagonal)) return;
   const bool on_boundary = tags_.cover_of(quad, 1 - diagonal).has_value();
   int tets = 0;
-  for (const auto& half : far) tets += mesh_.tet_at(half, sliver) != hybrid::HybridMesh::none;
+  for (const auto& half : far) tets += mesh_.tet_at(half, sliver) != no_index;
   if (tets != 2 && !(tets == 0 && on_boundary)) return;
   mesh_.remove_tet(sliver);
   mesh_.set_sliver(at.cell, at.quad, sliver);
   ++counts_.absorbed;
 }
 
-// The vertex that both tets at an open quad have besides the quad's, unless the facet between them is tagged.
+// The fourth vertex of both tets at an open quad, if they share it and the facet between them is not tagged.
 std::optional<Vertex> Conformer::common_apex(const choice::OpenQuad& at) const {
   const hybrid::HybridCell& cell = mesh_.cell(at.cell);
   const Quad quad = cell.quad(at.quad);
   const auto halves = triangles_of(quad, cell.outer_diagonal(at.quad));
-  const std::int32_t first = mesh_.tet_at(halves[0]), second = mesh_.tet_at(halves[1]);
-  auto apex_of = [&](std::int32_t t) {
+  const TetIndex first = mesh_.tet_at(halves[0]), second = mesh_.tet_at(halves[1]);
+  auto apex_of = [&](TetIndex t) {
     return *std::find_if(mesh_.tet(t).begin(), mesh_.tet(t).end(),
                          [&](Vertex v) { return std::find(quad.begin(), quad.end(), v) == quad.end(); });
   };
@@ -115,8 +115,8 @@ std::optional<Vertex> Conformer::common_apex(const choice::OpenQuad& at) const {
   return apex;
 }
 
-// Two edges of the quad and the common apex's edge between them lie in a flat part of the surface: whatever stands on
-// the quad has no volume there.
+// Whether, at a corner of the quad, its two edges and the edge to the common apex lie in a flat part of the surface: no
+// cell on the quad has volume there.
 bool Conformer::has_flat_corner(const choice::OpenQuad& at) const {
   const auto apex = common_apex(at);
   if (!apex) return false;
@@ -164,7 +164,7 @@ void Conformer::merge(const choice::OpenQuad& at, const hybrid::HybridCell& pyra
   ++counts_.merged;
 }
 
-// The better of merging and splitting; the reason when neither is acceptable.
+// Takes the better of merging and splitting, or returns the reason why neither is acceptable.
 std::optional<GivenBack> Conformer::resolve(const choice::OpenQuad& at, double least) {
   const hybrid::HybridCell& cell = mesh_.cell(at.cell);
   const auto pyramid = merged_pyramid(at);
@@ -185,51 +185,51 @@ std::optional<GivenBack> Conformer::resolve(const choice::OpenQuad& at, double l
     return std::nullopt;
   }
   diagonals_.erase(diagonal_of(at));
-  cavity.fill(mesh_);
+  cavity.split(mesh_);
   ++counts_.split;
   return std::nullopt;
 }
 
-// Quad i of a cell that is no more: what lay on it stays conforming with the cell's tets.
-void Conformer::free_quad(const hybrid::HybridCell& cell, int i, std::int32_t partner,
+// Quad i of a removed cell: makes what is on its other side conform with the cell's tets.
+void Conformer::free_quad(const hybrid::HybridCell& cell, int i, CellIndex partner,
                           std::vector<choice::OpenQuad>& open) {
-  const std::int32_t sliver = cell.sliver[i];
-  if (partner == hybrid::HybridMesh::none) {
-    if (sliver != hybrid::HybridCell::none) mesh_.restore_tet(sliver);
+  const TetIndex sliver = cell.sliver[i];
+  if (partner == no_index) {
+    if (sliver != no_index) mesh_.restore_tet(sliver);
     return;
   }
   const hybrid::HybridCell& other = mesh_.cell(partner);
-  if (other.candidate == hybrid::HybridCell::none) {
+  if (other.candidate == no_index) {
     // Both diagonals cut a valid pyramid into two positive tets: its corner determinants are theirs.
     const Vertex apex = other.corners[4];
     const std::int32_t region = other.region;
     mesh_.remove_cell(partner);
     for (const auto& half : triangles_of(cell.quad(i), cell.outer_diagonal(i)))
       mesh_.add_tet({half[0], half[1], half[2], apex}, region);
-    if (sliver != hybrid::HybridCell::none) mesh_.restore_tet(sliver);
+    if (sliver != no_index) mesh_.restore_tet(sliver);
     return;
   }
   int theirs = 0;
   while (key_of(other.quad(theirs)) != key_of(cell.quad(i))) ++theirs;
-  if (sliver != hybrid::HybridCell::none && other.sliver[theirs] != sliver) mesh_.restore_tet(sliver);
+  if (sliver != no_index && other.sliver[theirs] != sliver) mesh_.restore_tet(sliver);
   open.push_back({partner, theirs});
 }
 
-void Conformer::give_back(std::int32_t c, std::vector<choice::OpenQuad>& open) {
+void Conformer::give_back(CellIndex c, std::vector<choice::OpenQuad>& open) {
   const hybrid::HybridCell cell = mesh_.cell(c);
-  std::array<std::int32_t, 6> partners;
+  std::array<CellIndex, 6> partners;
   for (int i = 0; i < cell.quad_count(); ++i) {
     partners[i] = mesh_.partner_at(cell.quad(i), c);
     if (choice::is_open(mesh_, c, i)) diagonals_.erase(diagonal_of({c, i}));
   }
   mesh_.remove_cell(c);
-  for (std::int32_t t : candidates_.interior_tets_of(cell.candidate)) mesh_.restore_tet(t);
+  for (TetIndex t : candidates_.interior_tets_of(cell.candidate)) mesh_.restore_tet(t);
   for (int i = 0; i < cell.quad_count(); ++i) free_quad(cell, i, partners[i], open);
   if (cell.kind == CellKind::hex) counts_.volume_given_back += candidates_.volume[cell.candidate];
 }
 
-// One round: slivers, merges that are good at once, then the rest one after the other. Returns the quads that the cells
-// given back leave open.
+// One round: slivers, then merges that are good at once, then the other quads one by one. Returns the quads that are
+// open because cells were given back.
 std::vector<choice::OpenQuad> Conformer::round(std::vector<choice::OpenQuad>& open) {
   for (const auto& at : open)
     if (mesh_.cell(at.cell).alive && !is_done(at)) absorb_sliver(at);

@@ -1,9 +1,7 @@
-// Slivers with all vertices on a smooth surface cannot be smoothed, and no exchange inside removes them, because two of
-// their facets have to stay. Removing such a tet flips an edge of the surface, as the boundary moves of
-// M. Wicke, D. Ritchie, B. M. Klingner, S. Burke, J. R. Shewchuk, J. F. O'Brien, "Dynamic local remeshing for
-// elastoplastic simulation" (2010), section 4.2, do.
-
-#include "tools/assemble/conform/peel.hpp"
+// Slivers with all vertices on a smooth surface cannot be smoothed, and no flip inside removes them, because two of
+// their facets have to stay. Removing such a tet flips an edge of the surface, as do the boundary moves of M. Wicke, D.
+// Ritchie, B. M. Klingner, S. Burke, J. R. Shewchuk, J. F. O'Brien, "Dynamic local remeshing for elastoplastic
+// simulation" (2010), section 4.2.
 
 #include <algorithm>
 #include <array>
@@ -12,21 +10,22 @@
 #include <vector>
 
 #include "common/mesh/quality.hpp"
+#include "tools/assemble/conform/flat_tets.hpp"
 
 namespace hexpipe::assemble::conform {
 namespace {
 
-// Cosine between the normals of the facets that come and those that go: 15 degrees.
+// The normals of new and old boundary facets may differ by 15 degrees.
 const double least_cosine = 0.966;
-// The sine of the angles of the facets that come, unless those that go had less.
+// No angle of a new boundary facet has a smaller sine, unless an old one had.
 constexpr double least_sine = 0.1;
 
 // A tet with its outer edge, between the two facets on the boundary, and its inner edge between the other two.
 struct Peel {
-  std::int32_t tet;
+  TetIndex tet;
   std::array<Vertex, 2> outer, inner;
   std::array<std::int32_t, 2> places;  // of the tagged triangles
-  std::array<Triangle, 2> triangles;   // that take their places
+  std::array<Triangle, 2> triangles;   // the boundary in their places
 };
 
 class Peeler {
@@ -40,7 +39,7 @@ class Peeler {
  private:
   bool is_flat(const Tet& tet) const;
   bool is_at_seam(const Tet& tet) const;
-  std::optional<Peel> peel_of(std::int32_t t) const;
+  std::optional<Peel> peel_of(TetIndex t) const;
   bool has_good_shape(const Peel& peel) const;
   void collect_obstacles(const std::vector<Peel>& peels);
   bool is_free(const Peel& peel) const;
@@ -50,8 +49,8 @@ class Peeler {
   const shape::InputSurface& surface_;
   std::span<const std::uint8_t> is_shared_;
   double least_;
-  KeySet<2> cell_edges_;      // with diagonals; an outer edge may not be among them
-  KeySet<2> boundary_edges_;  // with those of interfaces; an inner edge may not be among them
+  KeySet<2> cell_edges_;      // and diagonals; no outer edge may be among them
+  KeySet<2> boundary_edges_;  // and those of interfaces; no inner edge may be among them
   KeySet<3> halves_of_quads_;
 };
 
@@ -60,7 +59,7 @@ bool Peeler::is_flat(const Tet& tet) const {
   return std::sqrt(2.0) * least_corner_scaled_jacobian(CellKind::tet, std::span<const Vec3>(at).first(4)) < least_;
 }
 
-// With an edge that another piece may have too.
+// Whether another piece may have an edge of the tet, too.
 bool Peeler::is_at_seam(const Tet& tet) const {
   return std::ranges::count_if(
              tet, [&](Vertex v) { return static_cast<std::size_t>(v) < is_shared_.size() && is_shared_[v] != 0; }) >= 2;
@@ -75,7 +74,7 @@ bool goes_around_alike(const Triangle& a, const Triangle& b) {
   return b[static_cast<std::size_t>(first + 1) % 3] == a[1];
 }
 
-std::optional<Peel> Peeler::peel_of(std::int32_t t) const {
+std::optional<Peel> Peeler::peel_of(TetIndex t) const {
   const Tet& tet = mesh_.tet(t);
   std::array<int, 4> order{};  // facets on the boundary first; facet i is opposite to corner i
   std::array<std::optional<std::int32_t>, 4> places;
@@ -94,11 +93,11 @@ std::optional<Peel> Peeler::peel_of(std::int32_t t) const {
     const auto& from = TetTopology::triangles[order[i]];
     const auto& to = TetTopology::triangles[order[2 + i]];
     const Triangle outward{tet[from[0]], tet[from[1]], tet[from[2]]};
-    // Facets inside the mesh look to the boundary with their backs.
+    // Facets of the tet inside the mesh have their backs to the boundary.
     peel.triangles[i] =
         turned({tet[to[0]], tet[to[1]], tet[to[2]]}, goes_around_alike(outward, tags_.triangle(peel.places[i])));
   }
-  std::vector<std::int32_t> around;
+  std::vector<TetIndex> around;
   mesh_.tets_around_edge(peel.outer[0], peel.outer[1], around);
   if (around.size() != 1 || !has_good_shape(peel)) return std::nullopt;
   return peel;
@@ -133,7 +132,7 @@ bool Peeler::has_good_shape(const Peel& peel) const {
   return after >= before && surface_.distance(peel.inner[0], middle) <= surface_.most_deviation_at(peel.inner[0]);
 }
 
-// Only what concerns these tets.
+// Edges and facets that keep these tets from being peeled.
 void Peeler::collect_obstacles(const std::vector<Peel>& peels) {
   KeySet<2> outer, inner;
   KeySet<3> facets;
@@ -147,7 +146,7 @@ void Peeler::collect_obstacles(const std::vector<Peel>& peels) {
   };
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(tags_.size()); ++i)
     for (int k = 0; k < 3; ++k) take(inner, tags_.triangle(i)[k], tags_.triangle(i)[(k + 1) % 3], boundary_edges_);
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh_.cell_count()); ++c) {
+  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh_.cell_count()); ++c) {
     const hybrid::HybridCell& cell = mesh_.cell(c);
     if (!cell.alive) continue;
     with_topology(cell.kind, [&](auto topology) {
@@ -171,14 +170,14 @@ bool Peeler::is_free(const Peel& peel) const {
 
 std::int64_t Peeler::run() {
   std::vector<Peel> peels;
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh_.tet_count()); ++t)
+  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh_.tet_count()); ++t)
     if (mesh_.is_alive(t) && is_flat(mesh_.tet(t)) && !is_at_seam(mesh_.tet(t)))
       if (const auto peel = peel_of(t)) peels.push_back(*peel);
   if (peels.empty()) return 0;
   collect_obstacles(peels);
   std::int64_t count = 0;
   for (const auto& found : peels) {
-    // Another one may have changed its facets since.
+    // Peeling another tet may have changed its facets.
     const auto peel = peel_of(found.tet);
     if (!peel || !is_free(*peel)) continue;
     tags_.peel(mesh_.tet(peel->tet), peel->places, peel->triangles);

@@ -1,24 +1,51 @@
 #include "tools/assemble/gap/fewer_cells.hpp"
 
 #include "tools/assemble/gap/gap_mesh.hpp"
+#include "tools/assemble/gap/mend.hpp"
+#include "tools/assemble/gap/merge_on_surface.hpp"
 #include "tools/assemble/gap/merge_stars.hpp"
 #include "tools/assemble/gap/merge_vertices.hpp"
 #include "tools/assemble/gap/refill_rooms.hpp"
 
 namespace hexpipe::assemble::gap {
+namespace {
 
-FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags,
-                            std::span<const std::uint8_t> is_shared, bool quickly) {
+FewerCells merge(GapMesh& gap, const Surface& surface) {
   FewerCells counts;
-  GapMesh gap(mesh, tags, is_shared);
-  if (!gap.is_valid()) return counts;
   counts.merged = merge_vertices(gap);
-  if (!quickly) {
-    // Rooms are small: their search gains most after the quick merges, and opens the way to more of these.
-    counts.merged += merge_stars(gap);
-    const RefillCounts refilled = refill_rooms(gap);
-    counts.merged += refilled.vertices + merge_stars(gap);
-    counts.refilled = refilled.edges + refilled.poor;
+  counts.on_surface = merge_on_surface(gap, surface.tags, surface.input);
+  counts.merged += counts.on_surface;
+  return counts;
+}
+
+// Rooms are small: their search gains most after the quick merges, and opens the way to more of these.
+FewerCells merge_and_refill(GapMesh& gap, const Surface& surface) {
+  FewerCells counts = merge(gap, surface);
+  counts.merged += merge_stars(gap);
+  const RefillCounts refilled = refill_rooms(gap);
+  counts.merged += refilled.vertices + merge_stars(gap, true);
+  counts.refilled = refilled.edges + refilled.poor;
+  return counts;
+}
+
+}  // namespace
+
+FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, std::span<const std::uint8_t> is_shared,
+                            Effort effort) {
+  FewerCells counts;
+  GapMesh gap(mesh, surface.tags, is_shared);
+  if (!gap.is_valid()) return counts;
+  switch (effort) {
+    case Effort::quick:
+      gap.ignore_faces();
+      counts = merge(gap, surface);
+      break;
+    case Effort::full:
+      counts = merge_and_refill(gap, surface);
+      break;
+    case Effort::last:
+      counts.mended = mend(gap);
+      break;
   }
   if (counts.any()) gap.write_back();
   return counts;

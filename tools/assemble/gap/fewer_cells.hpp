@@ -1,29 +1,42 @@
 #pragma once
-// Makes the cells between the hexes fewer and better, without a change to any hex.
+// Makes the cells between the hexes fewer and better.
 
 #include <cstdint>
 #include <span>
 
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
 #include "tools/assemble/hybrid/surface_tags.hpp"
+#include "tools/assemble/shape/input_surface.hpp"
 
 namespace hexpipe::assemble::gap {
 
 struct FewerCells {
-  std::int64_t merged = 0;    // vertices that no hex uses, into others
-  std::int64_t refilled = 0;  // rooms
+  std::int64_t merged = 0;      // vertices that no hex uses, into others
+  std::int64_t on_surface = 0;  // of these, along the surface
+  std::int64_t refilled = 0;    // rooms
+  std::int64_t mended = 0;      // cells, in the last pass
 
-  bool any() const { return merged + refilled > 0; }
+  bool any() const { return merged + refilled + mended > 0; }
   FewerCells& operator+=(const FewerCells& more) {
-    merged += more.merged, refilled += more.refilled;
+    merged += more.merged, on_surface += more.on_surface, refilled += more.refilled;
+    mended += more.mended;
     return *this;
   }
 };
 
+// The surface along which vertices may merge, as it is by now and as it was.
+struct Surface {
+  hybrid::SurfaceTags& tags;
+  const shape::InputSurface& input;
+};
+
+// How much is done: only merges into neighbours and without a look at faces, for a mesh whose vertices have not been
+// smoothed yet; all; or what is poor alone becomes better (mend.hpp), for a mesh that is not smoothed any more.
+enum class Effort { quick, full, last };
+
 // Lowers the objective (objective.hpp). The mesh has to conform; nothing is done where a tet, or a cell made of tets,
-// is not valid. Vertices of cells that were chosen, on tagged facets, and shared ones stay where they are.
-// `quickly`: only merges into neighbours, for a mesh whose vertices have not been smoothed yet.
-FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags,
-                            std::span<const std::uint8_t> is_shared, bool quickly);
+// is not valid. Chosen cells stay, shared vertices stay where they are, those on tagged facets on these.
+FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, std::span<const std::uint8_t> is_shared,
+                            Effort effort);
 
 }  // namespace hexpipe::assemble::gap

@@ -36,25 +36,30 @@ bool is_valid(const GapMesh& gap, const GapCell& cell) {
 }
 
 GapMesh::GapMesh(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std::span<const std::uint8_t> is_shared)
-    : mesh_(mesh), tags_(tags), at_(mesh.points.size()), age_(mesh.points.size()), fixed_(mesh.points.size()) {
+    : mesh_(mesh), tags_(tags), at_(mesh.points.size()), age_(mesh.points.size()), holds_(mesh.points.size()) {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tet_count()); ++t)
     if (mesh.is_alive(t)) add(make_tet(mesh.tet(t), mesh.region_of(t)), t);
   for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
     const hybrid::HybridCell& cell = mesh.cell(c);
     if (!cell.alive) continue;
     const std::span corners = std::span(cell.corners).first(static_cast<std::size_t>(corner_count(cell.kind)));
-    if (cell.candidate == hybrid::HybridCell::none) {
+    if (cell.candidate == no_index) {
       std::array<Vertex, 6> own{};
       std::ranges::copy(corners, own.begin());
       add(cell_of(cell.kind, own, cell.region, mesh.points), c);
     } else {
-      for (const Vertex v : corners) fixed_[v] = true;
+      kept_.push_back({cell.kind, cell.corners});
+      for (const Vertex v : corners) holds_[v] |= of_kept;
     }
   }
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(tags.size()); ++i)
-    for (const Vertex v : tags.triangle(i)) fixed_[v] = true;
+    for (const Vertex v : tags.triangle(i)) holds_[v] |= on_tagged;
   for (std::size_t v = 0; v < is_shared.size(); ++v)
-    if (is_shared[v] != 0) fixed_[v] = true;
+    if (is_shared[v] != 0) holds_[v] |= at_seam;
+  kept_at_ = VertexItems(mesh.points.size(), [&](auto&& visit) {
+    for (std::size_t c = 0; c < kept_.size(); ++c)
+      for (const Vertex v : kept_[c].vertices()) visit(v, static_cast<std::int32_t>(c));
+  });
 }
 
 bool GapMesh::is_valid() const {
@@ -94,6 +99,15 @@ void GapMesh::replace(std::span<const std::int32_t> out, std::span<const GapCell
     }
   }
   for (const GapCell& cell : in) add(cell, none);
+}
+
+void GapMesh::relocate(Vertex v, const Vec3& to) {
+  if (mesh_.points[v] == to) return;
+  mesh_.points[v] = to;
+  for (const std::int32_t c : at_[v]) {
+    cells_[c].quality = quality_of(cells_[c].kind, mesh_.points, cells_[c].vertices());
+    for (const Vertex w : cells_[c].vertices()) ++age_[w];
+  }
 }
 
 void GapMesh::write_back() {

@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "common/mesh/quality.hpp"
+#include "tools/assemble/gap/face_costs.hpp"
 #include "tools/assemble/gap/objective.hpp"
+#include "tools/assemble/gap/patch.hpp"
 #include "tools/assemble/gap/skin.hpp"
 #include "tools/assemble/shape/point_star.hpp"
 
@@ -18,6 +20,9 @@ namespace hexpipe::assemble::gap {
 namespace {
 
 constexpr int steps_to_place = 8;
+// A merge whose worst cell is above the first waits for vertices around it to make room, so often.
+constexpr double least_to_yield = -0.1;
+constexpr int rounds_to_yield = 4;
 // Rooms with more facets are not merged: hardly any has a place that sees all of them.
 constexpr std::size_t most_facets_of_two = 60;
 
@@ -26,8 +31,10 @@ struct StarMerge {
   Vertex from = 0, into = 0;
   std::array<std::uint32_t, 2> ages{};  // of both when this was found
   Vec3 at{};
+  bool yields = false;  // only where the vertices around it make room
 
   bool operator<(const StarMerge& other) const {
+    if (yields != other.yields) return yields;
     if (gain != other.gain) return gain < other.gain;
     if (from != other.from) return from > other.from;
     return into > other.into;
@@ -36,7 +43,7 @@ struct StarMerge {
 
 class StarMerger {
  public:
-  explicit StarMerger(GapMesh& gap) : gap_(gap) {}
+  StarMerger(GapMesh& gap, bool neighbours_yield) : gap_(gap), neighbours_yield_(neighbours_yield), patch_(gap) {}
 
   std::int64_t run() {
     for (Vertex v = 0; v < static_cast<Vertex>(gap_.vertex_count()); ++v)
@@ -56,9 +63,13 @@ class StarMerger {
   template <class Wanted>
   void offer(Vertex v, Wanted&& is_wanted);
   void offer_pair(Vertex from, Vertex into);
+  void offer_around(Vertex into, const Room& room);
   bool carry_out(const StarMerge& merge);
+  bool make_room(const StarMerge& merge, const Room& room);
 
   GapMesh& gap_;
+  bool neighbours_yield_;
+  Patch patch_;
   std::priority_queue<StarMerge> offers_;
   std::vector<std::int32_t> cells_;
 };
@@ -116,7 +127,17 @@ void StarMerger::offer_pair(Vertex from, Vertex into) {
   }
   const Vec3 before = gap_.points()[into];
   const auto place = shape::raise_worst(star, (gap_.points()[from] + before) * 0.5, steps_to_place);
-  if (place.worst < now.floor) return;
+  if (place.worst < now.floor) {
+    // What lacks too much has no chance.
+    if (place.worst > least_to_yield && neighbours_yield_)
+      offers_.push({now.cost - static_cast<double>(room->skin.size()),
+                    from,
+                    into,
+                    {gap_.age_of(from), gap_.age_of(into)},
+                    place.at,
+                    true});
+    return;
+  }
   double after = 0;
   gap_.move(into, place.at);
   for (const Facet& facet : room->skin) after += cost_of(cell_on(gap_, facet, into, room->region).quality);
@@ -125,29 +146,56 @@ void StarMerger::offer_pair(Vertex from, Vertex into) {
     offers_.push({now.cost - after, from, into, {gap_.age_of(from), gap_.age_of(into)}, place.at});
 }
 
+void StarMerger::offer_around(Vertex into, const Room& room) {
+  auto always = [](Vertex) { return true; };
+  offer(into, always);
+  for (const Vertex v : room.vertices) offer(v, always);
+}
+
+// The merge with the vertices of the room moved, where that leaves no cell too poor.
+bool StarMerger::make_room(const StarMerge& merge, const Room& room) {
+  std::vector<GapCell> in;
+  for (const Facet& facet : room.skin) in.push_back(cell_on(gap_, facet, merge.into, room.region));
+  std::vector<Vertex> moving{merge.into};
+  for (const Vertex v : room.vertices)
+    if (gap_.is_inside(v)) moving.push_back(v);
+  const Exchange exchange{cells_, in, worth_of(gap_, cells_).floor};
+  patch_.take(moving, exchange);
+  patch_.place(merge.into, merge.at);
+  patch_.raise(least_quality, rounds_to_yield);
+  if (!patch_.keeps_floors() || patch_.cost() > patch_.cost_before() - least_gain) return false;
+  patch_.carry_out(gap_, exchange);
+  return true;
+}
+
 bool StarMerger::carry_out(const StarMerge& merge) {
   collect_cells(merge.from, merge.into);
   const auto room = room_of(gap_, cells_, most_facets_of_two);
   if (!room) return false;
+  if (merge.yields) {
+    if (!make_room(merge, *room)) return false;
+    offer_around(merge.into, *room);
+    return true;
+  }
   const Vec3 before = gap_.points()[merge.into];
+  const double faces = cost_of_faces(gap_, cells_);
   gap_.move(merge.into, merge.at);
   std::vector<GapCell> in;
   for (const Facet& facet : room->skin) in.push_back(cell_on(gap_, facet, merge.into, room->region));
-  if (!std::ranges::all_of(in, [&](const GapCell& cell) { return is_valid(gap_, cell); })) {
+  if (!std::ranges::all_of(in, [&](const GapCell& cell) { return is_valid(gap_, cell); }) ||
+      cost_of_faces(gap_, in, cells_) > faces + merge.gain - least_gain) {
     gap_.move(merge.into, before);
     return false;
   }
   gap_.replace(cells_, in);
-  auto always = [](Vertex) { return true; };
-  offer(merge.into, always);
-  for (const Vertex v : room->vertices) offer(v, always);
+  offer_around(merge.into, *room);
   return true;
 }
 
 }  // namespace
 
-std::int64_t merge_stars(GapMesh& gap) {
-  return StarMerger(gap).run();
+std::int64_t merge_stars(GapMesh& gap, bool neighbours_yield) {
+  return StarMerger(gap, neighbours_yield).run();
 }
 
 }  // namespace hexpipe::assemble::gap

@@ -14,6 +14,7 @@
 #include <queue>
 #include <vector>
 
+#include "tools/assemble/gap/face_costs.hpp"
 #include "tools/assemble/gap/objective.hpp"
 #include "tools/assemble/gap/skin.hpp"
 
@@ -124,6 +125,7 @@ bool Merger::carry_out(const Merge& merge) {
     if (!gap_.cell(c).has(merge.into)) in.push_back(moved(gap_.cell(c), merge.from, merge.into));
   }
   if (!std::ranges::all_of(in, [&](const GapCell& cell) { return is_valid(gap_, cell); })) return false;
+  if (cost_of_faces(gap_, in, out) > cost_of_faces(gap_, out) + merge.gain - least_gain) return false;
   gap_.replace(out, in);
   std::ranges::sort(touched);
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());

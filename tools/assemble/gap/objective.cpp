@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
+#include "common/mesh/face_measures.hpp"
 #include "common/mesh/quality.hpp"
 
 namespace hexpipe::assemble::gap {
@@ -15,6 +17,11 @@ namespace {
 constexpr double good_quality = 0.5;
 // What a cell without any quality costs above a good one. 2 and 3 leave as many cells as 1.
 constexpr double price_of_poverty = 1;
+// A face that solvers have to correct for costs half a cell; twice that, where the angle is wider by 20 degrees, or the
+// weight nothing.
+constexpr double price_of_severe_face = 0.5;
+constexpr double price_of_low_weight = 0.5;
+constexpr double wider_by = 20 * std::numbers::pi / 180;
 
 // One determinant and six lengths, for this takes most of the time.
 double quality_of_tet(std::span<const Vec3> points, std::span<const Vertex> corners) {
@@ -36,6 +43,15 @@ double quality_of(CellKind kind, std::span<const Vec3> points, std::span<const V
 double cost_of(double quality) {
   const double missing = std::max(0.0, 1 - quality / good_quality);
   return 1 + price_of_poverty * missing * missing;
+}
+
+double cost_of_face(double orthogonality, double weight) {
+  static const double severe_cosine = std::cos(severe_angle);
+  double cost = 0;
+  if (orthogonality < severe_cosine)
+    cost += price_of_severe_face * (1 + (std::acos(std::max(orthogonality, -1.0)) - severe_angle) / wider_by);
+  if (weight < low_weight) cost += price_of_low_weight * (2 - weight / low_weight);
+  return cost;
 }
 
 }  // namespace hexpipe::assemble::gap

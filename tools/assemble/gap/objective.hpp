@@ -18,7 +18,12 @@ inline constexpr double least_gain = 0.01;
 // The least scaled Jacobian over the corners; of a tet times the square root of 2, of a pyramid over those of its base.
 double quality_of(CellKind kind, std::span<const Vec3> points, std::span<const Vertex> corners);
 
-// The cost of a cell that is no hex: 1, and more where its quality is less than good. The objective is the sum.
+// The cost of a cell that is no hex: 1, and more where its quality is less than good. The objective is the sum over
+// these cells and their faces.
 double cost_of(double quality);
+
+// The cost of a face between two cells, from its measures (common/mesh/face_measures.hpp): nothing where it is good,
+// and more where finite volumes suffer from it.
+double cost_of_face(double orthogonality, double weight);
 
 }  // namespace hexpipe::assemble::gap

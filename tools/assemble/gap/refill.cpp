@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "common/mesh/quality.hpp"
+#include "tools/assemble/gap/face_costs.hpp"
 #include "tools/assemble/gap/objective.hpp"
 
 namespace hexpipe::assemble::gap {
@@ -113,7 +114,8 @@ void Refill::place(const Piece& piece) {
 
 void Refill::search(double cost) {
   if (front_.empty()) {
-    most_ = cost, best_ = placed_;
+    const double total = cost + cost_of_faces(gap_, placed_, out_);
+    if (total < most_) most_ = total, best_ = placed_;
     return;
   }
   const std::size_t most_closed = std::ranges::any_of(front_, &Facet::is_quad) ? 5 : 4;  // by one cell
@@ -137,7 +139,8 @@ std::optional<std::vector<GapCell>> Refill::find(std::span<const std::int32_t> o
   room_ = std::move(*room);
   front_ = room_.skin;
   const Worth now = worth_of(gap_, out);
-  floor_ = now.floor, most_ = now.cost - least_gain, steps_left_ = most_steps;
+  out_ = out;
+  floor_ = now.floor, most_ = now.cost + cost_of_faces(gap_, out) - least_gain, steps_left_ = most_steps;
   placed_.clear(), best_.clear();
   space_ = 0;
   for (const std::int32_t c : out) space_ += volume_of(gap_, gap_.cell(c));

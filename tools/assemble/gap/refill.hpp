@@ -36,6 +36,7 @@ class Refill {
   void search(double cost);
 
   const GapMesh& gap_;
+  std::span<const std::int32_t> out_;  // while find() runs
   Room room_;
   std::vector<Facet> front_;  // facets that still need a cell
   std::vector<GapCell> placed_, best_;

@@ -11,7 +11,7 @@ namespace hexpipe::assemble::gap {
 namespace {
 
 // Later passes find little: on mambo-s1 at 2.3 the first finds 9 of 10.
-constexpr int most_passes = 5;
+constexpr int most_refilling_passes = 5;
 // Cells around a fixed vertex may be many.
 constexpr std::size_t most_around_poor = 20;
 
@@ -21,7 +21,7 @@ class Rooms {
       : gap_(gap), refill_(gap), seen_(gap.vertex_count(), std::numeric_limits<std::uint32_t>::max()) {}
 
   RefillCounts run() {
-    for (int pass = 0; pass < most_passes; ++pass) {
+    for (int pass = 0; pass < most_refilling_passes; ++pass) {
       const RefillCounts before = counts_;
       std::vector<std::uint32_t> ages(gap_.vertex_count());
       for (std::size_t v = 0; v < ages.size(); ++v) ages[v] = gap_.age_of(static_cast<Vertex>(v));

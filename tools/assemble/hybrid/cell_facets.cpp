@@ -9,7 +9,7 @@ FacetForm FacetForm::of(std::span<const Vertex> corners) {
   const auto least = static_cast<std::size_t>(std::min_element(corners.begin(), corners.end()) - corners.begin());
   const Vertex next = corners[(least + 1) % n], last = corners[(least + n - 1) % n];
   const Vertex low = std::min(next, last), high = std::max(next, last);
-  if (n == 3) return {{corners[least], low, high, -1}, next < last};
+  if (n == 3) return {{corners[least], low, high, no_index}, next < last};
   return {{corners[least], corners[(least + 2) % n], low, high}, next < last};
 }
 
@@ -30,13 +30,13 @@ void for_each_facet(const MixedMesh& mesh, Visit&& visit) {
 }  // namespace
 
 CellFacets::CellFacets(const MixedMesh& mesh) : offsets_(mesh.points.size() + 1, 0) {
-  // Counting sort by least vertex, then small sorts.
+  // A counting sort by least vertex, then small sorts.
   for_each_facet(mesh, [&](const FacetForm& facet, std::int32_t) { ++offsets_[facet.vertices[0] + 1]; });
   for (std::size_t v = 1; v < offsets_.size(); ++v) offsets_[v] += offsets_[v - 1];
   std::vector<Entry> uses(static_cast<std::size_t>(offsets_.back()));
-  std::vector<std::int64_t> fill(offsets_.begin(), offsets_.end() - 1);
+  std::vector<std::int64_t> next_use(offsets_.begin(), offsets_.end() - 1);
   for_each_facet(mesh, [&](const FacetForm& facet, std::int32_t tag) {
-    uses[fill[facet.vertices[0]]++] = {facet.vertices, 1, false, facet.forward, {tag, tag}, false};
+    uses[next_use[facet.vertices[0]]++] = {facet.vertices, 1, false, facet.forward, {tag, tag}, false};
   });
   entries_.reserve(uses.size() / 2);
   std::int64_t begin = 0;

@@ -1,6 +1,7 @@
 #include "tools/assemble/hybrid/extract.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace hexpipe::assemble::hybrid {
 namespace {
@@ -25,7 +26,7 @@ void append_cell(MixedMesh& result, const HybridCell& cell) {
   }
 }
 
-// The quad as the input's triangle, one of its halves, goes around.
+// The quad, turned the way that the input's triangle, one of its halves, goes around.
 Quad oriented_like(const Triangle& triangle, const Quad& quad) {
   const auto at = std::find(quad.begin(), quad.end(), triangle[0]) - quad.begin();
   const auto next = std::find(quad.begin(), quad.end(), triangle[1]) - quad.begin();
@@ -38,10 +39,10 @@ Quad oriented_like(const Triangle& triangle, const Quad& quad) {
 }
 
 void append_facets(MixedMesh& result, const HybridMesh& mesh, const SurfaceTags& tags) {
-  // By input triangle: the quad that it became half of.
+  // By input triangle: whether a quad covers it.
   std::vector<bool> covered(tags.size());
   std::vector<std::pair<std::int32_t, Quad>> quads;
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
+  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c) {
     if (!mesh.cell(c).alive) continue;
     for (int i = 0; i < mesh.cell(c).quad_count(); ++i) {
       const auto cover = tags.cover_of(mesh.cell(c).quad(i));
@@ -71,7 +72,7 @@ void renumber(CellBlock<Corners>& block, const std::vector<Vertex>& numbers) {
 
 void drop_unused_points(Extract& extract, const std::vector<Vec3>& points) {
   MixedMesh& result = extract.mesh;
-  std::vector<Vertex> numbers(points.size(), -1);
+  std::vector<Vertex> numbers(points.size(), no_index);
   mark_used(result.hexes, numbers), mark_used(result.prisms, numbers), mark_used(result.pyramids, numbers);
   mark_used(result.tets, numbers);
   for (std::size_t v = 0; v < points.size(); ++v) {
@@ -88,9 +89,9 @@ void drop_unused_points(Extract& extract, const std::vector<Vec3>& points) {
 
 Extract extract(const HybridMesh& mesh, const SurfaceTags& tags) {
   Extract result;
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c)
+  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c)
     if (mesh.cell(c).alive) append_cell(result.mesh, mesh.cell(c));
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tet_count()); ++t)
+  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh.tet_count()); ++t)
     if (mesh.is_alive(t)) append(result.mesh.tets, mesh.tet(t), mesh.region_of(t));
   append_facets(result.mesh, mesh, tags);
   drop_unused_points(result, mesh.points);
@@ -113,22 +114,26 @@ void drop_tagged(CellBlock<Corners>& block, std::int32_t tag) {
   block.tags.resize(kept);
 }
 
-}  // namespace
-
 Extract without_facets(Extract from, std::int32_t tag) {
   drop_tagged(from.mesh.triangles, tag), drop_tagged(from.mesh.quads, tag);
   return from;
 }
 
-Extract without(const Extract& from, std::int32_t region, std::int32_t tag) {
-  Extract result = without_facets({from.mesh, {}}, tag);
+}  // namespace
+
+Extract without_guests(const Extract& from, const Seam& seam) {
+  Extract result = without_facets({from.mesh, {}}, seam.guest_tag);
   MixedMesh& mesh = result.mesh;
-  drop_tagged(mesh.hexes, region), drop_tagged(mesh.prisms, region);
-  drop_tagged(mesh.pyramids, region), drop_tagged(mesh.tets, region);
+  drop_tagged(mesh.hexes, seam.guest_region), drop_tagged(mesh.prisms, seam.guest_region);
+  drop_tagged(mesh.pyramids, seam.guest_region), drop_tagged(mesh.tets, seam.guest_region);
   mesh.points.clear();
   drop_unused_points(result, from.mesh.points);
   for (Vertex& v : result.origin) v = from.origin[v];
   return result;
+}
+
+Extract without_seam_facets(Extract from, const Seam& seam) {
+  return without_facets(std::move(from), seam.seam_tag);
 }
 
 }  // namespace hexpipe::assemble::hybrid

@@ -1,5 +1,9 @@
 #pragma once
-// From the mesh under assembly to the result: cells in stable order, tagged facets, vertices without gaps.
+// From the mesh under assembly to the result: cells in a stable order, tagged facets, vertices without gaps; and what
+// of it belongs to a piece of a mesh (docs/definitions.md 5).
+
+#include <cstdint>
+#include <vector>
 
 #include "common/mesh/mixed_mesh.hpp"
 #include "common/mesh/tet_mesh.hpp"
@@ -10,18 +14,31 @@ namespace hexpipe::assemble::hybrid {
 
 struct Extract {
   MixedMesh mesh;
-  // The vertex of the mesh under assembly that each point was; below the input's number of points also of the input.
+  // By point: its vertex in the mesh under assembly. Numbers below the input's number of points are the input's.
   std::vector<Vertex> origin;
 };
 
-// Cells come in the order of their candidates, then tets and pyramids in the order in which they were made; each tagged
-// triangle of `tags` is there as it is, or as a quad with another one, in their order and orientation;
-// vertices keep their order, those that no cell uses are dropped.
+// Cells come in the order of their candidates, then tets and pyramids in the order in which they were made. Each tagged
+// triangle of `tags` is there as it is, or as a quad together with another one, in their order and orientation.
+// Vertices keep their order; those that no cell uses are dropped.
 Extract extract(const HybridMesh& mesh, const SurfaceTags& tags);
 
-// Without the cells of a region and the facets with a tag, and the vertices that then no cell uses.
-Extract without(const Extract& from, std::int32_t region, std::int32_t tag);
-// Without the facets with a tag.
-Extract without_facets(Extract from, std::int32_t tag);
+// Where a piece ends and those of other parts begin.
+struct Seam {
+  // By vertex of the input: 1 where other pieces have cells too, so that it stays where it is.
+  std::vector<std::uint8_t> is_shared;
+  // By candidate: 1 for a guest, a cell of another part. It is there so that a quad of it that faces tets of this piece
+  // gets its pyramid, or the guest goes back to its tets.
+  std::vector<std::uint8_t> is_guest;
+  // The region of the guests' tets, and the tag of facets that only guests have.
+  std::int32_t guest_region = 0, guest_tag = 0;
+  // The tag of facets where the piece ends inside the mesh, and of tagged ones that another piece writes.
+  std::int32_t seam_tag = 0;
+};
+
+// Leaves out the guests' cells and facets, and vertices that no other cell uses.
+Extract without_guests(const Extract& from, const Seam& seam);
+// Leaves out facets that have the seam's tag.
+Extract without_seam_facets(Extract from, const Seam& seam);
 
 }  // namespace hexpipe::assemble::hybrid

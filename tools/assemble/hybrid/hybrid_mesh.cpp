@@ -18,20 +18,20 @@ HybridMesh::HybridMesh(const TetMesh& mesh, const std::vector<bool>& removed)
       tets_(mesh.tets),
       regions_(mesh.tet_tags),
       alive_(mesh.tets.size(), 0),
-      first_(mesh.points.size(), none),
-      next_(4 * mesh.tets.size(), none) {
+      first_(mesh.points.size(), no_index),
+      next_(4 * mesh.tets.size(), no_index) {
   assert(removed.size() == tets_.size());
-  for (std::int32_t t = static_cast<std::int32_t>(tets_.size()) - 1; t >= 0; --t)
+  for (TetIndex t = static_cast<TetIndex>(tets_.size()) - 1; t >= 0; --t)
     if (!removed[t]) link(t);
 }
 
 Vertex HybridMesh::add_point(const Vec3& at) {
   points.push_back(at);
-  first_.push_back(none);
+  first_.push_back(no_index);
   return static_cast<Vertex>(points.size() - 1);
 }
 
-void HybridMesh::link(std::int32_t t) {
+void HybridMesh::link(TetIndex t) {
   assert(!alive_[t]);
   alive_[t] = 1;
   for (int i = 0; i < 4; ++i) {
@@ -41,7 +41,7 @@ void HybridMesh::link(std::int32_t t) {
   }
 }
 
-void HybridMesh::unlink(std::int32_t t) {
+void HybridMesh::unlink(TetIndex t) {
   assert(alive_[t]);
   alive_[t] = 0;
   for (int i = 0; i < 4; ++i) {
@@ -52,20 +52,20 @@ void HybridMesh::unlink(std::int32_t t) {
   }
 }
 
-std::int32_t HybridMesh::add_tet(const Tet& tet, std::int32_t region) {
-  const auto t = static_cast<std::int32_t>(tets_.size());
+TetIndex HybridMesh::add_tet(const Tet& tet, std::int32_t region) {
+  const auto t = static_cast<TetIndex>(tets_.size());
   tets_.push_back(tet);
   regions_.push_back(region);
   alive_.push_back(0);
-  next_.resize(next_.size() + 4, none);
+  next_.resize(next_.size() + 4, no_index);
   link(t);
   return t;
 }
 
-void HybridMesh::remove_tet(std::int32_t t) {
+void HybridMesh::remove_tet(TetIndex t) {
   unlink(t);
 }
-void HybridMesh::restore_tet(std::int32_t t) {
+void HybridMesh::restore_tet(TetIndex t) {
   link(t);
 }
 
@@ -77,48 +77,48 @@ bool has_vertex(const Tet& tet, Vertex v) {
 
 }  // namespace
 
-std::int32_t HybridMesh::tet_at(const Triangle& triangle, std::int32_t except) const {
-  std::int32_t found = none;
-  for_tets_at(triangle[0], [&](std::int32_t t) {
+TetIndex HybridMesh::tet_at(const Triangle& triangle, TetIndex except) const {
+  TetIndex found = no_index;
+  for_tets_at(triangle[0], [&](TetIndex t) {
     if (t != except && has_vertex(tets_[t], triangle[1]) && has_vertex(tets_[t], triangle[2])) found = t;
   });
   return found;
 }
 
-void HybridMesh::tets_around_edge(Vertex a, Vertex b, std::vector<std::int32_t>& out) const {
+void HybridMesh::tets_around_edge(Vertex a, Vertex b, std::vector<TetIndex>& out) const {
   out.clear();
-  for_tets_at(a, [&](std::int32_t t) {
+  for_tets_at(a, [&](TetIndex t) {
     if (has_vertex(tets_[t], b)) out.push_back(t);
   });
 }
 
-std::int32_t HybridMesh::add_cell(const HybridCell& cell) {
-  const auto c = static_cast<std::int32_t>(cells_.size());
+CellIndex HybridMesh::add_cell(const HybridCell& cell) {
+  const auto c = static_cast<CellIndex>(cells_.size());
   cells_.push_back(cell);
   for (int i = 0; i < cell.quad_count(); ++i) {
-    auto [entry, added] = cells_at_quad_.try_emplace(key_of(cell.quad(i)), std::array{c, none});
+    auto [entry, added] = cells_at_quad_.try_emplace(key_of(cell.quad(i)), std::array{c, no_index});
     if (added) continue;
     auto& cells = entry.value();
-    assert(cells[0] == none || cells[1] == none);
-    cells[cells[0] == none ? 0 : 1] = c;
+    assert(cells[0] == no_index || cells[1] == no_index);
+    cells[cells[0] == no_index ? 0 : 1] = c;
   }
   return c;
 }
 
-void HybridMesh::remove_cell(std::int32_t c) {
+void HybridMesh::remove_cell(CellIndex c) {
   assert(cells_[c].alive);
   cells_[c].alive = false;
   for (int i = 0; i < cells_[c].quad_count(); ++i)
     for (auto& other : cells_at_quad_[key_of(cells_[c].quad(i))])
-      if (other == c) other = none;
+      if (other == c) other = no_index;
 }
 
-std::int32_t HybridMesh::partner_at(const Quad& quad, std::int32_t cell) const {
+CellIndex HybridMesh::partner_at(const Quad& quad, CellIndex cell) const {
   const auto found = cells_at_quad_.find(key_of(quad));
-  if (found == cells_at_quad_.end()) return none;
-  for (std::int32_t other : found->second)
-    if (other != cell && other != none) return other;
-  return none;
+  if (found == cells_at_quad_.end()) return no_index;
+  for (CellIndex other : found->second)
+    if (other != cell && other != no_index) return other;
+  return no_index;
 }
 
 }  // namespace hexpipe::assemble::hybrid

@@ -1,9 +1,43 @@
 #include "tools/assemble/hybrid/surface_tags.hpp"
 
-namespace hexpipe::assemble::hybrid {
+#include <algorithm>
 
-SurfaceTags::SurfaceTags(const TetMesh& mesh) : triangles_(mesh.triangles), tags_(mesh.triangle_tags) {
+#include "common/mesh/cell_topology.hpp"
+
+namespace hexpipe::assemble::hybrid {
+namespace {
+
+// Boundary facets that no triangle of the input names get this tag, as in findhex.
+constexpr std::int32_t untagged = 0;
+
+bool is_facet_of_a_tet(const Triangle& triangle, const TetMesh& mesh, const TetAdjacency& adjacency) {
+  for (std::int32_t t : adjacency.tets_at(triangle[0])) {
+    const Tet& tet = mesh.tets[t];
+    auto has = [&](Vertex v) { return tet[0] == v || tet[1] == v || tet[2] == v || tet[3] == v; };
+    if (has(triangle[1]) && has(triangle[2])) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void complete_surface(TetMesh& mesh, const TetAdjacency& adjacency) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (!is_facet_of_a_tet(mesh.triangles[i], mesh, adjacency)) continue;
+    mesh.triangles[kept] = mesh.triangles[i];
+    mesh.triangle_tags[kept++] = mesh.triangle_tags[i];
+  }
+  mesh.triangles.resize(kept);
+  mesh.triangle_tags.resize(kept);
+  add_missing_boundary_triangles(mesh, adjacency, untagged);
+}
+
+SurfaceTags::SurfaceTags(const TetMesh& mesh)
+    : triangles_(mesh.triangles), tags_(mesh.triangle_tags), is_on_any_(mesh.points.size()) {
   numbers_.reserve(triangles_.size());
+  for (const Triangle& triangle : triangles_)
+    for (const Vertex v : triangle) is_on_any_[v] = true;
   for (std::size_t i = 0; i < triangles_.size(); ++i)
     numbers_.try_emplace(key_of(triangles_[i]), static_cast<std::int32_t>(i));
 }
@@ -18,7 +52,21 @@ void SurfaceTags::peel(const Tet& tet, const std::array<std::int32_t, 2>& places
   peeled_.push_back(tet);
 }
 
+void SurfaceTags::merge(Vertex from, Vertex into, std::span<const std::int32_t> places, std::span<const Tet> between) {
+  for (const std::int32_t place : places) numbers_.erase(key_of(triangles_[place]));
+  for (const std::int32_t place : places) {
+    Triangle& triangle = triangles_[place];
+    if (std::ranges::find(triangle, into) != triangle.end()) continue;
+    std::ranges::replace(triangle, from, into);
+    numbers_.emplace(key_of(triangle), place);
+  }
+  merges_.push_back({from, into});
+  peeled_.insert(peeled_.end(), between.begin(), between.end());
+}
+
 std::optional<std::int32_t> SurfaceTags::find(const Triangle& triangle) const {
+  for (const Vertex v : triangle)
+    if (static_cast<std::size_t>(v) >= is_on_any_.size() || !is_on_any_[v]) return std::nullopt;
   const auto found = numbers_.find(key_of(triangle));
   if (found == numbers_.end()) return std::nullopt;
   return found->second;
@@ -39,6 +87,22 @@ std::optional<SurfaceTags::Cover> SurfaceTags::cover_of(const Quad& quad) const 
 bool SurfaceTags::covers_partly(const Quad& quad, int diagonal) const {
   const auto halves = triangles_of(quad, diagonal);
   return (contains(halves[0]) || contains(halves[1])) && !cover_of(quad, diagonal);
+}
+
+BoundaryQuads::BoundaryQuads(const TetMesh& mesh, const TetAdjacency& adjacency, const SurfaceTags& tags)
+    : tags_(tags), is_outer_(tags.size()) {
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tets.size()); ++t)
+    for (int facet = 0; facet < 4; ++facet) {
+      if (adjacency.tet_beyond(t, facet) != no_index) continue;
+      const auto& f = TetTopology::triangles[facet];
+      const auto triangle = tags.find({mesh.tets[t][f[0]], mesh.tets[t][f[1]], mesh.tets[t][f[2]]});
+      if (triangle) is_outer_[*triangle] = true;
+    }
+}
+
+bool BoundaryQuads::contains(const Quad& quad) const {
+  const auto cover = tags_.cover_of(quad);
+  return cover && is_outer_[cover->triangles[0]];
 }
 
 }  // namespace hexpipe::assemble::hybrid

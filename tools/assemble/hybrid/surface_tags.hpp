@@ -1,6 +1,6 @@
 #pragma once
-// The tagged triangles of the input - its boundary, its interfaces, surfaces inside a region - which nothing may cross;
-// less the flat tets that were taken off the boundary (peel.hpp).
+// The input's surface, which nothing may cross: the tagged triangles on its boundary, on its interfaces, and inside a
+// region.
 
 #include <array>
 #include <cstdint>
@@ -8,29 +8,45 @@
 #include <span>
 #include <vector>
 
+#include "common/mesh/adjacency.hpp"
 #include "common/mesh/facet_key.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
 namespace hexpipe::assemble::hybrid {
 
+// Makes the mesh's triangles complete: every facet of the boundary and of interfaces is among them, and nothing else
+// than facets of tets.
+void complete_surface(TetMesh& mesh, const TetAdjacency& adjacency);
+
+// The tagged triangles and what covers a quad, less the flat tets that were peeled off the boundary (flat_tets.hpp)
+// and the vertices that merged along it (merge_on_surface.hpp).
 class SurfaceTags {
  public:
-  // `mesh` with every facet of its boundary and interfaces among its triangles.
+  // The surface of `mesh` is complete.
   explicit SurfaceTags(const TetMesh& mesh);
 
-  bool contains(const Triangle& triangle) const { return numbers_.contains(key_of(triangle)); }
+  bool contains(const Triangle& triangle) const { return find(triangle).has_value(); }
   // The index of the tagged triangle with these vertices.
   std::optional<std::int32_t> find(const Triangle& triangle) const;
   std::size_t size() const { return triangles_.size(); }
   const Triangle& triangle(std::int32_t i) const { return triangles_[i]; }
   std::int32_t tag_of(std::int32_t i) const { return tags_[i]; }
 
-  // Takes a tet off the boundary: two of its facets, tagged triangles, give way to the other two in their places.
+  // Peels a tet off the boundary: the tagged triangles at `places`, two of its facets, become the other two.
   void peel(const Tet& tet, const std::array<std::int32_t, 2>& places, const std::array<Triangle, 2>& triangles);
-  // The tets that were.
+  // Tagged triangles at `from` have `into` for it; those that have both vertices are gone. `places`: those at `from`.
+  // `between`: for each facet of the boundary that moves, the tet between its two places, which counts as taken off:
+  // its volume is negative where the boundary moves outwards.
+  void merge(Vertex from, Vertex into, std::span<const std::int32_t> places, std::span<const Tet> between);
+  struct Merge {
+    Vertex from, into;
+  };
+  // In the order in which they came.
+  std::span<const Merge> merges() const { return merges_; }
+  // The tets that were, and those between old and new boundary.
   std::span<const Tet> peeled() const { return peeled_; }
 
-  // The two tagged triangles that a quad consists of, when the diagonal cuts it into two with one tag.
+  // The two tagged triangles that a quad consists of, if the diagonal cuts it into two with one tag.
   struct Cover {
     std::array<std::int32_t, 2> triangles;
     bool operator==(const Cover&) const = default;
@@ -38,14 +54,30 @@ class SurfaceTags {
   std::optional<Cover> cover_of(const Quad& quad, int diagonal) const;
   // As above, with either diagonal.
   std::optional<Cover> cover_of(const Quad& quad) const;
-  // True when the diagonal leaves the quad partly on tagged triangles: on one, or on two with different tags.
+  // Whether the diagonal leaves the quad partly on tagged triangles: on one, or on two with different tags.
   bool covers_partly(const Quad& quad, int diagonal) const;
 
  private:
   std::vector<Triangle> triangles_;
   std::vector<std::int32_t> tags_;
   KeyMap<3, std::int32_t> numbers_;
+  std::vector<bool> is_on_any_;  // by vertex: most triangles that are asked for lie inside, and are told so at once
   std::vector<Tet> peeled_;
+  std::vector<Merge> merges_;
+};
+
+// Which quads lie on the boundary of the input: they need no cell on their other side.
+class BoundaryQuads {
+ public:
+  // `tags` are those of `mesh`, and outlive this.
+  BoundaryQuads(const TetMesh& mesh, const TetAdjacency& adjacency, const SurfaceTags& tags);
+
+  // Tagged triangles inside the mesh, with a tet on either side, do not count.
+  bool contains(const Quad& quad) const;
+
+ private:
+  const SurfaceTags& tags_;
+  std::vector<bool> is_outer_;  // by tagged triangle
 };
 
 }  // namespace hexpipe::assemble::hybrid

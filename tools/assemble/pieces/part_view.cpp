@@ -12,8 +12,6 @@
 namespace hexpipe::assemble::pieces {
 namespace {
 
-constexpr std::int32_t none = -1;
-
 std::vector<std::uint8_t> distances(const TetMesh& mesh, const MeshPart& part) {
   constexpr std::uint8_t beyond = furthest + 1;
   std::vector<std::uint8_t> distance(mesh.points.size(), beyond);
@@ -27,7 +25,7 @@ std::vector<std::uint8_t> distances(const TetMesh& mesh, const MeshPart& part) {
   return distance;
 }
 
-// What made a solution, but for what each part counts by itself.
+// The settings that made a solution, without those that differ between parts.
 nlohmann::ordered_json solver_of(const std::vector<nlohmann::ordered_json>& history) {
   auto all = nlohmann::ordered_json::array();
   for (const char* tool : {"findhex", "initsol", "lns", "lns-mpi"}) all.push_back(pipeline::settings_of(tool, history));
@@ -38,17 +36,17 @@ class ChosenCells {
  public:
   explicit ChosenCells(PartView& view) : view_(view) {}
 
-  // Of candidates in a part's numbers those chosen that are its own and lie within the view; the places of its points
-  // and tets in the view's; none for a part whose numbers are the view's.
+  // Adds the chosen candidates of a part that are its own and lie within the view. `points` and `tets` are the places
+  // of its points and tets in the view; empty for the part whose numbers the view has.
   void add(const Candidates& from, const CandidateKeys& keys, const graph::IndependentSet& chosen, std::int32_t part,
-           std::span<const std::int32_t> points, std::span<const std::int32_t> tets, const std::string& source) {
+           std::span<const std::int32_t> points, std::span<const TetIndex> tets, const std::string& source) {
     const auto bundle = static_cast<std::int32_t>(view_.bundles.size());
     view_.bundles.push_back(source);
     for (const std::int32_t i : chosen) {
       if (i < 0 || static_cast<std::size_t>(i) >= from.size())
         throw DataError::at(source, "expected candidates from 1 to {} in the solution, found {}", from.size(), i + 1);
       if (keys.part[i] != part || !is_within(from.corners_of(i), points)) continue;
-      const auto tet = [&](std::int32_t t) { return tets.empty() ? t : tets[t]; };
+      const auto tet = [&](TetIndex t) { return tets.empty() ? t : tets[t]; };
       append_candidate(
           view_.cells, from, i, [&](Vertex v) { return points.empty() ? v : points[v]; }, tet, tet);
       view_.keys.key.push_back(keys.key[i]);
@@ -73,7 +71,7 @@ class ChosenCells {
   bool is_within(std::span<const Vertex> corners, std::span<const std::int32_t> points) const {
     return std::ranges::all_of(corners, [&](Vertex v) {
       const Vertex here = points.empty() ? v : points[v];
-      return here != none && view_.distance[here] <= furthest;
+      return here != no_index && view_.distance[here] <= furthest;
     });
   }
 

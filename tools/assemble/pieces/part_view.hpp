@@ -1,6 +1,5 @@
 #pragma once
-// What one part sees: its mesh with the ghosts, and the cells that have been chosen there, by itself and its
-// neighbours.
+// What one part sees: its mesh with the ghosts, and the cells that it and its neighbours have chosen there.
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -18,20 +17,20 @@ namespace hexpipe::assemble::pieces {
 struct PartView {
   MeshPart part;
   TetMesh mesh;
-  // Chosen ones, in the order of a single run: all whose corners have all their tets here.
+  // Chosen cells in the order of a single run: all whose corners have all their tets here.
   Candidates cells;
   CandidateKeys keys;
-  // By cell, where it is from; the names of the bundles, of which the first is the part's own.
+  // By cell, where it comes from; and the names of the bundles, the part's own first.
   std::vector<choice::CellOrigin> origins;
   std::vector<std::string> bundles;
-  // By point: edges from the nearest point of the part's own, at most `furthest`.
+  // By point: the number of edges to the nearest of the part's own points, at most `furthest` + 1.
   std::vector<std::uint8_t> distance;
 };
 
 // Every point up to this distance has all its tets in the part's mesh (docs/definitions.md 5).
 inline constexpr std::uint8_t furthest = 6;
 
-// What the bundle of a part holds, with its solution.
+// The bundle of a part, with its solution.
 struct SolvedPart {
   MeshPart part;
   TetMesh mesh;
@@ -41,8 +40,7 @@ struct SolvedPart {
   std::vector<nlohmann::ordered_json> history;
 };
 
-// Reads the neighbours one after the other. Throws DataError when one is missing, has no solution, or one of another
-// run.
+// Reads the neighbours one by one. Throws DataError if one is missing, has no solution, or has one of another run.
 PartView view_part(SolvedPart own, const std::vector<std::string>& neighbours, const std::string& source);
 
 }  // namespace hexpipe::assemble::pieces

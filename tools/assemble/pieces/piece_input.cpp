@@ -1,17 +1,15 @@
-#include "tools/assemble/pieces/piece_input.hpp"
-
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <limits>
 #include <span>
 
+#include "tools/assemble/pieces/pieces.hpp"
+
 namespace hexpipe::assemble::pieces {
 namespace {
 
-constexpr std::int32_t none = -1;
-
-// The greatest number that is none of these.
+// The greatest number that is neither among these nor `but`.
 std::int32_t unused_tag(std::span<const std::int32_t> used, std::int32_t but) {
   std::int32_t tag = std::numeric_limits<std::int32_t>::max();
   while (tag == but || std::ranges::find(used, tag) != used.end()) --tag;
@@ -21,7 +19,7 @@ std::int32_t unused_tag(std::span<const std::int32_t> used, std::int32_t but) {
 class Cutter {
  public:
   Cutter(const PartView& view, const TetAdjacency& adjacency, const hybrid::SurfaceTags& tags, const Pieces& pieces)
-      : view_(view), adjacency_(adjacency), tags_(tags), pieces_(pieces), tet_place_(view.mesh.tets.size(), none) {
+      : view_(view), adjacency_(adjacency), tags_(tags), pieces_(pieces), tet_place_(view.mesh.tets.size(), no_index) {
     result_.seam.guest_region = unused_tag(view.mesh.tet_tags, 0);
     result_.seam.seam_tag = unused_tag(view.mesh.triangle_tags, 0);
     result_.seam.guest_tag = unused_tag(view.mesh.triangle_tags, result_.seam.seam_tag);
@@ -37,14 +35,14 @@ class Cutter {
   }
 
  private:
-  bool is_here(std::int32_t tet) const { return pieces_.of_tet[tet] == view_.part.part; }
+  bool is_here(TetIndex tet) const { return pieces_.of_tet[tet] == view_.part.part; }
 
   void take_tets(const std::vector<std::int32_t>& guests) {
     std::vector<std::uint8_t> taken(view_.mesh.tets.size());
     for (std::size_t t = 0; t < taken.size(); ++t) taken[t] = is_here(static_cast<std::int32_t>(t)) ? 1 : 0;
     for (const std::int32_t i : guests) {
-      for (const std::int32_t t : view_.cells.interior_tets_of(i)) taken[t] = 2;
-      for (const std::int32_t t : view_.cells.boundary_tets_of(i))
+      for (const TetIndex t : view_.cells.interior_tets_of(i)) taken[t] = 2;
+      for (const TetIndex t : view_.cells.boundary_tets_of(i))
         if (pieces_.of_tet[t] == view_.keys.part[i]) taken[t] = 2;
     }
     for (std::size_t t = 0; t < taken.size(); ++t) {
@@ -55,23 +53,23 @@ class Cutter {
     }
   }
 
-  // The view's tagged triangles in their order, then those where the piece or the guests end. Of one between two pieces
-  // the lower one keeps the tag.
+  // Takes the view's tagged triangles in their order, then those where the piece or the guests end. The lower one of
+  // two pieces keeps the tag of a triangle between them.
   void take_triangles() {
     std::vector<std::int32_t> new_tags(view_.mesh.triangles.size());
     std::vector<std::uint8_t> used(view_.mesh.triangles.size());
     std::vector<Triangle> ends;
     std::vector<std::int32_t> end_tags;
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(tet_place_.size()); ++t) {
-      if (tet_place_[t] == none) continue;
+    for (TetIndex t = 0; t < static_cast<TetIndex>(tet_place_.size()); ++t) {
+      if (tet_place_[t] == no_index) continue;
       for (int i = 0; i < 4; ++i) {
-        const std::int32_t beyond = adjacency_.tet_beyond(t, i);
+        const TetIndex beyond = adjacency_.tet_beyond(t, i);
         const auto& corners = TetTopology::triangles[i];
         const Tet& tet = view_.mesh.tets[t];
         const Triangle facet{tet[corners[0]], tet[corners[1]], tet[corners[2]]};
         const auto tagged = tags_.find(facet);
-        // Of the two tets that a facet may have, the piece's own says what it is.
-        if (!is_here(t) && beyond != none && is_here(beyond)) continue;
+        // If one of the two tets at a facet is the piece's own, that one decides its tag.
+        if (!is_here(t) && beyond != no_index && is_here(beyond)) continue;
         const std::int32_t tag = tag_of(t, beyond, tagged);
         if (tagged) {
           used[*tagged] = 1;
@@ -91,12 +89,12 @@ class Cutter {
     std::ranges::copy(end_tags, std::back_inserter(result_.mesh.triangle_tags));
   }
 
-  // Of a facet of tet `t`, which the piece or a guest has.
-  std::int32_t tag_of(std::int32_t t, std::int32_t beyond, const std::optional<std::int32_t>& tagged) const {
+  // The tag of a facet of tet `t`, which the piece or a guest has.
+  std::int32_t tag_of(TetIndex t, TetIndex beyond, const std::optional<std::int32_t>& tagged) const {
     const hybrid::Seam& seam = result_.seam;
-    const bool ends = beyond != none && pieces_.of_tet[beyond] != view_.part.part;
+    const bool ends = beyond != no_index && pieces_.of_tet[beyond] != view_.part.part;
     if (!is_here(t)) {
-      const bool between_guests = beyond != none && tet_place_[beyond] != none;
+      const bool between_guests = beyond != no_index && tet_place_[beyond] != no_index;
       return between_guests && !tagged ? inside_ : seam.guest_tag;
     }
     if (ends && (!tagged || pieces_.of_tet[beyond] < view_.part.part)) return seam.seam_tag;
@@ -104,16 +102,16 @@ class Cutter {
   }
 
   void take_points() {
-    std::vector<Vertex> place(view_.mesh.points.size(), none);
+    std::vector<Vertex> place(view_.mesh.points.size(), no_index);
     for (const Tet& tet : result_.mesh.tets)
       for (const Vertex v : tet) place[v] = 0;
     for (std::size_t v = 0; v < place.size(); ++v) {
-      if (place[v] == none) continue;
+      if (place[v] == no_index) continue;
       place[v] = static_cast<Vertex>(result_.mesh.points.size());
       result_.mesh.points.push_back(view_.mesh.points[v]);
       result_.point_number.push_back(view_.part.point_number[v]);
       const bool is_shared =
-          !std::ranges::all_of(adjacency_.tets_at(static_cast<Vertex>(v)), [&](std::int32_t t) { return is_here(t); });
+          !std::ranges::all_of(adjacency_.tets_at(static_cast<Vertex>(v)), [&](TetIndex t) { return is_here(t); });
       result_.seam.is_shared.push_back(is_shared ? 1 : 0);
     }
     for (Tet& tet : result_.mesh.tets)
@@ -126,12 +124,12 @@ class Cutter {
   void take_cell(std::int32_t i) {
     append_candidate(
         result_.cells, view_.cells, i, [&](Vertex v) { return point_place_[v]; },
-        [&](std::int32_t t) { return tet_place_[t]; },
-        [&](std::int32_t t) { return pieces_.of_tet[t] == view_.keys.part[i] ? tet_place_[t] : none; });
+        [&](TetIndex t) { return tet_place_[t]; },
+        [&](TetIndex t) { return pieces_.of_tet[t] == view_.keys.part[i] ? tet_place_[t] : no_index; });
     result_.seam.is_guest.push_back(view_.keys.part[i] != view_.part.part ? 1 : 0);
   }
 
-  // No triangle.
+  // Stands for a facet that is no tagged triangle.
   const std::int32_t inside_ = std::numeric_limits<std::int32_t>::min();
 
   const PartView& view_;
@@ -139,7 +137,7 @@ class Cutter {
   const hybrid::SurfaceTags& tags_;
   const Pieces& pieces_;
   PieceInput result_;
-  std::vector<std::int32_t> tet_place_;
+  std::vector<TetIndex> tet_place_;
   std::vector<Vertex> point_place_;
 };
 

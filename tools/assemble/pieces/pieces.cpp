@@ -9,16 +9,16 @@
 namespace hexpipe::assemble::pieces {
 namespace {
 
-// Tets that hang together by open quads are few; where they are more than this, all stay at home.
+// Open quads join only few tets. A group of more than this stays at home.
 constexpr std::size_t most_together = 200;
-// How far, in edges, a tet may be from the nearest point of the part that builds it: its points are then at most three
-// edges away, a cell at one of its facets at most six, and so within the view.
+// A part builds a tet only if one of its points is at most this many edges away. All points of the tet are then at most
+// three edges away, a cell at one of its facets at most six, and so within the view.
 constexpr int furthest_moved = 2;
 
 // The open quads of some cells and the tets around their diagonals.
 struct OpenRing {
   std::int32_t cell;  // of the view
-  std::vector<std::int32_t> tets;
+  std::vector<TetIndex> tets;
 };
 
 std::vector<OpenRing> open_rings(const hybrid::HybridMesh& mesh) {
@@ -34,7 +34,7 @@ std::vector<OpenRing> open_rings(const hybrid::HybridMesh& mesh) {
   return rings;
 }
 
-std::int32_t home_of(const PartView& view, std::int32_t tet) {
+std::int32_t home_of(const PartView& view, TetIndex tet) {
   const Tet& corners = view.mesh.tets[tet];
   const std::int32_t part = view.part.tet_part[tet];
   const bool has_point = std::ranges::any_of(corners, [&](Vertex v) { return view.part.point_part[v] == part; });
@@ -45,20 +45,20 @@ std::int32_t home_of(const PartView& view, std::int32_t tet) {
 std::vector<std::vector<std::int32_t>> groups_of(const std::vector<OpenRing>& rings, std::size_t tet_count) {
   std::vector<std::int32_t> parent(tet_count);
   std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](std::int32_t t) {
+  const auto root = [&](TetIndex t) {
     while (parent[t] != t) t = parent[t] = parent[parent[t]];
     return t;
   };
-  std::vector<std::int32_t> tets;
+  std::vector<TetIndex> tets;
   for (const OpenRing& ring : rings)
-    for (const std::int32_t t : ring.tets) {
+    for (const TetIndex t : ring.tets) {
       tets.push_back(t);
       parent[root(t)] = root(ring.tets.front());
     }
   std::ranges::sort(tets);
   tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
   std::map<std::int32_t, std::vector<std::int32_t>> groups;
-  for (const std::int32_t t : tets) groups[root(t)].push_back(t);
+  for (const TetIndex t : tets) groups[root(t)].push_back(t);
   std::vector<std::vector<std::int32_t>> result;
   result.reserve(groups.size());
   for (auto& [first, group] : groups) result.push_back(std::move(group));
@@ -70,8 +70,7 @@ class Division {
   Division(const PartView& view, const TetAdjacency& adjacency, const hybrid::HybridMesh& chosen)
       : view_(view), adjacency_(adjacency), rings_(open_rings(chosen)) {
     pieces_.of_tet.resize(view.mesh.tets.size());
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(pieces_.of_tet.size()); ++t)
-      pieces_.of_tet[t] = home_of(view, t);
+    for (TetIndex t = 0; t < static_cast<TetIndex>(pieces_.of_tet.size()); ++t) pieces_.of_tet[t] = home_of(view, t);
   }
 
   void move_groups() {
@@ -79,7 +78,7 @@ class Division {
     for (const OpenRing& ring : rings_) owners[ring.tets.front()].push_back(view_.keys.part[ring.cell]);
     for (const auto& group : groups_of(rings_, view_.mesh.tets.size())) {
       std::map<std::int32_t, int> shares;
-      for (const std::int32_t t : group) {
+      for (const TetIndex t : group) {
         ++shares[pieces_.of_tet[t]];
         for (const std::int32_t part : owners[t]) ++shares[part];
       }
@@ -88,9 +87,9 @@ class Division {
     }
   }
 
-  // What the tets' homes have said counts.
+  // Tets go where their homes have said.
   void hear(const RoundBefore& before) {
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(pieces_.of_tet.size()); ++t) {
+    for (TetIndex t = 0; t < static_cast<TetIndex>(pieces_.of_tet.size()); ++t) {
       const std::int32_t home = home_of(view_, t);
       if (home == view_.part.part || !std::ranges::binary_search(before.known_homes, home)) continue;
       const auto found = std::ranges::lower_bound(before.moved_tets, view_.part.tet_number[t]);
@@ -100,29 +99,29 @@ class Division {
   }
 
   void note_moved() {
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(pieces_.of_tet.size()); ++t) {
+    for (TetIndex t = 0; t < static_cast<TetIndex>(pieces_.of_tet.size()); ++t) {
       if (pieces_.of_tet[t] == view_.part.part || home_of(view_, t) != view_.part.part) continue;
       pieces_.moved_tets.push_back(view_.part.tet_number[t]);
       pieces_.moved_to.push_back(pieces_.of_tet[t]);
     }
   }
 
-  // Of slivers between two cells the lower part.
+  // A sliver between two cells goes to the lower part.
   void take_cells() {
     const Candidates& cells = view_.cells;
     for (std::size_t i = 0; i < cells.size(); ++i)
-      for (const std::int32_t t : cells.boundary_tets_of(i)) pieces_.of_tet[t] = view_.part.parts;
+      for (const TetIndex t : cells.boundary_tets_of(i)) pieces_.of_tet[t] = view_.part.parts;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const std::int32_t owner = view_.keys.part[i];
-      for (const std::int32_t t : cells.interior_tets_of(i)) pieces_.of_tet[t] = owner;
-      for (const std::int32_t t : cells.boundary_tets_of(i)) pieces_.of_tet[t] = std::min(pieces_.of_tet[t], owner);
+      for (const TetIndex t : cells.interior_tets_of(i)) pieces_.of_tet[t] = owner;
+      for (const TetIndex t : cells.boundary_tets_of(i)) pieces_.of_tet[t] = std::min(pieces_.of_tet[t], owner);
     }
   }
 
   Pieces take() { return std::move(pieces_); }
 
  private:
-  bool is_near(std::int32_t tet, std::int32_t part) const {
+  bool is_near(TetIndex tet, std::int32_t part) const {
     std::vector<Vertex> reached(view_.mesh.tets[tet].begin(), view_.mesh.tets[tet].end());
     for (int step = 0;; ++step) {
       if (std::ranges::any_of(reached, [&](Vertex v) { return view_.part.point_part[v] == part; })) return true;
@@ -134,15 +133,15 @@ class Division {
     }
   }
 
-  // To the part with the most of the group's tets and quads, of those that are near enough; the lowest of several.
+  // Moves the group to the part with the most of its tets and quads among those near enough; the lowest of several.
   void move(const std::vector<std::int32_t>& group, const std::map<std::int32_t, int>& shares) {
     std::vector<std::pair<int, std::int32_t>> order;
     order.reserve(shares.size());
     for (const auto& [part, share] : shares) order.emplace_back(-share, part);
     std::ranges::sort(order);
     for (const auto& [share, part] : order) {
-      if (!std::ranges::all_of(group, [&](std::int32_t t) { return is_near(t, part); })) continue;
-      for (const std::int32_t t : group) pieces_.of_tet[t] = part;
+      if (!std::ranges::all_of(group, [&](TetIndex t) { return is_near(t, part); })) continue;
+      for (const TetIndex t : group) pieces_.of_tet[t] = part;
       return;
     }
   }
@@ -164,8 +163,8 @@ graph::IndependentSet all_but(const PartView& view, std::span<const std::uint64_
 
 Pieces divide_tets(const PartView& view, const hybrid::SurfaceTags& tags, const TetAdjacency& adjacency,
                    const RoundBefore& before, const choice::InputNames& names) {
-  const hybrid::HybridMesh chosen = choice::build_selection(view.mesh, tags, view.cells, all_but(view, {}), names);
-  Division division(view, adjacency, chosen);
+  const choice::Selection selection(view.mesh, tags, view.cells, choice::all_of(view.cells), names);
+  Division division(view, adjacency, selection.mesh());
   division.move_groups();
   division.note_moved();
   division.hear(before);
@@ -182,11 +181,11 @@ SeamCells cells_at_seams(const PartView& view, const hybrid::SurfaceTags& tags, 
   for (bool changed = true; changed;) {
     changed = false;
     result.guests.clear();
-    const hybrid::HybridMesh chosen = choice::build_selection(view.mesh, tags, view.cells, left, names);
+    const choice::Selection selection(view.mesh, tags, view.cells, left, names);
     std::set<std::int32_t> torn, guests;
-    for (const OpenRing& ring : open_rings(chosen)) {
+    for (const OpenRing& ring : open_rings(selection.mesh())) {
       const std::int32_t piece = pieces.of_tet[ring.tets.front()];
-      const bool in_one = std::ranges::all_of(ring.tets, [&](std::int32_t t) { return pieces.of_tet[t] == piece; });
+      const bool in_one = std::ranges::all_of(ring.tets, [&](TetIndex t) { return pieces.of_tet[t] == piece; });
       if (!in_one)
         torn.insert(ring.cell);
       else if (piece == here && !is_own(ring.cell))

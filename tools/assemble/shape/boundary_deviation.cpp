@@ -40,7 +40,7 @@ double BoundaryDeviation::from_facet(std::int32_t f, double enough) const {
     return least;
   };
   Vec3 middle{};
-  // Facets where tets were taken off the boundary are not the input's.
+  // Where tets were peeled off the boundary, facets are not the input's.
   bool moved = count == 3 && !surface_.has_triangle({origin_[corners[0]], origin_[corners[1]], origin_[corners[2]]});
   double greatest = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -67,7 +67,7 @@ double BoundaryDeviation::to_facets_at(Vertex v, const Vec3& from) const {
   return least;
 }
 
-// To the facets at v, and, where v has slid further than that, to those at its neighbours.
+// The distance to the facets at v and, if v has slid further than that, to the facets at its neighbours.
 double BoundaryDeviation::from_input_vertex(Vertex v, double enough) const {
   const Vec3 was = input_points_[origin_[v]];
   double least = to_facets_at(v, was);

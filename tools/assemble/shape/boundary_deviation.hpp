@@ -1,5 +1,5 @@
 #pragma once
-// How far the tagged facets of a result lie from the input's surface, and that from them.
+// The distance between the tagged facets of a result and the input's surface, both ways.
 
 #include <cstdint>
 #include <optional>
@@ -14,21 +14,21 @@ namespace hexpipe::assemble::shape {
 
 class BoundaryDeviation {
  public:
-  // `origin`: the input's vertex that each of the mesh's is, as in Extract. Vertices on tagged facets all are vertices
-  // of the input; positions are read anew by each call. All arguments must outlive this.
+  // `origin` as in Extract: all vertices on tagged facets are vertices of the input. Each call reads positions anew.
+  // All arguments outlive this.
   BoundaryDeviation(const MixedMesh& mesh, const InputSurface& surface, std::span<const Vec3> input_points,
                     std::span<const Vertex> origin);
 
   bool has_moved(Vertex v) const { return mesh_.points[v] != input_points_[origin_[v]]; }
 
   // The greatest distance between the two surfaces around v: from the middles of the facets and edges at v to the
-  // input's surface, and from where the corners of these facets were to the facets around them. Only as exact as it
-  // takes to tell it from `enough`, and the first that is greater than `most` is returned.
+  // input's surface, and from the input's places of the corners of these facets to the facets around them. Only as
+  // exact as it takes to compare it with `enough`; ends with the first distance above `most`.
   double around(Vertex v, double enough, double most) const;
 
   struct Summary {
     std::int64_t moved = 0;  // vertices on tagged facets
-    double greatest = 0;     // of all distances as in around(), exactly
+    double greatest = 0;     // distance as in around(), exact
   };
   Summary summary() const;
 
@@ -36,7 +36,7 @@ class BoundaryDeviation {
   std::optional<Vertex> vertex_off_surface(double tolerance) const;
 
  private:
-  // As corners of the facet; a triangle repeats its last.
+  // The corners of a facet; a triangle repeats its last.
   Quad facet(std::int32_t f) const;
   double from_facet(std::int32_t f, double enough) const;
   double from_input_vertex(Vertex v, double enough) const;
@@ -46,7 +46,7 @@ class BoundaryDeviation {
   const InputSurface& surface_;
   std::span<const Vec3> input_points_;
   std::span<const Vertex> origin_;
-  // Triangles, then quads, at each vertex.
+  // By vertex: its triangles, then its quads, which are numbered behind all triangles.
   VertexItems facets_;
 };
 

@@ -1,15 +1,15 @@
-#include "tools/assemble/shape/freedom.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "common/mesh/facet_key.hpp"
+#include "tools/assemble/shape/smooth.hpp"
 
 namespace hexpipe::assemble::shape {
 namespace {
 
-// Sine of the angle between normals of one plane. STL files hold floats: a slanted plane in one is this uneven, and a
-// vertex that moves in it by an edge length changes the volume by this part of the cube of that length.
+// The sine of the angle up to which two normals count as those of one plane. STL files hold floats: a slanted plane in
+// one is this uneven, and a vertex that moves in it by an edge length changes the volume by this fraction of the cube
+// of that length.
 constexpr double plane_tolerance = 1e-6;
 
 // A tagged triangle, or a triangle of a tagged quad, as one of its vertices sees it.
@@ -40,22 +40,22 @@ void for_each_facet_corner(const MixedMesh& mesh, Visit&& visit) {
   each(mesh.quads);
 }
 
-// A quad may be warped: each of its corners sees the normal there, and those of the neighbours by their own.
+// A quad may be warped: each of its corners takes its own normal.
 Fans collect_fans(const MixedMesh& mesh) {
   Fans result;
   result.offsets.assign(mesh.points.size() + 1, 0);
   for_each_facet_corner(mesh, [&](Vertex v, Vertex, Vertex, std::int32_t) { ++result.offsets[v + 1]; });
   for (std::size_t v = 1; v < result.offsets.size(); ++v) result.offsets[v] += result.offsets[v - 1];
   result.fans.resize(static_cast<std::size_t>(result.offsets.back()));
-  std::vector<std::int64_t> fill(result.offsets.begin(), result.offsets.end() - 1);
+  std::vector<std::int64_t> next_fan(result.offsets.begin(), result.offsets.end() - 1);
   for_each_facet_corner(mesh, [&](Vertex v, Vertex next, Vertex last, std::int32_t tag) {
     const Vec3 normal = cross(mesh.points[next] - mesh.points[v], mesh.points[last] - mesh.points[v]);
-    result.fans[fill[v]++] = {unit(normal), tag, next, last};
+    result.fans[next_fan[v]++] = {unit(normal), tag, next, last};
   });
   return result;
 }
 
-// Vertices of warped quads stay: the quad's volume changes with each of them.
+// Vertices of warped quads stay, because moving one changes the volume under the quad.
 std::vector<bool> vertices_of_warped_quads(const MixedMesh& mesh) {
   std::vector<bool> result(mesh.points.size());
   for (const auto& quad : mesh.quads.cells) {
@@ -72,7 +72,7 @@ bool is_parallel(const Vec3& unit, const Vec3& other) {
   return norm_squared(cross(unit, other)) <= plane_tolerance * plane_tolerance * norm_squared(other);
 }
 
-// True when every edge at the vertex lies between two facets, or along `line`.
+// Whether every edge at the vertex lies between two facets, or along `line`.
 bool edges_are_paired(std::span<const Fan> fans, const MixedMesh& mesh, Vertex v, const Vec3& line) {
   std::vector<Vertex> ends;
   for (const Fan& fan : fans) ends.push_back(fan.from), ends.push_back(fan.to);

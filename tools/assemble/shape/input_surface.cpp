@@ -9,15 +9,14 @@
 #include <utility>
 
 #include "common/mesh/facet_key.hpp"
-#include "tools/assemble/shape/wall_thickness.hpp"
 
 namespace hexpipe::assemble::shape {
 namespace {
 
 // 40 degrees, as in tetmesh: cylinders of nine sides and more count as smooth, and a curve may turn by as much.
 const double cos_feature_angle = std::cos(std::numbers::pi * 40 / 180);
-// A vertex slides a few edges far at most; walks that do not end by then are at something odd, and a point that is too
-// far away is as safe as the nearest.
+// A vertex slides a few edges far at most. A walk that has not ended by then is at something odd, and a point too far
+// away is as safe as the nearest.
 constexpr int longest_walk = 30;
 
 Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& to) {
@@ -26,7 +25,7 @@ Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& to) {
   return length > 0 ? a + along * std::clamp(dot(to - a, along) / length, 0.0, 1.0) : a;
 }
 
-// The part of ab's far side: from edge ab to c, at right angles to the edge.
+// The unit vector from edge ab to c, at right angles to the edge.
 Vec3 away_from_edge(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 along = unit(b - a);
   return unit((c - a) - along * dot(c - a, along));
@@ -40,8 +39,8 @@ Vertex third_of(const Triangle& t, Vertex a, Vertex b) {
 
 }  // namespace
 
-// C. Ericson, "Real-Time Collision Detection" (2005), section 5.1.5, by regions: an edge or a corner where the foot of
-// the perpendicular falls outside.
+// C. Ericson, "Real-Time Collision Detection" (2005), section 5.1.5: if the foot of the perpendicular falls outside, an
+// edge or a corner is nearest.
 Vec3 nearest_on_triangle(const std::array<Vec3, 3>& triangle, const Vec3& to) {
   const auto& [a, b, c] = triangle;
   const Vec3 normal = cross(b - a, c - a);
@@ -104,18 +103,18 @@ void InputSurface::find_features() {
     else
       features.push_back(edge);
   }
-  part_.resize(parent.size());
-  for (std::size_t t = 0; t < part_.size(); ++t) part_[t] = root(static_cast<std::int32_t>(t));
+  patch_.resize(parent.size());
+  for (std::size_t t = 0; t < patch_.size(); ++t) patch_[t] = root(static_cast<std::int32_t>(t));
 
   std::sort(features.begin(), features.end());
   feature_offsets_.assign(mesh_.points.size() + 1, 0);
   for (const auto& edge : features) ++feature_offsets_[edge[0] + 1], ++feature_offsets_[edge[1] + 1];
   std::partial_sum(feature_offsets_.begin(), feature_offsets_.end(), feature_offsets_.begin());
   feature_ends_.resize(2 * features.size());
-  std::vector<std::int64_t> fill(feature_offsets_.begin(), feature_offsets_.end() - 1);
+  std::vector<std::int64_t> next_end(feature_offsets_.begin(), feature_offsets_.end() - 1);
   for (const auto& edge : features) {
-    feature_ends_[fill[edge[0]]++] = edge[1];
-    feature_ends_[fill[edge[1]]++] = edge[0];
+    feature_ends_[next_end[edge[0]]++] = edge[1];
+    feature_ends_[next_end[edge[1]]++] = edge[0];
   }
 }
 
@@ -125,12 +124,12 @@ void InputSurface::find_lengths(const TetAdjacency& adjacency) {
   std::vector<double> reach;
   reach.reserve(mesh_.triangles.size());
   for (const auto& [a, b, c] : mesh_.triangles) reach.push_back(std::max({lengths_[a], lengths_[b], lengths_[c]}));
-  const auto thickness = wall_thickness(mesh_, adjacency, reach);
+  const auto thickness = thickness_behind(mesh_, adjacency, reach);
   for (std::size_t t = 0; t < thickness.size(); ++t)
     for (const Vertex v : mesh_.triangles[t]) lengths_[v] = std::min(lengths_[v], thickness[t]);
 }
 
-// Whether the triangles at v that join by edges are all of them.
+// Whether all triangles at v are joined to each other by edges at v.
 bool InputSurface::is_one_fan(Vertex v) const {
   const auto all = triangles_at(v);
   std::vector<std::int32_t> reached{all[0]};
@@ -155,14 +154,14 @@ InputSurface::Place InputSurface::place_of(Vertex v) const {
   return dot(one, two) < -cos_feature_angle ? Place::curve : Place::corner;
 }
 
-InputSurface::Nearest InputSurface::descend(Vertex v, const Vec3& to, bool within_part, double enough) const {
+InputSurface::Nearest InputSurface::descend(Vertex v, const Vec3& to, bool within_patch, double enough) const {
   const std::int32_t start = triangles_at(v)[0];
   Nearest best{start, {}, std::numeric_limits<double>::infinity()};
-  // True when a triangle at `w` is nearer.
+  // Whether a triangle at `w` is nearer.
   auto look_at = [&](Vertex w) {
     bool nearer = false;
     for (std::int32_t t : triangles_at(w)) {
-      if (within_part && part_[t] != part_[start]) continue;
+      if (within_patch && patch_[t] != patch_[start]) continue;
       const auto& [a, b, c] = mesh_.triangles[t];
       const Vec3 at = nearest_on_triangle({mesh_.points[a], mesh_.points[b], mesh_.points[c]}, to);
       const double distance = norm_squared(at - to);
@@ -195,7 +194,7 @@ InputSurface::Foot InputSurface::foot_on_curve(Vertex v, const Vec3& to) const {
         least = distance;
         best = {at, unit(mesh_.points[next] - mesh_.points[from])};
       }
-      // On to the next edge only where this one ends too soon.
+      // Goes on to the next edge only if this one ends too soon.
       if (at != mesh_.points[next] || places_[next] != Place::curve) break;
       const auto ends = std::span(feature_ends_).subspan(feature_offsets_[next], 2);
       const Vertex beyond = ends[0] == from ? ends[1] : ends[0];
@@ -215,7 +214,7 @@ InputSurface::Foot InputSurface::foot(Vertex v, const Vec3& to) const {
 }
 
 double InputSurface::distance(Vertex v, const Vec3& to, double enough) const {
-  if (triangles_at(v).empty()) return distance(to);  // of a boundary that has come to where it was not
+  if (triangles_at(v).empty()) return distance(to);  // peeled tets have left the boundary here
   return std::sqrt(descend(v, to, false, enough).distance_squared);
 }
 
@@ -228,7 +227,7 @@ double InputSurface::distance(const Vec3& to) const {
   return std::sqrt(least);
 }
 
-// The mean, of the triangles at v.
+// The mean over the triangles at v.
 double InputSurface::edge_length(Vertex v) const {
   double sum = 0;
   for (std::int32_t t : triangles_at(v))

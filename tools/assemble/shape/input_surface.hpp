@@ -1,5 +1,5 @@
 #pragma once
-// The input's tagged triangles as a surface that vertices may slide on, and from which results may deviate.
+// The input's tagged triangles as a surface on which vertices slide and from which results deviate.
 
 #include <array>
 #include <cstdint>
@@ -12,42 +12,45 @@
 
 namespace hexpipe::assemble::shape {
 
-// How far facets may come to lie from the input's surface where vertices slide on it or flat tets are taken off it: in
-// edge lengths there, or, where the part is thinner than an edge is long, in its thickness. Circles of 25 edges and
-// more deviate less between their own vertices.
+// How far facets may lie from the input's surface after vertices slid on it or flat tets were peeled off it: in edge
+// lengths there or, where the model is thinner than an edge is long, in its thickness. Circles of 25 edges and more
+// deviate less between their own vertices.
 inline constexpr double most_deviation = 0.03;
 
 // The nearest point of a triangle, which may be degenerate.
 Vec3 nearest_on_triangle(const std::array<Vec3, 3>& triangle, const Vec3& to);
 
+// By tagged triangle: how thick the mesh is behind it, from its middle at right angles into the tets on either side to
+// where their region ends, and at most the triangle's `reach`. A triangle that is no facet of a tet has its `reach`.
+std::vector<double> thickness_behind(const TetMesh& mesh, const TetAdjacency& adjacency, std::span<const double> reach);
+
 class InputSurface {
  public:
-  // Where a vertex lies: on no tagged triangle; within a smooth part of the surface; on a feature curve between two
-  // parts; or where curves meet, end or turn. An edge is a feature unless it has two triangles of one tag whose normals
-  // are less than 40 degrees apart, and is no ridge.
+  // The place of a vertex: on no tagged triangle; within a smooth patch of the surface; on a feature curve between two
+  // patches; or where curves meet, end or turn. A ridge of the mesh is a feature, and so is an edge unless it has
+  // exactly two triangles, with one tag, whose normals are less than 40 degrees apart.
   enum class Place : std::uint8_t { inside, face, curve, corner };
 
-  // `mesh` must outlive this, with every facet of its boundary and interfaces among its triangles.
-  // `adjacency` is that of the mesh.
+  // `mesh` outlives this, and its surface is complete (surface_tags.hpp). `adjacency` is that of the mesh, and may go.
   InputSurface(const TetMesh& mesh, const TetAdjacency& adjacency);
 
   Place place(Vertex v) const { return places_[v]; }
 
-  // The point nearest to `to` on the smooth part or the curve on which v lies, found from v downhill, with the unit
-  // normal or tangent there; for a corner v itself.
+  // The point nearest to `to` on the smooth patch or the curve on which v lies, found downhill from v, with the unit
+  // normal or tangent there. For a corner, v itself.
   struct Foot {
     Vec3 at;
     Vec3 axis;
   };
   Foot foot(Vertex v, const Vec3& to) const;
 
-  // From `to` to the surface around v, across features too; only as exact as it takes to tell it from `enough`. Where
-  // the way downhill ends early it is too long.
+  // The distance from `to` to the surface around v, across features too, and only as exact as it takes to compare it
+  // with `enough`. It is too long if the way downhill ends early.
   double distance(Vertex v, const Vec3& to, double enough = 0) const;
-  // To all of the surface: looks at every triangle.
+  // The distance to the whole surface: looks at every triangle.
   double distance(const Vec3& to) const;
 
-  // How far facets at v may come to lie from the surface; v is on a triangle.
+  // How far facets at v may lie from the surface. v is on a tagged triangle.
   double most_deviation_at(Vertex v) const { return most_deviation * lengths_[v]; }
 
   bool has_triangle(const Triangle& triangle) const;
@@ -66,13 +69,13 @@ class InputSurface {
   double edge_length(Vertex v) const;
   Place place_of(Vertex v) const;
   bool is_one_fan(Vertex v) const;
-  Nearest descend(Vertex v, const Vec3& to, bool within_part, double enough) const;
+  Nearest descend(Vertex v, const Vec3& to, bool within_patch, double enough) const;
   Foot foot_on_curve(Vertex v, const Vec3& to) const;
 
   const TetMesh& mesh_;
   double diagonal_ = 0;
   VertexItems triangles_;
-  std::vector<std::int32_t> part_;  // by triangle: one number for what is joined without crossing a feature
+  std::vector<std::int32_t> patch_;  // by triangle: one number for all that are joined without crossing a feature
   // The far ends of the feature edges at each vertex.
   std::vector<std::int64_t> feature_offsets_;
   std::vector<Vertex> feature_ends_;

@@ -15,16 +15,16 @@
 namespace hexpipe::assemble::shape {
 namespace {
 
-// The scaled Jacobian of a tet is at most sqrt(1/2) without it.
+// Without this factor the scaled Jacobian of a tet is at most sqrt(1/2).
 const double tet_scale = std::sqrt(2.0);
 
-// Corners within this of the worst take part in the direction at first.
+// At first, corners within this distance of the worst decide the direction.
 constexpr double widest_band = 0.1;
 constexpr double narrowest_band = 1e-3;
 // A gain below this is not worth another step.
 constexpr double least_gain = 1e-5;
 constexpr int halvings = 5;
-// Of the score, that a first step is to bring at least.
+// The first step is long enough to raise the score by this, by its linear model.
 constexpr double least_rise = 0.2;
 
 double product_of_norms(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -33,10 +33,10 @@ double product_of_norms(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 }  // namespace
 
-void PointStar::add(CellKind kind, std::span<const Vec3> corners, int moving, const Standing& standing) {
+void PointStar::add(CellKind kind, std::span<const Vec3> corners, int moving, const CornerRules& rules) {
   Term term{};
-  term.scale = kind == CellKind::tet ? standing.weight * tet_scale : standing.weight;
-  term.standing = standing;
+  term.scale = kind == CellKind::tet ? rules.weight * tet_scale : rules.weight;
+  term.rules = rules;
   with_topology(kind, [&](auto topology) {
     for (const auto& corner : decltype(topology)::corners) add_corner(corners, corner, moving, term);
   });
@@ -106,7 +106,7 @@ double PointStar::worst_unweighted(const Vec3& at) const {
 double PointStar::score(const Vec3& at) const {
   double sum = 0, shares = 0;
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    sum += mean_share(i) * std::min(value(i, at) / weight(i), terms_[i].standing.enough);
+    sum += mean_share(i) * std::min(value(i, at) / weight(i), terms_[i].rules.enough);
     shares += mean_share(i);
   }
   return (terms_.empty() ? 0 : sum / shares) + dot(pull_, at - start_);
@@ -121,7 +121,7 @@ bool PointStar::exceeds(const Vec3& at, double bound) const {
 bool PointStar::keeps_floors(const Vec3& before, const Vec3& at) const {
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const double there = value(i, at);
-    if (there < weight(i) * terms_[i].standing.floor && there < value(i, before)) return false;
+    if (there < weight(i) * terms_[i].rules.floor && there < value(i, before)) return false;
   }
   return true;
 }
@@ -189,8 +189,8 @@ struct Linearization {
   }
 };
 
-// Where gradients cancel, what is left is rounding, and a long step along it would leave the plane that holds the
-// vertex.
+// False where the gradients cancel: the sum is then mere rounding, and a long step along it would leave the plane that
+// holds the vertex.
 bool is_direction(const Vec3& sum, std::span<const Vec3> gradients) {
   double longest = 0;
   for (const auto& g : gradients) longest = std::max(longest, norm_squared(g));
@@ -286,7 +286,8 @@ Placement raise_score(const PointStar& star, const Vec3& start, int steps, doubl
     const Vec3 direction = freedom.allowed(freedom.allowed(sum));
     const double slope = norm_squared(direction);
     if (!is_direction(direction, gradients)) break;
-    // Full step: where the linear model of the score would reach 1, or, with a pull, a little more than it has.
+    // The full step goes to where the linear model of the score reaches 1, or, with a pull, a little more than the
+    // score.
     double length = std::max(1 - score, least_rise) / slope;
     bool moved = false;
     for (int i = 0; i <= 2 * halvings && !moved; ++i, length /= 2) {

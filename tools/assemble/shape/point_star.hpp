@@ -10,22 +10,22 @@
 
 namespace hexpipe::assemble::shape {
 
-// How the corners of an element count beside those of others.
-struct Standing {
-  double weight = 1;  // of the scaled Jacobian: below 1, the element gives way to others sooner
-  double enough = 1;  // the mean counts no value above it
-  double floor = -1;  // values that keep_floors() guards: they do not fall below it
+// How much the corners of an element count beside those of others.
+struct CornerRules {
+  double weight = 1;  // factor on the scaled Jacobian: below 1, the element counts as worse and gets room sooner
+  double enough = 1;  // the mean counts higher values as this one
+  double floor = -1;  // keep_floors() lets no value fall below this
 };
 
-// The corners of elements whose scaled Jacobian depends on one vertex, and what else tells its places apart. A corner
-// at o with edges to a, b, c has det(a-o, b-o, c-o) / (|a-o| |b-o| |c-o|); for a tet times the square root of 2, so
-// that the regular tet has 1.
+// The corners of elements whose scaled Jacobian depends on one vertex, and a pull on this vertex. A corner at o with
+// edges to a, b, c has det(a-o, b-o, c-o) / (|a-o| |b-o| |c-o|); for a tet times the square root of 2, so that the
+// regular tet has 1.
 class PointStar {
  public:
   void clear() { terms_.clear(), pull_ = {}; }
   bool empty() const { return terms_.empty(); }
-  // The corners of an element that involve its corner `moving`; the position given for it is not used.
-  void add(CellKind kind, std::span<const Vec3> corners, int moving, const Standing& standing = {});
+  // Adds the corners of an element that involve its corner `moving`. The position given for that one is not used.
+  void add(CellKind kind, std::span<const Vec3> corners, int moving, const CornerRules& rules = {});
   // The score rises by `pull` for each unit of length away from `start` along it.
   void set_pull(const Vec3& start, const Vec3& pull) { start_ = start, pull_ = pull; }
   const Vec3& pull() const { return pull_; }
@@ -33,31 +33,31 @@ class PointStar {
   std::size_t size() const { return terms_.size(); }
   double value(std::size_t term, const Vec3& at) const;
   Vec3 gradient(std::size_t term, const Vec3& at) const;
-  double weight(std::size_t term) const { return terms_[term].standing.weight; }
-  // What a corner counts in the mean: the more, the sooner it has to give way as the worst.
+  double weight(std::size_t term) const { return terms_[term].rules.weight; }
+  // The corner's share in the mean: larger if its weight makes it the worst sooner.
   double mean_share(std::size_t term) const { return 1 / (weight(term) * weight(term)); }
-  // True when the mean counts no more of the value.
+  // Whether the mean would not count a higher value.
   bool is_enough(std::size_t term, const Vec3& at) const {
-    return value(term, at) / weight(term) >= terms_[term].standing.enough;
+    return value(term, at) / weight(term) >= terms_[term].rules.enough;
   }
-  // Least over all corners, weighted and not.
+  // The least value over all corners, weighted and unweighted.
   double worst(const Vec3& at) const;
   double worst_unweighted(const Vec3& at) const;
-  // The mean of the unweighted values, by share, and what the pull adds.
+  // The mean of the unweighted values, by share, plus the pull.
   double score(const Vec3& at) const;
-  // True when worst(at) > bound; stops at the first corner that is not.
+  // Whether worst(at) > bound; stops at the first corner that is not above it.
   bool exceeds(const Vec3& at, double bound) const;
-  // False when a value that the move changes falls below its floor, or further below it.
+  // False if the move takes a value below its floor, or further below it.
   bool keeps_floors(const Vec3& before, const Vec3& at) const;
 
  private:
-  // The moving vertex is the corner itself, fixed = its three neighbours; or it is one of the neighbours, fixed[0] =
-  // the corner, and `normal` the cross product of the unit edges to the other two.
+  // Either the moving vertex is the corner itself, and `fixed` its three neighbours; or it is one of the neighbours,
+  // fixed[0] is the corner, and `normal` the cross product of the unit edges to the other two.
   struct Term {
     std::array<Vec3, 3> fixed;
     Vec3 normal;
-    double scale;  // the weight, and for a tet the square root of 2
-    Standing standing;
+    double scale;  // the weight, for a tet times the square root of 2
+    CornerRules rules;
     bool is_corner;
   };
   void add_corner(std::span<const Vec3> corners, const LocalCorner& corner, int moving, const Term& model);
@@ -80,11 +80,12 @@ struct Placement {
   double worst;
 };
 
-// Climbs from `start`, in at most `steps` steps, to a place where the least scaled Jacobian around the vertex is
-// (locally) greatest. Elements may be inverted at the start.
+// Climbs from `start`, in at most `steps` steps, to a local maximum of the least scaled Jacobian around the vertex.
+// Elements may be inverted at the start.
 Placement raise_worst(const PointStar& star, const Vec3& start, int steps, const Freedom& freedom = {});
 
-// Takes at most `steps` steps that raise the score, and lower the least, weighted or not, no further than to `floor`.
+// Takes at most `steps` steps that raise the score, none of which takes the least value, weighted or unweighted, below
+// `floor`.
 Placement raise_score(const PointStar& star, const Vec3& start, int steps, double floor, const Freedom& freedom = {});
 
 // A plane with its unit normal; points on the normal's side have positive distance.
@@ -96,11 +97,11 @@ struct Plane {
   double distance(const Vec3& at) const { return dot(normal, at) - offset; }
 };
 
-// Climbs from `start` towards the point whose least distance from the planes is greatest: inside their kernel when they
-// have one.
+// Climbs from `start` towards the point whose least distance from the planes is greatest. It lies in their kernel, if
+// they have one.
 Vec3 deepest_point(std::span<const Plane> planes, const Vec3& start);
 
-// The point of the convex hull of `vectors` (not empty) nearest to the origin, nearly.
+// Approximately the point of the convex hull of `vectors` (not empty) that is nearest to the origin.
 Vec3 shortest_in_hull(std::span<const Vec3> vectors);
 
 }  // namespace hexpipe::assemble::shape

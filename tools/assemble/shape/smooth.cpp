@@ -1,10 +1,10 @@
-// One vertex after the other goes where the worst cell around it is best, or, where that one is good enough, to where
-// the cells around it are better on average, hexes have more of the volume, and the worst is still good enough. L. A.
-// Freitag, C. Ollivier-Gooch, "Tetrahedral mesh improvement using swapping and smoothing" (1997), sections 3 and 5:
-// optimization where a smart average does not suffice. The average here is ascended by its gradient, because the centre
-// of the neighbours means little to a hex. Vertices on curved surfaces step in the tangent plane and return to the
-// nearest point of the input's surface; facets between them leave it, so they move only for poor cells and within a
-// bound.
+// Vertices move one by one. A vertex goes where the worst cell around it is best. If that cell is good enough, the
+// vertex goes where the cells around it are better on average, hexes have more of the volume, and the worst is still
+// good enough. L. A. Freitag, C. Ollivier-Gooch, "Tetrahedral mesh improvement using swapping and smoothing" (1997),
+// sections 3 and 5: optimization where a smart average does not suffice. Here the average is raised along its gradient,
+// because the centre of the neighbours means little to a hex. Vertices on curved surfaces step in the tangent plane and
+// return to the nearest point of the input's surface. Facets between them leave it, so they move only for poor cells
+// and within a bound.
 
 #include "tools/assemble/shape/smooth.hpp"
 
@@ -20,40 +20,37 @@
 #include "common/mesh/validity.hpp"
 #include "common/mesh/vertex_items.hpp"
 #include "tools/assemble/shape/boundary_deviation.hpp"
-#include "tools/assemble/shape/freedom.hpp"
 #include "tools/assemble/shape/point_star.hpp"
 
 namespace hexpipe::assemble::shape {
 namespace {
 
-// What a scaled Jacobian counts by kind when cells compete for a vertex: a hex of 0.5 counts as a tet or a pyramid of
-// 0.25. Without it the flat pyramids at the border of a hex block, which cannot become much better, pull the hexes next
-// to them down to their own quality (a mean of 0.92 in place of 0.96 on a block with a notch).
+// When cells compete for a vertex, a hex of 0.5 counts as a tet or a pyramid of 0.25. Without this factor the flat
+// pyramids at the border of a hex block, which cannot become much better, pull the hexes next to them down to their own
+// quality (a mean of 0.92 instead of 0.96 on a block with a notch).
 constexpr double hex_weight = 0.5;
-// While there are poor cells a hex of 0.1 counts as another of 0.025: about what both should reach.
+// While there are poor cells, a hex of 0.1 counts as another cell of 0.025: both should reach about that.
 constexpr double hex_weight_of_poor = 0.25;
-// Hexes are not pressed below that scaled Jacobian, which they have where findhex is not told otherwise.
-constexpr double least_hex = 0.3;
-// Better than this, cells other than hexes gain nothing in the mean: pyramids would grow tall and press hexes flat.
+// The mean counts no more than this of cells other than hexes: pyramids would grow tall and press hexes flat.
 constexpr double good_beside_hexes = 0.25;
 constexpr double good_prism = 0.5;
-// What hexes gain by growth: the mean scaled Jacobian of all cells at the vertex may fall by this for a growth of a
-// hex's volume. What lies between hexes comes out as thin as good_enough lets it, with as good hexes as without: at 0.5
-// hexes are 0.02 worse on average, at 0.1 they take half as much from the tets.
+// The mean scaled Jacobian of all cells at the vertex may fall by this while the hexes there grow by a hex's volume.
+// Cells between hexes become as thin as good_enough lets them, and hexes are as good as without growth. At 0.5 hexes
+// are 0.02 worse on average, at 0.1 they take half as much from the tets.
 constexpr double worth_of_growth = 0.2;
-// Where the worst cell, so weighted, is better than this, the average counts, and growth.
+// If the worst cell, so weighted, is better than this, the average counts, and growth.
 constexpr double good_enough = 0.12;
-// Where the worst cell, so weighted, is worse than this, vertices slide on curved surfaces.
-constexpr double slides_below = 0.06;
-// A vertex whose cells are all like this is left alone.
+// If the worst cell, so weighted, is worse than this, vertices slide on curved surfaces.
+constexpr double slides_below = 0.12;
+// A vertex stays if all its cells are at least this good.
 constexpr double excellent = 0.9;
 constexpr int steps_for_worst = 8;
 constexpr int steps_for_score = 2;
-// Moves that gain less are not worth the neighbours' new look.
-constexpr double least_gain = 1e-3;
-// How far a plane of a surface file may be from even, in diagonals of the bounding box: such files hold floats.
+// A smaller gain is not worth another look at the neighbours.
+constexpr double least_gain_of_move = 1e-3;
+// Planes of a surface file are uneven by this much, in diagonals of the bounding box: such files hold floats.
 constexpr double most_uneven = 5e-7;
-// Scaled Jacobians do not mind edges of any length: none may become shorter than this part of the longest at its
+// Scaled Jacobians do not see the length of edges: none may become shorter than this fraction of the longest at its
 // vertex.
 constexpr double shortest_edge = 0.1;
 // A move that leaves a hex invalid is halved this often.
@@ -106,8 +103,8 @@ class Smoother {
     deviation_.emplace(mesh, sliding->surface, sliding->input_points, sliding->origin);
   }
 
-  // Returns the number of vertices that moved. Only those are looked at whose worst cell is below `only_below`,
-  // weighted or not.
+  // Returns the number of vertices that moved. Looks only at vertices whose worst cell, weighted or unweighted, is
+  // below `only_below`.
   std::int64_t round(double only_below, bool weighted) {
     std::int64_t moves = 0;
     for (Vertex v = 0; v < static_cast<Vertex>(points_.size()); ++v) {
@@ -129,7 +126,7 @@ class Smoother {
   bool leaves_surface(Vertex v, const Vec3& at) const;
   bool improve(Vertex v, double only_below, bool weighted);
   void look_around(Vertex v);
-  Standing standing_of(CellKind kind) const;
+  CornerRules rules_of(CellKind kind) const;
   bool is_valid_cell(std::int32_t c) const;
   bool looks_inverted(std::int32_t c) const;
   Vec3 growth_at(Vertex v) const;
@@ -150,14 +147,14 @@ void Smoother::look_around(Vertex v) {
     const auto corners = cells_.corners_of(c);
     const auto at = corner_points(points_, corners);
     const auto moving = static_cast<int>(std::find(corners.begin(), corners.end(), v) - corners.begin());
-    star_.add(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()), moving, standing_of(cells_.kind(c)));
+    star_.add(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()), moving, rules_of(cells_.kind(c)));
   }
 }
 
-Standing Smoother::standing_of(CellKind kind) const {
+CornerRules Smoother::rules_of(CellKind kind) const {
   switch (kind) {
     case CellKind::hex:
-      return {.weight = weight_of_hexes_, .floor = least_hex};
+      return {.weight = weight_of_hexes_, .floor = least_hex_quality};
     case CellKind::prism:
       return {.enough = good_prism};
     default:
@@ -165,7 +162,7 @@ Standing Smoother::standing_of(CellKind kind) const {
   }
 }
 
-// By how much of a hex's volume the hexes at v, together, grow as it moves, for each unit of length.
+// How much the hexes at v grow together as v moves by a unit of length, in volumes of a hex.
 Vec3 Smoother::growth_at(Vertex v) const {
   Vec3 growth{};
   double volume = 0;
@@ -191,14 +188,13 @@ bool Smoother::is_valid_cell(std::int32_t c) const {
   return is_valid(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()));
 }
 
-// Prisms only, the kind that readers turn round (face_view.hpp).
 bool Smoother::looks_inverted(std::int32_t c) const {
-  if (cells_.kind(c) != CellKind::prism) return false;
-  const auto at = corner_points(points_, cells_.corners_of(c));
-  return least_face_view(CellKind::prism, std::span<const Vec3>(at).first(6)) <= 0;
+  const auto corners = cells_.corners_of(c);
+  const auto at = corner_points(points_, corners);
+  return hexpipe::looks_inverted(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()));
 }
 
-// On a curved surface or curve: there is no plane or line for it.
+// Whether v slides on a curved surface or curve, because it has no plane or line.
 bool Smoother::slides(Vertex v) const {
   if (sliding_ == nullptr || freedoms_[v].kind != Freedom::Kind::none || sliding_->has_to_stay(v)) return false;
   const auto place = sliding_->surface.place(sliding_->origin[v]);
@@ -212,7 +208,7 @@ Freedom Smoother::freedom(Vertex v) const {
   return {on_face ? Freedom::Kind::plane : Freedom::Kind::line, sliding_->surface.foot(input, points_[v]).axis};
 }
 
-// Whether v, moved to `at`, leaves the boundary as near to the input's surface as it has to be.
+// Whether the boundary stays near enough to the input's surface if v moves to `at`.
 bool Smoother::stays_close(Vertex v, const Vec3& at) {
   const double most = sliding_->surface.most_deviation_at(sliding_->origin[v]);
   const Vec3 before = std::exchange(points_[v], at);
@@ -221,15 +217,15 @@ bool Smoother::stays_close(Vertex v, const Vec3& at) {
   return deviation <= most;
 }
 
-// Vertices that have slid to one side of a polygon see a plane or line that ends before them: what is around v now does
-// not tell how far the input goes on.
+// Vertices that have slid to one side of a polygon see a plane or line that ends before them: the facets around v now
+// do not tell how far the input's surface goes on.
 bool Smoother::leaves_surface(Vertex v, const Vec3& at) const {
   if (sliding_ == nullptr || freedoms_[v].kind == Freedom::Kind::space) return false;
   const Vec3 foot = sliding_->surface.foot(sliding_->origin[v], at).at;
   return norm(foot - at) > most_uneven * sliding_->surface.diagonal();
 }
 
-// False where an edge at v would become shorter than the shortest is now, and short beside the longest.
+// False if an edge at v would become shorter than the shortest is now, and short beside the longest.
 bool Smoother::keeps_edges_long(Vertex v, const Vec3& at) const {
   double now = std::numeric_limits<double>::infinity(), shortest = now, longest = 0;
   for (std::int32_t c : cells_.at(v)) {
@@ -272,8 +268,8 @@ bool Smoother::improve(Vertex v, double only_below, bool weighted) {
     const Vec3 at = slide ? sliding_->surface.foot(sliding_->origin[v], there).at : there;
     const double floor = poor ? worst_unweighted : std::min(worst_unweighted, good_enough);
     if (star_.worst_unweighted(at) < floor || !star_.keeps_floors(before, at)) continue;
-    const bool better = poor ? star_.worst(at) > worst + least_gain
-                             : star_.worst(at) >= good_enough && star_.score(at) > score + least_gain;
+    const bool better = poor ? star_.worst(at) > worst + least_gain_of_move
+                             : star_.worst(at) >= good_enough && star_.score(at) > score + least_gain_of_move;
     if (!better || leaves_surface(v, at) || (worst > 0 && !keeps_edges_long(v, at)) || (slide && !stays_close(v, at)))
       continue;
     points_[v] = at;

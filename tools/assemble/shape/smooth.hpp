@@ -1,24 +1,31 @@
 #pragma once
-// Moves vertices so that the worst cells become better first, then the average, and hexes larger.
+// Moves vertices: the worst cells become better first, then the average cell, and hexes larger.
 
 #include <span>
+#include <vector>
 
 #include "common/mesh/mixed_mesh.hpp"
 #include "tools/assemble/shape/input_surface.hpp"
+#include "tools/assemble/shape/point_star.hpp"
 
 namespace hexpipe::assemble::shape {
 
+// By vertex: which way it may move so that boundary, interfaces and the borders of their tags stay as they are. A
+// vertex inside may go anywhere; on tagged facets of one plane and one tag, in that plane; on tagged facets of two
+// planes with one tag each, along their common line; others nowhere.
+std::vector<Freedom> vertex_freedoms(const MixedMesh& mesh);
+
 struct SmoothCounts {
-  int rounds = 0;  // done; fewer than asked for when nothing moved any more
+  int rounds = 0;  // fewer than asked for if nothing moved any more
   std::int64_t moves = 0;
 };
 
-// What lets vertices on curved parts of the boundary slide on the input's surface. `origin` as in Extract.
+// Lets vertices slide on the input's surface where the boundary is curved. `origin` as in Extract.
 struct SlidingSurface {
   const InputSurface& surface;
   std::span<const Vec3> input_points;
   std::span<const Vertex> origin;
-  // By vertex of the input: 1 for one that has to stay; empty where there is none.
+  // By vertex of the input: 1 if it has to stay; empty if none has to.
   std::span<const std::uint8_t> stays = {};
 
   bool has_to_stay(Vertex v) const {
@@ -27,18 +34,18 @@ struct SlidingSurface {
   }
 };
 
-// What counts as poor: the least scaled Jacobian (of a tet times the square root of 2) that cells should have.
+// The least scaled Jacobian (of a tet times the square root of 2) that cells should have: below it they are poor.
 inline constexpr double poor_quality = 0.02;
 inline constexpr double poor_hex = 0.1;
 
-// Makes cells that are poor or inverted better, at most `rounds` times over their vertices, at the cost of those around
-// them; cells that are valid stay so, and hexes of a scaled Jacobian of 0.3 at least do.
+// Makes poor and inverted cells better at the cost of the cells around them, in at most `rounds` rounds over their
+// vertices. Valid cells stay valid, and hexes stay above least_hex_quality or as they are.
 void untangle(MixedMesh& mesh, int rounds, const SlidingSurface* sliding = nullptr);
 
-// At most `rounds` times over all vertices. No vertex leaves its plane or line (freedom.hpp), no move makes the worst
-// cell around it worse than good enough (hexes 0.24, others 0.12), or worse at all where it is not, or presses a hex
-// below a scaled Jacobian of 0.3; every cell stays valid everywhere. With `sliding`, vertices on curved surfaces and
-// curves slide on them where the worst cell is poor, within a small part of an edge length of the input's surface.
+// Smooths in at most `rounds` rounds over all vertices. No vertex leaves its plane or line (vertex_freedoms). No move
+// takes the worst cell around it below good enough (hexes 0.24, others 0.12), or makes it worse if it is below, or
+// presses a hex below least_hex_quality. Every cell stays valid everywhere. With `sliding`, vertices slide on curved
+// surfaces and curves where the worst cell is poor, within a small fraction of an edge length of the input's surface.
 SmoothCounts smooth(MixedMesh& mesh, int rounds, const SlidingSurface* sliding = nullptr);
 
 }  // namespace hexpipe::assemble::shape

@@ -1,13 +1,13 @@
 // Conjugate gradients on the normal equations. Ray, Li, Lévy, Sheffer, Alliez: Periodic global parameterization (2006),
 // section 4.3, and Sokolov, Ray, Untereiner, Lévy: Hexahedral-Dominant Meshing (2016), section 4.3, correct the curl of
-// a field to the same end, before they look for periodic coordinates along it.
+// a field for the same purpose, before they look for periodic coordinates along it.
 
 #include "tools/tetmesh/fields/curl_correction.hpp"
 
 namespace hexpipe::tetmesh::fields {
 namespace {
 
-// In single precision: the tolerance asks for no more, and how fast this is depends on how much memory it goes through.
+// Single precision is enough for the tolerance, and the speed depends on the amount of memory that is read.
 using Numbers = std::vector<float>;
 
 double dot(const Numbers& a, const Numbers& b) {

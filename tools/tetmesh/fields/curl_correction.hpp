@@ -1,5 +1,5 @@
 #pragma once
-// Distances along a field that add up around loops.
+// Corrects distances along a field so that they add up around loops.
 
 #include <cstdint>
 #include <span>
@@ -7,23 +7,23 @@
 
 namespace hexpipe::tetmesh::fields {
 
-// A numbered distance on a way.
+// A numbered distance on a way, forwards or backwards.
 struct LoopStep {
   std::int32_t number;
   bool backwards;
 };
 
-// Ways over distances of which is known what they add up to: nothing, where a way comes back to where it began.
+// Ways over distances whose sum is known. The sum is 0 for a way that comes back to where it began.
 class Loops {
  public:
   void add_step(std::int32_t number, bool backwards) { steps_.push_back(backwards ? ~number : number); }
   void add_step(const LoopStep& step) { add_step(step.number, step.backwards); }
-  // Ends the way that was begun with the first step after the last one.
+  // Ends the way that began with the first step after the last one.
   void close(double sum = 0) {
     ends_.push_back(static_cast<std::int64_t>(steps_.size()));
     sums_.push_back(static_cast<float>(sum));
   }
-  // The closed ones of others after its own.
+  // Appends the closed ways of others after its own.
   void append(const Loops& others) {
     const std::int64_t before = ends_.back();
     steps_.insert(steps_.end(), others.steps_.begin(), others.steps_.end());
@@ -39,18 +39,18 @@ class Loops {
   }
 
  private:
-  std::vector<std::int32_t> steps_;  // ~number where backwards
+  std::vector<std::int32_t> steps_;  // ~number if backwards
   std::vector<std::int64_t> ends_{0};
   std::vector<float> sums_;
 };
 
 struct CurlLimits {
-  float stiffness;  // of what is added, squared, against the squares of what is missing around loops
+  float stiffness;  // the weight of the squared corrections, against the squares of what is missing around loops
   int most_iterations;
-  double tolerance;  // of what would still be changed, against that of the start
+  double tolerance;  // the residual at which the solver ends, as a share of that at the start
 };
 
-// What to add to the distances so that each loop adds up to what it should, as nearly as little enough does.
+// The smallest correction of the distances (least squares) that closes every loop, as far as the stiffness lets it.
 std::vector<float> curl_correction(std::span<const float> distances, const Loops& loops, const CurlLimits& limits);
 
 }  // namespace hexpipe::tetmesh::fields

@@ -6,14 +6,14 @@
 namespace hexpipe::tetmesh::fields {
 namespace {
 
-// The harmonics as polynomials: see any table, for instance Huang et al. 2011; times sqrt(4 pi / 9).
+// The harmonics as polynomials, times sqrt(4 pi / 9). Any table has them, for example that of Huang et al. 2011.
 constexpr double c4 = 2.9580398915498081;   // sqrt(35) / 2
 constexpr double c3 = 2.0916500663351889;   // sqrt(35 / 2) / 2
 constexpr double c2 = 1.1180339887498949;   // sqrt(5) / 2
 constexpr double c1 = 0.79056941504209488;  // sqrt(5 / 2) / 2
 constexpr double c0 = 0.125;
 
-// Of the function as a homogeneous polynomial of degree 4.
+// The gradient of the function as a homogeneous polynomial of degree 4.
 Vec3 gradient_at(const Harmonics& a, const Vec3& d) {
   const double x = d.x, y = d.y, z = d.z, xx = x * x, yy = y * y, zz = z * z;
   Vec3 g{};
@@ -43,7 +43,7 @@ double value_of(const Harmonics& function, const Frame& frame) {
   return value_at(function, frame[0]) + value_at(function, frame[1]) + value_at(function, frame[2]);
 }
 
-// Rotates by the vector's length around it (Rodrigues).
+// Rotates around the vector by its length (Rodrigues).
 Frame rotated(const Frame& frame, const Vec3& rotation) {
   const double angle = norm(rotation);
   if (angle == 0) return frame;
@@ -87,8 +87,8 @@ double value_at(const Harmonics& function, const Vec3& direction) {
 }
 
 Frame climb_to_frame(const Harmonics& function, const Frame& start) {
-  // At the frame of a function c (x^4 + y^4 + z^4 - 3/5) the value is 1.2 c, and its curvature 8 c in any direction:
-  // Newton's step for a function that is a frame's, a safe one for others.
+  // At the frame of a function c (x^4 + y^4 + z^4 - 3/5), the value is 1.2 c and the curvature is 8 c in any direction.
+  // This gives Newton's step for the function of a frame, and a safe step for others.
   constexpr double curvature = 8 / 1.2, longest_step = 0.35, close_enough = 1e-6;
   constexpr int most_steps = 40;
   const double greatest = std::sqrt(function.squaredNorm() * frame_norm_squared);
@@ -99,7 +99,7 @@ Frame climb_to_frame(const Harmonics& function, const Frame& start) {
     double value = 0;
     for (const Vec3& axis : frame) {
       const Vec3 gradient = gradient_at(function, axis);
-      value += dot(gradient, axis) / 4;  // Euler, degree 4
+      value += dot(gradient, axis) / 4;  // Euler's theorem for degree 4
       torque += cross(axis, gradient);
     }
     Vec3 rotation = torque * (1 / (curvature * std::max(value, 0.4 * greatest)));
@@ -113,7 +113,7 @@ Frame climb_to_frame(const Harmonics& function, const Frame& start) {
 }
 
 Frame nearest_frame(const Harmonics& function) {
-  // The axes, these turned by 45 degrees about each of them, and about a diagonal by 60.
+  // The axes; the axes turned by 45 degrees about each of them; the axes turned by 60 degrees about a diagonal.
   constexpr double s = 0.70710678118654752;
   static constexpr std::array<Frame, 5> starts{
       Frame{Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, Frame{Vec3{1, 0, 0}, {0, s, s}, {0, -s, s}},
@@ -121,7 +121,7 @@ Frame nearest_frame(const Harmonics& function) {
       Frame{Vec3{2. / 3, 2. / 3, -1. / 3}, {-1. / 3, 2. / 3, 2. / 3}, {2. / 3, -1. / 3, 2. / 3}}};
   Frame best{};
   double best_value = -1;
-  // A frame's own function has its greatest value at the frame; one that comes close has no second hill as high.
+  // The function of a frame is greatest at the frame. A function that comes close to that has no second hill as high.
   constexpr double surely_greatest = 0.95;
   const double greatest = std::sqrt(function.squaredNorm() * frame_norm_squared);
   for (const Frame& start : starts) {

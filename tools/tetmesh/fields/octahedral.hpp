@@ -1,10 +1,10 @@
 #pragma once
-// Three orthogonal axes without sign or order, as a function on the sphere: what they have in common with the cube.
+// Three orthogonal axes without sign or order, as a function on the sphere with the symmetries of the cube.
 //
 // A frame is the function f(d) = sum over its axes of P4(d . axis), a spherical harmonic of degree 4, given by its nine
 // coefficients (Huang, Tong, Wei, Bao 2011; Ray, Sokolov, Lévy 2016, "Practical 3D Frame Field Generation"). Frames
-// that differ by a rotation of the cube are the same nine numbers, so that they can be averaged; nearest_frame() comes
-// back.
+// that differ by a rotation of the cube have the same nine numbers, so frames can be averaged. nearest_frame() finds
+// the frame again.
 
 #include <Eigen/Core>
 #include <array>
@@ -19,7 +19,7 @@ using Harmonics = Eigen::Matrix<double, 9, 1>;
 // Orthonormal, right-handed or left-handed.
 using Frame = std::array<Vec3, 3>;
 
-// Of the function P4(d . axis); its scalar product with that of another direction is P4 of their cosine.
+// The coefficients of P4(d . axis). The scalar product with those of another axis is P4 of the cosine between the two.
 Harmonics harmonics_of_axis(const Vec3& axis);
 
 Harmonics harmonics_of(const Frame& frame);
@@ -27,8 +27,9 @@ Harmonics harmonics_of(const Frame& frame);
 // norm_squared(harmonics_of(frame)) for any frame.
 inline constexpr double frame_norm_squared = 5.25;
 
-// Of the cross of `first` and cross(normal, first): what its frame has beside 7/4 of the normal's function, which all
-// frames with this axis share. Of norm cross_norm; turning `first` by 45 degrees changes its sign.
+// The coefficients of the cross of `first` and cross(normal, first): those of its frame less 7/4 of those of the
+// normal, which all frames with this axis share. Their norm is cross_norm; turning `first` by 45 degrees changes their
+// sign.
 Harmonics harmonics_of_cross(const Vec3& normal, const Vec3& first);
 
 inline constexpr double common_part = 1.75;
@@ -37,14 +38,14 @@ inline constexpr double cross_norm = 1.4790199457749041;  // sqrt(35) / 4
 // The value of the function at a unit vector.
 double value_at(const Harmonics& function, const Vec3& direction);
 
-// A frame for which the function, summed over the axes, is greatest: the frame nearest to the function. Climbs from
-// `start`, so that it finds a local maximum.
+// The frame nearest to the function: the sum of the function over the axes is greatest. It climbs from `start`, so it
+// finds a local maximum.
 Frame climb_to_frame(const Harmonics& function, const Frame& start);
 
-// The best that is reached from several starts.
+// The best frame that it reaches from several starts.
 Frame nearest_frame(const Harmonics& function);
 
-// The frame turned by the least angle that lays one of its axes, that is nearest already, on the direction.
+// The frame, turned by the least angle that lays the axis nearest to the direction on it.
 Frame turned_onto(const Frame& frame, const Vec3& direction);
 
 // An orthonormal frame whose first axis is the unit vector.

@@ -1,12 +1,13 @@
 #pragma once
 // Periodic coordinates on the nodes of a surface or a volume: K complex numbers a node, exp(2 pi i coordinate), that
 // turn by the distance from one node to the next (Ray, Li, Lévy, Sheffer, Alliez: Periodic global parameterization,
-// 2006). Here is how they spread from where they are held; what a node sees of its neighbours is the caller's.
+// 2006). This file spreads them from where they are held. The caller says how a node sees its neighbours.
 
 #include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 namespace hexpipe::tetmesh::fields {
@@ -15,13 +16,13 @@ using Complex = std::complex<double>;
 template <std::size_t K>
 using PeriodicNumbers = std::vector<std::array<Complex, K>>;
 
-// Without the standard's care for infinities, which costs more than the product.
+// Without the standard's care for infinities, which costs more than the product itself.
 inline Complex times(const Complex& a, const Complex& b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
 
 inline Complex unit(const Complex& z) {
-  const double modulus = std::sqrt(std::norm(z));  // not std::abs, whose care for overflow takes longer
+  const double modulus = std::sqrt(std::norm(z));  // std::abs takes longer, because it guards against overflow
   return modulus > 0 ? z / modulus : Complex(1);
 }
 
@@ -33,15 +34,36 @@ double product(const PeriodicNumbers<K>& a, const PeriodicNumbers<K>& b) {
   return sum;
 }
 
+// From -1/2 to 1/2.
+inline double coordinate_of(const Complex& number) {
+  return std::arg(number) / (2 * std::numbers::pi);
+}
+
+inline constexpr double inertia = 0.3;  // of a number's own value, against its links
+
+// Sets each number to the mean of what links and what holds it say, all at once from the numbers before, so that the
+// order of the nodes does not count. view(node) is the weighted sum of the neighbours' numbers, degree(node) the weight
+// of all links, and held(node, k) what holds number k, times its weight.
+template <std::size_t K, class ForEach, class View, class Degree, class Held>
+PeriodicNumbers<K> swept(const PeriodicNumbers<K>& numbers, ForEach&& for_each, View&& view, Degree&& degree,
+                         Held&& held) {
+  PeriodicNumbers<K> next(numbers.size());
+  for_each([&](auto i) {
+    const std::array<Complex, K> seen = view(i);
+    for (std::size_t k = 0; k < K; ++k) next[i][k] = unit(seen[k] + inertia * degree(i) * numbers[i][k] + held(i, k));
+  });
+  return next;
+}
+
 struct DiffusionLimits {
   int iterations;
-  double tolerance;  // of the residual, against that of the start
+  double tolerance;  // the residual at which the solver ends, as a share of that at the start
 };
 
-// Least quadratic energy of differences along links and from what holds the numbers, by conjugate gradients,
-// preconditioned by the diagonal. `rest` is what holds them, times its weights; for_each(body) calls body(node) for all
-// nodes in parallel, diagonal(node, k) is the weight of all links and of what holds number k, and view(numbers, node)
-// the weighted sum of the neighbours' numbers, as the node sees them. The result starts from zeros.
+// Minimizes the quadratic energy of differences along links and from the held numbers, by conjugate gradients,
+// preconditioned by the diagonal. `rest` is the held numbers times their weights. for_each(body) calls body(node) for
+// all nodes in parallel. diagonal(node, k) is the weight of all links and of the hold on number k. view(numbers, node)
+// is the weighted sum of the neighbours' numbers, as the node sees them. The iteration starts from zeros.
 template <std::size_t K, class ForEach, class Diagonal, class View>
 PeriodicNumbers<K> diffused(PeriodicNumbers<K> rest, const DiffusionLimits& limits, ForEach&& for_each,
                             Diagonal&& diagonal, View&& view) {

@@ -1,7 +1,7 @@
 #pragma once
-// Tells most pairs of triangles that have nothing in common from the others, in doubles; never wrong about that.
+// Finds most pairs of triangles that have no point in common, in doubles, and never a pair that has.
 //
-// For pairs in one plane, up to rounding, exact predicates take their slowest way, a microsecond and more.
+// Exact predicates are slowest on pairs in one plane, up to rounding: a microsecond and more.
 
 #include <algorithm>
 #include <array>
@@ -38,8 +38,8 @@ class ApartTest {
     return false;
   }
 
-  // Whether two triangles with a common corner 0 certainly have no other point in common: the plane amid their angles
-  // there is between them.
+  // Whether two triangles with a common corner 0 certainly have no other point in common: the plane halfway between
+  // their angles at that corner separates them.
   bool are_apart_beyond_corner(const Triangle& a, const Triangle& b) const {
     const Vec3& corner = points_[a[0]];
     const Vec3 a1 = points_[a[1]] - corner, a2 = points_[a[2]] - corner;
@@ -50,7 +50,7 @@ class ApartTest {
   }
 
  private:
-  // The rounding of differences of coordinates and of their products with directions no longer than 2.
+  // The rounding error of differences of coordinates, and of products of these with directions no longer than 2.
   double room() const { return 64 * std::numeric_limits<double>::epsilon() * greatest_; }
 
   bool are_apart_along(const Triangle& a, const Triangle& b, const Vec3& direction) const {
@@ -64,7 +64,8 @@ class ApartTest {
   std::span<const Vec3> points_;
   std::span<const Triangle> triangles_;
   double greatest_ = 0;
-  std::vector<std::array<Vec3, 2>> directions_;  // across the triangle, and in it across its longest side
+  // at right angles to the triangle, and in its plane at right angles to the longest side
+  std::vector<std::array<Vec3, 2>> directions_;
 };
 
 }  // namespace hexpipe::tetmesh::geometry

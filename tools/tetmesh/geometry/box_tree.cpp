@@ -9,7 +9,8 @@ namespace hexpipe::tetmesh::geometry {
 double Box::entry(const Vec3& from, const Vec3& inverse) const {
   double in = 0, out = std::numeric_limits<double>::max();
   for (int axis = 0; axis < 3; ++axis) {
-    // A ray in the plane of a side gives 0 times infinity, which std::max and std::min pass over in this order.
+    // A ray in the plane of a side gives 0 times infinity. std::max and std::min ignore that in this order of
+    // arguments.
     const double one = (low[axis] - from[axis]) * inverse[axis], other = (high[axis] - from[axis]) * inverse[axis];
     in = std::max(in, std::min(one, other));
     out = std::min(out, std::max(one, other));
@@ -23,7 +24,7 @@ BoxTree::BoxTree(std::span<const Box> boxes, std::span<const double> values) : t
   if (!things_.empty()) build(boxes, values, things_);
 }
 
-// Halves things along the longest side of the box of their centres.
+// Splits the things into halves along the longest side of the box of their centres.
 std::int32_t BoxTree::build(std::span<const Box> boxes, std::span<const double> values,
                             std::span<std::int32_t> things) {
   const auto number = static_cast<std::int32_t>(nodes_.size());

@@ -1,5 +1,5 @@
 #pragma once
-// Things in a tree of boxes, to find the one with the least of what grows with the distance from it.
+// Things in a tree of boxes. It finds the thing with the least value, where values grow with the distance.
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,7 @@ struct Box {
     high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y), std::max(high.z, other.high.z)};
   }
   Vec3 centre() const { return 0.5 * (low + high); }
-  // The first of those along which it is longest.
+  // The first of the axes along which it is longest.
   int longest_axis() const {
     const Vec3 extent = high - low;
     return extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
@@ -35,26 +35,27 @@ struct Box {
     const auto outside = [](double x, double from, double to) { return std::max({from - x, x - to, 0.0}); };
     return norm(Vec3{outside(p.x, low.x, high.x), outside(p.y, low.y, high.y), outside(p.z, low.z, high.z)});
   }
-  // Where a ray enters the box, in lengths of its direction, of which `inverse` has the inverse numbers; infinite where
-  // it misses it.
+  // Where a ray enters the box, in lengths of its direction; `inverse` holds the reciprocals of the direction's
+  // components. Infinite where the ray misses the box.
   double entry(const Vec3& from, const Vec3& inverse) const;
 };
 
 class BoxTree {
  public:
-  // A thing's number is that of its box. `values`, one each, are lower bounds of what least() looks for.
+  // The number of a thing is the number of its box. `values` has a lower bound for each thing of what least() looks
+  // for.
   BoxTree(std::span<const Box> boxes, std::span<const double> values);
-  // Things may have several boxes, which cover them: `owners` says whose each one is.
+  // A thing may have several boxes that cover it together: `owners` says to which thing each box belongs.
   BoxTree(std::span<const Box> boxes, std::span<const double> values, std::span<const std::int32_t> owners);
 
-  // The least of value_of(thing) over the things, to 10^-9 of it, or `most` if none is below. A value must not be less
-  // than the thing's value plus `slope` times the distance of p from the nearest of its boxes.
+  // The least of value_of(thing) over the things, to 10^-9 of it, or `most` if no value is below that. A value must be
+  // at least the thing's lower bound plus `slope` times the distance of p from the nearest of its boxes.
   template <class ValueOf>
   double least(const Vec3& p, double slope, double most, ValueOf&& value_of) const {
     return search(most, value_of, [&](const Node& node) { return node.value + slope * node.box.distance(p); });
   }
 
-  // The least of length_to(thing) over the things whose boxes the ray meets, or `most` if none is below.
+  // The least of length_to(thing) over the things whose boxes the ray meets, or `most` if no length is below that.
   template <class LengthTo>
   double first_hit(const Vec3& from, const Vec3& direction, double most, LengthTo&& length_to) const {
     const Vec3 inverse{1 / direction.x, 1 / direction.y, 1 / direction.z};
@@ -65,18 +66,18 @@ class BoxTree {
   struct Node {
     Box box;
     double value;
-    // Of a leaf, where its things begin and how many there are; else 0 and where its second child is. The first one
-    // follows it.
+    // In a leaf: how many things it has, and where they begin. Otherwise: 0, and where its second child is; the first
+    // child follows the node.
     std::int32_t count, first;
   };
   struct Pending {
     double bound;
     std::int32_t node;
   };
-  // Where many things are as good as the best, rounding must not have all of them looked at.
+  // Keeps rounding from making the search look at every one of many things that are as good as the best.
   static constexpr double tolerance = 1 - 1e-9;
   static constexpr std::int32_t most_in_leaf = 2;
-  static constexpr std::size_t most_pending = 128;  // halves of 2^31 things, twice
+  static constexpr std::size_t most_pending = 128;  // twice the halvings of 2^31 things
 
   std::int32_t build(std::span<const Box> boxes, std::span<const double> values, std::span<std::int32_t> things);
 
@@ -102,10 +103,10 @@ class BoxTree {
   }
 
   std::vector<Node> nodes_;
-  std::vector<std::int32_t> things_;  // by leaf
+  std::vector<std::int32_t> things_;  // leaf by leaf
 };
 
-// With values of 0, so that least() with a slope of 1 finds distances.
+// The values are 0, so that least() with a slope of 1 finds distances.
 BoxTree tree_of_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
 }  // namespace hexpipe::tetmesh::geometry

@@ -15,7 +15,7 @@ ColumnIndex::ColumnIndex(std::span<const Vec3> points, std::span<const Triangle>
   for (int axis = 0; axis < 2; ++axis) {
     double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
     for (const Vec3& p : points) low = std::min(low, p[axis]), high = std::max(high, p[axis]);
-    // About a column for each triangle, seen along z.
+    // About one column for each triangle, seen along z.
     counts_[axis] = std::clamp<std::int64_t>(std::llround(std::sqrt(static_cast<double>(triangles.size()))), 1, 4096);
     low_[axis] = low;
     width_[axis] = (high - low) / static_cast<double>(counts_[axis]);
@@ -30,7 +30,7 @@ ColumnIndex::ColumnIndex(std::span<const Vec3> points, std::span<const Triangle>
                     [&](std::int64_t column) { members_[next[column]++] = static_cast<std::int32_t>(t); });
 }
 
-// Monotonic in `value`, so that a point between the ends of a triangle falls into one of its columns.
+// Grows with `value`, so that a point between the ends of a triangle falls into one of the triangle's columns.
 std::int64_t ColumnIndex::column_number(double value, int axis) const {
   const double number = width_[axis] > 0 ? std::floor((value - low_[axis]) / width_[axis]) : 0;
   return static_cast<std::int64_t>(std::clamp(number, 0.0, static_cast<double>(counts_[axis] - 1)));
@@ -58,8 +58,8 @@ bool ColumnIndex::is_crossed(const Vec3& p, std::int32_t triangle) const {
   const Triangle& t = triangles_[triangle];
   const Vec3 &a = points_[t[0]], &b = points_[t[1]], &c = points_[t[2]];
   if (std::max({a.z, b.z, c.z}) <= p.z) return false;
-  // The line x = p.x (+ a step) crosses two edges of the triangle's projection or none; p lies between them when one is
-  // above p in y and the other is not.
+  // The line x = p.x (plus the small step) crosses two edges of the triangle's projection, or none. p lies between the
+  // two when one is above p in y and the other is not.
   auto crossed_above = [&](const Vec3& u, const Vec3& v) {
     const bool u_left = u.x <= p.x, v_left = v.x <= p.x;
     if (u_left == v_left) return false;

@@ -1,10 +1,10 @@
 #pragma once
-// Which shells of a surface enclose a point, exactly.
+// Decides exactly which shells of a surface enclose a point.
 //
-// A shell encloses a point when a ray from it crosses the shell an odd number of times. The ray goes up along z. Ties
-// in the projection are decided as if the point were moved by an infinitely small step in y and a still smaller one in
-// x; each edge is decided once for both of its triangles, so that no ray slips through between them. A grid over x and
-// y finds the triangles above the point.
+// A shell encloses a point if a ray from the point crosses the shell an odd number of times. The ray goes up along z.
+// Ties in the projection are decided as if the point were moved by an infinitely small step in y and a still smaller
+// one in x. Each edge is decided once for both of its triangles, so that no ray slips through between them. A grid over
+// x and y finds the triangles above the point.
 
 #include <cstdint>
 #include <span>
@@ -19,8 +19,8 @@ class ColumnIndex {
   // The arrays must outlive the index.
   ColumnIndex(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
-  // Calls visit(triangle) for each triangle that the ray from p upwards crosses. A triangle through p itself counts as
-  // not crossed.
+  // Calls visit(triangle) for each triangle that the ray upwards from p crosses. The ray does not cross a triangle
+  // through p itself.
   template <class Visit>
   void for_each_crossing(const Vec3& p, Visit&& visit) const {
     for (const std::int32_t t : column_of(p))

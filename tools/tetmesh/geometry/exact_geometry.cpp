@@ -1,4 +1,4 @@
-// The one file that includes CGAL: it takes long to compile, and box_intersection_d is under the GPL.
+// Apart from the others because it includes CGAL, which takes long to compile; box_intersection_d is under the GPL.
 
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
 
@@ -21,7 +21,7 @@ Point to_cgal(const Vec3& p) {
   return {p.x, p.y, p.z};
 }
 
-// What two triangles have in common by name: shared vertices first, then the others, in cyclic order.
+// The corners that two triangles share: shared vertices come first, then the others, in cyclic order.
 struct SharedCorners {
   int count = 0;
   std::array<Vertex, 3> first, second;
@@ -64,13 +64,14 @@ class IntersectionTest {
   Point point(Vertex v) const { return to_cgal(points_[v]); }
   Kernel::Triangle_3 triangle(const std::array<Vertex, 3>& t) const { return {point(t[0]), point(t[1]), point(t[2])}; }
 
-  // Where two triangles with a common corner 0 meet elsewhere, the side opposite it of one of them meets the other.
+  // If two triangles with a common corner 0 also meet elsewhere, the side opposite that corner of one of them meets the
+  // other triangle.
   bool meet_beyond_vertex(const std::array<Vertex, 3>& a, const std::array<Vertex, 3>& b) const {
     const Kernel::Segment_3 side_of_a(point(a[1]), point(a[2])), side_of_b(point(b[1]), point(b[2]));
     return CGAL::do_intersect(triangle(a), side_of_b) || CGAL::do_intersect(triangle(b), side_of_a);
   }
 
-  // With a common edge 01 they overlap only in one plane, on one side of it.
+  // Two triangles with a common edge 01 overlap only if they lie in one plane on the same side of the edge.
   bool fold_onto_each_other(const std::array<Vertex, 3>& a, const std::array<Vertex, 3>& b) const {
     const Point p = point(a[0]), q = point(a[1]), r = point(a[2]), s = point(b[2]);
     return CGAL::orientation(p, q, r, s) == CGAL::COPLANAR && CGAL::coplanar_orientation(p, q, r, s) == CGAL::POSITIVE;
@@ -113,8 +114,8 @@ IntersectionReport find_intersections(std::span<const Vec3> points, std::span<co
     if (report.pairs.size() == limit) throw LimitReached();
     report.pairs.push_back({std::min(first.info(), second.info()), std::max(first.info(), second.info())});
   };
-  // Boxes of pieces of narrow triangles would not do: of a leaning cylinder of 4,000 triangles, three times as many
-  // pairs of them meet as of whole ones.
+  // Boxes of the pieces of narrow triangles are no help here: on a leaning cylinder of 4,000 triangles, three times as
+  // many pairs of pieces meet as pairs of whole triangles.
   std::vector<Box> boxes = boxes_of(points, triangles);
   try {
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), take);

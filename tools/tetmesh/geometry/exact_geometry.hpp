@@ -11,18 +11,18 @@
 
 namespace hexpipe::tetmesh::geometry {
 
-// The sign of the area of (a, b, c) projected along z: positive when counter-clockwise seen from +z.
+// The sign of the area of (a, b, c) projected along z: positive when they run counter-clockwise as seen from +z.
 int orientation_along_z(const Vec3& a, const Vec3& b, const Vec3& c);
 
 bool are_collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 
 struct IntersectionReport {
-  std::vector<std::array<std::int32_t, 2>> pairs;  // ascending within and among pairs
+  std::vector<std::array<std::int32_t, 2>> pairs;  // each pair ascending, and the pairs in ascending order
   bool complete = true;                            // false: there are more pairs than the limit
 };
 
-// Pairs of triangles that have more in common than the vertices that both name: that cross, touch, or overlap in a
-// plane. No triangle may be degenerate.
+// Finds pairs of triangles that share more than the vertices that both name: they cross, touch, or overlap in a plane.
+// No triangle may be degenerate.
 IntersectionReport find_intersections(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                       std::size_t limit);
 

@@ -12,6 +12,9 @@ namespace hexpipe::tetmesh::geometry {
 
 using HalfEdge = std::int32_t;
 
+// The index of no vertex, half-edge, triangle or tet.
+inline constexpr std::int32_t none = -1;
+
 inline std::int32_t triangle_of(HalfEdge h) {
   return h / 3;
 }
@@ -29,8 +32,8 @@ inline Vertex end_of(std::span<const Triangle> triangles, HalfEdge h) {
   return start_of(triangles, next_in_triangle(h));
 }
 
-// Calls visit once for every edge with its half-edges, of either direction, ascending; edges come by their lower, then
-// their higher vertex. Triangles must not repeat a vertex.
+// Calls visit once for every edge with all of its half-edges, of either direction, in ascending order. Edges are
+// ordered by their lower vertex, then by their higher one. No triangle may repeat a vertex.
 void for_each_edge(std::size_t vertex_count, std::span<const Triangle> triangles,
                    const std::function<void(std::span<const HalfEdge>)>& visit);
 

@@ -1,27 +1,46 @@
 #pragma once
-// Points that come one by one, each with the length that holds at its place, and those of them near a place.
+// Points that are added one by one, each with a length that holds at its place. Finds the points near a place.
 //
-// A grid for every octave of lengths, with cells as wide: where lengths differ a hundredfold, neither the small ones
-// fill the cells nor the large ones many cells.
+// There is one grid for every octave of lengths, with cells as wide as these. So where lengths differ a hundredfold,
+// points with small lengths do not crowd a cell, and points with large ones do not spread over many cells.
 
 #include <tsl/robin_map.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "common/mesh/vec3.hpp"
 #include "tools/tetmesh/geometry/box_tree.hpp"
-#include "tools/tetmesh/geometry/cell_key.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
 
 namespace hexpipe::tetmesh::geometry {
+
+// A cell of a grid of cubes; its key in a hash map.
+using GridCell = std::array<std::int64_t, 3>;
+
+// Keys differ for cells within 2^20 of the origin.
+constexpr std::uint64_t cell_key(const GridCell& cell) {
+  constexpr std::int64_t middle = 1 << 20;
+  std::uint64_t key = 0;
+  for (const std::int64_t i : cell) key = key << 21 | static_cast<std::uint64_t>(i + middle);
+  return key;
+}
+
+struct CellKeyHash {
+  std::size_t operator()(std::uint64_t key) const {
+    key *= 0x9e3779b97f4a7c15u;
+    return key ^ key >> 32;
+  }
+};
 
 class SizedPointGrid {
  public:
   // No point may be further than 10^6 of its lengths from the origin along an axis.
   explicit SizedPointGrid(const Vec3& origin) : origin_(origin) {}
-  // For points in a box, of any lengths.
+  // For points of any lengths in a box.
   explicit SizedPointGrid(const Box& box)
       : origin_(box.low), least_width_((box.high - box.low)[box.longest_axis()] / most_cells) {}
 
@@ -39,8 +58,8 @@ class SizedPointGrid {
   // In the order in which they were added.
   const std::vector<Vec3>& points() const { return points_; }
 
-  // Calls visit(number) for the points within `reach` of p along every axis, and some more, until it returns false.
-  // Points of which the length is below `least` may be left out.
+  // Calls visit(number) for the points within `reach` of p along every axis, and for some others, until it returns
+  // false. It may leave out points whose length is below `least`.
   template <class Visit>
   void for_each_near(const Vec3& p, const Vec3& reach, double least, Visit&& visit) const {
     for (const Octave& octave : octaves_)
@@ -52,7 +71,6 @@ class SizedPointGrid {
   }
 
  private:
-  static constexpr std::int32_t none = -1;
   static constexpr double most_cells = 1e6;  // along an axis
 
   struct Octave {
@@ -60,7 +78,7 @@ class SizedPointGrid {
     tsl::robin_map<std::uint64_t, std::int32_t, CellKeyHash> heads = {};
   };
 
-  // Widths are powers of two times the first length that came.
+  // Widths are powers of two times the first length.
   Octave& octave_of(double length) {
     length = std::max(length, least_width_);
     if (octaves_.empty()) first_ = length;
@@ -95,7 +113,7 @@ class SizedPointGrid {
   double least_width_ = 0, first_ = 0;
   std::vector<Octave> octaves_;
   std::vector<Vec3> points_;
-  std::vector<std::int32_t> next_;  // in the same cell
+  std::vector<std::int32_t> next_;  // the next point in the same cell
 };
 
 }  // namespace hexpipe::tetmesh::geometry

@@ -1,8 +1,8 @@
 #pragma once
-// Boxes of a triangle for a grid or a tree.
+// Boxes of the pieces of a triangle, for a grid or a tree.
 //
-// The box of a long narrow triangle that does not lie along the axes is so much larger than the triangle that those of
-// all its neighbours overlap; cut across its longest side, it has boxes that lie along it.
+// A long narrow triangle that does not lie along the axes has a box much larger than itself, which overlaps the boxes
+// of all its neighbours. Cut across its longest side, the triangle has small boxes that lie along it.
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,8 @@ namespace hexpipe::tetmesh::geometry {
 
 class TrianglePieces {
  public:
-  // Pieces that are about as long as `length`, which may be 0; one where the triangle's box is hardly larger than it.
+  // Makes pieces about as long as `length`, which may be 0; one piece where the triangle's box is hardly larger than
+  // the triangle.
   TrianglePieces(const Vec3& a, const Vec3& b, const Vec3& c, double length)
       : box_(Box::around(std::array{a, b, c})), a_(a), b_(b), c_(c) {
     const Vec3 extent = box_.high - box_.low;
@@ -35,7 +36,7 @@ class TrianglePieces {
   // The box of the whole triangle.
   const Box& box() const { return box_; }
 
-  // Calls visit(box) for boxes that cover the triangle, with room for rounding, and lie in its own.
+  // Calls visit(box) for boxes that cover the triangle, with room for rounding, and that lie in the triangle's box.
   template <class Visit>
   void for_each_box(Visit&& visit) const {
     if (count_ == 1) return visit(box_);
@@ -52,8 +53,8 @@ class TrianglePieces {
     }
   }
 
-  // Calls visit(cell) once for each cell of a grid that the pieces may reach, in order where there are several;
-  // cells_in(box, take) calls take(cell) for those that a box reaches.
+  // Calls visit(cell) once for each cell of a grid that the pieces may reach, in ascending order if there are several
+  // pieces. cells_in(box, take) calls take(cell) for the cells that a box reaches.
   template <class CellsIn, class Visit>
   void for_each_cell(CellsIn&& cells_in, Visit&& visit) const {
     if (count_ == 1) return cells_in(box_, std::forward<Visit>(visit));
@@ -65,9 +66,10 @@ class TrianglePieces {
   }
 
  private:
-  // Of the box's half surface and twice the triangle's area: at most 1.5 along the axes, and about 2 for most others.
+  // A triangle stays whole where half the surface of its box is at most this many times twice the triangle's area. That
+  // ratio is at most 1.5 for triangles along the axes, and about 2 for most others.
   static constexpr double most_sides = 8;
-  // Fewer pieces gain nothing; more only make up for slivers that are alone in being so thin.
+  // Fewer pieces gain nothing. More pieces only help single slivers that are thinner than all other triangles.
   static constexpr int least_count = 3, most_count = 1024;
 
   void turn_longest_side_first() {
@@ -78,11 +80,11 @@ class TrianglePieces {
     else
       std::tie(a_, b_, c_) = std::tuple(c_, a_, b_);
   }
-  // On the two shorter sides, where they are that far along the longest one.
+  // The point on the two shorter sides that is this far along the longest side.
   Vec3 beyond(double at, double apex) const {
     return at < apex ? a_ + (at / apex) * (c_ - a_) : c_ + ((at - apex) / std::max(1 - apex, least)) * (b_ - c_);
   }
-  // Corners of pieces are rounded, by less than this.
+  // Corners of pieces are rounded by less than this.
   Box within(const Box& piece) const {
     double greatest = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -95,12 +97,12 @@ class TrianglePieces {
 
   static constexpr double least = std::numeric_limits<double>::min();
   Box box_;
-  Vec3 a_, b_, c_;  // once cut, the longest side is the one from a to b
+  Vec3 a_, b_, c_;  // once cut, the longest side leads from a to b
   int count_ = 1;
 };
 
-// For trees and the like, where each piece costs memory: the side of a square of twice the mean area, but so long that
-// there are at most 64 pieces for each triangle in the mean.
+// The length for trees and similar structures, where each piece costs memory: the side of a square of twice the mean
+// area, but long enough that a triangle has at most 64 pieces on average.
 double length_of_pieces(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
 }  // namespace hexpipe::tetmesh::geometry

@@ -14,12 +14,13 @@
 namespace hexpipe::tetmesh::search {
 namespace {
 
-constexpr double temperature = 0;  // nothing that loses stays: two meshes are to differ by their points alone
+constexpr double temperature = 0;  // no loss is accepted: two meshes must differ by their points alone
 constexpr const char* source = "the mesh of changed points";
-// Over the element it takes a tenth of the time here, and hardly ever tells another hex.
+// Compared with the quality over the whole element, this takes a tenth of the time here, and hardly ever decides
+// otherwise.
 constexpr candidates::CandidateQuality quality = candidates::CandidateQuality::corner;
 
-// Those with a corner that is touched. A cell is found at its lowest vertex: here the touched ones come first.
+// The hexes with a corner that is touched. A cell is found at its lowest vertex: the touched vertices come first here.
 Candidates hexes_at(const std::vector<bool>& is_touched, const TetMesh& mesh) {
   std::vector<Vertex> order(mesh.points.size()), place_of(mesh.points.size());
   std::iota(order.begin(), order.end(), 0);
@@ -54,7 +55,7 @@ void append(Candidates& to, const ChosenHex& hex) {
   to.boundary_tet_offsets.push_back(static_cast<std::int64_t>(to.boundary_tets.size()));
 }
 
-// Less those that are in conflict with one before, where the change has put them there.
+// Leaves out hexes that conflict with one before them, where the change has brought them into conflict.
 graph::IndependentSet independent_of(std::span<const std::int32_t> wanted, const graph::ConflictGraph& graph) {
   std::vector<bool> is_kept_out(graph.weights.size());
   graph::IndependentSet set;
@@ -67,7 +68,7 @@ graph::IndependentSet independent_of(std::span<const std::int32_t> wanted, const
   return set;
 }
 
-// The best set found from the one that is wanted.
+// Appends the best set found from the wanted one.
 void append_best(const Candidates& found, std::span<const std::int32_t> wanted, double kicks,
                  std::vector<ChosenHex>& chosen) {
   const graph::ConflictGraph graph = conflicts::conflict_graph(found, {}, source);
@@ -84,15 +85,15 @@ void append_best(const Candidates& found, std::span<const std::int32_t> wanted, 
   }
 }
 
-// Nothing where it lost a corner.
+// Nothing if it lost a corner.
 std::optional<std::array<Vertex, 8>> corners_now(const ChosenHex& hex, const MeshChange& change) {
   std::array<Vertex, 8> corners{};
   for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = change.vertex_now[hex.corners[i]];
-  if (std::ranges::count(corners, MeshChange::none) > 0) return std::nullopt;
+  if (std::ranges::count(corners, geometry::none) > 0) return std::nullopt;
   return corners;
 }
 
-// Of which no corner is touched, so that all its tets stay.
+// For a hex without a touched corner, so that all of its tets stay.
 ChosenHex unchanged(const ChosenHex& before, const std::array<Vertex, 8>& corners, const MeshChange& change) {
   ChosenHex hex = before;
   hex.corners = corners;
@@ -133,7 +134,7 @@ std::vector<ChosenHex> choose_hexes_again(const TetMesh& mesh, const MeshChange&
     else
       chosen.push_back(unchanged(hex, *corners, change));
   }
-  // Untouched ones stand together as before.
+  // Untouched hexes fit together as before.
   std::vector<std::int32_t> wanted;
   for (std::size_t i = touched_count; i < open.size(); ++i) wanted.push_back(static_cast<std::int32_t>(i));
   for (std::size_t i = 0; i < touched_count; ++i)

@@ -1,7 +1,8 @@
 #pragma once
-// The hexes that the stages behind tetmesh would choose, nearly: of findhex's candidates a locally optimal set in their
-// conflict graph. The rough estimate that chooses between kinds of points would mislead a search, which learns to serve
-// it: simp had 3.6 % more of its volume in those hexes after 100 rounds, and 0.4 % more after all stages.
+// Chooses nearly the hexes that the stages behind tetmesh would choose: a locally optimal set of findhex's candidates
+// in their conflict graph. A search learns to serve its estimate, and the rough estimate that chooses between kinds of
+// points would mislead it: simp had 3.6 % more of its volume in those hexes after 100 rounds, and 0.4 % more after all
+// stages.
 
 #include <array>
 #include <cstdint>
@@ -19,12 +20,12 @@ struct ChosenHex {
   std::vector<std::int32_t> interior_tets, boundary_tets;  // boundary tets: slivers on its quads
 };
 
-// With `kicks` for each hex, see common/mwis/local_search/annealing.hpp.
+// `kicks` is the number of kicks for each hex, see common/mwis/local_search/annealing.hpp.
 std::vector<ChosenHex> choose_hexes(const TetMesh& mesh, double kicks);
 
-// From those that were chosen before the mesh changed: only hexes at vertices that the change touched are chosen anew,
-// so that what two meshes have in common is chosen alike in both, and in a fraction of the time. `kicks` for each hex
-// at these and beside.
+// Starts from the hexes that were chosen before the mesh changed, and chooses only the hexes at vertices that the
+// change touched. So hexes that two meshes have in common are chosen alike in both, and in a fraction of the time.
+// `kicks` counts for each hex at these vertices and beside them.
 std::vector<ChosenHex> choose_hexes_again(const TetMesh& mesh, const MeshChange& change,
                                           std::span<const ChosenHex> before, double kicks);
 

@@ -12,9 +12,9 @@
 namespace hexpipe::tetmesh::search {
 namespace {
 
-// Of a hex's volume, for each open quad. What is left of simp once hexes have grown is a seventh of a hex for each open
-// quad and a quarter of what was left by the choice. After 400 rounds hexes had 95.6, 95.8 and 95.9 % of simp at 0.07,
-// 0.2 and 0.4, and after 80 rounds 91.8 and 92.2 % of blub at 0.07 and 0.2.
+// A share of a hex's volume, for each open quad. After the hexes of simp have grown, each open quad leaves a seventh of
+// a hex uncovered, and a quarter of what the choice had left stays uncovered. After 400 rounds hexes had 95.6, 95.8 and
+// 95.9 % of simp at 0.07, 0.2 and 0.4, and after 80 rounds 91.8 and 92.2 % of blub at 0.07 and 0.2.
 constexpr double price_of_open_quad = 0.2;
 
 Quad quad_of(const ChosenHex& hex, const LocalQuad& local) {
@@ -47,7 +47,7 @@ double JudgedMesh::total_worth() const {
 JudgedMesh judge(tetgen::BuiltMesh built, std::vector<ChosenHex> hexes) {
   JudgedMesh judged{std::move(built), std::move(hexes), {}, {}, {}, {}};
   const TetMesh& mesh = judged.built.mesh;
-  judged.hex_of_tet.assign(mesh.tets.size(), JudgedMesh::none);
+  judged.hex_of_tet.assign(mesh.tets.size(), geometry::none);
   KeySet<3> boundary;
   for (const Triangle& triangle : mesh.triangles) boundary.insert(key_of(triangle));
   KeyMap<4, int> hexes_on;
@@ -57,7 +57,7 @@ JudgedMesh judge(tetgen::BuiltMesh built, std::vector<ChosenHex> hexes) {
     for (const LocalQuad& local : HexTopology::quads) ++hexes_on[key_of(quad_of(judged.hexes[h], local))];
   }
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-    if (judged.hex_of_tet[t] == JudgedMesh::none) judged.left.push_back(static_cast<std::int32_t>(t));
+    if (judged.hex_of_tet[t] == geometry::none) judged.left.push_back(static_cast<std::int32_t>(t));
   for (const ChosenHex& hex : judged.hexes) {
     int open = 0;
     for (const LocalQuad& local : HexTopology::quads) {

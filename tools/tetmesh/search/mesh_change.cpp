@@ -9,7 +9,8 @@ namespace hexpipe::tetmesh::search {
 
 std::size_t MeshIndex::PlaceHash::operator()(const Vec3& p) const {
   std::uint64_t key = 0;
-  for (int axis = 0; axis < 3; ++axis) key = mix(key ^ std::bit_cast<std::uint64_t>(p[axis] + 0.0));  // -0 is 0
+  // makes -0 and 0 the same
+  for (int axis = 0; axis < 3; ++axis) key = mix(key ^ std::bit_cast<std::uint64_t>(p[axis] + 0.0));
   return static_cast<std::size_t>(key);
 }
 
@@ -22,8 +23,10 @@ MeshIndex::MeshIndex(const TetMesh& mesh) : tet_count_(mesh.tets.size()) {
 }
 
 MeshChange::MeshChange(const MeshIndex& before, const TetMesh& now)
-    : vertex_now(before.vertex_at_.size(), none), tet_now(before.tet_count_, none), is_touched(now.points.size()) {
-  std::vector<Vertex> vertex_before(now.points.size(), none);
+    : vertex_now(before.vertex_at_.size(), geometry::none),
+      tet_now(before.tet_count_, geometry::none),
+      is_touched(now.points.size()) {
+  std::vector<Vertex> vertex_before(now.points.size(), geometry::none);
   for (std::size_t v = 0; v < now.points.size(); ++v) {
     const auto found = before.vertex_at_.find(now.points[v]);
     if (found == before.vertex_at_.end()) continue;
@@ -33,18 +36,18 @@ MeshChange::MeshChange(const MeshIndex& before, const TetMesh& now)
   for (std::size_t t = 0; t < now.tets.size(); ++t) {
     Tet corners = now.tets[t];
     for (Vertex& v : corners) v = vertex_before[v];
-    // Of a vertex that was not there the key has none, and is not found.
+    // The key of a tet with a new vertex contains `none`, and is not found.
     const auto found = before.tet_of_.find(key_of(corners));
     if (found != before.tet_of_.end())
       tet_now[found->second] = static_cast<std::int32_t>(t);
     else
       for (const Vertex v : now.tets[t]) is_touched[v] = true;
   }
-  // A sliver on the boundary goes without another in its place where the surface exchanges the diagonal under it.
+  // A sliver on the boundary disappears without another in its place if the edge of the surface under it is flipped.
   for (const auto& [corners, t] : before.tet_of_) {
-    if (tet_now[t] != none) continue;
+    if (tet_now[t] != geometry::none) continue;
     for (const Vertex v : corners)
-      if (vertex_now[v] != none) is_touched[vertex_now[v]] = true;
+      if (vertex_now[v] != geometry::none) is_touched[vertex_now[v]] = true;
   }
 }
 

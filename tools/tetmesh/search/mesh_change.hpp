@@ -1,15 +1,17 @@
 #pragma once
-// What two meshes of nearly the same points have in common: most tets stay when a few points move, come or go.
+// The vertices and tets that two meshes of nearly the same points have in common: most tets stay when a few points
+// move, come or go.
 
 #include <cstdint>
 #include <vector>
 
 #include "common/mesh/facet_key.hpp"
 #include "common/mesh/tet_mesh.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
 
 namespace hexpipe::tetmesh::search {
 
-// A mesh as the one after it looks things up there.
+// A mesh, prepared for look-ups by the mesh that follows it.
 class MeshIndex {
  public:
   explicit MeshIndex(const TetMesh& mesh);
@@ -25,13 +27,11 @@ class MeshIndex {
 };
 
 struct MeshChange {
-  static constexpr std::int32_t none = -1;
-
   MeshChange(const MeshIndex& before, const TetMesh& now);
 
   std::vector<Vertex> vertex_now;     // by vertex before, or none
   std::vector<std::int32_t> tet_now;  // by tet before, or none
-  std::vector<bool> is_touched;       // by vertex now: a tet has come or gone there
+  std::vector<bool> is_touched;       // by vertex now: a tet at it has come or gone
 };
 
 }  // namespace hexpipe::tetmesh::search

@@ -16,10 +16,10 @@ constexpr double clearance_of_changed = 0.25;
 constexpr double reach_of_move = 0.35;    // along each axis
 constexpr double reach_of_middle = 0.25;  // along each axis, around a tet's middle
 constexpr double unevenness = 0.05;       // of the corners of a hex, along each axis
-constexpr double taken_within = 0.5;      // a point this near to a hex's corner becomes it
-constexpr double greatest_growth = 1.3;   // of the edges of a hex, from those of the hex that it stands on
+constexpr double taken_within = 0.5;      // a point this near to a hex's corner moves to the corner
+constexpr double greatest_growth = 1.3;   // of the edges of a hex, over those of the hex that it stands on
 
-// Until one can be made: on bent surfaces most cannot.
+// Draws until a change can be made: most cannot on bent surfaces.
 constexpr int most_draws = 4;
 
 Vec3 random_step(double reach, Random& random) {
@@ -27,7 +27,7 @@ Vec3 random_step(double reach, Random& random) {
   return {x, y, z};
 }
 
-// A quad of a hex, and for each of its corners the one behind it.
+// A quad of a hex, and for each of its corners the corner behind it.
 struct QuadWithBack {
   std::array<std::size_t, 4> front, back;
 };
@@ -39,7 +39,7 @@ constexpr std::array<QuadWithBack, 6> quads_with_back{{{{0, 1, 2, 3}, {4, 5, 6, 
                                                        {{0, 3, 7, 4}, {1, 2, 6, 5}},
                                                        {{1, 2, 6, 5}, {0, 3, 7, 4}}}};
 
-// That has all corners of the triangle.
+// The quad that has all corners of the triangle.
 const QuadWithBack* quad_under(const ChosenHex& hex, const Triangle& triangle) {
   const auto found = std::ranges::find_if(quads_with_back, [&](const QuadWithBack& quad) {
     return std::ranges::all_of(triangle, [&](Vertex v) {
@@ -125,16 +125,16 @@ PointChange ChangeDrawer::add_one(const Vec3& middle, double size, Random& rando
 // On one of the tet's facets.
 PointChange ChangeDrawer::set_hex_on(std::int32_t tet, double size, Random& random) const {
   const auto facet = static_cast<int>(random.below(4));
-  std::int32_t beside = JudgedMesh::none;
+  std::int32_t beside = geometry::none;
   Triangle triangle{};
-  for (int i = 0; i < 4 && beside == JudgedMesh::none; ++i) {
+  for (int i = 0; i < 4 && beside == geometry::none; ++i) {
     const int f = (facet + i) % 4;
     const std::int32_t beyond = adjacency_.tet_beyond(tet, f);
-    if (beyond == TetAdjacency::none || judged_.hex_of_tet[beyond] == JudgedMesh::none) continue;
+    if (beyond == TetAdjacency::none || judged_.hex_of_tet[beyond] == geometry::none) continue;
     beside = judged_.hex_of_tet[beyond];
     for (std::size_t k = 0; k < 3; ++k) triangle[k] = mesh_.tets[tet][TetTopology::triangles[f][k]];
   }
-  if (beside == JudgedMesh::none) return {};
+  if (beside == geometry::none) return {};
   const ChosenHex& hex = judged_.hexes[beside];
   const QuadWithBack* const quad = quad_under(hex, triangle);
   if (quad == nullptr) return {};
@@ -147,13 +147,13 @@ PointChange ChangeDrawer::set_hex_on(std::int32_t tet, double size, Random& rand
     const Vertex near = nearest_to(place, adjacency_.neighbours_of(front), taken_within * size);
     const bool is_moved = std::ranges::any_of(change.moved, [&](const auto& m) { return m.first == near; });
     if (near >= 0 && !is_inside(near)) {
-      // One alone: two that move could turn a triangle over.
+      // Only one point of the surface moves: two could turn a triangle over.
       if (surface_ != nullptr && change.on_surface.is_nothing())
         change.on_surface = surface_->move(near, place - mesh_.points[near], size);
       continue;
     }
     if (is_moved || !is_free(place, size)) continue;
-    if (near >= 0)
+    if (near != geometry::none)
       change.moved.emplace_back(near, place);
     else
       change.added.push_back(place);
@@ -161,9 +161,9 @@ PointChange ChangeDrawer::set_hex_on(std::int32_t tet, double size, Random& rand
   return change;
 }
 
-// Of the vertices around; negative where none is within reach.
+// Among the vertices around, or none if they are out of reach.
 Vertex ChangeDrawer::nearest_to(const Vec3& place, std::span<const Vertex> around, double reach) const {
-  Vertex nearest = -1;
+  Vertex nearest = geometry::none;
   double least = reach * reach;
   for (const Vertex v : around) {
     const double squared = norm_squared(mesh_.points[v] - place);

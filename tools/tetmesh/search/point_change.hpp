@@ -1,5 +1,5 @@
 #pragma once
-// Small changes of the points where tets are left, drawn at random.
+// Small random changes of the points where tets are left.
 
 #include <utility>
 #include <vector>
@@ -12,9 +12,9 @@
 namespace hexpipe::tetmesh::search {
 
 struct PointChange {
-  // Inside.
+  // The points inside.
   std::vector<Vertex> removed;
-  std::vector<std::pair<Vertex, Vec3>> moved;  // to where
+  std::vector<std::pair<Vertex, Vec3>> moved;  // with the new place
   std::vector<Vec3> added;
 
   SurfaceChange on_surface;
@@ -22,18 +22,18 @@ struct PointChange {
   bool is_nothing() const { return removed.empty() && moved.empty() && added.empty() && on_surface.is_nothing(); }
 };
 
-// At a tet that is left: one of its points moves, goes, or joins another, one comes to its middle, or to the middle of
-// an edge on the surface, a diagonal there is exchanged, or a hex is set on the hex beside the tet, to which near
-// points move, or come.
+// Draws a change at a tet that is left. One of its points moves, goes, or joins another; a point comes to its middle,
+// or to the middle of an edge on the surface; an edge there is flipped; or a hex is set on the hex beside the tet,
+// and near points move to its corners, or new ones come.
 class ChangeDrawer {
  public:
-  // Vertices from `first_inside` on are inside. Without a `surface` that stays as it is. All that is given must outlive
-  // it.
+  // Vertices from `first_inside` on are inside. Without a `surface`, the surface stays as it is. All arguments must
+  // outlive it.
   ChangeDrawer(const JudgedMesh& judged, Vertex first_inside, const solid::SurfaceClearance& clearance,
                const FlatSurface* surface);
 
-  // Where the tet's middle is `middle` and the size there `size`. Nothing where all that it drew is too near to the
-  // surface, or outside.
+  // `middle` is the tet's middle, and `size` the size there. The result is nothing if all that it drew is too near to
+  // the surface, or outside.
   PointChange draw(std::int32_t tet, const Vec3& middle, double size, Random& random) const;
 
  private:

@@ -16,14 +16,14 @@ namespace hexpipe::tetmesh::search {
 namespace {
 
 constexpr std::size_t tries_a_place = 4;        // changes tried at a place in a round
-constexpr double reach = 2.5;                   // of what a change may bring or cost, in sizes
-constexpr double first_kicks = 5, kicks = 0.5;  // a hex, see choose_hexes()
-constexpr double least_gain = 1e-3;             // of a cube of the size
+constexpr double reach = 2.5;                   // how far a change may bring or cost something, in sizes
+constexpr double first_kicks = 5, kicks = 0.5;  // for each hex, see choose_hexes()
+constexpr double least_gain = 1e-3;             // in cubes of the size
 
 struct Place {
   Vec3 middle;
   double size;
-  std::int32_t tet;  // that is left
+  std::int32_t tet;  // one that is left
 };
 
 class PointSearch {
@@ -41,7 +41,7 @@ class PointSearch {
   // Returns the number of changes that stay.
   std::size_t run_round(std::size_t round);
   tetgen::BuiltMesh take_mesh() { return std::move(current_.built); }
-  // Nothing where it is as it was given.
+  // Nothing if it did not change.
   std::optional<solid::Surface> take_surface() { return std::move(changed_surface_); }
   double hex_volume() const { return current_.hex_volume(); }
   bool is_complete() const { return current_.left.empty(); }
@@ -62,11 +62,11 @@ class PointSearch {
   const PointSearchOptions& options_;
   const MakeMeshes& make_meshes_;
   const solid::Surface& given_surface_;
-  const solid::SurfaceClearance clearance_;  // the same for all that come, for these lie where it does
+  const solid::SurfaceClearance clearance_;  // also serves all changed surfaces, because they lie in the same place
   const geometry::Box box_;
   std::optional<solid::Surface> changed_surface_;
   JudgedMesh current_;
-  MeshIndex index_;  // of its mesh
+  MeshIndex index_;  // of the current mesh
 };
 
 std::size_t PointSearch::run_round(std::size_t round) {
@@ -79,12 +79,12 @@ std::size_t PointSearch::run_round(std::size_t round) {
     for (const PointChange& change : of_try) all.push_back(&change);
     variants.push_back(with(all));
   }
-  std::vector<std::vector<double>> worth(tries_a_place);  // as the changes; nothing where TetGen failed
+  std::vector<std::vector<double>> worth(tries_a_place);  // by try and place, as the changes; empty where TetGen failed
   make_meshes_(variants, [&](std::size_t number, tetgen::BuiltMesh built) {
     worth[number] = worth_around(places, judged_from_current(std::move(built)));
   });
   std::vector<const PointChange*> good = best_changes(places, changes, worth);
-  // Where all together bring nothing, those that bring most may.
+  // If all changes together bring nothing, the best ones may.
   for (int attempt = 0; attempt < 2 && !good.empty(); ++attempt) {
     if (take_if_better(good)) return good.size();
     good.resize(good.size() / 2);
@@ -104,7 +104,7 @@ std::vector<std::vector<PointChange>> PointSearch::draw_changes(std::span<const 
   return changes;
 }
 
-// At each place the one that brings most, if any does; those that bring most first.
+// The best change of each place that has a good one, those that bring most first.
 std::vector<const PointChange*> PointSearch::best_changes(std::span<const Place> places,
                                                           std::span<const std::vector<PointChange>> changes,
                                                           std::span<const std::vector<double>> worth) const {
@@ -124,7 +124,7 @@ std::vector<const PointChange*> PointSearch::best_changes(std::span<const Place>
   return sorted;
 }
 
-// Of tets that are left, so that what is done at one does not reach another.
+// Chooses tets that are left, so far apart that changes at one do not reach another.
 std::vector<Place> PointSearch::choose_places(Random& random) const {
   const TetMesh& mesh = current_.built.mesh;
   std::vector<std::int32_t> order = current_.left;
@@ -148,7 +148,7 @@ std::vector<Place> PointSearch::choose_places(Random& random) const {
   return places;
 }
 
-// What the hexes within reach of each place are worth, those on the rim less.
+// The worth of the hexes within reach of each place; hexes at the rim count less.
 std::vector<double> PointSearch::worth_around(std::span<const Place> places, const JudgedMesh& judged) const {
   std::vector<double> worth(places.size());
   parallel_for(static_cast<std::int64_t>(places.size()), 1, [&](std::int64_t p) {

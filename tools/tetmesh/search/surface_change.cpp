@@ -6,9 +6,9 @@
 namespace hexpipe::tetmesh::search {
 namespace {
 
-constexpr Vertex added_vertex = -1;
 constexpr double least_area = 0.05;  // of a triangle, in squares of the size
-constexpr double flat_sine = 1e-9;   // between the normals of one face; more is left to rounding than CAD files need
+// Between the normals of one face. CAD files need less; the rest is a reserve for rounding.
+constexpr double flat_sine = 1e-9;
 constexpr double straight_sine = 1e-9;
 
 Vertex third_corner(const Triangle& t, Vertex a, Vertex b) {
@@ -64,7 +64,7 @@ FlatSurface::Freedom FlatSurface::freedom_of(Vertex v) const {
   return {1, unit(to_one - to_other), {creases[0], creases[1]}};
 }
 
-// Whether the triangle may become that of these corners.
+// Whether the triangle may become the one with these corners.
 bool FlatSurface::keeps(std::int32_t triangle, const Vec3& a, const Vec3& b, const Vec3& c, double size) const {
   const Vec3 twice_area = cross(b - a, c - a);
   return dot(twice_area, unit(normal_of(surface_.triangles[triangle]))) > 2 * least_area * size * size;
@@ -92,7 +92,7 @@ SurfaceChange FlatSurface::collapse(Vertex v, Vertex to, double size) const {
   const Freedom freedom = freedom_of(v);
   if (freedom.dimensions == 0) return {};
   if (freedom.dimensions == 1 && to != freedom.along.first && to != freedom.along.second) return {};
-  // Two vertices are joined to both, or the triangles around would be folded onto each other.
+  // Exactly two vertices must be joined to both ends; otherwise the triangles around would be folded onto each other.
   const std::vector<Vertex> of_v = neighbours_of(v), of_other = neighbours_of(to);
   std::vector<Vertex> common;
   std::ranges::set_intersection(of_v, of_other, std::back_inserter(common));
@@ -124,7 +124,7 @@ SurfaceChange FlatSurface::split(Vertex a, Vertex b, double size) const {
       std::array<Vec3, 3> places;
       for (std::size_t i = 0; i < 3; ++i) {
         places[i] = corners[i] == end ? middle : surface_.points[corners[i]];
-        if (corners[i] == end) corners[i] = added_vertex;
+        if (corners[i] == end) corners[i] = geometry::none;
       }
       if (!keeps(t, places[0], places[1], places[2], size)) return {};
       change.added_triangles.push_back({corners, t});
@@ -140,7 +140,7 @@ SurfaceChange FlatSurface::flip(Vertex a, Vertex b, double size) const {
   if (!triangles_of_edge(c, d).empty()) return {};
   SurfaceChange change;
   change.removed_triangles = beside;
-  // The first with d for b, the second with c for a.
+  // The first triangle gets d in place of b, the second one c in place of a.
   for (const auto& [t, from, to] : {std::tuple{beside[0], b, d}, std::tuple{beside[1], a, c}}) {
     Triangle corners = surface_.triangles[t];
     std::ranges::replace(corners, from, to);
@@ -155,7 +155,7 @@ solid::Surface with_changes(const solid::Surface& surface, std::span<const Surfa
   formats::SurfaceSoup soup = surface;
   std::vector<bool> gone(soup.points.size());
   std::vector<bool> replaced(soup.triangles.size());
-  std::vector<std::pair<Triangle, std::int32_t>> triangles;  // with what each is instead of
+  std::vector<std::pair<Triangle, std::int32_t>> triangles;  // with the triangle that each replaces
   std::vector<Vec3> added;
   for (const SurfaceChange* change : changes) {
     if (change->moved) soup.points[change->moved->first] = change->moved->second;
@@ -163,14 +163,14 @@ solid::Surface with_changes(const solid::Surface& surface, std::span<const Surfa
     for (const std::int32_t t : change->removed_triangles) replaced[t] = true;
     for (const NewTriangle& t : change->added_triangles) {
       Triangle corners = t.corners;
-      std::ranges::replace(corners, added_vertex, static_cast<Vertex>(soup.points.size() + added.size()));
+      std::ranges::replace(corners, geometry::none, static_cast<Vertex>(soup.points.size() + added.size()));
       triangles.emplace_back(corners, t.instead_of);
     }
     if (change->added) added.push_back(*change->added);
   }
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)
     if (!replaced[t]) triangles.emplace_back(soup.triangles[t], static_cast<std::int32_t>(t));
-  // Those of a shell stay together, and where they were.
+  // Triangles of a shell stay together and in their place.
   std::ranges::stable_sort(triangles, {}, [](const auto& t) { return t.second; });
 
   gone.resize(soup.points.size() + added.size());

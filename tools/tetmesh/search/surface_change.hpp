@@ -1,6 +1,6 @@
 #pragma once
 // Changes of a surface's triangles that leave the surface where it is: points move, go and come within flat faces and
-// along straight edges, and two triangles of a flat face exchange their diagonal.
+// along straight edges, and edges within a flat face are flipped.
 
 #include <cstdint>
 #include <optional>
@@ -9,17 +9,18 @@
 #include <vector>
 
 #include "common/mesh/vertex_items.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 
 namespace hexpipe::tetmesh::search {
 
 struct NewTriangle {
-  Triangle corners;         // -1 for the point that comes
-  std::int32_t instead_of;  // of this triangle it has shell, tag and place
+  Triangle corners;         // geometry::none for the point that comes
+  std::int32_t instead_of;  // shell, tag and place are those of this triangle
 };
 
 struct SurfaceChange {
-  std::optional<std::pair<Vertex, Vec3>> moved;  // to where
+  std::optional<std::pair<Vertex, Vec3>> moved;  // with the new place
   std::optional<Vertex> removed;
   std::optional<Vec3> added;
   std::vector<std::int32_t> removed_triangles;
@@ -28,30 +29,30 @@ struct SurfaceChange {
   bool is_nothing() const { return !moved && removed_triangles.empty(); }
 };
 
-// What may be changed at a vertex. No triangle is turned over, or made smaller than a twentieth of the size's square.
-// The surface must outlive it.
+// The changes that are possible at a vertex. They turn no triangle over, and make none smaller than a twentieth of the
+// size's square. The surface must outlive it.
 class FlatSurface {
  public:
   explicit FlatSurface(const solid::Surface& surface);
 
-  // By the part of the step that lies in the face, or along the edge.
+  // Moves the vertex by the component of the step in the face, or along the edge.
   SurfaceChange move(Vertex v, const Vec3& step, double size) const;
   // v becomes its neighbour `to`.
   SurfaceChange collapse(Vertex v, Vertex to, double size) const;
-  // A point comes to the middle of an edge.
+  // Adds a point in the middle of an edge.
   SurfaceChange split(Vertex a, Vertex b, double size) const;
-  // The edge gives way to the one between the corners opposite.
+  // Replaces the edge by the one between the corners opposite it.
   SurfaceChange flip(Vertex a, Vertex b, double size) const;
 
-  // Ascending.
+  // In ascending order.
   std::vector<Vertex> neighbours_of(Vertex v) const;
 
  private:
-  // How a vertex may move: within a plane, along a line, not at all.
+  // How a vertex may move: within a plane, along a line, or not at all.
   struct Freedom {
     int dimensions = 0;
-    Vec3 direction{};                         // normal of the plane, or along the line; unit length
-    std::pair<Vertex, Vertex> along{-1, -1};  // the neighbours on the line
+    Vec3 direction{};  // the normal of the plane, or the direction of the line; of length 1
+    std::pair<Vertex, Vertex> along{geometry::none, geometry::none};  // the neighbours on the line
   };
 
   std::vector<std::int32_t> triangles_of_edge(Vertex a, Vertex b) const;
@@ -64,7 +65,7 @@ class FlatSurface {
   VertexItems triangles_;
 };
 
-// With changes that have no triangle in common. Vertices that stay keep their order; those that come are last.
+// The changes must have no triangle in common. Vertices that stay keep their order; new ones are last.
 solid::Surface with_changes(const solid::Surface& surface, std::span<const SurfaceChange* const> changes);
 
 }  // namespace hexpipe::tetmesh::search

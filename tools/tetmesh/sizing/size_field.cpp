@@ -32,7 +32,7 @@ struct SizeSimplex {
   }
 };
 
-// Solves a positive definite system of up to three unknowns for two right-hand sides; false where it is singular.
+// Solves a positive definite system of up to three unknowns. is_regular() is false where the system is singular.
 class SmallSystem {
  public:
   static constexpr std::size_t most = most_corners - 1;
@@ -72,12 +72,12 @@ class SmallSystem {
 
   std::size_t count_;
   bool regular_ = true;
-  std::array<Column, most> lower_{};  // Cholesky's factor
+  std::array<Column, most> lower_{};  // the Cholesky factor
 };
 
-// The least of size(y) + grading |p - y| over y in the simplex. The function is convex: in the plane of the simplex its
-// least value is where the direction to p makes the angle with the plane that the sizes' gradient asks for, and when
-// that is outside, the least value in the simplex is on a facet that separates it from there.
+// The least of size(y) + grading |p - y| over y in the simplex. The function is convex. In the plane of the simplex it
+// is least where the direction to p makes the angle with the plane that the gradient of the sizes asks for. When that
+// place is outside the simplex, the least value is on a facet that separates the simplex from it.
 double least_over(const SizeSimplex& simplex, const Vec3& p, double grading) {
   const Vec3 to_p = p - simplex.corners[0];
   if (simplex.count == 1) return simplex.sizes[0] + grading * norm(to_p);
@@ -98,7 +98,7 @@ double least_over(const SizeSimplex& simplex, const Vec3& p, double grading) {
     size += rise[i] * foot[i];
   }
   const double steepness = std::sqrt(std::max(0.0, grading * grading - slope_squared));
-  std::array<bool, most_corners> behind{};  // of each facet, whether the least value may be on it
+  std::array<bool, most_corners> behind{};  // for each facet: whether the least value may be on it
   if (system.is_regular() && steepness > 0) {
     const double height = std::sqrt(std::max(0.0, height_squared));
     double rest = 1;
@@ -118,7 +118,7 @@ double least_over(const SizeSimplex& simplex, const Vec3& p, double grading) {
   return least;
 }
 
-// A prism, ready for its distance from many points.
+// A prism, prepared to measure its distance from many points.
 class PrismDistance {
  public:
   explicit PrismDistance(const SizePrism& prism)
@@ -147,7 +147,7 @@ struct SizeField::Known {
     for (const SizePrism& prism : sources.prisms) distances.emplace_back(prism);
   }
 
-  // What a source, by its number in the tree, allows at p.
+  // The size that a source allows at p; the source has this number in the tree.
   double size_by(std::size_t source, const Vec3& p) const {
     if (source < sources.simplices.size()) return least_over(simplex_of(sources, source), p, grading);
     const std::size_t prism = source - sources.simplices.size();
@@ -161,7 +161,7 @@ struct SizeField::Known {
     return simplex;
   }
 
-  // Simplices come first.
+  // Simplices come before prisms.
   static geometry::BoxTree tree_of(const SizeSources& sources) {
     std::vector<geometry::Box> boxes;
     std::vector<double> values;

@@ -1,11 +1,11 @@
 #pragma once
-// A length at every place: how long edges are to be there, or what is measured in such lengths.
+// A length at every place: how long edges should be there, or what is measured in such lengths.
 //
-// Sizes are known at some places, and may grow away from them, with the distance times a factor: the field is the
-// greatest function that has at most the known sizes where they are known, at most a greatest one elsewhere, and
-// differs by at most `grading` times their distance between any two places. That is min over y of h(y) + grading |x -
-// y| (P.-O. Persson: Mesh size functions for implicit geometries and PDE-based gradient limiting, 2006, section 3),
-// here computed exactly for sizes that are linear on points, segments, triangles and tets, or the same in right prisms.
+// Sizes are known at some places and may grow with the distance from them. The field is the greatest function that is
+// at most the known size at each of these places, at most a greatest size elsewhere, and differs between any two places
+// by at most `grading` times their distance. That is min over y of h(y) + grading |x - y| (P.-O. Persson: Mesh size
+// functions for implicit geometries and PDE-based gradient limiting, 2006, section 3). Here it is computed exactly for
+// sizes that are linear on points, segments, triangles and tets, or constant in right prisms.
 
 #include <array>
 #include <memory>
@@ -15,20 +15,20 @@
 
 namespace hexpipe::tetmesh::sizing {
 
-// From a triangle straight across, the same size everywhere.
+// Leads from a triangle straight across; the size is the same in all of it.
 struct SizePrism {
   std::array<Vec3, 3> corners;
   Vec3 across;  // at right angles to the triangle
   double size;
 };
 
-// Where sizes are known.
+// The places where sizes are known.
 struct SizeSources {
   static constexpr Vertex none = -1;
 
   std::vector<Vec3> points;
   std::vector<double> sizes;  // at the points
-  // Of one to four points each, the rest `none`; sizes are linear in between.
+  // Each has one to four points; the rest is `none`. Sizes are linear in between.
   std::vector<std::array<Vertex, 4>> simplices;
   std::vector<SizePrism> prisms;
 
@@ -37,12 +37,12 @@ struct SizeSources {
 
 class SizeField {
  public:
-  // The same everywhere. Implicit, so that a length can stand where a field is asked for.
+  // The same size everywhere. The constructor is implicit, so that a length can stand where a field is expected.
   SizeField(double uniform) : greatest_(uniform), least_(uniform) {}
   SizeField(SizeSources sources, double greatest, double grading);
 
   double at(const Vec3& p) const { return known_ ? factor_ * limited_at(p, greatest_) : factor_ * greatest_; }
-  // length <= at(p), which is found out sooner: only what limits the size to less than the length is looked for.
+  // The same as length <= at(p), but faster: it looks only for sources that limit the size to less than the length.
   bool is_at_least(double length, const Vec3& p) const {
     if (length <= least()) return true;
     if (!(length <= greatest())) return false;
@@ -50,7 +50,7 @@ class SizeField {
     return limited_at(p, unscaled) >= unscaled;
   }
   double greatest() const { return factor_ * greatest_; }
-  // Lower bounds, everywhere and within `reach` of a place where the length is `here`.
+  // Lower bounds: everywhere, and within `reach` of a place where the length is `here`.
   double least() const { return factor_ * least_; }
   double least_near(double here, double reach) const;
   bool is_uniform() const { return known_ == nullptr; }
@@ -63,11 +63,11 @@ class SizeField {
  private:
   struct Known;
 
-  // The size there, or `most` where it is no less.
+  // The size at p, or `most` if the size is no less.
   double limited_at(const Vec3& p, double most) const;
 
   double greatest_, least_, factor_ = 1;
-  std::shared_ptr<const Known> known_;  // null: the same everywhere
+  std::shared_ptr<const Known> known_;  // null: the same size everywhere
 };
 
 }  // namespace hexpipe::tetmesh::sizing

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double coarse_edge = 2.5, fine_edge = 0.4;
 constexpr double tolerated_share = 0.25;
-// Over a part of a triangle this long, in sizes, the size is taken to be that of its centre.
+// In a piece of a triangle up to this long, in sizes, the size counts as that of its centre.
 constexpr double longest_part = 2;
 
 double area_of(const solid::Surface& surface, const Triangle& t) {
@@ -24,7 +24,7 @@ double area_of(const solid::Surface& surface, const Triangle& t) {
   return norm(cross(surface.points[t[1]] - origin, surface.points[t[2]] - origin)) / 2;
 }
 
-// Which side of a triangle is the longest.
+// The longest side of a triangle.
 std::size_t longest_side(const std::array<Vec3, 3>& corners) {
   std::size_t longest = 0;
   for (std::size_t i = 1; i < 3; ++i)
@@ -56,8 +56,12 @@ double bounding_box_diagonal(const formats::SurfaceSoup& surface) {
   return norm(high - low);
 }
 
+double in_units(const Length& length, const formats::SurfaceSoup& surface) {
+  return length.percent_of_diagonal ? length.value / 100 * bounding_box_diagonal(surface) : length.value;
+}
+
 double element_size(const solid::Surface& surface, const std::optional<Length>& length, bool triangles_stay) {
-  if (length) return length->percent_of_diagonal ? length->value / 100 * bounding_box_diagonal(surface) : length->value;
+  if (length) return in_units(*length, surface);
   double area = 0;
   for (const Triangle& t : surface.triangles) area += area_of(surface, t);
   const double volume = surface.volume();
@@ -123,8 +127,7 @@ std::optional<std::string> SizeFit::complaint(double size) const {
   const bool mostly_coarse = coarse_share >= fine_share;
   return fmt::format(
       "{:.0f} % of the surface lies in triangles with edges {} the size {:.3g} (the median edge is {:.3g}); the "
-      "surface is "
-      "kept as it is, so that few hexes will touch it there",
+      "surface is kept as it is, so few hexes will touch it there",
       100 * (mostly_coarse ? coarse_share : fine_share), mostly_coarse ? "much longer than" : "much shorter than", size,
       median_edge);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The size of elements: what the user asks for, what the part suggests, and how well the surface goes with it.
+// The size of elements: as the user writes it, as the model suggests it, and how well the surface's triangles suit it.
 
 #include <optional>
 #include <string>
@@ -15,32 +15,36 @@ struct Length {
   bool percent_of_diagonal = false;
 };
 
-// "2.5" or "3%". Throws UsageError unless it is positive and finite.
+// Reads "2.5" or "3%". Throws UsageError unless the number is positive and finite.
 Length parse_length(std::string_view text);
 
-// Of the box around the points, along the axes.
+// The length in the units of the surface.
+double in_units(const Length& length, const formats::SurfaceSoup& surface);
+
+// The diagonal of the box around the points, along the axes.
 double bounding_box_diagonal(const formats::SurfaceSoup& surface);
 
-// In the units of the surface. Without a length, 5 % of the diagonal, but at most half of the mean wall thickness (2
-// volume / area), and at least 1 % of the cube root of the volume. Where the surface's triangles stay as they are, also
-// at most the spacing of its vertices (the side of a square for each of them), which is the size that goes with them.
+// The size in the units of the surface. Without a length, it is 5 % of the diagonal, but at most half of the mean wall
+// thickness (2 volume / area), and at least 1 % of the cube root of the volume. If the surface's triangles stay as they
+// are, it is also at most the spacing of the vertices (the side of a square for each of them), because that size suits
+// them.
 double element_size(const solid::Surface& surface, const std::optional<Length>& length, bool triangles_stay = true);
 
-// About how many points cover the surface at the distances of the field: its area in squares of the size there. Stops
-// where they come to more than `enough`.
+// Estimates how many points cover the surface at the distances of the field: its area in squares of the size there.
+// Stops when they come to more than `enough`.
 double points_on_surface(const solid::Surface& surface, const SizeField& size, double enough);
 
-// About how many points fill the material at that distance: its volume in cubes of the size.
+// Estimates how many points fill the material at this distance: its volume in cubes of the size.
 double points_expected(const solid::Surface& surface, double size);
 
-// How far the surface's triangles are from the size of the elements behind them, which is that at their centres.
+// How well the surface's triangles suit the size of the elements behind them, which is the size at their centres.
 struct SizeFit {
   double median_edge = 0;
-  // The part of the area in triangles with an edge longer than 2.5 times the size, or shorter than 0.4 times. The
-  // diagonal of a square is 1.4 sizes long.
+  // The shares of the area in triangles with an edge longer than 2.5 sizes, and with an edge shorter than 0.4 sizes.
+  // (The diagonal of a square is 1.4 sizes long.)
   double coarse_share = 0, fine_share = 0;
 
-  // A sentence when more than a quarter of the area is off.
+  // A sentence if more than a quarter of the area is off.
   std::optional<std::string> complaint(double size) const;
 };
 

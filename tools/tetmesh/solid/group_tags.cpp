@@ -20,9 +20,9 @@
 namespace hexpipe::tetmesh::solid {
 namespace {
 
-constexpr std::size_t most_listed = 10;
+constexpr std::size_t most_tags_listed = 10;
 
-// Of each triangle, the first triangle of its piece.
+// Finds for each triangle the first triangle of its piece.
 class SmoothPieces {
  public:
   SmoothPieces(const Surface& surface, double angle)
@@ -68,7 +68,7 @@ class SmoothPieces {
 }  // namespace
 
 void tag_by_angle(Surface& surface, double angle) {
-  // The name of the whole tells nothing apart.
+  // A name that all triangles have tells nothing apart.
   if (std::ranges::adjacent_find(surface.tags, std::not_equal_to()) == surface.tags.end())
     surface.names.surfaces.clear();
   SmoothPieces pieces(surface, angle);
@@ -108,9 +108,9 @@ void name_tags(Surface& surface, std::span<const TagName> names) {
                           entry.tag);
     if (!entry.of_region && !tags.contains(entry.tag)) {
       const std::vector<std::int32_t> some(
-          tags.begin(), std::next(tags.begin(), static_cast<std::ptrdiff_t>(std::min(most_listed, tags.size()))));
+          tags.begin(), std::next(tags.begin(), static_cast<std::ptrdiff_t>(std::min(most_tags_listed, tags.size()))));
       throw DataError::at(surface.name, "expected --name of a surface tag ({}{}), found {}", fmt::join(some, ", "),
-                          tags.size() > most_listed ? ", ..." : "", entry.tag);
+                          tags.size() > most_tags_listed ? ", ..." : "", entry.tag);
     }
     (entry.of_region ? surface.names.regions : surface.names.surfaces)[entry.tag] = entry.name;
   }

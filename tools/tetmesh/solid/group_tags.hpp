@@ -1,5 +1,5 @@
 #pragma once
-// Tags that the user asks for: of smooth pieces of the surface, and names.
+// Tags that the user asks for, for smooth pieces of the surface, and names of tags.
 
 #include <cstdint>
 #include <span>
@@ -9,11 +9,9 @@
 
 namespace hexpipe::tetmesh::solid {
 
-inline constexpr double default_tag_angle = 40;
-
-// Gives each piece of the surface within edges that turn by more than the angle (degrees), or that are curves, a tag of
-// its own. Numbers go up from 1 in the order of the first triangles. Triangles whose tag has a name keep it, unless
-// all have the same.
+// Gives each piece of the surface a tag of its own. Pieces end at edges that turn by more than the angle (degrees), and
+// at curves. The numbers go up from 1 in the order of the pieces' first triangles. Triangles whose tag has a name keep
+// the tag, unless all triangles have the same tag.
 void tag_by_angle(Surface& surface, double angle);
 
 struct TagName {
@@ -22,10 +20,11 @@ struct TagName {
   std::string name;
 };
 
-// "3=inlet" for a surface, "region 1=steel" for a region. Throws UsageError for anything else.
+// Reads "3=inlet" as the name of a surface and "region 1=steel" as that of a region. Throws UsageError for anything
+// else.
 TagName parse_tag_name(const std::string& text);
 
-// Throws DataError where no triangle, or no region, has the tag.
+// Throws DataError if no triangle or no region has the tag.
 void name_tags(Surface& surface, std::span<const TagName> names);
 
 }  // namespace hexpipe::tetmesh::solid

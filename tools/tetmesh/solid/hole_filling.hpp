@@ -8,8 +8,15 @@
 
 namespace hexpipe::tetmesh::solid {
 
-// The triangulation of least area of a closed polygon in space, oriented like it (G. Barequet, M. Sharir: Filling gaps
-// in the boundary of a polyhedron, 1995). Time grows with the cube of the number of corners, three at least.
-std::vector<Triangle> triangulate_polygon(std::span<const Vec3> points, std::span<const Vertex> corners);
+// One edge of a hole's border. The edges come in the order in which the new triangles turn around the hole.
+struct HoleEdge {
+  Vertex start;
+  Vertex across;  // the third corner of the triangle that is at the edge
+};
+
+// The triangulation, without new points, that bends least: the greatest angle between neighbouring triangles is least,
+// those beside the hole included, and among such triangulations the area (P. Liepa: Filling holes in meshes, 2003).
+// Empty where CGAL finds none. Time grows with the cube of the number of edges.
+std::vector<Triangle> fill_hole(std::span<const Vec3> points, std::span<const HoleEdge> border);
 
 }  // namespace hexpipe::tetmesh::solid

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -19,7 +18,7 @@
 namespace hexpipe::tetmesh::solid {
 namespace {
 
-constexpr geometry::HalfEdge none = -1;
+using geometry::none;
 
 class Repairer {
  public:
@@ -59,7 +58,7 @@ class Repairer {
   formats::SurfaceSoup& soup_;
   const RepairOptions& options_;
   RepairReport report_;
-  std::vector<geometry::HalfEdge> twins_;  // of edges with two triangles; none else
+  std::vector<geometry::HalfEdge> twins_;  // of edges with two triangles; otherwise none
   std::vector<geometry::HalfEdge> borders_;
 };
 
@@ -76,19 +75,20 @@ void Repairer::keep_only(const std::vector<bool>& kept) {
   soup_.places.resize(next);
 }
 
-// A point moves to the first one before it that is near and was kept.
+// A point moves to the first kept point that is near and comes before it.
 void Repairer::weld() {
   if (options_.tolerance <= 0 || soup_.points.empty()) return;
   geometry::SizedPointGrid kept(geometry::Box::around(soup_.points));
   std::vector<Vertex> new_index;
   new_index.reserve(soup_.points.size());
   for (const Vec3& p : soup_.points) {
-    Vertex nearest = std::numeric_limits<Vertex>::max();
+    Vertex nearest = none;
     kept.for_each_near(p, options_.tolerance, 0, [&](std::int32_t i) {
-      if (norm_squared(kept.points()[i] - p) <= options_.tolerance * options_.tolerance) nearest = std::min(nearest, i);
+      if (norm_squared(kept.points()[i] - p) <= options_.tolerance * options_.tolerance)
+        nearest = nearest == none ? i : std::min(nearest, i);
       return true;
     });
-    if (nearest == std::numeric_limits<Vertex>::max()) {
+    if (nearest == none) {
       nearest = static_cast<Vertex>(kept.points().size());
       kept.add(p, options_.tolerance);
     }
@@ -103,7 +103,7 @@ void Repairer::weld() {
 }
 
 void Repairer::remove_degenerate() {
-  // Cutting may leave flat triangles again; beyond that many rounds, check_surface names what is left.
+  // Cutting may leave flat triangles again. After this many rounds check_surface names the rest.
   constexpr int most_rounds = 20;
   remove_collapsed();
   for (int round = 0; round < most_rounds && cut_flat_triangles(); ++round) remove_collapsed();
@@ -119,8 +119,8 @@ void Repairer::remove_collapsed() {
   keep_only(kept);
 }
 
-// Triangles of three corners on a line: the one across the longest side takes the corner in the middle. One round, in
-// which each triangle changes once.
+// Removes triangles whose corners are on a line: the triangle across the longest side is cut in two at the middle
+// corner. This is one round, in which each triangle changes once.
 bool Repairer::cut_flat_triangles() {
   find_twins_and_borders();
   const auto old_count = static_cast<std::int32_t>(count());
@@ -190,7 +190,8 @@ void Repairer::find_twins_and_borders() {
   });
 }
 
-// From one triangle over the edges of two: 1 shows the same side as the first, -1 the other.
+// Walks from one triangle over the edges of two triangles. The side is 1 for triangles that show the same side as the
+// first one, -1 for the others.
 void Repairer::spread(std::int32_t start, std::vector<std::int8_t>& sides, std::vector<std::int32_t>& piece) const {
   piece.assign(1, start);
   sides[start] = 1;
@@ -221,22 +222,22 @@ void Repairer::orient() {
   }
 }
 
-// Walks the borders, each from its end to its start, and on along one that ends there. Where the walk comes back to a
-// vertex, it has been around a hole: holes may touch in a vertex, and are filled one by one.
+// Walks along the borders, over each from its end to its start. Where the walk comes back to a vertex, it has been
+// around a hole. Holes may touch in a vertex, and are filled one by one.
 void Repairer::fill_holes() {
   find_twins_and_borders();
   if (borders_.empty()) return;
-  constexpr std::ptrdiff_t nowhere = -1;
   std::vector<std::vector<geometry::HalfEdge>> ending_at(soup_.points.size());
   for (const geometry::HalfEdge h : borders_) ending_at[geometry::end_of(soup_.triangles, h)].push_back(h);
-  std::vector<std::ptrdiff_t> place_on_walk(soup_.points.size(), nowhere);  // of what ends at each vertex
+  // the place of the border that ends at each vertex
+  std::vector<std::ptrdiff_t> place_on_walk(soup_.points.size(), none);
   std::vector<geometry::HalfEdge> walk;
   const auto cut_off = [&](std::ptrdiff_t length) {
     for (auto h = walk.begin() + length; h != walk.end(); ++h)
-      place_on_walk[geometry::end_of(soup_.triangles, *h)] = nowhere;
+      place_on_walk[geometry::end_of(soup_.triangles, *h)] = none;
     walk.resize(static_cast<std::size_t>(length));
   };
-  // Those of the triangles that were there: what fills holes brings no borders.
+  // The borders of the triangles that were there before: filling holes adds no borders.
   const std::vector<geometry::HalfEdge> borders = borders_;
   for (const geometry::HalfEdge first : borders) {
     for (Vertex at = geometry::end_of(soup_.triangles, first); !ending_at[at].empty();) {
@@ -246,7 +247,7 @@ void Repairer::fill_holes() {
       walk.push_back(h);
       at = geometry::start_of(soup_.triangles, h);
       const std::ptrdiff_t begin = place_on_walk[at];
-      if (begin == nowhere) continue;
+      if (begin == none) continue;
       const std::vector<geometry::HalfEdge> loop(walk.begin() + begin, walk.end());
       cut_off(begin);
       if (loop.size() >= 3 && loop.size() <= options_.largest_hole) fill(loop);
@@ -256,11 +257,14 @@ void Repairer::fill_holes() {
 }
 
 void Repairer::fill(const std::vector<geometry::HalfEdge>& border) {
-  std::vector<Vertex> corners;
-  corners.reserve(border.size());
-  for (const geometry::HalfEdge h : border) corners.push_back(geometry::end_of(soup_.triangles, h));
+  std::vector<HoleEdge> edges;
+  edges.reserve(border.size());
+  for (const geometry::HalfEdge h : border)
+    edges.push_back({.start = geometry::end_of(soup_.triangles, h),
+                     .across = geometry::start_of(soup_.triangles, geometry::previous_in_triangle(h))});
+  const std::vector<Triangle> triangles = fill_hole(soup_.points, edges);
+  if (triangles.empty()) return;
   const std::int32_t beside = geometry::triangle_of(border.front());
-  const std::vector<Triangle> triangles = triangulate_polygon(soup_.points, corners);
   for (const Triangle& t : triangles) {
     soup_.triangles.push_back(t);
     soup_.tags.push_back(soup_.tags[beside]);
@@ -270,7 +274,7 @@ void Repairer::fill(const std::vector<geometry::HalfEdge>& border) {
   report_.hole_triangles += triangles.size();
 }
 
-// Only pieces that lie in none: one inside another may be a hole by intention.
+// Turns only pieces that do not lie in another: a piece inside another may be a hole on purpose.
 void Repairer::turn_outward() {
   find_twins_and_borders();
   if (!borders_.empty()) return;
@@ -300,23 +304,22 @@ void Repairer::turn_outward() {
 }
 
 void Repairer::drop_unused_points() {
-  constexpr Vertex unused = -1;
-  std::vector<Vertex> new_index(soup_.points.size(), unused);
+  std::vector<Vertex> new_index(soup_.points.size(), none);
   std::vector<Vec3> points;
   for (Triangle& t : soup_.triangles)
     for (Vertex& v : t) {
-      if (new_index[v] == unused) {
+      if (new_index[v] == none) {
         new_index[v] = static_cast<Vertex>(points.size());
         points.push_back(soup_.points[v]);
       }
       v = new_index[v];
     }
   soup_.points = std::move(points);
-  // A curve whose edge went with its triangles is no more.
+  // Drops curve edges whose triangles are gone.
   std::size_t kept = 0;
   for (std::size_t i = 0; i < soup_.curves.size(); ++i) {
     const formats::CurveEdge edge{new_index[soup_.curves[i][0]], new_index[soup_.curves[i][1]]};
-    if (edge[0] == unused || edge[1] == unused || edge[0] == edge[1]) continue;
+    if (edge[0] == none || edge[1] == none || edge[0] == edge[1]) continue;
     soup_.curves[kept] = edge;
     soup_.curve_tags[kept++] = soup_.curve_tags[i];
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Makes a triangle soup the boundary of a solid where little is wrong with it, and counts what was done.
+// Turns a triangle soup with few faults into the boundary of a solid, and counts the repairs.
 
 #include <cstddef>
 #include <nlohmann/json.hpp>
@@ -23,16 +23,21 @@ struct RepairReport {
   bool anything() const {
     return welded_points + degenerate_triangles + duplicate_triangles + turned_triangles + filled_holes > 0;
   }
-  // "3 points welded, 1 hole filled by 2 triangles"
+  // For example "3 points welded, 1 hole filled by 2 triangles".
   std::string sentence() const;
 };
 
 nlohmann::ordered_json to_json(const RepairReport& report);
 
-// In this order: welds points; removes triangles without area, cutting the neighbour at the longest side of one whose
-// corners are distinct; removes repeated triangles; turns triangles until neighbours agree, as most of their piece do;
-// fills holes with the triangulation of least area; turns closed pieces that lie in no other outward. What it cannot
-// mend stays, for check_surface to name. Throws DataError where no triangle is left.
+// Repairs in this order:
+// - welds points;
+// - removes triangles without area; if the corners of one are distinct, the neighbour at its longest side is cut in
+// two;
+// - removes repeated triangles;
+// - turns triangles until neighbours agree, as most triangles of their piece do;
+// - fills holes: hole_filling.hpp;
+// - turns closed pieces outward that do not lie in another piece.
+// Faults that it cannot mend stay, and check_surface() names them. Throws DataError if no triangle is left.
 RepairReport repair(formats::SurfaceSoup& soup, const RepairOptions& options);
 
 }  // namespace hexpipe::tetmesh::solid

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -14,8 +12,10 @@
 #include "common/run/error.hpp"
 #include "formats/surfaces/surface_building.hpp"
 #include "tools/tetmesh/geometry/column_index.hpp"
+#include "tools/tetmesh/geometry/edge_walk.hpp"
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
+#include "tools/tetmesh/geometry/joined_sets.hpp"
 #include "tools/tetmesh/solid/surface_check.hpp"
 
 namespace hexpipe::tetmesh::solid {
@@ -23,25 +23,7 @@ namespace {
 
 using geometry::HalfEdge;
 
-// Sets of numbers from 0.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  std::int32_t of(std::int32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  // The lower one stays.
-  void join(std::int32_t i, std::int32_t j) {
-    i = of(i), j = of(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::int32_t> parent_;
-};
-
-// Each triangle has two sides: 2 t behind it, 2 t + 1 before it.
+// Each triangle has two sides: 2 t is the side behind it, 2 t + 1 the side in front of it.
 constexpr std::int32_t behind(std::int32_t triangle) {
   return 2 * triangle;
 }
@@ -56,14 +38,14 @@ Vec3 normal_of(const formats::SurfaceSoup& soup, std::int32_t t) {
 
 constexpr std::size_t most_overlaps = 100'000;
 constexpr int most_flip_rounds = 1000;
-// Of sines and of volumes beside the lengths of their edges: what counts as flat, and as on one circle.
+// Sines, and volumes over the lengths of their edges, below this count as 0: flat, or on one circle.
 constexpr double flatness = 1e-9;
 
 Vertex across_of(const formats::SurfaceSoup& soup, HalfEdge h) {
   return geometry::end_of(soup.triangles, geometry::next_in_triangle(h));
 }
 
-// Whether two triangles in one plane should exchange their common edge for the other diagonal.
+// Whether the common edge of two triangles in one plane should be flipped.
 bool wants_flip(const formats::SurfaceSoup& soup, HalfEdge h, HalfEdge k) {
   const Vertex from = geometry::start_of(soup.triangles, h), to = geometry::end_of(soup.triangles, h);
   if (geometry::start_of(soup.triangles, k) != to) return false;
@@ -85,48 +67,16 @@ bool wants_flip(const formats::SurfaceSoup& soup, HalfEdge h, HalfEdge k) {
   return of_sum < 0;
 }
 
-// The triangles at an edge in the order in which they come on a walk around it.
-class EdgeWalk {
- public:
-  EdgeWalk(const formats::SurfaceSoup& soup, std::span<const HalfEdge> edge) {
-    const Vertex low = std::min(start(soup, edge[0]), end(soup, edge[0]));
-    const Vertex high = std::max(start(soup, edge[0]), end(soup, edge[0]));
-    const Vec3& from = soup.points[low];
-    const Vec3 axis = unit(soup.points[high] - from);
-    std::optional<Vec3> first;
-    for (const HalfEdge h : edge) {
-      const Vertex across = geometry::end_of(soup.triangles, geometry::next_in_triangle(h));
-      Vec3 away = soup.points[across] - from;
-      away = unit(away - dot(away, axis) * axis);
-      if (!first) first = away;
-      const double angle = std::atan2(dot(away, cross(axis, *first)), dot(away, *first));
-      // A triangle that has the edge in its direction shows its normal to those that come next.
-      steps_.push_back({angle, geometry::triangle_of(h), start(soup, h) == low});
-    }
-    std::ranges::sort(steps_, {}, [](const Step& s) { return std::pair(s.angle, s.triangle); });
+// Calls visit(side, side) for every two sides that face each other across a wedge, on a walk around an edge.
+template <class Visit>
+void for_each_wedge(const formats::SurfaceSoup& soup, std::span<const HalfEdge> edge, Visit&& visit) {
+  const std::vector<geometry::EdgeWalkStep> steps = geometry::walk_around_edge(soup.points, soup.triangles, edge);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const geometry::EdgeWalkStep &here = steps[i], &next = steps[(i + 1) % steps.size()];
+    const std::int32_t t = geometry::triangle_of(here.half_edge), u = geometry::triangle_of(next.half_edge);
+    visit(here.is_along ? before(t) : behind(t), next.is_along ? behind(u) : before(u));
   }
-
-  // visit(side, side) for each two sides that face each other across a wedge.
-  template <class Visit>
-  void for_each_wedge(Visit&& visit) const {
-    for (std::size_t i = 0; i < steps_.size(); ++i) {
-      const Step &here = steps_[i], &next = steps_[(i + 1) % steps_.size()];
-      visit(here.is_along ? before(here.triangle) : behind(here.triangle),
-            next.is_along ? behind(next.triangle) : before(next.triangle));
-    }
-  }
-
- private:
-  struct Step {
-    double angle;
-    std::int32_t triangle;
-    bool is_along;
-  };
-  static Vertex start(const formats::SurfaceSoup& soup, HalfEdge h) { return geometry::start_of(soup.triangles, h); }
-  static Vertex end(const formats::SurfaceSoup& soup, HalfEdge h) { return geometry::end_of(soup.triangles, h); }
-
-  std::vector<Step> steps_;
-};
+}
 
 void keep_only(formats::SurfaceSoup& soup, const std::vector<bool>& kept) {
   const auto filter = [&](auto& array) {
@@ -179,15 +129,15 @@ class SideFinder {
 
   formats::SurfaceSoup& soup_;
   ShellRule rule_;
-  std::vector<bool> is_interface_;    // of triangles: two bodies had it
-  std::optional<Sets> rooms_;         // of sides, and of the outside as the last
-  std::optional<Sets> pieces_;        // of triangles, by common edges
-  std::vector<std::int32_t> region_;  // of rooms, 0: nothing
+  std::vector<bool> is_interface_;              // by triangle: two bodies had it
+  std::optional<geometry::JoinedSets> rooms_;   // sets of sides; the last number is the outside
+  std::optional<geometry::JoinedSets> pieces_;  // sets of triangles, joined by common edges
+  std::vector<std::int32_t> region_;            // by room; 0: nothing
   SheetReport report_;
 };
 
-// Bodies that touch in a face may cut it into triangles in different ways. Where these overlap, flips lead both to the
-// same ones: Delaunay's, and of those with corners on one circle the ones at the lowest corner.
+// Bodies that touch in a face may cut the face into different triangles. Where these overlap, flips turn both into the
+// same triangles: Delaunay triangles, and where corners lie on one circle, the diagonals at the lowest corner.
 void SideFinder::agree_on_overlaps() {
   const auto found = geometry::find_intersections(soup_.points, soup_.triangles, most_overlaps);
   std::vector<bool> overlaps(soup_.triangles.size());
@@ -218,7 +168,7 @@ bool SideFinder::flip_round(const std::vector<bool>& overlaps) {
   return !flips.empty();
 }
 
-// Two bodies that touch in a face have its triangles twice, turned against each other.
+// Two bodies that touch in a face have the triangles of the face twice, with opposite orientations.
 void SideFinder::join_repeated() {
   std::map<VertexKey<3>, std::int32_t> first;
   std::vector<bool> kept(soup_.triangles.size(), true);
@@ -235,7 +185,7 @@ void SideFinder::join_repeated() {
       first_repeated = {t, known->second};
     is_interface_[known->second] = true;
     kept[t] = false;
-    // Of one body they are a fold, with the same on both sides.
+    // If both belong to one body, they are a fold, with the same region on both sides.
     const bool is_fold = !soup_.sides.empty() && soup_.sides[known->second][0] == soup_.sides[t][0];
     if (!soup_.sides.empty()) soup_.sides[known->second] = {soup_.sides[known->second][0], soup_.sides[t][0]};
     report_.interface_triangles += is_fold ? 0 : 1;
@@ -259,15 +209,15 @@ void SideFinder::walk_around_edges() {
   rooms_.emplace(2 * soup_.triangles.size() + 1);
   pieces_.emplace(soup_.triangles.size());
   geometry::for_each_edge(soup_.points.size(), soup_.triangles, [&](std::span<const HalfEdge> edge) {
-    EdgeWalk(soup_, edge).for_each_wedge([&](std::int32_t one, std::int32_t other) { rooms_->join(one, other); });
+    for_each_wedge(soup_, edge, [&](std::int32_t one, std::int32_t other) { rooms_->join(one, other); });
     for (const HalfEdge h : edge) pieces_->join(geometry::triangle_of(edge[0]), geometry::triangle_of(h));
   });
 }
 
-// The room around each piece is that in which it lies: what is below the first triangle over one of its vertices.
+// Finds the room around each piece: the room below the first triangle above one of the piece's vertices.
 void SideFinder::nest() {
   const std::int32_t outside = 2 * count();
-  std::map<std::int32_t, double> volumes;  // of rooms as the triangles of one piece enclose them
+  std::map<std::int32_t, double> volumes;  // of rooms, as the triangles of one piece enclose them
   for (std::int32_t t = 0; t < count(); ++t) {
     const auto [a, b, c] = soup_.triangles[t];
     const Vec3& origin = soup_.points[soup_.triangles[pieces_->of(t)][0]];
@@ -292,18 +242,18 @@ void SideFinder::nest() {
   for (const auto& [room, other] : same) rooms_->join(room, other);
 }
 
-// Of the lowest triangle of another piece above the piece's first vertex; -1 where there is none.
+// The side below the lowest triangle of another piece above this piece's first vertex; -1 if there is none.
 std::int32_t SideFinder::side_below(std::int32_t piece, const geometry::ColumnIndex& index) const {
   const Vec3& p = soup_.points[soup_.triangles[piece][0]];
-  std::int32_t lowest = -1;
+  std::int32_t lowest = geometry::none;
   double least = 0;
-  Sets pieces = *pieces_;
+  geometry::JoinedSets pieces = *pieces_;
   index.for_each_crossing(p, [&](std::int32_t t) {
     if (pieces.of(t) == piece) return;
     const Vec3 n = normal_of(soup_, t);
     const Vec3& on = soup_.points[soup_.triangles[t][0]];
     const double height = n.z == 0 ? 0 : dot(n, on - p) / n.z;
-    if (lowest >= 0 && height >= least) return;
+    if (lowest != geometry::none && height >= least) return;
     least = height;
     lowest = n.z > 0 ? behind(t) : before(t);
   });
@@ -314,7 +264,7 @@ void SideFinder::judge_rooms() {
   const std::int32_t outside = rooms_->of(2 * count());
   std::vector<bool> is_region(2 * soup_.triangles.size() + 1, rule_ == ShellRule::regions);
   std::size_t turned = 0;
-  std::int32_t first_turned = -1;
+  std::int32_t first_turned = geometry::none;
   for (std::int32_t t = 0; t < count(); ++t) {
     if (is_fin(t)) continue;
     is_region[rooms_->of(behind(t))] = true;
@@ -344,7 +294,7 @@ void SideFinder::set_sides() {
   drop_fins();
 }
 
-// Triangles with the same on both sides, and what only they have.
+// Drops triangles with the same region on both sides, and the vertices and edges that only they have.
 void SideFinder::drop_fins() {
   std::vector<bool> kept;
   for (const auto& [back, front] : soup_.sides) kept.push_back(back != front);
@@ -365,23 +315,23 @@ void SideFinder::drop_fins() {
   }
   soup_.curves.resize(next);
   soup_.curve_tags.resize(next);
-  soup_ = formats::merge_equal_points(std::move(soup_));  // and drops those of fins
+  soup_ = formats::merge_equal_points(std::move(soup_));  // also drops the points of fins
   soup_.file_vertices.clear();
 }
 
 bool has_several_fans(const formats::SurfaceSoup& soup) {
-  // By corners: those of one fan are one set.
-  Sets corners(3 * soup.triangles.size());
+  // Corners of one fan are one set.
+  geometry::JoinedSets corners(3 * soup.triangles.size());
   geometry::for_each_edge(soup.points.size(), soup.triangles, [&](std::span<const HalfEdge> edge) {
     for (const HalfEdge other : edge)
       for (const HalfEdge h : {edge[0], geometry::next_in_triangle(edge[0])})
         for (const HalfEdge k : {other, geometry::next_in_triangle(other)})
           if (geometry::start_of(soup.triangles, h) == geometry::start_of(soup.triangles, k)) corners.join(h, k);
   });
-  std::vector<std::int32_t> fan(soup.points.size(), -1);
+  std::vector<std::int32_t> fan(soup.points.size(), geometry::none);
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(3 * soup.triangles.size()); ++h) {
     std::int32_t& known = fan[geometry::start_of(soup.triangles, h)];
-    if (known >= 0 && known != corners.of(h)) return true;
+    if (known != geometry::none && known != corners.of(h)) return true;
     known = corners.of(h);
   }
   return false;
@@ -401,7 +351,7 @@ bool meets_in_sheets(const formats::SurfaceSoup& soup) {
 std::vector<std::string> SheetReport::sentences() const {
   std::vector<std::string> result;
   if (interface_triangles > 0)
-    result.push_back(fmt::format("bodies touch: {} triangles that two of them have are one each", interface_triangles));
+    result.push_back(fmt::format("bodies touch: they share {} triangles that two of them had", interface_triangles));
   if (fins > 0)
     result.push_back(fmt::format("{} with the same on both sides {} left out",
                                  fins == 1 ? "a triangle" : fmt::format("{} triangles", fins),
@@ -426,16 +376,16 @@ Surface find_sheets(formats::SurfaceSoup soup) {
     std::swap(back, front);
     std::swap(surface.triangles[t][1], surface.triangles[t][2]);
   }
-  Sets sheets(surface.triangles.size());
+  geometry::JoinedSets sheets(surface.triangles.size());
   geometry::for_each_edge(surface.points.size(), surface.triangles, [&](std::span<const HalfEdge> edge) {
     if (edge.size() != 2) return;
     const std::int32_t t = geometry::triangle_of(edge[0]), u = geometry::triangle_of(edge[1]);
     if (surface.sides[t] == surface.sides[u]) sheets.join(t, u);
   });
-  std::vector<std::int32_t> number(surface.triangles.size(), -1);
+  std::vector<std::int32_t> number(surface.triangles.size(), geometry::none);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     std::int32_t& sheet = number[sheets.of(static_cast<std::int32_t>(t))];
-    if (sheet < 0) {
+    if (sheet == geometry::none) {
       sheet = static_cast<std::int32_t>(surface.shells.size());
       Shell& made = surface.shells.emplace_back();
       made.first_triangle = static_cast<std::int32_t>(t);

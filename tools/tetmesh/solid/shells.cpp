@@ -15,21 +15,20 @@
 namespace hexpipe::tetmesh::solid {
 namespace {
 
-// What is known of a shell beside its result.
+// The facts about a shell that its result leaves out.
 struct Draft {
   double signed_volume = 0;            // positive: normals point outward
   std::optional<std::int32_t> parent;  // the innermost shell around it
-  int depth = 0;                       // shells around it
+  int depth = 0;                       // the number of shells around it
 };
 
-// Of each triangle, the number of its connected component; components come in the order of their first triangle.
+// The number of each triangle's connected component. Components are ordered by their first triangles.
 std::vector<std::int32_t> number_components(std::size_t point_count, std::span<const Triangle> triangles) {
-  constexpr std::int32_t unknown = -1;
   const std::vector<geometry::HalfEdge> twins = geometry::find_twins(point_count, triangles);
-  std::vector<std::int32_t> component(triangles.size(), unknown), stack;
+  std::vector<std::int32_t> component(triangles.size(), geometry::none), stack;
   std::int32_t count = 0;
   for (std::size_t start = 0; start < triangles.size(); ++start) {
-    if (component[start] != unknown) continue;
+    if (component[start] != geometry::none) continue;
     component[start] = count;
     stack.assign(1, static_cast<std::int32_t>(start));
     while (!stack.empty()) {
@@ -37,7 +36,7 @@ std::vector<std::int32_t> number_components(std::size_t point_count, std::span<c
       stack.pop_back();
       for (geometry::HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
         const std::int32_t neighbour = geometry::triangle_of(twins[h]);
-        if (component[neighbour] != unknown) continue;
+        if (component[neighbour] != geometry::none) continue;
         component[neighbour] = count;
         stack.push_back(neighbour);
       }
@@ -47,7 +46,7 @@ std::vector<std::int32_t> number_components(std::size_t point_count, std::span<c
   return component;
 }
 
-// Their triangles and volumes. Returns the latter with their signs.
+// Counts the triangles of the shells and measures their volumes. Returns the volumes with their signs.
 std::vector<double> measure_shells(Surface& surface) {
   for (Shell& shell : surface.shells) shell.triangle_count = 0;
   for (std::size_t i = surface.triangles.size(); i-- > 0;) {
@@ -57,7 +56,7 @@ std::vector<double> measure_shells(Surface& surface) {
   }
   std::vector<double> volumes(surface.shells.size());
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
-    // Seen from a corner of the shell, so that volumes far from the origin keep their digits.
+    // Measured from a corner of the shell, so that volumes far from the origin keep their digits.
     const std::int32_t s = surface.shell_of[i];
     const Vec3& origin = surface.points[surface.triangles[surface.shells[s].first_triangle][0]];
     const auto [a, b, c] = surface.triangles[i];
@@ -106,7 +105,7 @@ void ShellFinder::collect_shells() {
   for (const double volume : measure_shells(surface_)) drafts_.push_back({volume, std::nullopt, 0});
 }
 
-// Shells do not meet, so that one vertex tells which shells are around the whole of its own.
+// Shells do not meet, so one vertex of a shell tells which shells are around all of it.
 void ShellFinder::find_parents() {
   if (drafts_.size() == 1) return;
   const geometry::ColumnIndex index(surface_.points, surface_.triangles);
@@ -138,7 +137,7 @@ void ShellFinder::number_regions() {
   }
 }
 
-// What is on the sides of a shell, the surface says of each of its triangles.
+// The surface tells for each of its triangles what is on the sides; the shells take that over.
 void ShellFinder::take_given_sides() {
   for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
     const std::int32_t s = surface_.shell_of[i];
@@ -173,7 +172,7 @@ bool ShellFinder::encloses_material(const Draft& shell) const {
   return true;
 }
 
-// From the outside inwards: a shell's outer side is its parent's inner one.
+// Works from the outside inwards: a shell's outer side is its parent's inner side.
 void ShellFinder::assign_sides() {
   std::vector<std::int32_t> order(drafts_.size());
   std::iota(order.begin(), order.end(), 0);
@@ -203,7 +202,7 @@ void ShellFinder::orient_triangles() {
   }
 }
 
-// The name of the whole surface, where the file has one, stays where the whole gets one tag again.
+// A name of the whole surface stays if the whole gets a single tag again.
 void rename_only_tag(Surface& surface) {
   const auto found = surface.names.surfaces.find(surface.tags.front());
   std::map<std::int32_t, std::string> names;

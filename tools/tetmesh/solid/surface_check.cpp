@@ -16,10 +16,10 @@
 namespace hexpipe::tetmesh::solid {
 namespace {
 
-// Intersections are counted up to here: n copies of a triangle have n²/2 of them.
+// Intersections are counted up to this number: n copies of a triangle have n²/2 of them.
 constexpr std::size_t most_intersections = 10'000;
-// An edge of more triangles is listed up to here.
-constexpr std::size_t most_listed = 8;
+// At most this many triangles of an edge are listed.
+constexpr std::size_t most_triangles_listed = 8;
 
 std::string count_of(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
@@ -29,14 +29,14 @@ std::string text_of(const Vec3& p) {
   return fmt::format("({:g}, {:g}, {:g})", p.x, p.y, p.z);
 }
 
-// "triangles 3, 7 and 12", or lines.
+// For example "triangles 3, 7 and 12"; lines for a text file.
 template <class Triangles>
 std::string list_of(const formats::SurfaceSoup& soup, const Triangles& triangles) {
   std::vector<std::int64_t> places;
   places.reserve(std::size(triangles));
   for (const auto t : triangles) places.push_back(soup.places[t]);
   std::ranges::sort(places);
-  const std::size_t listed = std::min(places.size(), most_listed);
+  const std::size_t listed = std::min(places.size(), most_triangles_listed);
   std::string text =
       fmt::format("{}s {}", soup.place_unit(), fmt::join(places.begin(), places.begin() + listed - 1, ", "));
   return text + (listed < places.size() ? fmt::format(", {}, ...", places[listed - 1])
@@ -79,7 +79,7 @@ void check_no_repeated_triangles(const formats::SurfaceSoup& soup, std::string_v
                       count, soup.place_unit(), soup.places[first[1]], remedy);
 }
 
-// Edges of one kind of fault: how many, and the one whose triangle comes first in the file.
+// Edges with one kind of fault: their number, and the edge whose triangle comes first in the file.
 struct FaultyEdges {
   std::size_t count = 0;
   std::vector<geometry::HalfEdge> first;
@@ -116,8 +116,8 @@ bool agree(std::span<const Triangle> triangles, geometry::HalfEdge h, geometry::
   return geometry::start_of(triangles, h) == geometry::end_of(triangles, twin);
 }
 
-// Walks one connected component, giving each triangle the side that it shows: 1 like the first one, -1 turned over.
-// Returns a half-edge where the two ways round disagree, if there is one.
+// Walks over one connected component and gives each triangle the side that it shows: 1 like the first one, -1 turned
+// over. Returns a half-edge where two ways round disagree, if there is one.
 std::optional<geometry::HalfEdge> spread_sides(std::span<const Triangle> triangles,
                                                std::span<const geometry::HalfEdge> twins, std::int32_t start,
                                                std::vector<std::int8_t>& sides, std::vector<std::int32_t>& component) {
@@ -163,14 +163,14 @@ void check_orientation(const formats::SurfaceSoup& soup, std::span<const geometr
                       count_of(flipped.size(), "triangle"), flipped.size() == 1 ? "" : "; the first is here", remedy);
 }
 
-// Every edge has two triangles by now, so that the triangles at a vertex form cycles: one each where it is manifold.
+// Every edge has two triangles by now, so the triangles at a vertex form cycles. A manifold vertex has one cycle.
 void check_vertices(const formats::SurfaceSoup& soup, std::span<const geometry::HalfEdge> twins) {
   std::vector<std::int32_t> unseen(soup.points.size());
   for (const Triangle& t : soup.triangles)
     for (const Vertex v : t) ++unseen[v];
   std::vector<bool> walked(soup.points.size());
   std::size_t count = 0;
-  geometry::HalfEdge first = -1;
+  geometry::HalfEdge first = geometry::none;
   const auto half_edge_count = static_cast<geometry::HalfEdge>(twins.size());
   for (geometry::HalfEdge h = 0; h < half_edge_count; ++h) {
     const Vertex v = geometry::start_of(soup.triangles, h);
@@ -190,7 +190,7 @@ void check_vertices(const formats::SurfaceSoup& soup, std::span<const geometry::
                       count == 1 ? "1 vertex" : fmt::format("{} vertices", count), text_of(soup.points[v]));
 }
 
-// What tessellate can do about it; only its bundles say what is on the sides.
+// The options of tessellate that may help with intersections. Only bundles of tessellate say what is on the sides.
 const char* hint_for_cad(const formats::SurfaceSoup& soup) {
   if (soup.sides.empty()) return "";
   const auto is_first = [](const auto& sides) { return sides[0] <= 1 && sides[1] <= 1; };

@@ -12,7 +12,7 @@ class SurfaceClearance {
   // The surface must outlive it.
   explicit SurfaceClearance(const Surface& surface);
 
-  // No triangle is nearer than the clearance.
+  // Whether no triangle is nearer than the clearance.
   bool is_clear(const Vec3& p, double clearance) const;
   bool is_inside(const Vec3& p) const { return is_in_material(surface_, columns_, p); }
 

@@ -10,37 +10,37 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-// A fillet turns by so much, and no more beyond its reach on either side, in sizes.
-constexpr double least_turn = 60 * degree, most_turn = 125 * degree, flat_turn = 8 * degree;
+constexpr double one_degree = std::numbers::pi / 180;
+// A fillet turns by this much; beyond its reach on either side, in sizes, the surface turns by no more than flat_turn.
+constexpr double least_turn = 60 * one_degree, most_turn = 125 * one_degree, flat_turn = 8 * one_degree;
 constexpr double fillet_reach = 0.85, flat_reach = 1.25;
-// Edges that bend by less are in one plane; a strip of a fillet is plane but for a part of that.
-constexpr double least_bend = 1 * degree, strip_bend = 0.1 * degree;
-// The turns on both sides of an edge differ by less than that part of its own bend in the middle of a fillet; up to the
-// other at a side of the strip that is in the middle.
+// Edges that bend by less than the first angle lie in one plane. A strip of a fillet is plane up to a fraction of that.
+constexpr double least_bend = 1 * one_degree, strip_bend = 0.1 * one_degree;
+// In the middle of a fillet, the turns on both sides of an edge differ by less than the first share of the edge's own
+// bend. At a side of the middle strip they differ by up to the second share.
 constexpr double in_the_middle = 0.9, beside_the_middle = 1.1;
-// Of both sides, of all turns, that go one way.
+// On both sides, the share of all turns that go one way.
 constexpr double least_one_way = 0.9;
-// On a way across; more are needles without a width.
-constexpr std::size_t most_triangles = 1000;
-// A line goes on from one edge to the next where it turns by less, and counts from that length on, in sizes. Others
-// nearer than that to it are of the same fillet.
-constexpr double most_line_turn = 40 * degree, least_length = 4, same_fillet = 0.5;
+// The most triangles on a way across. If there are more, they are needles without a width.
+constexpr std::size_t most_across = 1000;
+// A line continues from one edge to the next if it turns by less than the angle, and counts if it has the least length
+// in sizes. Other lines nearer to it than the last number belong to the same fillet.
+constexpr double most_line_turn = 40 * one_degree, least_length = 4, same_fillet = 0.5;
 
 struct Across {
-  double turn_near = 0, turn = 0;  // of the normal, within `near` and after all of the way
+  double turn_near = 0, turn = 0;  // of the normal, within `near` and over all of the way
   Vec3 normal_near;
   std::vector<std::int32_t> triangles;
 };
 
-// Straight on from the middle of a half-edge into its triangle and over the next ones, up to a feature.
+// Walks straight from the middle of a half-edge into its triangle and over the next ones, up to a feature.
 Across walk_across(const FieldSurface& surface, geometry::HalfEdge start, double near, double reach) {
   Across result;
   const Vec3& normal = surface.normals[geometry::triangle_of(start)];
   SurfacePoint at{surface.points[geometry::start_of(surface.triangles, start)] + 0.5 * surface.edge_vector(start),
                   geometry::triangle_of(start)};
   Vec3 way = surface.inward(start);
-  for (double gone = 0; gone < reach && result.triangles.size() < most_triangles;) {
+  for (double gone = 0; gone < reach && result.triangles.size() < most_across;) {
     result.triangles.push_back(at.triangle);
     const Vec3& here = surface.normals[at.triangle];
     result.turn = angle_between(normal, here);
@@ -86,7 +86,7 @@ class CrestFinder {
     return 0.5 * (mesh_.position(mesh_.from_vertex_handle(h)) + mesh_.position(mesh_.to_vertex_handle(h)));
   }
 
-  // 2 in the middle of a fillet, 1 at one of the sides of the strip that is, 0 elsewhere.
+  // 2 in the middle of a fillet, 1 at a side of the strip in the middle, 0 elsewhere.
   int rank_of(OpenMesh::EdgeHandle e) const {
     if (mesh_.is_feature(e)) return 0;
     const geometry::HalfEdge h = half_edge_of(mesh_, mesh_.halfedge_handle(e, 0)), twin = surface_.twins[h];
@@ -120,7 +120,7 @@ class CrestFinder {
     return best;
   }
 
-  // Both ways from an edge; its edges are no others' any more.
+  // Follows the line both ways from an edge. No other line can have its edges afterwards.
   std::vector<OpenMesh::EdgeHandle> take_line(OpenMesh::EdgeHandle e) {
     std::vector<OpenMesh::EdgeHandle> line{e};
     rank_[e.idx()] = 0;
@@ -132,7 +132,7 @@ class CrestFinder {
     return line;
   }
 
-  // What is beside the line on its fillet is none.
+  // Edges beside the line on its fillet are no crests.
   void forget_beside(const std::vector<OpenMesh::EdgeHandle>& line) {
     for (const auto e : line)
       for (const unsigned side : {0u, 1u}) {
@@ -146,7 +146,7 @@ class CrestFinder {
   const FeatureMesh& mesh_;
   const sizing::SizeField& size_;
   FieldSurface surface_;
-  std::vector<int> rank_;  // of edges
+  std::vector<int> rank_;  // by edge
 };
 
 }  // namespace
@@ -173,7 +173,7 @@ BendStretch bend_stretch(const FieldSurface& surface) {
       queue.push_back(f);
     }
   }
-  // The rest of their planes.
+  // Visits the rest of their planes.
   for (std::size_t next = 0; next < queue.size(); ++next) {
     const std::int32_t f = queue[next];
     for (geometry::HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {

@@ -1,13 +1,14 @@
-// The field is a complex number u = exp(4 i angle) per triangle, in the frame of that triangle; the energy is the sum
-// over the edges that are no features of w |u_i r_ij - u_j|², r_ij being the turn from one triangle's frame to the next
-// as they lie unfolded (Knöppel, Crane, Pinkall, Schröder 2013, in its discretization by triangles, for which
-// constraints along edges are exact; Bommes, Zimmer, Kobbelt 2009 use the same). Feature edges pull their triangles'
-// u to their own direction, curvature pulls weakly everywhere (Cohen-Steiner and Morvan's tensor), so that the linear
-// system is definite and has a direction to follow on surfaces without features. Lengths of u are dropped.
+// The field is a complex number u = exp(4 i angle) per triangle, in the frame of that triangle. The energy is the sum
+// of w |u_i r_ij - u_j|² over the edges that are no features; r_ij is the turn from one triangle's frame to the next as
+// they lie unfolded (Knöppel, Crane, Pinkall, Schröder 2013, in the discretization by triangles, for which constraints
+// along edges are exact; Bommes, Zimmer, Kobbelt 2009 use the same). Feature edges pull u of their triangles to their
+// own direction. Curvature pulls weakly everywhere (Cohen-Steiner and Morvan's tensor), so that the linear system is
+// definite and has a direction to follow on surfaces without features. The lengths of u are dropped.
 //
-// Sides that face each other across the part pull each other's directions to their own: where these differ, frames have
-// to turn on the way through the inside, and rows of points end there. As seen from the other side angles are of the
-// other sign, which is not linear in u: each is pulled to the middle of what both were in the round before.
+// Sides that face each other across the model pull each other's directions to their own. Where their directions differ,
+// frames have to turn on the way through the inside, and rows of points end there. Seen from the other side, angles
+// have the opposite sign, which is not linear in u. So each side is pulled to the middle of what both were in the round
+// before.
 
 #include "tools/tetmesh/surface/cross_field.hpp"
 
@@ -22,13 +23,13 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Pull of a feature edge, against smoothness of about 1 per edge: as good as fixed.
+// The pull of a feature edge, against smoothness of about 1 per edge: as good as fixed.
 constexpr double feature_weight = 100;
-// Pull of curvature that turns the normal by a radian over the size, over an area of the size squared.
+// The pull of curvature that turns the normal by a radian over the size, over an area of the size squared.
 constexpr double curvature_weight = 1;
 // Keeps the system definite on flat surfaces without features, which do not exist in one piece.
 constexpr double least_weight = 1e-6;
-// Averages of the curvature with the neighbours': a tessellation's own edges are noise.
+// How often the curvature is averaged with the neighbours', because a tessellation's own edges are noise.
 constexpr int curvature_rounds = 4;
 
 // exp(i angle) of a direction in a triangle's frame.
@@ -42,13 +43,14 @@ Complex fourth_power(Complex z) {
   return square * square;
 }
 
-// Pull of a square of the size on the other side of a wall of one size; as that of smoothness through the wall it fades
-// with the square of the thickness, in sizes. Seven parts at two sizes of tests/bench/points have 90.8 % of the volume
-// in hexes without, 91.3 with it, mambo-m1 94.5 and 96.7. From 10 in 4 rounds to 20 in 2, 91.1 to 91.2.
+// The pull of a square of the size on the other side of a wall of one size. Like the pull of smoothness through the
+// wall, it fades with the square of the thickness in sizes. Seven models at two sizes of tests/bench/points have 90.8 %
+// of the volume in hexes without it and 91.3 % with it, mambo-m1 94.5 and 96.7 %. From 10 in 4 rounds to 20 in 2 rounds
+// they have 91.1 to 91.2 %.
 constexpr double opposite_weight = 12;
 constexpr int opposite_rounds = 3;
 
-// Of length 1 at most.
+// The same direction, of length 1 at most.
 Complex bounded(Complex u) {
   return u / std::max(1.0, std::abs(u));
 }
@@ -67,7 +69,7 @@ class FieldSolver {
       edges_.push_back(angle_of(frames_[geometry::triangle_of(h)], surface.edge_vector(h)));
   }
 
-  // First, without opposite sides; then agree_with(), once at most, for it adds to the matrix.
+  // Solves without opposite sides. agree_with() may follow once; it adds to the matrix.
   void solve();
   void agree_with(std::span<const OppositeSide> opposite);
   CrossField field() const {
@@ -81,11 +83,11 @@ class FieldSolver {
 
  private:
   std::vector<Complex> curvature() const;
-  // What a triangle's u would be if it had the directions of the one on its other side.
+  // What u of a triangle would be if the triangle had the directions of the one on its other side.
   Complex seen_from(std::int32_t triangle, std::int32_t opposite, Complex u) const;
 
-  // exp(i angle) by which a direction of h's triangle has to be multiplied to be one of its neighbour's. The edge runs
-  // the other way there.
+  // The factor exp(i angle) that makes a direction of h's triangle one of its neighbour's. The edge runs the other way
+  // there.
   Complex turn(geometry::HalfEdge h) const { return -edges_[surface_.twins[h]] / edges_[h]; }
 
   const FieldSurface& surface_;
@@ -96,7 +98,7 @@ class FieldSolver {
   Eigen::VectorXcd right_, solution_;  // u of the triangles
 };
 
-// Of each triangle, the difference of the principal curvatures times exp(2 i angle) of the first one's direction.
+// For each triangle: the difference of the principal curvatures times exp(2 i angle) of the direction of the first one.
 std::vector<Complex> FieldSolver::curvature() const {
   std::vector<Complex> bend(frames_.size());
   for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(edges_.size()); ++h) {
@@ -162,21 +164,21 @@ void FieldSolver::solve() {
 }
 
 void FieldSolver::agree_with(std::span<const OppositeSide> opposite) {
-  const auto count = static_cast<std::int32_t>(frames_.size());
-  std::vector<double> pulls(frames_.size());
-  for (std::int32_t f = 0; f < count; ++f) {
-    if (opposite[f].triangle < 0) continue;
-    const double thickness = std::max(1.0, opposite[f].distance);
-    pulls[f] = opposite_weight * opposite[f].area / (thickness * thickness);
-    matrix_.coeffRef(f, f) += pulls[f];
+  std::vector<double> pulls;
+  for (const OppositeSide& side : opposite) {
+    const double thickness = std::max(1.0, side.distance);
+    pulls.push_back(opposite_weight * side.area / (thickness * thickness));
+    matrix_.coeffRef(side.from, side.from) += pulls.back();
   }
   factors_.factorize(matrix_);
   for (int round = 0; round < opposite_rounds; ++round) {
     Eigen::VectorXcd pulled = right_;
-    for (std::int32_t f = 0; f < count; ++f)
-      if (pulls[f] > 0)
-        pulled[f] += pulls[f] * 0.5 *
-                     (bounded(solution_[f]) + seen_from(f, opposite[f].triangle, solution_[opposite[f].triangle]));
+    for (std::size_t i = 0; i < opposite.size(); ++i) {
+      const OppositeSide& side = opposite[i];
+      pulled[side.from] +=
+          pulls[i] * 0.5 *
+          (bounded(solution_[side.from]) + seen_from(side.from, side.triangle, solution_[side.triangle]));
+    }
     solution_ = factors_.solve(pulled);
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
-// How dense the points on feature curves have to be for the rows of a lattice that begin at them to reach the other
-// curves, where the rows are to be as many again.
+// How dense the points on feature curves have to be so that the rows of a lattice that begin there reach the other
+// curves, where the same number of rows should begin.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace hexpipe::tetmesh::surface {
 
-// Follows the surface's cross field, on triangles as refine_surface() makes them with these lengths.
+// The rows follow the surface's cross field, on triangles as refine_surface() makes them with these lengths.
 std::vector<MeasuredCurve> curves_by_rows(const FeatureMesh& mesh, const sizing::SizeField& size,
                                           const sizing::SizeField& longest, const sizing::SizeField& flatness);
 

@@ -6,7 +6,7 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-// Cosine and sine of the angle at p, times the lengths of its sides.
+// The cosine and the sine of the angle at p, times the lengths of its sides.
 struct Angle {
   double cosine, sine;
   Angle(const Vec3& p, const Vec3& a, const Vec3& b) : cosine(dot(a - p, b - p)), sine(norm(cross(a - p, b - p))) {}

@@ -1,5 +1,5 @@
 #pragma once
-// Lawson's flips on a half-edge mesh: towards triangles whose opposite angles add up to at most 180 degrees.
+// Lawson's flips on a half-edge mesh. They lead to triangles whose opposite angles add up to at most 180 degrees.
 
 #include <vector>
 
@@ -7,23 +7,24 @@
 
 namespace hexpipe::tetmesh::surface {
 
-// The four vertices around an edge: its ends, and the corners across it, left and right of the way from end 0 to 1.
+// The four vertices around an edge: its ends, and the corners across it, left and right on the way from end 0 to end 1.
 struct EdgeDiamond {
   std::array<OpenMesh::VertexHandle, 2> ends, across;
   std::array<Vec3, 2> end_points, across_points;
 
   EdgeDiamond(const FeatureMesh& mesh, OpenMesh::EdgeHandle e);
 
-  // How far the triangles' opposite angles add up over 180 degrees, as a sine-like measure: positive wants a flip.
+  // By how much the opposite angles of the two triangles exceed 180 degrees together, like the sine of the excess. An
+  // edge with a positive value should be flipped.
   double excess() const;
-  // The height of the tet of the four points over the larger of the two pairs of triangles: how far a flip moves the
-  // surface, at the most.
+  // The height of the tet of the four points over the larger of the two pairs of triangles. A flip moves the surface by
+  // no more than that.
   double height() const;
-  // Least cosine between the normals after a flip and the sum of the normals before it.
+  // The least cosine between a normal after the flip and the sum of the normals before it.
   double least_cosine_after_flip() const;
 };
 
-// A queue of edges, each there once.
+// A queue of edges that holds each edge once.
 class EdgeQueue {
  public:
   void push(OpenMesh::EdgeHandle e) {
@@ -46,12 +47,13 @@ class EdgeQueue {
   std::vector<bool> waiting_;
 };
 
-// Flips what is in the queue, and what that makes worth flipping, as long as allow(edge, diamond) agrees; it is asked
-// only about flips that do not fold the surface, and before anything is read but the two triangles. done(edge) is told
-// of each.
+// Flips edges of the queue, and edges that these flips make worth flipping, if allow(edge, diamond) agrees. allow() is
+// asked only about flips that do not fold the surface, and before anything but the two triangles is read. done(edge) is
+// called after each flip.
 template <class Allow, class Done>
 void flip_towards_delaunay(FeatureMesh& mesh, EdgeQueue& queue, Allow&& allow, Done&& done) {
-  // Rounding must not flip the diagonal of a square back and forth, and folds are refused with some reserve.
+  // With a positive excess, rounding cannot flip the diagonal of a square back and forth; folds are refused with some
+  // reserve.
   constexpr double least_excess = 1e-9, least_cosine = 0.2;
   while (!queue.empty()) {
     const OpenMesh::EdgeHandle e = queue.pop();

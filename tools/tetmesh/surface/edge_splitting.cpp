@@ -11,11 +11,11 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-// Right-angled triangles with legs of a size stay as they are.
+// Right-angled triangles with legs of one size stay as they are.
 constexpr double longest_edge = 1.5;
 
-// M.-C. Rivara, "Algorithms for refining triangular grids" (1984), whose triangles stay as good as they were: the
-// longest edge of all is the longest of each of its triangles.
+// M.-C. Rivara, "Algorithms for refining triangular grids" (1984): the longest edge of all is the longest edge of each
+// of its triangles. So the triangles stay as good as they were.
 class EdgeSplitter {
  public:
   EdgeSplitter(const solid::Surface& surface, const sizing::SizeField& size) : size_(size), soup_(surface) {
@@ -57,7 +57,7 @@ class EdgeSplitter {
   void enqueue(const VertexKey<2>& edge) {
     const double length = length_squared(edge);
     const double size = size_.at(0.5 * (soup_.points[edge[0]] + soup_.points[edge[1]]));
-    // Of equal lengths the edge of the lower points goes first.
+    // Among edges of equal length, the one with the lower points goes first.
     if (length > longest_edge * longest_edge * size * size) queue_.emplace(length, VertexKey<2>{edge[0], edge[1]});
   }
 
@@ -76,7 +76,7 @@ class EdgeSplitter {
     for (const Vertex end : edge) enqueue(edge_key(end, middle));
   }
 
-  // The half at the edge's lower end stays in its place.
+  // The half at the lower end of the edge stays in the triangle's place.
   void split(std::int32_t t, const VertexKey<2>& edge, Vertex middle) {
     Triangle other = soup_.triangles[t];
     std::ranges::replace(other, edge[0], middle);
@@ -87,7 +87,7 @@ class EdgeSplitter {
     soup_.places.push_back(soup_.places[t]);
     if (!soup_.sides.empty()) soup_.sides.push_back(soup_.sides[t]);
     shell_of_.push_back(shell_of_[t]);
-    const Vertex across = other[0] ^ other[1] ^ other[2] ^ middle ^ edge[1];  // the one that is left
+    const Vertex across = other[0] ^ other[1] ^ other[2] ^ middle ^ edge[1];  // the corner that is left over
     std::ranges::replace(triangles_of_[edge_key(edge[1], across)], t, made);
     triangles_of_[edge_key(edge[0], middle)].push_back(t);
     triangles_of_[edge_key(edge[1], middle)].push_back(made);

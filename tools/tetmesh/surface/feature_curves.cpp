@@ -8,13 +8,13 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-using Vertex = OpenMesh::VertexHandle;
+using VertexH = OpenMesh::VertexHandle;
 
-// Step ends nearer to a vertex of the curve than this part of a step are moved there.
+// The end of a step that is nearer to a vertex of the curve than this share of a step moves to the vertex.
 constexpr double snapping = 1e-3;
-// Steps are added for the deviation up to this many times the steps of the size.
+// The deviation adds steps up to this many times the number that the size asks for.
 constexpr int most_refinement = 16;
-// Where sizes differ, lengths are measured in so many parts a size.
+// Where sizes differ, lengths are measured in this many pieces a size.
 constexpr double parts_a_size = 4, most_parts = 1e5;
 
 class CurveFinder {
@@ -23,7 +23,7 @@ class CurveFinder {
 
   std::vector<FeatureCurve> find() {
     for (const bool from_corners : {true, false})
-      for (const Vertex v : mesh_.vertices()) {
+      for (const VertexH v : mesh_.vertices()) {
         if (!mesh_.is_on_feature(v) || (from_corners && !mesh_.is_kept(v))) continue;
         for (const auto h : mesh_.voh_range(v))
           if (is_unseen(h)) follow(h);
@@ -39,18 +39,18 @@ class CurveFinder {
 
   void follow(OpenMesh::HalfedgeHandle h) {
     FeatureCurve curve;
-    const Vertex start = mesh_.from_vertex_handle(h);
+    const VertexH start = mesh_.from_vertex_handle(h);
     curve.vertices.push_back(start);
     while (h.is_valid()) {
-      seen_[mesh_.edge_handle(h).idx()] = true;
+      for (const auto copy : mesh_.copies(h)) seen_[mesh_.edge_handle(copy).idx()] = true;
       curve.vertices.push_back(mesh_.to_vertex_handle(h));
       h = continuation(mesh_.to_vertex_handle(h));
     }
-    curve.closed = curve.vertices.back() == start && !mesh_.is_kept(start);
+    curve.closed = mesh_.place(curve.vertices.back()) == mesh_.place(start) && !mesh_.is_kept(start);
     curves_.push_back(std::move(curve));
   }
 
-  OpenMesh::HalfedgeHandle continuation(Vertex v) const {
+  OpenMesh::HalfedgeHandle continuation(VertexH v) const {
     if (!mesh_.is_kept(v))
       for (const auto h : mesh_.voh_range(v))
         if (is_unseen(h)) return h;
@@ -62,7 +62,7 @@ class CurveFinder {
   std::vector<FeatureCurve> curves_;
 };
 
-// A curve by its length in steps.
+// The length of a curve, in steps.
 class CurveLength {
  public:
   CurveLength(const MeasuredCurve& curve, const sizing::SizeField& size)
@@ -98,7 +98,7 @@ class CurveLength {
   }
 
  private:
-  // In parts over which the size hardly changes.
+  // Adds it in pieces over which the size hardly changes.
   void add_segment(const Vec3& from, const Vec3& to, double steps_per_size, const sizing::SizeField& size) {
     const double length = norm(to - from);
     const int parts =
@@ -114,11 +114,11 @@ class CurveLength {
 
   std::vector<Vec3> points_;
   std::vector<double> lengths_;        // up to each point
-  std::vector<std::size_t> vertices_;  // those of the points that are vertices of the curve
+  std::vector<std::size_t> vertices_;  // the points that are vertices of the curve
 };
 
-// Where loops that are copies of each other, like the rims of a hole, start at the same angle, and where their four
-// quarters lie along the axes: in the direction, from the loop's centre, of the axis that lies most in its plane.
+// The direction, from the loop's centre, of the axis that lies most in the loop's plane. With it, loops that are copies
+// of each other, like the rims of a hole, start at the same angle, and their four quarters lie along the axes.
 Vec3 start_direction(const std::vector<Vec3>& loop) {
   Vec3 area;
   for (std::size_t i = 1; i < loop.size(); ++i) area += cross(loop[i - 1] - loop[0], loop[i] - loop[0]);
@@ -137,19 +137,20 @@ class CurveSampler {
   void sample(MeasuredCurve curve) {
     if (curve.closed) turn_to_start(curve);
     CurveLength arc(curve, size_);
-    if (arc.is_bent(whole_steps(arc, curve.closed), deviation_)) {  // what it needs is not what rows do
+    if (arc.is_bent(curve.steps.value_or(whole_steps(arc, curve.closed)), deviation_)) {
+      curve.steps.reset();  // the deviation asks for more steps than the rows
       std::ranges::fill(curve.steps_per_size, 1);
       arc = CurveLength(curve, size_);
     }
-    std::vector<Vertex> vertices;
-    std::ranges::copy_if(curve.vertices, std::back_inserter(vertices), [](Vertex v) { return v.is_valid(); });
-    const int count = step_count(arc, curve.closed);
+    std::vector<VertexH> vertices;
+    std::ranges::copy_if(curve.vertices, std::back_inserter(vertices), [](VertexH v) { return v.is_valid(); });
+    const int count = step_count(arc, curve.closed, curve.steps);
     if (curve.closed) mesh_.keep(vertices.front());
     const double step = arc.length() / count;
     int next = 1;
     for (std::size_t i = 0; i < arc.segments() && next < count; ++i) {
-      Vertex from = vertices[i];
-      const Vertex to = vertices[i + 1];
+      VertexH from = vertices[i];
+      const VertexH to = vertices[i + 1];
       const double end = arc.start_of(i + 1);
       for (; next < count && next * step < end + snapping * step; ++next) {
         if (std::abs(next * step - end) <= snapping * step)
@@ -161,8 +162,8 @@ class CurveSampler {
   }
 
  private:
-  Vertex place(Vertex from, Vertex to, const Vec3& p) {
-    const Vertex v = mesh_.split_edge_at(mesh_.edge_handle(mesh_.find_halfedge(from, to)), p);
+  VertexH place(VertexH from, VertexH to, const Vec3& p) {
+    const VertexH v = mesh_.split_edge_at(mesh_.edge_handle(mesh_.find_halfedge(from, to)), p);
     mesh_.keep(v);
     return v;
   }
@@ -172,14 +173,14 @@ class CurveSampler {
     return std::max(4, 2 * static_cast<int>(std::round(arc.length() / 2)));
   }
 
-  int step_count(const CurveLength& arc, bool closed) const {
-    int count = whole_steps(arc, closed);
+  int step_count(const CurveLength& arc, bool closed, const std::optional<int>& planned) const {
+    int count = planned.value_or(whole_steps(arc, closed));
     const int most = most_refinement * count;
     while (count < most && arc.is_bent(count, deviation_)) count += closed ? 2 : 1;
     return count;
   }
 
-  // Cuts the loop at its start, a vertex of the mesh, and turns it so that it begins there.
+  // Cuts the loop at its start, a vertex of the mesh, and rotates it so that it begins there.
   void turn_to_start(MeasuredCurve& curve) const {
     const Vec3 direction = start_direction(curve.points);
     std::size_t first = curve.points.size();

@@ -3,11 +3,6 @@
 #include <cmath>
 
 namespace hexpipe::tetmesh::surface {
-namespace {
-
-constexpr double aligned_cosine = 0.94;  // between an edge of the feature and a direction that runs along it
-
-}  // namespace
 
 std::optional<FeatureFan> feature_fan(const SurfaceLinks& links, geometry::HalfEdge first) {
   const FieldSurface& surface = links.surface;

@@ -1,5 +1,5 @@
 #pragma once
-// How a cross field goes on along a feature curve, over one of its vertices.
+// How a cross field continues along a feature curve, past one of the curve's vertices.
 
 #include <optional>
 #include <vector>
@@ -8,17 +8,18 @@
 
 namespace hexpipe::tetmesh::surface {
 
-// The triangles around a vertex of a feature on one of its sides, where one of the field's directions runs along both
-// edges of the feature. Lengths are in sizes.
+// The triangles around a vertex of a feature, on one side of it, if one of the field's directions runs along both edges
+// of the feature. Lengths are in sizes.
 struct FeatureFan {
-  geometry::HalfEdge first;        // begins at the vertex, with the first triangle on its left
-  geometry::HalfEdge last;         // ends there, with the last one on its left
-  double first_ahead, last_ahead;  // from these triangles' centres to the middles of the two edges, along the curve
-  double apart;                    // how much further off the curve the first's centre is than the last's
+  geometry::HalfEdge first;  // begins at the vertex and has the first triangle on its left
+  geometry::HalfEdge last;   // ends at the vertex and has the last triangle on its left
+  // from the centres of these triangles to the middles of the two edges, along the curve
+  double first_ahead, last_ahead;
+  double apart;                                 // how much further the first centre is from the curve than the last
   std::vector<fields::LoopStep> along, across;  // from the first triangle to the last
 };
 
-// Of a half-edge of a feature; none where the field turns on the way to the next one.
+// The fan at the start of a half-edge of a feature; nothing if the field turns on the way to the next half-edge.
 std::optional<FeatureFan> feature_fan(const SurfaceLinks& links, geometry::HalfEdge first);
 
 }  // namespace hexpipe::tetmesh::surface

@@ -1,20 +1,52 @@
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/mesh/feature_angle.hpp"
+#include "tools/tetmesh/surface/sheet_cut.hpp"
 
 namespace hexpipe::tetmesh::surface {
 
 FeatureMesh::FeatureMesh(const solid::Surface& surface, double feature_angle)
     : corner_cosine_(cosine_of_degrees(feature_angle)) {
   reserve(surface.points.size(), 3 * surface.triangles.size() / 2, surface.triangles.size());
+  if (!surface.has_sheets) add_whole(surface);
+  if (surface.has_sheets && !add_in_pieces(surface)) {
+    is_manifold_ = false;
+    return;
+  }
+  for (std::size_t f = 0; f < n_faces(); ++f) {
+    source_[f] = static_cast<std::int32_t>(f);
+    is_interface_.push_back(surface.shells[surface.shell_of[f]].in_front != solid::outside_region);
+  }
+  mark_features(surface, feature_angle);
+  mark_corners();
+}
+
+void FeatureMesh::add_whole(const solid::Surface& surface) {
   for (const Vec3& p : surface.points) add_vertex(to_open_mesh(p));
   for (const Triangle& t : surface.triangles) add_face(vertex_handle(t[0]), vertex_handle(t[1]), vertex_handle(t[2]));
   resize_attributes();
-  for (std::size_t f = 0; f < n_faces(); ++f) source_[f] = static_cast<std::int32_t>(f);
-  mark_features(surface, feature_angle);
-  mark_corners();
+}
+
+bool FeatureMesh::add_in_pieces(const solid::Surface& surface) {
+  const SheetCut cut = cut_along_joints(surface);
+  if (!cut.is_manifold) return false;
+  for (const std::int32_t point : cut.point_of) add_vertex(to_open_mesh(surface.points[point]));
+  for (const Triangle& t : cut.triangles) add_face(vertex_handle(t[0]), vertex_handle(t[1]), vertex_handle(t[2]));
+  resize_attributes();
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(cut.point_of.size()); ++v)
+    if (cut.point_of[v] != v) join_copies(VertexHandle(cut.point_of[v]), VertexHandle(v));
+  for (const auto& [from, to] : cut.joints)
+    mark_feature(edge_handle(find_halfedge(VertexHandle(from), VertexHandle(to))), EdgeRole::joint);
+  return true;
+}
+
+// `other` has none yet.
+void FeatureMesh::join_copies(VertexHandle v, VertexHandle other) {
+  std::swap(next_copy_[v.idx()], next_copy_[other.idx()]);
+  place_[other.idx()] = place_[v.idx()];
 }
 
 Vec3 FeatureMesh::area_normal(FaceHandle f) const {
@@ -42,12 +74,17 @@ void FeatureMesh::resize_attributes() {
   edge_role_.resize(n_edges());
   on_feature_.resize(n_vertices());
   vertex_role_.resize(n_vertices(), VertexRole::removable);
+  for (std::size_t v = next_copy_.size(); v < n_vertices(); ++v) {
+    next_copy_.push_back(static_cast<int>(v));
+    place_.push_back(static_cast<std::int32_t>(v));
+  }
   source_.resize(n_faces());
 }
 
 void FeatureMesh::mark_features(const solid::Surface& surface, double feature_angle) {
   const double cosine = cosine_of_degrees(feature_angle);
   for (const EdgeHandle e : edges()) {
+    if (is_joint(e)) continue;
     const FaceHandle f = face_handle(halfedge_handle(e, 0)), g = face_handle(halfedge_handle(e, 1));
     const Vec3 n = area_normal(f), m = area_normal(g);
     const bool sharp = dot(n, m) < cosine * norm(n) * norm(m);
@@ -55,8 +92,20 @@ void FeatureMesh::mark_features(const solid::Surface& surface, double feature_an
     mark_feature(e, EdgeRole::feature);
   }
   for (const formats::CurveEdge& edge : surface.curves)
-    if (const auto h = find_halfedge(vertex_handle(edge[0]), vertex_handle(edge[1])); h.is_valid())
-      mark_feature(edge_handle(h), EdgeRole::feature);
+    for_each_copy(vertex_handle(edge[0]), [&](VertexHandle from) {
+      for_each_copy(vertex_handle(edge[1]), [&](VertexHandle to) {
+        const auto h = find_halfedge(from, to);
+        if (h.is_valid() && !is_joint(edge_handle(h))) mark_feature(edge_handle(h), EdgeRole::feature);
+      });
+    });
+  for (const VertexHandle v : vertices())
+    if (is_contact(v)) on_feature_[v.idx()] = 1;
+}
+
+// Whether pieces meet in the vertex, and this one not along an edge.
+bool FeatureMesh::is_contact(VertexHandle v) const {
+  if (!has_copies(v)) return false;
+  return std::ranges::none_of(ve_range(v), [&](EdgeHandle e) { return is_joint(e); });
 }
 
 void FeatureMesh::mark_feature(EdgeHandle e, EdgeRole role) {
@@ -76,15 +125,33 @@ void FeatureMesh::mark_corners() {
 }
 
 bool FeatureMesh::is_corner(VertexHandle v) const {
-  int count = 0;
-  std::array<Vec3, 2> directions;
-  for (const HalfedgeHandle h : voh_range(v)) {
-    if (!is_feature(edge_handle(h))) continue;
-    if (count == 2) return true;
-    const Vec3 d = position(to_vertex_handle(h)) - position(v);
-    directions[count++] = unit(d);
-  }
-  return count != 2 || -dot(directions[0], directions[1]) < corner_cosine_;
+  std::vector<Vec3> directions;
+  std::vector<std::int32_t> joint_ends;  // which several copies have
+  bool is_touched = false;
+  for_each_copy(v, [&](VertexHandle copy) {
+    is_touched = is_touched || is_contact(copy);
+    for (const HalfedgeHandle h : voh_range(copy)) {
+      if (!is_feature(edge_handle(h))) continue;
+      if (is_joint(edge_handle(h))) {
+        const std::int32_t end = place(to_vertex_handle(h));
+        if (std::ranges::find(joint_ends, end) != joint_ends.end()) continue;
+        joint_ends.push_back(end);
+      }
+      directions.push_back(unit(position(to_vertex_handle(h)) - position(v)));
+    }
+  });
+  return is_touched || directions.size() != 2 || -dot(directions[0], directions[1]) < corner_cosine_;
+}
+
+std::vector<FeatureMesh::HalfedgeHandle> FeatureMesh::copies(HalfedgeHandle h) const {
+  std::vector<HalfedgeHandle> result{h};
+  if (!is_joint(edge_handle(h))) return result;
+  const std::int32_t end = place(to_vertex_handle(h));
+  for_each_copy(from_vertex_handle(h), [&](VertexHandle from) {
+    for (const HalfedgeHandle other : voh_range(from))
+      if (other != h && is_joint(edge_handle(other)) && place(to_vertex_handle(other)) == end) result.push_back(other);
+  });
+  return result;
 }
 
 FeatureMesh::VertexHandle FeatureMesh::add_removable(const Vec3& p, bool on_feature) {
@@ -95,11 +162,20 @@ FeatureMesh::VertexHandle FeatureMesh::add_removable(const Vec3& p, bool on_feat
 }
 
 FeatureMesh::VertexHandle FeatureMesh::split_edge_at(EdgeHandle e, const Vec3& p) {
-  const HalfedgeHandle h = halfedge_handle(e, 0);
+  const std::vector<HalfedgeHandle> parts = copies(halfedge_handle(e, 0));
+  const VertexHandle first = split_one_edge_at(e, p);
+  for (const HalfedgeHandle h : std::span(parts).subspan(1)) join_copies(first, split_one_edge_at(edge_handle(h), p));
+  return first;
+}
+
+FeatureMesh::VertexHandle FeatureMesh::split_one_edge_at(EdgeHandle e, const Vec3& p) {
+  HalfedgeHandle h = halfedge_handle(e, 0);
+  if (is_boundary(h)) h = opposite_halfedge_handle(h);
+  const HalfedgeHandle twin = opposite_halfedge_handle(h);
   const VertexHandle ends[2] = {to_vertex_handle(h), from_vertex_handle(h)};
   const VertexHandle across = to_vertex_handle(next_halfedge_handle(h));
   const std::int32_t source_here = source(face_handle(h));
-  const std::int32_t source_there = source(face_handle(opposite_halfedge_handle(h)));
+  const std::int32_t source_there = is_boundary(twin) ? source_here : source(face_handle(twin));
   const EdgeRole role = edge_role_[e.idx()];
   const VertexHandle v = add_removable(p, is_feature(e));
   split(e, v);
@@ -107,6 +183,7 @@ FeatureMesh::VertexHandle FeatureMesh::split_edge_at(EdgeHandle e, const Vec3& p
   for (const HalfedgeHandle out : voh_range(v)) {
     const VertexHandle end = to_vertex_handle(out);
     edge_role_[edge_handle(out).idx()] = end == ends[0] || end == ends[1] ? role : EdgeRole::none;
+    if (is_boundary(out)) continue;
     const bool here = end == across || to_vertex_handle(next_halfedge_handle(out)) == across;
     source_[face_handle(out).idx()] = here ? source_here : source_there;
   }
@@ -122,18 +199,21 @@ FeatureMesh::VertexHandle FeatureMesh::split_face_at(FaceHandle f, const Vec3& p
   return v;
 }
 
-// Two pairs of edges fall into one each: what survives is a feature if one of them was.
+// Two pairs of edges become one edge each; at a border it is one pair. The edge that survives is a feature if one of
+// its pair was.
 void FeatureMesh::collapse_edge(HalfedgeHandle h) {
   const VertexHandle end = to_vertex_handle(h);
   std::array<std::pair<VertexHandle, EdgeRole>, 2> sides;
-  for (const unsigned side : {0u, 1u}) {
-    const HalfedgeHandle next = next_halfedge_handle(side == 0 ? h : opposite_halfedge_handle(h));
-    const HalfedgeHandle last = next_halfedge_handle(next);
-    sides[side] = {to_vertex_handle(next),
-                   std::max(edge_role_[edge_handle(next).idx()], edge_role_[edge_handle(last).idx()])};
+  std::size_t count = 0;
+  for (const HalfedgeHandle side : {h, opposite_halfedge_handle(h)}) {
+    if (is_boundary(side)) continue;
+    const HalfedgeHandle next = next_halfedge_handle(side), last = next_halfedge_handle(next);
+    sides[count++] = {to_vertex_handle(next),
+                      std::max(edge_role_[edge_handle(next).idx()], edge_role_[edge_handle(last).idx()])};
   }
   collapse(h);
-  for (const auto& [across, role] : sides) edge_role_[edge_handle(find_halfedge(end, across)).idx()] = role;
+  for (const auto& [across, role] : std::span(sides).first(count))
+    edge_role_[edge_handle(find_halfedge(end, across)).idx()] = role;
 }
 
 }  // namespace hexpipe::tetmesh::surface

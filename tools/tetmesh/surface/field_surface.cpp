@@ -1,8 +1,17 @@
 #include "tools/tetmesh/surface/field_surface.hpp"
 
+#include <map>
+
+#include "common/mesh/facet_key.hpp"
+
 namespace hexpipe::tetmesh::surface {
 
 FieldSurface::FieldSurface(const FeatureMesh& mesh, const sizing::SizeField& size) {
+  std::map<VertexKey<2>, std::int32_t> joints;  // their numbers by the places of their ends
+  const auto joint_of = [&](OpenMesh::HalfedgeHandle h) {
+    const VertexKey<2> ends = edge_key(mesh.place(mesh.from_vertex_handle(h)), mesh.place(mesh.to_vertex_handle(h)));
+    return joints.try_emplace(ends, static_cast<std::int32_t>(joints.size())).first->second;
+  };
   points.reserve(mesh.n_vertices());
   for (const auto v : mesh.vertices()) points.push_back(mesh.position(v));
   triangles.reserve(mesh.n_faces());
@@ -10,10 +19,11 @@ FieldSurface::FieldSurface(const FeatureMesh& mesh, const sizing::SizeField& siz
   for (const auto f : mesh.faces()) {
     const auto [a, b, c] = mesh.corners(f);
     triangles.push_back({a.idx(), b.idx(), c.idx()});
-    auto h = mesh.halfedge_handle(f);  // half_edge_of() counts from here, too
+    auto h = mesh.halfedge_handle(f);  // half_edge_of() starts here, too
     for (int i = 0; i < 3; ++i, h = mesh.next_halfedge_handle(h)) {
       feature.push_back(mesh.is_feature(mesh.edge_handle(h)));
       crest.push_back(mesh.is_crest(mesh.edge_handle(h)));
+      joint.push_back(mesh.is_joint(mesh.edge_handle(h)) ? joint_of(h) : geometry::none);
     }
     centres.push_back((points[a.idx()] + points[b.idx()] + points[c.idx()]) * (1.0 / 3));
     const Vec3 normal = mesh.area_normal(f);
@@ -21,8 +31,13 @@ FieldSurface::FieldSurface(const FeatureMesh& mesh, const sizing::SizeField& siz
     normals.push_back(normal * (1 / length));
     areas.push_back(length / 2);
     sizes.push_back(size.at(centres.back()));
+    is_interface.push_back(mesh.is_interface(f));
   }
-  twins = geometry::find_twins(points.size(), triangles);
+  twins.resize(3 * triangles.size());
+  geometry::for_each_edge(points.size(), triangles, [&](std::span<const geometry::HalfEdge> edge) {
+    twins[edge[0]] = edge.back();
+    twins[edge.back()] = edge[0];
+  });
   inwards.reserve(twins.size());
   for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
     inwards.push_back(unit(cross(normals[geometry::triangle_of(h)], edge_vector(h))));

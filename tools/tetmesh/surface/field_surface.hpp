@@ -1,5 +1,5 @@
 #pragma once
-// A refined surface as plain arrays, and what sizes are asked for on it, for the cross field and for walks along it.
+// A refined surface as plain arrays, with the sizes asked for, for the cross field and for walks along it.
 
 #include <vector>
 
@@ -13,39 +13,42 @@ namespace hexpipe::tetmesh::surface {
 struct AreaSample {
   std::int32_t triangle;
   double area;
-  double squares;  // as many of the size
+  double squares;  // the area in squares of the size
 };
 
 struct FieldSurface {
-  // Faces and vertices have the numbers that they have in the mesh, which must have nothing deleted.
+  // Faces and vertices have the same numbers as in the mesh, which must have no deleted elements.
   FieldSurface(const FeatureMesh& mesh, const sizing::SizeField& size);
 
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
-  std::vector<geometry::HalfEdge> twins;
-  std::vector<bool> feature;  // of each half-edge
-  std::vector<bool> crest;    // those of these that are in the middle of a fillet
+  std::vector<geometry::HalfEdge> twins;  // at a border, where all edges are features: the half-edge itself
+  std::vector<bool> feature;              // by half-edge
+  std::vector<std::int32_t> joint;        // by half-edge: the number of its joint, where sheets meet, or none
+  std::vector<bool> crest;                // the features in the middle of a fillet
   std::vector<Vec3> centres;
   std::vector<Vec3> normals;  // of length 1
   std::vector<double> areas;
-  std::vector<double> sizes;  // in the middle of each triangle
-  std::vector<Vec3> inwards;  // of each half-edge, see inward()
+  std::vector<double> sizes;       // in the middle of each triangle
+  std::vector<bool> is_interface;  // by triangle: a region is on both of its sides
+  std::vector<Vec3> inwards;       // by half-edge, see inward()
 
   Vec3 edge_vector(geometry::HalfEdge h) const {
     return points[geometry::end_of(triangles, h)] - points[geometry::start_of(triangles, h)];
   }
-  // At right angles to a half-edge in the plane of its triangle, of length 1, pointing into it.
+  // The direction at right angles to a half-edge in the plane of its triangle, of length 1, that points into the
+  // triangle.
   const Vec3& inward(geometry::HalfEdge h) const { return inwards[h]; }
-  // Of a triangle's area.
+  // The area of a triangle in squares of the size.
   double squares_of_size(std::int32_t triangle) const { return areas[triangle] / (sizes[triangle] * sizes[triangle]); }
-  // Triangles that each stand for at least so many squares of the size; what the last ones lack is left out.
+  // Triangles that each stand for at least this many squares of the size. What is left over at the end has no sample.
   std::vector<AreaSample> samples(double least_squares) const;
 };
 
-// The half-edge of the surface that is one of the mesh's.
+// The number that a half-edge of the mesh has on the surface.
 geometry::HalfEdge half_edge_of(const FeatureMesh& mesh, OpenMesh::HalfedgeHandle h);
 
-// A frame of a triangle's plane: its first side, and that turned by 90 degrees.
+// A frame of a triangle's plane: its first side, and the direction 90 degrees to the left of it.
 struct TangentFrame {
   Vec3 x, y;
 

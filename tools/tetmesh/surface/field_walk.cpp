@@ -6,9 +6,9 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-// A walk that goes around a vertex without getting on is given up after so many triangles.
-constexpr int most_triangles = 10'000;
-// Of a direction of length 1, what it must advance from the edge through which a triangle was entered.
+// A walk that circles around a vertex without getting on is given up after this many triangles.
+constexpr int most_walked = 10'000;
+// A direction of length 1 must advance by this much from the edge through which a triangle was entered.
 constexpr double least_advance = 1e-3;
 
 }  // namespace
@@ -48,7 +48,7 @@ Vec3 FieldWalker::field_beyond(geometry::HalfEdge edge, const Vec3& direction) c
 WalkEnd FieldWalker::go(const SurfacePoint& start, const Vec3& direction, double length, bool along_field) const {
   WalkEnd end{start, direction};
   Vec3& heading = end.heading;
-  for (int i = 0; i < most_triangles; ++i) {
+  for (int i = 0; i < most_walked; ++i) {
     const TriangleExit exit = exit_of(surface_, end.point, heading);
     const double step = std::min(exit.length, length - end.length);
     end.point.position += step * heading;

@@ -13,18 +13,18 @@ struct SurfacePoint {
 struct WalkEnd {
   SurfacePoint point;
   Vec3 heading;             // at the end
-  double length = 0;        // walked
-  bool at_feature = false;  // stopped by a feature edge
+  double length = 0;        // the length of the way
+  bool at_feature = false;  // a feature edge stopped the walk
 };
 
 // Where a straight way leaves a triangle.
 struct TriangleExit {
   geometry::HalfEdge edge = 0;
-  double length = 0;  // of the way until there
+  double length = 0;  // of the way up to there
 };
 TriangleExit exit_of(const FieldSurface& surface, const SurfacePoint& point, const Vec3& direction);
 
-// How a direction goes on straight beyond an edge, with both triangles unfolded.
+// How a direction continues straight beyond an edge, with both triangles unfolded into one plane.
 Vec3 unfolded_beyond(const FieldSurface& surface, geometry::HalfEdge edge, const Vec3& direction);
 
 class FieldWalker {
@@ -34,13 +34,13 @@ class FieldWalker {
   // The direction of the field in a triangle that is nearest to the given one.
   Vec3 nearest_direction(std::int32_t triangle, const Vec3& direction) const;
 
-  // Walks straight in each triangle, from one to the next with the direction of the field that continues the last,
-  // until `length` is walked or a feature edge met.
+  // Walks straight within each triangle. In the next triangle it follows the direction of the field that continues the
+  // last one. It ends after `length`, or at a feature edge.
   WalkEnd walk(const SurfacePoint& start, const Vec3& direction, double length) const {
     return go(start, direction, length, true);
   }
 
-  // Straight on the surface, whatever the field.
+  // Walks straight on the surface and ignores the field.
   WalkEnd walk_straight(const SurfacePoint& start, const Vec3& direction, double length) const {
     return go(start, direction, length, false);
   }

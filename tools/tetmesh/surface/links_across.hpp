@@ -1,5 +1,5 @@
 #pragma once
-// What the triangles of a surface see of those that face them across the inside of a part.
+// How the triangles of a surface see the triangles that face them across the inside of the model.
 
 #include <cstdint>
 #include <span>
@@ -10,11 +10,11 @@
 
 namespace hexpipe::tetmesh::surface {
 
-// Weights are to be compared with those of SurfaceLinks.
+// Its weights are comparable with those of SurfaceLinks.
 class LinksAcross {
  public:
-  // Without those to an opposite side whose directions differ, or which has many more or fewer rows, because both sides
-  // bend or sizes differ.
+  // Leaves out links to an opposite side whose directions differ, or that has many more or fewer rows because the two
+  // sides bend or their sizes differ.
   LinksAcross(const SurfaceLinks& links, std::span<const OppositeSide> opposite);
 
   std::span<const SurfaceLink> of(std::int32_t triangle) const {
@@ -23,7 +23,7 @@ class LinksAcross {
 
  private:
   std::vector<std::int64_t> offsets_;  // triangles + 1
-  std::vector<SurfaceLink> links_;     // both ways
+  std::vector<SurfaceLink> links_;     // in both directions
 };
 
 }  // namespace hexpipe::tetmesh::surface

@@ -43,10 +43,10 @@ MeshRegions::MeshRegions(const FeatureMesh& mesh, std::size_t most)
   halve(halve, order, 0, size_);
 }
 
-// Whether a collapse is possible is found out with marks on the neighbours of its end, and flips follow around these.
+// is_collapse_ok() marks the neighbours of the end, and flips around these follow.
 bool MeshRegions::has_around(std::size_t region, const FeatureMesh& mesh, OpenMesh::VertexHandle v) const {
   const auto is_in = [&](OpenMesh::VertexHandle u) { return of(u) == region; };
-  // Nothing is asked of a vertex elsewhere.
+  // The neighbours of a vertex elsewhere are not read.
   for (const auto u : mesh.vv_range(v))
     if (!is_in(u)) return false;
   for (const auto u : mesh.vv_range(v))

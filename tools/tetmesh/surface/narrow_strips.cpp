@@ -5,10 +5,9 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-constexpr std::size_t most_triangles = 1000;
-constexpr double aligned_cosine = 0.94;  // between the way and what is at right angles to a feature
+constexpr std::size_t most_in_strip = 1000;
 
-// From one place to another in a triangle, along a direction, in sizes.
+// The distance in a triangle from one place to another, along a direction, in sizes.
 double length_in(const SurfaceLinks& links, std::int32_t triangle, const Vec3& direction, const Vec3& from,
                  const Vec3& to) {
   return links.stretch.in_direction(triangle, direction) * dot(direction, to - from) / links.surface.sizes[triangle];
@@ -36,7 +35,7 @@ std::optional<NarrowStrip> narrow_strip(const SurfaceLinks& links, geometry::Hal
       strip.width = length;
       return strip;
     }
-    if (links.of[exit.edge].weight <= 0 || strip.across.size() == most_triangles) return std::nullopt;
+    if (links.of[exit.edge].weight <= 0 || strip.across.size() == most_in_strip) return std::nullopt;
     strip.across.push_back(followed.cross(links, exit.edge));
     straight = unfolded_beyond(surface, exit.edge, straight);
     point = {end, geometry::triangle_of(surface.twins[exit.edge])};

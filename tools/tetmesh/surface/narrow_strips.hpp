@@ -8,14 +8,16 @@
 
 namespace hexpipe::tetmesh::surface {
 
-// From the middle of a half-edge of a feature. Lengths are in sizes.
+// A way from the middle of a half-edge of a feature. Lengths are in sizes.
 struct NarrowStrip {
   std::vector<fields::LoopStep> across;  // from the first triangle to the last
-  double before, after;  // from the one feature to the centre of the first, from that of the last to the other
+  // from the first feature to the centre of the first triangle, and from the centre of the last triangle to the other
+  // feature
+  double before, after;
   double width;
 };
 
-// Nothing where no feature that is at right angles to the way, as the first is, is met within `widest`.
+// Nothing if the way meets no feature within `widest`, or one that is not at right angles to it like the first.
 std::optional<NarrowStrip> narrow_strip(const SurfaceLinks& links, geometry::HalfEdge from, double widest);
 
 }  // namespace hexpipe::tetmesh::surface

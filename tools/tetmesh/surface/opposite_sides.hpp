@@ -1,5 +1,5 @@
 #pragma once
-// What faces what across the inside of a part.
+// Which sides of the surface face each other across the inside of the model.
 
 #include <vector>
 
@@ -8,13 +8,14 @@
 namespace hexpipe::tetmesh::surface {
 
 struct OppositeSide {
-  std::int32_t triangle = -1;  // the first one that a ray from the centre, inwards along the normal, meets; -1: none
-  double distance = 0;         // in sizes
-  double area = 0;             // of the surface around, in squares of the size, of which this is a sample
+  std::int32_t from = geometry::none;      // a triangle
+  std::int32_t triangle = geometry::none;  // the first triangle that a ray from its centre meets, along its normal
+  double distance = 0;                     // in sizes
+  double area = 0;                         // the area around that `from` is a sample of, in squares of the size
 };
 
-// Of each triangle; none where the other side is not nearly parallel, or further than 25 sizes, and of most of those
-// that are small: for these, one of several stands.
+// In the order of the triangles; rays go inwards, and both ways from triangles between two regions. There is none where
+// the other side is not nearly parallel or is further than 25 sizes. Among several small triangles one stands for all.
 std::vector<OppositeSide> opposite_sides(const FieldSurface& surface);
 
 }  // namespace hexpipe::tetmesh::surface

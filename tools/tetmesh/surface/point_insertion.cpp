@@ -37,7 +37,7 @@ class PointInserter {
   using Face = OpenMesh::FaceHandle;
   using HalfEdgeHandle = OpenMesh::HalfedgeHandle;
 
-  // Signed distance from an edge's line, positive inside the face.
+  // The signed distance from an edge's line, positive inside the face.
   double inside(HalfEdgeHandle h, const Vec3& normal, const Vec3& p) const {
     const Vec3 from = mesh_.position(mesh_.from_vertex_handle(h)),
                along = mesh_.position(mesh_.to_vertex_handle(h)) - from;
@@ -63,7 +63,7 @@ class PointInserter {
     return least;
   }
 
-  // Of the parts of the point's face, the one in which it lies deepest.
+  // Among the pieces of the point's face, the one in which the point lies deepest.
   Face part_around(const SurfacePoint& point) {
     parts_.assign(1, mesh_.face_handle(static_cast<unsigned>(point.triangle)));
     Face best = parts_[0];
@@ -94,14 +94,14 @@ class PointInserter {
     return v;
   }
 
-  // Puts the vertex in the place of a point near it where that leaves the surface as it is; else it stands for the
-  // point where it is.
+  // Moves the vertex to a point near it if that leaves the surface as it is. Otherwise the vertex stays and stands for
+  // the point.
   void become(OpenMesh::VertexHandle v, const Vec3& p) {
     if (!mesh_.is_kept(v) && !mesh_.is_on_feature(v) && stays_flat_with(v, p)) mesh_.set_point(v, to_open_mesh(p));
     mesh_.keep(v);
   }
 
-  // Whether the faces at v lie in one plane, and still do, none turned over, with v at p.
+  // Whether the faces at v lie in one plane, and still do with v at p, none of them turned over.
   bool stays_flat_with(OpenMesh::VertexHandle v, const Vec3& p) const {
     if (!mesh_.is_flat_around(v)) return false;
     const Vec3 normal = unit(mesh_.area_normal(*mesh_.cvf_begin(v)));
@@ -122,7 +122,7 @@ class PointInserter {
 
   FeatureMesh& mesh_;
   const sizing::SizeField& snap_;
-  std::vector<std::int32_t> cut_from_;  // of each face, the one that it is part of, as it was at the start
+  std::vector<std::int32_t> cut_from_;  // by face: the original face that it is a piece of
   std::vector<Face> parts_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Makes points on a surface vertices of its mesh.
+// Makes vertices of the mesh from points on its surface.
 
 #include <span>
 
@@ -9,9 +9,9 @@
 
 namespace hexpipe::tetmesh::surface {
 
-// Points name the faces of the mesh as it is now. Each becomes a kept vertex. Near a vertex, or an edge, within `snap`,
-// no new one arises: where the surface is flat the vertex moves to the point, elsewhere it stands for the point where
-// it is.
+// The points name the faces of the mesh as it is now. Each point becomes a kept vertex. A point within `snap` of a
+// vertex or of an edge makes no new vertex next to it: where the surface is flat, the vertex moves to the point;
+// elsewhere the vertex stays, and stands for the point.
 void insert_points(FeatureMesh& mesh, std::span<const SurfacePoint> points, const sizing::SizeField& snap);
 
 }  // namespace hexpipe::tetmesh::surface

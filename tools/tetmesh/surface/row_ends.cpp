@@ -1,8 +1,8 @@
-// A row ends where the jumps around a vertex do not add up to zero: a dislocation of the lattice, with the sum as its
-// Burgers vector. A path of edges to another vertex moves it there when the jump across each edge of the path changes
-// by that vector; two opposite ones then cancel. This is how QuadriFlow (Huang, Zhou, Niessner, Shewchuk, Guibas 2018)
-// makes the jumps of a periodic field consistent, by a flow, and for all of the surface; here by paths, nearest first,
-// and the ends that find no partner stay.
+// A row ends where the jumps around a vertex do not add up to zero. Such a vertex is a dislocation of the lattice, and
+// the sum is its Burgers vector. If the jump across each edge of a path changes by that vector, the dislocation moves
+// along the path to another vertex; two opposite dislocations then cancel. QuadriFlow (Huang, Zhou, Niessner, Shewchuk,
+// Guibas 2018) makes the jumps of a periodic field consistent in this way on the whole surface, by a flow. Here paths
+// do it, the nearest first, and ends without a partner stay.
 
 #include "tools/tetmesh/surface/row_ends.hpp"
 
@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <queue>
 #include <tuple>
@@ -17,7 +18,7 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-constexpr geometry::HalfEdge none = -1;
+using geometry::none;
 
 std::int32_t sign_of(bool flipped) {
   return flipped ? -1 : 1;
@@ -55,7 +56,7 @@ class RowJoiner {
   };
   static constexpr double shortest_reach = 1;
 
-  // Calls body(h) for the half-edges from a vertex, beginning with one, until it returns false or all were seen.
+  // Calls body(h) for the half-edges from a vertex, beginning with `first`, until it returns false or all were visited.
   template <class Body>
   void for_each_around(geometry::HalfEdge first, Body&& body) const {
     geometry::HalfEdge h = first;
@@ -75,11 +76,13 @@ class RowJoiner {
 
   const SurfaceLinks& links_;
   RowJumps& jumps_;
-  std::vector<geometry::HalfEdge> first_;  // from each vertex; none where a feature is, or the field turns around it
-  std::vector<std::array<std::int32_t, 2>> ends_;  // of each vertex, as the triangle of the first half-edge sees them
-  // Of one search: ways to the vertices reached, and the half-edges by which.
+  // from each vertex; none on a feature, and where the field turns around the vertex
+  std::vector<geometry::HalfEdge> first_;
+  std::vector<std::array<std::int32_t, 2>> ends_;  // at each vertex, as seen from the triangle of the first half-edge
+  // The state of one search: the lengths of the ways to the vertices reached, and the half-edges by which they were
+  // reached.
   std::vector<std::pair<Vertex, double>> touched_;
-  std::vector<double> lengths_;  // 0 where not reached
+  std::vector<double> lengths_;  // 0: not reached
   std::vector<std::pair<geometry::HalfEdge, End>> reached_from_;
 };
 
@@ -90,7 +93,7 @@ void RowJoiner::measure(Vertex v) {
   for (std::size_t k = 0; k < 2 && is_whole; ++k) {
     FollowedAxis followed{k};
     for_each_around(first_[v], [&](geometry::HalfEdge h) {
-      is_whole = links_.of[h].neighbour >= 0 && links_.of[h].weight > 0;
+      is_whole = links_.of[h].neighbour != none && links_.of[h].weight > 0;
       if (!is_whole) return false;
       sums[k] += sign_of(followed.flipped) * jumps_[h][followed.axis];
       followed.cross(links_, h);
@@ -148,7 +151,7 @@ bool RowJoiner::join_one(Vertex v, std::size_t axis, double radius) {
   return partner.has_value();
 }
 
-// By Dijkstra's way.
+// Dijkstra's algorithm.
 std::optional<Vertex> RowJoiner::find_partner(Vertex v, const End& end, double radius) {
   using Way = std::tuple<double, Vertex, geometry::HalfEdge>;
   std::priority_queue<Way, std::vector<Way>, std::greater<>> ways;
@@ -180,16 +183,23 @@ std::optional<Vertex> RowJoiner::find_partner(Vertex v, const End& end, double r
   return std::nullopt;
 }
 
-// From the start of the half-edge to its end.
+// Moves the end of a row from the start of the half-edge to its end.
 void RowJoiner::move(const End& end, geometry::HalfEdge h) {
   const SurfaceLink& link = links_.of[h];
   const std::size_t k = end.axis.axis;
   const std::int32_t change = -sign_of(end.axis.flipped);
   jumps_[h][k] += change;
-  jumps_[links_.surface.twins[h]][link.axis(k)] -= sign_of(link.flipped[k]) * change;
+  jumps_[links_.surface.twins[h]][link.axis[k]] -= sign_of(link.flipped[k]) * change;
 }
 
 }  // namespace
+
+RowCoordinates row_coordinates(const fields::PeriodicNumbers<2>& phases) {
+  RowCoordinates coordinates;
+  coordinates.reserve(phases.size());
+  for (const auto& [x, y] : phases) coordinates.push_back({fields::coordinate_of(x), fields::coordinate_of(y)});
+  return coordinates;
+}
 
 RowJumps row_jumps(const SurfaceLinks& links, const RowCoordinates& coordinates) {
   RowJumps jumps(links.of.size());
@@ -197,11 +207,11 @@ RowJumps row_jumps(const SurfaceLinks& links, const RowCoordinates& coordinates)
     const SurfaceLink& link = links.of[h];
     for (std::size_t k = 0; k < 2; ++k) {
       const std::int32_t sign = sign_of(link.flipped[k]);
-      const double there = sign * coordinates[link.neighbour][link.axis(k)];
+      const double there = link.seen_along(coordinates[link.neighbour], k);
       const auto jump =
           static_cast<std::int32_t>(std::lround(there + link.distance[k] - coordinates[geometry::triangle_of(h)][k]));
       jumps[h][k] = jump;
-      jumps[links.surface.twins[h]][link.axis(k)] = -sign * jump;
+      jumps[links.surface.twins[h]][link.axis[k]] = -sign * jump;
     }
   });
   return jumps;
@@ -210,6 +220,11 @@ RowJumps row_jumps(const SurfaceLinks& links, const RowCoordinates& coordinates)
 std::vector<std::int32_t> row_ends(const SurfaceLinks& links, const RowJumps& jumps) {
   RowJumps unchanged = jumps;
   return RowJoiner(links, unchanged).counts();
+}
+
+std::int64_t count_row_ends(const SurfaceLinks& links, const fields::PeriodicNumbers<2>& phases) {
+  const std::vector<std::int32_t> ends = row_ends(links, row_jumps(links, row_coordinates(phases)));
+  return std::accumulate(ends.begin(), ends.end(), std::int64_t{0});
 }
 
 void join_row_ends(const SurfaceLinks& links, double reach, RowJumps& jumps) {

@@ -1,8 +1,8 @@
-// Whole numbers first, then real coordinates: the jumps of the periodic coordinates across links are made to add up,
-// as far as that goes, and with them fixed the coordinates are those that change the links' distances least. Bommes,
-// Zimmer, Kobbelt: Mixed-integer quadrangulation (2009) solve the same energy; their jumps are rounded one after the
-// other on a surface that is cut open, here they come from the periodic solution, which has rounded all of them at
-// once.
+// Whole numbers come first, then real coordinates. The jumps of the periodic coordinates across links are made to add
+// up as far as possible. With these fixed, the coordinates are those that change the distances of the links least.
+// Bommes, Zimmer, Kobbelt: Mixed-integer quadrangulation (2009) solve the same energy. Their jumps are rounded one
+// after the other on a surface that is cut open; here they come from the periodic solution, which has rounded all of
+// them at once.
 
 #include "tools/tetmesh/surface/row_joining.hpp"
 
@@ -19,27 +19,20 @@ namespace {
 
 using geometry::HalfEdge;
 
-// Ends that far apart are joined, in sizes: a face takes the first of these with which no row stretches too much. With
-// 12 and 6 alone mambo-s27 gains where it loses with these, plate-holes and mambo-m6 the other way round.
+// The distances in sizes over which ends are joined. A face takes the first of these with which no row stretches too
+// much. With 12 and 6 alone, mambo-s27 gains where it loses with these; plate-holes and mambo-m6 behave the other way
+// round.
 constexpr std::array<double, 4> reaches{40, 20, 12, 6};
 constexpr fields::DiffusionLimits joining_limits{150, 1e-3};
-// Sides that face each other count where their rows are that near to each other, in rows.
+// Sides that face each other count where their rows are this near to each other, in rows.
 constexpr double same_row = 0.3;
 constexpr double least_degree = 1e-9;
-
-double seen_through(const SurfaceLink& link, std::size_t k, double there) {
-  return link.flipped[k] ? -there : there;
-}
 
 class RowStraightener {
  public:
   RowStraightener(SurfaceLinks& links, const LinksAcross& across,
                   std::span<const std::array<fields::Complex, 2>> targets, fields::PeriodicNumbers<2>& phases)
-      : links_(links), across_(across), targets_(targets), phases_(phases) {
-    for (const auto& numbers : phases) {
-      auto& coordinates = coordinates_.emplace_back();
-      for (std::size_t k = 0; k < 2; ++k) coordinates[k] = std::arg(numbers[k]) / (2 * std::numbers::pi);
-    }
+      : links_(links), across_(across), targets_(targets), phases_(phases), coordinates_(row_coordinates(phases)) {
     jumps_ = row_jumps(links, coordinates_);
     number_faces();
     are_joined_.resize(static_cast<std::size_t>(face_count_));
@@ -69,8 +62,7 @@ class RowStraightener {
   RowCoordinates solve(const RowJumps& jumps, const RowCoordinates& start, bool with_across) const;
   double distance_between(HalfEdge h, std::size_t k, const RowJumps& jumps, const RowCoordinates& coordinates) const {
     const SurfaceLink& link = links_.of[h];
-    return coordinates[geometry::triangle_of(h)][k] + jumps[h][k] -
-           seen_through(link, k, coordinates[link.neighbour][link.axis(k)]);
+    return coordinates[geometry::triangle_of(h)][k] + jumps[h][k] - link.seen_along(coordinates[link.neighbour], k);
   }
   void apply();
 
@@ -80,33 +72,33 @@ class RowStraightener {
   fields::PeriodicNumbers<2>& phases_;
   RowCoordinates coordinates_;
   RowJumps jumps_;
-  std::vector<std::int32_t> face_of_;  // of each triangle: those joined by links
+  std::vector<std::int32_t> face_of_;  // by triangle; links join the triangles of a face
   std::int32_t face_count_ = 0;
-  std::vector<bool> are_joined_;  // rows of a face
+  std::vector<bool> are_joined_;  // by face: its rows are joined
 };
 
 void RowStraightener::number_faces() {
-  face_of_.assign(size(), -1);
+  face_of_.assign(size(), geometry::none);
   std::vector<std::int32_t> queue;
   const auto reach = [&](std::int32_t f) {
-    if (face_of_[f] >= 0) return;
+    if (face_of_[f] != geometry::none) return;
     face_of_[f] = face_count_;
     queue.push_back(f);
   };
   for (std::int32_t seed = 0; seed < static_cast<std::int32_t>(size()); ++seed) {
-    if (face_of_[seed] >= 0) continue;
+    if (face_of_[seed] != geometry::none) continue;
     reach(seed);
     while (!queue.empty()) {
       const std::int32_t f = queue.back();
       queue.pop_back();
       for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h)
-        if (links_.of[h].neighbour >= 0) reach(links_.of[h].neighbour);
+        if (links_.of[h].neighbour != geometry::none) reach(links_.of[h].neighbour);
     }
     ++face_count_;
   }
 }
 
-// Ends are counted at vertices within a face only, so that any triangle there tells which.
+// Ends are counted only at vertices within a face, so any triangle at the vertex tells the face.
 std::vector<std::int32_t> RowStraightener::ends_by_face(const RowJumps& jumps) const {
   const std::vector<std::int32_t> at_vertices = row_ends(links_, jumps);
   std::vector<std::int32_t> by_face(static_cast<std::size_t>(face_count_));
@@ -150,24 +142,25 @@ std::vector<double> RowStraightener::stretch_by_face(const RowJumps& jumps, cons
   return most;
 }
 
-// body(link, direction, the distance of the neighbour's coordinate, as it is seen, with its jump).
+// Calls body(link, direction, d); d is the distance to the neighbour's coordinate as it is seen, with its jump.
 template <class Body>
 void RowStraightener::for_each_link(std::int32_t f, const RowJumps& jumps, const RowCoordinates& start,
                                     bool with_across, Body&& body) const {
   for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
-    if (links_.of[h].neighbour < 0) continue;
+    if (links_.of[h].neighbour == geometry::none) continue;
     for (std::size_t k = 0; k < 2; ++k) body(links_.of[h], k, links_.of[h].distance[k] - jumps[h][k]);
   }
   if (!with_across) return;
   for (const SurfaceLink& link : across_.of(f))
     for (std::size_t k = 0; k < 2; ++k) {
-      const double there = seen_through(link, k, start[link.neighbour][link.axis(k)]);
+      const double there = link.seen_along(start[link.neighbour], k);
       const double apart = start[f][k] - there - link.distance[k], rows = std::round(apart);
       if (std::abs(apart - rows) < same_row) body(link, k, link.distance[k] + rows);
     }
 }
 
-// Least squares of what distances change, from where they are; held as before, by the whole numbers that are nearest.
+// Minimizes the squares of the changes of the distances. Coordinates that were held before are held at the nearest
+// whole numbers.
 RowCoordinates RowStraightener::solve(const RowJumps& jumps, const RowCoordinates& start, bool with_across) const {
   RowCoordinates degree(size());
   fields::PeriodicNumbers<2> rest(size());
@@ -179,7 +172,7 @@ RowCoordinates RowStraightener::solve(const RowJumps& jumps, const RowCoordinate
       rest[f][k] = hold * (away - std::round(away));
     }
     for_each_link(f, jumps, start, with_across, [&](const SurfaceLink& link, std::size_t k, double distance) {
-      const double there = seen_through(link, k, start[link.neighbour][link.axis(k)]);
+      const double there = link.seen_along(start[link.neighbour], k);
       degree[f][k] += link.weight;
       rest[f][k] += link.weight * (there + distance - start[f][k]);
     });
@@ -191,8 +184,8 @@ RowCoordinates RowStraightener::solve(const RowJumps& jumps, const RowCoordinate
         std::array<fields::Complex, 2> sum{};
         for_each_link(static_cast<std::int32_t>(f), jumps, start, with_across,
                       [&](const SurfaceLink& link, std::size_t k, double) {
-                        const double there = numbers[link.neighbour][link.axis(k)].real();
-                        sum[k] += link.weight * seen_through(link, k, there);
+                        const auto& [x, y] = numbers[link.neighbour];
+                        sum[k] += link.weight * link.seen_along(std::array{x.real(), y.real()}, k);
                       });
         return sum;
       });

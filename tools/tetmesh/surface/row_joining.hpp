@@ -1,5 +1,5 @@
 #pragma once
-// Rows of a surface's lattice that are joined where two of them end on a face, by stretching what lies between.
+// Joins rows of a surface's lattice where two of them end on a face, by stretching the surface between the ends.
 
 #include <array>
 #include <span>
@@ -10,9 +10,9 @@
 
 namespace hexpipe::tetmesh::surface {
 
-// Of periodic coordinates that follow the links: on faces where rows are joined the distances of the links become those
-// of the joined rows, and the coordinates follow. `targets` hold the coordinates of triangles beside features. Rows of
-// a face stretch, from one triangle to the next, by at most `most_stretch` sizes.
+// The periodic coordinates `phases` follow the links. On faces where rows are joined, the distances of the links become
+// those of the joined rows, and the coordinates follow them. `targets` holds the coordinates of triangles beside
+// features. The rows of a face stretch by at most `most_stretch` sizes from one triangle to the next.
 void join_rows(SurfaceLinks& links, const LinksAcross& across, std::span<const std::array<fields::Complex, 2>> targets,
                double most_stretch, fields::PeriodicNumbers<2>& phases);
 

@@ -1,6 +1,8 @@
 #include "tools/tetmesh/surface/surface_curl.hpp"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "tools/tetmesh/fields/layers_across.hpp"
 #include "tools/tetmesh/surface/feature_fan.hpp"
@@ -9,14 +11,18 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-// The less stiff, the further from where they have to do rows stretch: at 0.005, on the fine size of
-// tests/bench/points, 0.1 % more of the volume in hexes on larger parts, 1.6 less on simp; at 0.05, 0.4 less than at
-// 0.02 on larger ones.
+// The smaller the stiffness, the further from the place of need do rows stretch. On the fine size of
+// tests/bench/points, 0.005 gives 0.1 % more of the volume in hexes on larger models and 1.6 % less on simp; 0.05 gives
+// 0.4 % less than 0.02 on larger ones.
 constexpr fields::CurlLimits limits{.stiffness = 0.01f, .most_iterations = 300, .tolerance = 1e-3};
-// Of its length, what a distance may gain or lose; where more is wanted, rows have to end.
+// Numbers of steps are better known where rows stretch further for them: at 0.01 rows end in the middle of long faces.
+// 0.001 presses what is between two grids at an angle: mambo-s22 has 113 row ends then, 73 at 0.01.
+constexpr fields::CurlLimits limits_of_rows{.stiffness = 0.003f, .most_iterations = 600, .tolerance = 1e-3};
+// A distance may gain or lose this share of its length. Where more is wanted, rows have to end.
 constexpr double most_strain = 0.3;
 
-// Of steps along features, in sizes, for which rows stretch; where the deviation asks for shorter ones, rows end.
+// Rows stretch for steps along features of these lengths, in sizes. Where the deviation asks for shorter steps, rows
+// end.
 constexpr double shortest_step = 0.55, longest_step = 1.8;
 
 std::vector<float> distances_of(const SurfaceLinks& links) {
@@ -28,14 +34,14 @@ std::vector<float> distances_of(const SurfaceLinks& links) {
   return distances;
 }
 
-// Around the start of a half-edge, along both directions of its triangle, unless a feature is in the way or they are
-// not the same at the end.
+// Adds a loop around the start of a half-edge for both directions of its triangle, unless a feature is in the way or
+// the direction comes back as another one.
 void add_loops_around(const SurfaceLinks& links, geometry::HalfEdge first, fields::Loops& loops) {
   for (std::size_t k = 0; k < 2; ++k) {
     FollowedAxis followed{k};
     geometry::HalfEdge h = first;
     do {
-      if (links.of[h].neighbour < 0 || links.of[h].weight <= 0) return loops.drop();
+      if (links.of[h].neighbour == geometry::none || links.of[h].weight <= 0) return loops.drop();
       loops.add_step(followed.cross(links, h));
       h = geometry::next_in_triangle(links.surface.twins[h]);
     } while (h != first);
@@ -63,14 +69,20 @@ void for_each_fan(const SurfaceLinks& links, Body&& body) {
       if (const auto fan = feature_fan(links, h)) body(*fan);
 }
 
+template <class Body>
+void for_each_corner(const SurfaceLinks& links, Body&& body) {
+  for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(links.of.size()); ++h)
+    if (links.surface.feature[h] && !feature_fan(links, h)) body(h);
+}
+
 // Rows beside a feature run along it.
 void add_row_along(const FeatureFan& fan, fields::Loops& loops) {
   for (const fields::LoopStep& step : fan.across) loops.add_step(step);
   loops.close(fan.apart);
 }
 
-// Of each half-edge of a feature, the length of the curve between the kept vertices before and after it; 0 where there
-// are none, and of other half-edges.
+// For each half-edge of a feature: the length of the curve between the kept vertices before and after it. 0 where there
+// are none, and for other half-edges.
 std::vector<double> step_lengths(const FieldSurface& surface, std::span<const Vertex> kept) {
   std::vector<bool> is_kept(surface.points.size());
   for (const Vertex v : kept) is_kept[v] = true;
@@ -100,7 +112,34 @@ std::vector<double> step_lengths(const FieldSurface& surface, std::span<const Ve
   return lengths;
 }
 
-// From the middle of the one edge to that of the other it is as many steps as they are parts of.
+bool follows_field(const SurfaceLinks& links, geometry::HalfEdge h) {
+  const std::int32_t f = geometry::triangle_of(h);
+  const Vec3 edge = links.surface.edge_vector(h);
+  return dot(FollowedAxis::nearest(links, f, edge).in(links, f), unit(edge)) > aligned_cosine;
+}
+
+// Around a corner, from one of a face's features there to the other, rows lead to the same point.
+void add_corner(const SurfaceLinks& links, geometry::HalfEdge first, fields::Loops& loops) {
+  const FieldSurface& surface = links.surface;
+  const Vec3& corner = surface.points[geometry::start_of(surface.triangles, first)];
+  const auto ahead = [&](const FollowedAxis& axis, std::int32_t f) {
+    return dot(axis.in(links, f), surface.centres[f] - corner) / surface.sizes[f];
+  };
+  if (!follows_field(links, first)) return;
+  for (std::size_t k = 0; k < 2; ++k) {
+    FollowedAxis followed{k};
+    const double before = ahead(followed, geometry::triangle_of(first));
+    geometry::HalfEdge h = geometry::previous_in_triangle(first);
+    for (; !surface.feature[h]; h = geometry::previous_in_triangle(surface.twins[h])) {
+      if (links.of[h].weight <= 0) return loops.drop();
+      loops.add_step(followed.cross(links, h));
+    }
+    if (geometry::triangle_of(h) == geometry::triangle_of(first) || !follows_field(links, h)) return loops.drop();
+    loops.close(before - ahead(followed, geometry::triangle_of(h)));
+  }
+}
+
+// The distance from the middle of one edge to the middle of the other is as many steps as the edges are parts of.
 void add_known_steps(const SurfaceLinks& links, const FeatureFan& fan, const std::vector<double>& step_length,
                      fields::Loops& loops) {
   const double first_length = step_length[fan.first], last_length = step_length[fan.last];
@@ -118,10 +157,11 @@ void add_known_steps(const SurfaceLinks& links, const FeatureFan& fan, const std
   loops.close(steps - first_ahead + last_ahead);
 }
 
-// On both sides of a curve it is as far.
+// The distance is the same on both sides of a curve.
 void add_same_steps(const SurfaceLinks& links, const FeatureFan& fan, fields::Loops& loops) {
   const auto& twins = links.surface.twins;
-  if (twins[fan.last] < fan.first) return;  // seen from the other side
+  if (twins[fan.last] < fan.first) return;                                   // counted already, from the other side
+  if (twins[fan.last] == fan.last || twins[fan.first] == fan.first) return;  // at a border
   const auto other = feature_fan(links, twins[fan.last]);
   if (!other || other->last != twins[fan.first]) return;
   for (const fields::LoopStep& step : fan.along) loops.add_step(step);
@@ -129,7 +169,23 @@ void add_same_steps(const SurfaceLinks& links, const FeatureFan& fan, fields::Lo
   loops.close(other->first_ahead - other->last_ahead - fan.first_ahead + fan.last_ahead);
 }
 
-// Between two features that are near, rows are counted in the same way everywhere.
+// The distance is also the same in all sheets that meet in a curve.
+void add_same_steps_at_joints(const SurfaceLinks& links, fields::Loops& loops) {
+  std::map<std::pair<std::int32_t, std::int32_t>, FeatureFan> last_known;  // by the joints before and after a vertex
+  const auto& joint = links.surface.joint;
+  for_each_fan(links, [&](const FeatureFan& fan) {
+    if (joint[fan.first] == geometry::none || joint[fan.last] == geometry::none) return;
+    const auto [known, is_new] = last_known.try_emplace(std::minmax(joint[fan.first], joint[fan.last]), fan);
+    if (is_new) return;
+    const FeatureFan& other = known->second;
+    for (const fields::LoopStep& step : fan.along) loops.add_step(step);
+    for (const fields::LoopStep& step : other.along) loops.add_step(step.number, !step.backwards);
+    loops.close(other.first_ahead - other.last_ahead - fan.first_ahead + fan.last_ahead);
+    known->second = fan;
+  });
+}
+
+// Between two features that are near each other, rows are counted in the same way everywhere.
 void add_rows_between(const SurfaceLinks& links, geometry::HalfEdge feature, fields::Loops& loops) {
   const auto strip = narrow_strip(links, feature, fields::widest_to_decide);
   if (!strip || strip->width < shortest_step) return;
@@ -146,6 +202,7 @@ void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept) {
     add_row_along(fan, loops);
     add_known_steps(links, fan, step_length, loops);
   });
+  for_each_corner(links, [&](geometry::HalfEdge h) { add_corner(links, h, loops); });
   for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(links.of.size()); ++h)
     if (links.surface.feature[h]) add_rows_between(links, h, loops);
   const std::vector<float> correction = fields::curl_correction(distances_of(links), loops, limits);
@@ -167,8 +224,10 @@ std::vector<double> steps_along_features(const SurfaceLinks& links) {
     add_row_along(fan, loops);
     add_same_steps(links, fan, loops);
   });
+  add_same_steps_at_joints(links, loops);
+  for_each_corner(links, [&](geometry::HalfEdge h) { add_corner(links, h, loops); });
   std::vector<float> distances = distances_of(links);
-  const std::vector<float> correction = fields::curl_correction(distances, loops, limits);
+  const std::vector<float> correction = fields::curl_correction(distances, loops, limits_of_rows);
   for (std::size_t i = 0; i < distances.size(); ++i) distances[i] += correction[i];
   std::vector<double> steps(links.of.size());
   for_each_fan(links, [&](const FeatureFan& fan) {

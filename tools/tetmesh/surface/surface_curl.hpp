@@ -1,5 +1,6 @@
 #pragma once
-// Distances between the triangles of a surface that add up around its vertices, and fit its feature curves.
+// Corrects the distances between the triangles of a surface so that they add up to zero around its vertices and fit its
+// feature curves.
 
 #include <span>
 #include <vector>
@@ -8,12 +9,13 @@
 
 namespace hexpipe::tetmesh::surface {
 
-// `kept` are the vertices of the surface that are points of the lattice: on features, from one to the next is one step.
+// `kept` holds the vertices of the surface that are points of the lattice: on features, it is one step from each to the
+// next.
 void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept);
 
-// By half-edges of features: from the middle of the one before it to its own, on its left, in steps of a lattice whose
-// rows are to go on beyond the feature and to reach the other features, wherever these have their points. 0 where the
-// field does not tell.
+// For each half-edge of a feature: the distance on its left from the middle of the half-edge before it to its own
+// middle. It is in steps of a lattice whose rows continue beyond the feature and reach the other features, wherever
+// these have their points. 0 where the field does not tell.
 std::vector<double> steps_along_features(const SurfaceLinks& links);
 
 }  // namespace hexpipe::tetmesh::surface

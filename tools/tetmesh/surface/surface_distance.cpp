@@ -11,7 +11,7 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-// Cells along each axis, so that a small width does not fill the memory.
+// The most cells along each axis, so that a small width does not fill the memory.
 constexpr double most_cells = 256;
 constexpr int most_samples_along_edge = 64;
 constexpr std::int64_t triangles_per_block = 256;
@@ -20,11 +20,12 @@ int parts_of(double length, double spacing) {
   return std::clamp(static_cast<int>(std::ceil(length / spacing)), 1, most_samples_along_edge);
 }
 
-// Vertices are samples of the first triangle that has them, points of an edge of the one that runs along it upwards.
+// A vertex is a sample of the first triangle that has it. Points of an edge are samples of the triangle in which the
+// edge runs from its lower to its higher vertex.
 class SurfaceSampler {
  public:
   SurfaceSampler(std::span<const Vec3> points, std::span<const Triangle> triangles, const sizing::SizeField& spacing)
-      : points_(points), triangles_(triangles), spacing_(spacing), owner_(points.size(), -1) {
+      : points_(points), triangles_(triangles), spacing_(spacing), owner_(points.size(), geometry::none) {
     for (std::size_t t = triangles.size(); t-- > 0;)
       for (const Vertex v : triangles[t]) owner_[v] = static_cast<std::int32_t>(t);
   }
@@ -44,7 +45,7 @@ class SurfaceSampler {
       const int parts = parts_of(length, spacing_.at(start + 0.5 * along));
       for (int part = 1; part < parts; ++part) visit(start + (static_cast<double>(part) / parts) * along);
     }
-    // In rows along the longest side: slivers need none.
+    // Samples lie in rows along the longest side, so that slivers need none.
     const Vec3 &a = points_[t[base]], &b = points_[t[(base + 1) % 3]], &c = points_[t[(base + 2) % 3]];
     const double spacing = spacing_.at((a + b + c) * (1.0 / 3)), height = norm(cross(b - a, c - a)) / longest;
     const int rows = parts_of(height, spacing);
@@ -59,7 +60,7 @@ class SurfaceSampler {
   std::span<const Vec3> points_;
   std::span<const Triangle> triangles_;
   const sizing::SizeField& spacing_;
-  std::vector<std::int32_t> owner_;  // of each vertex, a triangle
+  std::vector<std::int32_t> owner_;  // by vertex: a triangle
 };
 
 }  // namespace
@@ -114,7 +115,7 @@ void DistanceIndex::for_each_cell(const Triangle& t, Visit&& visit) const {
 
 double DistanceIndex::distance(const Vec3& p, std::int32_t& nearest, double enough) const {
   Search search{nearest, std::numeric_limits<double>::max(), enough * enough};
-  if (nearest >= 0) {
+  if (nearest != geometry::none) {
     const auto [a, b, c] = triangles_[nearest];
     search.best = geometry::TriangleDistance(points_[a], points_[b], points_[c]).squared(p);
   }
@@ -123,7 +124,7 @@ double DistanceIndex::distance(const Vec3& p, std::int32_t& nearest, double enou
   const double margin = margin_in(centre, p);
   for (std::int64_t ring = 0; ring < rings && !search.is_done(); ++ring) {
     look_in_shell(p, centre, ring, search);
-    // Whatever lies in a later ring is at least that far away; the cells of the next one are looked at singly.
+    // Anything in a later ring is at least this far away. The cells of the next ring are looked at one by one.
     const double reach = static_cast<double>(ring) * width_ + margin;
     if (search.best <= reach * reach) break;
   }
@@ -131,7 +132,7 @@ double DistanceIndex::distance(const Vec3& p, std::int32_t& nearest, double enou
   return std::sqrt(search.best);
 }
 
-// How far a point is from the sides of its cell; 0 outside.
+// The distance of a point from the sides of its cell; 0 outside.
 double DistanceIndex::margin_in(const Cell& cell, const Vec3& p) const {
   auto along = [&](double x, double low, std::int64_t number) {
     const double from_low = x - (low + static_cast<double>(number) * width_);
@@ -181,10 +182,10 @@ SurfaceDistance one_sided_distance(std::span<const Vec3> points, std::span<const
       static_cast<std::int64_t>(triangles.size()), triangles_per_block,
       [&](std::int64_t begin, std::int64_t end) {
         SurfaceDistance part;
-        std::int32_t nearest = -1;  // of the last sample, next to which the next one lies
+        std::int32_t nearest = -1;  // of the last sample, beside which the next one lies
         for (std::int64_t i = begin; i < end; ++i) {
           sampler.for_each_sample(i, [&](const Vec3& p) {
-            // What is neither the greatest nor beyond the limit need not be exact.
+            // A distance that is neither the greatest nor beyond the limit need not be exact.
             const double distance = other.distance(p, nearest, std::min(part.greatest, limit.least()));
             part.greatest = std::max(part.greatest, distance);
             if (!limit.is_at_least(distance, p)) part.beyond.push_back(p);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/mesh/tet_mesh.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/sizing/size_field.hpp"
 
 namespace hexpipe::tetmesh::surface {
@@ -15,11 +16,11 @@ class DistanceIndex {
   // The arrays must outlive the index.
   DistanceIndex(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
-  // `nearest`: a guess of the nearest triangle, or -1; becomes it. A good guess saves most of the work, and so does
-  // `enough`: of a triangle that is not further away it is not asked whether it is the nearest.
+  // `nearest` is a guess of the nearest triangle, or none, and becomes the nearest triangle. A good guess saves most of
+  // the work. So does `enough`: a triangle that is no further away than that is taken without looking for a nearer one.
   double distance(const Vec3& p, std::int32_t& nearest, double enough = 0) const;
   double distance(const Vec3& p) const {
-    std::int32_t nearest = -1;
+    std::int32_t nearest = geometry::none;
     return distance(p, nearest);
   }
 
@@ -30,7 +31,7 @@ class DistanceIndex {
   Cell cell_of(const Vec3& p) const;
   std::int64_t number_of(const Cell& c) const { return (c.z * counts_.y + c.y) * counts_.x + c.x; }
   double margin_in(const Cell& cell, const Vec3& p) const;
-  // The nearest triangle so far, and the square of its distance; that of `enough`.
+  // The nearest triangle so far with the square of its distance, and the square of `enough`.
   struct Search {
     std::int32_t nearest;
     double best, enough;
@@ -57,7 +58,7 @@ struct SurfaceDistance {
   std::vector<Vec3> beyond;  // samples further away than the limit
 };
 
-// Distances of samples of one surface, its vertices among them, from another.
+// Distances from samples of one surface, with its vertices among them, to another surface.
 SurfaceDistance one_sided_distance(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                    const DistanceIndex& other, const sizing::SizeField& spacing,
                                    const sizing::SizeField& limit);

@@ -1,9 +1,9 @@
-// Points of a lattice that fits the field come first (surface_lattice.hpp). Where its parts do not fit together,
-// packing of parallelograms fills what they leave: each point, first come first served, offers its four neighbours in
-// the directions of the field; one is taken when no point is nearer than a part of the size in the maximum norm of the
-// field's directions there (Baudouin, Remacle, Marchandise, Henrotte, Geuzaine 2014, section 3). Where a direction
-// meets a feature curve within a few sizes, the steps are stretched so that a whole number fits, which their paper
-// leaves to chance.
+// Points of a lattice that fits the field come first (surface_lattice.hpp). Where the pieces of the lattice do not fit
+// together, packing of parallelograms fills the gaps. Each point, first come first served, offers its four neighbours
+// in the directions of the field. A neighbour is taken if no point is nearer than a share of the size in the maximum
+// norm of the field's directions there (Baudouin, Remacle, Marchandise, Henrotte, Geuzaine 2014, section 3). If a
+// direction meets a feature curve within a few sizes, the steps are stretched so that a whole number fits; their paper
+// leaves that to chance.
 
 #include "tools/tetmesh/surface/surface_front.hpp"
 
@@ -20,25 +20,26 @@ namespace {
 
 // Points nearer than this, in steps of the lattice, are refused.
 constexpr double least_distance = 0.7;
-// Normals of points that may be in each other's way have at least this cosine: those of the two sides of a wall do not.
-constexpr double least_normal_cosine = 0.3;
-// A triangle of the field, about a size long, has no room for more points that far apart. Where one is so thin
-// that its plane is noise, walks leave the surface, and a front would go on for ever in what should be that triangle.
+// The normals of points that may be in each other's way have at least this cosine. Those of the two sides of a wall do
+// not.
+constexpr double same_side_cosine = 0.3;
+// A triangle of the field is about one size long and has no room for more points at that distance. In a triangle that
+// is so thin that its plane is noise, walks leave the surface, and a front would go on for ever in it.
 constexpr int most_in_triangle = 9;
-// How far, in sizes, a front looks ahead for the feature curve to fit its steps to, and with how much of that still
-// ahead it goes on without looking again.
+// How far, in sizes, a front looks ahead for the feature curve to which it fits its steps. It looks again when less
+// than the second length is still ahead.
 constexpr double look_ahead = 30, least_ahead = 15;
-// Cosine from which a direction is the one in which a point was reached.
+// Directions with at least this cosine count as the one in which a point was reached.
 constexpr double same_way = 0.999;
-// Places on the way to a feature at which the size is asked for.
+// The number of places on the way to a feature at which the size is asked for.
 constexpr std::size_t size_samples = 32;
 
-// What is known of the way ahead.
+// The knowledge about the way ahead.
 struct Outlook {
   Vec3 heading;
-  double step = 0;   // of sizes, to walk
+  double step = 0;   // the length to walk, in sizes
   double steps = 0;  // until a feature is met; 0: none is in sight
-  double clear = 0;  // how far none is, then
+  double clear = 0;  // if none is in sight: for how far
 
   bool holds_for(const Vec3& direction, double least) const {
     return (steps > 0 || clear > least) && dot(heading, direction) > same_way;
@@ -49,7 +50,7 @@ struct Outlook {
 };
 
 struct SizedPoint : SurfacePoint {
-  double size = 0;  // there
+  double size = 0;  // at that place
 };
 
 class SurfaceFront {
@@ -93,23 +94,23 @@ class SurfaceFront {
   const sizing::SizeField& size_;
   std::vector<SurfacePoint> points_;
   std::vector<double> sizes_;                   // at the points
-  std::vector<Outlook> outlooks_;               // of the points, along the way on which they were reached
-  std::vector<std::array<double, 2>> spacing_;  // of the lattice, in each triangle
-  std::size_t next_ = 0;                        // of the points, the first that has not yet offered its neighbours
+  std::vector<Outlook> outlooks_;               // by point, along the way on which it was reached
+  std::vector<std::array<double, 2>> spacing_;  // of the lattice, by triangle
+  std::size_t next_ = 0;                        // the first point that has not yet offered its neighbours
   geometry::SizedPointGrid grid_;               // the kept vertices, then the points
-  std::vector<std::vector<Vec3>> normals_;      // of the points in the grid, of each face around them that differs
-  std::vector<std::int8_t> taken_in_;           // of each triangle, the points
+  std::vector<std::vector<Vec3>> normals_;      // by point of the grid: the normals of the faces around it that differ
+  std::vector<std::int8_t> taken_in_;           // by triangle: the number of points
 };
 
 void SurfaceFront::add_kept(std::span<const Vertex> kept) {
-  std::vector<std::int32_t> number(surface_.points.size(), -1);
+  std::vector<std::int32_t> number(surface_.points.size(), geometry::none);
   for (const Vertex v : kept) {
     number[v] = grid_.add(surface_.points[v], size_.at(surface_.points[v]));
     normals_.emplace_back();
   }
   for (std::size_t f = 0; f < surface_.triangles.size(); ++f)
     for (const Vertex v : surface_.triangles[f]) {
-      if (number[v] < 0) continue;
+      if (number[v] == geometry::none) continue;
       std::vector<Vec3>& normals = normals_[number[v]];
       const Vec3& n = surface_.normals[f];
       if (std::ranges::none_of(normals, [&](const Vec3& m) { return dot(n, m) > 0.99; })) normals.push_back(n);
@@ -124,7 +125,7 @@ void SurfaceFront::start_from_kept(std::span<const Vertex> kept) {
     if (is_kept[geometry::start_of(surface_.triangles, h)]) start_from_corner(h);
 }
 
-// The field's directions that lead from the start of h into its triangle.
+// Starts in the field's directions that lead from the start of h into its triangle.
 void SurfaceFront::start_from_corner(geometry::HalfEdge h) {
   const std::int32_t f = geometry::triangle_of(h);
   const Vec3 left = surface_.inward(h), right = surface_.inward(geometry::previous_in_triangle(h));
@@ -152,7 +153,7 @@ void SurfaceFront::fill_gaps() {
 
 void SurfaceFront::offer_step(const SizedPoint& from, const Vec3& direction, const Outlook& known) {
   WalkEnd end = step(from, direction, 1);
-  // Fitting moves the end of a step that is taken by at most a quarter of the size.
+  // Fitting moves the end of a step by at most a quarter of the size.
   if (!end.at_feature && !is_free(sized(end.point), least_distance - 0.25)) return;
   const Outlook outlook = known.holds_for(direction, least_ahead * from.size) ? known : look(from, direction);
   if (outlook.steps > 0) {
@@ -162,14 +163,14 @@ void SurfaceFront::offer_step(const SizedPoint& from, const Vec3& direction, con
   if (!end.at_feature) take_if_free(sized(end.point), outlook.after_step(end));
 }
 
-// As long as the mean of the sizes at its ends, times `sizes`.
+// The step is as long as the mean of the sizes at its ends, times `sizes`.
 WalkEnd SurfaceFront::step(const SizedPoint& from, const Vec3& direction, double sizes) const {
   const double size = sizes * from.size;
   const double mean = (size + sizes * size_.at(from.position + size * direction)) / 2;
   return walker_.walk(from, direction, mean);
 }
 
-// The length of a way in sizes, which are taken along its chord.
+// The length of a way in sizes, which are measured along its chord.
 double SurfaceFront::sizes_along(const Vec3& from, const WalkEnd& end) const {
   if (size_.is_uniform()) return end.length / size_.greatest();
   double sum = 0;
@@ -201,7 +202,7 @@ bool SurfaceFront::is_free(const SizedPoint& point, double distance) const {
       return here * here + off * off >= wanted * wanted;
     };
     if (is_far(x, along * least) || is_far(y, across * least)) return true;
-    is_free = std::ranges::none_of(normals_[i], [&](const Vec3& m) { return dot(n, m) > least_normal_cosine; });
+    is_free = std::ranges::none_of(normals_[i], [&](const Vec3& m) { return dot(n, m) > same_side_cosine; });
     return is_free;
   });
   return is_free;
@@ -219,10 +220,10 @@ void SurfaceFront::take_if_free(const SizedPoint& point, const Outlook& outlook)
 
 }  // namespace
 
-std::vector<SurfacePoint> surface_front(const FieldSurface& surface, const CrossField& field,
-                                        std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
-                                        const sizing::SizeField& size, double row_stretch) {
-  return SurfaceFront(surface, field, size).run(surface_lattice(surface, field, opposite, kept, row_stretch), kept);
+FrontPoints surface_front(const FieldSurface& surface, const CrossField& field, std::span<const OppositeSide> opposite,
+                          std::span<const Vertex> kept, const sizing::SizeField& size, double row_stretch) {
+  const SurfaceLattice lattice = surface_lattice(surface, field, opposite, kept, row_stretch);
+  return {SurfaceFront(surface, field, size).run(lattice, kept), lattice.row_ends};
 }
 
 }  // namespace hexpipe::tetmesh::surface

@@ -1,6 +1,6 @@
 #pragma once
-// Points on a surface in the directions of its cross field, a size apart: those of a lattice that fits it, and between
-// them by a front that starts from the feature curves.
+// Points on a surface one size apart, in the directions of its cross field: first those of a lattice that fits the
+// field, then points of a front between them, which starts from the feature curves.
 
 #include <span>
 
@@ -10,10 +10,14 @@
 
 namespace hexpipe::tetmesh::surface {
 
-// `kept` are the vertices of the surface that are points already: those of its feature curves. `row_stretch`:
-// see surface_lattice.hpp.
-std::vector<SurfacePoint> surface_front(const FieldSurface& surface, const CrossField& field,
-                                        std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
-                                        const sizing::SizeField& size, double row_stretch);
+struct FrontPoints {
+  std::vector<SurfacePoint> points;
+  std::int64_t row_ends = 0;  // of the lattice, on faces
+};
+
+// `kept` holds the vertices of the surface that are points already: those of its feature curves. `row_stretch`: see
+// surface_lattice.hpp.
+FrontPoints surface_front(const FieldSurface& surface, const CrossField& field, std::span<const OppositeSide> opposite,
+                          std::span<const Vertex> kept, const sizing::SizeField& size, double row_stretch);
 
 }  // namespace hexpipe::tetmesh::surface

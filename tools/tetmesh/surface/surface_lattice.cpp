@@ -19,6 +19,7 @@
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/surface/links_across.hpp"
+#include "tools/tetmesh/surface/row_ends.hpp"
 #include "tools/tetmesh/surface/row_joining.hpp"
 #include "tools/tetmesh/surface/surface_curl.hpp"
 
@@ -28,13 +29,11 @@ namespace {
 // Pull of a feature edge and of a point on it, against all links of the triangle.
 // Shares of the volume in hexes differ by up to 0.4 % from 2 to 20 for points, on larger parts.
 constexpr double edge_weight = 20, point_weight = 5;
-constexpr double aligned_cosine = 0.94;  // between a feature edge's normal and a direction that it is across
 constexpr fields::DiffusionLimits limits{200, 1e-3};
 constexpr int smoothing_sweeps = 60;  // 20 lose 1 % of the volume in hexes on small parts
 // So that both sides of a wall agree again.
 constexpr int sweeps_after_joining = 30;
 constexpr double certain = 1e-3;  // moduli of numbers that features say something about
-constexpr double inertia = 0.3;   // of a number's own value, against its links
 // How strongly the step to the next point of the lattice keeps to the field, against what all links say; and at least.
 constexpr double rigidity = 0.1, least_hold = 1e-9;
 constexpr double least_determinant = 0.2;  // of the cells a step in each direction, below which the field is followed
@@ -85,6 +84,7 @@ class LatticeMaker {
     agree();
     std::ranges::stable_sort(proposals_, std::greater(), &Proposal::trust);
     SurfaceLattice lattice;
+    lattice.row_ends = count_row_ends(links_, phases_);
     lattice.points.reserve(proposals_.size());
     for (const Proposal& p : proposals_) lattice.points.push_back(p.point);
     // Fillets are shorter than what rows are counted on. Steps hardly say so, for links across their narrow strips
@@ -170,26 +170,11 @@ void LatticeMaker::make_anchors(std::span<const Vertex> kept) {
   }
 }
 
-// The numbers of the triangle that a link leads to, as those of its own would have to be.
-Phases seen_through(const SurfaceLink& link, const std::vector<Phases>& phases) {
-  const Phases& theirs = phases[link.neighbour];
-  Phases seen;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const fields::Complex there = theirs[link.axis(k)];
-    seen[k] = fields::times(link.flipped[k] ? std::conj(there) : there, link.turn[k]);
-  }
-  return seen;
-}
-
 Phases LatticeMaker::view_of_neighbours(const std::vector<Phases>& phases, std::int32_t f) const {
   Phases sum{};
-  const auto add = [&](const SurfaceLink& link) {
-    const Phases seen = seen_through(link, phases);
-    for (std::size_t k = 0; k < 2; ++k) sum[k] += link.weight * seen[k];
-  };
   for (geometry::HalfEdge h = 3 * f; h < 3 * f + 3; ++h)
-    if (links_.of[h].neighbour >= 0) add(links_.of[h]);
-  for (const SurfaceLink& link : across_.of(f)) add(link);
+    if (links_.of[h].neighbour >= 0) links_.of[h].add_seen(phases[links_.of[h].neighbour], sum);
+  for (const SurfaceLink& link : across_.of(f)) link.add_seen(phases[link.neighbour], sum);
   return sum;
 }
 
@@ -219,21 +204,17 @@ void LatticeMaker::reach_the_rest() {
     for (; next < queue.size(); ++next)
       for (geometry::HalfEdge h = 3 * queue[next]; h < 3 * queue[next] + 3; ++h) {
         if (links_.of[h].neighbour < 0 || reached[links_.of[h].neighbour]) continue;
-        reach(links_.of[h].neighbour, seen_through(links_.of[surface_.twins[h]], phases_));
+        reach(links_.of[h].neighbour, links_.of[surface_.twins[h]].seen(phases_[queue[next]]));
       }
     if (!reached[seed]) reach(seed, {fields::Complex(1), fields::Complex(1)});
   }
 }
 
-// All at once from the numbers before, so that the order of the triangles does not count.
 void LatticeMaker::sweep() {
-  std::vector<Phases> next(phases_.size());
-  for_each_triangle([&](std::int32_t f) {
-    const Phases view = view_of_neighbours(phases_, f);
-    for (std::size_t k = 0; k < 2; ++k)
-      next[f][k] = fields::unit(view[k] + inertia * degrees_[f] * phases_[f][k] + targets_[f][k]);
-  });
-  phases_.swap(next);
+  phases_ = fields::swept<2>(
+      phases_, [&](const auto& body) { for_each_triangle(body); },
+      [&](std::int32_t f) { return view_of_neighbours(phases_, f); }, [&](std::int32_t f) { return degrees_[f]; },
+      [&](std::int32_t f, std::size_t k) { return targets_[f][k]; });
 }
 
 // By least squares over the distances to the neighbours, which are those of the field no longer.
@@ -280,7 +261,7 @@ void LatticeMaker::propose(const AreaSample& speaker, std::vector<Proposal>& pro
   const double agreement = std::min(std::abs(view[0]), std::abs(view[1])) / degrees_[f];
   const auto axes = directions(f);
   std::array<double, 2> coordinates;
-  for (std::size_t k = 0; k < 2; ++k) coordinates[k] = std::arg(phases_[f][k]) / (2 * std::numbers::pi);
+  for (std::size_t k = 0; k < 2; ++k) coordinates[k] = fields::coordinate_of(phases_[f][k]);
   for (int cell = 0; cell < 9; ++cell) {
     // NOLINTNEXTLINE(bugprone-integer-division): the digits of a number to base 3
     const double x = cell % 3 - 1 - coordinates[0], y = cell / 3 - 1 - coordinates[1];

@@ -17,6 +17,7 @@ struct SurfaceLattice {
   std::vector<SurfacePoint> points;
   // How far the next points are in each triangle, along both of its directions, in sizes.
   std::vector<std::array<double, 2>> spacing;
+  std::int64_t row_ends = 0;  // on faces
 };
 
 // `kept` are the vertices of the surface that are points already. Of sides that face each other across the inside, so

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/surface/crest_lines.hpp"
@@ -11,7 +10,7 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-// Of the triangle of h, to that beyond it, as both lie unfolded.
+// From the triangle of h to the one beyond it, as both lie unfolded.
 SurfaceLink make_link(const SurfaceLinks& links, geometry::HalfEdge h) {
   const FieldSurface& surface = links.surface;
   const geometry::HalfEdge twin = surface.twins[h];
@@ -42,15 +41,12 @@ SurfaceLink make_link(const SurfaceLinks& links, geometry::HalfEdge h) {
 
 }  // namespace
 
-void SurfaceLink::set_turn() {
-  for (std::size_t k = 0; k < 2; ++k) turn[k] = std::polar(1.0, 2 * std::numbers::pi * distance[k]);
-}
-
 double SurfaceLink::match(const std::array<Vec3, 2>& seen, const std::array<Vec3, 2>& there) {
-  crossed = std::abs(dot(seen[0], there[1])) > std::abs(dot(seen[0], there[0]));
+  const bool crossed = std::abs(dot(seen[0], there[1])) > std::abs(dot(seen[0], there[0]));
+  axis = crossed ? std::array<std::uint8_t, 2>{1, 0} : std::array<std::uint8_t, 2>{0, 1};
   double sum = 0;
   for (std::size_t k = 0; k < 2; ++k) {
-    const double cosine = dot(seen[k], there[axis(k)]);
+    const double cosine = dot(seen[k], there[axis[k]]);
     flipped[k] = cosine < 0;
     sum += std::abs(cosine);
   }
@@ -58,18 +54,8 @@ double SurfaceLink::match(const std::array<Vec3, 2>& seen, const std::array<Vec3
 }
 
 SurfaceLink SurfaceLink::reversed(std::int32_t from) const {
-  SurfaceLink back;
-  back.neighbour = from;
-  back.weight = weight;
-  back.crossed = crossed;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const std::size_t there = axis(k);
-    const double sign = flipped[k] ? 1 : -1;
-    back.flipped[there] = flipped[k];
-    back.distance[there] = sign * distance[k];
-    back.way[there] = sign * way[k];
-  }
-  back.set_turn();
+  SurfaceLink back{fields::PeriodicLink<2>::reversed(from)};
+  for (std::size_t k = 0; k < 2; ++k) back.way[axis[k]] = flipped[k] ? way[k] : -way[k];
   return back;
 }
 
@@ -86,7 +72,7 @@ SurfaceLinks::SurfaceLinks(const FieldSurface& on, const CrossField& along)
 fields::LoopStep FollowedAxis::cross(const SurfaceLinks& links, geometry::HalfEdge h) {
   const SurfaceLink& link = links.of[h];
   const geometry::HalfEdge twin = links.surface.twins[h];
-  const std::size_t here = axis, there = link.axis(axis);
+  const std::size_t here = axis, there = link.axis[axis];
   const bool before = flipped, turned = flipped != link.flipped[axis];
   axis = there;
   flipped = turned;

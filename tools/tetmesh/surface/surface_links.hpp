@@ -1,5 +1,5 @@
 #pragma once
-// What the triangles of a surface see of their neighbours along a cross field.
+// How the triangles of a surface see their neighbours along a cross field.
 
 #include <algorithm>
 #include <array>
@@ -7,37 +7,28 @@
 #include <vector>
 
 #include "tools/tetmesh/fields/curl_correction.hpp"
-#include "tools/tetmesh/fields/periodic_numbers.hpp"
+#include "tools/tetmesh/fields/periodic_link.hpp"
 #include "tools/tetmesh/surface/crest_lines.hpp"
 #include "tools/tetmesh/surface/cross_field.hpp"
 
 namespace hexpipe::tetmesh::surface {
 
-// Direction k here is direction k there, or the other one where crossed, turned round where flipped, and `distance[k]`
-// further on.
-struct SurfaceLink {
-  std::array<double, 2> distance{};       // between the centres, in sizes and over what fillets would be; corrected
-  std::array<double, 2> way{};            // as it was before
-  std::array<fields::Complex, 2> turn{};  // by the distances
-  std::array<bool, 2> flipped{};
-  bool crossed = false;
-  std::int32_t neighbour = -1;
-  double weight = 0;
+// Between the centres of triangles, along their two directions. Distances are measured over the unrounded edges of
+// fillets, and corrected.
+struct SurfaceLink : fields::PeriodicLink<2> {
+  std::array<double, 2> way{};  // the distance before the correction
 
-  // To be called when the distances were changed.
-  void set_turn();
-  // Matches directions as they are seen here to those there; their mean cosine.
+  // Matches the directions as they are seen here to those of the neighbour. Returns their mean cosine.
   double match(const std::array<Vec3, 2>& seen, const std::array<Vec3, 2>& there);
-  // A direction that was matched to k, turned round if need be.
+  // The neighbour's direction that was matched to k, reversed if need be.
   Vec3 matched(std::size_t k, const std::array<Vec3, 2>& there) const {
-    return flipped[k] ? -there[axis(k)] : there[axis(k)];
+    return flipped[k] ? -there[axis[k]] : there[axis[k]];
   }
-  std::size_t axis(std::size_t k) const { return crossed ? 1 - k : k; }
-  // The same, seen from the neighbour.
+  // The same link, seen from the neighbour.
   SurfaceLink reversed(std::int32_t from) const;
 };
 
-// What a link counts, by the mean cosine of the directions that it matches.
+// The weight of a link, by the mean cosine of the directions that it matches.
 inline double trust_in_match(double cosine) {
   return std::max(0.0, 4 * cosine - 3);
 }
@@ -48,26 +39,26 @@ struct SurfaceLinks {
   const FieldSurface& surface;
   const CrossField& field;
   BendStretch stretch;
-  std::vector<SurfaceLink> of;  // each half-edge, to the triangle beyond it; without a neighbour where it is a feature
+  std::vector<SurfaceLink> of;  // from each half-edge's triangle to the one beyond it; without a neighbour at a feature
 
   // Calls body(h) for one half-edge of each pair with links.
   template <class Body>
   void for_each_pair(Body&& body) const {
     for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(of.size()); ++h)
-      if (of[h].neighbour >= 0 && h < surface.twins[h]) body(h);
+      if (of[h].neighbour != geometry::none && h < surface.twins[h]) body(h);
   }
-  // Distances are numbered by those half-edges and their triangles' directions.
+  // Distances are numbered by these half-edges and the directions of their triangles.
   static std::int32_t number_of(geometry::HalfEdge h, std::size_t axis) {
     return 2 * h + static_cast<std::int32_t>(axis);
   }
 };
 
-// A direction of a triangle that is followed from one to the next.
+// A direction of a triangle that is followed from one triangle to the next.
 struct FollowedAxis {
   std::size_t axis;
   bool flipped = false;
 
-  // That of the triangle which is nearest to a direction.
+  // The triangle's direction that is nearest to the given one.
   static FollowedAxis nearest(const SurfaceLinks& links, std::int32_t triangle, const Vec3& direction) {
     const auto axes = links.field.axes(links.surface, triangle);
     const std::size_t axis = std::abs(dot(axes[0], direction)) > std::abs(dot(axes[1], direction)) ? 0 : 1;
@@ -77,7 +68,7 @@ struct FollowedAxis {
     const Vec3 along = links.field.axes(links.surface, triangle)[axis];
     return flipped ? -along : along;
   }
-  // Goes on over a half-edge with a link; what that adds to the coordinate.
+  // Continues across a half-edge with a link. Returns what that adds to the coordinate.
   fields::LoopStep cross(const SurfaceLinks& links, geometry::HalfEdge h);
 };
 

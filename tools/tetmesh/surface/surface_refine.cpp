@@ -24,15 +24,15 @@ std::array<Vec3, 2> ends_of(const FeatureMesh& mesh, OpenMesh::EdgeHandle e) {
   return {mesh.position(mesh.from_vertex_handle(h)), mesh.position(mesh.to_vertex_handle(h))};
 }
 
-// Against the longest that is allowed in its middle.
+// In units of the longest length that is allowed in the edge's middle.
 double squared_length(const FeatureMesh& mesh, OpenMesh::EdgeHandle e, const sizing::SizeField& longest) {
   const auto [from, to] = ends_of(mesh, e);
   const double allowed = longest.at(0.5 * (from + to));
   return norm_squared(to - from) / (allowed * allowed);
 }
 
-// Flips after each halving keep the triangles of fans of slivers, which share the ends of their long edges, from having
-// points of their own each.
+// The flips after each halving matter in fans of slivers, which share the ends of their long edges: without them, each
+// sliver would get points of its own.
 void halve_long_edges(FeatureMesh& mesh, const sizing::SizeField& longest, const sizing::SizeField& flatness) {
   std::priority_queue<std::pair<double, int>> queue;
   EdgeQueue changed;
@@ -45,12 +45,14 @@ void halve_long_edges(FeatureMesh& mesh, const sizing::SizeField& longest, const
     const auto [length, number] = queue.top();
     queue.pop();
     const auto e = mesh.edge_handle(static_cast<unsigned>(-number));
-    if (squared_length(mesh, e, longest) != length) continue;  // halved or flipped since
+    if (squared_length(mesh, e, longest) != length) continue;  // it was halved or flipped since
     const auto [from, to] = ends_of(mesh, e);
     const auto middle = mesh.split_edge_at(e, 0.5 * (from + to));
-    for (const auto part : mesh.ve_range(middle)) offer(part);
-    for (const auto f : mesh.vf_range(middle))
-      for (const auto around : mesh.fe_range(f)) changed.push(around);
+    mesh.for_each_copy(middle, [&](OpenMesh::VertexHandle copy) {
+      for (const auto part : mesh.ve_range(copy)) offer(part);
+      for (const auto f : mesh.vf_range(copy))
+        for (const auto around : mesh.fe_range(f)) changed.push(around);
+    });
     flip_flat_edges(mesh, changed, flatness, offer);
   }
 }

@@ -1,14 +1,16 @@
-// Features, and the middles of small fillets, are sampled first, as densely as rows of points are to begin there, the
-// field's triangles made from what is there, a front puts points on them, these are inserted, and the rest of the
-// vertices taken out. What comes out is judged as a whole; around a fault the input's own vertices stay the next time.
+// The steps: sample features, and the middles of small fillets, as densely as rows of points should begin there; make
+// the triangles that carry the field; put points on them by a front; insert these points; remove all other vertices.
+// The result is judged as a whole. Around a fault the input's own vertices stay in the next attempt.
 
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/sizing/sizing.hpp"
 #include "tools/tetmesh/surface/crest_lines.hpp"
@@ -22,23 +24,24 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-// The field's triangles are at most that long, in sizes; those on which rows are counted, at most that.
+// The longest edges of the triangles that carry the field, and of those on which rows are counted, in sizes.
 constexpr double field_edge = 1.3, row_edge = 2.6;
-// Points on features, as a part of all on the surface, that make no difference by their number.
+// If the points on features are less than this share of all points on the surface, their number makes no difference.
 constexpr double few_features = 0.05;
-// Flips that move the surface by less than that, in sizes, do not count as moving it.
+// Flips that move the surface by less than this, in sizes, do not count as moving it.
 constexpr double flatness = 1e-5;
-// Points nearer than that, in sizes, to a vertex or an edge of the field's triangles become one with it.
+// Points nearer than this, in sizes, to a vertex or an edge of the field's triangles become one with it.
 constexpr double snap = 0.02;
-// Distances are measured at points so far apart, in sizes.
+// Distances are measured at points this far apart, in sizes.
 constexpr double sample_spacing = 0.34;
-// The part of the deviation that removing vertices may use, by the distances that it knows: those of vertices.
+// The share of the deviation that removing vertices may use. It knows only the distances of vertices.
 constexpr double removal_share = 0.85;
-// Of the vertices nearer to a fault than that, in sizes, the nearest stays, but none for a fault as near to one that
-// stays. If that does not help in so many attempts, all of them stay, and those within the double of it the next time.
-constexpr double repair_reach = 0.5;
+// Around a fault, the nearest vertex within this many sizes stays, unless a vertex that stays is as near already. If
+// that does not help in `careful_attempts`, all vertices within that reach stay, and in the next attempt those within
+// twice the reach.
+constexpr double fault_reach = 0.5;
 constexpr int careful_attempts = 4, most_attempts = 6;
-// On the new surface, about 2 KB each while it is made.
+// On the new surface; each takes about 2 KB while the surface is made.
 constexpr double most_points = 2e7;
 constexpr std::size_t most_intersections = 1000;
 
@@ -69,14 +72,16 @@ class SurfaceRemesher::Work {
 
  private:
   bool prepare();
-  // False where triangles are too thin for a field.
+  // False if triangles are too thin for a field.
   bool place_points();
   bool rows_go_across() const;
   void remove_vertices_of_input();
   std::vector<Vec3> find_faults();
+  std::vector<Vec3> find_gaps() const;
   void keep_nearest(const std::vector<Vec3>& places, const sizing::SizeField& reach);
   void keep_around(const std::vector<Vec3>& places, const sizing::SizeField& reach);
   std::vector<Vertex> kept_vertices() const;
+  std::size_t count_places(std::span<const Vertex> vertices) const;
   solid::Surface surface_of(const FeatureMesh& mesh) const;
   Vec3 centre_of(std::size_t triangle) const;
 
@@ -84,7 +89,7 @@ class SurfaceRemesher::Work {
   sizing::SizeField size_, deviation_;
   double row_stretch_;
   double expected_points_ = 0;  // on the new surface
-  FeatureMesh prepared_;        // with all points inserted, and the vertices of the input
+  FeatureMesh prepared_;        // with all points inserted, and with the vertices of the input
   std::optional<DistanceIndex> input_;
 };
 
@@ -101,13 +106,17 @@ bool SurfaceRemesher::Work::make() {
 bool SurfaceRemesher::Work::judge() {
   const std::vector<Vec3> faults = find_faults();
   if (result.attempts < careful_attempts)
-    keep_nearest(faults, repair_reach / result.attempts * size_);
+    keep_nearest(faults, fault_reach / result.attempts * size_);
   else
-    keep_around(faults, repair_reach * (result.attempts + 1 - careful_attempts) * size_);
+    keep_around(faults, fault_reach * (result.attempts + 1 - careful_attempts) * size_);
   return faults.empty();
 }
 
 bool SurfaceRemesher::Work::prepare() {
+  if (!prepared_.is_manifold()) {
+    result.failure = "a sheet meets itself along an edge";
+    return false;
+  }
   expected_points_ = sizing::points_on_surface(surface_, size_, most_points);
   if (expected_points_ > most_points) {
     result.failure = "its size asks for more points than memory holds";
@@ -119,7 +128,7 @@ bool SurfaceRemesher::Work::prepare() {
   return placed;
 }
 
-// Rows end where sizes are to differ. Where features are few, what counts is between them.
+// Rows end where sizes differ. Where features are few, the surface between them matters more.
 bool SurfaceRemesher::Work::rows_go_across() const {
   if (!size_.is_uniform()) return false;
   double steps = 0;
@@ -141,11 +150,12 @@ bool SurfaceRemesher::Work::place_points() {
   const FieldSurface field_surface(prepared_, size_);
   const auto [field, opposite] = cross_field_across(field_surface);
   if (!std::ranges::all_of(field.directions, is_place)) return false;
-  const std::vector<SurfacePoint> points =
+  const auto [points, row_ends] =
       surface_front(field_surface, field, opposite, kept, size_, counts_rows ? row_stretch_ : 0);
   insert_points(prepared_, points, snap * size_);
-  result.feature_points = kept.size();
+  result.feature_points = count_places(kept);
   result.front_points = points.size();
+  result.row_ends = row_ends;
   return true;
 }
 
@@ -154,6 +164,11 @@ std::vector<Vertex> SurfaceRemesher::Work::kept_vertices() const {
   for (const auto v : prepared_.vertices())
     if (prepared_.is_kept(v)) kept.push_back(v.idx());
   return kept;
+}
+
+std::size_t SurfaceRemesher::Work::count_places(std::span<const Vertex> vertices) const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      vertices, [&](Vertex v) { return prepared_.place(prepared_.vertex_handle(static_cast<unsigned>(v))) == v; }));
 }
 
 void SurfaceRemesher::Work::remove_vertices_of_input() {
@@ -167,9 +182,11 @@ solid::Surface SurfaceRemesher::Work::surface_of(const FeatureMesh& mesh) const 
   formats::SurfaceSoup soup;
   soup.text = surface_.text;
   soup.name = surface_.name;
-  std::vector<Vertex> number(mesh.n_vertices());
+  std::vector<Vertex> number(mesh.n_vertices(), geometry::none);  // by place: sheets are joined again
   for (const auto v : mesh.vertices()) {
-    number[v.idx()] = static_cast<Vertex>(soup.points.size());
+    Vertex& known = number[mesh.place(v)];
+    if (known >= 0) continue;
+    known = static_cast<Vertex>(soup.points.size());
     soup.points.push_back(mesh.position(v));
   }
   const auto shell = [&](OpenMesh::FaceHandle f) { return surface_.shell_of[mesh.source(f)]; };
@@ -178,7 +195,8 @@ solid::Surface SurfaceRemesher::Work::surface_of(const FeatureMesh& mesh) const 
   std::vector<std::int32_t> shells;
   for (const auto f : faces) {
     const auto [a, b, c] = mesh.corners(f);
-    soup.triangles.push_back({number[a.idx()], number[b.idx()], number[c.idx()]});
+    soup.triangles.push_back({number[mesh.place(a)], number[mesh.place(b)], number[mesh.place(c)]});
+    if (surface_.has_sheets) soup.sides.push_back(surface_.sides[mesh.source(f)]);
     soup.tags.push_back(surface_.tags[mesh.source(f)]);
     soup.places.push_back(surface_.places[mesh.source(f)]);
     shells.push_back(shell(f));
@@ -192,8 +210,37 @@ Vec3 SurfaceRemesher::Work::centre_of(std::size_t triangle) const {
   return (points[a] + points[b] + points[c]) * (1.0 / 3);
 }
 
-// Places where the new surface is not what was promised. Its edges and vertices are manifold and its orientation is
-// right by construction.
+// Edges at which the boundary of a region has a gap. Within a sheet there are none by construction.
+std::vector<Vec3> SurfaceRemesher::Work::find_gaps() const {
+  const solid::Surface& made = result.surface;
+  std::vector<Vec3> gaps;
+  if (!made.has_sheets) return gaps;
+  std::vector<std::pair<std::int32_t, int>> balance;  // of the regions around an edge
+  const auto add = [&](std::int32_t region, int sense) {
+    for (auto& [known, sum] : balance)
+      if (known == region) {
+        sum += sense;
+        return;
+      }
+    balance.emplace_back(region, sense);
+  };
+  geometry::for_each_edge(made.points.size(), made.triangles, [&](std::span<const geometry::HalfEdge> edge) {
+    const Vertex from = geometry::start_of(made.triangles, edge[0]), to = geometry::end_of(made.triangles, edge[0]);
+    balance.clear();
+    for (const geometry::HalfEdge h : edge) {
+      const solid::Shell& sheet = made.shells[made.shell_of[geometry::triangle_of(h)]];
+      const int sense = geometry::start_of(made.triangles, h) == from ? 1 : -1;
+      add(sheet.behind, sense);
+      add(sheet.in_front, -sense);
+    }
+    if (std::ranges::any_of(balance, [](const auto& sum) { return sum.second != 0; }))
+      gaps.push_back(0.5 * (made.points[from] + made.points[to]));
+  });
+  return gaps;
+}
+
+// Places where the new surface is not as promised. By construction, its edges and vertices are manifold within each
+// sheet and its orientation is right.
 std::vector<Vec3> SurfaceRemesher::Work::find_faults() {
   const solid::Surface& made = result.surface;
   std::vector<Vec3> faults;
@@ -203,7 +250,10 @@ std::vector<Vec3> SurfaceRemesher::Work::find_faults() {
   }
   result.failure = "the new surface has triangles without an area";
   if (!faults.empty()) return faults;
-  // Both at once, for the first is seldom in vain.
+  faults = find_gaps();
+  result.failure = "sheets of the new surface do not meet";
+  if (!faults.empty()) return faults;
+  // Both are measured at once, because the second is seldom measured in vain.
   SurfaceDistance there, back;
   both_at_once(
       [&] {
@@ -238,7 +288,7 @@ void SurfaceRemesher::Work::keep_nearest(const std::vector<Vec3>& places, const 
   for (const Vec3& place : places) {
     const double here = reach.at(place), size = size_.at(place);
     if (has_within(fresh, place, here)) continue;
-    std::int32_t nearest = -1;
+    std::int32_t nearest = geometry::none;
     double least = size * size;
     removable.for_each_near(place, size, 0, [&](std::int32_t i) {
       const double distance = norm_squared(removable.points()[i] - place);
@@ -248,7 +298,7 @@ void SurfaceRemesher::Work::keep_nearest(const std::vector<Vec3>& places, const 
       }
       return true;
     });
-    if (nearest < 0) continue;
+    if (nearest == geometry::none) continue;
     prepared_.keep(handles[nearest]);
     fresh.add(prepared_.position(handles[nearest]), reach.greatest());
   }
@@ -287,13 +337,6 @@ RemeshResult SurfaceRemesher::take() {
 
 bool asks_for_too_many_points(const solid::Surface& surface, const sizing::SizeField& size) {
   return sizing::points_on_surface(surface, size, most_points) > most_points;
-}
-
-RemeshResult remesh_surface(const solid::Surface& surface, const RemeshOptions& options) {
-  SurfaceRemesher remesher(surface, options);
-  while (remesher.make() && !remesher.judge()) {
-  }
-  return remesher.take();
 }
 
 }  // namespace hexpipe::tetmesh::surface

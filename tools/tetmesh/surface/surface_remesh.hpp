@@ -1,6 +1,6 @@
 #pragma once
-// A surface's triangles anew, on points that merge into quads and so into hexes: along its features, and between them
-// in the directions of a cross field.
+// Makes a surface's triangles anew, on points that merge into quads and so into hexes: along its features, and between
+// them in the directions of a cross field.
 
 #include <memory>
 #include <optional>
@@ -15,37 +15,38 @@ namespace hexpipe::tetmesh::surface {
 struct RemeshOptions {
   sizing::SizeField size = 1;  // distance of the points
   double feature_angle = default_feature_angle;
-  double deviation = 0.15;                     // of either surface from the other, at the most, in units
+  double deviation = 0.15;                     // the greatest distance of either surface from the other, in units
   std::optional<sizing::SizeField> unit = {};  // nothing: the size
   double row_stretch = 0;                      // in sizes: surface_lattice.hpp
 };
 
 struct RemeshResult {
-  // Tags and places are those of the input's triangles, shells are the input's.
+  // Tags and places come from the input's triangles; the shells are the input's.
   solid::Surface surface;
-  std::string failure;                  // where it failed: why, in a sentence; the surface is empty
-  double from_input = 0, to_input = 0;  // greatest distances of points of the one from the other
+  std::string failure;                  // if it failed: the reason, in a sentence; the surface is empty
+  double from_input = 0, to_input = 0;  // greatest distance of a point of one surface from the other
   std::size_t feature_points = 0, front_points = 0;
-  // Of the input, that stay because the deviation, or a surface that does not intersect itself, asks for them.
+  std::int64_t row_ends = 0;  // on faces, of the lattice of the points there
+  // Vertices of the input that stay because of the deviation, or because the surface would intersect itself without
+  // them.
   std::size_t extra_points = 0;
   int attempts = 0;
 };
 
-// Makes a surface, and another one where that is not what was promised, which is seldom. For callers that go on with it
-// before it is known. Never throws for what the surface is like: where no new surface keeps what is promised, it says
-// so.
+// Makes a surface, and another one in the rare case that the first is not as promised. The caller can work with a
+// surface before it is judged. It never throws because of the surface: if no new surface is as promised, it says so.
 class SurfaceRemesher {
  public:
-  // The input stays where it is.
+  // The input must outlive it.
   SurfaceRemesher(const solid::Surface& surface, const RemeshOptions& options);
   ~SurfaceRemesher();
 
-  // Makes the first surface, or the next one after one that was judged and is faulty. False where none is left to try.
+  // Makes the first surface, or the next one after a faulty one. Returns false if there is nothing left to try.
   bool make();
-  // Whether the one made last is as promised.
+  // Whether the last surface is as promised.
   bool judge();
   const solid::Surface& made() const;
-  // The last one; good only where it was judged so.
+  // The last surface. It is good only if judge() said so.
   RemeshResult take();
 
  private:
@@ -53,9 +54,7 @@ class SurfaceRemesher {
   std::unique_ptr<Work> work_;
 };
 
-// More than memory holds: then no surface is made.
+// Whether the sizes ask for more points than memory holds. Then no surface is made.
 bool asks_for_too_many_points(const solid::Surface& surface, const sizing::SizeField& size);
-
-RemeshResult remesh_surface(const solid::Surface& surface, const RemeshOptions& options);
 
 }  // namespace hexpipe::tetmesh::surface

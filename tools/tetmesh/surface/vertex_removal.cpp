@@ -1,7 +1,7 @@
 // Half-edge collapses in rounds, each followed by Lawson's flips around it. Faces carry the removed vertices that lie
 // nearest to them, and points on edges, so that the distance from the original surface is known at each step (Klein,
-// Liebich, Straßer 1996). First in regions at the same time, then where these meet; regions do not depend on the number
-// of threads.
+// Liebich, Straßer 1996). Edges where sheets meet come first, then regions, at the same time, then the places where
+// regions meet. The regions do not depend on the number of threads.
 
 #include "tools/tetmesh/surface/vertex_removal.hpp"
 
@@ -21,14 +21,14 @@ using Face = OpenMesh::FaceHandle;
 using HalfEdgeH = OpenMesh::HalfedgeHandle;
 using VertexH = OpenMesh::VertexHandle;
 
-// A collapse may turn a face's normal by an angle of this cosine, and make triangles of this shape: 1 is equilateral.
+// A collapse may turn a face's normal by an angle of this cosine, and make triangles of this shape (1 is equilateral).
 constexpr double least_cosine = 0.3, least_shape = 1e-3;
-// Edges that bend by less than this part of the deviation are flat.
-constexpr double least_bend = 0.05;
-// On the others, points are watched at most so many deviations apart.
-constexpr double sample_spacing = 3;
+// Edges that bend by less than this share of the deviation are flat.
+constexpr double flat_bend = 0.05;
+// On the other edges, points are watched at most this many deviations apart.
+constexpr double watch_spacing = 3;
 constexpr double most_samples = 64;  // along an edge
-// Removing some vertices makes others removable; more rounds found nothing.
+// Removing some vertices makes others removable. More rounds found nothing.
 constexpr int most_rounds = 20;
 
 using Corners = std::array<Vec3, 3>;
@@ -46,29 +46,30 @@ double shape_of(const Corners& c) {
   return 2 * std::sqrt(3.0) * norm(area_normal(c)) / std::max(sides, 1e-300);
 }
 
-// A change of the mesh: faces that go or change, what they become, and where their removed vertices would go.
+// A change of the mesh: the faces that go or change, what they become, and where their removed vertices would go.
 struct Change {
-  bool flat = false;  // what changes lies in one plane, before and after
+  bool flat = false;  // everything that changes lies in one plane, before and after
   std::vector<Face> faces;
   std::vector<Corners> corners;
-  std::vector<Vec3> places;         // on the new faces and in the middle of each new edge, at which to measure
-  std::vector<Vec3> strays;         // removed vertices of all faces concerned
-  std::vector<std::size_t> target;  // of each, the index of its new face
+  std::vector<Vec3> places;         // where to measure: on the new faces and in the middle of each new edge
+  std::vector<Vec3> strays;         // removed vertices of all faces that change
+  std::vector<std::size_t> target;  // by stray: the index of its new face
 };
 
-// Of each face, the points that are to stay near it.
+// By face: the points that must stay near it.
 using Strays = std::vector<std::vector<Vec3>>;
 
-// Points on the edges of the surface as it is where it bends: across these, a new edge can leave it without a vertex
-// nearby that would tell.
+// Points on the edges of the original surface where it bends. Across these edges, a new edge can leave the surface
+// without a vertex nearby that would show it.
 Strays samples_of_edges(const FeatureMesh& mesh, const sizing::SizeField& deviation) {
   Strays strays(mesh.n_faces());
   for (const Edge e : mesh.edges()) {
-    const EdgeDiamond diamond(mesh, e);
-    const Vec3 &start = diamond.end_points[0], along = diamond.end_points[1] - start;
-    if (deviation.is_at_least(diamond.height() / least_bend, start)) continue;
-    const Face f = mesh.face_handle(mesh.halfedge_handle(e, 0));
-    const double parts = std::min(most_samples, std::ceil(norm(along) / (sample_spacing * deviation.at(start))));
+    const HalfEdgeH h = mesh.halfedge_handle(e, 0);
+    const Vec3 start = mesh.position(mesh.from_vertex_handle(h));
+    const Vec3 along = mesh.position(mesh.to_vertex_handle(h)) - start;
+    if (!mesh.is_boundary(e) && deviation.is_at_least(EdgeDiamond(mesh, e).height() / flat_bend, start)) continue;
+    const Face f = mesh.face_at(e);
+    const double parts = std::min(most_samples, std::ceil(norm(along) / (watch_spacing * deviation.at(start))));
     // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter): small whole numbers
     for (double i = 1; i < parts; ++i) strays[f.idx()].push_back(start + i / parts * along);
   }
@@ -79,13 +80,13 @@ class VertexRemover {
  public:
   VertexRemover(FeatureMesh& mesh, const DistanceIndex& original, const sizing::SizeField& deviation, Strays& strays)
       : mesh_(mesh), original_(original), deviation_(deviation), strays_(strays) {}
-  // That changes nothing outside of a region.
+  // A remover that changes nothing outside a region.
   VertexRemover(const VertexRemover& whole, const MeshRegions& regions, std::size_t region) : VertexRemover(whole) {
     regions_ = &regions;
     region_ = region;
   }
 
-  // Returns what could not be removed.
+  // Returns the vertices that could not be removed.
   std::vector<VertexH> remove(std::vector<VertexH> waiting) {
     std::vector<VertexH> left;
     for (int round = 0; round < most_rounds && !waiting.empty(); ++round) {
@@ -113,6 +114,9 @@ class VertexRemover {
   };
 
   bool remove(VertexH v);
+  bool remove_with_copies(VertexH v);
+  bool fit_all(std::span<const HalfEdgeH> collapses);
+  void collapse(HalfEdgeH h);
   double shape_after(HalfEdgeH collapse);
   void describe_collapse(HalfEdgeH collapse);
   bool fits() { return strays_fit() && (change_.flat || faces_fit()); }
@@ -124,7 +128,7 @@ class VertexRemover {
 
   FeatureMesh& mesh_;
   const DistanceIndex& original_;
-  std::int32_t nearest_ = -1;  // triangle of the original to what was measured last
+  std::int32_t nearest_ = geometry::none;  // the triangle of the original that was measured last
   const sizing::SizeField& deviation_;
   Strays& strays_;
   const MeshRegions* regions_ = nullptr;  // null: everywhere
@@ -137,6 +141,7 @@ class VertexRemover {
 
 bool VertexRemover::remove(VertexH v) {
   if (regions_ && !regions_->has_around(region_, mesh_, v)) return false;
+  if (mesh_.has_copies(v)) return !regions_ && remove_with_copies(v);
   choices_.clear();
   const bool on_feature = mesh_.is_on_feature(v);
   for (const HalfEdgeH h : mesh_.voh_range(v)) {
@@ -148,19 +153,56 @@ bool VertexRemover::remove(VertexH v) {
     if (!mesh_.is_collapse_ok(choice.collapse)) continue;
     describe_collapse(choice.collapse);
     if (!fits()) continue;
-    const VertexH target = mesh_.to_vertex_handle(choice.collapse);
-    mesh_.collapse_edge(choice.collapse);
-    settle_strays();
-    for (const Edge e : mesh_.ve_range(target)) queue_.push(e);
-    for (const Face f : mesh_.vf_range(target))
-      for (const Edge e : mesh_.fe_range(f)) queue_.push(e);
+    collapse(choice.collapse);
     flip_queued();
     return true;
   }
   return false;
 }
 
-// The least shape of the faces that move; negative where one turns too far.
+// Does the collapse that was described last.
+void VertexRemover::collapse(HalfEdgeH h) {
+  const VertexH target = mesh_.to_vertex_handle(h);
+  mesh_.collapse_edge(h);
+  settle_strays();
+  for (const Edge e : mesh_.ve_range(target)) queue_.push(e);
+  for (const Face f : mesh_.vf_range(target))
+    for (const Edge e : mesh_.fe_range(f)) queue_.push(e);
+}
+
+// Removes all copies in the same way along the joint, or none.
+bool VertexRemover::remove_with_copies(VertexH v) {
+  choices_.clear();
+  for (const HalfEdgeH h : mesh_.voh_range(v)) {
+    if (!mesh_.is_joint(mesh_.edge_handle(h))) continue;
+    double shape = std::numeric_limits<double>::max();
+    for (const HalfEdgeH copy : mesh_.copies(h)) shape = std::min(shape, shape_after(copy));
+    if (shape > least_shape) choices_.push_back({shape, h});
+  }
+  std::ranges::stable_sort(choices_, std::ranges::greater(), &Choice::shape);
+  for (const Choice& choice : choices_) {
+    const std::vector<HalfEdgeH> collapses = mesh_.copies(choice.collapse);
+    if (!fit_all(collapses)) continue;
+    for (const HalfEdgeH h : collapses) {
+      describe_collapse(h);
+      fits();
+      collapse(h);
+    }
+    flip_queued();
+    return true;
+  }
+  return false;
+}
+
+bool VertexRemover::fit_all(std::span<const HalfEdgeH> collapses) {
+  return std::ranges::all_of(collapses, [&](HalfEdgeH h) {
+    if (!mesh_.is_collapse_ok(h)) return false;
+    describe_collapse(h);
+    return fits();
+  });
+}
+
+// The least shape of the faces that move; negative if one of them turns too far.
 double VertexRemover::shape_after(HalfEdgeH collapse) {
   const VertexH v = mesh_.from_vertex_handle(collapse), to = mesh_.to_vertex_handle(collapse);
   double least = std::numeric_limits<double>::max();
@@ -199,7 +241,7 @@ void VertexRemover::describe_collapse(HalfEdgeH collapse) {
     }
     change_.faces.push_back(f);
     change_.corners.push_back(after);
-    // Of the two edges at the corner that moved, one is that of the next face, too, or was there before.
+    // Of the two edges at the corner that moved, one also belongs to the next face, or was there before.
     change_.places.push_back(middle_of(after));
     change_.places.push_back(0.5 * (after[moved] + after[(moved + 1) % 3]));
   }
@@ -224,7 +266,7 @@ bool VertexRemover::strays_fit() {
   return true;
 }
 
-// From the original surface.
+// Measures from the original surface.
 bool VertexRemover::faces_fit() {
   return std::ranges::all_of(change_.places, [&](const Vec3& p) {
     return deviation_.is_at_least(original_.distance(p, nearest_, deviation_.least()), p);
@@ -268,13 +310,18 @@ std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, co
   const auto on_features_first = [&](std::vector<VertexH>& vertices) {
     std::ranges::stable_partition(vertices, [&](VertexH v) { return mesh.is_on_feature(v); });
   };
+  Strays strays = samples_of_edges(mesh, deviation);
+  VertexRemover everywhere(mesh, original, deviation, strays);
+  std::vector<VertexH> at_joints;
+  for (const VertexH v : mesh.vertices())
+    if (!mesh.is_kept(v) && mesh.has_copies(v) && mesh.place(v) == v.idx()) at_joints.push_back(v);
+  const std::size_t left_at_joints = everywhere.remove(std::move(at_joints)).size();
+
   const MeshRegions regions(mesh, region_vertices);
   std::vector<std::vector<VertexH>> waiting(regions.size());
   for (const VertexH v : mesh.vertices())
-    if (!mesh.is_kept(v)) waiting[regions.of(v)].push_back(v);
+    if (!mesh.is_kept(v) && !mesh.has_copies(v)) waiting[regions.of(v)].push_back(v);
 
-  Strays strays = samples_of_edges(mesh, deviation);
-  VertexRemover everywhere(mesh, original, deviation, strays);
   std::vector<VertexRemover> removers;
   for (std::size_t region = 0; region < regions.size(); ++region) removers.emplace_back(everywhere, regions, region);
   parallel_for(static_cast<std::int64_t>(regions.size()), 1, [&](std::int64_t i) {
@@ -288,7 +335,7 @@ std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, co
   on_features_first(left);
   left = everywhere.remove(std::move(left));
   everywhere.flip(std::vector<Edge>(mesh.edges().begin(), mesh.edges().end()));
-  return left.size();
+  return left.size() + left_at_joints;
 }
 
 }  // namespace hexpipe::tetmesh::surface

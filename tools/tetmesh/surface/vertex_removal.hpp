@@ -7,14 +7,13 @@
 
 namespace hexpipe::tetmesh::surface {
 
-// It is done in regions of about so many vertices at the same time: with half as many, more are left for where regions
-// meet.
+// The mesh is changed in regions of about this many vertices at the same time. With half as many, more vertices are
+// left for where regions meet.
 inline constexpr std::size_t region_vertices = 8000;
 
-// Feature curves stay where they are but for their removed vertices, no face turns over, every removed vertex stays
-// within `deviation` of the faces that took its place, and these within it of the original surface. What cannot be
-// removed so stays. Returns how many stayed. The
-// mesh's deleted elements are left in it.
+// Feature curves stay where they are, apart from their removed vertices. No face turns over. Every removed vertex stays
+// within `deviation` of the faces that took its place, and these stay within it of the original surface. Vertices that
+// cannot be removed in this way stay. Returns their number. The mesh's deleted elements are left in it.
 std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, const sizing::SizeField& deviation);
 
 }  // namespace hexpipe::tetmesh::surface

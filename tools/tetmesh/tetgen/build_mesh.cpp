@@ -16,7 +16,7 @@ namespace hexpipe::tetmesh::tetgen {
 namespace {
 
 constexpr std::int32_t unknown_region = -1;
-// Of the volume inside all shells; ten million tets add up to about 1e-12 of it.
+// A share of the volume inside all shells. The sum over ten million tets is off by about 1e-12 of it.
 constexpr double volume_tolerance = 1e-9;
 
 template <class... Args>
@@ -24,7 +24,7 @@ TetGenFailure failure_at(const std::string& place, fmt::format_string<Args...> t
   return TetGenFailure(fmt::format("{}: TetGen failed: {}", place, fmt::format(text, std::forward<Args>(args)...)));
 }
 
-// What TetGen says of its failure, with places in the file where it names triangles.
+// Throws what TetGen says about its failure; if it names triangles, with the first one's place in the file.
 [[noreturn]] void fail(const solid::Surface& surface, const TetGenResult& tetgen) {
   if (tetgen.intersecting.empty()) throw failure_at(surface.name, "{}", tetgen.failure);
   KeySet<3> named;
@@ -48,15 +48,15 @@ void check_orientation(const solid::Surface& surface, const TetMesh& mesh) {
   if (flat > 0) throw failure_at(surface.name, "{} of its {} tets have no volume", flat, mesh.tets.size());
 }
 
-// How many of `wanted` are in `found`, in the same order; what TetGen adds comes last.
+// How many of `wanted` are in `found`, in the same order. Points that TetGen added come last.
 std::size_t count_kept(std::span<const Vec3> wanted, std::span<const Vec3> found) {
   std::size_t kept = 0;
   for (const Vec3& p : wanted) kept += kept < found.size() && found[kept] == p;
   return kept;
 }
 
-// Finds the region of every tet: those at a surface triangle are on a known side of it, the others are reached from
-// them without crossing the surface.
+// Finds the region of every tet. Tets at a surface triangle are on a known side of it; the others are reached from
+// these without crossing the surface.
 class RegionFinder {
  public:
   RegionFinder(const solid::Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency)
@@ -83,7 +83,7 @@ class RegionFinder {
   const TetMesh& mesh_;
   const TetAdjacency& adjacency_;
   std::vector<std::int32_t> regions_;
-  std::vector<std::array<bool, 4>> on_surface_;  // of each tet's facets
+  std::vector<std::array<bool, 4>> on_surface_;  // for each tet and facet
   std::vector<std::int32_t> queue_;
   std::size_t lost_ = 0, first_lost_ = 0;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// From TetGen's tets to the mesh: judges them against the surface, gives them their regions, empties the holes.
+// From TetGen's tets to the mesh: judges the tets against the surface, gives them their regions, and empties the holes.
 
 #include <span>
 
@@ -12,20 +12,20 @@
 namespace hexpipe::tetmesh::tetgen {
 
 struct BuiltMesh {
-  TetMesh mesh;  // points: the surface's, those inside, those that TetGen added; triangles: the surface's
+  TetMesh mesh;  // points: of the surface, then inside, then added by TetGen; triangles: of the surface
   TetAdjacency adjacency;
   std::size_t added_points = 0;    // by TetGen, off the surface
   std::size_t dropped_points = 0;  // of the interior points
 };
 
-// TetGen failed, or did not do what was asked of it.
+// TetGen failed, or its result is not what it was asked for.
 class TetGenFailure : public DataError {
  public:
   using DataError::DataError;
 };
 
-// Throws TetGenFailure when TetGen failed, moved a point or lost a triangle of the surface, left a tet without volume,
-// or when the tets' volumes do not add up to that of a region.
+// Throws TetGenFailure if TetGen failed, moved a point or lost a triangle of the surface, or left a tet without volume,
+// or if the tets of a region do not add up to the region's volume.
 BuiltMesh build_mesh(const solid::Surface& surface, std::span<const Vec3> interior_points, TetGenResult tetgen);
 
 }  // namespace hexpipe::tetmesh::tetgen

@@ -17,7 +17,7 @@
 #include <exception>
 
 #include "common/run/error.hpp"
-#include "common/run/worker_threads.hpp"
+#include "common/run/parallel.hpp"
 
 namespace hexpipe::tetmesh::tetgen {
 namespace {
@@ -29,7 +29,7 @@ constexpr pid_t reaped = -1;    // in place of a child
   throw DataError(fmt::format("cannot {}: {}", what, std::strerror(errno)));
 }
 
-// With no handler on the stack std::terminate is called where the exception is thrown, before any destructor runs.
+// Without a handler on the stack, std::terminate is called where the exception is thrown, before any destructor runs.
 [[noreturn]] void exit_with_exception() {
   try {
     std::rethrow_exception(std::current_exception());
@@ -45,7 +45,7 @@ void* run_work(void* work) {
   return nullptr;
 }
 
-// The kernel ends the child when its time is over, whatever the parent does meanwhile.
+// The kernel ends the child when its time is over, whatever the parent is doing.
 void set_alarm(double seconds) {
   if (std::isinf(seconds)) return;
   const double whole = std::floor(std::max(seconds, 0.0));
@@ -59,18 +59,18 @@ void set_alarm(double seconds) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGALRM}) signal(number, SIG_DFL);
   set_alarm(timeout);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(0);  // it died before the line above
+  if (getppid() != parent) _exit(0);  // it died before the prctl above
   const int nothing = open("/dev/null", O_RDWR);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nothing, stream);
   std::set_terminate(exit_with_exception);
   pthread_t thread;
-  // A thread has no callers, and so no try blocks above it; main() and the test frameworks have.
+  // A thread has no callers, and so no try blocks above it; main() and the test frameworks have some.
   if (pthread_create(&thread, nullptr, run_work, const_cast<std::function<void()>*>(&work)) != 0) _exit(no_thread);
   pthread_join(thread, nullptr);
   _exit(0);
 }
 
-// The status that waitpid() gives.
+// Returns the status that waitpid() gives.
 int wait_for(pid_t child, rusage& usage) {
   int status = 0;
   while (wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {

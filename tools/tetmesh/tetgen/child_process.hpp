@@ -1,5 +1,5 @@
 #pragma once
-// Work in a child process that may crash, hang or leak without harm to this one.
+// Work in a child process that may crash, hang or leak without harm to this process.
 
 #include <sys/types.h>
 
@@ -8,7 +8,7 @@
 
 namespace hexpipe::tetmesh::tetgen {
 
-// Where the child leaves its result: memory that both processes share, which grows as it is written.
+// The child writes its result here: memory that both processes share, and that grows as it is written.
 class SharedResult {
  public:
   SharedResult();
@@ -16,9 +16,9 @@ class SharedResult {
   SharedResult(const SharedResult&) = delete;
   SharedResult& operator=(const SharedResult&) = delete;
 
-  // In the child: appends bytes. Ends the child with `write_failed` when there is no memory.
+  // Called in the child: appends bytes. Ends the child with `write_failed` if there is no memory.
   void append(const void* data, std::size_t bytes);
-  // In the parent: takes bytes from the front. Throws DataError when the child left fewer.
+  // Called in the parent: takes bytes from the front. Throws DataError if the child left fewer.
   void take(void* data, std::size_t bytes);
 
   static constexpr int write_failed = 119;
@@ -30,26 +30,26 @@ class SharedResult {
 
 struct ChildEnd {
   enum class Kind { exited, killed, timed_out } kind = Kind::exited;
-  int code = 0;        // exit code, or the signal that killed it
-  double seconds = 0;  // of the processor
+  int code = 0;        // the exit code, or the number of the signal that killed it
+  double seconds = 0;  // processor time
 };
 
-// `work` in a forked child on a thread of its own, with nothing under it that could catch an exception: one that
-// escapes ends the child at once, without unwinding; an int is its exit code, anything else `uncaught_exception`. The
-// child has no standard input, its outputs lead nowhere; it dies with this process, by a signal or otherwise. glibc
-// makes fork() safe for malloc and stdio in the child even where other threads run here; the work must not use other
+// Runs `work` in a forked child, on a thread of its own where nothing can catch an exception. An exception that escapes
+// ends the child at once, without unwinding: an int becomes the exit code, anything else gives `uncaught_exception`.
+// The child has no standard input, and its outputs are discarded. It dies with this process, however this process ends.
+// glibc makes fork() safe for malloc and stdio in the child even if other threads run here; the work must not use other
 // threads of this process.
 class ChildProcess {
  public:
-  // Starts the work, which is ended after `timeout` seconds (infinity for never). Throws DataError when the system
-  // gives no process.
+  // Starts the work and ends it after `timeout` seconds (infinity: never). Throws DataError if the system gives no
+  // process.
   ChildProcess(const std::function<void()>& work, double timeout);
-  // Kills it, unless it was waited for.
+  // Kills the child unless wait() was called.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  // Once. Throws DataError when the system gave the child no thread.
+  // May be called once. Throws DataError if the system gave the child no thread.
   ChildEnd wait();
 
  private:

@@ -10,7 +10,7 @@
 namespace hexpipe::tetmesh::tetgen {
 namespace {
 
-// The cosines of the angles between facets; the facets opposite two corners meet at the edge that joins the other two.
+// The cosines of the angles between facets. The facets opposite two corners meet at the edge that joins the other two.
 std::array<double, 6> dihedral_cosines(const TetMesh& mesh, const Tet& tet) {
   std::array<Vec3, 4> normals;
   for (std::size_t facet = 0; facet < 4; ++facet) {

@@ -1,5 +1,5 @@
 #pragma once
-// How large the tets of a mesh are together, and how flat they get.
+// The volume of a mesh, and how flat its tets get.
 
 #include "common/mesh/tet_mesh.hpp"
 

@@ -19,10 +19,10 @@ namespace hexpipe::tetmesh::tetgen {
 namespace {
 
 // p: a piecewise linear complex; Y: keep its triangles; F: no list of boundary triangles; Q: quiet; d: find
-// intersecting triangles instead. Points inside are given with the complex. Switch -i, which adds them when the surface
-// is in place, takes up to twice as long on fine surfaces, as these are harder to recover while nothing is inside; on
-// surfaces of few triangles it saves up to a quarter.
-// T: what is nearer than that, against the box around all points, counts as touching; 1e-8 else.
+// intersecting triangles instead. Points inside are given with the complex. Switch -i adds them after the surface is in
+// place. That takes up to twice as long on fine surfaces, because these are harder to recover while nothing is inside;
+// on surfaces of few triangles it saves up to a quarter. T: lengths below this, as a share of the box around all
+// points, count as touching; TetGen's default is 1e-8.
 constexpr const char* mesh_switches = "pYFQ";
 constexpr const char* strict_switches = "pYFQT1e-15";
 constexpr const char* diagnosis_switches = "pdQ";
@@ -51,7 +51,7 @@ const char* reason_of(int code) {
 struct ShuffledInput {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
-  std::vector<Vertex> original;  // of each point, its number in the input
+  std::vector<Vertex> original;  // for each point, its number in the input
 };
 
 std::vector<std::int32_t> shuffled_order(std::size_t count, Random* random) {
@@ -80,8 +80,8 @@ ShuffledInput shuffle(const TetGenInput& input) {
   return shuffled;
 }
 
-// Points that TetGen added keep their numbers. One that it dropped leaves the numbers of others wrong, which build_mesh
-// notices: then points are not where they were.
+// Points that TetGen added keep their numbers. A point that it dropped makes the numbers of others wrong, which
+// build_mesh notices because points are not where they were.
 void undo_shuffle(std::span<const Vertex> original, TetGenResult& result) {
   if (result.points.size() < original.size()) return;
   std::vector<Vec3> points = result.points;
@@ -101,7 +101,7 @@ void set_facet(tetgenio::facet& facet, const Triangle& triangle) {
   polygon.vertexlist = new int[3]{triangle[0], triangle[1], triangle[2]};
 }
 
-// tetgenio frees what it is given.
+// tetgenio frees the arrays that it is given.
 void set_complex(tetgenio& complex, std::span<const Vec3> points, std::span<const Triangle> triangles) {
   complex.numberofpoints = static_cast<int>(points.size());
   complex.pointlist = new double[3 * points.size()];
@@ -112,11 +112,11 @@ void set_complex(tetgenio& complex, std::span<const Vec3> points, std::span<cons
 }
 
 void call_tetgen(const char* switches, tetgenio& complex, tetgenio& out) {
-  std::string text = switches;  // TetGen wants to write to it
+  std::string text = switches;  // a copy, because TetGen wants to write to it
   tetrahedralize(text.data(), &complex, &out);
 }
 
-// In the child. A count and the rows behind it.
+// Called in the child: writes a count and the rows after it.
 template <class Row>
 void append_rows(SharedResult& result, const void* rows, int count) {
   result.append(&count, sizeof count);
@@ -154,7 +154,7 @@ std::vector<Triangle> find_intersecting(const TetGenInput& input, double timeout
   return take_rows<Triangle>(shared);
 }
 
-// What has nothing to do with the surface, and would not go better in another order.
+// Throws for failures that have nothing to do with the surface and would not go better in another order.
 void check_system(const ChildEnd& end) {
   const bool by_kernel = end.kind == ChildEnd::Kind::killed && end.code == SIGKILL;
   const bool by_itself =

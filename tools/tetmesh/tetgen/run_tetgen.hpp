@@ -1,5 +1,5 @@
 #pragma once
-// TetGen behind one function: a surface that is kept and points inside it become tetrahedra.
+// TetGen behind one function: makes tetrahedra of a surface, which is kept, and of points inside it.
 
 #include <cstdint>
 #include <memory>
@@ -15,38 +15,40 @@ struct TetGenInput {
   std::span<const Vec3> surface_points;
   std::span<const Triangle> triangles;  // of one or more closed surfaces
   std::span<const Vec3> interior_points;
-  // Other than 0: TetGen is given points and triangles in a shuffled order, this one. Where it fails on triangles that
-  // are nearly in one plane, it usually succeeds in another order. The result is in the order above all the same.
+  // If not 0, TetGen gets points and triangles in a shuffled order, given by this number. Where TetGen fails on
+  // triangles that are nearly in one plane, it usually succeeds in another order. The result has the order above all
+  // the same.
   std::uint64_t shuffle = 0;
-  // TetGen takes what is very near for touching, and then fails, or merges points. With this it does only where doubles
-  // can hardly tell them apart.
+  // TetGen treats things that are very near to each other as touching, and then fails or merges points. If strict, it
+  // does so only where doubles can hardly tell them apart.
   bool strict = false;
-  // Where it finds that triangles intersect, it is run once more to name them.
+  // If TetGen finds that triangles intersect, it is run once more to name them.
   bool names_intersecting = true;
 };
 
 struct TetGenResult {
-  // The points of the surface, then those inside, then those that TetGen added. Holes are filled.
+  // The points of the surface, then those inside, then those that TetGen added. Holes are filled with tets.
   std::vector<Vec3> points;
   std::vector<Tet> tets;
-  // Where it failed: what went wrong, in a sentence, and the triangles that TetGen names as intersecting.
+  // If TetGen failed: a sentence on what went wrong, and the triangles that it names as intersecting.
   std::string failure;
   std::vector<Triangle> intersecting;
-  double seconds = 0;  // of the processor
+  double seconds = 0;  // processor time
 };
 
-// TetGen at work in a child process: it ends processes, throws through frames that free twice, and prints.
+// Runs TetGen in a child process, because TetGen ends processes, throws through frames that free memory twice, and
+// prints.
 class TetGenRun {
  public:
-  // Starts it; what the input names has to stand until it was waited for. It may take `timeout` seconds. Throws
-  // DataError when no child process can be run.
+  // Starts TetGen. The memory that the input refers to must stay until wait() returns. TetGen may take `timeout`
+  // seconds. Throws DataError if no child process can be run.
   TetGenRun(const TetGenInput& input, double timeout);
-  // Ends it, unless it was waited for.
+  // Ends TetGen unless wait() was called.
   ~TetGenRun();
   TetGenRun(const TetGenRun&) = delete;
   TetGenRun& operator=(const TetGenRun&) = delete;
 
-  // Once. Throws DataError when it has not enough memory.
+  // May be called once. Throws DataError if there is not enough memory.
   TetGenResult wait();
 
  private:

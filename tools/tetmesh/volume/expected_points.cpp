@@ -1,5 +1,5 @@
-// Halves boxes across their longest side until one is as wide as three sizes, or so far from the surface that all of it
-// lies on one side, with sizes that are much the same; then its centre tells what is in it.
+// Halves boxes across their longest side until a box is at most three sizes wide, or lies on one side of the surface
+// with nearly the same size everywhere. Then its centre tells what is in it.
 
 #include "tools/tetmesh/volume/expected_points.hpp"
 
@@ -7,16 +7,20 @@
 #include <cmath>
 #include <vector>
 
+#include "common/run/error.hpp"
+#include "tools/tetmesh/sizing/sizing.hpp"
 #include "tools/tetmesh/solid/surface_clearance.hpp"
 
 namespace hexpipe::tetmesh::volume {
 namespace {
 
 constexpr double widest = 3;  // in sizes
-// Of the size at the centre, what sizes in a box may be less.
+// Sizes in a box may be less than the size at its centre by this factor.
 constexpr double most_difference = 0.6;
-// Against the box around the part; no lattice is finer (graded_lattice.cpp).
+// Against the box around the model; no lattice is finer (graded_lattice.cpp).
 constexpr double narrowest = 1.0 / (1 << 20);
+// The estimate is at most three times the number of points.
+constexpr double certain_excess = 4;
 
 double volume_of(const geometry::Box& box) {
   const Vec3 extent = box.high - box.low;
@@ -59,6 +63,24 @@ double points_inside(const solid::Surface& surface, const sizing::SizeField& siz
       sum += is_wide && !is_even ? 1 : volume_of(box) / (here * here * here);
   }
   return sum;
+}
+
+void check_point_count(const solid::Surface& surface, double size, double most) {
+  const double expected = sizing::points_expected(surface, size);
+  if (expected > most)
+    throw DataError::at(surface.name,
+                        "expected a size that makes at most {:g} points inside (see --most-points), found {:g}, which "
+                        "makes about {:.3g}",
+                        most, size, expected);
+}
+
+void check_point_count(const solid::Surface& surface, const sizing::SizeField& size, double clearance, double most) {
+  const double far_too_many = certain_excess * most;
+  if (!size.is_uniform() && points_inside(surface, size, clearance, far_too_many) > far_too_many)
+    throw DataError::at(surface.name,
+                        "expected sizes that make at most {:g} points inside (see --most-points), found {:g} to {:g}, "
+                        "which make more than {:g}",
+                        most, size.least(), size.greatest(), far_too_many);
 }
 
 }  // namespace hexpipe::tetmesh::volume

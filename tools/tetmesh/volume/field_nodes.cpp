@@ -12,7 +12,8 @@ namespace hexpipe::tetmesh::volume {
 namespace {
 
 constexpr double aligned_cosine = 0.9396926207859084;  // of 20 degrees between a normal and the nearest axis
-// Squared ratio from which the longest side of a triangle is taken for the diagonal of a square, not for a side.
+// If the squared ratio is at least this, the longest side of a triangle counts as the diagonal of a square, not as a
+// side.
 constexpr double diagonal_ratio = 1.21;
 
 Vec3 normalized(const Vec3& v) {
@@ -41,7 +42,7 @@ class SurfaceReader {
   }
 
  private:
-  // The crosses of a vertex's edges, diagonals left out.
+  // The crosses of a vertex's edges, without diagonals.
   struct Legs {
     fields::Harmonics sum = fields::Harmonics::Zero();
     double weight = 0;
@@ -65,7 +66,7 @@ class SurfaceReader {
   std::vector<bool> creased_;
 };
 
-// Weighted by the triangles' angles at the vertex.
+// The weights are the triangles' angles at the vertex.
 void SurfaceReader::add_normals() {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(surface_.triangles.size()); ++t) {
     const Vec3 normal = normalized(cross(end(3 * t) - start(3 * t), end(3 * t + 1) - start(3 * t)));
@@ -90,8 +91,9 @@ bool SurfaceReader::is_diagonal(geometry::HalfEdge h) const {
 void SurfaceReader::add_edge(std::span<const geometry::HalfEdge> edge) {
   const geometry::HalfEdge h = edge[0], twin = edge[1];
   const Vec3 along = normalized(end(h) - start(h));
-  const bool is_crease =
-      dot(normals_[geometry::triangle_of(h)], normals_[geometry::triangle_of(twin)]) < feature_cosine_;
+  // Where sheets meet, there are more triangles.
+  const bool is_crease = edge.size() > 2 || dot(normals_[geometry::triangle_of(h)],
+                                                normals_[geometry::triangle_of(twin)]) < feature_cosine_;
   const double weight = 1 - 0.5 * is_diagonal(h) - 0.5 * is_diagonal(twin);
   for (const Vertex v : {geometry::start_of(surface_.triangles, h), geometry::end_of(surface_.triangles, h)}) {
     if (is_crease) {
@@ -104,7 +106,7 @@ void SurfaceReader::add_edge(std::span<const geometry::HalfEdge> edge) {
 }
 
 void SurfaceReader::add_leg(Vertex v, const Vec3& along, double weight) {
-  constexpr double steepest = 0.5;  // an edge that points out of the tangent plane more says little about it
+  constexpr double steepest = 0.5;  // an edge that points further out of the tangent plane says little about it
   const Vec3& normal = nodes_[v].normal;
   const Vec3 in_plane = along - dot(along, normal) * normal;
   if (norm(in_plane) < steepest) return;
@@ -138,7 +140,7 @@ void SurfaceReader::find_vague() {
 
 FieldNodes make_field_nodes(const solid::Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency,
                             const sizing::SizeField& size, double feature_angle) {
-  constexpr double nearest = 0.25;  // squared; keeps a single link from ruling
+  constexpr double nearest = 0.25;  // squared; keeps a single link from dominating
   FieldNodes nodes;
   nodes.points = mesh.points;
   nodes.sizes.resize(nodes.points.size());

@@ -1,5 +1,5 @@
 #pragma once
-// The vertices of a tet mesh as the nodes on which fields are solved: who is joined to whom, and what the surface says
+// The vertices of a tet mesh as the nodes on which fields are solved: the links between them, and what the surface says
 // about directions at its vertices.
 
 #include <cstdint>
@@ -19,16 +19,16 @@ struct FieldLink {
   float weight;
 };
 
-// What is known at a vertex of the surface.
+// The directions known at a vertex of the surface.
 struct SurfaceNode {
   enum class Kind : std::uint8_t {
     smooth,  // one axis is the normal; the triangles' legs may suggest the others
     fixed,   // on features whose normals and edges lie along the axes of one frame
-    vague    // on other features: no frame fits, one is suggested
+    vague    // on other features: no frame fits, and one is suggested
   };
   Kind kind = Kind::smooth;
   Vec3 normal;
-  fields::Frame frame{};  // of a fixed one
+  fields::Frame frame{};  // of a fixed node
   fields::Harmonics suggested =
       fields::Harmonics::Zero();  // smooth: a cross, of norm 0 (no suggestion) to cross_norm; vague: a frame
 };
@@ -38,7 +38,7 @@ struct FieldNodes {
   std::vector<double> sizes;
   std::vector<SurfaceNode> surface;
   std::vector<std::int64_t> offsets;  // points + 1
-  std::vector<FieldLink> links;       // both ways
+  std::vector<FieldLink> links;       // in both directions
 
   std::size_t size() const { return points.size(); }
   bool is_on_surface(std::size_t node) const { return node < surface.size(); }
@@ -47,7 +47,7 @@ struct FieldNodes {
   }
 };
 
-// Of a mesh whose first vertices are the surface's. Weights fall with the square of the distance in sizes.
+// The first vertices of the mesh are those of the surface. Weights fall with the square of the distance in sizes.
 FieldNodes make_field_nodes(const solid::Surface& surface, const TetMesh& mesh, const TetAdjacency& adjacency,
                             const sizing::SizeField& size, double feature_angle);
 

@@ -8,17 +8,17 @@
 namespace hexpipe::tetmesh::volume {
 namespace {
 
-// Against all links of the node together. Shares of the volume in hexes differ by 0.2 % from 0.3 to 3.
+// Against all links of the node together. From 0.3 to 3, the share of the volume in hexes differs by 0.2 %.
 constexpr double suggestion_weight = 0.3;
 constexpr double normal_weight = 3;
 constexpr int smoothing_sweeps = 10;
-// A smoothed frame keeps that of its own value, against its links: plain means of neighbours may swing.
+// The weight of a node's own frame against its links when frames are smoothed: plain means of neighbours may oscillate.
 constexpr double inertia = 0.5;
 
 using Field = Eigen::Matrix<double, 9, Eigen::Dynamic>;
 using Kind = SurfaceNode::Kind;
 
-// The two directions in which the function of a frame changes when it turns about its normal.
+// The two directions in which the function of a frame changes when the frame turns about its normal.
 struct Turning {
   fields::Harmonics first, second;
 
@@ -111,7 +111,7 @@ Field FrameSolver::residual() const {
   return result;
 }
 
-// Takes away what would change a fixed frame, or turn one off its normal.
+// Removes the components that would change a fixed frame, or turn one off its normal.
 void FrameSolver::restrict_to_freedom(Field& x) const {
   for (std::size_t i = 0; i < nodes_.surface.size(); ++i) {
     const auto column = static_cast<std::int64_t>(i);
@@ -157,7 +157,7 @@ void FrameSolver::project() {
   });
 }
 
-// All at once from the field before, so that the order of the nodes does not count.
+// Computes all frames from the field before, so that the order of the nodes does not matter.
 void FrameSolver::sweep() {
   Field next = field_;
   parallel_for(count_, 64, [&](std::int64_t i) {

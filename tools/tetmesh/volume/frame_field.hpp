@@ -1,11 +1,11 @@
 #pragma once
-// A frame at every node of a mesh: on the surface along its normals and features, inside as smooth as can be.
+// A frame at every node of a mesh: on the surface along its normals and features, inside as smooth as possible.
 //
-// N. Ray, D. Sokolov, B. Lévy: Practical 3D Frame Field Generation (2016): the harmonic functions first, by one linear
-// problem in which a surface node may only turn about its normal; then the frames nearest to them. Where the paper goes
-// on with L-BFGS on angles, each frame is fitted here to the mean of its neighbours', a few times (the scheme of
-// Merriman, Bence and Osher, as in Palmer, Bommes, Solomon 2020). Deviates also in that right-angled surface triangles
-// suggest directions in the tangent plane.
+// The method is that of N. Ray, D. Sokolov, B. Lévy: Practical 3D Frame Field Generation (2016). The harmonic functions
+// come first, from one linear problem in which a surface node may only turn about its normal; then the frames nearest
+// to them. The paper continues with L-BFGS on angles. Here each frame is fitted to the mean of its neighbours' a few
+// times (the scheme of Merriman, Bence and Osher, as in Palmer, Bommes, Solomon 2020). Another difference: right-angled
+// surface triangles suggest directions in the tangent plane.
 
 #include <vector>
 

@@ -5,36 +5,37 @@
 #include <functional>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/solid/surface_clearance.hpp"
 #include "tools/tetmesh/volume/frame_field.hpp"
-#include "tools/tetmesh/volume/jitter.hpp"
+#include "tools/tetmesh/volume/lattice.hpp"
 #include "tools/tetmesh/volume/lattice_field.hpp"
 
 namespace hexpipe::tetmesh::volume {
 namespace {
 
-// Least distance of two points in the frame's maximum norm, in steps of the lattice: 0.5 and 0.8 lose 1 % of the volume
-// in hexes, 0.7 loses 0.3.
+// The least distance of two points in the frame's maximum norm, in steps of the lattice. 0.5 and 0.8 lose 1 % of the
+// volume in hexes, 0.7 loses 0.3 %.
 constexpr double least_spacing = 0.6;
-// Nodes that see a point of the lattice within this distance of each other, in sizes, see the same one.
+// Nodes that see a point of the lattice within this distance of each other, in sizes, see the same point.
 constexpr double same_point = 0.3;
-// A node sees points of the lattice up to one cell away, trusted less with the distance.
+// A node sees points of the lattice up to one cell away, and trusts them less with the distance.
 constexpr double furthest = 1 + 1e-6, distrust_begins = 1.5;
-// Frames further out of a lattice's axes than that are turned.
+// Frames further out of a lattice's axes than this are turned.
 constexpr double straight_angle = 10;  // degrees
 
 // A point of the lattice as a node sees it.
 struct Proposal {
   Vec3 point;
-  double size = 0;  // there, as nearly as its node can tell
+  double size = 0;  // at the point, as nearly as its node can tell
   std::int32_t node = 0;
   double trust = 0;
 };
 
-// Of a vector in units of the frame's axes.
+// The norm of a vector in units of the frame's axes.
 double maximum_norm(const fields::Frame& frame, const Vec3& v) {
   return std::max({std::abs(dot(frame[0], v)), std::abs(dot(frame[1], v)), std::abs(dot(frame[2], v))});
 }
@@ -45,6 +46,8 @@ class PointPlacer {
               const FramePointsOptions& options)
       : surface_(surface),
         options_(options),
+        background_(background),
+        adjacency_(adjacency),
         nodes_(make_field_nodes(surface, background, adjacency, options.size, options.feature_angle)),
         frames_(solve_frame_field(nodes_)) {}
 
@@ -54,6 +57,7 @@ class PointPlacer {
     return accept();
   }
   double turned_share() const;
+  Dislocations take_dislocations() { return std::move(dislocations_); }
 
  private:
   void propose();
@@ -65,10 +69,13 @@ class PointPlacer {
 
   const solid::Surface& surface_;
   const FramePointsOptions& options_;
+  const TetMesh& background_;
+  const TetAdjacency& adjacency_;
   FieldNodes nodes_;
   std::vector<fields::Frame> frames_;
   std::vector<Vec3> spacing_;  // of the lattice along the frames' axes, in sizes
   std::vector<Proposal> proposals_;
+  Dislocations dislocations_;
 };
 
 void PointPlacer::propose() {
@@ -82,6 +89,7 @@ void PointPlacer::propose() {
         return proposals;
       },
       [&](const std::vector<Proposal>& some) { proposals_.insert(proposals_.end(), some.begin(), some.end()); });
+  dislocations_ = find_dislocations(field.links, field.coordinates, background_, adjacency_);
 }
 
 void PointPlacer::propose(std::size_t i, const LatticeField& field, std::vector<Proposal>& proposals) const {
@@ -99,7 +107,7 @@ void PointPlacer::propose(std::size_t i, const LatticeField& field, std::vector<
   }
 }
 
-// Moves every proposal to the mean of those that see the same point, and trusts it as much as all of them.
+// Moves every proposal to the mean of those that see the same point. It is trusted as much as all of these together.
 void PointPlacer::agree() {
   geometry::SizedPointGrid grid(surface_.points.front());
   for (const Proposal& p : proposals_) grid.add(p.point, 2 * same_point * p.size);
@@ -124,7 +132,7 @@ Proposal PointPlacer::agreed(const geometry::SizedPointGrid& grid, const Proposa
   return trust > 0 ? Proposal{sum * (1 / trust), proposal.size, proposal.node, trust} : proposal;
 }
 
-// The most trusted first.
+// The most trusted proposals come first.
 std::vector<Vec3> PointPlacer::accept() const {
   std::vector<std::int32_t> order(proposals_.size());
   std::iota(order.begin(), order.end(), 0);
@@ -143,8 +151,8 @@ std::vector<Vec3> PointPlacer::accept() const {
 }
 
 bool PointPlacer::is_free(const geometry::SizedPointGrid& taken, const Proposal& proposal) const {
-  fields::Frame units = frames_[proposal.node];  // of which the frame's coordinates are numbers of least spacings
-  Vec3 reach;                                    // of a box of these, along the coordinate axes
+  fields::Frame units = frames_[proposal.node];  // in these units, the frame's coordinates count least spacings
+  Vec3 reach;                                    // of a box of one unit, along the coordinate axes
   for (std::size_t k = 0; k < 3; ++k) {
     const double spacing = least_spacing * spacing_[proposal.node][k] * proposal.size;
     const Vec3& axis = units[k];
@@ -178,7 +186,7 @@ FramePoints frame_points(const solid::Surface& surface, const TetMesh& backgroun
   std::vector<Vec3> points = placer.place();
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i] += jitter_of(i, options.jitter * options.size.at(points[i]), options.seed);
-  return {std::move(points), placer.turned_share()};
+  return {std::move(points), placer.turned_share(), placer.take_dislocations()};
 }
 
 }  // namespace hexpipe::tetmesh::volume

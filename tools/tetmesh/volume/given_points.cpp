@@ -24,7 +24,7 @@ GivenPoints usable_points(const solid::Surface& surface, const formats::PointLis
   GivenPoints given{taken.points(), {}};
   if (left_out > 0)
     given.complaint = fmt::format(
-        "{}: {} of {} points are outside, within {:.3g} of the surface, or repeated, and left out; the first is here",
+        "{}: left out {} of {} points, which are outside, within {:.3g} of the surface, or repeated; the first is here",
         list.place_of(first), left_out, list.points.size(), clearance);
   return given;
 }

@@ -11,8 +11,8 @@
 namespace hexpipe::tetmesh::volume {
 
 struct GivenPoints {
-  std::vector<Vec3> points;              // those that can be used, in their order
-  std::optional<std::string> complaint;  // about those that cannot, with the first one's place
+  std::vector<Vec3> points;              // the usable ones, in their order
+  std::optional<std::string> complaint;  // about the others, with the place of the first
 };
 
 // Leaves out points that are not in material, nearer to the surface than `clearance` (a length), or repeated.

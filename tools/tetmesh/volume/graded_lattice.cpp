@@ -1,5 +1,5 @@
-// An octree over the box around the part: a cell is halved while a size within it asks for a finer lattice. Every cell
-// owns the lattice point at its lowest corner, so that a point of a finer lattice is met once, in the cell that was
+// An octree over the box around the model: a cell is halved while a size within it asks for a finer lattice. Every cell
+// owns the lattice point at its lowest corner, so a point of a finer lattice is met only once, in the cell that was
 // made for it.
 
 #include "tools/tetmesh/volume/graded_lattice.hpp"
@@ -10,12 +10,11 @@
 #include "common/run/error.hpp"
 #include "tools/tetmesh/geometry/box_tree.hpp"
 #include "tools/tetmesh/solid/surface_clearance.hpp"
-#include "tools/tetmesh/volume/jitter.hpp"
 
 namespace hexpipe::tetmesh::volume {
 namespace {
 
-// Steps are at most 2 to the power of that times the size, and at least half of it: 0.87 times on average.
+// Steps are at most 2 to this power times the size, and at least half of that: 0.87 times the size on average.
 constexpr double level_bias = 0.3;
 constexpr int most_levels = 20;
 constexpr double most_roots = 1e8;
@@ -33,7 +32,8 @@ class GradedLattice {
     for (int axis = 0; axis < 3; ++axis) {
       counts_[axis] = std::max(1.0, std::round(extent[axis] / outermost_));
       steps_[axis] = extent[axis] / counts_[axis];
-      // Where the part is thinner than that, its one step along the axis is already that of a finer lattice.
+      // Where the model is thinner than the outermost step, its one step along the axis is already that of a finer
+      // lattice.
       whole_levels_[axis] = std::max(0, static_cast<int>(std::round(std::log2(outermost_ / steps_[axis]))));
     }
   }
@@ -54,12 +54,12 @@ class GradedLattice {
   Vec3 in_axes(const Vec3& p) const {
     return {dot(p, options_.axes[0]), dot(p, options_.axes[1]), dot(p, options_.axes[2])};
   }
-  // Of a cell, in steps of the outermost lattice.
+  // The widths of a cell, in steps of the outermost lattice.
   Vec3 widths_at(int level) const {
     const auto width = [&](int axis) { return std::exp2(-std::max(0, level - whole_levels_[axis])); };
     return {width(0), width(1), width(2)};
   }
-  // Of lattice coordinates, in steps of the outermost lattice.
+  // The place of lattice coordinates, in steps of the outermost lattice.
   Vec3 place_of(const Vec3& c) const {
     const Vec3 in_frame = low_ + Vec3{c.x * steps_[0], c.y * steps_[1], c.z * steps_[2]};
     return in_frame.x * options_.axes[0] + in_frame.y * options_.axes[1] + in_frame.z * options_.axes[2];
@@ -78,13 +78,13 @@ class GradedLattice {
   double most_points_;
   solid::SurfaceClearance clearance_;
   Vec3 low_;
-  double outermost_;  // size, of the outermost lattice: the greatest, or what the part is long
+  double outermost_;  // the size of the outermost lattice: the greatest, or the length of the model
   std::array<double, 3> counts_{}, steps_{};
-  std::array<int, 3> whole_levels_{};  // along each axis, the first levels at which cells are not halved
+  std::array<int, 3> whole_levels_{};  // along each axis, the first level at which cells are not halved
   std::vector<Vec3> points_;
 };
 
-// `is_new`: the corner is no point of a lattice further out.
+// `is_new`: the corner is not a point of a coarser lattice.
 void GradedLattice::visit(const Vec3& corner, int level, bool is_new) {
   if (is_new) take(place_of(corner), level);
   const Vec3 widths = widths_at(level), halves = widths_at(level + 1);

@@ -13,16 +13,17 @@
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/geometry/cell_key.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
+#include "tools/tetmesh/geometry/sized_point_grid.hpp"
 
 namespace hexpipe::tetmesh::volume {
 namespace {
 
-constexpr double least_quality = 0.3;    // scaled Jacobian, findhex's default
 constexpr double greatest_cosine = 0.7;  // between edges of a corner
-constexpr double furthest = 0.7;  // of a corner from where a parallelepiped has it, in lengths of the longest edge
-constexpr double volume_tolerance = 0.9;  // of the tets against the hex
-constexpr Vertex none = -1;
+constexpr double furthest_corner =
+    0.7;  // of a corner from its place in a parallelepiped, in lengths of the longest edge
+constexpr double volume_tolerance = 0.9;  // of the volume of the tets from that of the hex
+using geometry::none;
 
 constexpr std::array<unsigned, 6> quad_masks = [] {
   std::array<unsigned, 6> masks{};
@@ -42,7 +43,7 @@ class HexSearch {
  public:
   HexSearch(const TetMesh& mesh, const TetAdjacency& adjacency) : mesh_(mesh), adjacency_(adjacency) {}
 
-  // The hexes of which `lowest` is the lowest vertex.
+  // The hexes whose lowest vertex is `lowest`.
   void find(Vertex lowest, std::vector<RoughHex>& found);
 
  private:
@@ -71,7 +72,7 @@ bool HexSearch::is_square(const Vec3& a, const Vec3& b) const {
   return product * product < greatest_cosine * greatest_cosine * norm_squared(a) * norm_squared(b);
 }
 
-// The neighbour of all in `joined`, greater than `lowest`, that is nearest to the place.
+// The vertex nearest to the place among those that are neighbours of all in `joined` and greater than `lowest`.
 Vertex HexSearch::nearest_common(std::span<const Vertex> joined, Vertex lowest, const Vec3& place, double reach) const {
   Vertex nearest = none;
   double least = reach * reach;
@@ -98,7 +99,7 @@ void HexSearch::collect_sides(Vertex lowest) {
     for (std::size_t j = i + 1; j < edges_.size(); ++j) {
       const Vec3 a = point(edges_[i]) - origin, b = point(edges_[j]) - origin;
       if (!is_square(a, b)) continue;
-      const double reach = furthest * std::sqrt(std::max(norm_squared(a), norm_squared(b)));
+      const double reach = furthest_corner * std::sqrt(std::max(norm_squared(a), norm_squared(b)));
       const Vertex opposite = nearest_common(std::array{edges_[i], edges_[j]}, lowest, origin + a + b, reach);
       if (opposite != none) sides_.push_back({i, j, opposite});
     }
@@ -106,7 +107,7 @@ void HexSearch::collect_sides(Vertex lowest) {
 
 void HexSearch::find(Vertex lowest, std::vector<RoughHex>& found) {
   collect_sides(lowest);
-  // By edge: the sides that begin with it stand together, ascending.
+  // The sides are ordered by their first edge, so sides with the same first edge stand together.
   for (std::size_t i = 0; i < sides_.size(); ++i)
     for (std::size_t j = i + 1; j < sides_.size() && sides_[j].first == sides_[i].first; ++j) {
       const auto third = std::ranges::find_if(
@@ -121,7 +122,7 @@ void HexSearch::complete(Vertex lowest, const Side& ab, const Side& ac, const Si
   if (to_a == to_b || to_b == to_c || to_a == to_c) return;
   const Vec3 along_a = point(a) - point(lowest), along_b = point(b) - point(lowest), along_c = point(c) - point(lowest);
   const double reach =
-      furthest * std::sqrt(std::max({norm_squared(along_a), norm_squared(along_b), norm_squared(along_c)}));
+      furthest_corner * std::sqrt(std::max({norm_squared(along_a), norm_squared(along_b), norm_squared(along_c)}));
   const Vec3 place = point(to_a) + point(to_b) + point(to_c) - point(a) - point(b) - point(c) + point(lowest);
   const Vertex far = nearest_common(std::array{to_a, to_b, to_c}, lowest, place, reach);
   if (far == none || far == a || far == b || far == c) return;
@@ -129,7 +130,7 @@ void HexSearch::complete(Vertex lowest, const Side& ab, const Side& ac, const Si
   RoughHex hex{0, 0, {lowest, a, to_c, b, c, to_b, far, to_a}, {}};
   const std::array<Vec3, 8> corners = corner_points(mesh_.points, hex.corners);
   hex.quality = least_corner_scaled_jacobian(CellKind::hex, corners);
-  if (hex.quality <= least_quality) return;
+  if (hex.quality <= least_hex_quality) return;
   collect_tets(hex);
   const double wanted = cell_volume(CellKind::hex, corners);
   if (hex.volume < volume_tolerance * wanted || wanted < volume_tolerance * hex.volume) return;
@@ -137,10 +138,10 @@ void HexSearch::complete(Vertex lowest, const Side& ab, const Side& ac, const Si
   found.push_back(std::move(hex));
 }
 
-// Those that join four of its corners, unless all four are of one quad: such a sliver lies on the hex, not in it. They
-// hang together by their facets.
+// Collects the tets that join four of its corners, unless all four belong to one quad: such a sliver lies on the hex,
+// not in it. The tets are connected through their facets.
 void HexSearch::collect_tets(RoughHex& hex) {
-  std::uint64_t sieve = 0;  // most vertices that are no corners are told by their last bits
+  std::uint64_t sieve = 0;  // its bits rule out most vertices that are no corners
   for (const Vertex v : hex.corners) sieve |= std::uint64_t{1} << (v % 64);
   const auto is_inside = [&](std::int32_t t) {
     unsigned corners = 0;
@@ -162,11 +163,11 @@ void HexSearch::collect_tets(RoughHex& hex) {
   }
 }
 
-// Which pairs of vertices the chosen hexes hold, and as what. Two hexes with a pair in common fit together when it is
-// an edge of both, or the diagonal of one and the same quad.
+// The pairs of vertices that the chosen hexes have, each with its role. Two hexes with a common pair fit together if
+// the pair is an edge of both, or the diagonal of the same quad.
 class ChosenPairs {
  public:
-  // Adds the pairs of a hex, unless one contradicts.
+  // Adds the pairs of a hex, unless one contradicts a pair that is there.
   bool add(const RoughHex& hex) {
     std::array<std::pair<std::uint64_t, std::uint64_t>, 28> pairs;
     std::size_t count = 0;
@@ -185,7 +186,7 @@ class ChosenPairs {
   }
 
  private:
-  // Of a quad's diagonal the role is the other diagonal.
+  // The role of a quad's diagonal is the other diagonal.
   static constexpr std::uint64_t edge_role = ~std::uint64_t{0}, inside_role = edge_role - 1;
 
   static std::uint64_t key(const RoughHex& hex, std::size_t i, std::size_t j) {
@@ -196,7 +197,7 @@ class ChosenPairs {
   tsl::robin_map<std::uint64_t, std::uint64_t, geometry::CellKeyHash> roles_;
 };
 
-// The best first.
+// The best hexes come first.
 double volume_of_greedy_choice(const TetMesh& mesh, std::span<const RoughHex> hexes) {
   std::vector<std::int32_t> order(hexes.size());
   std::iota(order.begin(), order.end(), 0);

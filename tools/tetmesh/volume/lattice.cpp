@@ -7,16 +7,15 @@
 #include "common/run/error.hpp"
 #include "tools/tetmesh/geometry/column_index.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
-#include "tools/tetmesh/volume/jitter.hpp"
 
 namespace hexpipe::tetmesh::volume {
 namespace {
 
-// A byte each while they are sorted out.
+// Each takes a byte while points are sorted out.
 constexpr double most_nodes = 1e9;
 
-// What is known of a lattice point. Between two far ones that are neighbours no surface passes: each is further from it
-// than half their distance.
+// The state of a lattice point. The surface does not pass between two neighbouring far points, because each is further
+// from it than half their distance.
 enum class Place : std::uint8_t { far, near, too_near, inside, outside };
 
 class Lattice {
@@ -46,7 +45,7 @@ class Lattice {
 
   const solid::Surface& surface_;
   const LatticeOptions& options_;
-  Vec3 low_;  // of the bounding box; the first lattice point is a step inside
+  Vec3 low_;  // of the bounding box; the first lattice point is one step inside
   std::array<double, 3> steps_{};
   Index counts_{};
   double clearance_ = 0, far_distance_ = 0;
@@ -78,7 +77,7 @@ void Lattice::fit() {
   for (int axis = 0; axis < 3; ++axis) counts_[axis] = static_cast<std::int64_t>(counts[axis]);
   places_.assign(static_cast<std::size_t>(nodes), Place::far);
   clearance_ = options_.clearance * options_.size;
-  // Rounding must not let the flood through a wall that lies just halfway between two points.
+  // Rounding must not let the flood through a wall that lies exactly halfway between two points.
   far_distance_ = (1 + 1e-9) * std::max({steps_[0], steps_[1], steps_[2]}) / 2;
 }
 
@@ -96,8 +95,8 @@ void Lattice::mark_distances() {
   for (const Triangle& triangle : surface_.triangles) mark_around(triangle);
 }
 
-// Walks the columns of lattice points along the axis that the triangle faces most, in each only the points in the slab
-// around the triangle's plane.
+// Walks the columns of lattice points along the axis that the triangle faces most; in each column only the points in
+// the slab around the triangle's plane.
 void Lattice::mark_around(const Triangle& triangle) {
   const Vec3 &a = surface_.points[triangle[0]], &b = surface_.points[triangle[1]], &c = surface_.points[triangle[2]];
   const geometry::TriangleDistance distance(a, b, c);
@@ -152,7 +151,7 @@ void Lattice::find_inside() {
   }
 }
 
-// Gives `place` to all far points that are connected to one by far neighbours.
+// Gives `place` to all far points that far neighbours connect to the start.
 void Lattice::flood(std::int64_t start, Place place) {
   const std::array<std::int64_t, 3> strides{1, counts_[0], counts_[0] * counts_[1]};
   queue_.assign(1, start);

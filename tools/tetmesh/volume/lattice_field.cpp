@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/fields/curl_correction.hpp"
@@ -20,7 +19,6 @@ constexpr double anchor_weight = 20;
 constexpr double anchor_threshold = 0.3, weakest_anchor = 0.05;
 // 15 sweeps lose 0.1 % of the volume in hexes, 60 and 150 gain nothing.
 constexpr int smoothing_sweeps = 30;
-constexpr double inertia = 0.3;  // of a number's own value, against its links
 // Stretched links along the surface count as a step up to the last, as none up to the first, in sizes.
 constexpr double no_step = 0.2, least_step = 0.75, greatest_step = 1.7;
 // In the volumes of blub, spot and mambo-m1, with their surfaces as before, 84.9 % of the volume in hexes without, 86.6
@@ -35,56 +33,18 @@ constexpr double least_determinant = 0.2;  // of the cells a step in each direct
 
 using Phases = std::array<fields::Complex, 3>;
 
-// Which axis of the other frame is the nearest, and whether it points the same way.
-struct AxisMatch {
-  std::array<std::uint8_t, 3> axis;
-  std::array<bool, 3> flipped;
-  double quality;  // mean cosine
-};
-
-AxisMatch match(const fields::Frame& from, const fields::Frame& to) {
-  static constexpr std::array<std::array<std::uint8_t, 3>, 6> orders{
-      {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
-  std::array<std::array<double, 3>, 3> cosines;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) cosines[i][j] = dot(from[i], to[j]);
-  double best = -1;
-  AxisMatch result{};
-  for (const auto& order : orders) {
-    double sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) sum += std::abs(cosines[i][order[i]]);
-    if (sum <= best) continue;
-    best = sum;
-    result.axis = order;
-  }
-  for (std::size_t i = 0; i < 3; ++i) result.flipped[i] = cosines[i][result.axis[i]] < 0;
-  result.quality = best / 3;
-  return result;
-}
-
-// What a node sees of a neighbour: its axis k is axis[k] there, turned round where flipped, and `distance[k]` further
-// on.
-struct Transition {
-  std::array<double, 3> distance;       // in sizes
-  std::array<fields::Complex, 3> turn;  // by these
-  std::array<std::uint8_t, 3> axis;
-  std::array<bool, 3> flipped;
-  std::int32_t node;
-  double weight;
-};
-
 class LatticeSolver {
  public:
   LatticeSolver(const FieldNodes& nodes, const std::vector<fields::Frame>& frames)
       : nodes_(nodes),
         frames_(frames),
-        transitions_(nodes.links.size()),
+        links_(nodes, frames),
         degree_(nodes.size()),
         anchors_(nodes.size()),
         phases_(nodes.size()) {}
 
   LatticeField solve() {
-    for_each_node([&](std::size_t i) { make_transitions(i); });
+    for_each_node([&](std::size_t i) { measure_degree(i); });
     correct_curl();
     for (std::size_t i = 0; i < nodes_.surface.size(); ++i) make_anchors(i);
     diffuse();
@@ -100,111 +60,55 @@ class LatticeSolver {
     parallel_for(static_cast<std::int64_t>(nodes_.size()), 256,
                  [&](std::int64_t i) { body(static_cast<std::size_t>(i)); });
   }
-  std::span<const Transition> transitions_of(std::size_t i) const {
-    return std::span(transitions_).subspan(nodes_.offsets[i], nodes_.offsets[i + 1] - nodes_.offsets[i]);
-  }
-
-  void make_transitions(std::size_t i);
-  Transition make_transition(std::size_t i, const FieldLink& link) const;
+  void measure_degree(std::size_t i);
   void make_anchors(std::size_t i);
   void correct_curl();
   fields::Loops triangles() const;
   void add_steps_on_surface(fields::Loops& loops) const;
-  void add_loops(std::int64_t ij, std::int64_t jl, std::int64_t il, fields::Loops& loops) const;
+  void add_loops(const LinkTriangle& triangle, fields::Loops& loops) const;
   std::int32_t number_of(std::int64_t link, std::size_t axis) const {
     return 3 * pair_numbers_[link] + static_cast<std::int32_t>(axis);
-  }
-  static void turn(Transition& t);
-  static Transition reversed(const Transition& t, std::int32_t from);
-  // Calls body(node, its link) for the links that lead to a later node, of all nodes or of one.
-  template <class Body>
-  void for_each_pair(Body&& body) const {
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(nodes_.size()); ++i) for_each_pair_of(i, body);
-  }
-  template <class Body>
-  void for_each_pair_of(std::int32_t i, Body&& body) const {
-    for (std::int64_t l = nodes_.offsets[i]; l < nodes_.offsets[i + 1]; ++l)
-      if (nodes_.links[l].node > i) body(i, l);
-  }
-  std::int64_t link_between(std::int32_t i, std::int32_t j) const {
-    const auto links = nodes_.links_of(i);
-    const auto found = std::ranges::lower_bound(links, j, {}, &FieldLink::node);
-    return found != links.end() && found->node == j ? nodes_.offsets[i] + (found - links.begin()) : -1;
   }
   Phases view_of_neighbours(const std::vector<Phases>& phases, std::size_t i) const;
   double diagonal(std::size_t i, std::size_t axis) const { return degree_[i] + anchors_[i][axis]; }
   void diffuse();
   void sweep();
-  LatticeField result() const;
+  LatticeField result();
   std::array<Vec3, 3> steps_of(std::size_t i) const;
 
   const FieldNodes& nodes_;
   const std::vector<fields::Frame>& frames_;
-  std::vector<Transition> transitions_;     // of each link
+  LatticeLinks links_;
   std::vector<std::int32_t> pair_numbers_;  // of each link to a later node, among these
   std::vector<double> degree_;
   std::vector<std::array<double, 3>> anchors_;  // weight of the number 1: the node is a point of the lattice
   std::vector<Phases> phases_;
 };
 
-void LatticeSolver::make_transitions(std::size_t i) {
-  for (std::int64_t l = nodes_.offsets[i]; l < nodes_.offsets[i + 1]; ++l) {
-    transitions_[l] = make_transition(i, nodes_.links[l]);
-    degree_[i] += transitions_[l].weight;
-  }
+void LatticeSolver::measure_degree(std::size_t i) {
+  for (const LatticeLink& link : links_.of(i)) degree_[i] += link.weight;
   degree_[i] = std::max(degree_[i], 1e-9);
-}
-
-Transition LatticeSolver::make_transition(std::size_t i, const FieldLink& link) const {
-  const auto j = static_cast<std::size_t>(link.node);
-  const AxisMatch matched = match(frames_[i], frames_[j]);
-  Transition t{{}, {}, matched.axis, matched.flipped, link.node, 0};
-  t.weight = static_cast<double>(link.weight) * std::max(0.0, 4 * matched.quality - 3);
-  const Vec3 back = (2 / (nodes_.sizes[i] + nodes_.sizes[j])) * (nodes_.points[i] - nodes_.points[j]);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3& there = frames_[j][t.axis[k]];
-    const Vec3 mean = 0.5 * (frames_[i][k] + (t.flipped[k] ? -there : there));
-    t.distance[k] = dot(mean, back);
-  }
-  turn(t);
-  return t;
-}
-
-void LatticeSolver::turn(Transition& t) {
-  for (std::size_t k = 0; k < 3; ++k) t.turn[k] = std::polar(1.0, 2 * std::numbers::pi * t.distance[k]);
-}
-
-Transition LatticeSolver::reversed(const Transition& t, std::int32_t from) {
-  Transition back{{}, {}, {}, {}, from, t.weight};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t there = t.axis[k];
-    back.axis[there] = static_cast<std::uint8_t>(k);
-    back.flipped[there] = t.flipped[k];
-    back.distance[there] = t.flipped[k] ? t.distance[k] : -t.distance[k];
-  }
-  turn(back);
-  return back;
 }
 
 // Distances that add up around triangles, as far as frames do.
 void LatticeSolver::correct_curl() {
   std::vector<float> distances;
-  pair_numbers_.resize(transitions_.size());
-  for_each_pair([&](std::int32_t, std::int64_t ij) {
+  pair_numbers_.resize(links_.size());
+  links_.for_each_pair([&](std::int32_t, std::int64_t ij) {
     pair_numbers_[ij] = static_cast<std::int32_t>(distances.size() / 3);
-    for (const double distance : transitions_[ij].distance) distances.push_back(static_cast<float>(distance));
+    for (const double distance : links_[ij].distance) distances.push_back(static_cast<float>(distance));
   });
   fields::Loops loops = triangles();
   add_steps_on_surface(loops);
   const std::vector<float> correction = fields::curl_correction(distances, loops, curl_limits);
   for_each_node([&](std::size_t node) {
-    for_each_pair_of(static_cast<std::int32_t>(node), [&](std::int32_t i, std::int64_t ij) {
-      Transition& t = transitions_[ij];
-      const double longest = most_strain * norm(nodes_.points[i] - nodes_.points[t.node]) / nodes_.sizes[i];
+    links_.for_each_pair_of(static_cast<std::int32_t>(node), [&](std::int32_t i, std::int64_t ij) {
+      LatticeLink& t = links_[ij];
+      const double longest = most_strain * norm(nodes_.points[i] - nodes_.points[t.neighbour]) / nodes_.sizes[i];
       for (std::size_t k = 0; k < 3; ++k)
         t.distance[k] += std::clamp<double>(correction[number_of(ij, k)], -longest, longest);
-      turn(t);
-      transitions_[link_between(t.node, i)] = reversed(t, i);
+      t.set_turn();
+      links_[links_.between(t.neighbour, i)] = t.reversed(i);
     });
   });
 }
@@ -216,10 +120,10 @@ fields::Loops LatticeSolver::triangles() const {
       [&](std::int64_t begin, std::int64_t end) {
         fields::Loops some;
         for (std::int64_t node = begin; node < end; ++node)
-          for_each_pair_of(static_cast<std::int32_t>(node), [&](std::int32_t i, std::int64_t ij) {
+          links_.for_each_pair_of(static_cast<std::int32_t>(node), [&](std::int32_t i, std::int64_t ij) {
             for (std::int64_t il = ij + 1; il < nodes_.offsets[i + 1]; ++il)
-              if (const std::int64_t jl = link_between(transitions_[ij].node, transitions_[il].node); jl >= 0)
-                add_loops(ij, jl, il, some);
+              if (const std::int64_t jl = links_.between(links_[ij].neighbour, links_[il].neighbour); jl >= 0)
+                add_loops({.to_second = ij, .to_third = il, .onward = jl}, some);
           });
         return some;
       },
@@ -228,17 +132,13 @@ fields::Loops LatticeSolver::triangles() const {
 }
 
 // Along each axis of the first node, unless the frames say at the end that it is another one.
-void LatticeSolver::add_loops(std::int64_t ij, std::int64_t jl, std::int64_t il, fields::Loops& loops) const {
-  const Transition &to_j = transitions_[ij], &onward = transitions_[jl], &to_l = transitions_[il];
-  if (std::min({to_j.weight, onward.weight, to_l.weight}) <= 0) return;
+void LatticeSolver::add_loops(const LinkTriangle& triangle, fields::Loops& loops) const {
+  if (!links_.is_regular(triangle)) return;
+  const LatticeLink& to_second = links_[triangle.to_second];
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t there = to_j.axis[k];
-    if (onward.axis[there] != to_l.axis[k] || (to_j.flipped[k] != onward.flipped[there]) != to_l.flipped[k]) return;
-  }
-  for (std::size_t k = 0; k < 3; ++k) {
-    loops.add_step(number_of(ij, k), false);
-    loops.add_step(number_of(jl, to_j.axis[k]), to_j.flipped[k]);
-    loops.add_step(number_of(il, k), true);
+    loops.add_step(number_of(triangle.to_second, k), false);
+    loops.add_step(number_of(triangle.onward, to_second.axis[k]), to_second.flipped[k]);
+    loops.add_step(number_of(triangle.to_third, k), true);
     loops.close();
   }
 }
@@ -246,10 +146,10 @@ void LatticeSolver::add_loops(std::int64_t ij, std::int64_t jl, std::int64_t il,
 // Between points of the surface, which are points of the lattice, are whole numbers of steps: one along it, and through
 // the part as many as go across it.
 void LatticeSolver::add_steps_on_surface(fields::Loops& loops) const {
-  for_each_pair([&](std::int32_t i, std::int64_t ij) {
-    const Transition& t = transitions_[ij];
-    if (!nodes_.is_on_surface(i) || !nodes_.is_on_surface(t.node) || t.weight <= 0) return;
-    const Vec3 &n = nodes_.surface[i].normal, &m = nodes_.surface[t.node].normal;
+  links_.for_each_pair([&](std::int32_t i, std::int64_t ij) {
+    const LatticeLink& t = links_[ij];
+    if (!nodes_.is_on_surface(i) || !nodes_.is_on_surface(t.neighbour) || t.weight <= 0) return;
+    const Vec3 &n = nodes_.surface[i].normal, &m = nodes_.surface[t.neighbour].normal;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto steps = steps_on_surface(frames_[i][k], n, m, std::abs(t.distance[k]));
       if (!steps) continue;
@@ -264,8 +164,8 @@ void LatticeSolver::add_steps_on_surface(fields::Loops& loops) const {
 void LatticeSolver::make_anchors(std::size_t i) {
   std::array<double, 3> sum{};
   double count = 0;
-  for (const Transition& t : transitions_of(i)) {
-    if (!nodes_.is_on_surface(static_cast<std::size_t>(t.node))) continue;
+  for (const LatticeLink& t : links_.of(i)) {
+    if (!nodes_.is_on_surface(static_cast<std::size_t>(t.neighbour))) continue;
     ++count;
     for (std::size_t k = 0; k < 3; ++k) sum[k] += t.turn[k].real();
   }
@@ -280,13 +180,7 @@ void LatticeSolver::make_anchors(std::size_t i) {
 
 Phases LatticeSolver::view_of_neighbours(const std::vector<Phases>& phases, std::size_t i) const {
   Phases sum{};
-  for (const Transition& t : transitions_of(i)) {
-    const Phases& theirs = phases[t.node];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const fields::Complex there = theirs[t.axis[k]];
-      sum[k] += t.weight * fields::times(t.flipped[k] ? std::conj(there) : there, t.turn[k]);
-    }
-  }
+  for (const LatticeLink& link : links_.of(i)) link.add_seen(phases[link.neighbour], sum);
   return sum;
 }
 
@@ -301,15 +195,11 @@ void LatticeSolver::diffuse() {
       [&](const std::vector<Phases>& phases, std::size_t i) { return view_of_neighbours(phases, i); });
 }
 
-// All at once from the numbers before, so that the order of the nodes does not count.
 void LatticeSolver::sweep() {
-  std::vector<Phases> next(nodes_.size());
-  for_each_node([&](std::size_t i) {
-    const Phases view = view_of_neighbours(phases_, i);
-    for (std::size_t k = 0; k < 3; ++k)
-      next[i][k] = fields::unit(view[k] + inertia * degree_[i] * phases_[i][k] + anchors_[i][k]);
-  });
-  phases_.swap(next);
+  phases_ = fields::swept<3>(
+      phases_, [&](const auto& body) { for_each_node(body); },
+      [&](std::size_t i) { return view_of_neighbours(phases_, i); }, [&](std::size_t i) { return degree_[i]; },
+      [&](std::size_t i, std::size_t k) { return anchors_[i][k]; });
 }
 
 // By least squares over the distances to the neighbours, which are those of the frame no longer.
@@ -320,8 +210,9 @@ std::array<Vec3, 3> LatticeSolver::steps_of(std::size_t i) const {
     const Vec3& axis = frames_[i][static_cast<std::size_t>(k)];
     right.col(k) = hold * Eigen::Vector3d(axis.x, axis.y, axis.z);
   }
-  for (const Transition& t : transitions_of(i)) {
-    const Vec3 back = (2 / (nodes_.sizes[i] + nodes_.sizes[t.node])) * (nodes_.points[i] - nodes_.points[t.node]);
+  for (const LatticeLink& t : links_.of(i)) {
+    const Vec3 back =
+        (2 / (nodes_.sizes[i] + nodes_.sizes[t.neighbour])) * (nodes_.points[i] - nodes_.points[t.neighbour]);
     const Eigen::Vector3d way(back.x, back.y, back.z);
     moments += t.weight * way * way.transpose();
     right += t.weight * way * Eigen::RowVector3d(t.distance[0], t.distance[1], t.distance[2]);
@@ -334,8 +225,8 @@ std::array<Vec3, 3> LatticeSolver::steps_of(std::size_t i) const {
   return result;
 }
 
-LatticeField LatticeSolver::result() const {
-  LatticeField field;
+LatticeField LatticeSolver::result() {
+  LatticeField field{.links = links_, .coordinates = {}, .steps = {}, .agreement = {}};
   field.coordinates.resize(nodes_.size());
   field.agreement.resize(nodes_.size());
   field.steps.resize(nodes_.size());
@@ -343,7 +234,7 @@ LatticeField LatticeSolver::result() const {
     const Phases view = view_of_neighbours(phases_, i);
     double least = degree_[i];
     for (std::size_t k = 0; k < 3; ++k) {
-      field.coordinates[i][k] = std::arg(phases_[i][k]) / (2 * std::numbers::pi);
+      field.coordinates[i][k] = fields::coordinate_of(phases_[i][k]);
       least = std::min(least, std::abs(view[k]));
     }
     field.agreement[i] = least / degree_[i];

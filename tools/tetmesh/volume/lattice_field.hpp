@@ -12,11 +12,12 @@
 #include <optional>
 #include <vector>
 
-#include "tools/tetmesh/volume/field_nodes.hpp"
+#include "tools/tetmesh/volume/lattice_links.hpp"
 
 namespace hexpipe::tetmesh::volume {
 
 struct LatticeField {
+  LatticeLinks links;  // of the nodes, with the distances that the lattice has
   // Of each node, along each axis of its frame: from -1/2 to 1/2 cells from a point of the lattice.
   std::vector<std::array<double, 3>> coordinates;
   // From one point of the lattice to the next along each axis, in sizes.

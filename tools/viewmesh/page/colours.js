@@ -12,7 +12,7 @@ export function rgb(text) {
 }
 
 const quality = colours.quality.map(rgb), plain = rgb(colours.plain), invalid = rgb(colours.invalid);
-const kinds = Object.values(colours.kinds).map(rgb), regions = colours.regions.map(rgb);
+const kinds = Object.values(colours.kinds).map(rgb), groups = colours.groups.map(rgb);
 
 export function qualityColour(value) {
   if (!(value > 0)) return invalid;
@@ -22,15 +22,19 @@ export function qualityColour(value) {
   return [mix(0), mix(1), mix(2)];
 }
 
-export const regionsOf = scene => [...new Set(scene.region)].sort((a, b) => a - b);
+// The place of each tag among the groups of a kind, "region" or "surface".
+const placesOf = (scene, kind) => new Map(scene.groups[kind].map(({tag}, place) => [tag, place]));
 
-// cell -> [r, g, b]
+export const groupColour = place => colours.groups[place % colours.groups.length];
+
+// (cell, place of the facet's surface or -1) -> [r, g, b]
 export function painter(scene, mode) {
   if (mode === "kind") return cell => kinds[kindOf(scene, cell)];
   if (mode === "region") {
-    const place = new Map(regionsOf(scene).map((region, i) => [region, regions[i % regions.length]]));
-    return cell => place.get(scene.region[cell]);
+    const places = placesOf(scene, "region");
+    return cell => groups[places.get(scene.region[cell]) % groups.length];
   }
+  if (mode === "surface") return (cell, surface) => surface < 0 ? plain : groups[surface % groups.length];
   if (mode === "hexes") return cell => cell < scene.kindBegin[1] ? qualityColour(scene.quality[cell]) : plain;
   return cell => qualityColour(scene.quality[cell]);
 }

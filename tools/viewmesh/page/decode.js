@@ -36,7 +36,16 @@ async function points(text, count) {
   return result;
 }
 
-// `fragments` becomes a list of arrays of cells; all else keeps its name.
+// For each facet of each cell, at eight times the cell and the facet's number, one more than the place of its surface; 0
+// on none.
+async function surfaces(packed, cellCount) {
+  const facets = await integers(packed.facets, 1), places = await integers(packed.surfaces, 1);
+  const result = new Uint16Array(8 * cellCount);
+  for (let i = 0; i < facets.length; ++i) result[facets[i]] = places[i] + 1;
+  return result;
+}
+
+// `fragments` becomes a list of arrays of cells, `surfaceFacets` becomes `surfaceOfFacet`; all else keeps its name.
 export async function decodeScene(data) {
   const scene = {...data, points: await points(data.points, data.pointCount)};
   scene.corners = await Promise.all(data.corners.map((text, k) => integers(text, data.kinds[k].corners)));
@@ -46,5 +55,6 @@ export async function decodeScene(data) {
   let at = 0;
   scene.fragments = Array.from(sizes, size => cells.subarray(at, at += size));
   scene.cellCount = data.kindBegin[4];
+  scene.surfaceOfFacet = await surfaces(data.surfaceFacets, scene.cellCount);
   return scene;
 }

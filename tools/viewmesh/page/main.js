@@ -4,7 +4,7 @@ import {painter, picked as pickedColour} from "./colours.js";
 import {decodeScene} from "./decode.js";
 import {Panel} from "./panel.js";
 import {Renderer} from "./renderer.js";
-import {Skin, cellHit} from "./skin.js";
+import {Skin, triangleHit} from "./skin.js";
 import {applyText, toText} from "./state.js";
 
 const canvas = document.getElementById("scene"), message = document.getElementById("message");
@@ -14,8 +14,8 @@ const stillScale = 2, settleTime = 160;
 class Viewer {
   constructor(scene) {
     this.scene = scene;
-    this.state = applyText({}, scene.state);
-    applyText(this.state, location.hash.slice(1));
+    this.state = applyText({}, scene.state, scene.groups);
+    applyText(this.state, location.hash.slice(1), this.scene.groups);
     this.picked = -1;
     this.skin = new Skin(scene);
     this.renderer = new Renderer(canvas, scene.reach);
@@ -23,7 +23,7 @@ class Viewer {
       changed: () => this.changed(),
       viewDirection: () => this.camera().towards.map(n => Number(n.toPrecision(4))),
       reset: () => {
-        applyText(this.state, scene.state);
+        applyText(this.state, scene.state, scene.groups);
         this.changed();
       },
       link: () => this.copyLink(),
@@ -32,7 +32,7 @@ class Viewer {
     controlCamera(canvas, this.state, () => this.redraw(), (x, y) => this.pick(x, y));
     addEventListener("resize", () => this.redraw());
     addEventListener("hashchange", () => {
-      applyText(this.state, location.hash.slice(1));
+      applyText(this.state, location.hash.slice(1), this.scene.groups);
       this.changed();
     });
     this.changed();
@@ -60,7 +60,8 @@ class Viewer {
   draw(scale) {
     if (this.skinIsOld) {
       const colourOf = painter(this.scene, this.state.colour);
-      this.triangles = this.skin.triangles(this.state, cell => cell === this.picked ? pickedColour : colourOf(cell));
+      this.triangles = this.skin.triangles(this.state, (cell, surface) =>
+        cell === this.picked ? pickedColour : colourOf(cell, surface));
       this.renderer.setSkin(this.triangles);
       this.panel.show(this.triangles.counts);
       this.skinIsOld = false;
@@ -78,8 +79,9 @@ class Viewer {
   pick(x, y) {
     const {left, top, width, height} = canvas.getBoundingClientRect(), camera = this.camera();
     const ray = rayThrough(camera, 2 * (x - left) / width - 1, 1 - 2 * (y - top) / height);
-    this.picked = cellHit(this.triangles, camera.eye, ray);
-    this.panel.showCell(this.picked);
+    const {cell, surface} = triangleHit(this.triangles, camera.eye, ray);
+    this.picked = cell;
+    this.panel.showCell(cell, surface);
     this.changed();
   }
 

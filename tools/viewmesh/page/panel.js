@@ -1,7 +1,7 @@
 // The card with the controls: what they show follows the state, and what they change is told by changed().
 
 import {cornersOf, kindOf} from "./cells.js";
-import {colours, regionsOf} from "./colours.js";
+import {colours, groupColour} from "./colours.js";
 import {Histogram} from "./histogram.js";
 import {axes, directionName} from "./state.js";
 
@@ -43,6 +43,7 @@ export class Panel {
     this.state = state;
     this.actions = actions;
     this.histogram = new Histogram(scene, state, actions.changed);
+    this.makeHeadline();
     this.makeCounts();
     this.makeHistory();
     this.connectChoices();
@@ -56,6 +57,13 @@ export class Panel {
       byId("fold").textContent = byId("panel").classList.toggle("folded") ? "+" : "–";
     });
     byId("panel").hidden = false;
+  }
+
+  // Candidates overlap, and a tet mesh has no hexes: neither has a share to tell.
+  makeHeadline() {
+    const {scene} = this, total = scene.volume.reduce((a, b) => a + b, 0), headline = byId("headline");
+    headline.hidden = !["result", "solution"].includes(scene.content) || !(total > 0);
+    headline.append(element("b", `${(100 * scene.volume[0] / total).toFixed(1)} %`), " of the volume in hexes");
   }
 
   makeCounts() {
@@ -167,8 +175,7 @@ export class Panel {
     };
     if (state.colour === "kind")
       scene.kinds.forEach(({name}, k) => scene.kindBegin[k] < scene.kindBegin[k + 1] && key(colours.kinds[name], name));
-    else if (state.colour === "region")
-      regionsOf(scene).slice(0, 30).forEach((region, i) => key(colours.regions[i % colours.regions.length], region));
+    else if (state.colour in scene.groups) this.showGroups(state.colour, legend);
     else {
       const scale = element("div", undefined, {className: "scale"});
       scale.style.background = `linear-gradient(to right, ${colours.quality.join()})`;
@@ -180,8 +187,42 @@ export class Panel {
     }
   }
 
+  // The legend of regions or surfaces: a click hides or shows a group, with shift it shows that one alone.
+  showGroups(kind, legend) {
+    const {scene, state} = this, groups = scene.groups[kind];
+    const others = state.hidden.filter(group => group.kind !== kind);
+    const isHidden = tag => state.hidden.some(group => group.kind === kind && group.tag === tag);
+    const hide = tags => {
+      state.hidden = [...others, ...tags.map(tag => ({kind, tag}))];
+      this.actions.changed();
+    };
+    const tagsBut = tag => groups.map(group => group.tag).filter(other => other !== tag);
+    groups.forEach(({tag, name}, place) => {
+      const item = element("button", undefined, {className: "group", value: tag, title: `${name} (${tag}): hide or show; with shift, show alone`});
+      item.append(swatch(groupColour(place)), element("span", name));
+      item.setAttribute("aria-pressed", !isHidden(tag));
+      item.addEventListener("click", ({shiftKey}) => {
+        const hidden = groups.map(group => group.tag).filter(isHidden);
+        if (shiftKey) hide(tagsBut(tag));
+        else hide(isHidden(tag) ? hidden.filter(other => other !== tag) : [...hidden, tag]);
+      });
+      legend.append(item);
+    });
+    if (groups.some(({tag}) => isHidden(tag))) {
+      const all = element("button", "Show all", {className: "all"});
+      all.addEventListener("click", () => hide([]));
+      legend.append(all);
+    }
+    if (groups.length === 0) legend.append(`This file has no ${kind}s.`);
+  }
+
+  nameOf(kind, place) {
+    const {tag, name} = this.scene.groups[kind][place];
+    return name === `${kind}_${tag}` ? String(tag) : `${name} (${tag})`;
+  }
+
   // -1: none.
-  showCell(cell) {
+  showCell(cell, surface) {
     const {scene} = this, table = byId("picked").querySelector("table");
     byId("picked").hidden = cell < 0;
     table.replaceChildren();
@@ -195,7 +236,8 @@ export class Panel {
     row(scene.content === "candidates" ? "candidate" : scene.kinds[kindOf(scene, cell)].name,
       `number ${scene.number[cell] + first}`);
     row("scaled Jacobian", scene.quality[cell].toFixed(4));
-    row("region", scene.region[cell]);
+    row("region", this.nameOf("region", scene.groups.region.findIndex(({tag}) => tag === scene.region[cell])));
+    if (surface >= 0) row("surface", this.nameOf("surface", surface));
     row("layer", scene.layer[cell]);
     row("vertices", [...corners].join(" "));
     row("middle", middle.map((m, i) => Number((scene.centre[i] + scene.unit * m).toPrecision(5))).join(", "));

@@ -120,11 +120,12 @@ export class Skin {
     const {scene, visible} = this, clipped = this.clippedBy(state.clip);
     const low = Math.fround(state.quality[0]), high = Math.fround(state.quality[1]);
     const counts = [0, 0, 0, 0];
+    const hidden = new Set(state.hidden.filter(({kind}) => kind === "region").map(({tag}) => tag));
     visible.fill(0);
     const judge = (k, cell) => {
       const quality = scene.quality[cell];
       if (scene.layer[cell] <= state.peel || quality < low || quality > high) return;
-      if (clipped(cell)) return;
+      if (clipped(cell) || (hidden.size > 0 && hidden.has(scene.region[cell]))) return;
       visible[cell] = 1;
       ++counts[k];
     };
@@ -139,8 +140,9 @@ export class Skin {
   }
 
   // Items of the facets to draw, of a facet the first visible cell's; returns {shown, count, triangles}.
-  chooseFacets() {
-    const {visible, shown} = this, {begin, items} = this.facets;
+  chooseFacets(state) {
+    const {visible, shown} = this, {begin, items} = this.facets, {surfaceOfFacet} = this.scene;
+    const hidden = this.hiddenSurfaces(state);
     let count = 0, triangles = 0;
     for (let f = 0; f + 1 < begin.length; ++f) {
       let first0 = -1, first1 = -1;
@@ -152,23 +154,34 @@ export class Skin {
       }
       if ((first0 < 0) === (first1 < 0)) continue;
       const item = first0 < 0 ? first1 : first0;
+      if (hidden[surfaceOfFacet[item >> 1]]) continue;
       shown[count++] = item;
       triangles += this.facetOf(item).length - 2;
     }
     return {count, triangles};
   }
 
+  // By what surfaceOfFacet has.
+  hiddenSurfaces(state) {
+    const {surface} = this.scene.groups, hidden = new Uint8Array(surface.length + 1);
+    for (const {kind, tag} of state.hidden)
+      if (kind === "surface") hidden[surface.findIndex(group => group.tag === tag) + 1] = 1;
+    return hidden;
+  }
+
   facetOf(item) {
     return this.scene.kinds[kindOf(this.scene, item >> 4)].facets[(item >> 1) & 7];
   }
 
-  // Arrays as skin.vert wants them, and the cell of each triangle. colourOf(cell) gives [r, g, b].
+  // Arrays as skin.vert wants them, and the cell and the surface (-1: none) of each triangle. colourOf(cell, surface)
+  // gives [r, g, b].
   triangles(state, colourOf) {
-    const counts = this.chooseCells(state), {count, triangles} = this.chooseFacets();
+    const counts = this.chooseCells(state), {count, triangles} = this.chooseFacets(state);
     const out = {
       counts,
       position: new Float32Array(9 * triangles), normal: new Int8Array(12 * triangles),
-      colour: new Uint8Array(12 * triangles), cell: new Int32Array(triangles), done: 0,
+      colour: new Uint8Array(12 * triangles), cell: new Int32Array(triangles), surface: new Int32Array(triangles),
+      done: 0,
     };
     for (let i = 0; i < count; ++i) this.addFacet(this.shown[i], colourOf, out);
     return out;
@@ -185,7 +198,8 @@ export class Skin {
     const ux = points[u1] - points[u0], uy = points[u1 + 1] - points[u0 + 1], uz = points[u1 + 2] - points[u0 + 2];
     const vx = points[v1] - points[v0], vy = points[v1 + 1] - points[v0 + 1], vz = points[v1 + 2] - points[v0 + 2];
     const nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-    const scale = 127 / (Math.sqrt(nx * nx + ny * ny + nz * nz) || 1), colour = colourOf(cell);
+    const surface = this.scene.surfaceOfFacet[item >> 1] - 1, colour = colourOf(cell, surface);
+    const scale = 127 / (Math.sqrt(nx * nx + ny * ny + nz * nz) || 1);
     // The two triangles of a quad hide the side opposite their corner 1, its diagonal.
     for (let corner = 0; corner < (quad ? 6 : 3); ++corner) {
       const vertex = 3 * out.done + corner, from = at[cornersOfTriangles[corner]];
@@ -200,13 +214,15 @@ export class Skin {
       out.colour[4 * vertex + 2] = colour[2];
       out.colour[4 * vertex + 3] = corner % 3 + (quad ? 8 : 0);
     }
-    out.cell[out.done++] = cell;
-    if (quad) out.cell[out.done++] = cell;
+    for (let triangle = 0; triangle < (quad ? 2 : 1); ++triangle) {
+      out.surface[out.done] = surface;
+      out.cell[out.done++] = cell;
+    }
   }
 }
 
-// The cell whose triangle a ray meets first, or -1.
-export function cellHit(skin, origin, direction) {
+// The cell and the surface of the triangle that a ray meets first, or -1 for both.
+export function triangleHit(skin, origin, direction) {
   const p = skin.position;
   let nearest = Infinity, hit = -1;
   for (let t = 0; t < skin.cell.length; ++t) {
@@ -224,7 +240,7 @@ export function cellHit(skin, origin, direction) {
     const b = (dx * qx + dy * qy + dz * qz) / determinant;
     if (b < 0 || a + b > 1) continue;
     const distance = (vx * qx + vy * qy + vz * qz) / determinant;
-    if (distance > 0 && distance < nearest) nearest = distance, hit = skin.cell[t];
+    if (distance > 0 && distance < nearest) nearest = distance, hit = t;
   }
-  return hit;
+  return hit < 0 ? {cell: -1, surface: -1} : {cell: skin.cell[hit], surface: skin.surface[hit]};
 }

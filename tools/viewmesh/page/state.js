@@ -2,7 +2,7 @@
 
 export const axes = {x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1]};
 const kindNames = ["hex", "prism", "pyramid", "tet"];
-const colourNames = ["hexes", "quality", "kind", "region"];
+const colourNames = ["hexes", "quality", "kind", "region", "surface"];
 
 const rounded = number => String(Number(number.toPrecision(6)));
 // Written as std::from_chars takes them.
@@ -40,6 +40,17 @@ export function directionName(normal) {
   return null;
 }
 
+// A group is hidden by its kind and tag; a link may have its name, which the page knows.
+function parseHidden(text, groups) {
+  if (text === "none") return [];
+  return text.split(",").map(part => {
+    const [, kind, word] = /^(region|surface):(.+)$/.exec(part) ?? [];
+    const group = groups?.[kind]?.find(({tag, name}) => String(tag) === word || name === word);
+    if (!group) throw new Error(part);
+    return {kind, tag: group.tag};
+  });
+}
+
 // The bounds are those of view_state.cpp: what --view refuses, no link sets.
 const setters = {
   camera(state, text) {
@@ -54,19 +65,22 @@ const setters = {
     const shown = text === "none" ? [] : text.split(",").map(name => oneOf(name, kindNames));
     state.kinds = kindNames.map(name => shown.includes(name));
   },
+  hidden: (state, text, groups) => { state.hidden = parseHidden(text, groups); },
   colour: (state, text) => { state.colour = oneOf(text, colourNames); },
+  color: (state, text) => { state.colour = oneOf(text, colourNames); },
   edges: (state, text) => { state.edges = oneOf(text, ["off", "on"]) === "on"; },
   theme: (state, text) => { state.theme = oneOf(text, ["light", "dark"]); },
   fragment: (state, text) => { state.fragment = integer(text, 0, 1e9); },
 };
 
-// Changes what the text names; what it says wrongly stays as it is, for links may come from anywhere.
-export function applyText(state, text) {
+// Changes what the text names; what it says wrongly stays as it is, for links may come from anywhere. `groups` are the
+// scene's.
+export function applyText(state, text, groups) {
   for (const part of text.split("&")) {
     const equals = part.indexOf("=");
     const setter = setters[part.slice(0, equals)];
     try {
-      setter?.(state, decodeURIComponent(part.slice(equals + 1)));
+      setter?.(state, decodeURIComponent(part.slice(equals + 1)), groups);
     } catch {
       continue;
     }
@@ -79,6 +93,7 @@ export function toText(state) {
     `${directionName(state.clip.normal) ?? state.clip.normal.map(rounded).join()}:${rounded(state.clip.fraction)}`;
   const camera = [state.azimuth, state.elevation, state.zoom, ...state.target].map(rounded);
   return `camera=${camera}&clip=${clip ?? "none"}&quality=${state.quality.map(rounded)}&peel=${state.peel}` +
-    `&kinds=${kindNames.filter((_, k) => state.kinds[k]).join() || "none"}&colour=${state.colour}` +
+    `&kinds=${kindNames.filter((_, k) => state.kinds[k]).join() || "none"}` +
+    `&hidden=${state.hidden.map(({kind, tag}) => `${kind}:${tag}`).join() || "none"}&colour=${state.colour}` +
     `&edges=${state.edges ? "on" : "off"}&theme=${state.theme}&fragment=${state.fragment}`;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Complete search (Verhetsel 2017, 3.2, algorithm 1): every independent set, for the heaviest one. What the others are
-// measured by.
+// Complete search (Verhetsel 2017, 3.2, algorithm 1): tries every independent set. The other algorithms are measured
+// against it.
 
 #include "common/mwis/exact/bit_search.hpp"
 
@@ -10,7 +10,7 @@ class CompleteSearch : public BitSearch {
  public:
   CompleteSearch() : BitSearch(1) {}
 
-  // As BranchAndBound::solve.
+  // The same contract as BranchAndBound::solve.
   bool solve(const ground::DenseGraph& graph, std::int64_t lower_bound, ground::SearchBudget& budget);
 
  private:

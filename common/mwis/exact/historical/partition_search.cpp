@@ -10,8 +10,8 @@ bool PartitionSearch::solve(const ground::DenseGraph& graph, std::int64_t lower_
   return found_;
 }
 
-// The candidates of this depth may be added to the current set, which weighs `weight`. Bounds hold for those that are
-// left, so each is asked for anew.
+// The candidates of this depth may be added to the current set, which weighs `weight`. A bound holds for the candidates
+// that are left, so it is computed again for each.
 void PartitionSearch::expand(std::size_t depth, std::int64_t weight) {
   if (!budget_->spend()) return;
   offer(weight);

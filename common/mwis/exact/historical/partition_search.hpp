@@ -1,6 +1,6 @@
 #pragma once
-// Branch and bound by greedy clique partition (Verhetsel 2017, 3.2, algorithms 2 and 3): complete search without the
-// nodes whose candidates a partition into cliques, counted by their heaviest vertices, shows to be too light.
+// Branch and bound by greedy clique partition (Verhetsel 2017, 3.2, algorithms 2 and 3): complete search, but it skips
+// nodes whose candidates are too light. A partition into cliques, counted by their heaviest vertices, shows that.
 
 #include "common/mwis/bounds/clique_cover_bound.hpp"
 #include "common/mwis/exact/bit_search.hpp"
@@ -11,7 +11,7 @@ class PartitionSearch : public BitSearch {
  public:
   PartitionSearch() : BitSearch(2) {}
 
-  // As BranchAndBound::solve.
+  // The same contract as BranchAndBound::solve.
   bool solve(const ground::DenseGraph& graph, std::int64_t lower_bound, ground::SearchBudget& budget);
 
  private:

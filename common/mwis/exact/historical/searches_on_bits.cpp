@@ -19,8 +19,8 @@
 namespace hexpipe::mwis::exact::historical {
 namespace {
 
-// A search on bits takes a matrix and a row of bits for each depth, and SubgradientSearch its prices for each depth:
-// some hundred MiB at this size. None ends in a lifetime on much smaller graphs.
+// A search on bits takes a matrix and a row of bits for each depth, and SubgradientSearch takes its prices for each
+// depth. That is some hundred MiB at this size. No search ends in a lifetime on much smaller graphs.
 constexpr std::int32_t most_on_bits = 4096;
 constexpr std::int64_t heaviest_for_subgradient = std::int64_t{1} << 58;
 
@@ -37,7 +37,7 @@ std::vector<std::int32_t> heaviest_first(const graph::ConflictGraph& graph) {
 }
 
 // Vertices with little weight around them come first, so that weighted covers leave those in the middle of many
-// conflicts for branching (exact_solver.cpp). That takes a fiftieth of the nodes on random graphs of 130 vertices; for
+// conflicts for branching (exact_solver.cpp). On random graphs of 130 vertices this takes a fiftieth of the nodes; for
 // a partition, it takes sixty times as many.
 std::vector<std::int32_t> least_crowded_first(const graph::ConflictGraph& graph) {
   std::vector<double> crowding(graph.weights.size());
@@ -62,7 +62,7 @@ graph::ConflictGraph renumbered(const graph::ConflictGraph& graph, const std::ve
   return result;
 }
 
-// A node of SubgradientSearch takes up to a tenth of a second, one of the others some microseconds.
+// A node of SubgradientSearch takes up to a tenth of a second; a node of the others takes some microseconds.
 template <class Search>
 constexpr std::int64_t nodes_a_look =
     std::is_same_v<Search, SubgradientSearch> ? 1 : ground::SearchBudget::usual_nodes_a_look;

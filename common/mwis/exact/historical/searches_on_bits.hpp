@@ -1,6 +1,6 @@
 #pragma once
-// The exact algorithms of Verhetsel 2017, 3.2, as they stand there: on bits, without reductions. certify uses none of
-// them unless it is asked to (README.md).
+// The exact algorithms of Verhetsel 2017, 3.2, unchanged: on bits, without reductions. certify uses them only when
+// asked to (README.md).
 
 #include "common/graph/conflict_graph.hpp"
 #include "common/mwis/exact/branch_and_reduce.hpp"
@@ -9,18 +9,18 @@
 namespace hexpipe::mwis::exact::historical {
 
 // Each looks for the heaviest set among those heavier than `weight`, until it is proven or the deadline passes. The
-// graph has to pass expect_room_on_bits, for the linear program also expect_room_for_clique_lp.
+// graph has to pass expect_room_on_bits; for the linear program also expect_room_for_clique_lp.
 ExactResult search_completely(const graph::ConflictGraph& graph, std::int64_t weight, const Deadline& deadline);
 ExactResult search_by_clique_partition(const graph::ConflictGraph& graph, std::int64_t weight,
                                        const Deadline& deadline);
-// The cover is weighted, with weight splitting.
+// Uses a weighted cover with weight splitting.
 ExactResult search_by_clique_cover(const graph::ConflictGraph& graph, std::int64_t weight, const Deadline& deadline);
-// The linear program is solved by subgradient steps.
+// Solves the linear program by subgradient steps.
 ExactResult search_by_clique_lp(const graph::ConflictGraph& graph, std::int64_t weight, const Deadline& deadline);
 
-// Throws DataError where the graph has too many vertices for a search on bits.
+// Throws DataError if the graph has too many vertices for a search on bits.
 void expect_room_on_bits(const graph::ConflictGraph& graph);
-// Throws DataError where the weights are too large.
+// Throws DataError if the weights are too large.
 void expect_room_for_clique_lp(const graph::ConflictGraph& graph);
 
 }  // namespace hexpipe::mwis::exact::historical

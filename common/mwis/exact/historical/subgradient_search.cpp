@@ -10,12 +10,12 @@
 namespace hexpipe::mwis::exact::historical {
 namespace {
 
-// Prices are whole numbers of 2^-20 of a weight, or of more where sums, which stay below eight times that of all
-// weights, would not fit.
+// Prices are whole multiples of 2^-20 of a weight, or of more if sums would not fit; sums stay below eight times the
+// sum of all weights.
 constexpr int finest = 20;
-// Steps at the root and in a node, which starts from its parent's prices.
+// Steps at the root and in a node; a node starts from its parent's prices.
 constexpr int root_steps = 300, node_steps = 15;
-// A step goes this far of the way on which the bound would come down to what is needed, less each time.
+// A step goes this share of the way that would bring the bound down to what is needed; the share shrinks each time.
 constexpr double first_length = 1.0, shortening = 0.97;
 
 }  // namespace
@@ -35,8 +35,8 @@ bool SubgradientSearch::solve(const ground::DenseGraph& graph, const graph::Cliq
   return found_;
 }
 
-// The candidates of this depth may be added to the current set, which weighs `weight`: first with the one that has the
-// highest reduced cost, then without it, and so on.
+// The candidates of this depth may be added to the current set, which weighs `weight`: first the branch with the
+// candidate of highest reduced cost, then the branch without it, and so on.
 void SubgradientSearch::expand(std::size_t depth, std::int64_t weight, Prices prices) {
   bits::Word* const candidates = row(depth, 0);
   offer(weight);
@@ -50,8 +50,8 @@ void SubgradientSearch::expand(std::size_t depth, std::int64_t weight, Prices pr
   }
 }
 
-// Steps until the prices prove that no set of candidates is heavier than `needed`, which is then true, or there have
-// been enough, or no time is left; leaves the best ones, and drops the candidates that they rule out.
+// Steps until the prices prove that no set of candidates is heavier than `needed` (then it returns true), or until
+// there were enough steps, or no time is left. Leaves the best prices, and drops the candidates that they exclude.
 bool SubgradientSearch::improve(std::size_t depth, std::int64_t needed, Prices& prices) {
   const std::int64_t target = needed << shift_;
   Prices now = prices;
@@ -77,8 +77,8 @@ bool SubgradientSearch::improve(std::size_t depth, std::int64_t needed, Prices& 
   return bits::empty(candidates, words_);
 }
 
-// Sets the costs, and counts what of each clique has a positive one. A price is paid where a candidate is in the
-// clique.
+// Sets the costs, and counts the members of positive cost in each clique. A clique's price is paid only if it has a
+// candidate.
 std::int64_t SubgradientSearch::bound(std::size_t depth, const Prices& prices) {
   std::ranges::fill(chosen_, -1);
   std::int64_t sum = 0;
@@ -98,8 +98,8 @@ std::int64_t SubgradientSearch::bound(std::size_t depth, const Prices& prices) {
   return sum;
 }
 
-// Against the subgradient at the last bound(): what a clique chooses beyond 1 raises its price. `length` is by how much
-// the bound would come down if it were linear.
+// Steps against the subgradient at the last bound(): a clique that chooses more than 1 gets a higher price. `length` is
+// the amount by which the bound would come down if it were linear.
 void SubgradientSearch::step(double length, Prices& prices) {
   double square = 0;
   for (std::size_t c = 0; c < prices.size(); ++c)

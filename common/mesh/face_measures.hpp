@@ -1,0 +1,56 @@
+#pragma once
+// How a mesh suits finite volumes: the measures of OpenFOAM's checkMesh (version 1912), by the same formulas.
+
+#include <array>
+#include <cstdint>
+#include <numbers>
+#include <span>
+
+#include "common/mesh/cell_topology.hpp"
+#include "common/mesh/mixed_mesh.hpp"
+#include "common/mesh/vec3.hpp"
+
+namespace hexpipe {
+
+// A flat stand-in for a face. `area` is at right angles to it, as long as the face is large, and outward where the
+// corners are counter-clockwise as seen from outside.
+struct FaceShape {
+  Vec3 area{}, centre{};
+};
+
+// Of three corners or more. More than three are split into triangles around their mean, and the centre is the mean of
+// the triangles' centres, by their areas.
+FaceShape face_shape(std::span<const Vec3> corners);
+
+// Where the pyramids from the mean of the faces' centres to the faces have their common centre of mass.
+Vec3 cell_centre(CellKind kind, std::span<const Vec3> corners);
+
+// The cosine of the angle between a face's normal and the line from the centre of the cell behind it to that of the
+// cell before it; 1 is best. checkMesh calls a face severely non-orthogonal where the angle is more than 70 degrees.
+double orthogonality(const FaceShape& face, const Vec3& behind, const Vec3& before);
+inline constexpr double severe_angle = 70 * std::numbers::pi / 180;
+
+// How evenly the face halves the way between the two centres: from 0 to 0.5, which is best. checkMesh counts faces
+// below 0.05.
+double face_weight(const FaceShape& face, const Vec3& behind, const Vec3& before);
+inline constexpr double low_weight = 0.05;
+
+// The length of the face's area by the areas of its triangles: 1 for a flat one. checkMesh counts faces below 0.8.
+double face_flatness(std::span<const Vec3> corners);
+
+// How well the faces that have a neighbour span space: the determinant of the sum of the squares (dyads) of their areas
+// by their mean size, over 8. 1 for a cube that has six neighbours, 0 for a cell that has two or less. `inner` tells
+// for each face, triangles before quads as in cell_topology.hpp, whether it has one.
+double cell_determinant(CellKind kind, std::span<const Vec3> corners, std::span<const std::uint8_t> inner);
+
+// All inner faces of a mesh. Those that only one cell has, with these corners, are no inner ones.
+struct FaceStatistics {
+  std::int64_t faces = 0;
+  std::int64_t severe = 0;                // non-orthogonal by more than severe_angle
+  std::int64_t low = 0;                   // of less than low_weight
+  double most_angle = 0, mean_angle = 0;  // in radians; the mean is that of the cosines
+  double least_weight = 0.5;
+};
+FaceStatistics face_statistics(const MixedMesh& mesh);
+
+}  // namespace hexpipe

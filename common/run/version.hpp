@@ -1,8 +1,0 @@
-#pragma once
-
-namespace hexpipe {
-
-// The version of hexpipe, "major.minor.patch".
-const char* version();
-
-}  // namespace hexpipe

@@ -1,0 +1,163 @@
+// Single vertices have been placed before, each as well as it could: what is left needs other cells, or several
+// vertices together (patch.hpp). Faces have no gradient worth the name, because three cells and a face change with each
+// vertex; so a vertex tries a few steps along the axes and takes the best.
+
+#include "tools/assemble/gap/mend.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "tools/assemble/gap/face_costs.hpp"
+#include "tools/assemble/gap/objective.hpp"
+#include "tools/assemble/gap/patch.hpp"
+#include "tools/assemble/gap/refill.hpp"
+
+namespace hexpipe::assemble::gap {
+namespace {
+
+constexpr int most_mending_passes = 3;
+constexpr int rounds_to_raise = 5;
+constexpr double least_rise = 1e-3;
+// Rooms of more cells have seldom another filling.
+constexpr std::size_t most_cells = 20;
+// Parts of the shortest edge.
+constexpr std::array<double, 3> steps{0.3, 0.12, 0.05};
+constexpr std::array<Vec3, 6> directions{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
+
+class Mender {
+ public:
+  explicit Mender(GapMesh& gap) : gap_(gap), refill_(gap), patch_(gap) {}
+
+  std::int64_t run() {
+    std::int64_t changes = 0;
+    for (int pass = 0; pass < most_mending_passes; ++pass) {
+      const std::int64_t before = changes;
+      const auto count = static_cast<std::int32_t>(gap_.cell_count());
+      for (std::int32_t c = 0; c < count; ++c)
+        if (gap_.is_alive(c)) changes += mend(c) ? 1 : 0;
+      if (changes == before) break;
+    }
+    return changes;
+  }
+
+ private:
+  bool mend(std::int32_t c);
+  bool is_beside(std::int32_t c, std::int32_t other) const;
+  bool refill();
+  bool refill_around(std::int32_t c);
+  bool raise_around(std::int32_t c);
+  bool raise(const std::vector<Vertex>& vertices);
+  double shortest_edge_at(Vertex v) const;
+  bool step(Vertex v);
+
+  GapMesh& gap_;
+  Refill refill_;
+  Patch patch_;
+  std::vector<std::int32_t> room_;
+};
+
+bool Mender::refill() {
+  if (room_.size() > most_cells) return false;
+  const auto in = refill_.find(room_);
+  if (in) gap_.replace(room_, *in);
+  return in.has_value();
+}
+
+// With a facet in common.
+bool Mender::is_beside(std::int32_t c, std::int32_t other) const {
+  return c != other &&
+         std::ranges::count_if(gap_.cell(c).vertices(), [&](Vertex v) { return gap_.cell(other).has(v); }) >= 3;
+}
+
+// The cell with all beside it, then the cells at each of its vertices.
+bool Mender::refill_around(std::int32_t c) {
+  const GapCell cell = gap_.cell(c);
+  room_ = {c};
+  for (const Vertex v : cell.vertices())
+    for (const std::int32_t other : gap_.cells_at(v))
+      if (is_beside(c, other) && std::ranges::find(room_, other) == room_.end()) room_.push_back(other);
+  if (refill()) return true;
+  return std::ranges::any_of(cell.vertices(), [&](Vertex v) {
+    room_.assign(gap_.cells_at(v).begin(), gap_.cells_at(v).end());
+    return refill();
+  });
+}
+
+bool Mender::raise(const std::vector<Vertex>& vertices) {
+  if (vertices.empty()) return false;
+  patch_.take(vertices, {});
+  const double before = patch_.least();
+  patch_.raise(least_quality, rounds_to_raise);
+  if (patch_.least() < before + least_rise || !patch_.keeps_floors()) return false;
+  if (patch_.cost() > patch_.cost_before() - least_gain) return false;
+  patch_.carry_out(gap_, {});
+  return true;
+}
+
+// The cell's own vertices, then those of all cells at these, too.
+bool Mender::raise_around(std::int32_t c) {
+  std::vector<Vertex> own, all;
+  for (const Vertex v : gap_.cell(c).vertices()) {
+    if (gap_.is_inside(v)) own.push_back(v);
+    for (const std::int32_t other : gap_.cells_at(v))
+      for (const Vertex w : gap_.cell(other).vertices())
+        if (gap_.is_inside(w)) all.push_back(w);
+  }
+  if (raise(own)) return true;
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return raise(all);
+}
+
+double Mender::shortest_edge_at(Vertex v) const {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const std::int32_t c : gap_.cells_at(v))
+    for (const Vertex w : gap_.cell(c).vertices())
+      if (w != v) shortest = std::min(shortest, norm(gap_.points()[w] - gap_.points()[v]));
+  return shortest;
+}
+
+bool Mender::step(Vertex v) {
+  const std::array<Vertex, 1> moving{v};
+  patch_.take(moving, {});
+  const Vec3 start = gap_.points()[v];
+  const double length = shortest_edge_at(v);
+  double best = patch_.cost_before() - least_gain;
+  Vec3 place = start;
+  for (const double part : steps) {
+    for (const Vec3& direction : directions) {
+      patch_.place(v, start + direction * (part * length));
+      if (!patch_.keeps_floors()) continue;
+      const double cost = patch_.cost();
+      if (cost < best) best = cost, place = start + direction * (part * length);
+    }
+    if (place != start) break;
+  }
+  if (place == start) return false;
+  patch_.place(v, place);
+  patch_.carry_out(gap_, {});
+  return true;
+}
+
+bool Mender::mend(std::int32_t c) {
+  const bool is_poor = gap_.cell(c).quality < least_quality;
+  const bool has_poor_face = cost_of_faces(gap_, std::span(&c, 1)) > 0;
+  if (!is_poor && !has_poor_face) return false;
+  if (refill_around(c)) return true;
+  if (is_poor && raise_around(c)) return true;
+  if (!has_poor_face) return false;
+  bool moved = false;
+  for (const Vertex v : gap_.cell(c).vertices())
+    if (gap_.is_inside(v)) moved = step(v) || moved;
+  return moved;
+}
+
+}  // namespace
+
+std::int64_t mend(GapMesh& gap) {
+  return Mender(gap).run();
+}
+
+}  // namespace hexpipe::assemble::gap

@@ -1,0 +1,165 @@
+#include "tools/assemble/gap/patch.hpp"
+
+#include <algorithm>
+
+#include "common/mesh/face_view.hpp"
+#include "common/mesh/quality.hpp"
+#include "common/mesh/validity.hpp"
+#include "tools/assemble/gap/face_costs.hpp"
+#include "tools/assemble/gap/objective.hpp"
+
+namespace hexpipe::assemble::gap {
+namespace {
+
+// As in smoothing (shape/smooth.cpp): chosen cells are not pressed below that, and a hex counts as another cell of half
+// its quality.
+constexpr double least_hex = least_hex_quality, least_prism = 0.12;
+constexpr double hex_weight = 0.5;
+constexpr int steps_to_make_room = 6;
+constexpr double least_rise = 1e-3;
+// A move after which a cell is not valid is halved this often.
+constexpr int retreats = 2;
+
+}  // namespace
+
+std::int32_t Patch::local_of(Vertex v) const {
+  return static_cast<std::int32_t>(std::ranges::lower_bound(vertices_, v) - vertices_.begin());
+}
+
+void Patch::add(Cell cell, std::span<const Vertex> corners) {
+  std::ranges::copy(corners, cell.corners.begin());
+  cells_.push_back(cell);
+}
+
+void Patch::take(std::span<const Vertex> moving, const Exchange& exchange) {
+  vertices_.clear(), cells_.clear(), moving_.clear();
+  std::vector<std::int32_t> kept;
+  before_.assign(exchange.out.begin(), exchange.out.end());
+  for (const Vertex v : moving) {
+    before_.insert(before_.end(), gap_.cells_at(v).begin(), gap_.cells_at(v).end());
+    kept.insert(kept.end(), gap_.kept_at(v).begin(), gap_.kept_at(v).end());
+  }
+  for (auto* list : {&before_, &kept}) {
+    std::ranges::sort(*list);
+    list->erase(std::unique(list->begin(), list->end()), list->end());
+  }
+  for (const std::int32_t c : before_)
+    if (std::ranges::find(exchange.out, c) == exchange.out.end())
+      add({gap_.cell(c).kind, false, gap_.cell(c).region, std::min(gap_.cell(c).quality, least_quality), {}},
+          gap_.cell(c).vertices());
+  for (const GapCell& cell : exchange.in) add({cell.kind, false, cell.region, exchange.floor, {}}, cell.vertices());
+  for (const std::int32_t c : kept) {
+    const KeptCell& cell = gap_.kept_cell(c);
+    const double floor = cell.kind == CellKind::hex ? least_hex : least_prism;
+    add({cell.kind, true, 0, std::min(floor, quality_of(cell.kind, gap_.points(), cell.vertices())), {}},
+        cell.vertices());
+  }
+  for (const Cell& cell : cells_) vertices_.insert(vertices_.end(), cell.vertices().begin(), cell.vertices().end());
+  vertices_.insert(vertices_.end(), moving.begin(), moving.end());
+  std::ranges::sort(vertices_);
+  vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+  points_.clear();
+  for (const Vertex v : vertices_) points_.push_back(gap_.points()[v]);
+  for (const Vertex v : moving) moving_.push_back(local_of(v));
+  at_.assign(moving.size(), {});
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    for (std::int32_t& v : cells_[c].corners) v = local_of(v);
+    for (std::size_t i = 0; i < moving_.size(); ++i)
+      if (std::ranges::find(cells_[c].vertices(), moving_[i]) != cells_[c].vertices().end())
+        at_[i].push_back(static_cast<std::int32_t>(c));
+  }
+}
+
+double Patch::quality(const Cell& cell) const {
+  return quality_of(cell.kind, points_, cell.vertices());
+}
+
+// Valid, and no prism that readers turn round.
+bool Patch::is_good(const Cell& cell) const {
+  const auto at = corner_points(points_, cell.vertices());
+  const auto corners = std::span<const Vec3>(at).first(cell.vertices().size());
+  return is_valid(cell.kind, corners) && (cell.kind != CellKind::prism || least_face_view(cell.kind, corners) > 0);
+}
+
+void Patch::look_around(std::int32_t i) {
+  star_.clear();
+  for (const std::int32_t c : at_[i]) {
+    const Cell& cell = cells_[c];
+    const auto at = corner_points(points_, cell.vertices());
+    const auto own = static_cast<int>(std::ranges::find(cell.vertices(), moving_[i]) - cell.vertices().begin());
+    shape::CornerRules rules;
+    if (cell.kind == CellKind::hex) rules = {.weight = hex_weight, .floor = least_hex};
+    if (cell.is_kept && cell.kind == CellKind::prism) rules = {.floor = least_prism};
+    star_.add(cell.kind, std::span<const Vec3>(at).first(cell.vertices().size()), own, rules);
+  }
+}
+
+bool Patch::improve(std::int32_t i, double goal) {
+  // Chosen cells are better: most vertices need no look at all of theirs.
+  const bool is_good_here =
+      std::ranges::all_of(at_[i], [&](std::int32_t c) { return cells_[c].is_kept || quality(cells_[c]) >= goal; });
+  if (is_good_here) return false;
+  look_around(i);
+  Vec3& point = points_[moving_[i]];
+  const Vec3 before = point;
+  const double worst = star_.worst(before);
+  if (worst >= goal) return false;
+  const shape::Placement place = shape::raise_worst(star_, before, steps_to_make_room);
+  Vec3 step = place.at - before;
+  for (int retreat = 0; retreat <= retreats; ++retreat, step *= 0.5) {
+    const Vec3 at = before + step;
+    if (star_.worst(at) < worst + least_rise || !star_.keeps_floors(before, at)) continue;
+    point = at;
+    if (std::ranges::all_of(at_[i], [&](std::int32_t c) { return !cells_[c].is_kept || is_good(cells_[c]); }))
+      return true;
+    point = before;
+  }
+  return false;
+}
+
+void Patch::raise(double goal, int rounds) {
+  for (int round = 0; round < rounds; ++round) {
+    bool any = false;
+    for (std::size_t i = 0; i < moving_.size(); ++i) any = improve(static_cast<std::int32_t>(i), goal) || any;
+    if (!any || least() >= goal) return;
+  }
+}
+
+double Patch::least() const {
+  double least = 1;
+  for (const Cell& cell : cells_)
+    if (!cell.is_kept) least = std::min(least, quality(cell));
+  return least;
+}
+
+bool Patch::keeps_floors() const {
+  return std::ranges::all_of(cells_, [&](const Cell& cell) { return quality(cell) >= cell.floor && is_good(cell); });
+}
+
+double Patch::cost_before() const {
+  double cost = cost_of_faces(gap_, before_);
+  for (const std::int32_t c : before_) cost += cost_of(gap_.cell(c).quality);
+  return cost;
+}
+
+double Patch::cost() const {
+  double sum = 0;
+  std::vector<FacesOf> cells;
+  for (const Cell& cell : cells_) {
+    if (!cell.is_kept) sum += cost_of(quality(cell));
+    FacesOf faces{cell.kind, {}, {}, cell.is_kept};
+    for (std::size_t i = 0; i < cell.vertices().size(); ++i) {
+      faces.corners[i] = vertices_[cell.corners[i]];
+      faces.points[i] = points_[cell.corners[i]];
+    }
+    cells.push_back(faces);
+  }
+  return sum + cost_of_faces(gap_, cells, before_);
+}
+
+void Patch::carry_out(GapMesh& gap, const Exchange& exchange) const {
+  gap.replace(exchange.out, exchange.in);
+  for (const std::int32_t v : moving_) gap.relocate(vertices_[v], points_[v]);
+}
+
+}  // namespace hexpipe::assemble::gap

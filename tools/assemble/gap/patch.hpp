@@ -1,0 +1,79 @@
+#pragma once
+// A few vertices inside the mesh with all cells around them, apart from the rest: what is tried here changes nothing
+// until it has turned out well.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tools/assemble/gap/gap_mesh.hpp"
+#include "tools/assemble/shape/point_star.hpp"
+
+namespace hexpipe::assemble::gap {
+
+// What a change does to the cells of the gap.
+struct Exchange {
+  std::span<const std::int32_t> out;
+  std::span<const GapCell> in;
+  double floor = 0;  // the least quality that those which come in may have
+};
+
+class Patch {
+ public:
+  explicit Patch(const GapMesh& gap) : gap_(gap) {}
+
+  // True where a vertex is inside, and at no seam: then it may move, though a chosen cell uses it.
+  static bool may_move(const GapMesh& gap, Vertex v) { return gap.is_inside(v); }
+
+  // The cells at `moving` after the change.
+  void take(std::span<const Vertex> moving, const Exchange& exchange);
+  void place(Vertex v, const Vec3& at) { points_[local_of(v)] = at; }
+
+  // Moves the vertices, one after the other, at most `rounds` times, where the worst cell around one is below `goal`
+  // and becomes better. Chosen cells stay valid and as good as they have to be (least_hex), or as they were.
+  void raise(double goal, int rounds);
+
+  // The least quality among the cells that are not chosen.
+  double least() const;
+  // False where a cell has become worse than it may: than least_quality, for a hex least_hex, or than it was.
+  bool keeps_floors() const;
+  // What cells and faces of the gap cost, as they are here.
+  double cost() const;
+  // What those cost that were there before.
+  double cost_before() const;
+
+  // Makes the change and the moves.
+  void carry_out(GapMesh& gap, const Exchange& exchange) const;
+
+ private:
+  struct Cell {
+    CellKind kind = CellKind::tet;
+    bool is_kept = false;
+    std::int32_t region = 0;
+    double floor = 0;                       // of its quality
+    std::array<std::int32_t, 8> corners{};  // as local numbers
+
+    std::span<const std::int32_t> vertices() const {
+      return std::span(corners).first(static_cast<std::size_t>(corner_count(kind)));
+    }
+  };
+
+  std::int32_t local_of(Vertex v) const;
+  void add(Cell cell, std::span<const Vertex> corners);
+  double quality(const Cell& cell) const;
+  bool is_good(const Cell& cell) const;
+  void look_around(std::int32_t v);
+  bool improve(std::int32_t v, double goal);
+
+  const GapMesh& gap_;
+  std::vector<Vertex> vertices_;  // ascending; by local number
+  std::vector<Vec3> points_;
+  std::vector<Cell> cells_;
+  std::vector<std::int32_t> before_;           // cells of the gap at the moving vertices, before the change
+  std::vector<std::int32_t> moving_;           // as local numbers
+  std::vector<std::vector<std::int32_t>> at_;  // by place in moving_
+  shape::PointStar star_;
+};
+
+}  // namespace hexpipe::assemble::gap

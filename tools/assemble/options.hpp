@@ -1,0 +1,23 @@
+#pragma once
+
+namespace hexpipe::assemble {
+
+// The command line of assemble.
+struct AssembleOptions {
+  // pyramids: every quad of a cell has another cell on its other side.
+  enum class Conformity { pyramids, none };
+  Conformity conformity = Conformity::pyramids;
+  // quads: chosen hexes are exchanged so that fewer quads are open (choice/exchange.hpp). Only if the result conforms.
+  enum class Exchange { quads, none };
+  Exchange exchange = Exchange::quads;
+  // prisms: tets between the chosen cells become prisms (choice/prism_filling.hpp). Only if the result conforms.
+  enum class Fill { prisms, none };
+  Fill fill = Fill::prisms;
+  // vertices: vertices between the cells that no hex uses merge, and rooms there are filled anew (gap/fewer_cells.hpp).
+  // Only if the result conforms and is smoothed.
+  enum class Merge { vertices, none };
+  Merge merge = Merge::vertices;
+  int smooth = 5;  // rounds over all vertices
+};
+
+}  // namespace hexpipe::assemble

@@ -1,0 +1,57 @@
+#pragma once
+// What the nodes of a mesh see of their neighbours along a frame field, as the triangles of a surface do along a cross
+// field (../surface/surface_links.hpp).
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tools/tetmesh/fields/periodic_link.hpp"
+#include "tools/tetmesh/volume/field_nodes.hpp"
+
+namespace hexpipe::tetmesh::volume {
+
+using LatticeLink = fields::PeriodicLink<3>;
+
+// Three links that close a triangle of nodes, of which the first is the lowest and the last the highest.
+struct LinkTriangle {
+  std::int64_t to_second, to_third, onward;  // from the first node, and from the second to the third
+};
+
+class LatticeLinks {
+ public:
+  LatticeLinks(const FieldNodes& nodes, const std::vector<fields::Frame>& frames);
+
+  const FieldNodes& nodes() const { return nodes_; }
+  std::span<const LatticeLink> of(std::size_t node) const {
+    return std::span(links_).subspan(nodes_.offsets[node], nodes_.offsets[node + 1] - nodes_.offsets[node]);
+  }
+  LatticeLink& operator[](std::int64_t link) { return links_[link]; }
+  const LatticeLink& operator[](std::int64_t link) const { return links_[link]; }
+  std::size_t size() const { return links_.size(); }
+
+  // -1 where there is none.
+  std::int64_t between(std::int32_t from, std::int32_t to) const;
+  // Calls body(node, number of its link) for the links that lead to a later node, of all nodes or of one.
+  template <class Body>
+  void for_each_pair(Body&& body) const {
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(nodes_.size()); ++i) for_each_pair_of(i, body);
+  }
+  template <class Body>
+  void for_each_pair_of(std::int32_t i, Body&& body) const {
+    for (std::int64_t l = nodes_.offsets[i]; l < nodes_.offsets[i + 1]; ++l)
+      if (links_[l].neighbour > i) body(i, l);
+  }
+  // Whether the axes are the same ones again after a walk around the triangle, which no frame singularity pierces then.
+  bool is_regular(const LinkTriangle& triangle) const;
+
+ private:
+  LatticeLink make(const std::vector<fields::Frame>& frames, std::size_t i, const FieldLink& link) const;
+
+  const FieldNodes& nodes_;
+  std::vector<LatticeLink> links_;
+};
+
+}  // namespace hexpipe::tetmesh::volume
