@@ -348,6 +348,23 @@ volume tet 0.1875'
   leaves_old_file cgns
 }
 
+@test "names that no format can hold, that two groups have, or that no cell has, leave files that are read" {
+  local format names
+  source_mesh
+  names='{"surfaces": {"7": "/", "10": "both", "20": "\u00fc\u4e2d", "30": "both", "99": "nobody"}, "regions": {"1": "both", "2": "*", "77": "nobody"}}'
+  for format in exo med cgns inp su2 bdf msh; do
+    if [[ $format =~ exo|med|cgns ]]; then need $format; fi
+    mesh_convert source.msh $format "out.$format" "$names" 2>said || fail "$format: $(cat said)"
+    if grep -aq nobody "out.$format"; then fail "$format has a group of nothing"; fi
+    if [[ $format != cgns ]]; then mesh_convert "out.$format" msh22 back.msh || fail "$format is not read"; fi
+  done
+  # meshio cannot read names that are not ASCII.
+  mdump4 out.med NODALE FULL_INTERLACE 0 | sed -n 's/^.*gro = \([^ ]*\).*/\1/p' | LC_ALL=C sort -u | xargs >found.txt
+  assert_equal "$(<found.txt)" "_ __2 both both_2 region_3 region_4 ü中"
+  groups cgns out.cgns | grep -E '^(quad|triangle)' | cut -d' ' -f2 | LC_ALL=C sort -u | xargs >found.txt
+  assert_equal "$(<found.txt)" "_ _____ both"
+}
+
 @test "a tool starts without these libraries, and says so where a module is not there" {
   need exo
   source_mesh

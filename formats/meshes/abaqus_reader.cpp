@@ -358,7 +358,7 @@ class AbaqusReader {
     for (Element& element : elements_)
       for (std::size_t i = 0; i < static_cast<std::size_t>(corners_of_kind(element.vtk)); ++i) {
         element.corners[i] = places.find(element.nodes[i]);
-        if (element.corners[i] == NumberMap::none)
+        if (element.corners[i] == no_index)
           fail(element.line, fmt::format("expected the number of a point, found {}", element.nodes[i]));
       }
     for (std::int64_t& node : midnodes_) node = places.find(node);
