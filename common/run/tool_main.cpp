@@ -82,7 +82,8 @@ void declare_mesh_output(CLI::App& app, MeshOptions& mesh) {
                      "collapsed, C3D8I; abaqus: C3D8I; openfoam, su2, nastran, moose: their format is checked; "
                      "code-aster: names of 24 characters"))
       ->type_name("NAME")
-      ->check(CLI::IsMember({"calculix", "abaqus", "openfoam", "su2", "nastran", "moose", "code-aster"}).description(""));
+      ->check(
+          CLI::IsMember({"calculix", "abaqus", "openfoam", "su2", "nastran", "moose", "code-aster"}).description(""));
   outside_history(
       app.add_option(
           "--pyramids", mesh.pyramids,

@@ -67,16 +67,15 @@ void read_mesh(std::string_view bytes, std::initializer_list<const char*> format
   for (const char* const format : formats) check_round_trip(mesh, format);
 }
 
-// The formats of solvers drop facets inside a mesh, shorten coordinates and list facets by group. So the cells come back
-// the same, and whatever is written a second time has the same bytes.
+// The formats of solvers drop facets inside a mesh, shorten coordinates and list facets by group. So the cells come
+// back the same, and whatever is written a second time has the same bytes.
 void read_solver_mesh(std::string_view bytes, const char* format) {
   GroupNames names;
   Input input = memory(bytes);
   const MixedMesh mesh = read_mixed_mesh(input, &names);
   const auto text_of = [&](const MixedMesh& one, const GroupNames& its_names) {
-    return written("solver_mesh", [&](Output& output) {
-             write_mixed_mesh(one, format, output, {.names = its_names});
-           }).read_all();
+    return written("solver_mesh", [&](Output& output) { write_mixed_mesh(one, format, output, {.names = its_names}); })
+        .read_all();
   };
   const std::string text = text_of(mesh, names);
   GroupNames names_again;
