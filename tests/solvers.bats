@@ -314,6 +314,33 @@ MESH
   assert_output --partial "surface_7 { type faceZone; faceLabels List<label> 1 ( 1 ) ; flipMap List<bool> 1 ( 0 ) ; }"
 }
 
+@test "checkMesh counts the faces and cells that --stats counts as poor for finite volumes" {
+  need_openfoam
+  openfoam_case case
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 5 >kuhn.mesh
+  findhex --mesh kuhn.mesh -o kuhn.cand
+  findhex --mesh kuhn.mesh | buildgraph | initsol --iterations 0 -o full.sol
+  awk '!(NR <= 5 || NR % 7 == 0)' full.sol >kuhn.sol
+  # Without smoothing there are poor ones.
+  assemble --mesh kuhn.mesh --candidates kuhn.cand --solution kuhn.sol --smooth 0 --stats stats.json \
+    --solver openfoam -o case/constant/polyMesh
+  checkMesh -case case -allGeometry >found.txt
+  $PYTHON - <<'PYTHON'
+import json, re
+ours, text = json.load(open("stats.json"))["finite_volumes"], open("found.txt").read()
+def number(pattern):
+    found = re.search(pattern + r"\s*([0-9.e+-]+)", text)
+    return float(found.group(1)) if found else 0
+assert ours["orthogonality"]["misses"] == number(r"\(> 70 degrees\) faces:") + number("non-orthogonality errors:") > 0
+assert ours["determinant"]["misses"] == number("small determinant.*number of cells:") > 0
+assert ours["inner_faces"] == number("internal faces:")
+for measure, pattern in (("orthogonality", "non-orthogonality Max:"), ("flatness", r"butterfly\) : min ="),
+                         ("weight", "interpolation weight : minimum:"), ("determinant", r"\(wellposedness\) : minimum:")):
+    assert abs(ours[measure]["worst"] - number(pattern)) < 1e-5 * max(1, number(pattern)), (measure, ours[measure], number(pattern))
+assert abs(ours["mean_orthogonality"] - number("Max: [0-9.]+ average:")) < 1e-3
+PYTHON
+}
+
 @test "OpenFOAM conducts heat through a mesh of hexes and tets exactly" {
   need_openfoam
   openfoam_case case
