@@ -1,5 +1,7 @@
 # `cpack` in the build directory makes Debian packages: hexpipe (MIT), and apart from it hexpipe-tetmesh (AGPL),
-# hexpipe-cad (MIT, needs OpenCASCADE), hexpipe-formats (MIT, needs NetCDF) hexpipe-wrap (GPL) and hexpipe-mpi (MIT, needs MPI), which it only suggests. Included last, when every component is known. What they depend on is found from the executables.
+# hexpipe-cad (MIT, needs OpenCASCADE), hexpipe-formats (MIT, needs NetCDF, MED and CGNS), hexpipe-wrap (GPL) and
+# hexpipe-mpi (MIT, needs MPI), which it only suggests. Included last, when every component is known. What they depend on
+# is found from the executables.
 
 # Whoever makes a package answers for it: the variables are those of Debian's own tools.
 set(maintainer "The hexpipe developers")
@@ -52,12 +54,12 @@ if(WITH_WRAP)
   set(CPACK_DEBIAN_HEXPIPE-WRAP_PACKAGE_RECOMMENDS hexpipe)
 endif()
 
-if(WITH_EXODUS)
+if(WITH_EXODUS OR WITH_MED OR WITH_CGNS)
   list(APPEND CPACK_COMPONENTS_ALL hexpipe-formats)
   set(CPACK_DEBIAN_HEXPIPE-FORMATS_PACKAGE_NAME hexpipe-formats)
   set(CPACK_COMPONENT_HEXPIPE-FORMATS_DESCRIPTION
-"Exodus II for hexpipe
- Modules that the tools load to read and write meshes of this format.")
+"Exodus II, MED and CGNS for hexpipe
+ Modules that the tools load to read and write meshes of these formats.")
   set(CPACK_DEBIAN_HEXPIPE-FORMATS_PACKAGE_RECOMMENDS hexpipe)
 endif()
 

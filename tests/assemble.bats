@@ -195,6 +195,34 @@ assert set(stats["conformity"]["cells_given_back"]) >= {"flat_corner", "no_valid
 PYTHON
 }
 
+@test "--require writes a result that is good enough, and otherwise nothing but where it is not" {
+  assemble $FILES -v --stats plain.json -o plain.vtu 2>summary
+  assemble $FILES --require 'hexes 0.1, cells 0.01,orthogonality 179, weight 1e-3, determinant 0, flatness 0.1' -o good.vtu
+  assert_same_bytes plain.vtu good.vtu
+  echo old >old.vtu
+  run_apart assemble $FILES --require 'orthogonality 20, cells 0.9' -o old.vtu
+  assert_failure 1
+  assert_equal "$(wc -l <<<"$stderr")" 1
+  assert_equal "$(<old.vtu)" old
+  assert_fails_with 1 'assemble: --require flatness 1: [0-9]+ faces miss it, the worst, 0.[0-9]+, at \(' \
+    assemble $FILES --require 'flatness 1'
+  $PYTHON - "$stderr" <<'PYTHON'
+import json, re, sys
+stats = json.load(open("plain.json"))
+assert "finite volumes: " in open("summary").read()
+fv = stats["finite_volumes"]
+assert re.search(r"flatness 1: (\d+) faces", sys.argv[1])
+found = [float(x) for x in re.search(r"the worst, (\S+), at \((\S+), (\S+), (\S+)\)", sys.argv[1]).groups()]
+expected = [fv["flatness"]["worst"]] + fv["flatness"]["place"]
+assert all(abs(a - b) <= 1e-4 * max(1, abs(b)) for a, b in zip(found, expected)), (found, expected)
+PYTHON
+  run_apart assemble $FILES --require 'hexes 1, cells 0.7, orthogonality 1, weight 0.5, determinant 1'
+  assert_failure 1
+  for word in "hexes 1: [0-9]+ hexes miss" "cells 0.7: [0-9]+ cells" "orthogonality 1: [0-9]+ faces" "weight 0.5: [0-9]+ faces" "determinant 1: [0-9]+ cells"; do
+    grep -qE -- "$word" <<<"$stderr" || fail "$word: $stderr"
+  done
+}
+
 @test "--stats lists the poor cells that are left, one by one" {
   # Cubes pressed to plates: their tets are flat, and no vertex may leave the corners and edges of a box.
   $PYTHON "$DATA/lattices/lattice.py" kuhn 2 | awk 'NF == 4 && !tets { $3 *= 0.01 } /Tetrahedra/ { tets = 1 } { print }' >flat.mesh
@@ -329,6 +357,11 @@ PYTHON
   assert_fails_with 2 "fill prisms goes with --conformity pyramids" assemble $FILES --fill prisms --conformity none -o x.vtu
   assert_fails_with 2 "assemble: .*merge" assemble $FILES --merge tets -o x.vtu
   assert_fails_with 2 "merge vertices goes with --conformity pyramids" assemble $FILES --merge vertices --conformity none -o x.vtu
+  assert_fails_with 2 "--require: expected hexes, cells, .*flatness and a number, found 'faces 3'" assemble $FILES --require 'hexes 0.1, faces 3' -o x.vtu
+  assert_fails_with 2 "--require: expected weight and a number from 0 to 0.5, found 'weight 0.6'" assemble $FILES --require 'weight 0.6' -o x.vtu
+  assert_fails_with 2 "--require: expected hexes and a number from 0 to 1, found 'hexes'" assemble $FILES --require 'hexes' -o x.vtu
+  assert_fails_with 2 "--require: expected .*, found ''" assemble $FILES --require 'hexes 0.1,' -o x.vtu
+  assert_fails_with 2 "--require does not go with --neighbours" assemble $FILES --require 'hexes 0.1' --neighbours x.tar -o x.vtu
   assert_fails_with 2 "merge vertices goes with .*--smooth of 1 or more" assemble $FILES --merge vertices --smooth 0 -o x.vtu
 }
 

@@ -190,7 +190,7 @@ END
 @test "the examples in formats/README.md are read, all as the same mesh" {
   extract_examples
   mesh_convert tet.msh msh22 expected
-  for name in tet.mesh tet.msh22 tet.vtk tet-ascii.vtu tet.node tet.ele tet.bdf; do
+  for name in tet.mesh tet.msh22 tet.vtk tet-ascii.vtu tet.node tet.ele tet.bdf tet.inp; do
     mesh_convert "$name" msh22 found
     assert_same_bytes expected found || fail "$name"
   done

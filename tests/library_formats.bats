@@ -161,6 +161,23 @@ example() {
   assert_same_bytes source.mesh back.mesh
 }
 
+@test "the script for MED in formats/README.md reads what we write" {
+  need med
+  example tet.mesh >source.mesh
+  mesh_convert source.mesh med tet.med
+  sed -n '/<!-- script med.py -->/,/^```$/p' "$HEXPIPE_SOURCE/formats/README.md" | sed '1,2d;$d' >med.py
+  run "$PYTHON" -c 'exec(open("med.py").read())
+print(points.tolist(), cells.tolist(), family_of_cell, groups[family_of_cell[0]], groups[-5])'
+  assert_output "[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] [[0, 2, 1, 3]] [-7] ['region_7'] ['surface_5']"
+}
+
+@test "the example of CGNS in formats/README.md is what we write" {
+  need cgns
+  example tet.mesh >source.mesh
+  mesh_convert source.mesh cgns tet.cgns
+  cgnslist -l tet.cgns | diff <(example tet.cgnslist) -
+}
+
 @test "Exodus names are as long as they are, and told apart by more than their case" {
   need exo
   source_mesh
@@ -222,4 +239,139 @@ PYTHON
   sed 's/^8 3 2 10 10 1 4 3 2$/8 3 2 10 10 1 4 3 9/' "$DATA/meshes/one_of_each.msh" >loose.msh
   assert_fails_with 1 'out.exo: cannot write quads.0.: Exodus II surfaces consist of facets of cells, and it is none' \
     mesh_convert loose.msh exo out.exo
+}
+
+@test "meshio and MED's own tools find cells, groups and names in MED files" {
+  need med
+  source_mesh
+  mesh_convert source.msh med out.med "$NAMES" 2>said
+  assert_equal "$(<said)" "mesh_convert: surface 'main inlet' is written as main_inlet: MED allows no such name, or another has it"
+  groups med out.med >found.txt
+  diff expected.txt found.txt
+  run medconforme out.med
+  assert_success
+  run mdump4 out.med NODALE FULL_INTERLACE 0
+  assert_success
+  for line in "TRIA3 : 3" "QUAD4 : 3" "TETRA4 : 1" "HEXA8 : 1" "PENTA6 : 1" "PYRA5 : 1" "gro = main_inlet" "gro = steel"; do
+    assert_output --partial "$line"
+  done
+  # A name is that of one group, whatever is in it.
+  mesh_convert source.msh med same.med '{"surfaces": {"7": "steel"}, "regions": {"2": "steel"}}' 2>said
+  assert_equal "$(<said)" "mesh_convert: region 'steel' is written as steel_2: MED allows no such name, or another has it"
+  groups med same.med | grep -q '^prism steel_2'
+}
+
+@test "MED files are read as they were written, and have the same bytes at any time" {
+  need med
+  keeps_tets med
+  sleep 1.1
+  mesh_convert tets.mesh med later.med '{"regions": {"5": "steel"}}'
+  assert_same_bytes out.med later.med
+}
+
+@test "MED files of other programs are read as far as they are meshes of first order" {
+  need med
+  $PYTHON - <<'PYTHON' 2>/dev/null
+import meshio, numpy
+points = numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1],
+                      [.5, 0, 0], [.5, .5, 0], [0, .5, 0], [0, 0, .5], [.5, 0, .5], [0, .5, .5]], float)
+families = [numpy.array([-1, -2]), numpy.array([-3])]
+mesh = meshio.Mesh(points[:5], [("tetra", [[0, 2, 1, 3], [1, 2, 4, 3]]), ("triangle", [[0, 2, 1]])],
+                   cell_data={"cell_tags": families})
+mesh.cell_tags = {-1: ["all", "steel"], -2: ["all", "copper"], -3: ["inlet"]}
+mesh.point_tags = {}
+mesh.write("two.med")
+meshio.write_points_cells("ten.med", points, [("tetra10", [[0, 1, 2, 3, 5, 6, 7, 8, 9, 10]])])
+PYTHON
+  # Of a family's groups, the smallest says most.
+  findhex two.med -o found.tar
+  run tar xOf found.tar names.json
+  assert_output '{"surfaces":{"3":"inlet"},"regions":{"1":"steel","2":"copper"}}'
+  assert_fails_with 1 'ten.med: expected hexes, prisms, pyramids and tets of first order, found TETRA10' \
+    mesh_convert ten.med mesh out.mesh
+}
+
+@test "damaged MED files end in one line" {
+  need med
+  survives_damage med
+}
+
+@test "an old MED file stays where a new one cannot be written" {
+  need med
+  leaves_old_file med
+}
+
+@test "Code_Aster has names of 24 characters" {
+  need med
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 2 >lattice.mesh
+  findhex lattice.mesh | buildgraph | initsol --iterations 0 -o solved.tar
+  mkdir with && tar xf solved.tar -C with
+  echo '{"regions": {"1": "a-name-of-more-than-24-characters"}}' >with/names.json
+  tar cf named.tar --format=pax -C with $(tar tf solved.tar) names.json
+  assemble named.tar --solver code-aster -o out.med 2>said
+  grep -q "is written as a-name-of-more-than-24-c: " said
+  mdump4 out.med NODALE FULL_INTERLACE 0 | grep -q 'gro = a-name-of-more-than-24-c$'
+  assemble named.tar -o long.med
+  mdump4 long.med NODALE FULL_INTERLACE 0 | grep -q 'gro = a-name-of-more-than-24-characters$'
+}
+
+@test "VTK and CGNS' own tools find cells, volumes, sections and boundary conditions in CGNS files" {
+  need cgns
+  source_mesh
+  mesh_convert source.msh cgns out.cgns "$NAMES"
+  groups cgns out.cgns >found.txt
+  sed -E 's/^(hex|prism|pyramid|tet) \S+/\1 -/; s/main_inlet/main inlet/' expected.txt | LC_ALL=C sort | diff - <(grep -v volume found.txt)
+  run grep volume found.txt
+  assert_output 'volume hex 1
+volume prism -0.53125
+volume pyramid 0.3333333333
+volume tet 0.1875'
+  run cgnscheck out.cgns
+  assert_success
+  refute_output --partial ERROR
+  cgnslist -l out.cgns >list
+  for section in region_1 steel_prism steel_pyramid steel_tet main\ inlet_tri main\ inlet_quad surface_7; do
+    grep -q -- "+-$section  -- Elements_t" list || fail "$section: $(cat list)"
+  done
+  grep -q -- '+-wall  -- Family_t' list
+  # A name that the format needs for itself goes to none.
+  mesh_convert source.msh cgns named.cgns '{"regions": {"1": "ZoneBC"}, "surfaces": {"7": "a name of more than 24 characters"}}' 2>said
+  assert_equal "$(grep -c 'is written as \(ZoneBC_2\|a name of more than 24 c\): CGNS' said)" 2
+  sleep 1.1
+  mesh_convert source.msh cgns later.cgns "$NAMES"
+  assert_same_bytes out.cgns later.cgns
+  assert_fails_with 1 'out.cgns: cannot read CGNS: it is written only' mesh_convert out.cgns mesh out.mesh
+}
+
+@test "an old CGNS file stays where a new one cannot be written" {
+  need cgns
+  leaves_old_file cgns
+}
+
+@test "names that no format can hold, that two groups have, or that no cell has, leave files that are read" {
+  local format names
+  source_mesh
+  names='{"surfaces": {"7": "/", "10": "both", "20": "\u00fc\u4e2d", "30": "both", "99": "nobody"}, "regions": {"1": "both", "2": "*", "77": "nobody"}}'
+  for format in exo med cgns inp su2 bdf msh; do
+    if [[ $format =~ exo|med|cgns ]]; then need $format; fi
+    mesh_convert source.msh $format "out.$format" "$names" 2>said || fail "$format: $(cat said)"
+    if grep -aq nobody "out.$format"; then fail "$format has a group of nothing"; fi
+    if [[ $format != cgns ]]; then mesh_convert "out.$format" msh22 back.msh || fail "$format is not read"; fi
+  done
+  # meshio cannot read names that are not ASCII.
+  mdump4 out.med NODALE FULL_INTERLACE 0 | sed -n 's/^.*gro = \([^ ]*\).*/\1/p' | LC_ALL=C sort -u | xargs >found.txt
+  assert_equal "$(<found.txt)" "_ __2 both both_2 region_3 region_4 ü中"
+  groups cgns out.cgns | grep -E '^(quad|triangle)' | cut -d' ' -f2 | LC_ALL=C sort -u | xargs >found.txt
+  assert_equal "$(<found.txt)" "_ _____ both"
+}
+
+@test "a tool starts without these libraries, and says so where a module is not there" {
+  need exo
+  source_mesh
+  if ldd "$HEXPIPE_BIN/assemble" | grep -E 'netcdf|hdf5|exoII|libmed|cgns|libmpi'; then fail "assemble loads them"; fi
+  mkdir bin
+  cp "$HEXPIPE_BIN/mesh_convert" bin
+  assert_fails_with 1 'mesh_convert: cannot load the module for the format: .*mesh_exodus.so: cannot open shared object file' \
+    bin/mesh_convert source.msh exo out.exo
+  assert [ ! -e out.exo ]
 }

@@ -142,7 +142,7 @@ CMAKE
   run_apart env MANWIDTH=100 man --warnings -l "$HEXPIPE_SOURCE/docs/man/hexpipe-formats.5"
   assert_success
   assert_equal "$stderr" ""
-  for ending in mesh msh vtk vtu node inp tar cand graph sol stl; do assert_output --partial ".$ending"; done
+  for ending in mesh msh vtk vtu node inp su2 bdf exo med cgns tar cand graph sol stl; do assert_output --partial ".$ending"; done
 }
 
 @test "the page of the formats names every member of a bundle that formats/README.md knows" {

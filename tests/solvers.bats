@@ -227,8 +227,8 @@ PYTHON
   assemble solved.tar -o c.inp
   assert_same_bytes b.inp c.inp
   # The other commands of docs/solvers.md.
-  grep -oE 'assemble stages.tar --solver [a-z0-9]+ -o part[.][a-z0-9]+' "$HEXPIPE_SOURCE/docs/solvers.md" >commands
-  assert_equal "$(wc -l <commands)" 5
+  grep -oE 'assemble stages.tar --solver [a-z0-9-]+ -o part[.][a-z0-9]+' "$HEXPIPE_SOURCE/docs/solvers.md" >commands
+  assert_equal "$(wc -l <commands)" 6
   cp solved.tar stages.tar
   while read -r command; do
     rm -f part.*
@@ -312,6 +312,33 @@ MESH
   # The facet looks as its face does, from the hex to the pyramid.
   run bash -c 'tr -s "\n" " " <case/constant/polyMesh/faceZones | grep -o "surface_7.*"'
   assert_output --partial "surface_7 { type faceZone; faceLabels List<label> 1 ( 1 ) ; flipMap List<bool> 1 ( 0 ) ; }"
+}
+
+@test "checkMesh counts the faces and cells that --stats counts as poor for finite volumes" {
+  need_openfoam
+  openfoam_case case
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 5 >kuhn.mesh
+  findhex --mesh kuhn.mesh -o kuhn.cand
+  findhex --mesh kuhn.mesh | buildgraph | initsol --iterations 0 -o full.sol
+  awk '!(NR <= 5 || NR % 7 == 0)' full.sol >kuhn.sol
+  # Without smoothing there are poor ones.
+  assemble --mesh kuhn.mesh --candidates kuhn.cand --solution kuhn.sol --smooth 0 --stats stats.json \
+    --solver openfoam -o case/constant/polyMesh
+  checkMesh -case case -allGeometry >found.txt
+  $PYTHON - <<'PYTHON'
+import json, re
+ours, text = json.load(open("stats.json"))["finite_volumes"], open("found.txt").read()
+def number(pattern):
+    found = re.search(pattern + r"\s*([0-9.e+-]+)", text)
+    return float(found.group(1)) if found else 0
+assert ours["orthogonality"]["misses"] == number(r"\(> 70 degrees\) faces:") + number("non-orthogonality errors:") > 0
+assert ours["determinant"]["misses"] == number("small determinant.*number of cells:") > 0
+assert ours["inner_faces"] == number("internal faces:")
+for measure, pattern in (("orthogonality", "non-orthogonality Max:"), ("flatness", r"butterfly\) : min ="),
+                         ("weight", "interpolation weight : minimum:"), ("determinant", r"\(wellposedness\) : minimum:")):
+    assert abs(ours[measure]["worst"] - number(pattern)) < 1e-5 * max(1, number(pattern)), (measure, ours[measure], number(pattern))
+assert abs(ours["mean_orthogonality"] - number("Max: [0-9.]+ average:")) < 1e-3
+PYTHON
 }
 
 @test "OpenFOAM conducts heat through a mesh of hexes and tets exactly" {
@@ -458,6 +485,114 @@ PYTHON
     shell "sed 's/      14$/      15/' hand.bdf >hand3.bdf; mesh_convert hand3.bdf mesh out.mesh"
   assert_fails_with 1 'hand4.bdf:11: expected elements of first order only' \
     shell "sed 's/      14$/      14      15/' hand.bdf >hand4.bdf; mesh_convert hand4.bdf mesh out.mesh"
+}
+
+@test "Abaqus files are read back as they were written, also with collapsed pyramids" {
+  sed '/ElementData/,$d' "$MESH" >plain.msh
+  mesh_convert plain.msh inp out.inp '{"regions": {"2": "steel"}, "surfaces": {"10": "inlet"}}'
+  mesh_convert out.inp inp again.inp '{"regions": {"2": "steel"}, "surfaces": {"2": "inlet"}}'
+  # The sets are the same, whatever the tags.
+  diff <(sort out.inp) <(sort again.inp)
+  mesh_convert plain.msh inp collapsed.inp "" collapsed
+  mesh_convert plain.msh inp kept.inp
+  mesh_convert collapsed.inp msh22 a.msh
+  mesh_convert kept.inp msh22 b.msh
+  assert_same_bytes a.msh b.msh
+}
+
+@test "Abaqus decks of tets are read with their sections, sets and surfaces" {
+  cat >deck.inp <<'INP'
+** a comment before
+*Heading
+ two tets
+*Part, name=PART-1
+*Node
+ 10, 0., 0., 0.
+ 20, 1.D0, 0., 0.
+ 30, 0., +1.,
+ 40, 0., 0., 1.
+ 50, 1., 1., 1.
+ 61, .5, 0., 0.
+ 62, .5, .5, 0.
+ 63, 0., .5, 0.
+ 64, 0., 0., .5
+ 65, .5, 0., .5
+ 66, 0., .5, .5
+*ELEMENT, TYPE=C3D10,
+ ELSET=first
+ 7, 10, 20, 30, 40, 61, 62, 63,
+ 64, 65, 66
+** and one of first order
+*Element, type=C3D4, elset=second
+ 9, 20, 30, 40, 50
+*Element, type=T3D2, elset=bar
+ 11, 10, 20
+*Elset, elset="All of it", generate
+ 7, 9, 2
+*Elset, elset=_load_S4, internal
+ 7
+*Elset, elset=nested
+ second,
+*Nset, nset=corners
+ 10, 20
+*Surface, type=ELEMENT, name=Load
+ _load_S4, S4
+ 9, S2
+*Solid Section, elset=FIRST, material=Steel
+,
+*Solid Section, elset=nested, material=Copper
+,
+*End Part
+INP
+  mesh_convert deck.inp mesh deck.mesh
+  run sed -n '/^Vertices/,/^End/p' deck.mesh
+  assert_output "Vertices
+5
+0 0 0 0
+1 0 0 0
+0 1 0 0
+0 0 1 0
+1 1 1 0
+
+Tetrahedra
+2
+1 2 3 4 1
+2 3 4 5 2
+
+Triangles
+2
+1 4 3 1
+2 3 5 1
+
+End"
+  findhex deck.inp -o deck.tar
+  run tar xOf deck.tar names.json
+  assert_output '{"surfaces":{"1":"Load"},"regions":{"1":"first","2":"nested"}}'
+  # Without sections, the smallest set that an element is in.
+  sed '/Solid Section/,/^,/d' deck.inp >sets.inp
+  findhex sets.inp -o sets.tar
+  run tar xOf sets.tar names.json
+  assert_output '{"surfaces":{"1":"Load"},"regions":{"1":"first","2":"nested"}}'
+  # What another mesh, or none, would come of.
+  local change message
+  while IFS='|' read -r change message; do
+    sed "$change" deck.inp >bad.inp
+    assert_fails_with 1 "mesh_convert: bad.inp:[0-9]+: $message" mesh_convert bad.inp mesh out.mesh
+  done <<'END'
+s/C3D4/C3D20R/|expected C3D4, C3D5, C3D6, C3D8 or C3D10, found 'C3D20R'
+s/ 9, 20, 30, 40, 50/ 9, 20, 30, 40/|expected 4 points of an element, found 3
+s/ 9, 20, 30, 40, 50/ 9, 20, 30, 40, 51/|expected the number of a point, found 51
+s/ 9, 20, 30, 40, 50/ 7, 20, 30, 40, 50/|expected elements of different numbers, found 7 twice
+s/^ 50, 1/ 10, 1/|expected points of different numbers, found 10 twice
+s/1.D0/1.x/|expected a coordinate, found '1.x'
+s/ 9, S2/ 9, S5/|expected a face up to S4, found S5
+s/_load_S4, S4/nobody, S4/|expected a set of elements, found 'NOBODY'
+s/^ second,/ third,/|expected a number, or a set that stands before, found 'third'
+s/^ 7, 9, 2/ 7, 9, 0/|expected a step of at least 1, found '0'
+s/^.End Part/*NGEN/|expected points and elements one by one, found .NGEN
+s/^.End Part/*Part, name=B/|expected one part, found a second
+s/^.Node/*Node, system=C/|expected Cartesian coordinates, found 'C'
+END
 }
 
 @test "surfaces and regions of one number are told apart in .msh 2.2" {

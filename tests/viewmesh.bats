@@ -12,12 +12,12 @@ setup_file() {
   findhex --mesh mesh.mesh | buildgraph >graph.tar
   initsol --iterations 1000 <graph.tar >solution.tar
   assemble <solution.tar >result.tar
-  assemble <solution.tar --format vtu >result.vtu
+  assemble <solution.tar --stats result.json --format vtu >result.vtu
 }
 
 setup() {
   cd "$BATS_TEST_TMPDIR" || return 1
-  ln -s "$BATS_FILE_TMPDIR"/*.{mesh,tar,vtu} .
+  ln -s "$BATS_FILE_TMPDIR"/*.{mesh,tar,vtu,json} .
 }
 
 # scene PAGE KEY: a value of the data in a page, as JSON.
@@ -77,6 +77,13 @@ for kind, packed in zip(data["kinds"], data["corners"]):
     assert np.array_equal(integers(packed, kind["corners"]), theirs), kind
 quality = np.concatenate([q for block, q in zip(mesh.cells, mesh.cell_data["quality"]) if block.type in names.values()])
 assert np.allclose(words(data["quality"]).view("<f4"), quality)
+measures = {name: integers(text, 1).ravel() for name, text in data["measures"].items()}
+assert list(measures) == ["orthogonality", "weight", "determinant", "flatness"]
+ours = json.load(open("result.json"))["finite_volumes"]
+for name, limit, unit, sign in (("orthogonality", 70, 100, -1), ("weight", .05, 1e4, 1), ("determinant", .001, 1e4, 1), ("flatness", .8, 1e4, 1)):
+    values = sign * measures[name]
+    assert len(values) == len(quality) and np.sum(values < sign * limit * unit) == ours[name]["cells"], name
+    assert 0 <= sign * ours[name]["worst"] * unit - values.min() < 1, (name, ours[name], values.min())
 assert len(words(data["layer"])) == data["kindBegin"][4] == len(quality)
 PYTHON
   assert_success
@@ -130,7 +137,7 @@ PYTHON
 @test "every part of --view changes the picture, and the page opens with it" {
   viewmesh result.vtu --size 320,200 --png plain.png
   for part in clip=x:0.5 clip=-x:0.5 clip=1,1,0:0.5 quality=0,0.15 peel=1 kinds=hex,tet colour=quality colour=kind \
-    colour=region colour=surface edges=off theme=dark camera=10,20,1,0,0,0 camera=-52,28,2,0,0,0 camera=-52,28,1,0.3,0,0; do
+    colour=region colour=surface colour=orthogonality colour=weight colour=determinant colour=flatness edges=off theme=dark camera=10,20,1,0,0,0 camera=-52,28,2,0,0,0 camera=-52,28,1,0.3,0,0; do
     viewmesh result.vtu --size 320,200 --view "$part" --png part.png -o part.html
     assert_different_bytes plain.png part.png
     run scene part.html state
@@ -186,6 +193,8 @@ PYTHON
   done <"$DATA/wrong_views.txt"
   assert_fails_with 2 "--view: kinds: expected none or some of hex, prism, pyramid, tet, found ''" \
     viewmesh result.vtu --view kinds= -o no.html
+  assert_fails_with 2 "--view: colour: expected one of the first five for candidates, because its cells are no mesh, found 'weight'" \
+    viewmesh solution.tar --show candidates --view colour=weight -o no.html
   assert [ ! -e no.html ]
 }
 

@@ -81,4 +81,36 @@ double face_weight(const FaceShape& face, const Vec3& behind, const Vec3& before
   return std::min(one, two) / (one + two + tiniest);
 }
 
+double face_flatness(std::span<const Vec3> corners) {
+  if (corners.size() == 3) return 1;
+  const FaceShape face = face_shape(corners);
+  const double size = norm(face.area);
+  if (size < tiny) return 1;
+  double sum = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3 a = corners[i], b = corners[(i + 1) % corners.size()];
+    sum += 0.5 * norm(cross(b - a, face.centre - a));
+  }
+  return size / (sum + tiny);
+}
+
+double cell_determinant(CellKind kind, std::span<const Vec3> corners, std::span<const std::uint8_t> inner) {
+  std::array<Vec3, 6> areas;
+  std::size_t count = 0, face_number = 0;
+  double mean = 0;
+  for_each_face(kind, corners, [&](std::span<const Vec3> face) {
+    if (inner[face_number++] == 0) return;
+    areas[count] = face_shape(face).area;
+    mean += norm(areas[count++]);
+  });
+  if (count == 0 || mean < tiny) return 0;
+  mean /= static_cast<double>(count);
+  std::array<Vec3, 3> rows{};
+  for (const Vec3& area : std::span(areas).first(count)) {
+    const Vec3 a = area * (1 / mean);
+    rows[0] += a * a.x, rows[1] += a * a.y, rows[2] += a * a.z;
+  }
+  return std::abs(det(rows[0], rows[1], rows[2])) / 8;
+}
+
 }  // namespace hexpipe

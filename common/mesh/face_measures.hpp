@@ -1,6 +1,8 @@
 #pragma once
-// How a mesh suits finite volumes: the measures of OpenFOAM's checkMesh (version 1912), by the same formulas.
+// How faces and cells suit finite volumes: the measures of OpenFOAM's checkMesh (version 1912), by the same formulas.
 
+#include <array>
+#include <cstdint>
 #include <numbers>
 #include <span>
 
@@ -31,5 +33,15 @@ inline constexpr double severe_angle = 70 * std::numbers::pi / 180;
 // below 0.05.
 double face_weight(const FaceShape& face, const Vec3& behind, const Vec3& before);
 inline constexpr double low_weight = 0.05;
+
+// The length of the face's area by the areas of its triangles: 1 for a flat one. checkMesh counts faces below 0.8.
+double face_flatness(std::span<const Vec3> corners);
+inline constexpr double low_flatness = 0.8;
+
+// How well the faces that have a neighbour span space: the determinant of the sum of the squares (dyads) of their areas
+// by their mean size, over 8. 1 for a cube that has six neighbours, 0 for a cell that has two or less. `inner` tells
+// for each face, triangles before quads as in cell_topology.hpp, whether it has one. checkMesh counts cells below 0.001.
+double cell_determinant(CellKind kind, std::span<const Vec3> corners, std::span<const std::uint8_t> inner);
+inline constexpr double low_determinant = 0.001;
 
 }  // namespace hexpipe

@@ -81,9 +81,11 @@ void declare_mesh_output(CLI::App& app, MeshOptions& mesh) {
   outside_history(
       app.add_option("--solver", mesh.solver,
                      "Write pyramids, hexes and facets in the way that suits this program; calculix: pyramids "
-                     "collapsed, C3D8I; abaqus: C3D8I; openfoam, su2, nastran, moose: their format is checked"))
+                     "collapsed, C3D8I; abaqus: C3D8I; openfoam, su2, nastran, moose: their format is checked; "
+                     "code-aster: names of 24 characters"))
       ->type_name("NAME")
-      ->check(CLI::IsMember({"calculix", "abaqus", "openfoam", "su2", "nastran", "moose"}).description(""));
+      ->check(
+          CLI::IsMember({"calculix", "abaqus", "openfoam", "su2", "nastran", "moose", "code-aster"}).description(""));
   outside_history(
       app.add_option(
           "--pyramids", mesh.pyramids,

@@ -33,8 +33,12 @@ std::map<std::int32_t, std::int32_t> one_number_a_name(const GroupNaming& naming
 }
 
 Naming naming_of(const MixedMesh& mesh, const MeshWriting& writing, const GroupRules& rules) {
-  const GroupNaming surfaces(mesh, GroupKind::surface, writing, rules.names);
-  const auto taken = rules.apart ? surfaces.list() : std::vector<std::string>();
+  std::vector<std::string> taken;
+  for (const char* const name : rules.reserved)
+    if (name != nullptr) taken.emplace_back(name);
+  const GroupNaming surfaces(mesh, GroupKind::surface, writing, rules.names, taken);
+  if (rules.apart)
+    for (const std::string& name : surfaces.list()) taken.push_back(name);
   const GroupNaming regions(mesh, GroupKind::region, writing, rules.names, taken);
   const GroupNumbers numbers = group_numbers(mesh, rules.apart);
   return {surfaces, regions, one_number_a_name(surfaces, numbers.surfaces),
@@ -93,8 +97,8 @@ GroupedMesh grouped(const MixedMesh& mesh, const MeshWriting& writing, const Gro
       if (!has_cell && rules.needs_sides)
         throw DataError::at(output, "cannot write {}s[{}]: {} surfaces consist of facets of cells, and it is none",
                             names.one, i, rules.names.format);
-      group.sides.push_back({has_cell ? first_of_kind[owner[i].kind] + owner[i].cell : -1, owner[i].kind,
-                             owner[i].facet});
+      group.sides.push_back(
+          {has_cell ? first_of_kind[owner[i].kind] + owner[i].cell : -1, owner[i].kind, owner[i].facet});
     }
     groups.take(result.facets);
   };
@@ -190,7 +194,8 @@ std::vector<Place> places_of(const std::vector<ElementGroup>& groups) {
   std::vector<Place> places;
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (std::size_t i = 0; i < groups[g].size(); ++i)
-      places.push_back({groups[g].places.empty() ? static_cast<std::int64_t>(places.size()) : groups[g].places[i], g, i});
+      places.push_back(
+          {groups[g].places.empty() ? static_cast<std::int64_t>(places.size()) : groups[g].places[i], g, i});
   std::ranges::stable_sort(places, {}, &Place::place);
   return places;
 }
@@ -213,7 +218,8 @@ void add_elements(const std::vector<ElementGroup>& groups, const Tags& tags, int
       const ElementGroup& group = groups[at.group];
       if (group.kind != names.vtk) continue;
       typename std::remove_cvref_t<decltype(block.cells)>::value_type cell;
-      std::copy_n(group.corners.begin() + static_cast<std::ptrdiff_t>(at.element * cell.size()), cell.size(), cell.begin());
+      std::copy_n(group.corners.begin() + static_cast<std::ptrdiff_t>(at.element * cell.size()), cell.size(),
+                  cell.begin());
       if constexpr (std::tuple_size_v<decltype(cell)> <= 4)
         if (names.dimension == 2 && !is_new(cell)) continue;
       block.cells.push_back(cell);

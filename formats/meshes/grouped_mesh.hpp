@@ -2,6 +2,7 @@
 // A mesh as lists of elements of one kind and one group: regions, surfaces. Formats that libraries read and write hold
 // it so. Plain data, which the modules of these formats take and give.
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -59,8 +60,9 @@ struct GroupedMesh {
 // What a format asks of names and numbers.
 struct GroupRules {
   NameRules names;
-  bool apart = false;        // no name and no number for a region and a surface
-  bool needs_sides = false;  // surfaces are lists of sides of cells
+  bool apart = false;                     // no name and no number for a region and a surface
+  bool needs_sides = false;               // surfaces are lists of sides of cells
+  std::array<const char*, 4> reserved{};  // names that no group may have; null: none
 };
 
 // `output`: for messages. Tags of one name are one group, with the number of the first of them. Throws DataError where

@@ -1,5 +1,5 @@
 #pragma once
-// Formats that are read and written by libraries: Exodus II. See formats/README.md.
+// Formats that are read and written by libraries: Exodus II, MED, CGNS (written only). See formats/README.md.
 
 #include <string>
 #include <string_view>
@@ -14,6 +14,13 @@ namespace hexpipe::formats {
 // Regions become element blocks, one for each kind of cells; surfaces become sets of sides and of nodes. Throws
 // DataError where a facet is none of a cell. Qualities are not written.
 void write_exodus(const MixedMesh& mesh, const MeshWriting& writing, Output& output);
+
+// Regions and surfaces become groups of elements. Qualities are not written.
+void write_med(const MixedMesh& mesh, const MeshWriting& writing, Output& output);
+
+// Regions become sections, one for each kind of cells; surfaces become sections, boundary conditions and families.
+// Qualities are not written.
+void write_cgns(const MixedMesh& mesh, const MeshWriting& writing, Output& output);
 
 // Whether the bytes are in one of these formats. Then read_by_library reads them, and throws DataError where they are
 // none that this build knows. `path`: of the file that has them; where it is none, as with a pipe, they are copied.

@@ -50,6 +50,12 @@ constexpr MeshFormat formats[] = {
     {"exo", write_exodus},
     {"e", write_exodus},
 #endif
+#ifdef HEXPIPE_WITH_MED
+    {"med", write_med},
+#endif
+#ifdef HEXPIPE_WITH_CGNS
+    {"cgns", write_cgns},
+#endif
 };
 
 // The first four bytes of a MEDIT .meshb, in either byte order.
@@ -63,6 +69,7 @@ MixedMesh read_mesh_by_content(std::string text, const std::string& name, const 
   text.erase(0, text.size() - without_byte_order_mark(text).size());
   if (looks_like_vtu(text)) return read_vtu(std::move(text), name);
   if (looks_like_vtk_legacy(text)) return read_vtk_legacy(text, name);
+  if (looks_like_abaqus(text)) return read_abaqus(text, name, names);
   // Comments of Nastran begin like the sections of a .msh.
   if (looks_like_nastran(text)) return read_nastran(text, name, names);
   if (looks_like_msh(text)) return read_msh(text, name, names);
@@ -72,11 +79,11 @@ MixedMesh read_mesh_by_content(std::string text, const std::string& name, const 
   if (looks_like_binary_medit(text))
     throw DataError::at(name,
                         "expected a text, found MEDIT's binary format; transmesh of libmeshb makes a .mesh of it");
-  throw FormatError(
-      name, 1,
-      fmt::format("expected a mesh (MEDIT .mesh, Gmsh .msh, VTK, VTU, TetGen .node or .ele, SU2, Nastran, Exodus II; "
-                  "tetmesh makes one of a surface), found {}",
-                  quote_found(TextScanner(text, name).peek_word())));
+  throw FormatError(name, 1,
+                    fmt::format("expected a mesh (MEDIT .mesh, Gmsh .msh, VTK, VTU, TetGen .node or .ele, SU2, "
+                                "Nastran, Abaqus, Exodus II, MED; "
+                                "tetmesh makes one of a surface), found {}",
+                                quote_found(TextScanner(text, name).peek_word())));
 }
 
 }  // namespace

@@ -16,12 +16,12 @@
 namespace hexpipe::formats {
 
 // Recognises the format by the content: MEDIT .mesh, Gmsh .msh 2.2 and 4.1 (ASCII, binary), VTK legacy, VTU, TetGen
-// .node with its .ele (and .face) beside it, SU2, Nastran bulk data, Exodus II. Keeps vertices that no cell uses.
-// `names`, if not null, gets those of tags, where the format has names. Throws FormatError or DataError.
+// .node with its .ele (and .face) beside it, SU2, Nastran bulk data, Abaqus, Exodus II, MED. Keeps vertices that no
+// cell uses. `names`, if not null, gets those of tags, where the format has names. Throws FormatError or DataError.
 MixedMesh read_mixed_mesh(Input& input, GroupNames* names = nullptr);
 
 // Writes in the named format: mesh, msh (4.1 ASCII), msh-binary, msh22, msh22-binary, vtk, vtu, inp, su2, bdf, nas,
-// exo, e; the last two where they were built.
+// and where they were built: exo, e, med, cgns.
 void write_mixed_mesh(const MixedMesh& mesh, std::string_view format, Output& output, const MeshWriting& writing = {});
 
 // All format names that write_mixed_mesh knows. The endings of files are those without a hyphen, except msh22.

@@ -19,6 +19,7 @@ struct MeshWriting {
   PyramidForm pyramids = PyramidForm::keep;
   bool facets = true;                // false: cells alone, for readers that take no facets among them
   std::string hex_element = "C3D8";  // Abaqus' type of hexes
+  std::size_t longest_name = 0;      // of a group, where the solver takes less than the format holds; 0: it does not
   // Hears what the writer had to change, a line each. May be empty.
   std::function<void(const std::string&)> tell{};
 

@@ -37,11 +37,6 @@ constexpr CardName cards[] = {{12, "CHEXA"}, {13, "CPENTA"}, {14, "CPYRAM"}, {14
                               {5, "CTRIA3"}, {9, "CQUAD4"},  {5, "CTRIAR"},  {9, "CQUADR"}};
 constexpr std::string_view higher_order[] = {"CTRIA6", "CQUAD8", "CQUAD9", "CTRAX6"};
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(' ');
-  return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(' ') + 1 - first);
-}
-
 // A line without its comment, with blanks for tabs.
 std::string clean_line(std::string_view line) {
   std::string text;
@@ -157,19 +152,12 @@ class NastranReader {
       if (card_.name.empty() && continues) fail(line_, "expected a card, found the continuation of one");
       if (card_.name.empty()) {
         card_.line = line_;
-        card_.name = capitals(ahead_->first);
+        card_.name = capitals(std::string_view(ahead_->first).substr(0, ahead_->first.find('*')));
         if (card_.name == "ENDDATA") at_ = text_.size();
       }
       card_.fields.insert(card_.fields.end(), ahead_->rest.begin(), ahead_->rest.end());
       ahead_.reset();
     }
-  }
-
-  static std::string capitals(std::string_view word) {
-    std::string text(word.substr(0, word.find('*')));
-    for (char& c : text)
-      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-    return text;
   }
 
   // 12"steel"

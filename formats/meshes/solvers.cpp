@@ -16,6 +16,7 @@ struct Solver {
   std::vector<std::string_view> formats;
   PyramidForm pyramids;
   const char* hex_element;
+  std::size_t longest_name = 0;
 };
 
 const std::vector<Solver>& solvers() {
@@ -27,6 +28,7 @@ const std::vector<Solver>& solvers() {
       {"su2", {"su2"}, PyramidForm::keep, "C3D8"},
       {"nastran", {"bdf", "nas"}, PyramidForm::keep, "C3D8"},
       {"moose", {"e", "exo"}, PyramidForm::keep, "C3D8"},
+      {"code-aster", {"med"}, PyramidForm::keep, "C3D8", 24},
   };
   return list;
 }
@@ -54,6 +56,7 @@ MeshWriting mesh_writing(const MeshOptions& options, std::string_view format) {
           fmt::format("--solver {} goes with {}, found {}", solver.name, fmt::join(solver.formats, " or "), format));
     writing.pyramids = solver.pyramids;
     writing.hex_element = solver.hex_element;
+    writing.longest_name = solver.longest_name;
   }
   if (options.pyramids == "keep") writing.pyramids = PyramidForm::keep;
   if (options.pyramids == "collapsed") writing.pyramids = PyramidForm::collapsed;

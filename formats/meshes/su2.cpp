@@ -23,13 +23,6 @@ namespace {
 // Configuration files list markers as ( inlet, outlet ).
 constexpr NameRules su2_rules{.format = "SU2", .longest = 255, .others = "-.:+"};
 
-std::string upper(std::string_view word) {
-  std::string text(word);
-  for (char& c : text)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return text;
-}
-
 class Su2Reader {
  public:
   Su2Reader(std::string_view text, std::string_view file) : scanner_(text, file, '%') {}
@@ -48,7 +41,7 @@ class Su2Reader {
   std::string read_key() {
     std::string_view line = scanner_.word("a keyword like NPOIN=");
     const std::size_t sign = line.find('=');
-    std::string key = upper(line.substr(0, sign));
+    std::string key = capitals(line.substr(0, sign));
     if (sign == std::string_view::npos) {
       const std::string_view next = scanner_.word("'='");
       if (!next.starts_with('=')) scanner_.fail_expected("'=' behind a keyword", next);
@@ -260,7 +253,7 @@ class Su2Writer {
 }  // namespace
 
 bool looks_like_su2(std::string_view text) {
-  return upper(TextScanner(text, "", '%').peek_word()).starts_with("NDIME");
+  return capitals(TextScanner(text, "", '%').peek_word()).starts_with("NDIME");
 }
 
 MixedMesh read_su2(std::string_view text, std::string_view file, GroupNames* names) {

@@ -68,7 +68,7 @@ std::string choose_format(const StreamOptions& streams, Role product) {
 }
 
 bool is_text_format(std::string_view format) {
-  constexpr std::array<std::string_view, 3> binary{"vtu", "exo", "e"};
+  constexpr std::array<std::string_view, 5> binary{"vtu", "exo", "e", "med", "cgns"};
   return !is_bundle_format(format) && !format.ends_with("-binary") && std::ranges::find(binary, format) == binary.end();
 }
 

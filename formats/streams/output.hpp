@@ -34,8 +34,8 @@ class Output {
     fmt::format_to(std::back_inserter(buffer_), text, std::forward<Args>(args)...);
     if (buffer_.size() >= buffer_limit) flush();
   }
-  // For libraries that write a file by its path, and nothing else: `write_file` makes the file of this path, which is in
-  // place of the output's own, or is copied where that is no new file. Throws DataError as write does.
+  // For libraries that write a file by its path, and nothing else: `write_file` makes the file of this path, which is
+  // in place of the output's own, or is copied where that is no new file. Throws DataError as write does.
   void write_by_path(const std::function<void(const std::string& path)>& write_file);
   // Writes the buffer and frees its memory: commit() may come much later. Throws DataError when the disk is full.
   void drain();

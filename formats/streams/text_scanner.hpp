@@ -71,6 +71,10 @@ class TextScanner {
 };
 
 bool equal_ignoring_case(std::string_view a, std::string_view b);
+// Of ASCII letters.
+std::string capitals(std::string_view text);
+// Without blanks, tabs and carriage returns at both ends.
+std::string_view trimmed(std::string_view text);
 
 // For ASCII, whatever the locale.
 constexpr bool is_digit(char c) {

@@ -224,6 +224,14 @@ def check_colours(page):
         assert difference(picture, before) > 1, f"{colour} looks like the one before"
         before = picture
         page.shot(f"by-{colour}")
+    for measure in "orthogonality", "weight", "determinant", "flatness":
+        page.choose("measures", measure)
+        page.settles_with(colour=measure)
+        picture = page.picture()
+        assert difference(picture, before) > 0.5, f"{measure} looks like the one before"
+        before = picture
+    page.shot("by-flatness")
+    page.choose("colour", "hexes")
     page.find("#edges").click()
     page.settles_with(edges="off")
     page.find("#theme").click()

@@ -47,7 +47,7 @@ def only(bundle, *folders):
 
 
 def meshes():
-    targets = {"mesh": "medit", "vtk": "vtk", "vtu": "vtu"}
+    targets = {"mesh": "medit", "vtk": "vtk", "vtu": "vtu", "su2": "su2", "bdf": "nastran", "inp": "abaqus"}
     for kind, source in (("all_kinds", DATA / "meshes/one_of_each.msh"), ("tets", DATA / "meshes/cube.1.node")):
         convert = lambda form: run(BIN / "mesh_convert", source, form, "/dev/stdout")
         for form, target in targets.items():
@@ -57,6 +57,24 @@ def meshes():
     parts = [(DATA / "meshes" / f"cube.1.{part}").read_text() for part in ("node", "ele", "face")]
     seed("tetgen", "cube", "=====\n".join(parts))
     seed("tetgen", "without_faces", "=====\n".join(parts[:2]))
+
+
+def decks():
+    """Parts of the solvers' formats that our writers do not use."""
+    seed("su2", "blanks", "% a tet\nNDIME = 3\nNELEM=1\n10 0 1 2 3\nNPOIN= 4 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nNMARK= 2\n"
+         "MARKER_TAG= inlet\nMARKER_ELEMS= 1\n5 0 3 2\nMARKER_TAG= surface_1\nMARKER_ELEMS= 1\n5 0 1 3\nSEND_RECV= 1\n")
+    seed("nastran", "fields", "SOL 101\nCEND\nBEGIN BULK\n$HMNAME COMP 7\"steel\"\nGRID,11,,0.,0.,0.\n"
+         "GRID          12              1.      0.     0.0\nGRID*                 13                             .0              1.\n"
+         "*                    0.0\ngrid,14,0,0.,0.,+1.+0\nCTETRA         1       7      11      12      13      14\n"
+         "CTRIA3,2,5,11,14,13\nPSOLID,7,1\nENDDATA\n")
+    seed("abaqus", "deck", "** two tets\n*Heading\n*Part, name=P\n*Node\n 10, 0., 0., 0.\n 20, 1.D0, 0., 0.\n 30, 0., +1.,\n"
+         " 40, 0., 0., 1.\n 50, 1., 1., 1.\n 61, .5, 0., 0.\n 62, .5, .5, 0.\n 63, 0., .5, 0.\n 64, 0., 0., .5\n 65, .5, 0., .5\n"
+         " 66, 0., .5, .5\n*ELEMENT, TYPE=C3D10,\n ELSET=first\n 7, 10, 20, 30, 40, 61, 62, 63,\n 64, 65, 66\n"
+         "*Element, type=C3D4, elset=second\n 9, 20, 30, 40, 50\n*Element, type=S3, elset=skin\n 11, 20, 40, 30\n"
+         "*Elset, elset=\"All of it\", generate\n 7, 9, 2\n*Elset, elset=_S4, internal\n 7\n*Elset, elset=nested\n second,\n"
+         "*Surface, type=ELEMENT, name=Load\n _S4, S4\n 9, S2\n*Solid Section, elset=FIRST, material=Steel\n,\n*End Part\n")
+    collapsed = run(BIN / "mesh_convert", DATA / "meshes/one_of_each.msh", "inp", "/dev/stdout", "", "collapsed")
+    seed("abaqus", "collapsed", collapsed)
 
 
 def sizes():
@@ -69,7 +87,8 @@ def sizes():
 def examples():
     """What formats/README.md shows, so that every form that it tells of is among the seeds."""
     text = (ROOT / "formats/README.md").read_text()
-    readers = {"mesh": "medit", "msh": "msh", "vtk": "vtk", "vtu": "vtu", "stl": "stl", "obj": "obj", "ply": "ply", "off": "off"}
+    readers = {"mesh": "medit", "msh": "msh", "vtk": "vtk", "vtu": "vtu", "su2": "su2", "bdf": "nastran", "inp": "abaqus",
+               "stl": "stl", "obj": "obj", "ply": "ply", "off": "off"}
     for name, content in re.findall(r"<!-- (?:example|surface) (\S+) -->\n```\n(.*?)```", text, re.DOTALL):
         reader = readers.get(name.split(".")[-1])
         if reader:
@@ -170,6 +189,7 @@ def solids():
 
 
 meshes()
+decks()
 sizes()
 examples()
 stages()

@@ -130,6 +130,7 @@ AssembleResult result_of(Prepared& at, const Candidates& candidates, Cells cells
   AssembleStatistics statistics;
   hybrid::Extract extracted = checked_extract(at.input, built, rules, statistics.volumes);
   count_cells(extracted.mesh, statistics);
+  if (rules.seam == nullptr) statistics.measures = measure_mesh(extracted.mesh);
   statistics.conformity = built.conformity;
   statistics.improvement = built.improvement;
   statistics.before_smoothing = built.before_smoothing;

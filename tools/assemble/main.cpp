@@ -12,6 +12,7 @@
 #include "formats/pipeline/stage.hpp"
 #include "tools/assemble/assemble.hpp"
 #include "tools/assemble/options.hpp"
+#include "tools/assemble/requirements.hpp"
 
 using namespace hexpipe;
 using namespace hexpipe::assemble;
@@ -31,6 +32,7 @@ struct CommandLine {
   std::string conformity = "pyramids", exchange = "quads", fill = "prisms", merge = "vertices";
   const CLI::Option *exchange_option = nullptr, *fill_option = nullptr, *merge_option = nullptr;
   int smooth = AssembleOptions{}.smooth;
+  std::string require;
   std::vector<std::string> neighbours, before;
 
   bool by_part() const { return !neighbours.empty(); }
@@ -67,6 +69,13 @@ void declare_options(CLI::App& app, CommandLine& line) {
       ->capture_default_str();
   outside_history(
       app.add_option(
+          "--require", line.require,
+          "Writes nothing, and tells where it is, if something in the result is worse than this list says, such as "
+          "'hexes 0.3, cells 0.1, orthogonality 70, weight 0.05, determinant 0.001, flatness 0.8': the scaled Jacobian "
+          "of hexes, that of all cells, and what finite volumes need (docs/definitions.md)"))
+      ->type_name("LIST");
+  outside_history(
+      app.add_option(
           "--neighbours", line.neighbours,
           "With a part of a mesh: bundles of the other parts' solutions; reads those of the parts beside it"))
       ->type_name("FILE");
@@ -88,6 +97,8 @@ AssembleOptions options_of(CommandLine& line) {
   if (!may_merge) line.merge = "none";
   if (line.by_part() && line.conformity == "none")
     throw UsageError("--conformity none does not go with --neighbours: pieces fit because they conform");
+  if (line.by_part() && !line.require.empty())
+    throw UsageError("--require does not go with --neighbours: on the seam of a piece cells have no neighbours");
   if (!line.by_part() && !line.before.empty()) throw UsageError("--before goes with --neighbours");
   return {.conformity = conformities.at(line.conformity),
           .exchange = exchanges.at(line.exchange),
@@ -156,6 +167,7 @@ nlohmann::ordered_json report(RunContext& context, const AssembleStatistics& sta
 
 void run(RunContext& context, CommandLine& line) {
   const AssembleOptions options = options_of(line);
+  const auto requirements = line.require.empty() ? std::vector<Requirement>{} : parse_requirements(line.require);
   context.options["conformity"] = line.conformity;
   context.options["exchange"] = line.exchange;
   context.options["fill"] = line.fill;
@@ -174,6 +186,7 @@ void run(RunContext& context, CommandLine& line) {
   if (line.by_part())
     context.note(result.piece.settled ? "this piece is settled"
                                       : "this piece has something new to say: another round has to follow");
+  check_requirements(result.mesh, requirements);
   pipeline::ResultProduct product{.mesh = std::move(result.mesh)};
   if (line.by_part()) product.piece = std::move(result.piece);
   stage.write(product, details);

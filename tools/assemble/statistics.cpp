@@ -139,6 +139,34 @@ void append_histograms(const AssembleStatistics& statistics, std::vector<std::st
   }
 }
 
+// `worst` and `limit`: in degrees for the angle.
+nlohmann::ordered_json json_of(const MeasureCount& count, double worst, double limit) {
+  return {{"worst", worst},
+          {"limit", limit},
+          {"misses", count.misses},
+          {"cells", count.cells},
+          {"place", {count.place.x, count.place.y, count.place.z}}};
+}
+
+nlohmann::ordered_json json_of(const MeshMeasures& measures) {
+  const MeasureLimits limits;
+  return {{"faces", measures.faces},
+          {"inner_faces", measures.inner_faces},
+          {"mean_orthogonality", measures.mean_angle / degree},
+          {"orthogonality", json_of(measures.angle, measures.angle.worst / degree, limits.angle / degree)},
+          {"weight", json_of(measures.weight, measures.weight.worst, limits.weight)},
+          {"determinant", json_of(measures.determinant, measures.determinant.worst, limits.determinant)},
+          {"flatness", json_of(measures.flatness, measures.flatness.worst, limits.flatness)}};
+}
+
+std::string measures_line(const MeshMeasures& measures) {
+  return fmt::format(
+      "finite volumes: {} of {} inner faces more than 70 degrees off (at worst {:.1f}), {} of weight below 0.05, "
+      "{} faces of flatness below 0.8, {} cells of determinant below 0.001",
+      measures.angle.misses, measures.inner_faces, measures.angle.worst / degree, measures.weight.misses,
+      measures.flatness.misses, measures.determinant.misses);
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
@@ -176,6 +204,7 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
   const gap::FewerCells& fewer = statistics.improvement.fewer;
   json["merging"] = {{"vertices_gone", fewer.merged}, {"rooms_filled_anew", fewer.refilled}};
   json["nonconforming_quads"] = volumes.nonconforming_quads;
+  if (statistics.measures) json["finite_volumes"] = json_of(*statistics.measures);
   if (const auto& exchange = statistics.exchange)
     json["exchange"] = {{"hexes_out", exchange->hexes_out},
                         {"hexes_in", exchange->hexes_in},
@@ -237,6 +266,7 @@ std::vector<std::string> summary_lines(const AssembleStatistics& statistics) {
   if (!statistics.poor.empty())
     lines.push_back(fmt::format("{} poor cells are left (hexes below 0.1, others below 0.02); --stats lists them",
                                 statistics.poor.size()));
+  if (statistics.measures) lines.push_back(measures_line(*statistics.measures));
   if (statistics.volumes.deviation > 0)
     lines.push_back(
         fmt::format("the boundary lies within {:.3g} of the input's surface", statistics.volumes.deviation));

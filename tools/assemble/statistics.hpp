@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/mesh/mesh_measures.hpp"
 #include "common/mesh/mixed_mesh.hpp"
 #include "tools/assemble/choice/exchange.hpp"
 #include "tools/assemble/conform/conform.hpp"
@@ -53,8 +54,9 @@ struct AssembleStatistics {
   conform::ConformityCounts conformity;
   std::int64_t filling_prisms = 0;  // some may have gone back to their tets since
   ImprovementCounts improvement;
-  KindTable before_smoothing;  // if there was smoothing
-  std::vector<PoorCell> poor;  // all that are left
+  KindTable before_smoothing;            // if there was smoothing
+  std::vector<PoorCell> poor;            // all that are left
+  std::optional<MeshMeasures> measures;  // of whole meshes: on the seam of a piece cells have no neighbours
 
   std::int64_t cells() const;
 };

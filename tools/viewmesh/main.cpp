@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
     const Scene::Content content = options.show.empty() ? last_content(data, source) : contents.at(options.show);
     Scene scene = make_scene(std::move(data), content, source);
     resolve_groups(state, scene);
+    check_colour(state, scene);
     if (!options.fragments.empty()) {
       if (content != Scene::Content::candidates && content != Scene::Content::solution)
         throw UsageError("--fragments: expected candidates or a solution to show them in (see --show)");

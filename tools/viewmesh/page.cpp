@@ -101,6 +101,9 @@ nlohmann::ordered_json to_json(const Scene& scene, const ViewState& state, const
   for (std::size_t k = 0; k < scene_kinds.size(); ++k)
     json["corners"].push_back(pack_integers(scene.corners[k], corner_count(scene_kinds[k])));
   json["quality"] = pack_floats(scene.quality);
+  json["measures"] = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < measure_names.size(); ++i)
+    if (!scene.measures[i].empty()) json["measures"][measure_names[i]] = pack_integers(scene.measures[i], 1);
   json["region"] = pack_integers(scene.region, 1);
   json["layer"] = pack_integers({scene.layer.begin(), scene.layer.end()}, 1);
   json["number"] = pack_integers(scene.number, 1);

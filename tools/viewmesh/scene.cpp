@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <sstream>
 #include <unordered_map>
 
+#include "common/mesh/mesh_measures.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/run/error.hpp"
 #include "formats/streams/text_scanner.hpp"
@@ -113,6 +115,22 @@ std::array<double, 4> volumes_of(const Scene& scene, std::span<const Vec3> point
   return volume;
 }
 
+std::vector<std::int32_t> rounded_down(const std::vector<double>& values, double unit) {
+  std::vector<std::int32_t> result;
+  result.reserve(values.size());
+  for (const double value : values) result.push_back(static_cast<std::int32_t>(std::floor(value * unit)));
+  return result;
+}
+
+// `mesh` has the cells of the scene, in its order.
+void measure(const MixedMesh& mesh, Scene& scene) {
+  MeasuresOfCells measures = measure_cells(mesh);
+  for (double& cosine : measures.orthogonality) cosine = -std::acos(std::clamp(cosine, -1.0, 1.0)) / degree;
+  scene.measures = {rounded_down(measures.orthogonality, 100), rounded_down(measures.weight, 1e4),
+                    rounded_down(measures.determinant, 1e4), rounded_down(measures.flatness, 1e4)};
+  for (std::int32_t& angle : scene.measures[0]) angle = -angle;
+}
+
 void collect(const TetMesh& mesh, CellCollector& cells) {
   for (std::size_t i = 0; i < mesh.tets.size(); ++i)
     cells.add(CellKind::tet, mesh.tets[i], quality_of(CellKind::tet, mesh.points, mesh.tets[i]), mesh.tet_tags[i],
@@ -209,6 +227,7 @@ Scene make_scene(pipeline::StageData data, Scene::Content content, const std::st
     fill(scene, cells, data.result->points, source);
     scene.layer = layers_from_surface(scene, surface_points(scene));
     scene.volume = volumes_of(scene, data.result->points);
+    measure(*data.result, scene);
     find_groups(data.names, surface_of(*data.result), scene);
     return scene;
   }
@@ -222,6 +241,7 @@ Scene make_scene(pipeline::StageData data, Scene::Content content, const std::st
   scene.layer = layers_from_surface(scene, surface_points(tets_of(*data.mesh)));
   scene.volume = volumes_of(scene, data.mesh->points);
   find_groups(data.names, surface_of(*data.mesh), scene);
+  if (content == Scene::Content::mesh) measure(to_mixed_mesh(std::move(*data.mesh)), scene);
   return scene;
 }
 

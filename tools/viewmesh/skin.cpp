@@ -34,6 +34,11 @@ class Painter {
     plain_ = parse_colour(colours["plain"]), invalid_ = parse_colour(colours["invalid"]);
     for (const auto& stop : colours["quality"]) quality_.push_back(parse_colour(stop));
     for (std::size_t k = 0; k < kinds_.size(); ++k) kinds_[k] = parse_colour(colours["kinds"][name_of(scene_kinds[k])]);
+    if (const auto measure = measure_of(state.colour)) {
+      measured_ = &scene.measures[*measure];
+      const auto& range = colours["measures"][measure_names[*measure]];
+      limit_ = range["limit"], best_ = range["best"];
+    }
     for (const auto& group : colours["groups"]) groups_.push_back(parse_colour(group));
   }
 
@@ -49,15 +54,24 @@ class Painter {
       case ViewState::Colour::hexes:
         return scene_.kind_of(cell) == CellKind::hex ? by_quality(scene_.quality[cell]) : plain_;
       case ViewState::Colour::quality:
-        break;
+        return by_quality(scene_.quality[cell]);
+      default:
+        return by_measure((*measured_)[cell]);
     }
-    return by_quality(scene_.quality[cell]);
   }
 
  private:
-  Rgb by_quality(double quality) const {
-    if (!(quality > 0)) return invalid_;
-    const double place = std::min(quality, 1.0) * static_cast<double>(quality_.size() - 1);
+  Rgb by_quality(double quality) const { return quality > 0 ? on_ramp(quality) : invalid_; }
+
+  // From what a measure allows to its best; what it does not allow is as an invalid cell.
+  Rgb by_measure(double value) const {
+    const double place = (value - limit_) / (best_ - limit_);
+    return place < 0 ? invalid_ : on_ramp(place);
+  }
+
+  // 0 is worst, 1 best.
+  Rgb on_ramp(double value) const {
+    const double place = std::min(value, 1.0) * static_cast<double>(quality_.size() - 1);
     const std::size_t below = std::min(static_cast<std::size_t>(place), quality_.size() - 2);
     const double part = place - static_cast<double>(below);
     Rgb mixed;
@@ -70,6 +84,8 @@ class Painter {
   const Scene& scene_;
   ViewState::Colour colour_;
   Rgb plain_, invalid_;
+  const std::vector<std::int32_t>* measured_ = nullptr;
+  double limit_ = 0, best_ = 1;
   std::vector<Rgb> quality_, groups_;
   std::array<Rgb, 4> kinds_;
 };

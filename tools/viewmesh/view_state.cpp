@@ -15,7 +15,8 @@
 namespace hexpipe::viewmesh {
 namespace {
 
-constexpr std::array colour_names{"hexes", "quality", "kind", "region", "surface"};
+constexpr std::array colour_names{"hexes",         "quality", "kind",        "region",  "surface",
+                                  "orthogonality", "weight",  "determinant", "flatness"};
 constexpr std::array group_kinds{"region", "surface"};
 constexpr std::array axis_names{"x", "y", "z"};
 constexpr std::array axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
@@ -215,6 +216,17 @@ void resolve_groups(ViewState& state, const Scene& scene) {
     }
     hidden.tag = found->tag;
   }
+}
+
+std::optional<std::size_t> measure_of(ViewState::Colour colour) {
+  const auto place = static_cast<int>(colour) - static_cast<int>(ViewState::Colour::orthogonality);
+  return place < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(place));
+}
+
+void check_colour(const ViewState& state, const Scene& scene) {
+  if (const auto measure = measure_of(state.colour); measure && scene.measures[*measure].empty())
+    fail("colour", fmt::format("one of the first five for {}, because its cells are no mesh", name_of(scene.content)),
+         measure_names[*measure]);
 }
 
 std::vector<bool> hidden_places(const ViewState& state, ViewState::HiddenGroup::Kind kind,

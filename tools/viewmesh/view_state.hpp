@@ -13,7 +13,8 @@
 namespace hexpipe::viewmesh {
 
 struct ViewState {
-  enum class Colour { hexes, quality, kind, region, surface };
+  // The measures come last, as measure_names has them.
+  enum class Colour { hexes, quality, kind, region, surface, orthogonality, weight, determinant, flatness };
   // A group that is not shown, by its tag, or by its name until resolve_groups() has found the tag.
   struct HiddenGroup {
     enum class Kind { region, surface } kind;
@@ -47,6 +48,12 @@ std::string to_text(const ViewState& state);
 
 // Gives hidden groups that are named their tags. Throws UsageError for groups that the scene does not have.
 void resolve_groups(ViewState& state, const Scene& scene);
+
+// Throws UsageError if the scene has not what its cells are to be coloured by.
+void check_colour(const ViewState& state, const Scene& scene);
+
+// The place of the measure among measure_names by which cells are coloured; none for other colours.
+std::optional<std::size_t> measure_of(ViewState::Colour colour);
 
 // For each place of `groups`, whether the state hides that group.
 std::vector<bool> hidden_places(const ViewState& state, ViewState::HiddenGroup::Kind kind,

@@ -322,14 +322,15 @@ class ExodusReader {
   // Null for lines, points and others that we have none of.
   static const ExodusKind* kind_of_type(std::string type, int corners) {
     for (char& c : type) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    const auto known = std::ranges::find_if(exodus_kinds(), [&](const ExodusKind& kind) {
-      return type.starts_with(kind.prefix);
-    });
+    const auto known =
+        std::ranges::find_if(exodus_kinds(), [&](const ExodusKind& kind) { return type.starts_with(kind.prefix); });
     if (known == exodus_kinds().end()) {
-      if (type.starts_with("NSIDED") || type.starts_with("NFACED")) fail_expected("hexes, prisms, pyramids or tets", type);
+      if (type.starts_with("NSIDED") || type.starts_with("NFACED"))
+        fail_expected("hexes, prisms, pyramids or tets", type);
       return nullptr;
     }
-    if (corners != known->corners) fail_expected("elements of first order only", type + " of " + std::to_string(corners) + " points");
+    if (corners != known->corners)
+      fail_expected("elements of first order only", type + " of " + std::to_string(corners) + " points");
     return &*known;
   }
 
@@ -337,7 +338,8 @@ class ExodusReader {
     for (const Entity& entity : entities(EX_ELEM_BLOCK, block_count_)) {
       std::array<char, MAX_STR_LENGTH + 1> type{};
       int elements = 0, corners = 0, edges = 0, faces = 0, attributes = 0;
-      check_read(ex_get_block(id_, EX_ELEM_BLOCK, entity.id, type.data(), &elements, &corners, &edges, &faces, &attributes));
+      check_read(
+          ex_get_block(id_, EX_ELEM_BLOCK, entity.id, type.data(), &elements, &corners, &edges, &faces, &attributes));
       const std::size_t size = count(elements, "elements");
       const ExodusKind* const kind = size == 0 ? nullptr : kind_of_type(type.data(), corners);
       blocks_.push_back({kind, size, {}});

@@ -8,7 +8,17 @@
 #include <stdexcept>
 #include <string>
 
+// Of HDF5, below all of these libraries, whose headers not all of them need.
+// NOLINTNEXTLINE(readability-identifier-naming)
+extern "C" int H5dont_atexit(void);
+
 namespace hexpipe::formats {
+
+// Before anything else: what HDF5 does at the end of a process fails, loudly or by a crash, after an error.
+inline void leave_hdf5_out_at_exit() {
+  static const int left_out = H5dont_atexit();
+  static_cast<void>(left_out);
+}
 
 [[noreturn]] inline void fail(const std::string& reason) {
   throw std::runtime_error(reason);
@@ -33,6 +43,7 @@ inline std::uint64_t most_numbers_in(const std::string& path) {
 class QuietLibrary {
  public:
   QuietLibrary() : kept_(stderr), nowhere_(std::fopen("/dev/null", "w")) {
+    leave_hdf5_out_at_exit();
     if (nowhere_ != nullptr) stderr = nowhere_;
   }
   ~QuietLibrary() {

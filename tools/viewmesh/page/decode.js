@@ -54,6 +54,8 @@ export async function decodeScene(data) {
   const sizes = await integers(data.fragments.sizes, 1), cells = await integers(data.fragments.cells, 1);
   let at = 0;
   scene.fragments = Array.from(sizes, size => cells.subarray(at, at += size));
+  scene.measures = {};
+  for (const [name, text] of Object.entries(data.measures)) scene.measures[name] = await integers(text, 1);
   scene.cellCount = data.kindBegin[4];
   scene.surfaceOfFacet = await surfaces(data.surfaceFacets, scene.cellCount);
   return scene;

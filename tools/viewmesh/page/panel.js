@@ -97,11 +97,13 @@ export class Panel {
 
   connectChoices() {
     const {state, actions} = this;
-    byId("colour").addEventListener("click", ({target}) => {
-      if (!target.value) return;
-      state.colour = target.value;
-      actions.changed();
-    });
+    for (const choice of ["colour", "measures"])
+      byId(choice).addEventListener("click", ({target}) => {
+        if (!target.value) return;
+        state.colour = target.value;
+        actions.changed();
+      });
+    byId("measures").hidden = Object.keys(this.scene.measures).length === 0;
     byId("clip-axis").addEventListener("click", ({target}) => {
       if (!target.value) return;
       const fraction = state.clip?.fraction ?? 0.5;
@@ -148,7 +150,7 @@ export class Panel {
     document.documentElement.dataset.theme = state.theme;
     const press = (button, on) => button.setAttribute("aria-pressed", on);
     this.kindButtons.forEach((button, k) => press(button, state.kinds[k]));
-    for (const button of byId("colour").children) press(button, button.value === state.colour);
+    for (const button of [...byId("colour").children, ...byId("measures").children]) press(button, button.value === state.colour);
     const axis = state.clip ? (directionName(state.clip.normal) ?? "view").replace("-", "") : "none";
     for (const button of byId("clip-axis").children) press(button, button.value === axis);
     byId("clip").value = state.clip?.fraction ?? 1;
@@ -176,15 +178,24 @@ export class Panel {
     if (state.colour === "kind")
       scene.kinds.forEach(({name}, k) => scene.kindBegin[k] < scene.kindBegin[k + 1] && key(colours.kinds[name], name));
     else if (state.colour in scene.groups) this.showGroups(state.colour, legend);
-    else {
-      const scale = element("div", undefined, {className: "scale"});
-      scale.style.background = `linear-gradient(to right, ${colours.quality.join()})`;
-      const ticks = element("div", undefined, {className: "ticks"});
-      ticks.append(...["0", "0.25", "0.5", "0.75", "1"].map(text => element("span", text)));
-      legend.append(scale, ticks);
+    else if (state.colour in scene.measures) {
+      const {best, limit, unit} = colours.measures[state.colour], sign = Math.sign(best - limit);
+      this.showScale(legend, [0, 0.25, 0.5, 0.75, 1].map(part => Number(((limit + part * (best - limit)) / unit).toPrecision(3))));
+      const missing = scene.measures[state.colour].reduce((count, value) => count + (sign * (value - limit) < 0), 0);
+      if (missing > 0) key(colours.invalid, `${grouped(missing)} ${missing === 1 ? "cell misses" : "cells miss"} it`);
+    } else {
+      this.showScale(legend, ["0", "0.25", "0.5", "0.75", "1"]);
       if (state.colour === "hexes") key(colours.plain, "other cells");
       if (scene.quality.some(quality => !(quality > 0))) key(colours.invalid, "not positive");
     }
+  }
+
+  showScale(legend, texts) {
+    const scale = element("div", undefined, {className: "scale"});
+    scale.style.background = `linear-gradient(to right, ${colours.quality.join()})`;
+    const ticks = element("div", undefined, {className: "ticks"});
+    ticks.append(...texts.map(text => element("span", String(text))));
+    legend.append(scale, ticks);
   }
 
   // The legend of regions or surfaces: a click hides or shows a group, with shift it shows that one alone.
@@ -236,6 +247,10 @@ export class Panel {
     row(scene.content === "candidates" ? "candidate" : scene.kinds[kindOf(scene, cell)].name,
       `number ${scene.number[cell] + first}`);
     row("scaled Jacobian", scene.quality[cell].toFixed(4));
+    for (const [name, values] of Object.entries(scene.measures)) {
+      const {title, unit, decimals} = colours.measures[name];
+      row(title, (values[cell] / unit).toFixed(decimals) + (name === "orthogonality" ? "°" : ""));
+    }
     row("region", this.nameOf("region", scene.groups.region.findIndex(({tag}) => tag === scene.region[cell])));
     if (surface >= 0) row("surface", this.nameOf("surface", surface));
     row("layer", scene.layer[cell]);

@@ -2,7 +2,7 @@
 
 export const axes = {x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1]};
 const kindNames = ["hex", "prism", "pyramid", "tet"];
-const colourNames = ["hexes", "quality", "kind", "region", "surface"];
+const colourNames = ["hexes", "quality", "kind", "region", "surface", "orthogonality", "weight", "determinant", "flatness"];
 
 const rounded = number => String(Number(number.toPrecision(6)));
 // Written as std::from_chars takes them.

@@ -1,0 +1,25 @@
+#pragma once
+// What --require asks of a result before it is written.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/mesh/mixed_mesh.hpp"
+
+namespace hexpipe::assemble {
+
+struct Requirement {
+  enum class Measure { hexes, cells, orthogonality, weight, determinant, flatness };
+  Measure measure;
+  double limit;  // of an angle in degrees: at most; of others: at least
+};
+
+// "hexes 0.3, orthogonality 70". Throws UsageError.
+std::vector<Requirement> parse_requirements(std::string_view text);
+
+// `mesh` has quality. Throws DataError, which tells for each requirement that is missed how many miss it, and where the
+// worst lies.
+void check_requirements(const MixedMesh& mesh, const std::vector<Requirement>& requirements);
+
+}  // namespace hexpipe::assemble
