@@ -69,8 +69,7 @@ std::string choose_format(const StreamOptions& streams, Role product) {
 
 bool is_text_format(std::string_view format) {
   constexpr std::array<std::string_view, 3> binary{"vtu", "exo", "e"};
-  return !is_bundle_format(format) && !format.ends_with("-binary") &&
-         std::ranges::find(binary, format) == binary.end();
+  return !is_bundle_format(format) && !format.ends_with("-binary") && std::ranges::find(binary, format) == binary.end();
 }
 
 // The tool that makes this product.
@@ -361,6 +360,7 @@ void Stage::State::read_bundle(formats::Input& input, StageData& data) {
       sources[*role] = input.name();
       if (request.part && read_part_member(reader, data, copy)) continue;
       if (request.weights_only && read_weights(reader, data, copy)) continue;
+      if (request.volumes && !takes(*role) && read_volumes(reader, data, copy)) continue;
       if (takes(*role) && read_member(reader, data, copy, request.cover)) continue;
     }
     if (is_history_entry(reader.name())) {
