@@ -179,6 +179,27 @@ product_ending() {
   done
 }
 
+# on_terminal COMMAND: runs it on a terminal of its own; the lines that were shown there, over each other or not.
+on_terminal() {
+  TERM=xterm script -qec "$1" /dev/null </dev/null | tr '\r' '\n' | sed 's/\x1b\[K//g'
+}
+
+@test "progress is a line on a terminal; -q shows none, lines of -v stay whole, files get none" {
+  [[ -x "$HEXPIPE_BIN/tetmesh" ]] || skip "tetmesh is not built"
+  local search="tetmesh '$DATA/bracket.stl' --size 8 --improve 1000000 --time-limit 1.5 -o out.mesh"
+  on_terminal "$search -v" >shown
+  grep -Eq '^tetmesh: [0-9]+ %, (~?[0-9]+ s|~[0-9]+ s left), round [0-9]+, about [0-9.]+ % in hexes$' shown
+  grep -Eq '^tetmesh: [0-9]+ changes in [0-9]+ rounds: about' shown
+  grep -Eq '^tetmesh: [0-9]+ points .* degrees$' shown
+  on_terminal "$search -q" >shown
+  assert_equal "$(cat shown)" ""
+  run_apart shell "$search"
+  assert_success
+  assert_equal "$stderr" ""
+  TERM=dumb run script -qec "$search" /dev/null </dev/null
+  assert_output ""
+}
+
 @test "nothing to read at a terminal ends with 2" {
   for tool in $READERS; do
     run script -qec "$tool -o out.tar" /dev/null </dev/null

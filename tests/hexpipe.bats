@@ -29,6 +29,16 @@ setup_file() {
   assert_success
 }
 
+@test "on a terminal, one line shows the stage at work, and what it has" {
+  TERM=xterm script -qec "hexpipe '$DATA/bracket.stl' --size 6 -o out.vtu --lns '--time-limit 1.5'" /dev/null </dev/null |
+    tr '\r' '\n' | sed 's/\x1b\[K//g' >shown
+  grep -Eq '^hexpipe: [0-9]+ s, 1/6 tetmesh' shown
+  grep -Eq '^hexpipe: [0-9]+ s, 5/6 lns: .*[0-9]+ hexes, [0-9.]+ % of the volume' shown
+  grep -Eq '^hexpipe: out.vtu after [0-9.]+ s$' shown
+  TERM=xterm script -qec "hexpipe '$DATA/cube.stl' --size 0.5 --effort quick -o out.vtu -q" /dev/null </dev/null >shown
+  assert_equal "$(cat shown)" ""
+}
+
 @test "--dry-run prints a shell command that makes the same bytes, and does nothing" {
   run_apart quick -o "it's.vtu" --keep 'two words' --seed 3 --lns '--iterations 20' --initsol "--iterations 100" --dry-run
   assert_success
@@ -62,6 +72,8 @@ setup_file() {
   assert_output --partial "lns --threads 2 --seed 7 --time-limit 3"
   run quick -o x.vtu --dry-run --lns '--time-limit 9'
   assert_output --partial "lns --time-limit 9 |"
+  run hexpipe a.stl -o x.inp --solver calculix --dry-run
+  assert_output --partial "assemble --solver calculix -o x.inp"
   run hexpipe a.stl --effort thorough -o x.vtu --dry-run
   assert_output --partial "tetmesh a.stl --improve 100000 --time-limit 60 |"
   run hexpipe part.STEP -o x.vtu --dry-run

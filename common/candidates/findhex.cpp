@@ -1,5 +1,7 @@
 #include "common/candidates/findhex.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
 
@@ -10,6 +12,7 @@
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/run/parallel.hpp"
+#include "common/run/progress.hpp"
 
 namespace hexpipe::candidates {
 namespace {
@@ -161,6 +164,7 @@ CellCounts& CellCounts::operator+=(const CellCounts& other) {
 }
 
 FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* source, const SearchScope& scope) {
+  Step all("reading the tets");
   const MeshTables tables(std::move(mesh), source, scope.turns, options.feature_angle);
   FindhexResult result;
   result.findings = tables.findings();
@@ -168,7 +172,9 @@ FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* s
   const auto vertex_count = static_cast<std::int64_t>(tables.mesh().points.size());
   const std::int64_t first = options.share.begin(vertex_count), count = options.share.end(vertex_count) - first;
   std::vector<Candidates> by_kind(options.kinds.size());
-  std::int64_t vertices_done = 0;
+  std::int64_t vertices_done = 0, cells_found = 0;
+  Step step("looking for hexes", 0.05);
+  step.expect(count);
   PerThread<CellMarks> marks{CellMarks(tables.mesh())};
   parallel_in_order(
       count, vertices_a_block,
@@ -177,12 +183,15 @@ FindhexResult findhex(TetMesh mesh, const FindhexOptions& options, const char* s
       },
       [&](FoundInBlock&& found) {
         vertices_done = std::min(vertices_done + vertices_a_block, count);
+        step.advance(vertices_a_block);
         const double share_done = static_cast<double>(vertices_done) / static_cast<double>(count);
         result.triangulated_quads += found.quads;
         for (std::size_t kind = 0; kind < by_kind.size(); ++kind) {
           append(by_kind[kind], found.by_kind[kind].candidates, share_done);
           result.counts[kind].counts += found.by_kind[kind].counts;
+          cells_found += static_cast<std::int64_t>(found.by_kind[kind].candidates.size());
         }
+        if (step.due()) step.say(fmt::format("{} candidates", cells_found));
       });
   for (Candidates& candidates : by_kind) {
     if (result.candidates.size() == 0)

@@ -13,6 +13,7 @@
 #include "common/run/error.hpp"
 #include "common/run/memory.hpp"
 #include "common/run/parallel.hpp"
+#include "common/run/progress.hpp"
 
 namespace hexpipe::conflicts {
 namespace {
@@ -45,6 +46,8 @@ LowerConflicts find_lower_conflicts(const Candidates& candidates, const Share& s
   PerThread<Scratch> scratches(Scratch{SortedSet{count}, std::vector<std::int32_t>(count, 0)});
   LowerConflicts conflicts;
   conflicts.first = share.begin(static_cast<std::int64_t>(count));
+  Step step("comparing hexes", 0.1, 0.75);
+  step.expect(share.end(static_cast<std::int64_t>(count)) - conflicts.first);
   parallel_in_order(
       share.end(static_cast<std::int64_t>(count)) - conflicts.first, candidates_a_block,
       [&](std::int64_t begin, std::int64_t end) {
@@ -64,7 +67,10 @@ LowerConflicts find_lower_conflicts(const Candidates& candidates, const Share& s
         lists.shrink_to_fit();
         return lists;
       },
-      [&](PackedLists&& lists) { conflicts.blocks.push_back(std::move(lists)); });
+      [&](PackedLists&& lists) {
+        conflicts.blocks.push_back(std::move(lists));
+        step.advance(candidates_a_block);
+      });
   conflicts.degrees.assign(count, 0);
   scratches.for_each([&](const Scratch& scratch) {
     for (std::size_t i = 0; i < count; ++i) conflicts.degrees[i] += scratch.degrees[i];
@@ -83,6 +89,7 @@ graph::ConflictGraph conflict_graph(Candidates candidates, const ConflictOptions
   if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw DataError::at(source, "expected fewer than 2^31 candidates, found {}", count);
   graph::ConflictGraph graph;
+  Step all("building the graph of conflicts");
   graph.weights = weights_of(candidates, options.weight, options.weight_scale, source);
 
   forget_worth(candidates);
@@ -95,6 +102,8 @@ graph::ConflictGraph conflict_graph(Candidates candidates, const ConflictOptions
   std::copy(graph.offsets.begin(), graph.offsets.end() - 1, next.begin());
   std::int64_t first = conflicts.first;
   FreedMemory freed;
+  Step step(nullptr, 0.75, 1);
+  step.expect(static_cast<std::int64_t>(conflicts.blocks.size()));
   for (PackedLists& lists : conflicts.blocks) {
     const std::int64_t end = std::min(first + candidates_a_block, static_cast<std::int64_t>(count));
     graph.neighbours.resize(graph.offsets[end]);
@@ -105,6 +114,7 @@ graph::ConflictGraph conflict_graph(Candidates candidates, const ConflictOptions
     first = end;
     freed.add(lists.bytes());
     lists = {};
+    step.advance();
   }
   graph.neighbours.resize(graph.offsets.back());
   return graph;

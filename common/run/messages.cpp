@@ -1,9 +1,12 @@
 #include "common/run/messages.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cstdio>
+#include <cstdlib>
 
 namespace hexpipe {
 namespace {
@@ -21,16 +24,53 @@ std::string without_control_characters(std::string text) {
   return text;
 }
 
+constexpr std::string_view erase_line = "\r\033[K";
+
+// A line that wraps could not be written over.
+std::size_t columns() {
+  constexpr std::size_t usual = 80;
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual;
+}
+
+// The text's beginning, in at most this many columns. Bytes that go on with a character of UTF-8 take none.
+std::string_view beginning(std::string_view text, std::size_t columns) {
+  std::size_t used = 0;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if ((text[i] & 0xc0) != 0x80 && ++used > columns) return text.substr(0, i);
+  return text;
+}
+
 }  // namespace
 
 void print_message(std::string_view tool, std::string_view text) {
-  print_text(without_control_characters(fmt::format("{}: {}", tool, text)) + '\n');
+  print_lines(without_control_characters(fmt::format("{}: {}", tool, text)) + '\n');
 }
 
 void print_text(const std::string& text) {
   if (silent) return;
   std::fputs(text.c_str(), stderr);
   std::fflush(stderr);
+}
+
+void print_lines(const std::string& lines) {
+  print_text(has_terminal_line() ? std::string(erase_line) + lines : lines);
+}
+
+bool has_terminal_line() {
+  static const bool has = [] {
+    const char* const kind = std::getenv("TERM");
+    return isatty(STDERR_FILENO) != 0 && (kind == nullptr || std::string_view(kind) != "dumb");
+  }();
+  return has;
+}
+
+void show_terminal_line(const std::string& text) {
+  print_text(fmt::format("{}{}", erase_line, beginning(text, columns() - 1)));
+}
+
+void clear_terminal_line() {
+  print_text(std::string(erase_line));
 }
 
 void silence_messages(bool on) {

@@ -11,8 +11,20 @@ namespace hexpipe {
 // right.
 void print_message(std::string_view tool, std::string_view text);
 
-// Prints the text as it is; for progress lines that are overwritten. It never fails either.
+// Prints the text as it is. It never fails either.
 void print_text(const std::string& text);
+
+// Prints lines in place of the line of progress that a terminal may show: one of ours, or of another process in the
+// pipe.
+void print_lines(const std::string& lines);
+
+// True if standard error is a terminal that can erase a line.
+bool has_terminal_line();
+
+// Shows a line that the next one, or a message, takes the place of. It is cut off where it would wrap. One write, so
+// that lines of several processes do not mix.
+void show_terminal_line(const std::string& text);
+void clear_terminal_line();
 
 // While this is on, nothing is printed. When several processes do the same work, only one prints.
 void silence_messages(bool on);

@@ -1,31 +1,72 @@
 #pragma once
-// A progress line on standard error. It is shown only on a terminal, and not with -q.
+// The line of progress: what a process is doing, how far it is and how long it may still take. It is shown on a
+// terminal, or by hexpipe, which runs the process; never with -q. A thread shows it ten times a second, so the work
+// only has to say where it is.
 
+#include <atomic>
+#include <cstdint>
 #include <string>
 
 #include "common/run/deadline.hpp"
 
 namespace hexpipe {
 
-class Progress {
+// Steps are shown while one exists. tool_main makes it.
+class ProgressLine {
  public:
   // `label` precedes the line.
-  Progress(std::string label, bool quiet);
+  ProgressLine(std::string label, bool quiet);
   // Clears the line.
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+};
 
-  // True when the line should be printed again (about ten times a second; never without a terminal). Ask before making
-  // text.
+// True when somebody sees the line. Ask before doing work for it.
+bool progress_is_shown();
+
+// A step of the work, from construction to destruction. Steps nest; one within a step that counts is the next of what
+// is counted. Those of other threads than the one that made the first are ignored: they run beside the step that is
+// shown.
+class Step {
+ public:
+  // `what`: a word or two, "looking for hexes"; nothing: the name of the step around it stays. `begin` and `end`: which
+  // part of the step around it this is, or of all work, as shares of the time that it usually takes.
+  explicit Step(const char* what, double begin = 0, double end = 1);
+  ~Step();
+  Step(const Step&) = delete;
+  Step& operator=(const Step&) = delete;
+
+  // How far it is; the greatest share of these counts. How much there is to do, and how much more is done, from any
+  // thread:
+  void expect(std::int64_t total) { total_.store(total, std::memory_order_relaxed); }
+  void advance(std::int64_t more = 1) { done_.fetch_add(more, std::memory_order_relaxed); }
+  // The share that is done, from 0 to 1.
+  void reach(double share) { share_.store(share, std::memory_order_relaxed); }
+  // The seconds that it usually takes.
+  void usually_takes(double seconds) { usual_seconds_.store(seconds, std::memory_order_relaxed); }
+
+  // True about ten times a second if the line is shown. Ask before making text for say().
   bool due();
-  void show(const std::string& text);
+  // Shown in place of the name: "12345 hexes".
+  void say(std::string detail);
 
  private:
-  std::string label_;
-  bool visible_;
+  friend class Ticker;
+  double share() const;
+
+  const char* const what_;
+  const double begin_, end_;
+  bool is_listed_ = false;
+  std::atomic<std::int64_t> total_{0}, done_{0};
+  std::atomic<double> share_{0}, usual_seconds_{0};
+  std::string detail_;
   Stopwatch watch_;
   double next_ = 0;
 };
+
+// "~12 s left", or nothing where it is too early to tell, or the guess has run out: `share` of the work was done
+// when it had taken `then` seconds; by now it has taken `now`.
+std::string time_left(double share, double then, double now);
 
 }  // namespace hexpipe

@@ -22,6 +22,7 @@
 #include "common/run/option_checks.hpp"
 #include "common/run/parallel.hpp"
 #include "common/run/pipe_failure.hpp"
+#include "common/run/progress.hpp"
 #include "common/run/removed_files.hpp"
 #include "common/run/run_context.hpp"
 #include "common/run/text_file.hpp"
@@ -304,7 +305,10 @@ int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<v
     ThreadLimit(context.common.threads).stay();
     check_writable(context.common.stats_file);
     const Stopwatch watch;
-    run(context);
+    {
+      const ProgressLine line(info.name, context.common.quiet);
+      run(context);
+    }
     write_statistics(context, watch.seconds());
     return 0;
   } catch (const UsageError& error) {

@@ -13,6 +13,8 @@ namespace {
 constexpr const char* part_json = "mesh/part.json";
 constexpr const char* mesh_ridges = "mesh/ridges.npy";
 constexpr const char* graph_weights = "graph/weights.npy";
+constexpr const char* candidate_kinds = "candidates/kind.npy";
+constexpr const char* candidate_volumes = "candidates/volume.npy";
 constexpr const char* piece_json = "result/piece.json";
 constexpr std::size_t longest_part_json = 1 << 20;
 
@@ -54,9 +56,9 @@ void visit_members_of_keys(Keys& keys, Visit&& visit) {
 template <class Cells, class Visit>
 void visit_members_of_candidates(Cells& candidates, Visit&& visit) {
   visit("candidates/vertices.npy", candidates.vertices);
-  visit("candidates/kind.npy", candidates.kind);
+  visit(candidate_kinds, candidates.kind);
   visit("candidates/quality.npy", candidates.quality);
-  visit("candidates/volume.npy", candidates.volume);
+  visit(candidate_volumes, candidates.volume);
   visit("candidates/tet_offsets.npy", candidates.tet_offsets);
   visit("candidates/tets.npy", candidates.tets);
   visit("candidates/boundary_tet_offsets.npy", candidates.boundary_tet_offsets);
@@ -204,6 +206,17 @@ bool read_weights(BundleReader& reader, StageData& data, BundleWriter* copy) {
   graph.offsets.assign(graph.weights.size() + 1, 0);
   if (copy) copy->add_array(graph_weights, graph.weights);
   return true;
+}
+
+bool read_volumes(BundleReader& reader, StageData& data, BundleWriter* copy) {
+  const auto take = [&](auto& array) {
+    using Row = typename std::remove_cvref_t<decltype(array)>::value_type;
+    array = reader.read_array<Row>();
+    if (copy) copy->add_array(reader.name(), array);
+    return true;
+  };
+  if (reader.name() == candidate_kinds) return take(data.volumes.kind);
+  return reader.name() == candidate_volumes && take(data.volumes.volume);
 }
 
 bool is_part_title(std::string_view name) {

@@ -361,6 +361,7 @@ void Stage::State::read_bundle(formats::Input& input, StageData& data) {
       sources[*role] = input.name();
       if (request.part && read_part_member(reader, data, copy)) continue;
       if (request.weights_only && read_weights(reader, data, copy)) continue;
+      if (request.volumes && !takes(*role) && read_volumes(reader, data, copy)) continue;
       if (takes(*role) && read_member(reader, data, copy, request.cover)) continue;
     }
     if (request.shape && read_shape(reader, data, copy)) continue;

@@ -24,6 +24,9 @@ struct StageRequest {
   // A bundle's graph gives its weights only, as a graph without edges: the edges may be most of what there is to hold.
   // A graph in a file of its own has them.
   bool weights_only = false;
+  // The candidates' kinds and volumes, too, where they come with a bundle and are not asked for as a whole: enough to
+  // tell which share of the volume a choice fills.
+  bool volumes = false;
   // Members of these roles do not pass: the tool writes them again with its product, or leaves them out.
   std::vector<Role> hold_back{};
 };

@@ -26,6 +26,12 @@ using SolutionGaps = std::vector<std::int64_t>;
 // Both ends of each straight segment of the lines along which rows of points end.
 using DislocationSegments = std::vector<std::array<double, 6>>;
 
+// What of the candidates tells how much a choice fills: a row for each candidate.
+struct CandidateVolumes {
+  std::vector<CellKind> kind;
+  std::vector<double> volume;
+};
+
 // What a stage has read. A role that the stage did not ask for, or that is not there, stays empty.
 struct StageData {
   std::optional<TetMesh> mesh;
@@ -38,6 +44,7 @@ struct StageData {
   std::optional<MeshPart> part;                 // with StageRequest::part, where the mesh is a part of another
   std::optional<CandidateKeys> candidate_keys;  // likewise
   std::optional<ExactShape> shape;              // with StageRequest::shape
+  CandidateVolumes volumes;                     // with StageRequest::volumes; empty where they are not known
   formats::GroupNames names;                    // of the tags of mesh and result
   std::vector<nlohmann::ordered_json> history;
 };

@@ -9,6 +9,7 @@
 #include "common/mesh/orientation.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/run/error.hpp"
+#include "common/run/progress.hpp"
 #include "tools/assemble/attempt.hpp"
 #include "tools/assemble/choice/exchange.hpp"
 #include "tools/assemble/choice/prism_filling.hpp"
@@ -16,6 +17,9 @@
 
 namespace hexpipe::assemble {
 namespace {
+
+// Shares of the time that a mesh takes, for the line of progress.
+constexpr double input_ends = 0.02, exchange_ends = 0.3, prisms_end = 0.38, build_ends = 0.98;
 
 void check_chosen(const graph::IndependentSet& chosen, const Candidates& candidates, const choice::InputNames& names) {
   for (std::size_t i = 0; i < chosen.size(); ++i) {
@@ -41,6 +45,7 @@ struct Prepared {
 
 Prepared checked_input(TetMesh mesh, const Candidates& candidates, const graph::IndependentSet& chosen,
                        const choice::InputNames& names) {
+  const Step step("checking the input", 0, input_ends);
   validate_against(candidates, mesh, names.candidates.c_str());
   check_chosen(chosen, candidates, names);
   check_orientation(mesh, names);
@@ -125,8 +130,11 @@ hybrid::Extract checked_extract(const AssembleInput& input, Built& built, const 
 
 AssembleResult result_of(Prepared& at, const Candidates& candidates, Cells cells, const BuildRules& rules,
                          const choice::InputNames& names) {
+  std::optional<Step> step(std::in_place, "building the mesh", prisms_end, build_ends);
   Built built = build_mesh(at.input, candidates, {std::move(at.tags), std::move(cells.selection), cells.given_back},
                            rules, names);
+  step.reset();
+  step.emplace("checking the result", build_ends, 1);
   AssembleStatistics statistics;
   hybrid::Extract extracted = checked_extract(at.input, built, rules, statistics.volumes);
   count_cells(extracted.mesh, statistics);
@@ -162,6 +170,7 @@ SelectedCells exchanged(const Prepared& at, const Candidates& candidates, const 
 SelectedCells selected(const Prepared& at, const Candidates& candidates, const graph::IndependentSet& chosen,
                        bool exchanges, const choice::InputNames& names) {
   if (!exchanges) return {choice::Selection(at.input.mesh, at.tags, candidates, chosen, names), std::nullopt};
+  const Step step("exchanging hexes", input_ends, exchange_ends);
   const choice::CheckedChoice choice =
       choice::Selection(at.input.mesh, at.tags, candidates, chosen, names).take_choice();
   return exchanged(at, candidates, choice, names);
@@ -170,6 +179,7 @@ SelectedCells selected(const Prepared& at, const Candidates& candidates, const g
 // The result has prisms between the selected cells.
 AssembleResult filled_result_of(Prepared& at, const Candidates& candidates, std::optional<choice::Selection> selection,
                                 const BuildRules& rules, const choice::InputNames& names) {
+  std::optional<Step> step(std::in_place, "making prisms of tets", exchange_ends, prisms_end);
   const choice::PrismFilling filling = choice::fill_with_prisms(at.input.mesh, at.boundary, candidates, *selection);
   choice::InputNames names_of_cells = names;
   for (const CandidateIndex candidate : selection->chosen()) names_of_cells.origins.push_back({0, candidate});
@@ -177,6 +187,7 @@ AssembleResult filled_result_of(Prepared& at, const Candidates& candidates, std:
   const auto first = static_cast<CandidateIndex>(candidates.size());
   for (CandidateIndex i = 0; i < filling.prisms; ++i) names_of_cells.origins.push_back({0, first + i});
   selection.reset();
+  step.reset();
   Cells cells = cells_of(at, filling.cells, choice::all_of(filling.cells), names_of_cells);
   AssembleResult result = result_of(at, filling.cells, std::move(cells), rules, names_of_cells);
   result.statistics.filling_prisms = filling.prisms;

@@ -11,6 +11,7 @@
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/run/error.hpp"
+#include "common/run/progress.hpp"
 #include "tools/assemble/conform/flat_tets.hpp"
 #include "tools/assemble/gap/fewer_cells.hpp"
 #include "tools/assemble/shape/smooth.hpp"
@@ -34,6 +35,8 @@ constexpr int most_merging_rounds = 3;
 constexpr int rounds_between_merges = 2;
 // Rounds of flips, new vertices and peeling.
 constexpr int most_mending_rounds = 4;
+// Shares of the time that an attempt takes, for the line of progress.
+constexpr double conforming_ends = 0.33, merging_ends = 0.88, mending_ends = 0.97;
 // Tets that smoothing leaves below the first are flipped. Those that are then below the second get a vertex beside
 // them.
 constexpr double worth_a_flip = 0.15;
@@ -138,6 +141,7 @@ class Builder {
 // the candidates for which that does not succeed.
 graph::IndependentSet Builder::conform(Attempt& attempt, bool is_last) const {
   if (!rules_.is_conforming) return {};
+  const Step step("making quads meet", 0, conforming_ends);
   attempt.conformity =
       conform::make_conforming(attempt.mesh, attempt.tags, candidates_, is_last ? barely_valid : most_inverted);
   if (is_last) return {};
@@ -157,6 +161,7 @@ void Builder::untangle_in_place(Attempt& attempt) const {
 }
 
 gap::FewerCells Builder::make_fewer_cells(Attempt& attempt, gap::Passes passes) const {
+  const Step step("making the cells between hexes fewer", 0, 0.4);
   const gap::FewerCells fewer =
       gap::make_fewer_cells(attempt.mesh, {attempt.tags, input_.surface}, rules_.is_shared(), passes);
   attempt.improvement.fewer += fewer;
@@ -171,7 +176,9 @@ gap::FewerCells Builder::make_fewer_cells(Attempt& attempt, gap::Passes passes) 
 
 // Fewer cells first, quickly, so that less is smoothed; then again where vertices are in good places.
 void Builder::merge_and_smooth(Attempt& attempt) const {
-  for (int round = 0; round < most_merging_rounds; ++round) {
+  Step step(nullptr, conforming_ends, merging_ends);
+  step.expect(most_merging_rounds);
+  for (int round = 0; round < most_merging_rounds; ++round, step.advance()) {
     const bool is_first = round == 0;
     const auto fewer = make_fewer_cells(attempt, is_first ? gap::Passes::merge : gap::Passes::merge_and_refill);
     if (!fewer.any() && !is_first) break;
@@ -192,13 +199,17 @@ void Builder::smooth_and_mend(Attempt& attempt) const {
     merge_and_smooth(attempt);
   else
     improve(attempt, rules_.smooth_rounds);
-  for (int round = 0; round < most_mending_rounds && mend_flat_tets(attempt); ++round) {
+  std::optional<Step> step(std::in_place, "mending flat tets", merging_ends, mending_ends);
+  step->expect(most_mending_rounds);
+  for (int round = 0; round < most_mending_rounds && mend_flat_tets(attempt); ++round, step->advance()) {
     if (rules_.merges) make_fewer_cells(attempt, gap::Passes::merge);  // new tets let more vertices merge
     extracted = hybrid::extract(attempt.mesh, attempt.tags);
     improve(attempt, rules_.smooth_rounds);
     compute_quality(extracted.mesh);
     if (poor_cells(extracted.mesh).empty()) break;
   }
+  step.reset();
+  step.emplace("mending poor cells", mending_ends, 1);
   if (rules_.merges && make_fewer_cells(attempt, gap::Passes::mend).any())
     extracted = hybrid::extract(attempt.mesh, attempt.tags);
 }
@@ -207,6 +218,7 @@ void Builder::smooth_and_mend(Attempt& attempt) const {
 void Builder::improve(Attempt& attempt, int rounds) const {
   MixedMesh& mesh = attempt.extracted.mesh;
   const shape::SlidingSurface surface = sliding(attempt.extracted);
+  const Step step("smoothing", 0.4, 1);
   const shape::SmoothCounts counts = shape::smooth(mesh, rounds, &surface);
   attempt.improvement.rounds += counts.rounds;
   attempt.improvement.moves += counts.moves;

@@ -1,10 +1,14 @@
+#include <fmt/format.h>
+
 #include <optional>
 #include <utility>
 
 #include "common/graph/clique_cover.hpp"
 #include "common/mwis/bounds/gap_shares.hpp"
 #include "common/mwis/ground/search_log.hpp"
+#include "common/mwis/ground/target_weight.hpp"
 #include "common/run/option_checks.hpp"
+#include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "tools/certify/certify.hpp"
@@ -45,9 +49,13 @@ int main(int argc, char** argv) {
     KnownCliques known{data.cover, std::nullopt};
     if (data.candidates) known.of_tets = graph::cliques_of_tets(*data.candidates);
     const Deadline deadline = context.deadline();
+    Step step("proving a bound");
+    const std::int64_t weight = graph::total_weight(*data.solution, *data.graph);
     CertifyResult result = certify::certify(
-        *data.graph, *data.solution, std::move(known), options, deadline,
-        [&](const mwis::bounds::CliqueDual& now) { log.record(deadline.elapsed(), now.passes, now.bound); });
+        *data.graph, *data.solution, std::move(known), options, deadline, [&](const mwis::bounds::CliqueDual& now) {
+          log.record(deadline.elapsed(), now.passes, now.bound);
+          if (step.due()) step.say(fmt::format("gap {:.3f} %", 100 * mwis::ground::gap_to(now.bound, weight)));
+        });
     const double seconds = deadline.elapsed();
     context.statistics.update(to_json(result));
     context.note(summary(result));

@@ -52,6 +52,8 @@ int main(int argc, char** argv) {
     app.add_option("-o,--output", options.output, "The mesh, in the format that the ending names")
         ->type_name("FILE")
         ->default_str("");
+    app.add_option("--solver", options.solver, "The program that the mesh is for, as assemble knows it")
+        ->type_name("NAME");
     app.add_option("--page", options.page, "A page that shows it, for a browser")->type_name("FILE");
     app.add_option("--png", options.picture, "A picture of it")->type_name("FILE");
     app.add_option("--effort", effort,

@@ -18,6 +18,7 @@ struct PipeOptions {
   std::optional<std::string> keep;           // folder that keeps the product of each stage
   std::optional<std::string> from;           // product in that folder to go on from
   std::optional<std::string> size;           // of tetmesh
+  std::optional<std::string> solver;         // of assemble: whom the result is for
   Effort effort = Effort::usual;
   std::optional<int> threads;
   std::optional<std::uint64_t> seed;

@@ -75,6 +75,7 @@ std::vector<std::string> words_of(const std::string& tool, const PipeOptions& op
   std::vector<std::string> words;
   const auto add = [&](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
   if (tool == "tetmesh" && options.size) add({"--size", *options.size});
+  if (tool == "assemble" && options.solver) add({"--solver", *options.solver});
   if (options.threads) add({"--threads", std::to_string(*options.threads)});
   const bool is_random = tool == "tetmesh" || tool == "initsol" || tool == "lns";
   if (options.seed && is_random) add({"--seed", std::to_string(*options.seed)});

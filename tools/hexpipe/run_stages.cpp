@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <utility>
@@ -19,7 +20,7 @@
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "common/run/messages.hpp"
-#include "common/run/progress.hpp"
+#include "common/run/progress_record.hpp"
 
 namespace hexpipe::front_door {
 namespace {
@@ -76,6 +77,7 @@ struct Process {
   Descriptor messages;         // its standard error
   std::string line, withheld;  // of that: an unfinished line, and the last line
   Descriptor statistics;       // a file in memory
+  Descriptor progress;         // another one
 };
 
 std::vector<char*> arguments(std::vector<std::string>& words) {
@@ -102,8 +104,10 @@ std::vector<char*> arguments(std::vector<std::string>& words) {
 
 class PipeRun {
  public:
-  explicit PipeRun(const RunOptions& options) : options_(options), progress_("hexpipe", options.quiet) {}
+  explicit PipeRun(const RunOptions& options)
+      : options_(options), shows_progress_(!options.quiet && has_terminal_line()) {}
   ~PipeRun() {
+    if (shows_progress_) clear_terminal_line();
     if (group_ > 0 && running_ > 0) kill(-group_, SIGKILL);
     for (Process& process : processes_)
       if (process.pid > 0 && !process.is_done) waitpid(process.pid, nullptr, 0);
@@ -128,8 +132,9 @@ class PipeRun {
   void judge() const;
 
   RunOptions options_;
-  Progress progress_;
+  const bool shows_progress_;
   Stopwatch watch_;
+  double next_progress_ = 0;
   std::vector<Process> processes_;
   pid_t group_ = 0;  // of all processes started, apart from ours: a terminal's Ctrl-C reaches only us
   std::size_t running_ = 0;
@@ -140,6 +145,11 @@ class PipeRun {
 Process& PipeRun::launch(std::string tool, const std::string& path, std::vector<std::string> words, Descriptor in,
                          Descriptor out) {
   auto [read_end, write_end] = make_pipe();
+  Descriptor progress(shows_progress_ && tool != "tee" ? checked(memfd_create("progress", 0), "show progress") : -1);
+  if (progress.is_open())
+    setenv(progress_record_variable, std::to_string(progress.get()).c_str(), 1);
+  else
+    unsetenv(progress_record_variable);
   std::vector<char*> list = arguments(words);
   const pid_t parent = getpid();
   const pid_t child = checked(fork(), "start a process");
@@ -151,6 +161,7 @@ Process& PipeRun::launch(std::string tool, const std::string& path, std::vector<
   process.tool = std::move(tool);
   process.pid = child;
   process.messages = std::move(read_end);
+  process.progress = std::move(progress);
   processes_.push_back(std::move(process));
   return processes_.back();
 }
@@ -201,7 +212,7 @@ void PipeRun::read_messages(Process& process) {
   }
   process.line.append(buffer.data(), static_cast<std::size_t>(count));
   for (std::size_t end; (end = process.line.find('\n')) != std::string::npos;) {
-    if (!process.withheld.empty()) print_text(process.withheld);
+    if (!process.withheld.empty()) print_lines(process.withheld);
     process.withheld = process.line.substr(0, end + 1);
     process.line.erase(0, end + 1);
   }
@@ -217,7 +228,7 @@ void PipeRun::reap() {
     --running_;
     process.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     process.withheld += process.line;
-    if (process.exit_code == 0 && !process.withheld.empty()) print_text(process.withheld);
+    if (process.exit_code == 0 && !process.withheld.empty()) print_lines(process.withheld);
   }
 }
 
@@ -228,12 +239,27 @@ void PipeRun::hand_on_signal() {
   if (group_ > 0) kill(-group_, SIGINT);
 }
 
+// Tools behind the first one that is at work wait for it, except where it writes and the next one reads.
 void PipeRun::show_progress() {
-  if (!progress_.due()) return;
-  const auto at_work = std::ranges::find_if(
-      processes_, [](const Process& process) { return !process.is_done && process.tool != "tee"; });
-  if (at_work == processes_.end()) return;
-  progress_.show(fmt::format("{}, {:.0f} s", at_work->tool, watch_.seconds()));
+  constexpr double seconds_between = 0.1;
+  if (!shows_progress_ || watch_.seconds() < next_progress_) return;
+  next_progress_ = watch_.seconds() + seconds_between;
+  std::size_t number = 0, tools = 0;
+  std::string shown;
+  bool is_known = false;
+  for (const Process& process : processes_) {
+    if (process.tool == "tee") continue;
+    ++tools;
+    if (process.is_done || is_known) continue;
+    const std::string progress = read_progress_record(process.progress.get());
+    is_known = !progress.empty();
+    if (!is_known && !shown.empty()) continue;
+    shown = is_known ? fmt::format("{}: {}", process.tool, progress) : process.tool;
+    number = tools;
+  }
+  if (shown.empty()) return;
+  const std::string place = tools > 1 ? fmt::format("{}/{} ", number, tools) : "";
+  show_terminal_line(fmt::format("hexpipe: {:.0f} s, {}{}", watch_.seconds(), place, shown));
 }
 
 void PipeRun::wait() {

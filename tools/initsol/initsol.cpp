@@ -9,6 +9,7 @@
 #include "common/mwis/local_search/recombination.hpp"
 #include "common/mwis/local_search/remainder.hpp"
 #include "common/run/parallel.hpp"
+#include "common/run/progress.hpp"
 
 namespace hexpipe::initsol {
 namespace {
@@ -126,14 +127,16 @@ InitsolResult search(const graph::ConflictGraph& graph, const std::function<grap
   };
   const std::int64_t iterations = iterations_for(graph, options);
   const std::int64_t round = std::clamp<std::int64_t>(iterations / least_rounds, 1, most_moves_a_round);
+  Step step(nullptr);
   for (std::int64_t done = 0; done < iterations && !deadline.passed();) {
     const std::int64_t moves = std::min(round, iterations - done);
     const double progress = progress_of(done, iterations, deadline);
+    step.reach(progress);
     parallel_for(options.starts, 1, [&](std::int64_t i) { searches[i]->run(moves, progress, deadline); });
     done += moves;
     if (leader()->best_weight() > result.weight) {
       result.weight = leader()->best_weight();
-      report({moves_made(), result.weight});
+      report({moves_made(), result.weight, [&] { return leader()->best(); }});
     }
     if (std::ranges::all_of(searches, [&](const auto& search) { return search->moves() < done; })) break;
   }
@@ -152,10 +155,10 @@ InitsolResult search_remainder(const graph::ConflictGraph& graph,
     result = search(
         rest.graph(), [&](std::int64_t i) { return rest.project(start(i)); }, options, deadline,
         [&](const InitsolProgress& now) {
-          report({now.iteration, now.weight + rest.offset()});
+          report({now.iteration, now.weight + rest.offset(), [&] { return rest.lift(now.solution()); }});
         });
   result.solution = rest.lift(result.solution);
-  if (result.complete) report({0, graph::total_weight(result.solution, graph)});
+  if (result.complete) report({0, graph::total_weight(result.solution, graph), [&] { return result.solution; }});
   return result;
 }
 

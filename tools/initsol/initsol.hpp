@@ -14,6 +14,7 @@ namespace hexpipe::initsol {
 struct InitsolProgress {
   std::int64_t iteration;
   std::int64_t weight;
+  std::function<graph::IndependentSet()> solution;  // it takes some time; valid during the report
 };
 
 struct InitsolResult {

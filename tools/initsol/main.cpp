@@ -7,6 +7,7 @@
 #include "common/run/option_checks.hpp"
 #include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
+#include "formats/pipeline/choice_progress.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "tools/initsol/initsol.hpp"
 
@@ -107,15 +108,18 @@ void run(RunContext& context, const InitsolOptions& options) {
   mwis::ground::SearchLog log(context.common.log_file);
   const bool by_quality = options.order == GreedyOrder::quality;
   const pipeline::StageData data =
-      stage.read({.needs = {Role::graph}, .wants = by_quality ? std::vector{Role::candidates} : std::vector<Role>{}});
+      stage.read({.needs = {Role::graph},
+                  .wants = by_quality ? std::vector{Role::candidates} : std::vector<Role>{},
+                  .volumes = true});
   const std::vector<double> quality = by_quality ? quality_for(data) : std::vector<double>{};
 
   const Deadline deadline = context.deadline();
-  Progress progress("initsol", context.common.quiet);
+  Step step("choosing hexes");
+  pipeline::ChoiceProgress progress(step, data, !context.streams.files.contains(Role::graph));
   const InitsolResult result =
       find_initial_solution(*data.graph, quality, options, deadline, [&](const InitsolProgress& now) {
         log.record(deadline.elapsed(), now.iteration, now.weight);
-        if (progress.due()) progress.show(fmt::format("weight {}", now.weight));
+        progress.show(now.weight, now.solution);
       });
   const double seconds = deadline.elapsed();
   context.statistics.update(nlohmann::ordered_json{{"greedy_weight", result.greedy_weight},

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -34,12 +36,7 @@ Sent put_together(Ranks& ranks, const Traffic& own) {
 class Job {
  public:
   Job(Ranks& ranks, RunContext& context, const LnsMpiOptions& options)
-      : ranks_(ranks),
-        context_(context),
-        options_(options),
-        rounds_(options.rounds),
-        deadline_(context.deadline()),
-        shown_(context.info.name, context.common.quiet || !ranks.is_first()) {
+      : ranks_(ranks), context_(context), options_(options), rounds_(options.rounds), deadline_(context.deadline()) {
     source_ = options_.parts.empty() ? whole_graph(context, options_.blocks) : graph_parts(context, options_.parts);
   }
 
@@ -67,6 +64,9 @@ class Job {
         for (const std::int32_t v : fragment) numbers.push_back(local.keys[v]);
         improved.put_all(std::span<const std::uint64_t>(numbers));
       };
+    Step step("improving the choice");
+    step_ = &step;
+    if (std::isfinite(deadline_.remaining())) step.usually_takes(deadline_.remaining());
     improve_in_rounds(ranks_, local, rounds_, deadline_, earlier, progress_, memories_,
                       [&](const RoundsProgress&, const RoundCosts& costs, bool last) {
                         report(costs);
@@ -74,6 +74,7 @@ class Job {
                         if (checkpoint_ && (last || checkpoint_->is_due()))
                           checkpoint_->write(local, progress_, memories_);
                       });
+    step_ = nullptr;
     if (options_.passes > 0) prove(local);
     finish(local);
   }
@@ -131,12 +132,20 @@ class Job {
     const Sent sent = put_together(ranks_, costs.traffic);
     messages_ += sent.messages, bytes_ += sent.bytes;
     log_->record(deadline_.elapsed(), progress_.iterations, progress_.weight);
-    if (shown_.due()) shown_.show(fmt::format("weight {} after {} rounds", progress_.weight, progress_.round));
+    show_progress();
     context_.note(
         fmt::format("round {}: weight {}, {:.2f} s of search, {:.2f} s of waiting; {} messages, {} bytes in all, {} "
                     "and {} a rank at most",
                     progress_.round, progress_.weight, costs.search_seconds, costs.wait_seconds, sent.messages,
                     sent.bytes, sent.most_messages, sent.most_bytes));
+  }
+
+  void show_progress() {
+    if (!first_weight_) first_weight_ = progress_.weight;
+    if (!step_->due()) return;
+    const auto gain = static_cast<double>(progress_.weight - *first_weight_);
+    step_->say(fmt::format("round {}, {:.2f} % gained since the first", progress_.round,
+                           100 * gain / static_cast<double>(std::max<std::int64_t>(1, *first_weight_))));
   }
 
   // Fragments are written in the order of the blocks, whichever ranks have them.
@@ -202,14 +211,15 @@ class Job {
   const LnsMpiOptions& options_;
   RoundsOptions rounds_;
   Deadline deadline_;
-  Progress shown_;
   std::unique_ptr<Source> source_;
   std::optional<mwis::ground::SearchLog> log_;
   std::optional<formats::FragmentsFile> fragments_;  // of the first rank
   std::optional<formats::Output> certificate_;       // of the first rank, too
   std::optional<Checkpoint> checkpoint_;
   RoundsProgress progress_;
+  Step* step_ = nullptr;  // while rounds are run
   std::vector<BlockMemory> memories_;
+  std::optional<std::int64_t> first_weight_;  // after the first round
   std::optional<SharedProof> proof_;
   Sent setup_;
   std::int64_t messages_ = 0, bytes_ = 0;  // of all rounds, sent by all ranks

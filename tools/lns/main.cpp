@@ -13,6 +13,7 @@
 #include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/choice/fragments_file.hpp"
+#include "formats/pipeline/choice_progress.hpp"
 #include "formats/pipeline/stage.hpp"
 
 using namespace hexpipe;
@@ -61,7 +62,7 @@ int main(int argc, char** argv) {
     mwis::ground::SearchLog log(context.common.log_file);
     std::optional<formats::FragmentsFile> fragments;
     if (!fragments_file.empty()) fragments.emplace(fragments_file);
-    const pipeline::StageData data = stage.read({.needs = {Role::graph, Role::solution}});
+    const pipeline::StageData data = stage.read({.needs = {Role::graph, Role::solution}, .volumes = true});
     const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
     if (target.gap)
       options.target = mwis::ground::target_weight(
@@ -70,13 +71,15 @@ int main(int argc, char** argv) {
     if (data.gaps)
       options.first_places = mwis::bounds::holds_most_of_gap(data.graph->vertex_count(), *data.solution, *data.gaps);
     const Deadline deadline = context.deadline();
-    Progress progress("lns", context.common.quiet);
+    Step step("improving the choice");
+    pipeline::ChoiceProgress progress(step, data, graph_of_bundle);
+    progress.show(graph::total_weight(*data.solution, *data.graph), [&] { return *data.solution; });
     const mwis::local_search::LnsResult result = mwis::local_search::improve_by_lns(
         *data.graph, *data.solution, options, deadline, [&](const mwis::local_search::LnsProgress& now) {
           log.record(deadline.elapsed(), now.iteration, now.weight);
           if (fragments && !now.fragment.empty())
             fragments->add(std::vector<std::uint64_t>(now.fragment.begin(), now.fragment.end()));
-          if (progress.due()) progress.show(fmt::format("weight {} after {} fragments", now.weight, now.iteration));
+          progress.show(now.weight, now.solution);
         });
     const double seconds = deadline.elapsed();
     context.statistics["weight"] = result.weight;

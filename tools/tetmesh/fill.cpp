@@ -12,6 +12,7 @@
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
+#include "common/run/progress.hpp"
 #include "tools/tetmesh/solid/model_axes.hpp"
 #include "tools/tetmesh/surface/edge_splitting.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
@@ -51,6 +52,10 @@ class StepWatch {
 // input in another order it succeeds. 9 of 36 meshes of a turned CAD tessellation failed at the first run; the worst
 // needed 6 runs.
 constexpr int most_runs = 16;
+// Shares of the time that a mesh takes, as on models of 17,000 to 170,000 tets, for the line of progress.
+constexpr double surface_ends = 0.28, first_mesh_ends = 0.45, frame_ends = 0.85;
+// For each point, a run of TetGen takes about this long; for the line of progress, too.
+constexpr double tetgen_seconds_a_point = 2e-5;
 // Runs from this number on are strict, for shells that nearly touch: two cubes on top of each other, 1e-9 apart, failed
 // at all other runs.
 constexpr int first_strict_run = 8;
@@ -137,9 +142,14 @@ bool Filler::fill_new_surface() {
   const sizing::SizeField unit = walls_count ? sizing::field_of(given_, std::move(one_layer)) : size_;
   surface::SurfaceRemesher remesher(given_,
                                     {size_, options_.feature_angle, options_.deviation, unit, options_.row_stretch});
+  const auto make = [&] {
+    const Step step("making new triangles for the surface", 0, surface_ends);
+    return remesher.make();
+  };
   std::string failure;
   try {
-    while (!built_ && remesher.make()) {
+    while (!built_ && make()) {
+      const Step step("filling the surface with tets", surface_ends, first_mesh_ends);
       watch_.add_to(statistics_.seconds.remeshing);
       surface_ = &remesher.made();
       place_points();
@@ -171,6 +181,7 @@ void Filler::fill_given_surface() {
     cut_.emplace(surface::split_long_edges(given_, size_));
     watch_.add_to(statistics_.seconds.remeshing);
   }
+  const Step step("filling the surface with tets", surface_ends, first_mesh_ends);
   surface_ = cut_ ? &*cut_ : &given_;
   if (options_.points != PointKind::none && warnings_.empty()) {
     const auto complaint = sizing::fit_to_size(*surface_, size_).complaint(statistics_.size);
@@ -200,6 +211,7 @@ void Filler::place_points() {
 
 // Starts from the mesh with the lattice's points, and keeps that mesh if it is the better one.
 void Filler::try_frame_points() {
+  std::optional<Step> step(std::in_place, "placing points in rows", first_mesh_ends, frame_ends);
   const volume::FramePoints frame =
       volume::frame_points(*surface_, built_->mesh, built_->adjacency,
                            {.size = size_,
@@ -213,6 +225,8 @@ void Filler::try_frame_points() {
   const bool compares =
       options_.points == PointKind::best &&
       (has_bodies || !frame_plainly_wins(statistics_.remeshed, frame.turned_share, built_->mesh.tets.size()));
+  step.reset();
+  step.emplace("filling the surface with tets again", frame_ends, 1);
   volume::HexEstimate of_lattice;
   std::optional<tetgen::BuiltMesh> bent = tetrahedralize(frame.points, [&] {
     if (compares) of_lattice = volume::estimate_hexes(built_->mesh, built_->adjacency);
@@ -278,6 +292,8 @@ std::optional<tetgen::BuiltMesh> Filler::tetrahedralize(std::span<const Vec3> po
   const bool at_once = thread_count() > 1;
   if (!at_once && !meanwhile()) return std::nullopt;
   const Deadline deadline(options_.tetgen_timeout);
+  Step step(nullptr);
+  step.usually_takes(tetgen_seconds_a_point * static_cast<double>(surface_->points.size() + points.size()));
   for (int run = 0;; ++run) {
     try {
       tetgen::TetGenRun tetgen({.surface_points = surface_->points,

@@ -1,5 +1,7 @@
 #include "tools/tetmesh/improve.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <deque>
 #include <memory>
@@ -8,6 +10,7 @@
 
 #include "common/run/deadline.hpp"
 #include "common/run/parallel.hpp"
+#include "common/run/progress.hpp"
 #include "tools/tetmesh/search/point_search.hpp"
 #include "tools/tetmesh/tetgen/run_tetgen.hpp"
 
@@ -83,6 +86,13 @@ void improve(FilledSurface& filled, const solid::Surface& given, const ImproveOp
   stop_searches_on_signal();
   const Deadline deadline(options.time_limit);
   TetmeshStatistics& statistics = filled.statistics;
+  Step step("moving points", 0.1, 1);
+  if (options.time_limit) step.usually_takes(*options.time_limit);
+  step.expect(static_cast<std::int64_t>(options.rounds));
+  const auto after_round = [&](std::size_t round, double share) {
+    step.advance();
+    if (step.due()) step.say(fmt::format("round {}, about {:.1f} % in hexes", round + 1, 100 * share));
+  };
   MeshMaker maker(options.tetgen_timeout, deadline, statistics);
   search::PointSearchResult found = search::search_points(
       filled.surface(given), std::move(filled.built),
@@ -90,7 +100,7 @@ void improve(FilledSurface& filled, const solid::Surface& given, const ImproveOp
        .seed = options.seed,
        .rounds = options.rounds,
        .changes_surface = filled.made_surface.has_value(),
-       .after_round = options.after_round},
+       .after_round = after_round},
       deadline,
       [&](std::span<const search::SurfaceWithPoints> all, const search::TakeMesh& take) { maker.make(all, take); });
   if (found.surface) filled.made_surface = std::move(found.surface);

@@ -2,7 +2,6 @@
 // Makes the points of a finished mesh better by search: search/point_search.hpp with TetGen behind it.
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 
 #include "tools/tetmesh/fill.hpp"
@@ -14,7 +13,6 @@ struct ImproveOptions {
   std::uint64_t seed;
   std::optional<double> time_limit;  // seconds
   double tetgen_timeout;             // seconds for one mesh
-  std::function<void(std::size_t round, double share)> after_round;
 };
 
 // From this call on, a first SIGINT or SIGTERM ends the search and not the process. The figures of the search and the

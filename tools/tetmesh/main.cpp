@@ -9,7 +9,6 @@
 
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
-#include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "formats/points/point_files.hpp"
@@ -217,10 +216,6 @@ int main(int argc, char** argv) {
     formats::SurfaceSoup surface = stage.read_surface(input);
     if (scale) scale_surface(*scale, surface);
     if (size_file) options.sizes.sources = size_sources(*size_file, surface);
-    Progress progress("tetmesh", context.common.quiet);
-    options.after_round = [&](std::size_t round, double share) {
-      if (progress.due()) progress.show(fmt::format("round {}, about {:.1f} % in hexes", round + 1, 100 * share));
-    };
     TetmeshResult result = tetmesh::tetmesh(std::move(surface), options);
     if (const auto& repair = result.statistics.repair; repair && repair->anything())
       context.warn(fmt::format("{}: repaired: {}", input.name(), repair->sentence()));

@@ -47,7 +47,6 @@ struct TetmeshOptions {
   std::size_t tries = 1;                  // sizes up to 5 % off; the mesh with most hexes is kept; at most most_tries
   std::size_t improve = 0;                // rounds of the search for better points
   std::optional<double> time_limit = {};  // of that search, in seconds
-  std::function<void(std::size_t round, double share)> after_round = {};  // of that search
 };
 
 // Prepares the words of a command line for CLI11, which takes any word behind an option as its optional value: a word

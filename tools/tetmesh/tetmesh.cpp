@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
+#include "common/run/progress.hpp"
 #include "tools/tetmesh/asked_sizes.hpp"
 #include "tools/tetmesh/fill.hpp"
 #include "tools/tetmesh/improve.hpp"
@@ -37,7 +39,11 @@ FilledSurface best_of_tries(const solid::Surface& surface, const sizing::SizeDem
   std::vector<TriedSize> tried;
   StepSeconds seconds;
   std::exception_ptr failure;
+  std::size_t number = 0;
   for (const double factor : std::span(tried_sizes).first(tries)) {
+    const auto share = [&](std::size_t done) { return static_cast<double>(done) / static_cast<double>(tries); };
+    const Step step(nullptr, share(number), share(number + 1));
+    ++number;
     try {
       FilledSurface filled = fill_at(factor, surface, demand, size, options);
       const TetmeshStatistics& statistics = filled.statistics;
@@ -98,6 +104,7 @@ FillOptions fill_options(const TetmeshOptions& o) {
 TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) {
   check_options(options);
   const Stopwatch watch;
+  std::optional<Step> step(std::in_place, "checking the surface", 0, 0.02);
   std::optional<solid::RepairReport> repaired;
   if (options.repair) repaired = solid::repair(soup, {sizing::in_units(options.weld, soup), options.largest_hole});
   std::vector<std::string> warnings;
@@ -117,10 +124,13 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
   if (places) volume::check_point_count(surface, least_factor * size, options.clearance, options.most_points);
   const double seconds_checking = watch.seconds();
 
+  // How long the search for better points takes is up to the user.
+  step.reset();
+  step.emplace(nullptr, 0.02, options.improve > 0 ? 0.1 : 1);
   FilledSurface filled = best_of_tries(surface, demand, size, options.tries, fill_options(options));
+  step.reset();
   if (options.improve > 0)
-    improve(filled, surface,
-            {options.improve, options.seed, options.time_limit, options.tetgen_timeout, options.after_round});
+    improve(filled, surface, {options.improve, options.seed, options.time_limit, options.tetgen_timeout});
   TetmeshResult result = finish(std::move(filled), surface);
   result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
   result.statistics.repair = repaired;

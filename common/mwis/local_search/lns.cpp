@@ -5,6 +5,7 @@
 #include <cmath>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "common/mwis/local_search/fragment.hpp"
@@ -13,6 +14,7 @@
 #include "common/mwis/local_search/schedule.hpp"
 #include "common/mwis/local_search/stop_rule.hpp"
 #include "common/run/parallel.hpp"
+#include "common/run/progress.hpp"
 
 namespace hexpipe::mwis::local_search {
 namespace {
@@ -55,6 +57,7 @@ class Lns {
     stop_rule_.record(0, state_.weight());
     usual_ = Cooling::for_chosen(std::ssize(state_.to_set()));
     if (memory_ != nullptr) recall();
+    if (memory_ == nullptr) begin_step();
     for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
       if (!state_.contains(v)) continue;
       wait(v);
@@ -99,6 +102,13 @@ class Lns {
   }
   void wait(std::int32_t v) {
     for (Schedule& schedule : schedules_) schedule.wait(v);
+  }
+
+  // For the line of progress; a search that goes on in rounds has a step of its own.
+  void begin_step() {
+    step_.emplace(nullptr);
+    if (std::isfinite(deadline_.remaining())) step_->usually_takes(deadline_.remaining());
+    if (options_.iterations < LnsOptions{}.iterations) step_->expect(options_.iterations);
   }
 
   void recall() {
@@ -242,10 +252,12 @@ class Lns {
 
   void apply(const FragmentSolver& solver) {
     ++iterations_;
+    if (step_) step_->advance();
     const std::int64_t before = state_.weight();
     if (put_back(solver) && state_.weight() > before) {
       ++improvements_;
-      if (report_) report_({iterations_, state_.weight(), solver.fragment().vertices});
+      if (report_)
+        report_({iterations_, state_.weight(), solver.fragment().vertices, [this] { return state_.to_set(); }});
       renew_around(solver);
     } else {
       hand_over(solver);
@@ -359,6 +371,7 @@ class Lns {
   std::vector<std::int32_t> postponed_, removed_, added_, left_out_;
   std::int64_t begun_ = 0, iterations_ = 0;  // fragments grown, and fragments put back
   std::int64_t improvements_ = 0;
+  std::optional<Step> step_;
   std::int32_t closed_ = 0;  // vertices of components that are solved completely
 };
 
@@ -387,7 +400,8 @@ LnsResult search_remainder(const graph::ConflictGraph& graph, const graph::Indep
   const auto report_whole = [&](const LnsProgress& now) {
     if (!report || now.weight + rest.offset() <= best) return;
     best = now.weight + rest.offset();
-    report({now.iteration, best, rest.originals(now.fragment)});
+    const std::vector<std::int32_t> fragment = rest.originals(now.fragment);
+    report({now.iteration, best, fragment, [&] { return rest.lift(now.solution()); }});
   };
   LnsOptions rest_options = options;
   rest_options.target -= rest.offset();
@@ -398,7 +412,8 @@ LnsResult search_remainder(const graph::ConflictGraph& graph, const graph::Indep
     result = Lns(rest.graph(), rest.project(start), rest_options, deadline, report_whole, nullptr, rest.offset()).run();
   result.solution = rest.lift(result.solution);
   result.weight = total_weight(result.solution, graph);
-  if (result.complete) report_whole({result.iterations, result.weight - rest.offset(), {}});
+  if (result.complete)
+    report_whole({result.iterations, result.weight - rest.offset(), {}, [&] { return rest.project(result.solution); }});
   return result;
 }
 

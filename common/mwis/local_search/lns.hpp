@@ -45,6 +45,8 @@ struct LnsProgress {
   std::int64_t weight;
   // The improved vertices, without those that reductions made of several.
   std::span<const std::int32_t> fragment;
+  // The whole solution; it takes some time. Valid during the report.
+  std::function<graph::IndependentSet()> solution = {};
 };
 
 struct LnsResult {

@@ -16,6 +16,7 @@
 #include "common/mesh/facet_key.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
+#include "common/run/progress.hpp"
 #include "tools/assemble/choice/exchange_search.hpp"
 #include "tools/assemble/choice/selection.hpp"
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
@@ -204,6 +205,7 @@ ExchangeProblem problem_of(const TetMesh& mesh, const hybrid::BoundaryQuads& bou
     weights[i] = worth.of(i);
     problem.usual.push_back(worth.usual_around(i));
   }
+  const Step step(nullptr, 0.3, 0.5);
   problem.graph = conflicts::conflict_graph(std::move(cells),
                                             {.weight = conflicts::WeightKind::count, .weight_scale = 1}, "candidates");
   problem.graph.weights = std::move(weights);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/run/parallel.hpp"
+#include "common/run/progress.hpp"
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
@@ -123,7 +124,8 @@ bool SurfaceRemesher::Work::prepare() {
     return false;
   }
   bool placed = false;
-  both_at_once([&] { placed = place_points(); }, [&] { input_.emplace(surface_.points, surface_.triangles); });
+  // This thread takes the second, whose steps the line of progress shows.
+  both_at_once([&] { input_.emplace(surface_.points, surface_.triangles); }, [&] { placed = place_points(); });
   if (!placed) result.failure = "in double precision some of its triangles have no direction";
   return placed;
 }
@@ -147,9 +149,12 @@ bool SurfaceRemesher::Work::place_points() {
     sample_feature_curves(prepared_, size_, deviation_);
   refine_surface(prepared_, longest, flat);
   const std::vector<Vertex> kept = kept_vertices();
+  std::optional<Step> step(std::in_place, nullptr, 0.2, 0.6);
   const FieldSurface field_surface(prepared_, size_);
   const auto [field, opposite] = cross_field_across(field_surface);
   if (!std::ranges::all_of(field.directions, is_place)) return false;
+  step.reset();
+  step.emplace(nullptr, 0.6, 0.8);
   const auto [points, row_ends] =
       surface_front(field_surface, field, opposite, kept, size_, counts_rows ? row_stretch_ : 0);
   insert_points(prepared_, points, snap * size_);
@@ -172,6 +177,7 @@ std::size_t SurfaceRemesher::Work::count_places(std::span<const Vertex> vertices
 }
 
 void SurfaceRemesher::Work::remove_vertices_of_input() {
+  const Step step(nullptr, 0.8, 1);
   FeatureMesh mesh = prepared_;
   remove_vertices(mesh, *input_, removal_share * deviation_);
   result.surface = surface_of(mesh);

@@ -5,9 +5,11 @@
 #include <functional>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "common/run/parallel.hpp"
+#include "common/run/progress.hpp"
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/solid/surface_clearance.hpp"
 #include "tools/tetmesh/volume/frame_field.hpp"
@@ -52,8 +54,11 @@ class PointPlacer {
         frames_(solve_frame_field(nodes_)) {}
 
   std::vector<Vec3> place() {
+    std::optional<Step> step(std::in_place, nullptr, 0.16, 0.83);
     propose();
     agree();
+    step.reset();
+    step.emplace(nullptr, 0.83, 1);
     return accept();
   }
   double turned_share() const;
