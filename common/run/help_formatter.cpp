@@ -1,6 +1,10 @@
 #include "common/run/command_line.hpp"
 
+#include <algorithm>
 #include <sstream>
+#include <utility>
+
+#include "common/run/option_checks.hpp"
 
 namespace hexpipe {
 namespace {
@@ -24,12 +28,35 @@ std::string broken_at_comma(const std::string& text) {
   return comma == std::string::npos ? text : text.substr(0, comma + 1) + line_break() + text.substr(comma + 1);
 }
 
+// CLI11's order is that of the first option in each group, which is --help.
+std::vector<std::string> ordered_groups(const CLI::App& app) {
+  const auto rank = [](const std::string& name) {
+    const std::string_view order[] = {group::first, "", group::input, group::output, group::run, group::experts};
+    const auto* const found = std::ranges::find(order, name);
+    return found == std::end(order) ? std::ranges::find(order, "") : found;
+  };
+  std::vector<std::string> groups = app.get_groups();
+  std::ranges::stable_sort(groups, {}, rank);
+  return groups;
+}
+
 }  // namespace
+
+std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode) const {
+  std::string text = make_description(app) + make_usage(app, std::move(name)) + make_positionals(app);
+  for (const std::string& group : ordered_groups(*app)) {
+    const auto options = app->get_options(
+        [&](const CLI::Option* option) { return option->get_group() == group && option->nonpositional(); });
+    if (!options.empty()) text += make_group(group, false, options);
+  }
+  return text + "\n" + make_footer(app);
+}
 
 std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positional) const {
   std::string text =
       broken_at_comma("  " + plain_name(make_option_name(option, is_positional)) + make_option_opts(option));
-  if (text.size() + 1 > option_column)
+  // help2man tells an option from its description by two blanks.
+  if (text.size() + 2 > option_column)
     text += line_break();
   else
     text.resize(option_column, ' ');

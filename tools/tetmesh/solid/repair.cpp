@@ -49,7 +49,7 @@ class Repairer {
   void turn(std::int32_t triangle) { std::swap(soup_.triangles[triangle][1], soup_.triangles[triangle][2]); }
   void orient();
   void fill_holes();
-  void fill_hole(const std::vector<geometry::HalfEdge>& border);
+  void close_hole(const std::vector<geometry::HalfEdge>& border);
   void turn_outward();
   void drop_unused_points();
 
@@ -248,13 +248,13 @@ void Repairer::fill_holes() {
       if (begin == no_index) continue;
       const std::vector<geometry::HalfEdge> loop(walk.begin() + begin, walk.end());
       cut_off(begin);
-      if (loop.size() >= 3 && loop.size() <= options_.largest_hole) fill_hole(loop);
+      if (loop.size() >= 3 && loop.size() <= options_.largest_hole) close_hole(loop);
     }
     cut_off(0);
   }
 }
 
-void Repairer::fill_hole(const std::vector<geometry::HalfEdge>& border) {
+void Repairer::close_hole(const std::vector<geometry::HalfEdge>& border) {
   std::vector<HoleEdge> edges;
   edges.reserve(border.size());
   for (const geometry::HalfEdge h : border)
