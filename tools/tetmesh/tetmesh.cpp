@@ -13,7 +13,7 @@
 #include "tools/tetmesh/improve.hpp"
 #include "tools/tetmesh/solid/boundary.hpp"
 #include "tools/tetmesh/tetgen/mesh_shape.hpp"
-#include "tools/tetmesh/volume/expected_points.hpp"
+#include "tools/tetmesh/volume/estimates.hpp"
 
 namespace hexpipe::tetmesh {
 namespace {
