@@ -22,6 +22,7 @@ string(REGEX REPLACE "\n                            +" " " help "${help}")
 string(REPLACE "\n" ";" lines "${help}")
 
 set(words "")
+set(functions "")
 set(cases "")
 set(arguments "")
 foreach(line IN LISTS lines)
@@ -59,7 +60,12 @@ foreach(line IN LISTS lines)
   endif()
   if(choices AND type MATCHES "[|]FILE")
     string(APPEND cases "    ${pattern}) COMPREPLY=(\$(compgen -W \"${choices}\" -f -- \"\$current\")); return ;;\n")
-    string(APPEND spec ":value or file:{_alternative 'values\\:value\\:(${choices})' 'files\\:file\\:_files'}")
+    string(MAKE_C_IDENTIFIER "_hexpipe_${tool}${long}" function)
+    string(APPEND functions "${function}() {
+  _alternative 'values:value:(${choices})' 'files:file:_files'
+}
+")
+    string(APPEND spec ":value or file:${function}")
   elseif(choices AND text MATCHES "separated by commas")
     # The values before the last comma stay.
     string(APPEND cases "    ${pattern})
@@ -102,6 +108,6 @@ complete -o filenames -F _hexpipe_${tool} ${tool}
 ")
 file(WRITE "${ZSH}" "#compdef ${tool}
 # Completion of ${tool}'s options; made from its --help.
-_arguments -s \\
+${functions}_arguments -s \\
 ${arguments}  '*:file:_files'
 ")

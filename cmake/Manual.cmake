@@ -2,6 +2,7 @@
 # tools and installed beside them. Without help2man there are no man pages of the tools.
 find_program(HELP2MAN help2man)
 find_program(GZIP gzip REQUIRED)
+option(HEXPIPE_MANUAL "Make man pages and shell completion by running the tools" ON)
 
 # The date of the pages is that of the version, so that it does not differ from build to build.
 if(DEFINED ENV{SOURCE_DATE_EPOCH})

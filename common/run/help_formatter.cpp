@@ -18,6 +18,11 @@ std::string plain_name(const std::string& name) {
   return brace == std::string::npos ? name : name.substr(0, brace);
 }
 
+// That of an option with several values: CLI11 2.4 writes braces.
+bool is_empty_default(std::string_view text) {
+  return text == "[]" || text == "{}";
+}
+
 std::string line_break() {
   return "\n" + std::string(option_column, ' ');
 }
@@ -79,13 +84,16 @@ std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positi
 }
 
 // CLI11 shows a default of several values in brackets, which users do not type, and shows empty brackets when there is
-// no default. It also shows a default for required options.
+// no default. It also shows a default for required options. From version 2.4 on, each default is in brackets.
 std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
   std::string text = CLI::Formatter::make_option_opts(option);
   const std::string shown = option->get_default_str();
+  const std::string in_brackets = " [" + shown + "] ";
+  if (const std::size_t found = text.find(in_brackets); found != std::string::npos)
+    text.replace(found, in_brackets.size(), "=" + shown);
   const std::size_t at = text.find("=" + shown);
   if (shown.empty() || at == std::string::npos) return text;
-  if (option->get_required() || shown == "[]") return text.erase(at, 1 + shown.size());
+  if (option->get_required() || is_empty_default(shown)) return text.erase(at, 1 + shown.size());
   if (shown.front() == '[' && shown.back() == ']')
     text.replace(at + 1, shown.size(), shown.substr(1, shown.size() - 2));
   return text;

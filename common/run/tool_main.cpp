@@ -38,6 +38,7 @@ constexpr int exit_usage = 2;
 // CLI11 writes the default of an option with several values as "[a,b]", given values as "a,b".
 std::string default_value(const CLI::Option& option) {
   std::string text = option.get_default_str();
+  if (text == "{}") return {};  // no values, as CLI11 2.4 writes them
   if (option.get_items_expected_max() > 1 && text.starts_with('[') && text.ends_with(']'))
     text = text.substr(1, text.size() - 2);
   return text;
