@@ -251,6 +251,15 @@ PYTHON
   done
 }
 
+@test "--stats counts the seconds of the tool, not those that it waits for the pipe" {
+  local begin end
+  # findhex waits for its input as long as nobody writes, then for room until somebody reads.
+  begin=$(date +%s%N)
+  { sleep 0.4; cat "$DATA/jittered_lattice.mesh"; } | findhex -q --stats stats.json >found.tar
+  end=$(date +%s%N)
+  holds "stats['seconds'] < ($end - $begin) / 1e9 - 0.3" stats.json
+}
+
 # Tests of failing pipes write each tool's messages to a file of its own.
 @test "a pipe fails once: the first tool says why, those behind it end with code 1 without a word" {
   printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >open.off

@@ -611,6 +611,14 @@ PYTHON
   holds '4 < stats["seconds"] < 60' stats.json
 }
 
+@test "a size larger than the model is told: it is in another unit" {
+  run_apart tetmesh "$DATA/cube.stl" --size 30 -o cube.mesh
+  assert_success
+  grep -q "^tetmesh: warning: the size 30 is larger than the model, which measures 1 x 1 x 1$" <<<"$stderr"
+  run_apart tetmesh "$DATA/cube.stl" --size 1 -o cube.mesh
+  refute grep -q larger <<<"$stderr"
+}
+
 @test "--improve ends by --time-limit or a signal with the best mesh so far" {
   local part="$DATA/bracket.stl"
   tetmesh -q "$part" --size 8 -o plain.mesh

@@ -2,8 +2,8 @@
 
 #include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/sizing/wall_sizes.hpp"
-#include "tools/tetmesh/volume/expected_points.hpp"
-#include "tools/tetmesh/volume/graded_lattice.hpp"
+#include "tools/tetmesh/volume/estimates.hpp"
+#include "tools/tetmesh/volume/lattice.hpp"
 
 namespace hexpipe {
 using namespace tetmesh::sizing;

@@ -10,7 +10,6 @@
 #include "common/run/error.hpp"
 #include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/geometry/column_index.hpp"
-#include "tools/tetmesh/volume/graded_lattice.hpp"
 
 namespace hexpipe {
 using namespace tetmesh::geometry;

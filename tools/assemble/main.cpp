@@ -39,6 +39,7 @@ struct CommandLine {
 };
 
 void declare_options(CLI::App& app, CommandLine& line) {
+  begin_group(app, "Cells");
   app.add_option("--conformity", line.conformity,
                  "pyramids: every quad has a cell on its other side; none: quads may face two triangles")
       ->check(CLI::IsMember(conformities))
@@ -65,8 +66,10 @@ void declare_options(CLI::App& app, CommandLine& line) {
           ->capture_default_str();
   app.add_option("--smooth", line.smooth,
                  "rounds of moving vertices and flipping tets to make the worst cells better and hexes larger; 0: none")
+      ->group(group::first)
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
+  begin_group(app, "In parts");
   outside_history(
       app.add_option(
           "--require", line.require,

@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
         ->allow_extra_args(false);
     app.add_option("--min-quality", options.min_quality, "Every corner must have a scaled Jacobian greater than this")
         ->check(number_between(0, 1));
+    begin_group(app, "Cells");
     app.add_option("--quality", quality,
                    "The quality to store: the least scaled Jacobian of the corners, or of the whole element")
         ->check(CLI::IsMember(qualities));
@@ -56,9 +57,11 @@ int main(int argc, char** argv) {
     app.add_option("--flat-corners", flat_corners,
                    "reject or keep: cells that would leave a flat pyramid at the surface")
         ->check(CLI::IsMember({"reject", "keep"}));
-    app.add_option("--part", part, "i/k: only cells that begin in part i of k of the vertices; see Makefile.examples");
+    app.add_option("--part", part, "i/k: only cells that begin in part i of k of the vertices; see Makefile.examples")
+        ->group("In parts");
     app.add_option("--max-boundary-tets", options.tet_rules.max_boundary_tets,
-                   "The most slivers that a cell may have on its quads")
+                   "The most slivers that a cell may have on its quads; less to compare with searches that know none")
+        ->group(group::experts)
         ->check(CLI::Range(0, 6).description(""));
   };
   const auto run = [&](RunContext& context) {

@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
     outside_history(
         app.add_option("--fragments", fragments_file,
                        "Write each improved fragment as a line of a file, to look at with viewmesh --fragments"))
+        ->group(group::output)
         ->type_name("FILE");
   };
   const auto run = [&](RunContext& context) {
@@ -64,9 +65,8 @@ int main(int argc, char** argv) {
     if (!fragments_file.empty()) fragments.emplace(fragments_file);
     const pipeline::StageData data = stage.read({.needs = {Role::graph, Role::solution}, .volumes = true});
     const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
-    if (target.gap)
-      options.target = mwis::ground::target_weight(
-          *target.gap, target.bound || !graph_of_bundle ? target.bound : mwis::ground::bound_in(data.history));
+    const auto bound = target.bound || !graph_of_bundle ? target.bound : mwis::ground::bound_in(data.history);
+    if (target.gap) options.target = mwis::ground::target_weight(*target.gap, bound);
 
     if (data.gaps)
       options.first_places = mwis::bounds::holds_most_of_gap(data.graph->vertex_count(), *data.solution, *data.gaps);

@@ -14,13 +14,12 @@
 #include "common/run/parallel.hpp"
 #include "common/run/progress.hpp"
 #include "tools/tetmesh/solid/model_axes.hpp"
-#include "tools/tetmesh/surface/edge_splitting.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 #include "tools/tetmesh/tetgen/run_tetgen.hpp"
+#include "tools/tetmesh/volume/estimates.hpp"
 #include "tools/tetmesh/volume/frame_points.hpp"
 #include "tools/tetmesh/volume/given_points.hpp"
-#include "tools/tetmesh/volume/graded_lattice.hpp"
-#include "tools/tetmesh/volume/hex_estimate.hpp"
+#include "tools/tetmesh/volume/lattice.hpp"
 
 namespace hexpipe::tetmesh {
 namespace {

@@ -15,7 +15,7 @@
 #include "tools/tetmesh/improve.hpp"
 #include "tools/tetmesh/solid/boundary.hpp"
 #include "tools/tetmesh/tetgen/mesh_shape.hpp"
-#include "tools/tetmesh/volume/expected_points.hpp"
+#include "tools/tetmesh/volume/estimates.hpp"
 
 namespace hexpipe::tetmesh {
 namespace {
@@ -84,6 +84,19 @@ TetmeshResult finish(FilledSurface filled, const solid::Surface& given) {
           std::move(filled.dislocations)};
 }
 
+// A size in another unit than the surface's: then one cell would be larger than the model.
+std::optional<std::string> complaint_about_size(const solid::Surface& surface, double size) {
+  Vec3 low = surface.points.front(), high = low;
+  for (const Vec3& p : surface.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const Vec3 extent = high - low;
+  if (size <= std::max({extent.x, extent.y, extent.z})) return std::nullopt;
+  return fmt::format("the size {:.6g} is larger than the model, which measures {:.6g} x {:.6g} x {:.6g}", size,
+                     extent.x, extent.y, extent.z);
+}
+
 FillOptions fill_options(const TetmeshOptions& o) {
   return {o.surface == SurfaceKind::remesh,
           o.feature_angle,
@@ -115,6 +128,7 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
   const solid::Surface surface = std::move(tagged);
   const bool triangles_stay = options.surface == SurfaceKind::keep;
   sizing::SizeDemand demand = sizing::demand_on(surface, options.sizes, options.feature_angle, triangles_stay);
+  if (auto complaint = complaint_about_size(surface, demand.greatest)) warnings.push_back(*std::move(complaint));
   add_asked_sizes(surface, options.asked_sizes, options.tetgen_timeout, demand);
   const double least_factor = std::ranges::min(std::span(tried_sizes).first(options.tries));
   const bool places = volume::places_points(options.points);

@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
                    "Write the page to a file; without -o and --png it goes to standard output")
         ->type_name("FILE");
     app.add_option("--png", options.picture, "Write a picture to a file")->type_name("FILE");
+    begin_group(app, "Page and picture");
     app.add_option("--size", options.size, "Width and height of the picture in pixels")
         ->type_name("W,H")
         ->delimiter(',')
@@ -54,10 +55,11 @@ int main(int argc, char** argv) {
     app.add_option("--show", options.show,
                    "The stage to show: result, solution, candidates or mesh [the last one in the bundle]")
         ->type_name("WHAT")
-        ->check(CLI::IsMember(contents).description(""));
+        ->check(CLI::IsMember(contents));
     app.add_option("--view", options.view,
                    "The view of page and picture, as the page's links have it after the #, for example "
                    "'clip=y:0.5&colour=quality&theme=dark' (man viewmesh has all keys)")
+        ->group(group::first)
         ->type_name("STATE");
     app.add_option("--fragments", options.fragments,
                    "Fragments to go through one by one: each line has the numbers of a fragment's candidates, from 1")

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "common/mesh/tet_mesh.hpp"
 #include "tools/tetmesh/fields/periodic_numbers.hpp"
 
 namespace hexpipe::tetmesh::fields {

@@ -1,4 +1,4 @@
-#include "tools/tetmesh/surface/point_insertion.hpp"
+#include "tools/tetmesh/surface/remesh_steps.hpp"
 
 #include <algorithm>
 #include <limits>

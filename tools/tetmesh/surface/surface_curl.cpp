@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "tools/tetmesh/fields/layers_across.hpp"
-#include "tools/tetmesh/surface/feature_fan.hpp"
-#include "tools/tetmesh/surface/narrow_strips.hpp"
+#include "tools/tetmesh/surface/feature_ways.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {

@@ -16,11 +16,9 @@
 #include "tools/tetmesh/sizing/sizing.hpp"
 #include "tools/tetmesh/surface/crest_lines.hpp"
 #include "tools/tetmesh/surface/curve_rows.hpp"
-#include "tools/tetmesh/surface/point_insertion.hpp"
+#include "tools/tetmesh/surface/remesh_steps.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
 #include "tools/tetmesh/surface/surface_front.hpp"
-#include "tools/tetmesh/surface/surface_refine.hpp"
-#include "tools/tetmesh/surface/vertex_removal.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {

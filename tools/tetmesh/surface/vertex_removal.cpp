@@ -3,7 +3,7 @@
 // Liebich, Straßer 1996). Edges where sheets meet come first, then regions, at the same time, then the places where
 // regions meet. The regions do not depend on the number of threads.
 
-#include "tools/tetmesh/surface/vertex_removal.hpp"
+#include "tools/tetmesh/surface/remesh_steps.hpp"
 
 #include <algorithm>
 #include <limits>
