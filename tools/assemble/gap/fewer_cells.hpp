@@ -12,10 +12,10 @@
 namespace hexpipe::assemble::gap {
 
 struct FewerCells {
-  std::int64_t merged = 0;      // vertices that no hex uses, into others
-  std::int64_t on_surface = 0;  // of these, along the surface
-  std::int64_t refilled = 0;    // rooms
-  std::int64_t mended = 0;      // cells, in the last pass
+  std::int64_t merged = 0;        // vertices that no hex uses, into others
+  std::int64_t on_surface = 0;    // of these, along the surface
+  std::int64_t refilled = 0;      // rooms
+  std::int64_t mended = 0;        // cells, in the last pass
   std::vector<CellIndex> opened;  // chosen cells that are gone
 
   bool any() const { return merged + refilled + mended > 0 || !opened.empty(); }

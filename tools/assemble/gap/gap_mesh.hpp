@@ -58,8 +58,8 @@ class GapMesh {
   auto kept_at(Vertex v) const {
     return std::views::filter(kept_at_of(v), [this](std::int32_t c) { return kept_[c].is_alive; });
   }
-  // The tagged triangles of which quad `i` of a chosen cell consists, as the cell goes around them, where it lies on the
-  // boundary; nothing where another cell has the quad, too.
+  // The tagged triangles of which quad `i` of a chosen cell consists, as the cell goes around them, where it lies on
+  // the boundary; nothing where another cell has the quad, too.
   std::optional<std::array<Triangle, 2>> boundary_triangles(std::int32_t kept, int i) const;
   bool has_partner(std::int32_t kept, int i) const;
   // True where v may move and go: only cells of the gap are there, no tagged facet and no seam.

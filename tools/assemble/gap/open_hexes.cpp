@@ -97,8 +97,8 @@ std::optional<std::vector<Facet>> HexOpener::skin_of(std::int32_t kept) const {
       ++i;
     }
     for (const auto& triangle : decltype(topology)::triangles)
-      skin.push_back(Facet::of(
-          std::array{cell.corners[triangle[0]], cell.corners[triangle[1]], cell.corners[triangle[2]]}));
+      skin.push_back(
+          Facet::of(std::array{cell.corners[triangle[0]], cell.corners[triangle[1]], cell.corners[triangle[2]]}));
   });
   if (!is_whole) return std::nullopt;
   return skin;
@@ -115,8 +115,8 @@ bool HexOpener::add_to(std::vector<Facet>& skin, std::int32_t c) const {
     }
     skin.erase(twin);
     touches = true;
-    is_blocked = is_blocked ||
-                 (!facet.is_quad() && gap_.is_tagged({facet.corners[0], facet.corners[1], facet.corners[2]}));
+    is_blocked =
+        is_blocked || (!facet.is_quad() && gap_.is_tagged({facet.corners[0], facet.corners[1], facet.corners[2]}));
   });
   return touches && !is_blocked;
 }
@@ -161,8 +161,7 @@ bool HexOpener::is_good_enough(const GapCell& poor, std::int32_t first_new) cons
 
 // Fills the room within `skin` around a vertex in its middle, and moves vertices around. Everything is as it was where
 // that does not turn out well.
-bool HexOpener::fill(std::int32_t kept, std::vector<Facet> skin, std::span<const std::int32_t> out,
-                     std::int32_t poor) {
+bool HexOpener::fill(std::int32_t kept, std::vector<Facet> skin, std::span<const std::int32_t> out, std::int32_t poor) {
   const GapCell poor_cell = gap_.cell(poor);
   const std::int32_t region = poor_cell.region;
   for (const std::int32_t c : out)

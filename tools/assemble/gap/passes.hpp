@@ -43,8 +43,8 @@ RefillCounts refill_rooms(GapMesh& gap);
 std::int64_t mend(GapMesh& gap);
 
 // Opens chosen cells beside cells of the gap that are worse than least_wanted: pyramids and tets take the room, none of
-// them so poor, and the poor cell becomes better. No other cell comes to less than least_quality where it did not before.
-// At most one in a thousand goes. Returns those that are gone.
+// them so poor, and the poor cell becomes better. No other cell comes to less than least_quality where it did not
+// before. At most one in a thousand goes. Returns those that are gone.
 std::vector<CellIndex> open_hexes(GapMesh& gap);
 
 }  // namespace hexpipe::assemble::gap
