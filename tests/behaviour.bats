@@ -163,7 +163,7 @@ product_ending() {
     assert_success
   done
   for tool in initsol lns certify; do
-    assert_fails_with 2 "^$tool: --time-limit: expected a number" timeout 20 $tool "$STAGES/$tool.in" --time-limit nan
+    assert_fails_with 2 "^$tool: --time-limit: expected a number" timeout 120 $tool "$STAGES/$tool.in" --time-limit nan
   done
 }
 

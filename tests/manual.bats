@@ -154,7 +154,7 @@ CMAKE
         read -r tool _ <<<"$stage"
         if [[ ! " $TOOLS " == *" $tool "* ]]; then continue; fi
         # Options are judged before inputs: those that do not exist end with 2.
-        eval "run timeout 20 $stage </dev/null"
+        eval "run timeout 120 $stage </dev/null"
         assert [ "$status" -ne 2 ]
       done
     done < <(sed -n '/^\.RS/,/^\.RE/{/^\.R/d;p}' "$page")
