@@ -1,13 +1,10 @@
 #pragma once
 // How a mesh suits finite volumes: the measures of OpenFOAM's checkMesh (version 1912), by the same formulas.
 
-#include <array>
-#include <cstdint>
 #include <numbers>
 #include <span>
 
 #include "common/mesh/cell_topology.hpp"
-#include "common/mesh/mixed_mesh.hpp"
 #include "common/mesh/vec3.hpp"
 
 namespace hexpipe {
@@ -34,23 +31,5 @@ inline constexpr double severe_angle = 70 * std::numbers::pi / 180;
 // below 0.05.
 double face_weight(const FaceShape& face, const Vec3& behind, const Vec3& before);
 inline constexpr double low_weight = 0.05;
-
-// The length of the face's area by the areas of its triangles: 1 for a flat one. checkMesh counts faces below 0.8.
-double face_flatness(std::span<const Vec3> corners);
-
-// How well the faces that have a neighbour span space: the determinant of the sum of the squares (dyads) of their areas
-// by their mean size, over 8. 1 for a cube that has six neighbours, 0 for a cell that has two or less. `inner` tells
-// for each face, triangles before quads as in cell_topology.hpp, whether it has one.
-double cell_determinant(CellKind kind, std::span<const Vec3> corners, std::span<const std::uint8_t> inner);
-
-// All inner faces of a mesh. Those that only one cell has, with these corners, are no inner ones.
-struct FaceStatistics {
-  std::int64_t faces = 0;
-  std::int64_t severe = 0;                // non-orthogonal by more than severe_angle
-  std::int64_t low = 0;                   // of less than low_weight
-  double most_angle = 0, mean_angle = 0;  // in radians; the mean is that of the cosines
-  double least_weight = 0.5;
-};
-FaceStatistics face_statistics(const MixedMesh& mesh);
 
 }  // namespace hexpipe

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "common/mesh/cell_topology.hpp"
+#include "common/mesh/quality.hpp"
 #include "common/mesh/vec3.hpp"
 
 namespace hexpipe {
@@ -20,6 +21,10 @@ double least_face_view(CellKind kind, std::span<const Vec3> corners);
 // reader is known that turns them, and hexes this warped are poor.
 inline bool looks_inverted(CellKind kind, std::span<const Vec3> corners) {
   return kind == CellKind::prism && least_face_view(kind, corners) <= 0;
+}
+inline bool looks_inverted(CellKind kind, std::span<const Vec3> points, std::span<const Vertex> corners) {
+  return kind == CellKind::prism &&
+         looks_inverted(kind, std::span<const Vec3>(corner_points(points, corners)).first(corners.size()));
 }
 
 }  // namespace hexpipe

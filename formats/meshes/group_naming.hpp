@@ -58,7 +58,7 @@ struct GroupNamings {
                std::vector<std::string> reserved = {});
 };
 
-// Positive numbers for the tags: the tag where it is positive, or else the least that no tag of the kind has.
+// Positive numbers for the tags: the tag where it is positive, otherwise the least that no tag of the kind has.
 struct GroupNumbers {
   std::map<std::int32_t, std::int32_t> surfaces, regions;
 };

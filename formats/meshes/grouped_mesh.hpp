@@ -16,7 +16,7 @@ namespace hexpipe::formats {
 
 // The side of a cell that a facet lies on.
 struct CellSide {
-  std::int64_t cell = -1;  // its place among all cells, in the order of all formats; -1: none
+  std::int64_t cell = no_index;  // its place among all cells, in the order of all formats
   CellKind kind = CellKind::tet;
   std::uint8_t facet = 0;  // in the topology's list of triangles or of quads
 };
@@ -40,9 +40,9 @@ constexpr int corners_of_kind(std::uint8_t vtk) {
 
 // Cells of a region, or facets of a surface.
 struct ElementGroup {
-  std::uint8_t kind = 0;             // VTK's code
-  std::int32_t number = 0;           // of the region or surface
-  std::string name;                  // of the region or surface; of a file, it may be empty
+  std::uint8_t kind = 0;               // VTK's code
+  std::int32_t number = 0;             // of the region or surface
+  std::string name;                    // of the region or surface; of a file, it may be empty
   std::vector<Vertex> corners{};       // from 0, one element after the other
   std::vector<std::int64_t> places{};  // of each element among all cells or all facets; empty: as they stand
   std::vector<CellSide> sides{};       // of each facet; empty for cells, and of a file
@@ -59,13 +59,14 @@ struct GroupedMesh {
 // What a format asks of names and numbers.
 struct GroupRules {
   NameRules names;
-  bool apart = false;  // no name and no number for a region and a surface
+  bool apart = false;        // no name and no number for a region and a surface
   bool needs_sides = false;  // surfaces are lists of sides of cells
 };
 
 // `output`: for messages. Tags of one name are one group, with the number of the first of them. Throws DataError where
 // the format needs sides, and a facet is none of a cell.
-GroupedMesh grouped(const MixedMesh& mesh, const MeshWriting& writing, const GroupRules& rules, std::string_view output);
+GroupedMesh grouped(const MixedMesh& mesh, const MeshWriting& writing, const GroupRules& rules,
+                    std::string_view output);
 
 // In formats whose blocks have names of their own, regions of several kinds of cells have a block for each: steel_hex,
 // steel_tet. These set such names, and take them off again.
@@ -73,7 +74,7 @@ void name_blocks_by_kind(GroupedMesh& mesh);
 void join_blocks_of_kinds(GroupedMesh& mesh);
 
 // The mesh in a file. Groups whose names tell a tag (region_3) have it, the others their numbers, or free ones where
-// two have the same. Of facets with the same corners, the first counts.
+// two have the same. The first of several facets with the same corners counts.
 MixedMesh ungrouped(GroupedMesh mesh, GroupNames* names);
 
 }  // namespace hexpipe::formats

@@ -311,8 +311,8 @@ void write_members(BundleWriter& writer, const graph::IndependentSet& solution) 
 void write_gap_members(BundleWriter& writer, const SolutionGaps& gaps) {
   visit_members_of_gaps(gaps, writing_to(writer));
 }
-void write_dislocations(BundleWriter& writer, const DislocationPieces& pieces) {
-  writer.add_array("mesh/dislocations.npy", pieces);
+void write_dislocations(BundleWriter& writer, const DislocationSegments& segments) {
+  writer.add_array("mesh/dislocations.npy", segments);
 }
 void write_members(BundleWriter& writer, const MixedMesh& result) {
   visit_members_of_result(result, writing_to(writer));

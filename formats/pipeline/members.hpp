@@ -38,7 +38,7 @@ void write_members(BundleWriter& writer, const graph::ConflictGraph& graph);
 void write_members(BundleWriter& writer, const graph::CliqueCover& cover);
 void write_members(BundleWriter& writer, const graph::IndependentSet& solution);
 void write_gap_members(BundleWriter& writer, const SolutionGaps& gaps);
-void write_dislocations(BundleWriter& writer, const DislocationPieces& pieces);
+void write_dislocations(BundleWriter& writer, const DislocationSegments& segments);
 void write_members(BundleWriter& writer, const MixedMesh& result);
 void write_members(BundleWriter& writer, const MeshPiece& piece);
 

@@ -22,8 +22,8 @@ namespace hexpipe::pipeline {
 // For each vertex of a solution, certify's share of the gap to its bound (gap_shares.hpp).
 using SolutionGaps = std::vector<std::int64_t>;
 
-// Both ends of each straight piece of the lines along which rows of points end.
-using DislocationPieces = std::vector<std::array<double, 6>>;
+// Both ends of each straight segment of the lines along which rows of points end.
+using DislocationSegments = std::vector<std::array<double, 6>>;
 
 // What a stage has read. A role that the stage did not ask for, or that is not there, stays empty.
 struct StageData {
@@ -44,7 +44,7 @@ struct StageData {
 
 struct MeshProduct {
   TetMesh mesh;
-  std::optional<DislocationPieces> dislocations{};  // of the lattice on which the points lie
+  std::optional<DislocationSegments> dislocations{};  // of the lattice on which the points lie
 };
 
 struct CandidatesProduct {

@@ -15,10 +15,8 @@
 #include "tools/assemble/gap/face_costs.hpp"
 #include "tools/assemble/gap/fewer_cells.hpp"
 #include "tools/assemble/gap/gap_mesh.hpp"
-#include "tools/assemble/gap/merge_on_surface.hpp"
-#include "tools/assemble/gap/merge_stars.hpp"
-#include "tools/assemble/gap/merge_vertices.hpp"
 #include "tools/assemble/gap/objective.hpp"
+#include "tools/assemble/gap/passes.hpp"
 #include "tools/assemble/gap/refill.hpp"
 #include "tools/assemble/gap/skin.hpp"
 
@@ -60,7 +58,7 @@ struct Census {
   std::map<CellKind, int> count;
   double volume = 0, worst = 1;
   bool valid = true;
-  // By facet: how often it bounds a cell one way less the other. What is left is the skin.
+  // By facet: how often it bounds a cell one way, less how often the other way. The skin is left.
   std::map<std::vector<Vertex>, int> uses;
   bool crowded = false;  // three cells or more at a facet
 
@@ -521,14 +519,14 @@ struct Scene {
     conform::make_conforming(hybrid, tags, lattice.cubes, 1e-4);
   }
   // What is to fall.
-  double objective(Effort effort) {
+  double objective(Passes passes) {
     const GapMesh gap(hybrid, tags, {});
     const auto cells = all_cells(gap);
-    double sum = effort == Effort::quick ? 0 : cost_of_faces(gap, cells);
+    double sum = passes == Passes::merge ? 0 : cost_of_faces(gap, cells);
     for (const std::int32_t c : cells) sum += cost_of(gap.cell(c).quality);
     return sum;
   }
-  FewerCells make_fewer(Effort effort) { return make_fewer_cells(hybrid, {tags, input}, {}, effort); }
+  FewerCells make_fewer(Passes passes) { return make_fewer_cells(hybrid, {tags, input}, {}, passes); }
 };
 
 TEST(FewerCells, NothingButTheCellsBetweenHexesChangesInThousandsOfMeshes) {
@@ -543,11 +541,11 @@ TEST(FewerCells, NothingButTheCellsBetweenHexesChangesInThousandsOfMeshes) {
     Scene scene(seed, Random(seed));
     const Census before(scene.hybrid);
     if (!before.valid) continue;
-    constexpr std::array efforts{Effort::quick, Effort::full, Effort::full, Effort::last};
-    const Effort effort = efforts[seed % 4];
-    const double cost_before = scene.objective(effort);
-    const auto counts = scene.make_fewer(effort);
-    const double cost_after = scene.objective(effort);
+    constexpr std::array all_passes{Passes::merge, Passes::merge_and_refill, Passes::merge_and_refill, Passes::mend};
+    const Passes passes = all_passes[seed % 4];
+    const double cost_before = scene.objective(passes);
+    const auto counts = scene.make_fewer(passes);
+    const double cost_after = scene.objective(passes);
     const Census after(scene.hybrid);
     ASSERT_TRUE(after.valid);
     ASSERT_FALSE(after.crowded);
@@ -589,10 +587,10 @@ TEST(FewerCells, WhatMergesAlongACurvedSurfaceAddsUp) {
 
 TEST(FewerCells, LeavesAMeshWithInvertedCellsAlone) {
   Scene valid(1, Random(1)), scene(1, Random(1));
-  EXPECT_TRUE(valid.make_fewer(Effort::full).any());
+  EXPECT_TRUE(valid.make_fewer(Passes::merge_and_refill).any());
   // A vertex inside that goes beyond its neighbours.
   scene.hybrid.points[testing::lattice_vertex(3, 1, 1, 1)] += Vec3{3, 0, 0};
-  EXPECT_FALSE(scene.make_fewer(Effort::full).any());
+  EXPECT_FALSE(scene.make_fewer(Passes::merge_and_refill).any());
 }
 
 TEST(FewerCells, AssembleMergesUnlessToldNotTo) {

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 namespace hexpipe {
 namespace {
@@ -63,57 +62,6 @@ TEST(FaceMeasures, OrthogonalityAndWeightFollowTheLineBetweenTheCentres) {
   EXPECT_NEAR(face_weight(face, {}, {4, 0, 0}), 0.25, 1e-15);
   EXPECT_NEAR(face_weight(face, {0, 5, 0}, {2, -7, 0}), 0.5, 1e-15) << "only the way across the face counts";
   EXPECT_NEAR(face_weight(face, {1, 0, 0}, {2, 0, 0}), 0, 1e-15);
-}
-
-TEST(FaceMeasures, FlatnessFallsAsAQuadWarps) {
-  EXPECT_NEAR(face_flatness(std::span(cube).first(4)), 1, 1e-15);
-  EXPECT_EQ(face_flatness(std::span(warped).first(3)), 1);
-  // sqrt(1.5) over twice 0.295872 and twice 0.358835.
-  EXPECT_NEAR(face_flatness(warped), 0.935338, 1e-5);
-  EXPECT_EQ(face_flatness(std::array<Vec3, 4>{}), 1);
-}
-
-TEST(FaceMeasures, TheDeterminantTellsWhichWaysACellHasNeighbours) {
-  const auto of_cube = [](std::array<std::uint8_t, 6> inner) { return cell_determinant(CellKind::hex, cube, inner); };
-  EXPECT_NEAR(of_cube({1, 1, 1, 1, 1, 1}), 1, 1e-15);
-  EXPECT_NEAR(of_cube({0, 1, 1, 1, 1, 1}), 0.5, 1e-15);
-  EXPECT_NEAR(of_cube({0, 0, 1, 1, 1, 1}), 0, 1e-15) << "a row of cubes in a plane";
-  EXPECT_EQ(of_cube({0, 0, 0, 0, 0, 0}), 0);
-  // Faces of 1 and 4, mean 3: 2 (1/3)^2 2 (4/3)^2 2 (4/3)^2 / 8.
-  std::array<Vec3, 8> tall = cube;
-  for (Vec3& p : tall) p.z *= 4;
-  EXPECT_NEAR(cell_determinant(CellKind::hex, tall, std::array<std::uint8_t, 6>{1, 1, 1, 1, 1, 1}), 256.0 / 729, 1e-12);
-  const std::array<Vec3, 4> tet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  EXPECT_EQ(cell_determinant(CellKind::tet, tet, std::array<std::uint8_t, 4>{1, 1, 0, 0}), 0);
-  EXPECT_GT(cell_determinant(CellKind::tet, tet, std::array<std::uint8_t, 4>{1, 1, 1, 1}), 0.1);
-}
-
-// A cube, and one behind it whose far side is two away and `shift` to the side.
-MixedMesh pair(double shift) {
-  MixedMesh mesh;
-  mesh.points.assign(cube.begin(), cube.end());
-  for (const int near : {1, 2, 5, 6}) mesh.points.push_back(cube[near] + Vec3{2, shift, 0});
-  mesh.hexes.cells = {{0, 1, 2, 3, 4, 5, 6, 7}, {1, 8, 9, 2, 5, 10, 11, 6}};
-  return mesh;
-}
-
-TEST(FaceStatistics, CountInnerFaces) {
-  FaceStatistics found = face_statistics(pair(2));
-  EXPECT_EQ(found.faces, 1);
-  EXPECT_EQ(found.severe, 0);
-  EXPECT_EQ(found.low, 0);
-  EXPECT_NEAR(found.most_angle, std::atan(1 / 1.5), 1e-12);
-  EXPECT_NEAR(found.mean_angle, found.most_angle, 1e-12);
-  EXPECT_NEAR(found.least_weight, 1.0 / 3, 1e-12);
-  found = face_statistics(pair(12));
-  EXPECT_EQ(found.severe, 1);
-  EXPECT_NEAR(found.most_angle, std::atan(6 / 1.5), 1e-12);
-  MixedMesh thin = pair(0);
-  for (std::size_t i = 8; i < 12; ++i) thin.points[i].x = 1.02;
-  found = face_statistics(thin);
-  EXPECT_EQ(found.low, 1);
-  EXPECT_NEAR(found.least_weight, 0.01 / 0.51, 1e-12);
-  EXPECT_EQ(face_statistics(MixedMesh{}).faces, 0);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace hexpipe {
 using namespace formats;
 
 // A cube with a prism on its top, a pyramid on its right and a tet between these two; conforming, every cell valid.
-// Each cell is a region of its own. Of the facets some are on the boundary and one lies between hex and pyramid.
+// Each cell is a region of its own. Some facets are on the boundary, and one lies between hex and pyramid.
 inline MixedMesh one_cell_of_each_kind() {
   MixedMesh mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0},     {0, 1, 0},   {0, 0, 1},    {1, 0, 1},

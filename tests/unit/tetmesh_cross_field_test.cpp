@@ -9,7 +9,7 @@
 #include "tools/tetmesh/surface/feature_curves.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
 #include "tools/tetmesh/surface/opposite_sides.hpp"
-#include "tools/tetmesh/surface/surface_refine.hpp"
+#include "tools/tetmesh/surface/remesh_steps.hpp"
 
 namespace hexpipe {
 using namespace formats;

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "tetmesh_surfaces.hpp"
+#include "tools/tetmesh/surface/remesh_steps.hpp"
 #include "tools/tetmesh/surface/surface_curl.hpp"
 #include "tools/tetmesh/surface/surface_lattice.hpp"
-#include "tools/tetmesh/surface/surface_refine.hpp"
 
 namespace hexpipe {
 using namespace tetmesh::surface;

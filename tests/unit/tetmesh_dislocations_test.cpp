@@ -79,7 +79,7 @@ struct Lattice {
 TEST(Dislocations, AreNoneWhereNoRowEnds) {
   const Dislocations found = Lattice().dislocations();
   EXPECT_EQ(found.length, 0);
-  EXPECT_TRUE(found.pieces.empty());
+  EXPECT_TRUE(found.segments.empty());
   EXPECT_EQ(found.surface_ends, 0u);
 }
 
@@ -91,7 +91,7 @@ TEST(Dislocations, LeadFromSurfaceToSurface) {
   EXPECT_EQ(found.surface_ends, 2u);
   EXPECT_EQ(found.at_singularities, 0);
   EXPECT_EQ(found.closed, 0);
-  for (const auto& [x, y, z, to_x, to_y, to_z] : found.pieces) {
+  for (const auto& [x, y, z, to_x, to_y, to_z] : found.segments) {
     EXPECT_NEAR(x, 2.4, 1);
     EXPECT_NEAR(to_y, 3.3, 1);
     EXPECT_TRUE(y > 2 && z >= 0 && to_x > 1 && to_z <= height);

@@ -2,8 +2,8 @@
 
 #include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/sizing/wall_sizes.hpp"
-#include "tools/tetmesh/volume/expected_points.hpp"
-#include "tools/tetmesh/volume/graded_lattice.hpp"
+#include "tools/tetmesh/volume/estimates.hpp"
+#include "tools/tetmesh/volume/lattice.hpp"
 
 namespace hexpipe {
 using namespace tetmesh::sizing;
@@ -21,8 +21,7 @@ constexpr double many = 1e9;
 SizeField fine_at(const std::vector<Vec3>& places, double size, double greatest, double grading) {
   SizeSources sources;
   for (const Vec3& p : places) {
-    sources.simplices.push_back(
-        {static_cast<Vertex>(sources.points.size()), SizeSources::none, SizeSources::none, SizeSources::none});
+    sources.simplices.push_back({static_cast<Vertex>(sources.points.size()), no_index, no_index, no_index});
     sources.points.push_back(p);
     sources.sizes.push_back(size);
   }
@@ -34,7 +33,7 @@ SizeField fine_on(const Surface& surface, double size, double greatest, double g
   SizeSources sources;
   sources.points = surface.points;
   sources.sizes.assign(surface.points.size(), size);
-  for (const auto& [a, b, c] : surface.triangles) sources.simplices.push_back({a, b, c, SizeSources::none});
+  for (const auto& [a, b, c] : surface.triangles) sources.simplices.push_back({a, b, c, no_index});
   return {std::move(sources), greatest, grading};
 }
 

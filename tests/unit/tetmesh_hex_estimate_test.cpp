@@ -1,4 +1,4 @@
-#include "tools/tetmesh/volume/hex_estimate.hpp"
+#include "tools/tetmesh/volume/estimates.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,6 @@
 #include "common/run/error.hpp"
 #include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/geometry/column_index.hpp"
-#include "tools/tetmesh/volume/graded_lattice.hpp"
 
 namespace hexpipe {
 using namespace tetmesh::geometry;
@@ -128,7 +127,7 @@ SizeField fine_in_a_corner() {
   SizeSources sources;
   sources.points = {{0, 0, 0}};
   sources.sizes = {0.1};
-  sources.simplices = {{0, SizeSources::none, SizeSources::none, SizeSources::none}};
+  sources.simplices = {{0, no_index, no_index, no_index}};
   return {sources, 1.0, 0.2};
 }
 
@@ -177,8 +176,7 @@ TEST(GradedLattice, IsNoFinerForAGreatestSizeBeyondThePart) {
   SizeSources sources;
   for (const double x : {0.0, 8.0})
     for (const double y : {0.0, 8.0}) {
-      sources.simplices.push_back(
-          {static_cast<Vertex>(sources.points.size()), SizeSources::none, SizeSources::none, SizeSources::none});
+      sources.simplices.push_back({static_cast<Vertex>(sources.points.size()), no_index, no_index, no_index});
       sources.points.push_back({x, y, 0});
       sources.sizes.push_back(1);
     }

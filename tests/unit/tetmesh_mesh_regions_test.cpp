@@ -9,7 +9,7 @@
 
 #include "common/run/parallel.hpp"
 #include "tetmesh_surfaces.hpp"
-#include "tools/tetmesh/surface/vertex_removal.hpp"
+#include "tools/tetmesh/surface/remesh_steps.hpp"
 
 namespace hexpipe {
 using namespace tetmesh::solid;

@@ -8,8 +8,8 @@
 #include "common/run/random.hpp"
 #include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/solid/surface_check.hpp"
+#include "tools/tetmesh/surface/remesh_steps.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
-#include "tools/tetmesh/surface/surface_refine.hpp"
 
 namespace hexpipe {
 using namespace formats;

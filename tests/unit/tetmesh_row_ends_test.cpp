@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "tetmesh_surfaces.hpp"
-#include "tools/tetmesh/surface/surface_refine.hpp"
+#include "tools/tetmesh/surface/remesh_steps.hpp"
 
 namespace hexpipe {
 using namespace tetmesh::geometry;

@@ -178,14 +178,14 @@ TEST(MeshChange, FindsWhatStaysAndWhatIsTouched) {
   const TetMesh now = testing::mesh_of(surface, inside).mesh;
   const MeshChange change(MeshIndex(before), now);
   ASSERT_EQ(change.vertex_now.size(), before.points.size());
-  EXPECT_EQ(std::ranges::count(change.vertex_now, tetmesh::geometry::none), 2);
+  EXPECT_EQ(std::ranges::count(change.vertex_now, no_index), 2);
   for (std::size_t v = 0; v < before.points.size(); ++v)
-    if (change.vertex_now[v] != tetmesh::geometry::none) {
+    if (change.vertex_now[v] != no_index) {
       EXPECT_EQ(now.points[change.vertex_now[v]], before.points[v]);
     }
   std::vector<bool> is_old(now.tets.size());
   for (std::size_t t = 0; t < before.tets.size(); ++t) {
-    if (change.tet_now[t] == tetmesh::geometry::none) continue;
+    if (change.tet_now[t] == no_index) continue;
     is_old[change.tet_now[t]] = true;
     for (const Vertex v : before.tets[t])
       EXPECT_THAT(now.tets[change.tet_now[t]], ::testing::Contains(change.vertex_now[v]));
@@ -196,8 +196,7 @@ TEST(MeshChange, FindsWhatStaysAndWhatIsTouched) {
       if (!is_old[t]) is_touched[v] = true;
   for (std::size_t t = 0; t < before.tets.size(); ++t)
     for (const Vertex v : before.tets[t])
-      if (change.tet_now[t] == tetmesh::geometry::none && change.vertex_now[v] != tetmesh::geometry::none)
-        is_touched[change.vertex_now[v]] = true;
+      if (change.tet_now[t] == no_index && change.vertex_now[v] != no_index) is_touched[change.vertex_now[v]] = true;
   EXPECT_EQ(change.is_touched, is_touched);
   const auto touched = std::ranges::count(is_touched, true);
   EXPECT_GT(touched, 10);
@@ -314,7 +313,7 @@ TEST(JudgedMesh, HexesWithOpenQuadsAreWorthLess) {
   const JudgedMesh partly = judged(testing::mesh_of(surface, points_inside(0.8)));
   EXPECT_FALSE(partly.left.empty());
   EXPECT_LT(partly.total_worth(), partly.hex_volume() - 0.1);
-  for (const std::int32_t t : partly.left) EXPECT_EQ(partly.hex_of_tet[t], tetmesh::geometry::none);
+  for (const std::int32_t t : partly.left) EXPECT_EQ(partly.hex_of_tet[t], no_index);
 }
 
 TEST(PointSearch, BringsHexesAndIsTheSameEveryTime) {

@@ -11,8 +11,8 @@
 #include "tools/tetmesh/solid/sheets.hpp"
 #include "tools/tetmesh/surface/feature_curves.hpp"
 #include "tools/tetmesh/surface/opposite_sides.hpp"
+#include "tools/tetmesh/surface/remesh_steps.hpp"
 #include "tools/tetmesh/surface/sheet_cut.hpp"
-#include "tools/tetmesh/surface/surface_refine.hpp"
 
 namespace hexpipe {
 using namespace formats;

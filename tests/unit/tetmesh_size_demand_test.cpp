@@ -27,7 +27,7 @@ TEST(SizeDemand, HasTheGreatestSizeOfTheRequestOrOfItsPlacesOrOneThatSuitsTheMod
   const Surface surface = surface_of(cube());
   SizeRequest request;
   EXPECT_DOUBLE_EQ(demand_on(surface, request, feature_angle, false).greatest, element_size(surface, {}, false));
-  request.sources = {{{0, 0, 0}}, {0.25}, {{0, SizeSources::none, SizeSources::none, SizeSources::none}}, {}};
+  request.sources = {{{0, 0, 0}}, {0.25}, {{0, no_index, no_index, no_index}}, {}};
   EXPECT_DOUBLE_EQ(demand_on(surface, request, feature_angle, false).greatest, 0.25);
   request.size = Length{0.5, false};
   EXPECT_DOUBLE_EQ(demand_on(surface, request, feature_angle, false).greatest, 0.5);
@@ -68,9 +68,8 @@ TEST(SizeDemand, HasAnNthOfATurnWhereTheSurfaceBendsButNoLessThanTheLeastSize) {
 
 TEST(SizeDemand, IsScaledAsAWhole) {
   const Surface surface = surface_of(cube(0, 4, 4));
-  const SizeRequest request{
-      .size = Length{1, false},
-      .sources = {{{0, 0, 0}}, {0.1}, {{0, SizeSources::none, SizeSources::none, SizeSources::none}}, {}}};
+  const SizeRequest request{.size = Length{1, false},
+                            .sources = {{{0, 0, 0}}, {0.1}, {{0, no_index, no_index, no_index}}, {}}};
   const SizeDemand demand = demand_on(surface, request, feature_angle, false), half = 0.5 * demand;
   EXPECT_DOUBLE_EQ(half.greatest, 0.5);
   EXPECT_EQ(half.sources.sizes.size(), demand.sources.sizes.size());

@@ -27,7 +27,7 @@ SizeSources random_sources(std::uint64_t seed, int count) {
   Random random(seed);
   SizeSources sources;
   for (int i = 0; i < count; ++i) {
-    std::array<Vertex, 4> simplex{SizeSources::none, SizeSources::none, SizeSources::none, SizeSources::none};
+    std::array<Vertex, 4> simplex{no_index, no_index, no_index, no_index};
     const Vec3 place = random_point(random, 4);
     for (int k = 0; k <= i % 4; ++k) {
       simplex[static_cast<std::size_t>(k)] = static_cast<Vertex>(sources.points.size());
@@ -53,7 +53,7 @@ double sampled(const SizeSources& sources, const Vec3& p, double greatest, doubl
           bool is_there = true;
           for (std::size_t c = 0; c < 4; ++c) {
             if (weights[c] == 0) continue;
-            is_there = is_there && simplex[c] != SizeSources::none;
+            is_there = is_there && simplex[c] != no_index;
             if (!is_there) break;
             y += (1.0 / n * weights[c]) * sources.points[simplex[c]];
             size += 1.0 / n * weights[c] * sources.sizes[simplex[c]];
@@ -202,7 +202,7 @@ TEST(Sizing, CountsPointsOnASurfaceOfManySizes) {
   SizeSources sources;
   sources.points = {{0, 0, 0}};
   sources.sizes = {0.02};
-  sources.simplices = {{0, SizeSources::none, SizeSources::none, SizeSources::none}};
+  sources.simplices = {{0, no_index, no_index, no_index}};
   const double many = points_on_surface(surface, SizeField(sources, 1, 0.2), 1e9);
   // Around the corner, three quarter circles: of r dr over (0.02 + 0.2 r) squared, and the rest of the size of 0.82 and
   // more.

@@ -5,9 +5,9 @@
 #include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/fields/layers_across.hpp"
 #include "tools/tetmesh/surface/feature_curves.hpp"
+#include "tools/tetmesh/surface/feature_ways.hpp"
 #include "tools/tetmesh/surface/links_across.hpp"
-#include "tools/tetmesh/surface/narrow_strips.hpp"
-#include "tools/tetmesh/surface/surface_refine.hpp"
+#include "tools/tetmesh/surface/remesh_steps.hpp"
 
 namespace hexpipe {
 using namespace tetmesh::fields;

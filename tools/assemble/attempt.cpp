@@ -29,8 +29,8 @@ constexpr int most_attempts = 4;
 // Rounds of making the cells between the hexes fewer, each followed by smoothing: a fourth finds a seventh of what the
 // third does.
 constexpr int most_merging_rounds = 3;
-// Rounds of smoothing after all but the first of these: five leave no fewer cells and no better ones, and assemble takes
-// a tenth longer.
+// Rounds of smoothing after all but the first of these: five leave no fewer cells and no better ones, and assemble
+// takes a tenth longer.
 constexpr int rounds_between_merges = 2;
 // Rounds of flips, new vertices and peeling.
 constexpr int most_mending_rounds = 4;
@@ -53,8 +53,7 @@ bool is_worse(const hybrid::HybridMesh& mesh, CellKind kind, std::span<const Ver
 
 bool looks_inverted(const hybrid::HybridMesh& mesh, const hybrid::HybridCell& cell) {
   const std::span corners = std::span(cell.corners).first(static_cast<std::size_t>(corner_count(cell.kind)));
-  const auto at = corner_points(mesh.points, corners);
-  return hexpipe::looks_inverted(cell.kind, std::span<const Vec3>(at).first(corners.size()));
+  return hexpipe::looks_inverted(cell.kind, mesh.points, corners);
 }
 
 void sort_unique(graph::IndependentSet& candidates) {
@@ -120,7 +119,7 @@ class Builder {
   graph::IndependentSet conform(Attempt& attempt, bool is_last) const;
   void untangle_in_place(Attempt& attempt) const;
   void smooth_and_mend(Attempt& attempt) const;
-  gap::FewerCells make_fewer_cells(Attempt& attempt, gap::Effort effort) const;
+  gap::FewerCells make_fewer_cells(Attempt& attempt, gap::Passes passes) const;
   void merge_and_smooth(Attempt& attempt) const;
   void improve(Attempt& attempt, int rounds) const;
   bool mend_flat_tets(Attempt& attempt) const;
@@ -157,9 +156,9 @@ void Builder::untangle_in_place(Attempt& attempt) const {
   move_points(extracted, attempt.mesh);
 }
 
-gap::FewerCells Builder::make_fewer_cells(Attempt& attempt, gap::Effort effort) const {
+gap::FewerCells Builder::make_fewer_cells(Attempt& attempt, gap::Passes passes) const {
   const gap::FewerCells fewer =
-      gap::make_fewer_cells(attempt.mesh, {attempt.tags, input_.surface}, rules_.is_shared(), effort);
+      gap::make_fewer_cells(attempt.mesh, {attempt.tags, input_.surface}, rules_.is_shared(), passes);
   attempt.improvement.fewer += fewer;
   return fewer;
 }
@@ -168,7 +167,7 @@ gap::FewerCells Builder::make_fewer_cells(Attempt& attempt, gap::Effort effort) 
 void Builder::merge_and_smooth(Attempt& attempt) const {
   for (int round = 0; round < most_merging_rounds; ++round) {
     const bool is_first = round == 0;
-    const auto fewer = make_fewer_cells(attempt, is_first ? gap::Effort::quick : gap::Effort::full);
+    const auto fewer = make_fewer_cells(attempt, is_first ? gap::Passes::merge : gap::Passes::merge_and_refill);
     if (!fewer.any() && !is_first) break;
     attempt.extracted = hybrid::extract(attempt.mesh, attempt.tags);
     improve(attempt, is_first ? rules_.smooth_rounds : std::min(rules_.smooth_rounds, rounds_between_merges));
@@ -188,13 +187,13 @@ void Builder::smooth_and_mend(Attempt& attempt) const {
   else
     improve(attempt, rules_.smooth_rounds);
   for (int round = 0; round < most_mending_rounds && mend_flat_tets(attempt); ++round) {
-    if (rules_.merges) make_fewer_cells(attempt, gap::Effort::quick);  // new tets let more vertices merge
+    if (rules_.merges) make_fewer_cells(attempt, gap::Passes::merge);  // new tets let more vertices merge
     extracted = hybrid::extract(attempt.mesh, attempt.tags);
     improve(attempt, rules_.smooth_rounds);
     compute_quality(extracted.mesh);
     if (poor_cells(extracted.mesh).empty()) break;
   }
-  if (rules_.merges && make_fewer_cells(attempt, gap::Effort::last).any())
+  if (rules_.merges && make_fewer_cells(attempt, gap::Passes::mend).any())
     extracted = hybrid::extract(attempt.mesh, attempt.tags);
 }
 

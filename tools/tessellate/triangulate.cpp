@@ -163,21 +163,21 @@ bool Triangulator::is_smooth(const TopoDS_Edge& edge, const TopTools_ListOfShape
 
 // One tag for each name, and one for each group of faces without a name that continue each other smoothly.
 void Triangulator::choose_tags() {
-  UnionFind pieces;
-  for (int i = 0; i < faces_.Extent(); ++i) pieces.add();
+  UnionFind components;
+  for (int i = 0; i < faces_.Extent(); ++i) components.add();
   for (int e = 1; e <= faces_of_edge_.Extent(); ++e) {
     const TopTools_ListOfShape& faces = faces_of_edge_.FindFromIndex(e);
     const TopoDS_Edge& edge = TopoDS::Edge(faces_of_edge_.FindKey(e));
     if (faces.Extent() != 2 || BRep_Tool::Degenerated(edge)) continue;
     if (!group_of(faces.First()).empty() || !group_of(faces.Last()).empty() || !is_smooth(edge, faces)) continue;
-    pieces.join(faces_.FindIndex(faces.First()) - 1, faces_.FindIndex(faces.Last()) - 1);
+    components.join(faces_.FindIndex(faces.First()) - 1, faces_.FindIndex(faces.Last()) - 1);
   }
   std::map<std::string, std::int32_t> named;
   std::map<std::int32_t, std::int32_t> unnamed;
   std::int32_t last = 0;
   for (int i = 0; i < faces_.Extent(); ++i) {
     const std::string group = group_of(faces_.FindKey(i + 1));
-    std::int32_t& tag = group.empty() ? unnamed[pieces.of(i)] : named[group];
+    std::int32_t& tag = group.empty() ? unnamed[components.of(i)] : named[group];
     if (tag == 0) tag = ++last;
     if (!group.empty()) result_.surface.names.surfaces[tag] = group;
     tags_.push_back(tag);

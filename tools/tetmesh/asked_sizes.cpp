@@ -15,7 +15,6 @@
 namespace hexpipe::tetmesh {
 namespace {
 
-constexpr Vertex none = sizing::SizeSources::none;
 constexpr std::size_t most_listed = 12;  // names in a message
 
 [[noreturn]] void expect_box(std::string_view text) {
@@ -115,7 +114,7 @@ void SizeCollector::add_surface(const AskedSize& asked) {
     if (!tags.contains(surface_.tags[t])) continue;
     const auto [a, b, c] = surface_.triangles[t];
     const Vertex first = add_points(std::array{surface_.points[a], surface_.points[b], surface_.points[c]}, size);
-    demand_.sources.simplices.push_back({first, first + 1, first + 2, none});
+    demand_.sources.simplices.push_back({first, first + 1, first + 2, no_index});
   }
 }
 

@@ -78,7 +78,7 @@ class Filler {
   const sizing::SizeField size_;
   const FillOptions& options_;
   TetmeshStatistics statistics_;
-  std::optional<volume::LinePieces> dislocations_;
+  std::optional<volume::LineSegments> dislocations_;
   std::vector<std::string> warnings_;
   StepWatch watch_;
 
@@ -221,7 +221,7 @@ void Filler::try_frame_points() {
   statistics_.interior_points = frame.points.size();
   const volume::Dislocations& lines = frame.dislocations;
   statistics_.dislocations = {lines.length, lines.at_singularities, lines.closed, lines.surface_ends};
-  dislocations_ = lines.pieces;
+  dislocations_ = lines.segments;
   statistics_.points_kept = PointKind::frame;
 }
 

@@ -36,7 +36,7 @@ struct FilledSurface {
   tetgen::BuiltMesh built;
   TetmeshStatistics statistics;  // without repair, seconds.checking, and the figures of surface and mesh
   std::vector<std::string> warnings;
-  std::optional<volume::LinePieces> dislocations;  // of points along a frame field
+  std::optional<volume::LineSegments> dislocations;  // of points along a frame field
 
   const solid::Surface& surface(const solid::Surface& given) const { return made_surface ? *made_surface : given; }
 };

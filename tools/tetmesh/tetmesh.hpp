@@ -18,7 +18,7 @@ struct TetmeshResult {
   formats::GroupNames names;
   TetmeshStatistics statistics;
   std::vector<std::string> warnings;
-  std::optional<volume::LinePieces> dislocations;  // of points along a frame field
+  std::optional<volume::LineSegments> dislocations;  // of points along a frame field
 };
 
 // Throws DataError where the surface is not the boundary of a solid and where TetGen fails; UsageError where options

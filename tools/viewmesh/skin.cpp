@@ -10,8 +10,6 @@
 namespace hexpipe::viewmesh {
 namespace {
 
-constexpr std::int32_t no_surface = -1;
-
 // The surface of each facet of each cell, as far as it is asked for.
 class SurfaceOfFacet {
  public:
@@ -22,7 +20,7 @@ class SurfaceOfFacet {
                                         [](const Scene::SurfaceFacet& a, const auto& b) {
                                           return std::pair{a.cell, a.facet} < b;
                                         });
-    return found != facets_.end() && found->cell == cell && found->facet == facet ? found->surface : no_surface;
+    return found != facets_.end() && found->cell == cell && found->facet == facet ? found->surface : no_index;
   }
 
  private:
@@ -39,7 +37,7 @@ class Painter {
     for (const auto& group : colours["groups"]) groups_.push_back(parse_colour(group));
   }
 
-  // `surface`: the place of the facet's surface, or no_surface.
+  // `surface`: the place of the facet's surface, or no_index.
   Rgb colour_of(std::int32_t cell, std::int32_t surface) const {
     switch (colour_) {
       case ViewState::Colour::kind:
@@ -47,7 +45,7 @@ class Painter {
       case ViewState::Colour::region:
         return groups_[place_of(scene_.regions, scene_.region[cell]) % groups_.size()];
       case ViewState::Colour::surface:
-        return surface == no_surface ? plain_ : groups_[surface % groups_.size()];
+        return surface == no_index ? plain_ : groups_[surface % groups_.size()];
       case ViewState::Colour::hexes:
         return scene_.kind_of(cell) == CellKind::hex ? by_quality(scene_.quality[cell]) : plain_;
       case ViewState::Colour::quality:
@@ -114,7 +112,7 @@ std::vector<SkinVertex> visible_skin(const Scene& scene, const ViewState& state)
     if ((first[0] == nullptr) == (first[1] == nullptr)) return;
     const FacetSide& shown = first[0] ? *first[0] : *first[1];
     const std::int32_t surface = surface_of(shown.cell, shown.facet);
-    if (surface != no_surface && hidden[surface]) return;
+    if (surface != no_index && hidden[surface]) return;
     add_facet(scene, facet_corners(scene, shown.cell, shown.facet), painter.colour_of(shown.cell, surface), skin);
   });
   return skin;

@@ -209,7 +209,7 @@ void resolve_groups(ViewState& state, const Scene& scene) {
       for (const Group& group : groups) names.push_back(group.name);
       const std::string kind = group_kinds[static_cast<int>(hidden.kind)];
       fail("hidden",
-           groups.empty() ? fmt::format("no {}, for there is none", kind)
+           groups.empty() ? fmt::format("no {}, because there is none", kind)
                           : fmt::format("a {} of {}", kind, fmt::join(names, ", ")),
            hidden.name);
     }

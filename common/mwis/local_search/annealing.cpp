@@ -79,7 +79,7 @@ void Annealing::kick(std::int32_t v) {
     push(v);
 }
 
-// Works in rounds, each in random order. What a change touches is looked at in the next round.
+// Works in rounds, each in random order. The vertices that a change touches are looked at in the next round.
 void Annealing::settle() {
   while (!waiting_.empty()) {
     begin_round();

@@ -53,8 +53,7 @@ Candidates prisms_between(const TetMesh& mesh, const hybrid::HybridMesh& selecte
   const auto same = [](Vertex v) { return v; };
   const auto in_mesh = [&](TetIndex t) { return left.number[t]; };
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const auto at = corner_points(mesh.points, std::span(found.vertices[i]).first(6));
-    if (!looks_inverted(CellKind::prism, std::span(at).first(6)))
+    if (!looks_inverted(CellKind::prism, mesh.points, std::span(found.vertices[i]).first(6)))
       append_candidate(prisms, found, i, same, in_mesh, in_mesh);
   }
   return prisms;

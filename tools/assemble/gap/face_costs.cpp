@@ -110,11 +110,4 @@ double cost_of_faces(const GapMesh& gap, std::span<const std::int32_t> cells) {
   return cost_of_faces(gap, faces, cells);
 }
 
-std::vector<std::int32_t> cells_with_poor_faces(const GapMesh& gap) {
-  std::vector<std::int32_t> result;
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(gap.cell_count()); ++c)
-    if (gap.is_alive(c) && cost_of_faces(gap, std::span(&c, 1)) > 0) result.push_back(c);
-  return result;
-}
-
 }  // namespace hexpipe::assemble::gap

@@ -27,7 +27,4 @@ double cost_of_faces(const GapMesh& gap, std::span<const GapCell> cells, std::sp
 // As it is.
 double cost_of_faces(const GapMesh& gap, std::span<const std::int32_t> cells);
 
-// The cells of the gap with a face that costs something, ascending.
-std::vector<std::int32_t> cells_with_poor_faces(const GapMesh& gap);
-
 }  // namespace hexpipe::assemble::gap

@@ -1,11 +1,7 @@
 #include "tools/assemble/gap/fewer_cells.hpp"
 
 #include "tools/assemble/gap/gap_mesh.hpp"
-#include "tools/assemble/gap/mend.hpp"
-#include "tools/assemble/gap/merge_on_surface.hpp"
-#include "tools/assemble/gap/merge_stars.hpp"
-#include "tools/assemble/gap/merge_vertices.hpp"
-#include "tools/assemble/gap/refill_rooms.hpp"
+#include "tools/assemble/gap/passes.hpp"
 
 namespace hexpipe::assemble::gap {
 namespace {
@@ -31,19 +27,19 @@ FewerCells merge_and_refill(GapMesh& gap, const Surface& surface) {
 }  // namespace
 
 FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, std::span<const std::uint8_t> is_shared,
-                            Effort effort) {
+                            Passes passes) {
   FewerCells counts;
   GapMesh gap(mesh, surface.tags, is_shared);
   if (!gap.is_valid()) return counts;
-  switch (effort) {
-    case Effort::quick:
+  switch (passes) {
+    case Passes::merge:
       gap.ignore_faces();
       counts = merge(gap, surface);
       break;
-    case Effort::full:
+    case Passes::merge_and_refill:
       counts = merge_and_refill(gap, surface);
       break;
-    case Effort::last:
+    case Passes::mend:
       counts.mended = mend(gap);
       break;
   }

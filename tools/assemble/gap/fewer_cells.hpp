@@ -30,13 +30,15 @@ struct Surface {
   const shape::InputSurface& input;
 };
 
-// How much is done: only merges into neighbours and without a look at faces, for a mesh whose vertices have not been
-// smoothed yet; all; or what is poor alone becomes better (mend.hpp), for a mesh that is not smoothed any more.
-enum class Effort { quick, full, last };
+enum class Passes {
+  merge,             // vertices into neighbours, whatever faces cost: for a mesh that has not been smoothed yet
+  merge_and_refill,  // all merges, and small rooms filled anew
+  mend               // only what is poor becomes better: for a mesh that is not smoothed any more
+};
 
 // Lowers the objective (objective.hpp). The mesh has to conform; nothing is done where a tet, or a cell made of tets,
 // is not valid. Chosen cells stay, shared vertices stay where they are, those on tagged facets on these.
 FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, std::span<const std::uint8_t> is_shared,
-                            Effort effort);
+                            Passes passes);
 
 }  // namespace hexpipe::assemble::gap

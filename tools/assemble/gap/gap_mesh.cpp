@@ -17,13 +17,6 @@ GapCell cell_of(CellKind kind, const std::array<Vertex, 6>& corners, std::int32_
   return cell;
 }
 
-// Whether some readers would turn the prism round, though it is valid (face_view.hpp).
-bool looks_inverted(const GapCell& cell, const std::vector<Vec3>& points) {
-  if (cell.kind != CellKind::prism) return false;
-  const auto at = corner_points(points, cell.vertices());
-  return least_face_view(cell.kind, std::span<const Vec3>(at).first(cell.vertices().size())) <= 0;
-}
-
 }  // namespace
 
 bool GapCell::has(Vertex v) const {
@@ -71,7 +64,7 @@ bool GapMesh::is_valid() const {
 
 GapCell GapMesh::make(CellKind kind, const std::array<Vertex, 6>& corners, std::int32_t region) const {
   GapCell cell = cell_of(kind, corners, region, mesh_.points);
-  if (looks_inverted(cell, mesh_.points)) cell.quality = -1;
+  if (looks_inverted(kind, mesh_.points, cell.vertices())) cell.quality = -1;
   return cell;
 }
 
@@ -98,7 +91,7 @@ void GapMesh::replace(std::span<const std::int32_t> out, std::span<const GapCell
       ++age_[v];
     }
   }
-  for (const GapCell& cell : in) add(cell, none);
+  for (const GapCell& cell : in) add(cell, no_index);
 }
 
 void GapMesh::relocate(Vertex v, const Vec3& to) {
@@ -112,15 +105,15 @@ void GapMesh::relocate(Vertex v, const Vec3& to) {
 
 void GapMesh::write_back() {
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    if (alive_[c] != 0 || source_[c] == none) continue;
+    if (alive_[c] != 0 || source_[c] == no_index) continue;
     if (cells_[c].kind == CellKind::tet)
       mesh_.remove_tet(source_[c]);
     else
       mesh_.remove_cell(source_[c]);
-    source_[c] = none;
+    source_[c] = no_index;
   }
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    if (alive_[c] == 0 || source_[c] != none) continue;
+    if (alive_[c] == 0 || source_[c] != no_index) continue;
     const GapCell& cell = cells_[c];
     if (cell.kind == CellKind::tet) {
       source_[c] = mesh_.add_tet({cell.corners[0], cell.corners[1], cell.corners[2], cell.corners[3]}, cell.region);
@@ -128,7 +121,7 @@ void GapMesh::write_back() {
     }
     hybrid::HybridCell made;
     made.kind = cell.kind;
-    made.corners.fill(none);
+    made.corners.fill(no_index);
     std::ranges::copy(cell.vertices(), made.corners.begin());
     made.region = cell.region;
     source_[c] = mesh_.add_cell(made);

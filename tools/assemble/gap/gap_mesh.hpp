@@ -37,8 +37,6 @@ struct KeptCell {
 
 class GapMesh {
  public:
-  static constexpr std::int32_t none = -1;
-
   // Both have to outlive this; points move in `mesh` at once, cells change there by write_back().
   // `is_shared`: as in Seam, empty without one.
   GapMesh(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std::span<const std::uint8_t> is_shared);
@@ -90,7 +88,7 @@ class GapMesh {
   const hybrid::SurfaceTags& tags_;
   std::vector<GapCell> cells_;
   std::vector<std::uint8_t> alive_;
-  std::vector<std::int32_t> source_;  // the tet or the cell of `mesh` that it was, or none
+  std::vector<std::int32_t> source_;  // the tet or the cell of `mesh` that it was, or no_index
   std::vector<std::vector<std::int32_t>> at_;
   std::vector<std::uint32_t> age_;
   bool counts_faces_ = true;

@@ -2,7 +2,7 @@
 // vertices together (patch.hpp). Faces have no gradient worth the name, because three cells and a face change with each
 // vertex; so a vertex tries a few steps along the axes and takes the best.
 
-#include "tools/assemble/gap/mend.hpp"
+#include "tools/assemble/gap/passes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,6 @@ namespace {
 
 constexpr int most_mending_passes = 3;
 constexpr int rounds_to_raise = 5;
-constexpr double least_rise = 1e-3;
 // Rooms of more cells have seldom another filling.
 constexpr std::size_t most_cells = 20;
 // Parts of the shortest edge.

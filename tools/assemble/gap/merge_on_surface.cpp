@@ -6,7 +6,7 @@
 // lies below. No point above D was filled, because D is a cone from a, and a straight line from a to a point above D
 // begins above D. So no point lies in two cells, where all of them are positive everywhere.
 
-#include "tools/assemble/gap/merge_on_surface.hpp"
+#include "tools/assemble/gap/passes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -63,7 +63,7 @@ class SurfaceMerger {
  private:
   struct Change {
     double gain = least_gain;
-    Vertex into = GapMesh::none;
+    Vertex into = no_index;
     std::vector<GapCell> in;
   };
 
@@ -307,7 +307,7 @@ bool SurfaceMerger::merge(Vertex from) {
     if (change.into != into || !keeps_surface(into, *fan) || !keeps_shape(from, into, *fan)) continue;
     if (stays_near(from, into, *fan)) best = std::move(change);
   }
-  if (best.into == GapMesh::none) return false;
+  if (best.into == no_index) return false;
   const auto around = gap_.cells_at(from);
   const std::vector<std::int32_t> out(around.begin(), around.end());
   if (cost_of_faces(gap_, best.in, out) > cost_of_faces(gap_, out) + best.gain - least_gain) return false;

@@ -2,7 +2,7 @@
 // cells tile the room where all of them are positive, as in refill.cpp. The place is found as in smoothing. A merge
 // across a facet is a flip of two tets to three and an edge collapse in one: the flip alone would make more cells.
 
-#include "tools/assemble/gap/merge_stars.hpp"
+#include "tools/assemble/gap/passes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -159,12 +159,12 @@ bool StarMerger::make_room(const StarMerge& merge, const Room& room) {
   std::vector<Vertex> moving{merge.into};
   for (const Vertex v : room.vertices)
     if (gap_.is_inside(v)) moving.push_back(v);
-  const Exchange exchange{cells_, in, worth_of(gap_, cells_).floor};
-  patch_.take(moving, exchange);
+  const Replacement replacement{cells_, in, worth_of(gap_, cells_).floor};
+  patch_.take(moving, replacement);
   patch_.place(merge.into, merge.at);
   patch_.raise(least_quality, rounds_to_yield);
   if (!patch_.keeps_floors() || patch_.cost() > patch_.cost_before() - least_gain) return false;
-  patch_.carry_out(gap_, exchange);
+  patch_.carry_out(gap_, replacement);
   return true;
 }
 

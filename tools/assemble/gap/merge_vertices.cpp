@@ -8,7 +8,7 @@
 // between them is one that is elsewhere too, because the same straight edge would be inside S and outside; for the same
 // reason none is the diagonal of a quad.
 
-#include "tools/assemble/gap/merge_vertices.hpp"
+#include "tools/assemble/gap/passes.hpp"
 
 #include <algorithm>
 #include <queue>
@@ -107,12 +107,12 @@ void Merger::offer(Vertex v) {
   if (!may_leave(v)) return;
   const Worth now = worth_of(gap_, gap_.cells_at(v));
   collect_goals(v);
-  Merge best{least_gain, v, GapMesh::none, gap_.age_of(v)};
+  Merge best{least_gain, v, no_index, gap_.age_of(v)};
   for (const Vertex into : goals_) {
     const double gain = now.cost - cost_after(v, into, now.floor, now.cost - best.gain);
     if (gain > best.gain) best.gain = gain, best.into = into;
   }
-  if (best.into != GapMesh::none) offers_.push(best);
+  if (best.into != no_index) offers_.push(best);
 }
 
 bool Merger::carry_out(const Merge& merge) {

@@ -16,7 +16,6 @@ namespace {
 constexpr double least_hex = least_hex_quality, least_prism = 0.12;
 constexpr double hex_weight = 0.5;
 constexpr int steps_to_make_room = 6;
-constexpr double least_rise = 1e-3;
 // A move after which a cell is not valid is halved this often.
 constexpr int retreats = 2;
 
@@ -31,10 +30,10 @@ void Patch::add(Cell cell, std::span<const Vertex> corners) {
   cells_.push_back(cell);
 }
 
-void Patch::take(std::span<const Vertex> moving, const Exchange& exchange) {
+void Patch::take(std::span<const Vertex> moving, const Replacement& replacement) {
   vertices_.clear(), cells_.clear(), moving_.clear();
   std::vector<std::int32_t> kept;
-  before_.assign(exchange.out.begin(), exchange.out.end());
+  before_.assign(replacement.out.begin(), replacement.out.end());
   for (const Vertex v : moving) {
     before_.insert(before_.end(), gap_.cells_at(v).begin(), gap_.cells_at(v).end());
     kept.insert(kept.end(), gap_.kept_at(v).begin(), gap_.kept_at(v).end());
@@ -44,10 +43,11 @@ void Patch::take(std::span<const Vertex> moving, const Exchange& exchange) {
     list->erase(std::unique(list->begin(), list->end()), list->end());
   }
   for (const std::int32_t c : before_)
-    if (std::ranges::find(exchange.out, c) == exchange.out.end())
+    if (std::ranges::find(replacement.out, c) == replacement.out.end())
       add({gap_.cell(c).kind, false, gap_.cell(c).region, std::min(gap_.cell(c).quality, least_quality), {}},
           gap_.cell(c).vertices());
-  for (const GapCell& cell : exchange.in) add({cell.kind, false, cell.region, exchange.floor, {}}, cell.vertices());
+  for (const GapCell& cell : replacement.in)
+    add({cell.kind, false, cell.region, replacement.floor, {}}, cell.vertices());
   for (const std::int32_t c : kept) {
     const KeptCell& cell = gap_.kept_cell(c);
     const double floor = cell.kind == CellKind::hex ? least_hex : least_prism;
@@ -157,8 +157,8 @@ double Patch::cost() const {
   return sum + cost_of_faces(gap_, cells, before_);
 }
 
-void Patch::carry_out(GapMesh& gap, const Exchange& exchange) const {
-  gap.replace(exchange.out, exchange.in);
+void Patch::carry_out(GapMesh& gap, const Replacement& replacement) const {
+  gap.replace(replacement.out, replacement.in);
   for (const std::int32_t v : moving_) gap.relocate(vertices_[v], points_[v]);
 }
 

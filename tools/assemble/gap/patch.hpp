@@ -13,21 +13,21 @@
 namespace hexpipe::assemble::gap {
 
 // What a change does to the cells of the gap.
-struct Exchange {
+struct Replacement {
   std::span<const std::int32_t> out;
   std::span<const GapCell> in;
   double floor = 0;  // the least quality that those which come in may have
 };
 
+// A change that raises the worst cell by less is not worth it.
+inline constexpr double least_rise = 1e-3;
+
 class Patch {
  public:
   explicit Patch(const GapMesh& gap) : gap_(gap) {}
 
-  // True where a vertex is inside, and at no seam: then it may move, though a chosen cell uses it.
-  static bool may_move(const GapMesh& gap, Vertex v) { return gap.is_inside(v); }
-
   // The cells at `moving` after the change.
-  void take(std::span<const Vertex> moving, const Exchange& exchange);
+  void take(std::span<const Vertex> moving, const Replacement& replacement);
   void place(Vertex v, const Vec3& at) { points_[local_of(v)] = at; }
 
   // Moves the vertices, one after the other, at most `rounds` times, where the worst cell around one is below `goal`
@@ -44,7 +44,7 @@ class Patch {
   double cost_before() const;
 
   // Makes the change and the moves.
-  void carry_out(GapMesh& gap, const Exchange& exchange) const;
+  void carry_out(GapMesh& gap, const Replacement& replacement) const;
 
  private:
   struct Cell {

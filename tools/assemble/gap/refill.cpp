@@ -32,27 +32,27 @@ double volume_of(const GapMesh& gap, const GapCell& cell) {
 
 }  // namespace
 
-// Takes the piece into the list where it is good enough, not larger than what is left, and no facet of it is in the
-// front the wrong way round: there another piece is on that side.
-void Refill::offer(CellKind kind, const std::array<Vertex, 6>& corners, std::vector<Piece>& pieces) const {
-  Piece piece;
-  piece.cell = gap_.make(kind, corners, room_.region);
-  if (piece.cell.quality < floor_) return;
+// Takes the cell into the list where it is good enough, not larger than what is left, and no facet of it is in the
+// front the wrong way round: there another cell is on that side.
+void Refill::offer(CellKind kind, const std::array<Vertex, 6>& corners, std::vector<Offer>& offers) const {
+  Offer made;
+  made.cell = gap_.make(kind, corners, room_.region);
+  if (made.cell.quality < floor_) return;
   bool fits = true;
   for_facets(kind, corners, [&](const Facet& facet) {
     const bool closes = std::ranges::find(front_, facet) != front_.end();
-    piece.closes += closes ? 1 : -1;
+    made.closes += closes ? 1 : -1;
     fits = fits && (closes || std::ranges::find(front_, facet.reversed()) == front_.end());
   });
   if (!fits) return;
-  piece.volume = volume_of(gap_, piece.cell);
-  if (piece.volume > space_) return;
-  piece.cost = cost_of(piece.cell.quality);
-  pieces.push_back(piece);
+  made.volume = volume_of(gap_, made.cell);
+  if (made.volume > space_) return;
+  made.cost = cost_of(made.cell.quality);
+  offers.push_back(made);
 }
 
 // On two quads of the front that have an edge in common.
-void Refill::collect_prisms(const Facet& facet, std::vector<Piece>& pieces) const {
+void Refill::collect_prisms(const Facet& facet, std::vector<Offer>& offers) const {
   for (const Facet& other : front_) {
     if (!other.is_quad() || other == facet) continue;
     for (std::size_t i = 0; i < 4; ++i)
@@ -61,49 +61,49 @@ void Refill::collect_prisms(const Facet& facet, std::vector<Piece>& pieces) cons
         auto two = [&](std::size_t n) { return other.corners[(k + n) % 4]; };
         // Quads 0143 and 1254 of the prism.
         if (one(1) == two(0) && one(2) == two(3) && one(0) != two(1) && one(3) != two(2))
-          offer(CellKind::prism, {one(0), one(1), two(1), one(3), one(2), two(2)}, pieces);
+          offer(CellKind::prism, {one(0), one(1), two(1), one(3), one(2), two(2)}, offers);
       }
   }
 }
 
 // At most about `most` of them.
-void Refill::collect_pieces(const Facet& facet, std::size_t most, std::vector<Piece>& pieces) const {
-  pieces.clear();
+void Refill::collect_offers(const Facet& facet, std::size_t most, std::vector<Offer>& offers) const {
+  offers.clear();
   const auto& f = facet.corners;
   for (const Vertex apex : room_.vertices) {
-    if (pieces.size() >= most) return;
+    if (offers.size() >= most) return;
     if (std::ranges::find(f, apex) != f.end()) continue;
     if (facet.is_quad())
-      offer(CellKind::pyramid, {f[0], f[3], f[2], f[1], apex}, pieces);
+      offer(CellKind::pyramid, {f[0], f[3], f[2], f[1], apex}, offers);
     else
-      offer(CellKind::tet, {f[0], f[2], f[1], apex}, pieces);
+      offer(CellKind::tet, {f[0], f[2], f[1], apex}, offers);
   }
-  if (facet.is_quad()) collect_prisms(facet, pieces);
+  if (facet.is_quad()) collect_prisms(facet, offers);
 }
 
 // Those on the facet with the fewest choices, quads first, because what goes on them closes triangles, too; none where
 // a facet has no choice.
-std::vector<Refill::Piece> Refill::fewest_pieces() const {
+std::vector<Refill::Offer> Refill::fewest_offers() const {
   const bool has_quads = std::ranges::any_of(front_, &Facet::is_quad);
-  std::vector<Piece> fewest, pieces;
+  std::vector<Offer> fewest, offers;
   std::size_t least = std::numeric_limits<std::size_t>::max();
   for (const Facet& facet : front_) {
     if (facet.is_quad() != has_quads) continue;
-    collect_pieces(facet, least, pieces);
-    if (pieces.size() >= least) continue;
-    least = pieces.size();
-    fewest.swap(pieces);
+    collect_offers(facet, least, offers);
+    if (offers.size() >= least) continue;
+    least = offers.size();
+    fewest.swap(offers);
     if (least <= 1) break;
   }
-  std::ranges::stable_sort(fewest, [](const Piece& a, const Piece& b) {
+  std::ranges::stable_sort(fewest, [](const Offer& a, const Offer& b) {
     return a.closes != b.closes ? a.closes > b.closes : a.cost < b.cost;
   });
   return fewest;
 }
 
-void Refill::place(const Piece& piece) {
-  placed_.push_back(piece.cell);
-  for_facets(piece.cell.kind, piece.cell.corners, [&](const Facet& facet) {
+void Refill::place(const Offer& offer) {
+  placed_.push_back(offer.cell);
+  for_facets(offer.cell.kind, offer.cell.corners, [&](const Facet& facet) {
     const auto found = std::ranges::find(front_, facet);
     if (found != front_.end())
       front_.erase(found);
@@ -121,13 +121,13 @@ void Refill::search(double cost) {
   const std::size_t most_closed = std::ranges::any_of(front_, &Facet::is_quad) ? 5 : 4;  // by one cell
   const auto to_come = static_cast<double>((front_.size() + most_closed - 1) / most_closed);
   if (steps_left_-- <= 0 || cost + to_come >= most_) return;
-  for (const Piece& piece : fewest_pieces()) {
-    if (cost + piece.cost >= most_) continue;
+  for (const Offer& offer : fewest_offers()) {
+    if (cost + offer.cost >= most_) continue;
     const std::vector<Facet> front = front_;
-    place(piece);
-    space_ -= piece.volume;
-    search(cost + piece.cost);
-    space_ += piece.volume;
+    place(offer);
+    space_ -= offer.volume;
+    search(cost + offer.cost);
+    space_ += offer.volume;
     placed_.pop_back();
     front_ = front;
   }

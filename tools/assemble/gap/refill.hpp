@@ -22,17 +22,17 @@ class Refill {
   std::optional<std::vector<GapCell>> find(std::span<const std::int32_t> out);
 
  private:
-  struct Piece {
+  struct Offer {
     GapCell cell;
     double cost = 0, volume = 0;
     int closes = 0;  // facets of the front, less those that it adds to it
   };
 
-  void offer(CellKind kind, const std::array<Vertex, 6>& corners, std::vector<Piece>& pieces) const;
-  void collect_pieces(const Facet& facet, std::size_t most, std::vector<Piece>& pieces) const;
-  void collect_prisms(const Facet& facet, std::vector<Piece>& pieces) const;
-  std::vector<Piece> fewest_pieces() const;
-  void place(const Piece& piece);
+  void offer(CellKind kind, const std::array<Vertex, 6>& corners, std::vector<Offer>& offers) const;
+  void collect_offers(const Facet& facet, std::size_t most, std::vector<Offer>& offers) const;
+  void collect_prisms(const Facet& facet, std::vector<Offer>& offers) const;
+  std::vector<Offer> fewest_offers() const;
+  void place(const Offer& offer);
   void search(double cost);
 
   const GapMesh& gap_;

@@ -1,4 +1,4 @@
-#include "tools/assemble/gap/refill_rooms.hpp"
+#include "tools/assemble/gap/passes.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -13,7 +13,7 @@ constexpr double surely_valid = 1e-6;
 }  // namespace
 
 Facet Facet::of(std::span<const Vertex> corners) {
-  Facet facet{{GapMesh::none, GapMesh::none, GapMesh::none, GapMesh::none}};
+  Facet facet{{no_index, no_index, no_index, no_index}};
   const auto first = static_cast<std::size_t>(std::ranges::min_element(corners) - corners.begin());
   for (std::size_t i = 0; i < corners.size(); ++i) facet.corners[i] = corners[(first + i) % corners.size()];
   return facet;
@@ -21,7 +21,7 @@ Facet Facet::of(std::span<const Vertex> corners) {
 
 Facet Facet::reversed() const {
   if (is_quad()) return {{corners[0], corners[3], corners[2], corners[1]}};
-  return {{corners[0], corners[2], corners[1], GapMesh::none}};
+  return {{corners[0], corners[2], corners[1], no_index}};
 }
 
 std::optional<Room> room_of(const GapMesh& gap, std::span<const std::int32_t> cells, std::size_t most_facets) {

@@ -11,12 +11,12 @@
 
 namespace hexpipe::assemble::gap {
 
-// Counter-clockwise as seen from outside of its cell, the least vertex first; a triangle ends in none.
+// Counter-clockwise as seen from outside of its cell, the least vertex first; a triangle ends in no_index.
 struct Facet {
   std::array<Vertex, 4> corners;
 
   static Facet of(std::span<const Vertex> corners);
-  bool is_quad() const { return corners[3] != GapMesh::none; }
+  bool is_quad() const { return corners[3] != no_index; }
   std::span<const Vertex> vertices() const { return std::span(corners).first(is_quad() ? 4 : 3); }
   Facet reversed() const;
   // Most differ in the first: a call of memcmp for each took a third of the time.

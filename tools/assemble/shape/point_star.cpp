@@ -25,7 +25,7 @@ constexpr double narrowest_band = 1e-3;
 constexpr double least_gain = 1e-5;
 constexpr int halvings = 5;
 // The first step is long enough to raise the score by this, by its linear model.
-constexpr double least_rise = 0.2;
+constexpr double first_rise = 0.2;
 
 double product_of_norms(const Vec3& a, const Vec3& b, const Vec3& c) {
   return std::sqrt(norm_squared(a) * norm_squared(b) * norm_squared(c));
@@ -288,7 +288,7 @@ Placement raise_score(const PointStar& star, const Vec3& start, int steps, doubl
     if (!is_direction(direction, gradients)) break;
     // The full step goes to where the linear model of the score reaches 1, or, with a pull, a little more than the
     // score.
-    double length = std::max(1 - score, least_rise) / slope;
+    double length = std::max(1 - score, first_rise) / slope;
     bool moved = false;
     for (int i = 0; i <= 2 * halvings && !moved; ++i, length /= 2) {
       const Vec3 at = best.at + direction * length;

@@ -189,9 +189,7 @@ bool Smoother::is_valid_cell(std::int32_t c) const {
 }
 
 bool Smoother::looks_inverted(std::int32_t c) const {
-  const auto corners = cells_.corners_of(c);
-  const auto at = corner_points(points_, corners);
-  return hexpipe::looks_inverted(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()));
+  return hexpipe::looks_inverted(cells_.kind(c), points_, cells_.corners_of(c));
 }
 
 // Whether v slides on a curved surface or curve, because it has no plane or line.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "common/mesh/tet_mesh.hpp"
 #include "tools/tetmesh/fields/periodic_numbers.hpp"
 
 namespace hexpipe::tetmesh::fields {
@@ -17,7 +18,7 @@ struct PeriodicLink {
   std::array<Complex, K> turn{};     // by the distances
   std::array<std::uint8_t, K> axis{};
   std::array<bool, K> flipped{};
-  std::int32_t neighbour = -1;
+  std::int32_t neighbour = no_index;
   double weight = 0;
 
   // To be called when the distances were changed.

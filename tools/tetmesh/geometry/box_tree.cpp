@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "tools/tetmesh/geometry/triangle_pieces.hpp"
+#include "tools/tetmesh/geometry/triangle_slices.hpp"
 
 namespace hexpipe::tetmesh::geometry {
 
@@ -62,14 +62,14 @@ BoxTree::BoxTree(std::span<const Box> boxes, std::span<const double> values, std
 }
 
 BoxTree tree_of_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles) {
-  const double length = length_of_pieces(points, triangles);
+  const double length = length_of_slices(points, triangles);
   std::vector<Box> boxes;
   std::vector<std::int32_t> owners;
   boxes.reserve(triangles.size());
   owners.reserve(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const auto& [a, b, c] = triangles[i];
-    TrianglePieces(points[a], points[b], points[c], length).for_each_box([&](const Box& box) {
+    TriangleSlices(points[a], points[b], points[c], length).for_each_box([&](const Box& box) {
       boxes.push_back(box);
       owners.push_back(static_cast<std::int32_t>(i));
     });

@@ -6,7 +6,7 @@
 
 #include "common/mesh/validity.hpp"
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
-#include "tools/tetmesh/geometry/triangle_pieces.hpp"
+#include "tools/tetmesh/geometry/triangle_slices.hpp"
 
 namespace hexpipe::tetmesh::geometry {
 
@@ -44,9 +44,9 @@ void ColumnIndex::for_each_column(const Triangle& triangle, Visit&& visit) const
       for (std::int64_t x = column_number(box.low.x, 0); x <= last_x; ++x) take(y * counts_[0] + x);
   };
   const auto seen_along_z = [&](Vertex v) { return Vec3{points_[v].x, points_[v].y, 0}; };
-  const TrianglePieces pieces(seen_along_z(triangle[0]), seen_along_z(triangle[1]), seen_along_z(triangle[2]),
+  const TriangleSlices slices(seen_along_z(triangle[0]), seen_along_z(triangle[1]), seen_along_z(triangle[2]),
                               std::max(width_[0], width_[1]));
-  pieces.for_each_cell(columns_in, visit);
+  slices.for_each_cell(columns_in, visit);
 }
 
 std::span<const std::int32_t> ColumnIndex::column_of(const Vec3& p) const {

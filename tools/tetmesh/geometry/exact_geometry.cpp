@@ -114,8 +114,8 @@ IntersectionReport find_intersections(std::span<const Vec3> points, std::span<co
     if (report.pairs.size() == limit) throw LimitReached();
     report.pairs.push_back({std::min(first.info(), second.info()), std::max(first.info(), second.info())});
   };
-  // Boxes of the pieces of narrow triangles are no help here: on a leaning cylinder of 4,000 triangles, three times as
-  // many pairs of pieces meet as pairs of whole triangles.
+  // Boxes of the slices of narrow triangles are no help here: on a leaning cylinder of 4,000 triangles, three times as
+  // many pairs of slices meet as pairs of whole triangles.
   std::vector<Box> boxes = boxes_of(points, triangles);
   try {
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), take);

@@ -13,7 +13,6 @@ namespace hexpipe::tetmesh::geometry {
 using HalfEdge = std::int32_t;
 
 // The index of no vertex, half-edge, triangle or tet.
-inline constexpr std::int32_t none = -1;
 
 inline std::int32_t triangle_of(HalfEdge h) {
   return h / 3;

@@ -50,7 +50,7 @@ class SizedPointGrid {
     points_.push_back(p);
     Octave& octave = octave_of(length);
     const auto [head, is_new] = octave.heads.try_emplace(cell_key(cell_of(p, octave.width)), number);
-    next_.push_back(is_new ? none : head->second);
+    next_.push_back(is_new ? no_index : head->second);
     if (!is_new) head.value() = number;
     return number;
   }
@@ -103,7 +103,7 @@ class SizedPointGrid {
         for (cell[0] = low[0]; cell[0] <= high[0]; ++cell[0]) {
           const auto head = octave.heads.find(cell_key(cell));
           if (head == octave.heads.end()) continue;
-          for (std::int32_t i = head->second; i != none; i = next_[i])
+          for (std::int32_t i = head->second; i != no_index; i = next_[i])
             if (!visit(i)) return false;
         }
     return true;

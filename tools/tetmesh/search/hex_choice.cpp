@@ -89,7 +89,7 @@ void append_best(const Candidates& found, std::span<const std::int32_t> wanted, 
 std::optional<std::array<Vertex, 8>> corners_now(const ChosenHex& hex, const MeshChange& change) {
   std::array<Vertex, 8> corners{};
   for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = change.vertex_now[hex.corners[i]];
-  if (std::ranges::count(corners, geometry::none) > 0) return std::nullopt;
+  if (std::ranges::count(corners, no_index) > 0) return std::nullopt;
   return corners;
 }
 

@@ -47,7 +47,7 @@ double JudgedMesh::total_worth() const {
 JudgedMesh judge(tetgen::BuiltMesh built, std::vector<ChosenHex> hexes) {
   JudgedMesh judged{std::move(built), std::move(hexes), {}, {}, {}, {}};
   const TetMesh& mesh = judged.built.mesh;
-  judged.hex_of_tet.assign(mesh.tets.size(), geometry::none);
+  judged.hex_of_tet.assign(mesh.tets.size(), no_index);
   KeySet<3> boundary;
   for (const Triangle& triangle : mesh.triangles) boundary.insert(key_of(triangle));
   KeyMap<4, int> hexes_on;
@@ -57,7 +57,7 @@ JudgedMesh judge(tetgen::BuiltMesh built, std::vector<ChosenHex> hexes) {
     for (const LocalQuad& local : HexTopology::quads) ++hexes_on[key_of(quad_of(judged.hexes[h], local))];
   }
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-    if (judged.hex_of_tet[t] == geometry::none) judged.left.push_back(static_cast<std::int32_t>(t));
+    if (judged.hex_of_tet[t] == no_index) judged.left.push_back(static_cast<std::int32_t>(t));
   for (const ChosenHex& hex : judged.hexes) {
     int open = 0;
     for (const LocalQuad& local : HexTopology::quads) {

@@ -14,7 +14,7 @@ namespace hexpipe::tetmesh::search {
 struct JudgedMesh {
   tetgen::BuiltMesh built;
   std::vector<ChosenHex> hexes;          // chosen
-  std::vector<std::int32_t> hex_of_tet;  // or none
+  std::vector<std::int32_t> hex_of_tet;  // or no_index
   std::vector<std::int32_t> left;        // tets of no hex
 
   // By hex: its middle, and its worth. The worth is the volume, less the cost of closing the quads that have no hex and

@@ -23,10 +23,10 @@ MeshIndex::MeshIndex(const TetMesh& mesh) : tet_count_(mesh.tets.size()) {
 }
 
 MeshChange::MeshChange(const MeshIndex& before, const TetMesh& now)
-    : vertex_now(before.vertex_at_.size(), geometry::none),
-      tet_now(before.tet_count_, geometry::none),
+    : vertex_now(before.vertex_at_.size(), no_index),
+      tet_now(before.tet_count_, no_index),
       is_touched(now.points.size()) {
-  std::vector<Vertex> vertex_before(now.points.size(), geometry::none);
+  std::vector<Vertex> vertex_before(now.points.size(), no_index);
   for (std::size_t v = 0; v < now.points.size(); ++v) {
     const auto found = before.vertex_at_.find(now.points[v]);
     if (found == before.vertex_at_.end()) continue;
@@ -36,7 +36,7 @@ MeshChange::MeshChange(const MeshIndex& before, const TetMesh& now)
   for (std::size_t t = 0; t < now.tets.size(); ++t) {
     Tet corners = now.tets[t];
     for (Vertex& v : corners) v = vertex_before[v];
-    // The key of a tet with a new vertex contains `none`, and is not found.
+    // The key of a tet with a new vertex contains no_index, and is not found.
     const auto found = before.tet_of_.find(key_of(corners));
     if (found != before.tet_of_.end())
       tet_now[found->second] = static_cast<std::int32_t>(t);
@@ -45,9 +45,9 @@ MeshChange::MeshChange(const MeshIndex& before, const TetMesh& now)
   }
   // A sliver on the boundary disappears without another in its place if the edge of the surface under it is flipped.
   for (const auto& [corners, t] : before.tet_of_) {
-    if (tet_now[t] != geometry::none) continue;
+    if (tet_now[t] != no_index) continue;
     for (const Vertex v : corners)
-      if (vertex_now[v] != geometry::none) is_touched[vertex_now[v]] = true;
+      if (vertex_now[v] != no_index) is_touched[vertex_now[v]] = true;
   }
 }
 

@@ -125,16 +125,16 @@ PointChange ChangeDrawer::add_one(const Vec3& middle, double size, Random& rando
 // On one of the tet's facets.
 PointChange ChangeDrawer::set_hex_on(std::int32_t tet, double size, Random& random) const {
   const auto facet = static_cast<int>(random.below(4));
-  std::int32_t beside = geometry::none;
+  std::int32_t beside = no_index;
   Triangle triangle{};
-  for (int i = 0; i < 4 && beside == geometry::none; ++i) {
+  for (int i = 0; i < 4 && beside == no_index; ++i) {
     const int f = (facet + i) % 4;
     const std::int32_t beyond = adjacency_.tet_beyond(tet, f);
-    if (beyond == TetAdjacency::none || judged_.hex_of_tet[beyond] == geometry::none) continue;
+    if (beyond == no_index || judged_.hex_of_tet[beyond] == no_index) continue;
     beside = judged_.hex_of_tet[beyond];
     for (std::size_t k = 0; k < 3; ++k) triangle[k] = mesh_.tets[tet][TetTopology::triangles[f][k]];
   }
-  if (beside == geometry::none) return {};
+  if (beside == no_index) return {};
   const ChosenHex& hex = judged_.hexes[beside];
   const QuadWithBack* const quad = quad_under(hex, triangle);
   if (quad == nullptr) return {};
@@ -153,7 +153,7 @@ PointChange ChangeDrawer::set_hex_on(std::int32_t tet, double size, Random& rand
       continue;
     }
     if (is_moved || !is_free(place, size)) continue;
-    if (near != geometry::none)
+    if (near != no_index)
       change.moved.emplace_back(near, place);
     else
       change.added.push_back(place);
@@ -163,7 +163,7 @@ PointChange ChangeDrawer::set_hex_on(std::int32_t tet, double size, Random& rand
 
 // Among the vertices around, or none if they are out of reach.
 Vertex ChangeDrawer::nearest_to(const Vec3& place, std::span<const Vertex> around, double reach) const {
-  Vertex nearest = geometry::none;
+  Vertex nearest = no_index;
   double least = reach * reach;
   for (const Vertex v : around) {
     const double squared = norm_squared(mesh_.points[v] - place);

@@ -124,7 +124,7 @@ SurfaceChange FlatSurface::split(Vertex a, Vertex b, double size) const {
       std::array<Vec3, 3> places;
       for (std::size_t i = 0; i < 3; ++i) {
         places[i] = corners[i] == end ? middle : surface_.points[corners[i]];
-        if (corners[i] == end) corners[i] = geometry::none;
+        if (corners[i] == end) corners[i] = no_index;
       }
       if (!keeps(t, places[0], places[1], places[2], size)) return {};
       change.added_triangles.push_back({corners, t});
@@ -163,7 +163,7 @@ solid::Surface with_changes(const solid::Surface& surface, std::span<const Surfa
     for (const std::int32_t t : change->removed_triangles) replaced[t] = true;
     for (const NewTriangle& t : change->added_triangles) {
       Triangle corners = t.corners;
-      std::ranges::replace(corners, geometry::none, static_cast<Vertex>(soup.points.size() + added.size()));
+      std::ranges::replace(corners, no_index, static_cast<Vertex>(soup.points.size() + added.size()));
       triangles.emplace_back(corners, t.instead_of);
     }
     if (change->added) added.push_back(*change->added);

@@ -15,7 +15,7 @@
 namespace hexpipe::tetmesh::search {
 
 struct NewTriangle {
-  Triangle corners;         // geometry::none for the point that comes
+  Triangle corners;         // no_index for the point that comes
   std::int32_t instead_of;  // shell, tag and place are those of this triangle
 };
 
@@ -52,7 +52,7 @@ class FlatSurface {
   struct Freedom {
     int dimensions = 0;
     Vec3 direction{};  // the normal of the plane, or the direction of the line; of length 1
-    std::pair<Vertex, Vertex> along{geometry::none, geometry::none};  // the neighbours on the line
+    std::pair<Vertex, Vertex> along{no_index, no_index};  // the neighbours on the line
   };
 
   std::vector<std::int32_t> triangles_of_edge(Vertex a, Vertex b) const;

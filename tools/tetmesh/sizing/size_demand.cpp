@@ -28,7 +28,6 @@ double greatest_size(const solid::Surface& surface, const SizeRequest& request, 
 // the common edge, over the angle by which they turn.
 void add_curvature_sizes(const solid::Surface& surface, double elements_in_a_turn, double least, double greatest,
                          double feature_angle, SizeSources& sources) {
-  constexpr Vertex none = SizeSources::none;
   const double feature_cosine = cosine_of_degrees(feature_angle);
   geometry::for_each_edge(surface.points.size(), surface.triangles, [&](std::span<const geometry::HalfEdge> edge) {
     if (edge.size() != 2) return;
@@ -48,7 +47,7 @@ void add_curvature_sizes(const solid::Surface& surface, double elements_in_a_tur
     const auto first = static_cast<Vertex>(sources.points.size());
     sources.points.insert(sources.points.end(), {a, b});
     sources.sizes.insert(sources.sizes.end(), 2, size);
-    sources.simplices.push_back({first, first + 1, none, none});
+    sources.simplices.push_back({first, first + 1, no_index, no_index});
   });
 }
 

@@ -157,7 +157,7 @@ struct SizeField::Known {
   static SizeSimplex simplex_of(const SizeSources& sources, std::size_t number) {
     SizeSimplex simplex;
     for (const Vertex v : sources.simplices[number])
-      if (v != SizeSources::none) simplex.add(sources.points[v], sources.sizes[v]);
+      if (v != no_index) simplex.add(sources.points[v], sources.sizes[v]);
     return simplex;
   }
 
@@ -190,7 +190,7 @@ struct SizeField::Known {
 SizeField::SizeField(SizeSources sources, double greatest, double grading) : greatest_(greatest), least_(greatest) {
   for (const auto& simplex : sources.simplices)
     for (const Vertex v : simplex)
-      if (v != SizeSources::none) least_ = std::min(least_, sources.sizes[v]);
+      if (v != no_index) least_ = std::min(least_, sources.sizes[v]);
   for (const SizePrism& prism : sources.prisms) least_ = std::min(least_, prism.size);
   if (least_ < greatest_) known_ = std::make_shared<const Known>(std::move(sources), grading);
 }

@@ -24,11 +24,9 @@ struct SizePrism {
 
 // The places where sizes are known.
 struct SizeSources {
-  static constexpr Vertex none = -1;
-
   std::vector<Vec3> points;
   std::vector<double> sizes;  // at the points
-  // Each has one to four points; the rest is `none`. Sizes are linear in between.
+  // Each has one to four points; the rest is no_index. Sizes are linear in between.
   std::vector<std::array<Vertex, 4>> simplices;
   std::vector<SizePrism> prisms;
 

@@ -94,14 +94,14 @@ void WallFinder::look(const Corners& corners, const Vec3& inwards, Walls& walls)
 // Infinite where there is no wall.
 double WallFinder::thickness_at(const Vec3& from, const Vec3& inwards) const {
   constexpr double no_wall = std::numeric_limits<double>::infinity();
-  std::int32_t hit = geometry::none;
+  std::int32_t hit = no_index;
   double best = layers_ * size_;
   const double thickness = tree_.first_hit(from, inwards, best, [&](std::int32_t triangle) {
     const double length = length_to(triangle, from, inwards);
     if (length < best) best = length, hit = triangle;
     return length;
   });
-  if (hit == geometry::none) return no_wall;
+  if (hit == no_index) return no_wall;
   const auto& [a, b, c] = surface_.triangles[hit];
   const Vec3 area = cross(surface_.points[b] - surface_.points[a], surface_.points[c] - surface_.points[a]);
   const Vec3 there = unit(area);

@@ -22,10 +22,10 @@ namespace {
 
 constexpr std::size_t most_tags_listed = 10;
 
-// Finds for each triangle the first triangle of its piece.
-class SmoothPieces {
+// Finds for each triangle the first triangle of its component.
+class SmoothComponents {
  public:
-  SmoothPieces(const Surface& surface, double angle)
+  SmoothComponents(const Surface& surface, double angle)
       : surface_(surface), cosine_(cosine_of_degrees(angle)), parent_(surface.triangles.size()) {
     std::iota(parent_.begin(), parent_.end(), 0);
     for (const formats::CurveEdge& edge : surface.curves) curves_.insert(key_of(edge));
@@ -71,12 +71,12 @@ void tag_by_angle(Surface& surface, double angle) {
   // A name that all triangles have tells nothing apart.
   if (std::ranges::adjacent_find(surface.tags, std::not_equal_to()) == surface.tags.end())
     surface.names.surfaces.clear();
-  SmoothPieces pieces(surface, angle);
-  std::vector<std::int32_t> tag_of_piece(surface.triangles.size(), 0);
+  SmoothComponents components(surface, angle);
+  std::vector<std::int32_t> tag_of_component(surface.triangles.size(), 0);
   std::int32_t last = 0;
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
     if (surface.names.surfaces.contains(surface.tags[i])) continue;
-    std::int32_t& tag = tag_of_piece[pieces.of(static_cast<std::int32_t>(i))];
+    std::int32_t& tag = tag_of_component[components.of(static_cast<std::int32_t>(i))];
     if (tag == 0) {
       do ++last;
       while (surface.names.surfaces.contains(last));

@@ -1,5 +1,5 @@
 #pragma once
-// Tags that the user asks for, for smooth pieces of the surface, and names of tags.
+// Tags that the user asks for, for smooth components of the surface, and names of tags.
 
 #include <cstdint>
 #include <span>
@@ -9,9 +9,9 @@
 
 namespace hexpipe::tetmesh::solid {
 
-// Gives each piece of the surface a tag of its own. Pieces end at edges that turn by more than the angle (degrees), and
-// at curves. The numbers go up from 1 in the order of the pieces' first triangles. Triangles whose tag has a name keep
-// the tag, unless all triangles have the same tag.
+// Gives each smooth component of the surface a tag of its own. Components end at edges that turn by more than the angle
+// (degrees), and at curves. The numbers go up from 1 in the order of the components' first triangles. Triangles whose
+// tag has a name keep the tag, unless all triangles have the same tag.
 void tag_by_angle(Surface& surface, double angle);
 
 struct TagName {

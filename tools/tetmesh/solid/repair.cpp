@@ -18,8 +18,6 @@
 namespace hexpipe::tetmesh::solid {
 namespace {
 
-using geometry::none;
-
 class Repairer {
  public:
   Repairer(formats::SurfaceSoup& soup, const RepairOptions& options) : soup_(soup), options_(options) {}
@@ -47,18 +45,18 @@ class Repairer {
   geometry::HalfEdge longest_side(std::int32_t triangle) const;
   void remove_duplicates();
   void find_twins_and_borders();
-  void spread(std::int32_t start, std::vector<std::int8_t>& sides, std::vector<std::int32_t>& piece) const;
+  void spread(std::int32_t start, std::vector<std::int8_t>& sides, std::vector<std::int32_t>& component) const;
   void turn(std::int32_t triangle) { std::swap(soup_.triangles[triangle][1], soup_.triangles[triangle][2]); }
   void orient();
   void fill_holes();
-  void fill(const std::vector<geometry::HalfEdge>& border);
+  void close_hole(const std::vector<geometry::HalfEdge>& border);
   void turn_outward();
   void drop_unused_points();
 
   formats::SurfaceSoup& soup_;
   const RepairOptions& options_;
   RepairReport report_;
-  std::vector<geometry::HalfEdge> twins_;  // of edges with two triangles; otherwise none
+  std::vector<geometry::HalfEdge> twins_;  // of edges with two triangles; otherwise no_index
   std::vector<geometry::HalfEdge> borders_;
 };
 
@@ -82,13 +80,13 @@ void Repairer::weld() {
   std::vector<Vertex> new_index;
   new_index.reserve(soup_.points.size());
   for (const Vec3& p : soup_.points) {
-    Vertex nearest = none;
+    Vertex nearest = no_index;
     kept.for_each_near(p, options_.tolerance, 0, [&](std::int32_t i) {
       if (norm_squared(kept.points()[i] - p) <= options_.tolerance * options_.tolerance)
-        nearest = nearest == none ? i : std::min(nearest, i);
+        nearest = nearest == no_index ? i : std::min(nearest, i);
       return true;
     });
-    if (nearest == none) {
+    if (nearest == no_index) {
       nearest = static_cast<Vertex>(kept.points().size());
       kept.add(p, options_.tolerance);
     }
@@ -129,11 +127,11 @@ bool Repairer::cut_flat_triangles() {
     const auto [a, b, c] = soup_.triangles[t];
     if (touched[t] || !geometry::are_collinear(soup_.points[a], soup_.points[b], soup_.points[c])) continue;
     const geometry::HalfEdge longest = longest_side(t), twin = twins_[longest];
-    if (twin != none && touched[geometry::triangle_of(twin)]) continue;
+    if (twin != no_index && touched[geometry::triangle_of(twin)]) continue;
     kept[t] = false;
     touched[t] = true;
     ++report_.degenerate_triangles;
-    if (twin != none) cut_neighbour(longest, touched);
+    if (twin != no_index) cut_neighbour(longest, touched);
   }
   const bool removed = std::ranges::find(kept, false) != kept.end();
   kept.resize(count(), true);
@@ -180,7 +178,7 @@ void Repairer::remove_duplicates() {
 }
 
 void Repairer::find_twins_and_borders() {
-  twins_.assign(3 * count(), none);
+  twins_.assign(3 * count(), no_index);
   borders_.clear();
   geometry::for_each_edge(soup_.points.size(), soup_.triangles, [&](std::span<const geometry::HalfEdge> edge) {
     if (edge.size() == 1) borders_.push_back(edge[0]);
@@ -192,29 +190,29 @@ void Repairer::find_twins_and_borders() {
 
 // Walks from one triangle over the edges of two triangles. The side is 1 for triangles that show the same side as the
 // first one, -1 for the others.
-void Repairer::spread(std::int32_t start, std::vector<std::int8_t>& sides, std::vector<std::int32_t>& piece) const {
-  piece.assign(1, start);
+void Repairer::spread(std::int32_t start, std::vector<std::int8_t>& sides, std::vector<std::int32_t>& component) const {
+  component.assign(1, start);
   sides[start] = 1;
-  for (std::size_t i = 0; i < piece.size(); ++i)
-    for (geometry::HalfEdge h = 3 * piece[i]; h < 3 * piece[i] + 3; ++h) {
-      if (twins_[h] == none || sides[geometry::triangle_of(twins_[h])] != 0) continue;
+  for (std::size_t i = 0; i < component.size(); ++i)
+    for (geometry::HalfEdge h = 3 * component[i]; h < 3 * component[i] + 3; ++h) {
+      if (twins_[h] == no_index || sides[geometry::triangle_of(twins_[h])] != 0) continue;
       const bool agree = geometry::start_of(soup_.triangles, h) == geometry::end_of(soup_.triangles, twins_[h]);
-      const std::int8_t side = sides[piece[i]];
+      const std::int8_t side = sides[component[i]];
       sides[geometry::triangle_of(twins_[h])] = static_cast<std::int8_t>(agree ? side : -side);
-      piece.push_back(geometry::triangle_of(twins_[h]));
+      component.push_back(geometry::triangle_of(twins_[h]));
     }
 }
 
 void Repairer::orient() {
   find_twins_and_borders();
   std::vector<std::int8_t> sides(count());
-  std::vector<std::int32_t> piece;
+  std::vector<std::int32_t> component;
   for (std::size_t start = 0; start < count(); ++start) {
     if (sides[start] != 0) continue;
-    spread(static_cast<std::int32_t>(start), sides, piece);
+    spread(static_cast<std::int32_t>(start), sides, component);
     const auto wrong = [&](std::int32_t t) { return sides[t] < 0; };
-    const bool most_are = 2 * static_cast<std::size_t>(std::ranges::count_if(piece, wrong)) > piece.size();
-    for (const std::int32_t t : piece) {
+    const bool most_are = 2 * static_cast<std::size_t>(std::ranges::count_if(component, wrong)) > component.size();
+    for (const std::int32_t t : component) {
       if (wrong(t) == most_are) continue;
       turn(t);
       ++report_.turned_triangles;
@@ -230,11 +228,11 @@ void Repairer::fill_holes() {
   std::vector<std::vector<geometry::HalfEdge>> ending_at(soup_.points.size());
   for (const geometry::HalfEdge h : borders_) ending_at[geometry::end_of(soup_.triangles, h)].push_back(h);
   // the place of the border that ends at each vertex
-  std::vector<std::ptrdiff_t> place_on_walk(soup_.points.size(), none);
+  std::vector<std::ptrdiff_t> place_on_walk(soup_.points.size(), no_index);
   std::vector<geometry::HalfEdge> walk;
   const auto cut_off = [&](std::ptrdiff_t length) {
     for (auto h = walk.begin() + length; h != walk.end(); ++h)
-      place_on_walk[geometry::end_of(soup_.triangles, *h)] = none;
+      place_on_walk[geometry::end_of(soup_.triangles, *h)] = no_index;
     walk.resize(static_cast<std::size_t>(length));
   };
   // The borders of the triangles that were there before: filling holes adds no borders.
@@ -247,16 +245,16 @@ void Repairer::fill_holes() {
       walk.push_back(h);
       at = geometry::start_of(soup_.triangles, h);
       const std::ptrdiff_t begin = place_on_walk[at];
-      if (begin == none) continue;
+      if (begin == no_index) continue;
       const std::vector<geometry::HalfEdge> loop(walk.begin() + begin, walk.end());
       cut_off(begin);
-      if (loop.size() >= 3 && loop.size() <= options_.largest_hole) fill(loop);
+      if (loop.size() >= 3 && loop.size() <= options_.largest_hole) close_hole(loop);
     }
     cut_off(0);
   }
 }
 
-void Repairer::fill(const std::vector<geometry::HalfEdge>& border) {
+void Repairer::close_hole(const std::vector<geometry::HalfEdge>& border) {
   std::vector<HoleEdge> edges;
   edges.reserve(border.size());
   for (const geometry::HalfEdge h : border)
@@ -274,41 +272,41 @@ void Repairer::fill(const std::vector<geometry::HalfEdge>& border) {
   report_.hole_triangles += triangles.size();
 }
 
-// Turns only pieces that do not lie in another: a piece inside another may be a hole on purpose.
+// Turns only components that do not lie in another: a component inside another may be a hole on purpose.
 void Repairer::turn_outward() {
   find_twins_and_borders();
   if (!borders_.empty()) return;
   std::vector<std::int8_t> sides(count());
-  std::vector<std::vector<std::int32_t>> pieces;
-  std::vector<std::int32_t> piece_of(count());
+  std::vector<std::vector<std::int32_t>> components;
+  std::vector<std::int32_t> component_of(count());
   for (std::size_t start = 0; start < count(); ++start) {
     if (sides[start] != 0) continue;
-    spread(static_cast<std::int32_t>(start), sides, pieces.emplace_back());
-    for (const std::int32_t t : pieces.back()) piece_of[t] = static_cast<std::int32_t>(pieces.size()) - 1;
+    spread(static_cast<std::int32_t>(start), sides, components.emplace_back());
+    for (const std::int32_t t : components.back()) component_of[t] = static_cast<std::int32_t>(components.size()) - 1;
   }
   const geometry::ColumnIndex columns(soup_.points, soup_.triangles);
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    const Vec3& origin = soup_.points[soup_.triangles[pieces[p].front()][0]];
+  for (std::size_t p = 0; p < components.size(); ++p) {
+    const Vec3& origin = soup_.points[soup_.triangles[components[p].front()][0]];
     double volume = 0;
-    for (const std::int32_t t : pieces[p]) {
+    for (const std::int32_t t : components[p]) {
       const auto [a, b, c] = soup_.triangles[t];
       volume += det(soup_.points[a] - origin, soup_.points[b] - origin, soup_.points[c] - origin);
     }
     int crossings = 0;
     columns.for_each_crossing(origin,
-                              [&](std::int32_t t) { crossings += piece_of[t] != static_cast<std::int32_t>(p); });
+                              [&](std::int32_t t) { crossings += component_of[t] != static_cast<std::int32_t>(p); });
     if (volume >= 0 || crossings % 2 == 1) continue;
-    for (const std::int32_t t : pieces[p]) turn(t);
-    report_.turned_triangles += pieces[p].size();
+    for (const std::int32_t t : components[p]) turn(t);
+    report_.turned_triangles += components[p].size();
   }
 }
 
 void Repairer::drop_unused_points() {
-  std::vector<Vertex> new_index(soup_.points.size(), none);
+  std::vector<Vertex> new_index(soup_.points.size(), no_index);
   std::vector<Vec3> points;
   for (Triangle& t : soup_.triangles)
     for (Vertex& v : t) {
-      if (new_index[v] == none) {
+      if (new_index[v] == no_index) {
         new_index[v] = static_cast<Vertex>(points.size());
         points.push_back(soup_.points[v]);
       }
@@ -319,7 +317,7 @@ void Repairer::drop_unused_points() {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < soup_.curves.size(); ++i) {
     const formats::CurveEdge edge{new_index[soup_.curves[i][0]], new_index[soup_.curves[i][1]]};
-    if (edge[0] == none || edge[1] == none || edge[0] == edge[1]) continue;
+    if (edge[0] == no_index || edge[1] == no_index || edge[0] == edge[1]) continue;
     soup_.curves[kept] = edge;
     soup_.curve_tags[kept++] = soup_.curve_tags[i];
   }

@@ -34,9 +34,9 @@ nlohmann::ordered_json to_json(const RepairReport& report);
 // - removes triangles without area; if the corners of one are distinct, the neighbour at its longest side is cut in
 // two;
 // - removes repeated triangles;
-// - turns triangles until neighbours agree, as most triangles of their piece do;
+// - turns triangles until neighbours agree, as most triangles of their component do;
 // - fills holes: hole_filling.hpp;
-// - turns closed pieces outward that do not lie in another piece.
+// - turns closed components outward that do not lie in another one.
 // Faults that it cannot mend stay, and check_surface() names them. Throws DataError if no triangle is left.
 RepairReport repair(formats::SurfaceSoup& soup, const RepairOptions& options);
 

@@ -121,7 +121,7 @@ class SideFinder {
   void join_repeated();
   void walk_around_edges();
   void nest();
-  std::int32_t side_below(std::int32_t piece, const geometry::ColumnIndex& index) const;
+  std::int32_t side_below(std::int32_t component, const geometry::ColumnIndex& index) const;
   void judge_rooms();
   bool is_fin(std::int32_t t) { return rooms_->of(behind(t)) == rooms_->of(before(t)); }
   void set_sides();
@@ -129,10 +129,10 @@ class SideFinder {
 
   formats::SurfaceSoup& soup_;
   ShellRule rule_;
-  std::vector<bool> is_interface_;              // by triangle: two bodies had it
-  std::optional<geometry::JoinedSets> rooms_;   // sets of sides; the last number is the outside
-  std::optional<geometry::JoinedSets> pieces_;  // sets of triangles, joined by common edges
-  std::vector<std::int32_t> region_;            // by room; 0: nothing
+  std::vector<bool> is_interface_;                  // by triangle: two bodies had it
+  std::optional<geometry::JoinedSets> rooms_;       // sets of sides; the last number is the outside
+  std::optional<geometry::JoinedSets> components_;  // sets of triangles, joined by common edges
+  std::vector<std::int32_t> region_;                // by room; 0: nothing
   SheetReport report_;
 };
 
@@ -207,53 +207,53 @@ void SideFinder::join_repeated() {
 
 void SideFinder::walk_around_edges() {
   rooms_.emplace(2 * soup_.triangles.size() + 1);
-  pieces_.emplace(soup_.triangles.size());
+  components_.emplace(soup_.triangles.size());
   geometry::for_each_edge(soup_.points.size(), soup_.triangles, [&](std::span<const HalfEdge> edge) {
     for_each_wedge(soup_, edge, [&](std::int32_t one, std::int32_t other) { rooms_->join(one, other); });
-    for (const HalfEdge h : edge) pieces_->join(geometry::triangle_of(edge[0]), geometry::triangle_of(h));
+    for (const HalfEdge h : edge) components_->join(geometry::triangle_of(edge[0]), geometry::triangle_of(h));
   });
 }
 
-// Finds the room around each piece: the room below the first triangle above one of the piece's vertices.
+// Finds the room around each component: the room below the first triangle above one of the component's vertices.
 void SideFinder::nest() {
   const std::int32_t outside = 2 * count();
-  std::map<std::int32_t, double> volumes;  // of rooms, as the triangles of one piece enclose them
+  std::map<std::int32_t, double> volumes;  // of rooms, as the triangles of one component enclose them
   for (std::int32_t t = 0; t < count(); ++t) {
     const auto [a, b, c] = soup_.triangles[t];
-    const Vec3& origin = soup_.points[soup_.triangles[pieces_->of(t)][0]];
+    const Vec3& origin = soup_.points[soup_.triangles[components_->of(t)][0]];
     const double volume = det(soup_.points[a] - origin, soup_.points[b] - origin, soup_.points[c] - origin);
     volumes[rooms_->of(behind(t))] += volume;
     volumes[rooms_->of(before(t))] -= volume;
   }
-  std::map<std::int32_t, std::pair<double, std::int32_t>> around;  // by piece: the room of least volume
+  std::map<std::int32_t, std::pair<double, std::int32_t>> around;  // by component: the room of least volume
   for (std::int32_t t = 0; t < count(); ++t)
     for (const std::int32_t side : {behind(t), before(t)}) {
       const std::int32_t room = rooms_->of(side);
       const std::pair here(volumes[room], room);
-      const auto [known, is_new] = around.try_emplace(pieces_->of(t), here);
+      const auto [known, is_new] = around.try_emplace(components_->of(t), here);
       if (!is_new) known->second = std::min(known->second, here);
     }
   const geometry::ColumnIndex index(soup_.points, soup_.triangles);
   std::vector<std::pair<std::int32_t, std::int32_t>> same;
-  for (const auto& [piece, room] : around) {
-    const std::int32_t below = side_below(piece, index);
-    same.emplace_back(room.second, below < 0 ? outside : below);
+  for (const auto& [component, room] : around) {
+    const std::int32_t below = side_below(component, index);
+    same.emplace_back(room.second, below == no_index ? outside : below);
   }
   for (const auto& [room, other] : same) rooms_->join(room, other);
 }
 
-// The side below the lowest triangle of another piece above this piece's first vertex; -1 if there is none.
-std::int32_t SideFinder::side_below(std::int32_t piece, const geometry::ColumnIndex& index) const {
-  const Vec3& p = soup_.points[soup_.triangles[piece][0]];
-  std::int32_t lowest = geometry::none;
+// The side below the lowest triangle of another component above this component's first vertex, or no_index.
+std::int32_t SideFinder::side_below(std::int32_t component, const geometry::ColumnIndex& index) const {
+  const Vec3& p = soup_.points[soup_.triangles[component][0]];
+  std::int32_t lowest = no_index;
   double least = 0;
-  geometry::JoinedSets pieces = *pieces_;
+  geometry::JoinedSets components = *components_;
   index.for_each_crossing(p, [&](std::int32_t t) {
-    if (pieces.of(t) == piece) return;
+    if (components.of(t) == component) return;
     const Vec3 n = normal_of(soup_, t);
     const Vec3& on = soup_.points[soup_.triangles[t][0]];
     const double height = n.z == 0 ? 0 : dot(n, on - p) / n.z;
-    if (lowest != geometry::none && height >= least) return;
+    if (lowest != no_index && height >= least) return;
     least = height;
     lowest = n.z > 0 ? behind(t) : before(t);
   });
@@ -264,7 +264,7 @@ void SideFinder::judge_rooms() {
   const std::int32_t outside = rooms_->of(2 * count());
   std::vector<bool> is_region(2 * soup_.triangles.size() + 1, rule_ == ShellRule::regions);
   std::size_t turned = 0;
-  std::int32_t first_turned = geometry::none;
+  std::int32_t first_turned = no_index;
   for (std::int32_t t = 0; t < count(); ++t) {
     if (is_fin(t)) continue;
     is_region[rooms_->of(behind(t))] = true;
@@ -328,10 +328,10 @@ bool has_several_fans(const formats::SurfaceSoup& soup) {
         for (const HalfEdge k : {other, geometry::next_in_triangle(other)})
           if (geometry::start_of(soup.triangles, h) == geometry::start_of(soup.triangles, k)) corners.join(h, k);
   });
-  std::vector<std::int32_t> fan(soup.points.size(), geometry::none);
+  std::vector<std::int32_t> fan(soup.points.size(), no_index);
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(3 * soup.triangles.size()); ++h) {
     std::int32_t& known = fan[geometry::start_of(soup.triangles, h)];
-    if (known != geometry::none && known != corners.of(h)) return true;
+    if (known != no_index && known != corners.of(h)) return true;
     known = corners.of(h);
   }
   return false;
@@ -382,10 +382,10 @@ Surface find_sheets(formats::SurfaceSoup soup) {
     const std::int32_t t = geometry::triangle_of(edge[0]), u = geometry::triangle_of(edge[1]);
     if (surface.sides[t] == surface.sides[u]) sheets.join(t, u);
   });
-  std::vector<std::int32_t> number(surface.triangles.size(), geometry::none);
+  std::vector<std::int32_t> number(surface.triangles.size(), no_index);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     std::int32_t& sheet = number[sheets.of(static_cast<std::int32_t>(t))];
-    if (sheet == geometry::none) {
+    if (sheet == no_index) {
       sheet = static_cast<std::int32_t>(surface.shells.size());
       Shell& made = surface.shells.emplace_back();
       made.first_triangle = static_cast<std::int32_t>(t);

@@ -25,10 +25,10 @@ struct Draft {
 // The number of each triangle's connected component. Components are ordered by their first triangles.
 std::vector<std::int32_t> number_components(std::size_t point_count, std::span<const Triangle> triangles) {
   const std::vector<geometry::HalfEdge> twins = geometry::find_twins(point_count, triangles);
-  std::vector<std::int32_t> component(triangles.size(), geometry::none), stack;
+  std::vector<std::int32_t> component(triangles.size(), no_index), stack;
   std::int32_t count = 0;
   for (std::size_t start = 0; start < triangles.size(); ++start) {
-    if (component[start] != geometry::none) continue;
+    if (component[start] != no_index) continue;
     component[start] = count;
     stack.assign(1, static_cast<std::int32_t>(start));
     while (!stack.empty()) {
@@ -36,7 +36,7 @@ std::vector<std::int32_t> number_components(std::size_t point_count, std::span<c
       stack.pop_back();
       for (geometry::HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
         const std::int32_t neighbour = geometry::triangle_of(twins[h]);
-        if (component[neighbour] != geometry::none) continue;
+        if (component[neighbour] != no_index) continue;
         component[neighbour] = count;
         stack.push_back(neighbour);
       }

@@ -1,6 +1,7 @@
 #pragma once
-// The closed pieces of a surface, and what lies on either side of each: material of a region, or nothing. Where sheets
-// meet at edges of more than two triangles, the pieces are sheets; a sheet has the same region on all of one side.
+// The closed components of a surface, and what lies on either side of each: material of a region, or nothing. Where
+// sheets meet at edges of more than two triangles, the components are sheets; a sheet has the same region on all of one
+// side.
 
 #include <cstdint>
 #include <string>
@@ -39,7 +40,7 @@ struct Surface : formats::SurfaceSoup {
   std::vector<std::int32_t> shell_of;  // of each triangle
   std::vector<Shell> shells;           // in the order of their first triangle
   std::int32_t region_count = 0;       // regions are numbered from 1 in the order of the shells that enclose them
-  bool has_sheets = false;             // true: more than two triangles meet somewhere, and the pieces are not closed
+  bool has_sheets = false;  // true: more than two triangles meet somewhere, and the components are not closed
 
   // The volume of each region. Entry 0 is zero.
   std::vector<double> region_volumes() const;

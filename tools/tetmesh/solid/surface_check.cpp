@@ -170,7 +170,7 @@ void check_vertices(const formats::SurfaceSoup& soup, std::span<const geometry::
     for (const Vertex v : t) ++unseen[v];
   std::vector<bool> walked(soup.points.size());
   std::size_t count = 0;
-  geometry::HalfEdge first = geometry::none;
+  geometry::HalfEdge first = no_index;
   const auto half_edge_count = static_cast<geometry::HalfEdge>(twins.size());
   for (geometry::HalfEdge h = 0; h < half_edge_count; ++h) {
     const Vertex v = geometry::start_of(soup.triangles, h);

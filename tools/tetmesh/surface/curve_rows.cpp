@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "tools/tetmesh/surface/remesh_steps.hpp"
 #include "tools/tetmesh/surface/step_plan.hpp"
 #include "tools/tetmesh/surface/surface_curl.hpp"
-#include "tools/tetmesh/surface/surface_refine.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/tetmesh/surface/edge_splitting.hpp"
+#include "tools/tetmesh/surface/surface_remesh.hpp"
 
 #include <algorithm>
 #include <queue>

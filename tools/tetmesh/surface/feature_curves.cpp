@@ -14,7 +14,7 @@ using VertexH = OpenMesh::VertexHandle;
 constexpr double snapping = 1e-3;
 // The deviation adds steps up to this many times the number that the size asks for.
 constexpr int most_refinement = 16;
-// Where sizes differ, lengths are measured in this many pieces a size.
+// Where sizes differ, lengths are measured in this many steps a size.
 constexpr double parts_a_size = 4, most_parts = 1e5;
 
 class CurveFinder {
@@ -98,7 +98,7 @@ class CurveLength {
   }
 
  private:
-  // Adds it in pieces over which the size hardly changes.
+  // Adds it in steps over which the size hardly changes.
   void add_segment(const Vec3& from, const Vec3& to, double steps_per_size, const sizing::SizeField& size) {
     const double length = norm(to - from);
     const int parts =

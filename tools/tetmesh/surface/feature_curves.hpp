@@ -26,7 +26,7 @@ struct MeasuredCurve {
 };
 
 // Curves from corner to corner come first, then loops without a corner, both in the order of their first vertices. A
-// curve of joints comes once, with vertices of one of the pieces that meet in it.
+// curve of joints comes once, with vertices of one of the sheets that meet in it.
 std::vector<FeatureCurve> feature_curves(const FeatureMesh& mesh);
 
 // Splits feature edges where a step ends, and keeps these vertices. If a curve bends away from its chords by more than

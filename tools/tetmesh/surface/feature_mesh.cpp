@@ -12,7 +12,7 @@ FeatureMesh::FeatureMesh(const solid::Surface& surface, double feature_angle)
     : corner_cosine_(cosine_of_degrees(feature_angle)) {
   reserve(surface.points.size(), 3 * surface.triangles.size() / 2, surface.triangles.size());
   if (!surface.has_sheets) add_whole(surface);
-  if (surface.has_sheets && !add_in_pieces(surface)) {
+  if (surface.has_sheets && !add_in_sheets(surface)) {
     is_manifold_ = false;
     return;
   }
@@ -30,7 +30,7 @@ void FeatureMesh::add_whole(const solid::Surface& surface) {
   resize_attributes();
 }
 
-bool FeatureMesh::add_in_pieces(const solid::Surface& surface) {
+bool FeatureMesh::add_in_sheets(const solid::Surface& surface) {
   const SheetCut cut = cut_along_joints(surface);
   if (!cut.is_manifold) return false;
   for (const std::int32_t point : cut.point_of) add_vertex(to_open_mesh(surface.points[point]));
@@ -102,7 +102,7 @@ void FeatureMesh::mark_features(const solid::Surface& surface, double feature_an
     if (is_contact(v)) on_feature_[v.idx()] = 1;
 }
 
-// Whether pieces meet in the vertex, and this one not along an edge.
+// Whether sheets meet in the vertex, and this one not along an edge.
 bool FeatureMesh::is_contact(VertexHandle v) const {
   if (!has_copies(v)) return false;
   return std::ranges::none_of(ve_range(v), [&](EdgeHandle e) { return is_joint(e); });

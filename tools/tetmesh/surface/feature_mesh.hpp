@@ -2,7 +2,7 @@
 // The surface as a half-edge mesh that can be split, flipped and collapsed. It knows what must survive: feature edges,
 // corners, and the triangle of the input that each face lies on.
 //
-// At joints, edges where more than two triangles meet, the mesh is cut into pieces (sheet_cut.hpp). Each piece has its
+// At joints, edges where more than two triangles meet, the mesh is cut into sheets (sheet_cut.hpp). Each sheet has its
 // own copy of a joint, as an edge of its border or as a feature inside it, and of the joint's vertices. Copies lie in
 // one place; they are split together and kept together.
 
@@ -43,7 +43,7 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
  public:
   // Feature edges are joints, and edges where the normals of neighbours differ by more than the angle (degrees), where
   // tags meet, and along the surface's own curves. Corners are the vertices where one feature edge or more than two
-  // meet, where a curve turns by more than the angle, or where pieces touch in the vertex alone. Corners are kept.
+  // meet, where a curve turns by more than the angle, or where sheets touch in the vertex alone. Corners are kept.
   FeatureMesh(const solid::Surface& surface, double feature_angle);
 
   // False if a sheet meets itself along an edge; the mesh is empty then.
@@ -104,7 +104,7 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
   VertexHandle add_removable(const Vec3& p, bool on_feature);
   VertexHandle split_one_edge_at(EdgeHandle e, const Vec3& p);
   void add_whole(const solid::Surface& surface);
-  bool add_in_pieces(const solid::Surface& surface);
+  bool add_in_sheets(const solid::Surface& surface);
   void join_copies(VertexHandle v, VertexHandle other);
   void mark_features(const solid::Surface& surface, double feature_angle);
   bool is_contact(VertexHandle v) const;

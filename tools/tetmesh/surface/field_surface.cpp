@@ -23,7 +23,7 @@ FieldSurface::FieldSurface(const FeatureMesh& mesh, const sizing::SizeField& siz
     for (int i = 0; i < 3; ++i, h = mesh.next_halfedge_handle(h)) {
       feature.push_back(mesh.is_feature(mesh.edge_handle(h)));
       crest.push_back(mesh.is_crest(mesh.edge_handle(h)));
-      joint.push_back(mesh.is_joint(mesh.edge_handle(h)) ? joint_of(h) : geometry::none);
+      joint.push_back(mesh.is_joint(mesh.edge_handle(h)) ? joint_of(h) : no_index);
     }
     centres.push_back((points[a.idx()] + points[b.idx()] + points[c.idx()]) * (1.0 / 3));
     const Vec3 normal = mesh.area_normal(f);

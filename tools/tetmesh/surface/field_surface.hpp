@@ -24,7 +24,7 @@ struct FieldSurface {
   std::vector<Triangle> triangles;
   std::vector<geometry::HalfEdge> twins;  // at a border, where all edges are features: the half-edge itself
   std::vector<bool> feature;              // by half-edge
-  std::vector<std::int32_t> joint;        // by half-edge: the number of its joint, where sheets meet, or none
+  std::vector<std::int32_t> joint;        // by half-edge: the number of its joint, where sheets meet, or no_index
   std::vector<bool> crest;                // the features in the middle of a fillet
   std::vector<Vec3> centres;
   std::vector<Vec3> normals;  // of length 1

@@ -1,4 +1,4 @@
-#include "tools/tetmesh/surface/narrow_strips.hpp"
+#include "tools/tetmesh/surface/feature_ways.hpp"
 
 #include "tools/tetmesh/surface/field_walk.hpp"
 

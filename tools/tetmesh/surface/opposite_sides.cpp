@@ -38,10 +38,9 @@ OppositeSide look_across(const FieldSurface& surface, const geometry::BoxTree& t
     side.distance = length / here;
     return length;
   });
-  if (side.triangle == geometry::none) return side;
+  if (side.triangle == no_index) return side;
   const double cosine = dot(surface.normals[side.triangle], inwards);
-  if (!((surface.is_interface[side.triangle] ? std::abs(cosine) : cosine) > parallel_cosine))
-    side.triangle = geometry::none;
+  if (!((surface.is_interface[side.triangle] ? std::abs(cosine) : cosine) > parallel_cosine)) side.triangle = no_index;
   return side;
 }
 
@@ -59,7 +58,7 @@ std::vector<OppositeSide> opposite_sides(const FieldSurface& surface) {
   std::vector<OppositeSide> result;
   for (const auto& both : found)
     std::ranges::copy_if(both, std::back_inserter(result),
-                         [](const OppositeSide& side) { return side.triangle != geometry::none; });
+                         [](const OppositeSide& side) { return side.triangle != no_index; });
   return result;
 }
 

@@ -8,10 +8,10 @@
 namespace hexpipe::tetmesh::surface {
 
 struct OppositeSide {
-  std::int32_t from = geometry::none;      // a triangle
-  std::int32_t triangle = geometry::none;  // the first triangle that a ray from its centre meets, along its normal
-  double distance = 0;                     // in sizes
-  double area = 0;                         // the area around that `from` is a sample of, in squares of the size
+  std::int32_t from = no_index;      // a triangle
+  std::int32_t triangle = no_index;  // the first triangle that a ray from its centre meets, along its normal
+  double distance = 0;               // in sizes
+  double area = 0;                   // the area around that `from` is a sample of, in squares of the size
 };
 
 // In the order of the triangles; rays go inwards, and both ways from triangles between two regions. There is none where

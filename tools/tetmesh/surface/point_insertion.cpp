@@ -1,4 +1,4 @@
-#include "tools/tetmesh/surface/point_insertion.hpp"
+#include "tools/tetmesh/surface/remesh_steps.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -63,7 +63,7 @@ class PointInserter {
     return least;
   }
 
-  // Among the pieces of the point's face, the one in which the point lies deepest.
+  // Among the fragments of the point's face, the one in which the point lies deepest.
   Face part_around(const SurfacePoint& point) {
     parts_.assign(1, mesh_.face_handle(static_cast<unsigned>(point.triangle)));
     Face best = parts_[0];
@@ -122,7 +122,7 @@ class PointInserter {
 
   FeatureMesh& mesh_;
   const sizing::SizeField& snap_;
-  std::vector<std::int32_t> cut_from_;  // by face: the original face that it is a piece of
+  std::vector<std::int32_t> cut_from_;  // by face: the original face that it is a fragment of
   std::vector<Face> parts_;
 };
 

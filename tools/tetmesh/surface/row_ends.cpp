@@ -18,8 +18,6 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-using geometry::none;
-
 std::int32_t sign_of(bool flipped) {
   return flipped ? -1 : 1;
 }
@@ -27,10 +25,10 @@ std::int32_t sign_of(bool flipped) {
 class RowJoiner {
  public:
   RowJoiner(const SurfaceLinks& links, RowJumps& jumps)
-      : links_(links), jumps_(jumps), first_(links.surface.points.size(), none), ends_(first_.size()) {
+      : links_(links), jumps_(jumps), first_(links.surface.points.size(), no_index), ends_(first_.size()) {
     for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(jumps.size()); ++h) {
       geometry::HalfEdge& first = first_[geometry::start_of(links.surface.triangles, h)];
-      if (first == none) first = h;
+      if (first == no_index) first = h;
     }
     for (std::size_t v = 0; v < first_.size(); ++v) measure(static_cast<Vertex>(v));
     lengths_.resize(first_.size());
@@ -65,7 +63,7 @@ class RowJoiner {
       h = geometry::next_in_triangle(links_.surface.twins[h]);
     } while (h != first);
   }
-  bool is_carrier(Vertex v) const { return first_[v] != none; }
+  bool is_carrier(Vertex v) const { return first_[v] != no_index; }
   void measure(Vertex v);
   End turned_to(const End& end, Vertex v, std::int32_t triangle) const;
   bool cancels(const End& end, Vertex v) const;
@@ -87,13 +85,13 @@ class RowJoiner {
 };
 
 void RowJoiner::measure(Vertex v) {
-  if (first_[v] == none) return;
+  if (first_[v] == no_index) return;
   bool is_whole = true, turns = false;
   std::array<std::int32_t, 2> sums{};
   for (std::size_t k = 0; k < 2 && is_whole; ++k) {
     FollowedAxis followed{k};
     for_each_around(first_[v], [&](geometry::HalfEdge h) {
-      is_whole = links_.of[h].neighbour != none && links_.of[h].weight > 0;
+      is_whole = links_.of[h].neighbour != no_index && links_.of[h].weight > 0;
       if (!is_whole) return false;
       sums[k] += sign_of(followed.flipped) * jumps_[h][followed.axis];
       followed.cross(links_, h);
@@ -104,7 +102,7 @@ void RowJoiner::measure(Vertex v) {
   if (is_whole && !turns) {
     ends_[v] = sums;
   } else {
-    first_[v] = none;
+    first_[v] = no_index;
   }
 }
 
@@ -169,7 +167,7 @@ std::optional<Vertex> RowJoiner::find_partner(Vertex v, const End& end, double r
     touched_.emplace_back(u, length);
     offer_around(u, length);
   };
-  reached_from_[v] = {none, end};
+  reached_from_[v] = {no_index, end};
   reach(v, 1e-12);
   while (!ways.empty()) {
     const auto [length, u, h] = ways.top();

@@ -78,21 +78,21 @@ class RowStraightener {
 };
 
 void RowStraightener::number_faces() {
-  face_of_.assign(size(), geometry::none);
+  face_of_.assign(size(), no_index);
   std::vector<std::int32_t> queue;
   const auto reach = [&](std::int32_t f) {
-    if (face_of_[f] != geometry::none) return;
+    if (face_of_[f] != no_index) return;
     face_of_[f] = face_count_;
     queue.push_back(f);
   };
   for (std::int32_t seed = 0; seed < static_cast<std::int32_t>(size()); ++seed) {
-    if (face_of_[seed] != geometry::none) continue;
+    if (face_of_[seed] != no_index) continue;
     reach(seed);
     while (!queue.empty()) {
       const std::int32_t f = queue.back();
       queue.pop_back();
       for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h)
-        if (links_.of[h].neighbour != geometry::none) reach(links_.of[h].neighbour);
+        if (links_.of[h].neighbour != no_index) reach(links_.of[h].neighbour);
     }
     ++face_count_;
   }
@@ -147,7 +147,7 @@ template <class Body>
 void RowStraightener::for_each_link(std::int32_t f, const RowJumps& jumps, const RowCoordinates& start,
                                     bool with_across, Body&& body) const {
   for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
-    if (links_.of[h].neighbour == geometry::none) continue;
+    if (links_.of[h].neighbour == no_index) continue;
     for (std::size_t k = 0; k < 2; ++k) body(links_.of[h], k, links_.of[h].distance[k] - jumps[h][k]);
   }
   if (!with_across) return;

@@ -62,16 +62,16 @@ class SheetCutter {
   void number_vertices() {
     result_.point_of.resize(surface_.points.size());
     std::iota(result_.point_of.begin(), result_.point_of.end(), 0);
-    std::vector<Vertex> number(3 * surface_.triangles.size(), geometry::none);  // by the lowest corner of each vertex
+    std::vector<Vertex> number(3 * surface_.triangles.size(), no_index);  // by the lowest corner of each vertex
     std::vector<bool> is_taken(surface_.points.size());
     result_.triangles = surface_.triangles;
     for (HalfEdge corner = 0; corner < static_cast<HalfEdge>(number.size()); ++corner) {
       Vertex& here = result_.triangles[corner / 3][corner % 3];
       Vertex& known = number[corners_.of(corner)];
-      if (known == geometry::none && is_taken[here]) {
+      if (known == no_index && is_taken[here]) {
         known = static_cast<Vertex>(result_.point_of.size());
         result_.point_of.push_back(here);
-      } else if (known == geometry::none) {
+      } else if (known == no_index) {
         known = here;
         is_taken[here] = true;
       }

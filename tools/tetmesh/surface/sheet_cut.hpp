@@ -1,5 +1,5 @@
 #pragma once
-// A surface on which more than two triangles meet at some edges, cut along these edges into pieces that are manifolds.
+// A surface on which more than two triangles meet at some edges, cut along these edges into sheets that are manifolds.
 
 #include <utility>
 #include <vector>
@@ -10,12 +10,12 @@ namespace hexpipe::tetmesh::surface {
 
 // Two triangles at an edge of more than two stay together if they are beside each other and have the same regions on
 // their sides, like those of a body that touches another one in the edge. The other triangles part there. A vertex gets
-// a copy for each piece of its triangles, also where pieces touch in the vertex alone.
+// a copy for each sheet of its triangles, also where sheets touch in the vertex alone.
 struct SheetCut {
   std::vector<Triangle> triangles;  // of the vertices below
   std::vector<Vertex> point_of;     // by vertex: its point of the surface; the two numbers are the same where possible
-  std::vector<std::pair<Vertex, Vertex>> joints;  // the edges of more than two triangles, once for each side of a piece
-  bool is_manifold = true;                        // false: a piece meets itself along an edge
+  std::vector<std::pair<Vertex, Vertex>> joints;  // the edges of more than two triangles, once for each side of a sheet
+  bool is_manifold = true;                        // false: a sheet meets itself along an edge
 };
 
 SheetCut cut_along_joints(const solid::Surface& surface);

@@ -186,9 +186,9 @@ class StepPlanner {
     return {std::move(equations), std::move(wanted), std::move(weights)};
   }
 
-  // The curve whose steps are furthest beyond what they may be; -1: none.
+  // The curve whose steps are furthest beyond what they may be, or no_index.
   std::int32_t worst_changed(const std::vector<double>& values) const {
-    std::int32_t worst = -1;
+    std::int32_t worst = no_index;
     double most = 1;
     for (std::size_t i = 0; i < curves_.size(); ++i) {
       const double change = change_of(curves_[i], unit_of(curves_[i]) * values[i]);

@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "tools/tetmesh/fields/layers_across.hpp"
-#include "tools/tetmesh/surface/feature_fan.hpp"
-#include "tools/tetmesh/surface/narrow_strips.hpp"
+#include "tools/tetmesh/surface/feature_ways.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {
@@ -41,7 +40,7 @@ void add_loops_around(const SurfaceLinks& links, geometry::HalfEdge first, field
     FollowedAxis followed{k};
     geometry::HalfEdge h = first;
     do {
-      if (links.of[h].neighbour == geometry::none || links.of[h].weight <= 0) return loops.drop();
+      if (links.of[h].neighbour == no_index || links.of[h].weight <= 0) return loops.drop();
       loops.add_step(followed.cross(links, h));
       h = geometry::next_in_triangle(links.surface.twins[h]);
     } while (h != first);
@@ -87,8 +86,8 @@ std::vector<double> step_lengths(const FieldSurface& surface, std::span<const Ve
   std::vector<bool> is_kept(surface.points.size());
   for (const Vertex v : kept) is_kept[v] = true;
   const auto count = static_cast<geometry::HalfEdge>(surface.twins.size());
-  std::vector<geometry::HalfEdge> onward(surface.points.size(),
-                                         -1);  // one of the feature's half-edges from a vertex, then both
+  // One of the feature's half-edges from a vertex, then both.
+  std::vector<geometry::HalfEdge> onward(surface.points.size(), no_index);
   std::vector<geometry::HalfEdge> backward = onward;
   for (geometry::HalfEdge h = 0; h < count; ++h) {
     if (!surface.feature[h]) continue;
@@ -174,7 +173,7 @@ void add_same_steps_at_joints(const SurfaceLinks& links, fields::Loops& loops) {
   std::map<std::pair<std::int32_t, std::int32_t>, FeatureFan> last_known;  // by the joints before and after a vertex
   const auto& joint = links.surface.joint;
   for_each_fan(links, [&](const FeatureFan& fan) {
-    if (joint[fan.first] == geometry::none || joint[fan.last] == geometry::none) return;
+    if (joint[fan.first] == no_index || joint[fan.last] == no_index) return;
     const auto [known, is_new] = last_known.try_emplace(std::minmax(joint[fan.first], joint[fan.last]), fan);
     if (is_new) return;
     const FeatureFan& other = known->second;

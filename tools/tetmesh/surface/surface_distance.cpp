@@ -6,7 +6,7 @@
 
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
-#include "tools/tetmesh/geometry/triangle_pieces.hpp"
+#include "tools/tetmesh/geometry/triangle_slices.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {
@@ -25,7 +25,7 @@ int parts_of(double length, double spacing) {
 class SurfaceSampler {
  public:
   SurfaceSampler(std::span<const Vec3> points, std::span<const Triangle> triangles, const sizing::SizeField& spacing)
-      : points_(points), triangles_(triangles), spacing_(spacing), owner_(points.size(), geometry::none) {
+      : points_(points), triangles_(triangles), spacing_(spacing), owner_(points.size(), no_index) {
     for (std::size_t t = triangles.size(); t-- > 0;)
       for (const Vertex v : triangles[t]) owner_[v] = static_cast<std::int32_t>(t);
   }
@@ -110,12 +110,12 @@ void DistanceIndex::for_each_cell(const Triangle& t, Visit&& visit) const {
       for (std::int64_t y = low.y; y <= high.y; ++y)
         for (std::int64_t x = low.x; x <= high.x; ++x) take(number_of({x, y, z}));
   };
-  geometry::TrianglePieces(points_[t[0]], points_[t[1]], points_[t[2]], width_).for_each_cell(cells_in, visit);
+  geometry::TriangleSlices(points_[t[0]], points_[t[1]], points_[t[2]], width_).for_each_cell(cells_in, visit);
 }
 
 double DistanceIndex::distance(const Vec3& p, std::int32_t& nearest, double enough) const {
   Search search{nearest, std::numeric_limits<double>::max(), enough * enough};
-  if (nearest != geometry::none) {
+  if (nearest != no_index) {
     const auto [a, b, c] = triangles_[nearest];
     search.best = geometry::TriangleDistance(points_[a], points_[b], points_[c]).squared(p);
   }
@@ -182,7 +182,7 @@ SurfaceDistance one_sided_distance(std::span<const Vec3> points, std::span<const
       static_cast<std::int64_t>(triangles.size()), triangles_per_block,
       [&](std::int64_t begin, std::int64_t end) {
         SurfaceDistance part;
-        std::int32_t nearest = -1;  // of the last sample, beside which the next one lies
+        std::int32_t nearest = no_index;  // of the last sample, beside which the next one lies
         for (std::int64_t i = begin; i < end; ++i) {
           sampler.for_each_sample(i, [&](const Vec3& p) {
             // A distance that is neither the greatest nor beyond the limit need not be exact.

@@ -16,11 +16,12 @@ class DistanceIndex {
   // The arrays must outlive the index.
   DistanceIndex(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
-  // `nearest` is a guess of the nearest triangle, or none, and becomes the nearest triangle. A good guess saves most of
-  // the work. So does `enough`: a triangle that is no further away than that is taken without looking for a nearer one.
+  // `nearest` is a guess of the nearest triangle, or no_index, and becomes the nearest triangle. A good guess saves
+  // most of the work. So does `enough`: a triangle that is no further away than that is taken without looking for a
+  // nearer one.
   double distance(const Vec3& p, std::int32_t& nearest, double enough = 0) const;
   double distance(const Vec3& p) const {
-    std::int32_t nearest = geometry::none;
+    std::int32_t nearest = no_index;
     return distance(p, nearest);
   }
 

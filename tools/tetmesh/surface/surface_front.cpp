@@ -1,4 +1,4 @@
-// Points of a lattice that fits the field come first (surface_lattice.hpp). Where the pieces of the lattice do not fit
+// Points of a lattice that fits the field come first (surface_lattice.hpp). Where the patches of the lattice do not fit
 // together, packing of parallelograms fills the gaps. Each point, first come first served, offers its four neighbours
 // in the directions of the field. A neighbour is taken if no point is nearer than a share of the size in the maximum
 // norm of the field's directions there (Baudouin, Remacle, Marchandise, Henrotte, Geuzaine 2014, section 3). If a
@@ -103,14 +103,14 @@ class SurfaceFront {
 };
 
 void SurfaceFront::add_kept(std::span<const Vertex> kept) {
-  std::vector<std::int32_t> number(surface_.points.size(), geometry::none);
+  std::vector<std::int32_t> number(surface_.points.size(), no_index);
   for (const Vertex v : kept) {
     number[v] = grid_.add(surface_.points[v], size_.at(surface_.points[v]));
     normals_.emplace_back();
   }
   for (std::size_t f = 0; f < surface_.triangles.size(); ++f)
     for (const Vertex v : surface_.triangles[f]) {
-      if (number[v] == geometry::none) continue;
+      if (number[v] == no_index) continue;
       std::vector<Vec3>& normals = normals_[number[v]];
       const Vec3& n = surface_.normals[f];
       if (std::ranges::none_of(normals, [&](const Vec3& m) { return dot(n, m) > 0.99; })) normals.push_back(n);

@@ -1,9 +1,9 @@
-// Periodic coordinates, as on the nodes of a volume (lattice_field.hpp): two complex numbers a triangle, exp(2 pi i
-// coordinate of its centre) along its two directions, that turn by the distance from one triangle to the next (Ray, Li,
-// Lévy, Sheffer, Alliez: Periodic global parameterization, 2006). Feature edges and the points on them hold the numbers
-// beside them, and each other those on sides that face each other (links_across.hpp), as rows end inside where these
-// differ. Every triangle proposes the points of the lattice that it sees; those that see the same one agree on its
-// place.
+// Periodic coordinates, as on the nodes of a volume (volume/lattice_field.hpp). Each triangle has two complex numbers,
+// exp(2 pi i coordinate of its centre), one for each of its two directions. From one triangle to the next a number
+// turns by the distance between them (Ray, Li, Lévy, Sheffer, Alliez: Periodic global parameterization, 2006). Feature
+// edges and the points on them hold the numbers of the triangles beside them. Two sides that face each other hold each
+// other's numbers (links_across.hpp), because rows end inside the model where these differ. Then every triangle
+// proposes the points of the lattice that it sees, and the triangles that see the same point agree on its place.
 
 #include "tools/tetmesh/surface/surface_lattice.hpp"
 
@@ -26,26 +26,31 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-// Pull of a feature edge and of a point on it, against all links of the triangle.
-// Shares of the volume in hexes differ by up to 0.4 % from 2 to 20 for points, on larger parts.
+// How strongly a feature edge, and a point on it, pull the numbers of a triangle, relative to all links of the
+// triangle. A point_weight from 2 to 20 changes the share of the volume in hexes by up to 0.4 % on larger models.
 constexpr double edge_weight = 20, point_weight = 5;
 constexpr fields::DiffusionLimits limits{200, 1e-3};
-constexpr int smoothing_sweeps = 60;  // 20 lose 1 % of the volume in hexes on small parts
-// So that both sides of a wall agree again.
+constexpr int smoothing_sweeps = 60;  // 20 lose 1 % of the volume in hexes on small models
+// Both sides of a wall agree again after these.
 constexpr int sweeps_after_joining = 30;
-constexpr double certain = 1e-3;  // moduli of numbers that features say something about
-// How strongly the step to the next point of the lattice keeps to the field, against what all links say; and at least.
+constexpr double certain = 1e-3;  // least modulus of a number that some feature has reached
+// How strongly the step to the next point of the lattice keeps to the field, relative to all links; and the least
+// absolute strength.
 constexpr double rigidity = 0.1, least_hold = 1e-9;
-constexpr double least_determinant = 0.2;  // of the cells a step in each direction, below which the field is followed
-// Triangles see points of the lattice that far along each direction, in sizes, and trust them less with the distance.
-constexpr double furthest = 0.75, distrust_begins = 1.5;
-// Of the triangles of finer surfaces, so many speak for one square of the size.
+// Where the coordinates' gradients have a smaller determinant, in lattice cells per square of the size, steps follow
+// the field.
+constexpr double least_determinant = 0.2;
+// A triangle proposes the points within `furthest` along each direction, in steps of the lattice. Its trust in a point
+// is trust_range minus the distance.
+constexpr double furthest = 0.75, trust_range = 1.5;
+// On a surface with more triangles, only this many for each square of the size make proposals.
 constexpr double most_speakers = 32;
-// Points nearer to each other, in sizes, on surfaces with normals of at least this cosine, are the same.
+// Two proposals are the same point if they are nearer to each other than this, in sizes, and the cosine between the
+// normals of their triangles is at least this.
 constexpr double same_point = 0.3, least_normal_cosine = 0.3;
 
 using Phases = std::array<fields::Complex, 2>;
-// From one point of the lattice to the next along each direction, in sizes along both.
+// The step from one point of the lattice to the next along each direction: its two components, in sizes.
 using Steps = std::array<std::array<double, 2>, 2>;
 constexpr Steps straight{{{1, 0}, {0, 1}}};
 
@@ -71,7 +76,7 @@ class LatticeMaker {
   }
 
   SurfaceLattice make(std::span<const Vertex> kept, double row_stretch) {
-    link(kept);
+    weigh_links(kept);
     make_anchors(kept);
     diffuse();
     reach_the_rest();
@@ -87,8 +92,8 @@ class LatticeMaker {
     lattice.row_ends = count_row_ends(links_, phases_);
     lattice.points.reserve(proposals_.size());
     for (const Proposal& p : proposals_) lattice.points.push_back(p.point);
-    // Fillets are shorter than what rows are counted on. Steps hardly say so, for links across their narrow strips
-    // count little beside those along them.
+    // Links measure distances over the unrounded edges of fillets (crest_lines.hpp), which are longer than the fillets.
+    // Steps hardly show that, because links across a narrow strip weigh little beside those along it.
     for (std::int32_t f = 0; f < static_cast<std::int32_t>(steps_.size()); ++f) {
       const auto axes = directions(f);
       std::array<double, 2> spacing;
@@ -106,7 +111,7 @@ class LatticeMaker {
     parallel_for(static_cast<std::int64_t>(phases_.size()), 512,
                  [&](std::int64_t f) { body(static_cast<std::int32_t>(f)); });
   }
-  void link(std::span<const Vertex> kept);
+  void weigh_links(std::span<const Vertex> kept);
   void make_anchors(std::span<const Vertex> kept);
   void pull(std::int32_t f, std::size_t axis, double weight, double coordinate);
   Phases view_of_neighbours(const std::vector<Phases>& phases, std::int32_t f) const;
@@ -126,15 +131,15 @@ class LatticeMaker {
   double greatest_size_;
   SurfaceLinks links_;
   LinksAcross across_;
-  std::vector<double> degrees_;  // sums of the weights of links
-  std::vector<std::array<double, 2>> pulls_;
-  std::vector<Phases> targets_;  // times the pulls
+  std::vector<double> degrees_;               // of each triangle: the sum of the weights of its links
+  std::vector<std::array<double, 2>> pulls_;  // of features on each number of a triangle: their sum
+  std::vector<Phases> targets_;               // the numbers that features ask for, each times its pull
   std::vector<Phases> phases_;
   std::vector<Steps> steps_;
   std::vector<Proposal> proposals_;
 };
 
-void LatticeMaker::link(std::span<const Vertex> kept) {
+void LatticeMaker::weigh_links(std::span<const Vertex> kept) {
   correct_curl(links_, kept);
   links_.for_each_pair([&](geometry::HalfEdge h) {
     degrees_[geometry::triangle_of(h)] += links_.of[h].weight;
@@ -187,7 +192,7 @@ void LatticeMaker::diffuse() {
       targets_, limits, [&](const auto& body) { for_each_triangle(body); }, diagonal, view);
 }
 
-// Where features are too far away to tell, or missing, numbers are those of a neighbour, as it is seen from there.
+// Triangles too far from any feature take over the numbers of a neighbour, turned by the distance to it.
 void LatticeMaker::reach_the_rest() {
   const auto count = static_cast<std::int32_t>(phases_.size());
   std::vector<std::int32_t> queue;
@@ -217,7 +222,7 @@ void LatticeMaker::sweep() {
       [&](std::int32_t f, std::size_t k) { return targets_[f][k]; });
 }
 
-// By least squares over the distances to the neighbours, which are those of the field no longer.
+// The least-squares solution over the distances to the neighbours, which correct_curl has changed.
 Steps LatticeMaker::steps_of(std::int32_t f) const {
   Eigen::Matrix2d moments = Eigen::Matrix2d::Zero(), right = moments;
   for (geometry::HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
@@ -233,7 +238,7 @@ Steps LatticeMaker::steps_of(std::int32_t f) const {
   return {{{steps(0, 0), steps(1, 0)}, {steps(0, 1), steps(1, 1)}}};
 }
 
-// Every triangle, unless there are many more of them than points: each proposal looks at all that are near.
+// Every triangle, unless there are many more triangles than points: agreed() compares each proposal with all near it.
 std::vector<AreaSample> LatticeMaker::speakers() const {
   const auto count = static_cast<std::int32_t>(surface_.triangles.size());
   double squares = 0;
@@ -273,11 +278,11 @@ void LatticeMaker::propose(const AreaSample& speaker, std::vector<Proposal>& pro
     const Vec3 way = length > 0 ? (along * axes[0] + across * axes[1]) * (1 / length) : axes[0];
     const WalkEnd end = walker_.walk_straight({surface_.centres[f], f}, way, length * surface_.sizes[f]);
     if (end.at_feature) continue;
-    proposals.push_back({end.point, (distrust_begins - distance) * agreement * speaker.area});
+    proposals.push_back({end.point, (trust_range - distance) * agreement * speaker.area});
   }
 }
 
-// Moves every proposal to the mean of those that see the same point, and trusts it as much as all of them.
+// Moves every proposal to the mean of all proposals of the same point, and adds up their trust.
 void LatticeMaker::agree() {
   geometry::SizedPointGrid grid(surface_.centres.front());
   for (const Proposal& p : proposals_) grid.add(p.point.position, 2 * same_point * greatest_size_);

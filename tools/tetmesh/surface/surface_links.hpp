@@ -45,7 +45,7 @@ struct SurfaceLinks {
   template <class Body>
   void for_each_pair(Body&& body) const {
     for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(of.size()); ++h)
-      if (of[h].neighbour != geometry::none && h < surface.twins[h]) body(h);
+      if (of[h].neighbour != no_index && h < surface.twins[h]) body(h);
   }
   // Distances are numbered by these half-edges and the directions of their triangles.
   static std::int32_t number_of(geometry::HalfEdge h, std::size_t axis) {

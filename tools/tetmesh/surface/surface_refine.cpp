@@ -1,4 +1,4 @@
-#include "tools/tetmesh/surface/surface_refine.hpp"
+#include "tools/tetmesh/surface/remesh_steps.hpp"
 
 #include <queue>
 

@@ -15,11 +15,9 @@
 #include "tools/tetmesh/sizing/sizing.hpp"
 #include "tools/tetmesh/surface/crest_lines.hpp"
 #include "tools/tetmesh/surface/curve_rows.hpp"
-#include "tools/tetmesh/surface/point_insertion.hpp"
+#include "tools/tetmesh/surface/remesh_steps.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
 #include "tools/tetmesh/surface/surface_front.hpp"
-#include "tools/tetmesh/surface/surface_refine.hpp"
-#include "tools/tetmesh/surface/vertex_removal.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {
@@ -182,7 +180,7 @@ solid::Surface SurfaceRemesher::Work::surface_of(const FeatureMesh& mesh) const 
   formats::SurfaceSoup soup;
   soup.text = surface_.text;
   soup.name = surface_.name;
-  std::vector<Vertex> number(mesh.n_vertices(), geometry::none);  // by place: sheets are joined again
+  std::vector<Vertex> number(mesh.n_vertices(), no_index);  // by place: sheets are joined again
   for (const auto v : mesh.vertices()) {
     Vertex& known = number[mesh.place(v)];
     if (known >= 0) continue;
@@ -288,7 +286,7 @@ void SurfaceRemesher::Work::keep_nearest(const std::vector<Vec3>& places, const 
   for (const Vec3& place : places) {
     const double here = reach.at(place), size = size_.at(place);
     if (has_within(fresh, place, here)) continue;
-    std::int32_t nearest = geometry::none;
+    std::int32_t nearest = no_index;
     double least = size * size;
     removable.for_each_near(place, size, 0, [&](std::int32_t i) {
       const double distance = norm_squared(removable.points()[i] - place);
@@ -298,7 +296,7 @@ void SurfaceRemesher::Work::keep_nearest(const std::vector<Vec3>& places, const 
       }
       return true;
     });
-    if (nearest == geometry::none) continue;
+    if (nearest == no_index) continue;
     prepared_.keep(handles[nearest]);
     fresh.add(prepared_.position(handles[nearest]), reach.greatest());
   }

@@ -57,4 +57,9 @@ class SurfaceRemesher {
 // Whether the sizes ask for more points than memory holds. Then no surface is made.
 bool asks_for_too_many_points(const solid::Surface& surface, const sizing::SizeField& size);
 
+// For surfaces whose triangles cannot be made anew: cuts triangles until none is much larger than the size.
+// Cuts the longest edge in its middle, with all of its triangles, until no edge is longer than one and a half sizes.
+// The surface and its points stay where they are. Triangles of a sheet stay together.
+solid::Surface split_long_edges(const solid::Surface& surface, const sizing::SizeField& size);
+
 }  // namespace hexpipe::tetmesh::surface

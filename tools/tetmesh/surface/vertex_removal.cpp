@@ -3,7 +3,7 @@
 // Liebich, Straßer 1996). Edges where sheets meet come first, then regions, at the same time, then the places where
 // regions meet. The regions do not depend on the number of threads.
 
-#include "tools/tetmesh/surface/vertex_removal.hpp"
+#include "tools/tetmesh/surface/remesh_steps.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -128,7 +128,7 @@ class VertexRemover {
 
   FeatureMesh& mesh_;
   const DistanceIndex& original_;
-  std::int32_t nearest_ = geometry::none;  // the triangle of the original that was measured last
+  std::int32_t nearest_ = no_index;  // the triangle of the original that was measured last
   const sizing::SizeField& deviation_;
   Strays& strays_;
   const MeshRegions* regions_ = nullptr;  // null: everywhere

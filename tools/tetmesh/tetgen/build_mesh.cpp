@@ -125,7 +125,7 @@ void RegionFinder::spread() {
     for (int facet = 0; facet < 4; ++facet) {
       if (on_surface_[t][facet]) continue;
       const std::int32_t beyond = adjacency_.tet_beyond(t, facet);
-      if (beyond != TetAdjacency::none) {
+      if (beyond != no_index) {
         place(beyond, regions_[t]);
       } else if (regions_[t] != solid::outside_region) {
         throw failure_at(surface_.name, "its tets leave a gap behind the surface");

@@ -1,4 +1,4 @@
-// A line goes from tet to tet through the triangles that it pierces. What rows around a tet add up to is the same
+// A line goes from tet to tet through the triangles that it pierces. The sum of the rows around a tet is the same
 // through all of its facets, as that of its edges is, so that lines end at the surface and at singularities only.
 
 #include "tools/tetmesh/volume/dislocations.hpp"
@@ -67,7 +67,7 @@ class LineTracer {
         counter_(links, coordinates),
         mesh_(mesh),
         adjacency_(adjacency),
-        stop_of_tet_(mesh.tets.size(), none) {}
+        stop_of_tet_(mesh.tets.size(), no_index) {}
 
   Dislocations trace() {
     find_pierced();
@@ -77,9 +77,8 @@ class LineTracer {
   }
 
  private:
-  static constexpr std::int32_t none = -1;
   struct Pierced {
-    std::int32_t tet, beyond;  // none: outside
+    std::int32_t tet, beyond;  // no_index: outside
     Triangle corners;
     std::int32_t ends;
   };
@@ -132,7 +131,7 @@ void LineTracer::count_in(std::int32_t tet, TetRows& rows) const {
     const Triangle corners = corners_of(tet, facet);
     const auto ends = counter_.ends_in(corners);
     singular = singular || !ends;
-    if (ends && *ends > 0 && (beyond == TetAdjacency::none || tet < beyond))
+    if (ends && *ends > 0 && (beyond == no_index || tet < beyond))
       rows.pierced.push_back({tet, beyond, corners, *ends});
   }
   if (singular) rows.singular.push_back(tet);
@@ -154,7 +153,7 @@ void LineTracer::find_pierced() {
 }
 
 std::int32_t LineTracer::stop_in(std::int32_t tet) {
-  if (stop_of_tet_[tet] == none) {
+  if (stop_of_tet_[tet] == no_index) {
     Vec3 sum;
     for (const Vertex v : mesh_.tets[tet]) sum += mesh_.points[v];
     stop_of_tet_[tet] = static_cast<std::int32_t>(stops_.size());
@@ -168,7 +167,7 @@ void LineTracer::add_step(const Pierced& pierced) {
   const auto& sizes = links_.nodes().sizes;
   const std::int32_t from = stop_in(pierced.tet);
   std::int32_t to = 0;
-  if (pierced.beyond == TetAdjacency::none) {
+  if (pierced.beyond == no_index) {
     to = static_cast<std::int32_t>(stops_.size());
     stops_.push_back({(mesh_.points[a] + mesh_.points[b] + mesh_.points[c]) * (1.0 / 3), true, false});
   } else {
@@ -212,7 +211,7 @@ Dislocations LineTracer::measure() {
     const Vec3 &from = stops_[step.from].place, &to = stops_[step.to].place;
     const double length = step.ends * norm(to - from) / step.size;
     const std::int32_t line = line_of(step.from);
-    result.pieces.push_back({from.x, from.y, from.z, to.x, to.y, to.z});
+    result.segments.push_back({from.x, from.y, from.z, to.x, to.y, to.z});
     result.length += length;
     if (at_singularity[line])
       result.at_singularities += length;

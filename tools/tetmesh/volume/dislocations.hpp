@@ -11,11 +11,11 @@
 
 namespace hexpipe::tetmesh::volume {
 
-using LinePieces = std::vector<std::array<double, 6>>;  // both ends of each piece
+using LineSegments = std::vector<std::array<double, 6>>;  // both ends of each segment
 
 // Lengths are in sizes, and count a line as many times as rows end along it.
 struct Dislocations {
-  LinePieces pieces;
+  LineSegments segments;
   double length = 0;
   double at_singularities = 0;   // of lines that end at a singularity of the frames, at one end at least
   double closed = 0;             // of lines that end nowhere

@@ -1,7 +1,7 @@
 // Halves boxes across their longest side until a box is at most three sizes wide, or lies on one side of the surface
 // with nearly the same size everywhere. Then its centre tells what is in it.
 
-#include "tools/tetmesh/volume/expected_points.hpp"
+#include "tools/tetmesh/volume/estimates.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // owns the lattice point at its lowest corner, so a point of a finer lattice is met only once, in the cell that was
 // made for it.
 
-#include "tools/tetmesh/volume/graded_lattice.hpp"
+#include "tools/tetmesh/volume/lattice.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tools/tetmesh/volume/hex_estimate.hpp"
+#include "tools/tetmesh/volume/estimates.hpp"
 
 #include <tsl/robin_map.h>
 
@@ -23,7 +23,6 @@ constexpr double greatest_cosine = 0.7;  // between edges of a corner
 constexpr double furthest_corner =
     0.7;  // of a corner from its place in a parallelepiped, in lengths of the longest edge
 constexpr double volume_tolerance = 0.9;  // of the volume of the tets from that of the hex
-using geometry::none;
 
 constexpr std::array<unsigned, 6> quad_masks = [] {
   std::array<unsigned, 6> masks{};
@@ -74,7 +73,7 @@ bool HexSearch::is_square(const Vec3& a, const Vec3& b) const {
 
 // The vertex nearest to the place among those that are neighbours of all in `joined` and greater than `lowest`.
 Vertex HexSearch::nearest_common(std::span<const Vertex> joined, Vertex lowest, const Vec3& place, double reach) const {
-  Vertex nearest = none;
+  Vertex nearest = no_index;
   double least = reach * reach;
   const auto neighbours = adjacency_.neighbours_of(joined[0]);
   for (auto i = std::ranges::upper_bound(neighbours, lowest); i != neighbours.end(); ++i) {
@@ -101,7 +100,7 @@ void HexSearch::collect_sides(Vertex lowest) {
       if (!is_square(a, b)) continue;
       const double reach = furthest_corner * std::sqrt(std::max(norm_squared(a), norm_squared(b)));
       const Vertex opposite = nearest_common(std::array{edges_[i], edges_[j]}, lowest, origin + a + b, reach);
-      if (opposite != none) sides_.push_back({i, j, opposite});
+      if (opposite != no_index) sides_.push_back({i, j, opposite});
     }
 }
 
@@ -125,7 +124,7 @@ void HexSearch::complete(Vertex lowest, const Side& ab, const Side& ac, const Si
       furthest_corner * std::sqrt(std::max({norm_squared(along_a), norm_squared(along_b), norm_squared(along_c)}));
   const Vec3 place = point(to_a) + point(to_b) + point(to_c) - point(a) - point(b) - point(c) + point(lowest);
   const Vertex far = nearest_common(std::array{to_a, to_b, to_c}, lowest, place, reach);
-  if (far == none || far == a || far == b || far == c) return;
+  if (far == no_index || far == a || far == b || far == c) return;
   if (det(along_a, along_b, along_c) < 0) std::swap(a, b), std::swap(to_a, to_b);
   RoughHex hex{0, 0, {lowest, a, to_c, b, c, to_b, far, to_a}, {}};
   const std::array<Vec3, 8> corners = corner_points(mesh_.points, hex.corners);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/run/random.hpp"
+#include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 
 namespace hexpipe::tetmesh::volume {
@@ -45,5 +46,14 @@ inline Vec3 jitter_of(std::size_t number, double reach, std::uint64_t seed) {
 // The points are in the order of the lattice, x fastest. A point's jitter depends only on the seed and its place in the
 // lattice. Throws DataError when the bounding box holds too many lattice points.
 std::vector<Vec3> lattice_points(const solid::Surface& surface, const LatticeOptions& options);
+
+// Points on lattices within each other, each with half the steps of the one around it, where sizes differ by place.
+//
+// The same as lattice_points() where the size is the same everywhere. Otherwise `options.size` is the greatest size,
+// and fits the steps of the outermost lattice to the bounding box. A place has the points of the lattice whose steps
+// are 0.62 to 1.23 times its size, or 0.44 to 1.74 times along an axis where the model is thinner than the greatest
+// size. Throws DataError if more than `most_points` points are inside.
+std::vector<Vec3> graded_lattice_points(const solid::Surface& surface, const sizing::SizeField& size,
+                                        LatticeOptions options, double most_points);
 
 }  // namespace hexpipe::tetmesh::volume

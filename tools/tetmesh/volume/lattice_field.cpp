@@ -12,24 +12,28 @@
 namespace hexpipe::tetmesh::volume {
 namespace {
 
-// How strongly a surface point that is one of the lattice for certain holds it, against all its links. Shares of the
-// volume in hexes differ by 0.3 % from 2 to 20.
+// How strongly a surface point that is certainly a point of the lattice holds it, relative to all its links. Values
+// from 2 to 20 change the share of the volume in hexes by 0.3 %.
 constexpr double anchor_weight = 20;
-// Mean of cos(2 pi coordinate) over a surface point's neighbours from which it is held, growing up to 1; below, weakly.
+// A surface point holds the lattice if cos(2 pi coordinate), averaged over its neighbours, exceeds anchor_threshold:
+// the more, the stronger, up to full strength at 1. Below the threshold it holds it weakly.
 constexpr double anchor_threshold = 0.3, weakest_anchor = 0.05;
 // 15 sweeps lose 0.1 % of the volume in hexes, 60 and 150 gain nothing.
 constexpr int smoothing_sweeps = 30;
-// Stretched links along the surface count as a step up to the last, as none up to the first, in sizes.
+// A link along the surface is no step up to the first length, and one step from the second to the third, in sizes.
+// Between the first and the second it is not decided.
 constexpr double no_step = 0.2, least_step = 0.75, greatest_step = 1.7;
-// In the volumes of blub, spot and mambo-m1, with their surfaces as before, 84.9 % of the volume in hexes without, 86.6
-// at a stiffness of 0.05, 86.8 at 0.01.
+// Hexes fill 84.9 % of the volume of blub, spot and mambo-m1 without this correction, 86.6 % with a stiffness of 0.05,
+// 86.8 % with 0.01, their surfaces being the same.
 constexpr fields::CurlLimits curl_limits{.stiffness = 0.01f, .most_iterations = 40, .tolerance = 1e-2};
-constexpr double most_strain = 0.45;  // of its length, what a distance may gain or lose
-// Between a normal and what lies along it.
+constexpr double most_strain = 0.45;  // the largest change of a distance, relative to the link's length
+// A direction is along a normal if the cosine between them is larger than this.
 constexpr double normal_cosine = 0.9;
-// How strongly the step to the next point of the lattice keeps to the frame, against what all links say.
+// How strongly the step to the next point of the lattice keeps to the frame, relative to all links.
 constexpr double rigidity = 0.1;
-constexpr double least_determinant = 0.2;  // of the cells a step in each direction, below which frames are taken
+// Where the coordinates' gradients have a smaller determinant, in lattice cells per cube of the size, steps follow the
+// frame.
+constexpr double least_determinant = 0.2;
 
 using Phases = std::array<fields::Complex, 3>;
 
@@ -79,9 +83,9 @@ class LatticeSolver {
   const FieldNodes& nodes_;
   const std::vector<fields::Frame>& frames_;
   LatticeLinks links_;
-  std::vector<std::int32_t> pair_numbers_;  // of each link to a later node, among these
-  std::vector<double> degree_;
-  std::vector<std::array<double, 3>> anchors_;  // weight of the number 1: the node is a point of the lattice
+  std::vector<std::int32_t> pair_numbers_;      // of each link to a later node: its number among such links
+  std::vector<double> degree_;                  // of each node: the sum of the weights of its links
+  std::vector<std::array<double, 3>> anchors_;  // how strongly each number is held at 1, as at a point of the lattice
   std::vector<Phases> phases_;
 };
 
@@ -90,7 +94,7 @@ void LatticeSolver::measure_degree(std::size_t i) {
   degree_[i] = std::max(degree_[i], 1e-9);
 }
 
-// Distances that add up around triangles, as far as frames do.
+// Changes distances so that they add up to zero around triangles of links around which the frames agree.
 void LatticeSolver::correct_curl() {
   std::vector<float> distances;
   pair_numbers_.resize(links_.size());
@@ -131,7 +135,7 @@ fields::Loops LatticeSolver::triangles() const {
   return loops;
 }
 
-// Along each axis of the first node, unless the frames say at the end that it is another one.
+// One loop for each axis of the first node, unless the axis comes back as another one.
 void LatticeSolver::add_loops(const LinkTriangle& triangle, fields::Loops& loops) const {
   if (!links_.is_regular(triangle)) return;
   const LatticeLink& to_second = links_[triangle.to_second];
@@ -143,8 +147,7 @@ void LatticeSolver::add_loops(const LinkTriangle& triangle, fields::Loops& loops
   }
 }
 
-// Between points of the surface, which are points of the lattice, are whole numbers of steps: one along it, and through
-// the part as many as go across it.
+// Points of the surface are points of the lattice, so whole numbers of steps lie between them (steps_on_surface).
 void LatticeSolver::add_steps_on_surface(fields::Loops& loops) const {
   links_.for_each_pair([&](std::int32_t i, std::int64_t ij) {
     const LatticeLink& t = links_[ij];
@@ -159,8 +162,8 @@ void LatticeSolver::add_steps_on_surface(fields::Loops& loops) const {
   });
 }
 
-// A surface point is one of the lattice as far as its neighbours on the surface are, seen from it; along its normal in
-// any case.
+// Anchors a surface point along each axis as strongly as its neighbours on the surface agree that it is a point of the
+// lattice, and fully along its normal, where every point of the surface is one.
 void LatticeSolver::make_anchors(std::size_t i) {
   std::array<double, 3> sum{};
   double count = 0;
@@ -202,7 +205,7 @@ void LatticeSolver::sweep() {
       [&](std::size_t i, std::size_t k) { return anchors_[i][k]; });
 }
 
-// By least squares over the distances to the neighbours, which are those of the frame no longer.
+// The least-squares solution over the distances to the neighbours, which correct_curl has changed.
 std::array<Vec3, 3> LatticeSolver::steps_of(std::size_t i) const {
   const double hold = rigidity * degree_[i];
   Eigen::Matrix3d moments = hold * Eigen::Matrix3d::Identity(), right;

@@ -1,12 +1,12 @@
 #pragma once
-// Where the points of a lattice lie that follows a frame field: at every node its own place in the cell of the lattice
-// that is around it. The lattice passes through the points of the surface and bends between them.
+// A lattice that follows a frame field, given by its coordinates at every node: where the node lies in the lattice cell
+// around it. The lattice passes through the points of the surface and bends between them.
 //
 // This is the periodic parametrization of N. Ray, W. C. Li, B. Lévy, A. Sheffer, P. Alliez (2006), in space as in
-// D. Sokolov, N. Ray, L. Untereiner, B. Lévy: Hexahedral-Dominant Meshing (2016): a complex number of modulus 1 an
-// axis, whose argument is the coordinate in the lattice times 2 pi. Seen from a neighbour it turns by the distance
-// along the axis. The linear problem comes first, without the modulus; then each number is set to the mean of its
-// neighbours' views of it, over and over. Deviates in that the surface's points are known and attract the lattice.
+// D. Sokolov, N. Ray, L. Untereiner, B. Lévy: Hexahedral-Dominant Meshing (2016). Each node has a complex number of
+// modulus 1 for each axis; its argument is the coordinate in the lattice times 2 pi. Seen from a neighbour, it turns by
+// the distance along the axis. The linear problem, without the modulus, is solved first; then sweeps set each number to
+// the mean of its neighbours' views of it. Unlike the papers, the surface's points are known here and hold the lattice.
 
 #include <array>
 #include <optional>
@@ -17,21 +17,22 @@
 namespace hexpipe::tetmesh::volume {
 
 struct LatticeField {
-  LatticeLinks links;  // of the nodes, with the distances that the lattice has
-  // Of each node, along each axis of its frame: from -1/2 to 1/2 cells from a point of the lattice.
+  LatticeLinks links;  // between nodes, with their distances in the lattice
+  // For each node and each axis of its frame, the distance from a point of the lattice in cells, from -1/2 to 1/2.
   std::vector<std::array<double, 3>> coordinates;
-  // From one point of the lattice to the next along each axis, in sizes.
+  // For each node, the step from one point of the lattice to the next along each axis, in sizes.
   std::vector<std::array<Vec3, 3>> steps;
-  // How far the neighbours agree with that, from 0 to 1, on the axis where they do least.
+  // For each node, how well its neighbours agree with its coordinates, from 0 to 1, on the worst of the three axes.
   std::vector<double> agreement;
 };
 
-// Of a lattice that passes through the surface, the steps from one of its points to another along an axis of the first
-// one's frame, `length` sizes: as many as go across the part where they lie on sides that face each other along the
-// axis, else one along the surface, or none. Nothing where rows would have to stretch too much.
+// The number of steps of the lattice between two linked points of the surface that are `length` sizes apart along
+// `axis`, an axis of the first one's frame. Both points are points of the lattice, so it is a whole number: across the
+// model, where they lie on sides that face each other along the axis, as many as there are layers; otherwise one or
+// none. No number where rows would have to stretch too much.
 std::optional<int> steps_on_surface(const Vec3& axis, const Vec3& normal, const Vec3& other_normal, double length);
 
-// The cells of the lattice are as wide as the sizes of the nodes.
+// Solves for a lattice whose cells are as wide as the sizes of the nodes.
 LatticeField solve_lattice_field(const FieldNodes& nodes, const std::vector<fields::Frame>& frames);
 
 }  // namespace hexpipe::tetmesh::volume

@@ -32,7 +32,7 @@ class LatticeLinks {
   const LatticeLink& operator[](std::int64_t link) const { return links_[link]; }
   std::size_t size() const { return links_.size(); }
 
-  // -1 where there is none.
+  // The number of the link, or no_index.
   std::int64_t between(std::int32_t from, std::int32_t to) const;
   // Calls body(node, number of its link) for the links that lead to a later node, of all nodes or of one.
   template <class Body>

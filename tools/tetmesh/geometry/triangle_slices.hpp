@@ -1,5 +1,5 @@
 #pragma once
-// Boxes of the pieces of a triangle, for a grid or a tree.
+// Boxes of the slices of a triangle, for a grid or a tree.
 //
 // A long narrow triangle that does not lie along the axes has a box much larger than itself, which overlaps the boxes
 // of all its neighbours. Cut across its longest side, the triangle has small boxes that lie along it.
@@ -18,11 +18,11 @@
 
 namespace hexpipe::tetmesh::geometry {
 
-class TrianglePieces {
+class TriangleSlices {
  public:
-  // Makes pieces about as long as `length`, which may be 0; one piece where the triangle's box is hardly larger than
+  // Makes slices about as long as `length`, which may be 0; one slice where the triangle's box is hardly larger than
   // the triangle.
-  TrianglePieces(const Vec3& a, const Vec3& b, const Vec3& c, double length)
+  TriangleSlices(const Vec3& a, const Vec3& b, const Vec3& c, double length)
       : box_(Box::around(std::array{a, b, c})), a_(a), b_(b), c_(c) {
     const Vec3 extent = box_.high - box_.low;
     const double sides = extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
@@ -43,8 +43,8 @@ class TrianglePieces {
     const Vec3 along = b_ - a_;
     const double apex = std::clamp(dot(c_ - a_, along) / norm_squared(along), 0.0, 1.0);
     std::array before{a_, a_};
-    for (int piece = 1; piece <= count_; ++piece) {
-      const double from = static_cast<double>(piece - 1) / count_, to = static_cast<double>(piece) / count_;
+    for (int slice = 1; slice <= count_; ++slice) {
+      const double from = static_cast<double>(slice - 1) / count_, to = static_cast<double>(slice) / count_;
       const std::array after{a_ + to * along, beyond(to, apex)};
       Box box = Box::around(std::array{before[0], before[1], after[0], after[1]});
       if (from <= apex && apex <= to) box.add({c_, c_});
@@ -53,8 +53,8 @@ class TrianglePieces {
     }
   }
 
-  // Calls visit(cell) once for each cell of a grid that the pieces may reach, in ascending order if there are several
-  // pieces. cells_in(box, take) calls take(cell) for the cells that a box reaches.
+  // Calls visit(cell) once for each cell of a grid that the slices may reach, in ascending order if there are several
+  // slices. cells_in(box, take) calls take(cell) for the cells that a box reaches.
   template <class CellsIn, class Visit>
   void for_each_cell(CellsIn&& cells_in, Visit&& visit) const {
     if (count_ == 1) return cells_in(box_, std::forward<Visit>(visit));
@@ -69,7 +69,7 @@ class TrianglePieces {
   // A triangle stays whole where half the surface of its box is at most this many times twice the triangle's area. That
   // ratio is at most 1.5 for triangles along the axes, and about 2 for most others.
   static constexpr double most_sides = 8;
-  // Fewer pieces gain nothing. More pieces only help single slivers that are thinner than all other triangles.
+  // Fewer slices gain nothing. More slices only help single slivers that are thinner than all other triangles.
   static constexpr int least_count = 3, most_count = 1024;
 
   void turn_longest_side_first() {
@@ -84,14 +84,14 @@ class TrianglePieces {
   Vec3 beyond(double at, double apex) const {
     return at < apex ? a_ + (at / apex) * (c_ - a_) : c_ + ((at - apex) / std::max(1 - apex, least)) * (b_ - c_);
   }
-  // Corners of pieces are rounded by less than this.
-  Box within(const Box& piece) const {
+  // Corners of slices are rounded by less than this.
+  Box within(const Box& slice) const {
     double greatest = 0;
     for (int axis = 0; axis < 3; ++axis)
       greatest = std::max({greatest, std::abs(box_.low[axis]), std::abs(box_.high[axis])});
     const double room = 16 * std::numeric_limits<double>::epsilon() * greatest;
-    const auto low = [&](int axis) { return std::max(piece.low[axis] - room, box_.low[axis]); };
-    const auto high = [&](int axis) { return std::min(piece.high[axis] + room, box_.high[axis]); };
+    const auto low = [&](int axis) { return std::max(slice.low[axis] - room, box_.low[axis]); };
+    const auto high = [&](int axis) { return std::min(slice.high[axis] + room, box_.high[axis]); };
     return {{low(0), low(1), low(2)}, {high(0), high(1), high(2)}};
   }
 
@@ -101,8 +101,8 @@ class TrianglePieces {
   int count_ = 1;
 };
 
-// The length for trees and similar structures, where each piece costs memory: the side of a square of twice the mean
-// area, but long enough that a triangle has at most 64 pieces on average.
-double length_of_pieces(std::span<const Vec3> points, std::span<const Triangle> triangles);
+// The length for trees and similar structures, where each slice costs memory: the side of a square of twice the mean
+// area, but long enough that a triangle has at most 64 slices on average.
+double length_of_slices(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
 }  // namespace hexpipe::tetmesh::geometry

@@ -1,11 +1,24 @@
 #pragma once
-// Takes the removable vertices out of a surface mesh, by collapses and flips that keep it near to where it was.
+// The steps in which a surface's triangles are made anew: they are prepared for a field, points become vertices, and
+// the old vertices go.
+
+#include <span>
 
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
+#include "tools/tetmesh/surface/field_walk.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
 
 namespace hexpipe::tetmesh::surface {
+
+// Flips edges towards Delaunay triangles where the surface bends by less than `flatness`. Then halves edges, the
+// longest first, until none is longer than `longest`. New vertices are removable.
+void refine_surface(FeatureMesh& mesh, const sizing::SizeField& longest, const sizing::SizeField& flatness);
+
+// The points name the faces of the mesh as it is now. Each point becomes a kept vertex. A point within `snap` of a
+// vertex or of an edge makes no new vertex next to it: where the surface is flat, the vertex moves to the point;
+// elsewhere the vertex stays, and stands for the point.
+void insert_points(FeatureMesh& mesh, std::span<const SurfacePoint> points, const sizing::SizeField& snap);
 
 // The mesh is changed in regions of about this many vertices at the same time. With half as many, more vertices are
 // left for where regions meet.

@@ -1,5 +1,6 @@
 #pragma once
-// How a cross field continues along a feature curve, past one of the curve's vertices.
+// How a cross field leads on from a feature: along its curve, past one of the curve's vertices, and straight across the
+// surface to the next feature, where that is near.
 
 #include <optional>
 #include <vector>
@@ -21,5 +22,17 @@ struct FeatureFan {
 
 // The fan at the start of a half-edge of a feature; nothing if the field turns on the way to the next half-edge.
 std::optional<FeatureFan> feature_fan(const SurfaceLinks& links, geometry::HalfEdge first);
+
+// A way from the middle of a half-edge of a feature. Lengths are in sizes.
+struct NarrowStrip {
+  std::vector<fields::LoopStep> across;  // from the first triangle to the last
+  // from the first feature to the centre of the first triangle, and from the centre of the last triangle to the other
+  // feature
+  double before, after;
+  double width;
+};
+
+// Nothing if the way meets no feature within `widest`, or one that is not at right angles to it like the first.
+std::optional<NarrowStrip> narrow_strip(const SurfaceLinks& links, geometry::HalfEdge from, double widest);
 
 }  // namespace hexpipe::tetmesh::surface

@@ -1,4 +1,4 @@
-#include "tools/tetmesh/geometry/triangle_pieces.hpp"
+#include "tools/tetmesh/geometry/triangle_slices.hpp"
 
 #include <gtest/gtest.h>
 
@@ -48,16 +48,16 @@ SurfaceSoup leaning_cylinder(int sides) {
   return soup;
 }
 
-TEST(TrianglePieces, OnlyNeedlesOffTheAxesAreCut) {
-  EXPECT_EQ(TrianglePieces({0, 0, 0}, {100, 100, 100}, {100, 101, 100}, 1).count(), 173);
-  EXPECT_EQ(TrianglePieces({0, 0, 0}, {100, 0, 0}, {100, 0.1, 0}, 1).count(), 1);
-  EXPECT_EQ(TrianglePieces({0, 0, 0}, {100, 100, 0}, {0, 100, 50}, 1).count(), 1);
-  EXPECT_EQ(TrianglePieces({0, 0, 0}, {100, 100, 100}, {100, 101, 100}, 100).count(), 1);
-  EXPECT_LE(TrianglePieces({0, 0, 0}, {100, 100, 100}, {50, 50, 50}, 0).count(), 1024);
-  EXPECT_EQ(TrianglePieces({1, 2, 3}, {1, 2, 3}, {1, 2, 3}, 0).count(), 1);
+TEST(TriangleSlices, OnlyNeedlesOffTheAxesAreCut) {
+  EXPECT_EQ(TriangleSlices({0, 0, 0}, {100, 100, 100}, {100, 101, 100}, 1).count(), 173);
+  EXPECT_EQ(TriangleSlices({0, 0, 0}, {100, 0, 0}, {100, 0.1, 0}, 1).count(), 1);
+  EXPECT_EQ(TriangleSlices({0, 0, 0}, {100, 100, 0}, {0, 100, 50}, 1).count(), 1);
+  EXPECT_EQ(TriangleSlices({0, 0, 0}, {100, 100, 100}, {100, 101, 100}, 100).count(), 1);
+  EXPECT_LE(TriangleSlices({0, 0, 0}, {100, 100, 100}, {50, 50, 50}, 0).count(), 1024);
+  EXPECT_EQ(TriangleSlices({1, 2, 3}, {1, 2, 3}, {1, 2, 3}, 0).count(), 1);
 }
 
-TEST(TrianglePieces, CoverTheTriangleAndLieInItsBox) {
+TEST(TriangleSlices, CoverTheTriangleAndLieInItsBox) {
   Random random(3);
   int cut = 0;
   for (int i = 0; i < 200; ++i) {
@@ -65,12 +65,12 @@ TEST(TrianglePieces, CoverTheTriangleAndLieInItsBox) {
     corners[2] = corners[0] + random.uniform(0, 1) * (corners[1] - corners[0]) + place_in_cube(random, 1);
     std::ranges::rotate(corners, corners.begin() + i % 3);
     const auto& [a, b, c] = corners;
-    const TrianglePieces pieces(a, b, c, 5);
-    cut += pieces.count() > 1;
+    const TriangleSlices slices(a, b, c, 5);
+    cut += slices.count() > 1;
     std::vector<Box> boxes;
-    pieces.for_each_box([&](const Box& box) { boxes.push_back(box); });
-    EXPECT_EQ(boxes.size(), static_cast<std::size_t>(pieces.count()));
-    for (const Box& box : boxes) EXPECT_TRUE(is_in(pieces.box(), box.low) && is_in(pieces.box(), box.high));
+    slices.for_each_box([&](const Box& box) { boxes.push_back(box); });
+    EXPECT_EQ(boxes.size(), static_cast<std::size_t>(slices.count()));
+    for (const Box& box : boxes) EXPECT_TRUE(is_in(slices.box(), box.low) && is_in(slices.box(), box.high));
     for (int sample = 0; sample < 300; ++sample) {
       const Vec3 p = sample < 3 ? corners[sample] : amid(a, b, c, random);
       EXPECT_TRUE(std::ranges::any_of(boxes, [&](const Box& box) { return is_in(box, p); }));
@@ -79,7 +79,7 @@ TEST(TrianglePieces, CoverTheTriangleAndLieInItsBox) {
   EXPECT_GT(cut, 100);
 }
 
-TEST(TrianglePieces, IndicesAndTreesOfNeedlesFindWhatIsThere) {
+TEST(TriangleSlices, IndicesAndTreesOfNeedlesFindWhatIsThere) {
   const SurfaceSoup soup = leaning_cylinder(200);
   const DistanceIndex index(soup.points, soup.triangles);
   const ColumnIndex columns(soup.points, soup.triangles);

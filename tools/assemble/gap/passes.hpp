@@ -1,0 +1,44 @@
+#pragma once
+// The passes over the cells between the hexes. Each makes changes while the objective falls (objective.hpp). The cells
+// of `gap` have to be valid, and stay so.
+
+#include <cstdint>
+
+#include "tools/assemble/gap/gap_mesh.hpp"
+#include "tools/assemble/hybrid/surface_tags.hpp"
+#include "tools/assemble/shape/input_surface.hpp"
+
+namespace hexpipe::assemble::gap {
+
+// Merges vertices that no hex uses into neighbours, the pair that lowers the objective most first. No cell comes to
+// less than least_quality where none around it did. Returns the number of vertices that are gone.
+std::int64_t merge_vertices(GapMesh& gap);
+
+// Merges vertices on the surface that no chosen cell uses into neighbours along it: a vertex within a smooth part of
+// the surface into any neighbour on it, one on a curve into the next on the curve. The surface stays as near to the
+// input's as most_deviation_at() says. Corners stay, and vertices where more than one sheet ends. `tags`, those of
+// `gap`, follow. Returns the number of vertices that are gone.
+std::int64_t merge_on_surface(GapMesh& gap, hybrid::SurfaceTags& tags, const shape::InputSurface& surface);
+
+// Merges two vertices that no hex uses at the place where the worst cell around it is best, so that pyramids share
+// their apexes. The two have a cell in common, or cells on both sides of a facet. The pair that lowers the objective
+// most goes first. With `neighbours_yield`, vertices inside around the two move, too, those of chosen cells among them
+// (patch.hpp). Returns the number of vertices that are gone.
+std::int64_t merge_stars(GapMesh& gap, bool neighbours_yield = false);
+
+struct RefillCounts {
+  std::int64_t vertices = 0;  // that are gone: the cells around them were filled anew
+  std::int64_t edges = 0;     // whose cells were filled anew
+  std::int64_t poor = 0;      // cells below least_quality that became better with those around them
+};
+
+// Fills small rooms anew (refill.hpp): the cells around a free vertex, those around an edge, and those around a poor
+// cell.
+RefillCounts refill_rooms(GapMesh& gap);
+
+// The last pass, when vertices have found their places: cells below least_quality, and cells with a face that costs
+// something. It fills the room around them anew, moves vertices of theirs that are inside, or raises the worst cells at
+// the vertices of a cell below least_quality together. Returns the number of changes.
+std::int64_t mend(GapMesh& gap);
+
+}  // namespace hexpipe::assemble::gap
