@@ -4,6 +4,15 @@
 get_filename_component(tool "${TOOL}" NAME)
 execute_process(COMMAND "${TOOL}" --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
 
+# The formats depend on what the tool writes: its message about one that is not there lists them.
+set(formats "")
+if(help MATCHES "\n  --format ")
+  execute_process(COMMAND "${TOOL}" --format "?" INPUT_FILE /dev/null ERROR_VARIABLE message OUTPUT_QUIET)
+  if(message MATCHES " as (.*) or (tar, tar.zst), found ")
+    string(REPLACE "," "" formats "${CMAKE_MATCH_1} ${CMAKE_MATCH_2}")
+  endif()
+endif()
+
 # Brackets and semicolons mean something in lists; what is between them is kept by other signs.
 string(REPLACE ";" "," help "${help}")
 string(REPLACE "[" "(" help "${help}")
@@ -13,6 +22,7 @@ string(REGEX REPLACE "\n                            +" " " help "${help}")
 string(REPLACE "\n" ";" lines "${help}")
 
 set(words "")
+set(functions "")
 set(cases "")
 set(arguments "")
 foreach(line IN LISTS lines)
@@ -42,8 +52,28 @@ foreach(line IN LISTS lines)
     set(pattern "${long}")
   endif()
 
+  set(choices "")
   if(type MATCHES "{([^}]*)}")
     string(REPLACE "," " " choices "${CMAKE_MATCH_1}")
+  elseif(long STREQUAL "--format")
+    set(choices "${formats}")
+  endif()
+  if(choices AND type MATCHES "[|]FILE")
+    string(APPEND cases "    ${pattern}) COMPREPLY=(\$(compgen -W \"${choices}\" -f -- \"\$current\")); return ;;\n")
+    string(MAKE_C_IDENTIFIER "_hexpipe_${tool}${long}" function)
+    string(APPEND functions "${function}() {
+  _alternative 'values:value:(${choices})' 'files:file:_files'
+}
+")
+    string(APPEND spec ":value or file:${function}")
+  elseif(choices AND text MATCHES "separated by commas")
+    # The values before the last comma stay.
+    string(APPEND cases "    ${pattern})
+      local before=''
+      if [[ \$current == *,* ]]; then before=\${current%,*},; fi
+      COMPREPLY=(\$(compgen -P \"\$before\" -W \"${choices}\" -- \"\${current##*,}\")); return ;;\n")
+    string(APPEND spec ":values:_values -s , value ${choices}")
+  elseif(choices)
     string(APPEND cases "    ${pattern}) COMPREPLY=(\$(compgen -W \"${choices}\" -- \"\$current\")); return ;;\n")
     string(APPEND spec ":value:(${choices})")
   elseif(type MATCHES "^FILE|[|]FILE")
@@ -78,6 +108,6 @@ complete -o filenames -F _hexpipe_${tool} ${tool}
 ")
 file(WRITE "${ZSH}" "#compdef ${tool}
 # Completion of ${tool}'s options; made from its --help.
-_arguments -s \\
+${functions}_arguments -s \\
 ${arguments}  '*:file:_files'
 ")

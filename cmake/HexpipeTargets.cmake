@@ -52,6 +52,34 @@ function(hexpipe_not_in_unity)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
+# hexpipe_copyright(COMPONENT): the file that Debian expects in each package, made of LICENSE.
+function(hexpipe_copyright component)
+  file(READ "${PROJECT_SOURCE_DIR}/LICENSE" license)
+  string(REGEX MATCH "Copyright \\(c\\) ([^\n]*)\n\n(.*)\n\n-----*\n\n(.*)" matched "${license}")
+  set(holders "${CMAKE_MATCH_1}")
+  set(terms "${CMAKE_MATCH_2}")
+  set(notes "${CMAKE_MATCH_3}")
+  foreach(text terms notes)
+    string(STRIP "${${text}}" ${text})
+    string(REPLACE "\n\n" "\n.\n" ${text} "${${text}}")
+    string(REPLACE "\n" "\n " ${text} "${${text}}")
+  endforeach()
+  set(page "${CMAKE_BINARY_DIR}/copyright/${component}")
+  file(WRITE "${page}" "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
+Upstream-Name: hexpipe
+
+Files: *
+Copyright: ${holders}
+License: Expat
+Comment:
+ ${notes}
+
+License: Expat
+ ${terms}
+")
+  install(FILES "${page}" RENAME copyright COMPONENT ${component} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${component})
+endfunction()
+
 # hexpipe_tool(NAME [COMPONENT PACKAGE] [SOURCES...] [LINK LIBS...]): library NAME_core with the algorithms, executable
 # NAME from main.cpp, installed with the others or as a package of its own.
 # Without sources main.cpp is all of the tool.
@@ -69,6 +97,7 @@ function(hexpipe_tool name)
     # What is given out apart has its licences with it.
     install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/THIRD-PARTY.md" COMPONENT ${arg_COMPONENT}
       DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${arg_COMPONENT})
+    hexpipe_copyright(${arg_COMPONENT})
   else()
     set(arg_COMPONENT hexpipe)
   endif()

@@ -2,7 +2,7 @@
 
 load helpers
 
-TOOLS="merge-parts findhex buildgraph initsol lns certify assemble"
+TOOLS="hexpipe merge-parts findhex buildgraph initsol lns certify assemble"
 for optional in tessellate tetmesh mesh-part lns-mpi viewmesh; do
   if [[ -x "$HEXPIPE_BIN/$optional" ]]; then TOOLS="$TOOLS $optional"; fi
 done
@@ -28,6 +28,10 @@ completions() {
 
 @test "bash completes values and files" {
   assert_equal "$(completions findhex --cells p | tr '\n' ' ')" "prism pyramid "
+  assert_equal "$(completions findhex --cells hex,py)" hex,pyramid
+  assert_equal "$(completions findhex --format c)" cand
+  assert_equal "$(completions assemble --format tar | tr '\n' ' ')" "tar tar.zst "
+  assert_equal "$(completions assemble --solver ca)" calculix
   touch part.mesh
   assert_equal "$(completions findhex --mesh pa)" part.mesh
   assert_equal "$(completions findhex pa)" part.mesh
@@ -38,13 +42,31 @@ completions() {
     # [N]: a number, or the surface or the next option.
     assert_equal "$(completions tetmesh --layers pa)" part.mesh
     assert_equal "$(completions tetmesh --layers --gr)" --grading
-    # KIND|FILE
+    # Words or a file.
     assert_equal "$(completions tetmesh --points pa)" part.mesh
+    assert_equal "$(completions tetmesh --points fr)" frame
+    assert_equal "$(completions tetmesh --surface k)" keep
+  fi
+  if [[ -x "$HEXPIPE_BIN/viewmesh" ]]; then
+    assert_equal "$(completions viewmesh --show so)" solution
   fi
   if [[ -x "$HEXPIPE_BIN/mesh-part" ]]; then
     mkdir parts
     assert_equal "$(completions mesh-part --output pa)" parts
     grep -q -- "--output.*:directory:_files -/" "$MANUAL/zsh/_mesh-part"
+  fi
+}
+
+@test "zsh completes values" {
+  grep -q -- "--format.*:value:(cand tar tar.zst)" "$MANUAL/zsh/_findhex"
+  grep -q -- "--cells.*:values:_values -s , value hex prism pyramid" "$MANUAL/zsh/_findhex"
+  if [[ -x "$HEXPIPE_BIN/tetmesh" ]]; then
+    grep -q -- "--surface.*:value:(keep remesh)" "$MANUAL/zsh/_tetmesh"
+    grep -q -- "--points.*:_hexpipe_tetmesh__points'" "$MANUAL/zsh/_tetmesh"
+    grep -q "_alternative 'values:value:(best frame lattice none)' 'files:file:_files'" "$MANUAL/zsh/_tetmesh"
+  fi
+  if [[ -x "$HEXPIPE_BIN/viewmesh" ]]; then
+    grep -q -- "--show.*:value:(candidates mesh result solution)" "$MANUAL/zsh/_viewmesh"
   fi
 }
 
@@ -85,10 +107,22 @@ completions() {
     assert_success
     assert_equal "$stderr" ""
     assert_output --regexp "$tool +- +[a-z]"
+    # Where help2man does not find the end of an option, it runs the description into the heading.
+    run grep -n '^\.HP' "$MANUAL/man/$tool.1"
+    assert_output ""
+    run_apart env MANWIDTH=100 man --warnings -l "$MANUAL/man/$tool.1"
     assert_output --partial "EXAMPLES"
     # As it is written, for lines are broken within words.
     for option in $(options $tool) "hexpipe-formats"; do tr -d '\\' <"$MANUAL/man/$tool.1" | grep -q -- "$option"; done
   done
+}
+
+@test "man hexpipe is an overview: the tools in their order, what they have in common, exit codes" {
+  if ! command -v help2man >/dev/null; then skip "help2man is not there"; fi
+  run_apart env MANWIDTH=100 man -l "$MANUAL/man/hexpipe.1"
+  for tool in tessellate ${TOOLS#hexpipe }; do assert_output --partial "$tool(1)"; done
+  assert_output --partial "HABITS OF ALL TOOLS"
+  assert_output --partial "EXIT STATUS"
 }
 
 @test "man pages and completion are made where paths have blanks" {
@@ -120,7 +154,7 @@ CMAKE
         read -r tool _ <<<"$stage"
         if [[ ! " $TOOLS " == *" $tool "* ]]; then continue; fi
         # Options are judged before inputs: those that do not exist end with 2.
-        eval "run timeout 20 $stage </dev/null"
+        eval "run timeout 120 $stage </dev/null"
         assert [ "$status" -ne 2 ]
       done
     done < <(sed -n '/^\.RS/,/^\.RE/{/^\.R/d;p}' "$page")

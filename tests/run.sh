@@ -3,7 +3,7 @@
 # missing, treats warnings as errors. Ends with the closing line of ctest.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-./bootstrap.sh packages
+./bootstrap.sh tests
 
 # Sanitized tools are slow, and TetGen leaks what it allocates.
 export ASAN_OPTIONS="${ASAN_OPTIONS:-detect_leaks=1:abort_on_error=0}"
