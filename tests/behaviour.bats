@@ -67,6 +67,18 @@ product_ending() {
   done
 }
 
+@test "--help begins with the few options that matter first, then goes by subject, and ends with what all tools have" {
+  local first groups
+  for tool in $TOOLS; do
+    groups=$($tool --help | sed -nE 's/^([A-Z][A-Za-z, ]+):$/\1/p' | tr '\n' ';')
+    [[ $groups == "Positionals;Options;"*"This run;"* ]] || fail "$tool: $groups"
+    first=$($tool --help | sed -n '/^Options:/,/^$/p' | grep -oE '^  (-.,)?--[a-z-]+')
+    assert [ "$(wc -l <<<"$first")" -le 4 ]
+    grep -q -- --output <<<"$first"
+    [[ $groups != *"For experts"* || $groups == *"This run;For experts;"* ]] || fail "$tool: $groups"
+  done
+}
+
 @test "--version names tool, version and licence" {
   for tool in $TOOLS; do
     local licence=MIT
@@ -151,7 +163,7 @@ product_ending() {
     assert_success
   done
   for tool in initsol lns certify; do
-    assert_fails_with 2 "^$tool: --time-limit: expected a number" timeout 20 $tool "$STAGES/$tool.in" --time-limit nan
+    assert_fails_with 2 "^$tool: --time-limit: expected a number" timeout 120 $tool "$STAGES/$tool.in" --time-limit nan
   done
 }
 
@@ -265,6 +277,8 @@ product_ending() {
   for tool in $TOOLS; do
     assert_fails_with 2 "$tool: --memory: " $tool "$STAGES/$tool.in" --memory lots
     assert_fails_with 2 "$tool: --memory: " $tool "$STAGES/$tool.in" --memory=-1
+    assert_fails_with 2 "$tool: --memory: expected at least 1M, found 8 bytes; 8G are 8 gibibytes" \
+      $tool "$STAGES/$tool.in" --memory 8
     assert_fails_with 1 "$tool: .*memory" $tool $(limited $tool) -q "$STAGES/$tool.in" -o out.tar --memory 1M
     assert [ ! -e out.tar ]
     $tool $(limited $tool) -q "$STAGES/$tool.in" -o limited.tar --memory 2G

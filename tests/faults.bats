@@ -66,7 +66,7 @@ for_tools() {
   calls=$(sed -n 's/^memory //p' count)
   for ((number = calls / 2; number <= calls; number += 1)); do
     code=0
-    LD_PRELOAD=$library HEXPIPE_FAULT=memory:$number timeout 10 lns -q --iterations 5 --threads 2 part.tar -o out.tar 2>message || code=$?
+    LD_PRELOAD=$library HEXPIPE_FAULT=memory:$number timeout 120 lns -q --iterations 5 --threads 2 part.tar -o out.tar 2>message || code=$?
     if ((code > 1)); then fail "lns ends with $code when allocation $number of $calls fails"; fi
   done
   assert_equal "$(ls)" "$(printf '%s\n' count message out.tar part.mesh part.tar)"

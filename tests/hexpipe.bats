@@ -92,6 +92,13 @@ setup_file() {
   assert_output ""
 }
 
+@test "at a terminal, one line says which tool is at which step" {
+  script -qec "hexpipe '$DATA/bracket.stl' --size 8 --effort quick -o bracket.vtu" shown </dev/null >/dev/null
+  grep -aqE "\[Khexpipe: tetmesh: step [1-7] of 7: .*\([0-9]+ s in all\)" shown || fail "$(cat -v shown)"
+  # Nothing of it gets into the lines that stay.
+  tr '\r' '\n' <shown | sed 's/^\x1b\[K//' | grep -a "^hexpipe: .* after [0-9.]* s$"
+}
+
 @test "options that contradict each other end with 2" {
   assert_fails_with 2 "nothing to mesh" hexpipe -o x.vtu
   assert_fails_with 2 "expected -o FILE" hexpipe part.stl

@@ -17,7 +17,7 @@ PYTHON
 # refused PATTERN FILE: by a tool that reads bundles, with little memory and in a short time, and nothing is left.
 refused() {
   echo old >out.tar
-  assert_fails_with 1 "$1" timeout 60 findhex "$2" -o out.tar
+  assert_fails_with 1 "$1" timeout 200 findhex "$2" -o out.tar
   assert_equal "$(cat out.tar)" old
 }
 
@@ -156,7 +156,7 @@ PYTHON
 
 @test "counts that no file of this length can hold are refused without memory for them" {
   sanitized && skip "the sanitizers reserve more"
-  local limit='ulimit -v 1500000; exec timeout 20 "$@"'
+  local limit='ulimit -v 1500000; exec timeout 120 "$@"'
   printf 'MeshVersionFormatted 2\nDimension 3\nVertices\n4000000000\n0 0 0 0\n' >many.mesh
   printf '# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4000000000 double\n0 0 0\n' >many.vtk
   printf '$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4000000000\n1 0 0 0\n' >many.msh
@@ -190,6 +190,6 @@ open('points.npy', 'wb').write(out.getvalue().replace(b'<f8', b'<\n8'))"
 @test "a surface that is a million times longer than wide ends in an error, not in points without end" {
   [[ -x "$HEXPIPE_BIN/tetmesh" ]] || skip "tetmesh is not built"
   tail -c +2 "$HEXPIPE_SOURCE/tests/fuzz/findings/surface/front-leaves-a-sliver" >sliver.off
-  assert_fails_with 1 "^tetmesh: sliver.off: TetGen failed: it moved or merged points of the surface$" timeout 60 tetmesh sliver.off --size 25% -o out.tar
+  assert_fails_with 1 "^tetmesh: sliver.off: TetGen failed: it moved or merged points of the surface$" timeout 200 tetmesh sliver.off --size 25% -o out.tar
   assert [ ! -e out.tar ]
 }

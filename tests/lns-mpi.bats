@@ -138,7 +138,7 @@ PYTHON
   round=$(echo state/round-*)
   cp -r state whole
   refuse() {
-    run_apart timeout 60 mpirun --oversubscribe -n 2 lns-mpi --graph ring.graph --solution start.sol --iterations 20 \
+    run_apart timeout 200 mpirun --oversubscribe -n 2 lns-mpi --graph ring.graph --solution start.sol --iterations 20 \
       --round 1 --checkpoint state -o out.sol
     assert_equal "$status" 1
     assert_equal "$(grep -c '^lns-mpi: ' <<<"$stderr")" 1
@@ -227,7 +227,7 @@ PYTHON
   refuse() {
     local ranks=$1 message=$2
     shift 2
-    run_apart timeout 60 mpirun --oversubscribe -n "$ranks" lns-mpi --iterations 1 -o out.sol "$@"
+    run_apart timeout 200 mpirun --oversubscribe -n "$ranks" lns-mpi --iterations 1 -o out.sol "$@"
     assert_equal "$status" 1
     assert_equal "$(grep -c '^lns-mpi: ' <<<"$stderr")" 1
     grep -Eq "^lns-mpi: $message" <<<"$stderr"
@@ -267,7 +267,7 @@ if [[ $OMPI_COMM_WORLD_RANK == 1 ]]; then extra=(--overlap 1); fi
 exec lns-mpi "${extra[@]}" "$@"
 SHELL
   chmod +x wrapper
-  run_apart timeout 60 mpirun --oversubscribe -n 2 ./wrapper --graph ring.graph --solution start.sol --iterations 1 -o out.sol
+  run_apart timeout 200 mpirun --oversubscribe -n 2 ./wrapper --graph ring.graph --solution start.sol --iterations 1 -o out.sol
   assert_equal "$status" 2
   assert_equal "$(grep -c '^lns-mpi: ' <<<"$stderr")" 1
   grep -q "^lns-mpi: rank 1: expected the options of the first rank, found others" <<<"$stderr"

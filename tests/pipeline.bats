@@ -247,3 +247,31 @@ PYTHON
     assert [ ! -e out.tar ]
   done
 }
+
+@test "--stats counts the seconds of the tool, not those that it waits for the pipe" {
+  local begin end
+  # findhex waits for its input as long as nobody writes, then for room until somebody reads.
+  begin=$(date +%s%N)
+  { sleep 0.4; cat "$DATA/jittered_lattice.mesh"; } | findhex -q --stats stats.json >found.tar
+  end=$(date +%s%N)
+  holds "stats['seconds'] < ($end - $begin) / 1e9 - 0.3" stats.json
+}
+
+@test "at a terminal, tools say which step they are at, and messages clear that line" {
+  [[ -x "$HEXPIPE_BIN/tetmesh" ]] || skip "tetmesh is not built"
+  local clear=$'\r\x1b[K'
+  script -qec "tetmesh -v '$DATA/cube.stl' --size 0.5 -o cube.mesh" shown </dev/null >/dev/null
+  for step in "step 1 of 7: checks 12 triangles" "step 2 of 7: makes 12 triangles anew" "step 7 of 7: writes"; do
+    grep -aqF "${clear}tetmesh: $step" shown || fail "$step is missing: $(cat -v shown)"
+  done
+  grep -aqE "\[Ktetmesh: [0-9]+ points" shown
+  script -qec "sh -c 'findhex -q --mesh cube.mesh | buildgraph -q | initsol -q --iterations 10 | assemble -o cube.vtu'" shown </dev/null >/dev/null
+  for step in "step 1 of 7: checks [0-9]+ tets and [0-9]+ chosen cells" "step 2 of 7: exchanges" "step 7 of 7: checks the mesh"; do
+    grep -aqE "\[Kassemble: $step" shown || fail "$step is missing: $(cat -v shown)"
+  done
+  # -q and files have none of it.
+  script -qec "tetmesh -q '$DATA/cube.stl' --size 0.5 -o cube.mesh" shown </dev/null >/dev/null
+  refute grep -aq "step" shown
+  tetmesh "$DATA/cube.stl" --size 0.5 -o cube.mesh 2>shown
+  assert [ ! -s shown ]
+}

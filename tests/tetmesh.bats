@@ -273,7 +273,7 @@ PYTHON
 @test "an option of NaN and an empty size end with 2" {
   local cube="$FILES/cube.stl"
   for option in clearance jitter tetgen-timeout; do
-    assert_fails_with 2 "^tetmesh: .*--$option: expected a number .*nan" timeout 20 tetmesh "$cube" --$option nan
+    assert_fails_with 2 "^tetmesh: .*--$option: expected a number .*nan" timeout 120 tetmesh "$cube" --$option nan
   done
   assert_fails_with 2 "^tetmesh: expected a positive length .*''" tetmesh "$cube" --size ""
 }
@@ -284,7 +284,7 @@ PYTHON
 }
 
 @test "a size of which the box holds too many points is an error, at once" {
-  assert_fails_with 1 "^tetmesh: .*cube.stl: expected a size .*1e-06" timeout 20 tetmesh "$FILES/cube.stl" --size 1e-6
+  assert_fails_with 1 "^tetmesh: .*cube.stl: expected a size .*1e-06" timeout 120 tetmesh "$FILES/cube.stl" --size 1e-6
 }
 
 @test "every option changes something" {
@@ -383,7 +383,7 @@ assert d['at_singularities'] + d['closed'] <= d['length'], d"
 @test "more points than --most-points are an error before memory is used" {
   assert_fails_with 1 "expected a size .* at most 100 points inside \(see --most-points\), found 0.1, which makes about 1e\+03" \
     tetmesh "$FILES/fine.stl" --size 0.1 --most-points 100
-  assert_fails_with 1 "see --most-points.*1e-90.*1e\+270" timeout 20 tetmesh "$FILES/cube.stl" --size 1e-90
+  assert_fails_with 1 "see --most-points.*1e-90.*1e\+270" timeout 120 tetmesh "$FILES/cube.stl" --size 1e-90
   tetmesh -q "$FILES/fine.stl" --size 0.1 --most-points 2000 -o out.tar
 }
 
@@ -391,7 +391,7 @@ assert d['at_singularities'] + d['closed'] <= d['length'], d"
   $SURFACES sized
   for _ in 1 2 3 4 5 6 7 8; do echo 1e-4; done >fine.txt
   assert_fails_with 1 "^tetmesh: cube.obj: expected sizes that make at most 1e\+06 points inside .* 0.0001 to 2, which make more than 4e\+06" \
-    timeout 20 tetmesh cube.obj --size 2 --size-field fine.txt --most-points 1e6
+    timeout 120 tetmesh cube.obj --size 2 --size-field fine.txt --most-points 1e6
 }
 
 @test "--most-points counts points of the user's own" {
@@ -579,6 +579,14 @@ assert d['at_singularities'] + d['closed'] <= d['length'], d"
   holds 'stats["improved"]["rounds"] == 8' stats.json
   # Less: no run went on for ever. One seed in twelve meets one.
   holds '4 < stats["seconds"] < 60' stats.json
+}
+
+@test "a size larger than the model is told: it is in another unit" {
+  run_apart tetmesh "$DATA/cube.stl" --size 30 -o cube.mesh
+  assert_success
+  grep -q "^tetmesh: warning: the size 30 is larger than the model, which measures 1 x 1 x 1$" <<<"$stderr"
+  run_apart tetmesh "$DATA/cube.stl" --size 1 -o cube.mesh
+  refute grep -q larger <<<"$stderr"
 }
 
 @test "--improve ends by --time-limit or a signal with the best mesh so far" {

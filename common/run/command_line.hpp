@@ -8,9 +8,11 @@
 
 namespace hexpipe {
 
-// Lays out --help for people: descriptions are wrapped beside their options, to the width of a page.
+// Lays out --help for people: options in groups, those that matter most first, and descriptions wrapped beside their
+// options, to the width of a page.
 class HelpFormatter : public CLI::Formatter {
  public:
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
   std::string make_option(const CLI::Option* option, bool is_positional) const override;
   std::string make_option_opts(const CLI::Option* option) const override;
 };

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <limits>
 
+#include "common/run/phases.hpp"
 #include "common/run/removed_files.hpp"
 
 namespace hexpipe {
@@ -18,6 +19,10 @@ std::atomic<bool> upstream_may_answer{false};
 std::atomic<bool> interrupted{false};
 std::atomic<unsigned> patience{0};     // seconds that a waiting call may go on after a signal; 0: no call waits
 std::atomic<int> impatient_signal{0};  // the signal that stopped the search and ends its waiting
+
+// At most one call waits at a time.
+std::chrono::steady_clock::time_point wait_began;
+std::chrono::steady_clock::duration waited{};
 
 constexpr unsigned patience_with_writers = 1, patience_with_readers = 3;  // seconds
 
@@ -84,12 +89,18 @@ void leave_interrupt_upstream(bool on) {
 
 // The alarm is set here or in the handler, whichever runs second.
 WaitForOther::WaitForOther(unsigned seconds) {
+  wait_began = std::chrono::steady_clock::now();
   patience = seconds;
   if (impatient_signal.load() != 0) alarm(seconds);
 }
 
 WaitForOther::~WaitForOther() {
   patience = 0;
+  waited += std::chrono::steady_clock::now() - wait_began;
+}
+
+double seconds_waited() {
+  return std::chrono::duration<double>(waited).count();
 }
 
 WaitForInput::WaitForInput() : WaitForOther(patience_with_writers) {}

@@ -1,7 +1,10 @@
 #include "common/run/messages.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdio>
 
@@ -9,6 +12,7 @@ namespace hexpipe {
 namespace {
 
 std::atomic<bool> silent{false};
+std::atomic<bool> line_is_shown{false};
 
 // Replaces control characters: those of ASCII, and U+0080 to U+009F in UTF-8 (U+009B has the effect of ESC '[').
 std::string without_control_characters(std::string text) {
@@ -21,6 +25,13 @@ std::string without_control_characters(std::string text) {
   return text;
 }
 
+// One call, so that text of several threads does not mix.
+void put(const std::string& text) {
+  if (silent) return;
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 }  // namespace
 
 void print_message(std::string_view tool, std::string_view text) {
@@ -28,9 +39,26 @@ void print_message(std::string_view tool, std::string_view text) {
 }
 
 void print_text(const std::string& text) {
+  put(line_is_shown.exchange(false) ? std::string(line_start) + text : text);
+}
+
+void show_line(const std::string& text) {
+  line_is_shown = true;
+  put(std::string(line_start) + text);
+}
+
+void redraw_line(std::string_view text) {
+  std::array<char, 512> bytes;
+  const std::size_t size = std::min(text.size(), bytes.size() - line_start.size());
+  std::copy_n(line_start.begin(), line_start.size(), bytes.begin());
+  std::copy_n(text.begin(), size, bytes.begin() + line_start.size());
   if (silent) return;
-  std::fputs(text.c_str(), stderr);
-  std::fflush(stderr);
+  line_is_shown = true;
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, bytes.data(), line_start.size() + size);
+}
+
+void clear_line() {
+  if (line_is_shown.exchange(false)) put(std::string(line_start));
 }
 
 void silence_messages(bool on) {

@@ -1,6 +1,6 @@
 #pragma once
-// Two things that CLI11 lacks: stricter checks of values (its ranges let NaN pass, and its unsigned integers wrap
-// around), and a mark for options that stay out of the history.
+// Three things that CLI11 lacks: stricter checks of values (its ranges let NaN pass, and its unsigned integers wrap
+// around), a mark for options that stay out of the history, and groups of options that are declared together.
 
 #include <fmt/format.h>
 
@@ -33,6 +33,31 @@ inline CLI::Validator whole_number_of_64_bits() {
         return good ? std::string() : fmt::format("expected a whole number from 0 to {}, found {}", UINT64_MAX, text);
       },
       "");
+}
+
+// Accepts a size of memory that CLI11 has turned into bytes. A small number is one whose unit was forgotten.
+inline CLI::Validator enough_memory() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        std::uint64_t bytes = 0;
+        const bool good = CLI::detail::lexical_cast(text, bytes);
+        if (good && bytes >= std::uint64_t{1} << 20 && bytes <= std::uint64_t{1} << 62) return std::string();
+        if (good && bytes > 0 && bytes < 1024)
+          return fmt::format("expected at least 1M, found {} bytes; {}G are {} gibibytes", text, text, text);
+        return fmt::format("expected at least 1M, such as 8G, found {}", text);
+      },
+      "");
+}
+
+// Groups of --help that several tools have. It lists `first` first, then a tool's own groups, then the others.
+namespace group {
+inline constexpr const char *first = "Options", *input = "Input", *output = "Output", *run = "This run",
+                            *experts = "For experts";
+}  // namespace group
+
+// Lists the options that are declared from here on in this group.
+inline void begin_group(CLI::App& app, const char* name) {
+  app.option_defaults()->group(name);
 }
 
 inline constexpr const char* outside_history_mark = "outside history";

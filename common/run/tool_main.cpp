@@ -20,6 +20,7 @@
 #include "common/run/messages.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/parallel.hpp"
+#include "common/run/phases.hpp"
 #include "common/run/removed_files.hpp"
 #include "common/run/run_context.hpp"
 #include "common/run/text_file.hpp"
@@ -37,6 +38,7 @@ constexpr int exit_usage = 2;
 // CLI11 writes the default of an option with several values as "[a,b]", given values as "a,b".
 std::string default_value(const CLI::Option& option) {
   std::string text = option.get_default_str();
+  if (text == "{}") return {};  // no values, as CLI11 2.4 writes them
   if (option.get_items_expected_max() > 1 && text.starts_with('[') && text.ends_with(']'))
     text = text.substr(1, text.size() - 2);
   return text;
@@ -63,6 +65,7 @@ nlohmann::ordered_json options_for_history(CLI::App& app) {
 }
 
 void declare_graph_file(CLI::App& app, GraphFileOptions& options) {
+  begin_group(app, group::input);
   app.add_option("--graph-format", options.format,
                  "The format of a graph file [its first bytes tell; METIS if they do not]")
       ->check(CLI::IsMember({"metis", "dimacs", "matrix-market", "edges"}));
@@ -75,23 +78,24 @@ void declare_graph_file(CLI::App& app, GraphFileOptions& options) {
 }
 
 // Options of tools that write meshes. None of them changes a bundle.
-void declare_mesh_output(CLI::App& app, MeshOptions& mesh) {
+void declare_mesh_output(CLI::App& app, Role product, MeshOptions& mesh) {
   outside_history(
       app.add_option("--solver", mesh.solver,
                      "Write pyramids, hexes and facets in the way that suits this program; calculix: pyramids "
                      "collapsed, C3D8I; abaqus: C3D8I; openfoam, su2, nastran, moose: their format is checked"))
+      ->group(product == Role::result ? group::first : group::output)
       ->type_name("NAME")
-      ->check(CLI::IsMember({"calculix", "abaqus", "openfoam", "su2", "nastran", "moose"}).description(""));
+      ->check(CLI::IsMember(std::vector<std::string>{"calculix", "abaqus", "openfoam", "su2", "nastran", "moose"}));
   outside_history(
       app.add_option(
           "--pyramids", mesh.pyramids,
           "How other formats get pyramids: keep; collapsed: as hexes with the apex four times (.inp); split: as two "
           "tets each"))
       ->type_name("FORM")
-      ->check(CLI::IsMember({"keep", "collapsed", "split"}).description(""));
+      ->check(CLI::IsMember(std::vector<std::string>{"keep", "collapsed", "split"}));
   outside_history(app.add_option("--hex-element", mesh.hex_element, "The type of hexes in .inp: C3D8, C3D8I or C3D8R"))
       ->type_name("TYPE")
-      ->check(CLI::IsMember({"C3D8", "C3D8I", "C3D8R"}).description(""));
+      ->check(CLI::IsMember(std::vector<std::string>{"C3D8", "C3D8I", "C3D8R"}));
   outside_history(app.add_flag("--no-facets", mesh.no_facets,
                                "Leave facets out of other formats, for readers that take only cells"));
 }
@@ -99,6 +103,7 @@ void declare_mesh_output(CLI::App& app, MeshOptions& mesh) {
 void declare_streams(CLI::App& app, RunContext& context) {
   StreamOptions& streams = context.streams;
   const auto& reads = context.info.reads;
+  begin_group(app, group::input);
   if (!reads.empty()) {
     app.add_option("input", streams.operand,
                    fmt::format("A bundle, or the {} in any format; standard input if it is '-' or missing",
@@ -117,18 +122,21 @@ void declare_streams(CLI::App& app, RunContext& context) {
                      fmt::format("Write to a file: a bundle (.tar, .tar.zst), or only the {}, in the format that "
                                  "the ending names",
                                  name_of(*context.info.product))))
+      ->group(group::first)
       ->type_name("FILE");
+  begin_group(app, group::output);
   outside_history(
       app.add_option("--format", streams.format, "The format of the output; it overrides the ending of its name"))
       ->type_name("NAME");
   outside_history(app.add_flag("--compress", streams.compress, "Compress the bundle with zstd"));
   if (*context.info.product == Role::mesh || *context.info.product == Role::result)
-    declare_mesh_output(app, streams.mesh);
+    declare_mesh_output(app, *context.info.product, streams.mesh);
 }
 
 void declare_common(CLI::App& app, RunContext& context) {
   CommonOptions& common = context.common;
   const ToolInfo& info = context.info;
+  begin_group(app, group::run);
   outside_history(app.add_option("--threads", common.threads, "Threads to use; 0: all that the machine has"))
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
@@ -136,7 +144,7 @@ void declare_common(CLI::App& app, RunContext& context) {
       app.add_option("--memory", common.memory, "Use at most this much memory, such as 8G [what the machine has left]"))
       ->type_name("BYTES")
       ->transform(CLI::AsSizeValue(false).description(""))
-      ->check(CLI::Range(std::uint64_t{1} << 20, std::uint64_t{1} << 62).description(""));
+      ->check(enough_memory());
   if (info.random)
     app.add_option("--seed", common.seed, "Seed of the random numbers")
         ->type_name("N")
@@ -148,6 +156,7 @@ void declare_common(CLI::App& app, RunContext& context) {
                              : info.ends_by_itself.empty() ? std::string()
                                                            : fmt::format(" [it ends {}]", info.ends_by_itself);
     app.add_option("--time-limit", common.time_limit, "Stop after this many seconds" + note)
+        ->group(group::first)
         ->type_name("SECONDS")
         ->check(number_between(0, 1e9));
     app.add_option("--iterations", common.iterations, "Stop after this many iterations")
@@ -183,6 +192,7 @@ void check_writable(const std::string& path) {
     throw DataError::at(path, "cannot write: {}", std::strerror(errno));
 }
 
+// `seconds` are the tool's own, without those that it waited for its neighbours in a pipe.
 void write_statistics(const RunContext& context, double seconds) {
   if (context.common.stats_file.empty()) return;
   nlohmann::ordered_json statistics{{"tool", context.info.name}};
@@ -260,9 +270,10 @@ int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<v
   context.info = info;
   CLI::App app(info.summary, info.name);
   app.formatter(std::make_shared<HelpFormatter>());
-  outside_history(app.get_help_ptr());
-  outside_history(app.set_version_flag(
-      "--version", fmt::format("{} (hexpipe) {}\nLicence: {}", info.name, version(), info.licence)));
+  outside_history(app.get_help_ptr())->group(group::run);
+  outside_history(app.set_version_flag("--version",
+                                       fmt::format("{} (hexpipe) {}\nLicence: {}", info.name, version(), info.licence)))
+      ->group(group::run);
   app.footer(footer(info));
   app.option_defaults()->always_capture_default();
   declare(app);
@@ -286,7 +297,7 @@ int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<v
     check_writable(context.common.stats_file);
     const Stopwatch watch;
     run(context);
-    write_statistics(context, watch.seconds());
+    write_statistics(context, watch.seconds() - seconds_waited());
     return 0;
   } catch (const UsageError& error) {
     return report(info.name, error.what(), exit_usage);

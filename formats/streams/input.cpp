@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
@@ -32,6 +33,7 @@ Input Input::open(const std::string& path) {
   struct stat status {};
   if (fstat(input.descriptor_, &status) == 0 && S_ISDIR(status.st_mode))
     throw DataError::at(input.name_, "expected a file, found a directory");
+  input.may_wait_ = !S_ISREG(status.st_mode);
   // A larger pipe means fewer switches between the stages; if it is refused, the default serves.
   if (S_ISFIFO(status.st_mode)) fcntl(input.descriptor_, F_SETPIPE_SZ, buffer_size);
   if (S_ISFIFO(status.st_mode) && path == "-") leave_interrupt_upstream(true);
@@ -60,6 +62,7 @@ Input& Input::operator=(Input&& other) noexcept {
   std::swap(begin_, other.begin_);
   std::swap(end_, other.end_);
   std::swap(at_end_, other.at_end_);
+  std::swap(may_wait_, other.may_wait_);
   return *this;
 }
 
@@ -72,7 +75,8 @@ Input::~Input() {
 // Appends bytes to those at hand, at least one unless the end is reached. The buffer must have room.
 bool Input::fill() {
   if (at_end_) return false;
-  const WaitForInput wait;
+  std::optional<WaitForInput> wait;
+  if (may_wait_) wait.emplace();
   ssize_t got;
   do got = ::read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
   while (got < 0 && errno == EINTR);

@@ -42,6 +42,7 @@ class Input {
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0;
   bool at_end_ = false;
+  bool may_wait_ = false;  // for another process
 };
 
 }  // namespace hexpipe::formats

@@ -127,6 +127,7 @@ AssembleResult result_of(Prepared& at, const Candidates& candidates, Cells cells
                          const choice::InputNames& names) {
   Built built = build_mesh(at.input, candidates, {std::move(at.tags), std::move(cells.selection), cells.given_back},
                            rules, names);
+  rules.begin("step 7 of 7: checks the mesh, and writes it");
   AssembleStatistics statistics;
   hybrid::Extract extracted = checked_extract(at.input, built, rules, statistics.volumes);
   count_cells(extracted.mesh, statistics);
@@ -169,6 +170,7 @@ SelectedCells selected(const Prepared& at, const Candidates& candidates, const g
 // The result has prisms between the selected cells.
 AssembleResult filled_result_of(Prepared& at, const Candidates& candidates, std::optional<choice::Selection> selection,
                                 const BuildRules& rules, const choice::InputNames& names) {
+  rules.begin("step 3 of 7: prisms between the cells");
   const choice::PrismFilling filling = choice::fill_with_prisms(at.input.mesh, at.boundary, candidates, *selection);
   choice::InputNames names_of_cells = names;
   for (const CandidateIndex candidate : selection->chosen()) names_of_cells.origins.push_back({0, candidate});
@@ -192,21 +194,26 @@ void check_orientation(const TetMesh& mesh, const choice::InputNames& names) {
   }
 }
 
-BuildRules build_rules(const AssembleOptions& options) {
+BuildRules build_rules(const AssembleOptions& options, const StepReport& on_step) {
   const bool is_conforming = options.conformity == AssembleOptions::Conformity::pyramids;
   return {.is_conforming = is_conforming,
           .smooth_rounds = options.smooth,
-          .merges = is_conforming && options.smooth > 0 && options.merge == AssembleOptions::Merge::vertices};
+          .merges = is_conforming && options.smooth > 0 && options.merge == AssembleOptions::Merge::vertices,
+          .on_step = on_step};
 }
 
 AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const graph::IndependentSet& chosen,
-                        const AssembleOptions& options, const choice::InputNames& names) {
+                        const AssembleOptions& options, const choice::InputNames& names, const StepReport& on_step) {
+  const BuildRules rules = build_rules(options, on_step);
+  rules.begin(fmt::format("step 1 of 7: checks {} tets and {} chosen cells", mesh.tets.size(), chosen.size()));
   Prepared at = checked_input(std::move(mesh), candidates, chosen, names);
-  const BuildRules rules = build_rules(options);
   const bool exchanges = rules.is_conforming && options.exchange == AssembleOptions::Exchange::quads;
   const bool fills = rules.is_conforming && options.fill == AssembleOptions::Fill::prisms;
   if (!exchanges && !fills) return result_of(at, candidates, cells_of(at, candidates, chosen, names), rules, names);
 
+  if (exchanges)
+    rules.begin(
+        fmt::format("step 2 of 7: exchanges hexes among {} candidates so that more quads meet", candidates.size()));
   auto [selection, exchange] = selected(at, candidates, chosen, exchanges, names);
   AssembleResult result =
       fills ? filled_result_of(at, candidates, std::move(selection), rules, names)

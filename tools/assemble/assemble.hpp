@@ -35,10 +35,11 @@ void check_orientation(const TetMesh& mesh, const choice::InputNames& names);
 // Throws DataError, with the name of the input, if a tet is not positively oriented, if candidates are not of this
 // mesh, or if chosen ones do not fit together or are not valid.
 AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const graph::IndependentSet& chosen,
-                        const AssembleOptions& options, const choice::InputNames& names = {});
+                        const AssembleOptions& options, const choice::InputNames& names = {},
+                        const StepReport& on_step = {});
 
 // The rules for a whole mesh, which has no seam.
-BuildRules build_rules(const AssembleOptions& options);
+BuildRules build_rules(const AssembleOptions& options, const StepReport& on_step = {});
 
 // The piece of one part, conforming, from all `cells`. The surface of `mesh` is complete, with the seam's own tags; the
 // seam is in the rules. The result is without guests and without facets that have the seam's tags. Throws as assemble()

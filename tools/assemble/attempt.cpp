@@ -138,6 +138,7 @@ class Builder {
 // the candidates for which that does not succeed.
 graph::IndependentSet Builder::conform(Attempt& attempt, bool is_last) const {
   if (!rules_.is_conforming) return {};
+  rules_.begin(fmt::format("step 4 of 7: pyramids and tets beside {} cells", attempt.mesh.cell_count()));
   attempt.conformity =
       conform::make_conforming(attempt.mesh, attempt.tags, candidates_, is_last ? barely_valid : most_inverted);
   if (is_last) return {};
@@ -167,6 +168,8 @@ gap::FewerCells Builder::make_fewer_cells(Attempt& attempt, gap::Passes passes) 
 void Builder::merge_and_smooth(Attempt& attempt) const {
   for (int round = 0; round < most_merging_rounds; ++round) {
     const bool is_first = round == 0;
+    rules_.begin(
+        fmt::format("step 5 of 7: merges and moves vertices, round {} of at most {}", round + 1, most_merging_rounds));
     const auto fewer = make_fewer_cells(attempt, is_first ? gap::Passes::merge : gap::Passes::merge_and_refill);
     if (!fewer.any() && !is_first) break;
     attempt.extracted = hybrid::extract(attempt.mesh, attempt.tags);
@@ -179,6 +182,7 @@ void Builder::smooth_and_mend(Attempt& attempt) const {
   hybrid::Extract& extracted = attempt.extracted;
   extracted = hybrid::extract(attempt.mesh, attempt.tags);
   if (rules_.smooth_rounds == 0) return;
+  if (!rules_.merges) rules_.begin("step 5 of 7: moves vertices");
   compute_quality(extracted.mesh);
   attempt.before_smoothing =
       kind_statistics(rules_.seam == nullptr ? extracted.mesh : hybrid::without_guests(extracted, *rules_.seam).mesh);
@@ -187,6 +191,7 @@ void Builder::smooth_and_mend(Attempt& attempt) const {
   else
     improve(attempt, rules_.smooth_rounds);
   for (int round = 0; round < most_mending_rounds && mend_flat_tets(attempt); ++round) {
+    rules_.begin(fmt::format("step 6 of 7: mends poor cells, round {} of at most {}", round + 1, most_mending_rounds));
     if (rules_.merges) make_fewer_cells(attempt, gap::Passes::merge);  // new tets let more vertices merge
     extracted = hybrid::extract(attempt.mesh, attempt.tags);
     improve(attempt, rules_.smooth_rounds);

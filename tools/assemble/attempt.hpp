@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "common/graph/conflict_graph.hpp"
@@ -32,12 +34,19 @@ struct AssembleInput {
   const shape::InputSurface surface;
 };
 
+// Is told what is done from now on.
+using StepReport = std::function<void(const std::string& step)>;
+
 struct BuildRules {
   bool is_conforming = true;
   int smooth_rounds = 0;
   bool merges = false;  // makes the cells between the hexes fewer; only with is_conforming and smooth_rounds
   const hybrid::Seam* seam = nullptr;  // of a piece
+  StepReport on_step{};
 
+  void begin(const std::string& step) const {
+    if (on_step) on_step(step);
+  }
   // By vertex of the input, as in Seam; empty without a seam.
   std::span<const std::uint8_t> is_shared() const;
   bool is_guest(CandidateIndex candidate) const { return seam != nullptr && seam->is_guest[candidate] != 0; }

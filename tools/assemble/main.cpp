@@ -8,6 +8,7 @@
 #include "common/mwis/ground/target_weight.hpp"
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
+#include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "tools/assemble/assemble.hpp"
@@ -37,6 +38,7 @@ struct CommandLine {
 };
 
 void declare_options(CLI::App& app, CommandLine& line) {
+  begin_group(app, "Cells");
   app.add_option("--conformity", line.conformity,
                  "pyramids: every quad has a cell on its other side; none: quads may face two triangles")
       ->check(CLI::IsMember(conformities))
@@ -63,8 +65,10 @@ void declare_options(CLI::App& app, CommandLine& line) {
           ->capture_default_str();
   app.add_option("--smooth", line.smooth,
                  "rounds of moving vertices and flipping tets to make the worst cells better and hexes larger; 0: none")
+      ->group(group::first)
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
+  begin_group(app, "In parts");
   outside_history(
       app.add_option(
           "--neighbours", line.neighbours,
@@ -126,18 +130,20 @@ pieces::SolvedPart solved_part(pipeline::StageData data, const choice::InputName
           .history = std::move(data.history)};
 }
 
-PartResult assemble_whole(pipeline::StageData data, const AssembleOptions& options, const choice::InputNames& names) {
+PartResult assemble_whole(pipeline::StageData data, const AssembleOptions& options, const choice::InputNames& names,
+                          const StepReport& on_step) {
   if (data.part && !data.part->neighbours.empty())
     throw DataError::at(names.mesh, "expected the neighbours of {} with --neighbours, found none",
                         title_of(*data.part));
-  AssembleResult result = assemble::assemble(std::move(*data.mesh), *data.candidates, *data.solution, options, names);
+  AssembleResult result =
+      assemble::assemble(std::move(*data.mesh), *data.candidates, *data.solution, options, names, on_step);
   return {std::move(result.mesh), std::move(result.statistics), {}};
 }
 
 PartResult assemble_one_part(pipeline::StageData data, const CommandLine& line, const AssembleOptions& options,
-                             const choice::InputNames& names) {
+                             const choice::InputNames& names, const StepReport& on_step) {
   pieces::PartView view = pieces::view_part(solved_part(std::move(data), names), line.neighbours, names.solution);
-  return assemble_part(std::move(view), line.before, build_rules(options), names);
+  return assemble_part(std::move(view), line.before, build_rules(options, on_step), names);
 }
 
 // Notes what a user wants to know, and returns the details for the history.
@@ -161,6 +167,8 @@ void run(RunContext& context, CommandLine& line) {
   context.options["fill"] = line.fill;
   context.options["merge"] = line.merge;
   context.options["smooth"] = line.smooth;
+  Progress progress("assemble", context.common.quiet);
+  const auto on_step = [&](const std::string& step) { progress.begin(step); };
   pipeline::Stage stage(context);
   pipeline::StageData data = read_input(stage, line.by_part());
   const choice::InputNames names{.mesh = stage.source_of(Role::mesh),
@@ -168,8 +176,8 @@ void run(RunContext& context, CommandLine& line) {
                                  .solution = stage.source_of(Role::solution)};
   const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
   const auto choice = graph_of_bundle ? proven_gap(data) : nullptr;
-  PartResult result = line.by_part() ? assemble_one_part(std::move(data), line, options, names)
-                                     : assemble_whole(std::move(data), options, names);
+  PartResult result = line.by_part() ? assemble_one_part(std::move(data), line, options, names, on_step)
+                                     : assemble_whole(std::move(data), options, names, on_step);
   const auto details = report(context, result.statistics, choice);
   if (line.by_part())
     context.note(result.piece.settled ? "this piece is settled"

@@ -4,6 +4,7 @@
 
 #include "common/run/option_checks.hpp"
 #include "common/run/phases.hpp"
+#include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/choice/cand.hpp"
 #include "formats/pipeline/stage.hpp"
@@ -30,10 +31,12 @@ int main(int argc, char** argv) {
   const auto declare = [&](CLI::App& app) {
     app.add_option("--weight", weight, "The weight of a candidate: quality, volume, count (1 each) or quality*volume")
         ->check(CLI::IsMember(weights));
+    begin_group(app, "Graph");
     app.add_option("--weight-scale", options.conflicts.weight_scale, "Weights are multiplied by this, then rounded")
         ->check(number_between(1e-100, 1e100));
     app.add_option("--part", part,
-                   "i/k: only conflicts whose higher candidate is in part i of k; see Makefile.examples");
+                   "i/k: only conflicts whose higher candidate is in part i of k; see Makefile.examples")
+        ->group("In parts");
     app.add_flag("--reduce", options.reduce,
                  "Leave out candidates that no choice needs: another one has no more conflicts and weighs no less");
     outside_history(app.add_option("--reduced-candidates", options.reduced_candidates,
@@ -43,10 +46,13 @@ int main(int argc, char** argv) {
         app.add_option(
             "--neighbours", options.neighbours,
             "With a part of a mesh: bundles of the other parts' candidates; those beside this part are read"))
+        ->group("In parts")
         ->type_name("FILE");
     app.add_flag(
-        "--cover", options.cover,
-        "Add an edge clique cover to the bundle: the cliques at tets, grown, and cliques for the edges that they miss");
+           "--cover", options.cover,
+           "Add an edge clique cover to the bundle: the cliques at tets, grown, and cliques for the edges that they "
+           "miss")
+        ->group(group::first);
   };
   const auto run = [&](RunContext& context) {
     options.conflicts.weight = weights.at(weight);
@@ -60,8 +66,11 @@ int main(int argc, char** argv) {
     if (options.reduce || !options.neighbours.empty()) request.hold_back = {Role::candidates};
     pipeline::StageData data = stage.read(request);
     phases.end("read");
+    Progress progress("buildgraph", context.common.quiet);
+    progress.begin("compares candidates");
     const BuildgraphResult result = buildgraph::buildgraph(std::move(data), options, stage.source_of(Role::candidates));
     phases.end("build");
+    progress.begin("writes the graph");
     const GraphSummary summary = summarize(result);
     for (const auto& warning : warnings_about(summary)) context.warn(warning);
     for (const auto& line : summary_lines(summary)) context.note(line);

@@ -26,10 +26,12 @@ int main(int argc, char** argv) {
   const auto declare = [&](CLI::App& app) {
     outside_history(app.add_option("--certificate", options.certificate,
                                    "Write the proof of the bound to a file: prices of cliques"))
+        ->group("Proof")
         ->type_name("FILE");
     CLI::Option* const with_exact =
         app.add_flag("--exact", exact, "Go on to prove optimality; that bound has no certificate");
     app.add_option("--algorithm", algorithm, "The algorithm of --exact")
+        ->group("Proof")
         ->check(CLI::IsMember(mwis::exact_algorithms()))
         ->needs(with_exact);
   };

@@ -7,6 +7,7 @@
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/phases.hpp"
+#include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "tools/findhex/part_search.hpp"
@@ -39,6 +40,7 @@ int main(int argc, char** argv) {
         ->allow_extra_args(false);
     app.add_option("--min-quality", options.min_quality, "Every corner must have a scaled Jacobian greater than this")
         ->check(number_between(0, 1));
+    begin_group(app, "Cells");
     app.add_option("--quality", quality,
                    "The quality to store: the least scaled Jacobian of the corners, or of the whole element")
         ->check(CLI::IsMember(qualities));
@@ -56,9 +58,11 @@ int main(int argc, char** argv) {
     app.add_option("--flat-corners", flat_corners,
                    "reject or keep: cells that would leave a flat pyramid at the surface")
         ->check(CLI::IsMember({"reject", "keep"}));
-    app.add_option("--part", part, "i/k: only cells that begin in part i of k of the vertices; see Makefile.examples");
+    app.add_option("--part", part, "i/k: only cells that begin in part i of k of the vertices; see Makefile.examples")
+        ->group("In parts");
     app.add_option("--max-boundary-tets", options.tet_rules.max_boundary_tets,
-                   "The most slivers that a cell may have on its quads")
+                   "The most slivers that a cell may have on its quads; less to compare with searches that know none")
+        ->group(group::experts)
         ->check(CLI::Range(0, 6).description(""));
   };
   const auto run = [&](RunContext& context) {
@@ -83,9 +87,12 @@ int main(int argc, char** argv) {
       throw DataError::at(source, "expected tets, found none (tetmesh makes them from a surface)");
     if (data.part && options.share.count > 1)
       throw UsageError(fmt::format("--part does not go with a mesh that is {} already", title_of(*data.part)));
+    Progress progress("findhex", context.common.quiet);
+    progress.begin(fmt::format("looks for cells among {} tets", data.mesh->tets.size()));
     candidates::FindhexResult result = data.part ? findhex_of_part(*data.mesh, *data.part, options, source.c_str())
                                                  : candidates::findhex(std::move(*data.mesh), options, source.c_str());
     phases.end("find");
+    progress.begin(fmt::format("writes {} candidates", result.candidates.size()));
     for (const auto& warning : warnings_about(result.findings)) context.warn(warning);
     for (const auto& line : summary_lines(result)) context.note(line);
     context.statistics.update(statistics_of(result));

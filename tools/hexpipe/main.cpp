@@ -7,6 +7,7 @@
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "common/run/messages.hpp"
+#include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
 #include "tools/hexpipe/plan.hpp"
 #include "tools/hexpipe/run_stages.hpp"
@@ -52,11 +53,14 @@ int main(int argc, char** argv) {
     app.add_option("-o,--output", options.output, "The mesh, in the format that the ending names")
         ->type_name("FILE")
         ->default_str("");
+    begin_group(app, "To look at it");
     app.add_option("--page", options.page, "A page that shows it, for a browser")->type_name("FILE");
     app.add_option("--png", options.picture, "A picture of it")->type_name("FILE");
     app.add_option("--effort", effort,
                    "quick: seconds for the choice of hexes; thorough: minutes, also for a search for better points")
+        ->group(group::first)
         ->check(CLI::IsMember(efforts));
+    begin_group(app, "Stages");
     app.add_option("--mesh", options.mesh, "Tets of another program, instead of a surface")->type_name("FILE");
     app.add_option("--keep", options.keep, "Keep what each stage makes in this folder, as NAME.tar")
         ->type_name("FOLDER");
@@ -65,6 +69,7 @@ int main(int argc, char** argv) {
         ->type_name("NAME");
     app.add_option("--seed", seed, "Seed of the random numbers of all stages")->type_name("N");
     app.add_flag("--dry-run", dry_run, "Print the pipe as a shell command, and do nothing");
+    begin_group(app, "Options of a stage");
     for (const char* tool :
          {"tessellate", "tetmesh", "findhex", "buildgraph", "initsol", "lns", "assemble", "viewmesh"})
       app.add_option_function<std::string>(

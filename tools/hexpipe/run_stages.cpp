@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <utility>
@@ -75,6 +76,7 @@ struct Process {
   int exit_code = 0;
   Descriptor messages;         // its standard error
   std::string line, withheld;  // of that: an unfinished line, and the last line
+  std::string progress;        // its progress line, without its name
   Descriptor statistics;       // a file in memory
 };
 
@@ -102,7 +104,9 @@ std::vector<char*> arguments(std::vector<std::string>& words) {
 
 class PipeRun {
  public:
-  explicit PipeRun(const RunOptions& options) : options_(options), progress_("hexpipe", options.quiet) {}
+  explicit PipeRun(const RunOptions& options) : options_(options), progress_("hexpipe", options.quiet) {
+    if (progress_.due()) setenv(progress_variable, "1", 1);
+  }
   ~PipeRun() {
     if (group_ > 0 && running_ > 0) kill(-group_, SIGKILL);
     for (Process& process : processes_)
@@ -190,6 +194,12 @@ void PipeRun::start(const std::vector<Command>& commands) {
   }
 }
 
+// The text that a terminal would show of a line: what follows the last progress line before it.
+std::string behind_line_start(const std::string& text) {
+  const std::size_t last = text.rfind(line_start);
+  return last == std::string::npos ? text : text.substr(last + line_start.size());
+}
+
 // Lines are passed on as they come, except the last one: if the tool fails, that line says why, and only the first tool
 // of a pipe that fails is heard.
 void PipeRun::read_messages(Process& process) {
@@ -202,9 +212,12 @@ void PipeRun::read_messages(Process& process) {
   process.line.append(buffer.data(), static_cast<std::size_t>(count));
   for (std::size_t end; (end = process.line.find('\n')) != std::string::npos;) {
     if (!process.withheld.empty()) print_text(process.withheld);
-    process.withheld = process.line.substr(0, end + 1);
+    process.withheld = behind_line_start(process.line.substr(0, end + 1));
     process.line.erase(0, end + 1);
   }
+  if (process.line.find(line_start) == std::string::npos) return;
+  process.line = behind_line_start(process.line);
+  process.progress = process.line;
 }
 
 void PipeRun::reap() {
@@ -216,7 +229,7 @@ void PipeRun::reap() {
     process.is_done = true;
     --running_;
     process.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    process.withheld += process.line;
+    if (process.line != process.progress) process.withheld += process.line;
     if (process.exit_code == 0 && !process.withheld.empty()) print_text(process.withheld);
   }
 }
@@ -233,7 +246,8 @@ void PipeRun::show_progress() {
   const auto at_work = std::ranges::find_if(
       processes_, [](const Process& process) { return !process.is_done && process.tool != "tee"; });
   if (at_work == processes_.end()) return;
-  progress_.show(fmt::format("{}, {:.0f} s", at_work->tool, watch_.seconds()));
+  const std::string& what = at_work->progress.empty() ? at_work->tool : at_work->progress;
+  progress_.show(fmt::format("{} ({:.0f} s in all)", what, watch_.seconds()));
 }
 
 void PipeRun::wait() {

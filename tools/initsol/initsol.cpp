@@ -171,7 +171,7 @@ InitsolResult find_initial_solution(const graph::ConflictGraph& graph, std::span
   const Report report_better = [&](const InitsolProgress& now) {
     if (!report || now.weight <= reported) return;
     reported = now.weight;
-    report(now);
+    report({now.iteration, now.weight, greedy_weight});
   };
   InitsolResult result;
   if (options.iterations > 0 && !deadline.passed() && graph.edge_count() > 0)

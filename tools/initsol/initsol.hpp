@@ -14,6 +14,7 @@ namespace hexpipe::initsol {
 struct InitsolProgress {
   std::int64_t iteration;
   std::int64_t weight;
+  std::int64_t greedy_weight = 0;
 };
 
 struct InitsolResult {

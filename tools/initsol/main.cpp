@@ -43,10 +43,11 @@ struct CommandLine {
 };
 
 void declare_annealing(CLI::App& app, CommandLine& line) {
+  begin_group(app, group::experts);
   line.of_annealing = {
       app.add_option("--hot", line.options.hot,
-                     "Annealing: the first temperature, in mean weights of a chosen vertex [0.3, "
-                     "higher if few are chosen]")
+                     "Annealing: the first temperature, in mean weights of a chosen vertex; lower to keep more of the "
+                     "greedy start [0.3, higher if few are chosen]")
           ->check(number_between(1e-6, 1e6)),
       app.add_option("--cold", line.options.cold,
                      "Annealing: the last temperature, in the same unit [0.03, higher if few are chosen]")
@@ -58,24 +59,28 @@ void declare_tabu_search(CLI::App& app, CommandLine& line) {
   line.of_tabu = {
       app.add_option("--escape", line.escape,
                      "Tabu search: the way out of local optima: restart at random, rebuild from the vertices that "
-                     "moved least, or go back to the best solution")
+                     "moved least, or go back to the best solution; try another one where --log shows no gain for long")
           ->check(CLI::IsMember(escapes)),
       app.add_option("--tenure", tabu.tenure,
-                     "Tabu search: a vertex that was pushed out stays out for this many moves, or up to twice as many")
+                     "Tabu search: a vertex that was pushed out stays out for this many moves, or up to twice as many; "
+                     "less for graphs of few hundred vertices")
           ->check(CLI::Range(0, 1000000000).description("")),
       app.add_option("--patience", tabu.patience, "Tabu search: moves without a better solution before the way out")
           ->check(CLI::Range(1, 1000000000).description(""))};
 }
 
 void declare(CLI::App& app, CommandLine& line) {
+  begin_group(app, "Search");
   app.add_option("--greedy", line.order, "Greedy takes first: high weight, high weight / (degree + 1), or high quality")
       ->check(CLI::IsMember(orders));
   app.add_option("--method", line.method,
                  "The search after greedy: simulated annealing over local optima, tabu search, or a descent to the "
                  "next optimum")
+      ->group(group::first)
       ->check(CLI::IsMember(methods));
   declare_annealing(app, line);
   declare_tabu_search(app, line);
+  begin_group(app, "Search");
   app.add_option("--starts", line.options.starts, "Run searches from this many starts, and recombine their results")
       ->check(CLI::Range(1, 1000).description(""));
   app.add_flag("!--no-reductions", line.options.reduce,
@@ -112,10 +117,13 @@ void run(RunContext& context, const InitsolOptions& options) {
 
   const Deadline deadline = context.deadline();
   Progress progress("initsol", context.common.quiet);
+  progress.begin(fmt::format("chooses among {} candidates", data.graph->vertex_count()));
   const InitsolResult result =
       find_initial_solution(*data.graph, quality, options, deadline, [&](const InitsolProgress& now) {
         log.record(deadline.elapsed(), now.iteration, now.weight);
-        if (progress.due()) progress.show(fmt::format("weight {}", now.weight));
+        if (progress.due())
+          progress.show(
+              mwis::ground::progress_text(now.greedy_weight, now.weight, {}, now.iteration, "moves", deadline));
       });
   const double seconds = deadline.elapsed();
   context.statistics.update(nlohmann::ordered_json{{"greedy_weight", result.greedy_weight},

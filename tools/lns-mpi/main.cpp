@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
   CLI::Option* round = nullptr;
   const auto declare = [&](CLI::App& app) {
     mwis::declare_lns_options(app, options.rounds.search, target);
+    begin_group(app, "Blocks");
     app.add_option("--blocks", options.blocks,
                    "Blocks to cut the graph into, at least one for each rank; 0: one for each 50000 vertices")
         ->check(CLI::Range(0, 1000000).description(""));
@@ -58,6 +59,7 @@ int main(int argc, char** argv) {
     round = app.add_option("--round", options.rounds.fragments_a_round,
                            "Fragments of a round for each thousand vertices, with --iterations");
     round->check(CLI::Range(1, 1000000).description(""));
+    begin_group(app, "Proof");
     CLI::Option* const prove = app.add_option(
         "--prove", options.passes, "Prove a bound after the search, in this many passes of the dual; 0: no bound");
     prove->check(CLI::Range(0, 1000000).description(""));
@@ -68,13 +70,16 @@ int main(int argc, char** argv) {
     outside_history(
         app.add_option("--fragments", options.fragments,
                        "Write the improved fragments to a file, as lns does; for a graph that is not in parts"))
+        ->group(group::output)
         ->type_name("FILE");
     outside_history(
         app.add_option(
             "--parts", options.parts,
             "Bundles of the parts of a graph, in their order; the solution goes into bundles of the same names in the "
             "directory that -o names"))
+        ->group(group::first)
         ->type_name("FILE");
+    begin_group(app, "Checkpoints");
     CLI::Option* const checkpoint =
         outside_history(
             app.add_option("--checkpoint", options.checkpoint,

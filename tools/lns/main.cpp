@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
     outside_history(
         app.add_option("--fragments", fragments_file,
                        "Write each improved fragment as a line of a file, to look at with viewmesh --fragments"))
+        ->group(group::output)
         ->type_name("FILE");
   };
   const auto run = [&](RunContext& context) {
@@ -63,20 +64,23 @@ int main(int argc, char** argv) {
     if (!fragments_file.empty()) fragments.emplace(fragments_file);
     const pipeline::StageData data = stage.read({.needs = {Role::graph, Role::solution}});
     const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
-    if (target.gap)
-      options.target = mwis::ground::target_weight(
-          *target.gap, target.bound || !graph_of_bundle ? target.bound : mwis::ground::bound_in(data.history));
+    const auto bound = target.bound || !graph_of_bundle ? target.bound : mwis::ground::bound_in(data.history);
+    if (target.gap) options.target = mwis::ground::target_weight(*target.gap, bound);
 
     if (data.gaps)
       options.first_places = mwis::bounds::holds_most_of_gap(data.graph->vertex_count(), *data.solution, *data.gaps);
     const Deadline deadline = context.deadline();
     Progress progress("lns", context.common.quiet);
+    progress.begin(fmt::format("prepares a graph of {} candidates", data.graph->vertex_count()));
+    const std::int64_t weight_before = graph::total_weight(*data.solution, *data.graph);
     const mwis::local_search::LnsResult result = mwis::local_search::improve_by_lns(
         *data.graph, *data.solution, options, deadline, [&](const mwis::local_search::LnsProgress& now) {
           log.record(deadline.elapsed(), now.iteration, now.weight);
           if (fragments && !now.fragment.empty())
             fragments->add(std::vector<std::uint64_t>(now.fragment.begin(), now.fragment.end()));
-          if (progress.due()) progress.show(fmt::format("weight {} after {} fragments", now.weight, now.iteration));
+          if (progress.due())
+            progress.show(
+                mwis::ground::progress_text(weight_before, now.weight, bound, now.iteration, "fragments", deadline));
         });
     const double seconds = deadline.elapsed();
     context.statistics["weight"] = result.weight;

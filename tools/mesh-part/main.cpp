@@ -30,7 +30,8 @@ int main(int argc, char** argv) {
         app.add_option("-o,--output", options.directory, "The directory for part-0000.tar and so on; it is made"))
         ->required()
         ->type_name("DIR");
-    outside_history(app.add_flag("--compress", options.compress, "Compress the bundles with zstd"));
+    outside_history(app.add_flag("--compress", options.compress, "Compress the bundles with zstd"))
+        ->group(group::output);
   };
   const auto run = [&](RunContext& context) {
     options.seed = context.common.seed;

@@ -72,15 +72,18 @@ int main(int argc, char** argv) {
                    "How far triangles may be from the CAD's surface [a hundredth of the size that tetmesh chooses]")
         ->check(number_between(1e-12, 1e12))
         ->type_name("LENGTH");
+    begin_group(app, "Triangles");
     app.add_option("--angle", options.angle, "How far neighbours may turn on a smooth face, in degrees")
         ->check(number_between(1, 60));
     app.add_option("--unit", options.unit, "Write lengths in metres or millimetres [the file's own unit]")
+        ->group(group::first)
         ->check(CLI::IsMember({"m", "mm"}));
     app.add_flag("--join", options.join, "Let bodies that touch share their common faces, edges and corners");
     outside_history(
         app.add_option("-o,--output", output_path, "Write to a file, not to standard output: .tar, .obj, .stl or .msh"))
+        ->group(group::first)
         ->type_name("FILE");
-    outside_history(app.add_flag("--compress", compress, "Compress the bundle with zstd"));
+    outside_history(app.add_flag("--compress", compress, "Compress the bundle with zstd"))->group(group::output);
   };
   const auto run = [&](RunContext& context) {
     const std::string_view format = format_of(output_path);

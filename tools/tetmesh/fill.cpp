@@ -10,13 +10,12 @@
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/solid/model_axes.hpp"
-#include "tools/tetmesh/surface/edge_splitting.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 #include "tools/tetmesh/tetgen/run_tetgen.hpp"
+#include "tools/tetmesh/volume/estimates.hpp"
 #include "tools/tetmesh/volume/frame_points.hpp"
 #include "tools/tetmesh/volume/given_points.hpp"
-#include "tools/tetmesh/volume/graded_lattice.hpp"
-#include "tools/tetmesh/volume/hex_estimate.hpp"
+#include "tools/tetmesh/volume/lattice.hpp"
 
 namespace hexpipe::tetmesh {
 namespace {
@@ -133,7 +132,9 @@ bool Filler::fill_new_surface() {
                                     {size_, options_.feature_angle, options_.deviation, unit, options_.row_stretch});
   std::string failure;
   try {
-    while (!built_ && remesher.make()) {
+    while (!built_) {
+      options_.steps.begin(Step::remesh, given_.triangles.size());
+      if (!remesher.make()) break;
       watch_.add_to(statistics_.seconds.remeshing);
       surface_ = &remesher.made();
       place_points();
@@ -175,6 +176,7 @@ void Filler::fill_given_surface() {
 }
 
 void Filler::place_points() {
+  options_.steps.begin(Step::place, surface_->triangles.size());
   if (places_points(options_.points)) {
     axes_ = solid::axes_of_model(*surface_, options_.feature_angle);
     points_ = volume::graded_lattice_points(*surface_, size_,
@@ -194,6 +196,7 @@ void Filler::place_points() {
 
 // Starts from the mesh with the lattice's points, and keeps that mesh if it is the better one.
 void Filler::try_frame_points() {
+  options_.steps.begin(Step::follow_frames, built_->mesh.tets.size());
   const volume::FramePoints frame =
       volume::frame_points(*surface_, built_->mesh, built_->adjacency,
                            {.size = size_,
@@ -227,6 +230,7 @@ void Filler::try_frame_points() {
 
 // Returns nothing where the mesh is not wanted.
 std::optional<tetgen::BuiltMesh> Filler::tetrahedralize(std::span<const Vec3> points, const Meanwhile& meanwhile) {
+  options_.steps.begin(built_ ? Step::fill_again : Step::fill, surface_->points.size() + points.size());
   // With one thread, TetGen and the other work follow each other.
   const bool at_once = thread_count() > 1;
   if (!at_once && !meanwhile()) return std::nullopt;

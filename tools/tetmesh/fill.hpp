@@ -11,6 +11,7 @@
 #include "tools/tetmesh/sizing/size_demand.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 #include "tools/tetmesh/statistics.hpp"
+#include "tools/tetmesh/steps.hpp"
 #include "tools/tetmesh/tetgen/build_mesh.hpp"
 #include "tools/tetmesh/volume/dislocations.hpp"
 
@@ -27,6 +28,7 @@ struct FillOptions {
   double most_points;     // inside
   double tetgen_timeout;  // seconds for all runs that make one mesh
   bool estimates;         // fills in TetmeshStatistics::hex_share
+  const StepReport& steps;
 };
 
 // A mesh and what it was made of.

@@ -102,7 +102,7 @@ int main(int argc, char** argv) {
   std::string path = "-", surface_kind = "remesh", points = "best", shells = "oriented", weld = "0.0001%";
   const auto declare = [&](CLI::App& app) {
     command_line = &app;
-    app.add_option("surface", path, "A surface in any format; '-' or nothing: standard input")->type_name("FILE");
+    app.add_option("input", path, "A surface in any format; '-' or nothing: standard input")->type_name("FILE");
     app.add_option(
            "--size", given_sizes,
            "Distance of points inside, in the surface's units or, with %, in percent of the bounding box's diagonal "
@@ -110,6 +110,7 @@ int main(int argc, char** argv) {
            "0,0,0,1,1,1=0.2' in a box")
         ->allow_extra_args(false)
         ->type_name("LENGTH");
+    begin_group(app, "Sizes");
     app.add_option(
            "--size-field", size_file,
            "Sizes by place: lines of x y z size, or one size for each vertex of the surface, or either of them in "
@@ -117,6 +118,7 @@ int main(int argc, char** argv) {
         ->type_name("FILE");
     app.add_option("--scale", scale,
                    "Multiply the coordinates of a surface file by this; all lengths are in the new unit")
+        ->group("Surface")
         ->check(number_between(1e-12, 1e12))
         ->type_name("FACTOR");
     app.add_option("--grading", options.sizes.grading,
@@ -135,6 +137,7 @@ int main(int argc, char** argv) {
         ->default_str("2")
         ->check(CLI::Range(1, 100))
         ->type_name("[N]");
+    begin_group(app, "Surface");
     app.add_option("--surface", surface_kind, "The surface's triangles: made anew to suit hexes, or kept")
         ->check(CLI::IsMember(surface_kinds));
     app.add_option(
@@ -150,16 +153,23 @@ int main(int argc, char** argv) {
            "How much rows of points may stretch so that fewer end on faces: from one triangle of the field to the "
            "next, in sizes; 0: not at all")
         ->check(number_between(0, 10));
+    begin_group(app, "Points inside");
     app.add_option("--points", points,
                    "Points inside: best, frame (along a frame field that follows the surface), lattice (along the "
                    "model's own axes), none, or a file of your own (.xyz, .node, .npy, .ply)")
-        ->type_name("KIND|FILE");
-    app.add_option("--clearance", options.clearance, "Least distance of points inside from the surface, in sizes")
+        ->type_name("KIND:{best,frame,lattice,none}|FILE");
+    app.add_option(
+           "--clearance", options.clearance,
+           "Least distance of points inside from the surface, in sizes; more where tets at the surface come out "
+           "flat, less where a thin wall stays without points")
+        ->group(group::experts)
         ->check(number_between(0.1, 10));
     app.add_option("--jitter", options.jitter,
                    "How far points inside are moved at random along each axis, in sizes [0.04; on a lattice 0.01]")
         ->check(number_between(0, 1));
-    app.add_option("--most-points", options.most_points, "Most points inside, to protect memory")
+    app.add_option("--most-points", options.most_points,
+                   "Most points inside, to protect memory; more for a mesh that has to be that large")
+        ->group(group::experts)
         ->check(number_between(1, 1e9));
     app.add_option("--tries", options.tries,
                    "How many sizes to try, up to 5 % off; the mesh that is estimated to have most hexes is kept")
@@ -167,11 +177,13 @@ int main(int argc, char** argv) {
     app.add_option("--improve", options.improve,
                    "Rounds of a search that moves, adds and removes points where that brings hexes; a round "
                    "takes five runs of TetGen")
+        ->group(group::first)
         ->type_name("ROUNDS")
         ->check(CLI::Range(std::size_t{0}, std::size_t{1000000}).description(""));
     app.add_option("--time-limit", options.time_limit, "With --improve: stop the search after this many seconds")
         ->type_name("SECONDS")
         ->check(number_between(0, 1e9));
+    begin_group(app, "Faults, bodies and names");
     app.add_flag(
         "--repair", options.repair,
         "Weld points, remove flat and repeated triangles, turn triangles that disagree with their neighbours, fill "
@@ -187,10 +199,10 @@ int main(int argc, char** argv) {
                    "regions in "
                    "turn")
         ->check(CLI::IsMember(shell_rules));
-    app.add_option(
-           "--tags-by-angle", options.tag_angle,
-           "If given: pieces of the surface without a name get tags of their own; they end at edges that turn by more "
-           "than this many degrees (40 without ANGLE)")
+    app.add_option("--tags-by-angle", options.tag_angle,
+                   "If given: smooth parts of the surface without a name get tags of their own; they end at edges that "
+                   "turn by more "
+                   "than this many degrees (40 without ANGLE)")
         ->expected(0, 1)
         ->default_str("40")
         ->check(number_between(1, 180))
@@ -199,7 +211,9 @@ int main(int argc, char** argv) {
         ->allow_extra_args(false)
         ->type_name("TAG=NAME");
     outside_history(app.add_option("--tetgen-timeout", options.tetgen_timeout,
-                                   "Seconds after which TetGen is given up, for each mesh that it makes"))
+                                   "Seconds after which TetGen is given up, for each mesh that it makes; more where a "
+                                   "large mesh needs it"))
+        ->group(group::experts)
         ->check(number_between(0.001, 1e9));
   };
   const auto run = [&](RunContext& context) {
@@ -213,11 +227,13 @@ int main(int argc, char** argv) {
     options.seed = context.common.seed;
     options.weld = sizing::parse_length(weld);
     pipeline::Stage stage(context);
+    Progress progress("tetmesh", context.common.quiet);
     formats::Input input = open_surface(path);
+    progress.begin(fmt::format("reads {}", input.name()));
     formats::SurfaceSoup surface = stage.read_surface(input);
     if (scale) scale_surface(*scale, surface);
     if (size_file) options.sizes.sources = size_sources(*size_file, surface);
-    Progress progress("tetmesh", context.common.quiet);
+    options.on_step = [&](const std::string& step) { progress.begin(step); };
     options.after_round = [&](std::size_t round, double share) {
       if (progress.due()) progress.show(fmt::format("round {}, about {:.1f} % in hexes", round + 1, 100 * share));
     };

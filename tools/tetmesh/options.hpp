@@ -13,6 +13,7 @@
 #include "tools/tetmesh/solid/group_tags.hpp"
 #include "tools/tetmesh/solid/repair.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
+#include "tools/tetmesh/steps.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 #include "tools/tetmesh/volume/lattice.hpp"
 #include "tools/tetmesh/volume/point_kind.hpp"
@@ -48,6 +49,7 @@ struct TetmeshOptions {
   std::size_t improve = 0;                // rounds of the search for better points
   std::optional<double> time_limit = {};  // of that search, in seconds
   std::function<void(std::size_t round, double share)> after_round = {};  // of that search
+  StepReport::Show on_step = {};                                          // is told what is done from now on
 };
 
 // Prepares the words of a command line for CLI11, which takes any word behind an option as its optional value: a word

@@ -13,7 +13,7 @@
 #include "tools/tetmesh/improve.hpp"
 #include "tools/tetmesh/solid/boundary.hpp"
 #include "tools/tetmesh/tetgen/mesh_shape.hpp"
-#include "tools/tetmesh/volume/expected_points.hpp"
+#include "tools/tetmesh/volume/estimates.hpp"
 
 namespace hexpipe::tetmesh {
 namespace {
@@ -78,7 +78,35 @@ TetmeshResult finish(FilledSurface filled, const solid::Surface& given) {
           std::move(filled.dislocations)};
 }
 
-FillOptions fill_options(const TetmeshOptions& o) {
+// The steps that a run with these options has.
+std::vector<Step> steps_of(const TetmeshOptions& options) {
+  std::vector<Step> steps{Step::check};
+  if (options.surface == SurfaceKind::remesh) steps.push_back(Step::remesh);
+  steps.push_back(Step::place);
+  steps.push_back(Step::fill);
+  if (options.points == volume::PointKind::best || options.points == volume::PointKind::frame) {
+    steps.push_back(Step::follow_frames);
+    steps.push_back(Step::fill_again);
+  }
+  if (options.improve > 0) steps.push_back(Step::improve);
+  steps.push_back(Step::write);
+  return steps;
+}
+
+// A size in another unit than the surface's: then one cell would be larger than the model.
+std::optional<std::string> complaint_about_size(const solid::Surface& surface, double size) {
+  Vec3 low = surface.points.front(), high = low;
+  for (const Vec3& p : surface.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const Vec3 extent = high - low;
+  if (size <= std::max({extent.x, extent.y, extent.z})) return std::nullopt;
+  return fmt::format("the size {:.6g} is larger than the model, which measures {:.6g} x {:.6g} x {:.6g}", size,
+                     extent.x, extent.y, extent.z);
+}
+
+FillOptions fill_options(const TetmeshOptions& o, const StepReport& steps) {
   return {o.surface == SurfaceKind::remesh,
           o.feature_angle,
           o.deviation,
@@ -90,7 +118,8 @@ FillOptions fill_options(const TetmeshOptions& o) {
           o.seed,
           o.most_points,
           o.tetgen_timeout,
-          o.tries > 1};
+          o.tries > 1,
+          steps};
 }
 
 }  // namespace
@@ -98,6 +127,8 @@ FillOptions fill_options(const TetmeshOptions& o) {
 TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) {
   check_options(options);
   const Stopwatch watch;
+  const StepReport steps(steps_of(options), options.on_step);
+  steps.begin(Step::check, soup.triangles.size());
   std::optional<solid::RepairReport> repaired;
   if (options.repair) repaired = solid::repair(soup, {sizing::in_units(options.weld, soup), options.largest_hole});
   std::vector<std::string> warnings;
@@ -108,6 +139,7 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
   const solid::Surface surface = std::move(tagged);
   const bool triangles_stay = options.surface == SurfaceKind::keep;
   sizing::SizeDemand demand = sizing::demand_on(surface, options.sizes, options.feature_angle, triangles_stay);
+  if (auto complaint = complaint_about_size(surface, demand.greatest)) warnings.push_back(*std::move(complaint));
   add_asked_sizes(surface, options.asked_sizes, options.tetgen_timeout, demand);
   const double least_factor = std::ranges::min(std::span(tried_sizes).first(options.tries));
   const bool places = volume::places_points(options.points);
@@ -117,10 +149,13 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
   if (places) volume::check_point_count(surface, least_factor * size, options.clearance, options.most_points);
   const double seconds_checking = watch.seconds();
 
-  FilledSurface filled = best_of_tries(surface, demand, size, options.tries, fill_options(options));
-  if (options.improve > 0)
+  FilledSurface filled = best_of_tries(surface, demand, size, options.tries, fill_options(options, steps));
+  if (options.improve > 0) {
+    steps.begin(Step::improve, filled.built.mesh.tets.size());
     improve(filled, surface,
             {options.improve, options.seed, options.time_limit, options.tetgen_timeout, options.after_round});
+  }
+  steps.begin(Step::write, filled.built.mesh.tets.size());
   TetmeshResult result = finish(std::move(filled), surface);
   result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
   result.statistics.repair = repaired;

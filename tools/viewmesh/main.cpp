@@ -4,6 +4,7 @@
 
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
+#include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "tools/viewmesh/options.hpp"
@@ -45,6 +46,7 @@ int main(int argc, char** argv) {
                    "Write the page to a file; without -o and --png it goes to standard output")
         ->type_name("FILE");
     app.add_option("--png", options.picture, "Write a picture to a file")->type_name("FILE");
+    begin_group(app, "Page and picture");
     app.add_option("--size", options.size, "Width and height of the picture in pixels")
         ->type_name("W,H")
         ->delimiter(',')
@@ -54,10 +56,11 @@ int main(int argc, char** argv) {
     app.add_option("--show", options.show,
                    "The stage to show: result, solution, candidates or mesh [the last one in the bundle]")
         ->type_name("WHAT")
-        ->check(CLI::IsMember(contents).description(""));
+        ->check(CLI::IsMember(contents));
     app.add_option("--view", options.view,
                    "The view of page and picture, as the page's links have it after the #, for example "
                    "'clip=y:0.5&colour=quality&theme=dark' (man viewmesh has all keys)")
+        ->group(group::first)
         ->type_name("STATE");
     app.add_option("--fragments", options.fragments,
                    "Fragments to go through one by one: each line has the numbers of a fragment's candidates, from 1")
@@ -75,6 +78,8 @@ int main(int argc, char** argv) {
                                    ? context.streams.files.empty() ? "stdin" : "the files"
                                    : *context.streams.operand;
     const Scene::Content content = options.show.empty() ? last_content(data, source) : contents.at(options.show);
+    Progress progress("viewmesh", context.common.quiet);
+    progress.begin(fmt::format("prepares the {}", name_of(content)));
     Scene scene = make_scene(std::move(data), content, source);
     resolve_groups(state, scene);
     if (!options.fragments.empty()) {
@@ -87,6 +92,7 @@ int main(int argc, char** argv) {
       context.statistics[name_of(scene_kinds[k])] = scene.kind_begin[k + 1] - scene.kind_begin[k];
     context.note(fmt::format("{}: {} cells", name_of(content), scene.cell_count()));
     if (options.title.empty()) options.title = fmt::format("hexpipe {}", name_of(content));
+    progress.begin(fmt::format("shows {} cells", scene.cell_count()));
     write_outputs(scene, state, options);
   };
   return tool_main(argc, argv, info, declare, run);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "common/run/deadline.hpp"
 #include "common/run/text_file.hpp"
 
 namespace hexpipe::mwis::ground {
@@ -27,5 +28,10 @@ class SearchLog {
   std::string value_name_;
   double next_ = 0;
 };
+
+// For a line of progress: how much heavier the solution has become, its gap to a known
+// bound, after how many `steps` of the kind `unit`, and how long the search may go on.
+std::string progress_text(std::int64_t weight_before, std::int64_t weight, std::optional<std::int64_t> bound,
+                          std::int64_t steps, const char* unit, const Deadline& deadline);
 
 }  // namespace hexpipe::mwis::ground
