@@ -31,7 +31,7 @@ def main():
 
     for number, (kind, _) in entities.items():
         surface = refs(number)[-1] if kind == "ADVANCED_FACE" else None
-        if surface is None or entities[surface][0] != "PLANE":
+        if entities.get(surface, ("", ""))[0] != "PLANE":
             continue
         point, normal = refs(refs(surface)[0])[:2]
         for name, axis, value in wanted:

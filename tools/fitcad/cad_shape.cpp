@@ -33,6 +33,8 @@
 namespace hexpipe::fitcad {
 namespace {
 
+// Curves this share of the reach further away than the nearest one may turn out to be nearer: their pieces are chords.
+constexpr double curve_slack = 0.2;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // OpenCASCADE prints its messages to standard output, where the bundle goes.
@@ -73,6 +75,19 @@ struct EdgePieces {
   std::vector<EdgePiece> of;
   std::vector<Piece> pieces;
 };
+
+// Of a face or an edge, the nearest of its pieces.
+struct Near {
+  std::int32_t piece;
+  double distance;
+};
+
+void keep_nearest(std::map<std::int32_t, Near>& found, std::int32_t part, std::int32_t number, const Piece& piece,
+                  const Vec3& to) {
+  const double distance = norm(to - point_of(piece, nearest_weights(piece, to)));
+  const auto [entry, is_new] = found.try_emplace(part, Near{number, distance});
+  if (!is_new && distance < entry->second.distance) entry->second = {number, distance};
+}
 
 }  // namespace
 
@@ -194,18 +209,11 @@ void CadShape::State::add_edge(std::int32_t number, const TopoDS_Edge& edge, con
 std::vector<std::pair<std::int32_t, std::int32_t>> CadShape::State::faces_near(
     const Vec3& to, double reach, std::span<const std::int32_t> tags) const {
   const double nearest = triangle_tree->distance(to, infinity);
-  struct Near {
-    std::int32_t triangle;
-    double distance;
-  };
   std::map<std::int32_t, Near> found;
-  for (const std::int32_t t : triangle_tree->within(to, nearest * (1 + 1e-9) + reach)) {
-    const double distance = norm(to - point_of(pieces[t], nearest_weights(pieces[t], to)));
-    const auto [entry, is_new] = found.try_emplace(triangles[t].face, Near{t, distance});
-    if (!is_new && distance < entry->second.distance) entry->second = {t, distance};
-  }
+  for (const std::int32_t t : triangle_tree->within(to, nearest * (1 + 1e-9) + reach))
+    keep_nearest(found, triangles[t].face, t, pieces[t], to);
   std::vector<std::pair<std::int32_t, std::int32_t>> result;
-  for (const auto& [face, near] : found) result.emplace_back(face, near.triangle);
+  for (const auto& [face, near] : found) result.emplace_back(face, near.piece);
   const auto has_tag = [&](const auto& entry) { return std::ranges::find(tags, faces[entry.first].tag) != tags.end(); };
   if (std::ranges::any_of(result, has_tag)) std::erase_if(result, [&](const auto& entry) { return !has_tag(entry); });
   return result;
@@ -232,9 +240,12 @@ Foot CadShape::State::foot_on_edge(const EdgePiece& of, const Piece& piece, cons
 std::optional<Foot> CadShape::State::nearest_foot(const EdgePieces& of, const PieceTree& tree, const Vec3& to,
                                                   double slack) const {
   if (tree.empty()) return std::nullopt;
+  std::map<std::int32_t, Near> found;
+  for (const std::int32_t i : tree.within(to, tree.distance(to, infinity) * (1 + 1e-9) + slack))
+    keep_nearest(found, of.of[i].edge, i, tree.piece(i), to);
   std::optional<Foot> best;
-  for (const std::int32_t i : tree.within(to, tree.distance(to, infinity) * (1 + 1e-9) + slack)) {
-    const Foot foot = foot_on_edge(of.of[i], tree.piece(i), to);
+  for (const auto& [edge, near] : found) {
+    const Foot foot = foot_on_edge(of.of[near.piece], tree.piece(near.piece), to);
     if (!best || foot.distance < best->distance) best = foot;
   }
   return best;
@@ -269,7 +280,7 @@ Foot CadShape::on_faces(const Vec3& to, double reach, std::span<const std::int32
 
 std::optional<Foot> CadShape::on_curves(const Vec3& to, double reach) const {
   const State& s = *state_;
-  std::optional<Foot> foot = s.nearest_foot(s.features, *s.feature_tree, s.unit * to, s.unit * reach);
+  std::optional<Foot> foot = s.nearest_foot(s.features, *s.feature_tree, s.unit * to, curve_slack * s.unit * reach);
   if (!foot || foot->distance > s.unit * reach) return std::nullopt;
   foot->at *= 1 / s.unit;
   foot->distance = norm(to - foot->at);

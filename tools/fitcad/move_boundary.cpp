@@ -20,6 +20,7 @@ constexpr double poor = 0.02;         // no cell becomes poorer than that, where
 constexpr int rounds_of_room = 6;     // before the boundary gives way
 constexpr int rounds_inside = 3;      // of these, before vertices of the boundary slide, too
 constexpr double most_slide = 0.15;   // in lengths of the edges there: longer edges leave a curved face further behind
+constexpr int most_tries = 4;         // of steps of one length
 constexpr double smallest_share = 0.2;
 
 struct Cell {
@@ -128,7 +129,7 @@ class BoundaryMover {
         if (w != v) length = std::min(length, norm(mesh_.points[w] - mesh_.points[v]));
     double room = room_at(v);
     for (double step = 0.1 * length; step > 0.002 * length; step /= 2)
-      while (climb_by(v, step, room)) {
+      for (int tries = 0; tries < most_tries && climb_by(v, step, room); ++tries) {
       }
   }
 
@@ -138,7 +139,9 @@ class BoundaryMover {
     for (int x = -1; x <= 1; ++x)
       for (int y = -1; y <= 1; ++y)
         for (int z = -1; z <= 1; ++z) {
-          if (x == 0 && y == 0 && z == 0) continue;
+          // Along a curve or a face there are fewer ways to go.
+          const int axes = std::abs(x) + std::abs(y) + std::abs(z);
+          if (axes == 0 || (axes > 1 && !is_inside(v))) continue;
           const Vec3 along{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
           const Vec3 to = from + (step / norm(along)) * along;
           mesh_.points[v] = is_inside(v) ? to : targets_.slid(shape_, v, to);
