@@ -78,7 +78,7 @@ class Su2Reader {
     } else if (key == "NELEM") {
       read_cells();
     } else if (key == "MARKER_TAG") {
-      names_.emplace_back(value_);
+      names_.push_back(clean_name(value_));
     } else if (key == "MARKER_ELEMS") {
       read_marker();
     } else if (key == "NZONE" && number_value<int>("one zone") != 1) {
@@ -160,7 +160,7 @@ class Su2Reader {
       if (is_told[i]) continue;
       while (used.contains(next)) ++next;
       used.emplace(tags[i] = next, i);
-      if (names != nullptr) names->surfaces[tags[i]] = clean_name(names_[i]);
+      if (names != nullptr) names->surfaces[tags[i]] = names_[i];
     }
     for (auto* block_tags : {&mesh_.triangles.tags, &mesh_.quads.tags})
       for (std::int32_t& tag : *block_tags) tag = tags[static_cast<std::size_t>(tag)];

@@ -480,6 +480,28 @@ TEST(Objective, AFaceCostsWhereItIsSkewOrOfLowWeight) {
   EXPECT_GT(cost_of_face(0.1, 0.01), cost_of_face(0.1, 0.5));
 }
 
+TEST(Objective, ACellCostsWhereItsFacesDoNotSpanSpace) {
+  EXPECT_EQ(cost_of_span(0.001), 0);
+  EXPECT_NEAR(cost_of_span(0.0005), 0.75, 1e-12);
+  EXPECT_NEAR(cost_of_span(0), 1, 1e-12);
+}
+
+// Four tets around a point: with all of them in the mesh each has three neighbours, and a fourth side on the boundary.
+TEST(FaceCosts, CountCellsThatHaveTooFewNeighbours) {
+  TetMesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.25, 0.25, 0.25}};
+  mesh.tets = {{0, 1, 2, 4}, {0, 3, 1, 4}, {0, 2, 3, 4}, {1, 3, 2, 4}};
+  mesh.tet_tags = {1, 1, 1, 1};
+  const SurfaceTags tags = no_tags();
+  const std::vector<std::int32_t> all{0, 1, 2, 3}, first{0}, two{0, 1};
+  HybridMesh whole(mesh, std::vector<bool>(4));
+  EXPECT_EQ(cost_of_faces(GapMesh(whole, tags, {}), all), 0);
+  EXPECT_EQ(cost_of_faces(GapMesh(whole, tags, {}), first), 0) << "neighbours are found in the mesh";
+  mesh.tets.resize(2), mesh.tet_tags.resize(2);
+  HybridMesh half(mesh, std::vector<bool>(2));
+  EXPECT_NEAR(cost_of_faces(GapMesh(half, tags, {}), two), 2, 1e-12) << "one neighbour each";
+}
+
 // A flat tet under a tall one: the line between their centres runs far off the normal of their face.
 TEST(FaceCosts, CountEachFaceOnceAndWhatLiesBeyond) {
   TetMesh mesh;
@@ -492,7 +514,8 @@ TEST(FaceCosts, CountEachFaceOnceAndWhatLiesBeyond) {
   const std::vector<std::int32_t> both{0, 1}, one{0};
   const double cost = cost_of_faces(gap, both);
   EXPECT_GT(cost, 0.5);
-  EXPECT_EQ(cost_of_faces(gap, one), cost) << "the other cell is found in the mesh";
+  // With one neighbour a cell has no determinant, which costs 1.
+  EXPECT_EQ(cost_of_faces(gap, one), cost - 1) << "the other cell is found in the mesh";
   gap.ignore_faces();
   EXPECT_EQ(cost_of_faces(gap, both), 0);
 }

@@ -16,6 +16,8 @@ struct Side {
   FaceShape shape;
   Vec3 centre;  // of the cell behind it
   bool is_kept;
+  std::size_t cell;   // among those that are judged
+  std::uint8_t face;  // of the cell, triangles before quads
 };
 
 FacesOf faces_of(const GapMesh& gap, CellKind kind, std::span<const Vertex> corners, bool is_kept) {
@@ -52,22 +54,32 @@ std::optional<Vec3> centre_behind(const GapMesh& gap, const Facet& facet, std::s
   return std::nullopt;
 }
 
-void append_sides(const FacesOf& cell, std::vector<Side>& sides) {
+void append_sides(const FacesOf& cell, std::size_t number, std::vector<Side>& sides) {
   const auto count = static_cast<std::size_t>(corner_count(cell.kind));
   const Vec3 centre = cell_centre(cell.kind, std::span<const Vec3>(cell.points).first(count));
+  std::uint8_t face = 0;
   auto each = [&](const auto& facets) {
     for (const auto& facet : facets) {
       std::array<Vertex, 4> own{-1, -1, -1, -1};
       std::array<Vec3, 4> at{};
       for (std::size_t i = 0; i < facet.size(); ++i) own[i] = cell.corners[facet[i]], at[i] = cell.points[facet[i]];
       sides.push_back({key_of(own), Facet::of(std::span<const Vertex>(own).first(facet.size())),
-                       face_shape(std::span<const Vec3>(at).first(facet.size())), centre, cell.is_kept});
+                       face_shape(std::span<const Vec3>(at).first(facet.size())), centre, cell.is_kept, number,
+                       face++});
     }
   };
   with_topology(cell.kind, [&](auto topology) {
     each(decltype(topology)::triangles);
     each(decltype(topology)::quads);
   });
+}
+
+// For each face whether there is a cell beyond it.
+using InnerFaces = std::array<std::uint8_t, 6>;
+
+double determinant_of(const FacesOf& cell, const InnerFaces& inner) {
+  const auto count = static_cast<std::size_t>(corner_count(cell.kind));
+  return cell_determinant(cell.kind, std::span<const Vec3>(cell.points).first(count), inner);
 }
 
 double cost_between(const FaceShape& shape, const Vec3& behind, const Vec3& before) {
@@ -79,20 +91,26 @@ double cost_between(const FaceShape& shape, const Vec3& behind, const Vec3& befo
 double cost_of_faces(const GapMesh& gap, std::span<const FacesOf> cells, std::span<const std::int32_t> instead_of) {
   if (!gap.counts_faces()) return 0;
   std::vector<Side> sides;
-  for (const FacesOf& cell : cells) append_sides(cell, sides);
+  for (std::size_t c = 0; c < cells.size(); ++c) append_sides(cells[c], c, sides);
   std::ranges::stable_sort(sides, {}, &Side::key);
   double cost = 0;
+  std::vector<InnerFaces> inner(cells.size());
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Side& side = sides[i];
     if (i + 1 < sides.size() && sides[i + 1].key == side.key) {
       ++i;
+      inner[side.cell][side.face] = inner[sides[i].cell][sides[i].face] = 1;
       if (!side.is_kept || !sides[i].is_kept) cost += cost_between(side.shape, side.centre, sides[i].centre);
       continue;
     }
     if (side.is_kept) continue;
-    if (const auto beyond = centre_behind(gap, side.facet.reversed(), instead_of))
+    if (const auto beyond = centre_behind(gap, side.facet.reversed(), instead_of)) {
       cost += cost_between(side.shape, side.centre, *beyond);
+      inner[side.cell][side.face] = 1;
+    }
   }
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    if (!cells[c].is_kept) cost += cost_of_span(determinant_of(cells[c], inner[c]));
   return cost;
 }
 

@@ -21,6 +21,7 @@ constexpr double price_of_poverty = 1;
 // weight nothing.
 constexpr double price_of_severe_face = 0.5;
 constexpr double price_of_low_weight = 0.5;
+constexpr double price_of_low_determinant = 0.5;
 constexpr double wider_by = 20 * std::numbers::pi / 180;
 
 // One determinant and six lengths, for this takes most of the time.
@@ -52,6 +53,10 @@ double cost_of_face(double orthogonality, double weight) {
     cost += price_of_severe_face * (1 + (std::acos(std::max(orthogonality, -1.0)) - severe_angle) / wider_by);
   if (weight < low_weight) cost += price_of_low_weight * (2 - weight / low_weight);
   return cost;
+}
+
+double cost_of_span(double determinant) {
+  return determinant < low_determinant ? price_of_low_determinant * (2 - determinant / low_determinant) : 0;
 }
 
 }  // namespace hexpipe::assemble::gap

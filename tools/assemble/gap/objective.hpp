@@ -28,4 +28,7 @@ double cost_of(double quality);
 // and more where finite volumes suffer from it.
 double cost_of_face(double orthogonality, double weight);
 
+// The same of a cell whose faces to others do not span space well: from its determinant.
+double cost_of_span(double determinant);
+
 }  // namespace hexpipe::assemble::gap
