@@ -10,7 +10,7 @@ export ASAN_OPTIONS="${ASAN_OPTIONS:-detect_leaks=1:abort_on_error=0}"
 export UBSAN_OPTIONS="${UBSAN_OPTIONS:-print_stacktrace=1}"
 jobs=$(nproc)
 # Many of them wait: for signals, for a stalled input, for a time limit.
-tests_at_once=$((jobs + 1))
+tests_at_once=$((2 * jobs))
 
 for preset in ci ci-sanitize; do
   cmake --preset "$preset"

@@ -155,7 +155,7 @@ TEST(MeshFiles, RefusesWhatIsNoMesh) {
   EXPECT_THAT(message_of_reading("solid cube\n"), HasSubstr("found 'solid'"));
   EXPECT_THAT(message_of_reading("<html></html>"), HasSubstr("expected a mesh"));
   EXPECT_THAT(message_of_reading(std::string("\1\0\0\0\3\0\0\0", 8)), HasSubstr("MEDIT's binary format"));
-  EXPECT_THAT(message_of_reading("*HEADING\n"), HasSubstr("found '*HEADING'"));
+  EXPECT_THAT(message_of_reading("*HEADING\n"), HasSubstr("expected *NODE, found none"));
 }
 
 TEST(MeshFiles, RefusesCoordinatesThatAreNotFinite) {
