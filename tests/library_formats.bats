@@ -3,6 +3,8 @@
 
 load helpers
 
+export LSAN_OPTIONS="suppressions=$BATS_TEST_DIRNAME/leaks_of_hdf5.txt:print_suppressions=0"
+
 # need FORMAT: skips where it was not built.
 need() {
   if mesh_convert "$DATA/meshes/one_of_each.msh" "$1" /dev/null 2>&1 | grep -q 'expected a mesh format'; then

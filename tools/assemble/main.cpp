@@ -69,7 +69,6 @@ void declare_options(CLI::App& app, CommandLine& line) {
       ->group(group::first)
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  begin_group(app, "In parts");
   outside_history(
       app.add_option(
           "--require", line.require,
@@ -77,6 +76,7 @@ void declare_options(CLI::App& app, CommandLine& line) {
           "'hexes 0.3, cells 0.1, orthogonality 70, weight 0.05, determinant 0.001, flatness 0.8': the scaled Jacobian "
           "of hexes, that of all cells, and what finite volumes need (docs/definitions.md)"))
       ->type_name("LIST");
+  begin_group(app, "In parts");
   outside_history(
       app.add_option(
           "--neighbours", line.neighbours,
