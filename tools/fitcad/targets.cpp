@@ -10,9 +10,14 @@ namespace {
 
 // tetmesh and assemble leave vertices where curves of the CAD end or meet in their place, to rounding.
 constexpr double corner_reach = 1e-3;  // of the length of an edge
-// An edge of the mesh is one along a curve if its ends and its middle are this near to one: all curves that are
-// features are edges of the mesh.
-constexpr double curve_reach = 0.1;
+// An edge of the mesh is one along a curve if its ends are this near to one, and its middle as near as a chord may be:
+// all curves that are features are edges of the mesh.
+constexpr double end_reach = 0.04, middle_reach = 0.2;
+// Faces this much further away than the nearest one may turn out to be nearer.
+constexpr double face_reach = 0.1;
+
+// Vertices this near to their places, in diagonals, are there: flat faces stay flat to the last bit.
+constexpr double rounding = 1e-12;
 
 // What the facets say of an edge of the boundary.
 struct BoundaryEdge {
@@ -37,9 +42,10 @@ class TargetSearch {
       if (edge_counts_[v] == 0) continue;
       const auto vertex = static_cast<Vertex>(v);
       result.of[v] = target_of(vertex);
-      if (norm(result.of[v].at - mesh_.points[v]) <= reach_ * lengths_[v]) continue;
+      const double distance = norm(result.of[v].at - mesh_.points[v]);
+      if (distance > rounding * shape_.diagonal() && distance <= reach_ * lengths_[v]) continue;
       result.of[v].at = mesh_.points[v];
-      result.strays.push_back(vertex);
+      if (distance > reach_ * lengths_[v]) result.strays.push_back(vertex);
     }
     result.lengths = std::move(lengths_);
     result.tags = std::move(tags_);
@@ -78,8 +84,9 @@ class TargetSearch {
 
   bool is_along_curve(const VertexKey<2>& ends) const {
     const Vec3 &a = mesh_.points[ends[0]], &b = mesh_.points[ends[1]];
-    const double reach = curve_reach * norm(b - a);
-    return shape_.on_curves(a, reach) && shape_.on_curves(b, reach) && shape_.on_curves(0.5 * (a + b), 2 * reach);
+    const double length = norm(b - a);
+    return shape_.on_curves(a, end_reach * length) && shape_.on_curves(b, end_reach * length) &&
+           shape_.on_curves(0.5 * (a + b), middle_reach * length);
   }
 
   Target target_of(Vertex v) const {
@@ -89,7 +96,7 @@ class TargetSearch {
       if (const auto corner = shape_.on_corners(p, corner_reach * length)) return {Place::corner, *corner};
       if (const auto foot = shape_.on_curves(p, reach_ * length)) return {Place::curve, foot->at};
     }
-    return {Place::face, shape_.on_faces(p, curve_reach * length, tags_[v]).at};
+    return {Place::face, shape_.on_faces(p, face_reach * length, tags_[v]).at};
   }
 
   const MixedMesh& mesh_;
@@ -106,7 +113,7 @@ class TargetSearch {
 
 Vec3 Targets::slid(const CadShape& shape, Vertex v, const Vec3& to) const {
   const Target& target = of[v];
-  if (target.place == Place::face) return shape.on_faces(to, curve_reach * lengths[v], tags[v]).at;
+  if (target.place == Place::face) return shape.on_faces(to, face_reach * lengths[v], tags[v]).at;
   if (target.place != Place::curve) return target.at;
   const auto foot = shape.on_curves(to, lengths[v]);
   return foot ? foot->at : target.at;
