@@ -25,6 +25,7 @@ struct Box {
     low = {std::min(low.x, other.low.x), std::min(low.y, other.low.y), std::min(low.z, other.low.z)};
     high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y), std::max(high.z, other.high.z)};
   }
+  double diagonal() const { return norm(high - low); }
   Vec3 centre() const { return 0.5 * (low + high); }
   // The first of the axes along which it is longest.
   int longest_axis() const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "common/mesh/box_tree.hpp"
 #include "common/mesh/facet_key.hpp"
 #include "common/run/error.hpp"
 #include "formats/meshes/facet_table.hpp"
@@ -72,12 +73,7 @@ void check_numbers(std::size_t count, std::size_t most, std::string_view name) {
 
 double negligible_length(const MixedMesh& mesh) {
   if (mesh.points.empty()) return 0;
-  Vec3 low = mesh.points[0], high = low;
-  for (const Vec3& p : mesh.points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return 1e-15 * norm(high - low);
+  return 1e-15 * Box::around(mesh.points).diagonal();
 }
 
 }  // namespace hexpipe::formats

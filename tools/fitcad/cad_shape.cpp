@@ -20,13 +20,13 @@
 #include <TopoDS.hxx>
 #include <algorithm>
 #include <array>
-#include <iostream>
 #include <limits>
 #include <map>
 #include <sstream>
 #include <utility>
 
 #include "common/run/error.hpp"
+#include "common/run/muted_cout.hpp"
 #include "tools/fitcad/nearest_piece.hpp"
 #include "tools/fitcad/newton.hpp"
 
@@ -36,18 +36,6 @@ namespace {
 // Curves this share of the reach further away than the nearest one may turn out to be nearer: their pieces are chords.
 constexpr double curve_slack = 0.2;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// OpenCASCADE prints its messages to standard output, where the bundle goes.
-class SilentOpenCascade {
- public:
-  SilentOpenCascade() : buffer_(std::cout.rdbuf(nullptr)) { Message::DefaultMessenger()->ChangePrinters().Clear(); }
-  ~SilentOpenCascade() { std::cout.rdbuf(buffer_); }
-  SilentOpenCascade(const SilentOpenCascade&) = delete;
-  SilentOpenCascade& operator=(const SilentOpenCascade&) = delete;
-
- private:
-  std::streambuf* buffer_;
-};
 
 struct Face {
   BRepAdaptor_Surface surface;
@@ -117,7 +105,8 @@ struct CadShape::State {
 };
 
 CadShape::State::State(const pipeline::ExactShape& shape, const std::string& source) : unit(shape.unit) {
-  const SilentOpenCascade silent;
+  const MutedCout muted;
+  Message::DefaultMessenger()->ChangePrinters().Clear();
   try {
     read(shape, source);
   } catch (const Standard_Failure& failure) {

@@ -5,26 +5,14 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Standard_Failure.hxx>
-#include <iostream>
 
 #include "common/run/error.hpp"
+#include "common/run/muted_cout.hpp"
 #include "tools/tessellate/cad_model.hpp"
 #include "tools/tessellate/triangulate.hpp"
 
 namespace hexpipe::tessellate {
 namespace {
-
-// OpenCASCADE prints its messages to standard output, where the bundle goes.
-class SilentOpenCascade {
- public:
-  SilentOpenCascade() : buffer_(std::cout.rdbuf(nullptr)) { Message::DefaultMessenger()->ChangePrinters().Clear(); }
-  ~SilentOpenCascade() { std::cout.rdbuf(buffer_); }
-  SilentOpenCascade(const SilentOpenCascade&) = delete;
-  SilentOpenCascade& operator=(const SilentOpenCascade&) = delete;
-
- private:
-  std::streambuf* buffer_;
-};
 
 LengthUnit wanted_unit(const CadModel& model, const TessellateOptions& options) {
   if (options.unit == "m") return {"metre", 1000};
@@ -35,7 +23,8 @@ LengthUnit wanted_unit(const CadModel& model, const TessellateOptions& options) 
 }  // namespace
 
 TessellateResult tessellate(formats::Input& input, const TessellateOptions& options) {
-  const SilentOpenCascade silent;
+  const MutedCout muted;
+  Message::DefaultMessenger()->ChangePrinters().Clear();
   CadModel model = read_cad(input);
   const LengthUnit unit = wanted_unit(model, options);
   TessellateResult result;

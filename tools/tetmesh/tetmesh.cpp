@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "common/mesh/box_tree.hpp"
 #include "common/run/deadline.hpp"
 #include "common/run/error.hpp"
 #include "common/run/progress.hpp"
@@ -86,12 +87,8 @@ TetmeshResult finish(FilledSurface filled, const solid::Surface& given) {
 
 // A size in another unit than the surface's: then one cell would be larger than the model.
 std::optional<std::string> complaint_about_size(const solid::Surface& surface, double size) {
-  Vec3 low = surface.points.front(), high = low;
-  for (const Vec3& p : surface.points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const Vec3 extent = high - low;
+  const Box box = Box::around(surface.points);
+  const Vec3 extent = box.high - box.low;
   if (size <= std::max({extent.x, extent.y, extent.z})) return std::nullopt;
   return fmt::format("the size {:.6g} is larger than the model, which measures {:.6g} x {:.6g} x {:.6g}", size,
                      extent.x, extent.y, extent.z);

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <string>
 
+#include "common/mesh/box_tree.hpp"
 #include "common/mesh/feature_angle.hpp"
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
@@ -37,7 +38,7 @@ double parse_gap(const std::string& text, const formats::SurfaceSoup& surface) {
   if (error != std::errc() || end != last || !(value > 0))
     throw UsageError(
         fmt::format("--gap: expected a positive length, or a percentage of the diagonal, found '{}'", text));
-  const double diagonal = wrap::diagonal_of(surface);
+  const double diagonal = Box::around(surface.points).diagonal();
   const double gap = percent ? value / 100 * diagonal : value;
   if (gap > diagonal || gap < wrap::least_gap_of_diagonal * diagonal)
     throw UsageError(fmt::format("--gap: expected from {:g} to the diagonal of the surface, {:.6g}, found {:.6g}",

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "tools/wrap/shrink_wrap.hpp"
 #include "tools/wrap/surface.hpp"
 
 namespace hexpipe::wrap {
@@ -24,5 +25,29 @@ bool may_merge(const Surface& surface, const TrianglesAround& around, Vertex v, 
 
 // The triangles with two equal corners go.
 void leave_out_merged_triangles(Surface& surface);
+
+// Steps that do not touch each other, and leave the surface without crossings. take() changes the surface and returns
+// the steps that it took. Where they make it cross itself, all are taken back, and forbid(step) is called for those for
+// which is_at(step, crosses) says so, `crosses` by point; take() comes again, without these. False: no step is left.
+template <class Take, class IsAt, class Forbid>
+bool take_without_crossings(Surface& surface, Take&& take, IsAt&& is_at, Forbid&& forbid) {
+  for (;;) {
+    const Surface before = surface;
+    const auto& steps = take();
+    if (steps.empty()) return false;
+    const auto crossing = crossing_triangles(surface);
+    if (crossing.empty()) return true;
+    std::vector<char> crosses(surface.points.size());
+    for (const std::int32_t t : crossing)
+      for (const Vertex v : surface.triangles[t]) crosses[v] = true;
+    bool blamed = false;
+    for (const auto& step : steps)
+      if (is_at(step, crosses)) forbid(step), blamed = true;
+    // Then a triangle beside them crosses: all are suspect.
+    if (!blamed)
+      for (const auto& step : steps) forbid(step);
+    surface = before;
+  }
+}
 
 }  // namespace hexpipe::wrap

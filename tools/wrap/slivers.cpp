@@ -54,34 +54,22 @@ class SliverRemover {
     bool flips() const { return flipped[0] >= 0; }
   };
 
-  // Steps that do not touch each other. What makes the surface cross itself is taken back and not tried again.
   bool round() {
-    for (;;) {
-      const Surface before = surface_;
-      take_steps_apart();
-      if (steps_.empty()) return false;
-      const auto crossing = crossing_triangles(surface_);
-      if (crossing.empty()) {
-        // So that flips do not come back for ever.
-        for (const Step& step : steps_) forbid(step);
-        return true;
-      }
-      std::vector<char> crosses(surface_.points.size());
-      for (const std::int32_t t : crossing)
-        for (const Vertex v : surface_.triangles[t]) crosses[v] = true;
-      bool blamed = false;
-      for (const Step& step : steps_)
-        if (crosses[step.to] || (step.flips() && crosses[step.from])) forbid(step), blamed = true;
-      // Then a triangle beside them crosses: all are suspect.
-      if (!blamed)
-        for (const Step& step : steps_) forbid(step);
-      surface_ = before;
-    }
+    const bool any = take_without_crossings(
+        surface_, [&]() -> const std::vector<Step>& { return take_steps_apart(); },
+        [](const Step& step, const std::vector<char>& crosses) {
+          return crosses[step.to] || (step.flips() && crosses[step.from]);
+        },
+        [&](const Step& step) { forbid(step); });
+    // So that flips do not come back for ever.
+    if (any)
+      for (const Step& step : steps_) forbid(step);
+    return any;
   }
 
   void forbid(const Step& step) { forbidden_.insert({step.from, step.to}); }
 
-  void take_steps_apart() {
+  const std::vector<Step>& take_steps_apart() {
     const TrianglesAround around = triangles_around(surface_);
     std::vector<char> touched(surface_.points.size());
     steps_.clear();
@@ -95,6 +83,7 @@ class SliverRemover {
       steps_.push_back(*step);
     }
     leave_out_merged_triangles(surface_);
+    return steps_;
   }
 
   static bool is_touched(const Triangle& t, const std::vector<char>& touched) {

@@ -22,29 +22,15 @@ class StraySettler {
         lets_sum_decide_(lets_sum_decide),
         stays_(surface.points.size()) {}
 
-  // As many as do not touch each other; false: none. What makes the surface cross itself is taken back and not tried
-  // again.
+  // As many as do not touch each other; false: none.
   bool round() {
-    for (;;) {
-      const Surface before = surface_;
-      settle_apart();
-      if (steps_.empty()) return false;
-      const auto crossing = crossing_triangles(surface_);
-      if (crossing.empty()) {
-        for (const Step& step : steps_) is_stray_[step.stray] = false;
-        return true;
-      }
-      std::vector<char> crosses(surface_.points.size());
-      for (const std::int32_t t : crossing)
-        for (const Vertex v : surface_.triangles[t]) crosses[v] = true;
-      bool blamed = false;
-      for (const Step& step : steps_)
-        if (crosses[step.at()]) stays_[step.stray] = blamed = true;
-      // Then a triangle beside them crosses: all are suspect.
-      if (!blamed)
-        for (const Step& step : steps_) stays_[step.stray] = true;
-      surface_ = before;
-    }
+    const bool any = take_without_crossings(
+        surface_, [&]() -> const std::vector<Step>& { return settle_apart(); },
+        [](const Step& step, const std::vector<char>& crosses) { return crosses[step.at()] != 0; },
+        [&](const Step& step) { stays_[step.stray] = true; });
+    if (any)
+      for (const Step& step : steps_) is_stray_[step.stray] = false;
+    return any;
   }
 
  private:
@@ -54,7 +40,7 @@ class StraySettler {
     Vertex at() const { return into < 0 ? stray : into; }
   };
 
-  void settle_apart() {
+  const std::vector<Step>& settle_apart() {
     const TrianglesAround around = triangles_around(surface_);
     std::vector<char> touched(surface_.points.size());
     steps_.clear();
@@ -70,6 +56,7 @@ class StraySettler {
       steps_.push_back(*step);
     }
     leave_out_merged_triangles(surface_);
+    return steps_;
   }
 
   void take(const Step& step, const std::vector<std::int32_t>& around) {

@@ -82,15 +82,6 @@ void give_tags(const formats::SurfaceSoup& soup, const TriangleTree& input, form
 
 }  // namespace
 
-double diagonal_of(const formats::SurfaceSoup& soup) {
-  Vec3 low = soup.points.front(), high = low;
-  for (const Vec3& p : soup.points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return norm(high - low);
-}
-
 WrapResult wrap(const formats::SurfaceSoup& soup, const WrapOptions& options) {
   const Surface input{soup.points, soup.triangles};
   if (!(area_of(input) > 0)) throw DataError::at(soup.name, "expected triangles with an area, found none");

@@ -26,9 +26,6 @@ struct WrapResult {
   std::vector<std::string> warnings;
 };
 
-// Of the box around the points.
-double diagonal_of(const formats::SurfaceSoup& soup);
-
 // A finer wrap would have more than a hundred million triangles.
 inline constexpr double least_gap_of_diagonal = 1e-4;
 

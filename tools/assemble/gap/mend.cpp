@@ -19,8 +19,6 @@ namespace {
 
 constexpr int most_mending_passes = 3;
 constexpr int rounds_to_raise = 5;
-// Rooms of more cells have seldom another filling.
-constexpr std::size_t most_cells = 20;
 // Parts of the shortest edge.
 constexpr std::array<double, 3> steps{0.3, 0.12, 0.05};
 constexpr std::array<Vec3, 6> directions{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
@@ -43,9 +41,6 @@ class Mender {
 
  private:
   bool mend(std::int32_t c);
-  bool is_beside(std::int32_t c, std::int32_t other) const;
-  bool refill();
-  bool refill_around(std::int32_t c);
   bool raise_around(std::int32_t c);
   bool raise(const std::vector<Vertex>& vertices);
   double shortest_edge_at(Vertex v) const;
@@ -54,35 +49,7 @@ class Mender {
   GapMesh& gap_;
   Refill refill_;
   Patch patch_;
-  std::vector<std::int32_t> room_;
 };
-
-bool Mender::refill() {
-  if (room_.size() > most_cells) return false;
-  const auto in = refill_.find(room_);
-  if (in) gap_.replace(room_, *in);
-  return in.has_value();
-}
-
-// With a facet in common.
-bool Mender::is_beside(std::int32_t c, std::int32_t other) const {
-  return c != other &&
-         std::ranges::count_if(gap_.cell(c).vertices(), [&](Vertex v) { return gap_.cell(other).has(v); }) >= 3;
-}
-
-// The cell with all beside it, then the cells at each of its vertices.
-bool Mender::refill_around(std::int32_t c) {
-  const GapCell cell = gap_.cell(c);
-  room_ = {c};
-  for (const Vertex v : cell.vertices())
-    for (const std::int32_t other : gap_.cells_at(v))
-      if (is_beside(c, other) && std::ranges::find(room_, other) == room_.end()) room_.push_back(other);
-  if (refill()) return true;
-  return std::ranges::any_of(cell.vertices(), [&](Vertex v) {
-    room_.assign(gap_.cells_at(v).begin(), gap_.cells_at(v).end());
-    return refill();
-  });
-}
 
 bool Mender::raise(const std::vector<Vertex>& vertices) {
   if (vertices.empty()) return false;
@@ -144,7 +111,7 @@ bool Mender::mend(std::int32_t c) {
   const bool is_poor = gap_.cell(c).quality < least_quality;
   const bool has_poor_face = cost_of_faces(gap_, std::span(&c, 1)) > 0;
   if (!is_poor && !has_poor_face) return false;
-  if (refill_around(c)) return true;
+  if (refill_around(gap_, refill_, c)) return true;
   if (is_poor && raise_around(c)) return true;
   if (!has_poor_face) return false;
   bool moved = false;

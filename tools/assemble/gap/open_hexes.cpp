@@ -48,10 +48,9 @@ class HexOpener {
   std::vector<std::int32_t> chosen_around(const GapCell& poor) const;
   std::optional<std::vector<Facet>> skin_of(std::int32_t kept) const;
   std::vector<std::vector<std::int32_t>> rooms_beside(std::span<const Facet> skin, std::int32_t poor) const;
-  bool add_to(std::vector<Facet>& skin, std::int32_t c) const;
   std::vector<Vertex> movable(const GapCell& poor, std::int32_t kept) const;
   bool fill(std::int32_t kept, std::vector<Facet> skin, std::span<const std::int32_t> out, std::int32_t poor);
-  bool is_good_enough(const GapCell& poor, std::int32_t first_new) const;
+  bool are_good_enough(std::int32_t poor, std::int32_t first_new) const;
   bool open(std::int32_t kept, std::int32_t poor);
 
   GapMesh& gap_;
@@ -104,23 +103,6 @@ std::optional<std::vector<Facet>> HexOpener::skin_of(std::int32_t kept) const {
   return skin;
 }
 
-// False where the cell has no facet in common with the room, or one that is tagged.
-bool HexOpener::add_to(std::vector<Facet>& skin, std::int32_t c) const {
-  bool touches = false, is_blocked = false;
-  for_facets(gap_.cell(c).kind, gap_.cell(c).vertices(), [&](const Facet& facet) {
-    const auto twin = std::ranges::find(skin, facet.reversed());
-    if (twin == skin.end()) {
-      skin.push_back(facet);
-      return;
-    }
-    skin.erase(twin);
-    touches = true;
-    is_blocked =
-        is_blocked || (!facet.is_quad() && gap_.is_tagged({facet.corners[0], facet.corners[1], facet.corners[2]}));
-  });
-  return touches && !is_blocked;
-}
-
 // Which cells of the gap to fill anew with the chosen one: none; the poor one; those that touch both; all of these.
 std::vector<std::vector<std::int32_t>> HexOpener::rooms_beside(std::span<const Facet> skin, std::int32_t poor) const {
   std::vector<std::int32_t> between;
@@ -152,11 +134,11 @@ std::vector<Vertex> HexOpener::movable(const GapCell& poor, std::int32_t kept) c
   return vertices;
 }
 
-// Whether the poor cell and those that came for it are, as they are now.
-bool HexOpener::is_good_enough(const GapCell& poor, std::int32_t first_new) const {
+// Whether the poor cell, if it is still there, and those that came are.
+bool HexOpener::are_good_enough(std::int32_t poor, std::int32_t first_new) const {
   for (auto c = first_new; c < static_cast<std::int32_t>(gap_.cell_count()); ++c)
     if (gap_.cell(c).quality < least_wanted || !is_valid(gap_, gap_.cell(c))) return false;
-  return quality_of(poor.kind, gap_.points(), poor.vertices()) >= least_wanted;
+  return !gap_.is_alive(poor) || gap_.cell(poor).quality >= least_wanted;
 }
 
 // Fills the room within `skin` around a vertex in its middle, and moves vertices around. Everything is as it was where
@@ -164,8 +146,11 @@ bool HexOpener::is_good_enough(const GapCell& poor, std::int32_t first_new) cons
 bool HexOpener::fill(std::int32_t kept, std::vector<Facet> skin, std::span<const std::int32_t> out, std::int32_t poor) {
   const GapCell poor_cell = gap_.cell(poor);
   const std::int32_t region = poor_cell.region;
-  for (const std::int32_t c : out)
-    if (gap_.cell(c).region != region || !add_to(skin, c)) return false;
+  for (const std::int32_t c : out) {
+    if (gap_.cell(c).region != region) return false;
+    const Joining joining = join_skin(gap_, gap_.cell(c), skin);
+    if (!joining.touches || joining.crosses_tagged) return false;
+  }
   if (!is_ball(skin)) return false;
   Vec3 middle{};
   for (const Vertex v : gap_.kept_cell(kept).vertices()) middle += gap_.points()[v];
@@ -187,8 +172,7 @@ bool HexOpener::fill(std::int32_t kept, std::vector<Facet> skin, std::span<const
   patch_.raise(least_quality, rounds_to_raise);
   if (patch_.keeps_floors()) {
     patch_.carry_out(gap_, {});
-    const bool is_gone = std::ranges::find(out, poor) != out.end();
-    if (is_good_enough(is_gone ? in.front() : poor_cell, first_new)) {
+    if (are_good_enough(poor, first_new)) {
       spare_ = no_index;
       return true;
     }

@@ -151,4 +151,35 @@ std::optional<std::vector<GapCell>> Refill::find(std::span<const std::int32_t> o
   return best_;
 }
 
+namespace {
+
+// Cells around a fixed vertex may be many, and such rooms seldom have another filling.
+constexpr std::size_t most_at_vertex = 20;
+
+// With a facet in common.
+bool is_beside(const GapMesh& gap, std::int32_t c, std::int32_t other) {
+  return c != other &&
+         std::ranges::count_if(gap.cell(c).vertices(), [&](Vertex v) { return gap.cell(other).has(v); }) >= 3;
+}
+
+}  // namespace
+
+bool refill_around(GapMesh& gap, Refill& refill, std::int32_t c) {
+  const GapCell cell = gap.cell(c);
+  const auto fill = [&](const std::vector<std::int32_t>& room) {
+    const auto in = refill.find(room);
+    if (in) gap.replace(room, *in);
+    return in.has_value();
+  };
+  std::vector<std::int32_t> room{c};
+  for (const Vertex v : cell.vertices())
+    for (const std::int32_t other : gap.cells_at(v))
+      if (is_beside(gap, c, other) && std::ranges::find(room, other) == room.end()) room.push_back(other);
+  if (fill(room)) return true;
+  return std::ranges::any_of(cell.vertices(), [&](Vertex v) {
+    room.assign(gap.cells_at(v).begin(), gap.cells_at(v).end());
+    return room.size() <= most_at_vertex && fill(room);
+  });
+}
+
 }  // namespace hexpipe::assemble::gap

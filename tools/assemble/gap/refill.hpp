@@ -45,4 +45,8 @@ class Refill {
   int steps_left_ = 0;
 };
 
+// Fills anew the room of a cell and of all that have a facet in common with it, or else that of the cells at one of its
+// vertices. False where none of these rooms has a better filling.
+bool refill_around(GapMesh& gap, Refill& refill, std::int32_t c);
+
 }  // namespace hexpipe::assemble::gap

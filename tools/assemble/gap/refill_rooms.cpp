@@ -12,8 +12,6 @@ namespace {
 
 // Later passes find little: on mambo-s1 at 2.3 the first finds 9 of 10.
 constexpr int most_refilling_passes = 5;
-// Cells around a fixed vertex may be many.
-constexpr std::size_t most_around_poor = 20;
 
 class Rooms {
  public:
@@ -41,8 +39,6 @@ class Rooms {
   void refill_rings();
   void refill_rings_of(std::int32_t c);
   void refill_poor();
-  bool refill_around(std::int32_t c);
-  bool is_beside(std::int32_t c, std::int32_t other) const;
   bool refill();
 
   GapMesh& gap_;
@@ -88,32 +84,12 @@ void Rooms::refill_rings() {
     if (gap_.is_alive(c)) refill_rings_of(c);
 }
 
-// With a facet in common.
-bool Rooms::is_beside(std::int32_t c, std::int32_t other) const {
-  return c != other &&
-         std::ranges::count_if(gap_.cell(c).vertices(), [&](Vertex v) { return gap_.cell(other).has(v); }) >= 3;
-}
-
-// The cell with all beside it, then the cells at each of its vertices.
-bool Rooms::refill_around(std::int32_t c) {
-  const GapCell cell = gap_.cell(c);
-  room_ = {c};
-  for (const Vertex v : cell.vertices())
-    for (const std::int32_t other : gap_.cells_at(v))
-      if (is_beside(c, other) && std::ranges::find(room_, other) == room_.end()) room_.push_back(other);
-  if (refill()) return true;
-  return std::ranges::any_of(cell.vertices(), [&](Vertex v) {
-    room_.assign(gap_.cells_at(v).begin(), gap_.cells_at(v).end());
-    return room_.size() <= most_around_poor && refill();
-  });
-}
-
 void Rooms::refill_poor() {
   const auto count = static_cast<std::int32_t>(gap_.cell_count());
   for (std::int32_t c = 0; c < count; ++c)
     if (gap_.is_alive(c) && gap_.cell(c).quality < least_quality &&
         std::ranges::any_of(gap_.cell(c).vertices(), [&](Vertex v) { return has_changed(v); }))
-      counts_.poor += refill_around(c) ? 1 : 0;
+      counts_.poor += refill_around(gap_, refill_, c) ? 1 : 0;
 }
 
 }  // namespace

@@ -24,22 +24,30 @@ Facet Facet::reversed() const {
   return {{corners[0], corners[2], corners[1], no_index}};
 }
 
+Joining join_skin(const GapMesh& gap, const GapCell& cell, std::vector<Facet>& skin) {
+  Joining joining;
+  for_facets(cell.kind, cell.vertices(), [&](const Facet& facet) {
+    const auto twin = std::ranges::find(skin, facet.reversed());
+    if (twin == skin.end()) {
+      skin.push_back(facet);
+      return;
+    }
+    skin.erase(twin);
+    joining.touches = true;
+    joining.crosses_tagged =
+        joining.crosses_tagged ||
+        (!facet.is_quad() && gap.is_tagged({facet.corners[0], facet.corners[1], facet.corners[2]}));
+  });
+  return joining;
+}
+
 std::optional<Room> room_of(const GapMesh& gap, std::span<const std::int32_t> cells, std::size_t most_facets) {
   Room room;
   room.region = gap.cell(cells[0]).region;
   bool blocked = false;
-  auto add = [&](const Facet& facet) {
-    const auto twin = std::ranges::find(room.skin, facet.reversed());
-    if (twin == room.skin.end()) {
-      room.skin.push_back(facet);
-      return;
-    }
-    room.skin.erase(twin);
-    blocked = blocked || (!facet.is_quad() && gap.is_tagged({facet.corners[0], facet.corners[1], facet.corners[2]}));
-  };
   for (const std::int32_t c : cells) {
     if (gap.cell(c).region != room.region) return std::nullopt;
-    for_facets(gap.cell(c).kind, gap.cell(c).vertices(), add);
+    blocked = join_skin(gap, gap.cell(c), room.skin).crosses_tagged || blocked;
   }
   if (blocked || room.skin.size() > most_facets) return std::nullopt;
   for (const Facet& facet : room.skin)

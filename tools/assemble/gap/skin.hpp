@@ -48,6 +48,13 @@ struct Room {
   std::int32_t region = 0;
 };
 
+// How a cell joins others: whether a facet of it is one of theirs, and whether such a facet is tagged.
+struct Joining {
+  bool touches = false, crosses_tagged = false;
+};
+// `skin`, of some cells, becomes that of these and one more.
+Joining join_skin(const GapMesh& gap, const GapCell& cell, std::vector<Facet>& skin);
+
 // Nothing where the cells are of several regions, or where a tagged facet or a vertex that has to stay lies between
 // them, or where there are more than `most_facets` around them.
 std::optional<Room> room_of(const GapMesh& gap, std::span<const std::int32_t> cells, std::size_t most_facets);

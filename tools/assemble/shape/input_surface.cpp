@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "common/mesh/box_tree.hpp"
 #include "common/mesh/facet_key.hpp"
 
 namespace hexpipe::assemble::shape {
@@ -55,13 +56,7 @@ Vec3 nearest_on_triangle(const std::array<Vec3, 3>& triangle, const Vec3& to) {
 }
 
 InputSurface::InputSurface(const TetMesh& mesh, const TetAdjacency& adjacency) : mesh_(mesh) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Vec3 low{infinity, infinity, infinity}, high = -low;
-  for (const Vec3& p : mesh.points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  if (!mesh.points.empty()) diagonal_ = norm(high - low);
+  if (!mesh.points.empty()) diagonal_ = Box::around(mesh.points).diagonal();
   triangles_ = triangles_at_vertices(mesh.points.size(), mesh.triangles);
   find_features();
   places_.resize(mesh.points.size());

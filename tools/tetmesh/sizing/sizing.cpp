@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/mesh/box_tree.hpp"
 #include "common/mesh/default_size.hpp"
 #include "common/run/error.hpp"
 
@@ -48,12 +49,7 @@ Length parse_length(std::string_view text) {
 }
 
 double bounding_box_diagonal(const formats::SurfaceSoup& surface) {
-  Vec3 low = surface.points.front(), high = low;
-  for (const Vec3& p : surface.points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return norm(high - low);
+  return Box::around(surface.points).diagonal();
 }
 
 double in_units(const Length& length, const formats::SurfaceSoup& surface) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/mesh/box_tree.hpp"
 #include "common/run/error.hpp"
 #include "tools/tetmesh/geometry/column_index.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
@@ -54,11 +55,7 @@ class Lattice {
 };
 
 void Lattice::fit() {
-  Vec3 low = surface_.points.front(), high = low;
-  for (const Vec3& p : surface_.points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
+  const auto [low, high] = Box::around(surface_.points);
   low_ = low;
   double nodes = 1;
   std::array<double, 3> counts{};
