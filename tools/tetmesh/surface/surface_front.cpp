@@ -13,13 +13,15 @@
 #include <optional>
 
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
-#include "tools/tetmesh/surface/surface_lattice.hpp"
+#include "tools/tetmesh/surface/surface_distance.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {
 
 // Points nearer than this, in steps of the lattice, are refused.
 constexpr double least_distance = 0.7;
+// The same for points that are known already.
+constexpr double least_distance_of_known = 0.5;
 // The normals of points that may be in each other's way have at least this cosine. Those of the two sides of a wall do
 // not.
 constexpr double same_side_cosine = 0.3;
@@ -63,9 +65,11 @@ class SurfaceFront {
         grid_(surface.points.front()),
         taken_in_(surface.triangles.size()) {}
 
-  std::vector<SurfacePoint> run(const SurfaceLattice& lattice, std::span<const Vertex> kept) {
+  std::vector<SurfacePoint> run(const SurfaceLattice& lattice, std::span<const Vertex> kept,
+                                std::span<const Vec3> known) {
     add_kept(kept);
     spacing_ = lattice.spacing;
+    take_known(known);
     for (const SurfacePoint& p : lattice.points) take_if_free(sized(p), {});
     start_from_kept(kept);
     spread();
@@ -77,6 +81,7 @@ class SurfaceFront {
   void add_kept(std::span<const Vertex> kept);
   void start_from_kept(std::span<const Vertex> kept);
   void start_from_corner(geometry::HalfEdge h);
+  void take_known(std::span<const Vec3> points);
   void spread();
   void fill_gaps();
   SizedPoint sized(const SurfacePoint& point) const { return {point, size_.at(point.position)}; }
@@ -86,7 +91,7 @@ class SurfaceFront {
   Outlook look(const SizedPoint& from, const Vec3& direction) const;
   // Whether no point is nearer than `distance` steps of the lattice, on the surface or off it.
   bool is_free(const SizedPoint& point, double distance) const;
-  void take_if_free(const SizedPoint& point, const Outlook& outlook);
+  void take_if_free(const SizedPoint& point, const Outlook& outlook, double distance = least_distance);
 
   const FieldSurface& surface_;
   const CrossField& field_;
@@ -133,6 +138,26 @@ void SurfaceFront::start_from_corner(geometry::HalfEdge h) {
   const auto [x, y] = field_.axes(surface_, f);
   for (const Vec3& direction : {x, y, -x, -y})
     if (dot(direction, left) >= 0 && dot(direction, right) > 0) offer_step(corner, direction, {});
+}
+
+// Each at the nearest place on the surface, unless a feature is in the way.
+void SurfaceFront::take_known(std::span<const Vec3> points) {
+  if (points.empty()) return;
+  const DistanceIndex index(surface_.points, surface_.triangles);
+  for (const Vec3& p : points) {
+    std::int32_t f = no_index;
+    index.distance(p, f);
+    const Vec3 &centre = surface_.centres[f], &normal = surface_.normals[f];
+    const Vec3 way = p - centre - dot(p - centre, normal) * normal;
+    const double length = norm(way);
+    SurfacePoint point{centre, f};
+    if (length > 0) {
+      const WalkEnd end = walker_.walk_straight(point, unit(way), length);
+      if (end.at_feature) continue;
+      point = end.point;
+    }
+    take_if_free(sized(point), {}, least_distance_of_known);
+  }
 }
 
 void SurfaceFront::spread() {
@@ -208,8 +233,8 @@ bool SurfaceFront::is_free(const SizedPoint& point, double distance) const {
   return is_free;
 }
 
-void SurfaceFront::take_if_free(const SizedPoint& point, const Outlook& outlook) {
-  if (taken_in_[point.triangle] == most_in_triangle || !is_free(point, least_distance)) return;
+void SurfaceFront::take_if_free(const SizedPoint& point, const Outlook& outlook, double distance) {
+  if (taken_in_[point.triangle] == most_in_triangle || !is_free(point, distance)) return;
   ++taken_in_[point.triangle];
   grid_.add(point.position, point.size);
   outlooks_.push_back(outlook);
@@ -221,9 +246,10 @@ void SurfaceFront::take_if_free(const SizedPoint& point, const Outlook& outlook)
 }  // namespace
 
 FrontPoints surface_front(const FieldSurface& surface, const CrossField& field, std::span<const OppositeSide> opposite,
-                          std::span<const Vertex> kept, const sizing::SizeField& size, double row_stretch) {
-  const SurfaceLattice lattice = surface_lattice(surface, field, opposite, kept, row_stretch);
-  return {SurfaceFront(surface, field, size).run(lattice, kept), lattice.row_ends};
+                          std::span<const Vertex> kept, const sizing::SizeField& size, double row_stretch,
+                          const RowGuide& guide) {
+  const SurfaceLattice lattice = surface_lattice(surface, field, opposite, kept, row_stretch, guide);
+  return {SurfaceFront(surface, field, size).run(lattice, kept, guide.points), lattice.row_ends};
 }
 
 }  // namespace hexpipe::tetmesh::surface

@@ -7,6 +7,7 @@
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/surface/cross_field.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
+#include "tools/tetmesh/surface/surface_lattice.hpp"
 
 namespace hexpipe::tetmesh::surface {
 
@@ -16,8 +17,9 @@ struct FrontPoints {
 };
 
 // `kept` holds the vertices of the surface that are points already: those of its feature curves. `row_stretch`: see
-// surface_lattice.hpp.
+// surface_lattice.hpp, and for `guide`.
 FrontPoints surface_front(const FieldSurface& surface, const CrossField& field, std::span<const OppositeSide> opposite,
-                          std::span<const Vertex> kept, const sizing::SizeField& size, double row_stretch);
+                          std::span<const Vertex> kept, const sizing::SizeField& size, double row_stretch,
+                          const RowGuide& guide = {});
 
 }  // namespace hexpipe::tetmesh::surface

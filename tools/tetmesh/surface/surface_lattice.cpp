@@ -29,6 +29,9 @@ namespace {
 // How strongly a feature edge, and a point on it, pull the numbers of a triangle, relative to all links of the
 // triangle. A point_weight from 2 to 20 changes the share of the volume in hexes by up to 0.4 % on larger models.
 constexpr double edge_weight = 20, point_weight = 5;
+// How strongly the guide pulls where it is certain; at 20 and 100 there are as many hexes. Where the guide's rows would
+// change the distance between two triangles by more than the second number, in sizes, they do not fit.
+constexpr double guide_weight = 5, most_change = 0.25;
 constexpr fields::DiffusionLimits limits{200, 1e-3};
 constexpr int smoothing_sweeps = 60;  // 20 lose 1 % of the volume in hexes on small models
 // Both sides of a wall agree again after these.
@@ -75,9 +78,10 @@ class LatticeMaker {
     greatest_size_ = std::ranges::max(surface.sizes);
   }
 
-  SurfaceLattice make(std::span<const Vertex> kept, double row_stretch) {
+  SurfaceLattice make(std::span<const Vertex> kept, double row_stretch, const RowGuide& guide) {
     weigh_links(kept);
     make_anchors(kept);
+    if (guide.coordinates) follow(guide);
     diffuse();
     reach_the_rest();
     for (int i = 0; i < smoothing_sweeps; ++i) sweep();
@@ -85,6 +89,7 @@ class LatticeMaker {
       join_rows(links_, across_, targets_, row_stretch, phases_);
       for (int i = 0; i < sweeps_after_joining; ++i) sweep();
     }
+    if (guide.coordinates) measure_distances();
     propose();
     agree();
     std::ranges::stable_sort(proposals_, std::greater(), &Proposal::trust);
@@ -114,6 +119,8 @@ class LatticeMaker {
   void weigh_links(std::span<const Vertex> kept);
   void make_anchors(std::span<const Vertex> kept);
   void pull(std::int32_t f, std::size_t axis, double weight, double coordinate);
+  void follow(const RowGuide& guide);
+  void measure_distances();
   Phases view_of_neighbours(const std::vector<Phases>& phases, std::int32_t f) const;
   void diffuse();
   void reach_the_rest();
@@ -173,6 +180,33 @@ void LatticeMaker::make_anchors(std::span<const Vertex> kept) {
         pull(f, k, point_weight, coordinate);
     }
   }
+}
+
+// Pulls every triangle to the guide's coordinates.
+void LatticeMaker::follow(const RowGuide& guide) {
+  for_each_triangle([&](std::int32_t f) {
+    const Phases known = guide.coordinates(surface_.centres[f], surface_.normals[f], directions(f));
+    for (std::size_t k = 0; k < 2; ++k) {
+      pulls_[f][k] += guide_weight * degrees_[f] * std::abs(known[k]);
+      targets_[f][k] += guide_weight * degrees_[f] * known[k];
+    }
+  });
+}
+
+// Distances are what lies between the coordinates, so that steps are those of the guide's rows.
+void LatticeMaker::measure_distances() {
+  const RowCoordinates coordinates = row_coordinates(phases_);
+  const RowJumps jumps = row_jumps(links_, coordinates);
+  links_.for_each_pair([&](geometry::HalfEdge h) {
+    SurfaceLink& link = links_.of[h];
+    const std::int32_t f = geometry::triangle_of(h);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double between = coordinates[f][k] + jumps[h][k] - link.seen_along(coordinates[link.neighbour], k);
+      if (std::abs(between - link.distance[k]) < most_change) link.distance[k] = between;
+    }
+    link.set_turn();
+    links_.of[surface_.twins[h]] = link.reversed(f);
+  });
 }
 
 Phases LatticeMaker::view_of_neighbours(const std::vector<Phases>& phases, std::int32_t f) const {
@@ -315,9 +349,9 @@ Proposal LatticeMaker::agreed(const geometry::SizedPointGrid& grid, const Propos
 }  // namespace
 
 SurfaceLattice surface_lattice(const FieldSurface& surface, const CrossField& field,
-                               std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
-                               double row_stretch) {
-  return LatticeMaker(surface, field, opposite).make(kept, row_stretch);
+                               std::span<const OppositeSide> opposite, std::span<const Vertex> kept, double row_stretch,
+                               const RowGuide& guide) {
+  return LatticeMaker(surface, field, opposite).make(kept, row_stretch, guide);
 }
 
 }  // namespace hexpipe::tetmesh::surface

@@ -3,13 +3,26 @@
 // rows of points from opposite sides meet where they can.
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "tools/tetmesh/fields/periodic_numbers.hpp"
 #include "tools/tetmesh/surface/cross_field.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
 
 namespace hexpipe::tetmesh::surface {
+
+// A lattice that is known already (that of the volume), where it meets the surface.
+struct RowGuide {
+  // The coordinates of a place along two directions at right angles to the normal, as exp(2 pi i coordinate) times how
+  // certain they are, from 0 to 1. Nothing: there is no guide.
+  std::function<std::array<fields::Complex, 2>(const Vec3& place, const Vec3& normal,
+                                               const std::array<Vec3, 2>& directions)>
+      coordinates;
+  // Its points near the surface, the most trusted first.
+  std::vector<Vec3> points;
+};
 
 struct SurfaceLattice {
   // The most trusted come first. A point of the lattice is in the list several times: each triangle near it proposes
@@ -22,9 +35,10 @@ struct SurfaceLattice {
 
 // `kept` are the vertices of the surface that are points already. `opposite` says which sides face each other across
 // the inside of the model: rows lead from one to the other. `row_stretch` is the most by which the distance between two
-// neighbouring triangles of the field may change, in sizes, to join two rows that would end; 0 joins none.
+// neighbouring triangles of the field may change, in sizes, to join two rows that would end; 0 joins none. With a
+// guide, the lattice is that of the guide wherever it is certain.
 SurfaceLattice surface_lattice(const FieldSurface& surface, const CrossField& field,
                                std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
-                               double row_stretch = 0);
+                               double row_stretch = 0, const RowGuide& guide = {});
 
 }  // namespace hexpipe::tetmesh::surface

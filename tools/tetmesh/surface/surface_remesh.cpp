@@ -66,6 +66,7 @@ class SurfaceRemesher::Work {
 
   bool make();
   bool judge();
+  void follow(const RowGuide& guide);
 
   RemeshResult result;
 
@@ -73,6 +74,7 @@ class SurfaceRemesher::Work {
   bool prepare();
   // False if triangles are too thin for a field.
   bool place_points();
+  void place_front(const RowGuide& guide);
   bool rows_go_across() const;
   void remove_vertices_of_input();
   std::vector<Vec3> find_faults();
@@ -81,19 +83,30 @@ class SurfaceRemesher::Work {
   void keep_around(const std::vector<Vec3>& places, const sizing::SizeField& reach);
   std::vector<Vertex> kept_vertices() const;
   std::size_t count_places(std::span<const Vertex> vertices) const;
-  solid::Surface surface_of(const FeatureMesh& mesh) const;
+  solid::Surface surface_of(const FeatureMesh& mesh);
   Vec3 centre_of(std::size_t triangle) const;
+
+  // What points on faces are placed by.
+  struct Carrier {
+    FeatureMesh mesh;  // with the points on features, before there are others
+    std::vector<Vertex> kept;
+    FieldSurface surface;
+    FieldAndSides field;
+    double row_stretch;
+  };
 
   const solid::Surface& surface_;
   sizing::SizeField size_, deviation_;
   double row_stretch_;
+  bool is_prepared_ = false;
   double expected_points_ = 0;  // on the new surface
   FeatureMesh prepared_;        // with all points inserted, and with the vertices of the input
+  std::optional<Carrier> carrier_;
   std::optional<DistanceIndex> input_;
 };
 
 bool SurfaceRemesher::Work::make() {
-  if (result.attempts == most_attempts || (result.attempts == 0 && !prepare())) {
+  if (result.attempts == most_attempts || (!is_prepared_ && !prepare())) {
     result.surface = {};
     return false;
   }
@@ -124,6 +137,7 @@ bool SurfaceRemesher::Work::prepare() {
   bool placed = false;
   // This thread takes the second, whose steps the line of progress shows.
   both_at_once([&] { input_.emplace(surface_.points, surface_.triangles); }, [&] { placed = place_points(); });
+  is_prepared_ = placed;
   if (!placed) result.failure = "in double precision some of its triangles have no direction";
   return placed;
 }
@@ -148,18 +162,30 @@ bool SurfaceRemesher::Work::place_points() {
   refine_surface(prepared_, longest, flat);
   const std::vector<Vertex> kept = kept_vertices();
   std::optional<Step> step(std::in_place, nullptr, 0.2, 0.6);
-  const FieldSurface field_surface(prepared_, size_);
-  const auto [field, opposite] = cross_field_across(field_surface);
-  if (!std::ranges::all_of(field.directions, is_place)) return false;
+  FieldSurface field_surface(prepared_, size_);
+  FieldAndSides field = cross_field_across(field_surface);
+  if (!std::ranges::all_of(field.field.directions, is_place)) return false;
   step.reset();
   step.emplace(nullptr, 0.6, 0.8);
-  const auto [points, row_ends] =
-      surface_front(field_surface, field, opposite, kept, size_, counts_rows ? row_stretch_ : 0);
+  carrier_.emplace(prepared_, kept, std::move(field_surface), std::move(field), counts_rows ? row_stretch_ : 0);
+  place_front({});
+  return true;
+}
+
+void SurfaceRemesher::Work::place_front(const RowGuide& guide) {
+  const auto& [mesh, kept, surface, field, row_stretch] = *carrier_;
+  const auto [points, row_ends] = surface_front(surface, field.field, field.opposite, kept, size_, row_stretch, guide);
   insert_points(prepared_, points, snap * size_);
   result.feature_points = count_places(kept);
   result.front_points = points.size();
   result.row_ends = row_ends;
-  return true;
+}
+
+void SurfaceRemesher::Work::follow(const RowGuide& guide) {
+  result = {};
+  prepared_ = carrier_->mesh;
+  place_front(guide);
+  is_prepared_ = true;
 }
 
 std::vector<Vertex> SurfaceRemesher::Work::kept_vertices() const {
@@ -179,11 +205,14 @@ void SurfaceRemesher::Work::remove_vertices_of_input() {
   FeatureMesh mesh = prepared_;
   remove_vertices(mesh, *input_, removal_share * deviation_);
   result.surface = surface_of(mesh);
-  result.extra_points = result.surface.points.size() - result.feature_points - result.front_points;
+  // A front point that comes to lie on a feature's point is one with it.
+  const std::size_t placed = result.feature_points + result.front_points;
+  result.extra_points = result.surface.points.size() - std::min(placed, result.surface.points.size());
 }
 
-solid::Surface SurfaceRemesher::Work::surface_of(const FeatureMesh& mesh) const {
+solid::Surface SurfaceRemesher::Work::surface_of(const FeatureMesh& mesh) {
   formats::SurfaceSoup soup;
+  result.on_feature.clear();
   soup.text = surface_.text;
   soup.name = surface_.name;
   std::vector<Vertex> number(mesh.n_vertices(), no_index);  // by place: sheets are joined again
@@ -192,6 +221,7 @@ solid::Surface SurfaceRemesher::Work::surface_of(const FeatureMesh& mesh) const 
     if (known >= 0) continue;
     known = static_cast<Vertex>(soup.points.size());
     soup.points.push_back(mesh.position(v));
+    result.on_feature.push_back(mesh.is_on_feature(v));
   }
   const auto shell = [&](OpenMesh::FaceHandle f) { return surface_.shell_of[mesh.source(f)]; };
   std::vector<OpenMesh::FaceHandle> faces(mesh.faces().begin(), mesh.faces().end());
@@ -325,6 +355,10 @@ SurfaceRemesher::~SurfaceRemesher() = default;
 
 bool SurfaceRemesher::make() {
   return work_->make();
+}
+
+void SurfaceRemesher::follow(const RowGuide& guide) {
+  work_->follow(guide);
 }
 
 bool SurfaceRemesher::judge() {

@@ -9,6 +9,7 @@
 #include "common/mesh/feature_angle.hpp"
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
+#include "tools/tetmesh/surface/surface_lattice.hpp"
 
 namespace hexpipe::tetmesh::surface {
 
@@ -30,6 +31,7 @@ struct RemeshResult {
   // Vertices of the input that stay because of the deviation, or because the surface would intersect itself without
   // them.
   std::size_t extra_points = 0;
+  std::vector<bool> on_feature;  // by point of the surface
   int attempts = 0;
 };
 
@@ -43,6 +45,9 @@ class SurfaceRemesher {
 
   // Makes the first surface, or the next one after a faulty one. Returns false if there is nothing left to try.
   bool make();
+  // Begins anew with points where a lattice that is known by now has them. To be called after a first surface was made;
+  // the next make() makes the first surface of these points.
+  void follow(const RowGuide& guide);
   // Whether the last surface is as promised.
   bool judge();
   const solid::Surface& made() const;

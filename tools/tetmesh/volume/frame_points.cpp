@@ -15,6 +15,8 @@
 #include "tools/tetmesh/volume/frame_field.hpp"
 #include "tools/tetmesh/volume/lattice.hpp"
 #include "tools/tetmesh/volume/lattice_field.hpp"
+#include "tools/tetmesh/volume/row_guide.hpp"
+#include "tools/tetmesh/volume/row_straightening.hpp"
 
 namespace hexpipe::tetmesh::volume {
 namespace {
@@ -28,6 +30,8 @@ constexpr double same_point = 0.3;
 constexpr double furthest = 1 + 1e-6, distrust_begins = 1.5;
 // Frames further out of a lattice's axes than this are turned.
 constexpr double straight_angle = 10;  // degrees
+// A point nearer to the surface than this, in sizes, is one on the surface.
+const double beside_surface = std::getenv("BS") ? std::atof(std::getenv("BS")) : 0.3;
 
 // A point of the lattice as a node sees it.
 struct Proposal {
@@ -42,10 +46,12 @@ double maximum_norm(const fields::Frame& frame, const Vec3& v) {
   return std::max({std::abs(dot(frame[0], v)), std::abs(dot(frame[1], v)), std::abs(dot(frame[2], v))});
 }
 
-class PointPlacer {
+}  // namespace
+
+class FrameLattice::Work {
  public:
-  PointPlacer(const solid::Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
-              const FramePointsOptions& options)
+  Work(const solid::Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
+       const FramePointsOptions& options)
       : surface_(surface),
         options_(options),
         background_(background),
@@ -53,53 +59,86 @@ class PointPlacer {
         nodes_(make_field_nodes(surface, background, adjacency, options.size, options.feature_angle)),
         frames_(solve_frame_field(nodes_)) {}
 
-  std::vector<Vec3> place() {
-    std::optional<Step> step(std::in_place, nullptr, 0.16, 0.83);
-    propose();
-    agree();
-    step.reset();
-    step.emplace(nullptr, 0.83, 1);
-    return accept();
-  }
-  double turned_share() const;
-  Dislocations take_dislocations() { return std::move(dislocations_); }
+  void fit(const std::vector<bool>& held);
+  const Dislocations& dislocations() const { return dislocations_; }
+  surface::RowGuide guide();
+  FramePoints points_inside(const solid::Surface& surface);
 
  private:
   void propose();
-  void propose(std::size_t node, const LatticeField& field, std::vector<Proposal>& proposals) const;
+  void propose(std::size_t node, std::vector<Proposal>& proposals) const;
   void agree();
   Proposal agreed(const geometry::SizedPointGrid& grid, const Proposal& proposal) const;
-  std::vector<Vec3> accept() const;
+  template <class Wanted>
+  std::vector<RowPoint> accept(std::span<const Vec3> fixed, Wanted&& is_wanted) const;
+  bool is_well_inside(const solid::SurfaceClearance& clearance, const Proposal& p) const {
+    return clearance.is_clear(p.point, options_.clearance * options_.size.at(p.point)) && clearance.is_inside(p.point);
+  }
+  double turned_share() const;
   bool is_free(const geometry::SizedPointGrid& taken, const Proposal& proposal) const;
 
   const solid::Surface& surface_;
-  const FramePointsOptions& options_;
+  const FramePointsOptions options_;
   const TetMesh& background_;
   const TetAdjacency& adjacency_;
   FieldNodes nodes_;
   std::vector<fields::Frame> frames_;
+  std::vector<bool> held_;  // by point of the surface
+  std::optional<LatticeField> field_;
   std::vector<Vec3> spacing_;  // of the lattice along the frames' axes, in sizes
   std::vector<Proposal> proposals_;
   Dislocations dislocations_;
 };
 
-void PointPlacer::propose() {
-  const LatticeField field = solve_lattice_field(nodes_, frames_);
-  for (const auto& [x, y, z] : field.steps) spacing_.push_back({norm(x), norm(y), norm(z)});
+void FrameLattice::Work::fit(const std::vector<bool>& held) {
+  held_ = held;
+  field_.emplace(solve_lattice_field(nodes_, frames_, held));
+  dislocations_ = find_dislocations(field_->links, field_->coordinates, background_, adjacency_);
+  spacing_.clear();
+  for (const auto& [x, y, z] : field_->steps) spacing_.push_back({norm(x), norm(y), norm(z)});
+  propose();
+  agree();
+}
+
+surface::RowGuide FrameLattice::Work::guide() {
+  surface::RowGuide guide{coordinates_on_surface(nodes_, frames_, *field_, options_.size), {}};
+  if (std::getenv("NOKNOWN")) return guide;
+  std::vector<Vec3> fixed;
+  for (std::size_t v = 0; v < held_.size(); ++v)
+    if (held_[v]) fixed.push_back(surface_.points[v]);
+  const solid::SurfaceClearance clearance(surface_);
+  for (const RowPoint& row : accept(fixed, [&](const Proposal& p) {
+         return !clearance.is_clear(p.point, beside_surface * p.size) || is_well_inside(clearance, p);
+       }))
+    if (!clearance.is_clear(row.at, beside_surface * options_.size.at(row.at))) guide.points.push_back(row.at);
+  return guide;
+}
+
+FramePoints FrameLattice::Work::points_inside(const solid::Surface& surface) {
+  const solid::SurfaceClearance clearance(surface);
+  FramePoints result{{}, turned_share()};
+  for (const RowPoint& row : accept(surface.points, [&](const Proposal& p) { return is_well_inside(clearance, p); }))
+    result.points.push_back(row.at);
+  for (std::size_t i = 0; i < result.points.size(); ++i)
+    result.points[i] += jitter_of(i, options_.jitter * options_.size.at(result.points[i]), options_.seed);
+  return result;
+}
+
+void FrameLattice::Work::propose() {
+  proposals_.clear();
   parallel_in_order(
       static_cast<std::int64_t>(nodes_.size()), 512,
       [&](std::int64_t begin, std::int64_t end) {
         std::vector<Proposal> proposals;
-        for (std::int64_t i = begin; i < end; ++i) propose(static_cast<std::size_t>(i), field, proposals);
+        for (std::int64_t i = begin; i < end; ++i) propose(static_cast<std::size_t>(i), proposals);
         return proposals;
       },
       [&](const std::vector<Proposal>& some) { proposals_.insert(proposals_.end(), some.begin(), some.end()); });
-  dislocations_ = find_dislocations(field.links, field.coordinates, background_, adjacency_);
 }
 
-void PointPlacer::propose(std::size_t i, const LatticeField& field, std::vector<Proposal>& proposals) const {
-  const auto& coordinates = field.coordinates[i];
-  const auto& steps = field.steps[i];
+void FrameLattice::Work::propose(std::size_t i, std::vector<Proposal>& proposals) const {
+  const auto& coordinates = field_->coordinates[i];
+  const auto& steps = field_->steps[i];
   for (int cell = 0; cell < 27; ++cell) {
     // NOLINTNEXTLINE(bugprone-integer-division): the digits of a number to base 3
     const Vec3 cells{cell % 3 - 1 - coordinates[0], cell / 3 % 3 - 1 - coordinates[1], cell / 9 - 1 - coordinates[2]};
@@ -108,12 +147,12 @@ void PointPlacer::propose(std::size_t i, const LatticeField& field, std::vector<
     const Vec3 way = cells.x * steps[0] + cells.y * steps[1] + cells.z * steps[2];
     const double here = nodes_.sizes[i], there = options_.size.at(nodes_.points[i] + here * way);
     proposals.push_back({nodes_.points[i] + 0.5 * (here + there) * way, there, static_cast<std::int32_t>(i),
-                         (distrust_begins - distance) * field.agreement[i]});
+                         (distrust_begins - distance) * field_->agreement[i]});
   }
 }
 
 // Moves every proposal to the mean of those that see the same point. It is trusted as much as all of these together.
-void PointPlacer::agree() {
+void FrameLattice::Work::agree() {
   geometry::SizedPointGrid grid(surface_.points.front());
   for (const Proposal& p : proposals_) grid.add(p.point, 2 * same_point * p.size);
   std::vector<Proposal> result(proposals_.size());
@@ -122,7 +161,7 @@ void PointPlacer::agree() {
   proposals_ = std::move(result);
 }
 
-Proposal PointPlacer::agreed(const geometry::SizedPointGrid& grid, const Proposal& proposal) const {
+Proposal FrameLattice::Work::agreed(const geometry::SizedPointGrid& grid, const Proposal& proposal) const {
   const double reach = same_point * proposal.size;
   Vec3 sum;
   double trust = 0;
@@ -137,25 +176,27 @@ Proposal PointPlacer::agreed(const geometry::SizedPointGrid& grid, const Proposa
   return trust > 0 ? Proposal{sum * (1 / trust), proposal.size, proposal.node, trust} : proposal;
 }
 
-// The most trusted proposals come first.
-std::vector<Vec3> PointPlacer::accept() const {
+// The most trusted proposals that are wanted, none too near to another or to the fixed points; then lines along which
+// rows end are made straight.
+template <class Wanted>
+std::vector<RowPoint> FrameLattice::Work::accept(std::span<const Vec3> fixed, Wanted&& is_wanted) const {
   std::vector<std::int32_t> order(proposals_.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, std::greater(), [&](std::int32_t i) { return proposals_[i].trust; });
-
-  const solid::SurfaceClearance clearance(surface_);
   geometry::SizedPointGrid taken(surface_.points.front());
-  for (const Vec3& p : surface_.points) taken.add(p, 2 * least_spacing * options_.size.at(p));
+  for (const Vec3& p : fixed) taken.add(p, 2 * least_spacing * options_.size.at(p));
+  std::vector<RowPoint> rows;
   for (const std::int32_t i : order) {
     const Proposal& p = proposals_[i];
-    if (is_free(taken, p) && clearance.is_clear(p.point, options_.clearance * options_.size.at(p.point)) &&
-        clearance.is_inside(p.point))
-      taken.add(p.point, 2 * least_spacing * p.size);
+    if (!is_free(taken, p) || !is_wanted(p)) continue;
+    taken.add(p.point, 2 * least_spacing * p.size);
+    const auto& [x, y, z] = field_->steps[p.node];
+    rows.push_back({p.point, {p.size * x, p.size * y, p.size * z}});
   }
-  return {taken.points().begin() + static_cast<std::ptrdiff_t>(surface_.points.size()), taken.points().end()};
+  return std::getenv("NOSTRAIGHT") ? rows : straighten_row_ends(fixed, std::move(rows));
 }
 
-bool PointPlacer::is_free(const geometry::SizedPointGrid& taken, const Proposal& proposal) const {
+bool FrameLattice::Work::is_free(const geometry::SizedPointGrid& taken, const Proposal& proposal) const {
   fields::Frame units = frames_[proposal.node];  // in these units, the frame's coordinates count least spacings
   Vec3 reach;                                    // of a box of one unit, along the coordinate axes
   for (std::size_t k = 0; k < 3; ++k) {
@@ -173,7 +214,7 @@ bool PointPlacer::is_free(const geometry::SizedPointGrid& taken, const Proposal&
   return free;
 }
 
-double PointPlacer::turned_share() const {
+double FrameLattice::Work::turned_share() const {
   const double least_cosine = std::cos(straight_angle * std::numbers::pi / 180);
   const auto is_straight = [&](const fields::Frame& frame) {
     return std::ranges::all_of(options_.axes,
@@ -183,15 +224,26 @@ double PointPlacer::turned_share() const {
   return 1 - static_cast<double>(straight) / static_cast<double>(frames_.size());
 }
 
-}  // namespace
+FrameLattice::FrameLattice(const solid::Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
+                           const FramePointsOptions& options)
+    : work_(new Work(surface, background, adjacency, options)) {}
 
-FramePoints frame_points(const solid::Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
-                         const FramePointsOptions& options) {
-  PointPlacer placer(surface, background, adjacency, options);
-  std::vector<Vec3> points = placer.place();
-  for (std::size_t i = 0; i < points.size(); ++i)
-    points[i] += jitter_of(i, options.jitter * options.size.at(points[i]), options.seed);
-  return {std::move(points), placer.turned_share(), placer.take_dislocations()};
+FrameLattice::~FrameLattice() = default;
+
+void FrameLattice::fit(const std::vector<bool>& held) {
+  work_->fit(held);
+}
+
+const Dislocations& FrameLattice::dislocations() const {
+  return work_->dislocations();
+}
+
+surface::RowGuide FrameLattice::guide() const {
+  return work_->guide();
+}
+
+FramePoints FrameLattice::points_inside(const solid::Surface& surface) const {
+  return work_->points_inside(surface);
 }
 
 }  // namespace hexpipe::tetmesh::volume

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "common/mesh/adjacency.hpp"
@@ -17,6 +18,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
+#include "tools/tetmesh/surface/surface_lattice.hpp"
 #include "tools/tetmesh/volume/dislocations.hpp"
 
 namespace hexpipe::tetmesh::volume {
@@ -33,14 +35,31 @@ struct FramePointsOptions {
 };
 
 struct FramePoints {
-  std::vector<Vec3> points;   // in the order in which they were accepted
-  double turned_share = 0;    // share of the vertices whose frame is more than 10 degrees out of the lattice's axes
-  Dislocations dislocations;  // of their lattice
+  std::vector<Vec3> points;  // in the order in which they were accepted
+  double turned_share = 0;   // share of the vertices whose frame is more than 10 degrees out of the lattice's axes
 };
 
-// `background` is a mesh of the surface with points inside at about the same distance. Its first vertices are those of
-// the surface.
-FramePoints frame_points(const solid::Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
-                         const FramePointsOptions& options);
+// A lattice along the frame field of a background mesh.
+class FrameLattice {
+ public:
+  // `background` is a mesh of the surface with points inside at about the same distance. Its first vertices are those
+  // of the surface. All must outlive the lattice.
+  FrameLattice(const solid::Surface& surface, const TetMesh& background, const TetAdjacency& adjacency,
+               const FramePointsOptions& options);
+  ~FrameLattice();
+
+  // Fits the lattice to the frames and to those points of the surface that are `held`: solve_lattice_field(). It can be
+  // fitted again. The others need a lattice that was fitted.
+  void fit(const std::vector<bool>& held);
+  const Dislocations& dislocations() const;
+  // Where the lattice has its points on the surface. It must not outlive the lattice, or its next fit.
+  surface::RowGuide guide() const;
+  // Its points inside a surface: the given one, or another of the same shape whose points follow the guide.
+  FramePoints points_inside(const solid::Surface& surface) const;
+
+ private:
+  class Work;
+  std::unique_ptr<Work> work_;
+};
 
 }  // namespace hexpipe::tetmesh::volume

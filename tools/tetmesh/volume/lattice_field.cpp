@@ -18,14 +18,16 @@ constexpr double anchor_weight = 20;
 // A surface point holds the lattice if cos(2 pi coordinate), averaged over its neighbours, exceeds anchor_threshold:
 // the more, the stronger, up to full strength at 1. Below the threshold it holds it weakly.
 constexpr double anchor_threshold = 0.3, weakest_anchor = 0.05;
-// 15 sweeps lose 0.1 % of the volume in hexes, 60 and 150 gain nothing.
-constexpr int smoothing_sweeps = 30;
+// 30 lengthen the lines along which rows end by 2 % where the surface's points do not hold the lattice.
+constexpr int smoothing_sweeps = 60;
 // A link along the surface is no step up to the first length, and one step from the second to the third, in sizes.
 // Between the first and the second it is not decided.
 constexpr double no_step = 0.2, least_step = 0.75, greatest_step = 1.7;
 // Hexes fill 84.9 % of the volume of blub, spot and mambo-m1 without this correction, 86.6 % with a stiffness of 0.05,
 // 86.8 % with 0.01, their surfaces being the same.
-constexpr fields::CurlLimits curl_limits{.stiffness = 0.01f, .most_iterations = 40, .tolerance = 1e-2};
+// Where features alone hold the lattice, 40 iterations are too few for rows to stretch far from them: mambo-m1 has 629
+// sizes of lines along which rows end then, 561 with these limits.
+constexpr fields::CurlLimits curl_limits{.stiffness = 0.01f, .most_iterations = 150, .tolerance = 3e-3};
 constexpr double most_strain = 0.45;  // the largest change of a distance, relative to the link's length
 // A direction is along a normal if the cosine between them is larger than this.
 constexpr double normal_cosine = 0.9;
@@ -37,11 +39,17 @@ constexpr double least_determinant = 0.2;
 
 using Phases = std::array<fields::Complex, 3>;
 
+// Whether the axis leads through the model, from one side to another that faces it.
+bool is_through(const Vec3& axis, const Vec3& normal, const Vec3& other_normal) {
+  return dot(normal, other_normal) < -normal_cosine && std::abs(dot(axis, normal)) > normal_cosine;
+}
+
 class LatticeSolver {
  public:
-  LatticeSolver(const FieldNodes& nodes, const std::vector<fields::Frame>& frames)
+  LatticeSolver(const FieldNodes& nodes, const std::vector<fields::Frame>& frames, const std::vector<bool>& held)
       : nodes_(nodes),
         frames_(frames),
+        held_(held),
         links_(nodes, frames),
         degree_(nodes.size()),
         anchors_(nodes.size()),
@@ -65,6 +73,8 @@ class LatticeSolver {
                  [&](std::int64_t i) { body(static_cast<std::size_t>(i)); });
   }
   void measure_degree(std::size_t i);
+  // Whether a node of the surface is a point of the lattice.
+  bool is_held(std::size_t i) const { return held_.empty() || held_[i]; }
   void make_anchors(std::size_t i);
   void correct_curl();
   fields::Loops triangles() const;
@@ -82,6 +92,7 @@ class LatticeSolver {
 
   const FieldNodes& nodes_;
   const std::vector<fields::Frame>& frames_;
+  const std::vector<bool>& held_;
   LatticeLinks links_;
   std::vector<std::int32_t> pair_numbers_;      // of each link to a later node: its number among such links
   std::vector<double> degree_;                  // of each node: the sum of the weights of its links
@@ -157,7 +168,9 @@ void LatticeSolver::add_steps_on_surface(fields::Loops& loops) const {
     const bool is_turned = (nodes_.surface[i].is_on_interface || nodes_.surface[t.neighbour].is_on_interface) &&
                            dot(n, nodes_.surface[t.neighbour].normal) > 0;
     const Vec3 m = is_turned ? -nodes_.surface[t.neighbour].normal : nodes_.surface[t.neighbour].normal;
+    const bool are_held = is_held(static_cast<std::size_t>(i)) && is_held(static_cast<std::size_t>(t.neighbour));
     for (std::size_t k = 0; k < 3; ++k) {
+      if (!are_held && !is_through(frames_[i][k], n, m)) continue;
       const auto steps = steps_on_surface(frames_[i][k], n, m, std::abs(t.distance[k]));
       if (!steps) continue;
       loops.add_step(number_of(ij, k), false);
@@ -166,8 +179,8 @@ void LatticeSolver::add_steps_on_surface(fields::Loops& loops) const {
   });
 }
 
-// Anchors a surface point along each axis as strongly as its neighbours on the surface agree that it is a point of the
-// lattice, and fully along its normal, where every point of the surface is one.
+// Anchors a surface point that is held along each axis as strongly as its neighbours on the surface agree that it is a
+// point of the lattice, and any smooth one fully along its normal.
 void LatticeSolver::make_anchors(std::size_t i) {
   std::array<double, 3> sum{};
   double count = 0;
@@ -179,7 +192,7 @@ void LatticeSolver::make_anchors(std::size_t i) {
   const SurfaceNode& node = nodes_.surface[i];
   for (std::size_t k = 0; k < 3; ++k) {
     const double mean = count > 0 ? sum[k] / count : 0;
-    double trust = std::max(weakest_anchor, (mean - anchor_threshold) / (1 - anchor_threshold));
+    double trust = is_held(i) ? std::max(weakest_anchor, (mean - anchor_threshold) / (1 - anchor_threshold)) : 0;
     if (node.kind == SurfaceNode::Kind::smooth && std::abs(dot(frames_[i][k], node.normal)) > normal_cosine) trust = 1;
     anchors_[i][k] = anchor_weight * trust * degree_[i];
   }
@@ -192,7 +205,7 @@ Phases LatticeSolver::view_of_neighbours(const std::vector<Phases>& phases, std:
 }
 
 void LatticeSolver::diffuse() {
-  constexpr fields::DiffusionLimits limits{60, 1e-3};
+  constexpr fields::DiffusionLimits limits{150, 1e-3};
   std::vector<Phases> held(nodes_.size());
   for (std::size_t i = 0; i < held.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) held[i][k] = anchors_[i][k];
@@ -253,14 +266,15 @@ LatticeField LatticeSolver::result() {
 }  // namespace
 
 std::optional<int> steps_on_surface(const Vec3& axis, const Vec3& normal, const Vec3& other_normal, double length) {
-  const bool is_through = dot(normal, other_normal) < -normal_cosine && std::abs(dot(axis, normal)) > normal_cosine;
-  if (length > (is_through ? fields::widest_to_decide : greatest_step)) return std::nullopt;
+  const bool through = is_through(axis, normal, other_normal);
+  if (length > (through ? fields::widest_to_decide : greatest_step)) return std::nullopt;
   if (length > no_step && length < least_step) return std::nullopt;
-  return length <= no_step ? 0 : is_through ? fields::layers_across(length) : 1;
+  return length <= no_step ? 0 : through ? fields::layers_across(length) : 1;
 }
 
-LatticeField solve_lattice_field(const FieldNodes& nodes, const std::vector<fields::Frame>& frames) {
-  return LatticeSolver(nodes, frames).solve();
+LatticeField solve_lattice_field(const FieldNodes& nodes, const std::vector<fields::Frame>& frames,
+                                 const std::vector<bool>& held) {
+  return LatticeSolver(nodes, frames, held).solve();
 }
 
 }  // namespace hexpipe::tetmesh::volume

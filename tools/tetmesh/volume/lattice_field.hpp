@@ -32,7 +32,9 @@ struct LatticeField {
 // none. No number where rows would have to stretch too much.
 std::optional<int> steps_on_surface(const Vec3& axis, const Vec3& normal, const Vec3& other_normal, double length);
 
-// Solves for a lattice whose cells are as wide as the sizes of the nodes.
-LatticeField solve_lattice_field(const FieldNodes& nodes, const std::vector<fields::Frame>& frames);
+// Solves for a lattice whose cells are as wide as the sizes of the nodes. `held` says which points of the surface are
+// points of the lattice; all of them if it is empty. Through the others only a layer of the lattice passes.
+LatticeField solve_lattice_field(const FieldNodes& nodes, const std::vector<fields::Frame>& frames,
+                                 const std::vector<bool>& held = {});
 
 }  // namespace hexpipe::tetmesh::volume
