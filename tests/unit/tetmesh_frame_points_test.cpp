@@ -105,11 +105,20 @@ TEST(Octahedral, TurnedOntoADirectionByTheLeastAngle) {
   }
 }
 
+// On how many faces of the box from 0 to 8 a point lies.
+int faces_at(const Vec3& p) {
+  int faces = 0;
+  for (int k = 0; k < 3; ++k) faces += p[k] == 0 || p[k] == 8;
+  return faces;
+}
+
 // On the mesh of a lattice, as tetmesh does it.
 FramePoints place(const Surface& surface, const FramePointsOptions& options) {
   const std::vector<Vec3> lattice = lattice_points(surface, {.size = options.size.greatest()});
   const BuiltMesh background = mesh_of(surface, lattice);
-  return frame_points(surface, background.mesh, background.adjacency, options);
+  FrameLattice frame_lattice(surface, background.mesh, background.adjacency, options);
+  frame_lattice.fit({});
+  return frame_lattice.points_inside(surface);
 }
 
 std::vector<Vec3> points_of(const Surface& surface, const FramePointsOptions& options) {
@@ -130,6 +139,44 @@ TEST(FramePoints, OfABoxAreTheLatticeOfItsSurfacePoints) {
   EXPECT_EQ(points.size(), 7u * 7 * 7);
   for (const Vec3& p : points)
     for (const double steps : {p.x * 8, p.y * 8, p.z * 8}) EXPECT_NEAR(steps, std::round(steps), 1e-3);
+}
+
+// A box of 8 by 8 by 8 sizes whose points on faces are moved along them by up to a third of a size.
+Surface box_with_moved_points() {
+  Surface surface = surface_of(box({0, 0, 0}, {8, 8, 8}, 8));
+  Random random(6);
+  for (Vec3& p : surface.points)
+    if (faces_at(p) == 1)
+      for (double* const x : {&p.x, &p.y, &p.z})
+        if (*x > 0.5 && *x < 7.5) *x += random.uniform(-0.33, 0.33);
+  return surface;
+}
+
+// The mean over points of how far they are from whole numbers.
+double distance_from_grid(const std::vector<Vec3>& points) {
+  double sum = 0;
+  for (const Vec3& p : points)
+    for (int k = 0; k < 3; ++k) sum += std::abs(p[k] - std::round(p[k]));
+  return sum / (3 * static_cast<double>(points.size()));
+}
+
+TEST(FrameLattice, IsHeldByFeaturesAloneOrByAllPointsOfTheSurface) {
+  const Surface surface = box_with_moved_points();
+  const BuiltMesh background = mesh_of(surface, lattice_points(surface, {.size = 1}));
+  FrameLattice lattice(surface, background.mesh, background.adjacency, {.size = 1, .jitter = 0});
+  std::vector<bool> on_edges;
+  for (const Vec3& p : surface.points) on_edges.push_back(faces_at(p) > 1);
+  lattice.fit(on_edges);
+  EXPECT_LT(distance_from_grid(lattice.points_inside(surface).points), 0.01);
+  const auto guide = lattice.guide();
+  EXPECT_EQ(guide.points.size(), 6u * 7 * 7);
+  EXPECT_LT(distance_from_grid(guide.points), 0.01);
+  const auto [x, y] = guide.coordinates({3.25, 4.5, 8}, {0, 0, 1}, {Vec3{1, 0, 0}, {0, -1, 0}});
+  EXPECT_NEAR(coordinate_of(x), 0.25, 0.03);
+  EXPECT_NEAR(std::abs(coordinate_of(y)), 0.5, 0.03);
+  EXPECT_GT(std::min(std::abs(x), std::abs(y)), 0.9);
+  lattice.fit({});
+  EXPECT_GT(distance_from_grid(lattice.points_inside(surface).points), 0.02);
 }
 
 TEST(FramePoints, StretchWhereTheSurfacePointsAreNotOfTheSize) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "common/run/random.hpp"
@@ -10,6 +11,7 @@
 #include "tools/tetmesh/solid/surface_check.hpp"
 #include "tools/tetmesh/surface/remesh_steps.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
+#include "tools/tetmesh/surface/surface_remesh.hpp"
 
 namespace hexpipe {
 using namespace formats;
@@ -53,6 +55,50 @@ TEST(Remesh, BoxesBecomeGrids) {
   EXPECT_EQ(result.surface.points.size(), 2 * (12 * 8 + 8 * 4 + 4 * 12) + 2u);
   for (const Vec3& p : result.surface.points)
     for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(p[axis] / 0.25, std::round(p[axis] / 0.25), 1e-6);
+}
+
+// A guide with points half a size off the whole numbers, everywhere.
+RowGuide half_a_row_off() {
+  const auto coordinates = [](const Vec3& place, const Vec3&, const std::array<Vec3, 2>& directions) {
+    const auto number = [&](const Vec3& direction) {
+      return std::polar(1.0, 2 * std::numbers::pi * (dot(place, direction) + 0.5));
+    };
+    return std::array{number(directions[0]), number(directions[1])};
+  };
+  return {coordinates, {}};
+}
+
+TEST(SurfaceRemesher, FollowsTheRowsOfAGuide) {
+  const Surface surface = surface_of(box({0, 0, 0}, {10, 10, 10}));
+  SurfaceRemesher remesher(surface, {.size = 1});
+  ASSERT_TRUE(remesher.make());
+  remesher.follow(half_a_row_off());
+  ASSERT_TRUE(remesher.make());
+  EXPECT_TRUE(remesher.judge());
+  const RemeshResult result = remesher.take();
+  std::size_t count = 0;
+  for (const Vec3& p : result.surface.points) {
+    if (p.z != 10 || std::min({p.x, p.y, 10 - p.x, 10 - p.y}) < 2) continue;
+    ++count;
+    for (const int k : {0, 1}) EXPECT_NEAR(p[k] - std::floor(p[k]), 0.5, 0.05);
+  }
+  EXPECT_EQ(count, 36u);
+}
+
+TEST(SurfaceRemesher, TakesTheKnownPointsOfAGuideFirst) {
+  const Surface surface = surface_of(box({0, 0, 0}, {10, 10, 10}));
+  SurfaceRemesher remesher(surface, {.size = 1});
+  ASSERT_TRUE(remesher.make());
+  RowGuide guide = half_a_row_off();
+  guide.points = {{5.1, 4.8, 10.2}, {5.9, 4.9, 9.8}};  // beside the surface
+  remesher.follow(guide);
+  ASSERT_TRUE(remesher.make());
+  const RemeshResult result = remesher.take();
+  for (const Vec3& known : {Vec3{5.1, 4.8, 10}, Vec3{5.9, 4.9, 10}})
+    EXPECT_TRUE(std::ranges::any_of(result.surface.points, [&](const Vec3& p) { return norm(p - known) < 0.03; }));
+  std::size_t features = 0;
+  for (std::size_t v = 0; v < result.surface.points.size(); ++v) features += result.on_feature[v];
+  EXPECT_EQ(features, 12u * 9 + 8);
 }
 
 TEST(RefineSurface, CutsFansOfSliversIntoNoMorePointsThanTheyNeed) {

@@ -21,7 +21,7 @@ namespace {
 // Points nearer than this, in steps of the lattice, are refused.
 constexpr double least_distance = 0.7;
 // The same for points that are known already.
-constexpr double least_distance_of_known = 0.5;
+constexpr double least_distance_of_known = 0.4;
 // The normals of points that may be in each other's way have at least this cosine. Those of the two sides of a wall do
 // not.
 constexpr double same_side_cosine = 0.3;

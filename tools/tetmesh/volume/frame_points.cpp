@@ -31,7 +31,7 @@ constexpr double furthest = 1 + 1e-6, distrust_begins = 1.5;
 // Frames further out of a lattice's axes than this are turned.
 constexpr double straight_angle = 10;  // degrees
 // A point nearer to the surface than this, in sizes, is one on the surface.
-const double beside_surface = std::getenv("BS") ? std::atof(std::getenv("BS")) : 0.3;
+constexpr double beside_surface = 0.3;
 
 // A point of the lattice as a node sees it.
 struct Proposal {
@@ -102,15 +102,15 @@ void FrameLattice::Work::fit(const std::vector<bool>& held) {
 
 surface::RowGuide FrameLattice::Work::guide() {
   surface::RowGuide guide{coordinates_on_surface(nodes_, frames_, *field_, options_.size), {}};
-  if (std::getenv("NOKNOWN")) return guide;
   std::vector<Vec3> fixed;
   for (std::size_t v = 0; v < held_.size(); ++v)
     if (held_[v]) fixed.push_back(surface_.points[v]);
   const solid::SurfaceClearance clearance(surface_);
-  for (const RowPoint& row : accept(fixed, [&](const Proposal& p) {
-         return !clearance.is_clear(p.point, beside_surface * p.size) || is_well_inside(clearance, p);
-       }))
-    if (!clearance.is_clear(row.at, beside_surface * options_.size.at(row.at))) guide.points.push_back(row.at);
+  const auto is_beside = [&](const Vec3& p) { return !clearance.is_clear(p, beside_surface * options_.size.at(p)); };
+  // Points inside are chosen, too, so that rows end at the same places on the surface and below it.
+  const auto is_wanted = [&](const Proposal& p) { return is_beside(p.point) || is_well_inside(clearance, p); };
+  for (const RowPoint& row : accept(fixed, is_wanted))
+    if (is_beside(row.at)) guide.points.push_back(row.at);
   return guide;
 }
 
@@ -193,7 +193,7 @@ std::vector<RowPoint> FrameLattice::Work::accept(std::span<const Vec3> fixed, Wa
     const auto& [x, y, z] = field_->steps[p.node];
     rows.push_back({p.point, {p.size * x, p.size * y, p.size * z}});
   }
-  return std::getenv("NOSTRAIGHT") ? rows : straighten_row_ends(fixed, std::move(rows));
+  return straighten_row_ends(fixed, std::move(rows));
 }
 
 bool FrameLattice::Work::is_free(const geometry::SizedPointGrid& taken, const Proposal& proposal) const {

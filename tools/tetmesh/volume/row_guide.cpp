@@ -94,7 +94,7 @@ class GuideAtNodes {
 }  // namespace
 
 CoordinatesOnSurface coordinates_on_surface(const FieldNodes& nodes, const std::vector<fields::Frame>& frames,
-                            const LatticeField& lattice, const sizing::SizeField& size) {
+                                            const LatticeField& lattice, const sizing::SizeField& size) {
   const auto guide = std::make_shared<const GuideAtNodes>(nodes, frames, lattice, size);
   return [guide](const Vec3& place, const Vec3& normal, const std::array<Vec3, 2>& directions) {
     return guide->at(place, normal, directions);
