@@ -173,8 +173,8 @@ class CellSearch {
     return fewest;
   }
 
-  // Returns, as bits (64 to a word), the neighbours of the first vertex that are beside it in some quad with each other
-  // placed side. If the new corner completes the first one, they also fit the two other edges there (rule 3).
+  // Returns, as bits (64 to a word), the neighbours of the first vertex that have a quad in common with it and with
+  // each side that is placed. If the new corner completes the first one, they also fit its two other edges (rule 3).
   template <std::size_t step>
   std::uint64_t choosable_neighbours(std::size_t word) const {
     constexpr std::uint8_t corner = plan<step>.corner;

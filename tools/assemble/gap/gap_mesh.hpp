@@ -1,6 +1,6 @@
 #pragma once
-// The tets between the chosen cells, and the pyramids and prisms made of such, as one mesh that can be changed; and
-// what of it may not.
+// The cells between the chosen cells (tets, and pyramids and prisms made of tets) as one mesh that can be changed. It
+// knows which of its vertices and facets have to stay.
 
 #include <array>
 #include <cstdint>
@@ -58,8 +58,8 @@ class GapMesh {
   auto kept_at(Vertex v) const {
     return std::views::filter(kept_at_of(v), [this](std::int32_t c) { return kept_[c].is_alive; });
   }
-  // The tagged triangles of which quad `i` of a chosen cell consists, as the cell goes around them, where it lies on
-  // the boundary; nothing where another cell has the quad, too.
+  // If quad `i` of a chosen cell lies on the boundary: the tagged triangles that it consists of, in the cell's
+  // orientation. Nothing if another cell has the quad, too.
   std::optional<std::array<Triangle, 2>> boundary_triangles(std::int32_t kept, int i) const;
   bool has_partner(std::int32_t kept, int i) const;
   // True where v may move and go: only cells of the gap are there, no tagged facet and no seam.
@@ -83,21 +83,21 @@ class GapMesh {
 
   // Replaces cells by others that fill the same room.
   void replace(std::span<const std::int32_t> out, std::span<const GapCell> in);
-  // After replace(out, ...), when no cell has come since but those from `first_new` on.
+  // Undoes replace(out, ...), whose new cells are those from `first_new` on. No other cell may have come since.
   void undo_replace(std::span<const std::int32_t> out, std::int32_t first_new);
-  // A chosen cell goes, or comes back. Its room is to be filled.
+  // Takes a chosen cell away, or puts it back. The caller fills its room.
   void set_alive(std::int32_t kept, bool is_alive);
   Vertex add_vertex(const Vec3& at);
-  // To be followed by replace() of all cells at v.
+  // The caller has to replace() all cells at v afterwards.
   void move(Vertex v, const Vec3& to) { mesh_.points[v] = to; }
 
-  // Moves a vertex; the cells at it are the same, of another quality.
+  // Moves a vertex, and measures the quality of the cells at it again.
   void relocate(Vertex v, const Vec3& to);
 
   void write_back();
 
  private:
-  // What holds a vertex, as bits.
+  // The reasons for which a vertex stays, as bits.
   static constexpr std::uint8_t of_kept = 1, on_tagged = 2, at_seam = 4;
 
   void add(const GapCell& cell, std::int32_t source);
@@ -111,7 +111,7 @@ class GapMesh {
   const hybrid::SurfaceTags& tags_;
   std::vector<GapCell> cells_;
   std::vector<std::uint8_t> alive_;
-  std::vector<std::int32_t> source_;  // the tet or the cell of `mesh` that it was, or no_index
+  std::vector<std::int32_t> source_;  // by cell: its tet or cell in `mesh`, or no_index for a new one
   std::vector<std::vector<std::int32_t>> at_;
   std::vector<std::uint32_t> age_;
   bool counts_faces_ = true;

@@ -128,7 +128,7 @@ void StarMerger::offer_pair(Vertex from, Vertex into) {
   const Vec3 before = gap_.points()[into];
   const auto place = shape::raise_worst(star, (gap_.points()[from] + before) * 0.5, steps_to_place);
   if (place.worst < now.floor) {
-    // What lacks too much has no chance.
+    // A merge that is far too poor has no chance.
     if (place.worst > least_to_yield && neighbours_yield_)
       offers_.push({now.cost - static_cast<double>(room->skin.size()),
                     from,

@@ -90,7 +90,7 @@ GapCell Merger::moved(const GapCell& cell, Vertex from, Vertex into) const {
   return gap_.make(cell.kind, corners, cell.region);
 }
 
-// Of the cells that the merge leaves; more than `most` where one of them is below the floor, or where they cost more.
+// The cost of the cells that the merge leaves; more than `most` if one is below the floor, or if they cost more.
 double Merger::cost_after(Vertex from, Vertex into, double floor, double most) const {
   double cost = 0;
   for (const std::int32_t c : gap_.cells_at(from)) {

@@ -17,9 +17,9 @@
 namespace hexpipe::assemble::gap {
 namespace {
 
-// One chosen cell in so many may go, for each costs share of the volume.
+// One chosen cell in this many may go, because each costs a share of the volume in hexes.
 constexpr std::size_t chosen_per_opened = 1000;
-// Of the chosen cells around a poor one, those with the most vertices of it. Later ones seldom help.
+// How many chosen cells around a poor one are tried, those with the most vertices of it first. Later ones seldom help.
 constexpr std::size_t most_tries = 8;
 constexpr int rounds_to_raise = 10;
 
@@ -134,15 +134,15 @@ std::vector<Vertex> HexOpener::movable(const GapCell& poor, std::int32_t kept) c
   return vertices;
 }
 
-// Whether the poor cell, if it is still there, and those that came are.
+// Whether the new cells are good enough, and the poor one, if it is still there.
 bool HexOpener::are_good_enough(std::int32_t poor, std::int32_t first_new) const {
   for (auto c = first_new; c < static_cast<std::int32_t>(gap_.cell_count()); ++c)
     if (gap_.cell(c).quality < least_wanted || !is_valid(gap_, gap_.cell(c))) return false;
   return !gap_.is_alive(poor) || gap_.cell(poor).quality >= least_wanted;
 }
 
-// Fills the room within `skin` around a vertex in its middle, and moves vertices around. Everything is as it was where
-// that does not turn out well.
+// Fills the room within `skin` around a vertex in its middle, and moves the vertices around it. If that does not turn
+// out well, everything is as before.
 bool HexOpener::fill(std::int32_t kept, std::vector<Facet> skin, std::span<const std::int32_t> out, std::int32_t poor) {
   const GapCell poor_cell = gap_.cell(poor);
   const std::int32_t region = poor_cell.region;

@@ -1,6 +1,6 @@
 #pragma once
-// A few vertices inside the mesh with all cells around them, apart from the rest: what is tried here changes nothing
-// until it has turned out well.
+// A copy of a few vertices inside the mesh, with all cells around them. A change is tried on the copy, and carried out
+// in the mesh only if it turns out well.
 
 #include <array>
 #include <cstdint>
@@ -12,11 +12,11 @@
 
 namespace hexpipe::assemble::gap {
 
-// What a change does to the cells of the gap.
+// A change of the gap: which cells go, and which come.
 struct Replacement {
   std::span<const std::int32_t> out;
   std::span<const GapCell> in;
-  double floor = 0;  // the least quality that those which come in may have
+  double floor = 0;  // the least quality of a cell that may come
 };
 
 // A change that raises the worst cell by less is not worth it.
@@ -36,11 +36,11 @@ class Patch {
 
   // The least quality among the cells that are not chosen.
   double least() const;
-  // False where a cell has become worse than it may: than least_quality, for a hex least_hex, or than it was.
+  // False if a cell is not valid, or worse than its floor: least_quality (a chosen hex: least_hex), or less if it was.
   bool keeps_floors() const;
-  // What cells and faces of the gap cost, as they are here.
+  // The cost of the gap's cells and faces after the change.
   double cost() const;
-  // What those cost that were there before.
+  // The cost of the gap's cells and faces before it.
   double cost_before() const;
 
   // Makes the change and the moves.

@@ -62,7 +62,7 @@ void Rooms::refill_stars() {
   }
 }
 
-// Each edge of cell c whose cells were made with c or later: so that each comes up once.
+// Looks only at edges of c all of whose cells are not older than c, so that each edge comes up once.
 void Rooms::refill_rings_of(std::int32_t c) {
   const GapCell cell = gap_.cell(c);
   with_topology(cell.kind, [&](auto topology) {

@@ -7,7 +7,7 @@
 namespace hexpipe::assemble::gap {
 namespace {
 
-// Cells that are worse may be replaced, but not by such: the sign of less may be rounding.
+// Worse cells may be replaced, but may not take the place of others: below this, the sign may be rounding.
 constexpr double surely_valid = 1e-6;
 
 }  // namespace

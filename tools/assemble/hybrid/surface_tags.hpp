@@ -14,8 +14,8 @@
 
 namespace hexpipe::assemble::hybrid {
 
-// Makes the mesh's triangles complete: every facet of the boundary and of interfaces is among them, and nothing else
-// than facets of tets.
+// Makes the mesh's triangles complete: afterwards they are facets of tets, and every facet of the boundary and of
+// interfaces is among them.
 void complete_surface(TetMesh& mesh, const TetAdjacency& adjacency);
 
 // The tagged triangles and what covers a quad, less the flat tets that were peeled off the boundary (flat_tets.hpp)
@@ -34,7 +34,7 @@ class SurfaceTags {
 
   // Peels a tet off the boundary: the tagged triangles at `places`, two of its facets, become the other two.
   void peel(const Tet& tet, const std::array<std::int32_t, 2>& places, const std::array<Triangle, 2>& triangles);
-  // Tagged triangles at `from` have `into` for it; those that have both vertices are gone. `places`: those at `from`.
+  // Merges the vertex `from` into `into`; the tagged triangles with both are gone. `places`: those at `from`.
   // `between`: for each facet of the boundary that moves, the tet between its two places, which counts as taken off:
   // its volume is negative where the boundary moves outwards.
   void merge(Vertex from, Vertex into, std::span<const std::int32_t> places, std::span<const Tet> between);
@@ -61,7 +61,7 @@ class SurfaceTags {
   std::vector<Triangle> triangles_;
   std::vector<std::int32_t> tags_;
   KeyMap<3, std::int32_t> numbers_;
-  std::vector<bool> is_on_any_;  // by vertex: most triangles that are asked for lie inside, and are told so at once
+  std::vector<bool> is_on_any_;  // by vertex; answers at once for most triangles, because they lie inside
   std::vector<Tet> peeled_;
   std::vector<Merge> merges_;
 };
