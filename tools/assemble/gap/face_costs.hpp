@@ -22,9 +22,9 @@ struct FacesOf {
 
 // The cost of all faces of these cells, each face once; faces between two kept cells cost nothing. The cells stand in
 // place of the gap's cells `instead_of`; on their other sides are the present cells of the mesh.
-double cost_of_faces(const GapMesh& gap, std::span<const FacesOf> cells, std::span<const std::int32_t> instead_of);
-double cost_of_faces(const GapMesh& gap, std::span<const GapCell> cells, std::span<const std::int32_t> instead_of);
+double cost_of_faces(const GapMesh& gap, std::span<const FacesOf> cells, std::span<const GapIndex> instead_of);
+double cost_of_faces(const GapMesh& gap, std::span<const GapCell> cells, std::span<const GapIndex> instead_of);
 // The cost of the faces of cells that are there.
-double cost_of_faces(const GapMesh& gap, std::span<const std::int32_t> cells);
+double cost_of_faces(const GapMesh& gap, std::span<const GapIndex> cells);
 
 }  // namespace hexpipe::assemble::gap

@@ -15,6 +15,10 @@
 
 namespace hexpipe::assemble::gap {
 
+// Numbers from 0 in a GapMesh.
+using GapIndex = std::int32_t;   // a cell of the gap
+using KeptIndex = std::int32_t;  // a chosen cell
+
 struct GapCell {
   CellKind kind = CellKind::tet;
   std::array<Vertex, 6> corners{};
@@ -49,19 +53,19 @@ class GapMesh {
   std::span<const Vec3> points() const { return mesh_.points; }
   std::size_t vertex_count() const { return at_.size(); }
   std::size_t cell_count() const { return cells_.size(); }  // with those that are gone
-  const GapCell& cell(std::int32_t c) const { return cells_[c]; }
-  bool is_alive(std::int32_t c) const { return alive_[c] != 0; }
-  std::span<const std::int32_t> cells_at(Vertex v) const { return at_[v]; }
-  const KeptCell& kept_cell(std::int32_t c) const { return kept_[c]; }
+  const GapCell& cell(GapIndex c) const { return cells_[c]; }
+  bool is_alive(GapIndex c) const { return alive_[c] != 0; }
+  std::span<const GapIndex> cells_at(Vertex v) const { return at_[v]; }
+  const KeptCell& kept_cell(KeptIndex c) const { return kept_[c]; }
   std::size_t kept_count() const { return kept_.size(); }  // with those that are gone
   // Those at v that are not gone: a view.
   auto kept_at(Vertex v) const {
-    return std::views::filter(kept_at_of(v), [this](std::int32_t c) { return kept_[c].is_alive; });
+    return std::views::filter(kept_at_of(v), [this](KeptIndex c) { return kept_[c].is_alive; });
   }
   // If quad `i` of a chosen cell lies on the boundary: the tagged triangles that it consists of, in the cell's
   // orientation. Nothing if another cell has the quad, too.
-  std::optional<std::array<Triangle, 2>> boundary_triangles(std::int32_t kept, int i) const;
-  bool has_partner(std::int32_t kept, int i) const;
+  std::optional<std::array<Triangle, 2>> boundary_triangles(KeptIndex kept, int i) const;
+  bool has_partner(KeptIndex kept, int i) const;
   // True where v may move and go: only cells of the gap are there, no tagged facet and no seam.
   bool is_free(Vertex v) const { return holds_[v] == 0 && !at_[v].empty(); }
   // True where v may move, though chosen cells may use it: on no tagged facet and at no seam.
@@ -82,11 +86,11 @@ class GapMesh {
   GapCell make_tet(const Tet& corners, std::int32_t region) const;
 
   // Replaces cells by others that fill the same room.
-  void replace(std::span<const std::int32_t> out, std::span<const GapCell> in);
+  void replace(std::span<const GapIndex> out, std::span<const GapCell> in);
   // Undoes replace(out, ...), whose new cells are those from `first_new` on. No other cell may have come since.
-  void undo_replace(std::span<const std::int32_t> out, std::int32_t first_new);
+  void undo_replace(std::span<const GapIndex> out, GapIndex first_new);
   // Takes a chosen cell away, or puts it back. The caller fills its room.
-  void set_alive(std::int32_t kept, bool is_alive);
+  void set_alive(KeptIndex kept, bool is_alive);
   Vertex add_vertex(const Vec3& at);
   // The caller has to replace() all cells at v afterwards.
   void move(Vertex v, const Vec3& to) { mesh_.points[v] = to; }
@@ -101,10 +105,10 @@ class GapMesh {
   static constexpr std::uint8_t of_kept = 1, on_tagged = 2, at_seam = 4;
 
   void add(const GapCell& cell, std::int32_t source);
-  void link(std::int32_t c);
-  void unlink(std::int32_t c);
-  std::span<const std::int32_t> kept_at_of(Vertex v) const {
-    return static_cast<std::size_t>(v) < first_new_ ? kept_at_.at(v) : std::span<const std::int32_t>();
+  void link(GapIndex c);
+  void unlink(GapIndex c);
+  std::span<const KeptIndex> kept_at_of(Vertex v) const {
+    return static_cast<std::size_t>(v) < first_new_ ? kept_at_.at(v) : std::span<const KeptIndex>();
   }
 
   hybrid::HybridMesh& mesh_;
@@ -112,7 +116,7 @@ class GapMesh {
   std::vector<GapCell> cells_;
   std::vector<std::uint8_t> alive_;
   std::vector<std::int32_t> source_;  // by cell: its tet or cell in `mesh`, or no_index for a new one
-  std::vector<std::vector<std::int32_t>> at_;
+  std::vector<std::vector<GapIndex>> at_;
   std::vector<std::uint32_t> age_;
   bool counts_faces_ = true;
   std::vector<std::uint8_t> holds_;

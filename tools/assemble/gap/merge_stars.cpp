@@ -71,7 +71,7 @@ class StarMerger {
   bool neighbours_yield_;
   Patch patch_;
   std::priority_queue<StarMerge> offers_;
-  std::vector<std::int32_t> cells_;
+  std::vector<GapIndex> cells_;
 };
 
 // Those at a or b.
@@ -89,12 +89,12 @@ std::vector<Vertex> StarMerger::partners_of(Vertex v) const {
     for (const Vertex w : cell.vertices())
       if (w != v && gap_.is_free(w)) partners.push_back(w);
   };
-  for (const std::int32_t c : gap_.cells_at(v)) {
+  for (const GapIndex c : gap_.cells_at(v)) {
     const GapCell& cell = gap_.cell(c);
     take(cell);
     for (const Vertex w : cell.vertices()) {
       if (w == v) continue;
-      for (const std::int32_t other : gap_.cells_at(w)) {
+      for (const GapIndex other : gap_.cells_at(w)) {
         const auto shared = std::ranges::count_if(cell.vertices(), [&](Vertex x) { return gap_.cell(other).has(x); });
         if (shared >= 3) take(gap_.cell(other));
       }

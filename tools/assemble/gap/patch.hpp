@@ -14,7 +14,7 @@ namespace hexpipe::assemble::gap {
 
 // A change of the gap: which cells go, and which come.
 struct Replacement {
-  std::span<const std::int32_t> out;
+  std::span<const GapIndex> out;
   std::span<const GapCell> in;
   double floor = 0;  // the least quality of a cell that may come
 };
@@ -47,32 +47,34 @@ class Patch {
   void carry_out(GapMesh& gap, const Replacement& replacement) const;
 
  private:
+  using Local = std::int32_t;  // the place of a vertex in vertices_
+
   struct Cell {
     CellKind kind = CellKind::tet;
     bool is_kept = false;
     std::int32_t region = 0;
-    double floor = 0;                       // of its quality
-    std::array<std::int32_t, 8> corners{};  // as local numbers
+    double floor = 0;  // of its quality
+    std::array<Local, 8> corners{};
 
-    std::span<const std::int32_t> vertices() const {
+    std::span<const Local> vertices() const {
       return std::span(corners).first(static_cast<std::size_t>(corner_count(kind)));
     }
   };
 
-  std::int32_t local_of(Vertex v) const;
+  Local local_of(Vertex v) const;
   void add(Cell cell, std::span<const Vertex> corners);
   double quality(const Cell& cell) const;
   bool is_good(const Cell& cell) const;
-  void look_around(std::int32_t v);
-  bool improve(std::int32_t v, double goal);
+  void look_around(std::size_t i);
+  bool improve(std::size_t i, double goal);
 
   const GapMesh& gap_;
-  std::vector<Vertex> vertices_;  // ascending; by local number
+  std::vector<Vertex> vertices_;  // ascending
   std::vector<Vec3> points_;
   std::vector<Cell> cells_;
-  std::vector<std::int32_t> before_;           // cells of the gap at the moving vertices, before the change
-  std::vector<std::int32_t> moving_;           // as local numbers
-  std::vector<std::vector<std::int32_t>> at_;  // by place in moving_
+  std::vector<GapIndex> before_;  // cells of the gap at the moving vertices, before the change
+  std::vector<Local> moving_;
+  std::vector<std::vector<std::size_t>> at_;  // by place in moving_: those of `cells_`
   shape::PointStar star_;
 };
 

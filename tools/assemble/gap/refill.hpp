@@ -19,7 +19,7 @@ class Refill {
   // Finds tets, pyramids and prisms that cost less than `out` and take its place: the cheapest that a search of bounded
   // length meets. Nothing if there are none, if the cells form no room (skin.hpp), or if the room is large. All cells
   // of the gap have to be valid.
-  std::optional<std::vector<GapCell>> find(std::span<const std::int32_t> out);
+  std::optional<std::vector<GapCell>> find(std::span<const GapIndex> out);
 
  private:
   struct Offer {
@@ -36,7 +36,7 @@ class Refill {
   void search(double cost);
 
   const GapMesh& gap_;
-  std::span<const std::int32_t> out_;  // while find() runs
+  std::span<const GapIndex> out_;  // while find() runs
   Room room_;
   std::vector<Facet> front_;  // facets that still need a cell
   std::vector<GapCell> placed_, best_;
@@ -47,6 +47,6 @@ class Refill {
 
 // Fills the room of a cell and of its neighbours anew. If that finds nothing better, it tries the room of all cells at
 // one of the cell's vertices. False if none of these rooms has a better filling.
-bool refill_around(GapMesh& gap, Refill& refill, std::int32_t c);
+bool refill_around(GapMesh& gap, Refill& refill, GapIndex c);
 
 }  // namespace hexpipe::assemble::gap

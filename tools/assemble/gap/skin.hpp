@@ -57,7 +57,7 @@ Joining join_skin(const GapMesh& gap, const GapCell& cell, std::vector<Facet>& s
 
 // The room of these cells. Nothing if they are of several regions, if a tagged facet or a vertex that has to stay lies
 // between them, or if more than `most_facets` are around them.
-std::optional<Room> room_of(const GapMesh& gap, std::span<const std::int32_t> cells, std::size_t most_facets);
+std::optional<Room> room_of(const GapMesh& gap, std::span<const GapIndex> cells, std::size_t most_facets);
 
 // The cell on the inner side of a facet of the skin, with its last corner at `apex`: a tet or a pyramid.
 GapCell cell_on(const GapMesh& gap, const Facet& facet, Vertex apex, std::int32_t region);
@@ -66,6 +66,6 @@ GapCell cell_on(const GapMesh& gap, const Facet& facet, Vertex apex, std::int32_
 struct Worth {
   double cost = 0, floor = 0;
 };
-Worth worth_of(const GapMesh& gap, std::span<const std::int32_t> cells);
+Worth worth_of(const GapMesh& gap, std::span<const GapIndex> cells);
 
 }  // namespace hexpipe::assemble::gap
