@@ -22,9 +22,6 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 };
 
-// True when somebody sees the line. Ask before doing work for it.
-bool progress_is_shown();
-
 // A step of the work, from construction to destruction. Steps nest. If the outer step counts (see expect()), a step
 // inside it is the next item of that count. Only the thread that made the first step shows steps; those of other
 // threads, which run beside it, are ignored.
