@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <set>
+
+#include "common/mesh/joined_sets.hpp"
 
 namespace hexpipe::assemble::pieces {
 namespace {
@@ -43,22 +44,17 @@ std::int32_t home_of(const PartView& view, TetIndex tet) {
 
 // Tets joined by rings, each group with its tets ascending.
 std::vector<std::vector<TetIndex>> groups_of(const std::vector<OpenRing>& rings, std::size_t tet_count) {
-  std::vector<TetIndex> parent(tet_count);
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](TetIndex t) {
-    while (parent[t] != t) t = parent[t] = parent[parent[t]];
-    return t;
-  };
+  JoinedSets joined(tet_count);
   std::vector<TetIndex> tets;
   for (const OpenRing& ring : rings)
     for (const TetIndex t : ring.tets) {
       tets.push_back(t);
-      parent[root(t)] = root(ring.tets.front());
+      joined.join(t, ring.tets.front());
     }
   std::ranges::sort(tets);
   tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
   std::map<TetIndex, std::vector<TetIndex>> groups;
-  for (const TetIndex t : tets) groups[root(t)].push_back(t);
+  for (const TetIndex t : tets) groups[joined.of(t)].push_back(t);
   std::vector<std::vector<TetIndex>> result;
   result.reserve(groups.size());
   for (auto& [first, group] : groups) result.push_back(std::move(group));
