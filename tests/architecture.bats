@@ -154,3 +154,24 @@ namespace_of() {
     done
   done
 }
+
+@test "a README names the rooms beside its own that the room includes, and none besides" {
+  local page room named included
+  for page in $(cd "$HEXPIPE_SOURCE" && grep -l '^It builds on \[' common/*/README.md common/mwis/*/README.md formats/*/README.md tools/*/*/README.md); do
+    room=$(dirname "$page")
+    named=$(cd "$HEXPIPE_SOURCE/$room" && grep '^It builds on \[' README.md | grep -oE '\([^)]*README\.md\)' | tr -d '()' |
+      xargs -n1 dirname | xargs realpath --relative-to="$HEXPIPE_SOURCE" | sort)
+    included=$(includes_of "$room" | grep -E "^$room/[^/:]+:" | sed 's/^[^:]*://' | xargs -n1 dirname | sort -u)
+    comm -23 <(echo "$named") <(echo "$included") | assert_none "$page names what $room does not include"
+    comm -13 <(echo "$named") <(echo "$included" | grep -E "^$(dirname "$room")/[^/]+$" | grep -vx "$room") |
+      assert_none "$page does not name what $room includes"
+  done
+}
+
+@test "every header stands in the README of its room" {
+  local header page
+  for header in $(cd "$HEXPIPE_SOURCE" && find common formats tools -name '*.hpp'); do
+    page="$HEXPIPE_SOURCE/$(dirname "$header")/README.md"
+    [[ ! -e "$page" ]] || grep -qF "\`$(basename "$header")\`" "$page" || fail "$header stands in no README"
+  done
+}

@@ -61,7 +61,7 @@ class CellSearch {
   template <std::size_t step>
   static constexpr const SearchStep& plan = search_plan<Topology>[step];
   static constexpr std::uint8_t first = first_corner<Topology>;
-  static constexpr bool is_at_first(const OpenQuad& quad) { return quad.corner == first; }
+  static constexpr bool is_at_first(const PlanQuad& quad) { return quad.corner == first; }
 
   template <std::size_t step>
   void place() {
@@ -98,7 +98,7 @@ class CellSearch {
   void for_each_choice(Body&& body) {
     constexpr std::uint8_t corner = plan<step>.corner;
     if constexpr (plan<step>.closed_quads.size() > 0) {
-      constexpr OpenQuad quad = plan<step>.closed_quads[0];
+      constexpr PlanQuad quad = plan<step>.closed_quads[0];
       if constexpr (closes_at_first<step>()) {
         for (auto quads = fan_->quads_of(*pairs_[quad.quad]); !quads.empty();) {
           const auto some = quads.first(std::min<std::size_t>(quads.size(), 64));
@@ -134,7 +134,7 @@ class CellSearch {
   // Takes up to 64 quads at the first corner. Returns, as bits, those whose fourth vertex may stand opposite. Their
   // outer edges must fit the placed ones (rule 3) and, where a pair is still open, some edge of it. These answers are
   // hard to predict, so everything is computed for all quads, without branches.
-  template <std::size_t step, OpenQuad quad>
+  template <std::size_t step, PlanQuad quad>
   std::uint64_t choosable(std::span<const QuadFan::Quad> quads) const {
     const auto side_of = [&](std::uint8_t corner) -> std::size_t {
       return places_[corner] > places_[corner == quad.side ? quad.other_side : quad.side] ? 1 : 0;
@@ -166,21 +166,21 @@ class CellSearch {
   int quad_with_fewest() const {
     int fewest = plan<step>.closed_quads[0].quad;
     for_each_index<plan<step>.closed_quads.size()>([&](auto i) {
-      constexpr OpenQuad quad = plan<step>.closed_quads[i];
+      constexpr PlanQuad quad = plan<step>.closed_quads[i];
       if (!is_at_first(quad) && angles_[quad.quad].opposite_count() < angles_[fewest].opposite_count())
         fewest = quad.quad;
     });
     return fewest;
   }
 
-  // Returns, as bits (64 to a word), the neighbours of the first vertex that are beside it in some quad with each other
-  // placed side. If the new corner completes the first one, they also fit the two other edges there (rule 3).
+  // Returns, as bits (64 to a word), the neighbours of the first vertex that have a quad in common with it and with
+  // each side that is placed. If the new corner completes the first one, they also fit its two other edges (rule 3).
   template <std::size_t step>
   std::uint64_t choosable_neighbours(std::size_t word) const {
     constexpr std::uint8_t corner = plan<step>.corner;
     std::uint64_t bits = ~std::uint64_t{0};
     for_each_index<plan<step>.opened_quads.size()>([&](auto i) {
-      constexpr OpenQuad quad = plan<step>.opened_quads[i];
+      constexpr PlanQuad quad = plan<step>.opened_quads[i];
       constexpr std::uint8_t other = quad.side == corner ? quad.other_side : quad.side;
       if constexpr (is_at_first(quad)) bits &= fan_->partners_of(places_[other], word);
       if constexpr (is_at_first(quad) && exceeds<step>(other)) bits &= fan_->greater_than(places_[other], word);
@@ -260,7 +260,7 @@ class CellSearch {
              return tables_.links().is_facet(corners_[t[0]], corners_[t[1]], corners_[t[2]]);
            }) &&
            all_of_indices<plan<step>.closed_quads.size()>([&](auto i) {
-             constexpr OpenQuad quad = plan<step>.closed_quads[i];
+             constexpr PlanQuad quad = plan<step>.closed_quads[i];
              return closes<quad, plan<step>.corner>(from_quad == quad.quad);
            });
   }
@@ -269,13 +269,13 @@ class CellSearch {
   template <std::size_t step>
   bool quads_open() {
     return all_of_indices<plan<step>.opened_quads.size()>([&](auto i) {
-      constexpr OpenQuad quad = plan<step>.opened_quads[i];
+      constexpr PlanQuad quad = plan<step>.opened_quads[i];
       return opens<quad>();
     });
   }
 
   // The quads at the first corner were found and judged once for all cells there.
-  template <OpenQuad quad>
+  template <PlanQuad quad>
   bool opens() {
     if constexpr (is_at_first(quad)) {
       pairs_[quad.quad] = fan_->find_pair(places_[quad.side], places_[quad.other_side]);
@@ -296,7 +296,7 @@ class CellSearch {
       return tables_.links().place_of(corners_[corner], corners_[beside]);
   }
 
-  template <OpenQuad quad, std::uint8_t fourth>
+  template <PlanQuad quad, std::uint8_t fourth>
   bool closes(bool is_from_there) {
     if constexpr (is_at_first(quad)) {
       if (is_from_there) return true;
@@ -313,7 +313,7 @@ class CellSearch {
                                   corners_[fourth], corners_[quad.other_side]));
   }
 
-  template <OpenQuad quad, std::uint8_t fourth>
+  template <PlanQuad quad, std::uint8_t fourth>
   void set_outer_edges(const QuadFan::Quad& found) {
     const std::size_t side = places_[quad.side] > places_[quad.other_side];
     diagonals_[quad.quad] = found.diagonals;

@@ -24,7 +24,7 @@ inline bool is_folded(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
 
 // Which quads may be part of a candidate.
 struct QuadFilter {
-  double min_quality;  // no angle's sine may be below; it bounds the scaled Jacobian there
+  double min_quality;  // for the sine of each angle, which bounds the scaled Jacobian there
   bool drop_folded;    // rule 8; if the mesh has both diagonals, one of them has to obey it
 };
 

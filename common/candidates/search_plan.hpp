@@ -27,8 +27,8 @@ struct ShortList {
   constexpr const T& operator[](std::size_t i) const { return items[i]; }
 };
 
-// A quad that lacks one corner: the one opposite `corner`, between the two sides.
-struct OpenQuad {
+// A quad of the plan that lacks one corner: the one opposite `corner`, between the two sides.
+struct PlanQuad {
   std::uint8_t quad;  // number in the topology
   std::uint8_t corner, side, other_side;
 };
@@ -54,8 +54,8 @@ struct SearchStep {
   ShortList<std::uint8_t, 4> edges;  // numbers in the topology; they lead to corners placed before
   ShortList<std::uint8_t, 8>
       greater;  // its vertex has to be greater than theirs, so that each cell is found under one labelling
-  ShortList<OpenQuad, 3> opened_quads;  // it is the third corner of these
-  ShortList<OpenQuad, 3> closed_quads;  // it is the fourth corner of these
+  ShortList<PlanQuad, 3> opened_quads;  // it is the third corner of these
+  ShortList<PlanQuad, 3> closed_quads;  // it is the fourth corner of these
   ShortList<LocalTriangle, 4> triangles;
   ShortList<LocalCorner, 4> corners;        // corners whose edges are all placed now, except
   ShortList<OuterCorner, 3> outer_corners;  // those beside the first corner that have two outer edges
@@ -188,7 +188,7 @@ constexpr auto make_search_plan() {
     for (std::uint8_t number = 0; number < Topology::quads.size(); ++number)
       for (std::size_t i = 0; i < 4; ++i) {
         const LocalQuad& q = Topology::quads[number];
-        const OpenQuad quad{number, q[(i + 2) % 4], q[(i + 1) % 4], q[(i + 3) % 4]};
+        const PlanQuad quad{number, q[(i + 2) % 4], q[(i + 1) % 4], q[(i + 3) % 4]};
         const std::array<std::uint8_t, 3> three{quad.corner, quad.side, quad.other_side};
         if (q[i] == corner && placed[three[0]] && placed[three[1]] && placed[three[2]]) step.closed_quads.add(quad);
         if (!placed[q[i]] && plan_details::completed_by<Topology>(three, corner, placed)) step.opened_quads.add(quad);

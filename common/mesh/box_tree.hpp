@@ -43,8 +43,8 @@ struct Box {
 
 class BoxTree {
  public:
-  // The number of a thing is the number of its box. `values` has a lower bound for each thing of what least() looks
-  // for.
+  // The number of a thing is the number of its box. `values` has a lower bound for each thing on the value that least()
+  // compares.
   BoxTree(std::span<const Box> boxes, std::span<const double> values);
   // A thing may have several boxes that cover it together: `owners` says to which thing each box belongs.
   BoxTree(std::span<const Box> boxes, std::span<const double> values, std::span<const std::int32_t> owners);

@@ -17,8 +17,8 @@ struct FaceShape {
   Vec3 area{}, centre{};
 };
 
-// Of three corners or more. More than three are split into triangles around their mean, and the centre is the mean of
-// the triangles' centres, by their areas.
+// For three corners or more. If there are more, triangles around their mean make up the face, and its centre is the
+// mean of the triangles' centres, weighted by their areas.
 FaceShape face_shape(std::span<const Vec3> corners);
 
 // Where the pyramids from the mean of the faces' centres to the faces have their common centre of mass.

@@ -28,8 +28,8 @@ struct MeasureCount {
   Vec3 place{};  // the centre of the face, or of the cell, that has the worst value
 };
 
-// Angle and weight are those of inner faces, flatness that of all. A face of one cell alone, with just these corners,
-// is no inner one: so the quads of a mesh that does not conform are not.
+// Angle and weight are measured at inner faces, flatness at all faces. A face is inner if two cells have it with the
+// same corners; so a quad that faces two triangles, in a mesh that does not conform, is not.
 struct MeshMeasures {
   std::int64_t faces = 0, inner_faces = 0;
   double mean_angle = 0;  // in radians, of the mean cosine
@@ -37,7 +37,7 @@ struct MeshMeasures {
 };
 MeshMeasures measure_mesh(const MixedMesh& mesh, const MeasureLimits& limits = {});
 
-// Of each cell, in the order hexes, prisms, pyramids, tets, the worst that its faces have.
+// The worst measures among the faces of each cell, in the order hexes, prisms, pyramids, tets.
 struct MeasuresOfCells {
   std::vector<double> orthogonality, weight, determinant, flatness;
 };

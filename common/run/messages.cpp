@@ -41,16 +41,16 @@ std::string_view beginning(std::string_view text, std::size_t columns) {
   return text;
 }
 
-}  // namespace
-
-void print_message(std::string_view tool, std::string_view text) {
-  print_lines(without_control_characters(fmt::format("{}: {}", tool, text)) + '\n');
-}
-
 void print_text(const std::string& text) {
   if (silent) return;
   std::fputs(text.c_str(), stderr);
   std::fflush(stderr);
+}
+
+}  // namespace
+
+void print_message(std::string_view tool, std::string_view text) {
+  print_lines(without_control_characters(fmt::format("{}: {}", tool, text)) + '\n');
 }
 
 void print_lines(const std::string& lines) {

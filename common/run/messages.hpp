@@ -11,11 +11,8 @@ namespace hexpipe {
 // right.
 void print_message(std::string_view tool, std::string_view text);
 
-// Prints the text as it is. It never fails either.
-void print_text(const std::string& text);
-
 // Prints lines in place of the line of progress that a terminal may show: one of ours, or of another process in the
-// pipe.
+// pipe. It never fails either.
 void print_lines(const std::string& lines);
 
 // True if standard error is a terminal that can erase a line.

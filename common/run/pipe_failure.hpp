@@ -10,7 +10,7 @@
 
 namespace hexpipe {
 
-// Whoever writes to standard output or reads from standard input tells how it goes.
+// The code that writes to standard output, or reads from standard input, reports here how that goes.
 void count_written_to_stdout(std::size_t bytes);
 void count_read_from_stdin(std::size_t bytes);
 void note_end_of_stdin();

@@ -186,10 +186,6 @@ ProgressLine::~ProgressLine() {
   ticker.reset();
 }
 
-bool progress_is_shown() {
-  return ticker != nullptr;
-}
-
 Step::Step(const char* what, double begin, double end) : what_(what), begin_(begin), end_(end) {
   if (ticker) is_listed_ = ticker->list(*this);
 }

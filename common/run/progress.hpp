@@ -22,12 +22,9 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 };
 
-// True when somebody sees the line. Ask before doing work for it.
-bool progress_is_shown();
-
-// A step of the work, from construction to destruction. Steps nest; one within a step that counts is the next of what
-// is counted. Those of other threads than the one that made the first are ignored: they run beside the step that is
-// shown.
+// A step of the work, from construction to destruction. Steps nest. If the outer step counts (see expect()), a step
+// inside it is the next item of that count. Only the thread that made the first step shows steps; those of other
+// threads, which run beside it, are ignored.
 class Step {
  public:
   // `what`: a word or two, "looking for hexes"; nothing: the name of the step around it stays. `begin` and `end`: which
@@ -37,8 +34,8 @@ class Step {
   Step(const Step&) = delete;
   Step& operator=(const Step&) = delete;
 
-  // How far it is; the greatest share of these counts. How much there is to do, and how much more is done, from any
-  // thread:
+  // The next three say how far the step is; the greatest share that they give counts. Any thread may call them.
+  // How much there is to do, and how much more of it is done:
   void expect(std::int64_t total) { total_.store(total, std::memory_order_relaxed); }
   void advance(std::int64_t more = 1) { done_.fetch_add(more, std::memory_order_relaxed); }
   // The share that is done, from 0 to 1.

@@ -53,7 +53,7 @@ class Bench:
 
     @classmethod
     def start(cls):
-        """Greedy and nothing else, for what is compared to begin alike."""
+        """Greedy and nothing else, so that the compared runs begin alike."""
         target = cls.folder / "greedy.tar"
         if not target.exists():
             tool("initsol", cls.graph(), "--iterations", 0, "-o", target)
@@ -69,7 +69,7 @@ class Bench:
 
     @classmethod
     def bound_log(cls):
-        """The bound as a log that has it from the beginning, for it takes longer than the searches."""
+        """The bound as a log that has it from the beginning, because it takes longer than the searches."""
         target = cls.folder / "bound.jsonl"
         target.write_text(json.dumps({"seconds": 0, "bound": cls.bound()}) + "\n")
         return target

@@ -122,11 +122,6 @@ bool looks_like_dimacs(Input& input) {
   return first != std::string_view::npos && (text[first] == 'c' || text[first] == 'p');
 }
 
-graph::ConflictGraph read_dimacs(Input& input) {
-  LeftOut nothing;
-  return read_dimacs(input, {}, nothing);
-}
-
 graph::ConflictGraph read_dimacs(Input& input, const GraphReading& reading, LeftOut& left_out) {
   const std::string text = input.read_all();
   if (!text.empty()) expect_last_line_end(text, input.name());

@@ -15,7 +15,6 @@ bool looks_like_dimacs(Input& input);
 // edges stand as `e U V` or `U V`. An edge may come twice, as in many colouring files. Throws FormatError with the line
 // for loops, numbers out of range, weights given twice, unknown lines, and fewer or more edges than the problem line
 // says. A tolerant reading leaves out loops.
-graph::ConflictGraph read_dimacs(Input& input);
 graph::ConflictGraph read_dimacs(Input& input, const GraphReading& reading, LeftOut& left_out);
 
 }  // namespace hexpipe::formats

@@ -21,7 +21,7 @@ struct GraphReading {
   bool complement = false;               // the edges are those that the file does not have
 };
 
-// What was left out; the user is told.
+// The counts of what was left out, for a message.
 struct LeftOut {
   std::int64_t loops = 0, repeated = 0;
 };

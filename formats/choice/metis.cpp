@@ -179,11 +179,6 @@ class MetisParser : NumberLines {
 
 }  // namespace
 
-graph::ConflictGraph read_metis(Input& input) {
-  LeftOut nothing;
-  return read_metis(input, {}, nothing);
-}
-
 graph::ConflictGraph read_metis(Input& input, const GraphReading& reading, LeftOut& left_out) {
   const std::string text = input.read_all();
   return MetisParser(text, input.name(), reading, left_out).parse();

@@ -16,7 +16,6 @@ namespace hexpipe::formats {
 // line, an empty line is a vertex without neighbours, and neighbours may come in any order. Throws FormatError with the
 // line for loops, repeated and one-sided edges, numbers out of range, and counts that disagree with the header. A
 // tolerant reading leaves out loops and repeated edges, which the header may count or not.
-graph::ConflictGraph read_metis(Input& input);
 graph::ConflictGraph read_metis(Input& input, const GraphReading& reading, LeftOut& left_out);
 
 // Writes `n m 10`, neighbours ascending.

@@ -62,7 +62,7 @@ class FacetTable {
   std::vector<std::int32_t> members_;
 };
 
-// The facet of a cell that has these corners of it.
+// The facet of a cell that has these corners.
 template <std::size_t Facet, std::size_t Cell>
 std::array<Vertex, Facet> pick(const std::array<Vertex, Cell>& cell, const std::array<std::uint8_t, Facet>& corners) {
   std::array<Vertex, Facet> facet;

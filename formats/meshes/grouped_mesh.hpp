@@ -22,7 +22,7 @@ struct CellSide {
   std::uint8_t facet = 0;  // in the topology's list of triangles or of quads
 };
 
-// The number of corners of an element of VTK's code; 0 for those that are none of ours.
+// The number of corners of the element with this code of VTK; 0 for elements that we do not have.
 constexpr int corners_of_kind(std::uint8_t vtk) {
   switch (vtk) {
     case 5:
@@ -57,7 +57,7 @@ struct GroupedMesh {
   std::vector<ElementGroup> cells, facets;
 };
 
-// What a format asks of names and numbers.
+// The rules of a format for names and numbers.
 struct GroupRules {
   NameRules names;
   bool apart = false;                     // no name and no number for a region and a surface
@@ -65,8 +65,8 @@ struct GroupRules {
   std::array<const char*, 4> reserved{};  // names that no group may have; null: none
 };
 
-// `output`: for messages. Tags of one name are one group, with the number of the first of them. Throws DataError where
-// the format needs sides, and a facet is none of a cell.
+// `output`: for messages. Tags of one name are one group, with the number of the first of them. Throws DataError if the
+// format needs sides and a facet belongs to no cell.
 GroupedMesh grouped(const MixedMesh& mesh, const MeshWriting& writing, const GroupRules& rules,
                     std::string_view output);
 
@@ -75,8 +75,8 @@ GroupedMesh grouped(const MixedMesh& mesh, const MeshWriting& writing, const Gro
 void name_blocks_by_kind(GroupedMesh& mesh);
 void join_blocks_of_kinds(GroupedMesh& mesh);
 
-// The mesh in a file. Groups whose names tell a tag (region_3) have it, the others their numbers, or free ones where
-// two have the same. The first of several facets with the same corners counts.
+// The mesh in a file. A group whose name tells a tag (region_3) gets that tag, and another group its number, or a free
+// one if two have the same. The first of several facets with the same corners counts.
 MixedMesh ungrouped(GroupedMesh mesh, GroupNames* names);
 
 }  // namespace hexpipe::formats

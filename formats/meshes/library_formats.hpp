@@ -22,8 +22,8 @@ void write_med(const MixedMesh& mesh, const MeshWriting& writing, Output& output
 // Qualities are not written.
 void write_cgns(const MixedMesh& mesh, const MeshWriting& writing, Output& output);
 
-// Whether the bytes are in one of these formats. Then read_by_library reads them, and throws DataError where they are
-// none that this build knows. `path`: of the file that has them; where it is none, as with a pipe, they are copied.
+// Whether the bytes are in one of these formats. Then read_by_library reads them; it throws DataError if this build
+// lacks the format. `path` is that of the file that has the bytes; without a file, as in a pipe, they are copied.
 bool looks_like_library_format(std::string_view bytes);
 MixedMesh read_by_library(std::string bytes, const std::string& name, const std::string& path,
                           GroupNames* names = nullptr);

@@ -8,7 +8,7 @@
 
 namespace hexpipe::formats {
 
-// What a module offers. Functions throw std::exception with the reason alone.
+// The functions of a module. They throw std::exception with the reason alone.
 struct MeshLibrary {
   const char* version;  // of the hexpipe that it was built for
   void (*write)(const GroupedMesh& mesh, const std::string& path);

@@ -1,5 +1,5 @@
 #pragma once
-// What a stage of the pipeline takes and what it makes: all roles together as they are read, and one product for each
+// The input and the output of a stage of the pipeline: all roles together as they are read, and one product for each
 // role as it is written.
 
 #include <array>
@@ -26,7 +26,7 @@ using SolutionGaps = std::vector<std::int64_t>;
 // Both ends of each straight segment of the lines along which rows of points end.
 using DislocationSegments = std::vector<std::array<double, 6>>;
 
-// What of the candidates tells how much a choice fills: a row for each candidate.
+// The part of the candidates that tells how much a choice fills: a row for each candidate.
 struct CandidateVolumes {
   std::vector<CellKind> kind;
   std::vector<double> volume;

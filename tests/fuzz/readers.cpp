@@ -125,11 +125,12 @@ void read_candidates(std::string_view bytes) {
 
 void read_graph(std::string_view bytes) {
   Input input = memory(bytes);
-  const ConflictGraph graph = looks_like_dimacs(input) ? read_dimacs(input) : read_metis(input);
+  const GraphFormat format = looks_like_dimacs(input) ? GraphFormat::dimacs : GraphFormat::metis;
+  const ConflictGraph graph = read_graph(input, {.format = format});
   validate(graph, "fuzzed");
   metis_weight_warning(graph);
   Input again = written("again.graph", [&](Output& output) { write_metis(graph, output); });
-  promise(read_metis(again) == graph, "a graph that is written is read as the same graph");
+  promise(read_graph(again, {.format = GraphFormat::metis}) == graph, "a graph that is written is read as the same graph");
 }
 
 // The first byte is the number of vertices.

@@ -18,7 +18,7 @@ using ::testing::ThrowsMessage;
 
 ConflictGraph read(const std::string& text) {
   Input input = Input::from_memory(text, "test.col");
-  return read_dimacs(input);
+  return read_graph(input, {.format = GraphFormat::dimacs});
 }
 
 void expect_rejected(const std::string& text, const std::string& message) {

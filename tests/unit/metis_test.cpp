@@ -19,7 +19,7 @@ using ::testing::ThrowsMessage;
 
 ConflictGraph read(const std::string& text) {
   Input input = Input::from_memory(text, "test.graph");
-  return read_metis(input);
+  return read_graph(input, {.format = GraphFormat::metis});
 }
 
 void expect_rejected(const std::string& text, const std::string& message) {

@@ -84,10 +84,10 @@ std::vector<std::int64_t> point_numbers(const std::vector<Vertex>& origin, const
 
 // Names for messages about these cells of the view.
 choice::InputNames names_of_cells(choice::InputNames names, const pieces::PartView& view,
-                                  std::span<const std::int32_t> cells) {
+                                  std::span<const CandidateIndex> cells) {
   names.bundles = view.bundles;
   names.origins.clear();
-  for (const std::int32_t i : cells) names.origins.push_back(view.origins[i]);
+  for (const CandidateIndex i : cells) names.origins.push_back(view.origins[i]);
   return names;
 }
 
@@ -115,14 +115,14 @@ PartResult assemble_part(pieces::PartView view, const std::vector<std::string>& 
   piece.moved_tets = pieces.moved_tets;
   piece.moved_to = pieces.moved_to;
   piece.given_back = before.said.given_back;
-  for (const std::int32_t i : cells.given_back) piece.given_back.push_back(view.keys.key[i]);
+  for (const CandidateIndex i : cells.given_back) piece.given_back.push_back(view.keys.key[i]);
   if (!input.mesh.tets.empty()) {
     rules.seam = &input.seam;
     AssembleResult assembled =
         assemble_piece(std::move(input.mesh), input.cells, rules, names_of_cells(bundle_names, view, input.view_cells));
     graph::IndependentSet given_back;
     std::ranges::set_difference(choice::all_of(input.cells), assembled.left, std::back_inserter(given_back));
-    for (const std::int32_t c : given_back) piece.given_back.push_back(view.keys.key[input.view_cells[c]]);
+    for (const CandidateIndex c : given_back) piece.given_back.push_back(view.keys.key[input.view_cells[c]]);
     piece.point_number = point_numbers(assembled.origin, input, view.part);
     result.mesh = std::move(assembled.mesh);
     result.statistics = std::move(assembled.statistics);

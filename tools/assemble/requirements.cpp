@@ -87,7 +87,7 @@ Missed poor_cells_below(const MixedMesh& mesh, const Requirement& requirement) {
   return missed;
 }
 
-// What finite volumes ask for.
+// The requirements of finite volumes.
 Missed poor_faces(const MixedMesh& mesh, const Requirement& requirement) {
   const auto missed = [](const MeasureCount& count, const char* what, double unit = 1) {
     return Missed{count.misses, what, count.worst / unit, count.place};

@@ -18,8 +18,8 @@ struct Requirement {
 // "hexes 0.3, orthogonality 70". Throws UsageError.
 std::vector<Requirement> parse_requirements(std::string_view text);
 
-// `mesh` has quality. Throws DataError, which tells for each requirement that is missed how many miss it, and where the
-// worst lies.
+// `mesh` has quality. Throws DataError if a requirement is missed; the message tells how many cells or faces miss it,
+// and where the worst lies.
 void check_requirements(const MixedMesh& mesh, const std::vector<Requirement>& requirements);
 
 }  // namespace hexpipe::assemble

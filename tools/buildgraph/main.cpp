@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
     app.add_option("--weight-scale", options.conflicts.weight_scale, "Weights are multiplied by this, then rounded")
         ->check(number_between(1e-100, 1e100));
     app.add_option("--part", part,
-                   "i/k: only conflicts whose higher candidate is in part i of k; see Makefile.examples")
+                   "i/k: only conflicts whose higher candidate is in share i of k; see Makefile.examples")
         ->group("In parts");
     app.add_flag("--reduce", options.reduce,
                  "Leave out candidates that no choice needs: another one has no more conflicts and weighs no less");

@@ -25,8 +25,8 @@ void keep_only(CandidateKeys& keys, std::span<const std::int32_t> kept);
 // The graph that `kept` induces.
 void keep_only(graph::ConflictGraph& graph, std::span<const std::int32_t> kept);
 
-// Leaves out dominated candidates A solution of the remaining graph is a solution of the whole graph,
-// and the heaviest one weighs the same. Returns how many candidates were left out.
+// Leaves out dominated candidates. A solution of the remaining graph is a solution of the whole graph, and the heaviest
+// one weighs the same. Returns how many candidates were left out.
 std::int64_t reduce(Candidates& candidates, graph::ConflictGraph& graph);
 
 }  // namespace hexpipe::buildgraph

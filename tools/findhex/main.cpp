@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
     app.add_option("--flat-corners", flat_corners,
                    "reject or keep: cells that would leave a flat pyramid at the surface")
         ->check(CLI::IsMember({"reject", "keep"}));
-    app.add_option("--part", part, "i/k: only cells that begin in part i of k of the vertices; see Makefile.examples")
+    app.add_option("--part", part, "i/k: only cells that begin in share i of k of the vertices; see Makefile.examples")
         ->group("In parts");
     app.add_option("--max-boundary-tets", options.tet_rules.max_boundary_tets,
                    "The most slivers that a cell may have on its quads; less to compare with searches that know none")

@@ -27,13 +27,14 @@
 
 #include "common/run/error.hpp"
 #include "common/run/muted_cout.hpp"
-#include "tools/fitcad/nearest_piece.hpp"
+#include "tools/fitcad/nearest_simplex.hpp"
 #include "tools/fitcad/newton.hpp"
 
 namespace hexpipe::fitcad {
 namespace {
 
-// Curves this share of the reach further away than the nearest one may turn out to be nearer: their pieces are chords.
+// Curves this share of the reach further away than the nearest one may turn out to be nearer: their segments are
+// chords.
 constexpr double curve_slack = 0.2;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -53,27 +54,27 @@ struct FaceTriangle {
   std::array<std::array<double, 2>, 3> parameters;
 };
 
-// A piece of an edge, with the edge's parameters at its ends.
-struct EdgePiece {
+// A segment of an edge, with the edge's parameters at its ends.
+struct EdgeSegment {
   std::int32_t edge;
   std::array<double, 2> parameters;
 };
 
-struct EdgePieces {
-  std::vector<EdgePiece> of;
-  std::vector<Piece> pieces;
+struct EdgeSegments {
+  std::vector<EdgeSegment> of;
+  std::vector<Simplex> simplices;
 };
 
-// Of a face or an edge, the nearest of its pieces.
+// The nearest triangle of a face, or the nearest segment of an edge.
 struct Near {
-  std::int32_t piece;
+  std::int32_t simplex;
   double distance;
 };
 
-void keep_nearest(std::map<std::int32_t, Near>& found, std::int32_t part, std::int32_t number, const Piece& piece,
+void keep_nearest(std::map<std::int32_t, Near>& found, std::int32_t owner, std::int32_t number, const Simplex& simplex,
                   const Vec3& to) {
-  const double distance = norm(to - point_of(piece, nearest_weights(piece, to)));
-  const auto [entry, is_new] = found.try_emplace(part, Near{number, distance});
+  const double distance = norm(to - point_of(simplex, nearest_weights(simplex, to)));
+  const auto [entry, is_new] = found.try_emplace(owner, Near{number, distance});
   if (!is_new && distance < entry->second.distance) entry->second = {number, distance};
 }
 
@@ -88,20 +89,20 @@ struct CadShape::State {
   std::vector<std::pair<std::int32_t, std::int32_t>> faces_near(const Vec3& to, double reach,
                                                                 std::span<const std::int32_t> tags) const;
   Foot foot_on(std::int32_t triangle, const Vec3& to, std::array<double, 2>& parameters) const;
-  Foot foot_on_edge(const EdgePiece& of, const Piece& piece, const Vec3& to) const;
-  std::optional<Foot> nearest_foot(const EdgePieces& of, const PieceTree& tree, const Vec3& to, double slack) const;
+  Foot foot_on_edge(const EdgeSegment& of, const Simplex& simplex, const Vec3& to) const;
+  std::optional<Foot> nearest_foot(const EdgeSegments& of, const SimplexTree& tree, const Vec3& to, double slack) const;
 
   double unit;
   double diagonal = 0;
   TopoDS_Shape whole;
   std::vector<Face> faces;
   std::vector<FaceTriangle> triangles;
-  std::vector<Piece> pieces;
+  std::vector<Simplex> simplices;
   std::vector<std::optional<BRepAdaptor_Curve>> curves;  // by edge
-  EdgePieces edges, features;                            // all edges, and those that are features
+  EdgeSegments edges, features;                          // all edges, and those that are features
   std::vector<Vec3> corners;
   std::vector<Vec3> nodes;
-  std::optional<PieceTree> triangle_tree, edge_tree, feature_tree;
+  std::optional<SimplexTree> triangle_tree, edge_tree, feature_tree;
 };
 
 CadShape::State::State(const pipeline::ExactShape& shape, const std::string& source) : unit(shape.unit) {
@@ -112,13 +113,13 @@ CadShape::State::State(const pipeline::ExactShape& shape, const std::string& sou
   } catch (const Standard_Failure& failure) {
     throw DataError::at(source, "surface/shape.brep: OpenCASCADE failed: {}", failure.GetMessageString());
   }
-  if (pieces.empty()) throw DataError::at(source, "surface/shape.brep: expected faces with triangles, found none");
-  Box box = Box::around(pieces.front());
-  for (const Piece& piece : pieces) box.add(Box::around(piece));
+  if (simplices.empty()) throw DataError::at(source, "surface/shape.brep: expected faces with triangles, found none");
+  Box box = Box::around(simplices.front());
+  for (const Simplex& simplex : simplices) box.add(Box::around(simplex));
   diagonal = norm(box.high - box.low);
-  triangle_tree.emplace(pieces);
-  edge_tree.emplace(edges.pieces);
-  feature_tree.emplace(features.pieces);
+  triangle_tree.emplace(simplices);
+  edge_tree.emplace(edges.simplices);
+  feature_tree.emplace(features.simplices);
 }
 
 void CadShape::State::read(const pipeline::ExactShape& shape, const std::string& source) {
@@ -160,14 +161,14 @@ void CadShape::State::add_face(const TopoDS_Face& face, std::int32_t tag) {
     std::array<Standard_Integer, 3> corner{};
     made->Triangle(i).Get(corner[0], corner[1], corner[2]);
     FaceTriangle triangle{number, {}};
-    Piece piece;
+    Simplex simplex;
     for (int k = 0; k < 3; ++k) {
       const gp_Pnt2d uv = made->UVNode(corner[k]);
       triangle.parameters[k] = {uv.X(), uv.Y()};
-      piece[k] = node(corner[k]);
+      simplex[k] = node(corner[k]);
     }
     triangles.push_back(triangle);
-    pieces.push_back(piece);
+    simplices.push_back(simplex);
   }
 }
 
@@ -181,13 +182,13 @@ void CadShape::State::add_edge(std::int32_t number, const TopoDS_Edge& edge, con
     return vec3_of(made->Node(polygon->Node(i)).Transformed(place.Transformation()).XYZ());
   };
   for (Standard_Integer i = 2; i <= polygon->NbNodes(); ++i) {
-    const EdgePiece of{number, {polygon->Parameter(i - 1), polygon->Parameter(i)}};
-    const Piece piece{node(i - 1), node(i), node(i)};
+    const EdgeSegment of{number, {polygon->Parameter(i - 1), polygon->Parameter(i)}};
+    const Simplex simplex{node(i - 1), node(i), node(i)};
     edges.of.push_back(of);
-    edges.pieces.push_back(piece);
+    edges.simplices.push_back(simplex);
     if (!is_feature) continue;
     features.of.push_back(of);
-    features.pieces.push_back(piece);
+    features.simplices.push_back(simplex);
   }
   if (!is_feature) return;
   for (TopExp_Explorer vertex(edge, TopAbs_VERTEX); vertex.More(); vertex.Next())
@@ -200,9 +201,9 @@ std::vector<std::pair<std::int32_t, std::int32_t>> CadShape::State::faces_near(
   const double nearest = triangle_tree->distance(to, infinity);
   std::map<std::int32_t, Near> found;
   for (const std::int32_t t : triangle_tree->within(to, nearest * (1 + 1e-9) + reach))
-    keep_nearest(found, triangles[t].face, t, pieces[t], to);
+    keep_nearest(found, triangles[t].face, t, simplices[t], to);
   std::vector<std::pair<std::int32_t, std::int32_t>> result;
-  for (const auto& [face, near] : found) result.emplace_back(face, near.piece);
+  for (const auto& [face, near] : found) result.emplace_back(face, near.simplex);
   const auto has_tag = [&](const auto& entry) { return std::ranges::find(tags, faces[entry.first].tag) != tags.end(); };
   if (std::ranges::any_of(result, has_tag)) std::erase_if(result, [&](const auto& entry) { return !has_tag(entry); });
   return result;
@@ -210,31 +211,31 @@ std::vector<std::pair<std::int32_t, std::int32_t>> CadShape::State::faces_near(
 
 Foot CadShape::State::foot_on(std::int32_t triangle, const Vec3& to, std::array<double, 2>& parameters) const {
   const FaceTriangle& of = triangles[triangle];
-  const Weights w = nearest_weights(pieces[triangle], to);
+  const Weights w = nearest_weights(simplices[triangle], to);
   for (int i = 0; i < 2; ++i)
     parameters[i] = w[0] * of.parameters[0][i] + w[1] * of.parameters[1][i] + w[2] * of.parameters[2][i];
   const SurfacePlace place = nearest_on_surface(faces[of.face].surface, parameters, to);
   parameters = place.parameters;
-  return {place.at, norm(to - place.at), of.face};
+  return {place.at, norm(to - place.at)};
 }
 
-Foot CadShape::State::foot_on_edge(const EdgePiece& of, const Piece& piece, const Vec3& to) const {
-  const Weights w = nearest_weights(piece, to);
+Foot CadShape::State::foot_on_edge(const EdgeSegment& of, const Simplex& simplex, const Vec3& to) const {
+  const Weights w = nearest_weights(simplex, to);
   const double start = w[0] * of.parameters[0] + (w[1] + w[2]) * of.parameters[1];
   const Vec3 at = nearest_on_curve(*curves[of.edge], start, to);
-  return {at, norm(to - at), of.edge};
+  return {at, norm(to - at)};
 }
 
-// Among the edges that are up to `slack` further away than the nearest one: their pieces are only near to them.
-std::optional<Foot> CadShape::State::nearest_foot(const EdgePieces& of, const PieceTree& tree, const Vec3& to,
+// Among the edges that are up to `slack` further away than the nearest one: their segments are only near to them.
+std::optional<Foot> CadShape::State::nearest_foot(const EdgeSegments& of, const SimplexTree& tree, const Vec3& to,
                                                   double slack) const {
   if (tree.empty()) return std::nullopt;
   std::map<std::int32_t, Near> found;
   for (const std::int32_t i : tree.within(to, tree.distance(to, infinity) * (1 + 1e-9) + slack))
-    keep_nearest(found, of.of[i].edge, i, tree.piece(i), to);
+    keep_nearest(found, of.of[i].edge, i, tree.simplex(i), to);
   std::optional<Foot> best;
   for (const auto& [edge, near] : found) {
-    const Foot foot = foot_on_edge(of.of[near.piece], tree.piece(near.piece), to);
+    const Foot foot = foot_on_edge(of.of[near.simplex], tree.simplex(near.simplex), to);
     if (!best || foot.distance < best->distance) best = foot;
   }
   return best;
@@ -251,7 +252,7 @@ Foot CadShape::on_faces(const Vec3& to, double reach, std::span<const std::int32
   const Vec3 p = s.unit * to;
   const auto near = s.faces_near(p, s.unit * reach, tags);
   std::optional<Foot> inside;
-  Foot any{{}, infinity, 0};
+  Foot any{{}, infinity};
   for (const auto& [face, triangle] : near) {
     std::array<double, 2> parameters{};
     const Foot foot = s.foot_on(triangle, p, parameters);

@@ -19,8 +19,7 @@ namespace hexpipe::fitcad {
 // A point on the CAD.
 struct Foot {
   Vec3 at;
-  double distance = 0;    // from the point that was asked for
-  std::int32_t part = 0;  // number of the face or of the edge
+  double distance = 0;  // from the point that was asked for
 };
 
 class CadShape {

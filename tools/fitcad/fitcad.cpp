@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/mesh/quality.hpp"
-#include "tools/fitcad/nearest_piece.hpp"
+#include "tools/fitcad/nearest_simplex.hpp"
 #include "tools/fitcad/targets.hpp"
 
 namespace hexpipe::fitcad {
@@ -32,18 +32,18 @@ Vec3 middle_of(const std::vector<Vec3>& points) {
 }
 
 // A quad is bilinear: four triangles around its middle are near enough to it.
-std::vector<Piece> pieces_of_boundary(const MixedMesh& mesh) {
-  std::vector<Piece> pieces;
+std::vector<Simplex> simplices_of_boundary(const MixedMesh& mesh) {
+  std::vector<Simplex> simplices;
   for_each_facet(mesh, [&](const std::vector<Vec3>& points) {
     if (points.size() == 3) {
-      pieces.push_back({points[0], points[1], points[2]});
+      simplices.push_back({points[0], points[1], points[2]});
       return;
     }
     const Vec3 middle = middle_of(points);
     for (std::size_t k = 0; k < points.size(); ++k)
-      pieces.push_back({middle, points[k], points[(k + 1) % points.size()]});
+      simplices.push_back({middle, points[k], points[(k + 1) % points.size()]});
   });
-  return pieces;
+  return simplices;
 }
 
 // From a vertex to the corner, the curve or the faces on which its target is.
@@ -65,7 +65,7 @@ BoundaryDistances distances(const MixedMesh& mesh, const CadShape& shape, const 
       result.to_cad = std::max(result.to_cad, shape.on_faces(middle, reach).distance);
     }
   });
-  const PieceTree facets(pieces_of_boundary(mesh));
+  const SimplexTree facets(simplices_of_boundary(mesh));
   for (const Vec3& p : shape.samples())
     result.from_cad = std::max(result.from_cad, facets.distance(p, std::numeric_limits<double>::infinity()));
   return result;

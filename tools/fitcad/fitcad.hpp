@@ -23,7 +23,7 @@ struct BoundaryDistances {
   double from_cad = 0;  // from points of the CAD's faces to the nearest facet
 };
 
-// Of one kind of cells.
+// The figures of one kind of cells.
 struct KindQuality {
   CellKind kind;
   std::int64_t count = 0;

@@ -19,7 +19,7 @@ constexpr double face_reach = 0.1;
 // Vertices this near to their places, in diagonals, are there: flat faces stay flat to the last bit.
 constexpr double rounding = 1e-12;
 
-// What the facets say of an edge of the boundary.
+// The facets at an edge of the boundary, and what follows from them.
 struct BoundaryEdge {
   std::int32_t facets = 0;
   std::int32_t tag = 0;

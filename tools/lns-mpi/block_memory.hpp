@@ -25,7 +25,7 @@ class BlockMemory {
   BlockMemory(std::vector<Place> places, const mwis::local_search::OperatorScores& operator_scores)
       : places_(std::move(places)), operator_scores_(operator_scores) {}
 
-  // What is known about this region, in its numbers; `keys` are those of the rank's local graph.
+  // The knowledge about this region, in its numbers; `keys` are those of the rank's local graph.
   mwis::local_search::LnsMemory recall(const Region& region, std::span<const std::uint64_t> keys) const;
   // Keeps only the size of places at the edge of the region, because what lies beyond may change before the next round.
   // Everything further inside stays as this search leaves it, because no other block may change it meanwhile.

@@ -10,7 +10,7 @@
 
 namespace hexpipe::merge_parts {
 
-// The first bundle tells the kind of all: pieces that assemble made, parts of a mesh, or shares . Throws
+// The first bundle tells the kind of all: pieces that assemble made, parts of a mesh, or shares of one list. Throws
 // UsageError when the output cannot be written in the form that its name asks for, and DataError when the bundles do
 // not belong together.
 void merge_parts(const MergePartsOptions& options);

@@ -35,6 +35,7 @@
 
 #include "common/mesh/default_size.hpp"
 #include "common/mesh/facet_key.hpp"
+#include "common/mesh/joined_sets.hpp"
 #include "common/run/error.hpp"
 
 namespace hexpipe::tessellate {
@@ -53,27 +54,6 @@ TopoDS_Compound compound_of(const CadModel& model) {
 double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
 }
-
-// Numbers of which some become one.
-class UnionFind {
- public:
-  std::int32_t add() {
-    parent_.push_back(static_cast<std::int32_t>(parent_.size()));
-    return parent_.back();
-  }
-  std::int32_t of(std::int32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  // The lower one stays.
-  void join(std::int32_t i, std::int32_t j) {
-    i = of(i), j = of(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::int32_t> parent_;
-};
 
 class Triangulator {
  public:
@@ -132,7 +112,7 @@ class Triangulator {
   std::vector<std::int32_t> tags_;  // of faces
   std::map<int, FaceNodes> done_;   // by number of the face
   std::vector<Vec3> nodes_;
-  UnionFind same_;
+  JoinedSets same_;
   std::map<int, std::vector<std::int32_t>> nodes_of_edge_;  // by number of the edge
   std::map<const void*, std::vector<std::pair<TopoDS_Shape, std::int32_t>>> node_of_vertex_;
   std::vector<int> face_of_triangle_;
@@ -167,7 +147,7 @@ bool Triangulator::is_smooth(const TopoDS_Edge& edge, const TopTools_ListOfShape
 
 // One tag for each name, and one for each group of faces without a name that continue each other smoothly.
 void Triangulator::choose_tags() {
-  UnionFind components;
+  JoinedSets components;
   for (int i = 0; i < faces_.Extent(); ++i) components.add();
   for (int e = 1; e <= faces_of_edge_.Extent(); ++e) {
     const TopTools_ListOfShape& faces = faces_of_edge_.FindFromIndex(e);

@@ -19,7 +19,7 @@
 
 namespace hexpipe::tetmesh {
 
-// What becomes of the surface's triangles.
+// Whether the surface's triangles are made anew or kept.
 enum class SurfaceKind { remesh, keep };
 
 constexpr std::size_t most_tries = 9;

@@ -1,5 +1,5 @@
 #pragma once
-// What lies around the points of a surface, for steps that change it in one place.
+// The triangles around each point of a surface, and steps that change it in one place.
 
 #include <cstdint>
 #include <vector>
@@ -23,12 +23,13 @@ std::vector<Vertex> neighbours(const Surface& surface, const std::vector<std::in
 // On a closed surface an edge may be merged when its ends have two neighbours in common, those opposite it.
 bool may_merge(const Surface& surface, const TrianglesAround& around, Vertex v, Vertex w);
 
-// The triangles with two equal corners go.
+// Leaves out the triangles with two equal corners.
 void leave_out_merged_triangles(Surface& surface);
 
-// Steps that do not touch each other, and leave the surface without crossings. take() changes the surface and returns
-// the steps that it took. Where they make it cross itself, all are taken back, and forbid(step) is called for those for
-// which is_at(step, crosses) says so, `crosses` by point; take() comes again, without these. False: no step is left.
+// Takes steps that leave the surface without crossings. take() changes the surface by steps that do not touch each
+// other, and returns them. If the surface crosses itself then, all of them are taken back, forbid(step) is called for
+// the steps at a crossing, and take() tries again. is_at(step, crosses) tells whether a step is at one; `crosses` has
+// an entry for each point. False if no step is left.
 template <class Take, class IsAt, class Forbid>
 bool take_without_crossings(Surface& surface, Take&& take, IsAt&& is_at, Forbid&& forbid) {
   for (;;) {
@@ -43,7 +44,7 @@ bool take_without_crossings(Surface& surface, Take&& take, IsAt&& is_at, Forbid&
     bool blamed = false;
     for (const auto& step : steps)
       if (is_at(step, crosses)) forbid(step), blamed = true;
-    // Then a triangle beside them crosses: all are suspect.
+    // A triangle beside the steps crosses: all of them are suspect.
     if (!blamed)
       for (const auto& step : steps) forbid(step);
     surface = before;

@@ -1,5 +1,5 @@
 #pragma once
-// Did the outside get in? Then the wrap is a thin shell on both sides of the input's triangles.
+// Finds out whether the outside got in. Then the wrap is a thin shell on both sides of the input's triangles.
 
 #include <optional>
 #include <vector>
@@ -10,8 +10,8 @@
 namespace hexpipe::wrap {
 
 struct Sheets {
-  double share = 0;            // of the wrap's area that has the wrap on the other side of the input, too
-  std::vector<char> is_sheet;  // each triangle of the input: most of the wrap near it is so
+  double share = 0;            // of the wrap's area: where the wrap is on the other side of the input, too
+  std::vector<char> is_sheet;  // by triangle of the input: most of the wrap near it is in that share
 };
 
 // `offset` is the wrap's distance from the input, which has `count` triangles.

@@ -8,10 +8,11 @@
 
 namespace hexpipe::wrap {
 
-// Each stray point goes to its target (`targets`, of each point), or merges into a neighbour that is no stray: what
-// brings the triangles around it nearest to the input, if that is nearer than they are, no triangle folds or loses its
-// area, and the surface does not cross itself. As long as some can. Points that merged are in no triangle afterwards.
-// `is_stray` keeps those that found no way. The surface must be closed and not cross itself.
+// Each stray point goes to its target (`targets` has one for each point), or merges into a neighbour that is no stray,
+// whichever brings the triangles around it nearest to the input. It stays if they are no nearer then, if a triangle
+// folds or loses its area, or if the surface crosses itself. This goes on as long as some point can go. Points that
+// merged are in no triangle afterwards. `is_stray` marks the points that stay. The surface must be closed and not cross
+// itself.
 void settle_strays(Surface& surface, std::vector<char>& is_stray, const std::vector<Vec3>& targets,
                    const TriangleTree& input);
 

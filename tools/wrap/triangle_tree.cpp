@@ -57,7 +57,7 @@ Plane TriangleTree::facing_plane(const Vec3& at, const Vec3& towards, double rea
   std::vector<Triangles::const_iterator> around;
   tree_->boxes.all_intersected_primitives(Kernel::Iso_cuboid_3(to_cgal(at - far), to_cgal(at + far)),
                                           std::back_inserter(around));
-  // In the order of the file, for the first of equals to be the same always.
+  // In the order of the file, so that the first of equals is always the same.
   std::sort(around.begin(), around.end());
   Plane best{at, towards};
   double most = -1;

@@ -28,9 +28,9 @@ class TriangleTree {
   NearestPoint nearest(const Vec3& from) const;
   double distance(const Vec3& from) const { return norm(nearest(from).point - from); }
 
-  // The plane of the triangle that faces `towards` most among those whose boxes come nearer to `at` than `reach` along
-  // each axis: where several meet, as at a sharp edge, each is as near. Its normal is turned to the side of `towards`.
-  // Without such a triangle, the plane through `at` across `towards`.
+  // The plane of a triangle near `at`: its box comes nearer than `reach` along each axis. Among several, which are
+  // equally near at a sharp edge, it is the triangle that faces `towards` most. The normal is turned to the side of
+  // `towards`. Without such a triangle, the plane through `at` across `towards`.
   Plane facing_plane(const Vec3& at, const Vec3& towards, double reach) const;
 
  private:

@@ -16,8 +16,8 @@
 namespace hexpipe::wrap {
 namespace {
 
-// Of half the gap. The surface is that far out at first, and stays so where it cannot go to the input; CGAL's authors
-// suggest this ratio.
+// A share of half the gap. The surface is that far out at first, and stays there if it cannot go to the input; CGAL's
+// authors suggest this ratio.
 constexpr double offset_of_alpha = 1.0 / 30;
 
 double area_of(const Surface& surface) {

@@ -58,7 +58,7 @@ struct LnsResult {
   bool complete = false;
 };
 
-// What a search leaves for the next one on nearly the same graph: for each vertex that it chose.
+// Knowledge for the next search on nearly the same graph: an entry for each vertex that this search chose.
 struct LnsMemory {
   struct Place {
     std::int32_t vertex;

@@ -1,7 +1,7 @@
 #pragma once
-// Adaptive operator selection: decides which of the operators that improve fragments gets the next work. It is the one
-// that would be furthest behind its share after that work, so an operator that takes seconds waits until the search is
-// long enough. Shares follow the recent gain per work of each operator.
+// Adaptive operator selection: decides which of the operators that improve fragments gets the next work. It chooses
+// the operator that would be furthest behind its share after that work, so an operator that takes seconds waits until
+// the search is long enough. Shares follow the recent gain per work of each operator.
 
 #include <array>
 #include <cstddef>

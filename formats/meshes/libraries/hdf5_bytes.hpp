@@ -1,6 +1,6 @@
 #pragma once
-// HDF5 notes when each object of a file was made, and libraries on it have no switch against that; what they write into
-// fields for text may end in what lay in their memory. The same mesh is to give the same bytes.
+// The same mesh has to give the same bytes. But HDF5 notes when each object of a file was made, and the libraries that
+// use it have no switch against that. They also write fields for text that may end in old bytes of their memory.
 
 #include <string>
 

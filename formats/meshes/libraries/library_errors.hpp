@@ -1,5 +1,5 @@
 #pragma once
-// How the modules of libraries say what is wrong: in one message, which whoever called them begins with a file's name.
+// How the modules of libraries say what is wrong: in one message, before which the caller puts the file's name.
 
 #include <sys/stat.h>
 
@@ -8,13 +8,13 @@
 #include <stdexcept>
 #include <string>
 
-// Of HDF5, below all of these libraries, whose headers not all of them need.
+// A function of HDF5, on which all of these libraries stand. Not all of them need its headers.
 // NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" int H5dont_atexit(void);
 
 namespace hexpipe::formats {
 
-// Before anything else: what HDF5 does at the end of a process fails, loudly or by a crash, after an error.
+// Call it first: after an error, the work of HDF5 at the end of a process fails, with messages or by a crash.
 inline void leave_hdf5_out_at_exit() {
   static const int left_out = H5dont_atexit();
   static_cast<void>(left_out);
@@ -32,14 +32,14 @@ template <class Number>
   fail_expected(what, std::to_string(found));
 }
 
-// More numbers than this a file does not hold: zlib makes 1032 bytes of one at most, and a number has 4.
+// A file cannot hold more numbers than this: zlib makes at most 1032 bytes of one, and a number has 4.
 inline std::uint64_t most_numbers_in(const std::string& path) {
   struct stat status {};
   stat(path.c_str(), &status);
   return static_cast<std::uint64_t>(status.st_size) * 1032 / 4;
 }
 
-// Libraries print what goes wrong, line after line, though they also return it. While this lives, they print nowhere.
+// Libraries print each error in many lines, although they also return it. While this lives, they print nothing.
 class QuietLibrary {
  public:
   QuietLibrary() : kept_(stderr), nowhere_(std::fopen("/dev/null", "w")) {

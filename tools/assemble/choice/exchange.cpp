@@ -174,13 +174,13 @@ class Worth {
 void number_quads(const hybrid::BoundaryQuads& boundary, const Candidates& candidates,
                   const graph::IndependentSet& chosen, std::span<const CandidateIndex> participants, const Worth& worth,
                   ExchangeProblem& problem) {
-  KeyMap<4, std::int32_t> numbers;
+  KeyMap<4, QuadIndex> numbers;
   for (const CandidateIndex i : participants) {
     auto& row = problem.quads.emplace_back();
     row.fill(no_index);
     std::size_t filled = 0;
     for_inner_quads(boundary, candidates, i, [&](const VertexKey<4>& key) {
-      const auto [entry, added] = numbers.try_emplace(key, static_cast<std::int32_t>(numbers.size()));
+      const auto [entry, added] = numbers.try_emplace(key, static_cast<QuadIndex>(numbers.size()));
       if (added) problem.cost.push_back(worth.cost_of(key));
       row[filled++] = entry->second;
     });

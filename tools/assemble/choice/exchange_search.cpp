@@ -76,14 +76,14 @@ void ExchangeSearch::use_freed_room() {
 
 std::int64_t ExchangeSearch::gain_of(Participant participant) const {
   std::int64_t gain = problem_.graph.weights[participant];
-  for (const std::int32_t quad : problem_.quads[participant])
+  for (const QuadIndex quad : problem_.quads[participant])
     if (quad != no_index) gain += cells_at_[quad] == 0 ? -problem_.cost[quad] : problem_.cost[quad];
   return gain;
 }
 
 void ExchangeSearch::enter(Participant participant) {
   state_.add(participant);
-  for (const std::int32_t quad : problem_.quads[participant])
+  for (const QuadIndex quad : problem_.quads[participant])
     if (quad != no_index) open_cost_ += ++cells_at_[quad] == 1 ? problem_.cost[quad] : -problem_.cost[quad];
 }
 
@@ -96,7 +96,7 @@ void ExchangeSearch::remove(Participant participant) {
   state_.remove(participant, [&](Participant u) {
     if (state_.tightness(u) == 0 && !problem_.stays[u]) freed_.push_back(u);
   });
-  for (const std::int32_t quad : problem_.quads[participant])
+  for (const QuadIndex quad : problem_.quads[participant])
     if (quad != no_index) open_cost_ += --cells_at_[quad] == 1 ? problem_.cost[quad] : -problem_.cost[quad];
   step_.push_back(participant);
 }

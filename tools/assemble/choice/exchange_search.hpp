@@ -18,12 +18,14 @@ namespace hexpipe::assemble::choice {
 
 // A candidate that takes part, by its place in the graph of the problem.
 using Participant = std::int32_t;
+// A quad of participants, by its number in the problem.
+using QuadIndex = std::int32_t;
 
 // The participants to choose from. A quad is open if exactly one chosen cell has it.
 struct ExchangeProblem {
   graph::ConflictGraph graph;  // its weights are the worths of the participants
-  std::vector<std::array<std::int32_t, 6>>
-      quads;                              // by participant, numbered from 0; no_index: on the boundary, or no quad
+  // By participant; no_index: the quad is on the boundary, or the participant has no such quad.
+  std::vector<std::array<QuadIndex, 6>> quads;
   std::vector<std::int64_t> cost;         // by quad: its cost while it is open, in units of weight
   std::vector<std::uint8_t> fixed_cells;  // by quad: the number of cells that have it and are not in the graph
   std::vector<double> usual;              // by participant: the usual weight of those around it

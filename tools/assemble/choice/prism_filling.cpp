@@ -66,9 +66,9 @@ std::array<Quad, PrismTopology::quads.size()> quads_of_prism(const Candidates& c
   return {cell.quad(0), cell.quad(1), cell.quad(2)};
 }
 
-// Takes prisms one by one: always the one that closes the most quads, less the quads that it opens, and the one of the
-// best quality among several. Also takes prisms that close as many as they open, because a prism is better than its
-// tets.
+// Takes prisms one by one. Each time it takes the prism that closes the most quads, less the quads that it opens; among
+// several, the prism of the best quality. It also takes prisms that close as many as they open, because a prism is
+// better than its tets.
 class Filling {
  public:
   // `all` holds the chosen cells and, from `first` on, the prisms; `graph` their conflicts.

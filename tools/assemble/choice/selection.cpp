@@ -161,9 +161,9 @@ bool faces_tets(const InputNames& names, const hybrid::HybridMesh& mesh, const h
 
 // The candidates at the diagonals of open quads, after checking both sides of every quad. Conformity is going to split
 // these diagonals, so no two quads may have one in common.
-KeyMap<2, std::int32_t> check_quads(const InputNames& names, const hybrid::HybridMesh& mesh,
-                                    const hybrid::SurfaceTags& tags) {
-  KeyMap<2, std::int32_t> diagonals;
+KeyMap<2, CandidateIndex> check_quads(const InputNames& names, const hybrid::HybridMesh& mesh,
+                                      const hybrid::SurfaceTags& tags) {
+  KeyMap<2, CandidateIndex> diagonals;
   for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c)
     for (int i = 0; i < mesh.cell(c).quad_count(); ++i) {
       const hybrid::HybridCell& cell = mesh.cell(c);
@@ -181,7 +181,7 @@ KeyMap<2, std::int32_t> check_quads(const InputNames& names, const hybrid::Hybri
 }
 
 // No cell has an edge that is the diagonal of an open quad.
-void check_edges(const InputNames& names, const hybrid::HybridMesh& mesh, const KeyMap<2, std::int32_t>& diagonals) {
+void check_edges(const InputNames& names, const hybrid::HybridMesh& mesh, const KeyMap<2, CandidateIndex>& diagonals) {
   for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c)
     with_topology(mesh.cell(c).kind, [&](auto topology) {
       const auto& corners = mesh.cell(c).corners;

@@ -24,8 +24,8 @@ constexpr double least_sine = 0.1;
 struct Peel {
   TetIndex tet;
   std::array<Vertex, 2> outer, inner;
-  std::array<std::int32_t, 2> places;  // of the tagged triangles
-  std::array<Triangle, 2> triangles;   // the boundary in their places
+  std::array<hybrid::TaggedTriangle, 2> places;
+  std::array<Triangle, 2> triangles;  // the boundary in their places
 };
 
 class Peeler {
@@ -77,7 +77,7 @@ bool goes_around_alike(const Triangle& a, const Triangle& b) {
 std::optional<Peel> Peeler::peel_of(TetIndex t) const {
   const Tet& tet = mesh_.tet(t);
   std::array<int, 4> order{};  // facets on the boundary first; facet i is opposite to corner i
-  std::array<std::optional<std::int32_t>, 4> places;
+  std::array<std::optional<hybrid::TaggedTriangle>, 4> places;
   int on_boundary = 0, inside = 3;
   for (int i = 0; i < 4; ++i) {
     const auto& f = TetTopology::triangles[i];
@@ -121,10 +121,11 @@ double least_sine_of(std::span<const Vec3> points, const Triangle& t) {
 
 bool Peeler::has_good_shape(const Peel& peel) const {
   double before = least_sine, after = 1;
-  for (std::int32_t place : peel.places) before = std::min(before, least_sine_of(mesh_.points, tags_.triangle(place)));
+  for (const hybrid::TaggedTriangle place : peel.places)
+    before = std::min(before, least_sine_of(mesh_.points, tags_.triangle(place)));
   for (const auto& triangle : peel.triangles) {
     after = std::min(after, least_sine_of(mesh_.points, triangle));
-    for (std::int32_t place : peel.places)
+    for (const hybrid::TaggedTriangle place : peel.places)
       if (dot(normal_of(mesh_.points, triangle), normal_of(mesh_.points, tags_.triangle(place))) < least_cosine)
         return false;
   }
@@ -144,7 +145,7 @@ void Peeler::collect_obstacles(const std::vector<Peel>& peels) {
   auto take = [](const KeySet<2>& of, Vertex a, Vertex b, KeySet<2>& taken) {
     if (of.contains(edge_key(a, b))) taken.insert(edge_key(a, b));
   };
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(tags_.size()); ++i)
+  for (hybrid::TaggedTriangle i = 0; i < static_cast<hybrid::TaggedTriangle>(tags_.size()); ++i)
     for (int k = 0; k < 3; ++k) take(inner, tags_.triangle(i)[k], tags_.triangle(i)[(k + 1) % 3], boundary_edges_);
   for (CellIndex c = 0; c < static_cast<CellIndex>(mesh_.cell_count()); ++c) {
     const hybrid::HybridCell& cell = mesh_.cell(c);

@@ -41,13 +41,13 @@ bool has_facet(CellKind kind, std::span<const Vertex> corners, const Facet& face
 
 // The centre of the cell of the mesh that has the facet as it goes around it, unless it is one of `without`; nothing on
 // the boundary.
-std::optional<Vec3> centre_behind(const GapMesh& gap, const Facet& facet, std::span<const std::int32_t> without) {
-  for (const std::int32_t c : gap.cells_at(facet.corners[0])) {
+std::optional<Vec3> centre_behind(const GapMesh& gap, const Facet& facet, std::span<const GapIndex> without) {
+  for (const GapIndex c : gap.cells_at(facet.corners[0])) {
     const GapCell& cell = gap.cell(c);
     if (has_facet(cell.kind, cell.vertices(), facet) && std::ranges::find(without, c) == without.end())
       return centre_of(gap, cell.kind, cell.vertices());
   }
-  for (const std::int32_t c : gap.kept_at(facet.corners[0])) {
+  for (const KeptIndex c : gap.kept_at(facet.corners[0])) {
     const KeptCell& cell = gap.kept_cell(c);
     if (has_facet(cell.kind, cell.vertices(), facet)) return centre_of(gap, cell.kind, cell.vertices());
   }
@@ -88,7 +88,7 @@ double cost_between(const FaceShape& shape, const Vec3& behind, const Vec3& befo
 
 }  // namespace
 
-double cost_of_faces(const GapMesh& gap, std::span<const FacesOf> cells, std::span<const std::int32_t> instead_of) {
+double cost_of_faces(const GapMesh& gap, std::span<const FacesOf> cells, std::span<const GapIndex> instead_of) {
   if (!gap.counts_faces()) return 0;
   std::vector<Side> sides;
   for (std::size_t c = 0; c < cells.size(); ++c) append_sides(cells[c], c, sides);
@@ -114,17 +114,17 @@ double cost_of_faces(const GapMesh& gap, std::span<const FacesOf> cells, std::sp
   return cost;
 }
 
-double cost_of_faces(const GapMesh& gap, std::span<const GapCell> cells, std::span<const std::int32_t> instead_of) {
+double cost_of_faces(const GapMesh& gap, std::span<const GapCell> cells, std::span<const GapIndex> instead_of) {
   if (!gap.counts_faces()) return 0;
   std::vector<FacesOf> faces;
   for (const GapCell& cell : cells) faces.push_back(faces_of(gap, cell.kind, cell.vertices(), false));
   return cost_of_faces(gap, faces, instead_of);
 }
 
-double cost_of_faces(const GapMesh& gap, std::span<const std::int32_t> cells) {
+double cost_of_faces(const GapMesh& gap, std::span<const GapIndex> cells) {
   if (!gap.counts_faces()) return 0;
   std::vector<FacesOf> faces;
-  for (const std::int32_t c : cells) faces.push_back(faces_of(gap, gap.cell(c).kind, gap.cell(c).vertices(), false));
+  for (const GapIndex c : cells) faces.push_back(faces_of(gap, gap.cell(c).kind, gap.cell(c).vertices(), false));
   return cost_of_faces(gap, faces, cells);
 }
 

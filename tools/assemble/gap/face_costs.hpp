@@ -1,5 +1,5 @@
 #pragma once
-// What the faces of cells cost in the objective (objective.hpp), for they join two centres badly.
+// The cost of faces in the objective (objective.hpp), where they join the centres of two cells badly.
 
 #include <array>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace hexpipe::assemble::gap {
 
-// A cell as it is, or would be.
+// A cell, present or planned, whose faces are judged.
 struct FacesOf {
   CellKind kind = CellKind::tet;
   std::array<Vertex, 8> corners{};
@@ -20,11 +20,11 @@ struct FacesOf {
   bool is_kept = false;
 };
 
-// Of all faces of these cells, each once, but those between two that are kept; `instead_of`: the cells of the gap in
-// whose place they are. Beyond them is what the mesh has there.
-double cost_of_faces(const GapMesh& gap, std::span<const FacesOf> cells, std::span<const std::int32_t> instead_of);
-double cost_of_faces(const GapMesh& gap, std::span<const GapCell> cells, std::span<const std::int32_t> instead_of);
-// As it is.
-double cost_of_faces(const GapMesh& gap, std::span<const std::int32_t> cells);
+// The cost of all faces of these cells, each face once; faces between two kept cells cost nothing. The cells stand in
+// place of the gap's cells `instead_of`; on their other sides are the present cells of the mesh.
+double cost_of_faces(const GapMesh& gap, std::span<const FacesOf> cells, std::span<const GapIndex> instead_of);
+double cost_of_faces(const GapMesh& gap, std::span<const GapCell> cells, std::span<const GapIndex> instead_of);
+// The cost of the faces of cells that are there.
+double cost_of_faces(const GapMesh& gap, std::span<const GapIndex> cells);
 
 }  // namespace hexpipe::assemble::gap

@@ -27,7 +27,7 @@ struct FewerCells {
   }
 };
 
-// The surface along which vertices may merge, as it is by now and as it was.
+// The surface along which vertices may merge: as it is now, and as the input had it.
 struct Surface {
   hybrid::SurfaceTags& tags;
   const shape::InputSurface& input;
@@ -39,8 +39,9 @@ enum class Passes {
   mend               // only what is poor becomes better: for a mesh that is not smoothed any more
 };
 
-// Lowers the objective (objective.hpp). The mesh has to conform; nothing is done where a tet, or a cell made of tets,
-// is not valid. Chosen cells stay, shared vertices stay where they are, those on tagged facets on these.
+// Lowers the objective (objective.hpp). The mesh has to conform; nothing is done if a tet, or a cell made of tets, is
+// not valid. Chosen cells stay, except those `opened`; shared vertices stay where they are, and vertices on tagged
+// facets stay on them.
 FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, std::span<const std::uint8_t> is_shared,
                             Passes passes);
 

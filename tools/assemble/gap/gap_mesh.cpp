@@ -30,9 +30,9 @@ bool is_valid(const GapMesh& gap, const GapCell& cell) {
 
 GapMesh::GapMesh(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std::span<const std::uint8_t> is_shared)
     : mesh_(mesh), tags_(tags), at_(mesh.points.size()), age_(mesh.points.size()), holds_(mesh.points.size()) {
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tet_count()); ++t)
+  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh.tet_count()); ++t)
     if (mesh.is_alive(t)) add(make_tet(mesh.tet(t), mesh.region_of(t)), t);
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
+  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c) {
     const hybrid::HybridCell& cell = mesh.cell(c);
     if (!cell.alive) continue;
     const std::span corners = std::span(cell.corners).first(static_cast<std::size_t>(corner_count(cell.kind)));
@@ -45,14 +45,14 @@ GapMesh::GapMesh(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std:
       for (const Vertex v : corners) holds_[v] |= of_kept;
     }
   }
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(tags.size()); ++i)
+  for (hybrid::TaggedTriangle i = 0; i < static_cast<hybrid::TaggedTriangle>(tags.size()); ++i)
     for (const Vertex v : tags.triangle(i)) holds_[v] |= on_tagged;
   for (std::size_t v = 0; v < is_shared.size(); ++v)
     if (is_shared[v] != 0) holds_[v] |= at_seam;
   first_new_ = mesh.points.size();
   kept_at_ = VertexItems(mesh.points.size(), [&](auto&& visit) {
     for (std::size_t c = 0; c < kept_.size(); ++c)
-      for (const Vertex v : kept_[c].vertices()) visit(v, static_cast<std::int32_t>(c));
+      for (const Vertex v : kept_[c].vertices()) visit(v, static_cast<KeptIndex>(c));
   });
 }
 
@@ -74,14 +74,14 @@ GapCell GapMesh::make_tet(const Tet& corners, std::int32_t region) const {
 }
 
 void GapMesh::add(const GapCell& cell, std::int32_t source) {
-  const auto c = static_cast<std::int32_t>(cells_.size());
+  const auto c = static_cast<GapIndex>(cells_.size());
   cells_.push_back(cell);
   alive_.push_back(1);
   source_.push_back(source);
   link(c);
 }
 
-void GapMesh::link(std::int32_t c) {
+void GapMesh::link(GapIndex c) {
   alive_[c] = 1;
   for (const Vertex v : cells_[c].vertices()) {
     at_[v].push_back(c);
@@ -89,7 +89,7 @@ void GapMesh::link(std::int32_t c) {
   }
 }
 
-void GapMesh::unlink(std::int32_t c) {
+void GapMesh::unlink(GapIndex c) {
   alive_[c] = 0;
   for (const Vertex v : cells_[c].vertices()) {
     std::erase(at_[v], c);
@@ -97,19 +97,19 @@ void GapMesh::unlink(std::int32_t c) {
   }
 }
 
-void GapMesh::replace(std::span<const std::int32_t> out, std::span<const GapCell> in) {
-  for (const std::int32_t c : out) unlink(c);
+void GapMesh::replace(std::span<const GapIndex> out, std::span<const GapCell> in) {
+  for (const GapIndex c : out) unlink(c);
   for (const GapCell& cell : in) add(cell, no_index);
 }
 
-void GapMesh::undo_replace(std::span<const std::int32_t> out, std::int32_t first_new) {
-  for (auto c = first_new; c < static_cast<std::int32_t>(cells_.size()); ++c) unlink(c);
+void GapMesh::undo_replace(std::span<const GapIndex> out, GapIndex first_new) {
+  for (auto c = first_new; c < static_cast<GapIndex>(cells_.size()); ++c) unlink(c);
   const auto left = static_cast<std::size_t>(first_new);
   cells_.resize(left), alive_.resize(left), source_.resize(left);
-  for (const std::int32_t c : out) link(c);
+  for (const GapIndex c : out) link(c);
 }
 
-std::optional<std::array<Triangle, 2>> GapMesh::boundary_triangles(std::int32_t kept, int i) const {
+std::optional<std::array<Triangle, 2>> GapMesh::boundary_triangles(KeptIndex kept, int i) const {
   if (has_partner(kept, i)) return std::nullopt;
   const Quad quad = mesh_.cell(kept_[kept].source).quad(i);
   for (const int diagonal : {0, 1})
@@ -117,12 +117,12 @@ std::optional<std::array<Triangle, 2>> GapMesh::boundary_triangles(std::int32_t 
   return std::nullopt;
 }
 
-bool GapMesh::has_partner(std::int32_t kept, int i) const {
+bool GapMesh::has_partner(KeptIndex kept, int i) const {
   const CellIndex c = kept_[kept].source;
   return mesh_.partner_at(mesh_.cell(c).quad(i), c) != no_index;
 }
 
-void GapMesh::set_alive(std::int32_t kept, bool is_alive) {
+void GapMesh::set_alive(KeptIndex kept, bool is_alive) {
   kept_[kept].is_alive = is_alive;
   for (const Vertex v : kept_[kept].vertices()) {
     if (kept_at(v).empty())
@@ -143,7 +143,7 @@ Vertex GapMesh::add_vertex(const Vec3& at) {
 void GapMesh::relocate(Vertex v, const Vec3& to) {
   if (mesh_.points[v] == to) return;
   mesh_.points[v] = to;
-  for (const std::int32_t c : at_[v]) {
+  for (const GapIndex c : at_[v]) {
     cells_[c].quality = quality_of(cells_[c].kind, mesh_.points, cells_[c].vertices());
     for (const Vertex w : cells_[c].vertices()) ++age_[w];
   }

@@ -1,6 +1,6 @@
 #pragma once
-// The tets between the chosen cells, and the pyramids and prisms made of such, as one mesh that can be changed; and
-// what of it may not.
+// The cells between the chosen cells (tets, and pyramids and prisms made of tets) as one mesh that can be changed. It
+// knows which of its vertices and facets have to stay.
 
 #include <array>
 #include <cstdint>
@@ -14,6 +14,10 @@
 #include "tools/assemble/hybrid/surface_tags.hpp"
 
 namespace hexpipe::assemble::gap {
+
+// Numbers from 0 in a GapMesh.
+using GapIndex = std::int32_t;   // a cell of the gap
+using KeptIndex = std::int32_t;  // a chosen cell
 
 struct GapCell {
   CellKind kind = CellKind::tet;
@@ -49,19 +53,19 @@ class GapMesh {
   std::span<const Vec3> points() const { return mesh_.points; }
   std::size_t vertex_count() const { return at_.size(); }
   std::size_t cell_count() const { return cells_.size(); }  // with those that are gone
-  const GapCell& cell(std::int32_t c) const { return cells_[c]; }
-  bool is_alive(std::int32_t c) const { return alive_[c] != 0; }
-  std::span<const std::int32_t> cells_at(Vertex v) const { return at_[v]; }
-  const KeptCell& kept_cell(std::int32_t c) const { return kept_[c]; }
+  const GapCell& cell(GapIndex c) const { return cells_[c]; }
+  bool is_alive(GapIndex c) const { return alive_[c] != 0; }
+  std::span<const GapIndex> cells_at(Vertex v) const { return at_[v]; }
+  const KeptCell& kept_cell(KeptIndex c) const { return kept_[c]; }
   std::size_t kept_count() const { return kept_.size(); }  // with those that are gone
   // Those at v that are not gone: a view.
   auto kept_at(Vertex v) const {
-    return std::views::filter(kept_at_of(v), [this](std::int32_t c) { return kept_[c].is_alive; });
+    return std::views::filter(kept_at_of(v), [this](KeptIndex c) { return kept_[c].is_alive; });
   }
-  // The tagged triangles of which quad `i` of a chosen cell consists, as the cell goes around them, where it lies on
-  // the boundary; nothing where another cell has the quad, too.
-  std::optional<std::array<Triangle, 2>> boundary_triangles(std::int32_t kept, int i) const;
-  bool has_partner(std::int32_t kept, int i) const;
+  // If quad `i` of a chosen cell lies on the boundary: the tagged triangles that it consists of, in the cell's
+  // orientation. Nothing if another cell has the quad, too.
+  std::optional<std::array<Triangle, 2>> boundary_triangles(KeptIndex kept, int i) const;
+  bool has_partner(KeptIndex kept, int i) const;
   // True where v may move and go: only cells of the gap are there, no tagged facet and no seam.
   bool is_free(Vertex v) const { return holds_[v] == 0 && !at_[v].empty(); }
   // True where v may move, though chosen cells may use it: on no tagged facet and at no seam.
@@ -82,37 +86,37 @@ class GapMesh {
   GapCell make_tet(const Tet& corners, std::int32_t region) const;
 
   // Replaces cells by others that fill the same room.
-  void replace(std::span<const std::int32_t> out, std::span<const GapCell> in);
-  // After replace(out, ...), when no cell has come since but those from `first_new` on.
-  void undo_replace(std::span<const std::int32_t> out, std::int32_t first_new);
-  // A chosen cell goes, or comes back. Its room is to be filled.
-  void set_alive(std::int32_t kept, bool is_alive);
+  void replace(std::span<const GapIndex> out, std::span<const GapCell> in);
+  // Undoes replace(out, ...), whose new cells are those from `first_new` on. No other cell may have come since.
+  void undo_replace(std::span<const GapIndex> out, GapIndex first_new);
+  // Takes a chosen cell away, or puts it back. The caller fills its room.
+  void set_alive(KeptIndex kept, bool is_alive);
   Vertex add_vertex(const Vec3& at);
-  // To be followed by replace() of all cells at v.
+  // The caller has to replace() all cells at v afterwards.
   void move(Vertex v, const Vec3& to) { mesh_.points[v] = to; }
 
-  // Moves a vertex; the cells at it are the same, of another quality.
+  // Moves a vertex, and measures the quality of the cells at it again.
   void relocate(Vertex v, const Vec3& to);
 
   void write_back();
 
  private:
-  // What holds a vertex, as bits.
+  // The reasons for which a vertex stays, as bits.
   static constexpr std::uint8_t of_kept = 1, on_tagged = 2, at_seam = 4;
 
   void add(const GapCell& cell, std::int32_t source);
-  void link(std::int32_t c);
-  void unlink(std::int32_t c);
-  std::span<const std::int32_t> kept_at_of(Vertex v) const {
-    return static_cast<std::size_t>(v) < first_new_ ? kept_at_.at(v) : std::span<const std::int32_t>();
+  void link(GapIndex c);
+  void unlink(GapIndex c);
+  std::span<const KeptIndex> kept_at_of(Vertex v) const {
+    return static_cast<std::size_t>(v) < first_new_ ? kept_at_.at(v) : std::span<const KeptIndex>();
   }
 
   hybrid::HybridMesh& mesh_;
   const hybrid::SurfaceTags& tags_;
   std::vector<GapCell> cells_;
   std::vector<std::uint8_t> alive_;
-  std::vector<std::int32_t> source_;  // the tet or the cell of `mesh` that it was, or no_index
-  std::vector<std::vector<std::int32_t>> at_;
+  std::vector<std::int32_t> source_;  // by cell: its tet or cell in `mesh`, or no_index for a new one
+  std::vector<std::vector<GapIndex>> at_;
   std::vector<std::uint32_t> age_;
   bool counts_faces_ = true;
   std::vector<std::uint8_t> holds_;

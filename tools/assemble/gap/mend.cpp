@@ -31,8 +31,8 @@ class Mender {
     std::int64_t changes = 0;
     for (int pass = 0; pass < most_mending_passes; ++pass) {
       const std::int64_t before = changes;
-      const auto count = static_cast<std::int32_t>(gap_.cell_count());
-      for (std::int32_t c = 0; c < count; ++c)
+      const auto count = static_cast<GapIndex>(gap_.cell_count());
+      for (GapIndex c = 0; c < count; ++c)
         if (gap_.is_alive(c)) changes += mend(c) ? 1 : 0;
       if (changes == before) break;
     }
@@ -40,8 +40,8 @@ class Mender {
   }
 
  private:
-  bool mend(std::int32_t c);
-  bool raise_around(std::int32_t c);
+  bool mend(GapIndex c);
+  bool raise_around(GapIndex c);
   bool raise(const std::vector<Vertex>& vertices);
   double shortest_edge_at(Vertex v) const;
   bool step(Vertex v);
@@ -63,11 +63,11 @@ bool Mender::raise(const std::vector<Vertex>& vertices) {
 }
 
 // The cell's own vertices, then those of all cells at these, too.
-bool Mender::raise_around(std::int32_t c) {
+bool Mender::raise_around(GapIndex c) {
   std::vector<Vertex> own, all;
   for (const Vertex v : gap_.cell(c).vertices()) {
     if (gap_.is_inside(v)) own.push_back(v);
-    for (const std::int32_t other : gap_.cells_at(v))
+    for (const GapIndex other : gap_.cells_at(v))
       for (const Vertex w : gap_.cell(other).vertices())
         if (gap_.is_inside(w)) all.push_back(w);
   }
@@ -79,7 +79,7 @@ bool Mender::raise_around(std::int32_t c) {
 
 double Mender::shortest_edge_at(Vertex v) const {
   double shortest = std::numeric_limits<double>::infinity();
-  for (const std::int32_t c : gap_.cells_at(v))
+  for (const GapIndex c : gap_.cells_at(v))
     for (const Vertex w : gap_.cell(c).vertices())
       if (w != v) shortest = std::min(shortest, norm(gap_.points()[w] - gap_.points()[v]));
   return shortest;
@@ -107,7 +107,7 @@ bool Mender::step(Vertex v) {
   return true;
 }
 
-bool Mender::mend(std::int32_t c) {
+bool Mender::mend(GapIndex c) {
   const bool is_poor = gap_.cell(c).quality < least_quality;
   const bool has_poor_face = cost_of_faces(gap_, std::span(&c, 1)) > 0;
   if (!is_poor && !has_poor_face) return false;

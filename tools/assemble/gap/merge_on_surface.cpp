@@ -22,6 +22,7 @@
 namespace hexpipe::assemble::gap {
 namespace {
 
+using hybrid::TaggedTriangle;
 using shape::InputSurface;
 
 // Cosines: between a facet and what it becomes, 15 degrees, as in peel.cpp; between the sides of an edge that is no
@@ -37,14 +38,14 @@ constexpr int most_surface_passes = 4;
 // The tagged triangles around a vertex, each with it first, in the order in which they follow each other.
 struct Fan {
   std::vector<Triangle> triangles;
-  std::vector<std::int32_t> places;
+  std::vector<TaggedTriangle> places;
 };
 
 class SurfaceMerger {
  public:
   SurfaceMerger(GapMesh& gap, hybrid::SurfaceTags& tags, const InputSurface& surface)
       : gap_(gap), tags_(tags), surface_(surface), triangles_at_(gap.vertex_count()), gone_at_(gap.vertex_count()) {
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(tags.size()); ++i)
+    for (TaggedTriangle i = 0; i < static_cast<TaggedTriangle>(tags.size()); ++i)
       if (tags.find(tags.triangle(i)) == i)
         for (const Vertex v : tags.triangle(i)) triangles_at_[v].push_back(i);
     for (const auto& [from, into] : tags.merges()) move_gone(from, into);
@@ -83,7 +84,7 @@ class SurfaceMerger {
   GapMesh& gap_;
   hybrid::SurfaceTags& tags_;
   const InputSurface& surface_;
-  std::vector<std::vector<std::int32_t>> triangles_at_;
+  std::vector<std::vector<TaggedTriangle>> triangles_at_;
   std::vector<std::vector<Vec3>> gone_at_;  // by vertex: where vertices were that have merged into it
 };
 
@@ -122,7 +123,7 @@ bool SurfaceMerger::may_leave(Vertex v) const {
   if (!gap_.is_free_on_surface(v) || triangles_at_[v].empty()) return false;
   const auto place = surface_.place(v);
   if (place != InputSurface::Place::face && place != InputSurface::Place::curve) return false;
-  return std::ranges::all_of(gap_.cells_at(v), [&](std::int32_t c) {
+  return std::ranges::all_of(gap_.cells_at(v), [&](GapIndex c) {
     const GapCell& cell = gap_.cell(c);
     return cell.kind == CellKind::tet || (cell.kind == CellKind::pyramid && cell.corners[4] == v);
   });
@@ -131,15 +132,15 @@ bool SurfaceMerger::may_leave(Vertex v) const {
 // All triangles at v as one closed fan; the input may turn some of them round, which the fan does not.
 std::optional<Fan> SurfaceMerger::fan_of(Vertex v) const {
   Fan fan;
-  std::vector<std::int32_t> rest = triangles_at_[v];
-  auto others = [&](std::int32_t place) {
+  std::vector<TaggedTriangle> rest = triangles_at_[v];
+  auto others = [&](TaggedTriangle place) {
     const Triangle& t = tags_.triangle(place);
     const auto first = static_cast<std::size_t>(std::ranges::find(t, v) - t.begin());
     return std::array{t[(first + 1) % 3], t[(first + 2) % 3]};
   };
   const Vertex start = others(rest.front())[0];
   for (Vertex next = start; !rest.empty();) {
-    const auto found = std::ranges::find_if(rest, [&](std::int32_t t) { return has(tags_.triangle(t), next); });
+    const auto found = std::ranges::find_if(rest, [&](TaggedTriangle t) { return has(tags_.triangle(t), next); });
     if (found == rest.end()) return std::nullopt;
     const auto ends = others(*found);
     const Vertex beyond = ends[0] == next ? ends[1] : ends[0];
@@ -185,14 +186,14 @@ bool SurfaceMerger::is_in_quad(Vertex into, const Triangle& triangle) const {
       }
     });
   };
-  for (const std::int32_t c : gap_.cells_at(into)) look(gap_.cell(c).kind, gap_.cell(c).vertices());
-  for (const std::int32_t c : gap_.kept_at(into)) look(gap_.kept_cell(c).kind, gap_.kept_cell(c).vertices());
+  for (const GapIndex c : gap_.cells_at(into)) look(gap_.cell(c).kind, gap_.cell(c).vertices());
+  for (const KeptIndex c : gap_.kept_at(into)) look(gap_.kept_cell(c).kind, gap_.kept_cell(c).vertices());
   return found;
 }
 
 // Whether a tagged triangle has both: quads on the boundary are tagged triangles, too.
 bool SurfaceMerger::is_boundary_edge(Vertex into, Vertex other) const {
-  return std::ranges::any_of(triangles_at_[into], [&](std::int32_t t) { return has(tags_.triangle(t), other); });
+  return std::ranges::any_of(triangles_at_[into], [&](TaggedTriangle t) { return has(tags_.triangle(t), other); });
 }
 
 // No facet or edge is there already, and none is part of a quad.
@@ -263,7 +264,7 @@ void SurfaceMerger::look_at(Vertex from, Vertex into, Change& best) const {
   const Worth now = worth_of(gap_, gap_.cells_at(from));
   std::vector<GapCell> in;
   double cost = 0;
-  for (const std::int32_t c : gap_.cells_at(from)) {
+  for (const GapIndex c : gap_.cells_at(from)) {
     const GapCell& cell = gap_.cell(c);
     if (cell.has(into)) {
       // A pyramid loses its quad.
@@ -286,7 +287,7 @@ std::vector<Tet> SurfaceMerger::between(Vertex from, Vertex into, const Fan& fan
   for (const Triangle& t : fan.triangles) {
     if (has(t, into)) continue;
     std::vector<Facet> sides;
-    for (const std::int32_t c : gap_.cells_at(from))
+    for (const GapIndex c : gap_.cells_at(from))
       for_facets(gap_.cell(c).kind, gap_.cell(c).vertices(), [&](const Facet& facet) {
         if (!facet.is_quad() && std::ranges::is_permutation(facet.vertices(), t)) sides.push_back(facet);
       });
@@ -309,11 +310,11 @@ bool SurfaceMerger::merge(Vertex from) {
   }
   if (best.into == no_index) return false;
   const auto around = gap_.cells_at(from);
-  const std::vector<std::int32_t> out(around.begin(), around.end());
+  const std::vector<GapIndex> out(around.begin(), around.end());
   if (cost_of_faces(gap_, best.in, out) > cost_of_faces(gap_, out) + best.gain - least_gain) return false;
   tags_.merge(from, best.into, fan->places, between(from, best.into, *fan));
   for (std::size_t i = 0; i < fan->places.size(); ++i) {
-    const std::int32_t place = fan->places[i];
+    const TaggedTriangle place = fan->places[i];
     for (const Vertex v : fan->triangles[i])
       if (has(fan->triangles[i], best.into)) std::erase(triangles_at_[v], place);
     if (!has(fan->triangles[i], best.into)) triangles_at_[best.into].push_back(place);

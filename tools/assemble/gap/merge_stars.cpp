@@ -71,7 +71,7 @@ class StarMerger {
   bool neighbours_yield_;
   Patch patch_;
   std::priority_queue<StarMerge> offers_;
-  std::vector<std::int32_t> cells_;
+  std::vector<GapIndex> cells_;
 };
 
 // Those at a or b.
@@ -89,12 +89,12 @@ std::vector<Vertex> StarMerger::partners_of(Vertex v) const {
     for (const Vertex w : cell.vertices())
       if (w != v && gap_.is_free(w)) partners.push_back(w);
   };
-  for (const std::int32_t c : gap_.cells_at(v)) {
+  for (const GapIndex c : gap_.cells_at(v)) {
     const GapCell& cell = gap_.cell(c);
     take(cell);
     for (const Vertex w : cell.vertices()) {
       if (w == v) continue;
-      for (const std::int32_t other : gap_.cells_at(w)) {
+      for (const GapIndex other : gap_.cells_at(w)) {
         const auto shared = std::ranges::count_if(cell.vertices(), [&](Vertex x) { return gap_.cell(other).has(x); });
         if (shared >= 3) take(gap_.cell(other));
       }
@@ -128,7 +128,7 @@ void StarMerger::offer_pair(Vertex from, Vertex into) {
   const Vec3 before = gap_.points()[into];
   const auto place = shape::raise_worst(star, (gap_.points()[from] + before) * 0.5, steps_to_place);
   if (place.worst < now.floor) {
-    // What lacks too much has no chance.
+    // A merge that is far too poor has no chance.
     if (place.worst > least_to_yield && neighbours_yield_)
       offers_.push({now.cost - static_cast<double>(room->skin.size()),
                     from,

@@ -62,7 +62,7 @@ class Merger {
 };
 
 bool Merger::may_leave(Vertex v) const {
-  return gap_.is_free(v) && std::ranges::all_of(gap_.cells_at(v), [&](std::int32_t c) {
+  return gap_.is_free(v) && std::ranges::all_of(gap_.cells_at(v), [&](GapIndex c) {
            const GapCell& cell = gap_.cell(c);
            return cell.kind == CellKind::tet || (cell.kind == CellKind::pyramid && cell.corners[4] == v);
          });
@@ -71,7 +71,7 @@ bool Merger::may_leave(Vertex v) const {
 // The neighbours of v that are no corners of a quad around it.
 void Merger::collect_goals(Vertex v) {
   goals_.clear(), barred_.clear();
-  for (const std::int32_t c : gap_.cells_at(v)) {
+  for (const GapIndex c : gap_.cells_at(v)) {
     const GapCell& cell = gap_.cell(c);
     auto& list = cell.kind == CellKind::tet ? goals_ : barred_;
     list.insert(list.end(), cell.vertices().begin(), cell.vertices().end());
@@ -90,10 +90,10 @@ GapCell Merger::moved(const GapCell& cell, Vertex from, Vertex into) const {
   return gap_.make(cell.kind, corners, cell.region);
 }
 
-// Of the cells that the merge leaves; more than `most` where one of them is below the floor, or where they cost more.
+// The cost of the cells that the merge leaves; more than `most` if one is below the floor, or if they cost more.
 double Merger::cost_after(Vertex from, Vertex into, double floor, double most) const {
   double cost = 0;
-  for (const std::int32_t c : gap_.cells_at(from)) {
+  for (const GapIndex c : gap_.cells_at(from)) {
     if (gap_.cell(c).has(into)) continue;
     const double quality = moved(gap_.cell(c), from, into).quality;
     if (quality < floor) return most + 1;
@@ -117,10 +117,10 @@ void Merger::offer(Vertex v) {
 
 bool Merger::carry_out(const Merge& merge) {
   const auto around = gap_.cells_at(merge.from);
-  const std::vector<std::int32_t> out(around.begin(), around.end());
+  const std::vector<GapIndex> out(around.begin(), around.end());
   std::vector<GapCell> in;
   std::vector<Vertex> touched;
-  for (const std::int32_t c : out) {
+  for (const GapIndex c : out) {
     touched.insert(touched.end(), gap_.cell(c).vertices().begin(), gap_.cell(c).vertices().end());
     if (!gap_.cell(c).has(merge.into)) in.push_back(moved(gap_.cell(c), merge.from, merge.into));
   }

@@ -15,7 +15,7 @@ namespace {
 // that only make cells better let vertices merge afterwards: on mambo-s1 at 2.3, with 21,134 hexes, 1,735 tets are left
 // where quality costs nothing, 1,148 with 0.3 here, 1,051 with 0.5, and as many with 0.7.
 constexpr double good_quality = 0.5;
-// What a cell without any quality costs above a good one. 2 and 3 leave as many cells as 1.
+// The cost of a cell without any quality above that of a good one. 2 and 3 leave as many cells as 1.
 constexpr double price_of_poverty = 1;
 // A face that solvers have to correct for costs half a cell; twice that, where the angle is wider by 20 degrees, or the
 // weight nothing.
@@ -24,7 +24,7 @@ constexpr double price_of_low_weight = 0.5;
 constexpr double price_of_low_determinant = 0.5;
 constexpr double wider_by = 20 * std::numbers::pi / 180;
 
-// One determinant and six lengths, for this takes most of the time.
+// One determinant and six lengths, because this takes most of the time.
 double quality_of_tet(std::span<const Vec3> points, std::span<const Vertex> corners) {
   const Vec3 o = points[corners[0]], p = points[corners[1]], q = points[corners[2]], r = points[corners[3]];
   const double op = norm_squared(p - o), oq = norm_squared(q - o), ors = norm_squared(r - o);

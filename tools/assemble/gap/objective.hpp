@@ -9,15 +9,15 @@
 
 namespace hexpipe::assemble::gap {
 
-// No cell may become worse than this, or than the worst of those that it replaces. It is what smoothing keeps as good
-// enough (shape/smooth.hpp).
+// No cell may become worse than this, or than the worst cell that it replaces. Smoothing takes the same quality for
+// good enough (shape/smooth.hpp).
 inline constexpr double least_quality = 0.12;
 // Where a cell is worse than this, and nothing else helps, a chosen cell beside it goes (open_hexes() in passes.hpp).
 inline constexpr double least_wanted = 0.1;
-// Changes that gain less are not worth it; and changes that all gain this much come to an end.
+// Changes that gain less are not worth it. Because each change gains this much, the passes end.
 inline constexpr double least_gain = 0.01;
 
-// The least scaled Jacobian over the corners; of a tet times the square root of 2, of a pyramid over those of its base.
+// The least scaled Jacobian over the corners: for a tet times the square root of 2, for a pyramid over its base.
 double quality_of(CellKind kind, std::span<const Vec3> points, std::span<const Vertex> corners);
 
 // The cost of a cell that is no hex: 1, and more where its quality is less than good. The objective is the sum over
@@ -28,7 +28,7 @@ double cost_of(double quality);
 // and more where finite volumes suffer from it.
 double cost_of_face(double orthogonality, double weight);
 
-// The same of a cell whose faces to others do not span space well: from its determinant.
+// The cost of a cell whose faces to other cells do not span space well, from its determinant.
 double cost_of_span(double determinant);
 
 }  // namespace hexpipe::assemble::gap

@@ -17,9 +17,9 @@
 namespace hexpipe::assemble::gap {
 namespace {
 
-// One chosen cell in so many may go, for each costs share of the volume.
+// One chosen cell in this many may go, because each costs a share of the volume in hexes.
 constexpr std::size_t chosen_per_opened = 1000;
-// Of the chosen cells around a poor one, those with the most vertices of it. Later ones seldom help.
+// How many chosen cells around a poor one are tried, those with the most vertices of it first. Later ones seldom help.
 constexpr std::size_t most_tries = 8;
 constexpr int rounds_to_raise = 10;
 
@@ -45,39 +45,39 @@ class HexOpener {
   std::vector<CellIndex> run();
 
  private:
-  std::vector<std::int32_t> chosen_around(const GapCell& poor) const;
-  std::optional<std::vector<Facet>> skin_of(std::int32_t kept) const;
-  std::vector<std::vector<std::int32_t>> rooms_beside(std::span<const Facet> skin, std::int32_t poor) const;
-  std::vector<Vertex> movable(const GapCell& poor, std::int32_t kept) const;
-  bool fill(std::int32_t kept, std::vector<Facet> skin, std::span<const std::int32_t> out, std::int32_t poor);
-  bool are_good_enough(std::int32_t poor, std::int32_t first_new) const;
-  bool open(std::int32_t kept, std::int32_t poor);
+  std::vector<KeptIndex> chosen_around(const GapCell& poor) const;
+  std::optional<std::vector<Facet>> skin_of(KeptIndex kept) const;
+  std::vector<std::vector<GapIndex>> rooms_beside(std::span<const Facet> skin, GapIndex poor) const;
+  std::vector<Vertex> movable(const GapCell& poor, KeptIndex kept) const;
+  bool fill(KeptIndex kept, std::vector<Facet> skin, std::span<const GapIndex> out, GapIndex poor);
+  bool are_good_enough(GapIndex poor, GapIndex first_new) const;
+  bool open(KeptIndex kept, GapIndex poor);
 
   GapMesh& gap_;
   Patch patch_;
   Vertex spare_ = no_index;  // a vertex that a failed try has left
 };
 
-std::vector<std::int32_t> HexOpener::chosen_around(const GapCell& poor) const {
-  std::vector<std::int32_t> all;
+std::vector<KeptIndex> HexOpener::chosen_around(const GapCell& poor) const {
+  std::vector<KeptIndex> all;
   for (const Vertex v : poor.vertices())
-    for (const std::int32_t k : gap_.kept_at(v)) all.push_back(k);
+    for (const KeptIndex k : gap_.kept_at(v)) all.push_back(k);
   std::ranges::sort(all);
-  std::vector<std::pair<std::ptrdiff_t, std::int32_t>> by_count;  // fewest common vertices last
+  std::vector<std::pair<std::ptrdiff_t, KeptIndex>> by_count;  // fewest common vertices last
   for (auto at = all.begin(); at != all.end();) {
-    const auto end = std::ranges::find_if(at, all.end(), [&](std::int32_t k) { return k != *at; });
+    const auto end = std::ranges::find_if(at, all.end(), [&](KeptIndex k) { return k != *at; });
     if (end - at >= 2) by_count.emplace_back(at - end, *at);
     at = end;
   }
   std::ranges::sort(by_count);
   if (by_count.size() > most_tries) by_count.resize(most_tries);
-  std::vector<std::int32_t> result;
+  std::vector<KeptIndex> result;
   for (const auto& [count, k] : by_count) result.push_back(k);
   return result;
 }
 
 // The facets of a chosen cell, on the boundary as the tagged triangles.
-std::optional<std::vector<Facet>> HexOpener::skin_of(std::int32_t kept) const {
+std::optional<std::vector<Facet>> HexOpener::skin_of(KeptIndex kept) const {
   const KeptCell& cell = gap_.kept_cell(kept);
   std::vector<Facet> skin;
   bool is_whole = true;
@@ -104,10 +104,10 @@ std::optional<std::vector<Facet>> HexOpener::skin_of(std::int32_t kept) const {
 }
 
 // Which cells of the gap to fill anew with the chosen one: none; the poor one; those that touch both; all of these.
-std::vector<std::vector<std::int32_t>> HexOpener::rooms_beside(std::span<const Facet> skin, std::int32_t poor) const {
-  std::vector<std::int32_t> between;
+std::vector<std::vector<GapIndex>> HexOpener::rooms_beside(std::span<const Facet> skin, GapIndex poor) const {
+  std::vector<GapIndex> between;
   for (const Facet& facet : skin)
-    for (const std::int32_t c : gap_.cells_at(facet.corners[0])) {
+    for (const GapIndex c : gap_.cells_at(facet.corners[0])) {
       const auto common =
           std::ranges::count_if(gap_.cell(c).vertices(), [&](Vertex v) { return gap_.cell(poor).has(v); });
       if (c == poor || common < 2 || std::ranges::find(between, c) != between.end()) continue;
@@ -116,7 +116,7 @@ std::vector<std::vector<std::int32_t>> HexOpener::rooms_beside(std::span<const F
                  [&](const Facet& own) { touches = touches || own.reversed() == facet; });
       if (touches) between.push_back(c);
     }
-  std::vector<std::vector<std::int32_t>> rooms{{}, {poor}};
+  std::vector<std::vector<GapIndex>> rooms{{}, {poor}};
   if (between.empty()) return rooms;
   rooms.push_back(between);
   between.push_back(poor);
@@ -124,7 +124,7 @@ std::vector<std::vector<std::int32_t>> HexOpener::rooms_beside(std::span<const F
   return rooms;
 }
 
-std::vector<Vertex> HexOpener::movable(const GapCell& poor, std::int32_t kept) const {
+std::vector<Vertex> HexOpener::movable(const GapCell& poor, KeptIndex kept) const {
   std::vector<Vertex> vertices;
   for (const std::span<const Vertex> corners : {poor.vertices(), gap_.kept_cell(kept).vertices()})
     for (const Vertex v : corners)
@@ -134,19 +134,19 @@ std::vector<Vertex> HexOpener::movable(const GapCell& poor, std::int32_t kept) c
   return vertices;
 }
 
-// Whether the poor cell, if it is still there, and those that came are.
-bool HexOpener::are_good_enough(std::int32_t poor, std::int32_t first_new) const {
-  for (auto c = first_new; c < static_cast<std::int32_t>(gap_.cell_count()); ++c)
+// Whether the new cells are good enough, and the poor one, if it is still there.
+bool HexOpener::are_good_enough(GapIndex poor, GapIndex first_new) const {
+  for (auto c = first_new; c < static_cast<GapIndex>(gap_.cell_count()); ++c)
     if (gap_.cell(c).quality < least_wanted || !is_valid(gap_, gap_.cell(c))) return false;
   return !gap_.is_alive(poor) || gap_.cell(poor).quality >= least_wanted;
 }
 
-// Fills the room within `skin` around a vertex in its middle, and moves vertices around. Everything is as it was where
-// that does not turn out well.
-bool HexOpener::fill(std::int32_t kept, std::vector<Facet> skin, std::span<const std::int32_t> out, std::int32_t poor) {
+// Fills the room within `skin` around a vertex in its middle, and moves the vertices around it. If that does not turn
+// out well, everything is as before.
+bool HexOpener::fill(KeptIndex kept, std::vector<Facet> skin, std::span<const GapIndex> out, GapIndex poor) {
   const GapCell poor_cell = gap_.cell(poor);
   const std::int32_t region = poor_cell.region;
-  for (const std::int32_t c : out) {
+  for (const GapIndex c : out) {
     if (gap_.cell(c).region != region) return false;
     const Joining joining = join_skin(gap_, gap_.cell(c), skin);
     if (!joining.touches || joining.crosses_tagged) return false;
@@ -161,7 +161,7 @@ bool HexOpener::fill(std::int32_t kept, std::vector<Facet> skin, std::span<const
   std::vector<GapCell> in;
   for (const Facet& facet : skin) in.push_back(cell_on(gap_, facet, spare_, region));
   gap_.set_alive(kept, false);
-  const auto first_new = static_cast<std::int32_t>(gap_.cell_count());
+  const auto first_new = static_cast<GapIndex>(gap_.cell_count());
   gap_.replace(out, in);
 
   std::vector<Vertex> moving = movable(poor_cell, kept);
@@ -183,7 +183,7 @@ bool HexOpener::fill(std::int32_t kept, std::vector<Facet> skin, std::span<const
   return false;
 }
 
-bool HexOpener::open(std::int32_t kept, std::int32_t poor) {
+bool HexOpener::open(KeptIndex kept, GapIndex poor) {
   if (gap_.kept_cell(kept).region != gap_.cell(poor).region) return false;
   const auto skin = skin_of(kept);
   if (!skin) return false;
@@ -195,10 +195,10 @@ bool HexOpener::open(std::int32_t kept, std::int32_t poor) {
 std::vector<CellIndex> HexOpener::run() {
   std::vector<CellIndex> opened;
   const std::size_t most = gap_.kept_count() / chosen_per_opened + 1;
-  const auto count = static_cast<std::int32_t>(gap_.cell_count());
-  for (std::int32_t c = 0; c < count && opened.size() < most; ++c) {
+  const auto count = static_cast<GapIndex>(gap_.cell_count());
+  for (GapIndex c = 0; c < count && opened.size() < most; ++c) {
     if (!gap_.is_alive(c) || gap_.cell(c).quality >= least_wanted) continue;
-    for (const std::int32_t kept : chosen_around(gap_.cell(c)))
+    for (const KeptIndex kept : chosen_around(gap_.cell(c)))
       if (open(kept, c)) {
         opened.push_back(gap_.kept_cell(kept).source);
         break;

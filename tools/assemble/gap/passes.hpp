@@ -11,8 +11,8 @@
 
 namespace hexpipe::assemble::gap {
 
-// Merges vertices that no hex uses into neighbours, the pair that lowers the objective most first. No cell comes to
-// less than least_quality where none around it did. Returns the number of vertices that are gone.
+// Merges vertices that no hex uses into neighbours. The pair that lowers the objective most goes first. No cell falls
+// below least_quality where none was below before. Returns the number of vertices that are gone.
 std::int64_t merge_vertices(GapMesh& gap);
 
 // Merges vertices on the surface that no chosen cell uses into neighbours along it: a vertex within a smooth part of
@@ -23,13 +23,13 @@ std::int64_t merge_on_surface(GapMesh& gap, hybrid::SurfaceTags& tags, const sha
 
 // Merges two vertices that no hex uses at the place where the worst cell around it is best, so that pyramids share
 // their apexes. The two have a cell in common, or cells on both sides of a facet. The pair that lowers the objective
-// most goes first. With `neighbours_yield`, vertices inside around the two move, too, those of chosen cells among them
+// most goes first. With `neighbours_yield`, inner vertices around the two move, too, also those of chosen cells
 // (patch.hpp). Returns the number of vertices that are gone.
 std::int64_t merge_stars(GapMesh& gap, bool neighbours_yield = false);
 
 struct RefillCounts {
-  std::int64_t vertices = 0;  // that are gone: the cells around them were filled anew
-  std::int64_t edges = 0;     // whose cells were filled anew
+  std::int64_t vertices = 0;  // gone, because the room of the cells around them was filled anew
+  std::int64_t edges = 0;     // whose cells' room was filled anew
   std::int64_t poor = 0;      // cells below least_quality that became better with those around them
 };
 
@@ -37,14 +37,14 @@ struct RefillCounts {
 // cell.
 RefillCounts refill_rooms(GapMesh& gap);
 
-// The last pass, when vertices have found their places: cells below least_quality, and cells with a face that costs
-// something. It fills the room around them anew, moves vertices of theirs that are inside, or raises the worst cells at
-// the vertices of a cell below least_quality together. Returns the number of changes.
+// The last pass, when vertices have found their places. It looks at cells below least_quality, and at cells with a face
+// that costs something. It fills the room around them anew, moves their inner vertices, or, for a cell below
+// least_quality, raises the worst cells at its vertices together. Returns the number of changes.
 std::int64_t mend(GapMesh& gap);
 
-// Opens chosen cells beside cells of the gap that are worse than least_wanted: pyramids and tets take the room, none of
-// them so poor, and the poor cell becomes better. No other cell comes to less than least_quality where it did not
-// before. At most one in a thousand goes. Returns those that are gone.
+// Opens chosen cells beside cells of the gap that are worse than least_wanted. Better pyramids and tets take the room
+// of the chosen cell, and the poor cell improves. No other cell falls below least_quality that was not below before. At
+// most one chosen cell in a thousand goes. Returns those that are gone.
 std::vector<CellIndex> open_hexes(GapMesh& gap);
 
 }  // namespace hexpipe::assemble::gap

@@ -21,8 +21,8 @@ constexpr int retreats = 2;
 
 }  // namespace
 
-std::int32_t Patch::local_of(Vertex v) const {
-  return static_cast<std::int32_t>(std::ranges::lower_bound(vertices_, v) - vertices_.begin());
+Patch::Local Patch::local_of(Vertex v) const {
+  return static_cast<Local>(std::ranges::lower_bound(vertices_, v) - vertices_.begin());
 }
 
 void Patch::add(Cell cell, std::span<const Vertex> corners) {
@@ -32,23 +32,23 @@ void Patch::add(Cell cell, std::span<const Vertex> corners) {
 
 void Patch::take(std::span<const Vertex> moving, const Replacement& replacement) {
   vertices_.clear(), cells_.clear(), moving_.clear();
-  std::vector<std::int32_t> kept;
+  std::vector<KeptIndex> kept;
   before_.assign(replacement.out.begin(), replacement.out.end());
   for (const Vertex v : moving) {
     before_.insert(before_.end(), gap_.cells_at(v).begin(), gap_.cells_at(v).end());
-    for (const std::int32_t c : gap_.kept_at(v)) kept.push_back(c);
+    for (const KeptIndex c : gap_.kept_at(v)) kept.push_back(c);
   }
   for (auto* list : {&before_, &kept}) {
     std::ranges::sort(*list);
     list->erase(std::unique(list->begin(), list->end()), list->end());
   }
-  for (const std::int32_t c : before_)
+  for (const GapIndex c : before_)
     if (std::ranges::find(replacement.out, c) == replacement.out.end())
       add({gap_.cell(c).kind, false, gap_.cell(c).region, std::min(gap_.cell(c).quality, least_quality), {}},
           gap_.cell(c).vertices());
   for (const GapCell& cell : replacement.in)
     add({cell.kind, false, cell.region, replacement.floor, {}}, cell.vertices());
-  for (const std::int32_t c : kept) {
+  for (const KeptIndex c : kept) {
     const KeptCell& cell = gap_.kept_cell(c);
     const double floor = cell.kind == CellKind::hex ? least_hex : least_prism;
     add({cell.kind, true, 0, std::min(floor, quality_of(cell.kind, gap_.points(), cell.vertices())), {}},
@@ -63,10 +63,9 @@ void Patch::take(std::span<const Vertex> moving, const Replacement& replacement)
   for (const Vertex v : moving) moving_.push_back(local_of(v));
   at_.assign(moving.size(), {});
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    for (std::int32_t& v : cells_[c].corners) v = local_of(v);
+    for (Local& v : cells_[c].corners) v = local_of(v);
     for (std::size_t i = 0; i < moving_.size(); ++i)
-      if (std::ranges::find(cells_[c].vertices(), moving_[i]) != cells_[c].vertices().end())
-        at_[i].push_back(static_cast<std::int32_t>(c));
+      if (std::ranges::find(cells_[c].vertices(), moving_[i]) != cells_[c].vertices().end()) at_[i].push_back(c);
   }
 }
 
@@ -81,9 +80,9 @@ bool Patch::is_good(const Cell& cell) const {
   return is_valid(cell.kind, corners) && (cell.kind != CellKind::prism || least_face_view(cell.kind, corners) > 0);
 }
 
-void Patch::look_around(std::int32_t i) {
+void Patch::look_around(std::size_t i) {
   star_.clear();
-  for (const std::int32_t c : at_[i]) {
+  for (const std::size_t c : at_[i]) {
     const Cell& cell = cells_[c];
     const auto at = corner_points(points_, cell.vertices());
     const auto own = static_cast<int>(std::ranges::find(cell.vertices(), moving_[i]) - cell.vertices().begin());
@@ -94,10 +93,10 @@ void Patch::look_around(std::int32_t i) {
   }
 }
 
-bool Patch::improve(std::int32_t i, double goal) {
+bool Patch::improve(std::size_t i, double goal) {
   // Chosen cells are better: most vertices need no look at all of theirs.
   const bool is_good_here =
-      std::ranges::all_of(at_[i], [&](std::int32_t c) { return cells_[c].is_kept || quality(cells_[c]) >= goal; });
+      std::ranges::all_of(at_[i], [&](std::size_t c) { return cells_[c].is_kept || quality(cells_[c]) >= goal; });
   if (is_good_here) return false;
   look_around(i);
   Vec3& point = points_[moving_[i]];
@@ -110,7 +109,7 @@ bool Patch::improve(std::int32_t i, double goal) {
     const Vec3 at = before + step;
     if (star_.worst(at) < worst + least_rise || !star_.keeps_floors(before, at)) continue;
     point = at;
-    if (std::ranges::all_of(at_[i], [&](std::int32_t c) { return !cells_[c].is_kept || is_good(cells_[c]); }))
+    if (std::ranges::all_of(at_[i], [&](std::size_t c) { return !cells_[c].is_kept || is_good(cells_[c]); }))
       return true;
     point = before;
   }
@@ -120,7 +119,7 @@ bool Patch::improve(std::int32_t i, double goal) {
 void Patch::raise(double goal, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     bool any = false;
-    for (std::size_t i = 0; i < moving_.size(); ++i) any = improve(static_cast<std::int32_t>(i), goal) || any;
+    for (std::size_t i = 0; i < moving_.size(); ++i) any = improve(i, goal) || any;
     if (!any || least() >= goal) return;
   }
 }
@@ -138,7 +137,7 @@ bool Patch::keeps_floors() const {
 
 double Patch::cost_before() const {
   double cost = cost_of_faces(gap_, before_);
-  for (const std::int32_t c : before_) cost += cost_of(gap_.cell(c).quality);
+  for (const GapIndex c : before_) cost += cost_of(gap_.cell(c).quality);
   return cost;
 }
 
@@ -159,7 +158,7 @@ double Patch::cost() const {
 
 void Patch::carry_out(GapMesh& gap, const Replacement& replacement) const {
   gap.replace(replacement.out, replacement.in);
-  for (const std::int32_t v : moving_) gap.relocate(vertices_[v], points_[v]);
+  for (const Local v : moving_) gap.relocate(vertices_[v], points_[v]);
 }
 
 }  // namespace hexpipe::assemble::gap

@@ -1,6 +1,6 @@
 #pragma once
-// A few vertices inside the mesh with all cells around them, apart from the rest: what is tried here changes nothing
-// until it has turned out well.
+// A copy of a few vertices inside the mesh, with all cells around them. A change is tried on the copy, and carried out
+// in the mesh only if it turns out well.
 
 #include <array>
 #include <cstdint>
@@ -12,11 +12,11 @@
 
 namespace hexpipe::assemble::gap {
 
-// What a change does to the cells of the gap.
+// A change of the gap: which cells go, and which come.
 struct Replacement {
-  std::span<const std::int32_t> out;
+  std::span<const GapIndex> out;
   std::span<const GapCell> in;
-  double floor = 0;  // the least quality that those which come in may have
+  double floor = 0;  // the least quality of a cell that may come
 };
 
 // A change that raises the worst cell by less is not worth it.
@@ -36,43 +36,45 @@ class Patch {
 
   // The least quality among the cells that are not chosen.
   double least() const;
-  // False where a cell has become worse than it may: than least_quality, for a hex least_hex, or than it was.
+  // False if a cell is not valid, or worse than its floor: least_quality (a chosen hex: least_hex), or less if it was.
   bool keeps_floors() const;
-  // What cells and faces of the gap cost, as they are here.
+  // The cost of the gap's cells and faces after the change.
   double cost() const;
-  // What those cost that were there before.
+  // The cost of the gap's cells and faces before it.
   double cost_before() const;
 
   // Makes the change and the moves.
   void carry_out(GapMesh& gap, const Replacement& replacement) const;
 
  private:
+  using Local = std::int32_t;  // the place of a vertex in vertices_
+
   struct Cell {
     CellKind kind = CellKind::tet;
     bool is_kept = false;
     std::int32_t region = 0;
-    double floor = 0;                       // of its quality
-    std::array<std::int32_t, 8> corners{};  // as local numbers
+    double floor = 0;  // of its quality
+    std::array<Local, 8> corners{};
 
-    std::span<const std::int32_t> vertices() const {
+    std::span<const Local> vertices() const {
       return std::span(corners).first(static_cast<std::size_t>(corner_count(kind)));
     }
   };
 
-  std::int32_t local_of(Vertex v) const;
+  Local local_of(Vertex v) const;
   void add(Cell cell, std::span<const Vertex> corners);
   double quality(const Cell& cell) const;
   bool is_good(const Cell& cell) const;
-  void look_around(std::int32_t v);
-  bool improve(std::int32_t v, double goal);
+  void look_around(std::size_t i);
+  bool improve(std::size_t i, double goal);
 
   const GapMesh& gap_;
-  std::vector<Vertex> vertices_;  // ascending; by local number
+  std::vector<Vertex> vertices_;  // ascending
   std::vector<Vec3> points_;
   std::vector<Cell> cells_;
-  std::vector<std::int32_t> before_;           // cells of the gap at the moving vertices, before the change
-  std::vector<std::int32_t> moving_;           // as local numbers
-  std::vector<std::vector<std::int32_t>> at_;  // by place in moving_
+  std::vector<GapIndex> before_;  // cells of the gap at the moving vertices, before the change
+  std::vector<Local> moving_;
+  std::vector<std::vector<std::size_t>> at_;  // by place in moving_: those of `cells_`
   shape::PointStar star_;
 };
 

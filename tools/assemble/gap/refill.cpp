@@ -133,7 +133,7 @@ void Refill::search(double cost) {
   }
 }
 
-std::optional<std::vector<GapCell>> Refill::find(std::span<const std::int32_t> out) {
+std::optional<std::vector<GapCell>> Refill::find(std::span<const GapIndex> out) {
   auto room = room_of(gap_, out, most_facets);
   if (!room || room->vertices.size() > most_corners) return std::nullopt;
   room_ = std::move(*room);
@@ -143,7 +143,7 @@ std::optional<std::vector<GapCell>> Refill::find(std::span<const std::int32_t> o
   floor_ = now.floor, most_ = now.cost + cost_of_faces(gap_, out) - least_gain, steps_left_ = most_steps;
   placed_.clear(), best_.clear();
   space_ = 0;
-  for (const std::int32_t c : out) space_ += volume_of(gap_, gap_.cell(c));
+  for (const GapIndex c : out) space_ += volume_of(gap_, gap_.cell(c));
   space_ *= 1 + rounding;
   search(0);
   if (best_.empty() || !std::ranges::all_of(best_, [&](const GapCell& cell) { return is_valid(gap_, cell); }))
@@ -157,23 +157,23 @@ namespace {
 constexpr std::size_t most_at_vertex = 20;
 
 // With a facet in common.
-bool is_beside(const GapMesh& gap, std::int32_t c, std::int32_t other) {
+bool is_beside(const GapMesh& gap, GapIndex c, GapIndex other) {
   return c != other &&
          std::ranges::count_if(gap.cell(c).vertices(), [&](Vertex v) { return gap.cell(other).has(v); }) >= 3;
 }
 
 }  // namespace
 
-bool refill_around(GapMesh& gap, Refill& refill, std::int32_t c) {
+bool refill_around(GapMesh& gap, Refill& refill, GapIndex c) {
   const GapCell cell = gap.cell(c);
-  const auto fill = [&](const std::vector<std::int32_t>& room) {
+  const auto fill = [&](const std::vector<GapIndex>& room) {
     const auto in = refill.find(room);
     if (in) gap.replace(room, *in);
     return in.has_value();
   };
-  std::vector<std::int32_t> room{c};
+  std::vector<GapIndex> room{c};
   for (const Vertex v : cell.vertices())
-    for (const std::int32_t other : gap.cells_at(v))
+    for (const GapIndex other : gap.cells_at(v))
       if (is_beside(gap, c, other) && std::ranges::find(room, other) == room.end()) room.push_back(other);
   if (fill(room)) return true;
   return std::ranges::any_of(cell.vertices(), [&](Vertex v) {

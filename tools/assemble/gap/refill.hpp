@@ -1,5 +1,5 @@
 #pragma once
-// Fills a room anew, with the cells that cost least and no vertex inside.
+// Fills a room anew with the cells that cost least, without a vertex inside.
 
 #include <array>
 #include <cstdint>
@@ -16,16 +16,16 @@ class Refill {
  public:
   explicit Refill(const GapMesh& gap) : gap_(gap) {}
 
-  // Tets, pyramids and prisms in the place of `out` that cost less: the cheapest that a search of bounded length finds.
-  // Nothing where there are none, or the cells are no room (skin.hpp) or a large one. All cells of the gap have to be
-  // valid.
-  std::optional<std::vector<GapCell>> find(std::span<const std::int32_t> out);
+  // Finds tets, pyramids and prisms that cost less than `out` and take its place: the cheapest that a search of bounded
+  // length meets. Nothing if there are none, if the cells form no room (skin.hpp), or if the room is large. All cells
+  // of the gap have to be valid.
+  std::optional<std::vector<GapCell>> find(std::span<const GapIndex> out);
 
  private:
   struct Offer {
     GapCell cell;
     double cost = 0, volume = 0;
-    int closes = 0;  // facets of the front, less those that it adds to it
+    int closes = 0;  // how many facets of the front it closes, less those that it adds
   };
 
   void offer(CellKind kind, const std::array<Vertex, 6>& corners, std::vector<Offer>& offers) const;
@@ -36,7 +36,7 @@ class Refill {
   void search(double cost);
 
   const GapMesh& gap_;
-  std::span<const std::int32_t> out_;  // while find() runs
+  std::span<const GapIndex> out_;  // while find() runs
   Room room_;
   std::vector<Facet> front_;  // facets that still need a cell
   std::vector<GapCell> placed_, best_;
@@ -45,8 +45,8 @@ class Refill {
   int steps_left_ = 0;
 };
 
-// Fills anew the room of a cell and of all that have a facet in common with it, or else that of the cells at one of its
-// vertices. False where none of these rooms has a better filling.
-bool refill_around(GapMesh& gap, Refill& refill, std::int32_t c);
+// Fills the room of a cell and of its neighbours anew. If that finds nothing better, it tries the room of all cells at
+// one of the cell's vertices. False if none of these rooms has a better filling.
+bool refill_around(GapMesh& gap, Refill& refill, GapIndex c);
 
 }  // namespace hexpipe::assemble::gap

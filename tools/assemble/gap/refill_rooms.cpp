@@ -37,14 +37,14 @@ class Rooms {
 
   void refill_stars();
   void refill_rings();
-  void refill_rings_of(std::int32_t c);
+  void refill_rings_of(GapIndex c);
   void refill_poor();
   bool refill();
 
   GapMesh& gap_;
   Refill refill_;
   std::vector<std::uint32_t> seen_;  // by vertex: its age when it was looked at
-  std::vector<std::int32_t> room_;
+  std::vector<GapIndex> room_;
   RefillCounts counts_;
 };
 
@@ -62,8 +62,8 @@ void Rooms::refill_stars() {
   }
 }
 
-// Each edge of cell c whose cells were made with c or later: so that each comes up once.
-void Rooms::refill_rings_of(std::int32_t c) {
+// Looks only at edges of c all of whose cells are not older than c, so that each edge comes up once.
+void Rooms::refill_rings_of(GapIndex c) {
   const GapCell cell = gap_.cell(c);
   with_topology(cell.kind, [&](auto topology) {
     for (const auto& edge : decltype(topology)::edges) {
@@ -71,7 +71,7 @@ void Rooms::refill_rings_of(std::int32_t c) {
       const Vertex a = cell.corners[edge[0] % 6], b = cell.corners[edge[1] % 6];
       if (!has_changed(a) && !has_changed(b)) continue;
       room_.clear();
-      for (const std::int32_t other : gap_.cells_at(a))
+      for (const GapIndex other : gap_.cells_at(a))
         if (gap_.cell(other).has(b)) room_.push_back(other);
       if (room_.size() >= 3 && std::ranges::min(room_) == c) counts_.edges += refill() ? 1 : 0;
     }
@@ -79,14 +79,14 @@ void Rooms::refill_rings_of(std::int32_t c) {
 }
 
 void Rooms::refill_rings() {
-  const auto count = static_cast<std::int32_t>(gap_.cell_count());
-  for (std::int32_t c = 0; c < count; ++c)
+  const auto count = static_cast<GapIndex>(gap_.cell_count());
+  for (GapIndex c = 0; c < count; ++c)
     if (gap_.is_alive(c)) refill_rings_of(c);
 }
 
 void Rooms::refill_poor() {
-  const auto count = static_cast<std::int32_t>(gap_.cell_count());
-  for (std::int32_t c = 0; c < count; ++c)
+  const auto count = static_cast<GapIndex>(gap_.cell_count());
+  for (GapIndex c = 0; c < count; ++c)
     if (gap_.is_alive(c) && gap_.cell(c).quality < least_quality &&
         std::ranges::any_of(gap_.cell(c).vertices(), [&](Vertex v) { return has_changed(v); }))
       counts_.poor += refill_around(gap_, refill_, c) ? 1 : 0;

@@ -7,7 +7,7 @@
 namespace hexpipe::assemble::gap {
 namespace {
 
-// Cells that are worse may be replaced, but not by such: the sign of less may be rounding.
+// Worse cells may be replaced, but may not take the place of others: below this, the sign may be rounding.
 constexpr double surely_valid = 1e-6;
 
 }  // namespace
@@ -41,11 +41,11 @@ Joining join_skin(const GapMesh& gap, const GapCell& cell, std::vector<Facet>& s
   return joining;
 }
 
-std::optional<Room> room_of(const GapMesh& gap, std::span<const std::int32_t> cells, std::size_t most_facets) {
+std::optional<Room> room_of(const GapMesh& gap, std::span<const GapIndex> cells, std::size_t most_facets) {
   Room room;
   room.region = gap.cell(cells[0]).region;
   bool blocked = false;
-  for (const std::int32_t c : cells) {
+  for (const GapIndex c : cells) {
     if (gap.cell(c).region != room.region) return std::nullopt;
     blocked = join_skin(gap, gap.cell(c), room.skin).crosses_tagged || blocked;
   }
@@ -54,7 +54,7 @@ std::optional<Room> room_of(const GapMesh& gap, std::span<const std::int32_t> ce
     for (const Vertex v : facet.vertices()) room.vertices.push_back(v);
   std::ranges::sort(room.vertices);
   room.vertices.erase(std::unique(room.vertices.begin(), room.vertices.end()), room.vertices.end());
-  for (const std::int32_t c : cells)
+  for (const GapIndex c : cells)
     for (const Vertex v : gap.cell(c).vertices())
       if (!std::ranges::binary_search(room.vertices, v) && !gap.is_free(v)) return std::nullopt;
   return room;
@@ -66,9 +66,9 @@ GapCell cell_on(const GapMesh& gap, const Facet& facet, Vertex apex, std::int32_
   return gap.make(CellKind::pyramid, {f[0], f[3], f[2], f[1], apex}, region);
 }
 
-Worth worth_of(const GapMesh& gap, std::span<const std::int32_t> cells) {
+Worth worth_of(const GapMesh& gap, std::span<const GapIndex> cells) {
   Worth worth{0, least_quality};
-  for (const std::int32_t c : cells) {
+  for (const GapIndex c : cells) {
     worth.cost += cost_of(gap.cell(c).quality);
     worth.floor = std::min(worth.floor, gap.cell(c).quality);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Rooms: what a few cells fill together, and the facets around it.
+// Rooms: the space that a few cells fill together, and the facets around it.
 
 #include <array>
 #include <cstdint>
@@ -19,14 +19,14 @@ struct Facet {
   bool is_quad() const { return corners[3] != no_index; }
   std::span<const Vertex> vertices() const { return std::span(corners).first(is_quad() ? 4 : 3); }
   Facet reversed() const;
-  // Most differ in the first: a call of memcmp for each took a third of the time.
+  // Most facets differ in their first corner: a call of memcmp for each took a third of the time.
   bool operator==(const Facet& other) const {
     return corners[0] == other.corners[0] && corners[1] == other.corners[1] && corners[2] == other.corners[2] &&
            corners[3] == other.corners[3];
   }
 };
 
-// visit(facet) for each facet of a cell of six corners at most.
+// Calls visit(facet) for each facet of a cell that has at most six corners.
 template <class Visit>
 void for_facets(CellKind kind, std::span<const Vertex> corners, Visit&& visit) {
   auto each = [&](const auto& facets) {
@@ -48,24 +48,24 @@ struct Room {
   std::int32_t region = 0;
 };
 
-// How a cell joins others: whether a facet of it is one of theirs, and whether such a facet is tagged.
+// How a cell joins others: whether they have a facet in common, and whether such a facet is tagged.
 struct Joining {
   bool touches = false, crosses_tagged = false;
 };
-// `skin`, of some cells, becomes that of these and one more.
+// Extends `skin`, that of some cells, by one more cell.
 Joining join_skin(const GapMesh& gap, const GapCell& cell, std::vector<Facet>& skin);
 
-// Nothing where the cells are of several regions, or where a tagged facet or a vertex that has to stay lies between
-// them, or where there are more than `most_facets` around them.
-std::optional<Room> room_of(const GapMesh& gap, std::span<const std::int32_t> cells, std::size_t most_facets);
+// The room of these cells. Nothing if they are of several regions, if a tagged facet or a vertex that has to stay lies
+// between them, or if more than `most_facets` are around them.
+std::optional<Room> room_of(const GapMesh& gap, std::span<const GapIndex> cells, std::size_t most_facets);
 
 // The cell on the inner side of a facet of the skin, with its last corner at `apex`: a tet or a pyramid.
 GapCell cell_on(const GapMesh& gap, const Facet& facet, Vertex apex, std::int32_t region);
 
-// What the cells cost together, and the least quality that others in their place may have.
+// The cost of some cells together, and the least quality of cells that may take their place.
 struct Worth {
   double cost = 0, floor = 0;
 };
-Worth worth_of(const GapMesh& gap, std::span<const std::int32_t> cells);
+Worth worth_of(const GapMesh& gap, std::span<const GapIndex> cells);
 
 }  // namespace hexpipe::assemble::gap

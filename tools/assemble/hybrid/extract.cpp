@@ -41,7 +41,7 @@ Quad oriented_like(const Triangle& triangle, const Quad& quad) {
 void append_facets(MixedMesh& result, const HybridMesh& mesh, const SurfaceTags& tags) {
   // By input triangle: whether a quad covers it.
   std::vector<bool> covered(tags.size());
-  std::vector<std::pair<std::int32_t, Quad>> quads;
+  std::vector<std::pair<TaggedTriangle, Quad>> quads;
   for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c) {
     if (!mesh.cell(c).alive) continue;
     for (int i = 0; i < mesh.cell(c).quad_count(); ++i) {
@@ -54,7 +54,7 @@ void append_facets(MixedMesh& result, const HybridMesh& mesh, const SurfaceTags&
   std::sort(quads.begin(), quads.end());
   for (const auto& [triangle, quad] : quads)
     append(result.quads, oriented_like(tags.triangle(triangle), quad), tags.tag_of(triangle));
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(covered.size()); ++i)
+  for (TaggedTriangle i = 0; i < static_cast<TaggedTriangle>(covered.size()); ++i)
     if (!covered[i] && tags.find(tags.triangle(i)) == i) append(result.triangles, tags.triangle(i), tags.tag_of(i));
 }
 

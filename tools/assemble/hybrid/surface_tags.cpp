@@ -11,7 +11,7 @@ namespace {
 constexpr std::int32_t untagged = 0;
 
 bool is_facet_of_a_tet(const Triangle& triangle, const TetMesh& mesh, const TetAdjacency& adjacency) {
-  for (std::int32_t t : adjacency.tets_at(triangle[0])) {
+  for (const TetIndex t : adjacency.tets_at(triangle[0])) {
     const Tet& tet = mesh.tets[t];
     auto has = [&](Vertex v) { return tet[0] == v || tet[1] == v || tet[2] == v || tet[3] == v; };
     if (has(triangle[1]) && has(triangle[2])) return true;
@@ -39,10 +39,10 @@ SurfaceTags::SurfaceTags(const TetMesh& mesh)
   for (const Triangle& triangle : triangles_)
     for (const Vertex v : triangle) is_on_any_[v] = true;
   for (std::size_t i = 0; i < triangles_.size(); ++i)
-    numbers_.try_emplace(key_of(triangles_[i]), static_cast<std::int32_t>(i));
+    numbers_.try_emplace(key_of(triangles_[i]), static_cast<TaggedTriangle>(i));
 }
 
-void SurfaceTags::peel(const Tet& tet, const std::array<std::int32_t, 2>& places,
+void SurfaceTags::peel(const Tet& tet, const std::array<TaggedTriangle, 2>& places,
                        const std::array<Triangle, 2>& triangles) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     numbers_.erase(key_of(triangles_[places[i]]));
@@ -52,9 +52,10 @@ void SurfaceTags::peel(const Tet& tet, const std::array<std::int32_t, 2>& places
   peeled_.push_back(tet);
 }
 
-void SurfaceTags::merge(Vertex from, Vertex into, std::span<const std::int32_t> places, std::span<const Tet> between) {
-  for (const std::int32_t place : places) numbers_.erase(key_of(triangles_[place]));
-  for (const std::int32_t place : places) {
+void SurfaceTags::merge(Vertex from, Vertex into, std::span<const TaggedTriangle> places,
+                        std::span<const Tet> between) {
+  for (const TaggedTriangle place : places) numbers_.erase(key_of(triangles_[place]));
+  for (const TaggedTriangle place : places) {
     Triangle& triangle = triangles_[place];
     if (std::ranges::find(triangle, into) != triangle.end()) continue;
     std::ranges::replace(triangle, from, into);
@@ -64,7 +65,7 @@ void SurfaceTags::merge(Vertex from, Vertex into, std::span<const std::int32_t> 
   peeled_.insert(peeled_.end(), between.begin(), between.end());
 }
 
-std::optional<std::int32_t> SurfaceTags::find(const Triangle& triangle) const {
+std::optional<TaggedTriangle> SurfaceTags::find(const Triangle& triangle) const {
   for (const Vertex v : triangle)
     if (static_cast<std::size_t>(v) >= is_on_any_.size() || !is_on_any_[v]) return std::nullopt;
   const auto found = numbers_.find(key_of(triangle));
@@ -91,7 +92,7 @@ bool SurfaceTags::covers_partly(const Quad& quad, int diagonal) const {
 
 BoundaryQuads::BoundaryQuads(const TetMesh& mesh, const TetAdjacency& adjacency, const SurfaceTags& tags)
     : tags_(tags), is_outer_(tags.size()) {
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tets.size()); ++t)
+  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh.tets.size()); ++t)
     for (int facet = 0; facet < 4; ++facet) {
       if (adjacency.tet_beyond(t, facet) != no_index) continue;
       const auto& f = TetTopology::triangles[facet];

@@ -14,9 +14,12 @@
 
 namespace hexpipe::assemble::hybrid {
 
-// Makes the mesh's triangles complete: every facet of the boundary and of interfaces is among them, and nothing else
-// than facets of tets.
+// Makes the mesh's triangles complete: afterwards they are facets of tets, and every facet of the boundary and of
+// interfaces is among them.
 void complete_surface(TetMesh& mesh, const TetAdjacency& adjacency);
+
+// The number of a tagged triangle in SurfaceTags, from 0.
+using TaggedTriangle = std::int32_t;
 
 // The tagged triangles and what covers a quad, less the flat tets that were peeled off the boundary (flat_tets.hpp)
 // and the vertices that merged along it (gap/passes.hpp).
@@ -26,18 +29,18 @@ class SurfaceTags {
   explicit SurfaceTags(const TetMesh& mesh);
 
   bool contains(const Triangle& triangle) const { return find(triangle).has_value(); }
-  // The index of the tagged triangle with these vertices.
-  std::optional<std::int32_t> find(const Triangle& triangle) const;
+  // The tagged triangle with these vertices.
+  std::optional<TaggedTriangle> find(const Triangle& triangle) const;
   std::size_t size() const { return triangles_.size(); }
-  const Triangle& triangle(std::int32_t i) const { return triangles_[i]; }
-  std::int32_t tag_of(std::int32_t i) const { return tags_[i]; }
+  const Triangle& triangle(TaggedTriangle i) const { return triangles_[i]; }
+  std::int32_t tag_of(TaggedTriangle i) const { return tags_[i]; }
 
   // Peels a tet off the boundary: the tagged triangles at `places`, two of its facets, become the other two.
-  void peel(const Tet& tet, const std::array<std::int32_t, 2>& places, const std::array<Triangle, 2>& triangles);
-  // Tagged triangles at `from` have `into` for it; those that have both vertices are gone. `places`: those at `from`.
+  void peel(const Tet& tet, const std::array<TaggedTriangle, 2>& places, const std::array<Triangle, 2>& triangles);
+  // Merges the vertex `from` into `into`; the tagged triangles with both are gone. `places`: those at `from`.
   // `between`: for each facet of the boundary that moves, the tet between its two places, which counts as taken off:
   // its volume is negative where the boundary moves outwards.
-  void merge(Vertex from, Vertex into, std::span<const std::int32_t> places, std::span<const Tet> between);
+  void merge(Vertex from, Vertex into, std::span<const TaggedTriangle> places, std::span<const Tet> between);
   struct Merge {
     Vertex from, into;
   };
@@ -48,7 +51,7 @@ class SurfaceTags {
 
   // The two tagged triangles that a quad consists of, if the diagonal cuts it into two with one tag.
   struct Cover {
-    std::array<std::int32_t, 2> triangles;
+    std::array<TaggedTriangle, 2> triangles;
     bool operator==(const Cover&) const = default;
   };
   std::optional<Cover> cover_of(const Quad& quad, int diagonal) const;
@@ -60,8 +63,8 @@ class SurfaceTags {
  private:
   std::vector<Triangle> triangles_;
   std::vector<std::int32_t> tags_;
-  KeyMap<3, std::int32_t> numbers_;
-  std::vector<bool> is_on_any_;  // by vertex: most triangles that are asked for lie inside, and are told so at once
+  KeyMap<3, TaggedTriangle> numbers_;
+  std::vector<bool> is_on_any_;  // by vertex; answers at once for most triangles, because they lie inside
   std::vector<Tet> peeled_;
   std::vector<Merge> merges_;
 };

@@ -39,10 +39,10 @@ class ChosenCells {
   // Adds the chosen candidates of a part that are its own and lie within the view. `points` and `tets` are the places
   // of its points and tets in the view; empty for the part whose numbers the view has.
   void add(const Candidates& from, const CandidateKeys& keys, const graph::IndependentSet& chosen, std::int32_t part,
-           std::span<const std::int32_t> points, std::span<const TetIndex> tets, const std::string& source) {
+           std::span<const Vertex> points, std::span<const TetIndex> tets, const std::string& source) {
     const auto bundle = static_cast<std::int32_t>(view_.bundles.size());
     view_.bundles.push_back(source);
-    for (const std::int32_t i : chosen) {
+    for (const CandidateIndex i : chosen) {
       if (i < 0 || static_cast<std::size_t>(i) >= from.size())
         throw DataError::at(source, "expected candidates from 1 to {} in the solution, found {}", from.size(), i + 1);
       if (keys.part[i] != part || !is_within(from.corners_of(i), points)) continue;
@@ -56,19 +56,19 @@ class ChosenCells {
   }
 
   void sort() {
-    std::vector<std::int32_t> order(view_.keys.key.size());
+    std::vector<CandidateIndex> order(view_.keys.key.size());
     std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, {}, [&](std::int32_t i) { return view_.keys.key[i]; });
+    std::ranges::sort(order, {}, [&](CandidateIndex i) { return view_.keys.key[i]; });
     view_.cells = select(view_.cells, order);
     view_.keys = select(view_.keys, order);
     std::vector<choice::CellOrigin> origins;
     origins.reserve(order.size());
-    for (const std::int32_t i : order) origins.push_back(view_.origins[i]);
+    for (const CandidateIndex i : order) origins.push_back(view_.origins[i]);
     view_.origins = std::move(origins);
   }
 
  private:
-  bool is_within(std::span<const Vertex> corners, std::span<const std::int32_t> points) const {
+  bool is_within(std::span<const Vertex> corners, std::span<const Vertex> points) const {
     return std::ranges::all_of(corners, [&](Vertex v) {
       const Vertex here = points.empty() ? v : points[v];
       return here != no_index && view_.distance[here] <= furthest;

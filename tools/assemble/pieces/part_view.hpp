@@ -1,5 +1,5 @@
 #pragma once
-// What one part sees: its mesh with the ghosts, and the cells that it and its neighbours have chosen there.
+// The view of one part: its mesh with the ghosts, and the cells that the part and its neighbours have chosen there.
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -17,7 +17,7 @@ namespace hexpipe::assemble::pieces {
 struct PartView {
   MeshPart part;
   TetMesh mesh;
-  // Chosen cells in the order of a single run: all whose corners have all their tets here.
+  // The chosen cells whose corners have all their tets here, in the order of a single run.
   Candidates cells;
   CandidateKeys keys;
   // By cell, where it comes from; and the names of the bundles, the part's own first.

@@ -30,24 +30,24 @@ class Cutter {
     take_triangles();
     take_points();
     std::ranges::merge(cells.own, cells.guests, std::back_inserter(result_.view_cells));
-    for (const std::int32_t i : result_.view_cells) take_cell(i);
+    for (const CandidateIndex i : result_.view_cells) take_cell(i);
     return std::move(result_);
   }
 
  private:
   bool is_here(TetIndex tet) const { return pieces_.of_tet[tet] == view_.part.part; }
 
-  void take_tets(const std::vector<std::int32_t>& guests) {
+  void take_tets(const std::vector<CandidateIndex>& guests) {
     std::vector<std::uint8_t> taken(view_.mesh.tets.size());
-    for (std::size_t t = 0; t < taken.size(); ++t) taken[t] = is_here(static_cast<std::int32_t>(t)) ? 1 : 0;
-    for (const std::int32_t i : guests) {
+    for (std::size_t t = 0; t < taken.size(); ++t) taken[t] = is_here(static_cast<TetIndex>(t)) ? 1 : 0;
+    for (const CandidateIndex i : guests) {
       for (const TetIndex t : view_.cells.interior_tets_of(i)) taken[t] = 2;
       for (const TetIndex t : view_.cells.boundary_tets_of(i))
         if (pieces_.of_tet[t] == view_.keys.part[i]) taken[t] = 2;
     }
     for (std::size_t t = 0; t < taken.size(); ++t) {
       if (taken[t] == 0) continue;
-      tet_place_[t] = static_cast<std::int32_t>(result_.mesh.tets.size());
+      tet_place_[t] = static_cast<TetIndex>(result_.mesh.tets.size());
       result_.mesh.tets.push_back(view_.mesh.tets[t]);
       result_.mesh.tet_tags.push_back(taken[t] == 1 ? view_.mesh.tet_tags[t] : result_.seam.guest_region);
     }
@@ -90,7 +90,7 @@ class Cutter {
   }
 
   // The tag of a facet of tet `t`, which the piece or a guest has.
-  std::int32_t tag_of(TetIndex t, TetIndex beyond, const std::optional<std::int32_t>& tagged) const {
+  std::int32_t tag_of(TetIndex t, TetIndex beyond, const std::optional<hybrid::TaggedTriangle>& tagged) const {
     const hybrid::Seam& seam = result_.seam;
     const bool ends = beyond != no_index && pieces_.of_tet[beyond] != view_.part.part;
     if (!is_here(t)) {
@@ -121,7 +121,7 @@ class Cutter {
     point_place_ = std::move(place);
   }
 
-  void take_cell(std::int32_t i) {
+  void take_cell(CandidateIndex i) {
     append_candidate(
         result_.cells, view_.cells, i, [&](Vertex v) { return point_place_[v]; },
         [&](TetIndex t) { return tet_place_[t]; },

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <set>
+
+#include "common/mesh/joined_sets.hpp"
 
 namespace hexpipe::assemble::pieces {
 namespace {
@@ -17,7 +18,7 @@ constexpr int furthest_moved = 2;
 
 // The open quads of some cells and the tets around their diagonals.
 struct OpenRing {
-  std::int32_t cell;  // of the view
+  CandidateIndex cell;  // of the view
   std::vector<TetIndex> tets;
 };
 
@@ -42,24 +43,19 @@ std::int32_t home_of(const PartView& view, TetIndex tet) {
 }
 
 // Tets joined by rings, each group with its tets ascending.
-std::vector<std::vector<std::int32_t>> groups_of(const std::vector<OpenRing>& rings, std::size_t tet_count) {
-  std::vector<std::int32_t> parent(tet_count);
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](TetIndex t) {
-    while (parent[t] != t) t = parent[t] = parent[parent[t]];
-    return t;
-  };
+std::vector<std::vector<TetIndex>> groups_of(const std::vector<OpenRing>& rings, std::size_t tet_count) {
+  JoinedSets joined(tet_count);
   std::vector<TetIndex> tets;
   for (const OpenRing& ring : rings)
     for (const TetIndex t : ring.tets) {
       tets.push_back(t);
-      parent[root(t)] = root(ring.tets.front());
+      joined.join(t, ring.tets.front());
     }
   std::ranges::sort(tets);
   tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
-  std::map<std::int32_t, std::vector<std::int32_t>> groups;
-  for (const TetIndex t : tets) groups[root(t)].push_back(t);
-  std::vector<std::vector<std::int32_t>> result;
+  std::map<TetIndex, std::vector<TetIndex>> groups;
+  for (const TetIndex t : tets) groups[joined.of(t)].push_back(t);
+  std::vector<std::vector<TetIndex>> result;
   result.reserve(groups.size());
   for (auto& [first, group] : groups) result.push_back(std::move(group));
   return result;
@@ -134,7 +130,7 @@ class Division {
   }
 
   // Moves the group to the part with the most of its tets and quads among those near enough; the lowest of several.
-  void move(const std::vector<std::int32_t>& group, const std::map<std::int32_t, int>& shares) {
+  void move(const std::vector<TetIndex>& group, const std::map<std::int32_t, int>& shares) {
     std::vector<std::pair<int, std::int32_t>> order;
     order.reserve(shares.size());
     for (const auto& [part, share] : shares) order.emplace_back(-share, part);
@@ -154,7 +150,7 @@ class Division {
 
 graph::IndependentSet all_but(const PartView& view, std::span<const std::uint64_t> given_back) {
   graph::IndependentSet rest;
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(view.cells.size()); ++i)
+  for (CandidateIndex i = 0; i < static_cast<CandidateIndex>(view.cells.size()); ++i)
     if (!std::ranges::binary_search(given_back, view.keys.key[i])) rest.push_back(i);
   return rest;
 }
@@ -176,13 +172,13 @@ SeamCells cells_at_seams(const PartView& view, const hybrid::SurfaceTags& tags, 
                          std::span<const std::uint64_t> given_back, const choice::InputNames& names) {
   SeamCells result;
   const std::int32_t here = view.part.part;
-  const auto is_own = [&](std::int32_t i) { return view.keys.part[i] == here; };
+  const auto is_own = [&](CandidateIndex i) { return view.keys.part[i] == here; };
   graph::IndependentSet left = all_but(view, given_back);
   for (bool changed = true; changed;) {
     changed = false;
     result.guests.clear();
     const choice::Selection selection(view.mesh, tags, view.cells, left, names);
-    std::set<std::int32_t> torn, guests;
+    std::set<CandidateIndex> torn, guests;
     for (const OpenRing& ring : open_rings(selection.mesh())) {
       const std::int32_t piece = pieces.of_tet[ring.tets.front()];
       const bool in_one = std::ranges::all_of(ring.tets, [&](TetIndex t) { return pieces.of_tet[t] == piece; });
@@ -191,9 +187,9 @@ SeamCells cells_at_seams(const PartView& view, const hybrid::SurfaceTags& tags, 
       else if (piece == here && !is_own(ring.cell))
         guests.insert(ring.cell);
     }
-    for (const std::int32_t i : guests)
+    for (const CandidateIndex i : guests)
       if (!torn.contains(i)) result.guests.push_back(i);
-    const auto goes_back = [&](std::int32_t i) { return is_own(i) && torn.contains(i); };
+    const auto goes_back = [&](CandidateIndex i) { return is_own(i) && torn.contains(i); };
     changed = std::ranges::any_of(left, goes_back);
     std::ranges::copy_if(left, std::back_inserter(result.given_back), goes_back);
     std::erase_if(left, goes_back);

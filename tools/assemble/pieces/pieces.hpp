@@ -23,7 +23,7 @@ struct RoundBefore {
 };
 
 struct Pieces {
-  std::vector<std::int32_t> of_tet;  // by tet of the view
+  std::vector<std::int32_t> of_tet;  // by tet of the view: the part that builds it
   // Tets at home in the view's part that another part builds, by number in the whole.
   std::vector<std::int64_t> moved_tets;
   std::vector<std::int32_t> moved_to;
@@ -37,10 +37,10 @@ Pieces divide_tets(const PartView& view, const hybrid::SurfaceTags& tags, const 
 
 // The remaining cells that this part builds with.
 struct SeamCells {
-  std::vector<std::int32_t> own;     // of this part, ascending
-  std::vector<std::int32_t> guests;  // of others, with a quad whose tets this part builds, ascending
+  std::vector<CandidateIndex> own;     // of this part, ascending
+  std::vector<CandidateIndex> guests;  // of others, with a quad whose tets this part builds, ascending
   // Cells of this part that go back to their tets, because a quad faces tets of several pieces; ascending.
-  std::vector<std::int32_t> given_back;
+  std::vector<CandidateIndex> given_back;
 };
 SeamCells cells_at_seams(const PartView& view, const hybrid::SurfaceTags& tags, const Pieces& pieces,
                          std::span<const std::uint64_t> given_back, const choice::InputNames& names);
@@ -50,7 +50,7 @@ struct PieceInput {
   TetMesh mesh;  // its surface is complete
   Candidates cells;
   hybrid::Seam seam;
-  std::vector<std::int32_t> view_cells;    // by candidate: its number in the view
+  std::vector<CandidateIndex> view_cells;  // by candidate: its number in the view
   std::vector<std::int64_t> point_number;  // by point: its number in the whole
 };
 

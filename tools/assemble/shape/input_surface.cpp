@@ -10,6 +10,7 @@
 
 #include "common/mesh/box_tree.hpp"
 #include "common/mesh/facet_key.hpp"
+#include "common/mesh/joined_sets.hpp"
 
 namespace hexpipe::assemble::shape {
 namespace {
@@ -77,12 +78,7 @@ void InputSurface::find_features() {
       if (sides.count < 2) sides.triangles[sides.count] = static_cast<std::int32_t>(t);
       ++sides.count;
     }
-  std::vector<std::int32_t> parent(mesh_.triangles.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  auto root = [&](std::int32_t t) {
-    while (parent[t] != t) t = parent[t] = parent[parent[t]];
-    return t;
-  };
+  JoinedSets patches(mesh_.triangles.size());
   const KeySet<2> ridges = ridges_of(mesh_);
   std::vector<VertexKey<2>> features;
   for (const auto& [edge, sides] : edges) {
@@ -94,12 +90,12 @@ void InputSurface::find_features() {
             away_from_edge(p[edge[0]], p[edge[1]], p[third_of(mesh_.triangles[second], edge[0], edge[1])])) <
             -cos_feature_angle;
     if (smooth)
-      parent[root(first)] = root(second);
+      patches.join(first, second);
     else
       features.push_back(edge);
   }
-  patch_.resize(parent.size());
-  for (std::size_t t = 0; t < patch_.size(); ++t) patch_[t] = root(static_cast<std::int32_t>(t));
+  patch_.resize(mesh_.triangles.size());
+  for (std::size_t t = 0; t < patch_.size(); ++t) patch_[t] = patches.of(static_cast<std::int32_t>(t));
 
   std::sort(features.begin(), features.end());
   feature_offsets_.assign(mesh_.points.size() + 1, 0);

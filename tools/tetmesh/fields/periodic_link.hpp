@@ -1,5 +1,5 @@
 #pragma once
-// What a node with periodic coordinates sees of a neighbour, on a surface (K = 2) or in a volume (K = 3).
+// How a node with periodic coordinates sees a neighbour, on a surface (K = 2) or in a volume (K = 3).
 
 #include <array>
 #include <cmath>

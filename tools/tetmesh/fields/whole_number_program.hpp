@@ -1,5 +1,5 @@
 #pragma once
-// Whole numbers that solve equations and are near to what is wanted of them.
+// Whole numbers that solve equations and are near to wanted numbers.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -17,15 +17,15 @@ using WholeEquation = std::map<std::int32_t, std::int32_t>;
 // others may be any whole numbers. Equations without such an unknown are left out.
 class WholeNumberProgram {
  public:
-  // Unknowns beyond those that are wanted may be anything. The squares of what others miss count by the weights.
+  // Only the first unknowns have wanted numbers, the others may be anything. Squared misses count by the weights.
   WholeNumberProgram(std::vector<WholeEquation> equations, std::vector<double> wanted, std::vector<double> weights);
 
   // The best real numbers for the wanted unknowns; nothing where there are too many of them.
   std::optional<std::vector<double>> relax();
   // Whole numbers near the real ones found last.
   std::vector<std::int32_t> round() const;
-  // Leaves out, of the equations with an unknown, the one that the wanted numbers miss by most. False where none has
-  // it.
+  // Leaves out the equation with this unknown that the wanted numbers miss by most. False if no equation has the
+  // unknown.
   bool drop_worst_of(std::int32_t unknown);
 
  private:

@@ -1,29 +1,10 @@
 #pragma once
-// Disjoint sets of the numbers from 0, which are joined step by step.
+// Sets of numbers that are joined, under the name that they have here.
 
-#include <algorithm>
-#include <cstdint>
-#include <numeric>
-#include <vector>
+#include "common/mesh/joined_sets.hpp"
 
 namespace hexpipe::tetmesh::geometry {
 
-class JoinedSets {
- public:
-  explicit JoinedSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-  // The set of i, by its lowest number.
-  std::int32_t of(std::int32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::int32_t i, std::int32_t j) {
-    i = of(i), j = of(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::int32_t> parent_;
-};
+using hexpipe::JoinedSets;
 
 }  // namespace hexpipe::tetmesh::geometry

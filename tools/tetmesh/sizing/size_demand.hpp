@@ -21,7 +21,7 @@ struct SizeRequest {
 struct SizeDemand {
   double greatest = 1;
   SizeSources sources = {};  // without walls
-  double grading = 0.3;
+  double grading = SizeRequest{}.grading;
   std::optional<int> layers = {};
 
   friend SizeDemand operator*(double factor, SizeDemand demand);

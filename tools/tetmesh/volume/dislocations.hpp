@@ -22,9 +22,9 @@ struct Dislocations {
   std::size_t surface_ends = 0;  // rows that end on the surface
 };
 
-// Of a lattice with these coordinates at the nodes, which are the vertices of the mesh. A triangle is pierced by a line
-// where the whole numbers of rows from each of its corners to the next do not add up to zero; where the frames turn
-// around it, rows cannot be counted.
+// Finds the lines of a lattice with these coordinates at the nodes, which are the vertices of the mesh. A line pierces
+// a triangle if the whole numbers of rows from each of its corners to the next do not add up to zero. If the frames
+// turn around the triangle, rows cannot be counted.
 Dislocations find_dislocations(const LatticeLinks& links, std::span<const std::array<double, 3>> coordinates,
                                const TetMesh& mesh, const TetAdjacency& adjacency);
 

@@ -1,6 +1,6 @@
 #pragma once
-// What the nodes of a mesh see of their neighbours along a frame field, as the triangles of a surface do along a cross
-// field (../surface/surface_links.hpp).
+// How the nodes of a mesh see their neighbours along a frame field. ../surface/surface_links.hpp does the same for the
+// triangles of a surface and a cross field.
 
 #include <array>
 #include <cstdint>

@@ -12,7 +12,6 @@
 #include "common/graph/clique_cover.hpp"
 #include "common/mwis/exact/branch_and_bound.hpp"
 #include "common/mwis/exact/historical/complete_search.hpp"
-#include "common/mwis/exact/historical/partition_search.hpp"
 #include "common/mwis/exact/historical/subgradient_search.hpp"
 #include "common/run/error.hpp"
 

@@ -1,4 +1,4 @@
-#include "tools/fitcad/nearest_piece.hpp"
+#include "tools/fitcad/nearest_simplex.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -12,17 +12,17 @@ double share_along(const Vec3& from, const Vec3& to, const Vec3& p) {
   return square > 0 ? std::clamp(dot(p - from, along) / square, 0.0, 1.0) : 0.0;
 }
 
-BoxTree tree_of(std::span<const Piece> pieces) {
+BoxTree tree_of(std::span<const Simplex> simplices) {
   std::vector<Box> boxes;
-  boxes.reserve(pieces.size());
-  for (const Piece& piece : pieces) boxes.push_back(Box::around(piece));
+  boxes.reserve(simplices.size());
+  for (const Simplex& simplex : simplices) boxes.push_back(Box::around(simplex));
   return {boxes, std::vector<double>(boxes.size(), 0.0)};
 }
 
 }  // namespace
 
-Weights nearest_weights(const Piece& piece, const Vec3& to) {
-  const Vec3 u = piece[1] - piece[0], v = piece[2] - piece[0], r = to - piece[0];
+Weights nearest_weights(const Simplex& simplex, const Vec3& to) {
+  const Vec3 u = simplex[1] - simplex[0], v = simplex[2] - simplex[0], r = to - simplex[0];
   const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v);
   const double area = uu * vv - uv * uv;
   if (area > 1e-24 * uu * vv) {
@@ -34,33 +34,34 @@ Weights nearest_weights(const Piece& piece, const Vec3& to) {
   double least = norm_squared(r);
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
-    const double s = share_along(piece[i], piece[j], to);
+    const double s = share_along(simplex[i], simplex[j], to);
     Weights weights{};
     weights[i] = 1 - s;
     weights[j] = s;
-    const double square = norm_squared(to - point_of(piece, weights));
+    const double square = norm_squared(to - point_of(simplex, weights));
     if (square < least) least = square, best = weights;
   }
   return best;
 }
 
-PieceTree::PieceTree(std::vector<Piece> pieces) : pieces_(std::move(pieces)), tree_(tree_of(pieces_)) {}
+SimplexTree::SimplexTree(std::vector<Simplex> simplices)
+    : simplices_(std::move(simplices)), tree_(tree_of(simplices_)) {}
 
-double PieceTree::distance_to(std::int32_t piece, const Vec3& to) const {
-  const Piece& corners = pieces_[static_cast<std::size_t>(piece)];
+double SimplexTree::distance_to(std::int32_t simplex, const Vec3& to) const {
+  const Simplex& corners = simplices_[static_cast<std::size_t>(simplex)];
   return norm(to - point_of(corners, nearest_weights(corners, to)));
 }
 
-double PieceTree::distance(const Vec3& to, double most) const {
-  return tree_.least(to, 1, most, [&](std::int32_t piece) { return distance_to(piece, to); });
+double SimplexTree::distance(const Vec3& to, double most) const {
+  return tree_.least(to, 1, most, [&](std::int32_t simplex) { return distance_to(simplex, to); });
 }
 
-std::vector<std::int32_t> PieceTree::within(const Vec3& to, double reach) const {
+std::vector<std::int32_t> SimplexTree::within(const Vec3& to, double reach) const {
   std::vector<std::int32_t> found;
   // No value is below `reach`, so that the search looks at all that are near enough.
   const double most = reach * (1 + 1e-6) + 1e-300;
-  tree_.least(to, 1, most, [&](std::int32_t piece) {
-    if (distance_to(piece, to) <= reach) found.push_back(piece);
+  tree_.least(to, 1, most, [&](std::int32_t simplex) {
+    if (distance_to(simplex, to) <= reach) found.push_back(simplex);
     return most;
   });
   std::ranges::sort(found);
