@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -20,16 +21,27 @@ namespace {
 constexpr double nearest_pair = 0.3, furthest_pair = 1.0, furthest_aside = 0.5;
 // A point within this distance of the end of a step, in its lengths, is the next one.
 constexpr double reach_of_step = 0.75;
+// Pairs within this many steps of a merge are looked at again.
+constexpr double reach_of_change = 2;
 // A step of an edge moves on by one pair in each pass.
 constexpr int most_passes = 30;
 
-// The number of steps along each axis that lead as far as `way`.
-Vec3 in_steps(const std::array<Vec3, 3>& steps, const Vec3& way) {
-  Eigen::Matrix3d columns;
-  for (std::size_t k = 0; k < 3; ++k) columns.col(static_cast<Eigen::Index>(k)) << steps[k].x, steps[k].y, steps[k].z;
-  const Eigen::Vector3d count = columns.inverse() * Eigen::Vector3d(way.x, way.y, way.z);
-  return {count[0], count[1], count[2]};
-}
+// Counts the steps along each axis that lead as far as a vector.
+class InSteps {
+ public:
+  explicit InSteps(const std::array<Vec3, 3>& steps) {
+    Eigen::Matrix3d columns;
+    for (std::size_t k = 0; k < 3; ++k) columns.col(static_cast<Eigen::Index>(k)) << steps[k].x, steps[k].y, steps[k].z;
+    inverse_ = columns.inverse();
+  }
+  Vec3 operator()(const Vec3& way) const {
+    const Eigen::Vector3d count = inverse_ * Eigen::Vector3d(way.x, way.y, way.z);
+    return {count[0], count[1], count[2]};
+  }
+
+ private:
+  Eigen::Matrix3d inverse_;
+};
 
 // The axis along which two points are a pair.
 std::optional<std::size_t> axis_of_pair(const Vec3& apart) {
@@ -45,16 +57,18 @@ class RowStraightener {
  public:
   RowStraightener(std::span<const Vec3> fixed, std::vector<RowPoint> points)
       : points_(std::move(points)), place_of_(points_.size()), grid_(points_.front().at) {
-    for (const RowPoint& p : points_) longest_ = std::max(longest_, longest_step(p));
+    for (const RowPoint& p : points_) width_ += longest_step(p) / static_cast<double>(points_.size());
     for (const Vec3& p : fixed) add(p, no_index);
     for (std::size_t i = 0; i < points_.size(); ++i) place_of_[i] = add(points_[i].at, static_cast<std::int32_t>(i));
   }
 
   std::vector<RowPoint> run() {
-    bool any = true;
-    for (int pass = 0; any && pass < most_passes; ++pass) {
-      any = false;
-      for (std::int32_t i = 0; i < static_cast<std::int32_t>(points_.size()); ++i) any = merge_at(i) || any;
+    std::vector<std::int32_t> waiting(points_.size());
+    std::iota(waiting.begin(), waiting.end(), 0);
+    for (int pass = 0; !waiting.empty() && pass < most_passes; ++pass) {
+      changed_.clear();
+      for (const std::int32_t i : waiting) merge_at(i);
+      waiting = beside_changes();
     }
     std::vector<RowPoint> left;
     for (std::size_t i = 0; i < points_.size(); ++i)
@@ -69,20 +83,22 @@ class RowStraightener {
   std::int32_t add(const Vec3& at, std::int32_t point) {
     point_at_.push_back(point);
     is_taken_.push_back(true);
-    return grid_.add(at, longest_);
+    return grid_.add(at, width_);
   }
   void leave(std::int32_t i) { is_taken_[std::exchange(place_of_[i], no_index)] = false; }
   std::int32_t nearest(const Vec3& to, double reach) const;
   bool come_together(const RowPoint& a, const RowPoint& b, std::size_t axis) const;
   std::int32_t partner_of(std::int32_t i) const;
-  bool merge_at(std::int32_t i);
+  void merge_at(std::int32_t i);
+  std::vector<std::int32_t> beside_changes() const;
 
   std::vector<RowPoint> points_;
   std::vector<std::int32_t> place_of_;  // of each point in the grid; no_index: it was merged into another
   geometry::SizedPointGrid grid_;
-  double longest_ = 0;                  // step
+  double width_ = 0;                    // of the grid: the mean of the longest steps
   std::vector<std::int32_t> point_at_;  // by place in the grid; no_index: it is fixed
   std::vector<bool> is_taken_;          // by place in the grid
+  std::vector<std::int32_t> changed_;   // points that others were merged into in this pass
 };
 
 // The place in the grid, or no_index.
@@ -114,27 +130,41 @@ bool RowStraightener::come_together(const RowPoint& a, const RowPoint& b, std::s
 // A later point that is a pair with this one, at a corner; no_index if there is none.
 std::int32_t RowStraightener::partner_of(std::int32_t i) const {
   const RowPoint& a = points_[i];
+  const InSteps in_steps(a.steps);
   std::int32_t partner = no_index;
   grid_.for_each_near(a.at, furthest_pair * longest_step(a), 0, [&](std::int32_t place) {
     const std::int32_t other = point_at_[place];
     if (!is_taken_[place] || other <= i) return true;
     const RowPoint& b = points_[other];
-    const auto axis = axis_of_pair(in_steps(a.steps, b.at - a.at));
+    const auto axis = axis_of_pair(in_steps(b.at - a.at));
     if (axis && come_together(a, b, (*axis + 1) % 3) && come_together(a, b, (*axis + 2) % 3)) partner = other;
     return partner == no_index;
   });
   return partner;
 }
 
-bool RowStraightener::merge_at(std::int32_t i) {
-  if (place_of_[i] == no_index) return false;
+void RowStraightener::merge_at(std::int32_t i) {
+  if (place_of_[i] == no_index) return;
   const std::int32_t partner = partner_of(i);
-  if (partner == no_index) return false;
+  if (partner == no_index) return;
   points_[i].at = 0.5 * (points_[i].at + points_[partner].at);
   leave(partner);
   leave(i);
   place_of_[i] = add(points_[i].at, i);
-  return true;
+  changed_.push_back(i);
+}
+
+// The points whose pairs may stand at a corner now, ascending.
+std::vector<std::int32_t> RowStraightener::beside_changes() const {
+  std::vector<std::int32_t> beside;
+  for (const std::int32_t i : changed_)
+    grid_.for_each_near(points_[i].at, reach_of_change * longest_step(points_[i]), 0, [&](std::int32_t place) {
+      if (is_taken_[place] && point_at_[place] != no_index) beside.push_back(point_at_[place]);
+      return true;
+    });
+  std::ranges::sort(beside);
+  beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+  return beside;
 }
 
 }  // namespace
