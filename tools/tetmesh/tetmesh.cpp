@@ -117,8 +117,9 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
   std::optional<Step> step(std::in_place, "checking the surface", 0, 0.02);
   std::optional<solid::RepairReport> repaired;
   if (options.repair) repaired = solid::repair(soup, {sizing::in_units(options.weld, soup), options.largest_hole});
+  if (options.mend && !options.repair) repaired = solid::mend(soup);
   std::vector<std::string> warnings;
-  const char* remedy = options.repair ? "" : " (see --repair)";
+  const char* remedy = !soup.sides.empty() ? "" : options.repair ? " (see wrap)" : " (see --repair)";
   solid::Surface tagged = solid::boundary_of(std::move(soup), options.shells, remedy, warnings);
   if (options.tag_angle) solid::tag_by_angle(tagged, *options.tag_angle);
   solid::name_tags(tagged, options.tag_names);
@@ -144,7 +145,7 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
     improve(filled, surface, {options.improve, options.seed, options.time_limit, options.tetgen_timeout});
   TetmeshResult result = finish(std::move(filled), surface);
   result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
-  result.statistics.repair = repaired;
+  if (options.repair || (repaired && repaired->anything())) result.statistics.repair = repaired;
   result.statistics.seconds.checking = seconds_checking;
   return result;
 }
