@@ -541,6 +541,31 @@ END
   assert_equal "$(volumes_of folded.mesh | tail -1)" "{1: 1.0}"
 }
 
+@test "--unite makes one body of bodies that overlap" {
+  local boxes="$DATA/readers/overlapping-bodies.off"
+  assert_fails_with 1 "overlapping-bodies.off:21: .* found 14 pairs of triangles that do" tetmesh "$boxes"
+  run_apart tetmesh "$boxes" --unite --size 0.2 -o united.mesh --stats stats.json
+  assert_success
+  assert_equal "$stderr" "tetmesh: warning: $boxes: united 2 bodies that overlap"
+  assert_conforming united.mesh
+  # 2 - 0.5 * 0.7 * 0.8
+  assert_equal "$(volumes_of united.mesh | tail -1)" "{1: 1.72}"
+  holds 'stats["united_bodies"] == 2 and stats["regions"] == 1' stats.json
+  # The tags are those of the bodies.
+  printf 'v %s\n' "0 0 0" "1 0 0" "0 1 0" "0 0 1" "0.2 0.2 0.2" "1.2 0.2 0.2" "0.2 1.2 0.2" "0.2 0.2 1.2" >tets.obj
+  printf 'g one\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\ng two\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n' >>tets.obj
+  tetmesh -q tets.obj --unite --surface keep --points none -o tets.msh
+  assert_equal "$(grep -cE '^2 [0-9]+ "(one|two)"' tets.msh)" 2
+  # What does not overlap stays; what is open or points inward is refused if it overlaps.
+  run_apart tetmesh "$FILES/apart.stl" --unite --size 0.5 -o apart.mesh
+  assert_success
+  assert_equal "$stderr" ""
+  sed '$d' tets.obj >open.obj
+  assert_fails_with 1 "open.obj:[0-9]+: expected closed bodies that point outward for --unite, found an open one" tetmesh open.obj --unite
+  sed -E 's/^f 5 7 6/f 5 6 7/; s/^f 5 6 8/f 5 8 6/; s/^f 6 7 8/f 6 8 7/; s/^f 5 8 7/f 5 7 8/' tets.obj >inward.obj
+  assert_fails_with 1 "inward.obj:[0-9]+: expected closed bodies that point outward for --unite, found one that points inward" tetmesh inward.obj --unite
+}
+
 @test "--repair mends what is an error without it, and says so" {
   cd "$FILES"
   for file in hole flipped duplicated degenerate inward; do
