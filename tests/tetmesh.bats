@@ -132,11 +132,11 @@ regions() {
   cd "$FILES"
   assert_fails_with 1 "^tetmesh: hole.stl: triangle [0-9]+: expected a closed surface, found 3 edges" tetmesh hole.stl
   assert_fails_with 1 "^tetmesh: flipped.stl: triangle 7: .* found 1 triangle flipped" tetmesh flipped.stl
-  assert_fails_with 1 "^tetmesh: duplicated.stl: triangle 13: .* found 1 with the corners of another; the first repeats triangle 5" tetmesh duplicated.stl
+  assert_fails_with 1 "^tetmesh: duplicated.stl: triangle 13: .* found 1 with the corners of another; the first repeats triangle 5" tetmesh --strict duplicated.stl
   assert_fails_with 1 "^tetmesh: intersecting.stl: triangle 3: .* found [0-9]+ pairs .* triangles 3 and" tetmesh intersecting.stl
   assert_fails_with 1 "^tetmesh: intersecting.obj:[0-9]+: .* lines [0-9]+ and [0-9]+" tetmesh intersecting.obj
   assert_fails_with 1 "^tetmesh: flat.stl: triangle 1: expected a closed surface, found" tetmesh flat.stl
-  assert_fails_with 1 "^tetmesh: degenerate.stl: triangle 13: expected triangles with an area" tetmesh degenerate.stl
+  assert_fails_with 1 "^tetmesh: degenerate.stl: triangle 13: expected triangles with an area" tetmesh --strict degenerate.stl
   assert_fails_with 1 "^tetmesh: nan.stl: triangle 4: expected coordinates up to 1e\+50, found nan" tetmesh nan.stl
   assert_fails_with 1 "^tetmesh: inward.stl: triangle 1: expected a shell that points outward, found 12" tetmesh inward.stl
   assert_fails_with 1 "^tetmesh: zero.obj:4: expected a vertex index, counted from 1 .*, found '0'" tetmesh zero.obj
@@ -211,13 +211,78 @@ PYTHON
 @test "a fault that --repair mends is told with it, until it is tried" {
   cd "$FILES"
   for name in hole flipped duplicated degenerate; do
-    assert_fails_with 1 " \(see --repair\)$" tetmesh $name.stl
+    assert_fails_with 1 " \(see --repair\)$" tetmesh --strict $name.stl
     tetmesh -q $name.stl --repair --surface keep --points none -o "$BATS_TEST_TMPDIR/out.tar"
   done
-  assert_fails_with 1 "found [0-9]+ pairs .*[0-9]$" tetmesh intersecting.stl
+  assert_fails_with 1 "found [0-9]+ pairs .* \(see --repair\)$" tetmesh intersecting.stl
+  assert_fails_with 1 "found [0-9]+ pairs .* \(see wrap\)$" tetmesh --repair intersecting.stl
   assert_fails_with 1 "found 3 edges of .*\)$" tetmesh hole.stl --repair --largest-hole 0
   run tetmesh hole.stl --repair --largest-hole 0
   refute_output --partial "see --repair"
+  assert_output --partial "(see wrap)"
+}
+
+@test "surfaces are read as other programs write them" {
+  # same_volume FILE: as the cube of 12 triangles has it
+  same_volume() {
+    run_apart tetmesh "$1" --surface keep --points none -o found.mesh
+    assert_success
+    assert_equal "$(volumes_of found.mesh | tail -1)" "{1: 1.0}"
+  }
+  same_volume "$DATA/readers/binary-stl-trailing-byte.stl"
+  assert_equal "$stderr" "tetmesh: warning: $DATA/readers/binary-stl-trailing-byte.stl: left out 1 byte behind the last of 12 facets"
+  for file in "$DATA"/readers/{stl-end-solid.stl,medit-surface.mesh}; do
+    same_volume "$file"
+    assert_equal "$stderr" ""
+  done
+  cd "$FILES"
+  for file in cube.stl solid.stl cube.ascii.stl cube.obj cube.off cube.*.ply; do
+    gzip -c "$file" >"$BATS_TEST_TMPDIR/$file.gz"
+    same_volume "$BATS_TEST_TMPDIR/$file.gz"
+    tetmesh -q --surface keep --points none -o "$BATS_TEST_TMPDIR/piped.mesh" <"$BATS_TEST_TMPDIR/$file.gz"
+    assert_same_bytes found.mesh "$BATS_TEST_TMPDIR/piped.mesh"
+  done
+  cd "$BATS_TEST_TMPDIR"
+  for file in cube.ascii.stl cube.obj cube.off; do
+    tr '\n' '\r' <"$FILES/$file" >"$file"
+    same_volume "$file"
+    for code in LE BE; do
+      { printf '\ufeff' && cat "$FILES/$file"; } | iconv -f UTF-8 -t "UTF-16$code" >"$file"
+      same_volume "$file"
+    done
+  done
+  { printf OFF && tail -n +2 "$FILES/cube.off"; } >touching.off
+  same_volume touching.off
+  # Nastran's and Abaqus' shells
+  printf 'GRID,%d,,%s\n' 1 0.,0.,0. 2 1.,0.,0. 3 0.,1.,0. 4 0.,0.,1. >tet.bdf
+  printf 'CTRIA3,%d,1,%s\n' 1 1,3,2 2 1,2,4 3 2,3,4 4 1,4,3 >>tet.bdf
+  tetmesh -q tet.bdf --surface keep --points none -o tet.mesh
+  assert_equal "$(volumes_of tet.mesh | tail -1)" "{1: 0.166666667}"
+  assert_fails_with 1 "^tetmesh: cut.gz: expected the rest of a gzip file" shell 'gzip -c "'"$FILES"'/cube.obj" | head -c 60 >cut.gz; tetmesh cut.gz'
+}
+
+@test "surfaces come in mesh formats, too" {
+  for format in mesh msh msh-binary msh22 msh22-binary vtk vtu; do
+    mesh_convert "$DATA/readers/medit-surface.mesh" $format surface.$format
+    tetmesh -q surface.$format --surface keep --points none -o found.mesh
+    assert_equal "$(volumes_of found.mesh | tail -1)" "{1: 1.0}"
+  done
+  $PYTHON - "$FILES/cube.obj" <<'END'
+import sys, vtk
+reader = vtk.vtkOBJReader()
+reader.SetFileName(sys.argv[1])
+strips = vtk.vtkStripper()
+strips.SetInputConnection(reader.GetOutputPort())
+for name, source in (("plain", reader), ("strips", strips)):
+    for writer, ending in ((vtk.vtkXMLPolyDataWriter(), "vtp"), (vtk.vtkPolyDataWriter(), "vtk")):
+        writer.SetInputConnection(source.GetOutputPort())
+        writer.SetFileName(f"{name}.{ending}")
+        writer.Write()
+END
+  for name in plain.vtp plain.vtk strips.vtp strips.vtk; do
+    tetmesh -q $name --surface keep --points none -o found.mesh
+    assert_equal "$(volumes_of found.mesh | tail -1)" "{1: 1.0}"
+  done
 }
 
 @test "missing, empty and other input" {
@@ -442,10 +507,69 @@ assert d['at_singularities'] + d['closed'] <= d['length'], d"
   assert_fails_with 2 "layers: Value 2.5 " tetmesh --layers 2.5 part.obj
 }
 
+@test "faults that change no shape are mended with one warning, unless --strict refuses them" {
+  cp "$DATA/readers/stray-triangle.off" "$DATA/readers/t-junctions.off" .
+  $PYTHON - "$FILES/cube.stl" copies.stl <<'END'
+import struct, sys
+data = open(sys.argv[1], "rb").read()
+flat = struct.pack("<12fH", 0, 0, 0, 0, 0, 0, .5, 0, 0, 1, 0, 0, 0)
+open(sys.argv[2], "wb").write(data[:80] + struct.pack("<I", 14) + data[84:] + data[84:134] + flat)
+END
+  declare -A said=(
+    [stray-triangle.off]="1 stray triangle removed"
+    [t-junctions.off]="1 point on an edge of another triangle joined to it"
+    [copies.stl]="1 triangle without area removed, 1 repeated triangle removed")
+  for name in "${!said[@]}"; do
+    assert_fails_with 1 "^tetmesh: $name:.* \(see --repair\)$" tetmesh --strict "$name"
+    run_apart tetmesh "$name" --size 0.3 -o mended.mesh --stats stats.json
+    assert_success
+    assert_equal "$stderr" "tetmesh: warning: $name: mended: ${said[$name]} (see --strict)"
+    assert_conforming mended.mesh
+    assert_equal "$(volumes_of mended.mesh | tail -1)" "{1: 1.0}"
+  done
+  run_apart tetmesh "$DATA/cube.stl" --size 0.3 -o good.mesh --stats stats.json
+  assert_equal "$stderr" ""
+  holds '"repair" not in stats' stats.json
+  assert_fails_with 2 "repair excludes --strict" tetmesh --strict --repair "$DATA/cube.stl"
+}
+
+@test "--repair makes triangles anew where few intersect" {
+  run_apart tetmesh "$DATA/readers/folded-sliver.off" --repair --size 0.3 -o folded.mesh
+  assert_success
+  assert_equal "$stderr" "tetmesh: warning: $DATA/readers/folded-sliver.off: repaired: 1 self-intersection mended by 4 triangles made anew"
+  assert_conforming folded.mesh
+  assert_equal "$(volumes_of folded.mesh | tail -1)" "{1: 1.0}"
+}
+
+@test "--unite makes one body of bodies that overlap" {
+  local boxes="$DATA/readers/overlapping-bodies.off"
+  assert_fails_with 1 "overlapping-bodies.off:21: .* found 14 pairs of triangles that do" tetmesh "$boxes"
+  run_apart tetmesh "$boxes" --unite --size 0.2 -o united.mesh --stats stats.json
+  assert_success
+  assert_equal "$stderr" "tetmesh: warning: $boxes: united 2 bodies that overlap"
+  assert_conforming united.mesh
+  # 2 - 0.5 * 0.7 * 0.8
+  assert_equal "$(volumes_of united.mesh | tail -1)" "{1: 1.72}"
+  holds 'stats["united_bodies"] == 2 and stats["regions"] == 1' stats.json
+  # The tags are those of the bodies.
+  printf 'v %s\n' "0 0 0" "1 0 0" "0 1 0" "0 0 1" "0.2 0.2 0.2" "1.2 0.2 0.2" "0.2 1.2 0.2" "0.2 0.2 1.2" >tets.obj
+  printf 'g one\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\ng two\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n' >>tets.obj
+  tetmesh -q tets.obj --unite --surface keep --points none -o tets.msh
+  assert_equal "$(grep -cE '^2 [0-9]+ "(one|two)"' tets.msh)" 2
+  # What does not overlap stays; what is open or points inward is refused if it overlaps.
+  run_apart tetmesh "$FILES/apart.stl" --unite --size 0.5 -o apart.mesh
+  assert_success
+  assert_equal "$stderr" ""
+  sed '$d' tets.obj >open.obj
+  assert_fails_with 1 "open.obj:[0-9]+: expected closed bodies that point outward for --unite, found an open one" tetmesh open.obj --unite
+  sed -E 's/^f 5 7 6/f 5 6 7/; s/^f 5 6 8/f 5 8 6/; s/^f 6 7 8/f 6 8 7/; s/^f 5 8 7/f 5 7 8/' tets.obj >inward.obj
+  assert_fails_with 1 "inward.obj:[0-9]+: expected closed bodies that point outward for --unite, found one that points inward" tetmesh inward.obj --unite
+}
+
 @test "--repair mends what is an error without it, and says so" {
   cd "$FILES"
   for file in hole flipped duplicated degenerate inward; do
-    run tetmesh $file.stl -o "$BATS_TEST_TMPDIR/out.tar"
+    run tetmesh --strict $file.stl -o "$BATS_TEST_TMPDIR/out.tar"
     assert_failure 1
     run_apart tetmesh $file.stl --repair -o "$BATS_TEST_TMPDIR/out.tar" --stats "$BATS_TEST_TMPDIR/stats.json"
     assert_success

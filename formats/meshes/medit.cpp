@@ -25,24 +25,35 @@ std::string_view usual_spelling(std::string_view keyword) {
 
 class MeditReader {
  public:
-  MeditReader(std::string_view text, std::string_view file) : scanner_(text, file, '#') {}
+  MeditReader(std::string_view text, std::string_view file)
+      : file_(file), ends_with_line_(text.ends_with('\n')), scanner_(text, file, '#') {}
 
-  MixedMesh read() {
+  MixedMesh read(std::vector<std::string>* warnings) {
     scanner_.expect(header);
     const auto version = scanner_.number<int>("a version from 1 to 4");
     if (version < 1 || version > 4) scanner_.fail_expected("a version from 1 to 4", std::to_string(version));
-    while (true) {
+    bool ended = false;
+    while (!ended && !scanner_.at_end()) {
       const std::string_view keyword = scanner_.word("a keyword, or End");
-      if (equal_ignoring_case(keyword, "End")) break;
-      read_section(keyword);
+      ended = equal_ignoring_case(keyword, "End");
+      if (!ended) read_section(keyword);
     }
     if (!scanner_.at_end()) scanner_.fail_expected("nothing after End", scanner_.peek_word());
+    if (!ended) accept_missing_end(warnings);
     if (!has_vertices_) scanner_.fail("expected Vertices, found none");
     if (!ridges_.empty()) mesh_.ridges = edges_at_ridges();
     return std::move(mesh_);
   }
 
  private:
+  // Some programs leave End out. Every section is whole then, and the last line has an end, without which the last
+  // number could be cut off.
+  void accept_missing_end(std::vector<std::string>* warnings) const {
+    const bool has_elements = mesh_.cell_count() + mesh_.triangles.size() + mesh_.quads.size() > 0;
+    if (!ends_with_line_ || !has_elements) scanner_.fail_expected("a keyword, or End", "");
+    if (warnings != nullptr) warnings->push_back(fmt::format("{}: there is no End; is the file cut off?", file_));
+  }
+
   void read_section(std::string_view word) {
     const std::string_view keyword = usual_spelling(word);
     if (equal_ignoring_case(keyword, "Dimension")) return read_dimension();
@@ -149,6 +160,8 @@ class MeditReader {
     while (!scanner_.at_end() && !is_letter(scanner_.peek_word().front())) scanner_.word("a number");
   }
 
+  std::string_view file_;
+  bool ends_with_line_;
   TextScanner scanner_;
   MixedMesh mesh_;
   std::vector<Ridge> edges_;
@@ -176,8 +189,8 @@ bool looks_like_medit(std::string_view text) {
   return equal_ignoring_case(TextScanner(text, "", '#').peek_word(), header);
 }
 
-MixedMesh read_medit(std::string_view text, std::string_view file) {
-  return MeditReader(text, file).read();
+MixedMesh read_medit(std::string_view text, std::string_view file, std::vector<std::string>* warnings) {
+  return MeditReader(text, file).read(warnings);
 }
 
 void write_medit(const MixedMesh& mesh, Output& output) {

@@ -13,6 +13,7 @@
 #include "formats/meshes/tetgen.hpp"
 #include "formats/meshes/vtk_legacy.hpp"
 #include "formats/meshes/vtu.hpp"
+#include "formats/streams/foreign_files.hpp"
 #include "formats/streams/text_scanner.hpp"
 
 namespace hexpipe::formats {
@@ -58,27 +59,24 @@ constexpr MeshFormat formats[] = {
 #endif
 };
 
-// The first four bytes of a MEDIT .meshb, in either byte order.
-bool looks_like_binary_medit(std::string_view text) {
-  using namespace std::string_view_literals;
-  return text.starts_with("\1\0\0\0"sv) || text.starts_with("\0\0\0\1"sv);
-}
-
-MixedMesh read_mesh_by_content(std::string text, const std::string& name, const std::string& path, GroupNames* names) {
-  if (looks_like_library_format(text)) return read_by_library(std::move(text), name, path, names);
+MixedMesh read_mesh_by_content(Input& input, GroupNames* names, std::vector<std::string>* warnings) {
+  std::string text = input.read_all();
+  const std::string &name = input.name(), &path = input.path();
+  if (looks_like_library_format(text))
+    return read_by_library(std::move(text), name, input.is_decoded() ? "" : path, names);
   text.erase(0, text.size() - without_byte_order_mark(text).size());
-  if (looks_like_vtu(text)) return read_vtu(std::move(text), name);
+  unify_line_ends(text);
+  if (const auto kind = kind_of_foreign_file(text))
+    throw DataError::at(name, "expected a mesh, found {}{}", kind->name, kind->remedy);
+  if (looks_like_vtu(text)) return read_vtu(std::move(text), name, warnings);
   if (looks_like_vtk_legacy(text)) return read_vtk_legacy(text, name);
   if (looks_like_abaqus(text)) return read_abaqus(text, name, names);
   // Comments of Nastran begin like the sections of a .msh.
   if (looks_like_nastran(text)) return read_nastran(text, name, names);
   if (looks_like_msh(text)) return read_msh(text, name, names);
-  if (looks_like_medit(text)) return read_medit(text, name);
+  if (looks_like_medit(text)) return read_medit(text, name, warnings);
   if (looks_like_tetgen(text)) return read_tetgen(text, name, path);
   if (looks_like_su2(text)) return read_su2(text, name, names);
-  if (looks_like_binary_medit(text))
-    throw DataError::at(name,
-                        "expected a text, found MEDIT's binary format; transmesh of libmeshb makes a .mesh of it");
   throw FormatError(name, 1,
                     fmt::format("expected a mesh (MEDIT .mesh, Gmsh .msh, VTK, VTU, TetGen .node or .ele, SU2, "
                                 "Nastran, Abaqus, Exodus II, MED; "
@@ -88,8 +86,8 @@ MixedMesh read_mesh_by_content(std::string text, const std::string& name, const 
 
 }  // namespace
 
-MixedMesh read_mixed_mesh(Input& input, GroupNames* names) {
-  MixedMesh mesh = read_mesh_by_content(input.read_all(), input.name(), input.path(), names);
+MixedMesh read_mixed_mesh(Input& input, GroupNames* names, std::vector<std::string>* warnings) {
+  MixedMesh mesh = read_mesh_by_content(input, names, warnings);
   validate(mesh, input.name().c_str());
   return mesh;
 }

@@ -17,8 +17,9 @@ namespace hexpipe::formats {
 
 // Recognises the format by the content: MEDIT .mesh, Gmsh .msh 2.2 and 4.1 (ASCII, binary), VTK legacy, VTU, TetGen
 // .node with its .ele (and .face) beside it, SU2, Nastran bulk data, Abaqus, Exodus II, MED. Keeps vertices that no
-// cell uses. `names`, if not null, gets those of tags, where the format has names. Throws FormatError or DataError.
-MixedMesh read_mixed_mesh(Input& input, GroupNames* names = nullptr);
+// cell uses. `names`, if not null, gets those of tags, where the format has names; `warnings`
+// a sentence for everything that was mended or is doubtful. Throws FormatError or DataError.
+MixedMesh read_mixed_mesh(Input& input, GroupNames* names = nullptr, std::vector<std::string>* warnings = nullptr);
 
 // Writes in the named format: mesh, msh (4.1 ASCII), msh-binary, msh22, msh22-binary, vtk, vtu, inp, su2, bdf, nas,
 // and where they were built: exo, e, med, cgns.

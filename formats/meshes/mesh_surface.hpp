@@ -1,12 +1,18 @@
 #pragma once
 // Reads surfaces in mesh formats: the triangles and quads of files without cells.
 
+#include <cstddef>
+#include <string_view>
+
 #include "formats/streams/group_names.hpp"
 #include "formats/surfaces/surface_files.hpp"
 
 namespace hexpipe::formats {
 
-// Whether the first bytes are those of MEDIT, Gmsh, VTK or VTU. No surface format begins like these.
+// Enough of the first bytes: Nastran's may be comments.
+inline constexpr std::size_t bytes_that_tell_mesh = 1 << 16;
+
+// Whether the first bytes are those of a mesh format that can be told by them. No surface format begins like these.
 bool looks_like_mesh_surface(std::string_view bytes);
 
 // Throws DataError if the file has cells, because tetmesh makes these itself.

@@ -2,6 +2,7 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -58,8 +59,8 @@ class MshReader {
       read_elements();
     } else if (bare == "Entities" && version_ == MshVersion::v4_1) {
       read_entities();
-    } else if (bare == "PartitionedEntities") {
-      scanner_.fail("expected a mesh in one part, found a partitioned one");
+    } else if (bare == "PartitionedEntities" && version_ == MshVersion::v4_1) {
+      read_partitioned_entities();
     } else if ((bare == "ElementData" && has_elements_) || (bare == "NodeData" && has_nodes_ && wants_node_data_)) {
       return read_data(bare);
     } else {
@@ -126,7 +127,10 @@ class MshReader {
   }
 
   void read_entity(MshNumbers& in, int dimension) {
-    const std::int32_t entity = in.integer("the number of an entity");
+    read_extent_and_groups(in, dimension, in.integer("the number of an entity"));
+  }
+
+  void read_extent_and_groups(MshNumbers& in, int dimension, std::int32_t entity) {
     const int coordinates = dimension == 0 ? 3 : 6;
     for (int i = 0; i < coordinates; ++i) in.real("a coordinate of an entity");
     const std::size_t groups = in.count("the number of physical groups", 1, 4);
@@ -137,6 +141,45 @@ class MshReader {
     if (dimension == 0) return;
     const std::size_t bounds = in.count("the number of bounding entities", 1, 4);
     for (std::size_t i = 0; i < bounds; ++i) in.integer("the number of an entity");
+  }
+
+  // In a partitioned mesh elements belong to parts of entities, which name the whole ones.
+  void read_partitioned_entities() {
+    if (binary_) scanner_.rest_of_line();
+    MshNumbers in = numbers();
+    in.size("the number of partitions");
+    const std::size_t ghosts = in.count("the number of ghost entities", 2, 2 * 4);
+    for (std::size_t i = 0; i < 2 * ghosts; ++i) in.integer("a number of a ghost entity");
+    std::array<std::size_t, 4> counts{};
+    for (std::size_t& count : counts) count = in.count("the number of partitioned entities", 7, 5 * 4 + 3 * 8);
+    for (int dimension = 0; dimension < 4; ++dimension)
+      for (std::size_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i)
+        read_partitioned_entity(in, dimension);
+  }
+
+  void read_partitioned_entity(MshNumbers& in, int dimension) {
+    const std::int32_t entity = in.integer("the number of an entity");
+    const std::int32_t whole_dimension = in.integer("the dimension of a whole entity");
+    const std::int32_t whole = in.integer("the number of a whole entity");
+    const std::size_t partitions = in.count("the number of partitions", 1, 4);
+    for (std::size_t i = 0; i < partitions; ++i) in.integer("the number of a partition");
+    read_extent_and_groups(in, dimension, entity);
+    wholes_[{dimension, entity}] = {whole_dimension, whole};
+  }
+
+  // The group and the entity of elements of `entity`; nothing for facets between partitions, which the mesh had not
+  // before it was cut.
+  std::optional<MshElementNumbers> numbers_of(int dimension, std::int32_t entity) const {
+    const auto group_of = [&](std::int32_t number) {
+      const auto found = groups_.find({dimension, number});
+      return found == groups_.end() ? 0 : found->second;
+    };
+    const auto part = wholes_.find({dimension, entity});
+    if (part == wholes_.end()) return MshElementNumbers{0, group_of(entity), entity};
+    const auto [whole_dimension, whole] = part->second;
+    if (whole_dimension != dimension) return std::nullopt;
+    const std::int32_t group = group_of(whole);
+    return MshElementNumbers{0, group != 0 ? group : group_of(entity), whole};
   }
 
   void read_nodes(bool parametric) {
@@ -243,15 +286,15 @@ class MshReader {
       const std::size_t count = in.count("the number of elements of a block", 2, 2 * size_bytes_);
       if (count > left) scanner_.fail(fmt::format("expected {} elements, found more", total));
       left -= count;
-      const auto group = groups_.find({dimension, entity});
-      MshElementNumbers element{0, group == groups_.end() ? 0 : group->second, entity};
+      const std::optional<MshElementNumbers> of_entity = numbers_of(dimension, entity);
+      MshElementNumbers element = of_entity.value_or(MshElementNumbers{});
       read_run(
           type, count,
           [&] {
             element.element = in.size("the number of an element");
             return element;
           },
-          [&] { return in.size("a node"); });
+          [&] { return in.size("a node"); }, of_entity.has_value());
     }
     if (left > 0) scanner_.fail(fmt::format("expected {} elements, found {}", total, total - left));
   }
@@ -302,15 +345,17 @@ class MshReader {
   }
 
   // `count` elements of one type: next_element() reads what comes before the corners, next_node() a corner.
+  // They are added if they are `wanted`.
   template <class NextElement, class NextNode>
-  void read_run(std::int32_t type, std::size_t count, NextElement&& next_element, NextNode&& next_node) {
+  void read_run(std::int32_t type, std::size_t count, NextElement&& next_element, NextNode&& next_node,
+                bool wanted = true) {
     const bool ours = mesh_.with_block(type, [&](auto& block, const auto& add) {
       if (block.cells.empty()) block.cells.reserve(count);
       typename std::remove_cvref_t<decltype(block.cells)>::value_type corners;
       for (std::size_t i = 0; i < count; ++i) {
         const MshElementNumbers element = next_element();
         for (Vertex& corner : corners) corner = vertex_of(next_node());
-        add(corners, element);
+        if (wanted) add(corners, element);
       }
     });
     if (ours) return;
@@ -383,6 +428,8 @@ class MshReader {
   bool has_format_ = false, has_nodes_ = false, has_elements_ = false, has_node_data_ = false;
   std::vector<std::pair<std::int32_t, double>> node_data_;
   std::map<std::pair<int, std::int32_t>, std::int32_t> groups_;  // by dimension and entity
+  // By dimension and number of a part of an entity: the whole one.
+  std::map<std::pair<int, std::int32_t>, std::pair<std::int32_t, std::int32_t>> wholes_;
 };
 
 }  // namespace

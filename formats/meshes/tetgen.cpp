@@ -162,10 +162,17 @@ bool is_tet_file(std::string_view text, std::string_view file) {
   return head.numbers[0] != 3;
 }
 
+// part.node has part.ele beside it, part.node.gz has part.ele.gz.
+std::string path_beside(std::filesystem::path path, const char* extension) {
+  const std::filesystem::path packing = path.extension() == ".gz" ? path.extension() : "";
+  if (!packing.empty()) path.replace_extension();
+  path.replace_extension(extension);
+  path += packing;
+  return path.string();
+}
+
 std::string read_beside(const std::string& path, const char* extension, std::string& name) {
-  std::filesystem::path beside(path);
-  beside.replace_extension(extension);
-  name = beside.string();
+  name = path_beside(path, extension);
   return Input::open(name).read_all();
 }
 
@@ -185,7 +192,7 @@ MixedMesh read_tetgen(std::string_view text, const std::string& name, const std:
   const std::string other = read_beside(path, is_tets ? ".node" : ".ele", other_name);
   reader.read_nodes(is_tets ? other : text, is_tets ? other_name : name);
   reader.read_tets(is_tets ? text : other, is_tets ? name : other_name);
-  if (std::filesystem::exists(std::filesystem::path(path).replace_extension(".face"))) {
+  if (std::filesystem::exists(path_beside(path, ".face"))) {
     std::string face_name;
     const std::string faces = read_beside(path, ".face", face_name);
     reader.read_faces(faces, face_name);

@@ -4,10 +4,12 @@
 #include <array>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "common/run/error.hpp"
 #include "formats/meshes/cell_data.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
+#include "formats/surfaces/surface_building.hpp"
 
 namespace hexpipe::formats {
 namespace {
@@ -20,6 +22,9 @@ enum VtkType : std::uint8_t {
   vtk_polyvertex = 2,
   vtk_line = 3,
   vtk_polyline = 4,
+  vtk_triangle = 5,
+  vtk_triangle_strip = 6,
+  vtk_polygon = 7,
   vtk_pixel = 8,
   vtk_quad = 9,
   vtk_voxel = 11,
@@ -84,6 +89,54 @@ struct GridReader {
     }
   }
 
+  // Polygons and strips become triangles, or a quad, each with the data of its cell.
+  void cut_polygons() {
+    const auto is_cut = [](std::uint8_t type) { return type == vtk_polygon || type == vtk_triangle_strip; };
+    if (std::ranges::none_of(grid.types, is_cut)) return;
+    VtkGrid cut;
+    const auto add = [&](std::size_t cell, std::uint8_t type, std::span<const Vertex> corners) {
+      cut.types.push_back(type);
+      cut.connectivity.insert(cut.connectivity.end(), corners.begin(), corners.end());
+      cut.ends.push_back(static_cast<std::int64_t>(cut.connectivity.size()));
+      for (const auto& [name, tags] : grid.tags) cut.tags[name].push_back(tags[cell]);
+      if (!grid.quality.empty()) cut.quality.push_back(grid.quality[cell]);
+    };
+    for (std::size_t i = 0; i < grid.types.size(); ++i) {
+      const std::span<Vertex> corners = corners_of(i);
+      if (!is_cut(grid.types[i])) {
+        add(i, grid.types[i], corners);
+        continue;
+      }
+      if (corners.size() < 3) fail(i, fmt::format("expected three corners or more, found {}", corners.size()));
+      check_corners(i, corners);
+      if (grid.types[i] == vtk_polygon && corners.size() == 4)
+        add(i, vtk_quad, corners);
+      else
+        for (const Triangle& t : triangles_of(grid.types[i], corners)) add(i, vtk_triangle, t);
+    }
+    cut.points = std::move(grid.points);
+    grid = std::move(cut);
+  }
+
+  std::vector<Triangle> triangles_of(std::uint8_t type, std::span<const Vertex> corners) const {
+    std::vector<Triangle> triangles;
+    for (std::size_t i = 2; i < corners.size(); ++i)
+      if (type == vtk_polygon)
+        triangles.push_back({corners[0], corners[i - 1], corners[i]});
+      else if (i % 2 == 0)
+        triangles.push_back({corners[i - 2], corners[i - 1], corners[i]});
+      else
+        triangles.push_back({corners[i - 1], corners[i - 2], corners[i]});
+    if (type == vtk_polygon) cut_if_concave(grid.points, triangles);
+    return triangles;
+  }
+
+  void check_corners(std::size_t cell, std::span<const Vertex> corners) const {
+    for (const Vertex v : corners)
+      if (v < 0 || static_cast<std::size_t>(v) >= grid.points.size())
+        fail(cell, fmt::format("expected points from 0 to below {}, found {}", grid.points.size(), v));
+  }
+
   void refuse_other_types(const MixedMesh& mesh) const {
     std::array<bool, 256> known{};
     for (const VtkType type : dropped_types) known[type] = true;
@@ -121,9 +174,7 @@ struct GridReader {
     const std::span<const Vertex> found = corners_of(cell);
     if (found.size() != Corners)
       fail(cell, fmt::format("expected {} corners of a {}, found {}", Corners, names.one, found.size()));
-    for (const Vertex v : found)
-      if (v < 0 || static_cast<std::size_t>(v) >= grid.points.size())
-        fail(cell, fmt::format("expected points from 0 to below {}, found {}", grid.points.size(), v));
+    check_corners(cell, found);
     std::ranges::copy(found, corners.begin());
     corners = swap_vtk_order(corners);
   }
@@ -139,6 +190,7 @@ MixedMesh to_mixed_mesh(VtkGrid grid, std::string_view file) {
   GridReader reader{grid, file};
   reader.check_arrays();
   reader.turn_pixels_and_voxels();
+  reader.cut_polygons();
   MixedMesh mesh;
   reader.refuse_other_types(mesh);
   for_each_block(mesh, [&](const ElementNames& names, auto& block) { reader.take_cells(names, block); });

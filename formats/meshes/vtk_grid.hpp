@@ -39,7 +39,8 @@ constexpr std::array<Vertex, Corners> swap_vtk_order(std::array<Vertex, Corners>
 // True for the names of cell data that a reader puts into VtkGrid::tags.
 bool is_vtk_tag_name(std::string_view name);
 
-// Sorts the cells by kind. Drops points and lines; pixels and voxels become quads and hexes. Regions come from the cell
+// Sorts the cells by kind. Drops points and lines; pixels and voxels become quads and hexes, polygons and strips
+// triangles and quads. Regions come from the cell
 // data `region`, surface tags from `surface`; without these, both come from the first name that other programs use and
 // that is there. Throws DataError naming `file` on other cells, or when the arrays contradict each other.
 MixedMesh to_mixed_mesh(VtkGrid grid, std::string_view file);

@@ -1,5 +1,5 @@
 #pragma once
-// VTK legacy files with an unstructured grid. See formats/README.md.
+// VTK legacy files with an unstructured grid or polygons. See formats/README.md.
 
 #include <string_view>
 

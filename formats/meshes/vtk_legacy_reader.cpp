@@ -1,6 +1,7 @@
 #include "formats/meshes/vtk_legacy.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -45,6 +46,14 @@ constexpr std::pair<std::string_view, int> plain_attributes[] = {
     {"VECTORS", 3},    {"NORMALS", 3},      {"TENSORS", 9},   {"TENSORS6", 6},
     {"GLOBAL_IDS", 1}, {"PEDIGREE_IDS", 1}, {"EDGE_FLAGS", 1}};
 
+struct PolygonKind {
+  std::string_view section;
+  std::uint8_t type;  // of an unstructured grid
+};
+// In the order in which their data come.
+constexpr std::array<PolygonKind, 4> polygon_kinds{
+    {{"VERTICES", 2}, {"LINES", 4}, {"POLYGONS", 7}, {"TRIANGLE_STRIPS", 6}}};
+
 class VtkLegacyReader {
  public:
   VtkLegacyReader(std::string_view text, std::string_view file) : text_(text), file_(file), scanner_(text, file) {}
@@ -53,6 +62,7 @@ class VtkLegacyReader {
     read_header();
     while (!scanner_.at_end()) read_section(scanner_.word("a section"));
     if (!has_points_) scanner_.fail("expected POINTS, found none");
+    if (has_polygons_) join_kinds();
     if (!has_cells_) scanner_.fail("expected CELLS, found none");
     if (!has_types_) scanner_.fail("expected CELL_TYPES, found none");
     if (data_size_ && !has_attribute_) scanner_.fail_expected("an attribute", "");
@@ -73,18 +83,26 @@ class VtkLegacyReader {
     // Nothing marks the end of such a file, so only this tells a last number from the beginning of one.
     if (!binary_) expect_last_line_end(text_, file_);
     scanner_.expect("DATASET");
-    scanner_.expect("UNSTRUCTURED_GRID");
+    const std::string_view data_set = scanner_.word("UNSTRUCTURED_GRID or POLYDATA");
+    has_polygons_ = equal_ignoring_case(data_set, "POLYDATA");
+    if (!has_polygons_ && !equal_ignoring_case(data_set, "UNSTRUCTURED_GRID"))
+      scanner_.fail_expected("UNSTRUCTURED_GRID or POLYDATA", data_set);
   }
 
   void read_section(std::string_view keyword) {
     if (equal_ignoring_case(keyword, "POINTS")) return read_points();
-    if (equal_ignoring_case(keyword, "CELLS")) return read_cells();
-    if (equal_ignoring_case(keyword, "CELL_TYPES")) return read_types();
+    for (std::size_t kind = 0; kind < kinds_.size() && has_polygons_; ++kind)
+      if (equal_ignoring_case(keyword, polygon_kinds[kind].section)) return read_kind(kind);
+    if (equal_ignoring_case(keyword, "CELLS") && !has_polygons_) return read_cells("CELLS");
+    if (equal_ignoring_case(keyword, "CELL_TYPES") && !has_polygons_) return read_types();
     if (equal_ignoring_case(keyword, "CELL_DATA")) return begin_data(true);
     if (equal_ignoring_case(keyword, "POINT_DATA")) return begin_data(false);
     if (equal_ignoring_case(keyword, "METADATA")) return skip_metadata();
     if (equal_ignoring_case(keyword, "FIELD")) return read_field();
-    if (!data_size_) scanner_.fail_expected("POINTS, CELLS, CELL_TYPES, CELL_DATA or POINT_DATA", keyword);
+    if (!data_size_)
+      scanner_.fail_expected(has_polygons_ ? "POINTS, POLYGONS, TRIANGLE_STRIPS, CELL_DATA or POINT_DATA"
+                                           : "POINTS, CELLS, CELL_TYPES, CELL_DATA or POINT_DATA",
+                             keyword);
     read_attribute(keyword);
   }
 
@@ -110,9 +128,29 @@ class VtkLegacyReader {
     has_points_ = true;
   }
 
-  void read_cells() {
-    if (!has_points_) scanner_.fail("expected POINTS before CELLS");
-    if (has_cells_) scanner_.fail("expected one section CELLS, found a second");
+  // Cells of one kind. They are joined when all are read, because their data come in the order of the kinds.
+  void read_kind(std::size_t kind) {
+    if (kinds_[kind].read)
+      scanner_.fail(fmt::format("expected one section {}, found a second", polygon_kinds[kind].section));
+    read_cells(polygon_kinds[kind].section);
+    kinds_[kind] = {true, std::exchange(grid_.ends, {}), std::exchange(grid_.connectivity, {})};
+    has_cells_ = false;
+  }
+
+  void join_kinds() {
+    if (has_types_) return;
+    for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
+      const auto shift = static_cast<std::int64_t>(grid_.connectivity.size());
+      for (const std::int64_t end : kinds_[kind].ends) grid_.ends.push_back(end + shift);
+      grid_.connectivity.insert(grid_.connectivity.end(), kinds_[kind].corners.begin(), kinds_[kind].corners.end());
+      grid_.types.insert(grid_.types.end(), kinds_[kind].ends.size(), polygon_kinds[kind].type);
+    }
+    has_cells_ = has_types_ = true;
+  }
+
+  void read_cells(std::string_view section) {
+    if (!has_points_) scanner_.fail(fmt::format("expected POINTS before {}", section));
+    if (has_cells_) scanner_.fail(fmt::format("expected one section {}, found a second", section));
     const auto first = scanner_.count("the number of cells", 1);
     const auto second = scanner_.count("the size of the list of cells", 1);
     if (version_ >= 5) {
@@ -186,6 +224,7 @@ class VtkLegacyReader {
   }
 
   void begin_data(bool of_cells) {
+    if (has_polygons_) join_kinds();
     data_size_ = scanner_.number<std::size_t>("the number of entries");
     data_of_cells_ = of_cells;
     has_attribute_ = false;
@@ -256,8 +295,8 @@ class VtkLegacyReader {
   }
 
   ScalarType scalar_type(std::string_view name) const {
-    const auto* const found =
-        std::ranges::find_if(legacy_type_names, [&](const auto& known) { return equal_ignoring_case(known.first, name); });
+    const auto* const found = std::ranges::find_if(
+        legacy_type_names, [&](const auto& known) { return equal_ignoring_case(known.first, name); });
     if (found == std::end(legacy_type_names)) scanner_.fail_expected("a type of numbers", name);
     return found->second;
   }
@@ -325,6 +364,13 @@ class VtkLegacyReader {
   double version_ = 0;
   bool binary_ = false;
   bool has_points_ = false, has_cells_ = false, has_types_ = false;
+  bool has_polygons_ = false;  // in place of cells of any type
+  struct Kind {
+    bool read = false;
+    std::vector<std::int64_t> ends;
+    std::vector<Vertex> corners;
+  };
+  std::array<Kind, polygon_kinds.size()> kinds_;
   std::optional<std::size_t> data_size_;  // once in CELL_DATA or POINT_DATA
   bool data_of_cells_ = false;
   bool has_attribute_ = false;

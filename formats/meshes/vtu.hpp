@@ -13,9 +13,10 @@ namespace hexpipe::formats {
 
 bool looks_like_vtu(std::string_view text);
 
-// Reads ASCII, inline base64, and appended data (raw, base64), plain or compressed by zlib, and joins several pieces.
-// The XML is parsed in place, which consumes the text. Throws FormatError or DataError.
-MixedMesh read_vtu(std::string text, std::string_view file);
+// Reads ASCII, inline base64, and appended data (raw, base64), plain or compressed by zlib, and joins several pieces:
+// of points with equal coordinates in several pieces, the first one takes the place of the others, told in `warnings`,
+// if not null. The XML is parsed in place, which consumes the text. Throws FormatError or DataError.
+MixedMesh read_vtu(std::string text, std::string_view file, std::vector<std::string>* warnings = nullptr);
 
 // Writes appended raw data with 64-bit headers, in this machine's byte order.
 void write_vtu(const MixedMesh& mesh, Output& output);

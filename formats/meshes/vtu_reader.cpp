@@ -11,6 +11,7 @@
 #include "formats/meshes/vtk_xml_data.hpp"
 #include "formats/streams/scalar_bytes.hpp"
 #include "formats/streams/text_scanner.hpp"
+#include "formats/surfaces/surface_building.hpp"
 
 namespace hexpipe::formats {
 namespace {
@@ -23,13 +24,13 @@ constexpr std::pair<std::string_view, ScalarType> vtu_type_names[] = {
 };
 
 constexpr const char *unstructured_type = "UnstructuredGrid", *polygons_type = "PolyData";
-constexpr std::uint8_t vtk_triangle = 5, vtk_quad = 9;
+constexpr std::uint8_t vtk_triangle_strip = 6, vtk_polygon = 7;
 
 class VtuReader {
  public:
   VtuReader(std::string text, std::string_view file) : text_(std::move(text)), file_(file) {}
 
-  MixedMesh read() {
+  MixedMesh read(std::vector<std::string>* warnings) {
     parse_xml();
     const pugi::xml_node root = document_.child("VTKFile");
     const std::string type = root.attribute("type").value();
@@ -39,12 +40,53 @@ class VtuReader {
     read_encoding(root);
     const pugi::xml_node content = child(root, type.c_str());
     child(content, "Piece");
-    for (const pugi::xml_node piece : content.children("Piece"))
+    for (const pugi::xml_node piece : content.children("Piece")) {
+      first_points_.push_back(static_cast<Vertex>(grid_.points.size()));
       type == polygons_type ? read_polygons(piece) : read_piece(piece);
+    }
+    if (first_points_.size() > 1) join_pieces(warnings);
     return to_mixed_mesh(std::move(grid_), file_);
   }
 
  private:
+  // Writers in parallel give each piece its own copies of the points at its seams. Where a piece has several points in
+  // one place, as at a crack, nothing tells which of them is meant: they stay apart.
+  void join_pieces(std::vector<std::string>* warnings) {
+    std::vector<Vec3> places;
+    std::vector<Vertex> place_of;
+    std::vector<std::size_t> last_piece;
+    std::vector<bool> is_doubled;
+    PointMerger merger(places);
+    for (std::size_t p = 0, piece = 0; p < grid_.points.size(); ++p) {
+      while (piece + 1 < first_points_.size() && static_cast<std::size_t>(first_points_[piece + 1]) <= p) ++piece;
+      const Vertex place = merger.index_of(grid_.points[p]);
+      const bool is_new = static_cast<std::size_t>(place) == last_piece.size();
+      if (is_new) last_piece.push_back(piece), is_doubled.push_back(false);
+      if (!is_new && last_piece[place] == piece) is_doubled[place] = true;
+      last_piece[place] = piece;
+      place_of.push_back(place);
+    }
+    std::vector<Vertex> first_at(places.size(), no_index), new_index(grid_.points.size());
+    std::size_t kept = 0;
+    for (std::size_t p = 0; p < new_index.size(); ++p) {
+      Vertex& first = first_at[place_of[p]];
+      const bool joins = first != no_index && !is_doubled[place_of[p]];
+      if (!joins) grid_.points[kept] = grid_.points[p], first = static_cast<Vertex>(kept++);
+      new_index[p] = first;
+    }
+    const std::size_t joined = new_index.size() - kept;
+    const auto apart = static_cast<std::size_t>(std::ranges::count(is_doubled, true));
+    grid_.points.resize(kept);
+    for (Vertex& v : grid_.connectivity) v = new_index[v];
+    if (warnings == nullptr) return;
+    if (joined > 0)
+      warnings->push_back(fmt::format("{}: joined {} pieces at {} points with the coordinates of others", file_,
+                                      first_points_.size(), joined));
+    if (apart > 0)
+      warnings->push_back(
+          fmt::format("{}: in {} places one piece has several points; its pieces are not joined there", file_, apart));
+  }
+
   // Appended raw data are not XML: the text before them is parsed, with the missing end tags.
   void parse_xml() {
     constexpr unsigned flags = pugi::parse_minimal | pugi::parse_escapes;
@@ -118,23 +160,15 @@ class VtuReader {
     const auto optional_count = [&](const char* name) {
       return piece.attribute(name) ? count_attribute(piece, name) : std::size_t{0};
     };
-    if (optional_count("NumberOfStrips") > 0) fail(piece, "expected polygons, found strips of triangles");
     const std::size_t others = optional_count("NumberOfVerts") + optional_count("NumberOfLines");
-    const auto count = count_attribute(piece, "NumberOfPolys");
-    if (count == 0) return;
-    const pugi::xml_node polygons = child(piece, "Polys");
-    const std::size_t first = grid_.ends.size();
-    std::int64_t begin = static_cast<std::int64_t>(grid_.connectivity.size());
-    read_cells(polygons, count, first_point);
-    for (std::size_t i = first; i < grid_.ends.size(); ++i) {
-      const std::int64_t corners = grid_.ends[i] - begin;
-      if (corners != 3 && corners != 4)
-        fail(polygons, fmt::format("expected triangles and quads, found a polygon of {} corners", corners));
-      grid_.types.push_back(corners == 3 ? vtk_triangle : vtk_quad);
-      begin = grid_.ends[i];
-    }
+    const std::size_t polygons = optional_count("NumberOfPolys"), strips = optional_count("NumberOfStrips");
+    if (polygons + strips == 0) return;
+    if (polygons > 0) read_cells(child(piece, "Polys"), polygons, first_point);
+    if (strips > 0) read_cells(child(piece, "Strips"), strips, first_point);
+    grid_.types.insert(grid_.types.end(), polygons, vtk_polygon);
+    grid_.types.insert(grid_.types.end(), strips, vtk_triangle_strip);
     for (const pugi::xml_node array : piece.child("CellData").children("DataArray"))
-      read_cell_data(array, others, count);
+      read_cell_data(array, others, polygons + strips);
   }
 
   Vertex read_points_of(const pugi::xml_node& piece) {
@@ -306,6 +340,7 @@ class VtuReader {
   std::size_t taken_ = 0;  // bytes of appended data, uncompressed
   bool appended_base64_ = false;
   VtkGrid grid_;
+  std::vector<Vertex> first_points_;  // by piece
 };
 
 }  // namespace
@@ -315,8 +350,8 @@ bool looks_like_vtu(std::string_view text) {
   return TextScanner(text, "").peek_word().starts_with('<') && text.find("<VTKFile") != std::string_view::npos;
 }
 
-MixedMesh read_vtu(std::string text, std::string_view file) {
-  return VtuReader(std::move(text), file).read();
+MixedMesh read_vtu(std::string text, std::string_view file, std::vector<std::string>* warnings) {
+  return VtuReader(std::move(text), file).read(warnings);
 }
 
 }  // namespace hexpipe::formats

@@ -127,10 +127,17 @@ graph::ConflictGraph read_graph_file(formats::Input& input, const RunContext& co
   return graph;
 }
 
+MixedMesh read_mesh_file(formats::Input& input, const RunContext& context, formats::GroupNames& names) {
+  std::vector<std::string> warnings;
+  MixedMesh mesh = formats::read_mixed_mesh(input, &names, &warnings);
+  for (const std::string& warning : warnings) context.warn(warning);
+  return mesh;
+}
+
 void read_role_file(Role role, formats::Input& input, const RunContext& context, StageData& data) {
   switch (role) {
     case Role::mesh:
-      data.mesh = to_tet_mesh(formats::read_mixed_mesh(input, &data.names), input.name().c_str());
+      data.mesh = to_tet_mesh(read_mesh_file(input, context, data.names), input.name().c_str());
       break;
     case Role::candidates:
       data.candidates = formats::read_cand(input);
@@ -142,7 +149,7 @@ void read_role_file(Role role, formats::Input& input, const RunContext& context,
       data.solution = formats::read_solution(input, vertex_count_for_solution(data, input.name()));
       break;
     case Role::result:
-      data.result = formats::read_mixed_mesh(input, &data.names);
+      data.result = read_mesh_file(input, context, data.names);
       break;
   }
 }
@@ -440,10 +447,10 @@ std::string Stage::State::source_of(Role role) const {
 formats::SurfaceSoup Stage::read_surface(formats::Input& input) {
   State& state = *state_;
   if (!looks_like_bundle(input)) {
-    constexpr std::size_t enough_to_tell = 4096;
-    formats::SurfaceSoup surface = formats::looks_like_mesh_surface(input.peek(enough_to_tell))
+    formats::SurfaceSoup surface = formats::looks_like_mesh_surface(input.peek(formats::bytes_that_tell_mesh))
                                        ? formats::read_mesh_surface(input)
                                        : formats::read_surface(input);
+    for (const std::string& warning : surface.warnings) state.context.warn(warning);
     begin();
     return surface;
   }

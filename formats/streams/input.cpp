@@ -45,9 +45,8 @@ Input Input::open(const std::string& path) {
 Input Input::from_memory(std::string bytes, std::string name) {
   Input input;
   input.name_ = std::move(name);
-  input.buffer_.assign(bytes.begin(), bytes.end());
-  input.end_ = bytes.size();
-  input.at_end_ = true;
+  input.memory_ = std::move(bytes);
+  input.buffer_.resize(input.memory_.size() + bytes_that_tell_decoding);
   return input;
 }
 
@@ -59,6 +58,10 @@ Input& Input::operator=(Input&& other) noexcept {
   std::swap(name_, other.name_);
   std::swap(path_, other.path_);
   std::swap(descriptor_, other.descriptor_);
+  std::swap(memory_, other.memory_);
+  std::swap(taken_, other.taken_);
+  std::swap(decoders_, other.decoders_);
+  std::swap(decoders_known_, other.decoders_known_);
   std::swap(buffer_, other.buffer_);
   std::swap(begin_, other.begin_);
   std::swap(end_, other.end_);
@@ -73,22 +76,65 @@ Input::~Input() {
   if (path_.empty()) leave_interrupt_upstream(false);
 }
 
-// Appends bytes to those at hand, at least one unless the end is reached. The buffer must have room.
-bool Input::fill() {
-  if (at_end_) return false;
+// Reads the first bytes, and puts those that are no sign of a code into the buffer. A packed text may be UTF-16.
+void Input::find_decoders() {
+  constexpr std::size_t most = 2;
+  decoders_known_ = true;
+  for (;;) {
+    char first[bytes_that_tell_decoding];
+    std::size_t count = 0;
+    while (count < sizeof first) {
+      const std::size_t got = read_through(decoders_.size(), std::span(first).subspan(count));
+      if (got == 0) break;
+      count += got;
+    }
+    const std::string_view bytes(first, count);
+    auto decoder = decoders_.size() < most ? decoder_for(bytes, name_) : nullptr;
+    if (decoder == nullptr) {
+      end_ = static_cast<std::size_t>(std::ranges::copy(bytes, buffer_.begin()).out - buffer_.begin());
+      return;
+    }
+    decoders_.push_back(std::move(decoder));
+  }
+}
+
+// Reads what the first `decoders` of them make of the file.
+std::size_t Input::read_through(std::size_t decoders, std::span<char> to) {
+  if (decoders == 0) return read_bytes(to);
+  return decoders_[decoders - 1]->read(to, [&](std::span<char> packed) { return read_through(decoders - 1, packed); });
+}
+
+std::size_t Input::read_bytes(std::span<char> to) {
+  if (descriptor_ < 0) {
+    const std::size_t count = std::min(to.size(), memory_.size() - taken_);
+    std::copy_n(memory_.data() + taken_, count, to.data());
+    taken_ += count;
+    return count;
+  }
   std::optional<WaitForInput> wait;
   if (may_wait_) wait.emplace();
   ssize_t got;
-  do got = ::read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
+  do got = ::read(descriptor_, to.data(), to.size());
   while (got < 0 && errno == EINTR);
   if (got < 0) throw DataError::at(name_, "cannot read: {}", std::strerror(errno));
-  at_end_ = got == 0;
   if (path_.empty()) {
     count_read_from_stdin(static_cast<std::size_t>(got));
-    if (at_end_) note_end_of_stdin();
-    if (at_end_) leave_interrupt_upstream(false);
+    if (got == 0) note_end_of_stdin();
+    if (got == 0) leave_interrupt_upstream(false);
   }
-  end_ += static_cast<std::size_t>(got);
+  return static_cast<std::size_t>(got);
+}
+
+// Appends bytes to those at hand, at least one unless the end is reached. The buffer must have room.
+bool Input::fill() {
+  if (at_end_) return false;
+  if (!decoders_known_) {  // the buffer is empty
+    find_decoders();
+    if (end_ > 0) return true;
+  }
+  const std::size_t got = read_through(decoders_.size(), std::span(buffer_).subspan(end_));
+  at_end_ = got == 0;
+  end_ += got;
   return got > 0;
 }
 

@@ -44,6 +44,11 @@ std::string_view without_byte_order_mark(std::string_view text) {
   return text.starts_with(mark) ? text.substr(mark.size()) : text;
 }
 
+void unify_line_ends(std::string& text) {
+  constexpr std::string_view line_feed_or_binary{"\n\0", 2};
+  if (text.find_first_of(line_feed_or_binary) == std::string::npos) std::ranges::replace(text, '\r', '\n');
+}
+
 void expect_last_line_end(std::string_view text, std::string_view file) {
   if (!text.ends_with('\n'))
     throw DataError::at(file, "expected the last line to have an end, found none; is the file cut off?");

@@ -91,6 +91,9 @@ std::string quote_found(std::string_view word);
 // The text without the byte order mark that an editor may put before UTF-8.
 std::string_view without_byte_order_mark(std::string_view text);
 
+// Lines may end in CR alone, as on the oldest Macs: then each becomes LF. Other texts and binary files stay.
+void unify_line_ends(std::string& text);
+
 // Throws DataError unless a text ends with the end of a line. Where nothing else marks the end of a file, the last
 // number may be cut off.
 void expect_last_line_end(std::string_view text, std::string_view file);

@@ -14,9 +14,15 @@ std::string_view without_optional_prefixes(std::string_view word) {
   return word;
 }
 
+// The number of vertices may follow without a blank, as in many files of ModelNet: OFF8.
+std::string_view without_digits_behind(std::string_view word) {
+  return word.substr(0, word.find_last_not_of("0123456789") + 1);
+}
+
 void read_off_header(TextScanner& scanner) {
-  const std::string_view keyword = scanner.word("OFF");
-  if (!is_off_keyword(keyword)) scanner.fail_expected("OFF", keyword);
+  const std::string_view word = scanner.peek_word();
+  if (!is_off_keyword(word)) scanner.fail_expected("OFF", word);
+  const std::string_view keyword = scanner.raw(without_digits_behind(word).size(), "OFF");
   if (keyword.find_first_of("4n") != std::string_view::npos) scanner.fail_expected("OFF in three dimensions", keyword);
   if (equal_ignoring_case(scanner.peek_word(), "BINARY")) scanner.fail_expected("ASCII OFF", "BINARY");
 }
@@ -40,7 +46,7 @@ void read_face(TextScanner& scanner, std::vector<Vertex>& corners, PolygonReader
 }  // namespace
 
 bool is_off_keyword(std::string_view word) {
-  return without_optional_prefixes(word) == "OFF";
+  return without_optional_prefixes(without_digits_behind(word)) == "OFF";
 }
 
 SurfaceSoup read_off(std::string_view text, const std::string& name) {

@@ -197,8 +197,9 @@ class BinaryBody {
     need(size_of(type));
     at_ += size_of(type);
   }
+  // Blanks, line ends and zeros may follow.
   void expect_end() const {
-    if (bytes_left() != 0)
+    if (bytes_.find_first_not_of(std::string_view(" \t\r\n\0", 5), at_) != std::string_view::npos)
       throw DataError::at(name_, "expected the end of the file, found {} more bytes", bytes_left());
   }
   [[noreturn]] void fail(std::string_view element, std::uint64_t index, const std::string& message) const {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "common/run/error.hpp"
+#include "formats/streams/foreign_files.hpp"
 #include "formats/surfaces/obj.hpp"
 #include "formats/surfaces/off.hpp"
 #include "formats/surfaces/ply.hpp"
@@ -24,34 +25,31 @@ bool is_archive(std::string_view bytes) {
   return bytes.starts_with("\x28\xb5\x2f\xfd") || (bytes.size() > 262 && bytes.substr(257, 5) == "ustar");
 }
 
-// CAD files by their first bytes: triangles have to be made of them first.
-std::optional<std::string_view> hint_for_cad(std::string_view bytes) {
-  if (bytes.starts_with("ISO-10303-21")) return "CAD in STEP";
-  if (bytes.starts_with("DBRep_DrawableShape") || bytes.starts_with("CASCADE Topology")) return "CAD in BREP";
-  if (bytes.size() > 80 && bytes.substr(0, 81).find('\n') == std::string_view::npos && bytes[72] == 'S' &&
-      bytes.substr(73, 7) == "      1")
-    return "CAD in IGES";
-  return std::nullopt;
+constexpr std::string_view expected = "expected a surface in STL, OBJ, PLY or OFF";
+
+[[noreturn]] void refuse(const ForeignFile& kind, const std::string& name) {
+  if (!kind.is_cad) throw DataError::at(name, "{}, found {}{}", expected, kind.name, kind.remedy);
+  throw DataError::at(name, "{}, found {}; 'tessellate {} | tetmesh' meshes it", expected, kind.name,
+                      name == "stdin" ? "FILE" : name);
 }
 
-SurfaceSoup read_surface_by_content(std::string_view bytes, const std::string& name) {
-  if (bytes.empty())
-    throw DataError::at(name, "expected a surface in STL, OBJ, PLY or OFF, found nothing: it is empty");
-  if (is_archive(bytes))
-    throw DataError::at(name, "expected a surface in STL, OBJ, PLY or OFF, found a bundle or another archive");
-  if (const auto hint = hint_for_cad(bytes))
-    throw DataError::at(name,
-                        "expected a surface in STL, OBJ, PLY or OFF, found {}; 'tessellate {} | tetmesh' meshes it",
-                        *hint, name == "stdin" ? "FILE" : name);
-  if (is_binary_stl(bytes)) return read_binary_stl(bytes, name);
-  bytes = without_byte_order_mark(bytes);
+SurfaceSoup read_surface_by_content(std::string& content, const std::string& name) {
+  if (content.empty()) throw DataError::at(name, "{}, found nothing: it is empty", expected);
+  if (is_archive(content)) throw DataError::at(name, "{}, found a bundle or another archive", expected);
+  if (is_binary_stl(content)) return read_binary_stl(content, name);
+  if (const auto kind = kind_of_foreign_file(without_byte_order_mark(content))) refuse(*kind, name);
+  unify_line_ends(content);
+  const std::string_view bytes = without_byte_order_mark(content);
   if (looks_like_ply(bytes)) return merge_equal_points(read_ply(bytes, name));
   const std::string_view first = TextScanner(bytes, name, '#').peek_word();
   if (is_off_keyword(first)) return merge_equal_points(read_off(bytes, name));
-  if (equal_ignoring_case(first, "solid") && !has_zero_byte_in_header(bytes)) return read_ascii_stl(bytes, name);
-  if (is_obj_keyword(first) || first.empty()) return merge_equal_points(read_obj(bytes, name));
-  if (has_zero_byte_in_header(bytes)) return read_binary_stl(bytes, name);
-  throw DataError::at(name, "expected a surface in STL, OBJ, PLY or OFF, found {}", quote_found(first));
+  if (may_be_binary_stl(content)) return read_binary_stl(content, name);
+  const bool is_text = !has_zero_byte_in_header(bytes);
+  if (equal_ignoring_case(first, "solid") && is_text) return read_ascii_stl(bytes, name);
+  if (is_obj_keyword(first) || (first.empty() && is_text)) return merge_equal_points(read_obj(bytes, name));
+  if (is_cut_binary_stl(content)) return read_binary_stl(content, name);
+  if (!is_text) throw DataError::at(name, "{}, found a binary file of another kind", expected);
+  throw DataError::at(name, "{}, found {}", expected, quote_found(first));
 }
 
 // The counterpart of largest_coordinate: volumes and squares of determinants of shorter extents vanish.
@@ -82,7 +80,8 @@ std::string SurfaceSoup::place_of(std::size_t triangle) const {
 }
 
 SurfaceSoup read_surface(Input& input) {
-  SurfaceSoup soup = read_surface_by_content(input.read_all(), input.name());
+  std::string content = input.read_all();
+  SurfaceSoup soup = read_surface_by_content(content, input.name());
   soup.name = input.name();
   check_extent(soup);
   return soup;

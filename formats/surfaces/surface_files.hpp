@@ -37,6 +37,7 @@ struct SurfaceSoup {
   bool from_bundle = false;
   bool has_own_tags = false;  // tags that say something even where all triangles have the same
   GroupNames names = {};
+  std::vector<std::string> warnings = {};  // sentences about what the reader mended or left out
 
   // "part.stl:12" or "part.stl: triangle 3", to begin a message with.
   std::string place_of(std::size_t triangle) const;

@@ -3,6 +3,7 @@
 
 A seed is a small whole file that its reader takes. What fuzzing found is in findings/ and is not touched.
 """
+import gzip
 import io
 import pathlib
 import re
@@ -188,6 +189,36 @@ def solids():
     seed("surface", "stl-repaired", b"\x01" + (DATA / "cube.stl").read_bytes())
 
 
+def others():
+    """What other programs write: packed files, texts in other codes, surfaces in mesh formats, partitions, faults."""
+    text = (ROOT / "formats/README.md").read_text()
+    obj = text.split("<!-- surface tet.obj -->\n```\n")[1].split("```")[0]
+    seed("packed", "obj.gz", gzip.compress(obj.encode(), mtime=0))
+    seed("packed", "members.gz", gzip.compress(obj[:50].encode(), mtime=0) + gzip.compress(obj[50:].encode(), mtime=0) + bytes(512))
+    for order in ("le", "be"):
+        seed("packed", f"obj.utf-16{order}", ("\ufeff" + obj).encode(f"utf-16{order}"))
+    seed("packed", "utf-16.gz", gzip.compress(("\ufeff" + obj).encode("utf-16le"), mtime=0))
+    readers = DATA / "readers"
+    for name in ("binary-stl-trailing-byte.stl", "stl-end-solid.stl"):
+        seed("stl", name.removesuffix(".stl"), (readers / name).read_bytes())
+    seed("off", "touching", "OFF4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")
+    seed("msh", "partitioned", (readers / "gmsh-partitioned.msh").read_bytes())
+    surface = (readers / "medit-surface.mesh").read_text()
+    seed("mesh-surface", "medit", surface)
+    seed("mesh-surface", "without-end", surface.split("End")[0])
+    seed("mesh-surface", "nastran", "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nCTRIA3,1,1,1,2,3\n")
+    arrays = lambda type, name, numbers, more="": f'<DataArray type="{type}" Name="{name}" {more} format="ascii">{numbers}</DataArray>'
+    piece = lambda z: ('<Piece NumberOfPoints="3" NumberOfCells="1"><Points>'
+                       + arrays("Float64", "Points", f"0 0 0 1 0 0 0 0 {z}", 'NumberOfComponents="3"') + "</Points><Cells>"
+                       + arrays("Int32", "connectivity", "0 1 2") + arrays("Int32", "offsets", "3")
+                       + arrays("UInt8", "types", "5") + "</Cells></Piece>")
+    seed("mesh-surface", "pieces", '<VTKFile type="UnstructuredGrid" byte_order="LittleEndian"><UnstructuredGrid>' + piece(1)
+         + piece(2) + "</UnstructuredGrid></VTKFile>\n")
+    for name in ("stray-triangle", "t-junctions"):
+        seed("surface", name, b"\x10" + (readers / f"{name}.off").read_bytes())
+    seed("surface", "folded-sliver", b"\x01" + (readers / "folded-sliver.off").read_bytes())
+
+
 meshes()
 decks()
 sizes()
@@ -196,3 +227,4 @@ stages()
 tools()
 surfaces()
 solids()
+others()

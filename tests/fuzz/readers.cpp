@@ -13,6 +13,7 @@
 #include "formats/choice/metis.hpp"
 #include "formats/choice/solution_file.hpp"
 #include "formats/meshes/mesh_files.hpp"
+#include "formats/meshes/mesh_surface.hpp"
 #include "formats/pipeline/bundle.hpp"
 #include "formats/pipeline/npy.hpp"
 #include "formats/pipeline/stage.hpp"
@@ -144,9 +145,7 @@ void read_solution_of_few(std::string_view bytes) {
   for (const std::int32_t v : solution) promise(v >= 0 && v < vertices, "a solution names vertices of the graph");
 }
 
-void read_soup(std::string_view bytes) {
-  Input input = memory(bytes);
-  const SurfaceSoup soup = read_surface(input);
+void check_soup(const SurfaceSoup& soup) {
   promise(soup.tags.size() == soup.triangles.size() && soup.places.size() == soup.triangles.size(),
           "each triangle has a tag and a place");
   for (const Vec3& point : soup.points) promise(is_place(point), "coordinates can be reckoned with");
@@ -154,6 +153,16 @@ void read_soup(std::string_view bytes) {
     for (const Vertex v : triangle)
       promise(v >= 0 && static_cast<std::size_t>(v) < soup.points.size(), "corners are points");
   soup.place_of(soup.triangles.size() - 1);
+}
+
+void read_soup(std::string_view bytes) {
+  Input input = memory(bytes);
+  check_soup(read_surface(input));
+}
+
+SurfaceSoup read_any_surface(std::string_view bytes) {
+  Input input = memory(bytes);
+  return looks_like_mesh_surface(input.peek(bytes_that_tell_mesh)) ? read_mesh_surface(input) : read_surface(input);
 }
 
 void read_npy(std::string_view bytes) {
@@ -215,6 +224,8 @@ constexpr std::array readers{
     FuzzTarget{"obj", read_soup},
     FuzzTarget{"ply", read_soup},
     FuzzTarget{"off", read_soup},
+    FuzzTarget{"packed", read_soup},
+    FuzzTarget{"mesh-surface", [](std::string_view bytes) { check_soup(read_any_surface(bytes)); }},
     FuzzTarget{"sizes", read_size_list},
 };
 

@@ -13,7 +13,8 @@ dictionary() {
   local name=$1
   case $1 in
     members | tool-*) name=bundle ;;
-    pipeline) name=medit ;;
+    pipeline | mesh-surface) name=medit ;;
+    packed) name=obj ;;
     surface) name=off ;;
   esac
   cat "$here/dictionaries/text_numbers.dict"

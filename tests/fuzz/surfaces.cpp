@@ -31,8 +31,8 @@ bool is_boundary_of_a_solid(const SurfaceSoup& soup) {
   }
 }
 
-// As tetmesh does before it calls TetGen. The first byte says whether the surface is repaired (1) and made anew (8),
-// and what shells in shells mean (0, 2, 4).
+// As tetmesh does before it calls TetGen. The first byte says whether the surface is repaired (1), mended (16) and made
+// anew (8), and what shells in shells mean (0, 2, 4).
 void read_as_solid(std::string_view bytes) {
   if (bytes.empty()) return;
   const unsigned choice = static_cast<unsigned char>(bytes.front());
@@ -41,6 +41,7 @@ void read_as_solid(std::string_view bytes) {
   if (soup.triangles.size() > most_triangles) return;
   const double diagonal = bounding_box_diagonal(soup);
   if ((choice & 1u) != 0) repair(soup, {weld * diagonal, RepairOptions{}.largest_hole});
+  if ((choice & 16u) != 0) mend(soup);
   check_surface(soup);
   constexpr std::array rules{ShellRule::oriented, ShellRule::regions, ShellRule::holes};
   const Surface surface = find_shells(std::move(soup), rules[(choice / 2 % 4) % rules.size()]);

@@ -6,6 +6,7 @@
 namespace hexpipe {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 constexpr std::string_view one_tet = R"(MeshVersionFormatted 2
@@ -109,6 +110,18 @@ TEST(Medit, RidgesAreEdgesByTheirVertices) {
             "test:16: expected Ridges of edges from 1 to 1, found 2");
 }
 
+TEST(Medit, MayLackItsEnd) {
+  const std::string text = changed("End\n", "");
+  std::vector<std::string> warnings;
+  Input input = Input::from_memory(text, "test");
+  EXPECT_TRUE(read_mixed_mesh(input, nullptr, &warnings) == parsed(std::string(one_tet)));
+  EXPECT_THAT(warnings, ElementsAre("test: there is no End; is the file cut off?"));
+  for (std::size_t length = 0; length < text.size(); ++length) {
+    const bool is_whole = text.substr(0, length).ends_with("1 2 3 4 7\n");
+    EXPECT_EQ(message_of_reading(text.substr(0, length)).empty(), is_whole) << length;
+  }
+}
+
 TEST(Medit, NamesTheLineOfADefect) {
   const auto expect = [](std::string_view from, std::string_view to, const std::string& message) {
     EXPECT_EQ(message_of_reading(changed(from, to)), message);
@@ -128,7 +141,7 @@ TEST(Medit, NamesTheLineOfADefect) {
   expect("1 2 3 4 7", "1 2 3 4", "test:12: expected a reference, found 'Triangles'");
   expect("1 2 3 4 7", "1 2 3 3 7", "test: tets[0]: expected 4 different vertices, found 2 twice");
   expect("Tetrahedra", "TetrahedraP2", "test:9: expected elements of first order only, found 'TetrahedraP2'");
-  expect("End", "", "test:16: expected a keyword, or End, found end of file");
+  expect("End\n", "Triangles 0", "test:15: expected a keyword, or End, found end of file");
   expect("End", "End more", "test:15: expected nothing after End, found 'more'");
   expect("Vertices", "Corners", "test:9: expected Vertices before Tetrahedra");
   expect("Triangles", "Vertices", "test:12: expected one section Vertices, found a second");

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "formats/streams/text_scanner.hpp"
 #include "sample_meshes.hpp"
 
 namespace hexpipe {
@@ -23,8 +24,8 @@ MixedMesh as_carried_by(std::string_view format, MixedMesh mesh) {
 TEST(MeshFiles, NamesEveryFormatThatItWrites) {
   // Behind these come formats of libraries, where they were built.
   const std::vector<std::string_view> names(mesh_format_names().begin(), mesh_format_names().begin() + 11);
-  EXPECT_THAT(names, ::testing::ElementsAre("mesh", "msh", "msh-binary", "msh22", "msh22-binary", "vtk", "vtu", "inp", "su2",
-                                            "bdf", "nas"));
+  EXPECT_THAT(names, ::testing::ElementsAre("mesh", "msh", "msh-binary", "msh22", "msh22-binary", "vtk", "vtu", "inp",
+                                            "su2", "bdf", "nas"));
   EXPECT_THROW(written(one_cell_of_each_kind(), "stl"), UsageError);
 }
 
@@ -97,6 +98,15 @@ TEST(MeshFiles, RejectsEveryTruncatedPrefix) {
       // Without cell data a file is complete; it has no tags then.
       ASSERT_EQ(accepted.size(), 1u);
       EXPECT_THAT(accepted[0], StartsWith("CELL_DATA"));
+    } else if (format == "mesh") {
+      // A cut between sections is told.
+      for (const std::string& rest : accepted) {
+        std::vector<std::string> warnings;
+        Input input = Input::from_memory(bytes.substr(0, bytes.size() - rest.size()), "test");
+        read_mixed_mesh(input, nullptr, &warnings);
+        EXPECT_EQ(warnings.size(), rest == "\n" ? 0u : 1u) << rest;
+        EXPECT_TRUE(rest == "\n" || is_letter(rest[rest.find_first_not_of('\n')])) << rest;
+      }
     } else if (format == "msh" || format == "msh-binary") {
       // The quality is a section of its own behind the mesh.
       ASSERT_EQ(accepted.size(), 3u) << format;

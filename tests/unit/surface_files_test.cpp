@@ -309,12 +309,105 @@ TEST(SurfaceFiles, ATruncatedObjHasFewerTriangles) {
 }
 
 TEST(SurfaceFiles, RejectsWhatFollowsTheEnd) {
-  EXPECT_THAT(error_of(binary_stl() + "x"),
-              HasSubstr("part: expected 284 bytes of binary STL for 4 facets, found 285"));
   EXPECT_THAT(error_of(ascii_stl() + "x"), HasSubstr("part:31: expected solid, found 'x'"));
   EXPECT_THAT(error_of(ascii_ply() + "x"), HasSubstr("expected the end of the file, found 'x'"));
   EXPECT_THAT(error_of(binary_ply(true) + "x"), HasSubstr("expected the end of the file, found 1 more bytes"));
   EXPECT_THAT(error_of(off() + "x"), HasSubstr("part:13: expected the end of the file after 4 faces, found 'x'"));
+}
+
+TEST(SurfaceFiles, TellsOfBytesBehindABinaryStl) {
+  for (const char* header : {"any header", "solid but binary"}) {
+    expect_tet(read(binary_stl(header) + "x"));
+    EXPECT_THAT(read(binary_stl(header) + "x").warnings,
+                ElementsAre("part: left out 1 byte behind the last of 4 facets"));
+    EXPECT_THAT(read(binary_stl(header) + std::string(228, '\0')).warnings,
+                ElementsAre("part: left out 228 bytes behind the last of 4 facets"));
+  }
+  // Blanks fill the header: only the count has zeros.
+  expect_tet(read(binary_stl("solid" + std::string(75, ' ')) + "\r\n"));
+  EXPECT_THAT(read(binary_stl()).warnings, ElementsAre());
+}
+
+TEST(SurfaceFiles, TheHeaderOfABinaryStlMayCountNothing) {
+  std::string stl = binary_stl();
+  stl.replace(80, 4, 4, '\0');
+  expect_tet(read(stl));
+  EXPECT_THAT(read(stl).warnings, ElementsAre("part: the header counts 0 facets, the length is that of 4"));
+  stl[80] = 3;
+  EXPECT_EQ(error_of(stl), "part: expected 3 facets of binary STL as the header says, found 4");
+  stl[80] = 5;
+  EXPECT_EQ(error_of(stl), "part: expected 334 bytes of binary STL for 5 facets, found 284");
+}
+
+TEST(SurfaceFiles, ABlankMayStandInTheEndsOfAsciiStl) {
+  std::string text = ascii_stl();
+  for (const char* word : {"loop", "facet", "solid"})
+    for (std::size_t at = 0; (at = text.find(std::string("end") + word, at)) != std::string::npos; at += 3)
+      text.insert(at + 3, " ");
+  expect_tet(read(text));
+  EXPECT_THAT(read(text + text).tags, ElementsAre(1, 1, 1, 1, 2, 2, 2, 2));
+  EXPECT_EQ(error_of(text.substr(0, text.rfind("solid"))), "part:30: expected 'facet' or 'endsolid', found 'end'");
+}
+
+TEST(SurfaceFiles, TakesLinesThatEndInCarriageReturnsAlone) {
+  for (std::string text : {ascii_stl(), ascii_ply(), off()}) {
+    std::ranges::replace(text, '\n', '\r');
+    expect_tet(read(text));
+  }
+  std::string text = "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 x\r";
+  EXPECT_EQ(error_of(text), "part:4: expected a vertex index, found 'x'");
+}
+
+TEST(SurfaceFiles, TheKeywordOfOffMayTouchItsFirstNumber) {
+  std::string text = coff();
+  expect_tet(read(text.erase(text.find(' '), 1)));
+  EXPECT_EQ(error_of("OFF8x 6 12\n"), "part: expected a surface in STL, OBJ, PLY or OFF, found 'OFF8x'");
+  EXPECT_EQ(error_of("4OFF4 4 6\n0 0 0 0\n"), "part:1: expected OFF in three dimensions, found '4OFF'");
+}
+
+std::string utf16(std::string_view text, bool little) {
+  std::string bytes = little ? "\xff\xfe" : "\xfe\xff";
+  for (const char c : text) {
+    if (!little) bytes += '\0';
+    bytes += c;
+    if (little) bytes += '\0';
+  }
+  return bytes;
+}
+
+TEST(SurfaceFiles, TakesTextInUtf16) {
+  for (const bool little : {true, false}) {
+    for (const std::string& text : {ascii_stl(), ascii_ply(), obj(), off()}) expect_tet(read(utf16(text, little)));
+    const std::string bytes = utf16(obj(), little);
+    EXPECT_EQ(error_of(bytes.substr(0, bytes.size() - 1)),
+              "part: expected UTF-16 of two bytes a letter, found an odd number of bytes; is it cut off?");
+  }
+}
+
+TEST(SurfaceFiles, NamesOfOtherFilesAreTold) {
+  const auto kind_of = [](const std::string& bytes) {
+    const std::string start = "part: expected a surface in STL, OBJ, PLY or OFF, found ", message = error_of(bytes);
+    EXPECT_THAT(message, HasSubstr(start));
+    return message.substr(std::min(start.size(), message.size()));
+  };
+  const std::string zeros(200, '\0');
+  EXPECT_EQ(kind_of("PK\3\4" + zeros + "3D/3dmodel.model" + zeros), "a 3MF file; export it as STL or OBJ");
+  EXPECT_EQ(kind_of("PK\3\4" + zeros + "part.stl" + zeros), "a zip archive; unpack it first");
+  EXPECT_EQ(kind_of("%PDF-1.7\n" + zeros), "a PDF document");
+  EXPECT_EQ(kind_of("<!DOCTYPE HTML>\n<html>"), "a web page (HTML); was a page saved in place of the file?");
+  EXPECT_EQ(kind_of("<?xml version='1.0'?>\n<!-- a part -->\n<COLLADA>"),
+            "a COLLADA file (.dae); export it as STL or OBJ");
+  EXPECT_EQ(kind_of("{\"asset\": {\"version\": \"2.0\"}}"), "a glTF file; export it as STL or OBJ");
+  EXPECT_EQ(kind_of("[{\"a\": 1}]"), "a text in JSON");
+  EXPECT_EQ(kind_of("glTF\2" + zeros), "a binary glTF file (.glb); export it as STL or OBJ");
+  EXPECT_EQ(kind_of("version https://git-lfs.github.com/spec/v1\n"),
+            "a pointer of Git LFS; 'git lfs pull' fetches the file itself");
+  EXPECT_EQ(kind_of("  0\nSECTION\n"), "a drawing in DXF; export it as STEP or STL");
+  EXPECT_EQ(kind_of("    -1\n  2411\n"), "a universal file (I-deas .unv); meshio or Gmsh can convert it");
+  EXPECT_EQ(kind_of("(0 \"Fluent\")\n"), "a Fluent mesh; Fluent and Gmsh export other formats");
+  EXPECT_EQ(kind_of("ISO-10303-21;\nHEADER;\n"), "CAD in STEP; 'tessellate part | tetmesh' meshes it");
+  EXPECT_EQ(kind_of(std::string(72, ' ') + "S      1\n" + zeros), "CAD in IGES; 'tessellate part | tetmesh' meshes it");
+  EXPECT_EQ(kind_of(std::string("\x93what\0ever", 10) + std::string(300, '\xee')), "a binary file of another kind");
 }
 
 TEST(SurfaceFiles, RejectsCoordinatesThatAreNotFinite) {
@@ -393,7 +486,7 @@ TEST(SurfaceFiles, RejectsWhatIsNoSurface) {
   EXPECT_THAT(error_of("# only a comment\n"), HasSubstr("found no triangles"));
   EXPECT_THAT(error_of("hello\n"), HasSubstr("expected a surface in STL, OBJ, PLY or OFF, found 'hello'"));
   EXPECT_THAT(error_of("solid empty\nendsolid\n"), HasSubstr("found no triangles"));
-  EXPECT_THAT(error_of(std::string(300, '\0')), HasSubstr("expected 84 bytes of binary STL for 0 facets, found 300"));
+  EXPECT_THAT(error_of(std::string(300, '\0')), HasSubstr("found a binary file of another kind"));
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ namespace {
 
 using testing::box;
 using testing::cube;
+using testing::Facet;
 using testing::Facets;
 using testing::inverted;
 using testing::joined;
@@ -176,6 +177,154 @@ TEST(Repair, FillsHolesAcrossEdgesSoThatNothingIntersects) {
     EXPECT_EQ(report.filled_holes, 1u);
     EXPECT_NEAR(volume_of(soup), 6, 0.5);
   }
+}
+
+// The edge of a cube is bent inward by less than can be seen, so that its face folds over another one.
+TEST(Repair, MakesFoldedTrianglesAnew) {
+  for (const int n : {1, 3}) {
+    Facets facets = cube(0, 1, n);
+    const Vec3 from{0, 1, 1}, to{1.0 / n, 1, 1}, bent{0.5 / n, 0.99999, 1};
+    const auto has = [](const Facet& facet, const Vec3& p) { return std::ranges::find(facet, p) != facet.end(); };
+    Facets folded;
+    for (const Facet& facet : facets) {
+      const bool is_side = facet[0].y == 1 && facet[1].y == 1 && facet[2].y == 1;
+      if (!has(facet, from) || !has(facet, to) || !is_side) {
+        folded.push_back(facet);
+        continue;
+      }
+      for (const Vec3& end : {from, to}) {
+        Facet part = facet;
+        *std::ranges::find(part, end) = bent;
+        folded.push_back(part);
+      }
+      // Between the top and the bent edge.
+      Facet gap = facet;
+      for (Vec3& p : gap)
+        if (p != from && p != to) p = bent;
+      folded.push_back(gap);
+    }
+    SurfaceSoup soup = soup_of(folded);
+    const RepairReport report = repaired(soup);
+    EXPECT_EQ(report.mended_folds, 1u) << n;
+    EXPECT_NEAR(volume_of(soup), 1, 1e-5) << n;
+    EXPECT_EQ(soup.triangles.size(), facets.size()) << n;
+  }
+}
+
+TEST(Repair, LeavesBodiesThatOverlap) {
+  SurfaceSoup soup = soup_of(joined(cube(0, 1, 3), cube(0.5, 1, 3)));
+  EXPECT_FALSE(repair(soup, {}).anything());
+  EXPECT_THROW(check_surface(soup), DataError);
+}
+
+// Mends, and expects the boundary of a solid of this volume.
+RepairReport mended(SurfaceSoup& soup, double volume) {
+  EXPECT_THROW(check_surface(soup), DataError);
+  const RepairReport report = mend(soup);
+  EXPECT_NO_THROW(check_surface(soup));
+  EXPECT_EQ(soup.tags.size(), soup.triangles.size());
+  EXPECT_EQ(soup.places.size(), soup.triangles.size());
+  EXPECT_NEAR(volume_of(soup), volume, 1e-5 * volume);
+  EXPECT_EQ(report.turned_triangles + report.filled_holes, 0u);
+  return report;
+}
+
+TEST(Mend, LeavesWhatHasNoFaultOrAnother) {
+  Facets torn = cube(0, 1, 2), flipped = torn;
+  torn.pop_back();
+  std::swap(flipped[3][0], flipped[3][1]);
+  for (const Facets& facets : {cube(0, 1, 2), torn, flipped, joined(cube(0, 1, 2), cube(1, 1, 2))}) {
+    SurfaceSoup soup = soup_of(facets);
+    const SurfaceSoup before = soup;
+    EXPECT_FALSE(mend(soup).anything());
+    EXPECT_EQ(soup.points, before.points);
+    EXPECT_EQ(soup.triangles, before.triangles);
+  }
+}
+
+TEST(Mend, RemovesTrianglesWithoutAreaAndCopies) {
+  Facets facets = cube(0, 1, 2);
+  facets.push_back(facets[3]);
+  facets.push_back({facets[7][1], facets[7][2], facets[7][0]});
+  facets.push_back({Vec3{0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}});
+  SurfaceSoup soup = soup_of(facets);
+  const RepairReport report = mended(soup, 1);
+  EXPECT_EQ(report.duplicate_triangles, 2u);
+  EXPECT_EQ(report.degenerate_triangles, 1u);
+}
+
+// Two bodies have the same triangles where they touch, each in its own sense.
+TEST(Mend, KeepsTrianglesOfBothSensesAndTheirSides) {
+  SurfaceSoup soup = soup_of(joined(box({0, 0, 0}, {1, 1, 1}), box({1, 0, 0}, {2, 1, 1})));
+  soup.triangles.push_back(soup.triangles[0]);
+  soup.tags.push_back(0), soup.places.push_back(0);
+  soup.sides.assign(soup.triangles.size(), {0, 1});
+  EXPECT_FALSE(mend(soup).anything());
+  soup.sides.clear();
+  EXPECT_EQ(mend(soup).duplicate_triangles, 1u);
+  EXPECT_EQ(soup.triangles.size(), 24u);
+}
+
+TEST(Mend, JoinsPointsThatDifferByRounding) {
+  for (const double offset : {0.0, 1000.0}) {
+    Facets facets = box({offset, 0, 0}, {offset + 10, 10, 10}, 3);
+    Random random(1);
+    const double rounding = 1e-7 * (offset + 10);
+    for (auto& facet : facets)
+      for (Vec3& p : facet) p.x += random.uniform(-rounding, rounding);
+    SurfaceSoup soup = soup_of(facets);
+    const std::size_t loose = soup.points.size();
+    const std::size_t welded = mended(soup, 1000).welded_points;
+    EXPECT_EQ(welded, loose - soup.points.size());
+    EXPECT_EQ(soup.points.size(), 56u);
+  }
+  // What is further apart is no rounding.
+  Facets facets = cube(0, 1, 2);
+  facets[5][0] += {1e-4, 0, 0};
+  SurfaceSoup soup = soup_of(facets);
+  EXPECT_FALSE(mend(soup).anything());
+}
+
+TEST(Mend, CutsTrianglesWherePointsLieOnTheirEdges) {
+  // Each face of the cube in as many squares as its number says: no two have the same points on a common edge.
+  Facets facets;
+  for (int face = 0; face < 6; ++face) {
+    const Facets all = cube(0, 1, face + 1);
+    const std::size_t each = all.size() / 6;
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(each) * face;
+    facets.insert(facets.end(), begin, begin + static_cast<std::ptrdiff_t>(each));
+  }
+  SurfaceSoup soup = soup_of(facets);
+  const RepairReport report = mended(soup, 1);
+  EXPECT_GT(report.cut_borders, 20u);
+  EXPECT_EQ(report.welded_points + report.stray_triangles, 0u);
+  // Rounded as STL has it.
+  for (auto& facet : facets)
+    for (Vec3& p : facet) p = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  soup = soup_of(facets);
+  mended(soup, 1);
+}
+
+TEST(Mend, RemovesStrays) {
+  Facets facets = cube(0, 1, 2);
+  facets.push_back({Vec3{3, 0, 0}, {4, 0, 0}, {3, 1, 0}});
+  // Back to back.
+  facets.push_back({Vec3{5, 0, 0}, {6, 0, 0}, {5, 1, 0}});
+  facets.push_back({Vec3{5, 0, 0}, {5, 1, 0}, {6, 0, 0}});
+  SurfaceSoup soup = soup_of(facets);
+  EXPECT_EQ(mended(soup, 1).stray_triangles, 3u);
+  EXPECT_EQ(soup.points.size(), 26u);
+}
+
+// A body with a hole is no stray, however small it is.
+TEST(Mend, KeepsSmallBodiesWithHoles) {
+  for (const Facets& body : {cube(20, 0.1, 1), cube(20, 0.1, 3)})
+    for (std::size_t missing = 0; missing < body.size(); ++missing) {
+      Facets facets = body;
+      facets.erase(facets.begin() + static_cast<std::ptrdiff_t>(missing));
+      SurfaceSoup soup = soup_of(joined(cube(0, 10, 2), facets));
+      EXPECT_FALSE(mend(soup).anything());
+    }
 }
 
 TEST(Repair, SaysWhatItDid) {

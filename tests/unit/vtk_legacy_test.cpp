@@ -181,7 +181,7 @@ TEST(VtkLegacy, NamesTheLineOfADefect) {
   };
   expect("2.0", "6.0", "test:1: expected a version from 1.0 to 5.1, found another");
   expect("ASCII", "TEXT", "test:3: expected ASCII or BINARY, found 'TEXT'");
-  expect("UNSTRUCTURED_GRID", "POLYDATA", "test:4: expected UNSTRUCTURED_GRID, found 'POLYDATA'");
+  expect("UNSTRUCTURED_GRID", "FIELD", "test:4: expected UNSTRUCTURED_GRID or POLYDATA, found 'FIELD'");
   expect("POINTS 5", "POINTS 5000",
          "test:5: expected the number of points that the rest of the file can hold, found 5000");
   expect("POINTS 5", "POINTS 4", "test:8: expected POINTS, CELLS, CELL_TYPES, CELL_DATA or POINT_DATA, found '9'");
@@ -202,6 +202,40 @@ TEST(VtkLegacy, NamesTheLineOfADefect) {
   expect("-5\n", "-5", "test: expected the last line to have an end, found none; is the file cut off?");
   expect("SCALARS tag int 1", "SPECTRA tag int 1", "test:18: expected a size, found 'int'");
   expect("CELLS", "LINES", "test:9: expected POINTS, CELLS, CELL_TYPES, CELL_DATA or POINT_DATA, found 'LINES'");
+}
+
+// As VTK 9 writes points, a polygon of five corners with a concave one, a triangle, and a strip.
+TEST(VtkLegacy, PolygonsAndStripsBecomeTrianglesAndQuads) {
+  const std::string head =
+      "# vtk DataFile Version 5.1\ntitle\nASCII\nDATASET POLYDATA\nPOINTS 6 float\n"
+      "0 0 0 2 0 0 2 2 0 1 .5 0 0 2 0 0 0 1\n";
+  const std::string offsets = "OFFSETS vtktypeint64\n", corners = "CONNECTIVITY vtktypeint64\n";
+  const std::string body = "VERTICES 2 1\n" + offsets + "0 1\n" + corners + "0\nTRIANGLE_STRIPS 2 4\n" + offsets +
+                           "0 4\n" + corners + "0 1 2 5\nPOLYGONS 4 12\n" + offsets + "0 5 8 12\n" + corners +
+                           "0 1 2 3 4 0 1 5 0 1 2 4\n";
+  const std::string data = "CELL_DATA 5\nSCALARS surface int\nLOOKUP_TABLE default\n10 20 30 40 50\n";
+  const MixedMesh mesh = parsed(head + body + data);
+  EXPECT_THAT(mesh.triangles.tags, ElementsAre(20, 20, 20, 30, 50, 50));
+  EXPECT_THAT(mesh.quads.tags, ElementsAre(40));
+  EXPECT_THAT(mesh.quads.cells, ElementsAre(std::array<Vertex, 4>{0, 1, 2, 4}));
+  EXPECT_EQ(mesh.triangles.cells[4], (Triangle{0, 1, 2}));
+  EXPECT_EQ(mesh.triangles.cells[5], (Triangle{2, 1, 5}));
+  double area = 0;  // of the concave polygon; a fan would turn one of its triangles over
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto [a, b, c] = mesh.triangles.cells[i];
+    const double part = cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]).z / 2;
+    EXPECT_GT(part, 0);
+    area += part;
+  }
+  EXPECT_DOUBLE_EQ(area, 2.5);
+  EXPECT_EQ(message_of_reading(head + body + "CELL_DATA 4\n"), "test:22: expected 5 entries, found '4'");
+  EXPECT_EQ(message_of_reading(head + body + "CELLS 0 0\n"),
+            "test:22: expected POINTS, POLYGONS, TRIANGLE_STRIPS, CELL_DATA or POINT_DATA, found 'CELLS'");
+  // As older versions write it, each cell with its number of corners.
+  std::string old = head + "POLYGONS 1 4\n3 0 1 5\nPOLYGONS 1 4\n3 0 1 5\n";
+  old.replace(old.find("5.1"), 3, "3.0");
+  EXPECT_EQ(message_of_reading(old), "test:9: expected one section POLYGONS, found a second");
+  EXPECT_THAT(parsed(old.substr(0, old.rfind("POLYGONS"))).triangles.cells, ElementsAre(Triangle{0, 1, 5}));
 }
 
 }  // namespace

@@ -177,10 +177,40 @@ TEST(Vtu, SurvivesDamagedData) {
   }
 }
 
-TEST(Vtu, JoinsPieces) {
+std::string with_second_piece(std::string_view from, std::string_view to) {
   std::string text(one_tet);
   const std::size_t begin = text.find("<Piece"), end = text.find("</UnstructuredGrid>");
-  text.insert(end, text.substr(begin, end - begin));
+  std::string piece = text.substr(begin, end - begin);
+  piece.replace(piece.find(from), from.size(), to);
+  return text.insert(end, piece);
+}
+
+TEST(Vtu, JoinsPiecesAtEqualPoints) {
+  // The second tet has the side (1, 2, 3) in common with the first one.
+  const std::string text = with_second_piece("0 0 0 1 0 0 0 1 0", "1 1 1 1 0 0 0 1 0");
+  std::vector<std::string> warnings;
+  const MixedMesh mesh = read_vtu(text, "test", &warnings);
+  EXPECT_EQ(mesh.points.size(), 6u);
+  EXPECT_THAT(mesh.tets.cells, ElementsAre(Tet{0, 1, 2, 3}, Tet{5, 1, 2, 3}));
+  EXPECT_THAT(warnings, ElementsAre("test: joined 2 pieces at 4 points with the coordinates of others"));
+}
+
+// As at a crack: in the second piece two points are in one place.
+TEST(Vtu, LeavesPiecesApartWhereOneHasPointsInOnePlace) {
+  const std::string text = with_second_piece("0 0 1 9 9 9", "0 0 1 0 0 1");
+  std::vector<std::string> warnings;
+  EXPECT_EQ(read_vtu(text, "test", &warnings).points.size(), 7u);
+  EXPECT_THAT(warnings, ElementsAre("test: joined 2 pieces at 3 points with the coordinates of others",
+                                    "test: in 1 places one piece has several points; its pieces are not joined there"));
+  warnings.clear();
+  std::string one_piece(one_tet);
+  one_piece.replace(one_piece.find("9 9 9"), 5, "0 0 1");
+  EXPECT_EQ(read_vtu(one_piece, "test", &warnings).points.size(), 5u);
+  EXPECT_THAT(warnings, ElementsAre());
+}
+
+TEST(Vtu, JoinsPieces) {
+  std::string text = with_second_piece("0 0 0 1 0 0 0 1 0\n          0 0 1 9 9 9", "5 0 0 6 0 0 5 1 0 5 0 1 5 9 9");
   const MixedMesh mesh = parsed(text);
   EXPECT_EQ(mesh.points.size(), 10u);
   EXPECT_THAT(mesh.tets.cells, ElementsAre(Tet{0, 1, 2, 3}, Tet{5, 6, 7, 8}));

@@ -183,10 +183,15 @@ int main(int argc, char** argv) {
         ->type_name("SECONDS")
         ->check(number_between(0, 1e9));
     begin_group(app, "Faults, bodies and names");
-    app.add_flag(
+    CLI::Option* const repair = app.add_flag(
         "--repair", options.repair,
         "Weld points, remove flat and repeated triangles, turn triangles that disagree with their neighbours, fill "
-        "small holes");
+        "small holes, make triangles anew where few intersect");
+    app.add_flag("!--strict", options.mend,
+                 "Refuse a surface with any fault. Without it, those that change no shape are mended with a warning: "
+                 "triangles without area, copies and strays, points that differ by rounding or lie on an edge")
+        ->excludes(repair);
+    app.add_flag("--unite", options.unite, "Make one body of bodies that overlap");
     app.add_option("--weld", weld,
                    "With --repair: points this near to each other become one; a length, or with % of the diagonal")
         ->type_name("LENGTH")
@@ -232,7 +237,10 @@ int main(int argc, char** argv) {
     if (size_file) options.sizes.sources = size_sources(*size_file, surface);
     TetmeshResult result = tetmesh::tetmesh(std::move(surface), options);
     if (const auto& repair = result.statistics.repair; repair && repair->anything())
-      context.warn(fmt::format("{}: repaired: {}", input.name(), repair->sentence()));
+      context.warn(options.repair ? fmt::format("{}: repaired: {}", input.name(), repair->sentence())
+                                  : fmt::format("{}: mended: {} (see --strict)", input.name(), repair->sentence()));
+    if (const auto united = result.statistics.united_bodies; united && *united > 0)
+      context.warn(fmt::format("{}: united {} bodies that overlap", input.name(), *united));
     for (const std::string& warning : result.warnings) context.warn(warning);
     if (const auto& improved = result.statistics.improved)
       context.note(fmt::format("{} changes in {} rounds: about {:.1f} % in hexes, in place of {:.1f}",

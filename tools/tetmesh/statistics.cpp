@@ -43,6 +43,7 @@ nlohmann::ordered_json to_json(const TetmeshStatistics& s) {
                             {"surface_ends", s.dislocations->surface_ends}};
   if (s.least_size) json["least_size"] = *s.least_size;
   if (s.repair) json["repair"] = solid::to_json(*s.repair);
+  if (s.united_bodies) json["united_bodies"] = *s.united_bodies;
   if (s.lattice_hex_share)
     json["estimated_hex_share"] = {{"lattice", *s.lattice_hex_share}, {"frame", *s.frame_hex_share}};
   if (s.mixed_hex_share) json["estimated_hex_share"]["mixed"] = *s.mixed_hex_share;

@@ -44,6 +44,7 @@ struct TetmeshStatistics {
   std::size_t shells = 0, regions = 0;
   std::size_t interior_points = 0;  // asked for
   std::optional<solid::RepairReport> repair;
+  std::optional<std::size_t> united_bodies;
   volume::PointKind points_kept = volume::PointKind::none;
   // Shares of the volume in hexes, by a rough greedy choice; where several kinds of points were tried.
   std::optional<double> lattice_hex_share, frame_hex_share, mixed_hex_share;

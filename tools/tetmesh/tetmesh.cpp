@@ -14,7 +14,10 @@
 #include "tools/tetmesh/asked_sizes.hpp"
 #include "tools/tetmesh/fill.hpp"
 #include "tools/tetmesh/improve.hpp"
+#include "tools/tetmesh/solid/body_union.hpp"
+#include "tools/tetmesh/solid/borders.hpp"
 #include "tools/tetmesh/solid/boundary.hpp"
+#include "tools/tetmesh/solid/fold_removal.hpp"
 #include "tools/tetmesh/tetgen/mesh_shape.hpp"
 #include "tools/tetmesh/volume/estimates.hpp"
 
@@ -94,6 +97,15 @@ std::optional<std::string> complaint_about_size(const solid::Surface& surface, d
                      extent.x, extent.y, extent.z);
 }
 
+// Rounding may leave triangles without area and folds.
+std::size_t unite(formats::SurfaceSoup& soup) {
+  const std::size_t united = solid::unite_bodies(soup);
+  if (united == 0) return united;
+  solid::mend(soup);
+  solid::remove_folds(soup, solid::rounding_of(soup));
+  return united;
+}
+
 FillOptions fill_options(const TetmeshOptions& o) {
   return {o.surface == SurfaceKind::remesh,
           o.feature_angle,
@@ -117,8 +129,11 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
   std::optional<Step> step(std::in_place, "checking the surface", 0, 0.02);
   std::optional<solid::RepairReport> repaired;
   if (options.repair) repaired = solid::repair(soup, {sizing::in_units(options.weld, soup), options.largest_hole});
+  if (options.mend && !options.repair) repaired = solid::mend(soup);
+  std::size_t united = 0;
+  if (options.unite) united = unite(soup);
   std::vector<std::string> warnings;
-  const char* remedy = options.repair ? "" : " (see --repair)";
+  const char* remedy = !soup.sides.empty() ? "" : options.repair ? " (see wrap)" : " (see --repair)";
   solid::Surface tagged = solid::boundary_of(std::move(soup), options.shells, remedy, warnings);
   if (options.tag_angle) solid::tag_by_angle(tagged, *options.tag_angle);
   solid::name_tags(tagged, options.tag_names);
@@ -144,7 +159,8 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
     improve(filled, surface, {options.improve, options.seed, options.time_limit, options.tetgen_timeout});
   TetmeshResult result = finish(std::move(filled), surface);
   result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
-  result.statistics.repair = repaired;
+  if (options.repair || (repaired && repaired->anything())) result.statistics.repair = repaired;
+  if (options.unite) result.statistics.united_bodies = united;
   result.statistics.seconds.checking = seconds_checking;
   return result;
 }

@@ -24,8 +24,8 @@ formats::SurfaceSoup read_surface(const std::string& path) {
   if (path == "-" && isatty(STDIN_FILENO))
     throw UsageError("nothing to read: name a surface, or pipe one to standard input (see wrap --help)");
   formats::Input input = formats::Input::open(path);
-  constexpr std::size_t enough_to_tell = 4096;
-  if (formats::looks_like_mesh_surface(input.peek(enough_to_tell))) return formats::read_mesh_surface(input);
+  if (formats::looks_like_mesh_surface(input.peek(formats::bytes_that_tell_mesh)))
+    return formats::read_mesh_surface(input);
   return formats::read_surface(input);
 }
 
@@ -89,6 +89,7 @@ int main(int argc, char** argv) {
   const auto run = [&](RunContext& context) {
     const std::string_view format = pipeline::surface_format_of(output_path);
     const formats::SurfaceSoup soup = read_surface(path);
+    for (const std::string& warning : soup.warnings) context.warn(warning);
     options.gap = parse_gap(gap, soup);
     const wrap::WrapResult result = wrap::wrap(soup, options);
     for (const std::string& warning : result.warnings) context.warn(soup.name + ": " + warning);

@@ -13,6 +13,8 @@
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
+#include "tools/tetmesh/solid/borders.hpp"
+#include "tools/tetmesh/solid/fold_removal.hpp"
 #include "tools/tetmesh/solid/hole_filling.hpp"
 
 namespace hexpipe::tetmesh::solid {
@@ -25,31 +27,58 @@ class Repairer {
   RepairReport repair() {
     weld();
     remove_degenerate();
-    remove_duplicates();
+    remove_duplicates([](const Triangle&) { return 0; });
+    join_borders();
+    report_.stray_triangles += remove_stray_sheets(soup_);
     orient();
     fill_holes();
+    remove_folds();
     turn_outward();
-    drop_unused_points();
-    if (count() == 0) throw DataError::at(soup_.name, "expected a surface, found only triangles without area");
+    finish();
+    return report_;
+  }
+
+  // See mend().
+  RepairReport mend() {
+    if (!is_harmed()) return report_;
+    remove_degenerate();
+    if (soup_.sides.empty()) {
+      remove_duplicates(turn_of);
+      join_all_borders();
+    }
+    if (report_.anything()) finish();
     return report_;
   }
 
  private:
+  void finish() {
+    drop_unused_points();
+    if (count() == 0) throw DataError::at(soup_.name, "expected a surface, found only triangles without area");
+  }
   std::size_t count() const { return soup_.triangles.size(); }
-  void keep_only(const std::vector<bool>& kept);
+  // Of the corners in ascending order: even or odd.
+  static int turn_of(const Triangle& t) { return (t[0] > t[1]) ^ (t[1] > t[2]) ^ (t[0] > t[2]); }
+  Vertex corner_across(geometry::HalfEdge h) const {
+    return geometry::start_of(soup_.triangles, geometry::previous_in_triangle(h));
+  }
+  bool is_harmed() const;
   void weld();
+  void join_borders();
+  void join_all_borders();
   void remove_degenerate();
   void remove_collapsed();
   bool cut_flat_triangles();
   void cut_neighbour(geometry::HalfEdge longest, std::vector<bool>& touched);
   geometry::HalfEdge longest_side(std::int32_t triangle) const;
-  void remove_duplicates();
+  template <class TurnOf>
+  void remove_duplicates(TurnOf&& turn_of);
   void find_twins_and_borders();
   void spread(std::int32_t start, std::vector<std::int8_t>& sides, std::vector<std::int32_t>& component) const;
   void turn(std::int32_t triangle) { std::swap(soup_.triangles[triangle][1], soup_.triangles[triangle][2]); }
   void orient();
   void fill_holes();
   void close_hole(const std::vector<geometry::HalfEdge>& border);
+  void remove_folds();
   void turn_outward();
   void drop_unused_points();
 
@@ -60,17 +89,17 @@ class Repairer {
   std::vector<geometry::HalfEdge> borders_;
 };
 
-void Repairer::keep_only(const std::vector<bool>& kept) {
-  std::size_t next = 0;
-  for (std::size_t t = 0; t < count(); ++t) {
-    if (!kept[t]) continue;
-    soup_.triangles[next] = soup_.triangles[t];
-    soup_.tags[next] = soup_.tags[t];
-    soup_.places[next++] = soup_.places[t];
-  }
-  soup_.triangles.resize(next);
-  soup_.tags.resize(next);
-  soup_.places.resize(next);
+// Whether there are triangles without area, borders, or copies of triangles.
+bool Repairer::is_harmed() const {
+  for (const auto& [a, b, c] : soup_.triangles)
+    if (geometry::are_collinear(soup_.points[a], soup_.points[b], soup_.points[c])) return true;
+  bool harmed = false;
+  geometry::for_each_edge(soup_.points.size(), soup_.triangles, [&](std::span<const geometry::HalfEdge> edge) {
+    harmed = harmed || edge.size() == 1;
+    for (std::size_t i = 1; i < edge.size() && !harmed; ++i)
+      for (std::size_t k = 0; k < i; ++k) harmed = harmed || corner_across(edge[i]) == corner_across(edge[k]);
+  });
+  return harmed;
 }
 
 // A point moves to the first kept point that is near and comes before it.
@@ -100,6 +129,32 @@ void Repairer::weld() {
     for (Vertex& v : edge) v = new_index[v];
 }
 
+// Welding may make triangles collapse, and cutting may make copies.
+void Repairer::join_borders() {
+  const double tolerance = rounding_of(soup_);
+  report_.welded_points += weld_borders(soup_, tolerance);
+  remove_degenerate();
+  report_.cut_borders += cut_at_border_points(soup_, tolerance);
+  remove_duplicates(turn_of);
+}
+
+// All or none: where borders remain, the surface is refused, and the message is about the surface as it came.
+void Repairer::join_all_borders() {
+  find_twins_and_borders();
+  if (borders_.empty()) {
+    report_.stray_triangles += remove_stray_sheets(soup_);
+    return;
+  }
+  const formats::SurfaceSoup before = soup_;
+  const RepairReport report = report_;
+  join_borders();
+  report_.stray_triangles += remove_stray_sheets(soup_);
+  find_twins_and_borders();
+  if (borders_.empty()) return;
+  soup_ = before;
+  report_ = report;
+}
+
 void Repairer::remove_degenerate() {
   // Cutting may leave flat triangles again. After this many rounds check_surface names the rest.
   constexpr int most_rounds = 20;
@@ -114,7 +169,7 @@ void Repairer::remove_collapsed() {
     kept[t] = a != b && b != c && c != a;
     report_.degenerate_triangles += !kept[t];
   }
-  keep_only(kept);
+  keep_only(soup_, kept);
 }
 
 // Removes triangles whose corners are on a line: the triangle across the longest side is cut in two at the middle
@@ -135,7 +190,7 @@ bool Repairer::cut_flat_triangles() {
   }
   const bool removed = std::ranges::find(kept, false) != kept.end();
   kept.resize(count(), true);
-  keep_only(kept);
+  keep_only(soup_, kept);
   return removed;
 }
 
@@ -151,21 +206,25 @@ geometry::HalfEdge Repairer::longest_side(std::int32_t triangle) const {
 void Repairer::cut_neighbour(geometry::HalfEdge longest, std::vector<bool>& touched) {
   const geometry::HalfEdge twin = twins_[longest];
   const std::int32_t neighbour = geometry::triangle_of(twin);
-  const Vertex middle = geometry::start_of(soup_.triangles, geometry::previous_in_triangle(longest));
+  const Vertex middle = corner_across(longest);
   Triangle other = soup_.triangles[neighbour];
   other[twin % 3] = middle;
   soup_.triangles[neighbour][geometry::next_in_triangle(twin) % 3] = middle;
   soup_.triangles.push_back(other);
   soup_.tags.push_back(soup_.tags[neighbour]);
   soup_.places.push_back(soup_.places[neighbour]);
+  if (!soup_.sides.empty()) soup_.sides.push_back(soup_.sides[neighbour]);
   touched[neighbour] = true;
 }
 
-void Repairer::remove_duplicates() {
+// Triangles with the same corners are one if they turn the same way.
+template <class TurnOf>
+void Repairer::remove_duplicates(TurnOf&& turn_of) {
   const auto key = [&](std::int32_t t) {
     Triangle corners = soup_.triangles[t];
+    const int turn = turn_of(corners);
     std::ranges::sort(corners);
-    return std::pair(corners, t);
+    return std::pair(std::pair(corners, turn), t);
   };
   std::vector<std::int32_t> order(count());
   std::iota(order.begin(), order.end(), 0);
@@ -173,8 +232,8 @@ void Repairer::remove_duplicates() {
   std::vector<bool> kept(count(), true);
   for (std::size_t i = 1; i < order.size(); ++i)
     if (key(order[i]).first == key(order[i - 1]).first) kept[order[i]] = false;
-  report_.duplicate_triangles = static_cast<std::size_t>(std::ranges::count(kept, false));
-  keep_only(kept);
+  report_.duplicate_triangles += static_cast<std::size_t>(std::ranges::count(kept, false));
+  keep_only(soup_, kept);
 }
 
 void Repairer::find_twins_and_borders() {
@@ -272,6 +331,15 @@ void Repairer::close_hole(const std::vector<geometry::HalfEdge>& border) {
   report_.hole_triangles += triangles.size();
 }
 
+void Repairer::remove_folds() {
+  constexpr double share_of_diagonal = 0.002;  // a surface that moves by less than that is the same for most sizes
+  if (soup_.points.empty()) return;
+  const double tolerance = share_of_diagonal * geometry::Box::around(soup_.points).diagonal();
+  const FoldReport folds = solid::remove_folds(soup_, tolerance);
+  report_.mended_folds = folds.places;
+  report_.fold_triangles = folds.triangles;
+}
+
 // Turns only components that do not lie in another: a component inside another may be a hole on purpose.
 void Repairer::turn_outward() {
   find_twins_and_borders();
@@ -334,21 +402,30 @@ std::string counted(std::size_t count, std::string_view noun) {
 std::string RepairReport::sentence() const {
   std::vector<std::string> acts;
   if (welded_points > 0) acts.push_back(counted(welded_points, "point") + " welded");
+  if (cut_borders > 0) acts.push_back(counted(cut_borders, "point") + " on an edge of another triangle joined to it");
   if (degenerate_triangles > 0) acts.push_back(counted(degenerate_triangles, "triangle") + " without area removed");
   if (duplicate_triangles > 0) acts.push_back(counted(duplicate_triangles, "repeated triangle") + " removed");
+  if (stray_triangles > 0) acts.push_back(counted(stray_triangles, "stray triangle") + " removed");
   if (turned_triangles > 0) acts.push_back(counted(turned_triangles, "triangle") + " turned round");
   if (filled_holes > 0)
     acts.push_back(counted(filled_holes, "hole") + " filled by " + counted(hole_triangles, "triangle"));
+  if (mended_folds > 0)
+    acts.push_back(counted(mended_folds, "self-intersection") + " mended by " + counted(fold_triangles, "triangle") +
+                   " made anew");
   return fmt::format("{}", fmt::join(acts, ", "));
 }
 
 nlohmann::ordered_json to_json(const RepairReport& report) {
   return {{"welded_points", report.welded_points},
+          {"cut_borders", report.cut_borders},
           {"degenerate_triangles", report.degenerate_triangles},
           {"duplicate_triangles", report.duplicate_triangles},
+          {"stray_triangles", report.stray_triangles},
           {"turned_triangles", report.turned_triangles},
           {"filled_holes", report.filled_holes},
-          {"hole_triangles", report.hole_triangles}};
+          {"hole_triangles", report.hole_triangles},
+          {"mended_folds", report.mended_folds},
+          {"fold_triangles", report.fold_triangles}};
 }
 
 RepairReport repair(formats::SurfaceSoup& soup, const RepairOptions& options) {
@@ -357,6 +434,10 @@ RepairReport repair(formats::SurfaceSoup& soup, const RepairOptions& options) {
                         "expected a surface that does not say what is on its sides for --repair, found "
                         "surface/sides.npy; tessellate heals shapes");
   return Repairer(soup, options).repair();
+}
+
+RepairReport mend(formats::SurfaceSoup& soup) {
+  return Repairer(soup, {}).mend();
 }
 
 }  // namespace hexpipe::tetmesh::solid

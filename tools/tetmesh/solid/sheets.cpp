@@ -16,6 +16,7 @@
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/geometry/joined_sets.hpp"
+#include "tools/tetmesh/solid/borders.hpp"
 #include "tools/tetmesh/solid/surface_check.hpp"
 
 namespace hexpipe::tetmesh::solid {
@@ -76,17 +77,6 @@ void for_each_wedge(const formats::SurfaceSoup& soup, std::span<const HalfEdge> 
     const std::int32_t t = geometry::triangle_of(here.half_edge), u = geometry::triangle_of(next.half_edge);
     visit(here.is_along ? before(t) : behind(t), next.is_along ? behind(u) : before(u));
   }
-}
-
-void keep_only(formats::SurfaceSoup& soup, const std::vector<bool>& kept) {
-  const auto filter = [&](auto& array) {
-    if (array.empty()) return;
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < kept.size(); ++i)
-      if (kept[i]) array[next++] = array[i];
-    array.resize(next);
-  };
-  filter(soup.triangles), filter(soup.tags), filter(soup.places), filter(soup.sides);
 }
 
 class SideFinder {

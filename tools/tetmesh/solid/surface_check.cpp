@@ -198,13 +198,14 @@ const char* hint_for_cad(const formats::SurfaceSoup& soup) {
                                                    : "; where bodies touch, tessellate --join makes one face of two";
 }
 
-void check_no_intersections(const formats::SurfaceSoup& soup, const geometry::IntersectionReport& report) {
+void check_no_intersections(const formats::SurfaceSoup& soup, const geometry::IntersectionReport& report,
+                            std::string_view remedy) {
   if (report.pairs.empty()) return;
   throw DataError::at(
       soup.place_of(report.pairs.front()[0]),
-      "expected a surface that does not intersect itself, found {}{} of triangles that do; the first: {}{}",
+      "expected a surface that does not intersect itself, found {}{} of triangles that do; the first: {}{}{}",
       report.complete ? "" : "more than ", count_of(report.pairs.size(), "pair"), list_of(soup, report.pairs.front()),
-      hint_for_cad(soup));
+      hint_for_cad(soup), remedy);
 }
 
 }  // namespace
@@ -221,7 +222,7 @@ void check_surface(const formats::SurfaceSoup& soup, std::string_view remedy) {
         check_vertices(soup, twins);
       },
       [&] { report = geometry::find_intersections(soup.points, soup.triangles, most_intersections); });
-  check_no_intersections(soup, report);
+  check_no_intersections(soup, report, remedy);
 }
 
 void check_areas(const formats::SurfaceSoup& soup, std::string_view remedy) {
@@ -229,7 +230,7 @@ void check_areas(const formats::SurfaceSoup& soup, std::string_view remedy) {
 }
 
 void check_intersections(const formats::SurfaceSoup& soup) {
-  check_no_intersections(soup, geometry::find_intersections(soup.points, soup.triangles, most_intersections));
+  check_no_intersections(soup, geometry::find_intersections(soup.points, soup.triangles, most_intersections), {});
 }
 
 }  // namespace hexpipe::tetmesh::solid

@@ -70,6 +70,42 @@ bool FeatureMesh::is_flat_around(VertexHandle v) const {
   return true;
 }
 
+solid::Surface FeatureMesh::to_surface(const solid::Surface& input) const {
+  formats::SurfaceSoup soup;
+  soup.text = input.text;
+  soup.name = input.name;
+  std::vector<hexpipe::Vertex> number(n_vertices(), no_index);  // by place
+  for (const VertexHandle v : vertices()) {
+    hexpipe::Vertex& known = number[place(v)];
+    if (known >= 0) continue;
+    known = static_cast<hexpipe::Vertex>(soup.points.size());
+    soup.points.push_back(position(v));
+  }
+  const auto shell = [&](FaceHandle f) { return input.shell_of[source(f)]; };
+  std::vector<FaceHandle> in_order(faces().begin(), faces().end());
+  std::ranges::stable_sort(in_order, {}, shell);
+  std::vector<std::int32_t> shells;
+  for (const FaceHandle f : in_order) {
+    const auto [a, b, c] = corners(f);
+    soup.triangles.push_back({number[place(a)], number[place(b)], number[place(c)]});
+    if (input.has_sheets) soup.sides.push_back(input.sides[source(f)]);
+    soup.tags.push_back(input.tags[source(f)]);
+    soup.places.push_back(input.places[source(f)]);
+    shells.push_back(shell(f));
+  }
+  return solid::with_shells_of(input, std::move(soup), std::move(shells));
+}
+
+std::vector<bool> FeatureMesh::points_on_features() const {
+  std::vector<bool> result, seen(n_vertices());  // by place
+  for (const VertexHandle v : vertices()) {
+    if (seen[place(v)]) continue;
+    seen[place(v)] = true;
+    result.push_back(is_on_feature(v));
+  }
+  return result;
+}
+
 void FeatureMesh::resize_attributes() {
   edge_role_.resize(n_edges());
   on_feature_.resize(n_vertices());

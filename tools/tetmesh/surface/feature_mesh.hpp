@@ -91,6 +91,11 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
   // Whether a region is on both sides of the face.
   bool is_interface(FaceHandle f) const { return is_interface_[source(f)]; }
 
+  // What is left of the input, with its tags and shells. Sheets are joined again.
+  solid::Surface to_surface(const solid::Surface& input) const;
+  // For each point of that surface, whether it is on a feature.
+  std::vector<bool> points_on_features() const;
+
   // Makes features of edges that are none.
   void add_crests(std::span<const EdgeHandle> edges);
 

@@ -11,6 +11,12 @@
 
 namespace hexpipe::tetmesh::surface {
 
+// The surface with fewer triangles: none of its points is much further than `tolerance` from it, and edges that come
+// instead are at most `longest`. Features, corners and the surface's own curves stay as they are, and no edge becomes a
+// feature. Time is linear in the triangles. A surface whose sheets meet themselves along an edge is returned as it is.
+solid::Surface thin_out(const solid::Surface& surface, double feature_angle, const sizing::SizeField& tolerance,
+                        const sizing::SizeField& longest);
+
 // Flips edges towards Delaunay triangles where the surface bends by less than `flatness`. Then halves edges, the
 // longest first, until none is longer than `longest`. New vertices are removable.
 void refine_surface(FeatureMesh& mesh, const sizing::SizeField& longest, const sizing::SizeField& flatness);

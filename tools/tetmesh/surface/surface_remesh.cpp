@@ -35,6 +35,9 @@ constexpr double snap = 0.02;
 constexpr double sample_spacing = 0.34;
 // The share of the deviation that removing vertices may use. It knows only the distances of vertices.
 constexpr double removal_share = 0.85;
+// A surface with this many triangles for each new one is thinned out first, within this share of the deviation; new
+// edges are at most this many sizes long.
+constexpr double dense = 8, thinning_share = 0.2, thin_edge = 0.7;
 // Around a fault, the nearest vertex within this many sizes stays, unless a vertex that stays is as near already. If
 // that does not help in `careful_attempts`, all vertices within that reach stay, and in the next attempt those within
 // twice the reach.
@@ -58,11 +61,14 @@ bool has_within(const geometry::SizedPointGrid& grid, const Vec3& place, double 
 class SurfaceRemesher::Work {
  public:
   Work(const solid::Surface& surface, const RemeshOptions& options)
-      : surface_(surface),
+      : given_(surface),
         size_(options.size),
         deviation_(options.deviation * options.unit.value_or(options.size)),
         row_stretch_(options.row_stretch),
-        prepared_(surface, options.feature_angle) {}
+        expected_points_(sizing::points_on_surface(surface, size_, most_points)),
+        thinned_(thin_if_dense(surface, options.feature_angle)),
+        surface_(thinned_ ? *thinned_ : surface),
+        prepared_(surface_, options.feature_angle) {}
 
   bool make();
   bool judge();
@@ -71,6 +77,7 @@ class SurfaceRemesher::Work {
   RemeshResult result;
 
  private:
+  std::optional<solid::Surface> thin_if_dense(const solid::Surface& surface, double feature_angle) const;
   bool prepare();
   // False if triangles are too thin for a field.
   bool place_points();
@@ -83,7 +90,6 @@ class SurfaceRemesher::Work {
   void keep_around(const std::vector<Vec3>& places, const sizing::SizeField& reach);
   std::vector<Vertex> kept_vertices() const;
   std::size_t count_places(std::span<const Vertex> vertices) const;
-  solid::Surface surface_of(const FeatureMesh& mesh);
   Vec3 centre_of(std::size_t triangle) const;
 
   // What points on faces are placed by.
@@ -95,15 +101,25 @@ class SurfaceRemesher::Work {
     double row_stretch;
   };
 
-  const solid::Surface& surface_;
+  const solid::Surface& given_;
   sizing::SizeField size_, deviation_;
   double row_stretch_;
   bool is_prepared_ = false;
-  double expected_points_ = 0;  // on the new surface
-  FeatureMesh prepared_;        // with all points inserted, and with the vertices of the input
+  double expected_points_;  // on the new surface
+  std::optional<solid::Surface> thinned_;
+  const solid::Surface& surface_;  // the thinned one, or the one given
+  FeatureMesh prepared_;           // with all points inserted, and with the vertices of the input
   std::optional<Carrier> carrier_;
   std::optional<DistanceIndex> input_;
 };
+
+// Scans have a hundred triangles and more for each that is needed. The field, the front and the removal of vertices
+// would take them all along.
+std::optional<solid::Surface> SurfaceRemesher::Work::thin_if_dense(const solid::Surface& surface,
+                                                                   double feature_angle) const {
+  if (static_cast<double>(surface.triangles.size()) < dense * 2 * expected_points_) return std::nullopt;
+  return thin_out(surface, feature_angle, thinning_share * deviation_, thin_edge * size_);
+}
 
 bool SurfaceRemesher::Work::make() {
   if (result.attempts == most_attempts || (!is_prepared_ && !prepare())) {
@@ -129,14 +145,13 @@ bool SurfaceRemesher::Work::prepare() {
     result.failure = "a sheet meets itself along an edge";
     return false;
   }
-  expected_points_ = sizing::points_on_surface(surface_, size_, most_points);
   if (expected_points_ > most_points) {
     result.failure = "its size asks for more points than memory holds";
     return false;
   }
   bool placed = false;
   // This thread takes the second, whose steps the line of progress shows.
-  both_at_once([&] { input_.emplace(surface_.points, surface_.triangles); }, [&] { placed = place_points(); });
+  both_at_once([&] { input_.emplace(given_.points, given_.triangles); }, [&] { placed = place_points(); });
   is_prepared_ = placed;
   if (!placed) result.failure = "in double precision some of its triangles have no direction";
   return placed;
@@ -204,38 +219,11 @@ void SurfaceRemesher::Work::remove_vertices_of_input() {
   const Step step(nullptr, 0.8, 1);
   FeatureMesh mesh = prepared_;
   remove_vertices(mesh, *input_, removal_share * deviation_);
-  result.surface = surface_of(mesh);
+  result.surface = mesh.to_surface(surface_);
+  result.on_feature = mesh.points_on_features();
   // A front point that comes to lie on a feature's point is one with it.
   const std::size_t placed = result.feature_points + result.front_points;
   result.extra_points = result.surface.points.size() - std::min(placed, result.surface.points.size());
-}
-
-solid::Surface SurfaceRemesher::Work::surface_of(const FeatureMesh& mesh) {
-  formats::SurfaceSoup soup;
-  result.on_feature.clear();
-  soup.text = surface_.text;
-  soup.name = surface_.name;
-  std::vector<Vertex> number(mesh.n_vertices(), no_index);  // by place: sheets are joined again
-  for (const auto v : mesh.vertices()) {
-    Vertex& known = number[mesh.place(v)];
-    if (known >= 0) continue;
-    known = static_cast<Vertex>(soup.points.size());
-    soup.points.push_back(mesh.position(v));
-    result.on_feature.push_back(mesh.is_on_feature(v));
-  }
-  const auto shell = [&](OpenMesh::FaceHandle f) { return surface_.shell_of[mesh.source(f)]; };
-  std::vector<OpenMesh::FaceHandle> faces(mesh.faces().begin(), mesh.faces().end());
-  std::ranges::stable_sort(faces, {}, shell);
-  std::vector<std::int32_t> shells;
-  for (const auto f : faces) {
-    const auto [a, b, c] = mesh.corners(f);
-    soup.triangles.push_back({number[mesh.place(a)], number[mesh.place(b)], number[mesh.place(c)]});
-    if (surface_.has_sheets) soup.sides.push_back(surface_.sides[mesh.source(f)]);
-    soup.tags.push_back(surface_.tags[mesh.source(f)]);
-    soup.places.push_back(surface_.places[mesh.source(f)]);
-    shells.push_back(shell(f));
-  }
-  return solid::with_shells_of(surface_, std::move(soup), std::move(shells));
 }
 
 Vec3 SurfaceRemesher::Work::centre_of(std::size_t triangle) const {
@@ -294,7 +282,7 @@ std::vector<Vec3> SurfaceRemesher::Work::find_faults() {
         const sizing::SizeField spacing = sample_spacing * size_, limit = (1 + 1e-9) * deviation_;
         const DistanceIndex output(made.points, made.triangles);
         there = one_sided_distance(made.points, made.triangles, *input_, spacing, limit);
-        back = one_sided_distance(surface_.points, surface_.triangles, output, spacing, limit);
+        back = one_sided_distance(given_.points, given_.triangles, output, spacing, limit);
       },
       [&] {
         for (const auto& pair : geometry::find_intersections(made.points, made.triangles, most_intersections).pairs)

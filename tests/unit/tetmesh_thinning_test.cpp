@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "common/run/random.hpp"
+#include "tetmesh_surfaces.hpp"
+#include "tools/tetmesh/solid/surface_check.hpp"
+#include "tools/tetmesh/surface/remesh_steps.hpp"
+#include "tools/tetmesh/surface/surface_distance.hpp"
+
+namespace hexpipe {
+using namespace formats;
+using namespace tetmesh::solid;
+using namespace tetmesh::surface;
+namespace {
+
+using testing::cube;
+using testing::Facets;
+using testing::joined;
+using testing::remesh_surface;
+using testing::sphere;
+using testing::surface_of;
+
+constexpr double feature_angle = 40;
+
+double distance_between(const Surface& a, const Surface& b) {
+  const DistanceIndex of_a(a.points, a.triangles), of_b(b.points, b.triangles);
+  return std::max(one_sided_distance(a.points, a.triangles, of_b, 0.01, 1).greatest,
+                  one_sided_distance(b.points, b.triangles, of_a, 0.01, 1).greatest);
+}
+
+// As a scanner measures it.
+Facets with_noise(Facets facets, double noise) {
+  Random random(1);
+  SurfaceSoup soup = testing::soup_of(facets);
+  for (Vec3& p : soup.points)
+    p += Vec3{random.uniform(-noise, noise), random.uniform(-noise, noise), random.uniform(-noise, noise)};
+  for (std::size_t t = 0; t < facets.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) facets[t][i] = soup.points[static_cast<std::size_t>(soup.triangles[t][i])];
+  return facets;
+}
+
+TEST(ThinOut, LeavesFewTrianglesNearTheSurface) {
+  for (const double noise : {0.0, 2e-4}) {
+    const Surface surface = surface_of(with_noise(sphere({0, 0, 0}, 1, 120), noise));
+    const Surface thinned = thin_out(surface, feature_angle, 0.005, 0.3);
+    EXPECT_NO_THROW(check_surface(thinned));
+    EXPECT_LT(5 * thinned.triangles.size(), surface.triangles.size());
+    EXPECT_LT(distance_between(surface, thinned), 0.006);
+    EXPECT_NEAR(thinned.volume(), surface.volume(), 0.005 * 12.6);
+    for (const auto& [a, b, c] : thinned.triangles) {
+      EXPECT_LT(norm(thinned.points[a] - thinned.points[b]), 0.3);
+      EXPECT_LT(norm(thinned.points[b] - thinned.points[c]), 0.3);
+    }
+  }
+}
+
+TEST(ThinOut, KeepsEdgesTagsShellsAndCurves) {
+  Surface surface = surface_of(joined(cube(0, 1, 20), cube(2, 1, 20)));
+  // The middle of the top is a curve.
+  for (const Triangle& t : surface.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 &from = surface.points[t[i]], &to = surface.points[t[(i + 1) % 3]];
+      if (from.z == 1 && to.z == 1 && from.x == 0.5 && to.x == 0.5 && from.y < to.y)
+        surface.curves.push_back({t[i], t[(i + 1) % 3]}), surface.curve_tags.push_back(4);
+    }
+  ASSERT_EQ(surface.curves.size(), 20u);
+  const Surface thinned = thin_out(surface, feature_angle, 0.001, 0.3);
+  EXPECT_NO_THROW(check_surface(thinned));
+  EXPECT_LT(2 * thinned.triangles.size(), surface.triangles.size());
+  EXPECT_LT(distance_between(surface, thinned), 1e-12);
+  EXPECT_EQ(thinned.shells.size(), 2u);
+  EXPECT_NEAR(thinned.volume(), 2, 1e-12);
+  EXPECT_EQ(std::set<std::int32_t>(thinned.tags.begin(), thinned.tags.end()), (std::set<std::int32_t>{1, 2}));
+  ASSERT_EQ(thinned.curves.size(), 20u);
+  for (std::size_t i = 0; i < 20; ++i)
+    for (std::size_t end = 0; end < 2; ++end)
+      EXPECT_EQ(thinned.points[thinned.curves[i][end]], surface.points[surface.curves[i][end]]);
+  // All points of the cubes' edges are there.
+  const auto on_edge = [](const Vec3& p) {
+    int sides = 0;
+    for (int axis = 0; axis < 3; ++axis) sides += p[axis] == 0 || p[axis] == 1 || p[axis] == 2 || p[axis] == 3;
+    return sides >= 2;
+  };
+  EXPECT_EQ(std::ranges::count_if(thinned.points, on_edge), std::ranges::count_if(surface.points, on_edge));
+}
+
+TEST(ThinOut, ADenseSurfaceIsMeshedLikeAnyOther) {
+  const Surface surface = surface_of(with_noise(sphere({0, 0, 0}, 1, 120), 2e-4));
+  const RemeshResult result = remesh_surface(surface, {.size = 0.25});
+  EXPECT_EQ(result.failure, "");
+  EXPECT_NO_THROW(check_surface(result.surface));
+  EXPECT_LT(distance_between(surface, result.surface), 0.15 * 0.25);
+  EXPECT_GT(result.from_input, 0);
+}
+
+}  // namespace
+}  // namespace hexpipe
