@@ -15,12 +15,12 @@ build_packages=(
   libmetis-dev libopenmpi-dev openmpi-bin
   libocct-data-exchange-dev libocct-modeling-algorithms-dev
   libexodusii-dev libmedc-dev libcgns-dev
-  esbuild libjs-three libosmesa6-dev libpng-dev help2man
+  esbuild libjs-three libosmesa6-dev libpng-dev libfreetype-dev fonts-dejavu-core help2man
 )
 test_packages=(
   bats bats-assert bats-support libgtest-dev libgmock-dev libbenchmark-dev
   python3 python3-numpy python3-meshio python3-vtk9 gmsh coinor-cbc zstd procps
-  python3-getfem calculix-ccx python3-scipy
+  python3-getfem calculix-ccx python3-scipy python3-matplotlib
   netcdf-bin python3-netcdf4 python3-h5py libmed-tools cgns-convert
   chromium chromium-driver python3-selenium gnuplot-nox man-db
 )

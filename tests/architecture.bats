@@ -145,7 +145,7 @@ namespace_of() {
 
 @test "every room has a README, which names files that are there" {
   local room page name
-  for room in $(cd "$HEXPIPE_SOURCE" && ls -d common/*/ common/mwis/*/ formats/*/ tools/{tetmesh,assemble}{,/*}/); do
+  for room in $(cd "$HEXPIPE_SOURCE" && ls -d common/*/ common/mwis/*/ formats/*/ tools/{tetmesh,assemble}{,/*}/ tools/viewmesh{,/picture,/page}/); do
     page="$HEXPIPE_SOURCE/${room%/}/README.md"
     assert [ -e "$page" ]
     grep -q '^| read in this order ' "$page" || fail "$page does not say in which order to read its files"

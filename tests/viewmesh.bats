@@ -127,26 +127,73 @@ PYTHON
 }
 
 @test "the same bytes twice, by pipe, with any number of threads" {
-  viewmesh result.tar -o one.html --png one.png
-  viewmesh --threads 1 <result.tar >two.html
-  cat result.tar | viewmesh --png two.png
+  viewmesh result.tar --title result -o one.html --png one.png
+  viewmesh --title result --threads 1 <result.tar >two.html
+  cat result.tar | viewmesh --title result --png two.png
   assert_same_bytes one.html two.html
   assert_same_bytes one.png two.png
 }
 
 @test "every part of --view changes the picture, and the page opens with it" {
-  viewmesh result.vtu --size 320,200 --png plain.png
-  for part in clip=x:0.5 clip=-x:0.5 clip=1,1,0:0.5 quality=0,0.15 peel=1 kinds=hex,tet colour=quality colour=kind \
-    colour=region colour=surface colour=orthogonality colour=weight colour=determinant colour=flatness edges=off theme=dark camera=10,20,1,0,0,0 camera=-52,28,2,0,0,0 camera=-52,28,1,0.3,0,0; do
-    viewmesh result.vtu --size 320,200 --view "$part" --png part.png -o part.html
+  viewmesh result.vtu --size 400,250 --png plain.png
+  for part in up=y up=-x axes=off legend=off clip=x:0.5 clip=-x:0.5 clip=1,1,0:0.5 quality=0,0.15 peel=1 kinds=hex,tet colour=quality colour=kind \
+    colour=region colour=surface colour=orthogonality colour=weight colour=determinant colour=flatness edges=off theme=dark camera=10,20 camera=10,20,1,0,0,0 camera=-52,28,2,0,0,0 camera=-52,28,1,0.3,0,0; do
+    viewmesh result.vtu --size 400,250 --view "$part" --png part.png -o part.html
     assert_different_bytes plain.png part.png
     run scene part.html state
     assert_output --partial "$part"
   done
   # --view takes the words of a page.
   state=$(scene part.html state)
-  viewmesh result.vtu --size 320,200 --view "${state//\"/}" --png again.png
+  viewmesh result.vtu --size 400,250 --view "${state//\"/}" --png again.png
   assert_same_bytes part.png again.png
+}
+
+# add_member NAME ARRAY: more.tar is result.tar with one member more, an array in NumPy's words.
+add_member() {
+  "$PYTHON" - "$1" "$2" <<'PYTHON'
+import io, sys, tarfile
+import numpy as np
+with tarfile.open("result.tar") as old, tarfile.open("more.tar", "w", format=tarfile.PAX_FORMAT) as new:
+    for member in old:
+        new.addfile(member, old.extractfile(member))
+    data = io.BytesIO()
+    np.save(data, eval(sys.argv[2]))
+    member = tarfile.TarInfo(sys.argv[1])
+    member.size = data.tell()
+    data.seek(0)
+    new.addfile(member, data)
+PYTHON
+}
+
+@test "dislocations of a bundle are in the page, and in pictures where asked for" {
+  add_member mesh/dislocations.npy "np.array([[0, 0, 0, .5, .5, .5], [.5, .5, .5, 1, 1, 0]])"
+  viewmesh more.tar -o page.html --png without.png
+  assert_equal "$(scene page.html dislocations | "$PYTHON" -c 'import json, sys; print(sorted(json.load(sys.stdin)))')" "['lengths', 'points', 'sizes']"
+  viewmesh more.tar --png with.png --view dislocations=on
+  assert_different_bytes without.png with.png
+  # They come with the mesh alone, too.
+  viewmesh --mesh more.tar --png mesh.png --view dislocations=on -o mesh.html
+  lengths() { scene "$1" dislocations | "$PYTHON" -c 'import json, sys; print(json.load(sys.stdin)["lengths"])'; }
+  assert_equal "$(lengths mesh.html)" "$(lengths page.html)"
+  add_member mesh/dislocations.npy "np.array([[0, 0, 0, .5, .5, np.nan]])"
+  assert_fails_with 1 "^viewmesh: more.tar: mesh/dislocations.npy: expected finite coordinates, found nan" viewmesh more.tar -o no.html
+  add_member mesh/dislocations.npy "np.zeros((2, 3))"
+  assert_fails_with 1 "^viewmesh: more.tar: mesh/dislocations.npy" viewmesh more.tar -o no.html
+  assert [ ! -e no.html ]
+}
+
+@test "the title is the file's name where none is given" {
+  viewmesh result.vtu -o page.html
+  assert_equal "$(scene page.html title)" '"result.vtu"'
+  viewmesh --mesh mesh.mesh -o page.html
+  assert_equal "$(scene page.html title)" '"mesh.mesh"'
+  viewmesh <result.tar -o page.html
+  assert_equal "$(scene page.html title)" '"hexpipe result"'
+  # It stands in the legend, too.
+  viewmesh result.vtu --png one.png
+  viewmesh result.vtu --title other --png two.png
+  assert_different_bytes one.png two.png
 }
 
 @test "surfaces and regions have their names, and go and come by them" {
@@ -241,8 +288,8 @@ PYTHON
 
 @test "of the graph in a bundle no more is read than how many candidates it has" {
   "$PYTHON" "$DATA/change_array.py" solution.tar edgeless.tar graph/neighbours.npy "a[:0]"
-  viewmesh solution.tar -o whole.html
-  viewmesh edgeless.tar -o edgeless.html
+  viewmesh solution.tar --title choice -o whole.html
+  viewmesh edgeless.tar --title choice -o edgeless.html
   assert_same_bytes whole.html edgeless.html
   count=$("$PYTHON" -c 'import io, tarfile, numpy; t = tarfile.open("solution.tar")
 print(len(numpy.load(io.BytesIO(t.extractfile("graph/weights.npy").read()))))')
@@ -283,6 +330,15 @@ PYTHON
   grep -q "standard output is a terminal" message
 }
 
+@test "at a terminal a line tells how far it is; -q shows none" {
+  if sanitized; then skip "the lines are the same there"; fi
+  "$PYTHON" "$DATA/bar.py" --kuhn --length 4000 >long.tar
+  TERM=xterm script -qec "viewmesh long.tar --png long.png -o long.html" /dev/null </dev/null | tr '\r' '\n' | sed 's/\x1b\[K//g' >shown
+  grep -Eq '^viewmesh: [0-9]+ %, .*(reading|measuring cells|drawing|drawing the picture|writing the page)$' shown
+  TERM=xterm run script -qec "viewmesh long.tar -q -o long.html" /dev/null </dev/null
+  assert_output ""
+}
+
 @test "--help, --version, --stats" {
   run_apart viewmesh --help
   assert_output --regexp "Example:.*viewmesh "
@@ -303,11 +359,23 @@ PYTHON
   viewmesh chosen.tar --show candidates -o candidates.html
   viewmesh chosen.tar -o chosen.html
   findhex chosen.tar -o bracket.cand
-  run timeout 200 "$PYTHON" "$HEXPIPE_SOURCE/tests/browser/page_test.py" bracket.html screenshots bracket.cand \
+  run timeout 600 "$PYTHON" "$HEXPIPE_SOURCE/tests/browser/page_test.py" bracket.html screenshots bracket.cand \
     candidates.html chosen.html
   assert_success
   assert_output "the page works"
   assert [ "$(ls screenshots | wc -l)" -ge 15 ]
+}
+
+@test "the page finds poor cells and dislocations, measures, and lets the part fit" {
+  if sanitized; then skip "the browser is not sanitized"; fi
+  if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
+  tetmesh "$DATA/bracket.stl" --size 7 | findhex | buildgraph | initsol --iterations 20000 | assemble -o bracket.msh
+  tetmesh "$DATA/plate-holes.stl" --size 11 --points frame | findhex | buildgraph | initsol --iterations 20000 | assemble -o plate.tar
+  viewmesh bracket.msh -o bracket.html
+  viewmesh plate.tar -o plate.html
+  run timeout 600 "$PYTHON" "$HEXPIPE_SOURCE/tests/browser/finding_test.py" bracket.html plate.html screenshots
+  assert_success
+  assert_output "the page finds, measures and fits"
 }
 
 @test "--fragments shows parts of the graph one by one" {

@@ -308,9 +308,9 @@ def hex_volume(mesh):
 
 def pictures():
     """Figure 4.12: the meshes."""
-    for part, size, view in (("bracket", Bench.size, "clip=z:0.5&camera=-50,35,1.25,-0.05,0,-0.15"),
-                             ("notch", "5%", "camera=-40,25,0.95,0,0,0&colour=kind"),
-                             ("plate-holes", "2%", "camera=-60,40,1.2,0,0,0&colour=kind")):
+    for part, size, view in (("bracket", Bench.size, "clip=z:0.5&camera=-50,35"),
+                             ("notch", "5%", "camera=-40,25&colour=kind"),
+                             ("plate-holes", "2%", "camera=-60,40&colour=kind")):
         tool("viewmesh", mesh_of(part, size), "--png", Bench.out / f"{part}.png", "--size", "1200,800", "--view", view)
 
 

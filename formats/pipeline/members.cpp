@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 
 #include "common/run/error.hpp"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr const char* part_json = "mesh/part.json";
 constexpr const char* mesh_ridges = "mesh/ridges.npy";
+constexpr const char* mesh_dislocations = "mesh/dislocations.npy";
 constexpr const char* graph_weights = "graph/weights.npy";
 constexpr const char* candidate_kinds = "candidates/kind.npy";
 constexpr const char* candidate_volumes = "candidates/volume.npy";
@@ -219,6 +221,16 @@ bool read_volumes(BundleReader& reader, StageData& data, BundleWriter* copy) {
   return reader.name() == candidate_volumes && take(data.volumes.volume);
 }
 
+bool read_dislocations(BundleReader& reader, StageData& data, BundleWriter* copy) {
+  if (reader.name() != mesh_dislocations) return false;
+  data.dislocations = reader.read_array<std::array<double, 6>>();
+  for (const auto& segment : data.dislocations)
+    for (const double place : segment)
+      if (!std::isfinite(place)) throw DataError::at(reader.where(), "expected finite coordinates, found {}", place);
+  if (copy) copy->add_array(mesh_dislocations, data.dislocations);
+  return true;
+}
+
 bool is_part_title(std::string_view name) {
   return name == part_json;
 }
@@ -325,7 +337,7 @@ void write_gap_members(BundleWriter& writer, const SolutionGaps& gaps) {
   visit_members_of_gaps(gaps, writing_to(writer));
 }
 void write_dislocations(BundleWriter& writer, const DislocationSegments& segments) {
-  writer.add_array("mesh/dislocations.npy", segments);
+  writer.add_array(mesh_dislocations, segments);
 }
 void write_members(BundleWriter& writer, const MixedMesh& result) {
   visit_members_of_result(result, writing_to(writer));

@@ -24,6 +24,9 @@ bool read_weights(BundleReader& reader, StageData& data, BundleWriter* copy);
 // The same for kind and volume of candidates alone.
 bool read_volumes(BundleReader& reader, StageData& data, BundleWriter* copy);
 
+// The same for the lines along which rows of points end. Throws DataError at places that are no numbers.
+bool read_dislocations(BundleReader& reader, StageData& data, BundleWriter* copy);
+
 // Whether this member says that the mesh is a part of another, and which part.
 bool is_part_title(std::string_view name);
 // As read_member, for what a part of a mesh has beside mesh and candidates.

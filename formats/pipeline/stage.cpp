@@ -369,6 +369,7 @@ void Stage::State::read_bundle(formats::Input& input, StageData& data) {
       if (request.part && read_part_member(reader, data, copy)) continue;
       if (request.weights_only && read_weights(reader, data, copy)) continue;
       if (request.volumes && !takes(*role) && read_volumes(reader, data, copy)) continue;
+      if (request.dislocations && read_dislocations(reader, data, copy)) continue;
       if (takes(*role) && read_member(reader, data, copy, request.cover)) continue;
     }
     if (request.shape && read_shape(reader, data, copy)) continue;
@@ -421,7 +422,8 @@ void Stage::State::read_files(std::map<Role, formats::Input>& files, StageData& 
       while (reader.next())
         if (has_tags && reader.name() == formats::names_member)
           data.names = formats::parse_group_names(reader.read_text(), reader.where());
-        else if (role_of_member(reader.name()) == role && !(request.part && read_part_member(reader, data, nullptr)))
+        else if (role_of_member(reader.name()) == role && !(request.part && read_part_member(reader, data, nullptr)) &&
+                 !(request.dislocations && read_dislocations(reader, data, nullptr)))
           read_member(reader, data, nullptr, request.cover || bundle);
       if (!holds(data, role))
         throw DataError::at(input.name(), "expected {} in this bundle, found none", name_of(role));

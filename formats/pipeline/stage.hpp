@@ -20,6 +20,7 @@ struct StageRequest {
   std::vector<Role> wants{};  // taken where they are there
   bool cover = false;         // the graph's clique cover, too, where there is one
   bool shape = false;         // the CAD's faces and curves, too, where a bundle has them
+  bool dislocations = false;  // of the mesh, too, where a bundle has them
   bool part = false;          // what a part of a mesh has beside mesh and candidates, too, where it is one
   // A bundle's graph gives its weights only, as a graph without edges: the edges may be most of what there is to hold.
   // A graph in a file of its own has them.

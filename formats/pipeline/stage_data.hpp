@@ -44,6 +44,7 @@ struct StageData {
   std::optional<MeshPart> part;                 // with StageRequest::part, where the mesh is a part of another
   std::optional<CandidateKeys> candidate_keys;  // likewise
   std::optional<ExactShape> shape;              // with StageRequest::shape
+  DislocationSegments dislocations;             // with StageRequest::dislocations
   CandidateVolumes volumes;                     // with StageRequest::volumes; empty where they are not known
   formats::GroupNames names;                    // of the tags of mesh and result
   std::vector<nlohmann::ordered_json> history;

@@ -1,47 +1,24 @@
 // The scene of viewmesh: cells, facets, layers, and the state that chooses among them.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "common/run/error.hpp"
-#include "tools/viewmesh/camera.hpp"
+#include "tests/unit/viewmesh_lattice.hpp"
 #include "tools/viewmesh/facets.hpp"
 #include "tools/viewmesh/scene.hpp"
 #include "tools/viewmesh/skin.hpp"
 #include "tools/viewmesh/view_state.hpp"
+#include "tools/viewmesh/visible_cells.hpp"
 
 namespace hexpipe {
 using namespace pipeline;
 using namespace viewmesh;
 namespace {
-
-// n x n x n unit hexes.
-StageData hex_lattice(int n) {
-  MixedMesh mesh;
-  const auto point = [&](int x, int y, int z) { return x + (n + 1) * (y + (n + 1) * z); };
-  for (int z = 0; z <= n; ++z)
-    for (int y = 0; y <= n; ++y)
-      for (int x = 0; x <= n; ++x) mesh.points.push_back({1.0 * x, 1.0 * y, 1.0 * z});
-  for (int z = 0; z < n; ++z)
-    for (int y = 0; y < n; ++y)
-      for (int x = 0; x < n; ++x) {
-        mesh.hexes.cells.push_back({point(x, y, z), point(x + 1, y, z), point(x + 1, y + 1, z), point(x, y + 1, z),
-                                    point(x, y, z + 1), point(x + 1, y, z + 1), point(x + 1, y + 1, z + 1),
-                                    point(x, y + 1, z + 1)});
-        mesh.hexes.tags.push_back(x);
-      }
-  StageData data;
-  data.result = mesh;
-  return data;
-}
-
-Scene lattice_scene(int n) {
-  return make_scene(hex_lattice(n), Scene::Content::result, "test");
-}
 
 std::ptrdiff_t visible_count(const Scene& scene, const ViewState& state) {
   const auto visible = visible_cells(scene, state);
@@ -145,51 +122,46 @@ TEST(ViewState, FiltersByQuality) {
 }
 
 TEST(ViewState, TextAndBack) {
-  for (const char* text :
-       {"camera=-52,28,1,0,0,0&clip=none&quality=-1,1&peel=0&kinds=hex,prism,pyramid,tet&hidden=none&colour="
-        "hexes&edges=on&theme=light"
-        "&fragment=0",
-        "camera=12.5,-90,3,0.1,-0.2,0.3&clip=-y:0.25&quality=0.1,0.75&peel=3&kinds=none&hidden=region:3,surface:-7&"
-        "colour="
-        "surface&edges=off&theme=dark"
-        "&fragment=7",
-        "camera=0,0,1,0,0,0&clip=0.6,0,0.8:1&quality=-1,1&peel=0&kinds=tet&hidden=none&colour=kind&edges=on&"
-        "theme=light&fragment=0"})
+  const char* const opening =
+      "clip=none&quality=-1,1&peel=0&kinds=hex,prism,pyramid,tet&hidden=none&colour=hexes&edges=on";
+  for (const std::string& text :
+       {fmt::format("camera=-52,28&up=z&{}&axes=on&legend=on&dislocations=off&theme=light&fragment=0", opening),
+        fmt::format("camera=0,0,1,0,0,0&up=-y&{}&axes=off&legend=off&dislocations=on&theme=light&fragment=0", opening),
+        std::string("camera=12.5,-90,3,0.1,-0.2,0.3&up=x&clip=-y:0.25&quality=0.1,0.75&peel=3&kinds=none&"
+                    "hidden=region:3,surface:-7&colour=surface&edges=off&axes=on&legend=on&dislocations=off&theme=dark&"
+                    "fragment=7")})
     EXPECT_EQ(to_text(parse_view_state(text)), text);
+  EXPECT_EQ(to_text(ViewState{}), to_text(parse_view_state("camera=-52,28")));
 }
 
 TEST(ViewState, RefusesWhatIsNone) {
-  for (const char* text : {"clip=a:1", "clip=x:nan", "quality=0", "quality=2,3", "peel=x", "colour=", "=",
-                           "kinds=", "kinds=hexes", "kinds=hex,", "quality=0,1,", "peel=1&", "camera=1,1,0,0,0,0",
-                           "edges=1", "theme", "fragment=-1", "clip=1,2,3:0.5"})
+  for (const char* text : {"clip=a:1",
+                           "clip=x:nan",
+                           "quality=0",
+                           "quality=2,3",
+                           "peel=x",
+                           "colour=",
+                           "=",
+                           "kinds=",
+                           "kinds=hexes",
+                           "kinds=hex,",
+                           "quality=0,1,",
+                           "peel=1&",
+                           "camera=1,1,0,0,0,0",
+                           "edges=1",
+                           "theme",
+                           "fragment=-1",
+                           "clip=1,2,3:0.5",
+                           "camera=1",
+                           "camera=1,91",
+                           "camera=1,2,3",
+                           "up=w",
+                           "up=",
+                           "up=zz",
+                           "axes=yes",
+                           "legend=",
+                           "dislocations=1"})
     EXPECT_THROW(parse_view_state(text), UsageError) << text;
-}
-
-// The corners of a box lie on the ball of radius 1.
-TEST(Camera, SeesTheWholeScene) {
-  std::vector<Vec3> places{{0, 0, 0}};
-  for (int i = 0; i < 60; ++i)
-    for (int j = -15; j <= 15; ++j) {
-      const double around = i * std::numbers::pi / 30, up = j * std::numbers::pi / 30;
-      places.push_back({std::cos(up) * std::cos(around), std::cos(up) * std::sin(around), std::sin(up)});
-    }
-  for (const double aspect : {0.5, 1.0, 1.8})
-    for (const double elevation : {ViewState{}.elevation, 90.0}) {
-      ViewState state;
-      state.elevation = elevation;
-      const Camera camera = camera_of(state, aspect);
-      for (const Vec3& p : places) {
-        std::array<double, 4> at{p.x, p.y, p.z, 1}, eye{}, clip{};
-        for (int row = 0; row < 4; ++row)
-          for (int k = 0; k < 4; ++k) eye[row] += camera.view[4 * k + row] * at[k];
-        for (int row = 0; row < 4; ++row)
-          for (int k = 0; k < 4; ++k) clip[row] += camera.projection[4 * k + row] * eye[k];
-        for (int axis = 0; axis < 3; ++axis)
-          EXPECT_LT(std::abs(clip[axis] / clip[3]), 1 + 1e-6) << p.x << " " << p.y << " " << p.z;
-        EXPECT_GT(-eye[2], camera.near);
-        EXPECT_LT(-eye[2], camera.far);
-      }
-    }
 }
 
 }  // namespace

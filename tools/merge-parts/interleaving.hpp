@@ -46,6 +46,7 @@ class RowReader {
   void fill() {
     block_.resize(std::min<std::uint64_t>(left_, block_bytes / sizeof(T)));
     part_.bundle().read_next_rows(block_.data(), block_.size());
+    part_.count(block_.size() * sizeof(T));
     left_ -= block_.size();
     at_ = 0;
   }

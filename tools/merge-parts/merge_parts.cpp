@@ -3,10 +3,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
 #include <string_view>
+#include <system_error>
 
 #include "common/run/error.hpp"
 #include "common/run/open_files.hpp"
+#include "common/run/progress.hpp"
 #include "formats/meshes/mesh_files.hpp"
 #include "formats/pipeline/members.hpp"
 #include "formats/pipeline/output_format.hpp"
@@ -25,13 +29,26 @@ void expect_bundle_or(std::vector<std::string_view> others, const std::string& p
     throw UsageError(fmt::format("expected an output as {}, found '{}'", fmt::join(others, ", "), path));
 }
 
+// In all files; what is read from a pipe is not known.
+std::int64_t bytes_of(const std::vector<std::string>& paths) {
+  std::int64_t bytes = 0;
+  for (const std::string& path : paths) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(path, error))
+      bytes += static_cast<std::int64_t>(std::filesystem::file_size(path, error));
+  }
+  return bytes;
+}
+
 // Arrays may be larger than the memory: the bundles are read side by side, once or twice from front to back, a block at
 // a time. That takes four bytes for each point, tet and candidate of each part, and eight more for each candidate.
 void merge_side_by_side(const std::vector<std::string>& paths, pipeline::BundleWriter& out) {
   allow_many_open_files();
   PartReaders parts;
   parts.reserve(paths.size());
-  for (const std::string& path : paths) parts.emplace_back(path);
+  Step step("putting parts together");
+  step.expect(bytes_of(paths));
+  for (const std::string& path : paths) parts.emplace_back(path).show_in(step);
   if (parts.front().at_member() && pipeline::is_part_title(parts.front().name()))
     merge_parts_of_mesh(parts, out);
   else

@@ -18,6 +18,17 @@ PartReader::PartReader(const std::string& path) : input_(std::make_unique<format
   next();
 }
 
+void PartReader::count(std::uint64_t bytes) {
+  counted_ += bytes;
+  if (step_) step_->advance(static_cast<std::int64_t>(bytes));
+}
+
+void PartReader::next() {
+  if (at_member_ && counted_ < reader_->size()) count(reader_->size() - counted_);
+  counted_ = 0;
+  at_member_ = reader_->next();
+}
+
 std::string common_member(const PartReaders& parts) {
   const std::string first = standing_at(parts.front());
   for (const PartReader& part : parts)

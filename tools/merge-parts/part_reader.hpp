@@ -1,10 +1,12 @@
 #pragma once
 // Reads a part's bundle once from front to back, side by side with the others.
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "common/run/progress.hpp"
 #include "formats/pipeline/bundle.hpp"
 #include "formats/streams/input.hpp"
 
@@ -19,7 +21,11 @@ class PartReader {
   // Whether there is a member to read; name() is its name.
   bool at_member() const { return at_member_; }
   const std::string& name() const { return reader_->name(); }
-  void next() { at_member_ = reader_->next(); }
+  void next();
+  // Counts bytes of the member at hand as read; next() counts the rest.
+  void count(std::uint64_t bytes);
+  // Bytes are counted in this step, which lives at least as long.
+  void show_in(Step& step) { step_ = &step; }
   const std::string& bundle_name() const { return input_->name(); }
 
  private:
@@ -27,6 +33,8 @@ class PartReader {
   std::unique_ptr<formats::Input> input_;
   std::unique_ptr<pipeline::BundleReader> reader_;
   bool at_member_ = false;
+  Step* step_ = nullptr;  // none: nobody counts
+  std::uint64_t counted_ = 0;
 };
 
 using PartReaders = std::vector<PartReader>;

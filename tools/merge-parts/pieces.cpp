@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/run/error.hpp"
+#include "common/run/progress.hpp"
 #include "formats/meshes/mesh_files.hpp"
 #include "formats/meshes/vtu.hpp"
 #include "formats/pipeline/bundle.hpp"
@@ -67,6 +68,8 @@ class PieceReader {
   template <class Visit>
   void for_each(Visit&& visit) {
     SeamCheck seams;
+    Step step("joining pieces", 0, 0.7);
+    step.expect(static_cast<std::int64_t>(order_.size()));
     for (const std::string& path : order_) {
       pipeline::PieceBundle piece = pipeline::read_piece_bundle(path, true);
       History settings = settings_in(piece.history);
@@ -79,6 +82,7 @@ class PieceReader {
                             order_.front());
       seams.add(piece.mesh, piece.piece, path);
       visit(std::move(piece));
+      step.advance();
     }
     seams.end();
   }
@@ -170,6 +174,7 @@ void write_whole(PieceReader& reader, const std::string& path, bool compress) {
   formats::Output output(path);
   Joiner joiner;
   reader.for_each([&](const pipeline::PieceBundle& piece) { joiner.add(piece); });
+  const Step step("joining pieces", 0.7);
   const MixedMesh mesh = joiner.take();
   if (std::ranges::find(formats, ending) != formats.end()) {
     formats::write_mixed_mesh(mesh, ending, output);

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "common/mesh/orientation.hpp"
+#include "common/run/progress.hpp"
 
 namespace hexpipe::mesh_part {
 namespace {
@@ -25,11 +27,15 @@ std::vector<std::int8_t> turns_of(TetMesh& mesh, const char* source) {
 
 SplitCounts split(TetMesh mesh, std::int32_t part_count, std::uint64_t seed, const char* source,
                   const std::function<void(const PartOfMesh&)>& take) {
+  std::optional<Step> step(std::in_place, "looking for neighbours", 0, 0.2);
   const std::vector<std::int8_t> turns = turns_of(mesh, source);
   const MeshFingerprint whole = fingerprint_of(mesh);
   const TetAdjacency adjacency(mesh, source);
+  step.emplace("choosing parts", 0.2, 0.5);
   const Partition parts = partition(mesh, adjacency, part_count, seed, source);
   MeshCutter cutter(mesh, adjacency, parts, part_count, ghost_edges);
+  step.emplace("writing parts", 0.5);
+  step->expect(part_count);
   SplitCounts counts{.tets = whole.tets, .least = whole.tets, .parts = part_count};
   for (std::int32_t number = 0; number < part_count; ++number) {
     const PartOfMesh part = cutter.cut(number, whole, turns);
@@ -38,6 +44,7 @@ SplitCounts split(TetMesh mesh, std::int32_t part_count, std::uint64_t seed, con
     counts.most = std::max(counts.most, part.own_tets);
     counts.most_neighbours = std::max(counts.most_neighbours, static_cast<std::int64_t>(part.part.neighbours.size()));
     take(part);
+    step->advance();
   }
   return counts;
 }

@@ -8,6 +8,7 @@
 
 #include "common/run/error.hpp"
 #include "common/run/muted_cout.hpp"
+#include "common/run/progress.hpp"
 #include "tools/tessellate/cad_model.hpp"
 #include "tools/tessellate/triangulate.hpp"
 
@@ -25,14 +26,17 @@ LengthUnit wanted_unit(const CadModel& model, const TessellateOptions& options) 
 TessellateResult tessellate(formats::Input& input, const TessellateOptions& options) {
   const MutedCout muted;
   Message::DefaultMessenger()->ChangePrinters().Clear();
+  std::optional<Step> step(std::in_place, "reading the model", 0, 0.4);
   CadModel model = read_cad(input);
   const LengthUnit unit = wanted_unit(model, options);
   TessellateResult result;
   try {
+    step.emplace("checking bodies", 0.4, 0.6);
     heal_bodies(model);
     if (options.join) join_bodies(input.name(), model);
     TriangulationOptions triangulation{.angle = options.angle};
     if (options.deviation) triangulation.deviation = *options.deviation * unit.millimetres;
+    step.emplace("making triangles", 0.6);
     Triangulation made = triangulate(model, triangulation, input.name());
     result.surface = std::move(made.surface);
     result.shape = std::move(made.shape);

@@ -1,14 +1,17 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <map>
+#include <optional>
 
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
+#include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "tools/viewmesh/options.hpp"
 #include "tools/viewmesh/page.hpp"
-#include "tools/viewmesh/picture.hpp"
+#include "tools/viewmesh/picture/picture.hpp"
 
 using namespace hexpipe;
 using namespace hexpipe::viewmesh;
@@ -18,13 +21,21 @@ namespace {
 void write_outputs(const Scene& scene, const ViewState& state, const ViewmeshOptions& options) {
   if (!options.picture.empty()) {
     formats::Output output(options.picture);
-    write_png(draw_picture(scene, state, options.size[0], options.size[1]), output);
+    picture::write_png(picture::draw_picture(scene, state, options.title, options.size[0], options.size[1]), output);
     output.commit();
   }
   if (options.page.empty() && !options.picture.empty()) return;
   formats::Output output(options.page);
   write_page(scene, state, options.title, output);
   output.commit();
+}
+
+// The name of the file that was read; standard input has none.
+std::string default_title(const StreamOptions& streams, Scene::Content content) {
+  std::string path = streams.operand.value_or("-");
+  if (path == "-" && !streams.files.empty()) path = streams.files.rbegin()->second;
+  const std::string name = std::filesystem::path(path).filename();
+  return path == "-" || name.empty() ? fmt::format("hexpipe {}", name_of(content)) : name;
 }
 
 }  // namespace
@@ -64,19 +75,22 @@ int main(int argc, char** argv) {
     app.add_option("--fragments", options.fragments,
                    "Fragments to go through one by one: each line has the numbers of a fragment's candidates, from 1")
         ->type_name("FILE");
-    app.add_option("--title", options.title, "The page's title")->type_name("TEXT");
+    app.add_option("--title", options.title, "The title of page and legend [the file's name]")->type_name("TEXT");
   };
   const auto run = [&](RunContext& context) {
     ViewState state = parse_view_state(options.view);
     check(options);
     pipeline::Stage stage(context);
+    std::optional<Step> step(std::in_place, "reading", 0, 0.4);
     // The number of weights: a solution chooses among as many.
-    pipeline::StageData data =
-        stage.read({.wants = {Role::mesh, Role::candidates, Role::solution, Role::result}, .weights_only = true});
+    pipeline::StageData data = stage.read({.wants = {Role::mesh, Role::candidates, Role::solution, Role::result},
+                                           .dislocations = true,
+                                           .weights_only = true});
     const std::string source = !context.streams.operand || context.streams.operand == "-"
                                    ? context.streams.files.empty() ? "stdin" : "the files"
                                    : *context.streams.operand;
     const Scene::Content content = options.show.empty() ? last_content(data, source) : contents.at(options.show);
+    step.emplace("measuring cells", 0.4, 0.7);
     Scene scene = make_scene(std::move(data), content, source);
     resolve_groups(state, scene);
     check_colour(state, scene);
@@ -89,7 +103,8 @@ int main(int argc, char** argv) {
     for (std::size_t k = 0; k < scene_kinds.size(); ++k)
       context.statistics[name_of(scene_kinds[k])] = scene.kind_begin[k + 1] - scene.kind_begin[k];
     context.note(fmt::format("{}: {} cells", name_of(content), scene.cell_count()));
-    if (options.title.empty()) options.title = fmt::format("hexpipe {}", name_of(content));
+    if (options.title.empty()) options.title = default_title(context.streams, content);
+    step.emplace("drawing", 0.7);
     write_outputs(scene, state, options);
   };
   return tool_main(argc, argv, info, declare, run);

@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "common/run/error.hpp"
+#include "common/run/progress.hpp"
 #include "tools/viewmesh/camera.hpp"
 #include "tools/viewmesh/resources.hpp"
 
@@ -71,6 +72,19 @@ nlohmann::ordered_json packed_fragments(const Scene& scene) {
   return {{"sizes", pack_integers(sizes, 1)}, {"cells", pack_integers(cells, 1)}};
 }
 
+// Each line's length is in the mesh's own units.
+nlohmann::ordered_json packed_dislocations(const Scene& scene) {
+  std::vector<std::int32_t> sizes;
+  std::vector<float> lengths, points;
+  for (const Polyline& line : scene.dislocations) {
+    sizes.push_back(static_cast<std::int32_t>(line.size()));
+    lengths.push_back(static_cast<float>(scene.unit * length_of(line)));
+    for (const Vec3& p : line)
+      points.insert(points.end(), {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+  }
+  return {{"sizes", pack_integers(sizes, 1)}, {"lengths", pack_floats(lengths)}, {"points", pack_floats(points)}};
+}
+
 nlohmann::ordered_json groups_to_json(const std::vector<Group>& groups) {
   auto json = nlohmann::ordered_json::array();
   for (const Group& group : groups) json.push_back({{"tag", group.tag}, {"name", group.name}});
@@ -110,6 +124,7 @@ nlohmann::ordered_json to_json(const Scene& scene, const ViewState& state, const
   json["volume"] = scene.volume;
   json["groups"] = {{"region", groups_to_json(scene.regions)}, {"surface", groups_to_json(scene.surfaces)}};
   json["surfaceFacets"] = packed_surfaces(scene);
+  json["dislocations"] = packed_dislocations(scene);
   json["fragments"] = packed_fragments(scene);
   json["history"] = scene.history;
   return json;
@@ -154,6 +169,7 @@ std::string pack_floats(const std::vector<float>& numbers) {
 }
 
 void write_page(const Scene& scene, const ViewState& state, const std::string& title, formats::Output& output) {
+  const Step step("writing the page");
   const std::string heading = for_html(title), data = for_script(to_json(scene, state, title));
   const auto text_of = [&](std::string_view name) -> std::string_view {
     if (name == "title") return heading;

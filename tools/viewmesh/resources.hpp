@@ -13,5 +13,8 @@ extern const std::string_view skin_vertex;  // skin.vert and so on
 extern const std::string_view skin_fragment;
 extern const std::string_view screen_vertex;
 extern const std::string_view occlusion_fragment;
+extern const std::string_view line_vertex;
+extern const std::string_view line_fragment;
+extern const std::string_view font;  // DejaVu Sans, TrueType
 
 }  // namespace hexpipe::resources

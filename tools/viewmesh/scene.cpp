@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
 #include <unordered_map>
 
@@ -163,8 +164,8 @@ void place(const std::vector<Vec3>& points, Scene& scene) {
   if (half > 0 && std::isfinite(half)) scene.unit = half;
   scene.points.reserve(points.size());
   for (const Vec3& p : points) {
-    const Vec3 placed = (1 / scene.unit) * (p - scene.centre);
-    scene.points.push_back({static_cast<float>(placed.x), static_cast<float>(placed.y), static_cast<float>(placed.z)});
+    const auto [x, y, z] = scene.placed(p);
+    scene.points.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)});
   }
 }
 
@@ -203,6 +204,12 @@ Vec3 Scene::middle_of(std::int32_t cell) const {
   return (1.0 / static_cast<double>(all.size())) * sum;
 }
 
+std::optional<double> Scene::hex_share() const {
+  const double total = std::accumulate(volume.begin(), volume.end(), 0.0);
+  if ((content != Content::result && content != Content::solution) || !(total > 0)) return std::nullopt;
+  return volume[0] / total;
+}
+
 const char* name_of(Scene::Content content) {
   constexpr const char* names[] = {"result", "solution", "candidates", "mesh"};
   return names[static_cast<int>(content)];
@@ -216,7 +223,10 @@ Scene::Content last_content(const pipeline::StageData& data, const std::string& 
   throw DataError::at(source, "expected a mesh to show, found none");
 }
 
-Scene make_scene(pipeline::StageData data, Scene::Content content, const std::string& source) {
+namespace {
+
+// All but the dislocations.
+Scene scene_of_cells(pipeline::StageData& data, Scene::Content content, const std::string& source) {
   Scene scene;
   scene.content = content;
   scene.history = std::move(data.history);
@@ -242,6 +252,16 @@ Scene make_scene(pipeline::StageData data, Scene::Content content, const std::st
   scene.volume = volumes_of(scene, data.mesh->points);
   find_groups(data.names, surface_of(*data.mesh), scene);
   if (content == Scene::Content::mesh) measure(to_mixed_mesh(std::move(*data.mesh)), scene);
+  return scene;
+}
+
+}  // namespace
+
+Scene make_scene(pipeline::StageData data, Scene::Content content, const std::string& source) {
+  Scene scene = scene_of_cells(data, content, source);
+  scene.dislocations = join_segments(data.dislocations);
+  for (Polyline& line : scene.dislocations)
+    for (Vec3& p : line) p = scene.placed(p);
   return scene;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "common/mesh/vec3.hpp"
 #include "formats/pipeline/stage_data.hpp"
 #include "formats/streams/input.hpp"
+#include "tools/viewmesh/dislocation_lines.hpp"
 #include "tools/viewmesh/groups.hpp"
 
 namespace hexpipe::viewmesh {
@@ -53,16 +55,21 @@ struct Scene {
   };
   std::vector<Group> regions, surfaces;
   std::vector<SurfaceFacet> surface_facets;
-  std::array<double, 4> volume{};  // of all cells of a kind, in the mesh's own units
+  std::vector<Polyline> dislocations;  // where the bundle has them; placed as the points are
+  std::array<double, 4> volume{};      // of all cells of a kind, in the mesh's own units
   // The fragments that a search freed, if asked for: the cells of each, ascending.
   std::vector<std::vector<std::int32_t>> fragments;
   std::vector<nlohmann::ordered_json> history;
 
   std::int32_t cell_count() const { return kind_begin[4]; }
+  // The share of the volume that hexes have; none where cells overlap, or no hex can be.
+  std::optional<double> hex_share() const;
   int kind_index(std::int32_t cell) const;
   CellKind kind_of(std::int32_t cell) const { return scene_kinds[kind_index(cell)]; }
   std::span<const std::int32_t> corners_of(std::int32_t cell) const;
   Vec3 point(std::int32_t vertex) const { return {points[vertex][0], points[vertex][1], points[vertex][2]}; }
+  // Where a point of the mesh is in the scene.
+  Vec3 placed(const Vec3& p) const { return (1 / unit) * (p - centre); }
   // The mean of its corners.
   Vec3 middle_of(std::int32_t cell) const;
 };

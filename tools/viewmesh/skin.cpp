@@ -6,6 +6,7 @@
 
 #include "tools/viewmesh/facets.hpp"
 #include "tools/viewmesh/resources.hpp"
+#include "tools/viewmesh/visible_cells.hpp"
 
 namespace hexpipe::viewmesh {
 namespace {
@@ -61,24 +62,12 @@ class Painter {
   }
 
  private:
-  Rgb by_quality(double quality) const { return quality > 0 ? on_ramp(quality) : invalid_; }
+  Rgb by_quality(double quality) const { return quality > 0 ? mixed(quality_, quality) : invalid_; }
 
   // From what a measure allows to its best; what it does not allow is as an invalid cell.
   Rgb by_measure(double value) const {
     const double place = (value - limit_) / (best_ - limit_);
-    return place < 0 ? invalid_ : on_ramp(place);
-  }
-
-  // 0 is worst, 1 best.
-  Rgb on_ramp(double value) const {
-    const double place = std::min(value, 1.0) * static_cast<double>(quality_.size() - 1);
-    const std::size_t below = std::min(static_cast<std::size_t>(place), quality_.size() - 2);
-    const double part = place - static_cast<double>(below);
-    Rgb mixed;
-    for (std::size_t i = 0; i < 3; ++i)
-      mixed[i] =
-          static_cast<std::uint8_t>(std::lround(quality_[below][i] * (1 - part) + quality_[below + 1][i] * part));
-    return mixed;
+    return place < 0 ? invalid_ : mixed(quality_, place);
   }
 
   const Scene& scene_;
@@ -132,6 +121,16 @@ std::vector<SkinVertex> visible_skin(const Scene& scene, const ViewState& state)
     add_facet(scene, facet_corners(scene, shown.cell, shown.facet), painter.colour_of(shown.cell, surface), skin);
   });
   return skin;
+}
+
+Rgb mixed(const std::vector<Rgb>& colours, double along) {
+  const double place = std::min(along, 1.0) * static_cast<double>(colours.size() - 1);
+  const std::size_t below = std::min(static_cast<std::size_t>(place), colours.size() - 2);
+  const double part = place - static_cast<double>(below);
+  Rgb result;
+  for (std::size_t i = 0; i < 3; ++i)
+    result[i] = static_cast<std::uint8_t>(std::lround(colours[below][i] * (1 - part) + colours[below + 1][i] * part));
+  return result;
 }
 
 Rgb parse_colour(const std::string& text) {

@@ -23,6 +23,9 @@ using Rgb = std::array<std::uint8_t, 3>;
 // Three vertices per triangle.
 std::vector<SkinVertex> visible_skin(const Scene& scene, const ViewState& state);
 
+// The colour at a share of the way from the first to the last.
+Rgb mixed(const std::vector<Rgb>& colours, double along);
+
 // The colours of the page, from page/colours.json.
 Rgb parse_colour(const std::string& text);
 const nlohmann::json& page_colours();

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 #include <vector>
 
@@ -131,20 +130,44 @@ bool parse_switch(std::string_view key, std::string_view text) {
   return parse_name(key, text, std::array{"off", "on"}) == 1;
 }
 
+// Two angles alone leave zoom and target to what is shown.
+void set_camera(ViewState& state, std::string_view text) {
+  const auto count = std::ranges::count(text, ',');
+  if (count != 1 && count != 5) fail("camera", "2 or 6 numbers joined by commas", text);
+  const auto numbers = parse_numbers("camera", text, static_cast<std::size_t>(count) + 1, -1e4, 1e4);
+  state.fitted = count == 1;
+  state.azimuth = numbers[0], state.elevation = numbers[1];
+  if (std::abs(state.elevation) > 90) fail("camera", "an elevation from -90 to 90", text);
+  if (state.fitted) return;
+  state.zoom = numbers[2], state.target = {numbers[3], numbers[4], numbers[5]};
+  if (state.zoom < 0.05) fail("camera", "a zoom from 0.05", text);
+}
+
+ViewState::Up parse_up(std::string_view text) {
+  const bool turned = text.starts_with('-');
+  const auto axis = std::ranges::find(axis_names, text.substr(turned ? 1 : 0));
+  if (axis == axis_names.end()) fail("up", "one of x, y, z, -x, -y, -z", text);
+  return {static_cast<int>(axis - axis_names.begin()), turned};
+}
+
+std::string camera_text(const ViewState& state) {
+  const std::string angles = fmt::format("{:g},{:g}", state.azimuth, state.elevation);
+  if (state.fitted) return angles;
+  return fmt::format("{},{:g},{:g},{:g},{:g}", angles, state.zoom, state.target.x, state.target.y, state.target.z);
+}
+
+const char* switch_text(bool on) {
+  return on ? "on" : "off";
+}
+
 // The setter of each key.
 std::map<std::string_view, std::function<void(std::string_view)>> setters_of(ViewState& state) {
   const auto set_colour = [&](std::string_view text) {
     state.colour = static_cast<ViewState::Colour>(parse_name("colour", text, colour_names));
   };
   return {
-      {"camera",
-       [&](std::string_view text) {
-         const auto numbers = parse_numbers("camera", text, 6, -1e4, 1e4);
-         state.azimuth = numbers[0], state.elevation = numbers[1], state.zoom = numbers[2];
-         state.target = {numbers[3], numbers[4], numbers[5]};
-         if (std::abs(state.elevation) > 90 || state.zoom < 0.05)
-           fail("camera", "an elevation from -90 to 90 and a zoom from 0.05", text);
-       }},
+      {"camera", [&](std::string_view text) { set_camera(state, text); }},
+      {"up", [&](std::string_view text) { state.up = parse_up(text); }},
       {"clip", [&](std::string_view text) { state.clip = parse_clip(text); }},
       {"quality",
        [&](std::string_view text) {
@@ -157,6 +180,9 @@ std::map<std::string_view, std::function<void(std::string_view)>> setters_of(Vie
       {"color", set_colour},
       {"hidden", [&](std::string_view text) { state.hidden = parse_hidden(text); }},
       {"edges", [&](std::string_view text) { state.edges = parse_switch("edges", text); }},
+      {"axes", [&](std::string_view text) { state.axes = parse_switch("axes", text); }},
+      {"legend", [&](std::string_view text) { state.legend = parse_switch("legend", text); }},
+      {"dislocations", [&](std::string_view text) { state.dislocations = parse_switch("dislocations", text); }},
       {"theme",
        [&](std::string_view text) {
          state.dark = parse_name("theme", text, std::array{"light", "dark"}) == 1;
@@ -189,13 +215,13 @@ ViewState parse_view_state(std::string_view text) {
 
 std::string to_text(const ViewState& state) {
   return fmt::format(
-      "camera={:g},{:g},{:g},{:g},{:g},{:g}&clip={}&quality={:g},{:g}&peel={}&kinds={}&hidden={}&colour={}"
-      "&edges={}&theme={}&fragment={}",
-      state.azimuth, state.elevation, state.zoom, state.target.x, state.target.y, state.target.z,
+      "camera={}&up={}{}&clip={}&quality={:g},{:g}&peel={}&kinds={}&hidden={}&colour={}"
+      "&edges={}&axes={}&legend={}&dislocations={}&theme={}&fragment={}",
+      camera_text(state), state.up.turned ? "-" : "", axis_names[state.up.axis],
       state.clip ? fmt::format("{}:{:g}", direction_text(state.clip->normal), state.clip->fraction) : "none",
       state.least_quality, state.greatest_quality, state.peel, kinds_text(state.kinds), hidden_text(state.hidden),
-      colour_names[static_cast<int>(state.colour)], state.edges ? "on" : "off", state.dark ? "dark" : "light",
-      state.fragment);
+      colour_names[static_cast<int>(state.colour)], switch_text(state.edges), switch_text(state.axes),
+      switch_text(state.legend), switch_text(state.dislocations), state.dark ? "dark" : "light", state.fragment);
 }
 
 void resolve_groups(ViewState& state, const Scene& scene) {
@@ -227,43 +253,6 @@ void check_colour(const ViewState& state, const Scene& scene) {
   if (const auto measure = measure_of(state.colour); measure && scene.measures[*measure].empty())
     fail("colour", fmt::format("one of the first five for {}, because its cells are no mesh", name_of(scene.content)),
          measure_names[*measure]);
-}
-
-std::vector<bool> hidden_places(const ViewState& state, ViewState::HiddenGroup::Kind kind,
-                                const std::vector<Group>& groups) {
-  std::vector<bool> places(groups.size());
-  for (const auto& hidden : state.hidden)
-    if (hidden.kind == kind && hidden.tag)
-      if (const std::size_t place = place_of(groups, *hidden.tag); place < groups.size()) places[place] = true;
-  return places;
-}
-
-std::vector<bool> visible_cells(const Scene& scene, const ViewState& state) {
-  double beyond = std::numeric_limits<double>::infinity();
-  if (state.clip) {
-    double low = beyond, high = -beyond;
-    for (const auto& block : scene.corners)
-      for (const auto vertex : block) {
-        const double along = dot(state.clip->normal, scene.point(vertex));
-        low = std::min(low, along), high = std::max(high, along);
-      }
-    beyond = low + state.clip->fraction * (high - low);
-  }
-  const auto hidden = hidden_places(state, ViewState::HiddenGroup::Kind::region, scene.regions);
-  const bool any_hidden = std::find(hidden.begin(), hidden.end(), true) != hidden.end();
-  std::vector<bool> visible(scene.cell_count());
-  for (std::int32_t cell = 0; cell < scene.cell_count(); ++cell)
-    visible[cell] = state.kinds[scene.kind_index(cell)] && scene.layer[cell] > state.peel &&
-                    scene.quality[cell] >= static_cast<float>(state.least_quality) &&
-                    scene.quality[cell] <= static_cast<float>(state.greatest_quality) &&
-                    !(any_hidden && hidden[place_of(scene.regions, scene.region[cell])]) &&
-                    (!state.clip || dot(state.clip->normal, scene.middle_of(cell)) <= beyond);
-  if (state.fragment > 0 && static_cast<std::size_t>(state.fragment) <= scene.fragments.size()) {
-    const auto& fragment = scene.fragments[state.fragment - 1];
-    for (std::int32_t cell = 0; cell < scene.cell_count(); ++cell)
-      if (!std::binary_search(fragment.begin(), fragment.end(), cell)) visible[cell] = false;
-  }
-  return visible;
 }
 
 }  // namespace hexpipe::viewmesh

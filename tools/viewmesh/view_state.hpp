@@ -27,17 +27,25 @@ struct ViewState {
     double fraction;
   };
 
-  // The camera looks at `target` (in the scene's units) from `azimuth` and `elevation` (degrees, z is up); zoom 1 shows
-  // the whole scene.
+  // An axis, or its opposite.
+  struct Up {
+    int axis = 2;
+    bool turned = false;
+  };
+
+  // The camera looks at `target` (in the scene's units) from `azimuth` and `elevation` (degrees, above the plane across
+  // `up`); zoom 1 shows the whole scene. Where it is fitted, zoom and target are still to be found by what is shown.
   double azimuth = -52, elevation = 28, zoom = 1;
   Vec3 target;
+  bool fitted = true;
+  Up up;
   std::optional<Clip> clip;
   double least_quality = -1, greatest_quality = 1;
   int peel = 0;                                       // layers of cells taken off the surface
   std::array<bool, 4> kinds{true, true, true, true};  // as scene_kinds
   std::vector<HiddenGroup> hidden;                    // cells of a region, facets of a surface
   Colour colour = Colour::hexes;
-  bool edges = true;
+  bool edges = true, axes = true, legend = true, dislocations = false;
   bool dark = false;
   int fragment = 0;  // from 1: only this fragment's cells; 0: all
 };
@@ -54,12 +62,5 @@ void check_colour(const ViewState& state, const Scene& scene);
 
 // The place of the measure among measure_names by which cells are coloured; none for other colours.
 std::optional<std::size_t> measure_of(ViewState::Colour colour);
-
-// For each place of `groups`, whether the state hides that group.
-std::vector<bool> hidden_places(const ViewState& state, ViewState::HiddenGroup::Kind kind,
-                                const std::vector<Group>& groups);
-
-// For each cell whether the state shows it.
-std::vector<bool> visible_cells(const Scene& scene, const ViewState& state);
 
 }  // namespace hexpipe::viewmesh

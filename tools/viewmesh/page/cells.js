@@ -11,6 +11,10 @@ export function cornersOf(scene, cell) {
   return scene.corners[k].subarray(begin, begin + count);
 }
 
+export function pointOf(scene, vertex) {
+  return [...scene.points.subarray(3 * vertex, 3 * vertex + 3)];
+}
+
 // The mean of each cell's corners, three numbers a cell.
 export function middlesOf(scene) {
   const {points} = scene, result = new Float64Array(3 * scene.cellCount);
@@ -39,4 +43,19 @@ export function extent(scene, [x, y, z]) {
       if (along > high) high = along;
     }
   return [low, high];
+}
+
+// The mean of one cell's corners.
+export function middleOf(scene, cell) {
+  const corners = cornersOf(scene, cell), middle = [0, 0, 0];
+  for (const v of corners)
+    for (let axis = 0; axis < 3; ++axis) middle[axis] += scene.points[3 * v + axis] / corners.length;
+  return middle;
+}
+
+// The share of the volume that hexes have, as text; null where cells overlap, or no hex can be.
+export function hexShare(scene) {
+  const total = scene.volume.reduce((a, b) => a + b, 0);
+  if (!["result", "solution"].includes(scene.content) || !(total > 0)) return null;
+  return `${(100 * scene.volume[0] / total).toFixed(1)} %`;
 }

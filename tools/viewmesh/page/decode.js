@@ -45,7 +45,15 @@ async function surfaces(packed, cellCount) {
   return result;
 }
 
-// `fragments` becomes a list of arrays of cells, `surfaceFacets` becomes `surfaceOfFacet`; all else keeps its name.
+// Lines of {points: three numbers each, length in the mesh's own units}.
+async function dislocations(packed) {
+  const sizes = await integers(packed.sizes, 1), lengths = await floats(packed.lengths), all = await floats(packed.points);
+  let at = 0;
+  return Array.from(sizes, (size, i) => ({points: all.subarray(at, at += 3 * size), length: lengths[i]}));
+}
+
+// `fragments` becomes a list of arrays of cells, `dislocations` a list of lines, `surfaceFacets` becomes `surfaceOfFacet`;
+// all else keeps its name.
 export async function decodeScene(data) {
   const scene = {...data, points: await points(data.points, data.pointCount)};
   scene.corners = await Promise.all(data.corners.map((text, k) => integers(text, data.kinds[k].corners)));
@@ -57,6 +65,7 @@ export async function decodeScene(data) {
   scene.measures = {};
   for (const [name, text] of Object.entries(data.measures)) scene.measures[name] = await integers(text, 1);
   scene.cellCount = data.kindBegin[4];
+  scene.dislocations = await dislocations(data.dislocations);
   scene.surfaceOfFacet = await surfaces(data.surfaceFacets, scene.cellCount);
   return scene;
 }

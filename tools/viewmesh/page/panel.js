@@ -1,43 +1,18 @@
 // The card with the controls: what they show follows the state, and what they change is told by changed().
 
-import {cornersOf, kindOf} from "./cells.js";
-import {colours, groupColour} from "./colours.js";
+import {hexShare} from "./cells.js";
+import {colours} from "./colours.js";
+import {byId, element, grouped, swatch} from "./dom.js";
 import {Histogram} from "./histogram.js";
+import {showHistory} from "./history.js";
+import {LegendPanel} from "./legend.js";
 import {axes, directionName} from "./state.js";
 
-const byId = id => document.getElementById(id);
-const grouped = new Intl.NumberFormat("en").format;
 const plurals = {hex: "hexes", prism: "prisms", pyramid: "pyramids", tet: "tets"};
-
-function element(tag, text, properties = {}) {
-  const result = Object.assign(document.createElement(tag), properties);
-  if (text !== undefined) result.textContent = text;
-  return result;
-}
-
-function swatch(colour) {
-  const box = element("b");
-  box.style.background = colour;
-  return box;
-}
-
-function brief(value) {
-  if (typeof value !== "number" || !Number.isFinite(value)) return String(value);
-  return Number.isInteger(value) ? grouped(value) : String(Number(value.toPrecision(4)));
-}
-
-// What a tool said, a line for what stands together: single values, and behind them what is told part by part, but for
-// lists and for parts of parts, which only programs read.
-function linesOf(name, entry, depth = 0) {
-  const single = Object.entries(entry).filter(([, value]) => typeof value !== "object");
-  const parts = Object.entries(entry).filter(([, value]) => value && typeof value === "object" && !Array.isArray(value));
-  const words = single.map(([key, value]) => `${key.replaceAll("_", " ")} ${brief(value)}`);
-  return [...words.length ? [(name && `${name.replaceAll("_", " ")}: `) + words.join(" · ")] : [],
-    ...depth < 2 && entry.count !== 0 ? parts.flatMap(([key, part]) => linesOf(key, part, depth + 1)) : []];
-}
+const switches = ["edges", "axes", "dislocations"];
 
 export class Panel {
-  // actions: changed(), viewDirection() -> a unit vector, link(), png(), reset()
+  // actions: changed(), viewDirection() -> a unit vector, and what buttons do: link(), png(), reset(), fit()
   constructor(scene, state, actions) {
     this.scene = scene;
     this.state = state;
@@ -45,25 +20,26 @@ export class Panel {
     this.histogram = new Histogram(scene, state, actions.changed);
     this.makeHeadline();
     this.makeCounts();
-    this.makeHistory();
+    showHistory(scene.history);
+    this.legend = new LegendPanel(scene, state, actions.changed);
     this.connectChoices();
     this.connectSliders();
-    for (const name of ["link", "png", "reset"]) byId(name).addEventListener("click", actions[name]);
+    for (const name of ["link", "png", "reset", "fit"]) byId(name).addEventListener("click", actions[name]);
     byId("theme").addEventListener("click", () => {
       state.theme = state.theme === "dark" ? "light" : "dark";
       actions.changed();
     });
     byId("fold").addEventListener("click", () => {
       byId("fold").textContent = byId("panel").classList.toggle("folded") ? "+" : "–";
+      actions.changed();
     });
     byId("panel").hidden = false;
   }
 
-  // Candidates overlap, and a tet mesh has no hexes: neither has a share to tell.
   makeHeadline() {
-    const {scene} = this, total = scene.volume.reduce((a, b) => a + b, 0), headline = byId("headline");
-    headline.hidden = !["result", "solution"].includes(scene.content) || !(total > 0);
-    headline.append(element("b", `${(100 * scene.volume[0] / total).toFixed(1)} %`), " of the volume in hexes");
+    const share = hexShare(this.scene);
+    byId("headline").hidden = share === null;
+    byId("headline").append(element("b", share ?? ""), " of the volume in hexes");
   }
 
   makeCounts() {
@@ -82,17 +58,6 @@ export class Panel {
       return button;
     });
     byId("counts").append(...this.kindButtons, element("div", "", {className: "total"}));
-  }
-
-  makeHistory() {
-    const {history} = this.scene, list = byId("history").querySelector("ol");
-    byId("history").hidden = history.length === 0;
-    for (const {tool, version, options, ...rest} of history) {
-      const item = element("li", undefined, {title: `${tool} ${version ?? ""}`});
-      item.append(element("b", tool), ...linesOf("", rest).map(line => element("div", line)));
-      item.append(element("div", Object.entries(options ?? {}).map(([k, v]) => `--${k} ${brief(v)}`).join("  ")));
-      list.append(item);
-    }
   }
 
   connectChoices() {
@@ -114,10 +79,12 @@ export class Panel {
       else state.clip = {normal: this.towardsCamera(axes[target.value]), fraction};
       actions.changed();
     });
-    byId("edges").addEventListener("change", ({target}) => {
-      state.edges = target.checked;
-      actions.changed();
-    });
+    for (const name of switches)
+      byId(name).addEventListener("change", ({target}) => {
+        state[name] = target.checked;
+        actions.changed();
+      });
+    for (const part of document.querySelectorAll(".of-dislocations")) part.hidden = this.scene.dislocations.length === 0;
   }
 
   // What is taken away is what would hide the cut.
@@ -159,103 +126,11 @@ export class Panel {
     byId("peel-value").textContent = state.peel ? `${state.peel} ${state.peel === 1 ? "layer" : "layers"}` : "";
     byId("fragment").value = state.fragment;
     byId("fragment-value").textContent = state.fragment ? `${state.fragment} of ${scene.fragments.length}` : "all";
-    byId("edges").checked = state.edges;
+    for (const name of switches) byId(name).checked = state[name];
     const shown = counts.reduce((a, b) => a + b, 0);
     byId("counts").querySelector(".total").textContent = shown === scene.cellCount
       ? `${grouped(shown)} cells` : `${grouped(shown)} of ${grouped(scene.cellCount)} cells shown`;
-    this.showLegend();
+    this.legend.show();
     this.histogram.show();
-  }
-
-  showLegend() {
-    const {scene, state} = this, legend = byId("legend");
-    legend.replaceChildren();
-    const key = (colour, text) => {
-      const item = element("span", undefined, {className: "key"});
-      item.append(swatch(colour), text);
-      legend.append(item);
-    };
-    if (state.colour === "kind")
-      scene.kinds.forEach(({name}, k) => scene.kindBegin[k] < scene.kindBegin[k + 1] && key(colours.kinds[name], name));
-    else if (state.colour in scene.groups) this.showGroups(state.colour, legend);
-    else if (state.colour in scene.measures) {
-      const {best, limit, unit} = colours.measures[state.colour], sign = Math.sign(best - limit);
-      this.showScale(legend, [0, 0.25, 0.5, 0.75, 1].map(part => Number(((limit + part * (best - limit)) / unit).toPrecision(3))));
-      const missing = scene.measures[state.colour].reduce((count, value) => count + (sign * (value - limit) < 0), 0);
-      if (missing > 0) key(colours.invalid, `${grouped(missing)} ${missing === 1 ? "cell misses" : "cells miss"} it`);
-    } else {
-      this.showScale(legend, ["0", "0.25", "0.5", "0.75", "1"]);
-      if (state.colour === "hexes") key(colours.plain, "other cells");
-      if (scene.quality.some(quality => !(quality > 0))) key(colours.invalid, "not positive");
-    }
-  }
-
-  showScale(legend, texts) {
-    const scale = element("div", undefined, {className: "scale"});
-    scale.style.background = `linear-gradient(to right, ${colours.quality.join()})`;
-    const ticks = element("div", undefined, {className: "ticks"});
-    ticks.append(...texts.map(text => element("span", String(text))));
-    legend.append(scale, ticks);
-  }
-
-  // The legend of regions or surfaces: a click hides or shows a group, with shift it shows that one alone.
-  showGroups(kind, legend) {
-    const {scene, state} = this, groups = scene.groups[kind];
-    const others = state.hidden.filter(group => group.kind !== kind);
-    const isHidden = tag => state.hidden.some(group => group.kind === kind && group.tag === tag);
-    const hide = tags => {
-      state.hidden = [...others, ...tags.map(tag => ({kind, tag}))];
-      this.actions.changed();
-    };
-    const tagsBut = tag => groups.map(group => group.tag).filter(other => other !== tag);
-    groups.forEach(({tag, name}, place) => {
-      const item = element("button", undefined, {className: "group", value: tag, title: `${name} (${tag}): hide or show; with shift, show alone`});
-      item.append(swatch(groupColour(place)), element("span", name));
-      item.setAttribute("aria-pressed", !isHidden(tag));
-      item.addEventListener("click", ({shiftKey}) => {
-        const hidden = groups.map(group => group.tag).filter(isHidden);
-        if (shiftKey) hide(tagsBut(tag));
-        else hide(isHidden(tag) ? hidden.filter(other => other !== tag) : [...hidden, tag]);
-      });
-      legend.append(item);
-    });
-    if (groups.some(({tag}) => isHidden(tag))) {
-      const all = element("button", "Show all", {className: "all"});
-      all.addEventListener("click", () => hide([]));
-      legend.append(all);
-    }
-    if (groups.length === 0) legend.append(`This file has no ${kind}s.`);
-  }
-
-  nameOf(kind, place) {
-    const {tag, name} = this.scene.groups[kind][place];
-    return name === `${kind}_${tag}` ? String(tag) : `${name} (${tag})`;
-  }
-
-  // -1: none.
-  showCell(cell, surface) {
-    const {scene} = this, table = byId("picked").querySelector("table");
-    byId("picked").hidden = cell < 0;
-    table.replaceChildren();
-    if (cell < 0) return;
-    const row = (name, value) => table.insertRow().append(element("td", name), element("td", value));
-    const corners = cornersOf(scene, cell), middle = [0, 0, 0];
-    for (const v of corners)
-      for (let axis = 0; axis < 3; ++axis) middle[axis] += scene.points[3 * v + axis] / corners.length;
-    // Candidates and the tets that they leave count from 1, as in .sol files and messages; cells of a mesh from 0.
-    const first = ["candidates", "solution"].includes(scene.content) ? 1 : 0;
-    row(scene.content === "candidates" ? "candidate" : scene.kinds[kindOf(scene, cell)].name,
-      `number ${scene.number[cell] + first}`);
-    row("scaled Jacobian", scene.quality[cell].toFixed(4));
-    for (const [name, values] of Object.entries(scene.measures)) {
-      const {title, unit, decimals} = colours.measures[name];
-      row(title, (values[cell] / unit).toFixed(decimals) + (name === "orthogonality" ? "°" : ""));
-    }
-    row("region", this.nameOf("region", scene.groups.region.findIndex(({tag}) => tag === scene.region[cell])));
-    if (surface >= 0) row("surface", this.nameOf("surface", surface));
-    row("layer", scene.layer[cell]);
-    row("vertices", [...corners].join(" "));
-    row("middle", middle.map((m, i) => Number((scene.centre[i] + scene.unit * m).toPrecision(5))).join(", "));
-    byId("picked").scrollIntoView({block: "nearest"});
   }
 }

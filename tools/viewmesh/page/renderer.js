@@ -1,12 +1,15 @@
-// Draws the skin by three.js: into textures, then onto the canvas with the occlusion that its depths show.
+// Draws the skin by three.js: into textures, then onto the canvas with the occlusion that its depths show. Dislocations
+// come last, over both.
 
 import {
   BufferAttribute, BufferGeometry, DepthTexture, Mesh, NearestFilter, PerspectiveCamera, RawShaderMaterial, Scene,
-  UnsignedIntType, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget,
+  UnsignedIntType, Vector2, Vector3, Vector4, WebGLRenderer, WebGLRenderTarget,
 } from "three/build/three.module.js";
 
-import {cameraOf} from "./camera.js";
+import {axesOf} from "./camera.js";
 import {colours, rgb} from "./colours.js";
+import lineFragment from "./line.frag";
+import lineVertex from "./line.vert";
 import occlusionFragment from "./occlusion.frag";
 import screenVertex from "./screen.vert";
 import skinFragment from "./skin.frag";
@@ -28,6 +31,9 @@ function sceneOf(geometry, shader) {
   return {scene, mesh};
 }
 
+// Of dislocations, in pixels of the page; and of the one that was found, as a part of it.
+const lineWidth = 2.5, chosenWidth = 2;
+
 const colour = text => new Vector3(...rgb(text).map(value => value / 255));
 
 export class Renderer {
@@ -40,7 +46,7 @@ export class Renderer {
     this.target.depthTexture = new DepthTexture(1, 1, UnsignedIntType);
     this.camera = new PerspectiveCamera();
     this.camera.matrixAutoUpdate = false;
-    this.skinShader = material(skinVertex, skinFragment, {edge_width: 1}, true);
+    this.skinShader = material(skinVertex, skinFragment, {edge_width: 1, up_axis: new Vector3()}, true);
     this.skin = sceneOf(new BufferGeometry(), this.skinShader);
     this.screenShader = material(screenVertex, occlusionFragment, {
       image: this.target.texture, depths: this.target.depthTexture, pixel: new Vector2(), half_frustum: new Vector2(),
@@ -49,6 +55,14 @@ export class Renderer {
     const corners = new BufferGeometry();
     corners.setAttribute("position", new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
     this.screen = sceneOf(corners, this.screenShader);
+    this.lineShader = material(lineVertex, lineFragment, {
+      depths: this.target.depthTexture, pixel: new Vector2(), viewport: new Vector2(), clip: new Vector4(),
+      line_colour: colour(colours.dislocations), width: 1,
+    }, false);
+    this.lineShader.transparent = true;
+    this.lines = new Mesh(new BufferGeometry(), this.lineShader);
+    this.lines.frustumCulled = this.lines.visible = false;
+    this.screen.scene.add(this.lines);
   }
 
   setSkin({position, normal, colour: colourBytes}) {
@@ -58,6 +72,29 @@ export class Renderer {
     geometry.setAttribute("colour", new BufferAttribute(colourBytes, 4, true));
     this.skin.mesh.geometry.dispose();
     this.skin.mesh.geometry = geometry;
+  }
+
+  // Lines as decode.js has them; the one of number `chosen` is thicker.
+  setLines(lines, chosen) {
+    const position = [], other = [], side = [];
+    lines.forEach(({points}, number) => {
+      const width = number === chosen ? chosenWidth : 1;
+      for (let i = 3; i < points.length; i += 3) {
+        const a = points.subarray(i - 3, i), b = points.subarray(i, i + 3);
+        // What is left of a line seen from its end is right of it seen from its begin.
+        for (const [here, there, left] of [[a, b, 1], [a, b, -1], [b, a, 1], [a, b, 1], [b, a, 1], [b, a, -1]]) {
+          position.push(...here);
+          other.push(...there);
+          side.push(left * width);
+        }
+      }
+    });
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(new Float32Array(position), 3));
+    geometry.setAttribute("other", new BufferAttribute(new Float32Array(other), 3));
+    geometry.setAttribute("side", new BufferAttribute(new Float32Array(side), 1));
+    this.lines.geometry.dispose();
+    this.lines.geometry = geometry;
   }
 
   // `scale`: pixels of the canvas for one of the page.
@@ -80,13 +117,25 @@ export class Renderer {
     uniforms.pixel.value.set(1 / this.canvas.width, 1 / this.canvas.height);
   }
 
-  draw(state, scale) {
-    this.setSize(scale);
-    this.setCamera(cameraOf(state, this.canvas.width / this.canvas.height));
+  // `beyond`: how far along the clip's normal the picture goes.
+  setUniforms(state, scale, beyond) {
     this.skinShader.uniforms.edge_width.value = state.edges ? scale : 0;
+    this.skinShader.uniforms.up_axis.value.set(...axesOf(state.up)[2]);
+    const {clip, pixel, viewport, width} = this.lineShader.uniforms;
+    clip.value.set(...state.clip?.normal ?? [0, 0, 0], beyond);
+    viewport.value.set(this.canvas.width, this.canvas.height);
+    pixel.value.set(1 / this.canvas.width, 1 / this.canvas.height);
+    width.value = lineWidth * scale;
+    this.lines.visible = state.dislocations && this.lines.geometry.attributes.position !== undefined;
     const {uniforms} = this.screenShader;
     uniforms.top.value.copy(colour(colours[state.theme].top));
     uniforms.bottom.value.copy(colour(colours[state.theme].bottom));
+  }
+
+  draw(view, state, scale, beyond) {
+    this.setSize(scale);
+    this.setCamera(view);
+    this.setUniforms(state, scale, beyond);
     this.gl.setRenderTarget(this.target);
     this.gl.render(this.skin.scene, this.camera);
     this.gl.setRenderTarget(null);

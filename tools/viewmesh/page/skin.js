@@ -103,15 +103,25 @@ export class Skin {
     this.at = new Int32Array(4);
   }
 
-  // cell -> whether its middle is beyond the plane. What sliding a plane does not change is kept.
+  // How far the cells reach along a normal: [least, greatest]. What sliding a plane does not change is kept.
+  extentAlong(normal) {
+    if (this.direction !== normal.join()) {
+      this.direction = normal.join();
+      this.extent = extent(this.scene, normal);
+    }
+    return this.extent;
+  }
+
+  // A clip's plane: what lies beyond is farther along its normal.
+  planeOf({normal, fraction}) {
+    const [low, high] = this.extentAlong(normal);
+    return low + fraction * (high - low);
+  }
+
+  // cell -> whether its middle is beyond the plane.
   clippedBy(clip) {
     if (!clip) return () => false;
-    const middles = this.middles ??= middlesOf(this.scene), [x, y, z] = clip.normal;
-    if (this.direction !== clip.normal.join()) {
-      this.direction = clip.normal.join();
-      this.extent = extent(this.scene, clip.normal);
-    }
-    const [low, high] = this.extent, beyond = low + clip.fraction * (high - low);
+    const middles = this.middles ??= middlesOf(this.scene), [x, y, z] = clip.normal, beyond = this.planeOf(clip);
     return cell => x * middles[3 * cell] + y * middles[3 * cell + 1] + z * middles[3 * cell + 2] > beyond;
   }
 
@@ -173,7 +183,7 @@ export class Skin {
     return this.scene.kinds[kindOf(this.scene, item >> 4)].facets[(item >> 1) & 7];
   }
 
-  // Arrays as skin.vert wants them, and the cell and the surface (-1: none) of each triangle. colourOf(cell, surface)
+  // Arrays as skin.vert wants them, and the cell, its facet and the surface (-1: none) of each triangle. colourOf(cell, surface)
   // gives [r, g, b].
   triangles(state, colourOf) {
     const counts = this.chooseCells(state), {count, triangles} = this.chooseFacets(state);
@@ -181,7 +191,7 @@ export class Skin {
       counts,
       position: new Float32Array(9 * triangles), normal: new Int8Array(12 * triangles),
       colour: new Uint8Array(12 * triangles), cell: new Int32Array(triangles), surface: new Int32Array(triangles),
-      done: 0,
+      facet: new Uint8Array(triangles), done: 0,
     };
     for (let i = 0; i < count; ++i) this.addFacet(this.shown[i], colourOf, out);
     return out;
@@ -216,12 +226,13 @@ export class Skin {
     }
     for (let triangle = 0; triangle < (quad ? 2 : 1); ++triangle) {
       out.surface[out.done] = surface;
+      out.facet[out.done] = (item >> 1) & 7;
       out.cell[out.done++] = cell;
     }
   }
 }
 
-// The cell and the surface of the triangle that a ray meets first, or -1 for both.
+// The cell, its facet and the surface of the triangle that a ray meets first, or -1 for each.
 export function triangleHit(skin, origin, direction) {
   const p = skin.position;
   let nearest = Infinity, hit = -1;
@@ -242,5 +253,6 @@ export function triangleHit(skin, origin, direction) {
     const distance = (vx * qx + vy * qy + vz * qz) / determinant;
     if (distance > 0 && distance < nearest) nearest = distance, hit = t;
   }
-  return hit < 0 ? {cell: -1, surface: -1} : {cell: skin.cell[hit], surface: skin.surface[hit]};
+  if (hit < 0) return {cell: -1, facet: -1, surface: -1};
+  return {cell: skin.cell[hit], facet: skin.facet[hit], surface: skin.surface[hit]};
 }

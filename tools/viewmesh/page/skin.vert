@@ -2,6 +2,7 @@
 // says which corner this is (0 to 2) and, by bits 2 to 4, which sides of the triangle are the diagonal of a quad, and so
 // are not drawn as edges: bit 2 + i is the side opposite corner i.
 uniform mat4 modelViewMatrix, projectionMatrix;
+uniform vec3 up_axis;
 in vec3 position;
 in vec3 normal;
 in vec4 colour;
@@ -17,7 +18,7 @@ void main() {
   vec4 at = modelViewMatrix * vec4(position, 1.0);
   view_position = at.xyz;
   view_normal = mat3(modelViewMatrix) * normal;
-  up = normal.z;
+  up = dot(normal, up_axis);
   paint = colour.rgb;
   gl_Position = projectionMatrix * at;
 }

@@ -1,4 +1,5 @@
 // How the scene is looked at, in the words of view_state.hpp: a link holds it behind the #, --view takes the same text.
+// Beside these a state `follows` as long as zoom and target are to fit anew when other cells are shown.
 
 export const axes = {x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1]};
 const kindNames = ["hex", "prism", "pyramid", "tet"];
@@ -17,6 +18,14 @@ const oneOf = (text, names) => {
   if (!names.includes(text)) throw new Error(text);
   return text;
 };
+
+const isOn = text => oneOf(text, ["off", "on"]) === "on";
+
+function parseUp(text) {
+  const [, sign, name] = /^(-?)([xyz])$/.exec(text) ?? [];
+  if (!name) throw new Error(text);
+  return {axis: "xyz".indexOf(name), turned: sign === "-"};
+}
 
 function parseDirection(text) {
   const [, sign, name] = /^(-?)([xyz])$/.exec(text) ?? [];
@@ -54,10 +63,12 @@ function parseHidden(text, groups) {
 // The bounds are those of view_state.cpp: what --view refuses, no link sets.
 const setters = {
   camera(state, text) {
-    const [azimuth, elevation, zoom, ...target] = numbers(text, 6, -1e4, 1e4);
+    const fitted = text.split(",").length === 2;
+    const [azimuth, elevation, zoom, ...target] = numbers(text, fitted ? 2 : 6, -1e4, 1e4);
     if (Math.abs(elevation) > 90 || zoom < 0.05) throw new Error(text);
-    Object.assign(state, {azimuth, elevation, zoom, target});
+    Object.assign(state, {azimuth, elevation, fitted, follows: fitted}, fitted ? {} : {zoom, target});
   },
+  up: (state, text) => { state.up = parseUp(text); },
   clip: (state, text) => { state.clip = parseClip(text); },
   quality: (state, text) => { state.quality = numbers(text, 2, -1, 1); },
   peel: (state, text) => { state.peel = integer(text, 0, 255); },
@@ -68,7 +79,10 @@ const setters = {
   hidden: (state, text, groups) => { state.hidden = parseHidden(text, groups); },
   colour: (state, text) => { state.colour = oneOf(text, colourNames); },
   color: (state, text) => { state.colour = oneOf(text, colourNames); },
-  edges: (state, text) => { state.edges = oneOf(text, ["off", "on"]) === "on"; },
+  edges: (state, text) => { state.edges = isOn(text); },
+  axes: (state, text) => { state.axes = isOn(text); },
+  legend: (state, text) => { state.legend = isOn(text); },
+  dislocations: (state, text) => { state.dislocations = isOn(text); },
   theme: (state, text) => { state.theme = oneOf(text, ["light", "dark"]); },
   fragment: (state, text) => { state.fragment = integer(text, 0, 1e9); },
 };
@@ -91,9 +105,12 @@ export function applyText(state, text, groups) {
 export function toText(state) {
   const clip = state.clip &&
     `${directionName(state.clip.normal) ?? state.clip.normal.map(rounded).join()}:${rounded(state.clip.fraction)}`;
-  const camera = [state.azimuth, state.elevation, state.zoom, ...state.target].map(rounded);
-  return `camera=${camera}&clip=${clip ?? "none"}&quality=${state.quality.map(rounded)}&peel=${state.peel}` +
+  const place = state.fitted ? [] : [state.zoom, ...state.target];
+  const camera = [state.azimuth, state.elevation, ...place].map(rounded);
+  const onOff = name => `&${name}=${state[name] ? "on" : "off"}`;
+  return `camera=${camera}&up=${state.up.turned ? "-" : ""}${"xyz"[state.up.axis]}&clip=${clip ?? "none"}&quality=${state.quality.map(rounded)}&peel=${state.peel}` +
     `&kinds=${kindNames.filter((_, k) => state.kinds[k]).join() || "none"}` +
     `&hidden=${state.hidden.map(({kind, tag}) => `${kind}:${tag}`).join() || "none"}&colour=${state.colour}` +
-    `&edges=${state.edges ? "on" : "off"}&theme=${state.theme}&fragment=${state.fragment}`;
+    ["edges", "axes", "legend", "dislocations"].map(onOff).join("") +
+    `&theme=${state.theme}&fragment=${state.fragment}`;
 }
