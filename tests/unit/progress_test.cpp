@@ -17,7 +17,7 @@
 namespace hexpipe {
 namespace {
 
-class ProgressTest : public testing::Test {
+class ProgressTest : public ::testing::Test {
  protected:
   ProgressTest() : record_(memfd_create("progress", 0)) {
     setenv(progress_record_variable, std::to_string(record_).c_str(), 1);

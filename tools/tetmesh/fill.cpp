@@ -39,7 +39,7 @@ constexpr std::size_t few_tets = 8000;
 // surface's own: where walls are about as thick as a size, the surface knows more about them. On plate-holes 43 rows
 // end in place of 7, and 77.6 % of the cells are hexes in place of 85.9; elsewhere there are at most twice as many
 // ends.
-constexpr double ends_gained = 10, ends_factor = 2;
+constexpr double ends_gained = 5, ends_factor = 1.5;
 
 // Adds the seconds since the last call, or since the start, to a step.
 class StepWatch {

@@ -8,7 +8,7 @@ namespace hexpipe::viewmesh::picture {
 namespace {
 
 // In ems.
-constexpr double margin = 1, padding = 0.9, swatch = 0.75, swatch_step = 1.2, least_width = 9;
+constexpr double margin = 1, padding = 0.9, swatch = 0.75, swatch_step = 1.2, narrowest_card = 9;
 // Of the picture's width, the card takes no more.
 constexpr double greatest_share = 0.34;
 
@@ -24,7 +24,7 @@ LegendCard::LegendCard(const Legend& legend, double em, int width, int height)
       height_(height),
       ticks_(legend.ticks) {
   add_rows(legend);
-  double widest = least_width * em_;
+  double widest = narrowest_card * em_;
   for (const Row& row : rows_) widest = std::max(widest, text_width(row));
   const double outer = std::min(widest + 2 * padding * em_, greatest_share * width_);
   box_ = {width_ - margin * em_ - outer, margin * em_, width_ - margin * em_,
