@@ -25,6 +25,12 @@ double area_of(const solid::Surface& surface, const Triangle& t) {
   return norm(cross(surface.points[t[1]] - origin, surface.points[t[2]] - origin)) / 2;
 }
 
+double area_of(const solid::Surface& surface) {
+  double area = 0;
+  for (const Triangle& t : surface.triangles) area += area_of(surface, t);
+  return area;
+}
+
 // The longest side of a triangle.
 std::size_t longest_side(const std::array<Vec3, 3>& corners) {
   std::size_t longest = 0;
@@ -58,12 +64,14 @@ double in_units(const Length& length, const formats::SurfaceSoup& surface) {
 
 double element_size(const solid::Surface& surface, const std::optional<Length>& length, bool triangles_stay) {
   if (length) return in_units(*length, surface);
-  double area = 0;
-  for (const Triangle& t : surface.triangles) area += area_of(surface, t);
-  const double volume = surface.volume();
+  const double area = area_of(surface), volume = surface.volume();
   const double spacing = std::sqrt(area / static_cast<double>(surface.points.size()));
   return default_size({bounding_box_diagonal(surface), area, volume},
                       triangles_stay ? spacing : std::numeric_limits<double>::infinity());
+}
+
+double mean_wall_thickness(const solid::Surface& surface) {
+  return 2 * surface.volume() / area_of(surface);
 }
 
 double points_on_surface(const solid::Surface& surface, const SizeField& size, double enough) {

@@ -30,6 +30,9 @@ double bounding_box_diagonal(const formats::SurfaceSoup& surface);
 // them.
 double element_size(const solid::Surface& surface, const std::optional<Length>& length, bool triangles_stay = true);
 
+// Twice the volume over the area.
+double mean_wall_thickness(const solid::Surface& surface);
+
 // Estimates how many points cover the surface at the distances of the field: its area in squares of the size there.
 // Stops when they come to more than `enough`.
 double points_on_surface(const solid::Surface& surface, const SizeField& size, double enough);
