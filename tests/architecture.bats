@@ -2,6 +2,10 @@
 
 load helpers
 
+setup() {
+  optimized_only "it is about the sources"
+}
+
 # includes_of PATHS...: "file:included" for every #include in the sources there.
 includes_of() {
   (cd "$HEXPIPE_SOURCE" && grep -rHE '^[[:space:]]*#[[:space:]]*include' --include='*.hpp' --include='*.cpp' "$@") |

@@ -58,6 +58,7 @@ print(s['vertices'], s['edges'], s['max_degree'])"
 }
 
 @test "hexes, prisms and pyramids of Delaunay meshes are those of an independent search" {
+  optimized_only "it is about results"
   for mesh in random_points jittered_lattice; do
     agrees "$DATA/$mesh.mesh" $ALL_KINDS --min-quality 0.1 --folded-quads keep --quality corner
     agrees "$DATA/$mesh.mesh" $ALL_KINDS --min-quality 0 --inner-vertices forbid --max-boundary-tets 2
@@ -65,6 +66,7 @@ print(s['vertices'], s['edges'], s['max_degree'])"
 }
 
 @test "so are those of meshes with regions and surface tags" {
+  optimized_only "it is about results"
   for mesh in random_points jittered_lattice; do
     two_regions "$DATA/$mesh.mesh" >regions.mesh
     agrees regions.mesh $ALL_KINDS

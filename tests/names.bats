@@ -195,6 +195,7 @@ PYTHON
 }
 
 @test "tetmesh --size 'body NAME=LENGTH' is the size in a body, smaller or larger than elsewhere" {
+  optimized_only "it is about results"
   if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
   local bodies="$DATA/touching/face-touch-two-bodies.off"
   # tets_in ARGUMENTS...: of both bodies.
