@@ -59,6 +59,8 @@ class StepWatch {
 constexpr int most_runs = 16;
 // Shares of the time that a mesh takes, as on models of 17,000 to 170,000 tets, for the line of progress.
 constexpr double surface_ends = 0.28, first_mesh_ends = 0.45, frame_ends = 0.85;
+// The same within the step between the last two of these.
+constexpr double frames_end = 0.16, fit_ends = 0.83;
 // For each point, a run of TetGen takes about this long; for the line of progress, too.
 constexpr double tetgen_seconds_a_point = 2e-5;
 // Runs from this number on are strict, for shells that nearly touch: two cubes on top of each other, 1e-9 apart, failed
@@ -92,10 +94,12 @@ class Filler {
     const solid::Surface& surface;
   };
   void try_points_by_body(const Filling& lattice, const Filling& frame);
+  void take(const solid::Surface& surface);
   std::optional<double> known_hex_share() const;
   // Is called while TetGen is at work, and returns false when its mesh is no longer wanted.
   using Meanwhile = std::function<bool()>;
-  std::optional<tetgen::BuiltMesh> tetrahedralize(std::span<const Vec3> points, const Meanwhile& meanwhile);
+  std::optional<tetgen::BuiltMesh> tetrahedralize(const solid::Surface& surface, std::span<const Vec3> points,
+                                                  const Meanwhile& meanwhile);
   void describe(const surface::RemeshResult& remeshed);
   const solid::Surface& given_;
   const sizing::SizeDemand& demand_;
@@ -168,7 +172,7 @@ bool Filler::fill_new_surface() {
       watch_.add_to(statistics_.seconds.remeshing);
       surface_ = &remesher.made();
       place_points();
-      built_ = tetrahedralize(points_, [&] {
+      built_ = tetrahedralize(*surface_, points_, [&] {
         const bool good = remesher.judge();
         watch_.add_to(statistics_.seconds.remeshing);
         return good;
@@ -203,7 +207,7 @@ void Filler::fill_given_surface() {
     if (complaint) warnings_.push_back(*complaint);
   }
   place_points();
-  built_ = tetrahedralize(points_, [] { return true; });
+  built_ = tetrahedralize(*surface_, points_, [] { return true; });
 }
 
 void Filler::place_points() {
@@ -237,7 +241,9 @@ void Filler::try_frame_points() {
                                 .feature_angle = options_.feature_angle,
                                 .axes = axes_});
   const solid::Surface* const of_frame_points = follow(lattice) ? &followed_->surface : first;
+  std::optional<Step> placing(std::in_place, nullptr, fit_ends, 1);
   const volume::FramePoints frame = lattice.points_inside(*of_frame_points);
+  placing.reset();
   watch_.add_to(statistics_.seconds.placing);
   const bool compares =
       options_.points == PointKind::best &&
@@ -245,18 +251,11 @@ void Filler::try_frame_points() {
   step.reset();
   step.emplace("filling the surface with tets again", frame_ends, 1);
   volume::HexEstimate of_lattice;
-  surface_ = of_frame_points;
-  std::optional<tetgen::BuiltMesh> bent;
-  try {
-    bent = tetrahedralize(frame.points, [&] {
-      if (compares) of_lattice = volume::estimate_hexes(built_->mesh, built_->adjacency);
-      watch_.add_to(statistics_.seconds.comparing);
-      return true;
-    });
-  } catch (const tetgen::TetGenFailure&) {
-    surface_ = first;
-    throw;
-  }
+  std::optional<tetgen::BuiltMesh> bent = tetrahedralize(*of_frame_points, frame.points, [&] {
+    if (compares) of_lattice = volume::estimate_hexes(built_->mesh, built_->adjacency);
+    watch_.add_to(statistics_.seconds.comparing);
+    return true;
+  });
   volume::HexEstimate of_frame;
   if (compares) {
     of_frame = volume::estimate_hexes(bent->mesh, bent->adjacency);
@@ -269,9 +268,7 @@ void Filler::try_frame_points() {
     std::swap(built_, bent);
     describe(frame);
     describe(lattice.dislocations());
-    if (of_frame_points != first) describe(*followed_);
-  } else {
-    surface_ = first;
+    take(*of_frame_points);
   }
   if (!has_bodies || !compares) return;
   const auto& [with_lattice, with_frame] = frame_wins ? std::tie(*bent, *built_) : std::tie(*built_, *bent);
@@ -282,6 +279,7 @@ void Filler::try_frame_points() {
 // not know what lies inside, so its rows end in other places on one side of a wall than on the other, and the lines
 // between these ends are bent. Returns false where the surface stays; then its points hold the lattice.
 bool Filler::follow(volume::FrameLattice& lattice) {
+  const Step step(nullptr, frames_end, fit_ends);
   bool follows = false;
   if (statistics_.remeshed && sizing::mean_wall_thickness(given_) >= least_wall_to_follow * size_.greatest()) {
     lattice.fit(remeshed_->on_feature);
@@ -314,38 +312,41 @@ void Filler::try_points_by_body(const Filling& lattice, const Filling& frame) {
     }
   }
   if (of_kind[0] == 0 || of_kind[1] == 0) return;
-  const solid::Surface* const winner = std::exchange(surface_, &frame.surface);
   try {
-    std::optional<tetgen::BuiltMesh> mixed = tetrahedralize(points, [] { return true; });
+    std::optional<tetgen::BuiltMesh> mixed = tetrahedralize(frame.surface, points, [] { return true; });
     statistics_.mixed_hex_share = volume::estimate_hex_share(mixed->mesh, mixed->adjacency);
     watch_.add_to(statistics_.seconds.comparing);
-    if (*statistics_.mixed_hex_share > std::max(lattice.estimate.share(), frame.estimate.share())) {
-      built_ = std::move(mixed);
-      statistics_.interior_points = points.size();
-      statistics_.points_kept = PointKind::mixed;
-      statistics_.dislocations.reset();
-      dislocations_.reset();
-      if (followed_ && surface_ == &followed_->surface) describe(*followed_);
-      return;
-    }
+    if (*statistics_.mixed_hex_share <= std::max(lattice.estimate.share(), frame.estimate.share())) return;
+    built_ = std::move(mixed);
+    statistics_.interior_points = points.size();
+    statistics_.points_kept = PointKind::mixed;
+    statistics_.dislocations.reset();
+    dislocations_.reset();
+    take(frame.surface);
   } catch (const tetgen::TetGenFailure&) {
     // One of the others stands.
   }
-  surface_ = winner;
+}
+
+// Makes this one the surface that is filled.
+void Filler::take(const solid::Surface& surface) {
+  surface_ = &surface;
+  if (followed_ && surface_ == &followed_->surface) describe(*followed_);
 }
 
 // Returns nothing where the mesh is not wanted.
-std::optional<tetgen::BuiltMesh> Filler::tetrahedralize(std::span<const Vec3> points, const Meanwhile& meanwhile) {
+std::optional<tetgen::BuiltMesh> Filler::tetrahedralize(const solid::Surface& surface, std::span<const Vec3> points,
+                                                        const Meanwhile& meanwhile) {
   // With one thread, TetGen and the other work follow each other.
   const bool at_once = thread_count() > 1;
   if (!at_once && !meanwhile()) return std::nullopt;
   const Deadline deadline(options_.tetgen_timeout);
   Step step(nullptr);
-  step.usually_takes(tetgen_seconds_a_point * static_cast<double>(surface_->points.size() + points.size()));
+  step.usually_takes(tetgen_seconds_a_point * static_cast<double>(surface.points.size() + points.size()));
   for (int run = 0;; ++run) {
     try {
-      tetgen::TetGenRun tetgen({.surface_points = surface_->points,
-                                .triangles = surface_->triangles,
+      tetgen::TetGenRun tetgen({.surface_points = surface.points,
+                                .triangles = surface.triangles,
                                 .interior_points = points,
                                 .shuffle = static_cast<std::uint64_t>(run),
                                 .strict = run >= first_strict_run,
@@ -360,7 +361,7 @@ std::optional<tetgen::BuiltMesh> Filler::tetrahedralize(std::span<const Vec3> po
       ++statistics_.tetgen_runs;
       statistics_.seconds.of_tetgen += made.seconds;
       watch_.add_to(statistics_.seconds.tetgen);
-      tetgen::BuiltMesh built = tetgen::build_mesh(*surface_, points, std::move(made));
+      tetgen::BuiltMesh built = tetgen::build_mesh(surface, points, std::move(made));
       watch_.add_to(statistics_.seconds.building);
       return built;
     } catch (const tetgen::TetGenFailure&) {

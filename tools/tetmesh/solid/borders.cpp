@@ -8,9 +8,9 @@
 #include <span>
 #include <utility>
 
+#include "common/mesh/joined_sets.hpp"
 #include "tools/tetmesh/geometry/box_tree.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
-#include "tools/tetmesh/geometry/joined_sets.hpp"
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
 
 namespace hexpipe::tetmesh::solid {
@@ -210,7 +210,7 @@ std::size_t remove_stray_sheets(SurfaceSoup& soup) {
   constexpr std::size_t few = 4;
   constexpr double small_share = 0.01;
   const std::size_t triangles = soup.triangles.size();
-  geometry::JoinedSets sets(triangles);
+  JoinedSets sets(triangles);
   std::vector<double> border(triangles);
   geometry::for_each_edge(soup.points.size(), soup.triangles, [&](std::span<const HalfEdge> edge) {
     for (const HalfEdge h : edge) sets.join(geometry::triangle_of(edge[0]), geometry::triangle_of(h));

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "common/mesh/joined_sets.hpp"
 #include "tools/tetmesh/geometry/box_tree.hpp"
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
-#include "tools/tetmesh/geometry/joined_sets.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/solid/borders.hpp"
 #include "tools/tetmesh/solid/hole_filling.hpp"
@@ -76,7 +76,7 @@ class FoldRemover {
 
   // The triangles of pairs that have one in common.
   std::vector<Patch> places_of(std::span<const std::array<std::int32_t, 2>> pairs) const {
-    geometry::JoinedSets sets(old_count_);
+    JoinedSets sets(old_count_);
     for (const auto& [t, u] : pairs) sets.join(t, u);
     std::map<std::int32_t, Patch> by_set;
     for (const auto& pair : pairs)

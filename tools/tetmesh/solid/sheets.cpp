@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "common/mesh/facet_key.hpp"
+#include "common/mesh/joined_sets.hpp"
 #include "common/run/error.hpp"
 #include "formats/surfaces/surface_building.hpp"
 #include "tools/tetmesh/geometry/column_index.hpp"
 #include "tools/tetmesh/geometry/edge_walk.hpp"
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
-#include "tools/tetmesh/geometry/joined_sets.hpp"
 #include "tools/tetmesh/solid/borders.hpp"
 #include "tools/tetmesh/solid/surface_check.hpp"
 
@@ -119,10 +119,10 @@ class SideFinder {
 
   formats::SurfaceSoup& soup_;
   ShellRule rule_;
-  std::vector<bool> is_interface_;                  // by triangle: two bodies had it
-  std::optional<geometry::JoinedSets> rooms_;       // sets of sides; the last number is the outside
-  std::optional<geometry::JoinedSets> components_;  // sets of triangles, joined by common edges
-  std::vector<std::int32_t> region_;                // by room; 0: nothing
+  std::vector<bool> is_interface_;        // by triangle: two bodies had it
+  std::optional<JoinedSets> rooms_;       // sets of sides; the last number is the outside
+  std::optional<JoinedSets> components_;  // sets of triangles, joined by common edges
+  std::vector<std::int32_t> region_;      // by room; 0: nothing
   SheetReport report_;
 };
 
@@ -237,7 +237,7 @@ std::int32_t SideFinder::side_below(std::int32_t component, const geometry::Colu
   const Vec3& p = soup_.points[soup_.triangles[component][0]];
   std::int32_t lowest = no_index;
   double least = 0;
-  geometry::JoinedSets components = *components_;
+  JoinedSets components = *components_;
   index.for_each_crossing(p, [&](std::int32_t t) {
     if (components.of(t) == component) return;
     const Vec3 n = normal_of(soup_, t);
@@ -311,7 +311,7 @@ void SideFinder::drop_fins() {
 
 bool has_several_fans(const formats::SurfaceSoup& soup) {
   // Corners of one fan are one set.
-  geometry::JoinedSets corners(3 * soup.triangles.size());
+  JoinedSets corners(3 * soup.triangles.size());
   geometry::for_each_edge(soup.points.size(), soup.triangles, [&](std::span<const HalfEdge> edge) {
     for (const HalfEdge other : edge)
       for (const HalfEdge h : {edge[0], geometry::next_in_triangle(edge[0])})
@@ -366,7 +366,7 @@ Surface find_sheets(formats::SurfaceSoup soup) {
     std::swap(back, front);
     std::swap(surface.triangles[t][1], surface.triangles[t][2]);
   }
-  geometry::JoinedSets sheets(surface.triangles.size());
+  JoinedSets sheets(surface.triangles.size());
   geometry::for_each_edge(surface.points.size(), surface.triangles, [&](std::span<const HalfEdge> edge) {
     if (edge.size() != 2) return;
     const std::int32_t t = geometry::triangle_of(edge[0]), u = geometry::triangle_of(edge[1]);

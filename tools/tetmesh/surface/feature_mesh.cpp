@@ -74,13 +74,9 @@ solid::Surface FeatureMesh::to_surface(const solid::Surface& input) const {
   formats::SurfaceSoup soup;
   soup.text = input.text;
   soup.name = input.name;
-  std::vector<hexpipe::Vertex> number(n_vertices(), no_index);  // by place
-  for (const VertexHandle v : vertices()) {
-    hexpipe::Vertex& known = number[place(v)];
-    if (known >= 0) continue;
-    known = static_cast<hexpipe::Vertex>(soup.points.size());
-    soup.points.push_back(position(v));
-  }
+  const std::vector<hexpipe::Vertex> number = point_numbers();
+  for (const VertexHandle v : vertices())
+    if (number[place(v)] == static_cast<hexpipe::Vertex>(soup.points.size())) soup.points.push_back(position(v));
   const auto shell = [&](FaceHandle f) { return input.shell_of[source(f)]; };
   std::vector<FaceHandle> in_order(faces().begin(), faces().end());
   std::ranges::stable_sort(in_order, {}, shell);
@@ -96,13 +92,19 @@ solid::Surface FeatureMesh::to_surface(const solid::Surface& input) const {
   return solid::with_shells_of(input, std::move(soup), std::move(shells));
 }
 
+std::vector<hexpipe::Vertex> FeatureMesh::point_numbers() const {
+  std::vector<hexpipe::Vertex> number(n_vertices(), no_index);
+  hexpipe::Vertex next = 0;
+  for (const VertexHandle v : vertices())
+    if (hexpipe::Vertex& known = number[place(v)]; known == no_index) known = next++;
+  return number;
+}
+
 std::vector<bool> FeatureMesh::points_on_features() const {
-  std::vector<bool> result, seen(n_vertices());  // by place
-  for (const VertexHandle v : vertices()) {
-    if (seen[place(v)]) continue;
-    seen[place(v)] = true;
-    result.push_back(is_on_feature(v));
-  }
+  const std::vector<hexpipe::Vertex> number = point_numbers();
+  std::vector<bool> result;
+  for (const VertexHandle v : vertices())
+    if (number[place(v)] == static_cast<hexpipe::Vertex>(result.size())) result.push_back(is_on_feature(v));
   return result;
 }
 

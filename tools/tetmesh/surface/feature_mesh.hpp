@@ -93,6 +93,8 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
 
   // What is left of the input, with its tags and shells. Sheets are joined again.
   solid::Surface to_surface(const solid::Surface& input) const;
+  // By place, the number of its point in to_surface(); no_index where no vertex is left.
+  std::vector<hexpipe::Vertex> point_numbers() const;
   // For each point of that surface, whether it is on a feature.
   std::vector<bool> points_on_features() const;
 

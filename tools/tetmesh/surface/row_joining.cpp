@@ -196,13 +196,9 @@ RowCoordinates RowStraightener::solve(const RowJumps& jumps, const RowCoordinate
 }
 
 void RowStraightener::apply() {
-  links_.for_each_pair([&](HalfEdge h) {
-    const std::int32_t f = geometry::triangle_of(h);
-    if (!are_joined_[face_of_[f]]) return;
-    SurfaceLink& link = links_.of[h];
+  links_.change_distances([&](HalfEdge h, SurfaceLink& link) {
+    if (!are_joined_[face_of_[geometry::triangle_of(h)]]) return;
     for (std::size_t k = 0; k < 2; ++k) link.distance[k] = distance_between(h, k, jumps_, coordinates_);
-    link.set_turn();
-    links_.of[links_.surface.twins[h]] = link.reversed(f);
   });
   for (std::size_t f = 0; f < size(); ++f)
     if (are_joined_[face_of_[f]])

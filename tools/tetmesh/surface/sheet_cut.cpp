@@ -4,8 +4,8 @@
 #include <numeric>
 #include <span>
 
+#include "common/mesh/joined_sets.hpp"
 #include "tools/tetmesh/geometry/edge_walk.hpp"
-#include "tools/tetmesh/geometry/joined_sets.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {
@@ -80,7 +80,7 @@ class SheetCutter {
   }
 
   const solid::Surface& surface_;
-  geometry::JoinedSets corners_;  // corners of triangles, by their half-edges
+  JoinedSets corners_;  // corners of triangles, by their half-edges
   std::vector<HalfEdge> at_joints_;
   SheetCut result_;
 };

@@ -205,15 +205,12 @@ void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept) {
   for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(links.of.size()); ++h)
     if (links.surface.feature[h]) add_rows_between(links, h, loops);
   const std::vector<float> correction = fields::curl_correction(distances_of(links), loops, limits);
-  links.for_each_pair([&](geometry::HalfEdge h) {
-    SurfaceLink& link = links.of[h];
+  links.change_distances([&](geometry::HalfEdge h, SurfaceLink& link) {
     const std::int32_t f = geometry::triangle_of(h);
     const double longest =
         most_strain * norm(links.surface.centres[f] - links.surface.centres[link.neighbour]) / links.surface.sizes[f];
     for (std::size_t k = 0; k < 2; ++k)
       link.distance[k] += std::clamp<double>(correction[SurfaceLinks::number_of(h, k)], -longest, longest);
-    link.set_turn();
-    links.of[links.surface.twins[h]] = link.reversed(f);
   });
 }
 

@@ -197,15 +197,12 @@ void LatticeMaker::follow(const RowGuide& guide) {
 void LatticeMaker::measure_distances() {
   const RowCoordinates coordinates = row_coordinates(phases_);
   const RowJumps jumps = row_jumps(links_, coordinates);
-  links_.for_each_pair([&](geometry::HalfEdge h) {
-    SurfaceLink& link = links_.of[h];
+  links_.change_distances([&](geometry::HalfEdge h, SurfaceLink& link) {
     const std::int32_t f = geometry::triangle_of(h);
     for (std::size_t k = 0; k < 2; ++k) {
       const double between = coordinates[f][k] + jumps[h][k] - link.seen_along(coordinates[link.neighbour], k);
       if (std::abs(between - link.distance[k]) < most_change) link.distance[k] = between;
     }
-    link.set_turn();
-    links_.of[surface_.twins[h]] = link.reversed(f);
   });
 }
 

@@ -47,6 +47,15 @@ struct SurfaceLinks {
     for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(of.size()); ++h)
       if (of[h].neighbour != no_index && h < surface.twins[h]) body(h);
   }
+  // The same for change(h, its link), which changes the distances of a link; those of the link back follow.
+  template <class Change>
+  void change_distances(Change&& change) {
+    for_each_pair([&](geometry::HalfEdge h) {
+      change(h, of[h]);
+      of[h].set_turn();
+      of[surface.twins[h]] = of[h].reversed(geometry::triangle_of(h));
+    });
+  }
   // Distances are numbered by these half-edges and the directions of their triangles.
   static std::int32_t number_of(geometry::HalfEdge h, std::size_t axis) {
     return 2 * h + static_cast<std::int32_t>(axis);

@@ -12,6 +12,7 @@
 #include "common/mesh/feature_angle.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/surface/remesh_steps.hpp"
+#include "tools/tetmesh/surface/triangle_shape.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {
@@ -23,11 +24,6 @@ constexpr double sharpest = 0.75;
 // Rounds end when one removes less than this share of the vertices.
 constexpr double least_gain = 0.01;
 constexpr int most_thinning_rounds = 40;
-
-double shape_of(const std::array<Vec3, 3>& c, const Vec3& normal) {
-  const double sides = norm_squared(c[1] - c[0]) + norm_squared(c[2] - c[1]) + norm_squared(c[0] - c[2]);
-  return 2 * std::sqrt(3.0) * norm(normal) / std::max(sides, 1e-300);
-}
 
 class Thinner {
  public:
@@ -170,13 +166,10 @@ class Thinner {
   double error_around_ = 0;
 };
 
-// The ends of curves are on features, which stay. to_surface() numbers the places in the order of the vertices.
+// The ends of curves are on features, which stay.
 void add_curves(const solid::Surface& surface, const FeatureMesh& mesh, solid::Surface& thinned) {
   if (surface.curves.empty()) return;
-  std::vector<Vertex> number(mesh.n_vertices(), no_index);
-  Vertex next = 0;
-  for (const auto v : mesh.vertices())
-    if (Vertex& known = number[mesh.place(v)]; known == no_index) known = next++;
+  const std::vector<Vertex> number = mesh.point_numbers();
   for (const auto& [from, to] : surface.curves) thinned.curves.push_back({number[from], number[to]});
   thinned.curve_tags = surface.curve_tags;
 }

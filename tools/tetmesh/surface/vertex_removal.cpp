@@ -12,6 +12,7 @@
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/surface/delaunay_flips.hpp"
 #include "tools/tetmesh/surface/mesh_regions.hpp"
+#include "tools/tetmesh/surface/triangle_shape.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {
@@ -39,11 +40,6 @@ Vec3 area_normal(const Corners& c) {
 
 Vec3 middle_of(const Corners& c) {
   return (c[0] + c[1] + c[2]) * (1.0 / 3);
-}
-
-double shape_of(const Corners& c) {
-  const double sides = norm_squared(c[1] - c[0]) + norm_squared(c[2] - c[1]) + norm_squared(c[0] - c[2]);
-  return 2 * std::sqrt(3.0) * norm(area_normal(c)) / std::max(sides, 1e-300);
 }
 
 // A change of the mesh: the faces that go or change, what they become, and where their removed vertices would go.
@@ -216,7 +212,7 @@ double VertexRemover::shape_after(HalfEdgeH collapse) {
     }
     const Vec3 n = area_normal(before), m = area_normal(after);
     if (dot(n, m) < least_cosine * norm(n) * norm(m)) return -1;
-    least = std::min(least, shape_of(after));
+    least = std::min(least, shape_of(after, area_normal(after)));
   }
   return least;
 }

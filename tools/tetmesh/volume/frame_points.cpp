@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -85,8 +84,8 @@ class FrameLattice::Work {
   std::vector<fields::Frame> frames_;
   std::vector<bool> held_;  // by point of the surface
   std::optional<LatticeField> field_;
-  std::vector<Vec3> spacing_;  // of the lattice along the frames' axes, in sizes
-  std::vector<Proposal> proposals_;
+  std::vector<Vec3> spacing_;        // of the lattice along the frames' axes, in sizes
+  std::vector<Proposal> proposals_;  // the most trusted first
   Dislocations dislocations_;
 };
 
@@ -98,6 +97,7 @@ void FrameLattice::Work::fit(const std::vector<bool>& held) {
   for (const auto& [x, y, z] : field_->steps) spacing_.push_back({norm(x), norm(y), norm(z)});
   propose();
   agree();
+  std::ranges::stable_sort(proposals_, std::greater(), &Proposal::trust);
 }
 
 surface::RowGuide FrameLattice::Work::guide() {
@@ -180,14 +180,10 @@ Proposal FrameLattice::Work::agreed(const geometry::SizedPointGrid& grid, const 
 // rows end are made straight.
 template <class Wanted>
 std::vector<RowPoint> FrameLattice::Work::accept(std::span<const Vec3> fixed, Wanted&& is_wanted) const {
-  std::vector<std::int32_t> order(proposals_.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, std::greater(), [&](std::int32_t i) { return proposals_[i].trust; });
   geometry::SizedPointGrid taken(surface_.points.front());
   for (const Vec3& p : fixed) taken.add(p, 2 * least_spacing * options_.size.at(p));
   std::vector<RowPoint> rows;
-  for (const std::int32_t i : order) {
-    const Proposal& p = proposals_[i];
+  for (const Proposal& p : proposals_) {
     if (!is_free(taken, p) || !is_wanted(p)) continue;
     taken.add(p.point, 2 * least_spacing * p.size);
     const auto& [x, y, z] = field_->steps[p.node];

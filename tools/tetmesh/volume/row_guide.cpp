@@ -1,6 +1,5 @@
 #include "tools/tetmesh/volume/row_guide.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/surface/surface_links.hpp"
+#include "tools/tetmesh/volume/in_steps.hpp"
 
 namespace hexpipe::tetmesh::volume {
 namespace {
@@ -75,13 +75,9 @@ class GuideAtNodes {
  private:
   // The lattice's coordinates at a place of that size, by the steps at a node.
   Vec3 coordinates_at(const Vec3& place, double size, std::int32_t i) const {
-    const auto& [x, y, z] = lattice_.steps[i];
-    Eigen::Matrix3d steps;
-    steps << x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z;
     const Vec3 way = (2 / (nodes_.sizes[i] + size)) * (place - nodes_.points[i]);
-    const Eigen::Vector3d ahead = steps.inverse() * Eigen::Vector3d(way.x, way.y, way.z);
     const auto& here = lattice_.coordinates[i];
-    return {here[0] + ahead[0], here[1] + ahead[1], here[2] + ahead[2]};
+    return Vec3{here[0], here[1], here[2]} + InSteps(lattice_.steps[i])(way);
   }
 
   const FieldNodes& nodes_;

@@ -4,7 +4,6 @@
 
 #include "tools/tetmesh/volume/row_straightening.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
+#include "tools/tetmesh/volume/in_steps.hpp"
 
 namespace hexpipe::tetmesh::volume {
 namespace {
@@ -26,23 +26,6 @@ constexpr double reach_of_change = 2;
 // A step of an edge moves on by one pair in each pass.
 constexpr int most_passes = 30;
 
-// Counts the steps along each axis that lead as far as a vector.
-class InSteps {
- public:
-  explicit InSteps(const std::array<Vec3, 3>& steps) {
-    Eigen::Matrix3d columns;
-    for (std::size_t k = 0; k < 3; ++k) columns.col(static_cast<Eigen::Index>(k)) << steps[k].x, steps[k].y, steps[k].z;
-    inverse_ = columns.inverse();
-  }
-  Vec3 operator()(const Vec3& way) const {
-    const Eigen::Vector3d count = inverse_ * Eigen::Vector3d(way.x, way.y, way.z);
-    return {count[0], count[1], count[2]};
-  }
-
- private:
-  Eigen::Matrix3d inverse_;
-};
-
 // The axis along which two points are a pair.
 std::optional<std::size_t> axis_of_pair(const Vec3& apart) {
   for (int k = 0; k < 3; ++k) {
@@ -53,9 +36,9 @@ std::optional<std::size_t> axis_of_pair(const Vec3& apart) {
   return std::nullopt;
 }
 
-class RowStraightener {
+class EndStraightener {
  public:
-  RowStraightener(std::span<const Vec3> fixed, std::vector<RowPoint> points)
+  EndStraightener(std::span<const Vec3> fixed, std::vector<RowPoint> points)
       : points_(std::move(points)), place_of_(points_.size()), grid_(points_.front().at) {
     for (const RowPoint& p : points_) width_ += longest_step(p) / static_cast<double>(points_.size());
     for (const Vec3& p : fixed) add(p, no_index);
@@ -102,7 +85,7 @@ class RowStraightener {
 };
 
 // The place in the grid, or no_index.
-std::int32_t RowStraightener::nearest(const Vec3& to, double reach) const {
+std::int32_t EndStraightener::nearest(const Vec3& to, double reach) const {
   std::int32_t found = no_index;
   double least = reach * reach;
   grid_.for_each_near(to, reach, 0, [&](std::int32_t place) {
@@ -117,7 +100,7 @@ std::int32_t RowStraightener::nearest(const Vec3& to, double reach) const {
 }
 
 // Whether a single point is the next one of both, along the axis in either sense.
-bool RowStraightener::come_together(const RowPoint& a, const RowPoint& b, std::size_t axis) const {
+bool EndStraightener::come_together(const RowPoint& a, const RowPoint& b, std::size_t axis) const {
   const double reach = reach_of_step * norm(a.steps[axis]);
   for (const double sense : {1.0, -1.0}) {
     const Vec3 step = sense * a.steps[axis];
@@ -128,7 +111,7 @@ bool RowStraightener::come_together(const RowPoint& a, const RowPoint& b, std::s
 }
 
 // A later point that is a pair with this one, at a corner; no_index if there is none.
-std::int32_t RowStraightener::partner_of(std::int32_t i) const {
+std::int32_t EndStraightener::partner_of(std::int32_t i) const {
   const RowPoint& a = points_[i];
   const InSteps in_steps(a.steps);
   std::int32_t partner = no_index;
@@ -143,7 +126,7 @@ std::int32_t RowStraightener::partner_of(std::int32_t i) const {
   return partner;
 }
 
-void RowStraightener::merge_at(std::int32_t i) {
+void EndStraightener::merge_at(std::int32_t i) {
   if (place_of_[i] == no_index) return;
   const std::int32_t partner = partner_of(i);
   if (partner == no_index) return;
@@ -155,7 +138,7 @@ void RowStraightener::merge_at(std::int32_t i) {
 }
 
 // The points whose pairs may stand at a corner now, ascending.
-std::vector<std::int32_t> RowStraightener::beside_changes() const {
+std::vector<std::int32_t> EndStraightener::beside_changes() const {
   std::vector<std::int32_t> beside;
   for (const std::int32_t i : changed_)
     grid_.for_each_near(points_[i].at, reach_of_change * longest_step(points_[i]), 0, [&](std::int32_t place) {
@@ -171,7 +154,7 @@ std::vector<std::int32_t> RowStraightener::beside_changes() const {
 
 std::vector<RowPoint> straighten_row_ends(std::span<const Vec3> fixed, std::vector<RowPoint> points) {
   if (points.empty()) return points;
-  return RowStraightener(fixed, std::move(points)).run();
+  return EndStraightener(fixed, std::move(points)).run();
 }
 
 }  // namespace hexpipe::tetmesh::volume
