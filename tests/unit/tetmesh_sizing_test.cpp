@@ -38,8 +38,10 @@ TEST(Sizing, DefaultsToTheSpacingOfTheSurface) {
 }
 
 TEST(Sizing, DefaultsAreBounded) {
-  // A tessellation of 8 vertices: 5 % of the diagonal.
-  EXPECT_NEAR(element_size(surface_of(cube()), {}), 0.05 * std::sqrt(3), 1e-12);
+  // A tessellation of 8 vertices: 6,000 cubes.
+  EXPECT_NEAR(element_size(surface_of(cube()), {}), std::cbrt(1.0 / 6000), 1e-12);
+  // A rod, of which 5 % of the diagonal would be half of the side.
+  EXPECT_NEAR(element_size(surface_of(box({0, 0, 0}, {20, 2, 2})), {}), std::cbrt(80.0 / 6000), 1e-12);
   // A plate: half of its thickness.
   EXPECT_NEAR(element_size(surface_of(box({0, 0, 0}, {100, 100, 1})), {}), 0.5, 0.01);
   // Finer than a million points inside: 1 % of the cube root of the volume.
