@@ -31,8 +31,9 @@ void insert_points(FeatureMesh& mesh, std::span<const SurfacePoint> points, cons
 inline constexpr std::size_t region_vertices = 8000;
 
 // Feature curves stay where they are, apart from their removed vertices. No face turns over. Every removed vertex stays
-// within `deviation` of the faces that took its place, and these stay within it of the original surface. Vertices that
-// cannot be removed in this way stay. Returns their number. The mesh's deleted elements are left in it.
+// within `deviation` of the faces that took its place, and these stay within it of the original surface, or within 1.15
+// times as much where that mends a sliver. Vertices that cannot be removed in this way stay. Returns their number. The
+// mesh's deleted elements are left in it.
 std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, const sizing::SizeField& deviation);
 
 }  // namespace hexpipe::tetmesh::surface

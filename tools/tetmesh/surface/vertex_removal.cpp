@@ -29,6 +29,9 @@ constexpr double flat_bend = 0.05;
 // On the other edges, points are watched at most this many deviations apart.
 constexpr double watch_spacing = 3;
 constexpr double most_samples = 64;  // along an edge
+// A triangle of less than this shape takes the rest of the deviation, this many times what vertices were removed with, if a
+// flip mends it: a vertex between two others on a straight row otherwise keeps the flat triangle that the three make.
+constexpr double thin_shape = 0.1, allowance_for_thin = 1.15;
 // Removing some vertices makes others removable. More rounds found nothing.
 constexpr int most_rounds = 20;
 
@@ -36,6 +39,10 @@ using Corners = std::array<Vec3, 3>;
 
 Vec3 area_normal(const Corners& c) {
   return cross(c[1] - c[0], c[2] - c[0]);
+}
+
+double shape_of_triangle(const Corners& c) {
+  return shape_of(c, area_normal(c));
 }
 
 Vec3 middle_of(const Corners& c) {
@@ -75,7 +82,7 @@ Strays samples_of_edges(const FeatureMesh& mesh, const sizing::SizeField& deviat
 class VertexRemover {
  public:
   VertexRemover(FeatureMesh& mesh, const DistanceIndex& original, const sizing::SizeField& deviation, Strays& strays)
-      : mesh_(mesh), original_(original), deviation_(deviation), strays_(strays) {}
+      : mesh_(mesh), original_(original), deviation_(&deviation), strays_(strays) {}
   // A remover that changes nothing outside a region.
   VertexRemover(const VertexRemover& whole, const MeshRegions& regions, std::size_t region) : VertexRemover(whole) {
     regions_ = &regions;
@@ -99,6 +106,12 @@ class VertexRemover {
   void flip(std::span<const Edge> edges) {
     for (const Edge e : edges) queue_.push(e);
     flip_queued();
+  }
+  // Flips only edges of thin triangles, within `deviation`.
+  void flip_thin(std::span<const Edge> edges, const sizing::SizeField& deviation) {
+    deviation_ = &deviation;
+    only_thin_ = true;
+    flip(edges);
   }
   // Flips that were wanted, but not all inside the region.
   std::span<const Edge> wanted() const { return wanted_; }
@@ -125,7 +138,8 @@ class VertexRemover {
   FeatureMesh& mesh_;
   const DistanceIndex& original_;
   std::int32_t nearest_ = no_index;  // the triangle of the original that was measured last
-  const sizing::SizeField& deviation_;
+  const sizing::SizeField* deviation_;
+  bool only_thin_ = false;
   Strays& strays_;
   const MeshRegions* regions_ = nullptr;  // null: everywhere
   std::size_t region_ = 0;
@@ -212,7 +226,7 @@ double VertexRemover::shape_after(HalfEdgeH collapse) {
     }
     const Vec3 n = area_normal(before), m = area_normal(after);
     if (dot(n, m) < least_cosine * norm(n) * norm(m)) return -1;
-    least = std::min(least, shape_of(after, area_normal(after)));
+    least = std::min(least, shape_of_triangle(after));
   }
   return least;
 }
@@ -256,7 +270,7 @@ bool VertexRemover::strays_fit() {
         least = d;
         nearest = i;
       }
-    if (!deviation_.is_at_least(std::sqrt(least), p)) return false;
+    if (!deviation_->is_at_least(std::sqrt(least), p)) return false;
     change_.target.push_back(nearest);
   }
   return true;
@@ -265,7 +279,7 @@ bool VertexRemover::strays_fit() {
 // Measures from the original surface.
 bool VertexRemover::faces_fit() {
   return std::ranges::all_of(change_.places, [&](const Vec3& p) {
-    return deviation_.is_at_least(original_.distance(p, nearest_, deviation_.least()), p);
+    return deviation_->is_at_least(original_.distance(p, nearest_, deviation_->least()), p);
   });
 }
 
@@ -286,13 +300,14 @@ bool VertexRemover::allow_flip(Edge e, const EdgeDiamond& diamond) {
     wanted_.push_back(e);
     return false;
   }
-  if (!deviation_.is_at_least(diamond.height(), diamond.end_points[0])) return false;
+  if (!deviation_->is_at_least(diamond.height(), diamond.end_points[0])) return false;
+  const auto [a, b] = diamond.end_points;
+  const auto [l, r] = diamond.across_points;
+  if (only_thin_ && std::min(shape_of_triangle({a, b, l}), shape_of_triangle({a, b, r})) >= thin_shape) return false;
   const Face left = mesh_.face_handle(mesh_.halfedge_handle(e, 0)),
              right = mesh_.face_handle(mesh_.halfedge_handle(e, 1));
   change_.strays = strays_[left.idx()];
   change_.strays.insert(change_.strays.end(), strays_[right.idx()].begin(), strays_[right.idx()].end());
-  const auto [a, b] = diamond.end_points;
-  const auto [l, r] = diamond.across_points;
   change_.faces.assign({left, right});
   change_.corners.assign({Corners{a, r, l}, Corners{b, l, r}});
   change_.places.assign({middle_of(change_.corners[0]), middle_of(change_.corners[1]), 0.5 * (l + r)});
@@ -330,7 +345,9 @@ std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, co
   for (const std::vector<VertexH>& some : waiting) left.insert(left.end(), some.begin(), some.end());
   on_features_first(left);
   left = everywhere.remove(std::move(left));
-  everywhere.flip(std::vector<Edge>(mesh.edges().begin(), mesh.edges().end()));
+  const std::vector<Edge> edges(mesh.edges().begin(), mesh.edges().end());
+  everywhere.flip(edges);
+  everywhere.flip_thin(edges, allowance_for_thin * deviation);
   return left.size() + left_at_joints;
 }
 
