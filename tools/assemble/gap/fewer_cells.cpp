@@ -1,5 +1,7 @@
 #include "tools/assemble/gap/fewer_cells.hpp"
 
+#include <utility>
+
 #include "tools/assemble/gap/gap_mesh.hpp"
 #include "tools/assemble/gap/passes.hpp"
 
@@ -42,7 +44,11 @@ FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, st
     case Passes::mend:
       counts.mended = mend(gap);
       // The pieces of a mesh would have to agree on it.
-      if (is_shared.empty()) counts.opened = open_hexes(gap);
+      if (is_shared.empty()) {
+        Opened opened = open_hexes(gap);
+        counts.mended += opened.inserted;
+        counts.opened = std::move(opened.chosen);
+      }
       break;
   }
   if (counts.any()) gap.write_back();

@@ -1,6 +1,7 @@
-// A poor cell that nothing mends stands between hexes that may not become worse. One of them gives way: its room, with
-// cells beside it, is filled by pyramids and tets around a new vertex. These are positive everywhere, and their skin is
-// that of the room, so that they fill it and nothing else (refill.cpp).
+// A poor cell that nothing mends has too few vertices that may move. A new vertex is put into the room of the cell and
+// of cells beside it, with pyramids and tets around it. If that does not help, the cell stands between hexes that may
+// not become worse, and one of them gives way: its room is filled in the same manner. The cells are positive everywhere,
+// and their skin is that of the room, so that they fill it and nothing else (refill.cpp).
 
 #include <algorithm>
 #include <array>
@@ -12,16 +13,17 @@
 #include "tools/assemble/gap/objective.hpp"
 #include "tools/assemble/gap/passes.hpp"
 #include "tools/assemble/gap/patch.hpp"
+#include "tools/assemble/gap/refill.hpp"
 #include "tools/assemble/gap/skin.hpp"
 
 namespace hexpipe::assemble::gap {
 namespace {
 
-// One chosen cell in this many may go, because each costs a share of the volume in hexes.
-constexpr std::size_t chosen_per_opened = 1000;
+// One chosen cell in this many may go, and a few in any case, because each costs a share of the volume in hexes.
+constexpr std::size_t chosen_per_opened = 400, opened_in_any_case = 4;
 // How many chosen cells around a poor one are tried, those with the most vertices of it first. Later ones seldom help.
 constexpr std::size_t most_tries = 8;
-constexpr int rounds_to_raise = 10;
+constexpr int rounds_to_raise = 20;
 
 // Whether each edge is one of two facets: only then do two of the cells around a vertex in the room meet at it.
 bool is_ball(std::span<const Facet> skin) {
@@ -40,21 +42,25 @@ bool is_ball(std::span<const Facet> skin) {
 
 class HexOpener {
  public:
-  explicit HexOpener(GapMesh& gap) : gap_(gap), patch_(gap) {}
+  explicit HexOpener(GapMesh& gap) : gap_(gap), patch_(gap, least_wanted), refill_(gap) {}
 
-  std::vector<CellIndex> run();
+  Opened run();
 
  private:
   std::vector<KeptIndex> chosen_around(const GapCell& poor) const;
   std::optional<std::vector<Facet>> skin_of(KeptIndex kept) const;
+  std::vector<std::vector<GapIndex>> rooms_around(GapIndex poor) const;
   std::vector<std::vector<GapIndex>> rooms_beside(std::span<const Facet> skin, GapIndex poor) const;
-  std::vector<Vertex> movable(const GapCell& poor, KeptIndex kept) const;
-  bool fill(KeptIndex kept, std::vector<Facet> skin, std::span<const GapIndex> out, GapIndex poor);
+  std::vector<Vertex> movable(std::span<const Facet> skin) const;
+  bool fill(std::vector<Facet> skin, std::span<const GapIndex> out, GapIndex poor);
   bool are_good_enough(GapIndex poor, GapIndex first_new) const;
+  bool fill_without_vertex(GapIndex poor);
+  bool insert(GapIndex poor);
   bool open(KeptIndex kept, GapIndex poor);
 
   GapMesh& gap_;
   Patch patch_;
+  Refill refill_;
   Vertex spare_ = no_index;  // a vertex that a failed try has left
 };
 
@@ -103,6 +109,32 @@ std::optional<std::vector<Facet>> HexOpener::skin_of(KeptIndex kept) const {
   return skin;
 }
 
+// Rooms of gap cells alone: the poor cell with those behind its facets; those around each of its edges; all that share an
+// edge with it.
+std::vector<std::vector<GapIndex>> HexOpener::rooms_around(GapIndex poor) const {
+  const GapCell& cell = gap_.cell(poor);
+  std::vector<GapIndex> behind_facets{poor}, at_edges{poor};
+  std::vector<std::vector<GapIndex>> rooms;
+  for (const Vertex v : cell.vertices())
+    for (const GapIndex c : gap_.cells_at(v)) {
+      if (std::ranges::find(at_edges, c) != at_edges.end()) continue;
+      const auto common = std::ranges::count_if(gap_.cell(c).vertices(), [&](Vertex w) { return cell.has(w); });
+      if (common >= 2) at_edges.push_back(c);
+      if (common >= 3) behind_facets.push_back(c);
+    }
+  rooms.push_back(behind_facets);
+  with_topology(cell.kind, [&](auto topology) {
+    for (const auto& [from, to] : decltype(topology)::edges) {
+      std::vector<GapIndex> around{poor};
+      for (const GapIndex c : at_edges)
+        if (c != poor && gap_.cell(c).has(cell.corners[from]) && gap_.cell(c).has(cell.corners[to])) around.push_back(c);
+      if (around.size() > 1) rooms.push_back(std::move(around));
+    }
+  });
+  rooms.push_back(std::move(at_edges));
+  return rooms;
+}
+
 // Which cells of the gap to fill anew with the chosen one: none; the poor one; those that touch both; all of these.
 std::vector<std::vector<GapIndex>> HexOpener::rooms_beside(std::span<const Facet> skin, GapIndex poor) const {
   std::vector<GapIndex> between;
@@ -124,10 +156,10 @@ std::vector<std::vector<GapIndex>> HexOpener::rooms_beside(std::span<const Facet
   return rooms;
 }
 
-std::vector<Vertex> HexOpener::movable(const GapCell& poor, KeptIndex kept) const {
+std::vector<Vertex> HexOpener::movable(std::span<const Facet> skin) const {
   std::vector<Vertex> vertices;
-  for (const std::span<const Vertex> corners : {poor.vertices(), gap_.kept_cell(kept).vertices()})
-    for (const Vertex v : corners)
+  for (const Facet& facet : skin)
+    for (const Vertex v : facet.vertices())
       if (gap_.is_inside(v)) vertices.push_back(v);
   std::ranges::sort(vertices);
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
@@ -141,30 +173,43 @@ bool HexOpener::are_good_enough(GapIndex poor, GapIndex first_new) const {
   return !gap_.is_alive(poor) || gap_.cell(poor).quality >= least_wanted;
 }
 
+// Fills the room of the cells at the new vertex, and of the poor one, with cells that do without that vertex.
+bool HexOpener::fill_without_vertex(GapIndex poor) {
+  std::vector<GapIndex> out(gap_.cells_at(spare_).begin(), gap_.cells_at(spare_).end());
+  if (gap_.is_alive(poor)) out.push_back(poor);
+  if (!std::ranges::all_of(out, [&](GapIndex c) { return is_valid(gap_, gap_.cell(c)); })) return false;
+  const auto in = refill_.find(out);
+  if (!in) return false;
+  const auto is_good = [&](const GapCell& cell) { return cell.quality >= least_wanted && is_valid(gap_, cell); };
+  if (!std::ranges::all_of(*in, is_good)) return false;
+  gap_.replace(out, *in);
+  return true;
+}
+
 // Fills the room within `skin` around a vertex in its middle, and moves the vertices around it. If that does not turn
-// out well, everything is as before.
-bool HexOpener::fill(KeptIndex kept, std::vector<Facet> skin, std::span<const GapIndex> out, GapIndex poor) {
-  const GapCell poor_cell = gap_.cell(poor);
-  const std::int32_t region = poor_cell.region;
+// out well, with this vertex or without, everything is as before.
+bool HexOpener::fill(std::vector<Facet> skin, std::span<const GapIndex> out, GapIndex poor) {
+  const std::int32_t region = gap_.cell(poor).region;
   for (const GapIndex c : out) {
     if (gap_.cell(c).region != region) return false;
     const Joining joining = join_skin(gap_, gap_.cell(c), skin);
-    if (!joining.touches || joining.crosses_tagged) return false;
+    if ((!joining.touches && c != out.front()) || joining.crosses_tagged) return false;
   }
   if (!is_ball(skin)) return false;
   Vec3 middle{};
-  for (const Vertex v : gap_.kept_cell(kept).vertices()) middle += gap_.points()[v];
-  middle *= 1 / static_cast<double>(gap_.kept_cell(kept).vertices().size());
+  double corners = 0;
+  for (const Facet& facet : skin)
+    for (const Vertex v : facet.vertices()) middle += gap_.points()[v], ++corners;
+  middle *= 1 / corners;
   if (spare_ == no_index) spare_ = gap_.add_vertex(middle);
   gap_.move(spare_, middle);
 
   std::vector<GapCell> in;
   for (const Facet& facet : skin) in.push_back(cell_on(gap_, facet, spare_, region));
-  gap_.set_alive(kept, false);
   const auto first_new = static_cast<GapIndex>(gap_.cell_count());
   gap_.replace(out, in);
 
-  std::vector<Vertex> moving = movable(poor_cell, kept);
+  std::vector<Vertex> moving = movable(skin);
   moving.push_back(spare_);
   std::vector<Vec3> places;
   for (const Vertex v : moving) places.push_back(gap_.points()[v]);
@@ -176,10 +221,16 @@ bool HexOpener::fill(KeptIndex kept, std::vector<Facet> skin, std::span<const Ga
       spare_ = no_index;
       return true;
     }
+    if (fill_without_vertex(poor)) return true;
     for (std::size_t i = 0; i < moving.size(); ++i) gap_.relocate(moving[i], places[i]);
   }
   gap_.undo_replace(out, first_new);
-  gap_.set_alive(kept, true);
+  return false;
+}
+
+bool HexOpener::insert(GapIndex poor) {
+  for (const auto& out : rooms_around(poor))
+    if (fill({}, out, poor)) return true;
   return false;
 }
 
@@ -187,29 +238,36 @@ bool HexOpener::open(KeptIndex kept, GapIndex poor) {
   if (gap_.kept_cell(kept).region != gap_.cell(poor).region) return false;
   const auto skin = skin_of(kept);
   if (!skin) return false;
+  gap_.set_alive(kept, false);
   for (const auto& out : rooms_beside(*skin, poor))
-    if (fill(kept, *skin, out, poor)) return true;
+    if (fill(*skin, out, poor)) return true;
+  gap_.set_alive(kept, true);
   return false;
 }
 
-std::vector<CellIndex> HexOpener::run() {
-  std::vector<CellIndex> opened;
-  const std::size_t most = gap_.kept_count() / chosen_per_opened + 1;
+Opened HexOpener::run() {
+  Opened result;
+  const std::size_t most = gap_.kept_count() / chosen_per_opened + opened_in_any_case;
   const auto count = static_cast<GapIndex>(gap_.cell_count());
-  for (GapIndex c = 0; c < count && opened.size() < most; ++c) {
+  for (GapIndex c = 0; c < count; ++c) {
     if (!gap_.is_alive(c) || gap_.cell(c).quality >= least_wanted) continue;
+    if (insert(c)) {
+      ++result.inserted;
+      continue;
+    }
+    if (result.chosen.size() == most) continue;
     for (const KeptIndex kept : chosen_around(gap_.cell(c)))
       if (open(kept, c)) {
-        opened.push_back(gap_.kept_cell(kept).source);
+        result.chosen.push_back(gap_.kept_cell(kept).source);
         break;
       }
   }
-  return opened;
+  return result;
 }
 
 }  // namespace
 
-std::vector<CellIndex> open_hexes(GapMesh& gap) {
+Opened open_hexes(GapMesh& gap) {
   return HexOpener(gap).run();
 }
 

@@ -42,9 +42,14 @@ RefillCounts refill_rooms(GapMesh& gap);
 // least_quality, raises the worst cells at its vertices together. Returns the number of changes.
 std::int64_t mend(GapMesh& gap);
 
-// Opens chosen cells beside cells of the gap that are worse than least_wanted. Better pyramids and tets take the room
-// of the chosen cell, and the poor cell improves. No other cell falls below least_quality that was not below before. At
-// most one chosen cell in a thousand goes. Returns those that are gone.
-std::vector<CellIndex> open_hexes(GapMesh& gap);
+struct Opened {
+  std::int64_t inserted = 0;      // rooms of gap cells that were filled around a new vertex
+  std::vector<CellIndex> chosen;  // cells that are gone
+};
+
+// Puts new vertices into the rooms around cells of the gap that are worse than least_wanted. Where that does not help, a
+// chosen cell beside the poor one goes: better pyramids and tets take its room, and the poor cell improves. No other cell
+// falls below least_quality that was not below before. At most one chosen cell in four hundred and four more go.
+Opened open_hexes(GapMesh& gap);
 
 }  // namespace hexpipe::assemble::gap

@@ -44,7 +44,7 @@ void Patch::take(std::span<const Vertex> moving, const Replacement& replacement)
   }
   for (const GapIndex c : before_)
     if (std::ranges::find(replacement.out, c) == replacement.out.end())
-      add({gap_.cell(c).kind, false, gap_.cell(c).region, std::min(gap_.cell(c).quality, least_quality), {}},
+      add({gap_.cell(c).kind, false, gap_.cell(c).region, std::min(gap_.cell(c).quality, floor_), {}},
           gap_.cell(c).vertices());
   for (const GapCell& cell : replacement.in)
     add({cell.kind, false, cell.region, replacement.floor, {}}, cell.vertices());

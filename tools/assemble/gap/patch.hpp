@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/assemble/gap/gap_mesh.hpp"
+#include "tools/assemble/gap/objective.hpp"
 #include "tools/assemble/shape/point_star.hpp"
 
 namespace hexpipe::assemble::gap {
@@ -24,7 +25,8 @@ inline constexpr double least_rise = 1e-3;
 
 class Patch {
  public:
-  explicit Patch(const GapMesh& gap) : gap_(gap) {}
+  // No cell of the gap falls below `floor` that was not below before.
+  explicit Patch(const GapMesh& gap, double floor = least_quality) : gap_(gap), floor_(floor) {}
 
   // The cells at `moving` after the change.
   void take(std::span<const Vertex> moving, const Replacement& replacement);
@@ -36,7 +38,7 @@ class Patch {
 
   // The least quality among the cells that are not chosen.
   double least() const;
-  // False if a cell is not valid, or worse than its floor: least_quality (a chosen hex: least_hex), or less if it was.
+  // False if a cell is not valid, or worse than its floor: that of the patch (a chosen hex: least_hex), or less if it was.
   bool keeps_floors() const;
   // The cost of the gap's cells and faces after the change.
   double cost() const;
@@ -69,6 +71,7 @@ class Patch {
   bool improve(std::size_t i, double goal);
 
   const GapMesh& gap_;
+  double floor_;
   std::vector<Vertex> vertices_;  // ascending
   std::vector<Vec3> points_;
   std::vector<Cell> cells_;
