@@ -157,7 +157,7 @@ PYTHON
     tessellate half-touching.step -o half-apart.tar
     assert_fails_with 1 "half-apart.tar: .* intersect itself, .*; where bodies touch, tessellate --join makes one face of two" tetmesh half-apart.tar -o x.mesh
     # Across the interface and on its own, each body is filled with hexes alone.
-    tetmesh -q joined.tar | findhex | buildgraph | initsol --iterations 100 | assemble --stats stats.json -o joined.msh
+    tetmesh -q joined.tar --size 0.5 | findhex | buildgraph | initsol --iterations 100 | assemble --stats stats.json -o joined.msh
     run $PYTHON -c 'import json; cells = json.load(open("stats.json"))["cells"]; print({k: v["count"] for k, v in cells.items() if v["count"]})'
     assert_output "{'hex': 1024}"
   fi

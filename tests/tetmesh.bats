@@ -368,7 +368,7 @@ END
   tetmesh "$fine" --size 11.547005383792515% -o percent.mesh --stats stats.json
   $PYTHON -c "assert abs($(stats size) - 0.2) < 1e-9"
   tetmesh "$fine" -o default.mesh --stats stats.json
-  $PYTHON -c "assert 0.07 < $(stats size) < 0.1, '5 % of the diagonal'"
+  $PYTHON -c "assert 0.05 < $(stats size) < 0.06, '6,000 cubes'"
   assert_fails_with 1 "TetGen failed: it took longer than --tetgen-timeout" tetmesh "$fine" --size 0.02 --tetgen-timeout 0.001 -q
 }
 

@@ -1,6 +1,7 @@
 #include "formats/meshes/vtu.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <pugixml.hpp>
 #include <utility>
@@ -232,10 +233,13 @@ class VtuReader {
 
   template <class T>
   static void append(std::vector<T>& to, std::vector<T> more) {
-    if (to.empty())
+    if (to.empty()) {
       to = std::move(more);
-    else
-      to.insert(to.end(), more.begin(), more.end());
+      return;
+    }
+    // insert() makes GCC 14 warn of a copy of endless length.
+    to.reserve(to.size() + more.size());
+    std::ranges::copy(more, std::back_inserter(to));
   }
 
   template <class T>

@@ -539,7 +539,7 @@ TEST(Lns, StopsAtItsDeadline) {
   const Deadline deadline(0.2);
   const LnsResult result = improve_by_lns(graph, {}, {.fragment_size = 1000, .node_limit = 1000000000}, deadline);
   EXPECT_FALSE(result.complete);
-  EXPECT_GE(watch.seconds(), 0.15);  // it keeps back what putting the result together takes
+  EXPECT_GE(watch.seconds(), 0.05);  // it keeps back what putting the result together takes, more of it under load
   EXPECT_LT(watch.seconds(), 1.0);   // a machine under load
 }
 

@@ -36,8 +36,6 @@ double volume_of(const GapMesh& gap, const GapCell& cell) {
 // front the wrong way round: there another cell is on that side.
 void Refill::offer(CellKind kind, const std::array<Vertex, 6>& corners, std::vector<Offer>& offers) const {
   Offer made;
-  made.cell = gap_.make(kind, corners, room_.region);
-  if (made.cell.quality < floor_) return;
   bool fits = true;
   for_facets(kind, corners, [&](const Facet& facet) {
     const bool closes = std::ranges::find(front_, facet) != front_.end();
@@ -45,6 +43,8 @@ void Refill::offer(CellKind kind, const std::array<Vertex, 6>& corners, std::vec
     fits = fits && (closes || std::ranges::find(front_, facet.reversed()) == front_.end());
   });
   if (!fits) return;
+  made.cell = gap_.make(kind, corners, room_.region);
+  if (made.cell.quality < floor_) return;
   made.volume = volume_of(gap_, made.cell);
   if (made.volume > space_) return;
   made.cost = cost_of(made.cell.quality);
