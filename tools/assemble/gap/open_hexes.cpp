@@ -20,7 +20,7 @@ namespace hexpipe::assemble::gap {
 namespace {
 
 // One chosen cell in this many may go, and a few in any case, because each costs a share of the volume in hexes.
-constexpr std::size_t chosen_per_opened = 400, opened_in_any_case = 4;
+constexpr std::size_t chosen_per_opened = 1000, opened_in_any_case = 4;
 // How many chosen cells around a poor one are tried, those with the most vertices of it first. Later ones seldom help.
 constexpr std::size_t most_tries = 8;
 constexpr int rounds_to_raise = 20;

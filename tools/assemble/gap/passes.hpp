@@ -49,7 +49,7 @@ struct Opened {
 
 // Puts new vertices into the rooms around cells of the gap that are worse than least_wanted. Where that does not help, a
 // chosen cell beside the poor one goes: better pyramids and tets take its room, and the poor cell improves. No other cell
-// falls below least_quality that was not below before. At most one chosen cell in four hundred and four more go.
+// falls below least_quality that was not below before. At most one chosen cell in a thousand and four more go.
 Opened open_hexes(GapMesh& gap);
 
 }  // namespace hexpipe::assemble::gap
