@@ -176,8 +176,8 @@ void QuadFan::measure_spokes() {
 void QuadFan::find_between(int place, int other_place) {
   const auto neighbours = links_.neighbours_of(first_);
   const auto begin = static_cast<std::int32_t>(quads_.size());
-  for (const auto& [opposite, diagonals] :
-       QuadAngle(links_, first_, place, other_place).find_opposites(links_, found_)) {
+  const QuadAngle angle(links_, first_, place, other_place);
+  for (const auto& [opposite, diagonals] : angle.find_opposites(links_, found_)) {
     if (opposite < first_) continue;
     const std::int32_t edge = outer_edge(place, opposite), other_edge = outer_edge(other_place, opposite);
     if (!is_wanted(outer_edges_[edge], outer_edges_[other_edge]) ||

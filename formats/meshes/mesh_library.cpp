@@ -14,7 +14,7 @@ namespace hexpipe::formats {
 namespace {
 
 // Beside the program, wherever the whole was installed.
-std::string path_of(const std::string& name) {
+std::string path_of(std::string_view name) {
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
   return (program.parent_path() / HEXPIPE_MODULES / fmt::format("mesh_{}.so", name)).lexically_normal().string();
@@ -22,7 +22,7 @@ std::string path_of(const std::string& name) {
 
 }  // namespace
 
-const MeshLibrary& mesh_library(const std::string& name) {
+const MeshLibrary& mesh_library(std::string_view name) {
   const std::string path = path_of(name);
   void* const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   // The message of the loader begins with the name of what it missed.

@@ -2,7 +2,7 @@
 // Formats that need a large library are modules of their own, loaded when a mesh is written or read so: the libraries'
 // own libraries take a tool 30 to 60 ms to start.
 
-#include <string>
+#include <string_view>
 
 #include "formats/meshes/grouped_mesh.hpp"
 
@@ -19,6 +19,6 @@ struct MeshLibrary {
 inline constexpr const char* mesh_library_function = "hexpipe_mesh_library";
 
 // The module of this name, which stays loaded. Throws DataError where it is not there.
-const MeshLibrary& mesh_library(const std::string& name);
+const MeshLibrary& mesh_library(std::string_view name);
 
 }  // namespace hexpipe::formats
