@@ -55,6 +55,7 @@ product_ending() {
 }
 
 @test "--help explains itself, with an example that names the tool, on standard output" {
+  optimized_only "it is about the texts"
   for tool in $TOOLS; do
     run_apart $tool --help
     assert_success
@@ -68,6 +69,7 @@ product_ending() {
 }
 
 @test "--help begins with the few options that matter first, then goes by subject, and ends with what all tools have" {
+  optimized_only "it is about the texts"
   local first groups
   for tool in $TOOLS; do
     groups=$($tool --help | sed -nE 's/^([A-Z][A-Za-z, ]+):$/\1/p' | tr '\n' ';')
@@ -103,6 +105,7 @@ product_ending() {
 }
 
 @test "a misspelled option is answered with the one that was meant" {
+  optimized_only "it is about the texts"
   for tool in $TOOLS; do
     assert_fails_with 2 "^$tool: The following arguments were not expected: --thread 2 \(did you mean --threads\? see $tool --help\)$" \
       $tool "$STAGES/$tool.in" --thread 2
@@ -347,6 +350,7 @@ PYTHON
 }
 
 @test "a default of several values stands in the history as it would be typed" {
+  optimized_only "it is about the texts"
   findhex -q "$STAGES/findhex.in" -o out.tar
   run tar xOf out.tar "$(tar tf out.tar | grep 'history/.*-findhex.json')"
   assert_output --partial '"cells": "hex"'

@@ -54,6 +54,7 @@ setup_file() {
 }
 
 @test "--from goes on from each stage that was kept, to the same mesh" {
+  optimized_only "it is about results"
   local fixed=(--initsol '--iterations 100' --lns '--iterations 20') stage
   quick -q -o all.vtu --keep stages "${fixed[@]}"
   for stage in mesh candidates conflicts solution choice; do
@@ -68,6 +69,7 @@ setup_file() {
 }
 
 @test "each effort, --threads, --size and options of a stage reach the tools" {
+  optimized_only "it is about results"
   run quick -o x.vtu --dry-run --threads 2 --seed 7
   assert_output --partial "tetmesh $DATA/cube.stl --size 0.5 --threads 2 --seed 7"
   assert_output --partial "lns --threads 2 --seed 7 --time-limit 3"

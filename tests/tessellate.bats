@@ -61,6 +61,7 @@ PYTHON
 }
 
 @test "its bundle goes through the whole pipeline" {
+  optimized_only "it is about results"
   if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
   step named
   tessellate named.step | tetmesh --size 5 | findhex | buildgraph | initsol --iterations 100 | assemble -o named.tar
@@ -136,6 +137,7 @@ PYTHON
 }
 
 @test "bodies stand side by side, five hundred of them too" {
+  optimized_only "it is about results"
   step apart many
   tessellate apart.step -o apart.tar
   assert_equal "$(surface apart.tar 'sides.tolist() == [[1, 0]] * 12 + [[2, 0]] * 12')" True

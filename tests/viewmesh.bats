@@ -135,6 +135,7 @@ PYTHON
 }
 
 @test "every part of --view changes the picture, and the page opens with it" {
+  optimized_only "it is about results"
   viewmesh result.vtu --size 400,250 --png plain.png
   for part in up=y up=-x axes=off legend=off clip=x:0.5 clip=-x:0.5 clip=1,1,0:0.5 quality=0,0.15 peel=1 kinds=hex,tet colour=quality colour=kind \
     colour=region colour=surface colour=orthogonality colour=weight colour=determinant colour=flatness edges=off theme=dark camera=10,20 camera=10,20,1,0,0,0 camera=-52,28,2,0,0,0 camera=-52,28,1,0.3,0,0; do
@@ -351,6 +352,7 @@ PYTHON
 }
 
 @test "the page works in a browser, as a file" {
+  optimized_only "it is about the script of the page"
   if sanitized; then skip "the browser is not sanitized"; fi
   if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
   tetmesh "$DATA/bracket.stl" --size 5 --tags-by-angle 40 | findhex | buildgraph | initsol --iterations 20000 |
@@ -367,6 +369,7 @@ PYTHON
 }
 
 @test "the page finds poor cells and dislocations, measures, and lets the part fit" {
+  optimized_only "it is about the script of the page"
   if sanitized; then skip "the browser is not sanitized"; fi
   if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
   tetmesh "$DATA/bracket.stl" --size 7 | findhex | buildgraph | initsol --iterations 20000 | assemble -o bracket.msh

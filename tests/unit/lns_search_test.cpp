@@ -473,7 +473,7 @@ TEST(Lns, GoesOnWhereEqualWeightsChangePlaces) {
 
 TEST(Lns, EndsAtItsTarget) {
   Random random(12);
-  const ConflictGraph graph = hexpipe::testing::random_graph(700, 0.1, 1000, random);
+  const ConflictGraph graph = hexpipe::testing::random_graph(400, 0.1, 1000, random);
   const LnsResult start = improve_by_lns(graph, {}, {.iterations = 0}, no_deadline);
   for (const bool reduce : {false, true}) {
     const LnsOptions options{.iterations = 300, .fragment_size = 40, .reduce = reduce};
