@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/surface/surface_links.hpp"
@@ -64,7 +63,7 @@ class GuideAtNodes {
       const Vec3 coordinates = coordinates_at(place, size, i);
       for (std::size_t k = 0; k < 2; ++k) {
         const double along = coordinates[static_cast<int>(axes.axis[k])];
-        sum[k] += weight * std::polar(1.0, 2 * std::numbers::pi * (axes.cosine[k] < 0 ? -along : along));
+        sum[k] += weight * fields::number_at(axes.cosine[k] < 0 ? -along : along);
       }
       return true;
     });
