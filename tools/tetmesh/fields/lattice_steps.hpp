@@ -1,10 +1,13 @@
 #pragma once
-// The steps from one point of a lattice to the next, as a node sees them by the distances to its neighbours.
+// The steps from one point of a lattice to the next, as a node sees them by the distances to its neighbours, and
+// vectors counted in such steps.
 
 #include <Eigen/Dense>
 #include <array>
 #include <cmath>
 #include <optional>
+
+#include "common/mesh/vec3.hpp"
 
 namespace hexpipe::tetmesh::fields {
 
@@ -44,6 +47,23 @@ class StepFit {
   static constexpr double least_determinant = 0.2;
 
   Matrix moments_ = Matrix::Zero(), right_ = Matrix::Zero();
+};
+
+// Counts the steps along each axis that lead as far as a vector.
+class InSteps {
+ public:
+  explicit InSteps(const std::array<Vec3, 3>& steps) {
+    Eigen::Matrix3d columns;
+    for (std::size_t k = 0; k < 3; ++k) columns.col(static_cast<Eigen::Index>(k)) << steps[k].x, steps[k].y, steps[k].z;
+    inverse_ = columns.inverse();
+  }
+  Vec3 operator()(const Vec3& way) const {
+    const Eigen::Vector3d count = inverse_ * Eigen::Vector3d(way.x, way.y, way.z);
+    return {count[0], count[1], count[2]};
+  }
+
+ private:
+  Eigen::Matrix3d inverse_;
 };
 
 }  // namespace hexpipe::tetmesh::fields

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "tools/tetmesh/fields/layers_across.hpp"
-#include "tools/tetmesh/surface/feature_ways.hpp"
+#include "tools/tetmesh/surface/feature_paths.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {
