@@ -97,7 +97,7 @@ assert_floors() {
 
 @test "the files at the root of tetmesh stand on floors" {
   local file below="(asked_sizes|options|statistics|steps)"
-  for file in fill improve tetmesh main; do
+  for file in meshing improve tetmesh main; do
     includes_of tools/tetmesh | grep -E "^tools/tetmesh/$file\.[ch]pp:tools/tetmesh/[^/]+\.hpp$" |
       grep -vE ":tools/tetmesh/($below|$file)\.hpp$" | assert_none "$file includes a file above it"
     below+="|$file"

@@ -76,22 +76,22 @@ class FewTets {
     tets_[size_] = unused;
     const auto unsorted = tets_;
     for (std::size_t i = 0; i < size_; ++i) {
-      std::int32_t less = 0;
-      for (const std::int32_t other : unsorted) less += other < unsorted[i] ? 1 : 0;
+      int less = 0;
+      for (const TetIndex other : unsorted) less += other < unsorted[i] ? 1 : 0;
       tets_[less - (tets_.size() - size_)] = unsorted[i];
     }
   }
   std::size_t size() const { return size_; }
-  std::int32_t operator[](std::size_t i) const { return tets_[i]; }
-  std::int32_t* begin() { return tets_.data(); }
-  std::int32_t* end() { return tets_.data() + size_; }
-  const std::int32_t* begin() const { return tets_.data(); }
-  const std::int32_t* end() const { return tets_.data() + size_; }
+  TetIndex operator[](std::size_t i) const { return tets_[i]; }
+  TetIndex* begin() { return tets_.data(); }
+  TetIndex* end() { return tets_.data() + size_; }
+  const TetIndex* begin() const { return tets_.data(); }
+  const TetIndex* end() const { return tets_.data() + size_; }
 
  private:
-  static constexpr std::int32_t unused = std::numeric_limits<std::int32_t>::min();  // less than every tet
+  static constexpr TetIndex unused = std::numeric_limits<TetIndex>::min();  // less than every tet
 
-  std::array<std::int32_t, (Most + 4) / 4 * 4> tets_;  // the tets, one that was not kept, then unused
+  std::array<TetIndex, (Most + 4) / 4 * 4> tets_;  // the tets, one that was not kept, then unused
   std::size_t size_ = 0;
 };
 

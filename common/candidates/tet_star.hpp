@@ -24,7 +24,7 @@ class TetStar {
     const auto tets = tables_.adjacency().tets_at(centre);
     is_filed_ = 3 * tets.size() <= slots_.size() / 2;
     if (!is_filed_) return;
-    for (const std::int32_t t : tets)
+    for (const TetIndex t : tets)
       if (tables_.usable(t)) file(t);
   }
 
@@ -47,7 +47,7 @@ class TetStar {
     return hash * 0x85ebca6bu >> 23;
   }
 
-  void file(std::int32_t t) {
+  void file(TetIndex t) {
     const Tet& tet = tables_.mesh().tets[t];
     for (const LocalTriangle& facet : TetTopology::triangles) {
       const auto at =
@@ -60,7 +60,7 @@ class TetStar {
     }
   }
 
-  std::int32_t find(Vertex next, Vertex after) const {
+  TetIndex find(Vertex next, Vertex after) const {
     for (std::size_t slot = first_slot(next, after);; slot = (slot + 1) % slot_count) {
       const Slot& at = slots_[slot];
       if (at.next == no_index || (at.next == next && at.after == after)) return at.tet;

@@ -67,7 +67,7 @@ int shared_corner_count(std::span<const Vertex> i, std::span<const Vertex> j) {
   return count;
 }
 
-bool share_interior_tet(std::span<const std::int32_t> i, std::span<const std::int32_t> j) {
+bool share_interior_tet(std::span<const TetIndex> i, std::span<const TetIndex> j) {
   std::size_t a = 0, b = 0;
   while (a < i.size() && b < j.size()) {
     if (i[a] == j[b]) return true;

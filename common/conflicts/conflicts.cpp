@@ -57,7 +57,7 @@ ConflictFinder::ConflictFinder(const Candidates& candidates)
                              [&]<class Topology>(Topology) { for_each_quad<Topology>(candidates.vertices[i], file); });
              }),
       tets_(bound_of(candidates.tets), candidates.size(), [&](std::size_t i, auto&& file) {
-        for (const std::int32_t tet : candidates.interior_tets_of(i)) file(tet, 0);
+        for (const TetIndex tet : candidates.interior_tets_of(i)) file(tet, 0);
       }) {}
 
 void ConflictFinder::collect_lower(std::size_t i, SortedSet& found) const {
@@ -66,15 +66,15 @@ void ConflictFinder::collect_lower(std::size_t i, SortedSet& found) const {
 
 template <class Topology>
 void ConflictFinder::collect_lower_of_kind(std::size_t i, SortedSet& found) const {
-  const auto self = static_cast<std::int32_t>(i);
-  for (const std::int32_t tet : candidates_.interior_tets_of(i))
+  const auto self = static_cast<CandidateIndex>(i);
+  for (const TetIndex tet : candidates_.interior_tets_of(i))
     for (const auto entry : tets_.with_key(tet, 0)) {
-      const std::int32_t j = SharingIndex::candidate_of(entry);
+      const CandidateIndex j = SharingIndex::candidate_of(entry);
       if (j >= self) break;
       found.insert(j);
     }
-  const auto insert_lower = [&](std::span<const std::int32_t> ascending) {
-    for (const std::int32_t j : ascending) {
+  const auto insert_lower = [&](std::span<const CandidateIndex> ascending) {
+    for (const CandidateIndex j : ascending) {
       if (j >= self) break;
       found.insert(j);
     }
@@ -88,7 +88,7 @@ void ConflictFinder::collect_lower_of_kind(std::size_t i, SortedSet& found) cons
   }
   for_each_quad<Topology>(corners, [&](Vertex low, std::uint32_t key) {
     for (const auto entry : quads_.with_key(low, key)) {
-      const std::int32_t j = SharingIndex::candidate_of(entry);
+      const CandidateIndex j = SharingIndex::candidate_of(entry);
       if (j >= self) break;
       if (!in_conflict(candidates_, i, static_cast<std::size_t>(j))) found.erase(j);
     }

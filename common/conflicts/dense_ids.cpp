@@ -22,23 +22,23 @@ void renumber(std::int32_t& id, const std::vector<std::int32_t>& distinct) {
 }  // namespace
 
 std::optional<Candidates> with_dense_ids(const Candidates& candidates) {
-  std::int32_t highest = -1;
+  TetIndex highest = -1;
   for (const auto& row : candidates.vertices) highest = std::max(highest, *std::max_element(row.begin(), row.end()));
-  for (const std::int32_t tet : candidates.tets) highest = std::max(highest, tet);
+  for (const TetIndex tet : candidates.tets) highest = std::max(highest, tet);
   if (highest < static_cast<std::int64_t>(ids_in_any_case + ids_a_candidate * candidates.size())) return std::nullopt;
 
   Candidates dense = candidates;
-  std::vector<std::int32_t> vertices;
+  std::vector<Vertex> vertices;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const auto corners = candidates.corners_of(i);
     vertices.insert(vertices.end(), corners.begin(), corners.end());
   }
   vertices = sorted_distinct(std::move(vertices));
-  const std::vector<std::int32_t> tets = sorted_distinct(candidates.tets);
+  const std::vector<TetIndex> tets = sorted_distinct(candidates.tets);
   for (auto& row : dense.vertices)
     for (Vertex& v : row)
       if (v >= 0) renumber(v, vertices);
-  for (std::int32_t& tet : dense.tets) renumber(tet, tets);
+  for (TetIndex& tet : dense.tets) renumber(tet, tets);
   return dense;
 }
 

@@ -95,7 +95,7 @@ SegmentIndex::Filed SegmentIndex::file(const Candidates& candidates, std::size_t
   resize_in_huge_pages(filed.candidates, static_cast<std::size_t>(filed.offsets.back()));
   std::vector<std::int64_t> next(filed.offsets.begin(), filed.offsets.end() - 1);
   for (std::size_t i = 0; i < candidates.size(); ++i)
-    for (const Vertex v : candidates.corners_of(i)) filed.candidates[next[v]++] = static_cast<std::int32_t>(i);
+    for (const Vertex v : candidates.corners_of(i)) filed.candidates[next[v]++] = static_cast<CandidateIndex>(i);
   return filed;
 }
 
@@ -116,7 +116,7 @@ void SegmentIndex::make_segments(const Candidates& candidates, std::size_t verte
   parallel_for(static_cast<std::int64_t>(vertex_count), vertices_a_block, [&](std::int64_t v) {
     SegmentMaker& maker = makers.local();
     std::int64_t pairs = 0;
-    for_each_pair_at(v, [&](std::int32_t, std::size_t, Vertex high, int) {
+    for_each_pair_at(v, [&](CandidateIndex, std::size_t, Vertex high, int) {
       maker.number(high);
       ++pairs;
     });
@@ -127,7 +127,7 @@ void SegmentIndex::make_segments(const Candidates& candidates, std::size_t verte
   resize_in_huge_pages(entries_, static_cast<std::size_t>(offsets_.back()));
   parallel_for(static_cast<std::int64_t>(vertex_count), vertices_a_block, [&](std::int64_t v) {
     SegmentMaker& maker = makers.local();
-    for_each_pair_at(v, [&](std::int32_t, std::size_t, Vertex high, int way) {
+    for_each_pair_at(v, [&](CandidateIndex, std::size_t, Vertex high, int way) {
       ++maker.segments()[maker.number(high)].counts[way];
     });
     std::int32_t* const entries = entries_.data() + offsets_[v];
@@ -140,7 +140,7 @@ void SegmentIndex::make_segments(const Candidates& candidates, std::size_t verte
       segment.counts = {static_cast<std::int32_t>(header), static_cast<std::int32_t>(header) + edges};
       begin += static_cast<std::uint32_t>(header) + static_cast<std::uint32_t>(edges + others);
     }
-    for_each_pair_at(v, [&](std::int32_t candidate, std::size_t place, Vertex high, int way) {
+    for_each_pair_at(v, [&](CandidateIndex candidate, std::size_t place, Vertex high, int way) {
       auto& segment = maker.segments()[maker.number(high)];
       entries[segment.begin + static_cast<std::uint32_t>(segment.counts[way]++)] = candidate;
       places_[place] = segment.begin;

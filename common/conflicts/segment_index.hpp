@@ -38,7 +38,7 @@ class SegmentIndex {
  public:
   // The candidates that have both vertices, ascending.
   struct Segment {
-    std::span<const std::int32_t> as_edge, not_as_edge;
+    std::span<const CandidateIndex> as_edge, not_as_edge;
   };
 
   SegmentIndex(const Candidates& candidates, std::size_t vertex_count);
@@ -54,7 +54,7 @@ class SegmentIndex {
   // The candidates at each vertex, ascending.
   struct Filed {
     std::vector<std::int64_t> offsets;  // vertices + 1
-    std::vector<std::int32_t> candidates;
+    std::vector<CandidateIndex> candidates;
   };
   static Filed file(const Candidates& candidates, std::size_t vertex_count);
   void make_segments(const Candidates& candidates, std::size_t vertex_count);

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "common/mesh/candidates.hpp"
 #include "common/run/memory.hpp"
 #include "common/run/parallel.hpp"
 
@@ -17,7 +18,7 @@ class SharingIndex {
  public:
   // The key in the high bits, the candidate in the low bits.
   using Entry = std::uint64_t;
-  static std::int32_t candidate_of(Entry entry) { return static_cast<std::int32_t>(entry); }
+  static CandidateIndex candidate_of(Entry entry) { return static_cast<CandidateIndex>(entry); }
 
   // things_of(candidate, visit) calls visit(bucket, key) for each thing of a candidate; each call gives the same
   // things.

@@ -11,13 +11,12 @@ namespace {
 
 // Renumbers tets by their places among those that candidates have: any numbers are allowed, and memory depends on the
 // places only.
-std::vector<std::int32_t> dense_tets(const Candidates& candidates) {
-  std::vector<std::int32_t> distinct = candidates.tets;
+std::vector<TetIndex> dense_tets(const Candidates& candidates) {
+  std::vector<TetIndex> distinct = candidates.tets;
   std::ranges::sort(distinct);
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-  std::vector<std::int32_t> places = candidates.tets;
-  for (std::int32_t& tet : places)
-    tet = static_cast<std::int32_t>(std::ranges::lower_bound(distinct, tet) - distinct.begin());
+  std::vector<TetIndex> places = candidates.tets;
+  for (TetIndex& tet : places) tet = static_cast<TetIndex>(std::ranges::lower_bound(distinct, tet) - distinct.begin());
   return places;
 }
 
@@ -27,18 +26,18 @@ CliqueCover cliques_of_tets(const Candidates& candidates) {
   CliqueCover cover;
   if (candidates.tets.empty()) return cover;
   const auto highest = static_cast<std::size_t>(std::ranges::max(candidates.tets));
-  std::vector<std::int32_t> places;
+  std::vector<TetIndex> places;
   if (highest >= 16 * candidates.tets.size()) places = dense_tets(candidates);
-  const std::vector<std::int32_t>& tets = places.empty() ? candidates.tets : places;
+  const std::vector<TetIndex>& tets = places.empty() ? candidates.tets : places;
 
   std::vector<std::int64_t> offsets(static_cast<std::size_t>(std::ranges::max(tets)) + 2, 0);
-  for (const std::int32_t tet : tets) ++offsets[tet + 1];
+  for (const TetIndex tet : tets) ++offsets[tet + 1];
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  std::vector<std::int32_t> members(tets.size());
+  std::vector<CandidateIndex> members(tets.size());
   std::vector<std::int64_t> next(offsets.begin(), offsets.end() - 1);
   for (std::size_t i = 0; i < candidates.size(); ++i)
     for (std::int64_t t = candidates.tet_offsets[i]; t < candidates.tet_offsets[i + 1]; ++t)
-      members[next[tets[t]]++] = static_cast<std::int32_t>(i);
+      members[next[tets[t]]++] = static_cast<CandidateIndex>(i);
   for (std::size_t tet = 0; tet + 1 < offsets.size(); ++tet)
     if (offsets[tet + 1] - offsets[tet] > 1)
       cover.add({members.begin() + offsets[tet], members.begin() + offsets[tet + 1]});

@@ -11,21 +11,24 @@
 
 namespace hexpipe {
 
+// From 0, in Candidates and as a vertex of their conflict graph; no_index stands for none.
+using CandidateIndex = std::int32_t;
+
 struct Candidates {
   std::vector<std::array<Vertex, 8>> vertices;  // in the numbering of cell_topology.hpp, padded with -1
   std::vector<CellKind> kind;
   std::vector<double> quality;  // the least scaled Jacobian, over the corners or over the whole element
   std::vector<double> volume;
   std::vector<std::int64_t> tet_offsets{0};  // k+1: interior tets of candidate i are tets[offsets[i]..offsets[i+1])
-  std::vector<std::int32_t> tets;            // ascending within a candidate
+  std::vector<TetIndex> tets;                // ascending within a candidate
   std::vector<std::int64_t> boundary_tet_offsets{0};
-  std::vector<std::int32_t> boundary_tets;
+  std::vector<TetIndex> boundary_tets;
 
   std::size_t size() const { return kind.size(); }
-  std::span<const std::int32_t> interior_tets_of(std::size_t i) const {
+  std::span<const TetIndex> interior_tets_of(std::size_t i) const {
     return std::span(tets).subspan(tet_offsets[i], tet_offsets[i + 1] - tet_offsets[i]);
   }
-  std::span<const std::int32_t> boundary_tets_of(std::size_t i) const {
+  std::span<const TetIndex> boundary_tets_of(std::size_t i) const {
     return std::span(boundary_tets)
         .subspan(boundary_tet_offsets[i], boundary_tet_offsets[i + 1] - boundary_tet_offsets[i]);
   }
@@ -49,16 +52,16 @@ void append_candidate(Candidates& to, const Candidates& from, std::size_t i, Poi
   to.kind.push_back(from.kind[i]);
   to.quality.push_back(from.quality[i]);
   to.volume.push_back(from.volume[i]);
-  for (const std::int32_t t : from.interior_tets_of(i))
-    if (const std::int32_t number = interior_tet(t); number >= 0) to.tets.push_back(number);
+  for (const TetIndex t : from.interior_tets_of(i))
+    if (const TetIndex number = interior_tet(t); number >= 0) to.tets.push_back(number);
   to.tet_offsets.push_back(static_cast<std::int64_t>(to.tets.size()));
-  for (const std::int32_t t : from.boundary_tets_of(i))
-    if (const std::int32_t number = boundary_tet(t); number >= 0) to.boundary_tets.push_back(number);
+  for (const TetIndex t : from.boundary_tets_of(i))
+    if (const TetIndex number = boundary_tet(t); number >= 0) to.boundary_tets.push_back(number);
   to.boundary_tet_offsets.push_back(static_cast<std::int64_t>(to.boundary_tets.size()));
 }
 
 // The candidates named by `kept`, in its order.
-Candidates select(const Candidates& candidates, std::span<const std::int32_t> kept);
+Candidates select(const Candidates& candidates, std::span<const CandidateIndex> kept);
 
 // Throws DataError naming `source` when arrays disagree in length, a kind is unknown, the padding is wrong, offsets do
 // not ascend, or a number is not finite.

@@ -108,6 +108,21 @@ void parallel_in_order(std::int64_t count, std::int64_t block, Produce&& produce
                                      tbb::make_filter<std::int64_t, void>(tbb::filter_mode::serial_in_order, give));
 }
 
+// Calls body(i, found) for i in [0, count), in blocks as above; it appends to `found`. Returns all in the order of i.
+template <class T, class Body>
+std::vector<T> parallel_collect(std::int64_t count, std::int64_t block, Body&& body) {
+  std::vector<T> all;
+  parallel_in_order(
+      count, block,
+      [&](std::int64_t begin, std::int64_t end) {
+        std::vector<T> found;
+        for (std::int64_t i = begin; i < end; ++i) body(i, found);
+        return found;
+      },
+      [&](const std::vector<T>& found) { all.insert(all.end(), found.begin(), found.end()); });
+  return all;
+}
+
 // Ends the threads that parallel loops have started; the next loop starts them again. Call it before fork(): if a
 // thread of the parent holds a lock of the memory allocator at that moment, the lock stays taken in the child for ever.
 // (glibc's own allocator takes care of this; those of the sanitizers do not.) Do not call it from within a parallel

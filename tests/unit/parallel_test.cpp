@@ -52,6 +52,14 @@ TEST(ParallelInOrder, AnExceptionComesOut) {
                std::runtime_error);
 }
 
+TEST(ParallelCollect, KeepsTheOrder) {
+  const auto all = parallel_collect<std::int64_t>(103, 10, [](std::int64_t i, std::vector<std::int64_t>& found) {
+    if (i % 2 == 0) found.push_back(i);
+  });
+  ASSERT_EQ(all.size(), 52);
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], 2 * static_cast<std::int64_t>(i));
+}
+
 TEST(ThreadLimit, HoldsWhileItStands) {
   const ThreadLimit limit(1);
   EXPECT_EQ(thread_count(), 1);

@@ -8,7 +8,7 @@
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
 #include "surface_samples.hpp"
-#include "tools/tetmesh/fill.hpp"
+#include "tools/tetmesh/meshing.hpp"
 #include "tools/tetmesh/tetmesh.hpp"
 
 namespace hexpipe {
@@ -127,7 +127,7 @@ TEST(Tetmesh, FillsNoSurfaceThatTurnsOutToBeFaulty) {
       const ThreadLimit limit(threads);
       return run(leaf(), options);
     };
-    // On two threads it is filled before it is known to be faulty.
+    // On two threads it is meshed before it is known to be faulty.
     const TetmeshResult one = with_threads(1), two = with_threads(2);
     EXPECT_GT(two.statistics.surfaces_tried, 1);
     EXPECT_EQ(two.statistics.remeshed, options.sizes.size->value == 0.8);

@@ -5,7 +5,7 @@
 #include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/fields/layers_across.hpp"
 #include "tools/tetmesh/surface/feature_curves.hpp"
-#include "tools/tetmesh/surface/feature_ways.hpp"
+#include "tools/tetmesh/surface/feature_paths.hpp"
 #include "tools/tetmesh/surface/links_across.hpp"
 #include "tools/tetmesh/surface/remesh_steps.hpp"
 

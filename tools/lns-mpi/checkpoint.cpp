@@ -57,7 +57,7 @@ struct RankState {
   template <class Visit>
   void visit(Visit&& each) {
     each("chosen.npy", chosen), each("place_key.npy", keys), each("place_block.npy", blocks);
-    each("place_state.npy", places), each("effort.npy", operator_scores);
+    each("place_state.npy", places), each("operator_scores.npy", operator_scores);
   }
 
   void add(std::int32_t block, const BlockMemory& memory) {

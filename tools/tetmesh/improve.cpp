@@ -31,7 +31,7 @@ class MeshMaker {
   void make(std::span<const search::SurfaceWithPoints> all, const search::TakeMesh& take);
 
  private:
-  void start(const search::SurfaceWithPoints& filled);
+  void start(const search::SurfaceWithPoints& wanted);
   double seconds_for_a_run() const;
 
   double tetgen_timeout_;
@@ -65,10 +65,10 @@ void MeshMaker::make(std::span<const search::SurfaceWithPoints> all, const searc
   }
 }
 
-void MeshMaker::start(const search::SurfaceWithPoints& filled) {
-  running_.push_back(std::make_unique<tetgen::TetGenRun>(tetgen::TetGenInput{.surface_points = filled.surface.points,
-                                                                             .triangles = filled.surface.triangles,
-                                                                             .interior_points = filled.inside,
+void MeshMaker::start(const search::SurfaceWithPoints& wanted) {
+  running_.push_back(std::make_unique<tetgen::TetGenRun>(tetgen::TetGenInput{.surface_points = wanted.surface.points,
+                                                                             .triangles = wanted.surface.triangles,
+                                                                             .interior_points = wanted.inside,
                                                                              .names_intersecting = false},
                                                          seconds_for_a_run()));
 }
@@ -81,11 +81,11 @@ double MeshMaker::seconds_for_a_run() const {
 
 }  // namespace
 
-void improve(FilledSurface& filled, const solid::Surface& given, const ImproveOptions& options) {
+void improve(MeshedSurface& meshed, const solid::Surface& given, const ImproveOptions& options) {
   const Stopwatch watch;
   stop_searches_on_signal();
   const Deadline deadline(options.time_limit);
-  TetmeshStatistics& statistics = filled.statistics;
+  TetmeshStatistics& statistics = meshed.statistics;
   Step step("moving points", 0.1, 1);
   if (options.time_limit) step.usually_takes(*options.time_limit);
   step.expect(static_cast<std::int64_t>(options.rounds));
@@ -95,19 +95,19 @@ void improve(FilledSurface& filled, const solid::Surface& given, const ImproveOp
   };
   MeshMaker maker(options.tetgen_timeout, deadline, statistics);
   search::PointSearchResult found = search::search_points(
-      filled.surface(given), std::move(filled.built),
-      {.size = filled.size,
+      meshed.surface(given), std::move(meshed.built),
+      {.size = meshed.size,
        .seed = options.seed,
        .rounds = options.rounds,
-       .changes_surface = filled.made_surface.has_value(),
+       .changes_surface = meshed.made_surface.has_value(),
        .after_round = after_round},
       deadline,
       [&](std::span<const search::SurfaceWithPoints> all, const search::TakeMesh& take) { maker.make(all, take); });
-  if (found.surface) filled.made_surface = std::move(found.surface);
-  filled.built = std::move(found.built);
+  if (found.surface) meshed.made_surface = std::move(found.surface);
+  meshed.built = std::move(found.built);
   statistics.improved = found.summary;
   statistics.interior_points =
-      filled.built.mesh.points.size() - filled.surface(given).points.size() - filled.built.added_points;
+      meshed.built.mesh.points.size() - meshed.surface(given).points.size() - meshed.built.added_points;
   statistics.seconds.improving += watch.seconds();
 }
 

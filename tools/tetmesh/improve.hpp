@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "tools/tetmesh/fill.hpp"
+#include "tools/tetmesh/meshing.hpp"
 
 namespace hexpipe::tetmesh {
 
@@ -16,7 +16,7 @@ struct ImproveOptions {
 };
 
 // From this call on, a first SIGINT or SIGTERM ends the search and not the process. The figures of the search and the
-// time of TetGen are added to the statistics of `filled`.
-void improve(FilledSurface& filled, const solid::Surface& given, const ImproveOptions& options);
+// time of TetGen are added to the statistics of `meshed`.
+void improve(MeshedSurface& meshed, const solid::Surface& given, const ImproveOptions& options);
 
 }  // namespace hexpipe::tetmesh

@@ -12,8 +12,8 @@
 #include "common/run/error.hpp"
 #include "common/run/progress.hpp"
 #include "tools/tetmesh/asked_sizes.hpp"
-#include "tools/tetmesh/fill.hpp"
 #include "tools/tetmesh/improve.hpp"
+#include "tools/tetmesh/meshing.hpp"
 #include "tools/tetmesh/solid/body_union.hpp"
 #include "tools/tetmesh/solid/borders.hpp"
 #include "tools/tetmesh/solid/boundary.hpp"
@@ -28,18 +28,18 @@ namespace {
 // changes with the size, and so does the share of hexes, by several percent and in no particular order.
 constexpr std::array<double, most_tries> tried_sizes{1, 0.95, 1.05, 0.975, 1.025, 0.9625, 1.0375, 0.9875, 1.0125};
 
-FilledSurface fill_at(double factor, const solid::Surface& surface, const sizing::SizeDemand& demand,
-                      const sizing::SizeField& size, const FillOptions& options) {
-  if (factor == 1) return fill(surface, demand, size, options);
+MeshedSurface mesh_at(double factor, const solid::Surface& surface, const sizing::SizeDemand& demand,
+                      const sizing::SizeField& size, const MeshingOptions& options) {
+  if (factor == 1) return mesh_surface(surface, demand, size, options);
   const sizing::SizeDemand scaled = factor * demand;
-  return fill(surface, scaled, sizing::field_of(surface, scaled), options);
+  return mesh_surface(surface, scaled, sizing::field_of(surface, scaled), options);
 }
 
 // Keeps the mesh that is estimated to have most hexes. A size at which TetGen fails is passed over, unless it fails at
 // all sizes.
-FilledSurface best_of_tries(const solid::Surface& surface, const sizing::SizeDemand& demand,
-                            const sizing::SizeField& size, std::size_t tries, const FillOptions& options) {
-  std::optional<FilledSurface> best;
+MeshedSurface best_of_tries(const solid::Surface& surface, const sizing::SizeDemand& demand,
+                            const sizing::SizeField& size, std::size_t tries, const MeshingOptions& options) {
+  std::optional<MeshedSurface> best;
   std::vector<TriedSize> tried;
   StepSeconds seconds;
   std::exception_ptr failure;
@@ -49,11 +49,11 @@ FilledSurface best_of_tries(const solid::Surface& surface, const sizing::SizeDem
     const Step step(nullptr, share(number), share(number + 1));
     ++number;
     try {
-      FilledSurface filled = fill_at(factor, surface, demand, size, options);
-      const TetmeshStatistics& statistics = filled.statistics;
+      MeshedSurface meshed = mesh_at(factor, surface, demand, size, options);
+      const TetmeshStatistics& statistics = meshed.statistics;
       tried.push_back({statistics.size, statistics.hex_share});
       seconds += statistics.seconds;
-      if (!best || statistics.hex_share > best->statistics.hex_share) best = std::move(filled);
+      if (!best || statistics.hex_share > best->statistics.hex_share) best = std::move(meshed);
     } catch (const tetgen::TetGenFailure&) {
       tried.push_back({factor * size.greatest(), {}});
       if (!failure) failure = std::current_exception();
@@ -66,11 +66,11 @@ FilledSurface best_of_tries(const solid::Surface& surface, const sizing::SizeDem
 }
 
 // Describes the mesh, and moves it to where it is wanted.
-TetmeshResult finish(FilledSurface filled, const solid::Surface& given) {
+TetmeshResult finish(MeshedSurface meshed, const solid::Surface& given) {
   const Stopwatch watch;
-  const solid::Surface& surface = filled.surface(given);
-  const tetgen::BuiltMesh& built = filled.built;
-  TetmeshStatistics& s = filled.statistics;
+  const solid::Surface& surface = meshed.surface(given);
+  const tetgen::BuiltMesh& built = meshed.built;
+  TetmeshStatistics& s = meshed.statistics;
   const tetgen::MeshShape shape = tetgen::shape_of(built.mesh);
   s.surface_points = surface.points.size();
   s.surface_triangles = surface.triangles.size();
@@ -84,8 +84,8 @@ TetmeshResult finish(FilledSurface filled, const solid::Surface& given) {
   s.least_dihedral = shape.least_dihedral;
   s.greatest_dihedral = shape.greatest_dihedral;
   s.seconds.building += watch.seconds();
-  return {std::move(filled.built.mesh), given.names, std::move(s), std::move(filled.warnings),
-          std::move(filled.dislocations)};
+  return {std::move(meshed.built.mesh), given.names, std::move(s), std::move(meshed.warnings),
+          std::move(meshed.dislocations)};
 }
 
 // A size in another unit than the surface's: then one cell would be larger than the model.
@@ -106,7 +106,7 @@ std::size_t unite(formats::SurfaceSoup& soup) {
   return united;
 }
 
-FillOptions fill_options(const TetmeshOptions& o) {
+MeshingOptions meshing_options(const TetmeshOptions& o) {
   return {o.surface == SurfaceKind::remesh,
           o.feature_angle,
           o.deviation,
@@ -153,11 +153,11 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
   // How long the search for better points takes is up to the user.
   step.reset();
   step.emplace(nullptr, 0.02, options.improve > 0 ? 0.1 : 1);
-  FilledSurface filled = best_of_tries(surface, demand, size, options.tries, fill_options(options));
+  MeshedSurface meshed = best_of_tries(surface, demand, size, options.tries, meshing_options(options));
   step.reset();
   if (options.improve > 0)
-    improve(filled, surface, {options.improve, options.seed, options.time_limit, options.tetgen_timeout});
-  TetmeshResult result = finish(std::move(filled), surface);
+    improve(meshed, surface, {options.improve, options.seed, options.time_limit, options.tetgen_timeout});
+  TetmeshResult result = finish(std::move(meshed), surface);
   result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
   if (options.repair || (repaired && repaired->anything())) result.statistics.repair = repaired;
   if (options.unite) result.statistics.united_bodies = united;

@@ -7,15 +7,15 @@
 #include <span>
 #include <vector>
 
+#include "common/mesh/candidates.hpp"
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/facet_key.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
 namespace hexpipe::assemble {
 
-// Numbers from 0, each kind with a name of its own, as Vertex has; no_index stands for none.
+// A number from 0, with a name of its own as Vertex has; no_index stands for none.
 using CellIndex = std::int32_t;  // in a HybridMesh
-using CandidateIndex = std::int32_t;
 
 }  // namespace hexpipe::assemble
 

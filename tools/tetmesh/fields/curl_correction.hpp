@@ -7,23 +7,23 @@
 
 namespace hexpipe::tetmesh::fields {
 
-// A numbered distance on a way, forwards or backwards.
+// A numbered distance on a path, forwards or backwards.
 struct LoopStep {
   std::int32_t number;
   bool backwards;
 };
 
-// Ways over distances whose sum is known. The sum is 0 for a way that comes back to where it began.
+// Paths over distances whose sum is known. The sum is 0 for a path that comes back to where it began, a loop.
 class Loops {
  public:
   void add_step(std::int32_t number, bool backwards) { steps_.push_back(backwards ? ~number : number); }
   void add_step(const LoopStep& step) { add_step(step.number, step.backwards); }
-  // Ends the way that began with the first step after the last one.
+  // Ends the path that began with the first step after the last one.
   void close(double sum = 0) {
     ends_.push_back(static_cast<std::int64_t>(steps_.size()));
     sums_.push_back(static_cast<float>(sum));
   }
-  // Appends the closed ways of others after its own.
+  // Appends the closed paths of others after its own.
   void append(const Loops& others) {
     const std::int64_t before = ends_.back();
     steps_.insert(steps_.end(), others.steps_.begin(), others.steps_.end());

@@ -1,10 +1,10 @@
 #pragma once
 // How a node with periodic coordinates sees a neighbour, on a surface (K = 2) or in a volume (K = 3).
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <numbers>
+#include <span>
 
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/tetmesh/fields/periodic_numbers.hpp"
@@ -23,7 +23,11 @@ struct PeriodicLink {
 
   // To be called when the distances were changed.
   void set_turn() {
-    for (std::size_t k = 0; k < K; ++k) turn[k] = std::polar(1.0, 2 * std::numbers::pi * distance[k]);
+    for (std::size_t k = 0; k < K; ++k) turn[k] = number_at(distance[k]);
+  }
+  // Adds corrections to the distances, none larger than `most`.
+  void correct(std::span<const float> corrections, double most) {
+    for (std::size_t k = 0; k < K; ++k) distance[k] += std::clamp<double>(corrections[k], -most, most);
   }
 
   // The same, seen from the neighbour.

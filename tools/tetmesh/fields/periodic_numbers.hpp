@@ -34,6 +34,10 @@ double product(const PeriodicNumbers<K>& a, const PeriodicNumbers<K>& b) {
   return sum;
 }
 
+inline Complex number_at(double coordinate) {
+  return std::polar(1.0, 2 * std::numbers::pi * coordinate);
+}
+
 // From -1/2 to 1/2.
 inline double coordinate_of(const Complex& number) {
   return std::arg(number) / (2 * std::numbers::pi);

@@ -32,16 +32,9 @@ class WallFinder {
         tree_(geometry::tree_of_triangles(surface.points, surface.triangles)) {}
 
   Walls find() const {
-    Walls walls;
-    parallel_in_order(
+    return parallel_collect<SizePrism>(
         static_cast<std::int64_t>(surface_.triangles.size()), triangles_at_once,
-        [&](std::int64_t begin, std::int64_t end) {
-          Walls found;
-          for (std::int64_t t = begin; t < end; ++t) look_from(static_cast<std::size_t>(t), found);
-          return found;
-        },
-        [&](Walls&& found) { walls.insert(walls.end(), found.begin(), found.end()); });
-    return walls;
+        [&](std::int64_t t, Walls& found) { look_from(static_cast<std::size_t>(t), found); });
   }
 
  private:

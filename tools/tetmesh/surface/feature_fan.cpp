@@ -1,4 +1,4 @@
-#include "tools/tetmesh/surface/feature_ways.hpp"
+#include "tools/tetmesh/surface/feature_paths.hpp"
 
 #include <cmath>
 

@@ -2,6 +2,9 @@
 // The steps in which a surface's triangles are made anew: they are prepared for a field, points become vertices, and
 // the old vertices go.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <span>
 
 #include "tools/tetmesh/sizing/size_field.hpp"
@@ -16,6 +19,12 @@ namespace hexpipe::tetmesh::surface {
 // feature. Time is linear in the triangles. A surface whose sheets meet themselves along an edge is returned as it is.
 solid::Surface thin_out(const solid::Surface& surface, double feature_angle, const sizing::SizeField& tolerance,
                         const sizing::SizeField& longest);
+
+// 1 for an equilateral triangle, 0 for one without area. `area_normal` is twice as long as the area.
+inline double shape_of(const std::array<Vec3, 3>& c, const Vec3& area_normal) {
+  const double sides = norm_squared(c[1] - c[0]) + norm_squared(c[2] - c[1]) + norm_squared(c[0] - c[2]);
+  return 2 * std::sqrt(3.0) * norm(area_normal) / std::max(sides, 1e-300);
+}
 
 // Flips edges towards Delaunay triangles where the surface bends by less than `flatness`. Then halves edges, the
 // longest first, until none is longer than `longest`. New vertices are removable.

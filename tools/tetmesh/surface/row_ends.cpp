@@ -77,7 +77,7 @@ class RowJoiner {
   // from each vertex; none on a feature, and where the field turns around the vertex
   std::vector<geometry::HalfEdge> first_;
   std::vector<std::array<std::int32_t, 2>> ends_;  // at each vertex, as seen from the triangle of the first half-edge
-  // The state of one search: the lengths of the ways to the vertices reached, and the half-edges by which they were
+  // The state of one search: the lengths of the paths to the vertices reached, and the half-edges by which they were
   // reached.
   std::vector<std::pair<Vertex, double>> touched_;
   std::vector<double> lengths_;  // 0: not reached
@@ -151,14 +151,14 @@ bool RowJoiner::join_one(Vertex v, std::size_t axis, double radius) {
 
 // Dijkstra's algorithm.
 std::optional<Vertex> RowJoiner::find_partner(Vertex v, const End& end, double radius) {
-  using Way = std::tuple<double, Vertex, geometry::HalfEdge>;
-  std::priority_queue<Way, std::vector<Way>, std::greater<>> ways;
+  using Path = std::tuple<double, Vertex, geometry::HalfEdge>;
+  std::priority_queue<Path, std::vector<Path>, std::greater<>> paths;
   const FieldSurface& surface = links_.surface;
   const auto offer_around = [&](Vertex u, double length) {
     for_each_around(first_[u], [&](geometry::HalfEdge h) {
       const Vertex next = geometry::end_of(surface.triangles, h);
       const double there = length + norm(surface.edge_vector(h)) / surface.sizes[geometry::triangle_of(h)];
-      if (is_carrier(next) && lengths_[next] == 0 && there <= radius) ways.emplace(there, next, h);
+      if (is_carrier(next) && lengths_[next] == 0 && there <= radius) paths.emplace(there, next, h);
       return true;
     });
   };
@@ -169,9 +169,9 @@ std::optional<Vertex> RowJoiner::find_partner(Vertex v, const End& end, double r
   };
   reached_from_[v] = {no_index, end};
   reach(v, 1e-12);
-  while (!ways.empty()) {
-    const auto [length, u, h] = ways.top();
-    ways.pop();
+  while (!paths.empty()) {
+    const auto [length, u, h] = paths.top();
+    paths.pop();
     if (lengths_[u] > 0) continue;
     const Vertex before = geometry::start_of(surface.triangles, h);
     reached_from_[u] = {h, turned_to(reached_from_[before].second, before, geometry::triangle_of(h))};

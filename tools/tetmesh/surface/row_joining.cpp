@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "common/run/parallel.hpp"
@@ -166,7 +165,7 @@ RowCoordinates RowStraightener::solve(const RowJumps& jumps, const RowCoordinate
   fields::PeriodicNumbers<2> rest(size());
   for_each_triangle([&](std::int32_t f) {
     for (std::size_t k = 0; k < 2; ++k) {
-      const double hold = std::abs(targets_[f][k]), target = std::arg(targets_[f][k]) / (2 * std::numbers::pi);
+      const double hold = std::abs(targets_[f][k]), target = fields::coordinate_of(targets_[f][k]);
       const double away = target - start[f][k];
       degree[f][k] = std::max(hold, least_degree);
       rest[f][k] = hold * (away - std::round(away));
@@ -202,7 +201,7 @@ void RowStraightener::apply() {
   });
   for (std::size_t f = 0; f < size(); ++f)
     if (are_joined_[face_of_[f]])
-      for (std::size_t k = 0; k < 2; ++k) phases_[f][k] = std::polar(1.0, 2 * std::numbers::pi * coordinates_[f][k]);
+      for (std::size_t k = 0; k < 2; ++k) phases_[f][k] = fields::number_at(coordinates_[f][k]);
 }
 
 }  // namespace

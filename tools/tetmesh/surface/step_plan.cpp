@@ -35,7 +35,7 @@ class FaceFinder {
   explicit FaceFinder(const SurfaceLinks& links) : links_(links), face_of_(links.surface.triangles.size(), -1) {
     axes_.resize(face_of_.size());
     for (std::int32_t f = 0; f < static_cast<std::int32_t>(face_of_.size()); ++f)
-      if (face_of_[f] < 0) fill(f);
+      if (face_of_[f] < 0) flood(f);
     check();
   }
 
@@ -50,7 +50,7 @@ class FaceFinder {
   }
 
  private:
-  void fill(std::int32_t seed) {
+  void flood(std::int32_t seed) {
     const auto face = static_cast<std::int32_t>(is_regular_.size());
     is_regular_.push_back(true);
     face_of_[seed] = face;

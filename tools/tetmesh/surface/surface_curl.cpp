@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "tools/tetmesh/fields/layers_across.hpp"
-#include "tools/tetmesh/surface/feature_ways.hpp"
+#include "tools/tetmesh/surface/feature_paths.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {
@@ -209,8 +209,7 @@ void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept) {
     const std::int32_t f = geometry::triangle_of(h);
     const double longest =
         most_strain * norm(links.surface.centres[f] - links.surface.centres[link.neighbour]) / links.surface.sizes[f];
-    for (std::size_t k = 0; k < 2; ++k)
-      link.distance[k] += std::clamp<double>(correction[SurfaceLinks::number_of(h, k)], -longest, longest);
+    link.correct(std::span(correction).subspan(SurfaceLinks::number_of(h, 0), 2), longest);
   });
 }
 

@@ -7,17 +7,14 @@
 
 #include "tools/tetmesh/surface/surface_lattice.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
-#include <functional>
-#include <numbers>
-#include <numeric>
 
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/geometry/sized_point_grid.hpp"
+#include "tools/tetmesh/fields/lattice_proposals.hpp"
+#include "tools/tetmesh/fields/lattice_steps.hpp"
 #include "tools/tetmesh/surface/links_across.hpp"
 #include "tools/tetmesh/surface/row_ends.hpp"
 #include "tools/tetmesh/surface/row_joining.hpp"
@@ -37,33 +34,25 @@ constexpr int smoothing_sweeps = 60;  // 20 lose 1 % of the volume in hexes on s
 // Both sides of a wall agree again after these.
 constexpr int sweeps_after_joining = 30;
 constexpr double certain = 1e-3;  // least modulus of a number that some feature has reached
-// How strongly the step to the next point of the lattice keeps to the field, relative to all links; and the least
-// absolute strength.
-constexpr double rigidity = 0.1, least_hold = 1e-9;
-// Where the coordinates' gradients have a smaller determinant, in lattice cells per square of the size, steps follow
-// the field.
-constexpr double least_determinant = 0.2;
-// A triangle proposes the points within `furthest` along each direction, in steps of the lattice. Its trust in a point
-// is trust_range minus the distance.
-constexpr double furthest = 0.75, trust_range = 1.5;
+// The least strength with which the step to the next point of the lattice keeps to the field.
+constexpr double least_hold = 1e-9;
+// A triangle proposes the points within this distance along each direction, in steps of the lattice.
+constexpr double furthest = 0.75;
 // On a surface with more triangles, only this many for each square of the size make proposals.
 constexpr double most_speakers = 32;
-// Two proposals are the same point if they are nearer to each other than this, in sizes, and the cosine between the
-// normals of their triangles is at least this.
-constexpr double same_point = 0.3, least_normal_cosine = 0.3;
+// Two proposals are the same point only if the cosine between the normals of their triangles is at least this.
+constexpr double least_normal_cosine = 0.3;
 
 using Phases = std::array<fields::Complex, 2>;
 // The step from one point of the lattice to the next along each direction: its two components, in sizes.
 using Steps = std::array<std::array<double, 2>, 2>;
 constexpr Steps straight{{{1, 0}, {0, 1}}};
 
-fields::Complex turn_by(double sizes) {
-  return std::polar(1.0, 2 * std::numbers::pi * sizes);
-}
-
 struct Proposal {
   SurfacePoint point;
   double trust = 0;
+
+  const Vec3& place() const { return point.position; }
 };
 
 class LatticeMaker {
@@ -91,8 +80,9 @@ class LatticeMaker {
     }
     if (guide.coordinates) measure_distances();
     propose();
-    agree();
-    std::ranges::stable_sort(proposals_, std::greater(), &Proposal::trust);
+    fields::agree(
+        surface_.centres.front(), [&](const Proposal&) { return greatest_size_; },
+        [&](const auto& index, const Proposal& p) { return agreed(index, p); }, proposals_);
     SurfaceLattice lattice;
     lattice.row_ends = count_row_ends(links_, phases_);
     lattice.points.reserve(proposals_.size());
@@ -129,8 +119,7 @@ class LatticeMaker {
   std::vector<AreaSample> speakers() const;
   void propose();
   void propose(const AreaSample& speaker, std::vector<Proposal>& proposals) const;
-  void agree();
-  Proposal agreed(const geometry::SizedPointGrid& grid, const Proposal& proposal) const;
+  Proposal agreed(const fields::ProposalIndex<Proposal>& index, const Proposal& proposal) const;
 
   const FieldSurface& surface_;
   const CrossField& field_;
@@ -161,7 +150,7 @@ void LatticeMaker::weigh_links(std::span<const Vertex> kept) {
 void LatticeMaker::pull(std::int32_t f, std::size_t axis, double weight, double coordinate) {
   const double strength = weight * degrees_[f];
   pulls_[f][axis] += strength;
-  targets_[f][axis] += strength * turn_by(coordinate);
+  targets_[f][axis] += strength * fields::number_at(coordinate);
 }
 
 void LatticeMaker::make_anchors(std::span<const Vertex> kept) {
@@ -253,20 +242,17 @@ void LatticeMaker::sweep() {
       [&](std::int32_t f, std::size_t k) { return targets_[f][k]; });
 }
 
-// The least-squares solution over the distances to the neighbours, which correct_curl has changed.
+// By the distances to the neighbours, which correct_curl has changed.
 Steps LatticeMaker::steps_of(std::int32_t f) const {
-  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero(), right = moments;
+  fields::StepFit<2> fit;
   for (geometry::HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
     const SurfaceLink& link = links_.of[h];
-    const Eigen::Vector2d way(link.way[0], link.way[1]);
-    moments += link.weight * way * way.transpose();
-    right += link.weight * way * Eigen::RowVector2d(link.distance[0], link.distance[1]);
+    fit.add(link.weight, {link.way[0], link.way[1]}, link.distance);
   }
-  const Eigen::Matrix2d hold = (rigidity * moments.trace() + least_hold) * Eigen::Matrix2d::Identity();
-  const Eigen::Matrix2d gradients = (moments + hold).inverse() * (right + hold);  // columns: of each coordinate
-  if (!(gradients.determinant() > least_determinant)) return straight;
-  const Eigen::Matrix2d steps = gradients.transpose().inverse();
-  return {{{steps(0, 0), steps(1, 0)}, {steps(0, 1), steps(1, 1)}}};
+  fit.hold(fields::rigidity * fit.moment() + least_hold, Eigen::Matrix2d::Identity());
+  const auto steps = fit.steps(false);
+  if (!steps) return straight;
+  return {{{(*steps)(0, 0), (*steps)(1, 0)}, {(*steps)(0, 1), (*steps)(1, 1)}}};
 }
 
 // Every triangle, unless there are many more triangles than points: agreed() compares each proposal with all near it.
@@ -281,14 +267,9 @@ void LatticeMaker::propose() {
   steps_.resize(phases_.size());
   for_each_triangle([&](std::int32_t f) { steps_[f] = steps_of(f); });
   const std::vector<AreaSample> speaking = speakers();
-  parallel_in_order(
+  proposals_ = parallel_collect<Proposal>(
       static_cast<std::int64_t>(speaking.size()), 512,
-      [&](std::int64_t begin, std::int64_t end) {
-        std::vector<Proposal> proposals;
-        for (std::int64_t i = begin; i < end; ++i) propose(speaking[i], proposals);
-        return proposals;
-      },
-      [&](const std::vector<Proposal>& some) { proposals_.insert(proposals_.end(), some.begin(), some.end()); });
+      [&](std::int64_t i, std::vector<Proposal>& proposals) { propose(speaking[i], proposals); });
 }
 
 void LatticeMaker::propose(const AreaSample& speaker, std::vector<Proposal>& proposals) const {
@@ -298,47 +279,30 @@ void LatticeMaker::propose(const AreaSample& speaker, std::vector<Proposal>& pro
   const auto axes = directions(f);
   std::array<double, 2> coordinates;
   for (std::size_t k = 0; k < 2; ++k) coordinates[k] = fields::coordinate_of(phases_[f][k]);
-  for (int cell = 0; cell < 9; ++cell) {
-    // NOLINTNEXTLINE(bugprone-integer-division): the digits of a number to base 3
-    const double x = cell % 3 - 1 - coordinates[0], y = cell / 3 - 1 - coordinates[1];
-    const double distance = std::max(std::abs(x), std::abs(y));
-    if (distance > furthest) continue;
-    const auto& [first, second] = steps_[f];
+  const auto& [first, second] = steps_[f];
+  fields::for_each_point_around(coordinates, furthest, [&](const std::array<double, 2>& cells, double distance) {
+    const auto& [x, y] = cells;
     const double along = x * first[0] + y * second[0], across = x * first[1] + y * second[1];
     const double length = std::hypot(along, across);
     const Vec3 way = length > 0 ? (along * axes[0] + across * axes[1]) * (1 / length) : axes[0];
     const WalkEnd end = walker_.walk_straight({surface_.centres[f], f}, way, length * surface_.sizes[f]);
-    if (end.at_feature) continue;
-    proposals.push_back({end.point, (trust_range - distance) * agreement * speaker.area});
-  }
-}
-
-// Moves every proposal to the mean of all proposals of the same point, and adds up their trust.
-void LatticeMaker::agree() {
-  geometry::SizedPointGrid grid(surface_.centres.front());
-  for (const Proposal& p : proposals_) grid.add(p.point.position, 2 * same_point * greatest_size_);
-  std::vector<Proposal> result(proposals_.size());
-  parallel_for(static_cast<std::int64_t>(result.size()), 256,
-               [&](std::int64_t i) { result[i] = agreed(grid, proposals_[i]); });
-  proposals_ = std::move(result);
-}
-
-Proposal LatticeMaker::agreed(const geometry::SizedPointGrid& grid, const Proposal& proposal) const {
-  const Vec3 &place = proposal.point.position, &normal = surface_.normals[proposal.point.triangle];
-  const double reach = same_point * surface_.sizes[proposal.point.triangle];
-  Vec3 sum;
-  double trust = 0;
-  grid.for_each_near(place, reach, 0, [&](std::int32_t i) {
-    const Proposal& other = proposals_[i];
-    if (norm_squared(other.point.position - place) > reach * reach) return true;
-    if (dot(surface_.normals[other.point.triangle], normal) < least_normal_cosine) return true;
-    sum += other.trust * (other.point.position - place);
-    trust += other.trust;
-    return true;
+    if (!end.at_feature) proposals.push_back({end.point, fields::trust_at(distance) * agreement * speaker.area});
   });
+}
+
+// The mean of all proposals of the same point, with the sum of their trust.
+Proposal LatticeMaker::agreed(const fields::ProposalIndex<Proposal>& index, const Proposal& proposal) const {
+  const Vec3 &place = proposal.place(), &normal = surface_.normals[proposal.point.triangle];
+  const double size = surface_.sizes[proposal.point.triangle];
+  fields::TrustedSum seen;
+  index.for_each_at(place, size, 0, [&](const Proposal& other) {
+    if (dot(surface_.normals[other.point.triangle], normal) >= least_normal_cosine)
+      seen.add(other.trust, other.place() - place);
+  });
+  const auto& [sum, trust] = seen;
   if (trust <= 0) return proposal;
   const Vec3 way = sum * (1 / trust) - dot(sum, normal) / trust * normal;
-  const double length = norm(way), size = surface_.sizes[proposal.point.triangle];
+  const double length = norm(way);
   if (length <= 0) return {proposal.point, trust / (size * size)};
   return {walker_.walk_straight(proposal.point, unit(way), length).point, trust / (size * size)};
 }

@@ -12,21 +12,21 @@
 #include "common/mesh/feature_angle.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/surface/remesh_steps.hpp"
-#include "tools/tetmesh/surface/triangle_shape.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-// A collapse makes triangles of at least this shape (1 is equilateral).
-constexpr double least_shape_of_thinned = 0.1;
 // New edges turn by at most this share of the feature angle, so that none becomes a feature.
 constexpr double sharpest = 0.75;
 // Rounds end when one removes less than this share of the vertices.
 constexpr double least_gain = 0.01;
-constexpr int most_thinning_rounds = 40;
 
 class Thinner {
  public:
+  // A collapse makes triangles of at least this shape (1 is equilateral).
+  static constexpr double least_shape = 0.1;
+  static constexpr int most_rounds = 40;
+
   Thinner(FeatureMesh& mesh, double feature_angle, const sizing::SizeField& tolerance, const sizing::SizeField& longest)
       : mesh_(mesh),
         least_cosine_(cosine_of_degrees(sharpest * feature_angle)),
@@ -43,7 +43,7 @@ class Thinner {
       if (!mesh_.is_on_feature(v) && !mesh_.is_kept(v) && !mesh_.has_copies(v) && !mesh_.is_boundary(v))
         waiting.push_back(v);
     std::vector<FeatureMesh::VertexHandle> left;
-    for (int round = 1; round <= most_thinning_rounds; ++round) {
+    for (int round = 1; round <= most_rounds; ++round) {
       left.clear();
       for (const auto v : waiting)
         if (touched_[v.idx()] == round || !remove(v, round)) left.push_back(v);
@@ -75,7 +75,7 @@ class Thinner {
     if (!(error_around_ < tolerance)) return false;
     choices_.clear();
     for (const auto h : mesh_.voh_range(v))
-      if (const double shape = shape_after(h, longest); shape > least_shape_of_thinned) choices_.push_back({shape, h});
+      if (const double shape = shape_after(h, longest); shape > least_shape) choices_.push_back({shape, h});
     std::ranges::stable_sort(choices_, std::ranges::greater(), &Choice::shape);
     for (const Choice& choice : choices_) {
       const auto end = mesh_.to_vertex_handle(choice.collapse);
@@ -124,7 +124,7 @@ class Thinner {
       const Vec3 normal = cross(corners[1] - at, corners[2] - at);
       if (norm_squared(corners[1] - at) > longest * longest) return -1;
       least = std::min(least, shape_of(corners, normal));
-      if (least <= least_shape_of_thinned) return -1;
+      if (least <= least_shape) return -1;
       wedge.normal = unit(normal);
       if (dot(wedge.normal, normals_[wedge.face.idx()]) < least_cosine_) return -1;
     }

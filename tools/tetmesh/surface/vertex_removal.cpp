@@ -12,7 +12,6 @@
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/surface/delaunay_flips.hpp"
 #include "tools/tetmesh/surface/mesh_regions.hpp"
-#include "tools/tetmesh/surface/triangle_shape.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include "common/run/parallel.hpp"
 #include "common/run/progress.hpp"
+#include "tools/tetmesh/fields/lattice_proposals.hpp"
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/solid/surface_clearance.hpp"
 #include "tools/tetmesh/volume/frame_field.hpp"
@@ -23,10 +23,8 @@ namespace {
 // The least distance of two points in the frame's maximum norm, in steps of the lattice. 0.5 and 0.8 lose 1 % of the
 // volume in hexes, 0.7 loses 0.3 %.
 constexpr double least_spacing = 0.6;
-// Nodes that see a point of the lattice within this distance of each other, in sizes, see the same point.
-constexpr double same_point = 0.3;
-// A node sees points of the lattice up to one cell away, and trusts them less with the distance.
-constexpr double furthest = 1 + 1e-6, distrust_begins = 1.5;
+// A node sees points of the lattice up to one cell away.
+constexpr double furthest = 1 + 1e-6;
 // Frames further out of a lattice's axes than this are turned.
 constexpr double straight_angle = 10;  // degrees
 // A point nearer to the surface than this, in sizes, is one on the surface.
@@ -38,6 +36,8 @@ struct Proposal {
   double size = 0;  // at the point, as nearly as its node can tell
   std::int32_t node = 0;
   double trust = 0;
+
+  const Vec3& place() const { return point; }
 };
 
 // The norm of a vector in units of the frame's axes.
@@ -64,10 +64,8 @@ class FrameLattice::Work {
   FramePoints points_inside(const solid::Surface& surface);
 
  private:
-  void propose();
   void propose(std::size_t node, std::vector<Proposal>& proposals) const;
-  void agree();
-  Proposal agreed(const geometry::SizedPointGrid& grid, const Proposal& proposal) const;
+  Proposal agreed(const fields::ProposalIndex<Proposal>& index, const Proposal& proposal) const;
   template <class Wanted>
   std::vector<RowPoint> accept(std::span<const Vec3> fixed, Wanted&& is_wanted) const;
   bool is_well_inside(const solid::SurfaceClearance& clearance, const Proposal& p) const {
@@ -95,9 +93,12 @@ void FrameLattice::Work::fit(const std::vector<bool>& held) {
   dislocations_ = find_dislocations(field_->links, field_->coordinates, background_, adjacency_);
   spacing_.clear();
   for (const auto& [x, y, z] : field_->steps) spacing_.push_back({norm(x), norm(y), norm(z)});
-  propose();
-  agree();
-  std::ranges::stable_sort(proposals_, std::greater(), &Proposal::trust);
+  proposals_ = parallel_collect<Proposal>(
+      static_cast<std::int64_t>(nodes_.size()), 512,
+      [&](std::int64_t i, std::vector<Proposal>& proposals) { propose(static_cast<std::size_t>(i), proposals); });
+  fields::agree(
+      surface_.points.front(), [](const Proposal& p) { return p.size; },
+      [&](const auto& index, const Proposal& p) { return agreed(index, p); }, proposals_);
 }
 
 surface::RowGuide FrameLattice::Work::guide() {
@@ -124,56 +125,23 @@ FramePoints FrameLattice::Work::points_inside(const solid::Surface& surface) {
   return result;
 }
 
-void FrameLattice::Work::propose() {
-  proposals_.clear();
-  parallel_in_order(
-      static_cast<std::int64_t>(nodes_.size()), 512,
-      [&](std::int64_t begin, std::int64_t end) {
-        std::vector<Proposal> proposals;
-        for (std::int64_t i = begin; i < end; ++i) propose(static_cast<std::size_t>(i), proposals);
-        return proposals;
-      },
-      [&](const std::vector<Proposal>& some) { proposals_.insert(proposals_.end(), some.begin(), some.end()); });
-}
-
 void FrameLattice::Work::propose(std::size_t i, std::vector<Proposal>& proposals) const {
-  const auto& coordinates = field_->coordinates[i];
   const auto& steps = field_->steps[i];
-  for (int cell = 0; cell < 27; ++cell) {
-    // NOLINTNEXTLINE(bugprone-integer-division): the digits of a number to base 3
-    const Vec3 cells{cell % 3 - 1 - coordinates[0], cell / 3 % 3 - 1 - coordinates[1], cell / 9 - 1 - coordinates[2]};
-    const double distance = std::max({std::abs(cells.x), std::abs(cells.y), std::abs(cells.z)});
-    if (distance > furthest) continue;
-    const Vec3 way = cells.x * steps[0] + cells.y * steps[1] + cells.z * steps[2];
+  fields::for_each_point_around(field_->coordinates[i], furthest, [&](const auto& cells, double distance) {
+    const Vec3 way = cells[0] * steps[0] + cells[1] * steps[1] + cells[2] * steps[2];
     const double here = nodes_.sizes[i], there = options_.size.at(nodes_.points[i] + here * way);
     proposals.push_back({nodes_.points[i] + 0.5 * (here + there) * way, there, static_cast<std::int32_t>(i),
-                         (distrust_begins - distance) * field_->agreement[i]});
-  }
-}
-
-// Moves every proposal to the mean of those that see the same point. It is trusted as much as all of these together.
-void FrameLattice::Work::agree() {
-  geometry::SizedPointGrid grid(surface_.points.front());
-  for (const Proposal& p : proposals_) grid.add(p.point, 2 * same_point * p.size);
-  std::vector<Proposal> result(proposals_.size());
-  parallel_for(static_cast<std::int64_t>(result.size()), 256,
-               [&](std::int64_t i) { result[i] = agreed(grid, proposals_[i]); });
-  proposals_ = std::move(result);
-}
-
-Proposal FrameLattice::Work::agreed(const geometry::SizedPointGrid& grid, const Proposal& proposal) const {
-  const double reach = same_point * proposal.size;
-  Vec3 sum;
-  double trust = 0;
-  const double least = 2 * same_point * options_.size.least_near(proposal.size, reach);
-  grid.for_each_near(proposal.point, reach, least, [&](std::int32_t i) {
-    const Proposal& other = proposals_[i];
-    if (norm_squared(other.point - proposal.point) > reach * reach) return true;
-    sum += other.trust * other.point;
-    trust += other.trust;
-    return true;
+                         fields::trust_at(distance) * field_->agreement[i]});
   });
-  return trust > 0 ? Proposal{sum * (1 / trust), proposal.size, proposal.node, trust} : proposal;
+}
+
+// The mean of all proposals of the same point. It is trusted as much as all of these together.
+Proposal FrameLattice::Work::agreed(const fields::ProposalIndex<Proposal>& index, const Proposal& proposal) const {
+  const double least = options_.size.least_near(proposal.size, fields::same_point * proposal.size);
+  fields::TrustedSum seen;
+  index.for_each_at(proposal.point, proposal.size, least,
+                    [&](const Proposal& other) { seen.add(other.trust, other.point); });
+  return seen.trust > 0 ? Proposal{seen.sum * (1 / seen.trust), proposal.size, proposal.node, seen.trust} : proposal;
 }
 
 // The most trusted proposals that are wanted, none too near to another or to the fixed points; then lines along which

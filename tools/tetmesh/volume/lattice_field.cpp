@@ -6,6 +6,7 @@
 
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/fields/curl_correction.hpp"
+#include "tools/tetmesh/fields/lattice_steps.hpp"
 #include "tools/tetmesh/fields/layers_across.hpp"
 #include "tools/tetmesh/fields/periodic_numbers.hpp"
 
@@ -31,11 +32,6 @@ constexpr fields::CurlLimits curl_limits{.stiffness = 0.01f, .most_iterations = 
 constexpr double most_strain = 0.45;  // the largest change of a distance, relative to the link's length
 // A direction is along a normal if the cosine between them is larger than this.
 constexpr double normal_cosine = 0.9;
-// How strongly the step to the next point of the lattice keeps to the frame, relative to all links.
-constexpr double rigidity = 0.1;
-// Where the coordinates' gradients have a smaller determinant, in lattice cells per cube of the size, steps follow the
-// frame.
-constexpr double least_determinant = 0.2;
 
 using Phases = std::array<fields::Complex, 3>;
 
@@ -120,8 +116,7 @@ void LatticeSolver::correct_curl() {
     links_.for_each_pair_of(static_cast<std::int32_t>(node), [&](std::int32_t i, std::int64_t ij) {
       LatticeLink& t = links_[ij];
       const double longest = most_strain * norm(nodes_.points[i] - nodes_.points[t.neighbour]) / nodes_.sizes[i];
-      for (std::size_t k = 0; k < 3; ++k)
-        t.distance[k] += std::clamp<double>(correction[number_of(ij, k)], -longest, longest);
+      t.correct(std::span(correction).subspan(number_of(ij, 0), 3), longest);
       t.set_turn();
       links_[links_.between(t.neighbour, i)] = t.reversed(i);
     });
@@ -222,26 +217,24 @@ void LatticeSolver::sweep() {
       [&](std::size_t i, std::size_t k) { return anchors_[i][k]; });
 }
 
-// The least-squares solution over the distances to the neighbours, which correct_curl has changed.
+// By the distances to the neighbours, which correct_curl has changed.
 std::array<Vec3, 3> LatticeSolver::steps_of(std::size_t i) const {
-  const double hold = rigidity * degree_[i];
-  Eigen::Matrix3d moments = hold * Eigen::Matrix3d::Identity(), right;
+  Eigen::Matrix3d axes;
   for (int k = 0; k < 3; ++k) {
     const Vec3& axis = frames_[i][static_cast<std::size_t>(k)];
-    right.col(k) = hold * Eigen::Vector3d(axis.x, axis.y, axis.z);
+    axes.col(k) << axis.x, axis.y, axis.z;
   }
+  fields::StepFit<3> fit;
+  fit.hold(fields::rigidity * degree_[i], axes);
   for (const LatticeLink& t : links_.of(i)) {
     const Vec3 back =
         (2 / (nodes_.sizes[i] + nodes_.sizes[t.neighbour])) * (nodes_.points[i] - nodes_.points[t.neighbour]);
-    const Eigen::Vector3d way(back.x, back.y, back.z);
-    moments += t.weight * way * way.transpose();
-    right += t.weight * way * Eigen::RowVector3d(t.distance[0], t.distance[1], t.distance[2]);
+    fit.add(t.weight, {back.x, back.y, back.z}, t.distance);
   }
-  const Eigen::Matrix3d gradients = moments.inverse() * right;  // columns: of each coordinate
-  if (!(std::abs(gradients.determinant()) > least_determinant)) return frames_[i];
-  const Eigen::Matrix3d steps = gradients.transpose().inverse();
+  const auto steps = fit.steps(true);  // frames may be left-handed
+  if (!steps) return frames_[i];
   std::array<Vec3, 3> result;
-  for (int k = 0; k < 3; ++k) result[static_cast<std::size_t>(k)] = {steps(0, k), steps(1, k), steps(2, k)};
+  for (int k = 0; k < 3; ++k) result[static_cast<std::size_t>(k)] = {(*steps)(0, k), (*steps)(1, k), (*steps)(2, k)};
   return result;
 }
 

@@ -4,11 +4,10 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
+#include "tools/tetmesh/fields/lattice_steps.hpp"
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/surface/surface_links.hpp"
-#include "tools/tetmesh/volume/in_steps.hpp"
 
 namespace hexpipe::tetmesh::volume {
 namespace {
@@ -64,7 +63,7 @@ class GuideAtNodes {
       const Vec3 coordinates = coordinates_at(place, size, i);
       for (std::size_t k = 0; k < 2; ++k) {
         const double along = coordinates[static_cast<int>(axes.axis[k])];
-        sum[k] += weight * std::polar(1.0, 2 * std::numbers::pi * (axes.cosine[k] < 0 ? -along : along));
+        sum[k] += weight * fields::number_at(axes.cosine[k] < 0 ? -along : along);
       }
       return true;
     });
@@ -77,7 +76,7 @@ class GuideAtNodes {
   Vec3 coordinates_at(const Vec3& place, double size, std::int32_t i) const {
     const Vec3 way = (2 / (nodes_.sizes[i] + size)) * (place - nodes_.points[i]);
     const auto& here = lattice_.coordinates[i];
-    return Vec3{here[0], here[1], here[2]} + InSteps(lattice_.steps[i])(way);
+    return Vec3{here[0], here[1], here[2]} + fields::InSteps(lattice_.steps[i])(way);
   }
 
   const FieldNodes& nodes_;

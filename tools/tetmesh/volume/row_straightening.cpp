@@ -10,8 +10,8 @@
 #include <optional>
 #include <utility>
 
+#include "tools/tetmesh/fields/lattice_steps.hpp"
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
-#include "tools/tetmesh/volume/in_steps.hpp"
 
 namespace hexpipe::tetmesh::volume {
 namespace {
@@ -113,7 +113,7 @@ bool EndStraightener::come_together(const RowPoint& a, const RowPoint& b, std::s
 // A later point that is a pair with this one, at a corner; no_index if there is none.
 std::int32_t EndStraightener::partner_of(std::int32_t i) const {
   const RowPoint& a = points_[i];
-  const InSteps in_steps(a.steps);
+  const fields::InSteps in_steps(a.steps);
   std::int32_t partner = no_index;
   grid_.for_each_near(a.at, furthest_pair * longest_step(a), 0, [&](std::int32_t place) {
     const std::int32_t other = point_at_[place];

@@ -1,4 +1,4 @@
-#include "tools/tetmesh/fill.hpp"
+#include "tools/tetmesh/meshing.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -67,33 +67,33 @@ constexpr double tetgen_seconds_a_point = 2e-5;
 // at all other runs.
 constexpr int first_strict_run = 8;
 
-class Filler {
+class Mesher {
  public:
-  Filler(const solid::Surface& given, const sizing::SizeDemand& demand, sizing::SizeField size,
-         const FillOptions& options)
+  Mesher(const solid::Surface& given, const sizing::SizeDemand& demand, sizing::SizeField size,
+         const MeshingOptions& options)
       : given_(given), demand_(demand), size_(std::move(size)), options_(options) {
     statistics_.size = size_.greatest();
     if (!size_.is_uniform()) statistics_.least_size = size_.least();
   }
 
-  FilledSurface fill();
+  MeshedSurface mesh();
 
  private:
   // Returns false where no new surface can be made; the warning says why.
-  bool fill_new_surface();
-  void fill_given_surface();
+  bool mesh_new_surface();
+  void mesh_given_surface();
   void place_points();
   void try_frame_points();
   bool follow(volume::FrameLattice& lattice);
   void describe(const volume::FramePoints& frame);
   void describe(const volume::Dislocations& lines);
   // A mesh, the hexes that are likely in it, and the surface that it fills.
-  struct Filling {
+  struct EstimatedMesh {
     const tetgen::BuiltMesh& built;
     const volume::HexEstimate& estimate;
     const solid::Surface& surface;
   };
-  void try_points_by_body(const Filling& lattice, const Filling& frame);
+  void try_points_by_body(const EstimatedMesh& lattice, const EstimatedMesh& frame);
   void take(const solid::Surface& surface);
   std::optional<double> known_hex_share() const;
   // Is called while TetGen is at work, and returns false when its mesh is no longer wanted.
@@ -104,7 +104,7 @@ class Filler {
   const solid::Surface& given_;
   const sizing::SizeDemand& demand_;
   const sizing::SizeField size_;
-  const FillOptions& options_;
+  const MeshingOptions& options_;
   TetmeshStatistics statistics_;
   std::optional<volume::LineSegments> dislocations_;
   std::vector<std::string> warnings_;
@@ -114,15 +114,15 @@ class Filler {
   std::optional<surface::RemeshResult> remeshed_;
   std::optional<surface::RemeshResult> followed_;  // the one whose points are those of the lattice inside
   std::optional<solid::Surface> cut_;              // a surface in sheets with its triangles cut to about the size
-  const solid::Surface* surface_ = &given_;        // the surface that is filled
+  const solid::Surface* surface_ = &given_;        // the surface that is meshed
   solid::Axes axes_{};                             // of the model
   std::vector<Vec3> points_;                       // inside
   std::optional<std::string> points_left_out_;
   std::optional<tetgen::BuiltMesh> built_;
 };
 
-FilledSurface Filler::fill() {
-  if (!options_.remesh || !fill_new_surface()) fill_given_surface();
+MeshedSurface Mesher::mesh() {
+  if (!options_.remesh || !mesh_new_surface()) mesh_given_surface();
   if (points_left_out_) warnings_.push_back(*points_left_out_);
   if (options_.points == PointKind::given && built_->dropped_points > 0)
     warnings_.push_back(fmt::format("{}: TetGen left out {} of {} points inside, too near to others",
@@ -152,7 +152,7 @@ FilledSurface Filler::fill() {
 
 // TetGen works on the new surface while this thread judges that surface. TetGen may fail on the new surface and not on
 // the given one, because their points differ.
-bool Filler::fill_new_surface() {
+bool Mesher::mesh_new_surface() {
   // A deviation in sizes is small beside the model, unless a wall is thinner than a size: then the wall's thickness
   // counts.
   const bool walls_count = !demand_.layers && !surface::asks_for_too_many_points(given_, size_);
@@ -195,7 +195,7 @@ bool Filler::fill_new_surface() {
   return built_.has_value();
 }
 
-void Filler::fill_given_surface() {
+void Mesher::mesh_given_surface() {
   if (options_.remesh && given_.has_sheets) {
     cut_.emplace(surface::split_long_edges(given_, size_));
     watch_.add_to(statistics_.seconds.remeshing);
@@ -210,7 +210,7 @@ void Filler::fill_given_surface() {
   built_ = tetrahedralize(*surface_, points_, [] { return true; });
 }
 
-void Filler::place_points() {
+void Mesher::place_points() {
   if (places_points(options_.points)) {
     axes_ = solid::axes_of_model(*surface_, options_.feature_angle);
     points_ = volume::graded_lattice_points(*surface_, size_,
@@ -229,7 +229,7 @@ void Filler::place_points() {
 }
 
 // Starts from the mesh with the lattice's points, and keeps that mesh if it is the better one.
-void Filler::try_frame_points() {
+void Mesher::try_frame_points() {
   std::optional<Step> step(std::in_place, "placing points in rows", first_mesh_ends, frame_ends);
   const bool has_bodies = surface_->region_count > 1;
   const solid::Surface* const first = surface_;
@@ -278,7 +278,7 @@ void Filler::try_frame_points() {
 // Fits the lattice, and makes the surface again with points where the lattice has them. The surface's own lattice does
 // not know what lies inside, so its rows end in other places on one side of a wall than on the other, and the lines
 // between these ends are bent. Returns false where the surface stays; then its points hold the lattice.
-bool Filler::follow(volume::FrameLattice& lattice) {
+bool Mesher::follow(volume::FrameLattice& lattice) {
   const Step step(nullptr, frames_end, fit_ends);
   bool follows = false;
   if (statistics_.remeshed && sizing::mean_wall_thickness(given_) >= least_wall_to_follow * size_.greatest()) {
@@ -294,17 +294,17 @@ bool Filler::follow(volume::FrameLattice& lattice) {
 }
 
 // Gives each body the kind of points that is better in it, where that is not the same kind in all of them.
-void Filler::try_points_by_body(const Filling& lattice, const Filling& frame) {
+void Mesher::try_points_by_body(const EstimatedMesh& lattice, const EstimatedMesh& frame) {
   std::vector<bool> takes_frame(lattice.estimate.volumes.size());
   for (std::size_t region = 0; region < takes_frame.size(); ++region)
     takes_frame[region] = frame.estimate.share_of(region) > lattice.estimate.share_of(region);
   std::vector<Vec3> points;
   std::size_t of_kind[2] = {};
   for (const bool is_frame : {false, true}) {
-    const Filling& filling = is_frame ? frame : lattice;
-    const tetgen::BuiltMesh& built = filling.built;
+    const EstimatedMesh& mesh = is_frame ? frame : lattice;
+    const tetgen::BuiltMesh& built = mesh.built;
     const std::size_t last = built.mesh.points.size() - built.added_points;
-    for (std::size_t v = filling.surface.points.size(); v < last; ++v) {
+    for (std::size_t v = mesh.surface.points.size(); v < last; ++v) {
       const std::int32_t region = built.mesh.tet_tags[built.adjacency.tets_at(static_cast<Vertex>(v)).front()];
       if (takes_frame[region] != is_frame) continue;
       points.push_back(built.mesh.points[v]);
@@ -328,14 +328,14 @@ void Filler::try_points_by_body(const Filling& lattice, const Filling& frame) {
   }
 }
 
-// Makes this one the surface that is filled.
-void Filler::take(const solid::Surface& surface) {
+// Makes this one the surface that is meshed.
+void Mesher::take(const solid::Surface& surface) {
   surface_ = &surface;
   if (followed_ && surface_ == &followed_->surface) describe(*followed_);
 }
 
 // Returns nothing where the mesh is not wanted.
-std::optional<tetgen::BuiltMesh> Filler::tetrahedralize(const solid::Surface& surface, std::span<const Vec3> points,
+std::optional<tetgen::BuiltMesh> Mesher::tetrahedralize(const solid::Surface& surface, std::span<const Vec3> points,
                                                         const Meanwhile& meanwhile) {
   // With one thread, TetGen and the other work follow each other.
   const bool at_once = thread_count() > 1;
@@ -370,7 +370,7 @@ std::optional<tetgen::BuiltMesh> Filler::tetrahedralize(const solid::Surface& su
   }
 }
 
-void Filler::describe(const surface::RemeshResult& remeshed) {
+void Mesher::describe(const surface::RemeshResult& remeshed) {
   statistics_.remeshed = true;
   statistics_.distance_to_input = remeshed.to_input;
   statistics_.distance_from_input = remeshed.from_input;
@@ -378,18 +378,18 @@ void Filler::describe(const surface::RemeshResult& remeshed) {
   statistics_.row_ends = remeshed.row_ends;
 }
 
-void Filler::describe(const volume::FramePoints& frame) {
+void Mesher::describe(const volume::FramePoints& frame) {
   statistics_.interior_points = frame.points.size();
   statistics_.points_kept = PointKind::frame;
 }
 
-void Filler::describe(const volume::Dislocations& lines) {
+void Mesher::describe(const volume::Dislocations& lines) {
   statistics_.dislocations = {lines.length, lines.at_singularities, lines.closed, lines.surface_ends};
   dislocations_ = lines.segments;
 }
 
 // The share of hexes in the mesh that is kept, where it was estimated.
-std::optional<double> Filler::known_hex_share() const {
+std::optional<double> Mesher::known_hex_share() const {
   if (statistics_.points_kept == PointKind::mixed) return statistics_.mixed_hex_share;
   return statistics_.points_kept == PointKind::frame ? statistics_.frame_hex_share : statistics_.lattice_hex_share;
 }
@@ -400,9 +400,9 @@ bool frame_plainly_wins(bool remeshed, double turned_share, std::size_t tets) {
   return remeshed && turned_share > much_turned && tets > few_tets;
 }
 
-FilledSurface fill(const solid::Surface& given, const sizing::SizeDemand& demand, sizing::SizeField size,
-                   const FillOptions& options) {
-  return Filler(given, demand, std::move(size), options).fill();
+MeshedSurface mesh_surface(const solid::Surface& given, const sizing::SizeDemand& demand, sizing::SizeField size,
+                           const MeshingOptions& options) {
+  return Mesher(given, demand, std::move(size), options).mesh();
 }
 
 }  // namespace hexpipe::tetmesh

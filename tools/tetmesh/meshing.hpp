@@ -16,7 +16,7 @@
 
 namespace hexpipe::tetmesh {
 
-struct FillOptions {
+struct MeshingOptions {
   bool remesh = true;  // false: the surface's triangles stay
   double feature_angle, deviation, row_stretch;
   volume::PointKind points;
@@ -26,11 +26,11 @@ struct FillOptions {
   std::uint64_t seed;
   double most_points;     // inside
   double tetgen_timeout;  // seconds for all runs that make one mesh
-  bool estimates;         // fills in TetmeshStatistics::hex_share
+  bool estimates;         // sets TetmeshStatistics::hex_share
 };
 
 // A mesh and what it was made of.
-struct FilledSurface {
+struct MeshedSurface {
   std::optional<solid::Surface> made_surface;  // nothing: the given one
   sizing::SizeField size;
   tetgen::BuiltMesh built;
@@ -42,8 +42,8 @@ struct FilledSurface {
 };
 
 // `size` is field_of() the demand. Throws TetGenFailure.
-FilledSurface fill(const solid::Surface& given, const sizing::SizeDemand& demand, sizing::SizeField size,
-                   const FillOptions& options);
+MeshedSurface mesh_surface(const solid::Surface& given, const sizing::SizeDemand& demand, sizing::SizeField size,
+                           const MeshingOptions& options);
 
 // Whether the points along the frame field plainly give more hexes than the lattice's, so that no estimate is needed:
 // the surface was made anew, and much of the model is turned out of the lattice's axes. `tets` is the number of tets of

@@ -20,10 +20,10 @@ struct FeatureFan {
   std::vector<fields::LoopStep> along, across;  // from the first triangle to the last
 };
 
-// The fan at the start of a half-edge of a feature; nothing if the field turns on the way to the next half-edge.
+// The fan at the start of a half-edge of a feature; nothing if the field turns before the next half-edge.
 std::optional<FeatureFan> feature_fan(const SurfaceLinks& links, geometry::HalfEdge first);
 
-// A way from the middle of a half-edge of a feature. Lengths are in sizes.
+// A path from the middle of a half-edge of a feature. Lengths are in sizes.
 struct NarrowStrip {
   std::vector<fields::LoopStep> across;  // from the first triangle to the last
   // from the first feature to the centre of the first triangle, and from the centre of the last triangle to the other
@@ -32,7 +32,7 @@ struct NarrowStrip {
   double width;
 };
 
-// Nothing if the way meets no feature within `widest`, or one that is not at right angles to it like the first.
+// Nothing if the path meets no feature within `widest`, or one that is not at right angles to it like the first.
 std::optional<NarrowStrip> narrow_strip(const SurfaceLinks& links, geometry::HalfEdge from, double widest);
 
 }  // namespace hexpipe::tetmesh::surface
