@@ -233,9 +233,8 @@ class Bender {
   }
 
   bool is_straight(std::size_t cell) const {
-    return std::ranges::all_of(nodes_of(cell), [&](Vertex node) {
-      return share_[number(node)] == 0 || offset_[number(node)] == Vec3{};
-    });
+    return std::ranges::all_of(
+        nodes_of(cell), [&](Vertex node) { return share_[number(node)] == 0 || offset_[number(node)] == Vec3{}; });
   }
 
   bool is_good(std::size_t cell, double share = 1) const {

@@ -46,8 +46,8 @@ double bend(const std::vector<BernsteinBasis::Line>& edge, const std::vector<dou
   double result = 0;
   for (const BernsteinBasis::Line& line : edge)
     for (std::size_t i = 2; i < line.size(); ++i)
-      result = std::max(result, std::abs(coefficients[line[i]] - 2 * coefficients[line[i - 1]] +
-                                         coefficients[line[i - 2]]));
+      result =
+          std::max(result, std::abs(coefficients[line[i]] - 2 * coefficients[line[i - 1]] + coefficients[line[i - 2]]));
   return result;
 }
 
@@ -58,8 +58,7 @@ BernsteinBasis::BernsteinBasis(std::vector<Simplex> simplices) : simplices_(std:
   int at = 0;
   for (const Simplex& simplex : simplices_) {
     std::vector<Exponents> more;
-    for (const Exponents& exponents : all)
-      add_exponents(exponents, at, at + simplex.coordinates, simplex.degree, more);
+    for (const Exponents& exponents : all) add_exponents(exponents, at, at + simplex.coordinates, simplex.degree, more);
     all = std::move(more);
     at += simplex.coordinates;
   }

@@ -16,10 +16,10 @@ namespace {
 
 using Simplices = std::vector<BernsteinBasis::Simplex>;
 
-constexpr std::size_t most_points = 27;         // of a hex
-constexpr std::size_t most_tangents = 18;       // 2 x 3 x 3
+constexpr std::size_t most_points = 27;          // of a hex
+constexpr std::size_t most_tangents = 18;        // 2 x 3 x 3
 constexpr std::size_t most_cross_products = 80;  // 4 x 4 x 5
-constexpr std::size_t most_coefficients = 216;  // 6 x 6 x 6
+constexpr std::size_t most_coefficients = 216;   // 6 x 6 x 6
 
 // A coefficient of a tangent: the difference of two control points.
 struct Difference {
@@ -83,9 +83,9 @@ std::array<Direction, 3> directions(CellKind kind) {
 
 Tangents tangents_of(CellKind kind, const BernsteinBasis& points) {
   const auto [i, j, k] = directions(kind);
-  Tangents result{{derivative_basis(points, i.simplex), derivative_basis(points, j.simplex),
-                   derivative_basis(points, k.simplex)},
-                  {}};
+  Tangents result{
+      {derivative_basis(points, i.simplex), derivative_basis(points, j.simplex), derivative_basis(points, k.simplex)},
+      {}};
   // The pyramid is a cube whose upper side shrinks to a point. The tangents along its first two coordinates have the
   // factor (1 - w), which the pyramid's own coordinates do not: (1 - w)^2 Q + 2 w (1 - w) M + w^2 P becomes
   // (1 - w) Q' + 2 w M', with control points Q, M, P of the three layers.
@@ -167,8 +167,8 @@ class FullNodes {
     }
     if (!places_.has_middle) return;
     const std::span<const Vec3> all(nodes_);
-    nodes_.push_back(middle_of_hex(all.first(edges_at_), all.subspan(edges_at_, places_.edges.size()),
-                                   all.subspan(quads_at_)));
+    nodes_.push_back(
+        middle_of_hex(all.first(edges_at_), all.subspan(edges_at_, places_.edges.size()), all.subspan(quads_at_)));
   }
 
   const Vec3& corner(std::size_t i) const { return nodes_[i]; }

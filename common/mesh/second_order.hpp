@@ -54,7 +54,7 @@ constexpr NodePlaces node_places_of(std::uint8_t vtk) {
   }
 }
 
-// The nodes that the elements of a mesh have behind their corners. Elements that share an edge or a quad share its node.
+// The nodes that elements of a mesh have behind their corners. Elements that share an edge or a quad share its node.
 struct SecondOrder {
   bool full = false;  // nodes of quads and hexes, too
   Vertex first = 0;   // the points from here on are such nodes, those before are corners

@@ -44,15 +44,18 @@ constexpr AbaqusNames names_by_kind[] = {
     {CellKind::tet, "C3D4", "C3D10", {3, 4, 2, 1}, {}},
 };
 // The nodes of this hex.
-constexpr std::string_view collapsed_nodes = "0 1 2 3 4 4 4 4", collapsed_nodes_of_second_order =
-    "0 1 2 3 4 4 4 4 01 12 23 30 4 4 4 4 04 14 24 34";
+constexpr std::string_view collapsed_nodes = "0 1 2 3 4 4 4 4",
+                           collapsed_nodes_of_second_order = "0 1 2 3 4 4 4 4 01 12 23 30 4 4 4 4 04 14 24 34";
 // A pyramid as a hex whose upper four corners are the apex: its sides are the hex's.
 constexpr AbaqusNames collapsed_pyramid{CellKind::pyramid, "C3D8", "C3D20", {3, 4, 5, 6}, {1}};
 
 class AbaqusWriter {
  public:
   AbaqusWriter(const MixedMesh& mesh, const MeshWriting& writing, Output& output)
-      : mesh_(mesh), writing_(writing), output_(output), names_(mesh, writing, abaqus_rules, {"EALL", "NALL"}),
+      : mesh_(mesh),
+        writing_(writing),
+        output_(output),
+        names_(mesh, writing, abaqus_rules, {"EALL", "NALL"}),
         lister_(mesh, lists()) {}
 
   void write() {
@@ -91,7 +94,8 @@ class AbaqusWriter {
   void refuse_what_abaqus_lacks() const {
     if (!mesh_.second_order) return;
     if (mesh_.second_order->full)
-      throw DataError::at(output_.name(), "cannot write nodes in the middles of quads and hexes: use --nodes serendipity");
+      throw DataError::at(output_.name(),
+                          "cannot write nodes in the middles of quads and hexes: use --nodes serendipity");
     if (mesh_.pyramids.size() > 0 && writing_.form_of_pyramids(mesh_) == PyramidForm::keep)
       throw DataError::at(output_.name(),
                           "cannot write {} pyramids of second order, which Abaqus lacks: use --pyramids split or "
@@ -145,18 +149,13 @@ class AbaqusWriter {
     });
   }
 
-  // Each moves as the middle of a quad of eight nodes does.
   void write_tied_nodes() {
     for (const TiedNode& tied : writing_.tied)
       for (int axis = 1; axis <= 3; ++axis) {
-        output_.print("*EQUATION\n9\n{}, {}, 1", tied.node + 1, axis);
-        int terms = 1;
-        const auto add = [&](Vertex v, const char* factor) {
-          output_.print("{}{}, {}, {}", terms % 4 == 0 ? ",\n" : ", ", v + 1, axis, factor);
-          ++terms;
-        };
-        for (const Vertex v : tied.edges) add(v, "-0.5");
-        for (const Vertex v : tied.corners) add(v, "0.25");
+        output_.print("*EQUATION\n{}\n{}, {}, 1", tied.terms.size() + 1, tied.node + 1, axis);
+        // Four terms a line.
+        for (std::size_t i = 0; i < tied.terms.size(); ++i)
+          output_.print("{}{}, {}, {}", i % 4 == 3 ? ",\n" : ", ", tied.terms[i].node + 1, axis, -tied.terms[i].factor);
         output_.print("\n");
       }
   }

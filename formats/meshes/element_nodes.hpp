@@ -14,9 +14,9 @@
 
 namespace hexpipe::formats {
 
-// The nodes of each kind of element as a format lists them: a node is told by the corners that it lies between, * is the
-// middle of the element. What a format lacks is left out. An element of first order has the single corners alone, and
-// one without nodes on quads has the corners and the edges.
+// The nodes of each kind of element as a format lists them: a node is told by the corners that it lies between, * is
+// the middle of the element. What a format lacks is left out. An element of first order has the single corners alone,
+// and one without nodes on quads has the corners and the edges.
 struct NodeLists {
   std::string_view hex, prism, pyramid, tet, triangle = "0 1 2 01 12 20", quad = "0 1 2 3 01 12 23 30 0123";
 
@@ -83,8 +83,8 @@ inline std::vector<std::size_t> node_order(const NodeLists& lists, std::uint8_t 
            });
   };
   const auto place = [&](std::string_view token, auto between) {
-    return static_cast<std::size_t>(
-        std::ranges::find_if(between, [&](const auto& at) { return same(token, at); }) - between.begin());
+    return static_cast<std::size_t>(std::ranges::find_if(between, [&](const auto& at) { return same(token, at); }) -
+                                    between.begin());
   };
   while (!list.empty()) {
     const std::string_view token = list.substr(0, list.find(' '));

@@ -122,9 +122,10 @@ void split_pyramids(Prepared& at) {
   if (!at.mesh.second_order)
     return at.writing.say(
         fmt::format("{} pyramids are written as two tets each: their quads face two triangles", pyramids));
-  at.writing.say(fmt::format("{} pyramids are written as two tets each; {} nodes on diagonals of their bases belong to "
-                             "the tets alone",
-                             pyramids, at.writing.tied.size()));
+  at.writing.say(
+      fmt::format("{} pyramids are written as four tets each; {} nodes on their bases belong to the tets "
+                  "alone",
+                  pyramids, at.writing.tied.size()));
   if (const std::size_t doubtful = doubtful_tets(at.mesh, tets); doubtful > 0)
     at.writing.say(fmt::format("{} of these tets are bent too much: they may not be valid everywhere", doubtful));
 }
@@ -151,11 +152,12 @@ void write_mixed_mesh(const MixedMesh& mesh, std::string_view format, Output& ou
   for (const MeshFormat& known : formats) {
     if (known.name != format) continue;
     if (mesh.second_order && !known.second_order)
-      throw DataError::at(output.name(), "cannot write elements of second order as {}: use msh, vtu, vtk, inp, exo or med",
-                          format);
+      throw DataError::at(output.name(),
+                          "cannot write elements of second order as {}: use msh, vtu, vtk, inp, exo or med", format);
     const bool is_vtk_or_med = format == "vtk" || format == "vtu" || format == "med";
     if (mesh.second_order && mesh.second_order->full && mesh.pyramids.size() > 0 && is_vtk_or_med)
-      writing.say(fmt::format("{} pyramids are written with 13 nodes: the format has none of 14", mesh.pyramids.size()));
+      writing.say(
+          fmt::format("{} pyramids are written with 13 nodes: the format has none of 14", mesh.pyramids.size()));
     if (writing.facets && writing.form_of_pyramids(mesh) == PyramidForm::keep)
       return known.write(mesh, writing, output);
     const Prepared prepared = with_options(mesh, writing);

@@ -5,7 +5,6 @@
 #include <span>
 #include <utility>
 
-#include "common/curved/nodes.hpp"
 #include "common/mesh/box_tree.hpp"
 #include "common/mesh/facet_key.hpp"
 #include "common/run/error.hpp"
@@ -32,7 +31,7 @@ std::array<std::size_t, 4> from_lowest(const Corners& corners) {
 class PyramidSplitter {
  public:
   PyramidSplitter(const MixedMesh& mesh, std::vector<TiedNode>* tied) : mesh_(mesh), result_(mesh), tied_(tied) {
-    for (const auto& cell : mesh.pyramids.cells) ++bases_[key_of(base_of(cell))];
+    for (const auto& cell : mesh.pyramids.cells) bases_.insert(key_of(base_of(cell)));
     add_quads<HexTopology>(mesh.hexes, others_);
     add_quads<PrismTopology>(mesh.prisms, others_);
   }
@@ -53,34 +52,85 @@ class PyramidSplitter {
 
   void split_cell(std::size_t i) {
     const auto& cell = mesh_.pyramids.cells[i];
+    if (order()) return split_in_four(cell, mesh_.second_order->of(pyramid_names.vtk, i), mesh_.pyramids.tags[i]);
     const auto [a, b, c, d] = from_lowest(cell);
     const std::size_t apex = 4;
-    for (const auto& tet : {std::array{a, b, c, apex}, std::array{a, c, d, apex}}) {
-      result_.tets.cells.push_back({cell[tet[0]], cell[tet[1]], cell[tet[2]], cell[tet[3]]});
-      result_.tets.tags.push_back(mesh_.pyramids.tags[i]);
-    }
-    if (!order()) return;
-    const std::span<const Vertex> nodes = mesh_.second_order->of(pyramid_names.vtk, i);
-    const auto edge = [&](std::size_t p, std::size_t q) {
-      return nodes[curved::edge_between(PyramidTopology::edges, static_cast<std::uint8_t>(p), static_cast<std::uint8_t>(q))];
-    };
-    const Vertex diagonal = diagonal_node(base_of(cell), {edge(0, 1), edge(1, 2), edge(2, 3), edge(3, 0)}, nodes);
-    for (const Vertex v : {edge(a, b), edge(b, c), diagonal, edge(a, apex), edge(b, apex), edge(c, apex),  //
-                           diagonal, edge(c, d), edge(d, a), edge(a, apex), edge(c, apex), edge(d, apex)})
-      order()->tets.push_back(v);
+    for (const auto& tet : {std::array{a, b, c, apex}, std::array{a, c, d, apex}})
+      add_tet({cell[tet[0]], cell[tet[1]], cell[tet[2]], cell[tet[3]]}, mesh_.pyramids.tags[i]);
   }
 
-  // The node in the middle of the base, which full elements have.
-  Vertex diagonal_node(const Quad& base, const std::array<Vertex, 4>& edges, std::span<const Vertex> nodes) {
-    const auto [place, is_new] = diagonals_.try_emplace(key_of(base), no_node);
+  void add_tet(const std::array<Vertex, 4>& corners, std::int32_t tag) {
+    result_.tets.cells.push_back(corners);
+    result_.tets.tags.push_back(tag);
+  }
+
+  // The nodes of the pyramid: four of the base's edges, then four of the edges to the apex.
+  void split_in_four(const std::array<Vertex, 5>& cell, std::span<const Vertex> nodes, std::int32_t tag) {
+    const Base& base = nodes_of_base(base_of(cell), nodes);
+    const Vertex axis = add_point(0.5 * (result_.points[base.middle] + mesh_.points[cell[4]]));
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t next = (k + 1) % 4;
+      add_tet({cell[k], cell[next], base.middle, cell[4]}, tag);
+      for (const Vertex v :
+           {nodes[k], base.towards(cell[next]), base.towards(cell[k]), nodes[4 + k], nodes[4 + next], axis})
+        order()->tets.push_back(v);
+    }
+  }
+
+  // The nodes that tets have on the base of a pyramid: its middle, and the middles of the lines to its corners.
+  struct Base {
+    Vertex middle;
+    Quad corners, between;
+
+    Vertex towards(Vertex corner) const {
+      return between[static_cast<std::size_t>(std::ranges::find(corners, corner) - corners.begin())];
+    }
+  };
+
+  const Base& nodes_of_base(const Quad& corners, std::span<const Vertex> nodes) {
+    const auto [place, is_new] = base_nodes_.try_emplace(key_of(corners));
     if (!is_new) return place->second;
-    if (order()->full) return place.value() = nodes.back();
-    std::array<Vec3, 4> corners, middles;
-    for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh_.points[base[k]], middles[k] = mesh_.points[edges[k]];
-    result_.points.push_back(curved::middle_of_quad(corners, middles));
-    place.value() = static_cast<Vertex>(result_.points.size() - 1);
-    if (tied_ != nullptr && others_.contains(key_of(base))) tied_->push_back({place->second, base, edges});
-    return place->second;
+    Base& base = place.value();
+    base.corners = corners;
+    const bool is_tied = tied_ != nullptr && others_.contains(key_of(corners));
+    const auto add = [&](std::vector<TiedNode::Term> terms) {
+      Vec3 at;
+      for (const auto& [node, factor] : terms) at += factor * mesh_.points[node];
+      const Vertex v = add_point(at);
+      if (is_tied) tied_->push_back({v, std::move(terms)});
+      return v;
+    };
+    // Shape functions of the quad of eight or nine nodes, at its middle and at half of the way to a corner.
+    std::vector<TiedNode::Term> middle;
+    for (std::size_t k = 0; k < 4; ++k) middle.push_back({nodes[k], 0.5});
+    for (std::size_t k = 0; k < 4; ++k) middle.push_back({corners[k], -0.25});
+    base.middle = order()->full ? nodes[8] : add(std::move(middle));
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto corner = [&](std::size_t i) { return corners[(k + i) % 4]; };
+      const auto edge = [&](std::size_t i) { return nodes[(k + i) % 4]; };
+      base.between[k] = order()->full ? add({{corner(0), 9.0 / 64},
+                                             {corner(1), -3.0 / 64},
+                                             {corner(2), 1.0 / 64},
+                                             {corner(3), -3.0 / 64},
+                                             {edge(0), 18.0 / 64},
+                                             {edge(1), -6.0 / 64},
+                                             {edge(2), -6.0 / 64},
+                                             {edge(3), 18.0 / 64},
+                                             {nodes[8], 36.0 / 64}})
+                                      : add({{corner(1), -0.1875},
+                                             {corner(2), -0.125},
+                                             {corner(3), -0.1875},
+                                             {edge(0), 0.5625},
+                                             {edge(1), 0.1875},
+                                             {edge(2), 0.1875},
+                                             {edge(3), 0.5625}});
+    }
+    return base;
+  }
+
+  Vertex add_point(const Vec3& at) {
+    result_.points.push_back(at);
+    return static_cast<Vertex>(result_.points.size() - 1);
   }
 
   void split_facets() {
@@ -101,25 +151,30 @@ class PyramidSplitter {
 
   void split_facet(std::size_t i) {
     const auto& quad = mesh_.quads.cells[i];
-    const auto [a, b, c, d] = from_lowest(quad);
-    for (const auto& triangle : {std::array{a, b, c}, std::array{a, c, d}}) {
-      result_.triangles.cells.push_back({quad[triangle[0]], quad[triangle[1]], quad[triangle[2]]});
+    const auto add = [&](const Triangle& triangle) {
+      result_.triangles.cells.push_back(triangle);
       result_.triangles.tags.push_back(mesh_.quads.tags[i]);
+    };
+    if (!order()) {
+      const auto [a, b, c, d] = from_lowest(quad);
+      add({quad[a], quad[b], quad[c]});
+      add({quad[a], quad[c], quad[d]});
+      return;
     }
-    if (!order()) return;
     const std::span<const Vertex> edges = mesh_.second_order->of(vtk_code_of_quad, i);
-    const Vertex diagonal = diagonals_.at(key_of(quad));
-    for (const Vertex v : {edges[a], edges[b], diagonal, diagonal, edges[c], edges[d]}) order()->triangles.push_back(v);
+    const Base& base = base_nodes_.at(key_of(quad));
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vertex from = quad[k], to = quad[(k + 1) % 4];
+      add({from, to, base.middle});
+      for (const Vertex v : {edges[k], base.towards(to), base.towards(from)}) order()->triangles.push_back(v);
+    }
   }
-
-  static constexpr Vertex no_node = -1;
 
   const MixedMesh& mesh_;
   MixedMesh result_;
   std::vector<TiedNode>* tied_;
-  KeyMap<4, int> bases_;
-  KeySet<4> others_;
-  KeyMap<4, Vertex> diagonals_;
+  KeySet<4> bases_, others_;
+  KeyMap<4, Base> base_nodes_;
 };
 
 }  // namespace

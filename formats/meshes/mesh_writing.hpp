@@ -16,10 +16,14 @@ namespace hexpipe::formats {
 // keep: as pyramids. collapsed: as hexes with the apex four times. split: as two tets each.
 enum class PyramidForm { keep, collapsed, split };
 
-// A node of second order in the middle of a quad whose element has none there: it moves as the quad's middle does.
+// A node of second order on a quad whose element has none there: it moves as that place of the quad does.
 struct TiedNode {
+  struct Term {
+    Vertex node;
+    double factor;
+  };
   Vertex node;
-  std::array<Vertex, 4> corners, edges;
+  std::vector<Term> terms;
 };
 
 struct MeshWriting {
@@ -46,9 +50,10 @@ struct MeshWriting {
 // other side is two triangles now: vertices fit, but the mesh no longer conforms there, and finite elements do not pass
 // the patch test.
 //
-// Of second order, each diagonal has a node, in the middle of the base. Where it is not a node of what has the quad on
-// its other side, it goes into `tied`: with these, fields of second degree are continuous, and constant stresses are
-// found exactly where bases are parallelograms.
+// Of second order, a pyramid becomes four tets around the line from the middle of its base to the apex. They add five
+// nodes to the base: its middle, which is a corner of theirs, and those between the middle and its corners. Where
+// something else has the quad on its other side, these go into `tied`: fields of second degree are continuous then, and
+// constant stresses are found exactly where bases are parallelograms.
 MixedMesh with_split_pyramids(const MixedMesh& mesh, std::vector<TiedNode>* tied = nullptr);
 
 // Throws DataError, beginning with `name`, if there are more points or elements than a format can number.

@@ -271,7 +271,8 @@ class MshWriter {
   // In binary, type and number of tags stand once for all elements of a block.
   void write_run_head_2(const ElementNames& names, std::size_t count) {
     if (!sink_.is_binary() || count == 0) return;
-    for (const std::int32_t number : {int{names.gmsh_of(mesh_)}, static_cast<std::int32_t>(count), 2}) sink_.integer(number);
+    for (const std::int32_t number : {int{names.gmsh_of(mesh_)}, static_cast<std::int32_t>(count), 2})
+      sink_.integer(number);
   }
 
   void write_quality() {

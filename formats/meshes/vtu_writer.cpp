@@ -46,9 +46,8 @@ Section cells_of(const MixedMesh& mesh) {
   const std::uint64_t count = element_count(mesh);
   NodeLister lister(mesh, vtk_nodes);
   std::uint64_t corners = 0;
-  for_each_block(mesh, [&](const ElementNames& names, const auto& block) {
-    corners += block.size() * lister.count(names.vtk);
-  });
+  for_each_block(
+      mesh, [&](const ElementNames& names, const auto& block) { corners += block.size() * lister.count(names.vtk); });
   const auto write_connectivity = [&mesh, lister](Output& output) mutable {
     for_each_block(mesh, [&](const ElementNames& names, const auto& block) {
       for (std::size_t i = 0; i < block.size(); ++i)

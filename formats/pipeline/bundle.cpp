@@ -187,7 +187,8 @@ void BundleWriter::begin_array(const std::string& name, const NpyHeader& header,
 }
 
 void BundleWriter::add_rows(const std::string& name, const std::vector<std::int32_t>& numbers, std::size_t columns) {
-  begin_array(name, {npy_type<std::int32_t>(), {numbers.size() / columns, columns}}, numbers.size() * sizeof(std::int32_t));
+  begin_array(name, {npy_type<std::int32_t>(), {numbers.size() / columns, columns}},
+              numbers.size() * sizeof(std::int32_t));
   write(numbers.data(), numbers.size() * sizeof(std::int32_t));
 }
 

@@ -104,8 +104,8 @@ class BundleReader {
   // The current member as rows of integers, one after the other, of any number of columns that is among `columns`. The
   // second is the number that is there.
   std::pair<std::vector<std::int32_t>, std::size_t> read_rows_of(std::span<const std::uint64_t> columns);
-  // The same as read_array a block at a time, for arrays that are larger than the memory: returns how many rows there are; then
-  // read_next_rows reads `count` of them. Numbers must have exactly the type of T.
+  // The same as read_array a block at a time, for arrays that are larger than the memory: returns how many rows there
+  // are; then read_next_rows reads `count` of them. Numbers must have exactly the type of T.
   template <class T>
   std::uint64_t begin_rows() {
     const NpyHeader header = begin_array(NpyRow<T>::columns);

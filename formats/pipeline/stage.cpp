@@ -497,8 +497,8 @@ void Stage::set_names(formats::GroupNames names) {
 
 void Stage::expect_second_order() const {
   if (!writes_bundle() && !formats::takes_second_order(state_->format))
-    throw UsageError(fmt::format("elements of second order go with msh, vtu, vtk, inp, exo, med or tar, found {}",
-                                 state_->format));
+    throw UsageError(
+        fmt::format("elements of second order go with msh, vtu, vtk, inp, exo, med or tar, found {}", state_->format));
 }
 
 bool Stage::writes_bundle() const {

@@ -103,7 +103,8 @@ def jacobians(name, at):
     return np.linalg.det(tangents), weights
 
 
-def area(name, at):
+def facet_normals(name, at):
+    """Normals (as long as the area is stretched) at points of integration, values of shape functions there, weights."""
     x, w = np.polynomial.legendre.leggauss(6)
     x, w = (x + 1) / 2, w / 2
     u, v = (grid.ravel() for grid in np.meshgrid(x, x))
@@ -115,10 +116,15 @@ def area(name, at):
     else:
         nodes = [(0, 0), (1, 0), (1, 1), (0, 1), (.5, 0), (1, .5), (.5, 1), (0, .5), (.5, .5)][:FACETS[name]]
         powers = [(i, j) for i in range(3) for j in range(3) if name == "quad9" or i + j < 4]
-    values = np.array([[p ** i * q ** j for i, j in powers] for p, q in nodes])
-    du = np.array([i * u ** max(i - 1, 0) * v ** j for i, j in powers]).T @ np.linalg.inv(values)
-    dv = np.array([j * u ** i * v ** max(j - 1, 0) for i, j in powers]).T @ np.linalg.inv(values)
-    normals = np.cross(np.einsum("qn,enx->eqx", du, at), np.einsum("qn,enx->eqx", dv, at))
+    factors = np.linalg.inv(np.array([[p ** i * q ** j for i, j in powers] for p, q in nodes]))
+    values = np.array([u ** i * v ** j for i, j in powers]).T @ factors
+    du = np.array([i * u ** max(i - 1, 0) * v ** j for i, j in powers]).T @ factors
+    dv = np.array([j * u ** i * v ** max(j - 1, 0) for i, j in powers]).T @ factors
+    return np.cross(np.einsum("qn,enx->eqx", du, at), np.einsum("qn,enx->eqx", dv, at)), values, weight
+
+
+def area(name, at):
+    normals, _, weight = facet_normals(name, at)
     return float((np.linalg.norm(normals, axis=2) * weight).sum())
 
 

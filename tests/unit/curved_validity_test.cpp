@@ -63,8 +63,7 @@ Monomial power(const Vec3& p, int i, int j, int k) {
 Monomial rational(const Vec3& p, int i, int j, int n) {
   const Monomial above = power(p, i, j, 0);
   const double w = 1 - p.z, below = std::pow(w, -n);
-  return {above.value * below,
-          {above.gradient.x * below, above.gradient.y * below, n * above.value * below / w}};
+  return {above.value * below, {above.gradient.x * below, above.gradient.y * below, n * above.value * below / w}};
 }
 
 std::vector<Monomial> monomials(CellKind kind, bool full, const Vec3& p) {

@@ -39,7 +39,8 @@ TEST(ElementNodes, FollowGmshsManual) {
 // A hex with a pyramid on its upper side.
 MixedMesh hex_and_pyramid() {
   MixedMesh mesh;
-  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0.5, 0.5, 1.6}};
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},      {0, 0, 1},
+                 {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0.5, 0.5, 1.6}};
   mesh.hexes.cells = {{0, 1, 2, 3, 4, 5, 6, 7}};
   mesh.hexes.tags = {1};
   mesh.pyramids.cells = {{4, 5, 6, 7, 8}};
@@ -49,36 +50,41 @@ MixedMesh hex_and_pyramid() {
   return mesh;
 }
 
-TEST(SplitPyramids, TieTheDiagonalsNodeToTheQuadOfAHex) {
-  MixedMesh mesh = hex_and_pyramid();
-  curved::add_straight_nodes(mesh, false);
-  std::vector<TiedNode> tied;
-  const MixedMesh split = with_split_pyramids(mesh, &tied);
-  EXPECT_EQ(split.tets.size(), 2u);
-  EXPECT_EQ(split.second_order->tets.size(), 12u);
-  EXPECT_EQ(split.points.size(), mesh.points.size() + 1);
-  ASSERT_EQ(tied.size(), 1u);
-  EXPECT_EQ(split.points[tied[0].node], (Vec3{0.5, 0.5, 1}));
-  for (std::size_t i = 0; i < 2; ++i)
-    for (std::size_t e = 0; e < 6; ++e) {
-      const auto& [a, b] = node_places_of(10).edges[e];
-      const auto& cell = split.tets.cells[i];
-      const Vec3 middle = 0.5 * (split.points[cell[a]] + split.points[cell[b]]);
-      EXPECT_LT(norm(split.points[split.second_order->of(10, i)[e]] - middle), 1e-12);
+// Each node of the elements lies in the middle of its edge, as all edges are straight.
+template <class Cells>
+void expect_straight(const MixedMesh& mesh, std::uint8_t vtk, const Cells& cells) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto edges = node_places_of(vtk).edges;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const Vec3 middle = 0.5 * (mesh.points[cells[i][edges[e][0]]] + mesh.points[cells[i][edges[e][1]]]);
+      EXPECT_LT(norm(mesh.points[mesh.second_order->of(vtk, i)[e]] - middle), 1e-12);
     }
-  EXPECT_NO_THROW(validate(split, "split"));
+  }
 }
 
-TEST(SplitPyramids, ShareTheMiddleOfFullQuads) {
-  MixedMesh mesh = hex_and_pyramid();
-  curved::add_straight_nodes(mesh, true);
-  std::vector<TiedNode> tied;
-  const MixedMesh split = with_split_pyramids(mesh, &tied);
-  EXPECT_TRUE(tied.empty());
-  EXPECT_EQ(split.points.size(), mesh.points.size());
+TEST(SplitPyramids, TieTheNodesOnTheQuadOfAHex) {
+  for (const bool full : {false, true}) {
+    MixedMesh mesh = hex_and_pyramid();
+    curved::add_straight_nodes(mesh, full);
+    std::vector<TiedNode> tied;
+    const MixedMesh split = with_split_pyramids(mesh, &tied);
+    EXPECT_EQ(split.tets.size(), 4u);
+    EXPECT_EQ(split.second_order->tets.size(), 24u);
+    expect_straight(split, 10, split.tets.cells);
+    // The middle of the base, the middles of lines to its corners; and that of the line to the apex, which is not tied.
+    EXPECT_EQ(split.points.size(), mesh.points.size() + (full ? 5 : 6));
+    EXPECT_EQ(tied.size(), full ? 4u : 5u);
+    for (const TiedNode& node : tied) {
+      Vec3 at;
+      double sum = 0;
+      for (const auto& [v, factor] : node.terms) at += factor * split.points[v], sum += factor;
+      EXPECT_EQ(sum, 1);
+      EXPECT_LT(norm(at - split.points[node.node]), 1e-12);
+    }
+  }
 }
 
-// Without the hex, the base is a facet of the boundary, and becomes two triangles.
+// Without the hex, the base is a facet of the boundary, and becomes triangles.
 TEST(SplitPyramids, CutFacetsThatTheyAloneHave) {
   MixedMesh mesh = hex_and_pyramid();
   mesh.hexes = {};
@@ -88,14 +94,9 @@ TEST(SplitPyramids, CutFacetsThatTheyAloneHave) {
   std::vector<TiedNode> tied;
   const MixedMesh split = with_split_pyramids(mesh, &tied);
   EXPECT_TRUE(tied.empty());
-  EXPECT_EQ(split.triangles.size(), 3u);
+  EXPECT_EQ(split.triangles.size(), 5u);
   EXPECT_EQ(split.quads.size(), 0u);
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t e = 0; e < 3; ++e) {
-      const auto& cell = split.triangles.cells[i];
-      const Vec3 middle = 0.5 * (split.points[cell[e]] + split.points[cell[(e + 1) % 3]]);
-      EXPECT_LT(norm(split.points[split.second_order->of(5, i)[e]] - middle), 1e-12);
-    }
+  expect_straight(split, 5, split.triangles.cells);
 }
 
 }  // namespace

@@ -26,16 +26,21 @@ namespace {
 using Side = std::array<int, 4>;
 struct ExodusKind {
   std::uint8_t vtk;
-  const char* type;         // that all readers know
+  const char* type;             // that all readers know
   const char* of_second_order;  // before the number of nodes
-  std::string_view prefix;  // of the types that readers meet
+  std::string_view prefix;      // of the types that readers meet
   int corners;
   std::vector<Side> sides;
 };
 
 const std::vector<ExodusKind>& exodus_kinds() {
   static const std::vector<ExodusKind> kinds{
-      {12, "HEX8", "HEX", "HEX", 8, {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {0, 4, 7, 3}, {0, 3, 2, 1}, {4, 5, 6, 7}}},
+      {12,
+       "HEX8",
+       "HEX",
+       "HEX",
+       8,
+       {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {0, 4, 7, 3}, {0, 3, 2, 1}, {4, 5, 6, 7}}},
       {13, "WEDGE", "WEDGE", "WEDGE", 6, {{0, 1, 4, 3}, {1, 2, 5, 4}, {0, 3, 5, 2}, {0, 2, 1, -1}, {3, 4, 5, -1}}},
       {14, "PYRAMID", "PYRAMID", "PYRA", 5, {{0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}, {0, 3, 2, 1}}},
       {10, "TETRA", "TETRA", "TET", 4, {{0, 1, 3, -1}, {1, 2, 3, -1}, {0, 3, 2, -1}, {0, 2, 1, -1}}},
@@ -151,7 +156,8 @@ class ExodusWriter {
   static int model_for(const GroupedMesh& mesh) {
     constexpr std::size_t most = 4294967292;
     std::size_t largest = mesh.points.size() * sizeof(double);
-    for (const ElementGroup& block : mesh.cells) largest = std::max(largest, (block.corners.size() + block.nodes.size()) * sizeof(int));
+    for (const ElementGroup& block : mesh.cells)
+      largest = std::max(largest, (block.corners.size() + block.nodes.size()) * sizeof(int));
     return largest > most ? EX_NETCDF4 : EX_LARGE_MODEL;
   }
 
@@ -199,7 +205,8 @@ class ExodusWriter {
       const ElementGroup& block = mesh_.cells[i];
       const ExodusKind& kind = kind_of(block.kind);
       const auto nodes = static_cast<std::int64_t>(order_of(block).size());
-      const std::string type = mesh_.second_order ? std::string(kind.of_second_order) + std::to_string(nodes) : kind.type;
+      const std::string type =
+          mesh_.second_order ? std::string(kind.of_second_order) + std::to_string(nodes) : kind.type;
       check(ex_put_block(id_, EX_ELEM_BLOCK, block_ids_[i], type.c_str(), static_cast<std::int64_t>(block.size()),
                          nodes, 0, 0, 0));
     }

@@ -164,12 +164,11 @@ class MedWriter {
     }
     const med_geometry_type type = type_of(kind, order.size());
     const auto count = static_cast<med_int>(elements.size());
-    check(MEDmeshElementConnectivityWr(id_, mesh_name, MED_NO_DT, MED_NO_IT, MED_UNDEF_DT, MED_CELL, type,
-                                       MED_NODAL, MED_FULL_INTERLACE, count, corners.data()),
+    check(MEDmeshElementConnectivityWr(id_, mesh_name, MED_NO_DT, MED_NO_IT, MED_UNDEF_DT, MED_CELL, type, MED_NODAL,
+                                       MED_FULL_INTERLACE, count, corners.data()),
           "writing elements");
-    check(
-        MEDmeshEntityFamilyNumberWr(id_, mesh_name, MED_NO_DT, MED_NO_IT, MED_CELL, type, count, families.data()),
-        "writing families of elements");
+    check(MEDmeshEntityFamilyNumberWr(id_, mesh_name, MED_NO_DT, MED_NO_IT, MED_CELL, type, count, families.data()),
+          "writing families of elements");
   }
 
   const GroupedMesh& mesh_;

@@ -115,8 +115,7 @@ class EdgeFinder {
         const Vec3 next = at(facet.corners[(i + 1) % facet.corner_count]) - o;
         const Vec3 last = at(facet.corners[(i + facet.corner_count - 1) % facet.corner_count]) - o;
         const double weight = norm_squared(next) * norm_squared(last);
-        if (weight > 0)
-          normals_[{facet.corners[i], patch_[f]}] += (1 / weight) * cross(next, last);
+        if (weight > 0) normals_[{facet.corners[i], patch_[f]}] += (1 / weight) * cross(next, last);
       }
     }
   }

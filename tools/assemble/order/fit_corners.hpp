@@ -1,6 +1,6 @@
 #pragma once
-// Moves vertices of the boundary onto the surface that the mesh was made of: the triangles of the mesh's own surface, on
-// which they slid before, are chords of it.
+// Moves vertices of the boundary onto the surface that the mesh was made of: the triangles of the mesh's own surface,
+// on which they slid before, are chords of it.
 
 #include <cstdint>
 

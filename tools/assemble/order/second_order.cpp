@@ -114,9 +114,10 @@ nlohmann::ordered_json to_json(const SecondOrderCounts& counts) {
 
 std::string summary_line(const SecondOrderCounts& counts) {
   const curved::BendCounts& bending = counts.bending;
-  return fmt::format("second order: {} nodes, {} of them on the boundary; {} cells are bent, all with a Jacobian that is positive "
-                     "everywhere",
-                     counts.nodes, bending.on_boundary, bending.curved_cells);
+  return fmt::format(
+      "second order: {} nodes, {} of them on the boundary; {} cells are bent, all with a Jacobian that is positive "
+      "everywhere",
+      counts.nodes, bending.on_boundary, bending.curved_cells);
 }
 
 }  // namespace hexpipe::assemble::order
