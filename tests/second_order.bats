@@ -52,6 +52,33 @@ for block, tags in zip(mesh.cells, surface):
 PYTHON
 }
 
+@test "a surface in the bundle needs no option, and one that is too far away is told" {
+  choice
+  $PYTHON - <<'PYTHON'
+import io, tarfile
+import numpy as np
+corners = np.array([[float(x) for x in line.split()[1:]] for line in open("ring.stl") if line.startswith("vertex")])
+points, triangles = np.unique(corners, axis=0, return_inverse=True)
+with tarfile.open("surface.tar", "w") as tar:
+    for name, rows in (("points", points.astype("<f8")), ("triangles", triangles.reshape(-1, 3).astype("<i4"))):
+        data = io.BytesIO()
+        np.save(data, rows)
+        member = tarfile.TarInfo("surface/%s.npy" % name)
+        member.size = data.tell()
+        data.seek(0)
+        tar.addfile(member, data)
+PYTHON
+  tetmesh surface.tar --size 0.3 -q | findhex | buildgraph | initsol --iterations 20000 |
+    assemble --order 2 --stats stats.json -o ring.vtu
+  run holds 'stats["second_order"]["on_given_surface"] == stats["second_order"]["nodes_of_boundary"] > 0' stats.json
+  assert_success
+  cells ring.vtu
+  assert_near 1.178097 2e-4 "$(value volume)"
+  run_apart assemble choice.tar --order 2 --surface "$DATA/bracket.stl" -o far.vtu
+  assert_success
+  [[ "$stderr" == *"nodes of the boundary have no place on the surface near them"* ]]
+}
+
 @test "without a surface, nodes lie on arcs through the vertices" {
   choice
   assemble choice.tar --order 2 -o ring.vtu
