@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/mesh/cell_topology.hpp"
+#include "common/mesh/second_order.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
 namespace hexpipe {
@@ -32,6 +33,7 @@ struct MixedMesh {
   CellBlock<3> triangles;  // boundary and interfaces; they point outward if they have an outside
   CellBlock<4> quads;
   std::optional<std::vector<Ridge>> ridges{};  // as in TetMesh
+  std::optional<SecondOrder> second_order{};   // nodes behind the corners; their points follow all others
 
   std::size_t cell_count() const { return hexes.size() + prisms.size() + pyramids.size() + tets.size(); }
   bool operator==(const MixedMesh&) const = default;
@@ -40,6 +42,9 @@ struct MixedMesh {
 // The same mesh in the other form. to_tet_mesh throws DataError naming `source` when there are cells other than tets.
 MixedMesh to_mixed_mesh(TetMesh mesh);
 TetMesh to_tet_mesh(MixedMesh mesh, const char* source);
+
+// The mesh of the corners alone.
+void drop_second_order(MixedMesh& mesh);
 
 // Checks every block as validate(TetMesh) does.
 void validate(const MixedMesh& mesh, const char* source);

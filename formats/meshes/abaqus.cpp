@@ -5,10 +5,12 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "common/run/error.hpp"
+#include "formats/meshes/element_nodes.hpp"
 #include "formats/meshes/facet_owners.hpp"
 #include "formats/meshes/group_naming.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
@@ -21,6 +23,7 @@ namespace {
 constexpr int field_width = 20;
 // CalculiX reads lines of 132 characters, Abaqus of 256; both take 16 numbers a line.
 constexpr std::size_t line_width = 80;
+constexpr std::size_t most_in_line = 16;
 
 constexpr NameRules abaqus_rules{
     .format = "Abaqus", .longest = 80, .others = "", .folds_case = true, .begins_with_letter = true};
@@ -28,31 +31,41 @@ constexpr NameRules abaqus_rules{
 struct AbaqusNames {
   CellKind kind;
   const char* type;
+  const char* second_order;
   // The number of Abaqus' face for each triangle and each quad of the topology.
   std::array<int, 4> triangle_faces;
   std::array<int, 6> quad_faces;
 };
 
 constexpr AbaqusNames names_by_kind[] = {
-    {CellKind::hex, "C3D8", {}, {1, 2, 3, 4, 5, 6}},
-    {CellKind::prism, "C3D6", {1, 2}, {3, 4, 5}},
-    {CellKind::pyramid, "C3D5", {2, 3, 4, 5}, {1}},
-    {CellKind::tet, "C3D4", {3, 4, 2, 1}, {}},
+    {CellKind::hex, "C3D8", "C3D20", {}, {1, 2, 3, 4, 5, 6}},
+    {CellKind::prism, "C3D6", "C3D15", {1, 2}, {3, 4, 5}},
+    {CellKind::pyramid, "C3D5", nullptr, {2, 3, 4, 5}, {1}},
+    {CellKind::tet, "C3D4", "C3D10", {3, 4, 2, 1}, {}},
 };
+// The nodes of this hex.
+constexpr std::string_view collapsed_nodes = "0 1 2 3 4 4 4 4",
+                           collapsed_nodes_of_second_order = "0 1 2 3 4 4 4 4 01 12 23 30 4 4 4 4 04 14 24 34";
 // A pyramid as a hex whose upper four corners are the apex: its sides are the hex's.
-constexpr AbaqusNames collapsed_pyramid{CellKind::pyramid, "C3D8", {3, 4, 5, 6}, {1}};
+constexpr AbaqusNames collapsed_pyramid{CellKind::pyramid, "C3D8", "C3D20", {3, 4, 5, 6}, {1}};
 
 class AbaqusWriter {
  public:
   AbaqusWriter(const MixedMesh& mesh, const MeshWriting& writing, Output& output)
-      : mesh_(mesh), writing_(writing), output_(output), names_(mesh, writing, abaqus_rules, {"EALL", "NALL"}) {}
+      : mesh_(mesh),
+        writing_(writing),
+        output_(output),
+        names_(mesh, writing, abaqus_rules, {"EALL", "NALL"}),
+        lister_(mesh, lists()) {}
 
   void write() {
     check_numbers(std::max(mesh_.points.size(), element_count(mesh_)), most_of_31_bits, output_.name());
+    refuse_what_abaqus_lacks();
     const FacetOwners owners = find_facet_owners(mesh_);
     output_.print("*HEADING\nhexpipe mesh\n");
     write_points();
     write_elements();
+    write_tied_nodes();
     collect_faces(mesh_.triangles, owners.triangles, "triangles");
     collect_faces(mesh_.quads, owners.quads, "quads");
     write_regions();
@@ -69,13 +82,35 @@ class AbaqusWriter {
   using Groups = std::map<std::string, Group>;
 
   bool collapses(CellKind kind) const {
-    return kind == CellKind::pyramid && writing_.pyramids == PyramidForm::collapsed;
+    return kind == CellKind::pyramid && writing_.form_of_pyramids(mesh_) == PyramidForm::collapsed;
+  }
+  NodeLists lists() const {
+    NodeLists result = abaqus_nodes;
+    if (collapses(CellKind::pyramid))
+      result.pyramid = mesh_.second_order ? collapsed_nodes_of_second_order : collapsed_nodes;
+    return result;
+  }
+
+  void refuse_what_abaqus_lacks() const {
+    if (!mesh_.second_order) return;
+    if (mesh_.second_order->full)
+      throw DataError::at(output_.name(),
+                          "cannot write nodes in the middles of quads and hexes: use --nodes serendipity");
+    if (mesh_.pyramids.size() > 0 && writing_.form_of_pyramids(mesh_) == PyramidForm::keep)
+      throw DataError::at(output_.name(),
+                          "cannot write {} pyramids of second order, which Abaqus lacks: use --pyramids split or "
+                          "collapsed",
+                          mesh_.pyramids.size());
   }
   const AbaqusNames& abaqus_names(CellKind kind) const {
     if (collapses(kind)) return collapsed_pyramid;
     return *std::ranges::find(names_by_kind, kind, &AbaqusNames::kind);
   }
   std::string type_of(CellKind kind) const {
+    if (mesh_.second_order) {
+      const bool reduced = kind == CellKind::hex && writing_.hex_element == "C3D8R";
+      return reduced ? "C3D20R" : abaqus_names(kind).second_order;
+    }
     return kind == CellKind::hex ? writing_.hex_element : abaqus_names(kind).type;
   }
 
@@ -98,18 +133,31 @@ class AbaqusWriter {
       first_element_[kind] = element;
       if (block.size() > 0) output_.print("*ELEMENT, TYPE={}, ELSET=EALL\n", type_of(kind));
       for (std::size_t i = 0; i < block.size(); ++i) {
-        const auto& cell = block.cells[i];
         Group& region = region_groups_[names_.regions.of(block.tags[i])];
         region.elements.push_back(element);
         output_.print("{}", element++);
-        for (const Vertex v : cell) {
-          output_.print(", {}", v + 1);
-          region.nodes.push_back(v + 1);
+        std::size_t in_line = 1;
+        for (const Vertex v : lister_.nodes(names.vtk, block, i)) {
+          output_.print("{}{}", in_line == most_in_line ? ",\n" : ", ", v + 1);
+          in_line = in_line % most_in_line + 1;
         }
-        for (int again = 0; again < (collapses(kind) ? 3 : 0); ++again) output_.print(", {}", cell.back() + 1);
         output_.print("\n");
+        for (const Vertex v : block.cells[i]) region.nodes.push_back(v + 1);
+        if (!mesh_.second_order) continue;
+        for (const Vertex v : mesh_.second_order->of(names.vtk, i)) region.nodes.push_back(v + 1);
       }
     });
+  }
+
+  void write_tied_nodes() {
+    for (const TiedNode& tied : writing_.tied)
+      for (int axis = 1; axis <= 3; ++axis) {
+        output_.print("*EQUATION\n{}\n{}, {}, 1", tied.terms.size() + 1, tied.node + 1, axis);
+        // Four terms a line.
+        for (std::size_t i = 0; i < tied.terms.size(); ++i)
+          output_.print("{}{}, {}, {}", i % 4 == 3 ? ",\n" : ", ", tied.terms[i].node + 1, axis, -tied.terms[i].factor);
+        output_.print("\n");
+      }
   }
 
   template <class Block>
@@ -125,16 +173,19 @@ class AbaqusWriter {
       Group& surface = surface_groups_[names_.surfaces.of(facets.tags[i])];
       surface.faces.emplace_back(first_element_[owner.kind] + owner.cell, face);
       for (const Vertex v : facets.cells[i]) surface.nodes.push_back(v + 1);
+      if (!mesh_.second_order) continue;
+      constexpr std::uint8_t vtk = corners_of_block<Block> == 3 ? vtk_code_of_triangle : vtk_code_of_quad;
+      for (const Vertex v : mesh_.second_order->of(vtk, i)) surface.nodes.push_back(v + 1);
     }
   }
 
   void write_set(const char* keyword, const std::string& name, const std::vector<std::int64_t>& numbers) {
     output_.print("*{0}, {0}={1}\n", keyword, name);
     std::string line;
-    int in_line = 0;
+    std::size_t in_line = 0;
     for (const std::int64_t number : numbers) {
       std::string entry = std::to_string(number);
-      if (in_line == 16 || line.size() + 2 + entry.size() > line_width) {
+      if (in_line == most_in_line || line.size() + 2 + entry.size() > line_width) {
         output_.print("{}\n", line);
         line.clear();
         in_line = 0;
@@ -169,6 +220,7 @@ class AbaqusWriter {
   const MeshWriting& writing_;
   Output& output_;
   GroupNamings names_;
+  NodeLister lister_;
   std::map<CellKind, std::int64_t> first_element_;
   Groups region_groups_, surface_groups_;
 };

@@ -78,13 +78,21 @@ GroupedMesh grouped(const MixedMesh& mesh, const MeshWriting& writing, const Gro
   const Naming naming = naming_of(mesh, writing, rules);
   GroupedMesh result;
   result.points = mesh.points;
+  result.second_order = mesh.second_order.has_value();
+  result.full = mesh.second_order && mesh.second_order->full;
+  const auto add_nodes = [&](ElementGroup& group, std::uint8_t vtk, std::size_t i) {
+    if (!mesh.second_order) return;
+    const auto nodes = mesh.second_order->of(vtk, i);
+    group.nodes.insert(group.nodes.end(), nodes.begin(), nodes.end());
+  };
   std::map<CellKind, std::int64_t> first_of_kind;
   std::int64_t place = 0;
   for_each_block(mesh, [&](const ElementNames& names, const auto& block) {
     if (names.dimension != 3) return;
     first_of_kind[static_cast<CellKind>(names.vtk)] = place;
     Collector groups(names.vtk, naming.regions, naming.region_numbers);
-    for (std::size_t i = 0; i < block.size(); ++i) groups.add(block.cells[i], block.tags[i], place++);
+    for (std::size_t i = 0; i < block.size(); ++i)
+      add_nodes(groups.add(block.cells[i], block.tags[i], place++), names.vtk, i);
     groups.take(result.cells);
   });
   const FacetOwners owners = find_facet_owners(mesh);
@@ -93,6 +101,7 @@ GroupedMesh grouped(const MixedMesh& mesh, const MeshWriting& writing, const Gro
     Collector groups(names.vtk, naming.surfaces, naming.surface_numbers);
     for (std::size_t i = 0; i < block.size(); ++i) {
       ElementGroup& group = groups.add(block.cells[i], block.tags[i], place++);
+      add_nodes(group, names.vtk, i);
       const bool has_cell = owner[i].cell >= 0;
       if (!has_cell && rules.needs_sides)
         throw DataError::at(output, "cannot write {}s[{}]: {} surfaces consist of facets of cells, and it is none",

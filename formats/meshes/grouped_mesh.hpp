@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,6 +46,7 @@ struct ElementGroup {
   std::int32_t number = 0;             // of the region or surface
   std::string name;                    // of the region or surface; of a file, it may be empty
   std::vector<Vertex> corners{};       // from 0, one element after the other
+  std::vector<Vertex> nodes{};         // of second order, behind the corners; empty if the mesh has none
   std::vector<std::int64_t> places{};  // of each element among all cells or all facets; empty: as they stand
   std::vector<CellSide> sides{};       // of each facet; empty for cells, and of a file
 
@@ -55,7 +57,17 @@ struct ElementGroup {
 struct GroupedMesh {
   std::vector<Vec3> points;
   std::vector<ElementGroup> cells, facets;
+  bool second_order = false, full = false;  // as in SecondOrder
 };
+
+// The nodes of element i, `order` as node_order() gives it.
+inline void list_nodes(const ElementGroup& group, std::size_t i, std::span<const std::size_t> order,
+                       std::vector<Vertex>& list) {
+  const auto corners = static_cast<std::size_t>(corners_of_kind(group.kind));
+  const std::size_t nodes = group.nodes.size() / group.size();
+  for (const std::size_t place : order)
+    list.push_back(place < corners ? group.corners[i * corners + place] : group.nodes[i * nodes + place - corners]);
+}
 
 // The rules of a format for names and numbers.
 struct GroupRules {

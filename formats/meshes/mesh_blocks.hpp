@@ -17,14 +17,23 @@ struct ElementNames {
   int dimension;      // 3: a cell, whose tag is a region; 2: a facet, whose tag is a surface
   std::uint8_t vtk;   // cell type
   std::uint8_t gmsh;  // element type
+  // The same of second order: with nodes on edges alone, and full. VTK has no pyramid of 14 nodes.
+  std::array<std::uint8_t, 2> vtk_second, gmsh_second;
+
+  std::uint8_t vtk_of(const MixedMesh& mesh) const {
+    return mesh.second_order ? vtk_second[mesh.second_order->full ? 1 : 0] : vtk;
+  }
+  std::uint8_t gmsh_of(const MixedMesh& mesh) const {
+    return mesh.second_order ? gmsh_second[mesh.second_order->full ? 1 : 0] : gmsh;
+  }
 };
 
-inline constexpr ElementNames hex_names{"hex", "Hexahedra", 3, 12, 5};
-inline constexpr ElementNames prism_names{"prism", "Prisms", 3, 13, 6};
-inline constexpr ElementNames pyramid_names{"pyramid", "Pyramids", 3, 14, 7};
-inline constexpr ElementNames tet_names{"tet", "Tetrahedra", 3, 10, 4};
-inline constexpr ElementNames triangle_names{"triangle", "Triangles", 2, 5, 2};
-inline constexpr ElementNames quad_names{"quad", "Quadrilaterals", 2, 9, 3};
+inline constexpr ElementNames hex_names{"hex", "Hexahedra", 3, 12, 5, {25, 29}, {17, 12}};
+inline constexpr ElementNames prism_names{"prism", "Prisms", 3, 13, 6, {26, 32}, {18, 13}};
+inline constexpr ElementNames pyramid_names{"pyramid", "Pyramids", 3, 14, 7, {27, 27}, {19, 14}};
+inline constexpr ElementNames tet_names{"tet", "Tetrahedra", 3, 10, 4, {24, 24}, {11, 11}};
+inline constexpr ElementNames triangle_names{"triangle", "Triangles", 2, 5, 2, {22, 22}, {9, 9}};
+inline constexpr ElementNames quad_names{"quad", "Quadrilaterals", 2, 9, 3, {23, 28}, {16, 10}};
 
 // The number of corners of the elements of a block.
 template <class Block>

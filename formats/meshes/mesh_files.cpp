@@ -1,11 +1,14 @@
 #include "formats/meshes/mesh_files.hpp"
 
+#include <algorithm>
 #include <utility>
 
+#include "common/curved/curved_validity.hpp"
 #include "common/run/error.hpp"
 #include "formats/meshes/abaqus.hpp"
 #include "formats/meshes/library_formats.hpp"
 #include "formats/meshes/medit.hpp"
+#include "formats/meshes/mesh_blocks.hpp"
 #include "formats/meshes/msh.hpp"
 #include "formats/meshes/nastran.hpp"
 #include "formats/meshes/openfoam.hpp"
@@ -22,6 +25,7 @@ namespace {
 struct MeshFormat {
   std::string_view name;
   void (*write)(const MixedMesh& mesh, const MeshWriting& writing, Output& output);
+  bool second_order = false;  // takes such elements
 };
 
 template <MshVersion version, MshCoding coding>
@@ -37,22 +41,22 @@ void write_tags(const MixedMesh& mesh, const MeshWriting&, Output& output) {
 
 constexpr MeshFormat formats[] = {
     {"mesh", write_tags<write_medit>},
-    {"msh", write_msh_as<MshVersion::v4_1, MshCoding::ascii>},
-    {"msh-binary", write_msh_as<MshVersion::v4_1, MshCoding::binary>},
-    {"msh22", write_msh_as<MshVersion::v2_2, MshCoding::ascii>},
-    {"msh22-binary", write_msh_as<MshVersion::v2_2, MshCoding::binary>},
-    {"vtk", write_tags<write_vtk_legacy>},
-    {"vtu", write_tags<write_vtu>},
-    {"inp", write_abaqus},
+    {"msh", write_msh_as<MshVersion::v4_1, MshCoding::ascii>, true},
+    {"msh-binary", write_msh_as<MshVersion::v4_1, MshCoding::binary>, true},
+    {"msh22", write_msh_as<MshVersion::v2_2, MshCoding::ascii>, true},
+    {"msh22-binary", write_msh_as<MshVersion::v2_2, MshCoding::binary>, true},
+    {"vtk", write_tags<write_vtk_legacy>, true},
+    {"vtu", write_tags<write_vtu>, true},
+    {"inp", write_abaqus, true},
     {"su2", write_su2},
     {"bdf", write_nastran},
     {"nas", write_nastran},
 #ifdef HEXPIPE_WITH_EXODUS
-    {"exo", write_exodus},
-    {"e", write_exodus},
+    {"exo", write_exodus, true},
+    {"e", write_exodus, true},
 #endif
 #ifdef HEXPIPE_WITH_MED
-    {"med", write_med},
+    {"med", write_med, true},
 #endif
 #ifdef HEXPIPE_WITH_CGNS
     {"cgns", write_cgns},
@@ -94,24 +98,70 @@ MixedMesh read_mixed_mesh(Input& input, GroupNames* names, std::vector<std::stri
 
 namespace {
 
-// The mesh without what the options leave out; the mesh itself if they leave everything. Reports what that costs.
-MixedMesh with_options(MixedMesh mesh, const MeshWriting& writing) {
-  if (writing.pyramids == PyramidForm::split && mesh.pyramids.size() > 0) {
-    writing.say(
-        fmt::format("{} pyramids are written as two tets each: their quads face two triangles", mesh.pyramids.size()));
-    mesh = with_split_pyramids(mesh);
+// What is written in place of a mesh, and how.
+struct Prepared {
+  MixedMesh mesh;
+  MeshWriting writing;
+};
+
+// How many tets of pyramids have a Jacobian that is not shown to be positive everywhere; they are the last ones.
+std::size_t doubtful_tets(const MixedMesh& mesh, std::size_t first) {
+  std::size_t count = 0;
+  for (std::size_t i = first; i < mesh.tets.size(); ++i) {
+    std::vector<Vec3> at;
+    for (const Vertex v : mesh.tets.cells[i]) at.push_back(mesh.points[v]);
+    for (const Vertex v : mesh.second_order->of(tet_names.vtk, i)) at.push_back(mesh.points[v]);
+    count += curved::is_valid(CellKind::tet, at) ? 0 : 1;
   }
-  if (!writing.facets) mesh.triangles = {}, mesh.quads = {};
-  return mesh;
+  return count;
+}
+
+void split_pyramids(Prepared& at) {
+  const std::size_t pyramids = at.mesh.pyramids.size(), tets = at.mesh.tets.size();
+  at.mesh = with_split_pyramids(at.mesh, &at.writing.tied);
+  if (!at.mesh.second_order)
+    return at.writing.say(
+        fmt::format("{} pyramids are written as two tets each: their quads face two triangles", pyramids));
+  at.writing.say(
+      fmt::format("{} pyramids are written as four tets each; {} nodes on their bases belong to the tets "
+                  "alone",
+                  pyramids, at.writing.tied.size()));
+  if (const std::size_t doubtful = doubtful_tets(at.mesh, tets); doubtful > 0)
+    at.writing.say(fmt::format("{} of these tets are bent too much: they may not be valid everywhere", doubtful));
+}
+
+// The mesh without what the options leave out. Reports what that costs.
+Prepared with_options(const MixedMesh& mesh, const MeshWriting& writing) {
+  Prepared at{mesh, writing};
+  if (at.writing.form_of_pyramids(mesh) == PyramidForm::split && mesh.pyramids.size() > 0) split_pyramids(at);
+  if (!writing.facets) {
+    at.mesh.triangles = {}, at.mesh.quads = {};
+    if (at.mesh.second_order) at.mesh.second_order->triangles.clear(), at.mesh.second_order->quads.clear();
+  }
+  return at;
 }
 
 }  // namespace
 
+bool takes_second_order(std::string_view format) {
+  return std::ranges::any_of(formats,
+                             [&](const MeshFormat& known) { return known.name == format && known.second_order; });
+}
+
 void write_mixed_mesh(const MixedMesh& mesh, std::string_view format, Output& output, const MeshWriting& writing) {
   for (const MeshFormat& known : formats) {
     if (known.name != format) continue;
-    if (writing.facets && writing.pyramids == PyramidForm::keep) return known.write(mesh, writing, output);
-    return known.write(with_options(mesh, writing), writing, output);
+    if (mesh.second_order && !known.second_order)
+      throw DataError::at(output.name(),
+                          "cannot write elements of second order as {}: use msh, vtu, vtk, inp, exo or med", format);
+    const bool is_vtk_or_med = format == "vtk" || format == "vtu" || format == "med";
+    if (mesh.second_order && mesh.second_order->full && mesh.pyramids.size() > 0 && is_vtk_or_med)
+      writing.say(
+          fmt::format("{} pyramids are written with 13 nodes: the format has none of 14", mesh.pyramids.size()));
+    if (writing.facets && writing.form_of_pyramids(mesh) == PyramidForm::keep)
+      return known.write(mesh, writing, output);
+    const Prepared prepared = with_options(mesh, writing);
+    return known.write(prepared.mesh, prepared.writing, output);
   }
   throw UsageError(fmt::format("expected a mesh format, found {}", quote_found(format)));
 }
@@ -121,7 +171,8 @@ std::unique_ptr<OutputFolder> open_mesh_folder(const std::string& path) {
 }
 
 void write_mesh_folder(const MixedMesh& mesh, OutputFolder& folder, const MeshWriting& writing) {
-  write_openfoam(with_options(mesh, writing), writing, folder);
+  const Prepared prepared = with_options(mesh, writing);
+  write_openfoam(prepared.mesh, prepared.writing, folder);
 }
 
 const std::vector<std::string_view>& mesh_format_names() {

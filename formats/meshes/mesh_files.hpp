@@ -25,6 +25,9 @@ MixedMesh read_mixed_mesh(Input& input, GroupNames* names = nullptr, std::vector
 // and where they were built: exo, e, med, cgns.
 void write_mixed_mesh(const MixedMesh& mesh, std::string_view format, Output& output, const MeshWriting& writing = {});
 
+// Whether the format has elements of second order.
+bool takes_second_order(std::string_view format);
+
 // All format names that write_mixed_mesh knows. The endings of files are those without a hyphen, except msh22.
 const std::vector<std::string_view>& mesh_format_names();
 

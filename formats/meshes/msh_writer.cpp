@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "formats/meshes/cell_data.hpp"
+#include "formats/meshes/element_nodes.hpp"
 #include "formats/meshes/group_naming.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
 #include "formats/meshes/msh.hpp"
@@ -41,7 +42,7 @@ class Groups {
     for (const auto& [tag, number] : numbers) list_.push_back({tag, number});
     if (version == MshVersion::v2_2) return;
     for_each_block(mesh, [&](const ElementNames& names, const auto& block) {
-      if (names.dimension == dimension) extend_boxes(mesh, block);
+      if (names.dimension == dimension) extend_boxes(mesh, names.vtk, block);
     });
   }
 
@@ -52,10 +53,12 @@ class Groups {
 
  private:
   template <class Block>
-  void extend_boxes(const MixedMesh& mesh, const Block& block) {
+  void extend_boxes(const MixedMesh& mesh, std::uint8_t vtk, const Block& block) {
     for (std::size_t i = 0; i < block.size(); ++i) {
       Group& group = list_[index_of(block.tags[i])];
       for (const Vertex v : block.cells[i]) group.extend(mesh.points[static_cast<std::size_t>(v)]);
+      if (!mesh.second_order) continue;
+      for (const Vertex v : mesh.second_order->of(vtk, i)) group.extend(mesh.points[static_cast<std::size_t>(v)]);
     }
   }
 
@@ -103,7 +106,8 @@ class MshWriter {
         names_(mesh, writing, msh_rules),
         numbers_(group_numbers(mesh, version == MshVersion::v2_2)),
         surfaces_(mesh, 2, version, numbers_.surfaces),
-        regions_(mesh, 3, version, numbers_.regions) {}
+        regions_(mesh, 3, version, numbers_.regions),
+        lister_(mesh, gmsh_nodes) {}
 
   void write() {
     write_format();
@@ -229,12 +233,12 @@ class MshWriter {
   void write_run_4(const ElementNames& names, const Block& block, std::size_t begin, std::size_t end,
                    std::uint64_t& element) {
     const std::int32_t entity = group_of(names.dimension, block.tags[begin]);
-    for (const std::int32_t number : {names.dimension, entity, int{names.gmsh}}) sink_.integer(number);
+    for (const std::int32_t number : {names.dimension, entity, int{names.gmsh_of(mesh_)}}) sink_.integer(number);
     sink_.size(end - begin);
     sink_.end_line();
     for (std::size_t i = begin; i < end; ++i) {
       sink_.size(++element);
-      for (const Vertex v : block.cells[i]) sink_.size(static_cast<std::uint64_t>(v) + 1);
+      for (const Vertex v : lister_.nodes(names.vtk, block, i)) sink_.size(static_cast<std::uint64_t>(v) + 1);
       sink_.end_line();
     }
   }
@@ -253,10 +257,10 @@ class MshWriter {
         const std::int32_t group = group_of(names.dimension, block.tags[i]);
         sink_.integer(++element);
         if (!sink_.is_binary())
-          for (const std::int32_t number : {int{names.gmsh}, 2}) sink_.integer(number);
+          for (const std::int32_t number : {int{names.gmsh_of(mesh_)}, 2}) sink_.integer(number);
         // Physical group and elementary entity.
         for (const std::int32_t number : {group, group}) sink_.integer(number);
-        for (const Vertex v : block.cells[i]) sink_.integer(v + 1);
+        for (const Vertex v : lister_.nodes(names.vtk, block, i)) sink_.integer(v + 1);
         sink_.end_line();
       }
     });
@@ -267,7 +271,8 @@ class MshWriter {
   // In binary, type and number of tags stand once for all elements of a block.
   void write_run_head_2(const ElementNames& names, std::size_t count) {
     if (!sink_.is_binary() || count == 0) return;
-    for (const std::int32_t number : {int{names.gmsh}, static_cast<std::int32_t>(count), 2}) sink_.integer(number);
+    for (const std::int32_t number : {int{names.gmsh_of(mesh_)}, static_cast<std::int32_t>(count), 2})
+      sink_.integer(number);
   }
 
   void write_quality() {
@@ -290,6 +295,7 @@ class MshWriter {
   GroupNamings names_;
   GroupNumbers numbers_;
   Groups surfaces_, regions_;
+  NodeLister lister_;
 };
 
 }  // namespace

@@ -55,12 +55,16 @@ MeshWriting mesh_writing(const MeshOptions& options, std::string_view format) {
       throw UsageError(
           fmt::format("--solver {} goes with {}, found {}", solver.name, fmt::join(solver.formats, " or "), format));
     writing.pyramids = solver.pyramids;
+    // Neither has pyramids of second order; tets with tied nodes find constant stresses, collapsed hexes poor ones.
+    const bool reads_abaqus = solver.formats.front() == "inp";
+    writing.pyramids_of_second_order = reads_abaqus ? PyramidForm::split : PyramidForm::keep;
     writing.hex_element = solver.hex_element;
     writing.longest_name = solver.longest_name;
   }
   if (options.pyramids == "keep") writing.pyramids = PyramidForm::keep;
   if (options.pyramids == "collapsed") writing.pyramids = PyramidForm::collapsed;
   if (options.pyramids == "split") writing.pyramids = PyramidForm::split;
+  if (!options.pyramids.empty()) writing.pyramids_of_second_order = writing.pyramids;
   if (writing.pyramids == PyramidForm::collapsed && format != "inp")
     throw UsageError(fmt::format("--pyramids collapsed goes with inp, which has such hexes, found {}", format));
   if (!options.hex_element.empty()) {
@@ -76,7 +80,10 @@ std::string solver_summary(const MeshOptions& options, const MeshWriting& writin
   const std::string hexes = options.solver == "calculix" || options.solver == "abaqus"
                                 ? fmt::format(", hexes are {}", writing.hex_element)
                                 : "";
-  return fmt::format("for {}: pyramids are {}{}", options.solver, name_of(writing.pyramids), hexes);
+  const std::string second = writing.pyramids_of_second_order == writing.pyramids
+                                 ? ""
+                                 : fmt::format(" (of second order {})", name_of(writing.pyramids_of_second_order));
+  return fmt::format("for {}: pyramids are {}{}{}", options.solver, name_of(writing.pyramids), second, hexes);
 }
 
 }  // namespace hexpipe::formats

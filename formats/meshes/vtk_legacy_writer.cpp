@@ -1,6 +1,6 @@
 #include "formats/meshes/cell_data.hpp"
+#include "formats/meshes/element_nodes.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
-#include "formats/meshes/vtk_grid.hpp"
 #include "formats/meshes/vtk_legacy.hpp"
 #include "formats/streams/number_writer.hpp"
 
@@ -9,21 +9,22 @@ namespace {
 
 void write_cells(const MixedMesh& mesh, Output& output) {
   LineWriter line(output);
+  NodeLister lister(mesh, vtk_nodes);
   std::size_t numbers = 0;
-  for_each_block(mesh, [&](const ElementNames&, const auto& block) {
-    numbers += block.size() * (1 + corners_of_block<std::remove_cvref_t<decltype(block)>>);
+  for_each_block(mesh, [&](const ElementNames& names, const auto& block) {
+    numbers += block.size() * (1 + lister.count(names.vtk));
   });
   output.print("CELLS {} {}\n", element_count(mesh), numbers);
-  for_each_block(mesh, [&](const ElementNames&, const auto& block) {
-    for (const auto& cell : block.cells) {
-      line << cell.size();
-      for (const Vertex v : swap_vtk_order(cell)) line << v;
+  for_each_block(mesh, [&](const ElementNames& names, const auto& block) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      line << lister.count(names.vtk);
+      for (const Vertex v : lister.nodes(names.vtk, block, i)) line << v;
       line.end_line();
     }
   });
   output.print("CELL_TYPES {}\n", element_count(mesh));
   for_each_block(mesh, [&](const ElementNames& names, const auto& block) {
-    for (std::size_t i = 0; i < block.size(); ++i) output.print("{}\n", names.vtk);
+    for (std::size_t i = 0; i < block.size(); ++i) output.print("{}\n", names.vtk_of(mesh));
   });
 }
 

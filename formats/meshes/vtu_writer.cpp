@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "formats/meshes/cell_data.hpp"
+#include "formats/meshes/element_nodes.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
 #include "formats/meshes/vtk_grid.hpp"
 #include "formats/meshes/vtu.hpp"
@@ -43,24 +44,26 @@ Section points_of(const MixedMesh& mesh) {
 
 Section cells_of(const MixedMesh& mesh) {
   const std::uint64_t count = element_count(mesh);
+  NodeLister lister(mesh, vtk_nodes);
   std::uint64_t corners = 0;
-  for_each_block(mesh, [&](const ElementNames&, const auto& block) {
-    corners += block.size() * corners_of_block<std::remove_cvref_t<decltype(block)>>;
-  });
-  const auto write_connectivity = [&mesh](Output& output) {
-    for_each_block(mesh, [&](const ElementNames&, const auto& block) {
-      for (const auto& cell : block.cells) write_bytes(output, swap_vtk_order(cell));
+  for_each_block(
+      mesh, [&](const ElementNames& names, const auto& block) { corners += block.size() * lister.count(names.vtk); });
+  const auto write_connectivity = [&mesh, lister](Output& output) mutable {
+    for_each_block(mesh, [&](const ElementNames& names, const auto& block) {
+      for (std::size_t i = 0; i < block.size(); ++i)
+        for (const Vertex v : lister.nodes(names.vtk, block, i)) write_bytes(output, v);
     });
   };
-  const auto write_offsets = [&mesh](Output& output) {
+  const auto write_offsets = [&mesh, lister](Output& output) {
     std::int64_t end = 0;
-    for_each_block(mesh, [&](const ElementNames&, const auto& block) {
-      for (const auto& cell : block.cells) write_bytes(output, end += static_cast<std::int64_t>(cell.size()));
+    for_each_block(mesh, [&](const ElementNames& names, const auto& block) {
+      for (std::size_t i = 0; i < block.size(); ++i)
+        write_bytes(output, end += static_cast<std::int64_t>(lister.count(names.vtk)));
     });
   };
   const auto write_types = [&mesh](Output& output) {
     for_each_block(mesh, [&](const ElementNames& names, const auto& block) {
-      for (std::size_t i = 0; i < block.size(); ++i) write_bytes(output, names.vtk);
+      for (std::size_t i = 0; i < block.size(); ++i) write_bytes(output, names.vtk_of(mesh));
     });
   };
   return {"Cells",

@@ -186,6 +186,12 @@ void BundleWriter::begin_array(const std::string& name, const NpyHeader& header,
   write(start.data(), start.size());
 }
 
+void BundleWriter::add_rows(const std::string& name, const std::vector<std::int32_t>& numbers, std::size_t columns) {
+  begin_array(name, {npy_type<std::int32_t>(), {numbers.size() / columns, columns}},
+              numbers.size() * sizeof(std::int32_t));
+  write(numbers.data(), numbers.size() * sizeof(std::int32_t));
+}
+
 void BundleWriter::close() {
   check(archive_write_close(archive_.get()) == ARCHIVE_OK);
 }
@@ -283,6 +289,24 @@ void BundleReader::check_swelling() const {
 }
 
 NpyHeader BundleReader::begin_array(std::uint64_t columns) {
+  return begin_array(std::span(&columns, 1));
+}
+
+std::pair<std::vector<std::int32_t>, std::size_t> BundleReader::read_rows_of(std::span<const std::uint64_t> columns) {
+  const NpyHeader header = begin_array(columns);
+  const std::size_t width = header.shape[1];
+  std::vector<std::int32_t> numbers;
+  read_rows(
+      header, npy_type<std::int32_t>(), width * sizeof(std::int32_t),
+      [&](std::size_t rows) { reserve_in_huge_pages(numbers, rows * width); },
+      [&](std::size_t rows) {
+        numbers.resize(rows * width);
+        return static_cast<void*>(numbers.data());
+      });
+  return {std::move(numbers), width};
+}
+
+NpyHeader BundleReader::begin_array(std::span<const std::uint64_t> columns) {
   std::string header(10, '\0');
   if (size_ < header.size()) throw DataError::at(where(), "expected a .npy array, found {} bytes", size_);
   read_bytes(header.data(), header.size());
@@ -292,11 +316,17 @@ NpyHeader BundleReader::begin_array(std::uint64_t columns) {
   read_bytes(header.data() + 10, header_size - 10);
   NpyHeader parsed = parse_npy_header(header, where());
 
-  const bool right = columns == 0 ? parsed.shape.size() == 1 : parsed.shape.size() == 2 && parsed.shape[1] == columns;
-  if (!right)
-    throw DataError::at(where(), "expected an array of shape {}, found ({})",
-                        columns == 0 ? "(n)" : fmt::format("(n,{})", columns), fmt::join(parsed.shape, ","));
-  const std::uint64_t row_bytes = std::max<std::uint64_t>(columns, 1) * static_cast<std::uint64_t>(parsed.type.bytes);
+  const auto fits = [&](std::uint64_t wanted) {
+    return wanted == 0 ? parsed.shape.size() == 1 : parsed.shape.size() == 2 && parsed.shape[1] == wanted;
+  };
+  const auto found = std::ranges::find_if(columns, fits);
+  if (found == columns.end()) {
+    std::vector<std::string> shapes;
+    for (const std::uint64_t wanted : columns) shapes.push_back(wanted == 0 ? "(n)" : fmt::format("(n,{})", wanted));
+    throw DataError::at(where(), "expected an array of shape {}, found ({})", fmt::join(shapes, " or "),
+                        fmt::join(parsed.shape, ","));
+  }
+  const std::uint64_t row_bytes = std::max<std::uint64_t>(*found, 1) * static_cast<std::uint64_t>(parsed.type.bytes);
   if (parsed.shape[0] > left_ / row_bytes || parsed.shape[0] * row_bytes != left_)
     throw DataError::at(where(), "expected {} rows of {} bytes, found {} bytes", parsed.shape[0], row_bytes, left_);
   return parsed;

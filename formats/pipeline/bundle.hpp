@@ -6,8 +6,10 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/run/memory.hpp"
@@ -43,6 +45,8 @@ class BundleWriter {
     begin_rows<T>(name, rows.size());
     write(rows.data(), rows.size() * sizeof(T));
   }
+  // Integers as rows of so many columns.
+  void add_rows(const std::string& name, const std::vector<std::int32_t>& numbers, std::size_t columns);
   // Begins an array of `count` rows; their bytes have to be written next.
   template <class T>
   void begin_rows(const std::string& name, std::uint64_t count) {
@@ -97,8 +101,11 @@ class BundleReader {
         });
     return rows;
   }
-  // The same a block at a time, for arrays that are larger than the memory: returns how many rows there are; then
-  // read_next_rows reads `count` of them. Numbers must have exactly the type of T.
+  // The current member as rows of integers, one after the other, of any number of columns that is among `columns`. The
+  // second is the number that is there.
+  std::pair<std::vector<std::int32_t>, std::size_t> read_rows_of(std::span<const std::uint64_t> columns);
+  // The same as read_array a block at a time, for arrays that are larger than the memory: returns how many rows there
+  // are; then read_next_rows reads `count` of them. Numbers must have exactly the type of T.
   template <class T>
   std::uint64_t begin_rows() {
     const NpyHeader header = begin_array(NpyRow<T>::columns);
@@ -124,6 +131,7 @@ class BundleReader {
   void check_swelling() const;
   // Reads the array's header and checks its shape against the columns (0: one dimension) and the member's size.
   NpyHeader begin_array(std::uint64_t columns);
+  NpyHeader begin_array(std::span<const std::uint64_t> columns);
   // Reads all rows and grows the destination by `resize` (new row count -> first byte) as data arrives, so that an
   // array that only claims to be huge costs nothing. Calls `reserve` with the whole count first.
   void read_rows(const NpyHeader& header, NpyType wanted, std::size_t row_bytes,

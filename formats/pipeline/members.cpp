@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
+#include <type_traits>
 
 #include "common/run/error.hpp"
 
@@ -90,21 +93,30 @@ void visit_members_of_gaps(Gaps& gaps, Visit&& visit) {
   visit("solution/gaps.npy", gaps);
 }
 
+// The elements of a result: visit(member name, VTK's code, block).
+template <class Mesh, class Visit>
+void visit_elements_of_result(Mesh& mesh, Visit&& visit) {
+  visit("result/hexes.npy", static_cast<std::uint8_t>(CellKind::hex), mesh.hexes);
+  visit("result/prisms.npy", static_cast<std::uint8_t>(CellKind::prism), mesh.prisms);
+  visit("result/pyramids.npy", static_cast<std::uint8_t>(CellKind::pyramid), mesh.pyramids);
+  visit("result/tets.npy", static_cast<std::uint8_t>(CellKind::tet), mesh.tets);
+  visit("result/triangles.npy", vtk_code_of_triangle, mesh.triangles);
+  visit("result/quads.npy", vtk_code_of_quad, mesh.quads);
+}
+
+// The other members of a result.
 template <class Mesh, class Visit>
 void visit_members_of_result(Mesh& mesh, Visit&& visit) {
   visit("result/points.npy", mesh.points);
-  auto cells = [&](const char* name, const char* tags, const char* quality, auto& block) {
-    visit(name, block.cells);
+  auto cells = [&](const char* tags, const char* quality, auto& block) {
     visit(tags, block.tags);
     visit(quality, block.quality);
   };
-  cells("result/hexes.npy", "result/hexes_tags.npy", "result/hexes_quality.npy", mesh.hexes);
-  cells("result/prisms.npy", "result/prisms_tags.npy", "result/prisms_quality.npy", mesh.prisms);
-  cells("result/pyramids.npy", "result/pyramids_tags.npy", "result/pyramids_quality.npy", mesh.pyramids);
-  cells("result/tets.npy", "result/tets_tags.npy", "result/tets_quality.npy", mesh.tets);
-  visit("result/triangles.npy", mesh.triangles.cells);
+  cells("result/hexes_tags.npy", "result/hexes_quality.npy", mesh.hexes);
+  cells("result/prisms_tags.npy", "result/prisms_quality.npy", mesh.prisms);
+  cells("result/pyramids_tags.npy", "result/pyramids_quality.npy", mesh.pyramids);
+  cells("result/tets_tags.npy", "result/tets_quality.npy", mesh.tets);
   visit("result/triangles_tags.npy", mesh.triangles.tags);
-  visit("result/quads.npy", mesh.quads.cells);
   visit("result/quads_tags.npy", mesh.quads.tags);
 }
 
@@ -168,6 +180,59 @@ std::optional<Role> role_of_member(std::string_view name) {
   return std::nullopt;
 }
 
+namespace {
+
+// Takes the elements of the block apart: corners, and what nodes of second order they have.
+template <int Corners>
+void take_elements(const std::vector<std::int32_t>& numbers, std::size_t columns, std::uint8_t vtk, MixedMesh& mesh,
+                   CellBlock<Corners>& block) {
+  const std::size_t count = numbers.size() / columns, nodes = columns - Corners;
+  block.cells.resize(count);
+  for (std::size_t i = 0; i < count; ++i)
+    std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(i * columns), Corners, block.cells[i].begin());
+  if (nodes == 0) return;
+  if (!mesh.second_order) mesh.second_order.emplace().first = std::numeric_limits<Vertex>::max();
+  SecondOrder& order = *mesh.second_order;
+  order.full = order.full || nodes != node_places_of(vtk).count(false);
+  std::vector<Vertex>& list = order.of_kind(vtk);
+  list.clear();
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t k = i * columns + Corners; k < (i + 1) * columns; ++k) {
+      list.push_back(numbers[k]);
+      order.first = std::min(order.first, numbers[k]);
+    }
+}
+
+bool read_elements(BundleReader& reader, MixedMesh& mesh, BundleWriter* copy) {
+  bool known = false;
+  visit_elements_of_result(mesh, [&]<int Corners>(std::string_view name, std::uint8_t vtk, CellBlock<Corners>& block) {
+    if (reader.name() != name) return;
+    known = true;
+    const NodePlaces places = node_places_of(vtk);
+    const std::array<std::uint64_t, 3> widths{Corners, Corners + places.count(false), Corners + places.count(true)};
+    const auto [numbers, columns] = reader.read_rows_of(widths);
+    if (copy) copy->add_rows(reader.name(), numbers, columns);
+    take_elements(numbers, columns, vtk, mesh, block);
+  });
+  return known;
+}
+
+void write_elements(BundleWriter& writer, const MixedMesh& mesh) {
+  visit_elements_of_result(mesh, [&](const char* name, std::uint8_t vtk, const auto& block) {
+    if (!mesh.second_order) return writer.add_array(name, block.cells);
+    std::vector<std::int32_t> numbers;
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      numbers.insert(numbers.end(), block.cells[i].begin(), block.cells[i].end());
+      const auto nodes = mesh.second_order->of(vtk, i);
+      numbers.insert(numbers.end(), nodes.begin(), nodes.end());
+    }
+    using Row = typename std::remove_cvref_t<decltype(block.cells)>::value_type;
+    writer.add_rows(name, numbers, std::tuple_size_v<Row> + node_places_of(vtk).count(mesh.second_order->full));
+  });
+}
+
+}  // namespace
+
 bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy, bool with_cover) {
   bool known = false;
   auto take = [&]<class T>(std::string_view name, std::vector<T>& array) {
@@ -195,7 +260,8 @@ bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy, bool
       if (reader.name() == "solution/gaps.npy") visit_members_of_gaps(ensure(data.gaps), take);
       break;
     case Role::result:
-      visit_members_of_result(ensure(data.result), take);
+      known = read_elements(reader, ensure(data.result), copy);
+      visit_members_of_result(*data.result, take);
       break;
   }
   return known;
@@ -340,6 +406,7 @@ void write_dislocations(BundleWriter& writer, const DislocationSegments& segment
   writer.add_array(mesh_dislocations, segments);
 }
 void write_members(BundleWriter& writer, const MixedMesh& result) {
+  write_elements(writer, result);
   visit_members_of_result(result, writing_to(writer));
 }
 

@@ -257,6 +257,8 @@ struct Stage::State {
   std::optional<formats::Input> open_inputs(std::map<Role, formats::Input>& files) const;
   void read_bundle(formats::Input& input, StageData& data);
   bool read_shape(BundleReader& reader, StageData& data, BundleWriter* copy);
+  bool read_surface(BundleReader& reader, StageData& data, BundleWriter* copy) const;
+  void take_corners(StageData& data) const;
   void pass_history_entry(BundleReader& reader, std::vector<nlohmann::ordered_json>& history);
   void write_names();
   void read_files(std::map<Role, formats::Input>& files, StageData& data);
@@ -343,6 +345,10 @@ StageData Stage::read(const StageRequest& request) {
   }
   state.read_files(files, data);
   state.names = data.names;
+  if (data.surface) {
+    data.surface->name = input->name();
+    data.surface = checked_surface(*std::move(data.surface));
+  }
   if (state.context.streams.graph_file.any() && !state.read_graph)
     throw UsageError("--graph-format, --weight-scale, --complement and --tolerant do nothing without a graph file");
   for (const Role role : request.needs)
@@ -351,6 +357,7 @@ StageData Stage::read(const StageRequest& request) {
                           name_of(role), state.context.info.name, list_of(state.seen), maker_of(role));
   fill_defaults(data);
   state.check(data);
+  state.take_corners(data);
   return data;
 }
 
@@ -373,6 +380,7 @@ void Stage::State::read_bundle(formats::Input& input, StageData& data) {
       if (takes(*role) && read_member(reader, data, copy, request.cover)) continue;
     }
     if (request.shape && read_shape(reader, data, copy)) continue;
+    if (request.surface && !is_replaced && read_surface(reader, data, copy)) continue;
     if (is_history_entry(reader.name())) {
       pass_history_entry(reader, data.history);
     } else if (reader.name() == formats::names_member && !is_replaced) {
@@ -390,6 +398,22 @@ bool Stage::State::read_shape(BundleReader& reader, StageData& data, BundleWrite
   if (!is_surface_member(reader.name()) || !read_shape_member(reader, shape, copy)) return false;
   data.shape = std::move(shape);
   return true;
+}
+
+bool Stage::State::read_surface(BundleReader& reader, StageData& data, BundleWriter* copy) const {
+  if (!is_surface_member(reader.name())) return false;
+  formats::SurfaceSoup surface = std::move(data.surface).value_or(formats::SurfaceSoup{});
+  const bool known = read_surface_member(reader, surface, copy);
+  if (known || data.surface) data.surface = std::move(surface);
+  return known;
+}
+
+// A stage that knows nothing of second order gets the mesh of the corners.
+void Stage::State::take_corners(StageData& data) const {
+  if (request.second_order || !data.result || !data.result->second_order) return;
+  context.warn(source_of(Role::result) + ": it is of second order; " + std::string(context.info.name) +
+               " takes the corners alone, with straight edges");
+  drop_second_order(*data.result);
 }
 
 void Stage::State::pass_history_entry(BundleReader& reader, std::vector<nlohmann::ordered_json>& history) {
@@ -469,6 +493,12 @@ formats::SurfaceSoup Stage::read_surface(formats::Input& input) {
 
 void Stage::set_names(formats::GroupNames names) {
   state_->names = std::move(names);
+}
+
+void Stage::expect_second_order() const {
+  if (!writes_bundle() && !formats::takes_second_order(state_->format))
+    throw UsageError(
+        fmt::format("elements of second order go with msh, vtu, vtk, inp, exo, med or tar, found {}", state_->format));
 }
 
 bool Stage::writes_bundle() const {

@@ -17,6 +17,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "formats/pipeline/exact_shape.hpp"
 #include "formats/streams/group_names.hpp"
+#include "formats/surfaces/surface_files.hpp"
 
 namespace hexpipe::pipeline {
 
@@ -44,6 +45,7 @@ struct StageData {
   std::optional<MeshPart> part;                 // with StageRequest::part, where the mesh is a part of another
   std::optional<CandidateKeys> candidate_keys;  // likewise
   std::optional<ExactShape> shape;              // with StageRequest::shape
+  std::optional<formats::SurfaceSoup> surface;  // with StageRequest::surface
   DislocationSegments dislocations;             // with StageRequest::dislocations
   CandidateVolumes volumes;                     // with StageRequest::volumes; empty where they are not known
   formats::GroupNames names;                    // of the tags of mesh and result

@@ -110,7 +110,6 @@ formats::SurfaceSoup read_surface_bundle(formats::Input& input, const std::funct
   BundleReader reader(input);
   formats::SurfaceSoup soup;
   soup.name = input.name();
-  soup.text = false;
   bool has_surface = false, has_mesh = false;
   while (reader.next()) {
     has_mesh = has_mesh || reader.name().starts_with("mesh/");
@@ -124,6 +123,15 @@ formats::SurfaceSoup read_surface_bundle(formats::Input& input, const std::funct
   if (!has_surface)
     throw DataError::at(soup.name, "expected a bundle with a surface, found {}",
                         has_mesh ? "one with a mesh; findhex takes it" : "none in it");
+  return checked_surface(std::move(soup));
+}
+
+bool read_surface_member(BundleReader& reader, formats::SurfaceSoup& surface, BundleWriter* copy) {
+  return take_member(reader, surface, copy);
+}
+
+formats::SurfaceSoup checked_surface(formats::SurfaceSoup soup) {
+  soup.text = false;
   soup.from_bundle = true;
   soup.has_own_tags = !soup.tags.empty();
   if (soup.tags.empty()) soup.tags.resize(soup.triangles.size(), 0);

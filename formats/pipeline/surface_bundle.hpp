@@ -17,6 +17,11 @@ bool is_surface_member(std::string_view name);
 formats::SurfaceSoup read_surface_bundle(formats::Input& input, const std::function<void(BundleReader&)>& other,
                                          BundleWriter* copy = nullptr);
 
+// Takes the current member when it is one of the surface's, and also writes it to `copy` unless that is null.
+bool read_surface_member(BundleReader& reader, formats::SurfaceSoup& surface, BundleWriter* copy);
+// What is taken so, checked and completed as by read_surface_bundle.
+formats::SurfaceSoup checked_surface(formats::SurfaceSoup surface);
+
 // Writes all members that have content, except the names.
 void write_surface_members(BundleWriter& writer, const formats::SurfaceSoup& surface);
 

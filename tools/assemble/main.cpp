@@ -1,17 +1,21 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "common/mesh/mesh_measures.hpp"
 #include "common/mwis/ground/target_weight.hpp"
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/pipeline/stage.hpp"
+#include "formats/pipeline/surface_file.hpp"
 #include "tools/assemble/assemble.hpp"
 #include "tools/assemble/options.hpp"
+#include "tools/assemble/order/second_order.hpp"
 #include "tools/assemble/requirements.hpp"
 
 using namespace hexpipe;
@@ -34,6 +38,9 @@ struct CommandLine {
   int smooth = AssembleOptions{}.smooth;
   std::string require;
   std::vector<std::string> neighbours, before;
+  int order = 1;
+  std::string nodes = "serendipity", surface;
+  const CLI::Option *nodes_option = nullptr, *surface_option = nullptr;
 
   bool by_part() const { return !neighbours.empty(); }
 };
@@ -76,6 +83,23 @@ void declare_options(CLI::App& app, CommandLine& line) {
           "'hexes 0.3, cells 0.1, orthogonality 70, weight 0.05, determinant 0.001, flatness 0.8': the scaled Jacobian "
           "of hexes, that of all cells, and what finite volumes need (docs/definitions.md)"))
       ->type_name("LIST");
+  begin_group(app, "Second order");
+  app.add_option("--order", line.order,
+                 "2: elements have nodes in the middles of their edges, which bend with the surface, as far as the "
+                 "Jacobian is shown to be positive everywhere; 1: straight edges, corners alone")
+      ->check(CLI::Range(1, 2))
+      ->capture_default_str();
+  line.nodes_option = app.add_option("--nodes", line.nodes,
+                                     "With --order 2, serendipity: nodes on edges (hexes of 20); full: in the middles "
+                                     "of quads and hexes, too (hexes of 27)")
+                          ->check(CLI::IsMember({"serendipity", "full"}))
+                          ->capture_default_str();
+  line.surface_option =
+      outside_history(
+          app.add_option("--surface", line.surface,
+                         "With --order 2: the surface that the mesh was made of, in any format of tetmesh; nodes of "
+                         "the boundary go onto it [that of the bundle; without one, arcs through the vertices]"))
+          ->type_name("FILE");
   begin_group(app, "In parts");
   outside_history(
       app.add_option(
@@ -102,6 +126,10 @@ AssembleOptions options_of(CommandLine& line) {
     throw UsageError("--conformity none does not go with --neighbours: pieces fit because they conform");
   if (line.by_part() && !line.require.empty())
     throw UsageError("--require does not go with --neighbours: on the seam of a piece cells have no neighbours");
+  if (line.by_part() && line.order == 2)
+    throw UsageError("--order 2 does not go with --neighbours: pieces are of first order");
+  if (line.order == 1 && line.nodes_option->count() > 0) throw UsageError("--nodes goes with --order 2");
+  if (line.order == 1 && line.surface_option->count() > 0) throw UsageError("--surface goes with --order 2");
   if (!line.by_part() && !line.before.empty()) throw UsageError("--before goes with --neighbours");
   return {.conformity = conformities.at(line.conformity),
           .exchange = exchanges.at(line.exchange),
@@ -110,9 +138,11 @@ AssembleOptions options_of(CommandLine& line) {
           .smooth = line.smooth};
 }
 
-pipeline::StageData read_input(pipeline::Stage& stage, bool by_part) {
-  pipeline::StageRequest request{.needs = {Role::mesh, Role::candidates, Role::solution}, .part = true};
-  if (by_part)
+pipeline::StageData read_input(pipeline::Stage& stage, const CommandLine& line) {
+  pipeline::StageRequest request{.needs = {Role::mesh, Role::candidates, Role::solution},
+                                 .surface = line.order == 2 && line.surface.empty(),
+                                 .part = true};
+  if (line.by_part())
     request.hold_back = {Role::mesh, Role::candidates, Role::graph, Role::solution};
   else
     request.weights_only = true;  // for the gap: tets tell which cells do not fit together
@@ -168,6 +198,39 @@ nlohmann::ordered_json report(RunContext& context, const AssembleStatistics& sta
   return details;
 }
 
+order::SecondOrderCounts add_second_order(const CommandLine& line, std::optional<formats::SurfaceSoup> soup,
+                                          PartResult& result) {
+  if (!line.surface.empty()) soup = pipeline::read_surface_file(line.surface);
+  std::optional<order::GivenSurface> surface;
+  order::FitCounts corners;
+  if (soup) {
+    surface.emplace(*std::move(soup));
+    corners = order::fit_corners(result.mesh, *surface);
+    count_cells(result.mesh, result.statistics);
+    result.statistics.measures = measure_mesh(result.mesh);
+  }
+  auto counts = order::make_second_order(result.mesh, line.nodes == "full", surface ? &*surface : nullptr);
+  counts.corners = corners;
+  return counts;
+}
+
+// Returns the details for the history.
+nlohmann::ordered_json report_second_order(RunContext& context, const order::SecondOrderCounts& counts) {
+  context.note(order::summary_line(counts));
+  const curved::BendCounts& bending = counts.bending;
+  if (counts.strays > 0)
+    context.warn(
+        fmt::format("{} of {} nodes of the boundary have no place on the surface near them, and lie on arcs "
+                    "through its vertices",
+                    counts.strays, bending.on_boundary));
+  if (bending.drawn_back > 0)
+    context.warn(
+        fmt::format("{} of {} nodes of the boundary stay up to {:.3g} off the surface, {} of them on the "
+                    "chord, because cells would be bent too much",
+                    bending.drawn_back, bending.on_boundary, bending.farthest, bending.straight));
+  return context.statistics["second_order"] = order::to_json(counts);
+}
+
 void run(RunContext& context, CommandLine& line) {
   const AssembleOptions options = options_of(line);
   const auto requirements = line.require.empty() ? std::vector<Requirement>{} : parse_requirements(line.require);
@@ -176,8 +239,11 @@ void run(RunContext& context, CommandLine& line) {
   context.options["fill"] = line.fill;
   context.options["merge"] = line.merge;
   context.options["smooth"] = line.smooth;
+  if (line.order == 2) context.options["order"] = line.order, context.options["nodes"] = line.nodes;
   pipeline::Stage stage(context);
-  pipeline::StageData data = read_input(stage, line.by_part());
+  if (line.order == 2) stage.expect_second_order();
+  pipeline::StageData data = read_input(stage, line);
+  std::optional<formats::SurfaceSoup> surface = std::exchange(data.surface, std::nullopt);
   const choice::InputNames names{.mesh = stage.source_of(Role::mesh),
                                  .candidates = stage.source_of(Role::candidates),
                                  .solution = stage.source_of(Role::solution)};
@@ -185,11 +251,14 @@ void run(RunContext& context, CommandLine& line) {
   const auto choice = graph_of_bundle ? proven_gap(data) : nullptr;
   PartResult result = line.by_part() ? assemble_one_part(std::move(data), line, options, names)
                                      : assemble_whole(std::move(data), options, names);
-  const auto details = report(context, result.statistics, choice);
+  std::optional<order::SecondOrderCounts> second_order;
+  if (line.order == 2) second_order = add_second_order(line, std::move(surface), result);
+  auto details = report(context, result.statistics, choice);
   if (line.by_part())
     context.note(result.piece.settled ? "this piece is settled"
                                       : "this piece has something new to say: another round has to follow");
   check_requirements(result.mesh, requirements);
+  if (second_order) details["second_order"] = report_second_order(context, *second_order);
   pipeline::ResultProduct product{.mesh = std::move(result.mesh)};
   if (line.by_part()) product.piece = std::move(result.piece);
   stage.write(product, details);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "common/mesh/cell_topology.hpp"
+#include "formats/meshes/element_nodes.hpp"
 #include "formats/meshes/libraries/library_errors.hpp"
 #include "formats/meshes/mesh_library.hpp"
 
@@ -25,22 +26,28 @@ namespace {
 using Side = std::array<int, 4>;
 struct ExodusKind {
   std::uint8_t vtk;
-  const char* type;         // that all readers know
-  std::string_view prefix;  // of the types that readers meet
+  const char* type;             // that all readers know
+  const char* of_second_order;  // before the number of nodes
+  std::string_view prefix;      // of the types that readers meet
   int corners;
   std::vector<Side> sides;
 };
 
 const std::vector<ExodusKind>& exodus_kinds() {
   static const std::vector<ExodusKind> kinds{
-      {12, "HEX8", "HEX", 8, {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {0, 4, 7, 3}, {0, 3, 2, 1}, {4, 5, 6, 7}}},
-      {13, "WEDGE", "WEDGE", 6, {{0, 1, 4, 3}, {1, 2, 5, 4}, {0, 3, 5, 2}, {0, 2, 1, -1}, {3, 4, 5, -1}}},
-      {14, "PYRAMID", "PYRA", 5, {{0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}, {0, 3, 2, 1}}},
-      {10, "TETRA", "TET", 4, {{0, 1, 3, -1}, {1, 2, 3, -1}, {0, 3, 2, -1}, {0, 2, 1, -1}}},
+      {12,
+       "HEX8",
+       "HEX",
+       "HEX",
+       8,
+       {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {0, 4, 7, 3}, {0, 3, 2, 1}, {4, 5, 6, 7}}},
+      {13, "WEDGE", "WEDGE", "WEDGE", 6, {{0, 1, 4, 3}, {1, 2, 5, 4}, {0, 3, 5, 2}, {0, 2, 1, -1}, {3, 4, 5, -1}}},
+      {14, "PYRAMID", "PYRAMID", "PYRA", 5, {{0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}, {0, 3, 2, 1}}},
+      {10, "TETRA", "TETRA", "TET", 4, {{0, 1, 3, -1}, {1, 2, 3, -1}, {0, 3, 2, -1}, {0, 2, 1, -1}}},
       // Shells: surfaces, for us.
-      {5, "TRI3", "TRI", 3, {}},
-      {9, "SHELL4", "SHELL", 4, {}},
-      {9, "SHELL4", "QUAD", 4, {}},
+      {5, "TRI3", "TRI", "TRI", 3, {}},
+      {9, "SHELL4", "SHELL", "SHELL", 4, {}},
+      {9, "SHELL4", "SHELL", "QUAD", 4, {}},
   };
   return kinds;
 }
@@ -149,7 +156,8 @@ class ExodusWriter {
   static int model_for(const GroupedMesh& mesh) {
     constexpr std::size_t most = 4294967292;
     std::size_t largest = mesh.points.size() * sizeof(double);
-    for (const ElementGroup& block : mesh.cells) largest = std::max(largest, block.corners.size() * sizeof(int));
+    for (const ElementGroup& block : mesh.cells)
+      largest = std::max(largest, (block.corners.size() + block.nodes.size()) * sizeof(int));
     return largest > most ? EX_NETCDF4 : EX_LARGE_MODEL;
   }
 
@@ -184,6 +192,7 @@ class ExodusWriter {
         set.sides.push_back(side_number(side, is_triangle));
       }
       for (const Vertex v : group.corners) set.nodes.push_back(v + 1);
+      for (const Vertex v : group.nodes) set.nodes.push_back(v + 1);
     }
     for (auto& [number, set] : sets_) {
       std::ranges::sort(set.nodes);
@@ -195,8 +204,11 @@ class ExodusWriter {
     for (std::size_t i = 0; i < mesh_.cells.size(); ++i) {
       const ElementGroup& block = mesh_.cells[i];
       const ExodusKind& kind = kind_of(block.kind);
-      check(ex_put_block(id_, EX_ELEM_BLOCK, block_ids_[i], kind.type, static_cast<std::int64_t>(block.size()),
-                         kind.corners, 0, 0, 0));
+      const auto nodes = static_cast<std::int64_t>(order_of(block).size());
+      const std::string type =
+          mesh_.second_order ? std::string(kind.of_second_order) + std::to_string(nodes) : kind.type;
+      check(ex_put_block(id_, EX_ELEM_BLOCK, block_ids_[i], type.c_str(), static_cast<std::int64_t>(block.size()),
+                         nodes, 0, 0, 0));
     }
   }
 
@@ -229,11 +241,17 @@ class ExodusWriter {
     check(ex_put_coord_names(id_, names.data()));
   }
 
+  std::vector<std::size_t> order_of(const ElementGroup& block) const {
+    return node_order(exodus_nodes, block.kind, mesh_.second_order, mesh_.full);
+  }
+
   void write_blocks() {
     std::vector<int> corners;
     for (std::size_t i = 0; i < mesh_.cells.size(); ++i) {
       corners.clear();
-      for (const Vertex v : mesh_.cells[i].corners) corners.push_back(v + 1);
+      const std::vector<std::size_t> order = order_of(mesh_.cells[i]);
+      for (std::size_t e = 0; e < mesh_.cells[i].size(); ++e) list_nodes(mesh_.cells[i], e, order, corners);
+      for (Vertex& v : corners) ++v;
       check(ex_put_conn(id_, EX_ELEM_BLOCK, block_ids_[i], corners.data(), nullptr, nullptr));
     }
     // Elements keep their numbers, though each block has its own together.

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "formats/meshes/element_nodes.hpp"
 #include "formats/meshes/libraries/hdf5_bytes.hpp"
 #include "formats/meshes/libraries/library_errors.hpp"
 #include "formats/meshes/mesh_library.hpp"
@@ -93,7 +94,7 @@ class MedWriter {
     write_mesh();
     write_points();
     write_families();
-    for (const MedKind& kind : med_kinds()) write_elements(kind, kind.order.size());
+    for (const MedKind& kind : med_kinds()) write_elements(kind);
     check(file_.close(), "closing the file");
   }
 
@@ -133,8 +134,13 @@ class MedWriter {
       }
   }
 
+  // MED's number of a type tells its nodes: 320 is a hex of 20.
+  static med_geometry_type type_of(const MedKind& kind, std::size_t nodes) {
+    return kind.type / 100 * 100 + static_cast<med_geometry_type>(nodes);
+  }
+
   // In the order that elements have in the mesh, whatever their groups.
-  void write_elements(const MedKind& kind, std::size_t corner_count) {
+  void write_elements(const MedKind& kind) {
     struct Element {
       std::int64_t place;
       const ElementGroup* group;
@@ -148,18 +154,21 @@ class MedWriter {
     if (elements.empty()) return;
     std::ranges::sort(elements, {}, &Element::place);
     std::vector<med_int> corners, families;
+    const std::vector<std::size_t> order = node_order(med_nodes, kind.vtk, mesh_.second_order, mesh_.full);
+    std::vector<Vertex> nodes;
     for (const Element& element : elements) {
       families.push_back(-element.group->number);
-      for (const std::size_t corner : kind.order)
-        corners.push_back(element.group->corners[element.index * corner_count + corner] + 1);
+      nodes.clear();
+      list_nodes(*element.group, element.index, order, nodes);
+      for (const Vertex v : nodes) corners.push_back(v + 1);
     }
+    const med_geometry_type type = type_of(kind, order.size());
     const auto count = static_cast<med_int>(elements.size());
-    check(MEDmeshElementConnectivityWr(id_, mesh_name, MED_NO_DT, MED_NO_IT, MED_UNDEF_DT, MED_CELL, kind.type,
-                                       MED_NODAL, MED_FULL_INTERLACE, count, corners.data()),
+    check(MEDmeshElementConnectivityWr(id_, mesh_name, MED_NO_DT, MED_NO_IT, MED_UNDEF_DT, MED_CELL, type, MED_NODAL,
+                                       MED_FULL_INTERLACE, count, corners.data()),
           "writing elements");
-    check(
-        MEDmeshEntityFamilyNumberWr(id_, mesh_name, MED_NO_DT, MED_NO_IT, MED_CELL, kind.type, count, families.data()),
-        "writing families of elements");
+    check(MEDmeshEntityFamilyNumberWr(id_, mesh_name, MED_NO_DT, MED_NO_IT, MED_CELL, type, count, families.data()),
+          "writing families of elements");
   }
 
   const GroupedMesh& mesh_;
