@@ -219,6 +219,24 @@ PYTHON
   assert_equal "$(volumes_of fin.mesh | tail -1)" "{1: 8.0}"
 }
 
+@test "3MF: placed objects in millimetres, named, with colours as groups" {
+  python3 "$DATA/threemf.py" knobs.3mf
+  tetmesh -q knobs.3mf --size 0.5 -o knobs.msh
+  assert_equal "$(grep -oE '"(base|knob).*"' knobs.msh | sort | tr '\n' ' ')" '"base" "base_#00FF00" "knob" "knob" '
+  tetmesh knobs.3mf --size 0.5 -o knobs.mesh
+  assert_equal "$(volumes_of knobs.mesh | tail -1)" "{1: 1.0, 2: 1.0, 3: 1.0}"
+  python3 "$DATA/threemf.py" inch.3mf inch
+  run_apart tetmesh inch.3mf --size 10 --points none --surface keep -o inch.mesh
+  assert_success
+  assert_equal "$stderr" "tetmesh: warning: inch.3mf: its unit, inch, became millimetres"
+  # 25.4 to the third power
+  assert_equal "$(volumes_of inch.mesh | tail -1 | grep -oE '[0-9]+\.[0-9]{2}' | sort -u)" "16387.06"
+  head -c 900 knobs.3mf >cut.3mf
+  assert_fails_with 1 "cut.3mf: expected a whole 3MF file, found a damaged zip archive: .*$" tetmesh cut.3mf
+  python3 "$DATA/threemf.py" unit.3mf ell
+  assert_fails_with 1 "unit.3mf: expected micron, millimeter, .* as the unit, found 'ell'$" tetmesh unit.3mf
+}
+
 @test "where sheets meet, --shells regions takes triangles of any orientation" {
   sed '0,/^3 0 2 1/s//3 0 1 2/' "$DATA/touching/inner-wall.off" >turned.off
   assert_fails_with 1 "turned.off:11: expected triangles that point outward where sheets meet, found 1 that" tetmesh turned.off -o x.mesh
