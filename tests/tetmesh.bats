@@ -219,6 +219,16 @@ PYTHON
   assert_equal "$(volumes_of fin.mesh | tail -1)" "{1: 8.0}"
 }
 
+@test "where sheets meet, triangles that intersect name the next step, too" {
+  # A cube with a fin, and a tet that sticks out of its side.
+  printf 'v %s\n' "0.5 0.2 0.2" "1.5 0.2 0.2" "0.5 0.4 0.2" "0.5 0.2 0.4" >crossing.obj
+  printf 'f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n' >>crossing.obj
+  awk 'NR == 2 { points = $1 } NR > 2 && NR <= 2 + points { print "v", $0 } NR > 2 + points && NR > 2 { print "f", $2 + 5, $3 + 5, $4 + 5 }' \
+    "$DATA/touching/fin-on-edge.off" >>crossing.obj
+  assert_fails_with 1 "crossing.obj:[0-9]+: .* pairs of triangles that do; .* \(see --repair\)$" tetmesh crossing.obj
+  assert_fails_with 1 "crossing.obj:[0-9]+: .* pairs of triangles that do; .* \(see wrap\)$" tetmesh crossing.obj --repair
+}
+
 @test "3MF: placed objects in millimetres, named, with colours as groups" {
   python3 "$DATA/threemf.py" knobs.3mf
   tetmesh -q knobs.3mf --size 0.5 -o knobs.msh

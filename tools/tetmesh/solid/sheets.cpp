@@ -88,7 +88,7 @@ class SideFinder {
     agree_on_overlaps();
     join_repeated();
     if (!soup_.sides.empty()) drop_fins();
-    check_intersections(soup_);
+    check_intersections(soup_, remedy_);
     return report_;
   }
 

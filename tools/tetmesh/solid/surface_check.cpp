@@ -242,8 +242,8 @@ void check_areas(const formats::SurfaceSoup& soup, std::string_view remedy) {
   check_no_degenerate_triangles(soup, remedy);
 }
 
-void check_intersections(const formats::SurfaceSoup& soup) {
-  check_no_intersections(soup, geometry::find_intersections(soup.points, soup.triangles, most_intersections), {});
+void check_intersections(const formats::SurfaceSoup& soup, std::string_view remedy) {
+  check_no_intersections(soup, geometry::find_intersections(soup.points, soup.triangles, most_intersections), remedy);
 }
 
 }  // namespace hexpipe::tetmesh::solid
