@@ -201,6 +201,52 @@ PYTHON
   assert_equal "$(volumes_of fin.mesh | tail -1)" "$(volumes_of cube.mesh | tail -1)"
 }
 
+@test "a body with a hole is no fin, wherever it touches another" {
+  local touching="$DATA/touching"
+  assert_fails_with 1 "edge-touch-hole.off:31: expected a closed surface, found 11 triangles that enclose a space with a hole; an edge of the hole is from \(4, 2, 2\) to \(4, 4, 2\) \(see --repair\)$" \
+    tetmesh "$touching/edge-touch-hole.off"
+  assert_fails_with 1 "fin-and-hole.off:12: expected a closed surface, found 12 triangles .* \(see --repair\)$" tetmesh "$touching/fin-and-hole.off"
+  assert_fails_with 1 "vertex-touch-hole.off:32: expected a closed surface, found 3 edges .* \(see --repair\)$" tetmesh "$touching/vertex-touch-hole.off"
+  # The edge of the wall hides one side of the hole, so it is not found.
+  assert_fails_with 1 "wall-and-hole.off:17: expected a closed surface, found 5 triangles .* \(see wrap\)$" tetmesh "$touching/wall-and-hole.off" --repair
+  tetmesh -q "$touching/edge-touch-hole.off" --repair --size 1 -o edge.mesh
+  assert_equal "$(volumes_of edge.mesh | tail -1)" "{1: 8.0, 2: 8.0}"
+  tetmesh -q "$touching/vertex-touch-hole.off" --repair --size 1 -o vertex.mesh
+  assert_equal "$(volumes_of vertex.mesh | tail -1)" "{1: 8.0, 2: 1.0}"
+  run_apart tetmesh "$touching/fin-and-hole.off" --repair --size 1 -o fin.mesh
+  assert_success
+  assert_regex "$stderr" "1 hole filled by 1 triangle.*a triangle with the same on both sides is left out"
+  assert_equal "$(volumes_of fin.mesh | tail -1)" "{1: 8.0}"
+}
+
+@test "where sheets meet, triangles that intersect name the next step, too" {
+  # A cube with a fin, and a tet that sticks out of its side.
+  printf 'v %s\n' "0.5 0.2 0.2" "1.5 0.2 0.2" "0.5 0.4 0.2" "0.5 0.2 0.4" >crossing.obj
+  printf 'f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n' >>crossing.obj
+  awk 'NR == 2 { points = $1 } NR > 2 && NR <= 2 + points { print "v", $0 } NR > 2 + points && NR > 2 { print "f", $2 + 5, $3 + 5, $4 + 5 }' \
+    "$DATA/touching/fin-on-edge.off" >>crossing.obj
+  assert_fails_with 1 "crossing.obj:[0-9]+: .* pairs of triangles that do; .* \(see --repair\)$" tetmesh crossing.obj
+  assert_fails_with 1 "crossing.obj:[0-9]+: .* pairs of triangles that do; .* \(see wrap\)$" tetmesh crossing.obj --repair
+}
+
+@test "3MF: placed objects in millimetres, named, with colours as groups" {
+  python3 "$DATA/threemf.py" knobs.3mf
+  tetmesh -q knobs.3mf --size 0.5 -o knobs.msh
+  assert_equal "$(grep -oE '"(base|knob).*"' knobs.msh | sort | tr '\n' ' ')" '"base" "base_#00FF00" "knob" "knob" '
+  tetmesh knobs.3mf --size 0.5 -o knobs.mesh
+  assert_equal "$(volumes_of knobs.mesh | tail -1)" "{1: 1.0, 2: 1.0, 3: 1.0}"
+  python3 "$DATA/threemf.py" inch.3mf inch
+  run_apart tetmesh inch.3mf --size 10 --points none --surface keep -o inch.mesh
+  assert_success
+  assert_equal "$stderr" "tetmesh: warning: inch.3mf: its unit, inch, became millimetres"
+  # 25.4 to the third power
+  assert_equal "$(volumes_of inch.mesh | tail -1 | grep -oE '[0-9]+\.[0-9]{2}' | sort -u)" "16387.06"
+  head -c 900 knobs.3mf >cut.3mf
+  assert_fails_with 1 "cut.3mf: expected a whole 3MF file, found a damaged zip archive: .*$" tetmesh cut.3mf
+  python3 "$DATA/threemf.py" unit.3mf ell
+  assert_fails_with 1 "unit.3mf: expected micron, millimeter, .* as the unit, found 'ell'$" tetmesh unit.3mf
+}
+
 @test "where sheets meet, --shells regions takes triangles of any orientation" {
   sed '0,/^3 0 2 1/s//3 0 1 2/' "$DATA/touching/inner-wall.off" >turned.off
   assert_fails_with 1 "turned.off:11: expected triangles that point outward where sheets meet, found 1 that" tetmesh turned.off -o x.mesh
@@ -215,8 +261,8 @@ PYTHON
     assert_fails_with 1 " \(see --repair\)$" tetmesh --strict $name.stl
     tetmesh -q $name.stl --repair --surface keep --points none -o "$BATS_TEST_TMPDIR/out.tar"
   done
-  assert_fails_with 1 "found [0-9]+ pairs .* \(see --repair\)$" tetmesh intersecting.stl
-  assert_fails_with 1 "found [0-9]+ pairs .* \(see wrap\)$" tetmesh --repair intersecting.stl
+  assert_fails_with 1 "found [0-9]+ pairs .* \(see --repair\)$" tetmesh "$DATA/readers/folded-sliver.off"
+  assert_fails_with 1 "found [0-9]+ pairs .* \(see --unite\)$" tetmesh --repair intersecting.stl
   assert_fails_with 1 "found 3 edges of .*\)$" tetmesh hole.stl --repair --largest-hole 0
   run tetmesh hole.stl --repair --largest-hole 0
   refute_output --partial "see --repair"
@@ -544,7 +590,8 @@ END
 
 @test "--unite makes one body of bodies that overlap" {
   local boxes="$DATA/readers/overlapping-bodies.off"
-  assert_fails_with 1 "overlapping-bodies.off:21: .* found 14 pairs of triangles that do" tetmesh "$boxes"
+  assert_fails_with 1 "overlapping-bodies.off:21: .* found 14 pairs of triangles that do.*\(see --unite\)$" tetmesh "$boxes"
+  assert_fails_with 1 "overlapping-bodies.off:21: .* found 14 pairs of triangles that do.*\(see --unite\)$" tetmesh "$boxes" --repair
   run_apart tetmesh "$boxes" --unite --size 0.2 -o united.mesh --stats stats.json
   assert_success
   assert_equal "$stderr" "tetmesh: warning: $boxes: united 2 bodies that overlap"

@@ -188,8 +188,7 @@ class Utf16 final : public Decoder {
 bool looks_like_utf16(std::string_view bytes) {
   const bool little = bytes.starts_with("\xff\xfe"sv);
   if (!little && !bytes.starts_with("\xfe\xff"sv)) return false;
-  if (bytes.size() == 2) return true;
-  if (bytes.size() == 3) return false;
+  if (bytes.size() <= 3) return true;  // no binary file of ours is as short
   const auto low = static_cast<unsigned char>(bytes[little ? 2 : 3]);
   return bytes[little ? 3 : 2] == '\0' && low >= '\t' && low < 0x7f;
 }

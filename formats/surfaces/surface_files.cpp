@@ -11,6 +11,7 @@
 #include "formats/surfaces/ply.hpp"
 #include "formats/surfaces/stl.hpp"
 #include "formats/surfaces/surface_building.hpp"
+#include "formats/surfaces/threemf.hpp"
 
 namespace hexpipe::formats {
 namespace {
@@ -25,7 +26,7 @@ bool is_archive(std::string_view bytes) {
   return bytes.starts_with("\x28\xb5\x2f\xfd") || (bytes.size() > 262 && bytes.substr(257, 5) == "ustar");
 }
 
-constexpr std::string_view expected = "expected a surface in STL, OBJ, PLY or OFF";
+constexpr std::string_view expected = "expected a surface in STL, OBJ, PLY, OFF or 3MF";
 
 [[noreturn]] void refuse(const ForeignFile& kind, const std::string& name) {
   if (!kind.is_cad) throw DataError::at(name, "{}, found {}{}", expected, kind.name, kind.remedy);
@@ -36,6 +37,7 @@ constexpr std::string_view expected = "expected a surface in STL, OBJ, PLY or OF
 SurfaceSoup read_surface_by_content(std::string& content, const std::string& name) {
   if (content.empty()) throw DataError::at(name, "{}, found nothing: it is empty", expected);
   if (is_archive(content)) throw DataError::at(name, "{}, found a bundle or another archive", expected);
+  if (looks_like_3mf(content)) return merge_equal_points(read_3mf(content, name));
   if (is_binary_stl(content)) return read_binary_stl(content, name);
   if (const auto kind = kind_of_foreign_file(without_byte_order_mark(content))) refuse(*kind, name);
   unify_line_ends(content);

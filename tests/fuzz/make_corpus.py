@@ -198,6 +198,12 @@ def others():
     for order in ("le", "be"):
         seed("packed", f"obj.utf-16{order}", ("\ufeff" + obj).encode(f"utf-16{order}"))
     seed("packed", "utf-16.gz", gzip.compress(("\ufeff" + obj).encode("utf-16le"), mtime=0))
+    vertices = "".join(f'<vertex x="{x}" y="{y}" z="{z}"/>' for x, y, z in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)))
+    triangles = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}" pid="5" p1="{b % 2}"/>' for a, b, c in ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)))
+    seed("threemf", "components", '<model unit="inch" xmlns:m="x"><resources><m:colorgroup id="5"><m:color color="#FF0000"/><m:color color="#00FF00"/></m:colorgroup>'
+         f'<object id="1" name="tet" pid="5" pindex="1"><mesh><vertices>{vertices}</vertices><triangles>{triangles}</triangles></mesh></object>'
+         '<object id="2"><components><component objectid="1" transform="-1 0 0 0 1 0 0 0 1 2 0 0"/></components></object>'
+         '</resources><build><item objectid="2"/><item objectid="1" transform="1 0 0 0 1 0 0 0 1 4 0 0"/></build></model>')
     readers = DATA / "readers"
     for name in ("binary-stl-trailing-byte.stl", "stl-end-solid.stl"):
         seed("stl", name.removesuffix(".stl"), (readers / name).read_bytes())

@@ -1,3 +1,6 @@
+#include <archive.h>
+#include <archive_entry.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -165,6 +168,25 @@ SurfaceSoup read_any_surface(std::string_view bytes) {
   return looks_like_mesh_surface(input.peek(bytes_that_tell_mesh)) ? read_mesh_surface(input) : read_surface(input);
 }
 
+// The bytes are the model inside: a checksum would stop nearly all mutations of the archive.
+void read_threemf(std::string_view bytes) {
+  std::string zip(bytes.size() + 4096, '\0');
+  std::size_t used = 0;
+  archive* const out = archive_write_new();
+  archive_entry* const entry = archive_entry_new();
+  archive_write_set_format_zip(out);
+  archive_write_set_options(out, "zip:compression=store");
+  archive_write_open_memory(out, zip.data(), zip.size(), &used);
+  archive_entry_set_pathname(entry, "3D/3dmodel.model");
+  archive_entry_set_size(entry, static_cast<la_int64_t>(bytes.size()));
+  archive_entry_set_filetype(entry, AE_IFREG);
+  archive_write_header(out, entry);
+  archive_write_data(out, bytes.data(), bytes.size());
+  archive_entry_free(entry);
+  archive_write_free(out);
+  read_soup(std::string_view(zip).substr(0, used));
+}
+
 void read_npy(std::string_view bytes) {
   const std::size_t size = npy_header_size(bytes.substr(0, 10));
   if (size == 0 || size > bytes.size()) return;
@@ -225,6 +247,7 @@ constexpr std::array readers{
     FuzzTarget{"ply", read_soup},
     FuzzTarget{"off", read_soup},
     FuzzTarget{"packed", read_soup},
+    FuzzTarget{"threemf", read_threemf},
     FuzzTarget{"mesh-surface", [](std::string_view bytes) { check_soup(read_any_surface(bytes)); }},
     FuzzTarget{"sizes", read_size_list},
 };

@@ -106,7 +106,7 @@ TEST(Decoding, MakesUtf8OfUtf16) {
 }
 
 TEST(Decoding, LeavesBinaryFilesThatBeginWithTheMark) {
-  for (const std::string& bytes : {"\xff\xfe\0\0v\0\0\0"s, "\xff\xfe\x67\x68"s, "\xff\xfe\x67"s, "\xff"s, "\x1f\x8b"s})
+  for (const std::string& bytes : {"\xff\xfe\0\0v\0\0\0"s, "\xff\xfe\x67\x68"s, "\xff"s, "\x1f\x8b"s})
     EXPECT_EQ(content_of(bytes), bytes);
 }
 

@@ -361,7 +361,7 @@ TEST(SurfaceFiles, TakesLinesThatEndInCarriageReturnsAlone) {
 TEST(SurfaceFiles, TheKeywordOfOffMayTouchItsFirstNumber) {
   std::string text = coff();
   expect_tet(read(text.erase(text.find(' '), 1)));
-  EXPECT_EQ(error_of("OFF8x 6 12\n"), "part: expected a surface in STL, OBJ, PLY or OFF, found 'OFF8x'");
+  EXPECT_EQ(error_of("OFF8x 6 12\n"), "part: expected a surface in STL, OBJ, PLY, OFF or 3MF, found 'OFF8x'");
   EXPECT_EQ(error_of("4OFF4 4 6\n0 0 0 0\n"), "part:1: expected OFF in three dimensions, found '4OFF'");
 }
 
@@ -382,16 +382,18 @@ TEST(SurfaceFiles, TakesTextInUtf16) {
     EXPECT_EQ(error_of(bytes.substr(0, bytes.size() - 1)),
               "part: expected UTF-16 of two bytes a letter, found an odd number of bytes; is it cut off?");
   }
+  EXPECT_EQ(error_of("\xff\xfeo"),
+            "part: expected UTF-16 of two bytes a letter, found an odd number of bytes; is it cut off?");
 }
 
 TEST(SurfaceFiles, NamesOfOtherFilesAreTold) {
   const auto kind_of = [](const std::string& bytes) {
-    const std::string start = "part: expected a surface in STL, OBJ, PLY or OFF, found ", message = error_of(bytes);
+    const std::string start = "part: expected a surface in STL, OBJ, PLY, OFF or 3MF, found ",
+                      message = error_of(bytes);
     EXPECT_THAT(message, HasSubstr(start));
     return message.substr(std::min(start.size(), message.size()));
   };
   const std::string zeros(200, '\0');
-  EXPECT_EQ(kind_of("PK\3\4" + zeros + "3D/3dmodel.model" + zeros), "a 3MF file; export it as STL or OBJ");
   EXPECT_EQ(kind_of("PK\3\4" + zeros + "part.stl" + zeros), "a zip archive; unpack it first");
   EXPECT_EQ(kind_of("%PDF-1.7\n" + zeros), "a PDF document");
   EXPECT_EQ(kind_of("<!DOCTYPE HTML>\n<html>"), "a web page (HTML); was a page saved in place of the file?");
@@ -484,7 +486,7 @@ TEST(SurfaceFiles, RejectsOtherOff) {
 TEST(SurfaceFiles, RejectsWhatIsNoSurface) {
   EXPECT_THAT(error_of(""), HasSubstr("it is empty"));
   EXPECT_THAT(error_of("# only a comment\n"), HasSubstr("found no triangles"));
-  EXPECT_THAT(error_of("hello\n"), HasSubstr("expected a surface in STL, OBJ, PLY or OFF, found 'hello'"));
+  EXPECT_THAT(error_of("hello\n"), HasSubstr("expected a surface in STL, OBJ, PLY, OFF or 3MF, found 'hello'"));
   EXPECT_THAT(error_of("solid empty\nendsolid\n"), HasSubstr("found no triangles"));
   EXPECT_THAT(error_of(std::string(300, '\0')), HasSubstr("found a binary file of another kind"));
 }

@@ -87,6 +87,28 @@ TEST(ThinOut, KeepsEdgesTagsShellsAndCurves) {
   EXPECT_EQ(std::ranges::count_if(thinned.points, on_edge), std::ranges::count_if(surface.points, on_edge));
 }
 
+// A sum of all steps' distances would stop where the noise adds up to the tolerance.
+TEST(ThinOut, NoiseOfAFewHundredthsOfTheToleranceCostsLittle) {
+  const Surface smooth = surface_of(sphere({0, 0, 0}, 1, 240));
+  const Surface rough = surface_of(with_noise(sphere({0, 0, 0}, 1, 240), 4e-4));
+  const std::size_t of_smooth = thin_out(smooth, feature_angle, 0.006, 0.3).triangles.size();
+  EXPECT_LT(thin_out(rough, feature_angle, 0.006, 0.3).triangles.size(), 2 * of_smooth);
+}
+
+// One point of a thousand lies so far out that the edges around it are sharp.
+TEST(ThinOut, SharpEdgesOfNoiseAreNoFeatures) {
+  Surface surface = surface_of(sphere({0, 0, 0}, 1, 240));
+  std::set<double> peaks;  // by x, which no other point has
+  for (std::size_t i = 500; i < surface.points.size(); i += 1000) {
+    surface.points[i] = 1.012 * surface.points[i];
+    peaks.insert(surface.points[i].x);
+  }
+  const Surface thinned = thin_out(surface, feature_angle, 0.03, 0.8);
+  EXPECT_NO_THROW(check_surface(thinned));
+  EXPECT_LT(4 * std::ranges::count_if(thinned.points, [&](const Vec3& p) { return peaks.contains(p.x); }),
+            std::ssize(peaks));
+}
+
 TEST(ThinOut, ADenseSurfaceIsMeshedLikeAnyOther) {
   const Surface surface = surface_of(with_noise(sphere({0, 0, 0}, 1, 120), 2e-4));
   const RemeshResult result = remesh_surface(surface, {.size = 0.25});

@@ -86,7 +86,7 @@ std::string summary(const TetmeshStatistics& s) {
 int main(int argc, char** argv) {
   const ToolInfo info{
       .name = "tetmesh",
-      .summary = "Fill a closed surface (STL, OBJ, PLY, OFF, bundle) with tetrahedra that merge well into hexes.",
+      .summary = "Fill a closed surface (STL, OBJ, PLY, OFF, 3MF, bundle) with tetrahedra that merge well into hexes.",
       .example = "tetmesh bracket.stl --size 3 | findhex | buildgraph | initsol | assemble -o bracket.vtu",
       .reads = {},
       .product = Role::mesh,

@@ -134,11 +134,11 @@ struct Piece {
   bool is_open = false;
 };
 
-bool is_sheet(const Piece& piece) {
-  return piece.border * piece.border >= 4 * std::numbers::pi * piece.area;
-}
-
 }  // namespace
+
+bool is_sheet(double area, double border) {
+  return border * border >= 4 * std::numbers::pi * area;
+}
 
 void keep_only(SurfaceSoup& soup, const std::vector<bool>& kept) {
   const auto filter = [&](auto& array) {
@@ -233,7 +233,7 @@ std::size_t remove_stray_sheets(SurfaceSoup& soup) {
   const auto is_stray = [&](const Piece& piece) {
     if (closed_area == 0 || bounds(piece)) return false;
     if (!piece.is_open) return true;
-    return is_sheet(piece) && (piece.triangles <= few || piece.area <= small_share * closed_area);
+    return is_sheet(piece.area, piece.border) && (piece.triangles <= few || piece.area <= small_share * closed_area);
   };
   std::vector<bool> kept(triangles);
   for (std::size_t t = 0; t < triangles; ++t) kept[t] = !is_stray(pieces[sets.of(static_cast<std::int32_t>(t))]);

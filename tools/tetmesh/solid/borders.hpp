@@ -23,8 +23,11 @@ std::size_t weld_borders(formats::SurfaceSoup& soup, double tolerance);
 // pieces end there. Returns the number of such places. No triangle may repeat a vertex.
 std::size_t cut_at_border_points(formats::SurfaceSoup& soup, double tolerance);
 
-// Removes open pieces that share no edge with others and are sheets, not bodies with a hole: a flat piece inside the
-// same border would be as large or larger. They have at most four triangles, or a hundredth of the area of the closed
+// Whether an open piece may be a sheet, not a body with a hole: a flat piece inside a border of that length would be as
+// large or larger.
+bool is_sheet(double area, double border);
+
+// Removes open pieces that share no edge with others and are sheets. They have at most four triangles, or a hundredth of the area of the closed
 // pieces, of which there must be some. Two triangles back to back are such a piece, too. Returns the number of
 // triangles that went. No triangle may repeat a vertex.
 std::size_t remove_stray_sheets(formats::SurfaceSoup& soup);

@@ -14,7 +14,7 @@ Surface boundary_of(formats::SurfaceSoup soup, ShellRule rule, std::string_view 
   if (meets_in_sheets(soup)) {
     check_areas(soup, remedy);
     const bool has_sides = !soup.sides.empty();
-    const SheetReport found = has_sides ? join_bodies(soup) : find_sides(soup, rule);
+    const SheetReport found = has_sides ? join_bodies(soup) : find_sides(soup, rule, remedy);
     for (const std::string& sentence : found.sentences())
       warnings.push_back(fmt::format("{}: {}", soup.name, sentence));
   }

@@ -81,13 +81,14 @@ void for_each_wedge(const formats::SurfaceSoup& soup, std::span<const HalfEdge> 
 
 class SideFinder {
  public:
-  SideFinder(formats::SurfaceSoup& soup, ShellRule rule) : soup_(soup), rule_(rule) {}
+  SideFinder(formats::SurfaceSoup& soup, ShellRule rule, std::string_view remedy)
+      : soup_(soup), rule_(rule), remedy_(remedy) {}
 
   SheetReport join() {
     agree_on_overlaps();
     join_repeated();
     if (!soup_.sides.empty()) drop_fins();
-    check_intersections(soup_);
+    check_intersections(soup_, remedy_);
     return report_;
   }
 
@@ -116,9 +117,11 @@ class SideFinder {
   bool is_fin(std::int32_t t) { return rooms_->of(behind(t)) == rooms_->of(before(t)); }
   void set_sides();
   void drop_fins();
+  void refuse_open_bodies(const std::vector<bool>& kept) const;
 
   formats::SurfaceSoup& soup_;
   ShellRule rule_;
+  std::string_view remedy_;
   std::vector<bool> is_interface_;        // by triangle: two bodies had it
   std::optional<JoinedSets> rooms_;       // sets of sides; the last number is the outside
   std::optional<JoinedSets> components_;  // sets of triangles, joined by common edges
@@ -288,6 +291,7 @@ void SideFinder::set_sides() {
 void SideFinder::drop_fins() {
   std::vector<bool> kept;
   for (const auto& [back, front] : soup_.sides) kept.push_back(back != front);
+  refuse_open_bodies(kept);
   const auto fins = static_cast<std::size_t>(std::ranges::count(kept, false));
   if (fins == kept.size())
     throw DataError::at(soup_.name, "expected a surface that encloses something, found only sheets that do not");
@@ -307,6 +311,52 @@ void SideFinder::drop_fins() {
   soup_.curve_tags.resize(next);
   soup_ = formats::merge_equal_points(std::move(soup_));  // also drops the points of fins
   soup_.file_vertices.clear();
+}
+
+// The triangles of a body with a hole have the same on both sides, like fins. But such a body is larger than a sheet
+// with its border could be.
+void SideFinder::refuse_open_bodies(const std::vector<bool>& kept) const {
+  struct Piece {
+    std::size_t triangles = 0;
+    double area = 0, border = 0;
+    HalfEdge open = no_index;  // an edge of a single triangle
+  };
+  JoinedSets sets(kept.size());
+  std::vector<std::int32_t> fins;  // at an edge
+  const auto find_fins = [&](std::span<const HalfEdge> edge) {
+    fins.clear();
+    for (const HalfEdge h : edge)
+      if (!kept[geometry::triangle_of(h)]) fins.push_back(geometry::triangle_of(h));
+  };
+  geometry::for_each_edge(soup_.points.size(), soup_.triangles, [&](std::span<const HalfEdge> edge) {
+    find_fins(edge);
+    for (const std::int32_t fin : fins) sets.join(fins[0], fin);
+  });
+  std::map<std::int32_t, Piece> pieces;
+  for (std::int32_t t = 0; t < count(); ++t) {
+    if (kept[t]) continue;
+    Piece& piece = pieces[sets.of(t)];
+    ++piece.triangles;
+    piece.area += norm(normal_of(soup_, t)) / 2;
+  }
+  geometry::for_each_edge(soup_.points.size(), soup_.triangles, [&](std::span<const HalfEdge> edge) {
+    find_fins(edge);
+    if (fins.size() != 1) return;
+    Piece& piece = pieces[sets.of(fins[0])];
+    piece.border += norm(soup_.points[geometry::end_of(soup_.triangles, edge[0])] -
+                         soup_.points[geometry::start_of(soup_.triangles, edge[0])]);
+    if (edge.size() == 1 && (piece.open == no_index || edge[0] < piece.open)) piece.open = edge[0];
+  });
+  for (const auto& [first, piece] : pieces) {
+    if (piece.open == no_index || is_sheet(piece.area, piece.border)) continue;
+    const Vec3 &from = soup_.points[geometry::start_of(soup_.triangles, piece.open)],
+               &to = soup_.points[geometry::end_of(soup_.triangles, piece.open)];
+    throw DataError::at(
+        soup_.place_of(geometry::triangle_of(piece.open)),
+        "expected a closed surface, found {} triangles that enclose a space with a hole; an edge of the "
+        "hole is from ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}){}",
+        piece.triangles, from.x, from.y, from.z, to.x, to.y, to.z, remedy_);
+  }
 }
 
 bool has_several_fans(const formats::SurfaceSoup& soup) {
@@ -349,12 +399,12 @@ std::vector<std::string> SheetReport::sentences() const {
   return result;
 }
 
-SheetReport find_sides(formats::SurfaceSoup& soup, ShellRule rule) {
-  return SideFinder(soup, rule).find();
+SheetReport find_sides(formats::SurfaceSoup& soup, ShellRule rule, std::string_view remedy) {
+  return SideFinder(soup, rule, remedy).find();
 }
 
 SheetReport join_bodies(formats::SurfaceSoup& soup) {
-  return SideFinder(soup, ShellRule::oriented).join();
+  return SideFinder(soup, ShellRule::oriented, {}).join();
 }
 
 Surface find_sheets(formats::SurfaceSoup soup) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/tetmesh/solid/shells.hpp"
@@ -23,9 +24,9 @@ struct SheetReport {
 
 // Finds the sides of a soup that does not tell them, by walking around each edge. A space between triangles is a region
 // if a triangle has its back to it (ShellRule::oriented), or if it is closed (ShellRule::regions). Throws DataError for
-// ShellRule::holes, for repeated triangles of the same orientation, for triangles with their backs to the outside, and
-// if nothing is enclosed.
-SheetReport find_sides(formats::SurfaceSoup& soup, ShellRule rule);
+// ShellRule::holes, for repeated triangles of the same orientation, for triangles with their backs to the outside,
+// if nothing is enclosed, and where a body has a hole. `remedy` is said with what may be mended.
+SheetReport find_sides(formats::SurfaceSoup& soup, ShellRule rule, std::string_view remedy = {});
 
 // The soup has sides. Bodies that have the same triangles where they touch share these afterwards.
 SheetReport join_bodies(formats::SurfaceSoup& soup);

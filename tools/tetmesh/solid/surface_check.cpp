@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "common/mesh/joined_sets.hpp"
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
@@ -198,6 +199,18 @@ const char* hint_for_cad(const formats::SurfaceSoup& soup) {
                                                    : "; where bodies touch, tessellate --join makes one face of two";
 }
 
+// Whether the triangles belong to two bodies that are closed, as far as the edges go that they have with others.
+bool are_of_two_bodies(const formats::SurfaceSoup& soup, const std::array<std::int32_t, 2>& pair) {
+  if (!soup.sides.empty()) return false;
+  JoinedSets bodies(soup.triangles.size());
+  bool is_closed = true;
+  geometry::for_each_edge(soup.points.size(), soup.triangles, [&](std::span<const geometry::HalfEdge> edge) {
+    is_closed = is_closed && edge.size() % 2 == 0;
+    for (const geometry::HalfEdge h : edge) bodies.join(geometry::triangle_of(edge[0]), geometry::triangle_of(h));
+  });
+  return is_closed && bodies.of(pair[0]) != bodies.of(pair[1]);
+}
+
 void check_no_intersections(const formats::SurfaceSoup& soup, const geometry::IntersectionReport& report,
                             std::string_view remedy) {
   if (report.pairs.empty()) return;
@@ -205,7 +218,7 @@ void check_no_intersections(const formats::SurfaceSoup& soup, const geometry::In
       soup.place_of(report.pairs.front()[0]),
       "expected a surface that does not intersect itself, found {}{} of triangles that do; the first: {}{}{}",
       report.complete ? "" : "more than ", count_of(report.pairs.size(), "pair"), list_of(soup, report.pairs.front()),
-      hint_for_cad(soup), remedy);
+      hint_for_cad(soup), are_of_two_bodies(soup, report.pairs.front()) ? " (see --unite)" : remedy);
 }
 
 }  // namespace
@@ -229,8 +242,8 @@ void check_areas(const formats::SurfaceSoup& soup, std::string_view remedy) {
   check_no_degenerate_triangles(soup, remedy);
 }
 
-void check_intersections(const formats::SurfaceSoup& soup) {
-  check_no_intersections(soup, geometry::find_intersections(soup.points, soup.triangles, most_intersections), {});
+void check_intersections(const formats::SurfaceSoup& soup, std::string_view remedy) {
+  check_no_intersections(soup, geometry::find_intersections(soup.points, soup.triangles, most_intersections), remedy);
 }
 
 }  // namespace hexpipe::tetmesh::solid

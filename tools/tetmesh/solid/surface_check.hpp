@@ -20,6 +20,6 @@ void check_surface(const formats::SurfaceSoup& soup, std::string_view remedy = {
 // For a surface whose sheets may meet: the first function checks that no triangle is degenerate, the second that no two
 // intersect.
 void check_areas(const formats::SurfaceSoup& soup, std::string_view remedy = {});
-void check_intersections(const formats::SurfaceSoup& soup);
+void check_intersections(const formats::SurfaceSoup& soup, std::string_view remedy);
 
 }  // namespace hexpipe::tetmesh::solid

@@ -152,6 +152,16 @@ void FeatureMesh::mark_feature(EdgeHandle e, EdgeRole role) {
   on_feature_[to_vertex_handle(halfedge_handle(e, 1)).idx()] = 1;
 }
 
+void FeatureMesh::forget_features(std::span<const EdgeHandle> edges) {
+  for (const EdgeHandle e : edges) edge_role_[e.idx()] = EdgeRole::none;
+  for (const EdgeHandle e : edges)
+    for (const unsigned end : {0u, 1u}) {
+      const VertexHandle v = to_vertex_handle(halfedge_handle(e, end));
+      on_feature_[v.idx()] = std::ranges::any_of(ve_range(v), [&](EdgeHandle other) { return is_feature(other); });
+      if (!is_on_feature(v) || !is_corner(v)) vertex_role_[v.idx()] = VertexRole::removable;
+    }
+}
+
 void FeatureMesh::add_crests(std::span<const EdgeHandle> edges) {
   for (const EdgeHandle e : edges) mark_feature(e, EdgeRole::crest);
   mark_corners();

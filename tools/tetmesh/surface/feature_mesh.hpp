@@ -98,6 +98,8 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
   // For each point of that surface, whether it is on a feature.
   std::vector<bool> points_on_features() const;
 
+  // Edges that are features only because they are sharp become edges like others, and so do their corners.
+  void forget_features(std::span<const EdgeHandle> edges);
   // Makes features of edges that are none.
   void add_crests(std::span<const EdgeHandle> edges);
 

@@ -14,9 +14,10 @@
 
 namespace hexpipe::tetmesh::surface {
 
-// The surface with fewer triangles: none of its points is much further than `tolerance` from it, and edges that come
-// instead are at most `longest`. Features, corners and the surface's own curves stay as they are, and no edge becomes a
-// feature. Time is linear in the triangles. A surface whose sheets meet themselves along an edge is returned as it is.
+// The surface with fewer triangles: all points of the given one are within `tolerance` of it, and edges that come
+// instead are at most `longest`. Features, corners and the surface's own curves stay as they are, except sharp edges
+// that together are far shorter than that; no edge becomes a feature. Time is linear in the triangles. A surface whose
+// sheets meet themselves along an edge is returned as it is.
 solid::Surface thin_out(const solid::Surface& surface, double feature_angle, const sizing::SizeField& tolerance,
                         const sizing::SizeField& longest);
 

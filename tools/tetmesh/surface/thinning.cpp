@@ -1,15 +1,19 @@
 // Half-edge collapses in rounds; in each round no two of them touch, so that triangles grow everywhere alike. A face
-// knows how far the original surface may be from it: each collapse adds the distance of the vertex that goes. The sum
-// grows slowly, because a round halves the vertices or so.
+// keeps a list of the vertices that went and are nearest to it, so that each is measured again whenever the face
+// changes (R. Klein, G. Liebich, W. Strasser: Mesh reduction with error control, 1996, with vertices in place of the
+// distance between surfaces). A sum of the distances of all steps would grow with a scan's noise in each round, and
+// stop early. A round takes each list along once, so the time is that of the vertices times the rounds.
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "common/mesh/feature_angle.hpp"
+#include "common/mesh/joined_sets.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/surface/remesh_steps.hpp"
 
@@ -20,6 +24,8 @@ namespace {
 constexpr double sharpest = 0.75;
 // Rounds end when one removes less than this share of the vertices.
 constexpr double least_gain = 0.01;
+// Sharp edges that together are shorter than this share of the longest edge are noise, or too small to be seen.
+constexpr double speck = 0.5;
 
 class Thinner {
  public:
@@ -32,7 +38,9 @@ class Thinner {
         least_cosine_(cosine_of_degrees(sharpest * feature_angle)),
         tolerance_(tolerance),
         longest_(longest),
-        error_(mesh.n_faces()),
+        first_gone_(mesh.n_faces(), no_index),
+        next_gone_(mesh.n_vertices(), no_index),
+        limits_(mesh.n_vertices()),
         touched_(mesh.n_vertices()) {
     for (const FeatureMesh::FaceHandle f : mesh.faces()) normals_.push_back(unit(mesh.area_normal(f)));
   }
@@ -68,37 +76,56 @@ class Thinner {
     FeatureMesh::HalfedgeHandle collapse;
   };
 
+  // Of the faces around the vertex together. At a vertex that noise has put far out each face is turned from it.
+  const Vec3& normal_around() {
+    if (!normal_around_) {
+      normal_around_.emplace();
+      for (const Wedge& wedge : wedges_) *normal_around_ += mesh_.area_normal(wedge.face);
+      normal_around_ = unit(*normal_around_);
+    }
+    return *normal_around_;
+  }
+
+  // Both are looked up when a vertex is first tried, not in each round.
+  struct Limits {
+    double tolerance = 0, longest = 0;
+  };
+
   bool remove(FeatureMesh::VertexHandle v, int round) {
     gather(v);
-    const Vec3 place = mesh_.position(v);
-    const double tolerance = tolerance_.at(place), longest = longest_.at(place);
-    if (!(error_around_ < tolerance)) return false;
+    const Limits limits = limits_at(v);
     choices_.clear();
     for (const auto h : mesh_.voh_range(v))
-      if (const double shape = shape_after(h, longest); shape > least_shape) choices_.push_back({shape, h});
+      if (const double shape = shape_after(h, limits.longest); shape > least_shape)
+        choices_.push_back({shape, h});
     std::ranges::stable_sort(choices_, std::ranges::greater(), &Choice::shape);
     for (const Choice& choice : choices_) {
+      if (!mesh_.is_collapse_ok(choice.collapse)) continue;
+      shape_after(choice.collapse, limits.longest);  // sets the normals
       const auto end = mesh_.to_vertex_handle(choice.collapse);
-      const double error = error_around_ + distance_after(place, mesh_.position(end), end);
-      if (error > tolerance || !mesh_.is_collapse_ok(choice.collapse)) continue;
-      shape_after(choice.collapse, longest);  // sets the normals
-      if (!is_smooth_after()) continue;
+      if (!is_smooth_after() || !find_new_faces(end, limits.tolerance)) continue;
       mesh_.collapse_edge(choice.collapse);
       touched_[end.idx()] = round;
       for (const Wedge& wedge : wedges_) {
         touched_[wedge.from.idx()] = round;
-        if (wedge.goes) continue;
-        error_[wedge.face.idx()] = error;
-        normals_[wedge.face.idx()] = wedge.normal;
+        if (!wedge.goes) normals_[wedge.face.idx()] = wedge.normal;
       }
+      hand_over();
       return true;
     }
     return false;
   }
 
+  Limits limits_at(FeatureMesh::VertexHandle v) {
+    Limits& limits = limits_[v.idx()];
+    if (limits.longest == 0) limits = {tolerance_.at(mesh_.position(v)), longest_.at(mesh_.position(v))};
+    return limits;
+  }
+
   void gather(FeatureMesh::VertexHandle v) {
     wedges_.clear();
-    error_around_ = 0;
+    gone_.assign(1, v.idx());
+    normal_around_.reset();
     for (const auto h : mesh_.voh_range(v)) {
       Wedge wedge;
       wedge.face = mesh_.face_handle(h);
@@ -107,7 +134,8 @@ class Thinner {
       wedge.to = mesh_.to_vertex_handle(outer);
       wedge.outer_is_sharp = mesh_.is_boundary(twin) || mesh_.is_feature(mesh_.edge_handle(outer));
       if (!mesh_.is_boundary(twin)) wedge.outer_normal = normals_[mesh_.face_handle(twin).idx()];
-      error_around_ = std::max(error_around_, error_[wedge.face.idx()]);
+      for (std::int32_t gone = first_gone_[wedge.face.idx()]; gone != no_index; gone = next_gone_[gone])
+        gone_.push_back(gone);
       wedges_.push_back(wedge);
     }
   }
@@ -126,19 +154,42 @@ class Thinner {
       least = std::min(least, shape_of(corners, normal));
       if (least <= least_shape) return -1;
       wedge.normal = unit(normal);
-      if (dot(wedge.normal, normals_[wedge.face.idx()]) < least_cosine_) return -1;
+      const bool turns = dot(wedge.normal, normals_[wedge.face.idx()]) < least_cosine_;
+      if (turns && dot(wedge.normal, normal_around()) < least_cosine_) return -1;
     }
     return least;
   }
 
-  double distance_after(const Vec3& p, const Vec3& at, FeatureMesh::VertexHandle end) const {
-    double least = std::numeric_limits<double>::max();
-    for (const Wedge& wedge : wedges_) {
-      if (wedge.from == end || wedge.to == end) continue;
-      const geometry::TriangleDistance face(at, mesh_.position(wedge.from), mesh_.position(wedge.to));
-      least = std::min(least, face.squared(p));
+  // The new face nearest to each vertex that is gone then; false if one is further than the tolerance from all.
+  bool find_new_faces(FeatureMesh::VertexHandle end, double tolerance) {
+    faces_.clear();
+    for (const Wedge& wedge : wedges_)
+      if (!wedge.goes) faces_.emplace_back(mesh_.position(end), mesh_.position(wedge.from), mesh_.position(wedge.to));
+    new_face_.clear();
+    for (const std::int32_t gone : gone_) {
+      const Vec3 place = mesh_.position(FeatureMesh::VertexHandle(gone));
+      double least = tolerance * tolerance;
+      std::size_t nearest = faces_.size();
+      for (std::size_t i = 0; i < faces_.size(); ++i) {
+        const double squared = faces_[i].squared(place);
+        if (squared <= least) least = squared, nearest = i;
+      }
+      if (nearest == faces_.size()) return false;
+      new_face_.push_back(nearest);
     }
-    return std::sqrt(least);
+    return true;
+  }
+
+  void hand_over() {
+    staying_.clear();
+    for (const Wedge& wedge : wedges_)
+      if (!wedge.goes) staying_.push_back(wedge.face.idx());
+    for (const int face : staying_) first_gone_[face] = no_index;
+    for (std::size_t i = 0; i < gone_.size(); ++i) {
+      std::int32_t& first = first_gone_[staying_[new_face_[i]]];
+      next_gone_[gone_[i]] = first;
+      first = gone_[i];
+    }
   }
 
   // Whether no edge of the new faces turns too far.
@@ -158,13 +209,46 @@ class Thinner {
   FeatureMesh& mesh_;
   double least_cosine_;
   const sizing::SizeField &tolerance_, &longest_;
-  std::vector<double> error_;          // by face
-  std::vector<Vec3> normals_;          // by face, of length 1
+  std::vector<Vec3> normals_;  // by face, of length 1
+  // By face, the first vertex that is gone and nearest to it; by vertex, the next one of its list.
+  std::vector<std::int32_t> first_gone_, next_gone_;
+  std::vector<Limits> limits_;         // by vertex
   std::vector<std::int32_t> touched_;  // by vertex: the round in which it was last at a collapse
   std::vector<Wedge> wedges_;
   std::vector<Choice> choices_;
-  double error_around_ = 0;
+  std::optional<Vec3> normal_around_;
+  // The vertices in the lists of the wedges' faces, and the one that goes; for each, the number of its new face.
+  std::vector<std::int32_t> gone_;
+  std::vector<std::size_t> new_face_;
+  std::vector<geometry::TriangleDistance> faces_;  // the new ones
+  std::vector<int> staying_;
 };
+
+// Sharp edges that are connected with so few others that noise may have made them. A scan with noise has thousands, and
+// as features each would keep its vertices.
+std::vector<FeatureMesh::EdgeHandle> specks(const FeatureMesh& mesh, const solid::Surface& surface,
+                                            const sizing::SizeField& longest) {
+  std::vector<FeatureMesh::EdgeHandle> result;
+  if (!surface.curves.empty()) return result;
+  const auto start = [&](FeatureMesh::EdgeHandle e) { return mesh.to_vertex_handle(mesh.halfedge_handle(e, 0)); };
+  const auto end = [&](FeatureMesh::EdgeHandle e) { return mesh.to_vertex_handle(mesh.halfedge_handle(e, 1)); };
+  JoinedSets sets(mesh.n_vertices());
+  for (const auto e : mesh.edges())
+    if (mesh.is_feature(e)) sets.join(start(e).idx(), end(e).idx());
+  std::vector<double> length(mesh.n_vertices());  // by the number of a set
+  for (const auto e : mesh.edges()) {
+    if (!mesh.is_feature(e)) continue;
+    const bool is_sharp_only = !mesh.is_boundary(e) && !mesh.has_copies(start(e)) && !mesh.has_copies(end(e)) &&
+                               surface.tags[mesh.source(mesh.face_handle(mesh.halfedge_handle(e, 0)))] ==
+                                   surface.tags[mesh.source(mesh.face_handle(mesh.halfedge_handle(e, 1)))];
+    length[sets.of(start(e).idx())] +=
+        is_sharp_only ? norm(mesh.position(start(e)) - mesh.position(end(e))) : std::numeric_limits<double>::infinity();
+  }
+  for (const auto e : mesh.edges())
+    if (mesh.is_feature(e) && (speck * longest).is_at_least(length[sets.of(start(e).idx())], mesh.position(start(e))))
+      result.push_back(e);
+  return result;
+}
 
 // The ends of curves are on features, which stay.
 void add_curves(const solid::Surface& surface, const FeatureMesh& mesh, solid::Surface& thinned) {
@@ -180,6 +264,7 @@ solid::Surface thin_out(const solid::Surface& surface, double feature_angle, con
                         const sizing::SizeField& longest) {
   FeatureMesh mesh(surface, feature_angle);
   if (!mesh.is_manifold()) return surface;
+  mesh.forget_features(specks(mesh, surface, longest));
   Thinner(mesh, feature_angle, tolerance, longest).thin();
   solid::Surface thinned = mesh.to_surface(surface);
   add_curves(surface, mesh, thinned);
