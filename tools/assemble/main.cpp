@@ -32,6 +32,10 @@ struct CommandLine {
   std::string conformity = "pyramids", exchange = "quads", fill = "prisms", merge = "vertices";
   const CLI::Option *exchange_option = nullptr, *fill_option = nullptr, *merge_option = nullptr;
   int smooth = AssembleOptions{}.smooth;
+  std::string walls;
+  const CLI::Option *walls_option = nullptr, *height_option = nullptr, *growth_option = nullptr;
+  double first_height = 0, growth = AssembleOptions{}.growth;
+  bool pillow = false;
   std::string require;
   std::vector<std::string> neighbours, before;
 
@@ -76,6 +80,19 @@ void declare_options(CLI::App& app, CommandLine& line) {
           "'hexes 0.3, cells 0.1, orthogonality 70, weight 0.05, determinant 0.001, flatness 0.8': the scaled Jacobian "
           "of hexes, that of all cells, and what finite volumes need (docs/definitions.md)"))
       ->type_name("LIST");
+  begin_group(app, "Layers at walls");
+  line.walls_option = app.add_option("--boundary-layers", line.walls,
+                                     "Layers of hexes and prisms on surfaces, by name or number, such as 'wall=5, 3=5'; "
+                                     "all=5: on all of the boundary; 'wall in water=5': on one side of an interface")
+                          ->type_name("LIST");
+  line.height_option = app.add_option("--first-height", line.first_height,
+                                      "of the layer at the wall, in units of the mesh; where there is no room, all "
+                                      "layers there are lower")
+                           ->check(number_between(1e-50, 1e50));
+  line.growth_option = app.add_option("--growth", line.growth, "how many times as high as the layer below it a layer is")
+                           ->check(number_between(0.1, 10))
+                           ->capture_default_str();
+  app.add_flag("--pillow", line.pillow, "one more layer on all of the boundary, half as high as a cell, then smoothing");
   begin_group(app, "In parts");
   outside_history(
       app.add_option(
@@ -103,11 +120,22 @@ AssembleOptions options_of(CommandLine& line) {
   if (line.by_part() && !line.require.empty())
     throw UsageError("--require does not go with --neighbours: on the seam of a piece cells have no neighbours");
   if (!line.by_part() && !line.before.empty()) throw UsageError("--before goes with --neighbours");
+  const bool has_layers = line.walls_option->count() > 0;
+  if ((has_layers || line.pillow) && !may_change_cells)
+    throw UsageError("--boundary-layers and --pillow go with --conformity pyramids, without --neighbours");
+  if (has_layers && line.height_option->count() == 0) throw UsageError("--boundary-layers goes with --first-height");
+  if (!has_layers && line.height_option->count() + line.growth_option->count() > 0)
+    throw UsageError("--first-height and --growth go with --boundary-layers");
   return {.conformity = conformities.at(line.conformity),
           .exchange = exchanges.at(line.exchange),
           .fill = fills.at(line.fill),
           .merge = merges.at(line.merge),
-          .smooth = line.smooth};
+          .smooth = line.smooth,
+          .walls = has_layers ? layers::parse_walls(line.walls) : std::vector<layers::AskedWall>{},
+          .first_height = line.first_height,
+          .growth = line.growth,
+          .pillow = line.pillow,
+          .tag_names = {}};
 }
 
 pipeline::StageData read_input(pipeline::Stage& stage, bool by_part) {
@@ -140,7 +168,8 @@ pieces::SolvedPart solved_part(pipeline::StageData data, const choice::InputName
           .history = std::move(data.history)};
 }
 
-PartResult assemble_whole(pipeline::StageData data, const AssembleOptions& options, const choice::InputNames& names) {
+PartResult assemble_whole(pipeline::StageData data, AssembleOptions options, const choice::InputNames& names) {
+  options.tag_names = {data.names.surfaces, data.names.regions};
   if (data.part && !data.part->neighbours.empty())
     throw DataError::at(names.mesh, "expected the neighbours of {} with --neighbours, found none",
                         title_of(*data.part));
@@ -159,6 +188,7 @@ nlohmann::ordered_json report(RunContext& context, const AssembleStatistics& sta
                               const nlohmann::ordered_json& choice) {
   context.statistics = to_json(statistics);
   for (const auto& line : summary_lines(statistics)) context.note(line);
+  if (const auto warning = layers_warning(statistics)) context.warn(*warning);
   nlohmann::ordered_json details{{"counts", context.statistics["cells"]}};
   if (choice.is_null()) return details;
   context.statistics["choice"] = details["choice"] = choice;
@@ -176,6 +206,12 @@ void run(RunContext& context, CommandLine& line) {
   context.options["fill"] = line.fill;
   context.options["merge"] = line.merge;
   context.options["smooth"] = line.smooth;
+  if (!line.walls.empty()) {
+    context.options["boundary_layers"] = line.walls;
+    context.options["first_height"] = line.first_height;
+    context.options["growth"] = line.growth;
+  }
+  if (line.pillow) context.options["pillow"] = true;
   pipeline::Stage stage(context);
   pipeline::StageData data = read_input(stage, line.by_part());
   const choice::InputNames names{.mesh = stage.source_of(Role::mesh),
