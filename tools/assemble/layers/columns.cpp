@@ -38,7 +38,8 @@ std::optional<LayerCell> layer_cell(const Walls& walls, const WallSide& side, in
   // Turns it so that the lines without length come first; a single long line comes first instead.
   const bool single = base.size == 3 && long_lines == 1;
   int first = 0;
-  while (has_length(walls, base.at(first)) != single || (!single && base.size == 4 && has_length(walls, base.at(first + 1))))
+  while (has_length(walls, base.at(first)) != single ||
+         (!single && base.size == 4 && has_length(walls, base.at(first + 1))))
     ++first;
   const int a = first, b = first + 1, c = first + 2, d = first + 3;
   if (single) return LayerCell{CellKind::tet, {low(a), low(b), low(c), high(a)}};

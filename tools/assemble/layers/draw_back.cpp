@@ -1,7 +1,8 @@
-// All vertices get a displacement: that of a tip leads to its goal, that of another vertex is the mean of its neighbours'
-// (a harmonic field on the mesh's edges), so that cells far behind the wall take their part of what the first ones lose.
-// Then each vertex goes a share of its way. Where a cell would become invalid or poor, its vertices go less far, until
-// none does: at the start all cells are valid, so this ends. What tips lack then is tried again after smoothing.
+// All vertices get a displacement: that of a tip leads to its goal, that of another vertex is the mean of its
+// neighbours' (a harmonic field on the mesh's edges), so that cells far behind the wall take their part of what the
+// first ones lose. Then each vertex goes a share of its way. Where a cell would become invalid or poor, its vertices go
+// less far, until none does: at the start all cells are valid, so this ends. What tips lack then is tried again after
+// smoothing.
 
 #include "tools/assemble/layers/draw_back.hpp"
 
@@ -19,21 +20,29 @@
 namespace hexpipe::assemble::layers {
 namespace {
 
-constexpr int most_passes = 4;
+constexpr int most_passes = 10, untangling_rounds = 3;
 // Another pass is worth it if tips lack this share of the way somewhere...
 constexpr double short_of_goal = 0.02;
 // ...and the last pass has brought them on by this share of it on average.
-constexpr double least_progress = 0.02;
+constexpr double least_progress = 0.004;
 // Each sweep carries the displacements one edge further from the wall.
 constexpr int sweeps = 40;
 // The shares of vertices at a cell that is not well fall by this factor; below the last one they stay where they are.
-constexpr double falling = 0.7, least_share = 0.02;
-constexpr int most_steps = 60;
+constexpr double falling = 0.7, least_share = 1e-3;
+constexpr int most_steps = 80;
+// After so many falls, which leave a quarter and a twentieth of the way, worse cells are well enough: a low layer
+// beside a poor cell is better than none.
+constexpr int first_relief = 4, last_relief = 8;
+constexpr double relieved_quality = 0.6, poorest_quality = 0.01, poorest_of_sides = 0.5;
+// Relief ends here, but for lines that have no length yet.
+constexpr double least_hex = 0.2, least_other = 0.06;
 // Along the wall, the shares of neighbours differ by no more than this.
 constexpr double share_slope = 0.25;
 constexpr double least_other_quality = 0.12;  // as good_enough in smooth.cpp
 // A cell below its limit may lose this share of its quality.
 constexpr double kept_quality = 0.95;
+// Cells over a sliver of the wall are slivers.
+constexpr double share_of_facet_quality = 0.3;
 constexpr std::int64_t grain = 256;
 
 // The cells in flat arrays.
@@ -82,7 +91,9 @@ struct Edges {
     for (const auto& edge : edges) ++offsets[edge[0] + 1], ends.push_back(edge[1]);
     for (std::size_t i = 1; i < offsets.size(); ++i) offsets[i] += offsets[i - 1];
   }
-  std::span<const Vertex> of(Vertex v) const { return std::span(ends).subspan(offsets[v], offsets[v + 1] - offsets[v]); }
+  std::span<const Vertex> of(Vertex v) const {
+    return std::span(ends).subspan(offsets[v], offsets[v + 1] - offsets[v]);
+  }
 };
 
 double quality_of(CellKind kind, std::span<const Vec3> corners) {
@@ -94,10 +105,26 @@ double least_quality_of(CellKind kind) {
   return kind == CellKind::hex ? least_hex_quality : least_other_quality;
 }
 
+// The least sine of an angle at a corner.
+double facet_quality(const MixedMesh& mesh, const WallSide& side) {
+  double least = 1;
+  for (int i = 0; i < side.size(); ++i) {
+    const Vec3& at = mesh.points[side.corners[i]];
+    const Vec3 next = mesh.points[side.corners[(i + 1) % side.size()]] - at;
+    const Vec3 last = mesh.points[side.corners[(i + side.size() - 1) % side.size()]] - at;
+    least = std::min(least, norm(cross(next, last)) / (norm(next) * norm(last)));
+  }
+  return least;
+}
+
 class DrawBack {
  public:
   DrawBack(MixedMesh& mesh, const DrawBackInput& input)
-      : mesh_(mesh), input_(input), cells_(mesh), edges_(cells_, mesh.points.size()), line_of_(mesh.points.size(), no_index) {
+      : mesh_(mesh),
+        input_(input),
+        cells_(mesh),
+        edges_(cells_, mesh.points.size()),
+        line_of_(mesh.points.size(), no_index) {
     for (std::size_t i = 0; i < lines().size(); ++i) {
       if (lines()[i].tip == no_index) continue;
       line_of_[lines()[i].tip] = static_cast<LineIndex>(i);
@@ -119,6 +146,8 @@ class DrawBack {
       const double mean = shares.empty() ? 1 : sum / static_cast<double>(shares.size());
       if (least >= 1 - short_of_goal || mean < before + least_progress) break;
       before = mean;
+      is_first_ = false;
+      shape::untangle(mesh_, untangling_rounds, &input_.sliding);
       shape::smooth(mesh_, 1, &input_.sliding);
     }
     return {by_line(shares_gone()), {}};
@@ -130,8 +159,9 @@ class DrawBack {
   void find_displacements();
   void step();
   Vec3 place(Vertex v, double share) const;
-  bool is_well(std::int64_t c) const;
-  bool is_side_well(std::int64_t s) const;
+  double relieved(double limit, double now, double floor, int round) const;
+  bool is_well(std::int64_t c, int round) const;
+  bool is_side_well(std::int64_t s, int round) const;
   bool grade_shares();
   std::vector<double> shares_gone() const;
   std::vector<double> by_line(const std::vector<double>& shares) const;
@@ -144,17 +174,23 @@ class DrawBack {
   std::vector<LineIndex> line_of_;  // by vertex
   std::vector<Vec3> goals_;         // by line that has a length, in their order
   std::vector<std::int32_t> long_sides_;
-  VertexItems sides_at_;  // by vertex: places in long_sides_
+  VertexItems sides_at_;                // by vertex: places in long_sides_
+  std::vector<double> least_of_sides_;  // the quality that the cells over each long side need
   std::vector<shape::Freedom> freedoms_;
   std::vector<Vec3> start_, displacements_;
-  std::vector<double> shares_;     // by vertex
-  std::vector<double> least_now_;  // by cell: the quality that it has to keep
-  std::vector<LineIndex> stuck_;   // ascending
+  std::vector<double> shares_;           // by vertex
+  std::vector<double> now_, least_now_;  // by cell: its quality at the start of a step, and that which it has to keep
+  std::vector<LineIndex> stuck_;         // ascending
+  bool is_first_ = true;                 // pass
 };
 
 void DrawBack::find_sides() {
   for (std::size_t s = 0; s < input_.walls.sides().size(); ++s)
-    if (layer_cell(input_.walls, input_.walls.sides()[s], 0)) long_sides_.push_back(static_cast<std::int32_t>(s));
+    if (layer_cell(input_.walls, input_.walls.sides()[s], 0)) {
+      long_sides_.push_back(static_cast<std::int32_t>(s));
+      least_of_sides_.push_back(
+          std::min(input_.least_quality, share_of_facet_quality * facet_quality(mesh_, input_.walls.sides()[s])));
+    }
   sides_at_ = VertexItems(mesh_.points.size(), [&](auto&& visit) {
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(long_sides_.size()); ++i) {
       const WallSide& side = input_.walls.sides()[long_sides_[i]];
@@ -166,7 +202,8 @@ void DrawBack::find_sides() {
 
 // Whether v is on a curved part of the boundary, where it moves along the input's surface.
 bool DrawBack::slides(Vertex v) const {
-  if (freedoms_[v].kind != shape::Freedom::Kind::none || line_of_[v] != no_index || input_.sliding.has_to_stay(v)) return false;
+  if (freedoms_[v].kind != shape::Freedom::Kind::none || line_of_[v] != no_index || input_.sliding.has_to_stay(v))
+    return false;
   const auto place = input_.sliding.surface.place(input_.sliding.origin[v]);
   return place == shape::InputSurface::Place::face || place == shape::InputSurface::Place::curve;
 }
@@ -201,28 +238,38 @@ void DrawBack::find_displacements() {
 Vec3 DrawBack::place(Vertex v, double share) const {
   if (share == 0 || displacements_[v] == Vec3{}) return start_[v];
   const Vec3 straight = start_[v] + displacements_[v] * share;
-  if (const LineIndex line = line_of_[v]; line != no_index) return input_.guides.nearest(input_.plan.freedoms[line].tags, straight);
+  if (const LineIndex line = line_of_[v]; line != no_index)
+    return input_.guides.nearest(input_.plan.freedoms[line].tags, straight);
   if (freedoms_[v].kind == shape::Freedom::Kind::space) return straight;
   // Also where a plane or a straight curve may end.
   return input_.sliding.surface.foot(input_.sliding.origin[v], straight).at;
 }
 
-bool DrawBack::is_well(std::int64_t c) const {
+// The limit of a cell whose quality was `now`, after this many falls. Lines that may not leave their feet otherwise get
+// relief to the last.
+double DrawBack::relieved(double limit, double now, double floor, int round) const {
+  if (is_first_ && round >= last_relief) return std::min({limit, relieved_quality * now, poorest_quality});
+  return round >= first_relief ? std::min(limit, std::max(relieved_quality * now, floor)) : limit;
+}
+
+bool DrawBack::is_well(std::int64_t c, int round) const {
   const auto corners = cells_.corners_of(c);
   const auto at = corner_points(mesh_.points, corners);
   const auto cell = std::span<const Vec3>(at).first(corners.size());
   const CellKind kind = cells_.kinds[c];
-  return quality_of(kind, cell) >= least_now_[c] && is_valid(kind, cell) &&
-         (kind != CellKind::prism || !looks_inverted(kind, mesh_.points, corners));
+  return quality_of(kind, cell) >=
+             relieved(least_now_[c], now_[c], kind == CellKind::hex ? least_hex : least_other, round) &&
+         is_valid(kind, cell) && (kind != CellKind::prism || !looks_inverted(kind, mesh_.points, corners));
 }
 
-bool DrawBack::is_side_well(std::int64_t s) const {
+bool DrawBack::is_side_well(std::int64_t s, int round) const {
   const WallSide& side = input_.walls.sides()[long_sides_[s]];
+  const double least = is_first_ && round >= last_relief ? poorest_of_sides * least_of_sides_[s] : least_of_sides_[s];
   for (int level = 0; level < side.layers; ++level) {
     const auto cell = layer_cell(input_.walls, side, level);
     const auto at = input_.places.corners(mesh_.points, *cell);
     const auto corners = std::span<const Vec3>(at).first(corner_count(cell->kind));
-    if (quality_of(cell->kind, corners) < input_.least_quality || !is_valid(cell->kind, corners)) return false;
+    if (quality_of(cell->kind, corners) < least || !is_valid(cell->kind, corners)) return false;
   }
   return true;
 }
@@ -245,12 +292,13 @@ bool DrawBack::grade_shares() {
 void DrawBack::step() {
   start_ = mesh_.points;
   shares_.assign(mesh_.points.size(), 1.0);
+  now_.resize(cells_.kinds.size());
   least_now_.resize(cells_.kinds.size());
   parallel_for(cells_.count(), grain, [&](std::int64_t c) {
     const auto corners = cells_.corners_of(c);
     const auto at = corner_points(mesh_.points, corners);
-    const double now = quality_of(cells_.kinds[c], std::span<const Vec3>(at).first(corners.size()));
-    least_now_[c] = std::min(least_quality_of(cells_.kinds[c]), kept_quality * now);
+    now_[c] = quality_of(cells_.kinds[c], std::span<const Vec3>(at).first(corners.size()));
+    least_now_[c] = std::min(least_quality_of(cells_.kinds[c]), kept_quality * now_[c]);
   });
   // Whether something at the vertex has changed since the last look.
   std::vector<std::uint8_t> moved(mesh_.points.size(), 1);
@@ -267,7 +315,7 @@ void DrawBack::step() {
     parallel_for(cells_.count(), grain, [&](std::int64_t c) {
       const auto corners = cells_.corners_of(c);
       const bool stands = std::ranges::all_of(corners, [&](Vertex v) { return shares_[v] == 0; });
-      if (is_due(corners)) poor_cell[c] = !stands && !is_well(c);
+      if (is_due(corners)) poor_cell[c] = !stands && !is_well(c, round);
     });
     parallel_for(sides, grain, [&](std::int64_t s) {
       const WallSide& side = input_.walls.sides()[long_sides_[s]];
@@ -277,7 +325,7 @@ void DrawBack::step() {
           due = due || moved[tip] != 0, stands = stands && shares_[tip] == 0;
       // A side with a line that is stuck will have other cells.
       for (int k = 0; k < side.size(); ++k) stands = stands || std::ranges::binary_search(stuck_, side.lines[k]);
-      if (due) poor_side[s] = !stands && !is_side_well(s);
+      if (due) poor_side[s] = !stands && !is_side_well(s, round);
     });
     const std::vector<double> before = shares_;
     const auto fall = [&](Vertex v) {
@@ -301,6 +349,10 @@ void DrawBack::step() {
     for (std::size_t v = 0; v < shares_.size(); ++v) moved[v] = shares_[v] != before[v];
   }
   mesh_.points = start_;
+  if (!is_first_) return;
+  stuck_.clear();
+  for (std::size_t i = 0; i < lines().size(); ++i)
+    if (lines()[i].tip != no_index) stuck_.push_back(static_cast<LineIndex>(i));
 }
 
 // By line with a length: the share of the way from foot to goal.

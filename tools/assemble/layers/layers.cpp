@@ -20,13 +20,14 @@ constexpr int most_attempts = 8;
 constexpr double usual_share_of_edges = 0.5;
 // Cells of layers are no worse than this.
 constexpr double least_layer_quality = 0.02;
-constexpr int rounds_behind_layers = 2;
+constexpr int untangling_rounds_behind = 10, rounds_behind_layers = 2;
 
 std::vector<double> heights_of(const MixedMesh& mesh, const Walls& walls, const LayerRules& rules) {
   std::vector<double> heights, edges(walls.lines().size(), 0.0), counts(walls.lines().size(), 0.0);
   for (const LineEdge& edge : walls.edges())
     for (const LineIndex line : edge.lines) {
-      edges[line] += norm(mesh.points[walls.lines()[edge.lines[0]].foot] - mesh.points[walls.lines()[edge.lines[1]].foot]);
+      edges[line] +=
+          norm(mesh.points[walls.lines()[edge.lines[0]].foot] - mesh.points[walls.lines()[edge.lines[1]].foot]);
       ++counts[line];
     }
   for (std::size_t i = 0; i < walls.lines().size(); ++i) {
@@ -90,7 +91,10 @@ Layered LayerBuilder::attempt(const MixedMesh& mesh, const std::vector<Vertex>& 
   const shape::SlidingSurface sliding{surface_, input_.points, layered.origin, stays};
   const LinePoints places(layered.walls, layered.plan, guides_, rules_.growth);
   layered.drawn = draw_back(layered.mesh, {layered.walls, layered.plan, guides_, places, sliding, least_layer_quality});
-  if (layered.drawn.stuck.empty()) shape::smooth(layered.mesh, rounds_behind_layers, &sliding);
+  if (layered.drawn.stuck.empty()) {
+    shape::untangle(layered.mesh, untangling_rounds_behind, &sliding);
+    shape::smooth(layered.mesh, rounds_behind_layers, &sliding);
+  }
   return layered;
 }
 

@@ -25,8 +25,8 @@ constexpr double steepest = 0.4;
 // Edges of the inner mesh keep this share of the length that they have on the wall.
 constexpr double least_edge = 0.35;
 constexpr int rounds_of_edges = 10;
-// How much of the mean way along the wall of its neighbours a line takes over. Lines beside an edge then lean towards the
-// one that stands on it, each half as much as the one before, and cells at the edge do not bear all of it.
+// How much of the mean way along the wall of its neighbours a line takes over. Lines beside an edge then lean towards
+// the one that stands on it, each half as much as the one before, and cells at the edge do not bear all of it.
 constexpr double leaning = 0.8;
 constexpr int rounds_of_leaning = 20;
 // Lines lean only where the layers are this high beside the edges of the wall.
@@ -297,7 +297,8 @@ void close_over_quads(const Walls& walls, std::span<const double> worth, std::ve
       for (const LineIndex line : l) count += grows[line];
       if (count == 4 || count == 0) continue;
       if (count == 3) {
-        const int gone = static_cast<int>(std::ranges::find_if(l, [&](LineIndex line) { return grows[line] == 0; }) - l.begin());
+        const int gone =
+            static_cast<int>(std::ranges::find_if(l, [&](LineIndex line) { return grows[line] == 0; }) - l.begin());
         const LineIndex next = l[(gone + 1) % 4], last = l[(gone + 3) % 4];
         drop(worth[next] < worth[last] ? next : last);
       } else if (count == 1 || (grows[l[0]] == grows[l[2]])) {

@@ -12,10 +12,10 @@
 namespace hexpipe::assemble::layers {
 
 struct LinePlan {
-  std::vector<std::uint8_t> grows;      // by line: whether it can leave its foot at all
-  std::vector<Vec3> reach;              // from foot to tip
-  std::vector<double> room;             // the share of the asked height for which there is room
-  std::vector<GuideFreedom> freedoms;   // from the guides
+  std::vector<std::uint8_t> grows;     // by line: whether it can leave its foot at all
+  std::vector<Vec3> reach;             // from foot to tip
+  std::vector<double> room;            // the share of the asked height for which there is room
+  std::vector<GuideFreedom> freedoms;  // from the guides
 };
 
 // `heights`: by line, at right angles to the wall.

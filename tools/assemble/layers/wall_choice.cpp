@@ -28,12 +28,14 @@ AskedWall parse_wall(std::string_view text) {
   const std::size_t equals = text.rfind('=');
   const std::string_view name = trimmed(text.substr(0, std::min(equals, text.size())));
   if (equals == std::string_view::npos || name.empty())
-    throw UsageError(fmt::format("--boundary-layers: expected a surface and its number of layers, as 'wall=5', found '{}'", text));
+    throw UsageError(
+        fmt::format("--boundary-layers: expected a surface and its number of layers, as 'wall=5', found '{}'", text));
   const std::string_view number = trimmed(text.substr(equals + 1));
   int layers = 0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), layers);
   if (error != std::errc() || end != number.data() + number.size() || layers < 1 || layers > most_layers)
-    throw UsageError(fmt::format("--boundary-layers: expected 1 to {} layers on '{}', found '{}'", most_layers, name, number));
+    throw UsageError(
+        fmt::format("--boundary-layers: expected 1 to {} layers on '{}', found '{}'", most_layers, name, number));
   return {std::string(name), layers};
 }
 
@@ -62,13 +64,14 @@ std::string list_of(const Tags& tags, const Names& names) {
   return list;
 }
 
-[[noreturn]] void fail(std::string_view source, std::string_view what, std::string_view name, const Tags& all, const Names& names) {
+[[noreturn]] void fail(std::string_view source, std::string_view what, std::string_view name, const Tags& all,
+                       const Names& names) {
   std::vector<std::string> known;
   for (const auto& [tag, title] : names)
     if (all.contains(tag)) known.push_back(title);
   const std::string near = near_option(name, known);
-  throw DataError::at(source, "--boundary-layers: expected a {} by its name or number, found '{}'{}; there are {}", what, name,
-                      near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near), list_of(all, names));
+  throw DataError::at(source, "--boundary-layers: expected a {} by its name or number, found '{}'{}; there are {}",
+                      what, name, near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near), list_of(all, names));
 }
 
 // Tags of facets that have a tet on one side only.
@@ -95,7 +98,8 @@ void check_touching(std::span<const WallGroup> walls, const TetMesh& mesh, std::
     for (const Vertex v : mesh.triangles[i]) {
       if (wall_at[v] != nullptr && wall_at[v]->layers != wall->layers)
         throw DataError::at(
-            source, "--boundary-layers: expected as many layers on surfaces that touch, found {} on surface {} and {} on {}",
+            source,
+            "--boundary-layers: expected as many layers on surfaces that touch, found {} on surface {} and {} on {}",
             wall_at[v]->layers, wall_at[v]->tag, wall->layers, wall->tag);
       wall_at[v] = &*wall;
     }
@@ -139,8 +143,8 @@ std::vector<WallGroup> find_walls(std::span<const AskedWall> asked, const TetMes
       if (other == walls.end())
         walls.push_back({tag, wall.layers, region});
       else if (other->layers != wall.layers || other->region != region)
-        throw DataError::at(source, "--boundary-layers: expected surface {} once, found it with {} and with {} layers", tag,
-                            other->layers, wall.layers);
+        throw DataError::at(source, "--boundary-layers: expected surface {} once, found it with {} and with {} layers",
+                            tag, other->layers, wall.layers);
     }
   }
   check_touching(walls, mesh, source);

@@ -1,5 +1,5 @@
-// At a vertex of a wall, cells that share a facet which is no wall belong to one wedge. A vertex on a smooth wall has one
-// wedge, or two if the wall has cells on both sides; where walls only touch, there are more.
+// At a vertex of a wall, cells that share a facet which is no wall belong to one wedge. A vertex on a smooth wall has
+// one wedge, or two if the wall has cells on both sides; where walls only touch, there are more.
 
 #include "tools/assemble/layers/walls.hpp"
 
@@ -231,7 +231,9 @@ void WallFinder::add_side(const NearFacet& facet, const TaggedFacet& tagged) {
     }
     side.lines[i] = line;
     lines[line].layers = std::max(lines[line].layers, side.layers);
-    lines[line].normals.push_back(-corner_normal(mesh_, side.corners, side.size(), i));
+    // Quads may be warped: the line has to see them at all corners.
+    for (int k = 0; k < side.size(); ++k)
+      lines[line].normals.push_back(-corner_normal(mesh_, side.corners, side.size(), k));
   }
   sides.push_back(side);
 }
@@ -313,7 +315,8 @@ void Walls::split(MixedMesh& mesh, std::span<const std::uint8_t> grows) {
     mesh.points.push_back(mesh.points[lines_[i].foot]);
   }
   for (const Use& use : uses_)
-    if (const Vertex tip = lines_[use.line].tip; tip != no_index) corner_of(mesh, use.block, use.cell, use.corner) = tip;
+    if (const Vertex tip = lines_[use.line].tip; tip != no_index)
+      corner_of(mesh, use.block, use.cell, use.corner) = tip;
 }
 
 }  // namespace hexpipe::assemble::layers
