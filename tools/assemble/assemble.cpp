@@ -217,7 +217,7 @@ AssembleResult without_layers(Prepared& at, const Candidates& candidates, const 
 struct AskedLayers {
   std::optional<layers::LayerRules> pillow, walls;
 
-  AskedLayers(const TetMesh& mesh, const AssembleOptions& options, const choice::InputNames& names) {
+  AskedLayers(const TetMesh& mesh, const LayerOptions& options, const choice::InputNames& names) {
     const auto find = [&](std::span<const layers::AskedWall> asked) {
       return layers::find_walls(asked, mesh, options.tag_names, names.mesh);
     };
@@ -264,11 +264,11 @@ BuildRules build_rules(const AssembleOptions& options) {
 }
 
 AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const graph::IndependentSet& chosen,
-                        const AssembleOptions& options, const choice::InputNames& names) {
+                        const AssembleOptions& options, const choice::InputNames& names, const LayerOptions& layers) {
   Prepared at = checked_input(std::move(mesh), candidates, chosen, names);
-  const AskedLayers layers(at.input.mesh, options, names);
+  const AskedLayers asked(at.input.mesh, layers, names);
   AssembleResult result = without_layers(at, candidates, chosen, options, names);
-  if (layers.any()) add_layers(layers, at.input, options.smooth, result);
+  if (asked.any()) add_layers(asked, at.input, options.smooth, result);
   return result;
 }
 

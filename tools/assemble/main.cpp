@@ -34,7 +34,7 @@ struct CommandLine {
   int smooth = AssembleOptions{}.smooth;
   std::string walls;
   const CLI::Option *walls_option = nullptr, *height_option = nullptr, *growth_option = nullptr;
-  double first_height = 0, growth = AssembleOptions{}.growth;
+  double first_height = 0, growth = LayerOptions{}.growth;
   bool pillow = false;
   std::string require;
   std::vector<std::string> neighbours, before;
@@ -81,18 +81,21 @@ void declare_options(CLI::App& app, CommandLine& line) {
           "of hexes, that of all cells, and what finite volumes need (docs/definitions.md)"))
       ->type_name("LIST");
   begin_group(app, "Layers at walls");
-  line.walls_option = app.add_option("--boundary-layers", line.walls,
-                                     "Layers of hexes and prisms on surfaces, by name or number, such as 'wall=5, 3=5'; "
-                                     "all=5: on all of the boundary; 'wall in water=5': on one side of an interface")
-                          ->type_name("LIST");
+  line.walls_option =
+      app.add_option("--boundary-layers", line.walls,
+                     "Layers of hexes and prisms on surfaces, by name or number, such as 'wall=5, 3=5'; "
+                     "all=5: on all of the boundary; 'wall in water=5': on one side of an interface")
+          ->type_name("LIST");
   line.height_option = app.add_option("--first-height", line.first_height,
                                       "of the layer at the wall, in units of the mesh; where there is no room, all "
                                       "layers there are lower")
                            ->check(number_between(1e-50, 1e50));
-  line.growth_option = app.add_option("--growth", line.growth, "how many times as high as the layer below it a layer is")
-                           ->check(number_between(0.1, 10))
-                           ->capture_default_str();
-  app.add_flag("--pillow", line.pillow, "one more layer on all of the boundary, half as high as a cell, then smoothing");
+  line.growth_option =
+      app.add_option("--growth", line.growth, "how many times as high as the layer below it a layer is")
+          ->check(number_between(0.1, 10))
+          ->capture_default_str();
+  app.add_flag("--pillow", line.pillow,
+               "one more layer on all of the boundary, half as high as a cell, then smoothing");
   begin_group(app, "In parts");
   outside_history(
       app.add_option(
@@ -120,22 +123,23 @@ AssembleOptions options_of(CommandLine& line) {
   if (line.by_part() && !line.require.empty())
     throw UsageError("--require does not go with --neighbours: on the seam of a piece cells have no neighbours");
   if (!line.by_part() && !line.before.empty()) throw UsageError("--before goes with --neighbours");
-  const bool has_layers = line.walls_option->count() > 0;
-  if ((has_layers || line.pillow) && !may_change_cells)
-    throw UsageError("--boundary-layers and --pillow go with --conformity pyramids, without --neighbours");
-  if (has_layers && line.height_option->count() == 0) throw UsageError("--boundary-layers goes with --first-height");
-  if (!has_layers && line.height_option->count() + line.growth_option->count() > 0)
-    throw UsageError("--first-height and --growth go with --boundary-layers");
   return {.conformity = conformities.at(line.conformity),
           .exchange = exchanges.at(line.exchange),
           .fill = fills.at(line.fill),
           .merge = merges.at(line.merge),
-          .smooth = line.smooth,
-          .walls = has_layers ? layers::parse_walls(line.walls) : std::vector<layers::AskedWall>{},
-          .first_height = line.first_height,
-          .growth = line.growth,
-          .pillow = line.pillow,
-          .tag_names = {}};
+          .smooth = line.smooth};
+}
+
+LayerOptions layer_options_of(const CommandLine& line) {
+  const bool has_walls = line.walls_option->count() > 0;
+  if ((has_walls || line.pillow) && (line.by_part() || line.conformity == "none"))
+    throw UsageError("--boundary-layers and --pillow go with --conformity pyramids, without --neighbours");
+  if (has_walls && line.height_option->count() == 0) throw UsageError("--boundary-layers goes with --first-height");
+  if (!has_walls && line.height_option->count() + line.growth_option->count() > 0)
+    throw UsageError("--first-height and --growth go with --boundary-layers");
+  LayerOptions options{.first_height = line.first_height, .growth = line.growth, .pillow = line.pillow};
+  if (has_walls) options.walls = layers::parse_walls(line.walls);
+  return options;
 }
 
 pipeline::StageData read_input(pipeline::Stage& stage, bool by_part) {
@@ -168,12 +172,14 @@ pieces::SolvedPart solved_part(pipeline::StageData data, const choice::InputName
           .history = std::move(data.history)};
 }
 
-PartResult assemble_whole(pipeline::StageData data, AssembleOptions options, const choice::InputNames& names) {
-  options.tag_names = {data.names.surfaces, data.names.regions};
+PartResult assemble_whole(pipeline::StageData data, const AssembleOptions& options, LayerOptions layers,
+                          const choice::InputNames& names) {
+  layers.tag_names = {data.names.surfaces, data.names.regions};
   if (data.part && !data.part->neighbours.empty())
     throw DataError::at(names.mesh, "expected the neighbours of {} with --neighbours, found none",
                         title_of(*data.part));
-  AssembleResult result = assemble::assemble(std::move(*data.mesh), *data.candidates, *data.solution, options, names);
+  AssembleResult result =
+      assemble::assemble(std::move(*data.mesh), *data.candidates, *data.solution, options, names, layers);
   return {std::move(result.mesh), std::move(result.statistics), {}};
 }
 
@@ -200,6 +206,7 @@ nlohmann::ordered_json report(RunContext& context, const AssembleStatistics& sta
 
 void run(RunContext& context, CommandLine& line) {
   const AssembleOptions options = options_of(line);
+  LayerOptions layers = layer_options_of(line);
   const auto requirements = line.require.empty() ? std::vector<Requirement>{} : parse_requirements(line.require);
   context.options["conformity"] = line.conformity;
   context.options["exchange"] = line.exchange;
@@ -220,7 +227,7 @@ void run(RunContext& context, CommandLine& line) {
   const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
   const auto choice = graph_of_bundle ? proven_gap(data) : nullptr;
   PartResult result = line.by_part() ? assemble_one_part(std::move(data), line, options, names)
-                                     : assemble_whole(std::move(data), options, names);
+                                     : assemble_whole(std::move(data), options, std::move(layers), names);
   const auto details = report(context, result.statistics, choice);
   if (line.by_part())
     context.note(result.piece.settled ? "this piece is settled"

@@ -33,8 +33,8 @@ struct CheckedVolumes {
 CheckedVolumes check_result(const hybrid::Extract& result, const TetMesh& input, const hybrid::SurfaceTags& tags,
                             const shape::InputSurface& surface, bool conforming);
 
-// The same for a mesh that has got layers: its points from `first` on are new, and `origin` has their feet's vertices in
-// the input. Returns the volume of the cells.
+// The same for a mesh that has got layers: its points from `first` on are new, and `origin` has their feet's vertices
+// in the input. Returns the volume of the cells.
 double check_layered(const MixedMesh& mesh, std::span<const Vertex> origin, std::size_t first,
                      const shape::InputSurface& surface);
 

@@ -181,7 +181,8 @@ nlohmann::ordered_json json_of(const layers::LayerCounts& layers) {
 
 std::string layers_line(const char* what, const layers::LayerCounts& layers) {
   return fmt::format(
-      "{}: {} cells on {:.2f} % of {:g} of wall area, all of the height on {:.2f} %, scaled Jacobian at least {:.4f}, {:.4f} "
+      "{}: {} cells on {:.2f} % of {:g} of wall area, all of the height on {:.2f} %, scaled Jacobian at least {:.4f}, "
+      "{:.4f} "
       "on average",
       what, layers.cells, 100 * share(layers.area_with_layers, layers.area), layers.area,
       100 * share(layers.area_with_all, layers.area), layers.least_quality, layers.mean_quality);
@@ -196,7 +197,8 @@ std::optional<std::string> layers_warning(const AssembleStatistics& statistics) 
   constexpr double worth_telling = 0.99;
   if (layers.area_with_all >= worth_telling * layers.area) return std::nullopt;
   return fmt::format(
-      "layers have the height that --first-height and --growth give on {:.1f} % of the walls' area, less on {:.1f} %, and "
+      "layers have the height that --first-height and --growth give on {:.1f} % of the walls' area, less on {:.1f} %, "
+      "and "
       "{:.1f} % has none or not all; the lowest have {:.2g} of it",
       100 * share(layers.area_with_all, layers.area),
       100 * share(layers.area_with_layers - layers.area_with_all, layers.area),

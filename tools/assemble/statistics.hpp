@@ -55,8 +55,8 @@ struct AssembleStatistics {
   conform::ConformityCounts conformity;
   std::int64_t filling_prisms = 0;  // some may have gone back to their tets since
   ImprovementCounts improvement;
-  KindTable before_smoothing;            // if there was smoothing
-  std::vector<PoorCell> poor;            // all that are left
+  KindTable before_smoothing;                         // if there was smoothing
+  std::vector<PoorCell> poor;                         // all that are left
   std::optional<layers::LayerCounts> layers, pillow;  // if they were asked for
   std::optional<MeshMeasures> measures;  // of whole meshes: on the seam of a piece cells have no neighbours
 
