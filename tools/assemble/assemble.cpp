@@ -241,7 +241,8 @@ void add_layers(const AskedLayers& asked, const AssembleInput& input, int smooth
     shape::smooth(result.mesh, smooth_rounds, &sliding);
   }
   if (asked.walls) statistics.layers = add(*asked.walls);
-  check_layered(result.mesh, result.origin, first, input.surface);
+  double& deviation = statistics.volumes.deviation;
+  deviation = std::max(deviation, check_layered(result.mesh, result.origin, first, input.surface));
   count_cells(result.mesh, statistics);
   statistics.measures = measure_mesh(result.mesh);
 }

@@ -1,5 +1,6 @@
 #include "tools/assemble/self_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -189,11 +190,17 @@ double check_layered(const MixedMesh& mesh, std::span<const Vertex> origin, std:
       fail("expected facets of the boundary and of interfaces to be tagged, found one at vertex {} that is not", at);
   }
   const double tolerance = surface_tolerance * surface.diagonal();
+  double deviation = 0;
   const auto check_places = [&](const auto& block) {
-    for (const auto& facet : block.cells)
-      for (const Vertex v : facet)
+    for (const auto& facet : block.cells) {
+      Vec3 middle{};
+      for (const Vertex v : facet) {
+        middle += mesh.points[v] * (1.0 / static_cast<double>(facet.size()));
         if (static_cast<std::size_t>(v) >= first && surface.distance(origin[v], mesh.points[v], tolerance) > tolerance)
           fail("expected the boundary's vertices on the input's surface, found vertex {} of a layer off it", v);
+      }
+      deviation = std::max(deviation, surface.distance(origin[facet[0]], middle));
+    }
   };
   check_places(mesh.triangles);
   check_places(mesh.quads);
@@ -204,7 +211,7 @@ double check_layered(const MixedMesh& mesh, std::span<const Vertex> origin, std:
   const double skin = skin_volume(mesh, table);
   if (!(std::abs(skin - volume) <= volume_tolerance * volume))
     fail("expected the volume of the cells, {}, inside the skin, found {}", volume, skin);
-  return volume;
+  return deviation;
 }
 
 CheckedVolumes check_result(const hybrid::Extract& result, const TetMesh& input, const hybrid::SurfaceTags& tags,

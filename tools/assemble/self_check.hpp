@@ -34,7 +34,7 @@ CheckedVolumes check_result(const hybrid::Extract& result, const TetMesh& input,
                             const shape::InputSurface& surface, bool conforming);
 
 // The same for a mesh that has got layers: its points from `first` on are new, and `origin` has their feet's vertices
-// in the input. Returns the volume of the cells.
+// in the input. Returns the greatest distance of the boundary from the input's surface, at the middles of facets.
 double check_layered(const MixedMesh& mesh, std::span<const Vertex> origin, std::size_t first,
                      const shape::InputSurface& surface);
 
