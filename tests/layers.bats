@@ -9,7 +9,7 @@ setup_file() {
   export WORK="$BATS_FILE_TMPDIR"
   cd "$WORK"
   if ! command -v tetmesh >/dev/null; then return; fi
-  "$DATA/box.py" 6 >box.off
+  $PYTHON "$DATA/box.py" 6 >box.off
   tetmesh box.off --size 1 --tags-by-angle --name 1=floor --name '2=a lid' | findhex | buildgraph | initsol --iterations 0 -o box.tar
   $PYTHON - >pipe.off <<PYTHON
 from math import cos, sin, pi
