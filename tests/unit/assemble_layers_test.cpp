@@ -266,13 +266,13 @@ TEST(LayerHeights, GrowByTheFactor) {
 TEST(GuideFreedom, IsThatOfTheFacesBesideTheLine) {
   const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
   EXPECT_EQ(freedom_of({}).kind, GuideFreedom::Kind::space);
-  const std::array same{Guide{x, 3}, Guide{-x, 3}, Guide{unit({1, 0.2, 0}), 3}};
+  const std::array same{Guide{x, {}, 3}, Guide{-x, {}, 3}, Guide{unit({1, 0.2, 0}), {}, 3}};
   EXPECT_EQ(freedom_of(same).kind, GuideFreedom::Kind::face);
-  const std::array two{Guide{x, 3}, Guide{y, 4}};
+  const std::array two{Guide{x, {}, 3}, Guide{y, {}, 4}};
   EXPECT_EQ(freedom_of(two).kind, GuideFreedom::Kind::curve);
   EXPECT_EQ(std::abs(freedom_of(two).axis.z), 1);
   EXPECT_THAT(freedom_of(two).tags, ::testing::ElementsAre(3, 4));
-  const std::array three{Guide{x, 3}, Guide{y, 4}, Guide{z, 4}};
+  const std::array three{Guide{x, {}, 3}, Guide{y, {}, 4}, Guide{z, {}, 4}};
   EXPECT_EQ(freedom_of(three).kind, GuideFreedom::Kind::none);
 }
 

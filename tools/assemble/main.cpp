@@ -89,7 +89,8 @@ void declare_options(CLI::App& app, CommandLine& line) {
   line.height_option = app.add_option("--first-height", line.first_height,
                                       "of the layer at the wall, in units of the mesh; where there is no room, all "
                                       "layers there are lower")
-                           ->check(number_between(1e-50, 1e50));
+                           ->check(number_between(1e-50, 1e50))
+                           ->default_str("");
   line.growth_option =
       app.add_option("--growth", line.growth, "how many times as high as the layer below it a layer is")
           ->check(number_between(0.1, 10))

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "common/mesh/face_view.hpp"
@@ -139,7 +140,7 @@ class DrawBack {
     for (int pass = 0; pass < most_passes; ++pass) {
       find_displacements();
       step();
-      if (!stuck_.empty()) return {{}, stuck_};
+      if (!stuck_.empty()) return {{}, held_lines()};
       const std::vector<double> shares = shares_gone();
       double sum = 0, least = 1;
       for (const double share : shares) sum += share, least = std::min(least, share);
@@ -163,6 +164,7 @@ class DrawBack {
   bool is_well(std::int64_t c, int round) const;
   bool is_side_well(std::int64_t s, int round) const;
   bool grade_shares();
+  std::vector<LineIndex> held_lines() const;
   std::vector<double> shares_gone() const;
   std::vector<double> by_line(const std::vector<double>& shares) const;
   bool slides(Vertex v) const;
@@ -353,6 +355,14 @@ void DrawBack::step() {
   stuck_.clear();
   for (std::size_t i = 0; i < lines().size(); ++i)
     if (lines()[i].tip != no_index) stuck_.push_back(static_cast<LineIndex>(i));
+}
+
+// Those of the lines that are stuck that hold the others: lines beside the ends of walls if there are any.
+std::vector<LineIndex> DrawBack::held_lines() const {
+  std::vector<LineIndex> result;
+  std::ranges::copy_if(stuck_, std::back_inserter(result),
+                       [&](LineIndex line) { return !lines()[line].guides.empty(); });
+  return result.empty() ? stuck_ : result;
 }
 
 // By line with a length: the share of the way from foot to goal.

@@ -20,7 +20,7 @@ constexpr double cos_of_one_face = 0.766;
 
 GuideFreedom freedom_of(std::span<const Guide> guides) {
   struct Face {
-    Vec3 first, sum;
+    Vec3 first, sum, inwards;
     std::int32_t tag;
   };
   std::vector<Face> faces;
@@ -29,12 +29,12 @@ GuideFreedom freedom_of(std::span<const Guide> guides) {
       return f.tag == guide.tag && std::abs(dot(f.first, guide.normal)) > cos_of_one_face;
     });
     if (face == faces.end())
-      faces.push_back({guide.normal, guide.normal, guide.tag});
+      faces.push_back({guide.normal, guide.normal, guide.inwards, guide.tag});
     else
-      face->sum += dot(face->first, guide.normal) < 0 ? -guide.normal : guide.normal;
+      face->sum += dot(face->first, guide.normal) < 0 ? -guide.normal : guide.normal, face->inwards += guide.inwards;
   }
   GuideFreedom freedom;
-  for (const Face& face : faces) freedom.tags.push_back(face.tag);
+  for (const Face& face : faces) freedom.tags.push_back(face.tag), freedom.inwards.push_back(face.inwards);
   if (faces.size() == 1) {
     freedom.kind = GuideFreedom::Kind::face;
     freedom.axis = unit(faces[0].sum);

@@ -17,6 +17,7 @@ struct GuideFreedom {
   Kind kind = Kind::space;
   Vec3 axis{};                     // normal of the face, or direction of the curve; unit
   std::vector<std::int32_t> tags;  // of the face, or of the two beside the curve
+  std::vector<Vec3> inwards;       // for each of these faces, from the foot into it
 };
 
 // Guides of one tag that turn by less than 40 degrees are one face.

@@ -9,6 +9,7 @@
 #include "tools/assemble/layers/draw_back.hpp"
 #include "tools/assemble/layers/guide_surface.hpp"
 #include "tools/assemble/layers/line_plan.hpp"
+#include "tools/assemble/layers/open_quads.hpp"
 #include "tools/assemble/shape/smooth.hpp"
 
 namespace hexpipe::assemble::layers {
@@ -16,6 +17,8 @@ namespace {
 
 // Splitting anew without lines that are stuck; the last time without any line.
 constexpr int most_attempts = 8;
+// Quads that are cut let lines see other normals, so that others may have to be cut.
+constexpr int most_openings = 3;
 // Of the edges of the wall, where no height is given.
 constexpr double usual_share_of_edges = 0.5;
 // Cells of layers are no worse than this.
@@ -68,10 +71,12 @@ class LayerBuilder {
   LayerBuilder(const TetMesh& input, const shape::InputSurface& surface, const LayerRules& rules, Walls walls)
       : input_(input), surface_(surface), rules_(rules), walls_(std::move(walls)), guides_(input, guide_tags(walls_)) {}
 
-  LayerCounts build(MixedMesh& mesh, std::vector<Vertex>& origin) const;
+  // `bare`: by vertex, 1 where lines have no length.
+  Layered attempt(const MixedMesh& mesh, const std::vector<Vertex>& origin, std::span<const std::uint8_t> bare) const;
+  // Appends the columns.
+  LayerCounts finish(Layered& layered) const;
 
  private:
-  Layered attempt(const MixedMesh& mesh, const std::vector<Vertex>& origin, const LinePlan& plan) const;
   LayerCounts count(const Layered& layered) const;
 
   const TetMesh& input_;
@@ -81,9 +86,10 @@ class LayerBuilder {
   const GuideSurface guides_;
 };
 
-Layered LayerBuilder::attempt(const MixedMesh& mesh, const std::vector<Vertex>& origin, const LinePlan& plan) const {
-  Layered layered{mesh, origin, walls_, plan, {}};
-  layered.walls.split(layered.mesh, plan.grows);
+Layered LayerBuilder::attempt(const MixedMesh& mesh, const std::vector<Vertex>& origin,
+                              std::span<const std::uint8_t> bare) const {
+  Layered layered{mesh, origin, walls_, plan_lines(mesh, walls_, heights_of(mesh, walls_, rules_), bare), {}};
+  layered.walls.split(layered.mesh, layered.plan.grows);
   for (const Line& line : layered.walls.lines())
     if (line.tip != no_index) layered.origin.push_back(origin[line.foot]);
   std::vector<std::uint8_t> stays(input_.points.size(), 0);
@@ -136,23 +142,11 @@ LayerCounts LayerBuilder::count(const Layered& layered) const {
   return counts;
 }
 
-LayerCounts LayerBuilder::build(MixedMesh& mesh, std::vector<Vertex>& origin) const {
-  const std::vector<double> heights = heights_of(mesh, walls_, rules_);
-  LinePlan plan = plan_lines(mesh, walls_, heights);
-  for (int i = 0;; ++i) {
-    Layered layered = attempt(mesh, origin, plan);
-    if (layered.drawn.stuck.empty()) {
-      const LayerCounts counts = count(layered);
-      const LinePoints places(layered.walls, layered.plan, guides_, rules_.growth);
-      append_columns(layered.mesh, layered.origin, layered.walls, places);
-      mesh = std::move(layered.mesh);
-      origin = std::move(layered.origin);
-      return counts;
-    }
-    for (const LineIndex line : layered.drawn.stuck) plan.grows[line] = 0;
-    if (i + 2 >= most_attempts) std::ranges::fill(plan.grows, 0);
-    close_over_quads(walls_, plan.room, plan.grows);
-  }
+LayerCounts LayerBuilder::finish(Layered& layered) const {
+  const LayerCounts counts = count(layered);
+  const LinePoints places(layered.walls, layered.plan, guides_, rules_.growth);
+  append_columns(layered.mesh, layered.origin, layered.walls, places);
+  return counts;
 }
 
 }  // namespace
@@ -160,7 +154,26 @@ LayerCounts LayerBuilder::build(MixedMesh& mesh, std::vector<Vertex>& origin) co
 LayerCounts add_layers(MixedMesh& mesh, std::vector<Vertex>& origin, const TetMesh& input,
                        const shape::InputSurface& surface, const LayerRules& rules) {
   const Step step("adding layers at walls");
-  return LayerBuilder(input, surface, rules, Walls(mesh, rules.walls)).build(mesh, origin);
+  std::vector<std::uint8_t> bare(mesh.points.size(), 0);
+  for (int i = 0;; ++i) {
+    MixedMesh opened = mesh;
+    std::vector<Vertex> opened_origin = origin;
+    Walls walls(opened, rules.walls);
+    for (int round = 0; round < most_openings; ++round) {
+      if (!open_quads(opened, opened_origin, walls, lines_that_see(walls, bare))) break;
+      walls = Walls(opened, rules.walls);
+    }
+    const LayerBuilder builder(input, surface, rules, std::move(walls));
+    Layered layered = builder.attempt(opened, opened_origin, bare);
+    if (layered.drawn.stuck.empty()) {
+      const LayerCounts counts = builder.finish(layered);
+      mesh = std::move(layered.mesh);
+      origin = std::move(layered.origin);
+      return counts;
+    }
+    for (const LineIndex line : layered.drawn.stuck) bare[layered.walls.lines()[line].foot] = 1;
+    if (i + 2 >= most_attempts) std::ranges::fill(bare, 1);
+  }
 }
 
 }  // namespace hexpipe::assemble::layers

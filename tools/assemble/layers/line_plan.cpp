@@ -76,6 +76,9 @@ Sight sight_of(const Line& line, const GuideFreedom& freedom) {
       for (Vec3& normal : normals) normal -= freedom.axis * dot(freedom.axis, normal);
     direction = unit(shape::shortest_in_hull(normals));
   }
+  // Where the part turns away behind the edge of a wall, the face beside it does not go on into the part.
+  for (const Vec3& inwards : freedom.inwards)
+    if (!(dot(inwards, direction) > 0)) return {};
   return {direction, least_sine(line.normals, direction)};
 }
 
@@ -142,8 +145,13 @@ class Room {
 
 class Planner {
  public:
-  Planner(const MixedMesh& mesh, const Walls& walls, std::span<const double> asked)
-      : mesh_(mesh), walls_(walls), asked_(asked), neighbours_(walls), heights_(asked.begin(), asked.end()) {}
+  Planner(const MixedMesh& mesh, const Walls& walls, std::span<const double> asked, std::span<const std::uint8_t> bare)
+      : mesh_(mesh),
+        walls_(walls),
+        asked_(asked),
+        bare_(bare),
+        neighbours_(walls),
+        heights_(asked.begin(), asked.end()) {}
 
   LinePlan run() {
     look();
@@ -172,6 +180,7 @@ class Planner {
   const MixedMesh& mesh_;
   const Walls& walls_;
   std::span<const double> asked_;
+  std::span<const std::uint8_t> bare_;
   Neighbours neighbours_;
   std::vector<double> heights_;
   std::vector<std::uint8_t> grows_;
@@ -186,12 +195,8 @@ void Planner::look() {
     freedoms_.push_back(freedom_of(line.guides));
     sights_.push_back(sight_of(line, freedoms_.back()));
     worth.push_back(sights_.back().sine);
-    grows_.push_back(sights_.back().sine >= least_sight);
   }
-  // Where walls touch along an edge, columns on both sides would share their sides.
-  for (const LineEdge& edge : walls_.edges())
-    if (edge.sides > 2 || (edge.sides == 1 && !edge.is_tagged))
-      for (const LineIndex line : edge.lines) grows_[line] = 0;
+  grows_ = lines_that_see(walls_, bare_);
   close_over_quads(walls_, worth, grows_);
 }
 
@@ -308,8 +313,20 @@ void close_over_quads(const Walls& walls, std::span<const double> worth, std::ve
   }
 }
 
-LinePlan plan_lines(const MixedMesh& mesh, const Walls& walls, std::span<const double> heights) {
-  return Planner(mesh, walls, heights).run();
+std::vector<std::uint8_t> lines_that_see(const Walls& walls, std::span<const std::uint8_t> bare) {
+  std::vector<std::uint8_t> result;
+  for (const Line& line : walls.lines())
+    result.push_back(bare[line.foot] == 0 && sight_of(line, freedom_of(line.guides)).sine >= least_sight);
+  // Where walls touch along an edge, columns on both sides would share their sides.
+  for (const LineEdge& edge : walls.edges())
+    if (edge.sides > 2 || (edge.sides == 1 && !edge.is_tagged))
+      for (const LineIndex line : edge.lines) result[line] = 0;
+  return result;
+}
+
+LinePlan plan_lines(const MixedMesh& mesh, const Walls& walls, std::span<const double> heights,
+                    std::span<const std::uint8_t> bare) {
+  return Planner(mesh, walls, heights, bare).run();
 }
 
 }  // namespace hexpipe::assemble::layers

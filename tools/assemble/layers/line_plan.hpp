@@ -18,8 +18,12 @@ struct LinePlan {
   std::vector<GuideFreedom> freedoms;  // from the guides
 };
 
+// By line: whether it sees its wall, so that it could grow. `bare`: by vertex, 1 where lines have no length.
+std::vector<std::uint8_t> lines_that_see(const Walls& walls, std::span<const std::uint8_t> bare);
+
 // `heights`: by line, at right angles to the wall.
-LinePlan plan_lines(const MixedMesh& mesh, const Walls& walls, std::span<const double> heights);
+LinePlan plan_lines(const MixedMesh& mesh, const Walls& walls, std::span<const double> heights,
+                    std::span<const std::uint8_t> bare);
 
 // Takes away more lines until a quad has all four, the two of one edge, or none: other cells there would be no hexes
 // or prisms.

@@ -82,6 +82,11 @@ Vec3 corner_normal(const MixedMesh& mesh, const Quad& facet, int size, int corne
   return unit(cross(mesh.points[facet[(corner + 1) % size]] - at, mesh.points[facet[(corner + size - 1) % size]] - at));
 }
 
+Vec3 corner_bisector(const MixedMesh& mesh, const Quad& facet, int size, int corner) {
+  const Vec3& at = mesh.points[facet[corner]];
+  return unit(mesh.points[facet[(corner + 1) % size]] - at) + unit(mesh.points[facet[(corner + size - 1) % size]] - at);
+}
+
 class WallFinder {
  public:
   WallFinder(const MixedMesh& mesh, std::span<const WallGroup> groups) : mesh_(mesh), groups_(groups) {
@@ -276,7 +281,8 @@ void WallFinder::find_edges() {
     for (int i = 0; i < size; ++i) {
       const LineIndex line = line_of(cell, corners[i]), next = line_of(cell, corners[(i + 1) % size]);
       if (line == no_index) continue;
-      lines[line].guides.push_back({corner_normal(mesh_, corners, size, i), facet->tag});
+      lines[line].guides.push_back(
+          {corner_normal(mesh_, corners, size, i), corner_bisector(mesh_, corners, size, i), facet->tag});
       if (next == no_index) continue;
       const auto edge = found.find({std::min(line, next), std::max(line, next)});
       // Where the walls end at the boundary, interfaces that end there, too, do not count.

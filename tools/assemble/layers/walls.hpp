@@ -32,7 +32,8 @@ struct WallSide {
 
 // A tagged facet that is no wall, as one of its corners sees it. Lines stay on such facets.
 struct Guide {
-  Vec3 normal;  // unit; either way
+  Vec3 normal;   // unit; either way
+  Vec3 inwards;  // from the corner between its two edges
   std::int32_t tag;
 };
 
