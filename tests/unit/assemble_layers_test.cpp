@@ -233,6 +233,35 @@ TEST(Layers, RunOutInAPlane) {
   EXPECT_EQ(result.mesh.prisms.size(), static_cast<std::size_t>(2 * n));
 }
 
+// At the corner of such a wall a quad has one line with a length: it is cut, and the hex behind it is opened.
+TEST(Layers, RunOutAtACornerInAPlane) {
+  constexpr int n = 6;
+  Lattice box = tagged_lattice(n);
+  for (std::size_t t = 0; t < box.mesh.triangles.size(); ++t) {
+    Vec3 middle{};
+    for (const Vertex v : box.mesh.triangles[t]) middle += box.mesh.points[v] * (1.0 / 3);
+    if (middle.z == 0 && middle.x < 3 && middle.y < 3) box.mesh.triangle_tags[t] = 9;
+  }
+  const AssembleResult result = with_layers(box, options_with({{"9", 2}}, 0.1));
+  EXPECT_NEAR(expect_sound(result.mesh), n * n * n, 1e-9);
+  EXPECT_EQ(result.statistics.layers->area, 9);
+  EXPECT_EQ(result.statistics.layers->area_with_layers, 4);
+  EXPECT_EQ(result.statistics.layers->area_with_some, 8.5);
+  EXPECT_EQ(result.mesh.pyramids.size(), 5u);
+  EXPECT_EQ(result.mesh.tets.size(), 4u);  // two of the hex, and one in each layer
+}
+
+// The walls end at the inner edge of an L. Beside it the part goes on to both sides, and no line can leave it.
+TEST(Layers, RunOutBeforeAnInnerEdge) {
+  constexpr int n = 4;
+  const Lattice l = tagged_lattice(n, [](int i, int j, int) { return i < 2 || j < 2; });
+  const AssembleResult result = with_layers(l, options_with({{"2", 2}}, 0.1));
+  EXPECT_NEAR(expect_sound(result.mesh), 48, 1e-9);
+  EXPECT_EQ(result.statistics.layers->area, 16);
+  EXPECT_EQ(result.statistics.layers->area_with_layers, 12);
+  EXPECT_EQ(result.statistics.layers->area_with_some, 16);
+}
+
 TEST(Layers, SitOnMixedCells) {
   Random random(7);
   Lattice lattice = tagged_lattice(5);
