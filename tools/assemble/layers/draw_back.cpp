@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <optional>
 
 #include "common/mesh/face_view.hpp"
 #include "common/mesh/quality.hpp"
@@ -140,7 +139,7 @@ class DrawBack {
     for (int pass = 0; pass < most_passes; ++pass) {
       find_displacements();
       step();
-      if (!stuck_.empty()) return {{}, held_lines()};
+      if (!stuck_.empty()) return {{}, holding_lines()};
       const std::vector<double> shares = shares_gone();
       double sum = 0, least = 1;
       for (const double share : shares) sum += share, least = std::min(least, share);
@@ -164,7 +163,7 @@ class DrawBack {
   bool is_well(std::int64_t c, int round) const;
   bool is_side_well(std::int64_t s, int round) const;
   bool grade_shares();
-  std::vector<LineIndex> held_lines() const;
+  std::vector<LineIndex> holding_lines() const;
   std::vector<double> shares_gone() const;
   std::vector<double> by_line(const std::vector<double>& shares) const;
   bool slides(Vertex v) const;
@@ -358,7 +357,7 @@ void DrawBack::step() {
 }
 
 // Those of the lines that are stuck that hold the others: lines beside the ends of walls if there are any.
-std::vector<LineIndex> DrawBack::held_lines() const {
+std::vector<LineIndex> DrawBack::holding_lines() const {
   std::vector<LineIndex> result;
   std::ranges::copy_if(stuck_, std::back_inserter(result),
                        [&](LineIndex line) { return !lines()[line].guides.empty(); });

@@ -13,8 +13,7 @@ namespace {
 // Alternate projections onto two faces end where they move a point by less than this fraction of their first move.
 constexpr double settled = 1e-12;
 constexpr int most_projections = 60;
-// 40 degrees, as for the features of the input's surface.
-constexpr double cos_of_one_face = 0.766;
+const double cos_of_one_face = cosine_of_degrees(default_feature_angle);
 
 }  // namespace
 

@@ -39,7 +39,8 @@ struct Pieces {
 
 class Opener {
  public:
-  Opener(MixedMesh& mesh, std::vector<Vertex>& origin) : mesh_(mesh), origin_(origin) {}
+  Opener(MixedMesh& mesh, std::vector<Vertex>& origin)
+      : mesh_(mesh), origin_(origin), next_origin_(*std::ranges::max_element(origin) + 1) {}
 
   void add_cut(const WallSide& side, const VertexKey<2>& diagonal) {
     cuts_.try_emplace(FacetForm::of(side.corners).vertices, diagonal);
@@ -63,6 +64,7 @@ class Opener {
 
   MixedMesh& mesh_;
   std::vector<Vertex>& origin_;
+  Vertex next_origin_;  // a number that no point has yet
   std::map<Form, VertexKey<2>> cuts_;
   CellBlock<5> pyramids_;
   CellBlock<4> tets_;
@@ -143,8 +145,7 @@ void Opener::open(CellKind kind, CellBlock<Corners>& block) {
     const Pieces pieces = pieces_of(kind, corners, centre);
     if (kind != CellKind::pyramid) {
       mesh_.points.push_back(middle_of(mesh_.points, corners));
-      // A number that no point has yet, as those have that assemble adds.
-      origin_.push_back(*std::ranges::max_element(origin_) + 1);
+      origin_.push_back(next_origin_++);
     }
     for (const auto& pyramid : pieces.pyramids)
       pyramids_.cells.push_back(pyramid), pyramids_.tags.push_back(block.tags[i]);
