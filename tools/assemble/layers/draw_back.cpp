@@ -189,8 +189,12 @@ void DrawBack::find_sides() {
   for (std::size_t s = 0; s < input_.walls.sides().size(); ++s)
     if (layer_cell(input_.walls, input_.walls.sides()[s], 0)) {
       long_sides_.push_back(static_cast<std::int32_t>(s));
+      const WallSide& side = input_.walls.sides()[s];
+      // Cells that fan out from a line without length are as thin as the others are low, so that only validity counts.
+      const bool fans_out = std::ranges::any_of(std::span(side.lines).first(side.size()),
+                                                [&](LineIndex line) { return lines()[line].tip == no_index; });
       least_of_sides_.push_back(
-          std::min(input_.least_quality, share_of_facet_quality * facet_quality(mesh_, input_.walls.sides()[s])));
+          fans_out ? 0 : std::min(input_.least_quality, share_of_facet_quality * facet_quality(mesh_, side)));
     }
   sides_at_ = VertexItems(mesh_.points.size(), [&](auto&& visit) {
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(long_sides_.size()); ++i) {

@@ -16,7 +16,7 @@ namespace hexpipe::assemble::layers {
 namespace {
 
 // Splitting anew without lines that are stuck; the last time without any line.
-constexpr int most_attempts = 8;
+constexpr int most_attempts = 16;
 // Quads that are cut let lines see other normals, so that others may have to be cut.
 constexpr int most_openings = 3;
 // Of the edges of the wall, where no height is given.
