@@ -66,6 +66,23 @@ struct Layered {
   DrawBackResult drawn;
 };
 
+// Points inside that have a vertex of the input as their origin, as tips have their feet's, get numbers of their own
+// from `first` on: nothing holds them where that vertex is held.
+void number_inner_points(const MixedMesh& mesh, Vertex first, std::vector<Vertex>& origin) {
+  std::vector<std::uint8_t> is_on_facet(mesh.points.size(), 0), is_taken(static_cast<std::size_t>(first), 0);
+  const auto mark = [&](const auto& block) {
+    for (const auto& facet : block.cells)
+      for (const Vertex v : facet) is_on_facet[v] = 1;
+  };
+  mark(mesh.triangles);
+  mark(mesh.quads);
+  for (std::size_t v = 0; v < origin.size(); ++v)
+    if (origin[v] < first && is_on_facet[v] != 0) is_taken[origin[v]] = 1;
+  Vertex next = std::max(first, *std::ranges::max_element(origin) + 1);
+  for (std::size_t v = 0; v < origin.size(); ++v)
+    if (origin[v] < first && is_on_facet[v] == 0 && is_taken[origin[v]] != 0) origin[v] = next++;
+}
+
 class LayerBuilder {
  public:
   LayerBuilder(const TetMesh& input, const shape::InputSurface& surface, const LayerRules& rules, Walls walls)
@@ -146,6 +163,7 @@ LayerCounts LayerBuilder::finish(Layered& layered) const {
   const LayerCounts counts = count(layered);
   const LinePoints places(layered.walls, layered.plan, guides_, rules_.growth);
   append_columns(layered.mesh, layered.origin, layered.walls, places);
+  number_inner_points(layered.mesh, static_cast<Vertex>(input_.points.size()), layered.origin);
   return counts;
 }
 
