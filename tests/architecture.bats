@@ -92,7 +92,7 @@ assert_floors() {
   assert_floors common/mwis ground bounds reduce exact exact/historical local_search .
   assert_floors formats streams surfaces meshes meshes/libraries choice pipeline points
   assert_floors tools/tetmesh geometry fields solid sizing surface volume tetgen search .
-  assert_floors tools/assemble hybrid choice shape conform gap order pieces .
+  assert_floors tools/assemble hybrid choice shape conform gap layers order pieces .
 }
 
 @test "the files at the root of tetmesh stand on floors" {

@@ -1,8 +1,10 @@
 #include "tools/assemble/assemble.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "common/mesh/adjacency.hpp"
@@ -13,7 +15,9 @@
 #include "tools/assemble/attempt.hpp"
 #include "tools/assemble/choice/exchange.hpp"
 #include "tools/assemble/choice/prism_filling.hpp"
+#include "tools/assemble/layers/layers.hpp"
 #include "tools/assemble/self_check.hpp"
+#include "tools/assemble/shape/smooth.hpp"
 
 namespace hexpipe::assemble {
 namespace {
@@ -194,6 +198,55 @@ AssembleResult filled_result_of(Prepared& at, const Candidates& candidates, std:
   return result;
 }
 
+AssembleResult without_layers(Prepared& at, const Candidates& candidates, const graph::IndependentSet& chosen,
+                              const AssembleOptions& options, const choice::InputNames& names) {
+  const BuildRules rules = build_rules(options);
+  const bool exchanges = rules.is_conforming && options.exchange == AssembleOptions::Exchange::quads;
+  const bool fills = rules.is_conforming && options.fill == AssembleOptions::Fill::prisms;
+  if (!exchanges && !fills) return result_of(at, candidates, cells_of(at, candidates, chosen, names), rules, names);
+
+  auto [selection, exchange] = selected(at, candidates, chosen, exchanges, names);
+  AssembleResult result =
+      fills ? filled_result_of(at, candidates, std::move(selection), rules, names)
+            : result_of(at, candidates, cells_of(at, candidates, std::move(selection), names), rules, names);
+  result.statistics.exchange = exchange;
+  return result;
+}
+
+// The layers that the options ask for: first the pillow, then those of the walls, which then lie on the boundary.
+struct AskedLayers {
+  std::optional<layers::LayerRules> pillow, walls;
+
+  AskedLayers(const TetMesh& mesh, const LayerOptions& options, const choice::InputNames& names) {
+    const auto find = [&](std::span<const layers::AskedWall> asked) {
+      return layers::find_walls(asked, mesh, options.tag_names, names.mesh);
+    };
+    if (!options.walls.empty())
+      walls = layers::LayerRules{
+          .walls = find(options.walls), .first_height = options.first_height, .growth = options.growth};
+    if (options.pillow) pillow = layers::LayerRules{.walls = find(std::array{layers::AskedWall{"all", 1}})};
+  }
+  bool any() const { return pillow || walls; }
+};
+
+void add_layers(const AskedLayers& asked, const AssembleInput& input, int smooth_rounds, AssembleResult& result) {
+  const std::size_t first = result.mesh.points.size();
+  const auto add = [&](const layers::LayerRules& rules) {
+    return layers::add_layers(result.mesh, result.origin, input.mesh, input.surface, rules);
+  };
+  AssembleStatistics& statistics = result.statistics;
+  if (asked.pillow) {
+    statistics.pillow = add(*asked.pillow);
+    const shape::SlidingSurface sliding{input.surface, input.mesh.points, result.origin};
+    shape::smooth(result.mesh, smooth_rounds, &sliding);
+  }
+  if (asked.walls) statistics.layers = add(*asked.walls);
+  double& deviation = statistics.volumes.deviation;
+  deviation = std::max(deviation, check_layered(result.mesh, result.origin, first, input.surface));
+  count_cells(result.mesh, statistics);
+  statistics.measures = measure_mesh(result.mesh);
+}
+
 }  // namespace
 
 void check_orientation(const TetMesh& mesh, const choice::InputNames& names) {
@@ -212,18 +265,11 @@ BuildRules build_rules(const AssembleOptions& options) {
 }
 
 AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const graph::IndependentSet& chosen,
-                        const AssembleOptions& options, const choice::InputNames& names) {
+                        const AssembleOptions& options, const choice::InputNames& names, const LayerOptions& layers) {
   Prepared at = checked_input(std::move(mesh), candidates, chosen, names);
-  const BuildRules rules = build_rules(options);
-  const bool exchanges = rules.is_conforming && options.exchange == AssembleOptions::Exchange::quads;
-  const bool fills = rules.is_conforming && options.fill == AssembleOptions::Fill::prisms;
-  if (!exchanges && !fills) return result_of(at, candidates, cells_of(at, candidates, chosen, names), rules, names);
-
-  auto [selection, exchange] = selected(at, candidates, chosen, exchanges, names);
-  AssembleResult result =
-      fills ? filled_result_of(at, candidates, std::move(selection), rules, names)
-            : result_of(at, candidates, cells_of(at, candidates, std::move(selection), names), rules, names);
-  result.statistics.exchange = exchange;
+  const AskedLayers asked(at.input.mesh, layers, names);
+  AssembleResult result = without_layers(at, candidates, chosen, options, names);
+  if (asked.any()) add_layers(asked, at.input, options.smooth, result);
   return result;
 }
 

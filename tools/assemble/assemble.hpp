@@ -30,12 +30,14 @@ struct AssembleResult {
 void check_orientation(const TetMesh& mesh, const choice::InputNames& names);
 
 // The chosen cells, or others in exchange, and the tets that remain, with the input's regions and tagged facets; with
-// Conformity::pyramids conforming. The result is checked (self_check.hpp) before it is returned.
+// Conformity::pyramids conforming; and the layers that are asked for. The result is checked (self_check.hpp) before it
+// is returned.
 //
 // Throws DataError, with the name of the input, if a tet is not positively oriented, if candidates are not of this
-// mesh, or if chosen ones do not fit together or are not valid.
+// mesh, if chosen ones do not fit together or are not valid, or if the mesh has no such walls.
 AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const graph::IndependentSet& chosen,
-                        const AssembleOptions& options, const choice::InputNames& names = {});
+                        const AssembleOptions& options, const choice::InputNames& names = {},
+                        const LayerOptions& layers = {});
 
 // The rules for a whole mesh, which has no seam.
 BuildRules build_rules(const AssembleOptions& options);

@@ -36,6 +36,10 @@ struct CommandLine {
   std::string conformity = "pyramids", exchange = "quads", fill = "prisms", merge = "vertices";
   const CLI::Option *exchange_option = nullptr, *fill_option = nullptr, *merge_option = nullptr;
   int smooth = AssembleOptions{}.smooth;
+  std::string walls;
+  const CLI::Option *walls_option = nullptr, *height_option = nullptr, *growth_option = nullptr;
+  double first_height = 0, growth = LayerOptions{}.growth;
+  bool pillow = false;
   std::string require;
   std::vector<std::string> neighbours, before;
   int order = 1;
@@ -100,6 +104,23 @@ void declare_options(CLI::App& app, CommandLine& line) {
                          "With --order 2: the surface that the mesh was made of, in any format of tetmesh; nodes of "
                          "the boundary go onto it [that of the bundle; without one, arcs through the vertices]"))
           ->type_name("FILE");
+  begin_group(app, "Layers at walls");
+  line.walls_option =
+      app.add_option("--boundary-layers", line.walls,
+                     "Layers of hexes and prisms on surfaces, by name or number, such as 'wall=5, 3=5'; "
+                     "all=5: on all of the boundary; 'wall in water=5': on one side of an interface")
+          ->type_name("LIST");
+  line.height_option = app.add_option("--first-height", line.first_height,
+                                      "of the layer at the wall, in units of the mesh; where there is no room, all "
+                                      "layers there are lower")
+                           ->check(number_between(1e-50, 1e50))
+                           ->default_str("");
+  line.growth_option =
+      app.add_option("--growth", line.growth, "how many times as high as the layer below it a layer is")
+          ->check(number_between(0.1, 10))
+          ->capture_default_str();
+  app.add_flag("--pillow", line.pillow,
+               "one more layer on all of the boundary, half as high as a cell, then smoothing");
   begin_group(app, "In parts");
   outside_history(
       app.add_option(
@@ -138,6 +159,18 @@ AssembleOptions options_of(CommandLine& line) {
           .smooth = line.smooth};
 }
 
+LayerOptions layer_options_of(const CommandLine& line) {
+  const bool has_walls = line.walls_option->count() > 0;
+  if ((has_walls || line.pillow) && (line.by_part() || line.conformity == "none"))
+    throw UsageError("--boundary-layers and --pillow go with --conformity pyramids, without --neighbours");
+  if (has_walls && line.height_option->count() == 0) throw UsageError("--boundary-layers goes with --first-height");
+  if (!has_walls && line.height_option->count() + line.growth_option->count() > 0)
+    throw UsageError("--first-height and --growth go with --boundary-layers");
+  LayerOptions options{.first_height = line.first_height, .growth = line.growth, .pillow = line.pillow};
+  if (has_walls) options.walls = layers::parse_walls(line.walls);
+  return options;
+}
+
 pipeline::StageData read_input(pipeline::Stage& stage, const CommandLine& line) {
   pipeline::StageRequest request{.needs = {Role::mesh, Role::candidates, Role::solution},
                                  .surface = line.order == 2 && line.surface.empty(),
@@ -170,11 +203,14 @@ pieces::SolvedPart solved_part(pipeline::StageData data, const choice::InputName
           .history = std::move(data.history)};
 }
 
-PartResult assemble_whole(pipeline::StageData data, const AssembleOptions& options, const choice::InputNames& names) {
+PartResult assemble_whole(pipeline::StageData data, const AssembleOptions& options, LayerOptions layers,
+                          const choice::InputNames& names) {
+  layers.tag_names = {data.names.surfaces, data.names.regions};
   if (data.part && !data.part->neighbours.empty())
     throw DataError::at(names.mesh, "expected the neighbours of {} with --neighbours, found none",
                         title_of(*data.part));
-  AssembleResult result = assemble::assemble(std::move(*data.mesh), *data.candidates, *data.solution, options, names);
+  AssembleResult result =
+      assemble::assemble(std::move(*data.mesh), *data.candidates, *data.solution, options, names, layers);
   return {std::move(result.mesh), std::move(result.statistics), {}};
 }
 
@@ -189,6 +225,7 @@ nlohmann::ordered_json report(RunContext& context, const AssembleStatistics& sta
                               const nlohmann::ordered_json& choice) {
   context.statistics = to_json(statistics);
   for (const auto& line : summary_lines(statistics)) context.note(line);
+  if (const auto warning = layers_warning(statistics)) context.warn(*warning);
   nlohmann::ordered_json details{{"counts", context.statistics["cells"]}};
   if (choice.is_null()) return details;
   context.statistics["choice"] = details["choice"] = choice;
@@ -233,6 +270,7 @@ nlohmann::ordered_json report_second_order(RunContext& context, const order::Sec
 
 void run(RunContext& context, CommandLine& line) {
   const AssembleOptions options = options_of(line);
+  LayerOptions layers = layer_options_of(line);
   const auto requirements = line.require.empty() ? std::vector<Requirement>{} : parse_requirements(line.require);
   context.options["conformity"] = line.conformity;
   context.options["exchange"] = line.exchange;
@@ -240,6 +278,12 @@ void run(RunContext& context, CommandLine& line) {
   context.options["merge"] = line.merge;
   context.options["smooth"] = line.smooth;
   if (line.order == 2) context.options["order"] = line.order, context.options["nodes"] = line.nodes;
+  if (!line.walls.empty()) {
+    context.options["boundary_layers"] = line.walls;
+    context.options["first_height"] = line.first_height;
+    context.options["growth"] = line.growth;
+  }
+  if (line.pillow) context.options["pillow"] = true;
   pipeline::Stage stage(context);
   if (line.order == 2) stage.expect_second_order();
   pipeline::StageData data = read_input(stage, line);
@@ -250,7 +294,7 @@ void run(RunContext& context, CommandLine& line) {
   const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
   const auto choice = graph_of_bundle ? proven_gap(data) : nullptr;
   PartResult result = line.by_part() ? assemble_one_part(std::move(data), line, options, names)
-                                     : assemble_whole(std::move(data), options, names);
+                                     : assemble_whole(std::move(data), options, std::move(layers), names);
   std::optional<order::SecondOrderCounts> second_order;
   if (line.order == 2) second_order = add_second_order(line, std::move(surface), result);
   auto details = report(context, result.statistics, choice);

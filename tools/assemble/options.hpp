@@ -1,5 +1,9 @@
 #pragma once
 
+#include <vector>
+
+#include "tools/assemble/layers/wall_choice.hpp"
+
 namespace hexpipe::assemble {
 
 // The command line of assemble.
@@ -18,6 +22,14 @@ struct AssembleOptions {
   enum class Merge { vertices, none };
   Merge merge = Merge::vertices;
   int smooth = 5;  // rounds over all vertices
+};
+
+// Layers at walls. Only if the result conforms.
+struct LayerOptions {
+  std::vector<layers::AskedWall> walls{};
+  double first_height = 0, growth = 1.2;
+  bool pillow = false;           // one layer on all of the boundary, under those of the walls
+  layers::TagNames tag_names{};  // for the walls
 };
 
 }  // namespace hexpipe::assemble

@@ -1,5 +1,6 @@
 #include "tools/assemble/self_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -173,6 +174,45 @@ void check_volumes(const CheckedVolumes& volumes) {
 }
 
 }  // namespace
+
+double check_layered(const MixedMesh& mesh, std::span<const Vertex> origin, std::size_t first,
+                     const shape::InputSurface& surface) {
+  check_cells_valid(mesh);
+  check_points_used(mesh);
+  hybrid::CellFacets table(mesh);
+  mark_tagged(mesh.triangles, table);
+  mark_tagged(mesh.quads, table);
+  for (const auto& entry : table.entries()) {
+    const Vertex at = entry.vertices[0];
+    if (entry.uses > 2 || entry.one_way) fail("expected one cell on each side of a facet, found more at vertex {}", at);
+    const bool is_outer = entry.uses == 1, is_interface = !is_outer && entry.regions[0] != entry.regions[1];
+    if ((is_outer || is_interface) && !entry.tagged)
+      fail("expected facets of the boundary and of interfaces to be tagged, found one at vertex {} that is not", at);
+  }
+  const double tolerance = surface_tolerance * surface.diagonal();
+  double deviation = 0;
+  const auto check_places = [&](const auto& block) {
+    for (const auto& facet : block.cells) {
+      Vec3 middle{};
+      for (const Vertex v : facet) {
+        middle += mesh.points[v] * (1.0 / static_cast<double>(facet.size()));
+        if (static_cast<std::size_t>(v) >= first && surface.distance(origin[v], mesh.points[v], tolerance) > tolerance)
+          fail("expected the boundary's vertices on the input's surface, found vertex {} of a layer off it", v);
+      }
+      deviation = std::max(deviation, surface.distance(origin[facet[0]], middle));
+    }
+  };
+  check_places(mesh.triangles);
+  check_places(mesh.quads);
+  double volume = 0;
+  hybrid::for_each_cell(mesh, [&](CellKind kind, std::span<const Vertex> corners, std::int32_t) {
+    volume += cell_volume(kind, std::span<const Vec3>(corner_points(mesh.points, corners)).first(corners.size()));
+  });
+  const double skin = skin_volume(mesh, table);
+  if (!(std::abs(skin - volume) <= volume_tolerance * volume))
+    fail("expected the volume of the cells, {}, inside the skin, found {}", volume, skin);
+  return deviation;
+}
 
 CheckedVolumes check_result(const hybrid::Extract& result, const TetMesh& input, const hybrid::SurfaceTags& tags,
                             const shape::InputSurface& surface, bool conforming) {

@@ -2,6 +2,7 @@
 // Checks a result from the result itself, before anything is written: it is what assemble promises.
 
 #include <cstdint>
+#include <span>
 
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/assemble/hybrid/extract.hpp"
@@ -31,5 +32,10 @@ struct CheckedVolumes {
 // triangles.
 CheckedVolumes check_result(const hybrid::Extract& result, const TetMesh& input, const hybrid::SurfaceTags& tags,
                             const shape::InputSurface& surface, bool conforming);
+
+// The same for a mesh that has got layers: its points from `first` on are new, and `origin` has their feet's vertices
+// in the input. Returns the greatest distance of the boundary from the input's surface, at the middles of facets.
+double check_layered(const MixedMesh& mesh, std::span<const Vertex> origin, std::size_t first,
+                     const shape::InputSurface& surface);
 
 }  // namespace hexpipe::assemble

@@ -167,7 +167,43 @@ std::string measures_line(const MeshMeasures& measures) {
       measures.flatness.misses, measures.determinant.misses);
 }
 
+nlohmann::ordered_json json_of(const layers::LayerCounts& layers) {
+  return {{"facets", layers.facets},
+          {"bare_facets", layers.bare},
+          {"area", layers.area},
+          {"share_of_area_with_layers", share(layers.area_with_layers, layers.area)},
+          {"share_of_area_with_all_height", share(layers.area_with_all, layers.area)},
+          {"share_of_area_with_some_layers", share(layers.area_with_some, layers.area)},
+          {"least_share_of_height", layers.least_share},
+          {"cells", layers.cells},
+          {"scaled_jacobian", {{"least", layers.least_quality}, {"mean", layers.mean_quality}}}};
+}
+
+std::string layers_line(const char* what, const layers::LayerCounts& layers) {
+  return fmt::format(
+      "{}: {} cells on {:.2f} % of {:g} of wall area, all of the height on {:.2f} %, scaled Jacobian at least {:.4f}, "
+      "{:.4f} "
+      "on average",
+      what, layers.cells, 100 * share(layers.area_with_layers, layers.area), layers.area,
+      100 * share(layers.area_with_all, layers.area), layers.least_quality, layers.mean_quality);
+}
+
 }  // namespace
+
+std::optional<std::string> layers_warning(const AssembleStatistics& statistics) {
+  if (!statistics.layers) return std::nullopt;
+  const layers::LayerCounts& layers = *statistics.layers;
+  // A facet or two in corners is no news.
+  constexpr double worth_telling = 0.99;
+  if (layers.area_with_all >= worth_telling * layers.area) return std::nullopt;
+  return fmt::format(
+      "layers have the height that --first-height and --growth give on {:.1f} % of the walls' area, less on {:.1f} %, "
+      "and "
+      "{:.1f} % has none or not all; the lowest have {:.2g} of it",
+      100 * share(layers.area_with_all, layers.area),
+      100 * share(layers.area_with_layers - layers.area_with_all, layers.area),
+      100 * share(layers.area - layers.area_with_layers, layers.area), layers.least_share);
+}
 
 nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
   auto json = nlohmann::ordered_json::object();
@@ -204,6 +240,8 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
   const gap::FewerCells& fewer = statistics.improvement.fewer;
   json["merging"] = {{"vertices_gone", fewer.merged}, {"rooms_filled_anew", fewer.refilled}};
   json["nonconforming_quads"] = volumes.nonconforming_quads;
+  if (statistics.pillow) json["pillow"] = json_of(*statistics.pillow);
+  if (statistics.layers) json["layers"] = json_of(*statistics.layers);
   if (statistics.measures) json["finite_volumes"] = json_of(*statistics.measures);
   if (const auto& exchange = statistics.exchange)
     json["exchange"] = {{"hexes_out", exchange->hexes_out},
@@ -266,6 +304,8 @@ std::vector<std::string> summary_lines(const AssembleStatistics& statistics) {
   if (!statistics.poor.empty())
     lines.push_back(fmt::format("{} poor cells are left (hexes below 0.1, others below 0.02); --stats lists them",
                                 statistics.poor.size()));
+  if (statistics.pillow) lines.push_back(layers_line("pillow", *statistics.pillow));
+  if (statistics.layers) lines.push_back(layers_line("layers", *statistics.layers));
   if (statistics.measures) lines.push_back(measures_line(*statistics.measures));
   if (statistics.volumes.deviation > 0)
     lines.push_back(

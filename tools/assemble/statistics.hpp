@@ -13,6 +13,7 @@
 #include "tools/assemble/choice/exchange.hpp"
 #include "tools/assemble/conform/conform.hpp"
 #include "tools/assemble/gap/fewer_cells.hpp"
+#include "tools/assemble/layers/layers.hpp"
 #include "tools/assemble/self_check.hpp"
 
 namespace hexpipe::assemble {
@@ -54,8 +55,9 @@ struct AssembleStatistics {
   conform::ConformityCounts conformity;
   std::int64_t filling_prisms = 0;  // some may have gone back to their tets since
   ImprovementCounts improvement;
-  KindTable before_smoothing;            // if there was smoothing
-  std::vector<PoorCell> poor;            // all that are left
+  KindTable before_smoothing;                         // if there was smoothing
+  std::vector<PoorCell> poor;                         // all that are left
+  std::optional<layers::LayerCounts> layers, pillow;  // if they were asked for
   std::optional<MeshMeasures> measures;  // of whole meshes: on the seam of a piece cells have no neighbours
 
   std::int64_t cells() const;
@@ -75,5 +77,7 @@ void count_cells(MixedMesh& mesh, AssembleStatistics& statistics);
 
 nlohmann::ordered_json to_json(const AssembleStatistics& statistics);
 std::vector<std::string> summary_lines(const AssembleStatistics& statistics);
+// Where walls have less than was asked for, if they have.
+std::optional<std::string> layers_warning(const AssembleStatistics& statistics);
 
 }  // namespace hexpipe::assemble

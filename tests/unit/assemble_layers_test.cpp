@@ -1,0 +1,347 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "assemble_lattice.hpp"
+#include "common/mesh/quality.hpp"
+#include "common/mesh/validity.hpp"
+#include "common/run/error.hpp"
+#include "tools/assemble/assemble.hpp"
+#include "tools/assemble/hybrid/cell_facets.hpp"
+#include "tools/assemble/layers/columns.hpp"
+#include "tools/assemble/layers/guide_surface.hpp"
+#include "tools/assemble/layers/line_plan.hpp"
+#include "tools/assemble/layers/wall_choice.hpp"
+#include "tools/assemble/layers/walls.hpp"
+
+namespace hexpipe {
+using namespace assemble;
+using namespace assemble::layers;
+namespace {
+
+using ::testing::HasSubstr;
+using testing::Lattice;
+using testing::lattice_vertex;
+using testing::make_lattice;
+
+enum Side : std::int32_t { low_i = 1, high_i, low_j, high_j, low_k, high_k };
+
+// Tags the boundary of the cubes that `has` keeps, by the way it faces; the other cubes are gone.
+Lattice tagged_lattice(
+    int n, const std::function<bool(int, int, int)>& has = [](int, int, int) { return true; },
+    const std::function<int(int, int, int)>& region = [](int, int, int) { return 1; }) {
+  const Lattice whole = make_lattice(n, region);
+  Lattice lattice{n, {}, {}};
+  lattice.mesh.points = whole.mesh.points;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) {
+        if (!has(i, j, k)) continue;
+        const std::size_t cube = static_cast<std::size_t>((i * n + j) * n + k);
+        for (std::size_t t = 6 * cube; t < 6 * cube + 6; ++t) {
+          lattice.cubes.tets.push_back(static_cast<std::int32_t>(lattice.mesh.tets.size()));
+          lattice.mesh.tets.push_back(whole.mesh.tets[t]);
+          lattice.mesh.tet_tags.push_back(whole.mesh.tet_tags[t]);
+        }
+        lattice.cubes.vertices.push_back(whole.cubes.vertices[cube]);
+        lattice.cubes.kind.push_back(CellKind::hex);
+        lattice.cubes.quality.push_back(1);
+        lattice.cubes.volume.push_back(1);
+        lattice.cubes.tet_offsets.push_back(static_cast<std::int64_t>(lattice.cubes.tets.size()));
+        lattice.cubes.boundary_tet_offsets.push_back(0);
+      }
+  TetMesh& mesh = lattice.mesh;
+  add_missing_boundary_triangles(mesh, TetAdjacency(mesh, "lattice"), 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3 normal = cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
+    for (int axis = 0; axis < 3; ++axis)
+      if (normal[axis] != 0) mesh.triangle_tags[t] = 1 + 2 * axis + (normal[axis] > 0);
+  }
+  return lattice;
+}
+
+LayerOptions options_with(std::vector<AskedWall> walls, double first_height, double growth = 1.2) {
+  LayerOptions options;
+  options.walls = std::move(walls);
+  options.first_height = first_height;
+  options.growth = growth;
+  return options;
+}
+
+AssembleResult with_layers(const Lattice& lattice, const LayerOptions& options) {
+  return assemble::assemble(lattice.mesh, lattice.cubes, choice::all_of(lattice.cubes), {}, {}, options);
+}
+
+// What self_check.hpp proves, told again from the cells.
+double expect_sound(const MixedMesh& mesh) {
+  double volume = 0;
+  hybrid::for_each_cell(mesh, [&](CellKind kind, std::span<const Vertex> corners, std::int32_t) {
+    const auto at = corner_points(mesh.points, corners);
+    const auto cell = std::span<const Vec3>(at).first(corners.size());
+    EXPECT_TRUE(is_valid(kind, cell));
+    volume += cell_volume(kind, cell);
+  });
+  hybrid::CellFacets facets(mesh);
+  std::size_t outer = 0, tagged_twice = 0;
+  for (const auto& facet : facets.entries()) {
+    EXPECT_LE(facet.uses, 2);
+    EXPECT_FALSE(facet.one_way);
+    if (facet.uses == 1)
+      ++outer;
+    else if (facet.regions[0] != facet.regions[1])
+      ++tagged_twice;
+  }
+  EXPECT_EQ(outer + tagged_twice, mesh.triangles.size() + mesh.quads.size());
+  return volume;
+}
+
+TEST(Layers, StandOnOneSideOfABox) {
+  constexpr int n = 4, layers = 3;
+  const Lattice box = tagged_lattice(n);
+  const AssembleResult result = with_layers(box, options_with({{"5", layers}}, 0.05));
+  EXPECT_NEAR(expect_sound(result.mesh), n * n * n, 1e-9);
+  EXPECT_EQ(result.mesh.hexes.size(), static_cast<std::size_t>(n * n * n + layers * n * n));
+  EXPECT_EQ(result.mesh.points.size(), static_cast<std::size_t>((n + 1) * (n + 1) * (n + 1 + layers)));
+  // Four sides get a row of quads for each layer.
+  EXPECT_EQ(result.mesh.quads.size(), static_cast<std::size_t>(6 * n * n + 4 * layers * n));
+  ASSERT_TRUE(result.statistics.layers);
+  EXPECT_EQ(result.statistics.layers->area, n * n);
+  EXPECT_EQ(result.statistics.layers->area_with_all, n * n);
+  EXPECT_NEAR(result.statistics.layers->least_quality, 1, 1e-9);
+}
+
+TEST(Layers, HaveTheFirstHeightAndGrow) {
+  const Lattice box = tagged_lattice(3);
+  const AssembleResult result = with_layers(box, options_with({{"5", 3}}, 0.05, 2));
+  // Over the vertex at the corner of the floor.
+  std::vector<double> heights;
+  for (const Vec3& p : result.mesh.points)
+    if (p.x == 0 && p.y == 0 && p.z < 0.5) heights.push_back(p.z);
+  std::ranges::sort(heights);
+  ASSERT_EQ(heights.size(), 4u);
+  EXPECT_EQ(heights[0], 0);
+  EXPECT_NEAR(heights[1], 0.05, 1e-12);
+  EXPECT_NEAR(heights[2], 0.15, 1e-12);
+  EXPECT_NEAR(heights[3], 0.35, 1e-12);
+}
+
+TEST(Layers, MeetAtTheEdgesAndCornersOfABox) {
+  constexpr int n = 4, layers = 2;
+  const AssembleResult result = with_layers(tagged_lattice(n), options_with({{"all", layers}}, 0.1));
+  EXPECT_NEAR(expect_sound(result.mesh), n * n * n, 1e-9);
+  EXPECT_EQ(result.mesh.hexes.size(), static_cast<std::size_t>(n * n * n + 6 * layers * n * n));
+  EXPECT_EQ(result.mesh.quads.size(), static_cast<std::size_t>(6 * n * n));
+  EXPECT_EQ(result.statistics.layers->area_with_all, 6 * n * n);
+  EXPECT_GT(result.statistics.layers->least_quality, 0.5);
+}
+
+// Around the edge inside, where the walls turn away from each other.
+TEST(Layers, GoRoundTheInnerEdgeOfAnL) {
+  constexpr int n = 4;
+  const Lattice l = tagged_lattice(n, [](int i, int j, int) { return i < 2 || j < 2; });
+  const AssembleResult result = with_layers(l, options_with({{"all", 3}}, 0.05));
+  EXPECT_NEAR(expect_sound(result.mesh), 48, 1e-9);
+  EXPECT_EQ(result.statistics.layers->area_with_layers, result.statistics.layers->area);
+  EXPECT_NEAR(result.statistics.layers->area_with_all, result.statistics.layers->area, 1e-9);
+}
+
+// A corner at which three walls turn inwards, and edges of both kinds around it.
+TEST(Layers, GoRoundACornerThatPointsInwards) {
+  constexpr int n = 4;
+  const Lattice notched = tagged_lattice(n, [](int i, int j, int k) { return i < 2 || j < 2 || k < 2; });
+  const AssembleResult result = with_layers(notched, options_with({{"all", 3}}, 0.05));
+  EXPECT_NEAR(expect_sound(result.mesh), 56, 1e-9);
+  EXPECT_EQ(result.statistics.layers->area_with_layers, result.statistics.layers->area);
+}
+
+TEST(Layers, StandOnBothSidesOfAnInterfaceOrOnOne) {
+  constexpr int n = 4, interface = 7;
+  Lattice box = tagged_lattice(
+      n, [](int, int, int) { return true; }, [](int i, int, int) { return i < 2 ? 1 : 2; });
+  for (std::size_t t = 0; t < box.mesh.triangles.size(); ++t) {
+    const bool inside = std::ranges::all_of(box.mesh.triangles[t], [&](Vertex v) { return box.mesh.points[v].x == 2; });
+    if (inside) box.mesh.triangle_tags[t] = interface;
+  }
+  const AssembleResult both = with_layers(box, options_with({{"7", 2}}, 0.1));
+  EXPECT_NEAR(expect_sound(both.mesh), n * n * n, 1e-9);
+  EXPECT_EQ(both.mesh.hexes.size(), static_cast<std::size_t>(n * n * n + 4 * n * n));
+  LayerOptions options = options_with({{"7 in water", 2}}, 0.1);
+  options.tag_names.regions = {{2, "water"}};
+  const AssembleResult one = with_layers(box, options);
+  EXPECT_NEAR(expect_sound(one.mesh), n * n * n, 1e-9);
+  EXPECT_EQ(one.mesh.hexes.size(), static_cast<std::size_t>(n * n * n + 2 * n * n));
+  EXPECT_EQ(std::ranges::count(one.mesh.hexes.tags, 1), 2 * n * n);
+}
+
+// An interface stands on the wall: it goes on between the columns.
+TEST(Layers, LetInterfacesReachTheWall) {
+  constexpr int n = 4, layers = 3;
+  const Lattice box = tagged_lattice(
+      n, [](int, int, int) { return true; }, [](int i, int, int) { return i < 2 ? 1 : 2; });
+  const AssembleResult result = with_layers(box, options_with({{"5", layers}}, 0.1));
+  EXPECT_NEAR(expect_sound(result.mesh), n * n * n, 1e-9);
+  EXPECT_EQ(result.mesh.quads.size(), static_cast<std::size_t>(7 * n * n + 5 * layers * n));
+}
+
+TEST(Layers, AreLowerInAThinPlate) {
+  constexpr int n = 4;
+  Lattice plate = tagged_lattice(n);
+  for (Vec3& p : plate.mesh.points) p.z *= 0.05;
+  for (double& volume : plate.cubes.volume) volume *= 0.05;
+  // Ten times as high as the plate is thick.
+  const AssembleResult result = with_layers(plate, options_with({{"5", 3}, {"6", 3}}, 0.5));
+  EXPECT_NEAR(expect_sound(result.mesh), 0.05 * n * n * n, 1e-9);
+  EXPECT_EQ(result.statistics.layers->area_with_layers, 2 * n * n);
+  EXPECT_EQ(result.statistics.layers->area_with_all, 0);
+  EXPECT_LT(result.statistics.layers->least_share, 0.1);
+  EXPECT_GT(result.statistics.layers->least_share, 0.01);
+}
+
+// The lattice is bent to a quarter of a tube, with walls inside and outside: all levels of a line at the ends stay in
+// the plane of the ends.
+TEST(Layers, FollowATube) {
+  constexpr int n = 6;
+  Lattice tube = tagged_lattice(n);
+  for (Vec3& p : tube.mesh.points) {
+    const double angle = p.y / n * std::numbers::pi / 2, radius = n + p.x;
+    p = {radius * std::cos(angle), radius * std::sin(angle), p.z};
+  }
+  const AssembleResult without = with_layers(tube, {});
+  const AssembleResult result = with_layers(tube, options_with({{"1", 4}, {"2", 4}}, 0.05));
+  EXPECT_NEAR(expect_sound(result.mesh), expect_sound(without.mesh), 1e-9 * n * n * n);
+  EXPECT_NEAR(result.statistics.layers->area_with_all, result.statistics.layers->area, 1e-9);
+  EXPECT_GT(result.statistics.layers->least_quality, 0.9);
+}
+
+// Only part of a flat side is a wall. Layers cannot end inside a plane: they have no height at its border, and all
+// cells there are valid.
+TEST(Layers, RunOutInAPlane) {
+  constexpr int n = 6, wall = 9;
+  Lattice box = tagged_lattice(n);
+  for (std::size_t t = 0; t < box.mesh.triangles.size(); ++t) {
+    Vec3 middle{};
+    for (const Vertex v : box.mesh.triangles[t]) middle += box.mesh.points[v] * (1.0 / 3);
+    if (middle.z == 0 && middle.x < 3) box.mesh.triangle_tags[t] = wall;
+  }
+  const AssembleResult result = with_layers(box, options_with({{"9", 2}}, 0.1));
+  EXPECT_NEAR(expect_sound(result.mesh), n * n * n, 1e-9);
+  EXPECT_EQ(result.statistics.layers->area, 3 * n);
+  EXPECT_EQ(result.statistics.layers->area_with_layers, 2 * n);
+  EXPECT_EQ(result.statistics.layers->area_with_some, 3 * n);
+  EXPECT_EQ(result.mesh.prisms.size(), static_cast<std::size_t>(2 * n));
+}
+
+// At the corner of such a wall a quad has one line with a length: it is cut, and the hex behind it is opened.
+TEST(Layers, RunOutAtACornerInAPlane) {
+  constexpr int n = 6;
+  Lattice box = tagged_lattice(n);
+  for (std::size_t t = 0; t < box.mesh.triangles.size(); ++t) {
+    Vec3 middle{};
+    for (const Vertex v : box.mesh.triangles[t]) middle += box.mesh.points[v] * (1.0 / 3);
+    if (middle.z == 0 && middle.x < 3 && middle.y < 3) box.mesh.triangle_tags[t] = 9;
+  }
+  const AssembleResult result = with_layers(box, options_with({{"9", 2}}, 0.1));
+  EXPECT_NEAR(expect_sound(result.mesh), n * n * n, 1e-9);
+  EXPECT_EQ(result.statistics.layers->area, 9);
+  EXPECT_EQ(result.statistics.layers->area_with_layers, 4);
+  EXPECT_EQ(result.statistics.layers->area_with_some, 8.5);
+  EXPECT_EQ(result.mesh.pyramids.size(), 5u);
+  EXPECT_EQ(result.mesh.tets.size(), 4u);  // two of the hex, and one in each layer
+}
+
+// The walls end at the inner edge of an L. Beside it the part goes on to both sides, and no line can leave it.
+TEST(Layers, RunOutBeforeAnInnerEdge) {
+  constexpr int n = 4;
+  const Lattice l = tagged_lattice(n, [](int i, int j, int) { return i < 2 || j < 2; });
+  const AssembleResult result = with_layers(l, options_with({{"2", 2}}, 0.1));
+  EXPECT_NEAR(expect_sound(result.mesh), 48, 1e-9);
+  EXPECT_EQ(result.statistics.layers->area, 16);
+  EXPECT_EQ(result.statistics.layers->area_with_layers, 12);
+  EXPECT_EQ(result.statistics.layers->area_with_some, 16);
+}
+
+TEST(Layers, SitOnMixedCells) {
+  Random random(7);
+  Lattice lattice = tagged_lattice(5);
+  testing::jitter(lattice, 0.15, random);
+  const AssembleResult result =
+      assemble::assemble(lattice.mesh, lattice.cubes, testing::random_choice(lattice, 0.5, random), {}, {},
+                         options_with({{"all", 4}}, 0.03));
+  EXPECT_NEAR(expect_sound(result.mesh), 125, 1e-9);
+  EXPECT_GT(result.mesh.prisms.size(), 0u);
+  EXPECT_NEAR(result.statistics.layers->area_with_layers, 150, 1e-9);
+}
+
+TEST(Layers, APillowIsOneLayer) {
+  constexpr int n = 4;
+  LayerOptions options;
+  options.pillow = true;
+  const AssembleResult result = with_layers(tagged_lattice(n), options);
+  EXPECT_NEAR(expect_sound(result.mesh), n * n * n, 1e-9);
+  EXPECT_EQ(result.mesh.hexes.size(), static_cast<std::size_t>(n * n * n + 6 * n * n));
+  ASSERT_TRUE(result.statistics.pillow);
+  EXPECT_FALSE(result.statistics.layers);
+}
+
+TEST(LayerHeights, GrowByTheFactor) {
+  EXPECT_DOUBLE_EQ(share_of_height(1, 4, 1), 0.25);
+  EXPECT_DOUBLE_EQ(share_of_height(1, 2, 2), 1.0 / 3);
+  EXPECT_DOUBLE_EQ(share_of_height(2, 3, 2), 3.0 / 7);
+  EXPECT_DOUBLE_EQ(share_of_height(5, 5, 1.2), 1);
+}
+
+TEST(GuideFreedom, IsThatOfTheFacesBesideTheLine) {
+  const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  EXPECT_EQ(freedom_of({}).kind, GuideFreedom::Kind::space);
+  const std::array same{Guide{x, {}, 3}, Guide{-x, {}, 3}, Guide{unit({1, 0.2, 0}), {}, 3}};
+  EXPECT_EQ(freedom_of(same).kind, GuideFreedom::Kind::face);
+  const std::array two{Guide{x, {}, 3}, Guide{y, {}, 4}};
+  EXPECT_EQ(freedom_of(two).kind, GuideFreedom::Kind::curve);
+  EXPECT_EQ(std::abs(freedom_of(two).axis.z), 1);
+  EXPECT_THAT(freedom_of(two).tags, ::testing::ElementsAre(3, 4));
+  const std::array three{Guide{x, {}, 3}, Guide{y, {}, 4}, Guide{z, {}, 4}};
+  EXPECT_EQ(freedom_of(three).kind, GuideFreedom::Kind::none);
+}
+
+std::string complaint_about(const std::string& walls) {
+  try {
+    const auto asked = parse_walls(walls);
+    find_walls(asked, tagged_lattice(2).mesh, {{{5, "floor"}}, {{1, "water"}}}, "box");
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(WallChoice, FindsSurfacesByNameAndNumber) {
+  const auto tags_of = [](const std::string& text) {
+    std::vector<std::int32_t> tags;
+    for (const WallGroup& wall : find_walls(parse_walls(text), tagged_lattice(2).mesh,
+                                            {{{5, "floor"}, {6, "lid in red"}}, {{1, "water"}}}, "box"))
+      tags.push_back(wall.tag);
+    return tags;
+  };
+  EXPECT_THAT(tags_of("floor=3"), ::testing::ElementsAre(5));
+  EXPECT_THAT(tags_of("surface_5=3, 6 =4"), ::testing::ElementsAre(5, 6));
+  EXPECT_THAT(tags_of("lid in red=3"), ::testing::ElementsAre(6));
+  EXPECT_THAT(tags_of("floor in water=3"), ::testing::ElementsAre(5));
+  EXPECT_EQ(tags_of("all=3").size(), 6u);
+}
+
+TEST(WallChoice, SaysWhatIsWrong) {
+  EXPECT_THAT(complaint_about("flor=3"),
+              HasSubstr("found 'flor' (did you mean 'floor'?); there are 1, 2, 3, 4, 5 (floor), 6"));
+  EXPECT_THAT(complaint_about("floor in wter=3"), HasSubstr("expected a region by its name or number, found 'wter'"));
+  EXPECT_THAT(complaint_about("floor"), HasSubstr("as 'wall=5', found 'floor'"));
+  EXPECT_THAT(complaint_about("=3"), HasSubstr("as 'wall=5', found '=3'"));
+  EXPECT_THAT(complaint_about("floor=0"), HasSubstr("expected 1 to 100 layers on 'floor', found '0'"));
+  EXPECT_THAT(complaint_about("floor=2.5"), HasSubstr("found '2.5'"));
+  EXPECT_THAT(complaint_about("floor=3,1=4"), HasSubstr("as many layers on surfaces that touch"));
+  EXPECT_THAT(complaint_about("floor=3,5=4"), HasSubstr("expected surface 5 once"));
+  EXPECT_EQ(complaint_about("floor=3,6=4"), "");
+}
+
+}  // namespace
+}  // namespace hexpipe
