@@ -158,7 +158,7 @@ class SampledCell {
   std::vector<std::vector<Monomial>> samples_;
 };
 
-class CurvedValidity : public testing::TestWithParam<std::tuple<CellKind, bool>> {};
+class CurvedValidity : public ::testing::TestWithParam<std::tuple<CellKind, bool>> {};
 
 // What is shown to be valid is positive wherever one looks; and what is positive by a margin is shown to be valid.
 TEST_P(CurvedValidity, AgreesWithSamplingOnThousandsOfCells) {
@@ -182,7 +182,7 @@ TEST_P(CurvedValidity, AgreesWithSamplingOnThousandsOfCells) {
   EXPECT_LE(missed, 15);  // between the samples, or undecided
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, CurvedValidity, testing::Combine(testing::ValuesIn(kinds), testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(Kinds, CurvedValidity, ::testing::Combine(::testing::ValuesIn(kinds), ::testing::Bool()));
 
 TEST(CurvedValidityOfStraightCells, IsThatOfTheirCorners) {
   for (const CellKind kind : kinds)
