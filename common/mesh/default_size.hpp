@@ -13,10 +13,9 @@ struct ModelExtent {
   double volume = 0;
 };
 
-// A twentieth of the diagonal; at most half of the mean wall thickness, which gives two layers, so fine that 6,000 cubes of
-// this size fill the volume, and at most `longest`; but at least a hundredth of the cube root of the volume, a million cubes.
-// Models with fewer cells lose by the size alone: over HexMe 6,000 cubes have 96 % of the volume in hexes, 5 % of the
-// diagonal 92 (docs/log/pipeline.md).
+// The least of: a twentieth of the diagonal; half of the mean wall thickness (two layers); the edge of a cube of which
+// 6,000 fill the volume; `longest`. But no less than the edge of a cube of which a million do. Models with fewer cells
+// lose by the size alone: on HexMe hexes have 96.9 % of the volume with the 6,000, and 93.2 without (docs/log/pipeline.md).
 inline double default_size(const ModelExtent& model, double longest) {
   constexpr double of_diagonal = 0.05, of_thickness = 0.5, fewest_cubes = 6000, most_cubes = 1e6;
   const double thickness = 2 * model.volume / model.area;

@@ -43,13 +43,13 @@ RefillCounts refill_rooms(GapMesh& gap);
 std::int64_t mend(GapMesh& gap);
 
 struct Opened {
-  std::int64_t inserted = 0;      // rooms of gap cells that were filled around a new vertex
+  std::int64_t inserted = 0;      // rooms of gap cells that were filled anew
   std::vector<CellIndex> chosen;  // cells that are gone
 };
 
 // Puts new vertices into the rooms around cells of the gap that are worse than least_wanted. Where that does not help, a
 // chosen cell beside the poor one goes: better pyramids and tets take its room, and the poor cell improves. No other cell
-// falls below least_quality that was not below before. At most one chosen cell in a thousand and four more go.
+// falls below least_wanted that was not below before. At most four chosen cells and one more in each thousand go.
 Opened open_hexes(GapMesh& gap);
 
 }  // namespace hexpipe::assemble::gap

@@ -28,8 +28,9 @@ constexpr double flat_bend = 0.05;
 // On the other edges, points are watched at most this many deviations apart.
 constexpr double watch_spacing = 3;
 constexpr double most_samples = 64;  // along an edge
-// A triangle of less than this shape takes the rest of the deviation, this many times what vertices were removed with, if a
-// flip mends it: a vertex between two others on a straight row otherwise keeps the flat triangle that the three make.
+// A flip that mends a triangle of less than this shape may leave the surface this many times as far as other changes: a
+// vertex between two others on a straight row otherwise keeps the flat triangle that the three make. Times the share of
+// the deviation that the caller gives (removal_share in surface_remesh.cpp) it has to stay below 1.
 constexpr double thin_shape = 0.1, allowance_for_thin = 1.15;
 // Removing some vertices makes others removable. More rounds found nothing.
 constexpr int most_rounds = 20;
