@@ -1,5 +1,6 @@
 #include "common/curved/curved_validity.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -182,7 +183,11 @@ TEST_P(CurvedValidity, AgreesWithSamplingOnThousandsOfCells) {
   EXPECT_LE(missed, 15);  // between the samples, or undecided
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, CurvedValidity, ::testing::Combine(::testing::ValuesIn(kinds), ::testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(Kinds, CurvedValidity, ::testing::Combine(::testing::ValuesIn(kinds), ::testing::Bool()),
+                         [](const auto& tried) {
+                           const auto& [kind, full] = tried.param;
+                           return fmt::format("Kind{}{}", static_cast<int>(kind), full ? "Full" : "Serendipity");
+                         });
 
 TEST(CurvedValidityOfStraightCells, IsThatOfTheirCorners) {
   for (const CellKind kind : kinds)
