@@ -13,8 +13,7 @@ namespace hexpipe::formats {
 bool looks_like_3mf(std::string_view bytes);
 
 // Reads all objects that are to be built, where the archive places them, in millimetres. Each mesh placed is a group
-// with its object's name, and so are triangles of other materials or colours than most of their object. Throws
-// DataError and FormatError.
+// with its object's name, and so are triangles of other materials or colours than their object's. Throws DataError.
 SurfaceSoup read_3mf(std::string_view bytes, const std::string& name);
 
 }  // namespace hexpipe::formats

@@ -204,6 +204,12 @@ def others():
          f'<object id="1" name="tet" pid="5" pindex="1"><mesh><vertices>{vertices}</vertices><triangles>{triangles}</triangles></mesh></object>'
          '<object id="2"><components><component objectid="1" transform="-1 0 0 0 1 0 0 0 1 2 0 0"/></components></object>'
          '</resources><build><item objectid="2"/><item objectid="1" transform="1 0 0 0 1 0 0 0 1 4 0 0"/></build></model>')
+    production = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06"
+    seed("threemf", "parts", "=====\n".join((
+        f'<model requiredextensions="p" xmlns:p="{production}"><resources/><build><item objectid="7" p:path="/3D/Objects/Part.model"/></build></model>\n',
+        f'<model><resources><object id="7" name="tet"><mesh><vertices>{vertices}</vertices><triangles>{triangles}</triangles></mesh></object></resources></model>\n',
+        '<Relationships><Relationship Target="/3D/3DModel.model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>\n',
+        '<config><object id="7"><part subtype="negative_part"/></object></config>\n')))
     readers = DATA / "readers"
     for name in ("binary-stl-trailing-byte.stl", "stl-end-solid.stl"):
         seed("stl", name.removesuffix(".stl"), (readers / name).read_bytes())

@@ -168,21 +168,30 @@ SurfaceSoup read_any_surface(std::string_view bytes) {
   return looks_like_mesh_surface(input.peek(bytes_that_tell_mesh)) ? read_mesh_surface(input) : read_surface(input);
 }
 
-// The bytes are the model inside: a checksum would stop nearly all mutations of the archive.
+// The bytes are the parts inside, with lines between as in read_tetgen_files(): a checksum would stop nearly all
+// mutations of the archive. All but the model may be missing.
 void read_threemf(std::string_view bytes) {
+  constexpr std::string_view separator = "=====\n";
   std::string zip(bytes.size() + 4096, '\0');
   std::size_t used = 0;
   archive* const out = archive_write_new();
-  archive_entry* const entry = archive_entry_new();
   archive_write_set_format_zip(out);
   archive_write_set_options(out, "zip:compression=store");
   archive_write_open_memory(out, zip.data(), zip.size(), &used);
-  archive_entry_set_pathname(entry, "3D/3dmodel.model");
-  archive_entry_set_size(entry, static_cast<la_int64_t>(bytes.size()));
-  archive_entry_set_filetype(entry, AE_IFREG);
-  archive_write_header(out, entry);
-  archive_write_data(out, bytes.data(), bytes.size());
-  archive_entry_free(entry);
+  for (const char* const name :
+       {"3D/3dmodel.model", "3D/Objects/part.model", "_rels/.rels", "Metadata/model_settings.config"}) {
+    const std::size_t end = bytes.find(separator);
+    const std::string_view part = bytes.substr(0, end);
+    archive_entry* const entry = archive_entry_new();
+    archive_entry_set_pathname(entry, name);
+    archive_entry_set_size(entry, static_cast<la_int64_t>(part.size()));
+    archive_entry_set_filetype(entry, AE_IFREG);
+    archive_write_header(out, entry);
+    archive_write_data(out, part.data(), part.size());
+    archive_entry_free(entry);
+    if (end == std::string_view::npos) break;
+    bytes.remove_prefix(end + separator.size());
+  }
   archive_write_free(out);
   read_soup(std::string_view(zip).substr(0, used));
 }

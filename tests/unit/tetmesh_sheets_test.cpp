@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "common/run/error.hpp"
 #include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/solid/sheets.hpp"
 #include "tools/tetmesh/surface/feature_curves.hpp"
@@ -42,6 +43,18 @@ Facets boxes_with_common_face() {
 
 Facets boxes_with_common_edge() {
   return joined(box({0, 0, 0}, {1, 1, 1}), box({1, 1, 0}, {2, 2, 1}));
+}
+
+// A cup beside a cube: a body with a hole, unless the file says that there is the same on both sides.
+TEST(Sheets, SidesThatTheFileTellsAreBelieved) {
+  Facets cup = box({1, 1, 0}, {2, 2, 1});
+  cup.erase(cup.begin(), cup.begin() + 2);
+  SurfaceSoup soup = soup_of(joined(box({0, 0, 0}, {1, 1, 1}), cup)), told = soup;
+  EXPECT_THROW(find_sides(soup, ShellRule::oriented), DataError);
+  for (std::size_t t = 0; t < told.triangles.size(); ++t)
+    told.sides.push_back(t < 12 ? std::array{1, 0} : std::array{0, 0});
+  EXPECT_EQ(join_bodies(told).fins, 10u);
+  EXPECT_EQ(told.triangles.size(), 12u);
 }
 
 TEST(SheetCut, PartsAtTheRimOfAnInterface) {

@@ -115,6 +115,26 @@ TEST(SurfaceCheck, NamesIntersectingTriangles) {
                 "triangles "));
 }
 
+TEST(SurfaceCheck, NamesUniteWhereBodiesThatPointOutwardOverlap) {
+  const auto end_of_error = [](const Facets& facets) {
+    try {
+      check_surface(soup_of(facets), " (see --repair)");
+    } catch (const DataError& error) {
+      const std::string text = error.what();
+      return text.substr(text.find('('));
+    }
+    return std::string("no error");
+  };
+  const Facets overlapping = joined(cube(), cube(0.5));
+  EXPECT_EQ(end_of_error(overlapping), "(see --unite)");
+  EXPECT_EQ(end_of_error(joined(cube(), inverted(cube(0.5)))), "(see --repair)");
+  // Its triangles intersect among themselves, as well as those of the cubes.
+  const Vec3 a{9, 0, 0}, b{10, 0, 0}, c{10, 1, 0}, d{9, 1, 0};
+  const Facets pillow{{a, b, c}, {a, c, d}, {a, d, b}, {d, c, b}};
+  EXPECT_EQ(end_of_error(pillow), "(see --repair)");
+  EXPECT_EQ(end_of_error(joined(overlapping, pillow)), "(see --repair, then --unite)");
+}
+
 TEST(SurfaceCheck, TouchingFromOutsideIsAnIntersection) {
   EXPECT_THAT(error_of(joined(cube(), box({1, 0.25, 0.25}, {2, 0.75, 0.75}))), HasSubstr("does not intersect itself"));
 }

@@ -117,7 +117,7 @@ class SideFinder {
   bool is_fin(std::int32_t t) { return rooms_->of(behind(t)) == rooms_->of(before(t)); }
   void set_sides();
   void drop_fins();
-  void refuse_open_bodies(const std::vector<bool>& kept) const;
+  void refuse_open_bodies() const;
 
   formats::SurfaceSoup& soup_;
   ShellRule rule_;
@@ -284,6 +284,7 @@ void SideFinder::set_sides() {
   soup_.sides.clear();
   for (std::int32_t t = 0; t < count(); ++t)
     soup_.sides.push_back({region_[rooms_->of(behind(t))], region_[rooms_->of(before(t))]});
+  refuse_open_bodies();
   drop_fins();
 }
 
@@ -291,7 +292,6 @@ void SideFinder::set_sides() {
 void SideFinder::drop_fins() {
   std::vector<bool> kept;
   for (const auto& [back, front] : soup_.sides) kept.push_back(back != front);
-  refuse_open_bodies(kept);
   const auto fins = static_cast<std::size_t>(std::ranges::count(kept, false));
   if (fins == kept.size())
     throw DataError::at(soup_.name, "expected a surface that encloses something, found only sheets that do not");
@@ -314,19 +314,20 @@ void SideFinder::drop_fins() {
 }
 
 // The triangles of a body with a hole have the same on both sides, like fins. But such a body is larger than a sheet
-// with its border could be.
-void SideFinder::refuse_open_bodies(const std::vector<bool>& kept) const {
+// with its border could be. Files that tell the sides themselves are believed.
+void SideFinder::refuse_open_bodies() const {
   struct Piece {
     std::size_t triangles = 0;
     double area = 0, border = 0;
     HalfEdge open = no_index;  // an edge of a single triangle
   };
-  JoinedSets sets(kept.size());
+  const auto has_same_on_both = [&](std::int32_t t) { return soup_.sides[t][0] == soup_.sides[t][1]; };
+  JoinedSets sets(soup_.triangles.size());
   std::vector<std::int32_t> fins;  // at an edge
   const auto find_fins = [&](std::span<const HalfEdge> edge) {
     fins.clear();
     for (const HalfEdge h : edge)
-      if (!kept[geometry::triangle_of(h)]) fins.push_back(geometry::triangle_of(h));
+      if (has_same_on_both(geometry::triangle_of(h))) fins.push_back(geometry::triangle_of(h));
   };
   geometry::for_each_edge(soup_.points.size(), soup_.triangles, [&](std::span<const HalfEdge> edge) {
     find_fins(edge);
@@ -334,7 +335,7 @@ void SideFinder::refuse_open_bodies(const std::vector<bool>& kept) const {
   });
   std::map<std::int32_t, Piece> pieces;
   for (std::int32_t t = 0; t < count(); ++t) {
-    if (kept[t]) continue;
+    if (!has_same_on_both(t)) continue;
     Piece& piece = pieces[sets.of(t)];
     ++piece.triangles;
     piece.area += norm(normal_of(soup_, t)) / 2;

@@ -199,16 +199,37 @@ const char* hint_for_cad(const formats::SurfaceSoup& soup) {
                                                    : "; where bodies touch, tessellate --join makes one face of two";
 }
 
-// Whether the triangles belong to two bodies that are closed, as far as the edges go that they have with others.
-bool are_of_two_bodies(const formats::SurfaceSoup& soup, const std::array<std::int32_t, 2>& pair) {
-  if (!soup.sides.empty()) return false;
+// How many of the pairs are of two bodies that --unite takes: they are closed, as far as the edges go that they have
+// with others, and point outward.
+std::size_t count_of_two_bodies(const formats::SurfaceSoup& soup, std::span<const std::array<std::int32_t, 2>> pairs) {
+  if (!soup.sides.empty()) return 0;
   JoinedSets bodies(soup.triangles.size());
   bool is_closed = true;
   geometry::for_each_edge(soup.points.size(), soup.triangles, [&](std::span<const geometry::HalfEdge> edge) {
     is_closed = is_closed && edge.size() % 2 == 0;
     for (const geometry::HalfEdge h : edge) bodies.join(geometry::triangle_of(edge[0]), geometry::triangle_of(h));
   });
-  return is_closed && bodies.of(pair[0]) != bodies.of(pair[1]);
+  if (!is_closed) return 0;
+  std::vector<double> volume(soup.triangles.size());  // six times that, by the number of a body
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const std::int32_t body = bodies.of(static_cast<std::int32_t>(t));
+    const Vec3& origin = soup.points[soup.triangles[body][0]];
+    const auto [a, b, c] = soup.triangles[t];
+    volume[body] += det(soup.points[a] - origin, soup.points[b] - origin, soup.points[c] - origin);
+  }
+  return static_cast<std::size_t>(std::ranges::count_if(pairs, [&](const std::array<std::int32_t, 2>& pair) {
+    const std::int32_t one = bodies.of(pair[0]), other = bodies.of(pair[1]);
+    return one != other && volume[one] > 0 && volume[other] > 0;
+  }));
+}
+
+// --unite does not mend bodies that intersect themselves.
+std::string remedy_for(const formats::SurfaceSoup& soup, std::span<const std::array<std::int32_t, 2>> pairs,
+                       std::string_view remedy) {
+  const std::size_t of_two_bodies = count_of_two_bodies(soup, pairs);
+  if (of_two_bodies == pairs.size()) return " (see --unite)";
+  if (of_two_bodies == 0 || !remedy.ends_with(')')) return std::string(remedy);
+  return fmt::format("{}, then --unite)", remedy.substr(0, remedy.size() - 1));
 }
 
 void check_no_intersections(const formats::SurfaceSoup& soup, const geometry::IntersectionReport& report,
@@ -218,7 +239,7 @@ void check_no_intersections(const formats::SurfaceSoup& soup, const geometry::In
       soup.place_of(report.pairs.front()[0]),
       "expected a surface that does not intersect itself, found {}{} of triangles that do; the first: {}{}{}",
       report.complete ? "" : "more than ", count_of(report.pairs.size(), "pair"), list_of(soup, report.pairs.front()),
-      hint_for_cad(soup), are_of_two_bodies(soup, report.pairs.front()) ? " (see --unite)" : remedy);
+      hint_for_cad(soup), remedy_for(soup, report.pairs, remedy));
 }
 
 }  // namespace

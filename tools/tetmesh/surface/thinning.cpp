@@ -103,7 +103,7 @@ class Thinner {
       if (!mesh_.is_collapse_ok(choice.collapse)) continue;
       shape_after(choice.collapse, limits.longest);  // sets the normals
       const auto end = mesh_.to_vertex_handle(choice.collapse);
-      if (!is_smooth_after() || !find_new_faces(end, limits.tolerance)) continue;
+      if (!is_smooth_after() || !find_new_faces(end)) continue;
       mesh_.collapse_edge(choice.collapse);
       touched_[end.idx()] = round;
       for (const Wedge& wedge : wedges_) {
@@ -160,14 +160,16 @@ class Thinner {
     return least;
   }
 
-  // The new face nearest to each vertex that is gone then; false if one is further than the tolerance from all.
-  bool find_new_faces(FeatureMesh::VertexHandle end, double tolerance) {
+  // The new face nearest to each vertex that is gone then; false if one is further than its tolerance from all.
+  bool find_new_faces(FeatureMesh::VertexHandle end) {
     faces_.clear();
     for (const Wedge& wedge : wedges_)
       if (!wedge.goes) faces_.emplace_back(mesh_.position(end), mesh_.position(wedge.from), mesh_.position(wedge.to));
     new_face_.clear();
     for (const std::int32_t gone : gone_) {
-      const Vec3 place = mesh_.position(FeatureMesh::VertexHandle(gone));
+      const FeatureMesh::VertexHandle v(gone);
+      const Vec3 place = mesh_.position(v);
+      const double tolerance = limits_at(v).tolerance;
       double least = tolerance * tolerance;
       std::size_t nearest = faces_.size();
       for (std::size_t i = 0; i < faces_.size(); ++i) {
@@ -244,9 +246,17 @@ std::vector<FeatureMesh::EdgeHandle> specks(const FeatureMesh& mesh, const solid
     length[sets.of(start(e).idx())] +=
         is_sharp_only ? norm(mesh.position(start(e)) - mesh.position(end(e))) : std::numeric_limits<double>::infinity();
   }
+  // A set goes or stays as a whole: it is measured where the edges may be shortest.
+  const sizing::SizeField longest_speck = speck * longest;
+  std::vector<bool> stays(mesh.n_vertices());  // by the number of a set
+  for (const auto e : mesh.edges()) {
+    if (!mesh.is_feature(e)) continue;
+    const std::int32_t set = sets.of(start(e).idx());
+    stays[set] = stays[set] || !longest_speck.is_at_least(length[set], mesh.position(start(e))) ||
+                 !longest_speck.is_at_least(length[set], mesh.position(end(e)));
+  }
   for (const auto e : mesh.edges())
-    if (mesh.is_feature(e) && (speck * longest).is_at_least(length[sets.of(start(e).idx())], mesh.position(start(e))))
-      result.push_back(e);
+    if (mesh.is_feature(e) && !stays[sets.of(start(e).idx())]) result.push_back(e);
   return result;
 }
 
