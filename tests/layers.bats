@@ -114,6 +114,31 @@ PYTHON
   assert [ -s polyMesh/faces ]
 }
 
+@test "with --order 2, feet on curved walls keep the first height" {
+  # Between the coarse ring's corners, vertices are up to 0.017 off the fine one.
+  "$DATA/ring.py" 6 >coarse.stl
+  "$DATA/ring.py" >ring.stl
+  tetmesh coarse.stl --size 0.3 -q | findhex | buildgraph | initsol --iterations 20000 -o ring.tar
+  assemble -q ring.tar --boundary-layers 'inner=3, outer=3' --first-height 0.02 --order 2 --surface ring.stl --stats stats.json -o ring.vtu
+  holds 'stats["layers"]["share_of_area_with_all_height"] == 1 and stats["second_order"]["corners_off_surface"] > 0' stats.json
+  $PYTHON - <<'PYTHON'
+import meshio, numpy as np
+for kind in ("wedge15", "pyramid13"):
+    meshio._mesh.topological_dimension.setdefault(kind, 3)
+mesh = meshio.read("ring.vtu")
+corners = {"triangle6": 3, "quad8": 4, "tetra10": 4, "pyramid13": 5, "wedge15": 6, "hexahedron20": 8}
+feet, others = set(), set()
+for block, tags in zip(mesh.cells, mesh.cell_data["surface"]):
+    nodes = np.asarray(block.data)[:, :corners[block.type]]
+    others.update(nodes.ravel())
+    if block.type in ("triangle6", "quad8"):
+        feet.update(nodes[np.isin(np.asarray(tags).ravel(), (1, 2))].ravel())
+others = mesh.points[sorted(others - feet)]
+heights = np.array([np.linalg.norm(others - foot, axis=1).min() for foot in mesh.points[sorted(feet)]])
+assert len(heights) > 50 and abs(heights / 0.02 - 1).max() < 0.15, (len(heights), heights.min(), heights.max())
+PYTHON
+}
+
 @test "OpenFOAM finds layers well" {
   command -v checkMesh >/dev/null || skip "openfoam is not installed"
   export WM_PROJECT_DIR=${WM_PROJECT_DIR:-/usr/share/openfoam}
