@@ -74,6 +74,16 @@ AssembleResult with_layers(const Lattice& lattice, const LayerOptions& options) 
   return assemble::assemble(lattice.mesh, lattice.cubes, choice::all_of(lattice.cubes), {}, {}, options);
 }
 
+template <class Call>
+std::string message_from(Call&& call) {
+  try {
+    call();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
 // What self_check.hpp proves, told again from the cells.
 double expect_sound(const MixedMesh& mesh) {
   double volume = 0;
@@ -330,6 +340,72 @@ TEST(WallChoice, FindsSurfacesByNameAndNumber) {
   EXPECT_EQ(tags_of("all=3").size(), 6u);
 }
 
+// A box of two regions; surface 7 lies between them, at x = 1, and surface 1 at x = 0 bounds region 1 alone.
+TetMesh box_of_two_regions() {
+  return tagged_lattice(
+             2, [](int, int, int) { return true; }, [](int i, int, int) { return i < 1 ? 1 : 2; })
+      .mesh;
+}
+
+std::vector<WallGroup> walls_of_two_regions(const std::string& text, const TagNames& names) {
+  TetMesh mesh = box_of_two_regions();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (std::ranges::all_of(mesh.triangles[t], [&](Vertex v) { return mesh.points[v].x == 1; }))
+      mesh.triangle_tags[t] = 7;
+  return find_walls(parse_walls(text), mesh, names, "box");
+}
+
+TEST(WallChoice, TakesOneSideOrBoth) {
+  const TagNames names{{{7, "film"}}, {{1, "water"}, {2, "air"}}};
+  const auto regions_of = [&](const std::string& text) { return walls_of_two_regions(text, names).at(0).regions; };
+  EXPECT_THAT(regions_of("7=2"), ::testing::IsEmpty());
+  EXPECT_THAT(regions_of("film in air=2"), ::testing::ElementsAre(2));
+  EXPECT_THAT(regions_of("7 in 1=2, film in air=2"), ::testing::ElementsAre(1, 2));
+  EXPECT_THAT(regions_of("7 in 1=2, 7=2"), ::testing::IsEmpty());
+  // Interfaces bound a region, too; the side at x = 2 does not bound the one at x = 0.
+  std::vector<std::int32_t> tags;
+  for (const WallGroup& wall : walls_of_two_regions("all in water=1", names)) tags.push_back(wall.tag);
+  EXPECT_THAT(tags, ::testing::ElementsAre(1, 3, 4, 5, 6, 7));
+}
+
+TEST(WallChoice, RefusesSurfacesThatDoNotBoundTheRegion) {
+  const TagNames names{{{7, "film"}}, {{1, "water"}, {2, "air"}}};
+  const auto message = [&](const std::string& text) {
+    return message_from([&] { walls_of_two_regions(text, names); });
+  };
+  EXPECT_THAT(message("1 in air=2"), HasSubstr("expected surface '1' to bound region 'air'; it bounds 1 (water)"));
+  EXPECT_THAT(message("film in water=2, 7 in air=3"),
+              HasSubstr("expected as many layers on both sides of surface 7 (film), found 'film in water=2' and "
+                        "'7 in air=3'; '7=2' puts layers on both"));
+  EXPECT_THAT(message("film=2, 7=3"), HasSubstr("expected surface 7 (film) once, found it with 2 and with 3 layers"));
+  EXPECT_THAT(message("film=2, 5=3"), HasSubstr("surface 7 (film)"));
+}
+
+TEST(WallChoice, TakesANameBeforeANumber) {
+  const auto tags_of = [](const std::string& text, const TagNames& names) {
+    std::vector<std::int32_t> tags;
+    for (const WallGroup& wall : walls_of_two_regions(text, names)) tags.push_back(wall.tag);
+    return tags;
+  };
+  EXPECT_THAT(tags_of("3=1", {{{1, "3"}}, {}}), ::testing::ElementsAre(1));
+  EXPECT_THAT(tags_of("surface_3=1", {{{1, "3"}}, {}}), ::testing::ElementsAre(3));
+  EXPECT_THAT(tags_of("sides=1", {{{1, "sides"}, {2, "sides"}}, {}}), ::testing::ElementsAre(1, 2));
+  const TagNames regions{{}, {{1, "2"}}};
+  EXPECT_THAT(walls_of_two_regions("7 in 2=1", regions).at(0).regions, ::testing::ElementsAre(1));
+  const TagNames alike{{}, {{1, "fluid"}, {2, "fluid"}}};
+  EXPECT_THAT(walls_of_two_regions("7 in fluid=1", alike).at(0).regions, ::testing::ElementsAre(1, 2));
+}
+
+TEST(WallChoice, ReadsNamesWithCommas) {
+  const auto names_of = [](const std::string& text) {
+    std::vector<std::string> names;
+    for (const AskedWall& wall : parse_walls(text)) names.push_back(wall.name);
+    return names;
+  };
+  EXPECT_THAT(names_of("wall, left=3, lid=2"), ::testing::ElementsAre("wall, left", "lid"));
+  EXPECT_THAT(names_of("a=b, c = 3 ,d=1"), ::testing::ElementsAre("a=b, c", "d"));
+}
+
 TEST(WallChoice, SaysWhatIsWrong) {
   EXPECT_THAT(complaint_about("flor=3"),
               HasSubstr("found 'flor' (did you mean 'floor'?); there are 1, 2, 3, 4, 5 (floor), 6"));
@@ -339,7 +415,9 @@ TEST(WallChoice, SaysWhatIsWrong) {
   EXPECT_THAT(complaint_about("floor=0"), HasSubstr("expected 1 to 100 layers on 'floor', found '0'"));
   EXPECT_THAT(complaint_about("floor=2.5"), HasSubstr("found '2.5'"));
   EXPECT_THAT(complaint_about("floor=3,1=4"), HasSubstr("as many layers on surfaces that touch"));
-  EXPECT_THAT(complaint_about("floor=3,5=4"), HasSubstr("expected surface 5 once"));
+  EXPECT_THAT(complaint_about("floor=3,5=4"), HasSubstr("expected surface 5 (floor) once"));
+  EXPECT_THAT(complaint_about("floor=3,"), HasSubstr("as 'wall=5', found ''"));
+  EXPECT_THAT(complaint_about("floor=x,6=3"), HasSubstr("found 'floor=x,6'"));
   EXPECT_EQ(complaint_about("floor=3,6=4"), "");
 }
 

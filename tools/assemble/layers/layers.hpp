@@ -14,7 +14,7 @@
 namespace hexpipe::assemble::layers {
 
 struct LayerRules {
-  std::vector<WallGroup> walls;
+  std::vector<WallGroup> walls;  // by tag, ascending
   // Of the first layer at the wall; each further one is higher by the factor `growth`. Nothing: all layers of a line
   // together are half as high as the edges of the wall at its foot are long.
   std::optional<double> first_height{};
