@@ -172,6 +172,10 @@ PYTHON
   assert_fails_with 2 "--first-height: expected a number" assemble "$WORK/box.tar" --boundary-layers floor=3 --first-height -1 -o x.vtu
   assert_fails_with 2 "--growth: expected a number" assemble "$WORK/box.tar" --boundary-layers floor=3 --first-height 0.1 --growth 0 -o x.vtu
   assert_fails_with 2 "--boundary-layers goes with --first-height" assemble "$WORK/box.tar" --boundary-layers floor=3 -o x.vtu
+  assert_fails_with 1 "box.tar: mesh: --first-height: expected at least 1.04e-08, 1e-09 of the diagonal of the mesh, found 1e-08" \
+    assemble "$WORK/box.tar" --boundary-layers floor=3 --first-height 1e-8 -o x.vtu
+  assert_fails_with 2 "--growth: expected layers of heights that differ by a factor of at most 1e\+06, found 1e\+07 for 8 layers on 'floor'" \
+    assemble "$WORK/box.tar" --boundary-layers floor=8 --first-height 0.05 --growth 0.1 -o x.vtu
   assert_fails_with 2 "go with --boundary-layers" assemble "$WORK/box.tar" --growth 1.1 -o x.vtu
   assert_fails_with 2 "go with --conformity pyramids" assemble "$WORK/box.tar" --pillow --conformity none -o x.vtu
   assert [ ! -e x.vtu ]

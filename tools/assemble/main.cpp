@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -159,6 +161,17 @@ AssembleOptions options_of(CommandLine& line) {
           .smooth = line.smooth};
 }
 
+// Layers that differ more than this are a slip.
+void check_growth(const layers::AskedWall& wall, double growth) {
+  constexpr double most = 1e6;
+  const double ratio = std::pow(growth, wall.layers - 1);
+  if (!(ratio <= most && ratio >= 1 / most))
+    throw UsageError(
+        fmt::format("--growth: expected layers of heights that differ by a factor of at most {:g}, found {:.2g} for {} "
+                    "layers on '{}'",
+                    most, std::max(ratio, 1 / ratio), wall.layers, wall.name));
+}
+
 LayerOptions layer_options_of(const CommandLine& line) {
   const bool has_walls = line.walls_option->count() > 0;
   if ((has_walls || line.pillow) && (line.by_part() || line.conformity == "none"))
@@ -168,6 +181,7 @@ LayerOptions layer_options_of(const CommandLine& line) {
     throw UsageError("--first-height and --growth go with --boundary-layers");
   LayerOptions options{.first_height = line.first_height, .growth = line.growth, .pillow = line.pillow};
   if (has_walls) options.walls = layers::parse_walls(line.walls);
+  for (const layers::AskedWall& wall : options.walls) check_growth(wall, line.growth);
   return options;
 }
 

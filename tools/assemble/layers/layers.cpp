@@ -95,6 +95,7 @@ class LayerBuilder {
 
  private:
   LayerCounts count(const Layered& layered) const;
+  std::vector<LineIndex> too_low(const Layered& layered) const;
 
   const TetMesh& input_;
   const shape::InputSurface& surface_;
@@ -114,11 +115,27 @@ Layered LayerBuilder::attempt(const MixedMesh& mesh, const std::vector<Vertex>& 
   const shape::SlidingSurface sliding{surface_, input_.points, layered.origin, stays};
   const LinePoints places(layered.walls, layered.plan, guides_, rules_.growth);
   layered.drawn = draw_back(layered.mesh, {layered.walls, layered.plan, guides_, places, sliding, least_layer_quality});
+  if (layered.drawn.stuck.empty()) layered.drawn.stuck = too_low(layered);
   if (layered.drawn.stuck.empty()) {
     shape::untangle(layered.mesh, untangling_rounds_behind, &sliding);
     shape::smooth(layered.mesh, rounds_behind_layers, &sliding);
   }
   return layered;
+}
+
+// Lines on which some layer is lower than least_height.
+std::vector<LineIndex> LayerBuilder::too_low(const Layered& layered) const {
+  std::vector<LineIndex> result;
+  for (std::size_t i = 0; i < layered.walls.lines().size(); ++i) {
+    const Line& line = layered.walls.lines()[i];
+    if (line.tip == no_index) continue;
+    const int last = line.layers - 1;
+    const double lowest =
+        std::min(share_of_height(1, line.layers, rules_.growth), 1 - share_of_height(last, line.layers, rules_.growth));
+    const double length = norm(layered.mesh.points[line.tip] - layered.mesh.points[line.foot]);
+    if (lowest * length < least_height * surface_.diagonal()) result.push_back(static_cast<LineIndex>(i));
+  }
+  return result;
 }
 
 LayerCounts LayerBuilder::count(const Layered& layered) const {

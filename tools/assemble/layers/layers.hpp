@@ -21,6 +21,9 @@ struct LayerRules {
   double growth = 1;
 };
 
+// A fraction of the diagonal of the mesh. Layers that are lower are nothing beside the coordinates' rounding.
+inline constexpr double least_height = 1e-9;
+
 // What a user wants to know about layers.
 struct LayerCounts {
   std::int64_t facets = 0;      // of walls, counted from each side that has layers
