@@ -295,6 +295,65 @@ TEST(Layers, APillowIsOneLayer) {
   EXPECT_FALSE(result.statistics.layers);
 }
 
+// All layers of both walls have to stand in a plate of 4e-8: they would be lower than 1e-9 of its diagonal.
+TEST(Layers, AreNotAtTheLimitOfCoordinates) {
+  constexpr int n = 4;
+  Lattice plate = tagged_lattice(n);
+  for (Vec3& p : plate.mesh.points) p.z *= 1e-8;
+  for (double& volume : plate.cubes.volume) volume *= 1e-8;
+  const AssembleResult result = with_layers(plate, options_with({{"5", 3}, {"6", 3}}, 0.5));
+  EXPECT_EQ(result.statistics.layers->cells, 0);
+  EXPECT_EQ(result.mesh.hexes.size(), static_cast<std::size_t>(n * n * n));
+  EXPECT_EQ(layers_warning(result.statistics), "there are no layers: no line could leave its wall");
+  const auto json = to_json(result.statistics)["layers"];
+  EXPECT_TRUE(json["least_share_of_height"].is_null());
+  EXPECT_TRUE(json["scaled_jacobian"]["least"].is_null());
+  EXPECT_THAT(summary_lines(result.statistics), ::testing::Contains("layers: 0 cells on 0.00 % of 32 of wall area"));
+}
+
+TEST(Layers, APillowThatIsMissingIsTold) {
+  constexpr int n = 4;
+  Lattice plate = tagged_lattice(n);
+  for (Vec3& p : plate.mesh.points) p.z *= 1e-9;
+  for (double& volume : plate.cubes.volume) volume *= 1e-9;
+  LayerOptions options;
+  options.pillow = true;
+  EXPECT_EQ(pillow_warning(with_layers(plate, options).statistics),
+            "the pillow is missing on 96 of 96 facets of the boundary: no line could leave them");
+  EXPECT_FALSE(pillow_warning(with_layers(tagged_lattice(n), options).statistics));
+}
+
+// As check_layered() sees a right result that is damaged.
+TEST(Layers, AreCheckedAgain) {
+  const Lattice box = tagged_lattice(3);
+  AssembleResult result = with_layers(box, options_with({{"5", 2}}, 0.1));
+  const shape::InputSurface surface(box.mesh, TetAdjacency(box.mesh, "box"));
+  const auto error = [&](double volume, double deviation) {
+    return message_from([&] {
+      check_layered(result.mesh, result.origin, box.mesh, surface, {{{1, volume}}, deviation});
+    });
+  };
+  EXPECT_EQ(error(27, 0), "");
+  EXPECT_THAT(error(27.1, 0), HasSubstr("expected a volume of 27.1 in region 1"));
+  EXPECT_EQ(error(27.1, 0.001), "");
+  result.origin[result.mesh.quads.cells.back()[0]] = static_cast<Vertex>(box.mesh.points.size());
+  EXPECT_THAT(error(27, 0), HasSubstr("expected the input's vertices on the boundary"));
+}
+
+TEST(Layers, WallsWithoutAreaAreTold) {
+  AssembleStatistics statistics;
+  statistics.layers.emplace();
+  EXPECT_EQ(layers_warning(statistics), "there are no layers: the walls have no area");
+}
+
+TEST(Layers, RefuseAHeightThatIsNothing) {
+  EXPECT_THAT(message_from([] {
+                with_layers(tagged_lattice(3), options_with({{"5", 3}}, 5e-9));
+              }),
+              HasSubstr("--first-height: expected at least 5.2e-09"));
+  EXPECT_NO_THROW(with_layers(tagged_lattice(3), options_with({{"5", 3}}, 6e-9)));
+}
+
 TEST(LayerHeights, GrowByTheFactor) {
   EXPECT_DOUBLE_EQ(share_of_height(1, 4, 1), 0.25);
   EXPECT_DOUBLE_EQ(share_of_height(1, 2, 2), 1.0 / 3);

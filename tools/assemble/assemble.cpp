@@ -241,7 +241,7 @@ struct AskedLayers {
 };
 
 void add_layers(const AskedLayers& asked, const AssembleInput& input, int smooth_rounds, AssembleResult& result) {
-  const std::size_t first = result.mesh.points.size();
+  const BeforeLayers before{region_volumes(result.mesh), result.statistics.volumes.deviation};
   const auto add = [&](const layers::LayerRules& rules) {
     return layers::add_layers(result.mesh, result.origin, input.mesh, input.surface, rules);
   };
@@ -250,10 +250,11 @@ void add_layers(const AskedLayers& asked, const AssembleInput& input, int smooth
     statistics.pillow = add(*asked.pillow);
     const shape::SlidingSurface sliding{input.surface, input.mesh.points, result.origin};
     shape::smooth(result.mesh, smooth_rounds, &sliding);
+    layers::judge_cells(result.mesh, *statistics.pillow);
   }
   if (asked.walls) statistics.layers = add(*asked.walls);
   double& deviation = statistics.volumes.deviation;
-  deviation = std::max(deviation, check_layered(result.mesh, result.origin, first, input.surface));
+  deviation = std::max(deviation, check_layered(result.mesh, result.origin, input.mesh, input.surface, before));
   count_cells(result.mesh, statistics);
   statistics.measures = measure_mesh(result.mesh);
 }

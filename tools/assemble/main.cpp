@@ -239,6 +239,7 @@ nlohmann::ordered_json report(RunContext& context, const AssembleStatistics& sta
                               const nlohmann::ordered_json& choice) {
   context.statistics = to_json(statistics);
   for (const auto& line : summary_lines(statistics)) context.note(line);
+  if (const auto warning = pillow_warning(statistics)) context.warn(*warning);
   if (const auto warning = layers_warning(statistics)) context.warn(*warning);
   nlohmann::ordered_json details{{"counts", context.statistics["cells"]}};
   if (choice.is_null()) return details;

@@ -206,6 +206,12 @@ std::optional<std::string> layers_warning(const AssembleStatistics& statistics) 
       100 * share(layers.area - layers.area_with_layers, layers.area), layers.least_share);
 }
 
+std::optional<std::string> pillow_warning(const AssembleStatistics& statistics) {
+  if (!statistics.pillow || statistics.pillow->bare == 0) return std::nullopt;
+  return fmt::format("the pillow is missing on {} of {} facets of the boundary: no line could leave them",
+                     statistics.pillow->bare, statistics.pillow->facets);
+}
+
 nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
   auto json = nlohmann::ordered_json::object();
   json["cells"] = nlohmann::ordered_json::object();

@@ -140,7 +140,6 @@ std::vector<LineIndex> LayerBuilder::too_low(const Layered& layered) const {
 
 LayerCounts LayerBuilder::count(const Layered& layered) const {
   LayerCounts counts;
-  const LinePoints places(layered.walls, layered.plan, guides_, rules_.growth);
   for (const WallSide& side : layered.walls.sides()) {
     const double area = area_of(layered.mesh, side);
     int long_lines = 0;
@@ -161,30 +160,44 @@ LayerCounts LayerBuilder::count(const Layered& layered) const {
     if (long_lines == side.size()) counts.area_with_layers += area;
     if (long_lines == side.size() && least >= 0.95) counts.area_with_all += area;
     counts.least_share = std::min(counts.least_share, least);
-    for (int level = 0; level < side.layers; ++level) {
-      const auto cell = layer_cell(layered.walls, side, level);
-      const auto at = places.corners(layered.mesh.points, *cell);
-      const double scale = cell->kind == CellKind::tet ? std::sqrt(2.0) : 1;
-      const double quality =
-          scale * least_corner_scaled_jacobian(cell->kind, std::span<const Vec3>(at).first(corner_count(cell->kind)));
-      counts.least_quality = std::min(counts.least_quality, quality);
-      counts.mean_quality += quality;
-      ++counts.cells;
-    }
   }
-  if (counts.cells > 0) counts.mean_quality /= static_cast<double>(counts.cells);
   return counts;
 }
 
 LayerCounts LayerBuilder::finish(Layered& layered) const {
-  const LayerCounts counts = count(layered);
+  LayerCounts counts = count(layered);
+  const MixedMesh& mesh = layered.mesh;
+  counts.first_cells = {mesh.hexes.size(), mesh.prisms.size(), mesh.pyramids.size(), mesh.tets.size()};
   const LinePoints places(layered.walls, layered.plan, guides_, rules_.growth);
   append_columns(layered.mesh, layered.origin, layered.walls, places);
+  judge_cells(mesh, counts);
   number_inner_points(layered.mesh, static_cast<Vertex>(input_.points.size()), layered.origin);
   return counts;
 }
 
 }  // namespace
+
+void judge_cells(const MixedMesh& mesh, LayerCounts& counts) {
+  counts.cells = 0;
+  counts.least_quality = 1;
+  counts.mean_quality = 0;
+  const auto judge = [&](CellKind kind, const auto& block, std::size_t first) {
+    const double scale = kind == CellKind::tet ? std::sqrt(2.0) : 1;
+    for (std::size_t i = first; i < block.size(); ++i) {
+      const auto at = corner_points(mesh.points, block.cells[i]);
+      const double quality =
+          scale * least_corner_scaled_jacobian(kind, std::span<const Vec3>(at).first(block.cells[i].size()));
+      counts.least_quality = std::min(counts.least_quality, quality);
+      counts.mean_quality += quality;
+      ++counts.cells;
+    }
+  };
+  judge(CellKind::hex, mesh.hexes, counts.first_cells[0]);
+  judge(CellKind::prism, mesh.prisms, counts.first_cells[1]);
+  judge(CellKind::pyramid, mesh.pyramids, counts.first_cells[2]);
+  judge(CellKind::tet, mesh.tets, counts.first_cells[3]);
+  if (counts.cells > 0) counts.mean_quality /= static_cast<double>(counts.cells);
+}
 
 LayerCounts add_layers(MixedMesh& mesh, std::vector<Vertex>& origin, const TetMesh& input,
                        const shape::InputSurface& surface, const LayerRules& rules) {
