@@ -153,7 +153,7 @@ PYTHON
   assert_output --partial "Mesh OK."
 }
 
-@test "--pillow puts one layer under the boundary, below those of walls" {
+@test "--pillow puts one layer under the boundary, behind those of walls" {
   assemble "$WORK/box.tar" --pillow -o pillow.vtu
   expect pillow.vtu "$sound and s['hexes'] == 216 + 216 and abs(s['volume'] - 216) < 1e-9"
   assemble "$WORK/box.tar" --pillow --boundary-layers floor=2 --first-height 0.05 -o both.vtu

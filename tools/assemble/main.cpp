@@ -110,19 +110,25 @@ void declare_options(CLI::App& app, CommandLine& line) {
   line.walls_option =
       app.add_option("--boundary-layers", line.walls,
                      "Layers of hexes and prisms on surfaces, by name or number, such as 'wall=5, 3=5'; "
-                     "all=5: on all of the boundary; 'wall in water=5': on one side of an interface")
+                     "all=5: on all of the boundary; 'wall in water=5': on one side of an interface; 'all in water=5': "
+                     "on all that "
+                     "bounds the region, interfaces too; 1 to 100 layers")
           ->type_name("LIST");
-  line.height_option = app.add_option("--first-height", line.first_height,
-                                      "of the layer at the wall, in units of the mesh; where there is no room, all "
-                                      "layers there are lower")
-                           ->check(number_between(1e-50, 1e50))
-                           ->default_str("");
+  line.height_option =
+      app.add_option("--first-height", line.first_height,
+                     "With --boundary-layers, which needs it: the height of the layer at the wall, in units "
+                     "of the mesh; where there is no room, all layers are lower in proportion")
+          ->check(number_between(1e-50, 1e50))
+          ->default_str("");
   line.growth_option =
-      app.add_option("--growth", line.growth, "how many times as high as the layer below it a layer is")
+      app.add_option("--growth", line.growth,
+                     "Each layer is this many times as high as the one before it, seen from the wall (0.1 to 10)")
           ->check(number_between(0.1, 10))
           ->capture_default_str();
-  app.add_flag("--pillow", line.pillow,
-               "one more layer on all of the boundary, half as high as a cell, then smoothing");
+  app.add_flag(
+      "--pillow", line.pillow,
+      "One layer on all of the boundary, behind those of --boundary-layers, half as high as the wall's edges are "
+      "long; then --smooth rounds of smoothing");
   begin_group(app, "In parts");
   outside_history(
       app.add_option(
