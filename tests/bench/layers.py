@@ -170,8 +170,8 @@ def bench(model, args):
         extra = max(0, layered - plain) / plain
         checked = check_mesh(case)
         cells = [f"{100 * layers['share_of_area_with_layers']:.2f}", f"{100 * layers['share_of_area_with_all_height']:.1f}",
-                 f"{100 * layers['share_of_area_with_some_layers']:.2f}", f"{layers['least_share_of_height']:.2f}",
-                 f"{layers['scaled_jacobian']['least']:.3f}", f"{layers['scaled_jacobian']['mean']:.3f}", f"{plain:.1f}",
+                 f"{100 * layers['share_of_area_with_some_layers']:.2f}", f"{layers['least_share_of_height'] or 0:.2f}",
+                 f"{layers['scaled_jacobian']['least'] or 0:.3f}", f"{layers['scaled_jacobian']['mean'] or 0:.3f}", f"{plain:.1f}",
                  f"{extra:.2f}", *checked]
         if shutil.which("snappyHexMesh") and not args.alone:
             cells += snappy(folder, surface, size, args, first)

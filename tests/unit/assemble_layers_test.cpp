@@ -74,6 +74,16 @@ AssembleResult with_layers(const Lattice& lattice, const LayerOptions& options) 
   return assemble::assemble(lattice.mesh, lattice.cubes, choice::all_of(lattice.cubes), {}, {}, options);
 }
 
+template <class Call>
+std::string message_from(Call&& call) {
+  try {
+    call();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
 // What self_check.hpp proves, told again from the cells.
 double expect_sound(const MixedMesh& mesh) {
   double volume = 0;
@@ -285,6 +295,65 @@ TEST(Layers, APillowIsOneLayer) {
   EXPECT_FALSE(result.statistics.layers);
 }
 
+// All layers of both walls have to stand in a plate of 4e-8: they would be lower than 1e-9 of its diagonal.
+TEST(Layers, AreNotAtTheLimitOfCoordinates) {
+  constexpr int n = 4;
+  Lattice plate = tagged_lattice(n);
+  for (Vec3& p : plate.mesh.points) p.z *= 1e-8;
+  for (double& volume : plate.cubes.volume) volume *= 1e-8;
+  const AssembleResult result = with_layers(plate, options_with({{"5", 3}, {"6", 3}}, 0.5));
+  EXPECT_EQ(result.statistics.layers->cells, 0);
+  EXPECT_EQ(result.mesh.hexes.size(), static_cast<std::size_t>(n * n * n));
+  EXPECT_EQ(layers_warning(result.statistics), "there are no layers: no line could leave its wall");
+  const auto json = to_json(result.statistics)["layers"];
+  EXPECT_TRUE(json["least_share_of_height"].is_null());
+  EXPECT_TRUE(json["scaled_jacobian"]["least"].is_null());
+  EXPECT_THAT(summary_lines(result.statistics), ::testing::Contains("layers: 0 cells on 0.00 % of 32 of wall area"));
+}
+
+TEST(Layers, APillowThatIsMissingIsTold) {
+  constexpr int n = 4;
+  Lattice plate = tagged_lattice(n);
+  for (Vec3& p : plate.mesh.points) p.z *= 1e-9;
+  for (double& volume : plate.cubes.volume) volume *= 1e-9;
+  LayerOptions options;
+  options.pillow = true;
+  EXPECT_EQ(pillow_warning(with_layers(plate, options).statistics),
+            "the pillow is missing on 96 of 96 facets of the boundary: no line could leave them");
+  EXPECT_FALSE(pillow_warning(with_layers(tagged_lattice(n), options).statistics));
+}
+
+// As check_layered() sees a right result that is damaged.
+TEST(Layers, AreCheckedAgain) {
+  const Lattice box = tagged_lattice(3);
+  AssembleResult result = with_layers(box, options_with({{"5", 2}}, 0.1));
+  const shape::InputSurface surface(box.mesh, TetAdjacency(box.mesh, "box"));
+  const auto error = [&](double volume, double deviation) {
+    return message_from([&] {
+      check_layered(result.mesh, result.origin, box.mesh, surface, {{{1, volume}}, deviation});
+    });
+  };
+  EXPECT_EQ(error(27, 0), "");
+  EXPECT_THAT(error(27.1, 0), HasSubstr("expected a volume of 27.1 in region 1"));
+  EXPECT_EQ(error(27.1, 0.001), "");
+  result.origin[result.mesh.quads.cells.back()[0]] = static_cast<Vertex>(box.mesh.points.size());
+  EXPECT_THAT(error(27, 0), HasSubstr("expected the input's vertices on the boundary"));
+}
+
+TEST(Layers, WallsWithoutAreaAreTold) {
+  AssembleStatistics statistics;
+  statistics.layers.emplace();
+  EXPECT_EQ(layers_warning(statistics), "there are no layers: the walls have no area");
+}
+
+TEST(Layers, RefuseAHeightThatIsNothing) {
+  EXPECT_THAT(message_from([] {
+                with_layers(tagged_lattice(3), options_with({{"5", 3}}, 5e-9));
+              }),
+              HasSubstr("--first-height: expected at least 5.2e-09"));
+  EXPECT_NO_THROW(with_layers(tagged_lattice(3), options_with({{"5", 3}}, 6e-9)));
+}
+
 TEST(LayerHeights, GrowByTheFactor) {
   EXPECT_DOUBLE_EQ(share_of_height(1, 4, 1), 0.25);
   EXPECT_DOUBLE_EQ(share_of_height(1, 2, 2), 1.0 / 3);
@@ -330,6 +399,72 @@ TEST(WallChoice, FindsSurfacesByNameAndNumber) {
   EXPECT_EQ(tags_of("all=3").size(), 6u);
 }
 
+// A box of two regions; surface 7 lies between them, at x = 1, and surface 1 at x = 0 bounds region 1 alone.
+TetMesh box_of_two_regions() {
+  return tagged_lattice(
+             2, [](int, int, int) { return true; }, [](int i, int, int) { return i < 1 ? 1 : 2; })
+      .mesh;
+}
+
+std::vector<WallGroup> walls_of_two_regions(const std::string& text, const TagNames& names) {
+  TetMesh mesh = box_of_two_regions();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (std::ranges::all_of(mesh.triangles[t], [&](Vertex v) { return mesh.points[v].x == 1; }))
+      mesh.triangle_tags[t] = 7;
+  return find_walls(parse_walls(text), mesh, names, "box");
+}
+
+TEST(WallChoice, TakesOneSideOrBoth) {
+  const TagNames names{{{7, "film"}}, {{1, "water"}, {2, "air"}}};
+  const auto regions_of = [&](const std::string& text) { return walls_of_two_regions(text, names).at(0).regions; };
+  EXPECT_THAT(regions_of("7=2"), ::testing::IsEmpty());
+  EXPECT_THAT(regions_of("film in air=2"), ::testing::ElementsAre(2));
+  EXPECT_THAT(regions_of("7 in 1=2, film in air=2"), ::testing::ElementsAre(1, 2));
+  EXPECT_THAT(regions_of("7 in 1=2, 7=2"), ::testing::IsEmpty());
+  // Interfaces bound a region, too; the side at x = 2 does not bound the one at x = 0.
+  std::vector<std::int32_t> tags;
+  for (const WallGroup& wall : walls_of_two_regions("all in water=1", names)) tags.push_back(wall.tag);
+  EXPECT_THAT(tags, ::testing::ElementsAre(1, 3, 4, 5, 6, 7));
+}
+
+TEST(WallChoice, RefusesSurfacesThatDoNotBoundTheRegion) {
+  const TagNames names{{{7, "film"}}, {{1, "water"}, {2, "air"}}};
+  const auto message = [&](const std::string& text) {
+    return message_from([&] { walls_of_two_regions(text, names); });
+  };
+  EXPECT_THAT(message("1 in air=2"), HasSubstr("expected surface '1' to bound region 'air'; it bounds 1 (water)"));
+  EXPECT_THAT(message("film in water=2, 7 in air=3"),
+              HasSubstr("expected as many layers on both sides of surface 7 (film), found 'film in water=2' and "
+                        "'7 in air=3'; '7=2' puts layers on both"));
+  EXPECT_THAT(message("film=2, 7=3"), HasSubstr("expected surface 7 (film) once, found it with 2 and with 3 layers"));
+  EXPECT_THAT(message("film=2, 5=3"), HasSubstr("surface 7 (film)"));
+}
+
+TEST(WallChoice, TakesANameBeforeANumber) {
+  const auto tags_of = [](const std::string& text, const TagNames& names) {
+    std::vector<std::int32_t> tags;
+    for (const WallGroup& wall : walls_of_two_regions(text, names)) tags.push_back(wall.tag);
+    return tags;
+  };
+  EXPECT_THAT(tags_of("3=1", {{{1, "3"}}, {}}), ::testing::ElementsAre(1));
+  EXPECT_THAT(tags_of("surface_3=1", {{{1, "3"}}, {}}), ::testing::ElementsAre(3));
+  EXPECT_THAT(tags_of("sides=1", {{{1, "sides"}, {2, "sides"}}, {}}), ::testing::ElementsAre(1, 2));
+  const TagNames regions{{}, {{1, "2"}}};
+  EXPECT_THAT(walls_of_two_regions("7 in 2=1", regions).at(0).regions, ::testing::ElementsAre(1));
+  const TagNames alike{{}, {{1, "fluid"}, {2, "fluid"}}};
+  EXPECT_THAT(walls_of_two_regions("7 in fluid=1", alike).at(0).regions, ::testing::ElementsAre(1, 2));
+}
+
+TEST(WallChoice, ReadsNamesWithCommas) {
+  const auto names_of = [](const std::string& text) {
+    std::vector<std::string> names;
+    for (const AskedWall& wall : parse_walls(text)) names.push_back(wall.name);
+    return names;
+  };
+  EXPECT_THAT(names_of("wall, left=3, lid=2"), ::testing::ElementsAre("wall, left", "lid"));
+  EXPECT_THAT(names_of("a=b, c = 3 ,d=1"), ::testing::ElementsAre("a=b, c", "d"));
+}
+
 TEST(WallChoice, SaysWhatIsWrong) {
   EXPECT_THAT(complaint_about("flor=3"),
               HasSubstr("found 'flor' (did you mean 'floor'?); there are 1, 2, 3, 4, 5 (floor), 6"));
@@ -339,7 +474,9 @@ TEST(WallChoice, SaysWhatIsWrong) {
   EXPECT_THAT(complaint_about("floor=0"), HasSubstr("expected 1 to 100 layers on 'floor', found '0'"));
   EXPECT_THAT(complaint_about("floor=2.5"), HasSubstr("found '2.5'"));
   EXPECT_THAT(complaint_about("floor=3,1=4"), HasSubstr("as many layers on surfaces that touch"));
-  EXPECT_THAT(complaint_about("floor=3,5=4"), HasSubstr("expected surface 5 once"));
+  EXPECT_THAT(complaint_about("floor=3,5=4"), HasSubstr("expected surface 5 (floor) once"));
+  EXPECT_THAT(complaint_about("floor=3,"), HasSubstr("as 'wall=5', found ''"));
+  EXPECT_THAT(complaint_about("floor=x,6=3"), HasSubstr("found 'floor=x,6'"));
   EXPECT_EQ(complaint_about("floor=3,6=4"), "");
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/mesh/adjacency.hpp"
+#include "common/mesh/box_tree.hpp"
 #include "common/mesh/orientation.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/run/error.hpp"
@@ -221,16 +222,26 @@ struct AskedLayers {
     const auto find = [&](std::span<const layers::AskedWall> asked) {
       return layers::find_walls(asked, mesh, options.tag_names, names.mesh);
     };
+    if (!options.walls.empty()) check_height(mesh, options.first_height, names);
     if (!options.walls.empty())
       walls = layers::LayerRules{
           .walls = find(options.walls), .first_height = options.first_height, .growth = options.growth};
     if (options.pillow) pillow = layers::LayerRules{.walls = find(std::array{layers::AskedWall{"all", 1}})};
   }
   bool any() const { return pillow || walls; }
+
+ private:
+  static void check_height(const TetMesh& mesh, double height, const choice::InputNames& names) {
+    const double least = layers::least_height * Box::around(mesh.points).diagonal();
+    if (height < least)
+      throw DataError::at(names.mesh,
+                          "--first-height: expected at least {:.3g}, {:g} of the diagonal of the mesh, found {:g}",
+                          least, layers::least_height, height);
+  }
 };
 
 void add_layers(const AskedLayers& asked, const AssembleInput& input, int smooth_rounds, AssembleResult& result) {
-  const std::size_t first = result.mesh.points.size();
+  const BeforeLayers before{region_volumes(result.mesh), result.statistics.volumes.deviation};
   const auto add = [&](const layers::LayerRules& rules) {
     return layers::add_layers(result.mesh, result.origin, input.mesh, input.surface, rules);
   };
@@ -239,10 +250,11 @@ void add_layers(const AskedLayers& asked, const AssembleInput& input, int smooth
     statistics.pillow = add(*asked.pillow);
     const shape::SlidingSurface sliding{input.surface, input.mesh.points, result.origin};
     shape::smooth(result.mesh, smooth_rounds, &sliding);
+    layers::judge_cells(result.mesh, *statistics.pillow);
   }
   if (asked.walls) statistics.layers = add(*asked.walls);
   double& deviation = statistics.volumes.deviation;
-  deviation = std::max(deviation, check_layered(result.mesh, result.origin, first, input.surface));
+  deviation = std::max(deviation, check_layered(result.mesh, result.origin, input.mesh, input.surface, before));
   count_cells(result.mesh, statistics);
   statistics.measures = measure_mesh(result.mesh);
 }

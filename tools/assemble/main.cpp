@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -108,19 +110,25 @@ void declare_options(CLI::App& app, CommandLine& line) {
   line.walls_option =
       app.add_option("--boundary-layers", line.walls,
                      "Layers of hexes and prisms on surfaces, by name or number, such as 'wall=5, 3=5'; "
-                     "all=5: on all of the boundary; 'wall in water=5': on one side of an interface")
+                     "all=5: on all of the boundary; 'wall in water=5': on one side of an interface; 'all in water=5': "
+                     "on all that "
+                     "bounds the region, interfaces too; 1 to 100 layers")
           ->type_name("LIST");
-  line.height_option = app.add_option("--first-height", line.first_height,
-                                      "of the layer at the wall, in units of the mesh; where there is no room, all "
-                                      "layers there are lower")
-                           ->check(number_between(1e-50, 1e50))
-                           ->default_str("");
+  line.height_option =
+      app.add_option("--first-height", line.first_height,
+                     "With --boundary-layers, which needs it: the height of the layer at the wall, in units "
+                     "of the mesh; where there is no room, all layers are lower in proportion")
+          ->check(number_between(1e-50, 1e50))
+          ->default_str("");
   line.growth_option =
-      app.add_option("--growth", line.growth, "how many times as high as the layer below it a layer is")
+      app.add_option("--growth", line.growth,
+                     "Each layer is this many times as high as the one before it, seen from the wall (0.1 to 10)")
           ->check(number_between(0.1, 10))
           ->capture_default_str();
-  app.add_flag("--pillow", line.pillow,
-               "one more layer on all of the boundary, half as high as a cell, then smoothing");
+  app.add_flag(
+      "--pillow", line.pillow,
+      "One layer on all of the boundary, behind those of --boundary-layers, half as high as the wall's edges are "
+      "long; then --smooth rounds of smoothing");
   begin_group(app, "In parts");
   outside_history(
       app.add_option(
@@ -159,6 +167,17 @@ AssembleOptions options_of(CommandLine& line) {
           .smooth = line.smooth};
 }
 
+// Layers that differ more than this are a slip.
+void check_growth(const layers::AskedWall& wall, double growth) {
+  constexpr double most = 1e6;
+  const double ratio = std::pow(growth, wall.layers - 1);
+  if (!(ratio <= most && ratio >= 1 / most))
+    throw UsageError(
+        fmt::format("--growth: expected layers of heights that differ by a factor of at most {:g}, found {:.2g} for {} "
+                    "layers on '{}'",
+                    most, std::max(ratio, 1 / ratio), wall.layers, wall.name));
+}
+
 LayerOptions layer_options_of(const CommandLine& line) {
   const bool has_walls = line.walls_option->count() > 0;
   if ((has_walls || line.pillow) && (line.by_part() || line.conformity == "none"))
@@ -168,6 +187,7 @@ LayerOptions layer_options_of(const CommandLine& line) {
     throw UsageError("--first-height and --growth go with --boundary-layers");
   LayerOptions options{.first_height = line.first_height, .growth = line.growth, .pillow = line.pillow};
   if (has_walls) options.walls = layers::parse_walls(line.walls);
+  for (const layers::AskedWall& wall : options.walls) check_growth(wall, line.growth);
   return options;
 }
 
@@ -225,6 +245,7 @@ nlohmann::ordered_json report(RunContext& context, const AssembleStatistics& sta
                               const nlohmann::ordered_json& choice) {
   context.statistics = to_json(statistics);
   for (const auto& line : summary_lines(statistics)) context.note(line);
+  if (const auto warning = pillow_warning(statistics)) context.warn(*warning);
   if (const auto warning = layers_warning(statistics)) context.warn(*warning);
   nlohmann::ordered_json details{{"counts", context.statistics["cells"]}};
   if (choice.is_null()) return details;

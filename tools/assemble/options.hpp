@@ -28,7 +28,7 @@ struct AssembleOptions {
 struct LayerOptions {
   std::vector<layers::AskedWall> walls{};
   double first_height = 0, growth = 1.2;
-  bool pillow = false;           // one layer on all of the boundary, under those of the walls
+  bool pillow = false;           // one layer on all of the boundary, behind those of the walls
   layers::TagNames tag_names{};  // for the walls
 };
 

@@ -133,20 +133,29 @@ void check_points_used(const MixedMesh& mesh) {
     if (!used[v]) fail("expected cells at every vertex, found none at vertex {}", v);
 }
 
-// Vertices of the boundary are the input's, and on its surface.
-void check_surface(const hybrid::Extract& result, const TetMesh& input, const shape::InputSurface& surface,
-                   CheckedVolumes& volumes) {
+// Vertices of the boundary are the input's.
+void check_origins(const MixedMesh& mesh, std::span<const Vertex> origin, const TetMesh& input) {
   auto check = [&](const auto& block) {
     for (const auto& facet : block.cells)
       for (Vertex v : facet)
-        if (static_cast<std::size_t>(result.origin[v]) >= input.points.size())
+        if (origin[v] < 0 || static_cast<std::size_t>(origin[v]) >= input.points.size())
           fail("expected the input's vertices on the boundary, found vertex {}", v);
   };
-  check(result.mesh.triangles);
-  check(result.mesh.quads);
-  const shape::BoundaryDeviation deviation(result.mesh, surface, input.points, result.origin);
+  check(mesh.triangles);
+  check(mesh.quads);
+}
+
+void check_on_surface(const shape::BoundaryDeviation& deviation, const shape::InputSurface& surface) {
   if (const auto v = deviation.vertex_off_surface(surface_tolerance * surface.diagonal()))
     fail("expected the boundary's vertices on the input's surface, found vertex {} off it", *v);
+}
+
+// Both, and how far the boundary is from the surface.
+void check_surface(const hybrid::Extract& result, const TetMesh& input, const shape::InputSurface& surface,
+                   CheckedVolumes& volumes) {
+  check_origins(result.mesh, result.origin, input);
+  const shape::BoundaryDeviation deviation(result.mesh, surface, input.points, result.origin);
+  check_on_surface(deviation, surface);
   const auto summary = deviation.summary();
   volumes.deviation = summary.greatest;
   volumes.moved = summary.moved;
@@ -175,8 +184,43 @@ void check_volumes(const CheckedVolumes& volumes) {
 
 }  // namespace
 
-double check_layered(const MixedMesh& mesh, std::span<const Vertex> origin, std::size_t first,
-                     const shape::InputSurface& surface) {
+namespace {
+
+double area_of_facets(const MixedMesh& mesh) {
+  const auto area = [&](const Triangle& t) {
+    return norm(cross(mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]])) / 2;
+  };
+  double sum = 0;
+  for (const Triangle& triangle : mesh.triangles.cells) sum += area(triangle);
+  for (const Quad& quad : mesh.quads.cells)
+    for (const Triangle& half : triangles_of(quad, 0)) sum += area(half);
+  return sum;
+}
+
+// `slack`: the volume by which the boundary may have moved.
+void check_regions(const RegionVolumes& before, const RegionVolumes& now, double slack) {
+  for (const auto& [region, volume] : now)
+    if (const auto was = before.find(region);
+        was == before.end() || !(std::abs(volume - was->second) <= volume_tolerance * volume + slack))
+      fail("expected a volume of {} in region {}, within {}, as before the layers, found {}",
+           was == before.end() ? 0 : was->second, region, slack, volume);
+  if (before.size() != now.size())
+    fail("expected {} regions, as before the layers, found {}", before.size(), now.size());
+}
+
+}  // namespace
+
+RegionVolumes region_volumes(const MixedMesh& mesh) {
+  RegionVolumes volumes;
+  hybrid::for_each_cell(mesh, [&](CellKind kind, std::span<const Vertex> corners, std::int32_t region) {
+    volumes[region] +=
+        cell_volume(kind, std::span<const Vec3>(corner_points(mesh.points, corners)).first(corners.size()));
+  });
+  return volumes;
+}
+
+double check_layered(const MixedMesh& mesh, std::span<const Vertex> origin, const TetMesh& input,
+                     const shape::InputSurface& surface, const BeforeLayers& before) {
   check_cells_valid(mesh);
   check_points_used(mesh);
   hybrid::CellFacets table(mesh);
@@ -189,25 +233,23 @@ double check_layered(const MixedMesh& mesh, std::span<const Vertex> origin, std:
     if ((is_outer || is_interface) && !entry.tagged)
       fail("expected facets of the boundary and of interfaces to be tagged, found one at vertex {} that is not", at);
   }
-  const double tolerance = surface_tolerance * surface.diagonal();
+  check_origins(mesh, origin, input);
+  check_on_surface(shape::BoundaryDeviation(mesh, surface, input.points, origin), surface);
   double deviation = 0;
-  const auto check_places = [&](const auto& block) {
+  const auto measure = [&](const auto& block) {
     for (const auto& facet : block.cells) {
       Vec3 middle{};
-      for (const Vertex v : facet) {
-        middle += mesh.points[v] * (1.0 / static_cast<double>(facet.size()));
-        if (static_cast<std::size_t>(v) >= first && surface.distance(origin[v], mesh.points[v], tolerance) > tolerance)
-          fail("expected the boundary's vertices on the input's surface, found vertex {} of a layer off it", v);
-      }
+      for (const Vertex v : facet) middle += mesh.points[v] * (1.0 / static_cast<double>(facet.size()));
       deviation = std::max(deviation, surface.distance(origin[facet[0]], middle));
     }
   };
-  check_places(mesh.triangles);
-  check_places(mesh.quads);
+  measure(mesh.triangles);
+  measure(mesh.quads);
+  const RegionVolumes volumes = region_volumes(mesh);
   double volume = 0;
-  hybrid::for_each_cell(mesh, [&](CellKind kind, std::span<const Vertex> corners, std::int32_t) {
-    volume += cell_volume(kind, std::span<const Vec3>(corner_points(mesh.points, corners)).first(corners.size()));
-  });
+  for (const auto& [region, of_region] : volumes) volume += of_region;
+  // Twice: the middle of a facet need not be the place that is furthest off.
+  check_regions(before.volumes, volumes, 2 * (before.deviation + deviation) * area_of_facets(mesh));
   const double skin = skin_volume(mesh, table);
   if (!(std::abs(skin - volume) <= volume_tolerance * volume))
     fail("expected the volume of the cells, {}, inside the skin, found {}", volume, skin);

@@ -2,6 +2,7 @@
 // Checks a result from the result itself, before anything is written: it is what assemble promises.
 
 #include <cstdint>
+#include <map>
 #include <span>
 
 #include "common/mesh/tet_mesh.hpp"
@@ -33,9 +34,20 @@ struct CheckedVolumes {
 CheckedVolumes check_result(const hybrid::Extract& result, const TetMesh& input, const hybrid::SurfaceTags& tags,
                             const shape::InputSurface& surface, bool conforming);
 
-// The same for a mesh that has got layers: its points from `first` on are new, and `origin` has their feet's vertices
-// in the input. Returns the greatest distance of the boundary from the input's surface, at the middles of facets.
-double check_layered(const MixedMesh& mesh, std::span<const Vertex> origin, std::size_t first,
-                     const shape::InputSurface& surface);
+using RegionVolumes = std::map<std::int32_t, double>;  // by region
+RegionVolumes region_volumes(const MixedMesh& mesh);
+
+// What a mesh was before it got layers.
+struct BeforeLayers {
+  RegionVolumes volumes;
+  double deviation;  // the greatest distance of the boundary from the input's surface
+};
+
+// The same for a conforming mesh that has got layers. `origin`: points of layers have their feet's vertices in the
+// input. Volumes: that inside the skin is that of the cells, to rounding; that of each region is what it was, but for
+// what fits between its boundary and the input's surface, then and now. Returns the greatest distance of the boundary
+// from the input's surface, at the middles of facets.
+double check_layered(const MixedMesh& mesh, std::span<const Vertex> origin, const TetMesh& input,
+                     const shape::InputSurface& surface, const BeforeLayers& before);
 
 }  // namespace hexpipe::assemble

@@ -168,24 +168,24 @@ std::string measures_line(const MeshMeasures& measures) {
 }
 
 nlohmann::ordered_json json_of(const layers::LayerCounts& layers) {
+  const auto if_any = [&](double value) { return layers.cells > 0 ? nlohmann::ordered_json(value) : nullptr; };
   return {{"facets", layers.facets},
           {"bare_facets", layers.bare},
           {"area", layers.area},
           {"share_of_area_with_layers", share(layers.area_with_layers, layers.area)},
           {"share_of_area_with_all_height", share(layers.area_with_all, layers.area)},
           {"share_of_area_with_some_layers", share(layers.area_with_some, layers.area)},
-          {"least_share_of_height", layers.least_share},
+          {"least_share_of_height", if_any(layers.least_share)},
           {"cells", layers.cells},
-          {"scaled_jacobian", {{"least", layers.least_quality}, {"mean", layers.mean_quality}}}};
+          {"scaled_jacobian", {{"least", if_any(layers.least_quality)}, {"mean", if_any(layers.mean_quality)}}}};
 }
 
 std::string layers_line(const char* what, const layers::LayerCounts& layers) {
-  return fmt::format(
-      "{}: {} cells on {:.2f} % of {:g} of wall area, all of the height on {:.2f} %, scaled Jacobian at least {:.4f}, "
-      "{:.4f} "
-      "on average",
-      what, layers.cells, 100 * share(layers.area_with_layers, layers.area), layers.area,
-      100 * share(layers.area_with_all, layers.area), layers.least_quality, layers.mean_quality);
+  const std::string cells = fmt::format("{}: {} cells on {:.2f} % of {:g} of wall area", what, layers.cells,
+                                        100 * share(layers.area_with_layers, layers.area), layers.area);
+  if (layers.cells == 0) return cells;
+  return cells + fmt::format(", all of the height on {:.2f} %, scaled Jacobian at least {:.4f}, {:.4f} on average",
+                             100 * share(layers.area_with_all, layers.area), layers.least_quality, layers.mean_quality);
 }
 
 }  // namespace
@@ -193,16 +193,23 @@ std::string layers_line(const char* what, const layers::LayerCounts& layers) {
 std::optional<std::string> layers_warning(const AssembleStatistics& statistics) {
   if (!statistics.layers) return std::nullopt;
   const layers::LayerCounts& layers = *statistics.layers;
+  if (!(layers.area > 0)) return "there are no layers: the walls have no area";
+  if (layers.cells == 0) return "there are no layers: no line could leave its wall";
   // A facet or two in corners is no news.
   constexpr double worth_telling = 0.99;
   if (layers.area_with_all >= worth_telling * layers.area) return std::nullopt;
   return fmt::format(
       "layers have the height that --first-height and --growth give on {:.1f} % of the walls' area, less on {:.1f} %, "
-      "and "
-      "{:.1f} % has none or not all; the lowest have {:.2g} of it",
+      "and {:.1f} % has none or not all; the lowest have {:.2g} of it",
       100 * share(layers.area_with_all, layers.area),
       100 * share(layers.area_with_layers - layers.area_with_all, layers.area),
       100 * share(layers.area - layers.area_with_layers, layers.area), layers.least_share);
+}
+
+std::optional<std::string> pillow_warning(const AssembleStatistics& statistics) {
+  if (!statistics.pillow || statistics.pillow->bare == 0) return std::nullopt;
+  return fmt::format("the pillow is missing on {} of {} facets of the boundary: no line could leave them",
+                     statistics.pillow->bare, statistics.pillow->facets);
 }
 
 nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {

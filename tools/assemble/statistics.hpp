@@ -79,5 +79,7 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics);
 std::vector<std::string> summary_lines(const AssembleStatistics& statistics);
 // Where walls have less than was asked for, if they have.
 std::optional<std::string> layers_warning(const AssembleStatistics& statistics);
+// Where the boundary has no pillow, if it was asked for.
+std::optional<std::string> pillow_warning(const AssembleStatistics& statistics);
 
 }  // namespace hexpipe::assemble

@@ -124,7 +124,8 @@ class DrawBack {
         input_(input),
         cells_(mesh),
         edges_(cells_, mesh.points.size()),
-        line_of_(mesh.points.size(), no_index) {
+        line_of_(mesh.points.size(), no_index),
+        is_stuck_(input.walls.lines().size(), 0) {
     for (std::size_t i = 0; i < lines().size(); ++i) {
       if (lines()[i].tip == no_index) continue;
       line_of_[lines()[i].tip] = static_cast<LineIndex>(i);
@@ -139,7 +140,7 @@ class DrawBack {
     for (int pass = 0; pass < most_passes; ++pass) {
       find_displacements();
       step();
-      if (!stuck_.empty()) return {{}, holding_lines()};
+      if (std::vector<LineIndex> holding = holding_lines(); !holding.empty()) return {{}, std::move(holding)};
       const std::vector<double> shares = shares_gone();
       double sum = 0, least = 1;
       for (const double share : shares) sum += share, least = std::min(least, share);
@@ -181,7 +182,7 @@ class DrawBack {
   std::vector<Vec3> start_, displacements_;
   std::vector<double> shares_;           // by vertex
   std::vector<double> now_, least_now_;  // by cell: its quality at the start of a step, and that which it has to keep
-  std::vector<LineIndex> stuck_;         // ascending
+  std::vector<std::uint8_t> is_stuck_;   // by line
   bool is_first_ = true;                 // pass
 };
 
@@ -329,7 +330,7 @@ void DrawBack::step() {
         if (const Vertex tip = lines()[side.lines[k]].tip; tip != no_index)
           due = due || moved[tip] != 0, stands = stands && shares_[tip] == 0;
       // A side with a line that is stuck will have other cells.
-      for (int k = 0; k < side.size(); ++k) stands = stands || std::ranges::binary_search(stuck_, side.lines[k]);
+      for (int k = 0; k < side.size(); ++k) stands = stands || is_stuck_[side.lines[k]] != 0;
       if (due) poor_side[s] = !stands && !is_side_well(s, round);
     });
     const std::vector<double> before = shares_;
@@ -337,9 +338,7 @@ void DrawBack::step() {
       const double share = before[v] * falling;
       shares_[v] = is_last || share < least_share ? 0 : share;
       const LineIndex line = line_of_[v];
-      if (shares_[v] > 0 || line == no_index || start_[v] != start_[lines()[line].foot]) return;
-      const auto at = std::ranges::lower_bound(stuck_, line);
-      if (at == stuck_.end() || *at != line) stuck_.insert(at, line);
+      if (shares_[v] == 0 && line != no_index && start_[v] == start_[lines()[line].foot]) is_stuck_[line] = 1;
     };
     for (std::int64_t c = 0; c < cells_.count(); ++c)
       if (poor_cell[c] != 0) std::ranges::for_each(cells_.corners_of(c), fall);
@@ -355,17 +354,17 @@ void DrawBack::step() {
   }
   mesh_.points = start_;
   if (!is_first_) return;
-  stuck_.clear();
-  for (std::size_t i = 0; i < lines().size(); ++i)
-    if (lines()[i].tip != no_index) stuck_.push_back(static_cast<LineIndex>(i));
+  for (std::size_t i = 0; i < lines().size(); ++i) is_stuck_[i] = lines()[i].tip != no_index;
 }
 
 // Those of the lines that are stuck that hold the others: lines beside the ends of walls if there are any.
 std::vector<LineIndex> DrawBack::holding_lines() const {
-  std::vector<LineIndex> result;
-  std::ranges::copy_if(stuck_, std::back_inserter(result),
+  std::vector<LineIndex> stuck, result;
+  for (std::size_t i = 0; i < lines().size(); ++i)
+    if (is_stuck_[i] != 0) stuck.push_back(static_cast<LineIndex>(i));
+  std::ranges::copy_if(stuck, std::back_inserter(result),
                        [&](LineIndex line) { return !lines()[line].guides.empty(); });
-  return result.empty() ? stuck_ : result;
+  return result.empty() ? stuck : result;
 }
 
 // By line with a length: the share of the way from foot to goal.

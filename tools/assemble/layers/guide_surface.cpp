@@ -48,14 +48,15 @@ GuideFreedom freedom_of(std::span<const Guide> guides) {
 }
 
 GuideSurface::GuideSurface(const TetMesh& input, std::span<const std::int32_t> tags) : input_(input) {
-  for (const std::int32_t tag : tags) {
-    if (groups_.contains(tag)) continue;
-    std::vector<std::int32_t> triangles;
+  std::map<std::int32_t, std::vector<std::int32_t>> triangles_of;
+  for (const std::int32_t tag : tags) triangles_of.try_emplace(tag);
+  for (std::size_t t = 0; t < input.triangles.size(); ++t)
+    if (const auto found = triangles_of.find(input.triangle_tags[t]); found != triangles_of.end())
+      found->second.push_back(static_cast<std::int32_t>(t));
+  for (auto& [tag, triangles] : triangles_of) {
     std::vector<Box> boxes;
-    for (std::size_t t = 0; t < input.triangles.size(); ++t) {
-      if (input.triangle_tags[t] != tag) continue;
+    for (const std::int32_t t : triangles) {
       const auto& [a, b, c] = input.triangles[t];
-      triangles.push_back(static_cast<std::int32_t>(t));
       boxes.push_back(Box::around(std::array{input.points[a], input.points[b], input.points[c]}));
     }
     const std::vector<double> zeros(boxes.size(), 0.0);

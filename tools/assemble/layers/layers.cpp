@@ -95,6 +95,7 @@ class LayerBuilder {
 
  private:
   LayerCounts count(const Layered& layered) const;
+  std::vector<LineIndex> too_low(const Layered& layered) const;
 
   const TetMesh& input_;
   const shape::InputSurface& surface_;
@@ -114,6 +115,7 @@ Layered LayerBuilder::attempt(const MixedMesh& mesh, const std::vector<Vertex>& 
   const shape::SlidingSurface sliding{surface_, input_.points, layered.origin, stays};
   const LinePoints places(layered.walls, layered.plan, guides_, rules_.growth);
   layered.drawn = draw_back(layered.mesh, {layered.walls, layered.plan, guides_, places, sliding, least_layer_quality});
+  if (layered.drawn.stuck.empty()) layered.drawn.stuck = too_low(layered);
   if (layered.drawn.stuck.empty()) {
     shape::untangle(layered.mesh, untangling_rounds_behind, &sliding);
     shape::smooth(layered.mesh, rounds_behind_layers, &sliding);
@@ -121,9 +123,23 @@ Layered LayerBuilder::attempt(const MixedMesh& mesh, const std::vector<Vertex>& 
   return layered;
 }
 
+// Lines on which some layer is lower than least_height.
+std::vector<LineIndex> LayerBuilder::too_low(const Layered& layered) const {
+  std::vector<LineIndex> result;
+  for (std::size_t i = 0; i < layered.walls.lines().size(); ++i) {
+    const Line& line = layered.walls.lines()[i];
+    if (line.tip == no_index) continue;
+    const int last = line.layers - 1;
+    const double lowest =
+        std::min(share_of_height(1, line.layers, rules_.growth), 1 - share_of_height(last, line.layers, rules_.growth));
+    const double length = norm(layered.mesh.points[line.tip] - layered.mesh.points[line.foot]);
+    if (lowest * length < least_height * surface_.diagonal()) result.push_back(static_cast<LineIndex>(i));
+  }
+  return result;
+}
+
 LayerCounts LayerBuilder::count(const Layered& layered) const {
   LayerCounts counts;
-  const LinePoints places(layered.walls, layered.plan, guides_, rules_.growth);
   for (const WallSide& side : layered.walls.sides()) {
     const double area = area_of(layered.mesh, side);
     int long_lines = 0;
@@ -144,30 +160,44 @@ LayerCounts LayerBuilder::count(const Layered& layered) const {
     if (long_lines == side.size()) counts.area_with_layers += area;
     if (long_lines == side.size() && least >= 0.95) counts.area_with_all += area;
     counts.least_share = std::min(counts.least_share, least);
-    for (int level = 0; level < side.layers; ++level) {
-      const auto cell = layer_cell(layered.walls, side, level);
-      const auto at = places.corners(layered.mesh.points, *cell);
-      const double scale = cell->kind == CellKind::tet ? std::sqrt(2.0) : 1;
-      const double quality =
-          scale * least_corner_scaled_jacobian(cell->kind, std::span<const Vec3>(at).first(corner_count(cell->kind)));
-      counts.least_quality = std::min(counts.least_quality, quality);
-      counts.mean_quality += quality;
-      ++counts.cells;
-    }
   }
-  if (counts.cells > 0) counts.mean_quality /= static_cast<double>(counts.cells);
   return counts;
 }
 
 LayerCounts LayerBuilder::finish(Layered& layered) const {
-  const LayerCounts counts = count(layered);
+  LayerCounts counts = count(layered);
+  const MixedMesh& mesh = layered.mesh;
+  counts.first_cells = {mesh.hexes.size(), mesh.prisms.size(), mesh.pyramids.size(), mesh.tets.size()};
   const LinePoints places(layered.walls, layered.plan, guides_, rules_.growth);
   append_columns(layered.mesh, layered.origin, layered.walls, places);
+  judge_cells(mesh, counts);
   number_inner_points(layered.mesh, static_cast<Vertex>(input_.points.size()), layered.origin);
   return counts;
 }
 
 }  // namespace
+
+void judge_cells(const MixedMesh& mesh, LayerCounts& counts) {
+  counts.cells = 0;
+  counts.least_quality = 1;
+  counts.mean_quality = 0;
+  const auto judge = [&](CellKind kind, const auto& block, std::size_t first) {
+    const double scale = kind == CellKind::tet ? std::sqrt(2.0) : 1;
+    for (std::size_t i = first; i < block.size(); ++i) {
+      const auto at = corner_points(mesh.points, block.cells[i]);
+      const double quality =
+          scale * least_corner_scaled_jacobian(kind, std::span<const Vec3>(at).first(block.cells[i].size()));
+      counts.least_quality = std::min(counts.least_quality, quality);
+      counts.mean_quality += quality;
+      ++counts.cells;
+    }
+  };
+  judge(CellKind::hex, mesh.hexes, counts.first_cells[0]);
+  judge(CellKind::prism, mesh.prisms, counts.first_cells[1]);
+  judge(CellKind::pyramid, mesh.pyramids, counts.first_cells[2]);
+  judge(CellKind::tet, mesh.tets, counts.first_cells[3]);
+  if (counts.cells > 0) counts.mean_quality /= static_cast<double>(counts.cells);
+}
 
 LayerCounts add_layers(MixedMesh& mesh, std::vector<Vertex>& origin, const TetMesh& input,
                        const shape::InputSurface& surface, const LayerRules& rules) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 
 #include "common/mesh/box_tree.hpp"
 #include "tools/assemble/shape/point_star.hpp"
@@ -212,22 +213,20 @@ void Planner::limit_by_room() {
 
 // Lowers heights until none rises steeply from its neighbours.
 void Planner::grade() {
-  const auto least_first = [&](LineIndex a, LineIndex b) {
-    return heights_[a] > heights_[b] || (heights_[a] == heights_[b] && a > b);
-  };
-  std::vector<LineIndex> heap;
+  std::vector<LineIndex> queue;
   for (std::size_t i = 0; i < count(); ++i)
-    if (grows_[i] != 0) heap.push_back(static_cast<LineIndex>(i));
-  std::ranges::sort(heap, [&](LineIndex a, LineIndex b) { return least_first(b, a); });
+    if (grows_[i] != 0) queue.push_back(static_cast<LineIndex>(i));
+  std::ranges::sort(queue,
+                    [&](LineIndex a, LineIndex b) { return std::tie(heights_[a], a) < std::tie(heights_[b], b); });
   // Sweeps from the lowest up; what falls is looked at again.
-  for (std::size_t next = 0; next < heap.size(); ++next) {
-    const LineIndex line = heap[next];
+  for (std::size_t next = 0; next < queue.size(); ++next) {
+    const LineIndex line = queue[next];
     for (const LineIndex other : neighbours_.of(line)) {
       if (grows_[other] == 0) continue;
       const double most = heights_[line] + steepest * norm(foot(other) - foot(line));
       if (heights_[other] <= most * (1 + 1e-12)) continue;
       heights_[other] = most;
-      heap.push_back(other);
+      queue.push_back(other);
     }
   }
 }

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "common/mesh/facet_key.hpp"
 #include "common/run/command_line.hpp"
@@ -39,17 +41,37 @@ AskedWall parse_wall(std::string_view text) {
   return {std::string(name), layers};
 }
 
+// Where the wall ends that the text begins with: at the comma, or the end, behind the first '=' with only a number
+// between. Names may have commas.
+std::size_t end_of_wall(std::string_view text) {
+  for (std::size_t equals = text.find('='); equals != std::string_view::npos; equals = text.find('=', equals + 1)) {
+    const std::size_t comma = std::min(text.find(',', equals), text.size());
+    const std::string_view number = trimmed(text.substr(equals + 1, comma - equals - 1));
+    double value = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+    if (error == std::errc() && end == number.data() + number.size()) return comma;
+  }
+  return std::min(text.find(','), text.size());
+}
+
 using Tags = std::set<std::int32_t>;
 using Names = std::map<std::int32_t, std::string>;
 
+// A name comes before a number: a surface may be called "3".
 Tags tags_named(std::string_view name, const Tags& all, const Names& names, std::string_view kind) {
-  Tags found;
+  Tags named, numbered;
   for (const std::int32_t tag : all) {
     const auto known = names.find(tag);
-    const bool is_named = known != names.end() && known->second == name;
-    if (is_named || name == std::to_string(tag) || name == fmt::format("{}_{}", kind, tag)) found.insert(tag);
+    if (known != names.end() && known->second == name) named.insert(tag);
+    if (name == std::to_string(tag) || name == fmt::format("{}_{}", kind, tag)) numbered.insert(tag);
   }
-  return found;
+  return named.empty() ? numbered : named;
+}
+
+// "5 (floor)", or "5" if it has no name.
+std::string title_of(std::int32_t tag, const Names& names) {
+  const auto name = names.find(tag);
+  return name == names.end() ? std::to_string(tag) : fmt::format("{} ({})", tag, name->second);
 }
 
 std::string list_of(const Tags& tags, const Names& names) {
@@ -57,9 +79,7 @@ std::string list_of(const Tags& tags, const Names& names) {
   std::size_t listed = 0;
   for (const std::int32_t tag : tags) {
     if (listed++ == most_listed) return list + fmt::format(" and {} more", tags.size() - most_listed);
-    const auto name = names.find(tag);
-    list += fmt::format("{}{}", list.empty() ? "" : ", ", tag);
-    if (name != names.end()) list += fmt::format(" ({})", name->second);
+    list += fmt::format("{}{}", list.empty() ? "" : ", ", title_of(tag, names));
   }
   return list;
 }
@@ -74,36 +94,153 @@ std::string list_of(const Tags& tags, const Names& names) {
                       what, name, near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near), list_of(all, names));
 }
 
-// Tags of facets that have a tet on one side only.
-Tags outer_tags(const TetMesh& mesh) {
-  KeyMap<3, int> uses;
-  uses.reserve(mesh.triangles.size());
-  for (const Triangle& triangle : mesh.triangles) uses[key_of(triangle)] = 0;
-  for (const Tet& t : mesh.tets)
-    for (const auto& facet : TetTopology::triangles)
-      if (const auto found = uses.find(key_of(Triangle{t[facet[0]], t[facet[1]], t[facet[2]]})); found != uses.end())
-        ++found.value();
-  Tags tags;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    if (uses[key_of(mesh.triangles[i])] == 1) tags.insert(mesh.triangle_tags[i]);
-  return tags;
+// What lies beside the facets of each tag.
+struct Sides {
+  std::map<std::int32_t, Tags> regions;  // by tag of the surface
+  Tags outer;                            // tags of facets that have a tet on one side only
+
+  explicit Sides(const TetMesh& mesh) {
+    struct Beside {
+      int tets = 0;
+      std::array<std::int32_t, 2> regions{};
+    };
+    KeyMap<3, Beside> beside;
+    beside.reserve(mesh.triangles.size());
+    for (const Triangle& triangle : mesh.triangles) beside[key_of(triangle)] = {};
+    for (std::size_t i = 0; i < mesh.tets.size(); ++i)
+      for (const auto& facet : TetTopology::triangles) {
+        const Tet& t = mesh.tets[i];
+        const auto found = beside.find(key_of(Triangle{t[facet[0]], t[facet[1]], t[facet[2]]}));
+        if (found == beside.end() || found->second.tets == 2) continue;
+        Beside& here = found.value();
+        here.regions[static_cast<std::size_t>(here.tets++)] = mesh.tet_tags[i];
+      }
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const Beside& here = beside[key_of(mesh.triangles[i])];
+      if (here.tets == 1) outer.insert(mesh.triangle_tags[i]);
+      for (int side = 0; side < here.tets; ++side)
+        regions[mesh.triangle_tags[i]].insert(here.regions[static_cast<std::size_t>(side)]);
+    }
+  }
+};
+
+// The walls that are asked for, one by one.
+class WallChooser {
+ public:
+  WallChooser(const TetMesh& mesh, const TagNames& names, std::string_view source)
+      : mesh_(mesh),
+        names_(names),
+        source_(source),
+        surfaces_(mesh.triangle_tags.begin(), mesh.triangle_tags.end()),
+        regions_(mesh.tet_tags.begin(), mesh.tet_tags.end()) {}
+
+  void add(const AskedWall& wall);
+  std::vector<WallGroup> take();
+
+ private:
+  struct Found {
+    Tags surfaces, regions;  // no regions: on all sides
+  };
+  struct Group {
+    int layers;
+    std::string asked;  // by the first one that asked for it
+    Tags regions;
+  };
+
+  Found find(std::string_view name);
+  Found find_in_region(std::string_view surface, std::string_view region);
+  void add(std::int32_t tag, const AskedWall& wall, const Tags& regions);
+  void check_touching() const;
+  std::string title(std::int32_t tag) const { return title_of(tag, names_.surfaces); }
+  Sides& sides() {
+    if (!sides_) sides_.emplace(mesh_);
+    return *sides_;
+  }
+  [[noreturn]] void fail_surface(std::string_view name) const {
+    fail(source_, "surface", name, surfaces_, names_.surfaces);
+  }
+
+  const TetMesh& mesh_;
+  const TagNames& names_;
+  std::string_view source_;
+  const Tags surfaces_, regions_;
+  std::optional<Sides> sides_;
+  std::map<std::int32_t, Group> groups_;  // by tag
+};
+
+WallChooser::Found WallChooser::find_in_region(std::string_view surface, std::string_view region) {
+  const Tags behind = tags_named(region, regions_, names_.regions, "region");
+  if (behind.empty()) fail(source_, "region", region, regions_, names_.regions);
+  const Tags tags = surface == everything ? surfaces_ : tags_named(surface, surfaces_, names_.surfaces, "surface");
+  if (tags.empty()) fail_surface(surface);
+  Found found{{}, behind};
+  Tags bounded;
+  for (const std::int32_t tag : tags) {
+    const Tags& beside = sides().regions[tag];
+    bounded.insert(beside.begin(), beside.end());
+    if (std::ranges::any_of(behind, [&](std::int32_t r) { return beside.contains(r); })) found.surfaces.insert(tag);
+  }
+  if (found.surfaces.empty())
+    throw DataError::at(source_, "--boundary-layers: expected surface '{}' to bound region '{}'; it bounds {}", surface,
+                        region, bounded.empty() ? "none" : list_of(bounded, names_.regions));
+  return found;
+}
+
+WallChooser::Found WallChooser::find(std::string_view name) {
+  if (Tags tags = tags_named(name, surfaces_, names_.surfaces, "surface"); !tags.empty()) return {std::move(tags), {}};
+  if (name == everything) return {sides().outer, {}};
+  const std::size_t cut = name.rfind(in);
+  if (cut == std::string_view::npos) fail_surface(name);
+  return find_in_region(trimmed(name.substr(0, cut)), trimmed(name.substr(cut + in.size())));
+}
+
+void WallChooser::add(std::int32_t tag, const AskedWall& wall, const Tags& regions) {
+  const auto [at, is_new] = groups_.try_emplace(tag, Group{wall.layers, wall.name, regions});
+  Group& group = at->second;
+  if (is_new) return;
+  const bool both_sided = !group.regions.empty() && !regions.empty() && group.regions != regions;
+  if (group.layers != wall.layers && both_sided)
+    throw DataError::at(source_,
+                        "--boundary-layers: expected as many layers on both sides of surface {}, found '{}={}' and "
+                        "'{}={}'; '{}={}' puts layers on both",
+                        title(tag), group.asked, group.layers, wall.name, wall.layers, tag, group.layers);
+  if (group.layers != wall.layers)
+    throw DataError::at(source_, "--boundary-layers: expected surface {} once, found it with {} and with {} layers",
+                        title(tag), group.layers, wall.layers);
+  if (regions.empty())
+    group.regions.clear();
+  else if (!group.regions.empty())
+    group.regions.insert(regions.begin(), regions.end());
+}
+
+void WallChooser::add(const AskedWall& wall) {
+  const Found found = find(wall.name);
+  for (const std::int32_t tag : found.surfaces) add(tag, wall, found.regions);
 }
 
 // Walls that touch share the lines between them.
-void check_touching(std::span<const WallGroup> walls, const TetMesh& mesh, std::string_view source) {
-  std::vector<const WallGroup*> wall_at(mesh.points.size(), nullptr);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto wall = std::ranges::find(walls, mesh.triangle_tags[i], &WallGroup::tag);
-    if (wall == walls.end()) continue;
-    for (const Vertex v : mesh.triangles[i]) {
-      if (wall_at[v] != nullptr && wall_at[v]->layers != wall->layers)
+void WallChooser::check_touching() const {
+  std::vector<const std::pair<const std::int32_t, Group>*> wall_at(mesh_.points.size(), nullptr);
+  for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+    const auto wall = groups_.find(mesh_.triangle_tags[i]);
+    if (wall == groups_.end()) continue;
+    for (const Vertex v : mesh_.triangles[i]) {
+      const auto* other = std::exchange(wall_at[static_cast<std::size_t>(v)], &*wall);
+      if (other != nullptr && other->second.layers != wall->second.layers)
         throw DataError::at(
-            source,
+            source_,
             "--boundary-layers: expected as many layers on surfaces that touch, found {} on surface {} and {} on {}",
-            wall_at[v]->layers, wall_at[v]->tag, wall->layers, wall->tag);
-      wall_at[v] = &*wall;
+            other->second.layers, title(other->first), wall->second.layers, title(wall->first));
     }
   }
+}
+
+std::vector<WallGroup> WallChooser::take() {
+  check_touching();
+  std::vector<WallGroup> walls;
+  for (const auto& [tag, group] : groups_)
+    walls.push_back({tag, group.layers, {group.regions.begin(), group.regions.end()}});
+  return walls;
 }
 
 }  // namespace
@@ -111,44 +248,18 @@ void check_touching(std::span<const WallGroup> walls, const TetMesh& mesh, std::
 std::vector<AskedWall> parse_walls(std::string_view text) {
   std::vector<AskedWall> walls;
   while (true) {
-    const std::size_t comma = text.find(',');
-    walls.push_back(parse_wall(text.substr(0, comma)));
-    if (comma == std::string_view::npos) return walls;
-    text.remove_prefix(comma + 1);
+    const std::size_t end = end_of_wall(text);
+    walls.push_back(parse_wall(text.substr(0, end)));
+    if (end == text.size()) return walls;
+    text.remove_prefix(end + 1);
   }
 }
 
 std::vector<WallGroup> find_walls(std::span<const AskedWall> asked, const TetMesh& mesh, const TagNames& names,
                                   std::string_view source) {
-  const Tags surfaces(mesh.triangle_tags.begin(), mesh.triangle_tags.end());
-  const Tags regions(mesh.tet_tags.begin(), mesh.tet_tags.end());
-  std::vector<WallGroup> walls;
-  for (const AskedWall& wall : asked) {
-    Tags tags = tags_named(wall.name, surfaces, names.surfaces, "surface");
-    std::optional<std::int32_t> region;
-    const std::size_t cut = wall.name.rfind(in);
-    if (tags.empty() && cut != std::string::npos) {
-      const std::string_view surface = trimmed(std::string_view(wall.name).substr(0, cut));
-      const std::string_view side = trimmed(std::string_view(wall.name).substr(cut + in.size()));
-      const Tags sides = tags_named(side, regions, names.regions, "region");
-      if (sides.size() != 1) fail(source, "region", side, regions, names.regions);
-      region = *sides.begin();
-      tags = surface == everything ? surfaces : tags_named(surface, surfaces, names.surfaces, "surface");
-      if (tags.empty()) fail(source, "surface", surface, surfaces, names.surfaces);
-    }
-    if (tags.empty() && wall.name == everything) tags = outer_tags(mesh);
-    if (tags.empty()) fail(source, "surface", wall.name, surfaces, names.surfaces);
-    for (const std::int32_t tag : tags) {
-      const auto other = std::ranges::find(walls, tag, &WallGroup::tag);
-      if (other == walls.end())
-        walls.push_back({tag, wall.layers, region});
-      else if (other->layers != wall.layers || other->region != region)
-        throw DataError::at(source, "--boundary-layers: expected surface {} once, found it with {} and with {} layers",
-                            tag, other->layers, wall.layers);
-    }
-  }
-  check_touching(walls, mesh, source);
-  return walls;
+  WallChooser finder(mesh, names, source);
+  for (const AskedWall& wall : asked) finder.add(wall);
+  return finder.take();
 }
 
 }  // namespace hexpipe::assemble::layers

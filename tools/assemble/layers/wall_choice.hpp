@@ -13,7 +13,8 @@
 
 namespace hexpipe::assemble::layers {
 
-// "wall=5", "3=5", "all=5" for everything on the boundary, or, for one side of an interface, "wall in water=5".
+// "wall=5", "3=5", "all=5" for everything on the boundary, or, for the side towards one region, "wall in water=5". "all
+// in water=5": on all that bounds the region, interfaces too.
 struct AskedWall {
   std::string name;  // as it is given, of the surface or its number
   int layers;
@@ -24,11 +25,12 @@ struct TagNames {
   std::map<std::int32_t, std::string> surfaces, regions;
 };
 
-// Reads "wall=5, lid=5". Throws UsageError.
+// Reads "wall=5, lid=5". Names may have commas. Throws UsageError.
 std::vector<AskedWall> parse_walls(std::string_view text);
 
-// `source` names the mesh in messages. Throws DataError where the mesh has no such surface or region, and where walls
-// touch that have different numbers of layers.
+// Walls by tag, ascending. A name of several surfaces or regions means all of them. `source` names the mesh in
+// messages. Throws DataError where the mesh has no such surface or region, a surface does not bound the region, and
+// where walls touch that have different numbers of layers.
 std::vector<WallGroup> find_walls(std::span<const AskedWall> asked, const TetMesh& mesh, const TagNames& names,
                                   std::string_view source);
 

@@ -164,8 +164,8 @@ void WallFinder::find_tagged_facets() {
   is_on_wall_.assign(mesh_.points.size(), 0);
   for_each_facet_block(mesh_, [&](std::int32_t number, const auto& block) {
     for (std::size_t i = 0; i < block.size(); ++i) {
-      const auto group = std::ranges::find(groups_, block.tags[i], &WallGroup::tag);
-      const WallGroup* wall = group == groups_.end() ? nullptr : &*group;
+      const auto group = std::ranges::lower_bound(groups_, block.tags[i], {}, &WallGroup::tag);
+      const WallGroup* wall = group == groups_.end() || group->tag != block.tags[i] ? nullptr : &*group;
       tagged_.push_back(
           {FacetForm::of(block.cells[i]).vertices, number, static_cast<std::int32_t>(i), block.tags[i], wall});
       if (wall == nullptr) continue;
@@ -245,7 +245,8 @@ void WallFinder::add_side(const NearFacet& facet, const TaggedFacet& tagged) {
 
 void WallFinder::find_sides() {
   const auto has_layers = [&](const NearFacet& facet, const TaggedFacet& tagged) {
-    return !tagged.group->region || *tagged.group->region == cells_[facet.cell].region;
+    const auto& regions = tagged.group->regions;
+    return regions.empty() || std::ranges::find(regions, cells_[facet.cell].region) != regions.end();
   };
   for_each_form([&](std::span<const NearFacet> both, const TaggedFacet* tagged) {
     if (tagged == nullptr || tagged->group == nullptr) return;

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,11 +10,11 @@
 
 namespace hexpipe::assemble::layers {
 
-// The facets of a tag are walls: on both sides, or only on that of one region.
+// The facets of a tag are walls: on all sides, or only on those of some regions.
 struct WallGroup {
   std::int32_t tag;
   int layers;
-  std::optional<std::int32_t> region{};
+  std::vector<std::int32_t> regions{};  // none: all
 };
 
 using LineIndex = std::int32_t;
@@ -58,7 +57,7 @@ struct LineEdge {
 
 class Walls {
  public:
-  // Finds all facets of the groups in the mesh.
+  // Finds all facets of the groups in the mesh. Each tag has one group; they are ascending.
   Walls(const MixedMesh& mesh, std::span<const WallGroup> groups);
 
   std::span<const WallSide> sides() const { return sides_; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -17,7 +18,7 @@ namespace hexpipe::assemble::order {
 namespace {
 
 // Vertices that slid are up to shape::most_deviation off; this is far enough for them, and not for other walls.
-constexpr double most_way = 0.1;  // in lengths of the shortest edge of the boundary there
+constexpr double most_way = 0.1;  // in lengths of the shortest edge there: layers at walls are thin
 // What is nearer, in the same lengths, is on the surface.
 constexpr double on_surface = 1e-9;
 constexpr double kept_quality = 0.9;
@@ -26,7 +27,7 @@ struct VertexSurroundings {
   Vec3 normal;  // the sum of those of smooth edges, or the direction of sharp ones
   int edges = 0, sharp = 0;
   std::array<Vertex, 2> ends{};
-  double shortest = 0;
+  double shortest = std::numeric_limits<double>::infinity();  // of all edges there, those inside, too
 };
 
 struct CellCorners {
@@ -62,11 +63,18 @@ class CornerFitter {
     for (const BoundaryEdge& edge : boundary_edges(mesh_))
       for (const auto& [v, other] : {std::pair(edge.a, edge.b), std::pair(edge.b, edge.a)}) {
         VertexSurroundings& here = around_[static_cast<std::size_t>(v)];
-        const double length = norm(mesh_.points[other] - mesh_.points[v]);
-        here.shortest = here.edges++ == 0 ? length : std::min(here.shortest, length);
+        ++here.edges;
         here.normal += edge.normal;
         if (edge.is_sharp && here.sharp++ < 2) here.ends[static_cast<std::size_t>(here.sharp - 1)] = other;
       }
+    for (const CellCorners& cell : cells_)
+      with_topology(cell.kind, [&](auto topology) {
+        for (const auto& e : decltype(topology)::edges) {
+          const auto a = static_cast<std::size_t>(cell.corners[e[0]]), b = static_cast<std::size_t>(cell.corners[e[1]]);
+          const double length = norm(mesh_.points[a] - mesh_.points[b]);
+          for (const std::size_t v : {a, b}) around_[v].shortest = std::min(around_[v].shortest, length);
+        }
+      });
   }
 
   std::optional<Vec3> place_of(Vertex v, const VertexSurroundings& here) const {
