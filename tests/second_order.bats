@@ -169,6 +169,17 @@ EVOL
   assert_near "$(value volume)" 2e-5 "$output"
 }
 
+@test "inp needs no --solver for pyramids of second order" {
+  choice
+  run_apart assemble choice.tar --order 2 --surface ring.stl -o ring.inp
+  assert_success
+  [[ "$stderr" == *"pyramids are written as four tets each"* ]]
+  run_apart assemble choice.tar --order 2 --surface ring.stl --solver abaqus --hex-element C3D8R -v -o ring.inp
+  assert_success
+  [[ "$stderr" == *"for abaqus: pyramids are kept (of second order split), hexes are C3D8R (of second order C3D20R)"* ]]
+  grep -q 'TYPE=C3D20R' ring.inp
+}
+
 # lattice_with_pyramids: choice.tar with every other cube of a lattice as a hex, so that all bases of pyramids are squares.
 lattice_with_pyramids() {
   "$DATA/lattices/lattice.py" kuhn 4 >lattice.mesh
@@ -232,13 +243,17 @@ PYTHON
       assemble choice.tar --order 2 -o ring.$format
   done
   assert_fails_with 2 'second order go with .*, found polyMesh' assemble choice.tar --order 2 -o polyMesh
-  assert_fails_with 1 'middles of quads and hexes: use --nodes serendipity' \
-    assemble choice.tar --order 2 --nodes full -q -o ring.inp
-  assert_fails_with 1 'pyramids of second order, which Abaqus lacks: use --pyramids split or collapsed' \
-    assemble choice.tar --order 2 -q -o ring.inp
+  assert_fails_with 2 'middles of quads and hexes: use --nodes serendipity' \
+    assemble choice.tar --order 2 --nodes full -o ring.inp
+  assert_fails_with 2 'no pyramids of second order: use --pyramids split or collapsed, found keep' \
+    assemble choice.tar --order 2 --pyramids keep -o ring.inp
+  assert_fails_with 2 '--hex-element C3D8I has no element of second order: C3D8 gives C3D20' \
+    assemble choice.tar --order 2 --hex-element C3D8I -o ring.inp
+  assert_fails_with 2 "--surface takes a file, found '-'" assemble choice.tar --order 2 --surface - -o ring.vtu
   assert_fails_with 2 '--nodes goes with --order 2' assemble choice.tar --nodes full -o ring.vtu
   assert_fails_with 2 '--surface goes with --order 2' assemble choice.tar --surface ring.stl -o ring.vtu
-  assert_fails_with 1 'nowhere.stl: cannot open' assemble choice.tar --order 2 --surface nowhere.stl -o ring.vtu
+  # Before the mesh is read: there is none.
+  assert_fails_with 1 'nowhere.stl: cannot open' assemble nowhere.tar --order 2 --surface nowhere.stl -o ring.vtu
 }
 
 @test "a bundle of second order has the columns of its numbering, and other stages take the corners" {

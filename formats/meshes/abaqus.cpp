@@ -107,10 +107,8 @@ class AbaqusWriter {
     return *std::ranges::find(names_by_kind, kind, &AbaqusNames::kind);
   }
   std::string type_of(CellKind kind) const {
-    if (mesh_.second_order) {
-      const bool reduced = kind == CellKind::hex && writing_.hex_element == "C3D8R";
-      return reduced ? "C3D20R" : abaqus_names(kind).second_order;
-    }
+    if (mesh_.second_order)
+      return kind == CellKind::hex ? writing_.hex_of_second_order() : abaqus_names(kind).second_order;
     return kind == CellKind::hex ? writing_.hex_element : abaqus_names(kind).type;
   }
 

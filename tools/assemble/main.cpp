@@ -151,6 +151,7 @@ AssembleOptions options_of(CommandLine& line) {
     throw UsageError("--order 2 does not go with --neighbours: pieces are of first order");
   if (line.order == 1 && line.nodes_option->count() > 0) throw UsageError("--nodes goes with --order 2");
   if (line.order == 1 && line.surface_option->count() > 0) throw UsageError("--surface goes with --order 2");
+  if (line.surface == "-") throw UsageError("--surface takes a file, found '-': the mesh comes from standard input");
   if (!line.by_part() && !line.before.empty()) throw UsageError("--before goes with --neighbours");
   return {.conformity = conformities.at(line.conformity),
           .exchange = exchanges.at(line.exchange),
@@ -237,7 +238,6 @@ nlohmann::ordered_json report(RunContext& context, const AssembleStatistics& sta
 
 order::SecondOrderCounts add_second_order(const CommandLine& line, std::optional<formats::SurfaceSoup> soup,
                                           PartResult& result) {
-  if (!line.surface.empty()) soup = pipeline::read_surface_file(line.surface);
   std::optional<order::GivenSurface> surface;
   order::FitCounts corners;
   if (soup) {
@@ -285,9 +285,11 @@ void run(RunContext& context, CommandLine& line) {
   }
   if (line.pillow) context.options["pillow"] = true;
   pipeline::Stage stage(context);
-  if (line.order == 2) stage.expect_second_order();
+  if (line.order == 2) stage.expect_second_order(line.nodes == "full");
+  std::optional<formats::SurfaceSoup> surface;
+  if (!line.surface.empty()) surface = pipeline::read_surface_file(line.surface);
   pipeline::StageData data = read_input(stage, line);
-  std::optional<formats::SurfaceSoup> surface = std::exchange(data.surface, std::nullopt);
+  if (!surface) surface = std::exchange(data.surface, std::nullopt);
   const choice::InputNames names{.mesh = stage.source_of(Role::mesh),
                                  .candidates = stage.source_of(Role::candidates),
                                  .solution = stage.source_of(Role::solution)};
