@@ -255,6 +255,13 @@ order::SecondOrderCounts add_second_order(const CommandLine& line, std::optional
 nlohmann::ordered_json report_second_order(RunContext& context, const order::SecondOrderCounts& counts) {
   context.note(order::summary_line(counts));
   const curved::BendCounts& bending = counts.bending;
+  if (!counts.has_surface)
+    context.warn("no surface was given: nodes of the boundary lie on arcs through its vertices; --surface names it");
+  if (counts.corners.held > 0)
+    context.warn(
+        fmt::format("{} vertices of the boundary stay off the surface: it is further than a tenth of an edge away, or "
+                    "cells would lose quality",
+                    counts.corners.held));
   if (counts.strays > 0)
     context.warn(
         fmt::format("{} of {} nodes of the boundary have no place on the surface near them, and lie on arcs "
