@@ -74,9 +74,70 @@ PYTHON
   assert_success
   cells ring.vtu
   assert_near 1.178097 2e-4 "$(value volume)"
-  run_apart assemble choice.tar --order 2 --surface "$DATA/bracket.stl" -o far.vtu
+  run_apart assemble choice.tar --order 2 --surface "$DATA/bracket.stl" --stats far.json -o far.vtu
+  assert_success
+  run holds 'far["second_order"]["on_given_surface"] == 0' far.json
   assert_success
   [[ "$stderr" == *"nodes of the boundary have no place on the surface near them"* ]]
+}
+
+@test "a border of tags stays where it is beside a curve of the surface that only passes by" {
+  "$DATA/lattices/lattice.py" kuhn 4 >lattice.mesh
+  $PYTHON - <<'PYTHON'
+# The mesh has the border of two tags at x = 2, the surface at x = 2.2.
+import itertools
+words = open("lattice.mesh").read().split()
+def rows(section, width):
+    at = words.index(section) + 2
+    return [words[i:i + width] for i in range(at, at + width * int(words[at - 1]), width)]
+points = [[float(x) for x in row[:3]] for row in rows("Vertices", 4)]
+faces = {}
+for tet in rows("Tetrahedra", 5):
+    for face in itertools.combinations(tet[:4], 3):
+        faces.setdefault(frozenset(face), []).append(face)
+with open("tagged.mesh", "w") as mesh:
+    print(*words[:words.index("End")], "Triangles", sum(len(at) == 1 for at in faces.values()), sep="\n", file=mesh)
+    for (face, *others) in faces.values():
+        at = [points[int(v) - 1] for v in face]
+        is_low = all(p[2] == 4 and p[0] <= 2 for p in at)
+        if not others:
+            print(*face, 1 if is_low else 2, file=mesh)
+    print("End", file=mesh)
+def quad(a, b, c, d):
+    return [(a, b, c), (a, c, d)]
+def top(x0, x1):
+    return quad((x0, 0, 4), (x1, 0, 4), (x1, 4, 4), (x0, 4, 4))
+rest = top(2.2, 4) + quad((0, 0, 0), (0, 4, 0), (4, 4, 0), (4, 0, 0))
+for x, y, u, v in ((0, 0, 4, 0), (4, 0, 4, 4), (4, 4, 0, 4), (0, 4, 0, 0)):
+    rest += quad((x, y, 0), (u, v, 0), (u, v, 4), (x, y, 4))
+with open("surface.stl", "w") as stl:
+    for name, triangles in (("low", top(0, 2.2)), ("rest", rest)):
+        print("solid", name, file=stl)
+        for t in triangles:
+            print("facet normal 0 0 0", "outer loop", *("vertex %g %g %g" % p for p in t), "endloop", "endfacet", sep="\n", file=stl)
+        print("endsolid", file=stl)
+PYTHON
+  findhex --mesh tagged.mesh | buildgraph | initsol -o lattice.tar
+  run_apart assemble lattice.tar --smooth 0 --order 2 --surface surface.stl --stats stats.json -o lattice.vtu
+  assert_success
+  [[ "$stderr" == *"vertices of the boundary stay off the surface: it is further than a tenth of an edge away"* ]]
+  run holds 'stats["second_order"]["corners_off_surface"] > 0 and stats["second_order"]["bent_cells"] == 0' stats.json
+  assert_success
+}
+
+@test "without a surface, flat faces between roundings stay flat, and the volume is nearer than with straight edges" {
+  tetmesh "$DATA/bracket.stl" --size 6 -q | findhex | buildgraph | initsol --iterations 20000 -o bracket.tar
+  assemble bracket.tar --stats straight.json -q -o straight.vtu
+  run_apart assemble bracket.tar --order 2 -o bracket.vtu
+  assert_success
+  assert_equal "$(grep -c 'no surface was given: nodes of the boundary lie on arcs through its vertices' <<<"$stderr")" 1
+  cells bracket.vtu
+  $PYTHON - "$(value volume)" <<'PYTHON'
+import json, sys
+true, bent = 286808, float(sys.argv[1])
+straight = json.load(open("straight.json"))["volume"]["cells"]
+assert abs(bent - true) < abs(straight - true), (bent, straight)
+PYTHON
 }
 
 @test "without a surface, nodes lie on arcs through the vertices" {

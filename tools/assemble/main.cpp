@@ -267,11 +267,11 @@ nlohmann::ordered_json report_second_order(RunContext& context, const order::Sec
         fmt::format("{} of {} nodes of the boundary have no place on the surface near them, and lie on arcs "
                     "through its vertices",
                     counts.strays, bending.on_boundary));
-  if (bending.drawn_back > 0)
+  if (!bending.drawn_back.empty())
     context.warn(
         fmt::format("{} of {} nodes of the boundary stay up to {:.3g} off the surface, {} of them on the "
                     "chord, because cells would be bent too much",
-                    bending.drawn_back, bending.on_boundary, bending.farthest, bending.straight));
+                    bending.drawn_back.size(), bending.on_boundary, bending.farthest, bending.straight));
   return context.statistics["second_order"] = order::to_json(counts);
 }
 
