@@ -206,6 +206,16 @@ TEST(CurvedValidityOfStraightCells, IsNotLostFarFromTheOrigin) {
   }
 }
 
+// Coordinates have errors of the size of such a height.
+TEST(CurvedValidityOfStraightCells, IsNotShownForHeightsThatRoundingMakes) {
+  for (const CellKind kind : kinds)
+    for (const double height : {1e-10, 1e-15}) {
+      std::vector<Vec3> nodes = unit_nodes(kind, false);
+      for (Vec3& node : nodes) node.z *= height;
+      EXPECT_EQ(curved::is_valid(kind, nodes), height == 1e-10);
+    }
+}
+
 // A wall of a quarter of a cylinder, in one hex: radius 1 inside, `outer` outside.
 MixedMesh quarter_cylinder(double outer) {
   MixedMesh mesh;
