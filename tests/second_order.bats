@@ -260,6 +260,32 @@ PYTHON
   done
 }
 
+@test "CalculiX takes boundary conditions on the nodes of a region, beside tied nodes" {
+  command -v ccx >/dev/null || skip "calculix-ccx is not installed"
+  lattice_with_pyramids
+  region=$(sed -n 's/^\*ELSET, ELSET=//p' split.inp | head -1)
+  for nodes in NALL "$region"; do
+    echo "*INCLUDE, INPUT=split.inp
+*MATERIAL, NAME=STEEL
+*ELASTIC
+210000, 0.3
+*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL
+*BOUNDARY
+$nodes, 1, 3, 0
+*STEP
+*STATIC
+*NODE PRINT, NSET=NTIED
+U
+*END STEP" >case.inp
+    run timeout 120 ccx case
+    assert_success
+    refute_output --partial ERROR
+    # Tied nodes are there, and stay with the others.
+    run awk 'NF == 4 && $2 + 0 == 0 && $3 + 0 == 0 && $4 + 0 == 0 { n += 1 } NF == 4 && $1 ~ /^[0-9]+$/ { all += 1 } END { print (all > 100 && n == all) }' case.dat
+    assert_output 1
+  done
+}
+
 # stress_error NAME: under the pressure 210 from all sides, the greatest error of a stress, in the pressure.
 stress_error() {
   $PYTHON - "$1" <<'PYTHON'

@@ -55,8 +55,11 @@ class AbaqusWriter {
       : mesh_(mesh),
         writing_(writing),
         output_(output),
-        names_(mesh, writing, abaqus_rules, {"EALL", "NALL"}),
-        lister_(mesh, lists()) {}
+        names_(mesh, writing, abaqus_rules, {"EALL", "NALL", "NTIED"}),
+        lister_(mesh, lists()),
+        is_tied_(mesh.points.size()) {
+    for (const TiedNode& tied : writing.tied) is_tied_[static_cast<std::size_t>(tied.node)] = true;
+  }
 
   void write() {
     check_numbers(std::max(mesh_.points.size(), element_count(mesh_)), most_of_31_bits, output_.name());
@@ -115,11 +118,18 @@ class AbaqusWriter {
   void write_points() {
     const double negligible = negligible_length(mesh_);
     const auto text = [&](double x) { return number_within(std::abs(x) < negligible ? 0 : x, field_width); };
+    const auto write = [&](bool tied) {
+      for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
+        if (is_tied_[i] != tied) continue;
+        const Vec3& p = mesh_.points[i];
+        output_.print("{}, {}, {}, {}\n", i + 1, text(p.x), text(p.y), text(p.z));
+      }
+    };
     output_.print("*NODE, NSET=NALL\n");
-    for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
-      const Vec3& p = mesh_.points[i];
-      output_.print("{}, {}, {}, {}\n", i + 1, text(p.x), text(p.y), text(p.z));
-    }
+    write(false);
+    if (writing_.tied.empty()) return;
+    output_.print("*NODE, NSET=NTIED\n");
+    write(true);
   }
 
   // Elements are numbered from 1 through all blocks.
@@ -193,7 +203,9 @@ class AbaqusWriter {
     output_.print("{}\n", line);
   }
 
+  // Without tied nodes: CalculiX stops where one is fixed, too.
   void write_node_set(const std::string& name, std::vector<std::int64_t>& nodes) {
+    std::erase_if(nodes, [&](std::int64_t number) { return is_tied_[static_cast<std::size_t>(number - 1)]; });
     std::ranges::sort(nodes);
     nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
     write_set("NSET", name, nodes);
@@ -219,6 +231,7 @@ class AbaqusWriter {
   Output& output_;
   GroupNamings names_;
   NodeLister lister_;
+  std::vector<bool> is_tied_;  // by point: whether equations give its displacement
   std::map<CellKind, std::int64_t> first_element_;
   Groups region_groups_, surface_groups_;
 };
