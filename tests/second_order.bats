@@ -179,19 +179,20 @@ PYTHON
 @test "Gmsh finds all Jacobians positive, by bounds of its own" {
   command -v gmsh >/dev/null || skip "gmsh is not installed"
   choice
-  for nodes in serendipity full; do
-    assemble choice.tar --order 2 --nodes $nodes --surface ring.stl -q -o ring.msh
-    cat >judge.geo <<'GEO'
+  cat >judge.geo <<'GEO'
 Merge "ring.msh";
 Plugin(AnalyseMeshQuality).JacobianDeterminant = 1;
 Plugin(AnalyseMeshQuality).DimensionOfElements = 3;
 Plugin(AnalyseMeshQuality).Run;
 GEO
-    timeout 120 gmsh judge.geo -0 -v 5 >gmsh.log 2>&1 || fail "$(tail -5 gmsh.log)"
-    run grep -iE 'error|negative|invalid' gmsh.log
-    assert_failure
-    run grep -E 'J(acobian| det| range|min| )' gmsh.log
-    assert_success
+  for nodes in serendipity full; do
+    # At the apex of a pyramid, Gmsh's bound may be 0: its Jacobian vanishes there.
+    for pyramids in split keep; do
+      assemble choice.tar --order 2 --nodes $nodes --surface ring.stl --pyramids $pyramids -q -o ring.msh
+      timeout 120 gmsh judge.geo -0 -v 5 >gmsh.log 2>&1 || fail "$(tail -5 gmsh.log)"
+      run awk '/minJ +=/ { sub(",", "", $5); print $5 }' gmsh.log
+      assert [ "$(awk -v j="$output" -v p=$pyramids 'BEGIN { print (j != "" && (j > 0 || (p == "keep" && j == 0))) }')" = 1 ]
+    done
   done
 }
 
