@@ -31,6 +31,12 @@ struct CellPlace {
   std::int32_t index;
 };
 
+// The place that a node is to have, if any, and how far from it it may be.
+struct NodeTarget {
+  const Vec3* at = nullptr;
+  double tolerance = 0;
+};
+
 class Bender {
  public:
   explicit Bender(MixedMesh& mesh)
@@ -50,10 +56,12 @@ class Bender {
       find_curved_cells();
       draw_back();
       give_back();
+      counts_.curved_cells =
+          std::ranges::count_if(curved_, [&](std::int32_t c) { return !is_straight(static_cast<std::size_t>(c)); });
     }
     place_nodes();
     for (std::size_t i = 0; i < offset_.size(); ++i) count(i);
-    return counts_;
+    return std::move(counts_);
   }
 
  private:
@@ -117,12 +125,14 @@ class Bender {
   // The offset of an edge's node is from the chord's middle, that of a quad's node from where the quad's bent edges put
   // it.
   void take_targets(std::span<const Target> targets) {
-    std::vector<const Vec3*> target(offset_.size(), nullptr);
+    target_.resize(offset_.size());
     for (const Target& t : targets)
-      if (on_boundary_[number(t.node)]) target[number(t.node)] = &t.at;
+      if (on_boundary_[number(t.node)]) target_[number(t.node)] = {&t.at, 0};
     const auto take = [&](Vertex node, const Vec3& from, double length) {
-      const Vec3* const at = target[number(node)];
-      if (at != nullptr && norm(*at - from) > straight_enough * length) offset(node) = *at - from;
+      NodeTarget& target = target_[number(node)];
+      if (target.at == nullptr) return;
+      target.tolerance = straight_enough * length;
+      if (norm(*target.at - from) > target.tolerance) offset(node) = *target.at - from;
     };
     for_each_facet([&](std::uint8_t vtk, std::size_t i, const auto& corners) {
       const auto edges = node_places_of(vtk).edges;
@@ -198,7 +208,6 @@ class Bender {
     for (std::size_t c = 0; c < cells_.size(); ++c)
       if (std::ranges::any_of(nodes_of(c), [&](Vertex node) { return offset(node) != Vec3{}; }))
         curved_.push_back(static_cast<std::int32_t>(c));
-    counts_.curved_cells = static_cast<std::int64_t>(curved_.size());
   }
 
   using Nodes = std::array<Vec3, most_nodes>;
@@ -319,10 +328,13 @@ class Bender {
   }
 
   void count(std::size_t i) {
-    if (!on_boundary_[i] || share_[i] == 1 || offset_[i] == Vec3{}) return;
-    ++counts_.drawn_back;
+    if (target_[i].at == nullptr) return;
+    // The node of a quad also moves with those of its edges.
+    const double distance = norm(mesh_.points[first_ + i] - *target_[i].at);
+    if (distance <= target_[i].tolerance) return;
+    counts_.drawn_back.push_back(static_cast<Vertex>(first_ + i));
     if (share_[i] == 0) ++counts_.straight;
-    counts_.farthest = std::max(counts_.farthest, (1 - share_[i]) * norm(offset_[i]));
+    counts_.farthest = std::max(counts_.farthest, distance);
   }
 
   MixedMesh& mesh_;
@@ -331,6 +343,7 @@ class Bender {
   // By node: how far it is from the middle of what it lies on, and which share of that it keeps.
   std::vector<Vec3> offset_;
   std::vector<double> share_;
+  std::vector<NodeTarget> target_;
   std::vector<bool> on_boundary_;
   std::vector<CellPlace> cells_;
   VertexItems cells_at_;

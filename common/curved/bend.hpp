@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "common/mesh/mixed_mesh.hpp"
 
@@ -16,12 +17,12 @@ struct Target {
 };
 
 struct BendCounts {
-  std::int64_t on_boundary = 0;   // nodes on facets
-  std::int64_t curved_cells = 0;  // cells that have a bent edge or side before nodes go back
-  std::int64_t invalid = 0;       // of these: cells that were not valid, or hardly
-  std::int64_t drawn_back = 0;    // nodes of the boundary that are not in their places
-  std::int64_t straight = 0;      // of these: nodes that are on the chord
-  double farthest = 0;            // from such a node to its place
+  std::int64_t on_boundary = 0;      // nodes on facets
+  std::int64_t curved_cells = 0;     // cells that have a bent edge or side
+  std::int64_t invalid = 0;          // cells that were not valid, or hardly, before nodes went back
+  std::vector<Vertex> drawn_back{};  // nodes of the boundary that are not in their places, in ascending order
+  std::int64_t straight = 0;         // of these: nodes that are on the chord
+  double farthest = 0;               // from such a node to its place
 };
 
 // The least share of the straight cell's Jacobian that the bent one has everywhere.

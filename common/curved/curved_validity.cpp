@@ -283,24 +283,27 @@ struct Coefficients {
 
 Coefficients jacobian(const JacobianTables& tables, const Points& points) {
   std::array<std::array<Vec3, most_tangents>, 3> tangents;
-  double scale = 1;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    double longest = 0;
+  std::array<double, 3> longest{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
     for (std::size_t i = 0; i < tables.tangents.differences[axis].size(); ++i) {
       const Difference& difference = tables.tangents.differences[axis][i];
       tangents[axis][i] = difference.factor * (points[difference.to] - points[difference.from]);
-      longest = std::max(longest, norm(tangents[axis][i]));
+      longest[axis] = std::max(longest[axis], norm(tangents[axis][i]));
     }
-    scale *= longest;
-  }
   std::array<Vec3, most_cross_products> products{};
   for (const ProductTerm& term : tables.cross_terms)
     products[term.product] += term.weight * cross(tangents[0][term.a], tangents[1][term.b]);
   Coefficients result;
   for (const ProductTerm& term : tables.terms)
     result.values[term.product] += term.weight * dot(products[term.a], tangents[2][term.b]);
-  // Sums of at most 18 x 4 products of three numbers, each rounded fewer than 100 times.
-  result.rounding = 128 * std::numeric_limits<double>::epsilon() * scale;
+  // Control points are off by a few units of the last place of their size, hence tangents, too, however short they are.
+  // Each error counts with the two other tangents. Sums have at most 18 x 4 products, each rounded fewer than 100
+  // times; a halving of a line of six coefficients takes five means in turn.
+  double size = 0;
+  for (std::size_t i = 0; i < tables.points.size(); ++i) size = std::max(size, norm(points[i]));
+  const auto [one, two, three] = longest;
+  result.rounding = std::numeric_limits<double>::epsilon() *
+                    (128 * size * (one * two + two * three + one * three) + 5.0 * most_halvings * one * two * three);
   return result;
 }
 

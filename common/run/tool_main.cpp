@@ -95,7 +95,7 @@ void declare_mesh_output(CLI::App& app, Role product, MeshOptions& mesh) {
       app.add_option(
           "--pyramids", mesh.pyramids,
           "How other formats get pyramids: keep; collapsed: as hexes with the apex four times (.inp); split: as two "
-          "tets each"))
+          "tets each, of second order as four"))
       ->type_name("FORM")
       ->check(CLI::IsMember(std::vector<std::string>{"keep", "collapsed", "split"}));
   outside_history(app.add_option("--hex-element", mesh.hex_element, "The type of hexes in .inp: C3D8, C3D8I or C3D8R"))

@@ -55,8 +55,11 @@ class AbaqusWriter {
       : mesh_(mesh),
         writing_(writing),
         output_(output),
-        names_(mesh, writing, abaqus_rules, {"EALL", "NALL"}),
-        lister_(mesh, lists()) {}
+        names_(mesh, writing, abaqus_rules, {"EALL", "NALL", "NTIED"}),
+        lister_(mesh, lists()),
+        is_tied_(mesh.points.size()) {
+    for (const TiedNode& tied : writing.tied) is_tied_[static_cast<std::size_t>(tied.node)] = true;
+  }
 
   void write() {
     check_numbers(std::max(mesh_.points.size(), element_count(mesh_)), most_of_31_bits, output_.name());
@@ -107,21 +110,26 @@ class AbaqusWriter {
     return *std::ranges::find(names_by_kind, kind, &AbaqusNames::kind);
   }
   std::string type_of(CellKind kind) const {
-    if (mesh_.second_order) {
-      const bool reduced = kind == CellKind::hex && writing_.hex_element == "C3D8R";
-      return reduced ? "C3D20R" : abaqus_names(kind).second_order;
-    }
+    if (mesh_.second_order)
+      return kind == CellKind::hex ? writing_.hex_of_second_order() : abaqus_names(kind).second_order;
     return kind == CellKind::hex ? writing_.hex_element : abaqus_names(kind).type;
   }
 
   void write_points() {
     const double negligible = negligible_length(mesh_);
     const auto text = [&](double x) { return number_within(std::abs(x) < negligible ? 0 : x, field_width); };
+    const auto write = [&](bool tied) {
+      for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
+        if (is_tied_[i] != tied) continue;
+        const Vec3& p = mesh_.points[i];
+        output_.print("{}, {}, {}, {}\n", i + 1, text(p.x), text(p.y), text(p.z));
+      }
+    };
     output_.print("*NODE, NSET=NALL\n");
-    for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
-      const Vec3& p = mesh_.points[i];
-      output_.print("{}, {}, {}, {}\n", i + 1, text(p.x), text(p.y), text(p.z));
-    }
+    write(false);
+    if (writing_.tied.empty()) return;
+    output_.print("*NODE, NSET=NTIED\n");
+    write(true);
   }
 
   // Elements are numbered from 1 through all blocks.
@@ -195,7 +203,9 @@ class AbaqusWriter {
     output_.print("{}\n", line);
   }
 
+  // Without tied nodes: CalculiX stops where one is fixed, too.
   void write_node_set(const std::string& name, std::vector<std::int64_t>& nodes) {
+    std::erase_if(nodes, [&](std::int64_t number) { return is_tied_[static_cast<std::size_t>(number - 1)]; });
     std::ranges::sort(nodes);
     nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
     write_set("NSET", name, nodes);
@@ -221,6 +231,7 @@ class AbaqusWriter {
   Output& output_;
   GroupNamings names_;
   NodeLister lister_;
+  std::vector<bool> is_tied_;  // by point: whether equations give its displacement
   std::map<CellKind, std::int64_t> first_element_;
   Groups region_groups_, surface_groups_;
 };

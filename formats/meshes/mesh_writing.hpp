@@ -13,7 +13,8 @@
 
 namespace hexpipe::formats {
 
-// keep: as pyramids. collapsed: as hexes with the apex four times. split: as two tets each.
+// keep: as pyramids. collapsed: as hexes with the apex four times. split: as two tets each; of second order,
+// as four.
 enum class PyramidForm { keep, collapsed, split };
 
 // A node of second order on a quad whose element has none there: it moves as that place of the quad does.
@@ -40,6 +41,7 @@ struct MeshWriting {
   PyramidForm form_of_pyramids(const MixedMesh& mesh) const {
     return mesh.second_order ? pyramids_of_second_order : pyramids;
   }
+  const char* hex_of_second_order() const { return hex_element == "C3D8R" ? "C3D20R" : "C3D20"; }
   void say(const std::string& line) const {
     if (tell) tell(line);
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/run/error.hpp"
+#include "formats/meshes/mesh_files.hpp"
 
 namespace hexpipe::formats {
 namespace {
@@ -49,15 +50,15 @@ const char* name_of(PyramidForm form) {
 
 MeshWriting mesh_writing(const MeshOptions& options, std::string_view format) {
   MeshWriting writing;
+  // Neither CalculiX nor Abaqus has pyramids of second order; tets with tied nodes find constant stresses, collapsed
+  // hexes poor ones.
+  if (format == "inp") writing.pyramids_of_second_order = PyramidForm::split;
   if (!options.solver.empty()) {
     const Solver& solver = *std::ranges::find(solvers(), options.solver, &Solver::name);
     if (std::ranges::find(solver.formats, format) == solver.formats.end())
       throw UsageError(
           fmt::format("--solver {} goes with {}, found {}", solver.name, fmt::join(solver.formats, " or "), format));
     writing.pyramids = solver.pyramids;
-    // Neither has pyramids of second order; tets with tied nodes find constant stresses, collapsed hexes poor ones.
-    const bool reads_abaqus = solver.formats.front() == "inp";
-    writing.pyramids_of_second_order = reads_abaqus ? PyramidForm::split : PyramidForm::keep;
     writing.hex_element = solver.hex_element;
     writing.longest_name = solver.longest_name;
   }
@@ -75,11 +76,24 @@ MeshWriting mesh_writing(const MeshOptions& options, std::string_view format) {
   return writing;
 }
 
+void expect_second_order(const MeshOptions& options, std::string_view format, bool full) {
+  if (!takes_second_order(format))
+    throw UsageError(
+        fmt::format("elements of second order go with msh, vtu, vtk, inp, exo, med or tar, found {}", format));
+  if (format != "inp") return;
+  if (full) throw UsageError("inp has no nodes in the middles of quads and hexes: use --nodes serendipity");
+  if (options.pyramids == "keep")
+    throw UsageError("inp has no pyramids of second order: use --pyramids split or collapsed, found keep");
+  if (options.hex_element == "C3D8I")
+    throw UsageError("--hex-element C3D8I has no element of second order: C3D8 gives C3D20, C3D8R gives C3D20R");
+}
+
 std::string solver_summary(const MeshOptions& options, const MeshWriting& writing) {
   if (options.solver.empty()) return "";
-  const std::string hexes = options.solver == "calculix" || options.solver == "abaqus"
-                                ? fmt::format(", hexes are {}", writing.hex_element)
-                                : "";
+  const std::string hexes =
+      options.solver == "calculix" || options.solver == "abaqus"
+          ? fmt::format(", hexes are {} (of second order {})", writing.hex_element, writing.hex_of_second_order())
+          : "";
   const std::string second = writing.pyramids_of_second_order == writing.pyramids
                                  ? ""
                                  : fmt::format(" (of second order {})", name_of(writing.pyramids_of_second_order));

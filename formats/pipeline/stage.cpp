@@ -408,9 +408,9 @@ bool Stage::State::read_surface(BundleReader& reader, StageData& data, BundleWri
   return known;
 }
 
-// A stage that knows nothing of second order gets the mesh of the corners.
+// No stage reads nodes of second order: they get the mesh of the corners.
 void Stage::State::take_corners(StageData& data) const {
-  if (request.second_order || !data.result || !data.result->second_order) return;
+  if (!data.result || !data.result->second_order) return;
   context.warn(source_of(Role::result) + ": it is of second order; " + std::string(context.info.name) +
                " takes the corners alone, with straight edges");
   drop_second_order(*data.result);
@@ -495,10 +495,8 @@ void Stage::set_names(formats::GroupNames names) {
   state_->names = std::move(names);
 }
 
-void Stage::expect_second_order() const {
-  if (!writes_bundle() && !formats::takes_second_order(state_->format))
-    throw UsageError(
-        fmt::format("elements of second order go with msh, vtu, vtk, inp, exo, med or tar, found {}", state_->format));
+void Stage::expect_second_order(bool full) const {
+  if (!writes_bundle()) formats::expect_second_order(state_->context.streams.mesh, state_->format, full);
 }
 
 bool Stage::writes_bundle() const {

@@ -21,7 +21,6 @@ struct StageRequest {
   bool cover = false;         // the graph's clique cover, too, where there is one
   bool shape = false;         // the CAD's faces and curves, too, where a bundle has them
   bool surface = false;       // the triangles that the mesh was made of, too, where a bundle has them
-  bool second_order = false;  // nodes of second order, too; without it, the result has its corners alone
   bool dislocations = false;  // of the mesh, too, where a bundle has them
   bool part = false;          // what a part of a mesh has beside mesh and candidates, too, where it is one
   // A bundle's graph gives its weights only, as a graph without edges: the edges may be most of what there is to hold.
@@ -46,8 +45,9 @@ class Stage {
   // product only reads. Throws UsageError when there is nothing to read.
   StageData read(const StageRequest& request);
 
-  // Throws UsageError if the product is to go to a format without elements of second order.
-  void expect_second_order() const;
+  // Throws UsageError if the product, of second order, is to go to a format that cannot hold it. `full`: with nodes in
+  // quads and hexes.
+  void expect_second_order(bool full) const;
 
   // Whether the product goes into a bundle, where others may stand beside it.
   bool writes_bundle() const;

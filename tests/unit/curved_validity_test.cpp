@@ -211,6 +211,16 @@ TEST(CurvedValidityOfStraightCells, IsNotLostFarFromTheOrigin) {
   }
 }
 
+// Coordinates have errors of the size of such a height.
+TEST(CurvedValidityOfStraightCells, IsNotShownForHeightsThatRoundingMakes) {
+  for (const CellKind kind : kinds)
+    for (const double height : {1e-10, 1e-15}) {
+      std::vector<Vec3> nodes = unit_nodes(kind, false);
+      for (Vec3& node : nodes) node.z *= height;
+      EXPECT_EQ(curved::is_valid(kind, nodes), height == 1e-10);
+    }
+}
+
 // A wall of a quarter of a cylinder, in one hex: radius 1 inside, `outer` outside.
 MixedMesh quarter_cylinder(double outer) {
   MixedMesh mesh;
@@ -246,7 +256,7 @@ TEST(Bend, PutsAQuarterOfACylinderOntoItsCircles) {
     const auto targets = targets_on_circles(mesh);
     ASSERT_EQ(targets.size(), 4u);
     const curved::BendCounts counts = curved::bend(mesh, targets);
-    EXPECT_EQ(counts.drawn_back, 0);
+    EXPECT_TRUE(counts.drawn_back.empty());
     for (const curved::Target& target : targets) EXPECT_LT(norm(mesh.points[target.node] - target.at), 1e-12);
     std::vector<Vec3> nodes;
     for (const Vertex v : mesh.hexes.cells[0]) nodes.push_back(mesh.points[v]);
@@ -255,6 +265,27 @@ TEST(Bend, PutsAQuarterOfACylinderOntoItsCircles) {
     // Straight chords would leave these in.
     EXPECT_LT(norm(mesh.points[mesh.second_order->of(12, 0)[1]]) - 2, 1e-12);
   }
+}
+
+// The node of the inner side has its place between its edges' nodes, and goes back with them.
+TEST(Bend, CountsNodesOfQuadsThatGoBackWithTheirEdges) {
+  MixedMesh mesh = quarter_cylinder(1.2);
+  curved::add_straight_nodes(mesh, true);
+  std::vector<curved::Target> targets = targets_on_circles(mesh);
+  std::erase_if(targets, [](const curved::Target& t) { return std::hypot(t.at.x, t.at.y) > 1.1; });
+  ASSERT_EQ(targets.size(), 2u);
+  const auto& quads = mesh.quads.cells;
+  const auto inner = std::ranges::find_if(quads, [](Quad quad) {
+    std::ranges::sort(quad);
+    return quad == Quad{0, 3, 4, 7};
+  });
+  ASSERT_NE(inner, quads.end());
+  const Vertex node = mesh.second_order->of(9, static_cast<std::size_t>(inner - quads.begin()))[4];
+  targets.push_back({node, {targets[0].at.x, targets[0].at.y, 0.5}});
+  const curved::BendCounts counts = curved::bend(mesh, targets);
+  EXPECT_EQ(counts.drawn_back.size(), 3u);
+  EXPECT_TRUE(std::ranges::count(counts.drawn_back, node) == 1);
+  EXPECT_EQ(counts.straight, 0);
 }
 
 // The inner circle bends through the outer chord, which is held where it is.
@@ -266,7 +297,7 @@ TEST(Bend, DrawsNodesBackAsLittleAsIsEnough) {
   ASSERT_EQ(targets.size(), 2u);
   const curved::BendCounts counts = curved::bend(mesh, targets);
   EXPECT_EQ(counts.invalid, 1);
-  EXPECT_EQ(counts.drawn_back, 2);
+  EXPECT_EQ(counts.drawn_back.size(), 2u);
   EXPECT_EQ(counts.straight, 0);
   EXPECT_GT(counts.farthest, 0);
   std::vector<Vec3> nodes;

@@ -159,6 +159,7 @@ AssembleOptions options_of(CommandLine& line) {
     throw UsageError("--order 2 does not go with --neighbours: pieces are of first order");
   if (line.order == 1 && line.nodes_option->count() > 0) throw UsageError("--nodes goes with --order 2");
   if (line.order == 1 && line.surface_option->count() > 0) throw UsageError("--surface goes with --order 2");
+  if (line.surface == "-") throw UsageError("--surface takes a file, found '-': the mesh comes from standard input");
   if (!line.by_part() && !line.before.empty()) throw UsageError("--before goes with --neighbours");
   return {.conformity = conformities.at(line.conformity),
           .exchange = exchanges.at(line.exchange),
@@ -258,7 +259,6 @@ nlohmann::ordered_json report(RunContext& context, const AssembleStatistics& sta
 
 order::SecondOrderCounts add_second_order(const CommandLine& line, std::optional<formats::SurfaceSoup> soup,
                                           PartResult& result) {
-  if (!line.surface.empty()) soup = pipeline::read_surface_file(line.surface);
   std::optional<order::GivenSurface> surface;
   order::FitCounts corners;
   if (soup) {
@@ -276,16 +276,23 @@ order::SecondOrderCounts add_second_order(const CommandLine& line, std::optional
 nlohmann::ordered_json report_second_order(RunContext& context, const order::SecondOrderCounts& counts) {
   context.note(order::summary_line(counts));
   const curved::BendCounts& bending = counts.bending;
+  if (!counts.has_surface)
+    context.warn("no surface was given: nodes of the boundary lie on arcs through its vertices; --surface names it");
+  if (counts.corners.held > 0)
+    context.warn(
+        fmt::format("{} vertices of the boundary stay off the surface: it is further than a tenth of an edge away, or "
+                    "cells would lose quality",
+                    counts.corners.held));
   if (counts.strays > 0)
     context.warn(
         fmt::format("{} of {} nodes of the boundary have no place on the surface near them, and lie on arcs "
                     "through its vertices",
                     counts.strays, bending.on_boundary));
-  if (bending.drawn_back > 0)
+  if (!bending.drawn_back.empty())
     context.warn(
         fmt::format("{} of {} nodes of the boundary stay up to {:.3g} off the surface, {} of them on the "
                     "chord, because cells would be bent too much",
-                    bending.drawn_back, bending.on_boundary, bending.farthest, bending.straight));
+                    bending.drawn_back.size(), bending.on_boundary, bending.farthest, bending.straight));
   return context.statistics["second_order"] = order::to_json(counts);
 }
 
@@ -306,9 +313,11 @@ void run(RunContext& context, CommandLine& line) {
   }
   if (line.pillow) context.options["pillow"] = true;
   pipeline::Stage stage(context);
-  if (line.order == 2) stage.expect_second_order();
+  if (line.order == 2) stage.expect_second_order(line.nodes == "full");
+  std::optional<formats::SurfaceSoup> surface;
+  if (!line.surface.empty()) surface = pipeline::read_surface_file(line.surface);
   pipeline::StageData data = read_input(stage, line);
-  std::optional<formats::SurfaceSoup> surface = std::exchange(data.surface, std::nullopt);
+  if (!surface) surface = std::exchange(data.surface, std::nullopt);
   const choice::InputNames names{.mesh = stage.source_of(Role::mesh),
                                  .candidates = stage.source_of(Role::candidates),
                                  .solution = stage.source_of(Role::solution)};

@@ -13,6 +13,8 @@
 namespace hexpipe::assemble::order {
 namespace {
 
+constexpr double most_turn_of_arcs = 20;  // degrees, from the normal at an edge to those of facets at its ends
+
 // Triangles repeat their last corner.
 struct Facet {
   Quad corners;
@@ -106,6 +108,7 @@ class EdgeFinder {
     for (std::size_t f = 0; f < patch_.size(); ++f) patch_[f] = patches.of(static_cast<std::int32_t>(f));
   }
 
+  // What each facet adds to the normals of its corners.
   // N. Max: Weights for computing vertex normals from facet normals (J. Graphics Tools, 1999): exact on spheres.
   void find_normals() {
     for (std::size_t f = 0; f < facets_.size(); ++f) {
@@ -115,7 +118,7 @@ class EdgeFinder {
         const Vec3 next = at(facet.corners[(i + 1) % facet.corner_count]) - o;
         const Vec3 last = at(facet.corners[(i + facet.corner_count - 1) % facet.corner_count]) - o;
         const double weight = norm_squared(next) * norm_squared(last);
-        if (weight > 0) normals_[{facet.corners[i], patch_[f]}] += (1 / weight) * cross(next, last);
+        if (weight > 0) normals_[{facet.corners[i], patch_[f]}].push_back((1 / weight) * cross(next, last));
       }
     }
   }
@@ -127,10 +130,22 @@ class EdgeFinder {
     return norm(sum) > 0.5 ? unit(sum) : first;
   }
 
+  // The surface's normal at an end of the edge, by the facets there that turn little from the edge's own. What turns by
+  // more, though less than at sharp edges, is mostly another face, such as the rounding beside a plane.
+  Vec3 normal_at_end(Vertex v, const EdgeFacets& edge) const {
+    const double least = cosine_of_degrees(most_turn_of_arcs);
+    const Vec3 own = normal_at(edge);
+    Vec3 sum;
+    for (const Vec3& part : normals_.at({v, patch_[edge.facets[0]]})) {
+      const double cosine = dot(unit(part), own);
+      if (std::abs(cosine) > least) sum += cosine < 0 ? -part : part;
+    }
+    return norm(sum) > 0 ? unit(sum) : own;
+  }
+
   // An arc in the plane of the chord and the normals' mean, which it meets at right angles at both ends.
   Vec3 bend_of_face(const EdgeFacets& edge) const {
-    const std::int32_t patch = patch_[edge.facets[0]];
-    const Vec3 one = unit(normals_.at({edge.a, patch})), two = unit(normals_.at({edge.b, patch}));
+    const Vec3 one = normal_at_end(edge.a, edge), two = normal_at_end(edge.b, edge);
     const Vec3 chord = at(edge.b) - at(edge.a);
     const double length = norm(chord);
     const double sine = dot(two - one, chord) / (2 * length);
@@ -170,7 +185,7 @@ class EdgeFinder {
   std::map<VertexKey<2>, bool> sharp_;
   std::map<Vertex, std::vector<Vertex>> sharp_ends_;
   std::vector<std::int32_t> patch_;  // by facet: one number for all that are joined without a sharp edge between
-  std::map<std::pair<Vertex, std::int32_t>, Vec3> normals_;
+  std::map<std::pair<Vertex, std::int32_t>, std::vector<Vec3>> normals_;  // by vertex and patch
 };
 
 }  // namespace

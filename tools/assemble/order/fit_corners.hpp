@@ -15,8 +15,8 @@ struct FitCounts {
   double farthest = 0;    // of those that moved
 };
 
-// The mesh has no nodes of second order yet. Vertices where sharp edges meet, end or turn stay. Cells stay valid. The
-// qualities are those of the cells as they were.
+// The mesh has no nodes of second order yet. Vertices where sharp edges meet, end or turn stay. Cells stay valid. Does
+// not update the blocks' quality.
 FitCounts fit_corners(MixedMesh& mesh, const GivenSurface& surface);
 
 }  // namespace hexpipe::assemble::order

@@ -16,6 +16,7 @@ struct SecondOrderCounts {
   std::int64_t nodes = 0;   // behind the corners
   std::int64_t curves = 0;  // of the boundary's: on sharp edges and borders of tags
   std::int64_t strays = 0;  // nodes of the boundary without a place on the given surface
+  std::int64_t placed = 0;  // nodes of the boundary that lie on it
   bool has_surface = false;
   FitCounts corners;
   curved::BendCounts bending;
