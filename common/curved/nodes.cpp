@@ -90,7 +90,8 @@ void add_straight_nodes(MixedMesh& mesh, bool full) {
 }
 
 Vec3 middle_of_quad(const std::array<Vec3, 4>& corners, const std::array<Vec3, 4>& edges) {
-  return 0.5 * (edges[0] + edges[1] + edges[2] + edges[3]) - 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+  const auto sum = [](const std::array<Vec3, 4>& at) { return (at[0] + at[2]) + (at[1] + at[3]); };
+  return 0.5 * sum(edges) - 0.25 * sum(corners);
 }
 
 // Transfinite interpolation between the sides.

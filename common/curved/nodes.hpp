@@ -14,7 +14,8 @@ namespace hexpipe::curved {
 // are straight. Throws DataError if there are more points than can be numbered.
 void add_straight_nodes(MixedMesh& mesh, bool full);
 
-// Where the middle of a quad lies whose edges have these nodes, as elements without a node there have it.
+// Where the middle of a quad lies whose edges have these nodes, as elements without a node there have it. To the bit
+// the same from whichever corner and side one lists it, so that it is one place for the cells on both sides.
 Vec3 middle_of_quad(const std::array<Vec3, 4>& corners, const std::array<Vec3, 4>& edges);
 
 // The middle of a hex between its sides. `corners`, `edges` and `quads` are all that it has.

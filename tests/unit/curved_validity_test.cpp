@@ -211,6 +211,27 @@ TEST(CurvedValidityOfStraightCells, IsNotLostFarFromTheOrigin) {
   }
 }
 
+TEST(MiddleOfQuad, IsTheSameToTheBitFromBothSidesAndAllCorners) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> amount(-1, 1);
+  for (int round = 0; round < 50; ++round) {
+    std::array<Vec3, 4> corners, edges;
+    for (auto* list : {&corners, &edges})
+      for (Vec3& at : *list) at = {amount(random), amount(random), amount(random)};
+    const Vec3 middle = curved::middle_of_quad(corners, edges);
+    for (std::size_t first = 0; first < 4; ++first)
+      for (const std::size_t step : {1, 3}) {
+        std::array<Vec3, 4> other, between;
+        for (std::size_t i = 0; i < 4; ++i) {
+          const std::size_t from = (first + i * step) % 4, to = (from + step) % 4;
+          other[i] = corners[from];
+          between[i] = edges[step == 1 ? from : to];
+        }
+        EXPECT_EQ(curved::middle_of_quad(other, between), middle);
+      }
+  }
+}
+
 // Coordinates have errors of the size of such a height.
 TEST(CurvedValidityOfStraightCells, IsNotShownForHeightsThatRoundingMakes) {
   for (const CellKind kind : kinds)
