@@ -185,8 +185,8 @@ TEST_P(CurvedValidity, AgreesWithSamplingOnThousandsOfCells) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, CurvedValidity, ::testing::Combine(::testing::ValuesIn(kinds), ::testing::Bool()),
                          [](const auto& tried) {
-                           const auto& [kind, full] = tried.param;
-                           return fmt::format("Kind{}{}", static_cast<int>(kind), full ? "Full" : "Serendipity");
+                           return fmt::format("Kind{}{}", static_cast<int>(std::get<CellKind>(tried.param)),
+                                              std::get<bool>(tried.param) ? "Full" : "Serendipity");
                          });
 
 TEST(CurvedValidityOfStraightCells, IsThatOfTheirCorners) {
