@@ -13,25 +13,17 @@
 #include "common/curved/bend.hpp"
 #include "common/curved/nodes.hpp"
 #include "common/mesh/mixed_mesh.hpp"
+#include "cell_shapes.hpp"
 
 namespace hexpipe {
 namespace {
 
 constexpr std::array kinds{CellKind::hex, CellKind::prism, CellKind::pyramid, CellKind::tet};
 
-// The corners of the cell of a kind with edges of length 1, nearly.
 std::vector<Vec3> unit_corners(CellKind kind) {
-  switch (kind) {
-    case CellKind::hex:
-      return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-    case CellKind::prism:
-      return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
-    case CellKind::pyramid:
-      return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0.7}};
-    case CellKind::tet:
-      break;
-  }
-  return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  std::vector<Vec3> corners = unit_cell(kind);
+  if (kind == CellKind::pyramid) corners[4].z = 0.7;  // edges of length 1, nearly
+  return corners;
 }
 
 // Where the nodes of the unit cell lie: corners, and the middles of what node_places_of() lists.

@@ -1,7 +1,7 @@
 // A poor cell that nothing mends has too few vertices that may move. A new vertex is put into the room of the cell and
 // of cells beside it, with pyramids and tets around it. If that does not help, the cell stands between hexes that may
-// not become worse, and one of them gives way: its room is filled in the same manner. The cells are positive everywhere,
-// and their skin is that of the room, so that they fill it and nothing else (refill.cpp).
+// not become worse, and one of them gives way: its room is filled in the same manner. The cells are positive
+// everywhere, and their skin is that of the room, so that they fill it and nothing else (refill.cpp).
 
 #include <algorithm>
 #include <array>
@@ -109,8 +109,8 @@ std::optional<std::vector<Facet>> HexOpener::skin_of(KeptIndex kept) const {
   return skin;
 }
 
-// Rooms of gap cells alone: the poor cell with those behind its facets; those around each of its edges; all that share an
-// edge with it.
+// Rooms of gap cells alone: the poor cell with those behind its facets; those around each of its edges; all that share
+// an edge with it.
 std::vector<std::vector<GapIndex>> HexOpener::rooms_around(GapIndex poor) const {
   const GapCell& cell = gap_.cell(poor);
   std::vector<GapIndex> behind_facets{poor}, at_edges{poor};
@@ -127,7 +127,8 @@ std::vector<std::vector<GapIndex>> HexOpener::rooms_around(GapIndex poor) const 
     for (const auto& [from, to] : decltype(topology)::edges) {
       std::vector<GapIndex> around{poor};
       for (const GapIndex c : at_edges)
-        if (c != poor && gap_.cell(c).has(cell.corners[from]) && gap_.cell(c).has(cell.corners[to])) around.push_back(c);
+        if (c != poor && gap_.cell(c).has(cell.corners[from]) && gap_.cell(c).has(cell.corners[to]))
+          around.push_back(c);
       if (around.size() > 1) rooms.push_back(std::move(around));
     }
   });
@@ -192,8 +193,9 @@ bool HexOpener::fill(std::vector<Facet> skin, std::span<const GapIndex> out, Gap
   const std::int32_t region = gap_.cell(poor).region;
   for (const GapIndex c : out) {
     if (gap_.cell(c).region != region) return false;
+    const bool begins = skin.empty();
     const Joining joining = join_skin(gap_, gap_.cell(c), skin);
-    if ((!joining.touches && c != out.front()) || joining.crosses_tagged) return false;
+    if ((!joining.touches && !begins) || joining.crosses_tagged) return false;
   }
   if (!is_ball(skin)) return false;
   Vec3 middle{};

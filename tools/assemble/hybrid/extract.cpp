@@ -6,26 +6,6 @@
 namespace hexpipe::assemble::hybrid {
 namespace {
 
-template <int Corners>
-void append(CellBlock<Corners>& block, std::span<const Vertex> corners, std::int32_t tag) {
-  auto& cell = block.cells.emplace_back();
-  std::copy_n(corners.begin(), Corners, cell.begin());
-  block.tags.push_back(tag);
-}
-
-void append_cell(MixedMesh& result, const HybridCell& cell) {
-  switch (cell.kind) {
-    case CellKind::hex:
-      return append(result.hexes, cell.corners, cell.region);
-    case CellKind::prism:
-      return append(result.prisms, cell.corners, cell.region);
-    case CellKind::pyramid:
-      return append(result.pyramids, cell.corners, cell.region);
-    case CellKind::tet:
-      return append(result.tets, cell.corners, cell.region);
-  }
-}
-
 // The quad, turned the way that the input's triangle, one of its halves, goes around.
 Quad oriented_like(const Triangle& triangle, const Quad& quad) {
   const auto at = std::find(quad.begin(), quad.end(), triangle[0]) - quad.begin();
@@ -87,10 +67,24 @@ void drop_unused_points(Extract& extract, const std::vector<Vec3>& points) {
 
 }  // namespace
 
+void append_cell(MixedMesh& mesh, CellKind kind, std::span<const Vertex> corners, std::int32_t tag) {
+  switch (kind) {
+    case CellKind::hex:
+      return append(mesh.hexes, corners, tag);
+    case CellKind::prism:
+      return append(mesh.prisms, corners, tag);
+    case CellKind::pyramid:
+      return append(mesh.pyramids, corners, tag);
+    case CellKind::tet:
+      return append(mesh.tets, corners, tag);
+  }
+}
+
 Extract extract(const HybridMesh& mesh, const SurfaceTags& tags) {
   Extract result;
   for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c)
-    if (mesh.cell(c).alive) append_cell(result.mesh, mesh.cell(c));
+    if (const HybridCell& cell = mesh.cell(c); cell.alive)
+      append_cell(result.mesh, cell.kind, cell.corners, cell.region);
   for (TetIndex t = 0; t < static_cast<TetIndex>(mesh.tet_count()); ++t)
     if (mesh.is_alive(t)) append(result.mesh.tets, mesh.tet(t), mesh.region_of(t));
   append_facets(result.mesh, mesh, tags);

@@ -2,7 +2,9 @@
 // From the mesh under assembly to the result: cells in a stable order, tagged facets, vertices without gaps; and what
 // of it belongs to a piece of a mesh (docs/definitions.md 5).
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/mesh/mixed_mesh.hpp"
@@ -11,6 +13,14 @@
 #include "tools/assemble/hybrid/surface_tags.hpp"
 
 namespace hexpipe::assemble::hybrid {
+
+// Only the first `Corners` count.
+template <int Corners>
+void append(CellBlock<Corners>& block, std::span<const Vertex> corners, std::int32_t tag) {
+  std::copy_n(corners.begin(), Corners, block.cells.emplace_back().begin());
+  block.tags.push_back(tag);
+}
+void append_cell(MixedMesh& mesh, CellKind kind, std::span<const Vertex> corners, std::int32_t tag);
 
 struct Extract {
   MixedMesh mesh;

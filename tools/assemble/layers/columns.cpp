@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "tools/assemble/hybrid/extract.hpp"
+
 namespace hexpipe::assemble::layers {
 namespace {
 
@@ -81,27 +83,6 @@ std::array<Vec3, 8> LinePoints::corners(std::span<const Vec3> points, const Laye
 
 namespace {
 
-template <int Corners>
-void append(CellBlock<Corners>& block, std::span<const Vertex> corners, std::int32_t tag) {
-  std::array<Vertex, Corners> cell;
-  std::copy_n(corners.begin(), Corners, cell.begin());
-  block.cells.push_back(cell);
-  block.tags.push_back(tag);
-}
-
-void append_cell(MixedMesh& mesh, CellKind kind, std::span<const Vertex> corners, std::int32_t region) {
-  switch (kind) {
-    case CellKind::hex:
-      return append(mesh.hexes, corners, region);
-    case CellKind::prism:
-      return append(mesh.prisms, corners, region);
-    case CellKind::pyramid:
-      return append(mesh.pyramids, corners, region);
-    case CellKind::tet:
-      return append(mesh.tets, corners, region);
-  }
-}
-
 // Points between foot and tip, which are appended line by line.
 class LevelVertices {
  public:
@@ -139,7 +120,7 @@ void append_columns(MixedMesh& mesh, std::vector<Vertex>& origin, const Walls& w
       if (!cell) break;
       std::array<Vertex, 8> corners{};
       for (int i = 0; i < corner_count(cell->kind); ++i) corners[i] = vertices.of(cell->corners[i]);
-      append_cell(mesh, cell->kind, corners, side.region);
+      hybrid::append_cell(mesh, cell->kind, corners, side.region);
     }
     for (int corner = 0; corner < side.size(); ++corner) {
       const LineEdge& edge = walls.edge(side.lines[corner], side.lines[(corner + 1) % side.size()]);
@@ -152,9 +133,9 @@ void append_columns(MixedMesh& mesh, std::vector<Vertex>& origin, const Walls& w
         std::array<Vertex, 4> at{};
         for (int i = 0; i < facet->size; ++i) at[i] = vertices.of(facet->corners[i]);
         if (facet->size == 4)
-          append(mesh.quads, at, facet->tag);
+          hybrid::append(mesh.quads, at, facet->tag);
         else
-          append(mesh.triangles, at, facet->tag);
+          hybrid::append(mesh.triangles, at, facet->tag);
       }
     }
   }

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "common/mesh/box_tree.hpp"
+#include "common/mesh/vertex_items.hpp"
 #include "tools/assemble/shape/point_star.hpp"
 
 namespace hexpipe::assemble::layers {
@@ -33,25 +34,11 @@ constexpr int rounds_of_leaning = 20;
 // Lines lean only where the layers are this high beside the edges of the wall.
 constexpr double leans_above = 0.3;
 
-struct Neighbours {
-  std::vector<std::int64_t> offsets;
-  std::vector<LineIndex> lines;
-
-  explicit Neighbours(const Walls& walls) : offsets(walls.lines().size() + 1, 0) {
-    for (const LineEdge& edge : walls.edges())
-      for (const LineIndex line : edge.lines) ++offsets[line + 1];
-    for (std::size_t i = 1; i < offsets.size(); ++i) offsets[i] += offsets[i - 1];
-    lines.resize(static_cast<std::size_t>(offsets.back()));
-    std::vector<std::int64_t> next(offsets.begin(), offsets.end() - 1);
-    for (const LineEdge& edge : walls.edges()) {
-      lines[next[edge.lines[0]]++] = edge.lines[1];
-      lines[next[edge.lines[1]]++] = edge.lines[0];
-    }
-  }
-  std::span<const LineIndex> of(LineIndex line) const {
-    return std::span(lines).subspan(offsets[line], offsets[line + 1] - offsets[line]);
-  }
-};
+VertexItems neighbours_of(const Walls& walls) {
+  return VertexItems(walls.lines().size(), [&](auto&& visit) {
+    for (const LineEdge& edge : walls.edges()) visit(edge.lines[0], edge.lines[1]), visit(edge.lines[1], edge.lines[0]);
+  });
+}
 
 // The direction with the greatest least angle to all facets of the wall, and the sine of that angle.
 struct Sight {
@@ -151,7 +138,7 @@ class Planner {
         walls_(walls),
         asked_(asked),
         bare_(bare),
-        neighbours_(walls),
+        neighbours_(neighbours_of(walls)),
         heights_(asked.begin(), asked.end()) {}
 
   LinePlan run() {
@@ -182,7 +169,7 @@ class Planner {
   const Walls& walls_;
   std::span<const double> asked_;
   std::span<const std::uint8_t> bare_;
-  Neighbours neighbours_;
+  VertexItems neighbours_;  // by line
   std::vector<double> heights_;
   std::vector<std::uint8_t> grows_;
   std::vector<GuideFreedom> freedoms_;
@@ -221,7 +208,7 @@ void Planner::grade() {
   // Sweeps from the lowest up; what falls is looked at again.
   for (std::size_t next = 0; next < queue.size(); ++next) {
     const LineIndex line = queue[next];
-    for (const LineIndex other : neighbours_.of(line)) {
+    for (const LineIndex other : neighbours_.at(line)) {
       if (grows_[other] == 0) continue;
       const double most = heights_[line] + steepest * norm(foot(other) - foot(line));
       if (heights_[other] <= most * (1 + 1e-12)) continue;
@@ -246,7 +233,7 @@ void Planner::lean() {
       if (grows_[i] == 0 || !is_smooth || freedom.kind == GuideFreedom::Kind::curve) continue;
       Vec3 mean{};
       double edge = 0, lines = 0;
-      for (const LineIndex other : neighbours_.of(static_cast<LineIndex>(i))) {
+      for (const LineIndex other : neighbours_.at(static_cast<LineIndex>(i))) {
         mean += reach_[other];
         edge += norm(foot(other) - foot(static_cast<LineIndex>(i)));
         ++lines;

@@ -26,6 +26,7 @@ struct Facet {
 struct EdgeFacets {
   Vertex a = -1, b = -1;
   std::vector<std::int32_t> facets{};
+  bool is_sharp = true;
 };
 
 // The middle of the arc over a chord that begins and ends at this angle to it.
@@ -44,10 +45,9 @@ class EdgeFinder {
   std::vector<BoundaryEdge> run() const {
     std::vector<BoundaryEdge> result;
     for (const auto& [key, edge] : edges_) {
-      const bool sharp = sharp_.at(key);
       const Vec3 middle = 0.5 * (at(edge.a) + at(edge.b));
-      const Vec3 bend = sharp ? bend_of_curve(edge) : bend_of_face(edge);
-      result.push_back({edge.a, edge.b, sharp, normal_at(edge), middle + bend});
+      const Vec3 bend = edge.is_sharp ? bend_of_curve(edge) : bend_of_face(edge);
+      result.push_back({edge.a, edge.b, edge.is_sharp, normal_at(edge), middle + bend});
     }
     return result;
   }
@@ -92,18 +92,17 @@ class EdgeFinder {
   void find_sharp_edges() {
     const double least = cosine_of_degrees(default_feature_angle);
     JoinedSets patches(facets_.size());
-    for (const auto& [key, edge] : edges_) {
+    for (auto& [key, edge] : edges_) {
       const auto is_smooth = [&] {
         if (edge.facets.size() != 2 || facets_[edge.facets[0]].tag != facets_[edge.facets[1]].tag) return false;
         const Vec3 one = normal_of(edge.facets[0], edge.a, edge.b), two = normal_of(edge.facets[1], edge.a, edge.b);
         return std::abs(dot(one, two)) > least;
       };
-      const bool smooth = is_smooth();
-      if (smooth)
+      edge.is_sharp = !is_smooth();
+      if (!edge.is_sharp)
         patches.join(edge.facets[0], edge.facets[1]);
       else
         sharp_ends_[edge.a].push_back(edge.b), sharp_ends_[edge.b].push_back(edge.a);
-      sharp_[key] = !smooth;
     }
     for (std::size_t f = 0; f < patch_.size(); ++f) patch_[f] = patches.of(static_cast<std::int32_t>(f));
   }
@@ -182,7 +181,6 @@ class EdgeFinder {
   const MixedMesh& mesh_;
   std::vector<Facet> facets_;
   std::map<VertexKey<2>, EdgeFacets> edges_;
-  std::map<VertexKey<2>, bool> sharp_;
   std::map<Vertex, std::vector<Vertex>> sharp_ends_;
   std::vector<std::int32_t> patch_;  // by facet: one number for all that are joined without a sharp edge between
   std::map<std::pair<Vertex, std::int32_t>, std::vector<Vec3>> normals_;  // by vertex and patch

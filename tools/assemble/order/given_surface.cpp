@@ -22,12 +22,6 @@ BoxTree tree_of(const std::vector<Box>& boxes) {
   return BoxTree(boxes, std::vector<double>(boxes.size()));
 }
 
-Vec3 nearest_of_segment(const std::array<Vec3, 2>& segment, const Vec3& to) {
-  const Vec3 along = segment[1] - segment[0];
-  const double length = norm_squared(along);
-  return length > 0 ? segment[0] + along * std::clamp(dot(to - segment[0], along) / length, 0.0, 1.0) : segment[0];
-}
-
 // The nearest of the places that place_of(thing) gives, if it is less than `most` away.
 template <class PlaceOf>
 std::optional<Vec3> nearest(const BoxTree& tree, const Vec3& to, double most, PlaceOf&& place_of) {
@@ -98,7 +92,7 @@ std::optional<Vec3> GivenSurface::on_curves(const Vec3& to, const Vec3& directio
   return nearest(curve_tree_, to, most, [&](std::int32_t curve) -> std::optional<Vec3> {
     const Segment& segment = curves_[static_cast<std::size_t>(curve)];
     if (std::abs(dot(unit(segment[1] - segment[0]), direction)) < least_cosine_of_curves) return std::nullopt;
-    return nearest_of_segment(segment, to);
+    return shape::nearest_on_segment(segment[0], segment[1], to);
   });
 }
 

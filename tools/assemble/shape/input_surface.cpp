@@ -21,12 +21,6 @@ const double cos_feature_angle = std::cos(std::numbers::pi * 40 / 180);
 // away is as safe as the nearest.
 constexpr int longest_walk = 30;
 
-Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& to) {
-  const Vec3 along = b - a;
-  const double length = norm_squared(along);
-  return length > 0 ? a + along * std::clamp(dot(to - a, along) / length, 0.0, 1.0) : a;
-}
-
 // The unit vector from edge ab to c, at right angles to the edge.
 Vec3 away_from_edge(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 along = unit(b - a);
@@ -43,6 +37,12 @@ Vertex third_of(const Triangle& t, Vertex a, Vertex b) {
 
 // C. Ericson, "Real-Time Collision Detection" (2005), section 5.1.5: if the foot of the perpendicular falls outside, an
 // edge or a corner is nearest.
+Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& to) {
+  const Vec3 along = b - a;
+  const double length = norm_squared(along);
+  return length > 0 ? a + along * std::clamp(dot(to - a, along) / length, 0.0, 1.0) : a;
+}
+
 Vec3 nearest_on_triangle(const std::array<Vec3, 3>& triangle, const Vec3& to) {
   const auto& [a, b, c] = triangle;
   const Vec3 normal = cross(b - a, c - a);

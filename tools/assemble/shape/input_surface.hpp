@@ -17,7 +17,8 @@ namespace hexpipe::assemble::shape {
 // deviate less between their own vertices.
 inline constexpr double most_deviation = 0.03;
 
-// The nearest point of a triangle, which may be degenerate.
+// The nearest point of a segment, and of a triangle; both may be degenerate.
+Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& to);
 Vec3 nearest_on_triangle(const std::array<Vec3, 3>& triangle, const Vec3& to);
 
 // By tagged triangle: how thick the mesh is behind it, from its middle at right angles into the tets on either side to
