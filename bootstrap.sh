@@ -24,6 +24,9 @@ test_packages=(
   netcdf-bin python3-netcdf4 python3-h5py libmed-tools cgns-convert
   chromium chromium-driver python3-selenium gnuplot-nox man-db
 )
+# The clang of the tests under sanitizers: CGAL of Debian 12 does not compile with clang 19, Debian 13 has no clang 16.
+clang_packages_12=(clang-16 libclang-rt-16-dev lld-16)
+clang_packages_13=(clang-19 libclang-rt-19-dev lld-19)
 
 is_installed() {
   dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'ok installed'
@@ -60,6 +63,11 @@ case "${1:-}" in
     exit
     ;;
   tests)
+    if grep -q '^VERSION_ID="12"' /etc/os-release; then
+      test_packages+=("${clang_packages_12[@]}")
+    else
+      test_packages+=("${clang_packages_13[@]}")
+    fi
     install_packages "${build_packages[@]}" "${test_packages[@]}"
     exit
     ;;

@@ -3,7 +3,9 @@
 add_library(hexpipe_flags INTERFACE)
 target_compile_options(hexpipe_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wcast-align
   # No fused multiply-add: the same input gives the same bytes on every machine.
-  -ffp-contract=off)
+  -ffp-contract=off
+  # The standard library of g++ 12 itself calls what C++20 has deprecated, and clang++ tells of it.
+  $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>)
 if(HEXPIPE_WERROR)
   target_compile_options(hexpipe_flags INTERFACE -Werror)
 endif()
@@ -11,7 +13,7 @@ if(HEXPIPE_SANITIZE)
   target_compile_options(hexpipe_flags INTERFACE
     -fsanitize=${HEXPIPE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -D_GLIBCXX_ASSERTIONS
     # The sanitizers' instructions make g++ see uses of uninitialized values where there are none (in OpenMesh).
-    -Wno-maybe-uninitialized)
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   if(NOT HEXPIPE_FUZZ)
     # Left to the fuzzers, for everything compiles a third faster: accesses by null and beyond objects end in the address
     # sanitizer anyway.
@@ -27,7 +29,7 @@ endif()
 
 if(HEXPIPE_UNITY)
   # Between the files of one unit there is nothing to see: the other builds compile each by itself and look.
-  target_compile_options(hexpipe_flags INTERFACE -Wno-shadow -Wno-subobject-linkage)
+  target_compile_options(hexpipe_flags INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
 
 # What takes options apart has nothing to be fast at, and takes a third less time to compile so, under the sanitizers

@@ -82,7 +82,8 @@ void MeshTables::for_each_tet_at(const Triangle& facet, Visit&& visit) const {
   for (const Vertex v : facet)
     if (const auto others = adjacency_.tets_at(v); others.size() < tets.size()) tets = others;
   const auto has = [](const Tet& tet, Vertex v) {
-    return (tet[0] == v) | (tet[1] == v) | (tet[2] == v) | (tet[3] == v);
+    // Without branches, which would be foretold badly.
+    return (int{tet[0] == v} | int{tet[1] == v} | int{tet[2] == v} | int{tet[3] == v}) != 0;
   };
   for (const TetIndex t : tets) {
     const Tet& tet = mesh_.tets[t];

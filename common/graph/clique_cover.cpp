@@ -28,7 +28,7 @@ class CoverBuilder {
 
   void complete() {
     for (std::int32_t v = 0; v < graph_.vertex_count(); ++v) {
-      if (graph_.degree(v) == 0) cover_.add({{v}});
+      if (graph_.degree(v) == 0) cover_.add({v});
       for (std::int64_t edge = graph_.offsets[v]; edge < graph_.offsets[v + 1]; ++edge) {
         if (covered_[edge]) continue;
         clique_ = {v, graph_.neighbours[edge]};

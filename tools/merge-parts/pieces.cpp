@@ -42,7 +42,7 @@ History settings_in(const History& history) {
 // All k pieces of one mesh, each once, one after the other.
 class PieceReader {
  public:
-  explicit PieceReader(const std::vector<std::string>& paths) : paths_(paths) {
+  explicit PieceReader(const std::vector<std::string>& paths) {
     std::map<std::int32_t, std::string> found;
     for (const std::string& path : paths) {
       const MeshPiece piece = pipeline::read_piece_bundle(path, false).piece;
@@ -92,7 +92,6 @@ class PieceReader {
   std::size_t size() const { return order_.size(); }
 
  private:
-  const std::vector<std::string>& paths_;
   MeshPiece first_;
   std::vector<std::string> order_;
   History settings_;
