@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "common/mesh/feature_angle.hpp"
+#include "common/mesh/defaults.hpp"
 #include "tools/assemble/shape/input_surface.hpp"
 
 namespace hexpipe::assemble::layers {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "common/mesh/defaults.hpp"
 #include "common/mesh/facet_key.hpp"
-#include "common/mesh/feature_angle.hpp"
 #include "common/mesh/joined_sets.hpp"
 
 namespace hexpipe::assemble::order {

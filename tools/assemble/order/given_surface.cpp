@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/mesh/defaults.hpp"
 #include "common/mesh/facet_key.hpp"
-#include "common/mesh/feature_angle.hpp"
 #include "tools/assemble/shape/input_surface.hpp"
 
 namespace hexpipe::assemble::order {
