@@ -67,6 +67,23 @@ assert_none() {
   done
 }
 
+# lines_behind HEADER: of the .cpp files of its own, which may be a reader and a writer.
+lines_behind() {
+  local stem=${1%.hpp}
+  cat "$stem.cpp" "${stem}_reader.cpp" "${stem}_writer.cpp" 2>/dev/null | wc -l
+}
+
+@test "a header of fewer than 30 lines has more than that behind it" {
+  local header
+  cd "$HEXPIPE_SOURCE"
+  for header in $(find common formats tools tests -name '*.hpp'); do
+    # A tool's options have their name in every tool; what is behind the resources is made by the build.
+    [[ $header == */options.hpp || $header == tools/viewmesh/resources.hpp ]] && continue
+    (($(wc -l <"$header") >= 30 || $(lines_behind "$header") >= 30)) ||
+      fail "$header is small, and so is what it stands for: it joins another header of its room"
+  done
+}
+
 @test "the checkers share no header with the project" {
   if grep -rnE '#include "(common|formats|tools)/' "$CHECKERS"; then fail "a checker includes the project's headers"; fi
 }

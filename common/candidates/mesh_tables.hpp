@@ -8,8 +8,8 @@
 
 #include "common/candidates/vertex_links.hpp"
 #include "common/mesh/adjacency.hpp"
+#include "common/mesh/defaults.hpp"
 #include "common/mesh/facet_key.hpp"
-#include "common/mesh/feature_angle.hpp"
 #include "common/mesh/orientation.hpp"
 #include "common/mesh/tet_mesh.hpp"
 

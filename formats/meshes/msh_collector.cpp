@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "common/mesh/reorder.hpp"
+#include "common/mesh/submesh.hpp"
 
 namespace hexpipe::formats {
 namespace {

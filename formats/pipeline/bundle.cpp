@@ -111,6 +111,17 @@ bool convert_numbers(NpyType from, const char* data, NpyType to, void* destinati
 
 }  // namespace
 
+bool is_bundle_format(std::string_view format) {
+  return format == bundle_format || format == compressed_bundle_format;
+}
+
+std::string_view ending_of(std::string_view path) {
+  path = path.substr(path.rfind('/') + 1);
+  if (path.ends_with(".tar.zst")) return compressed_bundle_format;
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string_view::npos ? std::string_view() : path.substr(dot + 1);
+}
+
 bool looks_like_bundle(formats::Input& input) {
   const std::string_view start = input.peek(tar_block);
   return start.substr(0, zstd_magic.size()) == zstd_magic || (start.size() >= 262 && start.substr(257, 5) == "ustar");

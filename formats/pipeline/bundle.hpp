@@ -24,6 +24,14 @@ namespace hexpipe::pipeline {
 // With the function that frees it.
 using ArchiveHandle = std::unique_ptr<archive, int (*)(archive*)>;
 
+inline constexpr std::string_view bundle_format = "tar";
+inline constexpr std::string_view compressed_bundle_format = "tar.zst";
+
+bool is_bundle_format(std::string_view format);
+
+// The text after the last dot of the file's name; "tar.zst" as a whole; empty if there is no dot.
+std::string_view ending_of(std::string_view path);
+
 // True when the first bytes are those of a tar archive, plain or compressed by zstd.
 bool looks_like_bundle(formats::Input& input);
 

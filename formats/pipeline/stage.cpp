@@ -21,7 +21,6 @@
 #include "formats/pipeline/bundle.hpp"
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/members.hpp"
-#include "formats/pipeline/output_format.hpp"
 #include "formats/pipeline/surface_bundle.hpp"
 
 namespace hexpipe::pipeline {

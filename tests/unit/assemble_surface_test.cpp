@@ -8,6 +8,7 @@
 #include "tools/assemble/assemble.hpp"
 #include "tools/assemble/shape/boundary_deviation.hpp"
 #include "tools/assemble/shape/input_surface.hpp"
+#include "tools/assemble/shape/nearest_points.hpp"
 #include "tools/assemble/shape/smooth.hpp"
 
 namespace hexpipe {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "common/run/error.hpp"
-#include "tests/unit/temporary_path.hpp"
+#include "tests/unit/written_bytes.hpp"
 
 namespace hexpipe {
 namespace {

@@ -9,7 +9,7 @@
 #include "common/run/random.hpp"
 #include "surface_samples.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
-#include "tools/tetmesh/solid/hole_filling.hpp"
+#include "tools/tetmesh/solid/repair_steps.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 #include "tools/tetmesh/solid/surface_check.hpp"
 

@@ -3,8 +3,8 @@
 
 #include "common/run/random.hpp"
 #include "tetmesh_surfaces.hpp"
-#include "tools/tetmesh/geometry/box_tree.hpp"
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
+#include "tools/tetmesh/geometry/triangle_boxes.hpp"
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/sizing/sizing.hpp"
 

@@ -1,4 +1,4 @@
-#include "tools/tetmesh/geometry/triangle_slices.hpp"
+#include "tools/tetmesh/geometry/triangle_boxes.hpp"
 
 #include <gtest/gtest.h>
 

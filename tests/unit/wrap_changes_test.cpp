@@ -4,8 +4,8 @@
 
 #include "tools/wrap/neighbourhood.hpp"
 #include "tools/wrap/open_sheets.hpp"
+#include "tools/wrap/restoring_steps.hpp"
 #include "tools/wrap/shrink_wrap.hpp"
-#include "tools/wrap/slivers.hpp"
 
 namespace hexpipe::wrap {
 namespace {

@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 
-#include "tools/wrap/distances.hpp"
 #include "tools/wrap/restoring.hpp"
 #include "tools/wrap/shrink_wrap.hpp"
+#include "tools/wrap/surface.hpp"
 
 namespace hexpipe::wrap {
 namespace {

@@ -1,5 +1,8 @@
 #pragma once
-// The output of a writer, as bytes.
+// The output of a writer, as bytes; and names for the files that tests make.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <fstream>
@@ -7,10 +10,14 @@
 #include <string>
 
 #include "formats/streams/output.hpp"
-#include "tests/unit/temporary_path.hpp"
 
 namespace hexpipe::testing {
 using namespace formats;
+
+// A path of this process alone: ctest runs several tests of an executable at the same time.
+inline std::string temporary_path(const std::string& name) {
+  return ::testing::TempDir() + std::to_string(getpid()) + "-" + name;
+}
 
 inline std::string read_file(const std::string& path) {
   std::ostringstream bytes;

@@ -12,8 +12,8 @@
 #include "common/run/open_files.hpp"
 #include "common/run/progress.hpp"
 #include "formats/meshes/mesh_files.hpp"
+#include "formats/pipeline/bundle.hpp"
 #include "formats/pipeline/members.hpp"
-#include "formats/pipeline/output_format.hpp"
 #include "formats/streams/output.hpp"
 #include "tools/merge-parts/merges.hpp"
 

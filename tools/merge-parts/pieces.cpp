@@ -16,7 +16,6 @@
 #include "formats/pipeline/bundle.hpp"
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/members.hpp"
-#include "formats/pipeline/output_format.hpp"
 #include "formats/pipeline/part_bundle.hpp"
 #include "formats/streams/input.hpp"
 #include "formats/streams/output.hpp"

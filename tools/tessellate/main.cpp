@@ -7,9 +7,9 @@
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
+#include "formats/pipeline/bundle.hpp"
 #include "formats/pipeline/history.hpp"
-#include "formats/pipeline/output_format.hpp"
-#include "formats/pipeline/surface_output.hpp"
+#include "formats/pipeline/surface_file.hpp"
 #include "formats/streams/output.hpp"
 #include "tools/tessellate/tessellate.hpp"
 

@@ -33,7 +33,7 @@
 #include <sstream>
 #include <utility>
 
-#include "common/mesh/default_size.hpp"
+#include "common/mesh/defaults.hpp"
 #include "common/mesh/facet_key.hpp"
 #include "common/mesh/joined_sets.hpp"
 #include "common/run/error.hpp"

@@ -19,8 +19,8 @@
 #include "tools/tetmesh/tetgen/run_tetgen.hpp"
 #include "tools/tetmesh/volume/estimates.hpp"
 #include "tools/tetmesh/volume/frame_points.hpp"
-#include "tools/tetmesh/volume/given_points.hpp"
 #include "tools/tetmesh/volume/lattice.hpp"
+#include "tools/tetmesh/volume/point_kinds.hpp"
 
 namespace hexpipe::tetmesh {
 namespace {

@@ -15,7 +15,7 @@
 #include "tools/tetmesh/solid/shells.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 #include "tools/tetmesh/volume/lattice.hpp"
-#include "tools/tetmesh/volume/point_kind.hpp"
+#include "tools/tetmesh/volume/point_kinds.hpp"
 
 namespace hexpipe::tetmesh {
 
@@ -41,7 +41,7 @@ struct TetmeshOptions {
   std::uint64_t seed = 1;
   double most_points = 2e7;  // inside
   bool mend = true;          // where nothing is changed by it; see solid::mend
-  bool unite = false;  // bodies that overlap: solid::unite_bodies
+  bool unite = false;        // bodies that overlap: solid::unite_bodies
   bool repair = false;
   sizing::Length weld = {1e-4, true};
   std::size_t largest_hole = solid::RepairOptions{}.largest_hole;

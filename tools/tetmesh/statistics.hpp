@@ -9,7 +9,7 @@
 
 #include "tools/tetmesh/search/point_search.hpp"
 #include "tools/tetmesh/solid/repair.hpp"
-#include "tools/tetmesh/volume/point_kind.hpp"
+#include "tools/tetmesh/volume/point_kinds.hpp"
 
 namespace hexpipe::tetmesh {
 

@@ -16,9 +16,9 @@
 #include "tools/tetmesh/meshing.hpp"
 #include "tools/tetmesh/solid/body_union.hpp"
 #include "tools/tetmesh/solid/borders.hpp"
-#include "tools/tetmesh/solid/boundary.hpp"
-#include "tools/tetmesh/solid/fold_removal.hpp"
-#include "tools/tetmesh/tetgen/mesh_shape.hpp"
+#include "tools/tetmesh/solid/repair_steps.hpp"
+#include "tools/tetmesh/solid/sheets.hpp"
+#include "tools/tetmesh/tetgen/build_mesh.hpp"
 #include "tools/tetmesh/volume/estimates.hpp"
 
 namespace hexpipe::tetmesh {

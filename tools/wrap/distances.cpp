@@ -1,4 +1,4 @@
-#include "tools/wrap/distances.hpp"
+#include "tools/wrap/surface.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,14 +5,14 @@
 #include <string>
 
 #include "common/mesh/box_tree.hpp"
-#include "common/mesh/feature_angle.hpp"
+#include "common/mesh/defaults.hpp"
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/meshes/mesh_surface.hpp"
+#include "formats/pipeline/bundle.hpp"
 #include "formats/pipeline/history.hpp"
-#include "formats/pipeline/output_format.hpp"
-#include "formats/pipeline/surface_output.hpp"
+#include "formats/pipeline/surface_file.hpp"
 #include "formats/streams/output.hpp"
 #include "tools/wrap/wrap.hpp"
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "tools/wrap/surface.hpp"
-#include "tools/wrap/triangle_tree.hpp"
 
 namespace hexpipe::wrap {
 

@@ -7,9 +7,8 @@
 #include <optional>
 #include <unordered_map>
 
+#include "tools/wrap/restoring_steps.hpp"
 #include "tools/wrap/shrink_wrap.hpp"
-#include "tools/wrap/slivers.hpp"
-#include "tools/wrap/stray_points.hpp"
 
 namespace hexpipe::wrap {
 namespace {

@@ -4,7 +4,6 @@
 #include <cstddef>
 
 #include "tools/wrap/surface.hpp"
-#include "tools/wrap/triangle_tree.hpp"
 
 namespace hexpipe::wrap {
 

@@ -1,4 +1,4 @@
-#include "tools/wrap/stray_points.hpp"
+#include "tools/wrap/restoring_steps.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "tools/wrap/triangle_tree.hpp"
+#include "tools/wrap/surface.hpp"
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>

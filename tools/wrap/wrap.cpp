@@ -11,7 +11,6 @@
 #include "tools/wrap/restoring.hpp"
 #include "tools/wrap/shrink_wrap.hpp"
 #include "tools/wrap/surface.hpp"
-#include "tools/wrap/triangle_tree.hpp"
 
 namespace hexpipe::wrap {
 namespace {

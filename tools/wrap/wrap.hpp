@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "formats/surfaces/surface_files.hpp"
-#include "tools/wrap/distances.hpp"
+#include "tools/wrap/surface.hpp"
 
 namespace hexpipe::wrap {
 

@@ -18,6 +18,7 @@
 #include "tools/assemble/gap/face_costs.hpp"
 #include "tools/assemble/gap/objective.hpp"
 #include "tools/assemble/gap/skin.hpp"
+#include "tools/assemble/shape/nearest_points.hpp"
 
 namespace hexpipe::assemble::gap {
 namespace {

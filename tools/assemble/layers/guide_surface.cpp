@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 
-#include "common/mesh/feature_angle.hpp"
-#include "tools/assemble/shape/input_surface.hpp"
+#include "common/mesh/defaults.hpp"
+#include "tools/assemble/shape/nearest_points.hpp"
 
 namespace hexpipe::assemble::layers {
 namespace {
@@ -59,9 +60,7 @@ GuideSurface::GuideSurface(const TetMesh& input, std::span<const std::int32_t> t
       const auto& [a, b, c] = input.triangles[t];
       boxes.push_back(Box::around(std::array{input.points[a], input.points[b], input.points[c]}));
     }
-    const std::vector<double> zeros(boxes.size(), 0.0);
-    BoxTree tree(boxes, zeros);
-    groups_.emplace(tag, Group{std::move(triangles), std::move(tree)});
+    groups_.emplace(tag, Group{std::move(triangles), shape::tree_of(boxes)});
   }
 }
 
@@ -69,16 +68,11 @@ Vec3 GuideSurface::nearest_on(std::int32_t tag, const Vec3& to) const {
   const auto found = groups_.find(tag);
   if (found == groups_.end()) return to;
   const Group& group = found->second;
-  Vec3 nearest = to;
-  double least = std::numeric_limits<double>::infinity();
-  group.tree.least(to, 1, least, [&](std::int32_t i) {
+  const auto point_of = [&](std::int32_t i) -> std::optional<Vec3> {
     const auto& [a, b, c] = input_.triangles[group.triangles[i]];
-    const Vec3 at = shape::nearest_on_triangle({input_.points[a], input_.points[b], input_.points[c]}, to);
-    const double distance = norm(at - to);
-    if (distance < least) least = distance, nearest = at;
-    return distance;
-  });
-  return nearest;
+    return shape::nearest_on_triangle({input_.points[a], input_.points[b], input_.points[c]}, to);
+  };
+  return shape::nearest_in(group.tree, to, std::numeric_limits<double>::infinity(), point_of).value_or(to);
 }
 
 Vec3 GuideSurface::nearest(std::span<const std::int32_t> tags, Vec3 to) const {

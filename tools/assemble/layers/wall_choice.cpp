@@ -12,19 +12,16 @@
 #include "common/mesh/facet_key.hpp"
 #include "common/run/command_line.hpp"
 #include "common/run/error.hpp"
+#include "formats/streams/text_scanner.hpp"
 
 namespace hexpipe::assemble::layers {
 namespace {
 
+using formats::trimmed;
+
 constexpr std::size_t most_listed = 12;  // names in a message
 constexpr int most_layers = 100;
 constexpr std::string_view everything = "all", in = " in ";
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  return text;
-}
 
 AskedWall parse_wall(std::string_view text) {
   const std::size_t equals = text.rfind('=');

@@ -6,9 +6,10 @@
 #include <optional>
 #include <utility>
 
+#include "common/mesh/defaults.hpp"
 #include "common/mesh/facet_key.hpp"
-#include "common/mesh/feature_angle.hpp"
 #include "common/mesh/joined_sets.hpp"
+#include "tools/assemble/shape/smooth_edges.hpp"
 
 namespace hexpipe::assemble::order {
 namespace {
@@ -19,7 +20,6 @@ constexpr double most_turn_of_arcs = 20;  // degrees, from the normal at an edge
 struct Facet {
   Quad corners;
   int corner_count;
-  std::int32_t tag;
 };
 
 // An edge with the facets at it.
@@ -60,8 +60,8 @@ class EdgeFinder {
       for (std::size_t i = 0; i < block.size(); ++i) {
         const auto& corners = block.cells[i];
         const auto f = static_cast<std::int32_t>(facets_.size());
-        facets_.push_back(
-            {{corners[0], corners[1], corners[2], corners.back()}, static_cast<int>(corners.size()), block.tags[i]});
+        facets_.push_back({{corners[0], corners[1], corners[2], corners.back()}, static_cast<int>(corners.size())});
+        tags_.push_back(block.tags[i]);
         for (std::size_t k = 0; k < corners.size(); ++k) {
           const auto key = edge_key(corners[k], corners[(k + 1) % corners.size()]);
           EdgeFacets& edge = edges_[key];
@@ -74,31 +74,36 @@ class EdgeFinder {
     collect(mesh_.quads);
   }
 
-  // The unit normal of a facet at the edge.
-  Vec3 normal_of(std::int32_t f, Vertex a, Vertex b) const {
+  // An edge as a facet has it, and the way from it into the facet.
+  struct Side {
+    Vec3 along, inwards;
+  };
+  Side side_of(std::int32_t f, Vertex a, Vertex b) const {
     const Facet& facet = facets_[f];
     for (int i = 0; i < facet.corner_count; ++i) {
       const Vertex from = facet.corners[i], to = facet.corners[(i + 1) % facet.corner_count];
       if (!((from == a && to == b) || (from == b && to == a))) continue;
-      // The corners of a warped quad beside the edge, in the mean.
-      const Vec3 along = at(to) - at(from);
+      // To the corners of a warped quad beside the edge, in the mean.
       const Vertex next = facet.corners[(i + 2) % facet.corner_count];
       const Vertex last = facet.corners[(i + facet.corner_count - 1) % facet.corner_count];
-      return unit(cross(along, (at(next) - at(from)) + (at(last) - at(from))));
+      return {at(to) - at(from), (at(next) - at(from)) + (at(last) - at(from))};
     }
     return {};
   }
 
+  // The unit normal of a facet at the edge.
+  Vec3 normal_of(std::int32_t f, Vertex a, Vertex b) const {
+    const Side side = side_of(f, a, b);
+    return unit(cross(side.along, side.inwards));
+  }
+
   void find_sharp_edges() {
-    const double least = cosine_of_degrees(default_feature_angle);
     JoinedSets patches(facets_.size());
     for (auto& [key, edge] : edges_) {
-      const auto is_smooth = [&] {
-        if (edge.facets.size() != 2 || facets_[edge.facets[0]].tag != facets_[edge.facets[1]].tag) return false;
-        const Vec3 one = normal_of(edge.facets[0], edge.a, edge.b), two = normal_of(edge.facets[1], edge.a, edge.b);
-        return std::abs(dot(one, two)) > least;
-      };
-      edge.is_sharp = !is_smooth();
+      edge.is_sharp = !shape::is_smooth_edge(edge.facets, tags_, [&](std::int32_t f) {
+        const Side side = side_of(f, edge.a, edge.b);
+        return shape::away_from_edge({}, side.along, side.inwards);
+      });
       if (!edge.is_sharp)
         patches.join(edge.facets[0], edge.facets[1]);
       else
@@ -180,6 +185,7 @@ class EdgeFinder {
 
   const MixedMesh& mesh_;
   std::vector<Facet> facets_;
+  std::vector<std::int32_t> tags_;  // by facet
   std::map<VertexKey<2>, EdgeFacets> edges_;
   std::map<Vertex, std::vector<Vertex>> sharp_ends_;
   std::vector<std::int32_t> patch_;  // by facet: one number for all that are joined without a sharp edge between

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/mesh/feature_angle.hpp"
+#include "common/mesh/defaults.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/mesh/vertex_items.hpp"

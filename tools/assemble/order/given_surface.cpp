@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "common/mesh/facet_key.hpp"
-#include "common/mesh/feature_angle.hpp"
-#include "tools/assemble/shape/input_surface.hpp"
+#include "tools/assemble/shape/nearest_points.hpp"
+#include "tools/assemble/shape/smooth_edges.hpp"
 
 namespace hexpipe::assemble::order {
 namespace {
@@ -18,24 +18,6 @@ Vec3 normal_of(const std::array<Vec3, 3>& t) {
   return unit(cross(t[1] - t[0], t[2] - t[0]));
 }
 
-BoxTree tree_of(const std::vector<Box>& boxes) {
-  return BoxTree(boxes, std::vector<double>(boxes.size()));
-}
-
-// The nearest of the places that place_of(thing) gives, if it is less than `most` away.
-template <class PlaceOf>
-std::optional<Vec3> nearest(const BoxTree& tree, const Vec3& to, double most, PlaceOf&& place_of) {
-  std::optional<Vec3> best;
-  double least = most;
-  tree.least(to, 1, most, [&](std::int32_t thing) {
-    const std::optional<Vec3> at = place_of(thing);
-    const double distance = at ? norm(*at - to) : most;
-    if (distance < least) least = distance, best = at;
-    return distance;
-  });
-  return best;
-}
-
 }  // namespace
 
 GivenSurface::GivenSurface(formats::SurfaceSoup surface)
@@ -44,10 +26,10 @@ GivenSurface::GivenSurface(formats::SurfaceSoup surface)
   std::vector<Box> boxes;
   for (std::size_t t = 0; t < surface_.triangles.size(); ++t)
     boxes.push_back(Box::around(corners(static_cast<std::int32_t>(t))));
-  triangle_tree_ = tree_of(boxes);
+  triangle_tree_ = shape::tree_of(boxes);
   boxes.clear();
   for (const Segment& segment : curves_) boxes.push_back(Box::around(segment));
-  curve_tree_ = tree_of(boxes);
+  curve_tree_ = shape::tree_of(boxes);
 }
 
 std::array<Vec3, 3> GivenSurface::corners(std::int32_t triangle) const {
@@ -55,8 +37,7 @@ std::array<Vec3, 3> GivenSurface::corners(std::int32_t triangle) const {
   return {surface_.points[a], surface_.points[b], surface_.points[c]};
 }
 
-// An edge is a curve unless it has just two triangles, with one tag, whose normals differ by less than the feature
-// angle.
+// Curves are the edges that are not smooth, and those that the CAD or the user names.
 void GivenSurface::find_curves(const formats::SurfaceSoup& surface) {
   KeyMap<2, std::vector<std::int32_t>> triangles_at;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
@@ -65,10 +46,11 @@ void GivenSurface::find_curves(const formats::SurfaceSoup& surface) {
           static_cast<std::int32_t>(t));
   KeySet<2> curves;
   for (const auto& [a, b] : surface.curves) curves.insert(edge_key(a, b));
-  const double least = cosine_of_degrees(default_feature_angle);
   for (const auto& [edge, at] : triangles_at) {
-    const bool smooth = at.size() == 2 && !curves.contains(edge) && surface.tags[at[0]] == surface.tags[at[1]] &&
-                        dot(normal_of(corners(at[0])), normal_of(corners(at[1]))) > least;
+    const auto away_of = [&](std::int32_t t) {
+      return shape::away_from_edge(surface.points, surface.triangles[static_cast<std::size_t>(t)], edge);
+    };
+    const bool smooth = !curves.contains(edge) && shape::is_smooth_edge(at, surface.tags, away_of);
     if (!smooth) curves_.push_back({surface.points[edge[0]], surface.points[edge[1]]});
   }
   // The order of the map is that of its buckets.
@@ -81,7 +63,7 @@ void GivenSurface::find_curves(const formats::SurfaceSoup& surface) {
 }
 
 std::optional<Vec3> GivenSurface::on_faces(const Vec3& to, const Vec3& normal, double most) const {
-  return nearest(triangle_tree_, to, most, [&](std::int32_t triangle) -> std::optional<Vec3> {
+  return shape::nearest_in(triangle_tree_, to, most, [&](std::int32_t triangle) -> std::optional<Vec3> {
     const std::array<Vec3, 3> t = corners(triangle);
     if (std::abs(dot(normal_of(t), normal)) < least_cosine_of_normals) return std::nullopt;
     return shape::nearest_on_triangle(t, to);
@@ -89,7 +71,7 @@ std::optional<Vec3> GivenSurface::on_faces(const Vec3& to, const Vec3& normal, d
 }
 
 std::optional<Vec3> GivenSurface::on_curves(const Vec3& to, const Vec3& direction, double most) const {
-  return nearest(curve_tree_, to, most, [&](std::int32_t curve) -> std::optional<Vec3> {
+  return shape::nearest_in(curve_tree_, to, most, [&](std::int32_t curve) -> std::optional<Vec3> {
     const Segment& segment = curves_[static_cast<std::size_t>(curve)];
     if (std::abs(dot(unit(segment[1] - segment[0]), direction)) < least_cosine_of_curves) return std::nullopt;
     return shape::nearest_on_segment(segment[0], segment[1], to);

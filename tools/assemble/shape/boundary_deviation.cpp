@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/mesh/facet_key.hpp"
+#include "tools/assemble/shape/nearest_points.hpp"
 
 namespace hexpipe::assemble::shape {
 

@@ -4,57 +4,26 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
 #include "common/mesh/box_tree.hpp"
+#include "common/mesh/defaults.hpp"
 #include "common/mesh/facet_key.hpp"
 #include "common/mesh/joined_sets.hpp"
+#include "tools/assemble/shape/nearest_points.hpp"
+#include "tools/assemble/shape/smooth_edges.hpp"
 
 namespace hexpipe::assemble::shape {
 namespace {
 
-// 40 degrees, as in tetmesh: cylinders of nine sides and more count as smooth, and a curve may turn by as much.
-const double cos_feature_angle = std::cos(std::numbers::pi * 40 / 180);
+// A curve may turn by as much as a smooth surface.
+const double cos_feature_angle = cosine_of_degrees(default_feature_angle);
 // A vertex slides a few edges far at most. A walk that has not ended by then is at something odd, and a point too far
 // away is as safe as the nearest.
 constexpr int longest_walk = 30;
 
-// The unit vector from edge ab to c, at right angles to the edge.
-Vec3 away_from_edge(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 along = unit(b - a);
-  return unit((c - a) - along * dot(c - a, along));
-}
-
-Vertex third_of(const Triangle& t, Vertex a, Vertex b) {
-  for (Vertex v : t)
-    if (v != a && v != b) return v;
-  return t[0];
-}
-
 }  // namespace
-
-// C. Ericson, "Real-Time Collision Detection" (2005), section 5.1.5: if the foot of the perpendicular falls outside, an
-// edge or a corner is nearest.
-Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& to) {
-  const Vec3 along = b - a;
-  const double length = norm_squared(along);
-  return length > 0 ? a + along * std::clamp(dot(to - a, along) / length, 0.0, 1.0) : a;
-}
-
-Vec3 nearest_on_triangle(const std::array<Vec3, 3>& triangle, const Vec3& to) {
-  const auto& [a, b, c] = triangle;
-  const Vec3 normal = cross(b - a, c - a);
-  const double length = norm_squared(normal);
-  auto is_inside = [&](const Vec3& p, const Vec3& q) { return dot(cross(q - p, to - p), normal) >= 0; };
-  if (length > 0 && is_inside(a, b) && is_inside(b, c) && is_inside(c, a))
-    return to - normal * (dot(to - a, normal) / length);
-  Vec3 best = nearest_on_segment(a, b, to);
-  for (const Vec3& other : {nearest_on_segment(b, c, to), nearest_on_segment(c, a, to)})
-    if (norm_squared(other - to) < norm_squared(best - to)) best = other;
-  return best;
-}
 
 InputSurface::InputSurface(const TetMesh& mesh, const TetAdjacency& adjacency) : mesh_(mesh) {
   if (!mesh.points.empty()) diagonal_ = Box::around(mesh.points).diagonal();
@@ -67,30 +36,25 @@ InputSurface::InputSurface(const TetMesh& mesh, const TetAdjacency& adjacency) :
 
 void InputSurface::find_features() {
   struct Sides {
-    std::array<std::int32_t, 2> triangles{};
-    int count = 0;
+    std::array<std::int32_t, 3> triangles{};  // the first three
+    std::size_t count = 0;
   };
   KeyMap<2, Sides> edges;
   edges.reserve(2 * mesh_.triangles.size());
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
     for (int i = 0; i < 3; ++i) {
       Sides& sides = edges[edge_key(mesh_.triangles[t][i], mesh_.triangles[t][(i + 1) % 3])];
-      if (sides.count < 2) sides.triangles[sides.count] = static_cast<std::int32_t>(t);
-      ++sides.count;
+      if (sides.count < sides.triangles.size()) sides.triangles[sides.count++] = static_cast<std::int32_t>(t);
     }
   JoinedSets patches(mesh_.triangles.size());
   const KeySet<2> ridges = ridges_of(mesh_);
   std::vector<VertexKey<2>> features;
   for (const auto& [edge, sides] : edges) {
-    const auto [first, second] = sides.triangles;
-    const auto& p = mesh_.points;
-    const bool smooth =
-        sides.count == 2 && !ridges.contains(edge) && mesh_.triangle_tags[first] == mesh_.triangle_tags[second] &&
-        dot(away_from_edge(p[edge[0]], p[edge[1]], p[third_of(mesh_.triangles[first], edge[0], edge[1])]),
-            away_from_edge(p[edge[0]], p[edge[1]], p[third_of(mesh_.triangles[second], edge[0], edge[1])])) <
-            -cos_feature_angle;
+    const auto away_of = [&](std::int32_t t) { return away_from_edge(mesh_.points, mesh_.triangles[t], edge); };
+    const bool smooth = !ridges.contains(edge) &&
+                        is_smooth_edge(std::span(sides.triangles).first(sides.count), mesh_.triangle_tags, away_of);
     if (smooth)
-      patches.join(first, second);
+      patches.join(sides.triangles[0], sides.triangles[1]);
     else
       features.push_back(edge);
   }

@@ -1,7 +1,6 @@
 #pragma once
 // The input's tagged triangles as a surface on which vertices slide and from which results deviate.
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -17,10 +16,6 @@ namespace hexpipe::assemble::shape {
 // deviate less between their own vertices.
 inline constexpr double most_deviation = 0.03;
 
-// The nearest point of a segment, and of a triangle; both may be degenerate.
-Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& to);
-Vec3 nearest_on_triangle(const std::array<Vec3, 3>& triangle, const Vec3& to);
-
 // By tagged triangle: how thick the mesh is behind it, from its middle at right angles into the tets on either side to
 // where their region ends, and at most the triangle's `reach`. A triangle that is no facet of a tet has its `reach`.
 std::vector<double> thickness_behind(const TetMesh& mesh, const TetAdjacency& adjacency, std::span<const double> reach);
@@ -28,8 +23,8 @@ std::vector<double> thickness_behind(const TetMesh& mesh, const TetAdjacency& ad
 class InputSurface {
  public:
   // The place of a vertex: on no tagged triangle; within a smooth patch of the surface; on a feature curve between two
-  // patches; or where curves meet, end or turn. A ridge of the mesh is a feature, and so is an edge unless it has
-  // exactly two triangles, with one tag, whose normals are less than 40 degrees apart.
+  // patches; or where curves meet, end or turn. A ridge of the mesh is a feature, and so is an edge that is not smooth
+  // (smooth_edges.hpp).
   enum class Place : std::uint8_t { inside, face, curve, corner };
 
   // `mesh` outlives this, and its surface is complete (surface_tags.hpp). `adjacency` is that of the mesh, and may go.

@@ -6,7 +6,7 @@
 
 #include "common/mesh/validity.hpp"
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
-#include "tools/tetmesh/geometry/triangle_slices.hpp"
+#include "tools/tetmesh/geometry/triangle_boxes.hpp"
 
 namespace hexpipe::tetmesh::geometry {
 

@@ -12,8 +12,6 @@ namespace hexpipe::tetmesh::geometry {
 
 using HalfEdge = std::int32_t;
 
-// The index of no vertex, half-edge, triangle or tet.
-
 inline std::int32_t triangle_of(HalfEdge h) {
   return h / 3;
 }
@@ -38,5 +36,17 @@ void for_each_edge(std::size_t vertex_count, std::span<const Triangle> triangles
 
 // The other half-edge of each edge; every edge must have two.
 std::vector<HalfEdge> find_twins(std::size_t vertex_count, std::span<const Triangle> triangles);
+
+struct EdgeWalkStep {
+  double angle;  // around the edge, from the triangle of the first half-edge
+  HalfEdge half_edge;
+  // Whether the half-edge leads from the edge's lower vertex to the higher one. If so, its triangle shows its normal to
+  // the triangles that come next, otherwise its back.
+  bool is_along;
+};
+
+// `edge` holds all half-edges of an edge, of either direction.
+std::vector<EdgeWalkStep> walk_around_edge(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                                           std::span<const HalfEdge> edge);
 
 }  // namespace hexpipe::tetmesh::geometry

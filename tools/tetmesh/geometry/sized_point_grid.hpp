@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "common/mesh/vec3.hpp"
-#include "tools/tetmesh/geometry/box_tree.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
+#include "tools/tetmesh/geometry/triangle_boxes.hpp"
 
 namespace hexpipe::tetmesh::geometry {
 

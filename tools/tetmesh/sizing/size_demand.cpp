@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "common/mesh/feature_angle.hpp"
+#include "common/mesh/defaults.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/sizing/wall_sizes.hpp"
 

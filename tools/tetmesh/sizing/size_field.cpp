@@ -6,7 +6,7 @@
 #include <limits>
 #include <span>
 
-#include "tools/tetmesh/geometry/box_tree.hpp"
+#include "tools/tetmesh/geometry/triangle_boxes.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 
 namespace hexpipe::tetmesh::sizing {

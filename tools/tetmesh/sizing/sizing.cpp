@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "common/mesh/box_tree.hpp"
-#include "common/mesh/default_size.hpp"
+#include "common/mesh/defaults.hpp"
 #include "common/run/error.hpp"
 
 namespace hexpipe::tetmesh::sizing {

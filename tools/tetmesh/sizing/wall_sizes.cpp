@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/geometry/box_tree.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
+#include "tools/tetmesh/geometry/triangle_boxes.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 
 namespace hexpipe::tetmesh::sizing {

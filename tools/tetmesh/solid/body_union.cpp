@@ -18,9 +18,9 @@
 #include "common/mesh/joined_sets.hpp"
 #include "common/run/error.hpp"
 #include "formats/surfaces/surface_building.hpp"
-#include "tools/tetmesh/geometry/box_tree.hpp"
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
+#include "tools/tetmesh/geometry/triangle_boxes.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/solid/borders.hpp"
 

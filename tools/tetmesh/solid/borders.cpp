@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "common/mesh/joined_sets.hpp"
-#include "tools/tetmesh/geometry/box_tree.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
+#include "tools/tetmesh/geometry/triangle_boxes.hpp"
 
 namespace hexpipe::tetmesh::solid {
 namespace {

@@ -1,4 +1,3 @@
-#include "tools/tetmesh/solid/fold_removal.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +10,12 @@
 #include <vector>
 
 #include "common/mesh/joined_sets.hpp"
-#include "tools/tetmesh/geometry/box_tree.hpp"
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
+#include "tools/tetmesh/geometry/triangle_boxes.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/solid/borders.hpp"
-#include "tools/tetmesh/solid/hole_filling.hpp"
+#include "tools/tetmesh/solid/repair_steps.hpp"
 
 namespace hexpipe::tetmesh::solid {
 namespace {

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/mesh/defaults.hpp"
 #include "common/mesh/facet_key.hpp"
-#include "common/mesh/feature_angle.hpp"
 #include "common/run/error.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 

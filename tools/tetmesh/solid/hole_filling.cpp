@@ -1,7 +1,7 @@
 // Apart from the others because it includes CGAL's polygon mesh processing, which takes long to compile and is under
 // the GPL.
 
-#include "tools/tetmesh/solid/hole_filling.hpp"
+#include "tools/tetmesh/solid/repair_steps.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>

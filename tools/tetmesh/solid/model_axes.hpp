@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "common/mesh/feature_angle.hpp"
+#include "common/mesh/defaults.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 
 namespace hexpipe::tetmesh::solid {

@@ -14,8 +14,7 @@
 #include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/solid/borders.hpp"
-#include "tools/tetmesh/solid/fold_removal.hpp"
-#include "tools/tetmesh/solid/hole_filling.hpp"
+#include "tools/tetmesh/solid/repair_steps.hpp"
 
 namespace hexpipe::tetmesh::solid {
 namespace {

@@ -37,8 +37,8 @@ nlohmann::ordered_json to_json(const RepairReport& report);
 // Mends what changes no shape and needs no guess, where the surface is not closed or has triangles without area or
 // repeated ones; other surfaces stay as they are:
 // - removes triangles without area, as repair() does, and copies of triangles of the same orientation;
-// - makes one point of points of borders that differ by rounding, cuts triangles where other points lie on their borders,
-// and removes stray sheets, if no border is left then: borders.hpp.
+// - makes one point of points of borders that differ by rounding, cuts triangles where other points lie on their
+// borders, and removes stray sheets, if no border is left then: borders.hpp.
 // Where the surface says what is on its sides, only triangles without area go.
 RepairReport mend(formats::SurfaceSoup& soup);
 
@@ -48,8 +48,8 @@ RepairReport mend(formats::SurfaceSoup& soup);
 // two;
 // - removes repeated triangles;
 // - turns triangles until neighbours agree, as most triangles of their component do;
-// - fills holes: hole_filling.hpp;
-// - makes new triangles where few intersect: fold_removal.hpp;
+// - fills holes: fill_hole();
+// - makes new triangles where few intersect: remove_folds();
 // - turns closed components outward that do not lie in another one.
 // Faults that it cannot mend stay, and check_surface() names them. Throws DataError if no triangle is left.
 RepairReport repair(formats::SurfaceSoup& soup, const RepairOptions& options);

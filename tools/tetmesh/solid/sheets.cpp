@@ -13,7 +13,6 @@
 #include "common/run/error.hpp"
 #include "formats/surfaces/surface_building.hpp"
 #include "tools/tetmesh/geometry/column_index.hpp"
-#include "tools/tetmesh/geometry/edge_walk.hpp"
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/solid/borders.hpp"
@@ -438,6 +437,20 @@ Surface find_sheets(formats::SurfaceSoup soup) {
   }
   choose_tags(surface);
   return surface;
+}
+
+Surface boundary_of(formats::SurfaceSoup soup, ShellRule rule, std::string_view remedy,
+                    std::vector<std::string>& warnings) {
+  if (meets_in_sheets(soup)) {
+    check_areas(soup, remedy);
+    const bool has_sides = !soup.sides.empty();
+    const SheetReport found = has_sides ? join_bodies(soup) : find_sides(soup, rule, remedy);
+    for (const std::string& sentence : found.sentences())
+      warnings.push_back(fmt::format("{}: {}", soup.name, sentence));
+  }
+  if (meets_in_sheets(soup)) return find_sheets(std::move(soup));
+  check_surface(soup, remedy);
+  return find_shells(std::move(soup), rule);
 }
 
 }  // namespace hexpipe::tetmesh::solid

@@ -35,4 +35,10 @@ SheetReport join_bodies(formats::SurfaceSoup& soup);
 // number behind it.
 Surface find_sheets(formats::SurfaceSoup soup);
 
+// Finds the shells of a soup, or its sheets where more than two triangles meet at an edge. Adds a sentence to
+// `warnings` for everything that it changed. Throws DataError where the soup is not the boundary of a solid; `remedy`
+// ends the messages about faults that repair.hpp mends.
+Surface boundary_of(formats::SurfaceSoup soup, ShellRule rule, std::string_view remedy,
+                    std::vector<std::string>& warnings);
+
 }  // namespace hexpipe::tetmesh::solid

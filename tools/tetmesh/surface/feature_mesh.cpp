@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/mesh/feature_angle.hpp"
+#include "common/mesh/defaults.hpp"
 #include "tools/tetmesh/surface/sheet_cut.hpp"
 
 namespace hexpipe::tetmesh::surface {

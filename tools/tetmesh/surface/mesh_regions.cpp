@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "tools/tetmesh/geometry/box_tree.hpp"
+#include "tools/tetmesh/geometry/triangle_boxes.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {

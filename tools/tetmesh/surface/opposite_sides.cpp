@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/geometry/box_tree.hpp"
+#include "tools/tetmesh/geometry/triangle_boxes.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 
 namespace hexpipe::tetmesh::surface {

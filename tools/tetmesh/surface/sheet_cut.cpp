@@ -5,7 +5,7 @@
 #include <span>
 
 #include "common/mesh/joined_sets.hpp"
-#include "tools/tetmesh/geometry/edge_walk.hpp"
+#include "tools/tetmesh/geometry/half_edges.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {

@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "tools/tetmesh/fields/layers_across.hpp"
+#include "tools/tetmesh/fields/curl_correction.hpp"
 #include "tools/tetmesh/surface/feature_paths.hpp"
 
 namespace hexpipe::tetmesh::surface {

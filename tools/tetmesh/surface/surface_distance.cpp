@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "common/run/parallel.hpp"
+#include "tools/tetmesh/geometry/triangle_boxes.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
-#include "tools/tetmesh/geometry/triangle_slices.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "common/mesh/feature_angle.hpp"
+#include "common/mesh/defaults.hpp"
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 #include "tools/tetmesh/surface/surface_lattice.hpp"

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/mesh/feature_angle.hpp"
+#include "common/mesh/defaults.hpp"
 #include "common/mesh/joined_sets.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/surface/remesh_steps.hpp"
@@ -96,8 +96,7 @@ class Thinner {
     const Limits limits = limits_at(v);
     choices_.clear();
     for (const auto h : mesh_.voh_range(v))
-      if (const double shape = shape_after(h, limits.longest); shape > least_shape)
-        choices_.push_back({shape, h});
+      if (const double shape = shape_after(h, limits.longest); shape > least_shape) choices_.push_back({shape, h});
     std::ranges::stable_sort(choices_, std::ranges::greater(), &Choice::shape);
     for (const Choice& choice : choices_) {
       if (!mesh_.is_collapse_ok(choice.collapse)) continue;

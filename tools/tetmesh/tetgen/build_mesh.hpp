@@ -28,4 +28,12 @@ class TetGenFailure : public DataError {
 // or if the tets of a region do not add up to the region's volume.
 BuiltMesh build_mesh(const solid::Surface& surface, std::span<const Vec3> interior_points, TetGenResult tetgen);
 
+// The volume of a mesh, and how flat its tets get.
+struct MeshShape {
+  double volume = 0;
+  double least_dihedral = 180, greatest_dihedral = 0;  // degrees, over all tets
+};
+
+MeshShape shape_of(const TetMesh& mesh);
+
 }  // namespace hexpipe::tetmesh::tetgen

@@ -1,4 +1,4 @@
-#include "tools/tetmesh/tetgen/mesh_shape.hpp"
+#include "tools/tetmesh/tetgen/build_mesh.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/mesh/feature_angle.hpp"
+#include "common/mesh/defaults.hpp"
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 

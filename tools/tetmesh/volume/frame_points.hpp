@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "common/mesh/adjacency.hpp"
-#include "common/mesh/feature_angle.hpp"
+#include "common/mesh/defaults.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/solid/shells.hpp"

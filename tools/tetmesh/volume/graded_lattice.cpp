@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "common/run/error.hpp"
-#include "tools/tetmesh/geometry/box_tree.hpp"
+#include "tools/tetmesh/geometry/triangle_boxes.hpp"
 #include "tools/tetmesh/solid/surface_clearance.hpp"
 
 namespace hexpipe::tetmesh::volume {

@@ -1,5 +1,5 @@
 #pragma once
-// Boxes of the slices of a triangle, for a grid or a tree.
+// Boxes around triangles and around slices of them, for grids and trees.
 //
 // A long narrow triangle that does not lie along the axes has a box much larger than itself, which overlaps the boxes
 // of all its neighbours. Cut across its longest side, the triangle has small boxes that lie along it.
@@ -13,10 +13,13 @@
 #include <utility>
 #include <vector>
 
+#include "common/mesh/box_tree.hpp"
 #include "common/mesh/tet_mesh.hpp"
-#include "tools/tetmesh/geometry/box_tree.hpp"
 
 namespace hexpipe::tetmesh::geometry {
+
+using hexpipe::Box;
+using hexpipe::BoxTree;
 
 class TriangleSlices {
  public:
@@ -104,5 +107,9 @@ class TriangleSlices {
 // The length for trees and similar structures, where each slice costs memory: the side of a square of twice the mean
 // area, but long enough that a triangle has at most 64 slices on average.
 double length_of_slices(std::span<const Vec3> points, std::span<const Triangle> triangles);
+
+// A tree of triangles, each in the boxes of its slices. The values are 0, so that least() with a slope of 1 finds
+// distances.
+BoxTree tree_of_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
 }  // namespace hexpipe::tetmesh::geometry
