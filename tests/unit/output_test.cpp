@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "common/run/deadline.hpp"
-#include "temporary_path.hpp"
+#include "written_bytes.hpp"
 
 namespace hexpipe {
 using namespace formats;
