@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct FacesOf {
   std::array<Vertex, 8> corners{};
   std::array<Vec3, 8> points{};
   bool is_kept = false;
+  std::optional<Vec3> centre{};  // where it is known
 };
 
 // The cost of all faces of these cells, each face once; faces between two kept cells cost nothing. The cells stand in

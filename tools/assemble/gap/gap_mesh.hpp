@@ -62,6 +62,10 @@ class GapMesh {
   auto kept_at(Vertex v) const {
     return std::views::filter(kept_at_of(v), [this](KeptIndex c) { return kept_[c].is_alive; });
   }
+  // The centres by which faces are judged (common/mesh/face_measures.hpp), each computed once while its cell stays as
+  // it is. Between move() and replace() only those of cells that do not have the vertex.
+  const Vec3& centre_of(GapIndex c) const;
+  const Vec3& centre_of_kept(KeptIndex c) const;
   // If quad `i` of a chosen cell lies on the boundary: the tagged triangles that it consists of, in the cell's
   // orientation. Nothing if another cell has the quad, too.
   std::optional<std::array<Triangle, 2>> boundary_triangles(KeptIndex kept, int i) const;
@@ -123,6 +127,7 @@ class GapMesh {
   std::vector<KeptCell> kept_;
   std::size_t first_new_ = 0;  // vertices from here on were added: no chosen cell has them
   VertexItems kept_at_;
+  mutable std::vector<std::optional<Vec3>> centres_, kept_centres_;
 };
 
 // Whether the Jacobian of a cell is positive everywhere.

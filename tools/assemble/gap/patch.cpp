@@ -144,9 +144,10 @@ double Patch::cost_before() const {
 double Patch::cost() const {
   double sum = 0;
   std::vector<FacesOf> cells;
+  cells.reserve(cells_.size());
   for (const Cell& cell : cells_) {
     if (!cell.is_kept) sum += cost_of(quality(cell));
-    FacesOf faces{cell.kind, {}, {}, cell.is_kept};
+    FacesOf faces{cell.kind, {}, {}, cell.is_kept, {}};
     for (std::size_t i = 0; i < cell.vertices().size(); ++i) {
       faces.corners[i] = vertices_[cell.corners[i]];
       faces.points[i] = points_[cell.corners[i]];
