@@ -9,6 +9,7 @@
 #include "tools/assemble/shape/smooth.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
@@ -80,6 +81,7 @@ class Cells {
     return std::span(corners_).subspan(first_[c], corner_count(kinds_[c]));
   }
   std::span<const std::int32_t> at(Vertex v) const { return cells_.at(v); }
+  std::size_t size() const { return kinds_.size(); }
 
  private:
   std::vector<CellKind> kinds_;
@@ -95,7 +97,8 @@ class Smoother {
         points_(mesh.points),
         cells_(mesh),
         freedoms_(vertex_freedoms(mesh)),
-        due_(mesh.points.size(), 1) {
+        due_(mesh.points.size(), 1),
+        quality_(cells_.size(), unknown) {
     if (sliding == nullptr) return;
     sliding_ = sliding;
     for (Vertex v = 0; v < static_cast<Vertex>(points_.size()); ++v)
@@ -112,13 +115,19 @@ class Smoother {
       due_[v] = 0;
       if (!improve(v, only_below, weighted)) continue;
       ++moves;
-      for (std::int32_t c : cells_.at(v))
+      for (std::int32_t c : cells_.at(v)) {
+        quality_[c] = unknown;
         for (Vertex neighbour : cells_.corners_of(c)) due_[neighbour] = 1;
+      }
     }
     return moves;
   }
 
  private:
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+  double quality_of(std::int32_t c);
+  bool are_above(Vertex v, double bound, bool weighted);
   bool slides(Vertex v) const;
   Freedom freedom(Vertex v) const;
   bool stays_close(Vertex v, const Vec3& at);
@@ -138,6 +147,7 @@ class Smoother {
   const SlidingSurface* sliding_ = nullptr;
   std::optional<BoundaryDeviation> deviation_;
   std::vector<std::uint8_t> due_;  // something around has moved since it was looked at
+  std::vector<double> quality_;    // by cell
   PointStar star_;
 };
 
@@ -241,7 +251,28 @@ bool Smoother::keeps_edges_long(Vertex v, const Vec3& at) const {
   return shortest >= std::min(now, shortest_edge * shortest_edge * longest);
 }
 
+// The least scaled Jacobian over the corners, for a tet times the square root of 2.
+double Smoother::quality_of(std::int32_t c) {
+  if (std::isnan(quality_[c])) {
+    const auto corners = cells_.corners_of(c);
+    const auto at = corner_points(points_, corners);
+    const double scale = cells_.kind(c) == CellKind::tet ? std::sqrt(2.0) : 1;
+    quality_[c] = scale * least_corner_scaled_jacobian(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()));
+  }
+  return quality_[c];
+}
+
+// Whether all cells at v are above the bound. Most vertices are among hexes that are good: it would take most of the
+// time to look at the corners around each of these.
+bool Smoother::are_above(Vertex v, double bound, bool weighted) {
+  return std::ranges::all_of(cells_.at(v), [&](std::int32_t c) {
+    const double weight = weighted && cells_.kind(c) == CellKind::hex ? weight_of_hexes_ : 1;
+    return weight * quality_of(c) > bound;
+  });
+}
+
 bool Smoother::improve(Vertex v, double only_below, bool weighted) {
+  if (are_above(v, only_below, weighted)) return false;
   look_around(v);
   const Vec3 before = points_[v];
   const double worst = star_.worst(before);
