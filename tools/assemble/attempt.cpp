@@ -219,7 +219,7 @@ void Builder::improve(Attempt& attempt, int rounds) const {
   MixedMesh& mesh = attempt.extracted.mesh;
   const shape::SlidingSurface surface = sliding(attempt.extracted);
   const Step step("smoothing", 0.4, 1);
-  const shape::SmoothCounts counts = shape::smooth(mesh, rounds, &surface);
+  const shape::SmoothCounts counts = shape::smooth(mesh, rounds, &surface, &attempt.settled);
   attempt.improvement.rounds += counts.rounds;
   attempt.improvement.moves += counts.moves;
   shape::untangle(mesh, untangling_rounds, &surface);

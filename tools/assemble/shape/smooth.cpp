@@ -9,6 +9,7 @@
 #include "tools/assemble/shape/smooth.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -123,7 +124,26 @@ class Smoother {
     return moves;
   }
 
+  // Leaves out the vertices around which all is as it was when they settled.
+  void skip(const Settled& settled) {
+    const auto states = states_of_vertices();
+    for (std::size_t v = 0; v < states.size(); ++v)
+      if (const auto from = static_cast<std::size_t>(sliding_->origin[v]); from < settled.size())
+        due_[v] = settled[from] != states[v];
+  }
+  void remember(Settled& settled) const {
+    const auto states = states_of_vertices();
+    settled.clear();
+    for (std::size_t v = 0; v < states.size(); ++v) {
+      const auto from = static_cast<std::size_t>(sliding_->origin[v]);
+      if (from >= settled.size()) settled.resize(from + 1);
+      if (due_[v] == 0) settled[from] = states[v];
+    }
+  }
+
  private:
+  std::vector<std::uint64_t> states_of_vertices() const;
+
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
   double quality_of(std::int32_t c);
@@ -251,6 +271,21 @@ bool Smoother::keeps_edges_long(Vertex v, const Vec3& at) const {
   return shortest >= std::min(now, shortest_edge * shortest_edge * longest);
 }
 
+// By vertex: a number that its cells have, and the places of their corners.
+std::vector<std::uint64_t> Smoother::states_of_vertices() const {
+  std::vector<std::uint64_t> states(points_.size());
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(cells_.size()); ++c) {
+    auto state = static_cast<std::uint64_t>(cells_.kind(c));
+    for (const Vertex v : cells_.corners_of(c))
+      for (const double x : {points_[v].x, points_[v].y, points_[v].z}) {
+        state = (state ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15u;
+        state ^= state >> 32;
+      }
+    for (const Vertex v : cells_.corners_of(c)) states[v] += state;
+  }
+  return states;
+}
+
 // The least scaled Jacobian over the corners, for a tet times the square root of 2.
 double Smoother::quality_of(std::int32_t c) {
   if (std::isnan(quality_[c])) {
@@ -319,13 +354,15 @@ void untangle(MixedMesh& mesh, int rounds, const SlidingSurface* sliding) {
   for (int round = 0; round < rounds && smoother.round(enough, true) > 0; ++round) continue;
 }
 
-SmoothCounts smooth(MixedMesh& mesh, int rounds, const SlidingSurface* sliding) {
+SmoothCounts smooth(MixedMesh& mesh, int rounds, const SlidingSurface* sliding, Settled* settled) {
   Smoother smoother(mesh, sliding, hex_weight);
+  if (settled != nullptr) smoother.skip(*settled);
   SmoothCounts counts;
   for (std::int64_t moves = 1; moves > 0 && counts.rounds < rounds; ++counts.rounds) {
     moves = smoother.round(excellent, false);
     counts.moves += moves;
   }
+  if (settled != nullptr) smoother.remember(*settled);
   return counts;
 }
 
