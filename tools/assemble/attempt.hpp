@@ -16,8 +16,8 @@
 #include "tools/assemble/hybrid/extract.hpp"
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
 #include "tools/assemble/hybrid/surface_tags.hpp"
-#include "tools/assemble/shape/smooth.hpp"
 #include "tools/assemble/shape/input_surface.hpp"
+#include "tools/assemble/shape/smooth.hpp"
 #include "tools/assemble/statistics.hpp"
 
 namespace hexpipe::assemble {

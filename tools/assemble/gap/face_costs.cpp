@@ -171,8 +171,20 @@ double cost_of_faces(const GapMesh& gap, std::span<const GapCell> cells, std::sp
   return cost_of_faces(gap, faces, instead_of);
 }
 
+double cost_of_faces(const GapMesh& gap, GapIndex c) {
+  FaceCost& known = gap.face_cost_of(c);
+  if (const std::uint64_t age = gap.age_of_cell(c); known.age != age) {
+    FacesOf faces = faces_of(gap, gap.cell(c).kind, gap.cell(c).vertices());
+    faces.centre = gap.centre_of(c);
+    known = {age, cost_of_faces(gap, std::span(&faces, 1), std::span(&c, 1))};
+  }
+  return known.cost;
+}
+
 double cost_of_faces(const GapMesh& gap, std::span<const GapIndex> cells) {
   if (!gap.counts_faces()) return 0;
+  // Most faces cost nothing.
+  if (std::ranges::all_of(cells, [&](GapIndex c) { return cost_of_faces(gap, c) == 0; })) return 0;
   std::vector<FacesOf> faces;
   faces.reserve(cells.size());
   for (const GapIndex c : cells) {

@@ -26,7 +26,8 @@ struct FacesOf {
 // place of the gap's cells `instead_of`; on their other sides are the present cells of the mesh.
 double cost_of_faces(const GapMesh& gap, std::span<const FacesOf> cells, std::span<const GapIndex> instead_of);
 double cost_of_faces(const GapMesh& gap, std::span<const GapCell> cells, std::span<const GapIndex> instead_of);
-// The cost of the faces of cells that are there.
+// The cost of the faces of cells that are there, of one or more.
+double cost_of_faces(const GapMesh& gap, GapIndex c);
 double cost_of_faces(const GapMesh& gap, std::span<const GapIndex> cells);
 
 }  // namespace hexpipe::assemble::gap

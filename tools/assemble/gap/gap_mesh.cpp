@@ -125,6 +125,7 @@ void GapMesh::undo_replace(std::span<const GapIndex> out, GapIndex first_new) {
   const auto left = static_cast<std::size_t>(first_new);
   cells_.resize(left), alive_.resize(left), source_.resize(left);
   if (centres_.size() > left) centres_.resize(left);
+  if (face_costs_.size() > left) face_costs_.resize(left);
   for (const GapIndex c : out) link(c);
 }
 
@@ -162,8 +163,10 @@ Vertex GapMesh::add_vertex(const Vec3& at) {
 void GapMesh::relocate(Vertex v, const Vec3& to) {
   if (mesh_.points[v] == to) return;
   mesh_.points[v] = to;
-  if (!kept_centres_.empty())
-    for (const KeptIndex c : kept_at_of(v)) kept_centres_[c].reset();
+  for (const KeptIndex c : kept_at_of(v)) {
+    if (!kept_centres_.empty()) kept_centres_[c].reset();
+    for (const Vertex w : kept_[c].vertices()) ++age_[w];
+  }
   for (const GapIndex c : at_[v]) {
     if (static_cast<std::size_t>(c) < centres_.size()) centres_[c].reset();
     cells_[c].quality = quality_of(cells_[c].kind, mesh_.points, cells_[c].vertices());

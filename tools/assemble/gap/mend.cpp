@@ -36,11 +36,11 @@ class Mender {
       const auto count = static_cast<GapIndex>(gap_.cell_count());
       seen_.resize(gap_.cell_count(), never);
       for (GapIndex c = 0; c < count; ++c) {
-        if (!gap_.is_alive(c) || seen_[c] == age_of(c)) continue;
+        if (!gap_.is_alive(c) || seen_[c] == gap_.age_of_cell(c)) continue;
         if (mend(c))
           ++changes;
         else
-          seen_[c] = age_of(c);
+          seen_[c] = gap_.age_of_cell(c);
       }
       if (changes == before) break;
     }
@@ -49,13 +49,6 @@ class Mender {
 
  private:
   static constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
-
-  // Rises whenever something around the cell changes.
-  std::uint64_t age_of(GapIndex c) const {
-    std::uint64_t age = 0;
-    for (const Vertex v : gap_.cell(c).vertices()) age += gap_.age_of(v);
-    return age;
-  }
   bool mend(GapIndex c);
   bool raise_around(GapIndex c);
   bool raise(const std::vector<Vertex>& vertices);
@@ -132,7 +125,7 @@ bool Mender::step(Vertex v) {
 
 bool Mender::mend(GapIndex c) {
   const bool is_poor = gap_.cell(c).quality < least_quality;
-  const bool has_poor_face = cost_of_faces(gap_, std::span(&c, 1)) > 0;
+  const bool has_poor_face = cost_of_faces(gap_, c) > 0;
   if (!is_poor && !has_poor_face) return false;
   if (refill_around(gap_, refill_, c)) return true;
   if (is_poor && raise_around(c)) return true;

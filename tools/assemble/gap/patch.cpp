@@ -117,10 +117,13 @@ bool Patch::improve(std::size_t i, double goal) {
 }
 
 void Patch::raise(double goal, int rounds) {
+  double before = -1;
   for (int round = 0; round < rounds; ++round) {
     bool any = false;
     for (std::size_t i = 0; i < moving_.size(); ++i) any = improve(i, goal) || any;
-    if (!any || least() >= goal) return;
+    const double now = least();
+    if (!any || now >= goal || (round > 0 && now < before + least_rise)) return;
+    before = now;
   }
 }
 
