@@ -613,7 +613,7 @@ TEST(FewerCells, AHexGivesWayWhereACellBesideItStaysPoor) {
     conform::make_conforming(hybrid, tags, lattice.cubes, 1e-4);
     GapMesh gap(hybrid, tags, {});
     ASSERT_TRUE(gap.is_valid());
-    mend(gap);
+    mend(gap, false);
     const auto poor = poor_cells(gap);
     ASSERT_GT(poor, 0);
     const std::vector<CellIndex> opened = open_hexes(gap).chosen;

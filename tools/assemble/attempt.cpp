@@ -35,8 +35,6 @@ constexpr int most_merging_rounds = 3;
 constexpr int rounds_between_merges = 2;
 // Rounds of flips, new vertices and peeling.
 constexpr int most_mending_rounds = 4;
-// Of the last pass. Few cells are poor; the third round mended 5 and the fourth none on most models.
-constexpr int most_rounds_of_poor = 3;
 // Shares of the time that an attempt takes, for the line of progress.
 constexpr double conforming_ends = 0.33, merging_ends = 0.88, mending_ends = 0.97;
 // Tets that smoothing leaves below the first are flipped. Those that are then below the second get a vertex beside
@@ -212,10 +210,8 @@ void Builder::smooth_and_mend(Attempt& attempt) const {
   }
   step.reset();
   step.emplace("mending poor cells", mending_ends, 1);
-  for (int round = 0; rules_.merges && round < most_rounds_of_poor; ++round) {
-    if (!make_fewer_cells(attempt, gap::Passes::mend).any()) break;
+  if (rules_.merges && make_fewer_cells(attempt, gap::Passes::mend).any())
     extracted = hybrid::extract(attempt.mesh, attempt.tags);
-  }
 }
 
 // Moves vertices; the mesh has their new places.
@@ -223,7 +219,7 @@ void Builder::improve(Attempt& attempt, int rounds) const {
   MixedMesh& mesh = attempt.extracted.mesh;
   const shape::SlidingSurface surface = sliding(attempt.extracted);
   const Step step("smoothing", 0.4, 1);
-  const shape::SmoothCounts counts = shape::smooth(mesh, rounds, &surface);
+  const shape::SmoothCounts counts = shape::smooth(mesh, rounds, &surface, &attempt.settled);
   attempt.improvement.rounds += counts.rounds;
   attempt.improvement.moves += counts.moves;
   shape::untangle(mesh, untangling_rounds, &surface);

@@ -17,6 +17,7 @@
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
 #include "tools/assemble/hybrid/surface_tags.hpp"
 #include "tools/assemble/shape/input_surface.hpp"
+#include "tools/assemble/shape/smooth.hpp"
 #include "tools/assemble/statistics.hpp"
 
 namespace hexpipe::assemble {
@@ -59,6 +60,7 @@ struct Attempt {
   ImprovementCounts improvement{};
   KindTable before_smoothing{};
   hybrid::Extract extracted{};  // of the mesh
+  shape::Settled settled{};
 };
 
 // The last attempt, without the mesh under assembly: that takes much memory.

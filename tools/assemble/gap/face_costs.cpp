@@ -10,25 +10,69 @@
 namespace hexpipe::assemble::gap {
 namespace {
 
+// A face of one of the cells that are judged. Its vertices, ascending, are its key.
 struct Side {
-  VertexKey<4> key;
-  Facet facet;
-  FaceShape shape;
-  Vec3 centre;  // of the cell behind it
-  bool is_kept;
-  std::size_t cell;   // among those that are judged
-  std::uint8_t face;  // of the cell, triangles before quads
+  std::uint64_t high, low;
+  std::uint32_t cell;  // among those that are judged
+  std::uint8_t face;   // of the cell, triangles before quads
+
+  bool has_key_of(const Side& other) const { return high == other.high && low == other.low; }
+  bool operator<(const Side& other) const {
+    if (high != other.high) return high < other.high;
+    if (low != other.low) return low < other.low;
+    return cell < other.cell;
+  }
 };
 
-FacesOf faces_of(const GapMesh& gap, CellKind kind, std::span<const Vertex> corners, bool is_kept) {
-  FacesOf faces{kind, {}, corner_points(gap.points(), corners), is_kept};
+FacesOf faces_of(const GapMesh& gap, CellKind kind, std::span<const Vertex> corners) {
+  FacesOf faces{kind, {}, corner_points(gap.points(), corners)};
   std::ranges::copy(corners, faces.corners.begin());
   return faces;
 }
 
-Vec3 centre_of(const GapMesh& gap, CellKind kind, std::span<const Vertex> corners) {
-  const auto at = corner_points(gap.points(), corners);
-  return cell_centre(kind, std::span<const Vec3>(at).first(corners.size()));
+// The corners of a face in their order around it, as corners of the cell.
+std::span<const std::uint8_t> corners_of_face(CellKind kind, std::size_t face) {
+  return with_topology(kind, [&](auto topology) -> std::span<const std::uint8_t> {
+    using Topology = decltype(topology);
+    constexpr std::size_t triangles = Topology::triangles.size();
+    if constexpr (triangles > 0)
+      if (face < triangles) return Topology::triangles[face];
+    if constexpr (Topology::quads.size() > 0) return Topology::quads[face - triangles];
+    return {};
+  });
+}
+
+FaceShape shape_of(const FacesOf& cell, std::size_t face) {
+  std::array<Vec3, 4> at;
+  std::size_t count = 0;
+  for (const std::uint8_t i : corners_of_face(cell.kind, face)) at[count++] = cell.points[i];
+  return face_shape(std::span<const Vec3>(at).first(count));
+}
+
+Facet facet_of(const FacesOf& cell, std::size_t face) {
+  std::array<Vertex, 4> own{};
+  std::size_t count = 0;
+  for (const std::uint8_t i : corners_of_face(cell.kind, face)) own[count++] = cell.corners[i];
+  return Facet::of(std::span<const Vertex>(own).first(count));
+}
+
+void append_sides(const FacesOf& cell, std::size_t number, std::vector<Side>& sides) {
+  std::uint8_t face = 0;
+  auto each = [&](const auto& facets) {
+    for (const auto& facet : facets) {
+      std::array<Vertex, 4> own{-1, -1, -1, -1};
+      for (std::size_t i = 0; i < facet.size(); ++i) own[i] = cell.corners[facet[i]];
+      const VertexKey<4> key = key_of(own);
+      const auto pair = [&](std::size_t i) {
+        return std::uint64_t{static_cast<std::uint32_t>(key[i])} << 32 | static_cast<std::uint32_t>(key[i + 1]);
+      };
+      sides.push_back({pair(0), pair(2), static_cast<std::uint32_t>(number), face++});
+    }
+  };
+  with_topology(cell.kind, [&](auto topology) {
+    each(decltype(topology)::triangles);
+    each(decltype(topology)::quads);
+  });
 }
 
 bool has_facet(CellKind kind, std::span<const Vertex> corners, const Facet& facet) {
@@ -42,36 +86,18 @@ bool has_facet(CellKind kind, std::span<const Vertex> corners, const Facet& face
 // The centre of the cell of the mesh that has the facet as it goes around it, unless it is one of `without`; nothing on
 // the boundary.
 std::optional<Vec3> centre_behind(const GapMesh& gap, const Facet& facet, std::span<const GapIndex> without) {
-  for (const GapIndex c : gap.cells_at(facet.corners[0])) {
+  const auto corners = facet.vertices();
+  const Vertex at = *std::ranges::min_element(corners, {}, [&](Vertex v) { return gap.cells_at(v).size(); });
+  for (const GapIndex c : gap.cells_at(at)) {
     const GapCell& cell = gap.cell(c);
     if (has_facet(cell.kind, cell.vertices(), facet) && std::ranges::find(without, c) == without.end())
-      return centre_of(gap, cell.kind, cell.vertices());
+      return gap.centre_of(c);
   }
-  for (const KeptIndex c : gap.kept_at(facet.corners[0])) {
+  for (const KeptIndex c : gap.kept_at(at)) {
     const KeptCell& cell = gap.kept_cell(c);
-    if (has_facet(cell.kind, cell.vertices(), facet)) return centre_of(gap, cell.kind, cell.vertices());
+    if (has_facet(cell.kind, cell.vertices(), facet)) return gap.centre_of_kept(c);
   }
   return std::nullopt;
-}
-
-void append_sides(const FacesOf& cell, std::size_t number, std::vector<Side>& sides) {
-  const auto count = static_cast<std::size_t>(corner_count(cell.kind));
-  const Vec3 centre = cell_centre(cell.kind, std::span<const Vec3>(cell.points).first(count));
-  std::uint8_t face = 0;
-  auto each = [&](const auto& facets) {
-    for (const auto& facet : facets) {
-      std::array<Vertex, 4> own{-1, -1, -1, -1};
-      std::array<Vec3, 4> at{};
-      for (std::size_t i = 0; i < facet.size(); ++i) own[i] = cell.corners[facet[i]], at[i] = cell.points[facet[i]];
-      sides.push_back({key_of(own), Facet::of(std::span<const Vertex>(own).first(facet.size())),
-                       face_shape(std::span<const Vec3>(at).first(facet.size())), centre, cell.is_kept, number,
-                       face++});
-    }
-  };
-  with_topology(cell.kind, [&](auto topology) {
-    each(decltype(topology)::triangles);
-    each(decltype(topology)::quads);
-  });
 }
 
 // For each face whether there is a cell beyond it.
@@ -86,26 +112,49 @@ double cost_between(const FaceShape& shape, const Vec3& behind, const Vec3& befo
   return cost_of_face(orthogonality(shape, behind, before), face_weight(shape, behind, before));
 }
 
+// The centres of the cells that are judged. Those of chosen cells are computed only where one of their faces counts.
+class Centres {
+ public:
+  explicit Centres(std::span<const FacesOf> cells) : cells_(cells), centres_(cells.size()) {}
+
+  const Vec3& of(std::size_t c) {
+    const FacesOf& cell = cells_[c];
+    if (!centres_[c]) {
+      const auto count = static_cast<std::size_t>(corner_count(cell.kind));
+      centres_[c] = cell.centre ? *cell.centre : cell_centre(cell.kind, std::span(cell.points).first(count));
+    }
+    return *centres_[c];
+  }
+
+ private:
+  std::span<const FacesOf> cells_;
+  std::vector<std::optional<Vec3>> centres_;
+};
+
 }  // namespace
 
 double cost_of_faces(const GapMesh& gap, std::span<const FacesOf> cells, std::span<const GapIndex> instead_of) {
   if (!gap.counts_faces()) return 0;
   std::vector<Side> sides;
+  sides.reserve(6 * cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c) append_sides(cells[c], c, sides);
-  std::ranges::stable_sort(sides, {}, &Side::key);
+  std::sort(sides.begin(), sides.end());
   double cost = 0;
+  Centres centres(cells);
   std::vector<InnerFaces> inner(cells.size());
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Side& side = sides[i];
-    if (i + 1 < sides.size() && sides[i + 1].key == side.key) {
-      ++i;
-      inner[side.cell][side.face] = inner[sides[i].cell][sides[i].face] = 1;
-      if (!side.is_kept || !sides[i].is_kept) cost += cost_between(side.shape, side.centre, sides[i].centre);
+    const FacesOf& cell = cells[side.cell];
+    if (i + 1 < sides.size() && sides[i + 1].has_key_of(side)) {
+      const Side& other = sides[++i];
+      inner[side.cell][side.face] = inner[other.cell][other.face] = 1;
+      if (!cell.is_kept || !cells[other.cell].is_kept)
+        cost += cost_between(shape_of(cell, side.face), centres.of(side.cell), centres.of(other.cell));
       continue;
     }
-    if (side.is_kept) continue;
-    if (const auto beyond = centre_behind(gap, side.facet.reversed(), instead_of)) {
-      cost += cost_between(side.shape, side.centre, *beyond);
+    if (cell.is_kept) continue;
+    if (const auto beyond = centre_behind(gap, facet_of(cell, side.face).reversed(), instead_of)) {
+      cost += cost_between(shape_of(cell, side.face), centres.of(side.cell), *beyond);
       inner[side.cell][side.face] = 1;
     }
   }
@@ -117,14 +166,31 @@ double cost_of_faces(const GapMesh& gap, std::span<const FacesOf> cells, std::sp
 double cost_of_faces(const GapMesh& gap, std::span<const GapCell> cells, std::span<const GapIndex> instead_of) {
   if (!gap.counts_faces()) return 0;
   std::vector<FacesOf> faces;
-  for (const GapCell& cell : cells) faces.push_back(faces_of(gap, cell.kind, cell.vertices(), false));
+  faces.reserve(cells.size());
+  for (const GapCell& cell : cells) faces.push_back(faces_of(gap, cell.kind, cell.vertices()));
   return cost_of_faces(gap, faces, instead_of);
+}
+
+double cost_of_faces(const GapMesh& gap, GapIndex c) {
+  FaceCost& known = gap.face_cost_of(c);
+  if (const std::uint64_t age = gap.age_of_cell(c); known.age != age) {
+    FacesOf faces = faces_of(gap, gap.cell(c).kind, gap.cell(c).vertices());
+    faces.centre = gap.centre_of(c);
+    known = {age, cost_of_faces(gap, std::span(&faces, 1), std::span(&c, 1))};
+  }
+  return known.cost;
 }
 
 double cost_of_faces(const GapMesh& gap, std::span<const GapIndex> cells) {
   if (!gap.counts_faces()) return 0;
+  // Most faces cost nothing.
+  if (std::ranges::all_of(cells, [&](GapIndex c) { return cost_of_faces(gap, c) == 0; })) return 0;
   std::vector<FacesOf> faces;
-  for (const GapIndex c : cells) faces.push_back(faces_of(gap, gap.cell(c).kind, gap.cell(c).vertices(), false));
+  faces.reserve(cells.size());
+  for (const GapIndex c : cells) {
+    faces.push_back(faces_of(gap, gap.cell(c).kind, gap.cell(c).vertices()));
+    faces.back().centre = gap.centre_of(c);
+  }
   return cost_of_faces(gap, faces, cells);
 }
 

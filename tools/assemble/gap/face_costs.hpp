@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,13 +19,15 @@ struct FacesOf {
   std::array<Vertex, 8> corners{};
   std::array<Vec3, 8> points{};
   bool is_kept = false;
+  std::optional<Vec3> centre{};  // where it is known
 };
 
 // The cost of all faces of these cells, each face once; faces between two kept cells cost nothing. The cells stand in
 // place of the gap's cells `instead_of`; on their other sides are the present cells of the mesh.
 double cost_of_faces(const GapMesh& gap, std::span<const FacesOf> cells, std::span<const GapIndex> instead_of);
 double cost_of_faces(const GapMesh& gap, std::span<const GapCell> cells, std::span<const GapIndex> instead_of);
-// The cost of the faces of cells that are there.
+// The cost of the faces of cells that are there, of one or more.
+double cost_of_faces(const GapMesh& gap, GapIndex c);
 double cost_of_faces(const GapMesh& gap, std::span<const GapIndex> cells);
 
 }  // namespace hexpipe::assemble::gap

@@ -41,15 +41,13 @@ FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, st
     case Passes::merge_and_refill:
       counts = merge_and_refill(gap, surface);
       break;
-    case Passes::mend:
-      counts.mended = mend(gap);
-      // The pieces of a mesh would have to agree on it.
-      if (is_shared.empty()) {
-        Opened opened = open_hexes(gap);
-        counts.mended += opened.inserted;
-        counts.opened = std::move(opened.chosen);
-      }
+    case Passes::mend: {
+      // The pieces of a mesh would have to agree on chosen cells that go.
+      MendCounts mended = mend(gap, is_shared.empty());
+      counts.mended = mended.mended;
+      counts.opened = std::move(mended.opened);
       break;
+    }
   }
   if (counts.any()) gap.write_back();
   return counts;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/mesh/face_measures.hpp"
 #include "common/mesh/face_view.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
@@ -15,6 +16,11 @@ GapCell cell_of(CellKind kind, const std::array<Vertex, 6>& corners, std::int32_
   GapCell cell{kind, corners, region};
   cell.quality = quality_of(kind, points, cell.vertices());
   return cell;
+}
+
+Vec3 centre_at(std::span<const Vec3> points, CellKind kind, std::span<const Vertex> corners) {
+  const auto at = corner_points(points, corners);
+  return cell_centre(kind, std::span<const Vec3>(at).first(corners.size()));
 }
 
 }  // namespace
@@ -97,6 +103,18 @@ void GapMesh::unlink(GapIndex c) {
   }
 }
 
+const Vec3& GapMesh::centre_of(GapIndex c) const {
+  centres_.resize(cells_.size());
+  if (!centres_[c]) centres_[c] = centre_at(points(), cells_[c].kind, cells_[c].vertices());
+  return *centres_[c];
+}
+
+const Vec3& GapMesh::centre_of_kept(KeptIndex c) const {
+  kept_centres_.resize(kept_.size());
+  if (!kept_centres_[c]) kept_centres_[c] = centre_at(points(), kept_[c].kind, kept_[c].vertices());
+  return *kept_centres_[c];
+}
+
 void GapMesh::replace(std::span<const GapIndex> out, std::span<const GapCell> in) {
   for (const GapIndex c : out) unlink(c);
   for (const GapCell& cell : in) add(cell, no_index);
@@ -106,6 +124,8 @@ void GapMesh::undo_replace(std::span<const GapIndex> out, GapIndex first_new) {
   for (auto c = first_new; c < static_cast<GapIndex>(cells_.size()); ++c) unlink(c);
   const auto left = static_cast<std::size_t>(first_new);
   cells_.resize(left), alive_.resize(left), source_.resize(left);
+  if (centres_.size() > left) centres_.resize(left);
+  if (face_costs_.size() > left) face_costs_.resize(left);
   for (const GapIndex c : out) link(c);
 }
 
@@ -143,7 +163,12 @@ Vertex GapMesh::add_vertex(const Vec3& at) {
 void GapMesh::relocate(Vertex v, const Vec3& to) {
   if (mesh_.points[v] == to) return;
   mesh_.points[v] = to;
+  for (const KeptIndex c : kept_at_of(v)) {
+    if (!kept_centres_.empty()) kept_centres_[c].reset();
+    for (const Vertex w : kept_[c].vertices()) ++age_[w];
+  }
   for (const GapIndex c : at_[v]) {
+    if (static_cast<std::size_t>(c) < centres_.size()) centres_[c].reset();
     cells_[c].quality = quality_of(cells_[c].kind, mesh_.points, cells_[c].vertices());
     for (const Vertex w : cells_[c].vertices()) ++age_[w];
   }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <ranges>
 #include <span>
@@ -44,6 +45,12 @@ struct KeptCell {
   }
 };
 
+// What the faces of a cell cost (face_costs.hpp), and the age of the cell when that was found.
+struct FaceCost {
+  std::uint64_t age = std::numeric_limits<std::uint64_t>::max();
+  double cost = 0;
+};
+
 class GapMesh {
  public:
   // Both have to outlive this; points move in `mesh` at once, cells change there by write_back().
@@ -62,6 +69,15 @@ class GapMesh {
   auto kept_at(Vertex v) const {
     return std::views::filter(kept_at_of(v), [this](KeptIndex c) { return kept_[c].is_alive; });
   }
+  // The centres by which faces are judged (common/mesh/face_measures.hpp), each computed once while its cell stays as
+  // it is. Between move() and replace() only those of cells that do not have the vertex.
+  const Vec3& centre_of(GapIndex c) const;
+  const Vec3& centre_of_kept(KeptIndex c) const;
+  // Kept for cost_of_faces().
+  FaceCost& face_cost_of(GapIndex c) const {
+    if (face_costs_.size() < cells_.size()) face_costs_.resize(cells_.size());
+    return face_costs_[c];
+  }
   // If quad `i` of a chosen cell lies on the boundary: the tagged triangles that it consists of, in the cell's
   // orientation. Nothing if another cell has the quad, too.
   std::optional<std::array<Triangle, 2>> boundary_triangles(KeptIndex kept, int i) const;
@@ -76,8 +92,14 @@ class GapMesh {
   void ignore_faces() { counts_faces_ = false; }
   bool counts_faces() const { return counts_faces_; }
   bool is_tagged(const Triangle& triangle) const { return tags_.contains(triangle); }
-  // Rises whenever a cell at v changes.
+  // Rises whenever a cell at v changes, or a vertex of one moves.
   std::uint32_t age_of(Vertex v) const { return age_[v]; }
+  // Rises whenever something at the cell changes.
+  std::uint64_t age_of_cell(GapIndex c) const {
+    std::uint64_t age = 0;
+    for (const Vertex v : cells_[c].vertices()) age += age_[v];
+    return age;
+  }
   // True when the Jacobian of each cell is positive everywhere, without any doubt.
   bool is_valid() const;
 
@@ -123,6 +145,8 @@ class GapMesh {
   std::vector<KeptCell> kept_;
   std::size_t first_new_ = 0;  // vertices from here on were added: no chosen cell has them
   VertexItems kept_at_;
+  mutable std::vector<std::optional<Vec3>> centres_, kept_centres_;
+  mutable std::vector<FaceCost> face_costs_;
 };
 
 // Whether the Jacobian of a cell is positive everywhere.

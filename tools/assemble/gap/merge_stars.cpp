@@ -4,8 +4,11 @@
 
 #include "tools/assemble/gap/passes.hpp"
 
+#include <tsl/robin_set.h>
+
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <queue>
 #include <vector>
 
@@ -41,6 +44,13 @@ struct StarMerge {
   }
 };
 
+struct PairHash {
+  std::size_t operator()(const std::array<std::uint64_t, 2>& pair) const {
+    std::uint64_t h = (pair[0] ^ pair[1] * 0xbf58476d1ce4e5b9u) * 0x9e3779b97f4a7c15u;
+    return static_cast<std::size_t>(h ^ h >> 32);
+  }
+};
+
 class StarMerger {
  public:
   StarMerger(GapMesh& gap, bool neighbours_yield) : gap_(gap), neighbours_yield_(neighbours_yield), patch_(gap) {}
@@ -62,6 +72,7 @@ class StarMerger {
   std::vector<Vertex> partners_of(Vertex v) const;
   template <class Wanted>
   void offer(Vertex v, Wanted&& is_wanted);
+  bool is_new(Vertex from, Vertex into);
   void offer_pair(Vertex from, Vertex into);
   void offer_around(Vertex into, const Room& room);
   bool carry_out(const StarMerge& merge);
@@ -72,6 +83,7 @@ class StarMerger {
   Patch patch_;
   std::priority_queue<StarMerge> offers_;
   std::vector<GapIndex> cells_;
+  tsl::robin_set<std::array<std::uint64_t, 2>, PairHash> seen_;  // pairs that were offered, with their ages
 };
 
 // Those at a or b.
@@ -112,7 +124,15 @@ void StarMerger::offer(Vertex v, Wanted&& is_wanted) {
     if (is_wanted(other)) offer_pair(v, other);
 }
 
+// Both vertices of a pair offer it, and so do those around a merge; what comes of it is the same.
+bool StarMerger::is_new(Vertex from, Vertex into) {
+  const auto [a, b] = std::minmax(from, into);
+  const auto with_age = [&](Vertex v) { return std::uint64_t{gap_.age_of(v)} << 32 | static_cast<std::uint32_t>(v); };
+  return seen_.insert({with_age(a), with_age(b)}).second;
+}
+
 void StarMerger::offer_pair(Vertex from, Vertex into) {
+  if (!is_new(from, into)) return;
   collect_cells(from, into);
   const auto room = room_of(gap_, cells_, most_facets_of_two);
   if (!room) return;

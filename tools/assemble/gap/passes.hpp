@@ -37,19 +37,25 @@ struct RefillCounts {
 // cell.
 RefillCounts refill_rooms(GapMesh& gap);
 
-// The last pass, when vertices have found their places. It looks at cells below least_quality, and at cells with a face
-// that costs something. It fills the room around them anew, moves their inner vertices, or, for a cell below
-// least_quality, raises the worst cells at its vertices together. Returns the number of changes.
-std::int64_t mend(GapMesh& gap);
-
 struct Opened {
   std::int64_t inserted = 0;      // rooms of gap cells that were filled anew
   std::vector<CellIndex> chosen;  // cells that are gone
 };
 
-// Puts new vertices into the rooms around cells of the gap that are worse than least_wanted. Where that does not help, a
-// chosen cell beside the poor one goes: better pyramids and tets take its room, and the poor cell improves. No other cell
-// falls below least_wanted that was not below before. At most four chosen cells and one more in each thousand go.
+// Puts new vertices into the rooms around cells of the gap that are worse than least_wanted. Where that does not help,
+// a chosen cell beside the poor one goes: better pyramids and tets take its room, and the poor cell improves. No other
+// cell falls below least_wanted that was not below before. At most four chosen cells and one more in each thousand go.
 Opened open_hexes(GapMesh& gap);
+
+struct MendCounts {
+  std::int64_t mended = 0;        // changes
+  std::vector<CellIndex> opened;  // chosen cells that are gone
+};
+
+// The last pass, when vertices have found their places. It looks at cells below least_quality, and at cells with a face
+// that costs something. It fills the room around them anew, moves their inner vertices, or, for a cell below
+// least_quality, raises the worst cells at its vertices together; then open_hexes() if `may_open`, and all of that
+// again while it changes something.
+MendCounts mend(GapMesh& gap, bool may_open);
 
 }  // namespace hexpipe::assemble::gap

@@ -117,10 +117,13 @@ bool Patch::improve(std::size_t i, double goal) {
 }
 
 void Patch::raise(double goal, int rounds) {
+  double before = -1;
   for (int round = 0; round < rounds; ++round) {
     bool any = false;
     for (std::size_t i = 0; i < moving_.size(); ++i) any = improve(i, goal) || any;
-    if (!any || least() >= goal) return;
+    const double now = least();
+    if (!any || now >= goal || (round > 0 && now < before + least_rise)) return;
+    before = now;
   }
 }
 
@@ -144,9 +147,10 @@ double Patch::cost_before() const {
 double Patch::cost() const {
   double sum = 0;
   std::vector<FacesOf> cells;
+  cells.reserve(cells_.size());
   for (const Cell& cell : cells_) {
     if (!cell.is_kept) sum += cost_of(quality(cell));
-    FacesOf faces{cell.kind, {}, {}, cell.is_kept};
+    FacesOf faces{cell.kind, {}, {}, cell.is_kept, {}};
     for (std::size_t i = 0; i < cell.vertices().size(); ++i) {
       faces.corners[i] = vertices_[cell.corners[i]];
       faces.points[i] = points_[cell.corners[i]];

@@ -32,13 +32,15 @@ class Patch {
   void take(std::span<const Vertex> moving, const Replacement& replacement);
   void place(Vertex v, const Vec3& at) { points_[local_of(v)] = at; }
 
-  // Moves the vertices, one after the other, at most `rounds` times, where the worst cell around one is below `goal`
-  // and becomes better. Chosen cells stay valid and as good as they have to be (least_hex), or as they were.
+  // Moves the vertices, one after the other, at most `rounds` times and not after a round from the second on that
+  // did not raise the least quality, where the worst cell around one is below `goal` and becomes better. Chosen cells
+  // stay valid and as good as they have to be (least_hex), or as they were.
   void raise(double goal, int rounds);
 
   // The least quality among the cells that are not chosen.
   double least() const;
-  // False if a cell is not valid, or worse than its floor: that of the patch (a chosen hex: least_hex), or less if it was.
+  // False if a cell is not valid, or worse than its floor: that of the patch (a chosen hex: least_hex), or less if it
+  // was.
   bool keeps_floors() const;
   // The cost of the gap's cells and faces after the change.
   double cost() const;

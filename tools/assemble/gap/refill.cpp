@@ -17,9 +17,6 @@
 namespace hexpipe::assemble::gap {
 namespace {
 
-// Rooms with more corners or facets take long, and seldom have a filling without a vertex inside.
-constexpr std::size_t most_corners = 12;
-constexpr std::size_t most_facets = 20;
 // 400 leave as many cells, and take a third longer.
 constexpr int most_steps = 40;
 // Part of a room's volume.
@@ -30,69 +27,115 @@ double volume_of(const GapMesh& gap, const GapCell& cell) {
   return cell_volume(cell.kind, std::span<const Vec3>(at).first(cell.vertices().size()));
 }
 
+// The place of four ascending corners among all fours of twelve.
+constexpr std::size_t number_of(const std::array<Corner, 4>& c) {
+  const std::size_t a = c[0], b = c[1], d = c[2], e = c[3];
+  return a + b * (b - 1) / 2 + d * (d - 1) * (d - 2) / 6 + e * (e - 1) * (e - 2) * (e - 3) / 24;
+}
+static_assert(number_of({0, 1, 2, 3}) == 0 && number_of({8, 9, 10, 11}) == 494);
+
 }  // namespace
+
+void RoomCells::begin(const GapMesh& gap, std::span<const Vertex> vertices, std::int32_t region) {
+  gap_ = &gap, vertices_ = vertices, region_ = region;
+  ++room_;
+}
+
+GapCell RoomCells::made_of(const SmallCell& cell) const {
+  std::array<Vertex, 6> corners{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(corner_count(cell.kind)); ++i)
+    corners[i] = vertices_[cell.corners[i]];
+  return gap_->make(cell.kind, corners, region_);
+}
+
+RoomCells::Measures RoomCells::measured(const GapCell& cell) const {
+  return {cell.quality, volume_of(*gap_, cell), cost_of(cell.quality)};
+}
+
+// The four vertices are measured once, in ascending order: another order only turns signs round.
+RoomCells::Measures RoomCells::of_tet(const SmallCell& cell) {
+  std::array<Corner, 4> c{cell.corners[0], cell.corners[1], cell.corners[2], cell.corners[3]};
+  bool is_turned = false;
+  const auto order = [&](std::size_t i, std::size_t k) {
+    if (c[i] > c[k]) std::swap(c[i], c[k]), is_turned = !is_turned;
+  };
+  order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
+  Slot& slot = tets_[number_of(c)];
+  if (slot.room != room_) {
+    const GapCell made = made_of({CellKind::tet, {c[0], c[1], c[2], c[3]}});
+    slot.room = room_;
+    slot.measures = {made.quality, volume_of(*gap_, made), cost_of(std::abs(made.quality))};
+  }
+  Measures result = slot.measures;
+  if (is_turned) result.quality = -result.quality, result.volume = -result.volume;
+  return result;
+}
+
+RoomCells::Measures RoomCells::of(const SmallCell& cell) {
+  if (cell.kind == CellKind::tet) return of_tet(cell);
+  std::uint32_t key = cell.kind == CellKind::prism ? 1 : 0;
+  for (const Corner c : cell.corners) key = key << 4 | c;
+  Slot& slot = others_[(key * 0x9e3779b9u) >> 26];
+  if (slot.room != room_ || slot.key != key) slot = {room_, key, measured(made_of(cell))};
+  return slot.measures;
+}
 
 // Takes the cell into the list where it is good enough, not larger than what is left, and no facet of it is in the
 // front the wrong way round: there another cell is on that side.
-void Refill::offer(CellKind kind, const std::array<Vertex, 6>& corners, std::vector<Offer>& offers) const {
-  Offer made;
+void Refill::offer(const SmallCell& cell, std::vector<Offer>& offers) {
+  const RoomCells::Measures measures = cells_.of(cell);
+  if (measures.quality < floor_ || measures.volume > space_) return;
+  int closes = 0;
   bool fits = true;
-  for_facets(kind, corners, [&](const Facet& facet) {
-    const bool closes = std::ranges::find(front_, facet) != front_.end();
-    made.closes += closes ? 1 : -1;
-    fits = fits && (closes || std::ranges::find(front_, facet.reversed()) == front_.end());
+  for_facets(cell, [&](SmallFacet facet) {
+    const bool closes_it = front_.has(facet);
+    closes += closes_it ? 1 : -1;
+    fits = fits && (closes_it || !front_.has(facet.reversed()));
   });
-  if (!fits) return;
-  made.cell = gap_.make(kind, corners, room_.region);
-  if (made.cell.quality < floor_) return;
-  made.volume = volume_of(gap_, made.cell);
-  if (made.volume > space_) return;
-  made.cost = cost_of(made.cell.quality);
-  offers.push_back(made);
+  if (fits) offers.push_back({cell, measures.cost, measures.volume, closes});
 }
 
 // On two quads of the front that have an edge in common.
-void Refill::collect_prisms(const Facet& facet, std::vector<Offer>& offers) const {
-  for (const Facet& other : front_) {
+void Refill::collect_prisms(SmallFacet facet, std::vector<Offer>& offers) {
+  for (const SmallFacet other : front_.facets()) {
     if (!other.is_quad() || other == facet) continue;
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t k = 0; k < 4; ++k) {
-        auto one = [&](std::size_t n) { return facet.corners[(i + n) % 4]; };
-        auto two = [&](std::size_t n) { return other.corners[(k + n) % 4]; };
+        auto one = [&](std::size_t n) { return facet[(i + n) % 4]; };
+        auto two = [&](std::size_t n) { return other[(k + n) % 4]; };
         // Quads 0143 and 1254 of the prism.
         if (one(1) == two(0) && one(2) == two(3) && one(0) != two(1) && one(3) != two(2))
-          offer(CellKind::prism, {one(0), one(1), two(1), one(3), one(2), two(2)}, offers);
+          offer({CellKind::prism, {one(0), one(1), two(1), one(3), one(2), two(2)}}, offers);
       }
   }
 }
 
 // At most about `most` of them.
-void Refill::collect_offers(const Facet& facet, std::size_t most, std::vector<Offer>& offers) const {
+void Refill::collect_offers(SmallFacet f, std::size_t most, std::vector<Offer>& offers) {
   offers.clear();
-  const auto& f = facet.corners;
-  for (const Vertex apex : room_.vertices) {
+  for (Corner apex = 0; apex < room_.vertices.size(); ++apex) {
     if (offers.size() >= most) return;
-    if (std::ranges::find(f, apex) != f.end()) continue;
-    if (facet.is_quad())
-      offer(CellKind::pyramid, {f[0], f[3], f[2], f[1], apex}, offers);
+    if (f.has(apex)) continue;
+    if (f.is_quad())
+      offer({CellKind::pyramid, {f[0], f[3], f[2], f[1], apex}}, offers);
     else
-      offer(CellKind::tet, {f[0], f[2], f[1], apex}, offers);
+      offer({CellKind::tet, {f[0], f[2], f[1], apex}}, offers);
   }
-  if (facet.is_quad()) collect_prisms(facet, offers);
+  if (f.is_quad()) collect_prisms(f, offers);
 }
 
 // Those on the facet with the fewest choices, quads first, because what goes on them closes triangles, too; none where
 // a facet has no choice.
-std::vector<Refill::Offer> Refill::fewest_offers() const {
-  const bool has_quads = std::ranges::any_of(front_, &Facet::is_quad);
-  std::vector<Offer> fewest, offers;
+std::vector<Refill::Offer> Refill::fewest_offers() {
+  std::vector<Offer> fewest;
+  if (!front_.has_room()) return fewest;
   std::size_t least = std::numeric_limits<std::size_t>::max();
-  for (const Facet& facet : front_) {
-    if (facet.is_quad() != has_quads) continue;
-    collect_offers(facet, least, offers);
-    if (offers.size() >= least) continue;
-    least = offers.size();
-    fewest.swap(offers);
+  for (const SmallFacet facet : front_.facets()) {
+    if (facet.is_quad() != front_.has_quads()) continue;
+    collect_offers(facet, least, offers_);
+    if (offers_.size() >= least) continue;
+    least = offers_.size();
+    fewest.swap(offers_);
     if (least <= 1) break;
   }
   std::ranges::stable_sort(fewest, [](const Offer& a, const Offer& b) {
@@ -101,30 +144,22 @@ std::vector<Refill::Offer> Refill::fewest_offers() const {
   return fewest;
 }
 
-void Refill::place(const Offer& offer) {
-  placed_.push_back(offer.cell);
-  for_facets(offer.cell.kind, offer.cell.corners, [&](const Facet& facet) {
-    const auto found = std::ranges::find(front_, facet);
-    if (found != front_.end())
-      front_.erase(found);
-    else
-      front_.push_back(facet.reversed());
-  });
+// Keeps the cells that are placed if they are the best so far.
+void Refill::compare(double cost) {
+  std::vector<GapCell> made;
+  for (const SmallCell& cell : placed_) made.push_back(cells_.made_of(cell));
+  const double total = cost + cost_of_faces(gap_, made, out_);
+  if (total >= most_ || std::ranges::any_of(made, [&](const GapCell& cell) { return cell.quality < floor_; })) return;
+  most_ = total;
+  best_ = std::move(made);
 }
 
-void Refill::search(double cost) {
-  if (front_.empty()) {
-    const double total = cost + cost_of_faces(gap_, placed_, out_);
-    if (total < most_) most_ = total, best_ = placed_;
-    return;
-  }
-  const std::size_t most_closed = std::ranges::any_of(front_, &Facet::is_quad) ? 5 : 4;  // by one cell
-  const auto to_come = static_cast<double>((front_.size() + most_closed - 1) / most_closed);
-  if (steps_left_-- <= 0 || cost + to_come >= most_) return;
-  for (const Offer& offer : fewest_offers()) {
+void Refill::try_each(const std::vector<Offer>& offers, double cost) {
+  for (const Offer& offer : offers) {
     if (cost + offer.cost >= most_) continue;
-    const std::vector<Facet> front = front_;
-    place(offer);
+    const Front front = front_;
+    front_.put(offer.cell);
+    placed_.push_back(offer.cell);
     space_ -= offer.volume;
     search(cost + offer.cost);
     space_ += offer.volume;
@@ -133,22 +168,53 @@ void Refill::search(double cost) {
   }
 }
 
-std::optional<std::vector<GapCell>> Refill::find(std::span<const GapIndex> out) {
+void Refill::search(double cost) {
+  if (front_.empty()) return compare(cost);
+  if (cost + static_cast<double>(front_.least_cells()) >= most_ || steps_left_-- <= 0) return;
+  try_each(fewest_offers(), cost);
+}
+
+// False where the cells form no room, or a large one.
+bool Refill::begin(std::span<const GapIndex> out) {
   auto room = room_of(gap_, out, most_facets);
-  if (!room || room->vertices.size() > most_corners) return std::nullopt;
+  if (!room || room->vertices.size() > most_corners) return false;
   room_ = std::move(*room);
-  front_ = room_.skin;
-  const Worth now = worth_of(gap_, out);
   out_ = out;
-  floor_ = now.floor, most_ = now.cost + cost_of_faces(gap_, out) - least_gain, steps_left_ = most_steps;
+  cells_.begin(gap_, room_.vertices, room_.region);
+  front_ = {};
+  const auto place_of = [&](Vertex v) {
+    return static_cast<Corner>(std::ranges::lower_bound(room_.vertices, v) - room_.vertices.begin());
+  };
+  for (const Facet& facet : room_.skin) {
+    const auto& f = facet.corners;
+    front_.add(facet.is_quad() ? SmallFacet::of({place_of(f[0]), place_of(f[1]), place_of(f[2]), place_of(f[3])})
+                               : SmallFacet::of(place_of(f[0]), place_of(f[1]), place_of(f[2])));
+  }
   placed_.clear(), best_.clear();
+  steps_left_ = most_steps;
   space_ = 0;
   for (const GapIndex c : out) space_ += volume_of(gap_, gap_.cell(c));
   space_ *= 1 + rounding;
-  search(0);
-  if (best_.empty() || !std::ranges::all_of(best_, [&](const GapCell& cell) { return is_valid(gap_, cell); }))
-    return std::nullopt;
-  return best_;
+  return true;
+}
+
+std::optional<std::vector<GapCell>> Refill::find(std::span<const GapIndex> out) {
+  const std::uint64_t state = TriedRooms::state_of(gap_, out);
+  if (failed_.contains(state)) return std::nullopt;
+  if (begin(out)) {
+    const Worth now = worth_of(gap_, out);
+    floor_ = now.floor;
+    // In most rooms a facet has no choice at all: then nobody has to know what faces cost.
+    const std::vector<Offer> offers = fewest_offers();
+    if (!offers.empty()) {
+      most_ = now.cost + cost_of_faces(gap_, out) - least_gain;
+      if (static_cast<double>(front_.least_cells()) < most_) try_each(offers, 0);
+    }
+    if (!best_.empty() && std::ranges::all_of(best_, [&](const GapCell& cell) { return is_valid(gap_, cell); }))
+      return best_;
+  }
+  failed_.insert(state);
+  return std::nullopt;
 }
 
 namespace {

@@ -7,10 +7,42 @@
 #include <span>
 #include <vector>
 
+#include "tools/assemble/gap/front.hpp"
 #include "tools/assemble/gap/gap_mesh.hpp"
 #include "tools/assemble/gap/skin.hpp"
+#include "tools/assemble/gap/tried.hpp"
 
 namespace hexpipe::assemble::gap {
+
+// The measures of cells with corners of one room: each is computed once, however often the search meets it.
+class RoomCells {
+ public:
+  struct Measures {
+    double quality = 0, volume = 0, cost = 0;
+  };
+
+  // Forgets the last room. `vertices` has to stay.
+  void begin(const GapMesh& gap, std::span<const Vertex> vertices, std::int32_t region);
+  Measures of(const SmallCell& cell);
+  GapCell made_of(const SmallCell& cell) const;
+
+ private:
+  struct Slot {
+    std::uint32_t room = 0;  // what is left of another room is no measure of a cell of this one
+    std::uint32_t key = 0;
+    Measures measures;
+  };
+
+  Measures measured(const GapCell& cell) const;
+  Measures of_tet(const SmallCell& cell);
+
+  const GapMesh* gap_ = nullptr;
+  std::span<const Vertex> vertices_;
+  std::int32_t region_ = 0;
+  std::uint32_t room_ = 0;
+  std::array<Slot, 495> tets_;  // four of twelve corners
+  std::array<Slot, 64> others_;
+};
 
 class Refill {
  public:
@@ -18,28 +50,34 @@ class Refill {
 
   // Finds tets, pyramids and prisms that cost less than `out` and take its place: the cheapest that a search of bounded
   // length meets. Nothing if there are none, if the cells form no room (skin.hpp), or if the room is large. All cells
-  // of the gap have to be valid.
+  // of the gap have to be valid. A room for which there was nothing is not searched again while it is as it was.
   std::optional<std::vector<GapCell>> find(std::span<const GapIndex> out);
 
  private:
   struct Offer {
-    GapCell cell;
+    SmallCell cell;
     double cost = 0, volume = 0;
     int closes = 0;  // how many facets of the front it closes, less those that it adds
   };
 
-  void offer(CellKind kind, const std::array<Vertex, 6>& corners, std::vector<Offer>& offers) const;
-  void collect_offers(const Facet& facet, std::size_t most, std::vector<Offer>& offers) const;
-  void collect_prisms(const Facet& facet, std::vector<Offer>& offers) const;
-  std::vector<Offer> fewest_offers() const;
-  void place(const Offer& offer);
+  bool begin(std::span<const GapIndex> out);
+  void offer(const SmallCell& cell, std::vector<Offer>& offers);
+  void collect_offers(SmallFacet facet, std::size_t most, std::vector<Offer>& offers);
+  void collect_prisms(SmallFacet facet, std::vector<Offer>& offers);
+  std::vector<Offer> fewest_offers();
   void search(double cost);
+  void try_each(const std::vector<Offer>& offers, double cost);
+  void compare(double cost);
 
   const GapMesh& gap_;
+  TriedRooms failed_;
   std::span<const GapIndex> out_;  // while find() runs
   Room room_;
-  std::vector<Facet> front_;  // facets that still need a cell
-  std::vector<GapCell> placed_, best_;
+  RoomCells cells_;
+  Front front_;
+  std::vector<SmallCell> placed_;
+  std::vector<GapCell> best_;
+  std::vector<Offer> offers_;
   double floor_ = 0, most_ = 0;
   double space_ = 0;  // the volume that is left, and a little for rounding
   int steps_left_ = 0;

@@ -9,6 +9,8 @@
 #include "tools/assemble/shape/smooth.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
@@ -80,6 +82,7 @@ class Cells {
     return std::span(corners_).subspan(first_[c], corner_count(kinds_[c]));
   }
   std::span<const std::int32_t> at(Vertex v) const { return cells_.at(v); }
+  std::size_t size() const { return kinds_.size(); }
 
  private:
   std::vector<CellKind> kinds_;
@@ -95,7 +98,8 @@ class Smoother {
         points_(mesh.points),
         cells_(mesh),
         freedoms_(vertex_freedoms(mesh)),
-        due_(mesh.points.size(), 1) {
+        due_(mesh.points.size(), 1),
+        quality_(cells_.size(), unknown) {
     if (sliding == nullptr) return;
     sliding_ = sliding;
     for (Vertex v = 0; v < static_cast<Vertex>(points_.size()); ++v)
@@ -112,13 +116,38 @@ class Smoother {
       due_[v] = 0;
       if (!improve(v, only_below, weighted)) continue;
       ++moves;
-      for (std::int32_t c : cells_.at(v))
+      for (std::int32_t c : cells_.at(v)) {
+        quality_[c] = unknown;
         for (Vertex neighbour : cells_.corners_of(c)) due_[neighbour] = 1;
+      }
     }
     return moves;
   }
 
+  // Leaves out the vertices around which all is as it was when they settled.
+  void skip(const Settled& settled) {
+    const auto states = states_of_vertices();
+    for (std::size_t v = 0; v < states.size(); ++v)
+      if (const auto from = static_cast<std::size_t>(sliding_->origin[v]); from < settled.size())
+        due_[v] = settled[from] != states[v];
+  }
+  void remember(Settled& settled) const {
+    const auto states = states_of_vertices();
+    settled.clear();
+    for (std::size_t v = 0; v < states.size(); ++v) {
+      const auto from = static_cast<std::size_t>(sliding_->origin[v]);
+      if (from >= settled.size()) settled.resize(from + 1);
+      if (due_[v] == 0) settled[from] = states[v];
+    }
+  }
+
  private:
+  std::vector<std::uint64_t> states_of_vertices() const;
+
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+  double quality_of(std::int32_t c);
+  bool are_above(Vertex v, double bound, bool weighted);
   bool slides(Vertex v) const;
   Freedom freedom(Vertex v) const;
   bool stays_close(Vertex v, const Vec3& at);
@@ -138,6 +167,7 @@ class Smoother {
   const SlidingSurface* sliding_ = nullptr;
   std::optional<BoundaryDeviation> deviation_;
   std::vector<std::uint8_t> due_;  // something around has moved since it was looked at
+  std::vector<double> quality_;    // by cell
   PointStar star_;
 };
 
@@ -241,7 +271,43 @@ bool Smoother::keeps_edges_long(Vertex v, const Vec3& at) const {
   return shortest >= std::min(now, shortest_edge * shortest_edge * longest);
 }
 
+// By vertex: a number that its cells have, and the places of their corners.
+std::vector<std::uint64_t> Smoother::states_of_vertices() const {
+  std::vector<std::uint64_t> states(points_.size());
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(cells_.size()); ++c) {
+    auto state = static_cast<std::uint64_t>(cells_.kind(c));
+    for (const Vertex v : cells_.corners_of(c))
+      for (const double x : {points_[v].x, points_[v].y, points_[v].z}) {
+        state = (state ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15u;
+        state ^= state >> 32;
+      }
+    for (const Vertex v : cells_.corners_of(c)) states[v] += state;
+  }
+  return states;
+}
+
+// The least scaled Jacobian over the corners, for a tet times the square root of 2.
+double Smoother::quality_of(std::int32_t c) {
+  if (std::isnan(quality_[c])) {
+    const auto corners = cells_.corners_of(c);
+    const auto at = corner_points(points_, corners);
+    const double scale = cells_.kind(c) == CellKind::tet ? std::sqrt(2.0) : 1;
+    quality_[c] = scale * least_corner_scaled_jacobian(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()));
+  }
+  return quality_[c];
+}
+
+// Whether all cells at v are above the bound. Most vertices are among hexes that are good: it would take most of the
+// time to look at the corners around each of these.
+bool Smoother::are_above(Vertex v, double bound, bool weighted) {
+  return std::ranges::all_of(cells_.at(v), [&](std::int32_t c) {
+    const double weight = weighted && cells_.kind(c) == CellKind::hex ? weight_of_hexes_ : 1;
+    return weight * quality_of(c) > bound;
+  });
+}
+
 bool Smoother::improve(Vertex v, double only_below, bool weighted) {
+  if (are_above(v, only_below, weighted)) return false;
   look_around(v);
   const Vec3 before = points_[v];
   const double worst = star_.worst(before);
@@ -288,13 +354,15 @@ void untangle(MixedMesh& mesh, int rounds, const SlidingSurface* sliding) {
   for (int round = 0; round < rounds && smoother.round(enough, true) > 0; ++round) continue;
 }
 
-SmoothCounts smooth(MixedMesh& mesh, int rounds, const SlidingSurface* sliding) {
+SmoothCounts smooth(MixedMesh& mesh, int rounds, const SlidingSurface* sliding, Settled* settled) {
   Smoother smoother(mesh, sliding, hex_weight);
+  if (settled != nullptr) smoother.skip(*settled);
   SmoothCounts counts;
   for (std::int64_t moves = 1; moves > 0 && counts.rounds < rounds; ++counts.rounds) {
     moves = smoother.round(excellent, false);
     counts.moves += moves;
   }
+  if (settled != nullptr) smoother.remember(*settled);
   return counts;
 }
 

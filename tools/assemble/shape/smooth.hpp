@@ -1,6 +1,7 @@
 #pragma once
 // Moves vertices: the worst cells become better first, then the average cell, and hexes larger.
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -42,10 +43,15 @@ inline constexpr double poor_hex = 0.1;
 // vertices. Valid cells stay valid, and hexes stay above least_hex_quality or as they are.
 void untangle(MixedMesh& mesh, int rounds, const SlidingSurface* sliding = nullptr);
 
+// By vertex of the input, where smoothing found nothing more to do: what was around it then. A vertex around which
+// nothing has changed since need not be looked at again.
+using Settled = std::vector<std::uint64_t>;
+
 // Smooths in at most `rounds` rounds over all vertices. No vertex leaves its plane or line (vertex_freedoms). No move
 // takes the worst cell around it below good enough (hexes 0.24, others 0.12), or makes it worse if it is below, or
 // presses a hex below least_hex_quality. Every cell stays valid everywhere. With `sliding`, vertices slide on curved
 // surfaces and curves where the worst cell is poor, within a small fraction of an edge length of the input's surface.
-SmoothCounts smooth(MixedMesh& mesh, int rounds, const SlidingSurface* sliding = nullptr);
+// `settled`, which needs `sliding`, is read and written.
+SmoothCounts smooth(MixedMesh& mesh, int rounds, const SlidingSurface* sliding = nullptr, Settled* settled = nullptr);
 
 }  // namespace hexpipe::assemble::shape

@@ -1,0 +1,35 @@
+#pragma once
+// What was tried in vain, so that it is not tried again while nothing there has changed.
+
+#include <tsl/robin_set.h>
+
+#include <cstdint>
+#include <span>
+
+#include "tools/assemble/gap/gap_mesh.hpp"
+
+namespace hexpipe::assemble::gap {
+
+class TriedRooms {
+ public:
+  // A number for these cells, in any order, as they are now: ages rise with each change at a vertex. Two rooms with one
+  // number, a chance of 2^-64, cost one filling.
+  static std::uint64_t state_of(const GapMesh& gap, std::span<const GapIndex> cells) {
+    std::uint64_t state = 0;
+    for (const GapIndex c : cells) {
+      std::uint64_t own = static_cast<std::uint32_t>(c);
+      for (const Vertex v : gap.cell(c).vertices()) own += std::uint64_t{gap.age_of(v)} << 32;
+      own = (own ^ own >> 31) * 0x9e3779b97f4a7c15u;
+      state += own ^ own >> 29;
+    }
+    return state;
+  }
+
+  bool contains(std::uint64_t state) const { return states_.contains(state); }
+  void insert(std::uint64_t state) { states_.insert(state); }
+
+ private:
+  tsl::robin_set<std::uint64_t> states_;
+};
+
+}  // namespace hexpipe::assemble::gap
