@@ -18,9 +18,13 @@
 #include <TopTools_ListOfShape.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
 #include <TopoDS_Solid.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <cmath>
+#include <gp_Pnt.hxx>
+#include <utility>
 #include <vector>
 
 #include "common/run/error.hpp"
@@ -91,7 +95,12 @@ void carry_names(const TopoDS_Shape& shape, ShapeNames& names, ChangeOf&& change
     }
 }
 
-TopoDS_Shape sewn(const TopoDS_Shape& whole, ShapeNames& names) {
+struct SewnFaces {
+  TopoDS_Shape shape;
+  std::string gap;  // how many edges have a single face, and where the first is; empty if none
+};
+
+SewnFaces sewn(const TopoDS_Shape& whole, ShapeNames& names) {
   BRepBuilderAPI_Sewing sewing(sewing_tolerance * diagonal_of(whole));
   for (TopExp_Explorer face(whole, TopAbs_FACE); face.More(); face.Next()) sewing.Add(face.Current());
   sewing.Perform();
@@ -99,7 +108,14 @@ TopoDS_Shape sewn(const TopoDS_Shape& whole, ShapeNames& names) {
     if (sewing.IsModified(part)) set(sewing.Modified(part));
     if (part.ShapeType() == TopAbs_EDGE && sewing.IsModifiedSubShape(part)) set(sewing.ModifiedSubShape(part));
   });
-  return sewing.SewedShape();
+  std::string gap;
+  if (sewing.NbFreeEdges() > 0) {
+    const TopoDS_Edge edge = sewing.FreeEdge(1);
+    const gp_Pnt from = BRep_Tool::Pnt(TopExp::FirstVertex(edge)), to = BRep_Tool::Pnt(TopExp::LastVertex(edge));
+    gap = fmt::format("; {} of a single face, the first from ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g})",
+                      counted(sewing.NbFreeEdges(), "edge"), from.X(), from.Y(), from.Z(), to.X(), to.Y(), to.Z());
+  }
+  return {sewing.SewedShape(), std::move(gap)};
 }
 
 }  // namespace
@@ -110,14 +126,18 @@ void make_bodies(const TopoDS_Shape& whole, const std::string& source, CadModel&
   TopoDS_Shape shells = whole;
   int open = add_closed_shells(shells, model);
   const char* act = "shells that are closed are taken for bodies";
+  std::string gap;
   if (model.bodies.empty()) {
-    shells = sewn(whole, model.names);
+    SewnFaces made = sewn(whole, model.names);
+    shells = made.shape;
+    gap = std::move(made.gap);
     open = add_closed_shells(shells, model);
     act = "its faces are sewn to bodies";
   }
   if (model.bodies.empty())
-    throw DataError::at(source, "expected bodies, found no solid, and {} of {} that {} not closed",
-                        open > 0 ? counted(open, "shell") : "sheets", counted(faces, "face"), open == 1 ? "is" : "are");
+    throw DataError::at(source, "expected bodies, found no solid, and {} of {} that {} not closed{}",
+                        open > 0 ? counted(open, "shell") : "sheets", counted(faces, "face"), open == 1 ? "is" : "are",
+                        gap);
   model.warnings.push_back(fmt::format("there are no solids: {}, {}", act, counted_bodies(model.bodies.size())));
   add_open_shells(shells, model);
 }
