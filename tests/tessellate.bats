@@ -249,6 +249,39 @@ PYTHON
   assert_fails_with 1 "cut.igs: expected a line of section T at the end of an IGES file" tessellate cut.igs
 }
 
+@test "entities that cannot be read are told; a face without triangles is an error that names it" {
+  step box
+  sed "0,/(0.0,0.0,30.0)/s//(0.0,0.0,NAN)/" box.step >nan.step
+  run_apart tessellate nan.step -o nan.tar
+  assert_success
+  assert_equal "$stderr" "tessellate: warning: nan.step: an entity is faulty, and may be taken for something else; the first is #9: Parameter n0.3 (coordinates) not a Real"
+  sed -E "0,/EDGE_CURVE\('',#[0-9]+/s//EDGE_CURVE('',#99999/" box.step >dangling.step
+  assert_fails_with 1 "dangling.step: expected bodies, found no solid and no face; .* faulty, and may be taken for something else; the first is #21: " tessellate dangling.step
+  sed -E "0,/PLANE\('',(#[0-9]+)\)/s//CYLINDRICAL_SURFACE('',\1,0.001)/" box.step >thin.step
+  assert_fails_with 1 "thin.step: face 1 of body 1: OpenCASCADE cannot make triangles of it" tessellate thin.step
+  sed -E "0,/PLANE\('',(#[0-9]+)\)/s//SPHERICAL_SURFACE('',\1,0.)/" box.step >point.step
+  assert_fails_with 1 "point.step: OpenCASCADE failed: LProp_NotDefined$" tessellate point.step
+}
+
+@test "names that bodies and faces share, or that differ by capitals alone, are told apart where a format needs it" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  step clash odd-names
+  tessellate clash.step | tetmesh -q --size 15 | findhex -q | buildgraph -q | initsol -q --iterations 20 -o clash.tar
+  run_apart assemble clash.tar -o clash.inp
+  assert_success
+  run grep -E '^\*NSET, NSET=[Ww]' clash.inp
+  assert_equal "$(sed -E 's/.*SET=//' <<<"$output" | tr 'a-z' 'A-Z' | sort -u | wc -l)" 4
+  tessellate -q odd-names.step | tetmesh -q --size 15 | findhex -q | buildgraph -q | initsol -q --iterations 20 -o odd.tar
+  local format
+  for format in mesh msh msh22 vtk vtu inp su2 bdf; do
+    run_apart assemble odd.tar -o "odd.$format"
+    assert_success
+  done
+  # Abaqus' names have 80 characters.
+  run grep -cE 'x{81}' odd.inp
+  assert_output 0
+}
+
 @test "where OpenCASCADE crashes, a line says on which file" {
   optimized_only "the sanitizer catches the signal"
   mkfifo endless.step

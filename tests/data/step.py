@@ -153,6 +153,7 @@ KINDS = {
     "named": lambda: box({"left": "inlet", "right": "outlet"}, "pipe").text(),
     "one-name": lambda: box({"left": "wall", "right": "wall"}).text(),
     "odd-names": lambda: box({"left": "Ein\\X2\\006C00E400DF\\X0\\ 1", "right": "a ''b'' \"c\"", "top": "x" * 200}, "St\\X\\FCck").text(),
+    "clash": lambda: box({"left": "wall", "right": "WALL", "top": "surface_1", "bottom": "Wall"}, "wall").text(),
     "metres": lambda: box(unit="m").text(),
     "inches": lambda: box(unit="inch").text(),
     "coloured": lambda: coloured().text(),

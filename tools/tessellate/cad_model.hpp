@@ -1,6 +1,7 @@
 #pragma once
 // A CAD model: how it is read (STEP, IGES and BREP, recognized by content), its bodies, and the names of its shapes.
 
+#include <Standard_Failure.hxx>
 #include <TopoDS_Shape.hxx>
 #include <map>
 #include <string>
@@ -50,6 +51,9 @@ struct CadModel {
   bool names_unit = true;
   std::vector<std::string> warnings;  // what was healed or left out
 };
+
+// What OpenCASCADE says about a failure, or at least its kind.
+std::string message_of(const Standard_Failure& failure);
 
 // Throws DataError if the file is empty, cut off, not CAD, or without bodies. Closed shells and faces that can be sewn
 // to such become bodies, with a warning.

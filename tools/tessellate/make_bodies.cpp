@@ -122,7 +122,9 @@ SewnFaces sewn(const TopoDS_Shape& whole, ShapeNames& names) {
 
 void make_bodies(const TopoDS_Shape& whole, const std::string& source, CadModel& model) {
   const int faces = count_of(whole, TopAbs_FACE);
-  if (faces == 0) throw DataError::at(source, "expected bodies, found no solid and no face");
+  if (faces == 0)
+    throw DataError::at(source, "expected bodies, found no solid and no face{}",
+                        model.warnings.empty() ? "" : "; " + model.warnings.front());
   TopoDS_Shape shells = whole;
   int open = add_closed_shells(shells, model);
   const char* act = "shells that are closed are taken for bodies";

@@ -8,17 +8,20 @@
 #include <IGESBasic_SubfigureDef.hxx>
 #include <IGESCAFControl_Reader.hxx>
 #include <IGESData_GlobalSection.hxx>
-#include <IGESData_IGESEntity.hxx>
 #include <IGESData_IGESModel.hxx>
+#include <Interface_Check.hxx>
+#include <Interface_CheckIterator.hxx>
 #include <Interface_Static.hxx>
 #include <STEPCAFControl_Controller.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <Standard_Failure.hxx>
+#include <StepData_StepModel.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TDocStd_Document.hxx>
 #include <TopExp_Explorer.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <XSControl_WorkSession.hxx>
 #include <algorithm>
 #include <cstdlib>
 #include <optional>
@@ -118,6 +121,23 @@ void finish(const TopoDS_Shape& whole, const std::string& name, CadModel& model)
     find_sheets(whole, model);
 }
 
+// OpenCASCADE takes a default for what it cannot read, 0 for a coordinate.
+void tell_faulty_entities(const Handle(XSControl_WorkSession) & session, CadModel& model) {
+  const auto entities = Handle(StepData_StepModel)::DownCast(session->Model());
+  std::size_t faulty = 0;
+  std::string first;
+  Interface_CheckIterator checks = session->ModelCheckList();
+  for (checks.Start(); checks.More(); checks.Next()) {
+    const Handle(Interface_Check) check = checks.Value();
+    if (checks.Number() < 1 || check->NbFails() == 0) continue;
+    if (++faulty == 1)
+      first = fmt::format("#{}: {}", entities->IdentLabel(entities->Value(checks.Number())), check->CFail(1));
+  }
+  if (faulty > 0)
+    model.warnings.push_back(fmt::format("{} faulty, and may be taken for something else; the first is {}",
+                                         faulty == 1 ? "an entity is" : fmt::format("{} entities are", faulty), first));
+}
+
 CadModel read_step(const std::string& bytes, const std::string& name) {
   if (!ends_with_word(bytes, step_end))
     throw DataError::at(name, "expected {}; at the end of a STEP file, found none: it is cut off", step_end);
@@ -130,6 +150,7 @@ CadModel read_step(const std::string& bytes, const std::string& name) {
   if (reader.ChangeReader().ReadStream("", stream) != IFSelect_RetDone)
     throw DataError::at(name, "expected a STEP file, found one that OpenCASCADE cannot read: its syntax is wrong");
   CadModel model;
+  tell_faulty_entities(reader.Reader().WS(), model);
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.ChangeReader().FileUnits(lengths, angles, solid_angles);
   if (lengths.IsEmpty())
@@ -230,6 +251,11 @@ CadModel read_brep(const std::string& bytes, const std::string& name) {
 
 }  // namespace
 
+std::string message_of(const Standard_Failure& failure) {
+  const std::string_view message = failure.GetMessageString();
+  return std::string(message.empty() ? failure.DynamicType()->Name() : message);
+}
+
 CadModel read_cad(formats::Input& input) {
   const std::string bytes = input.read_all();
   const std::string& name = input.name();
@@ -240,7 +266,7 @@ CadModel read_cad(formats::Input& input) {
     if (looks_like_brep(text)) return read_brep(bytes, name);
     if (looks_like_iges(text)) return read_iges(bytes, name, input.path());
   } catch (const Standard_Failure& failure) {
-    throw DataError::at(name, "OpenCASCADE cannot read it: {}", failure.GetMessageString());
+    throw DataError::at(name, "OpenCASCADE cannot read it: {}", message_of(failure));
   }
   throw DataError::at(name, "expected CAD in STEP, IGES or BREP, found {}",
                       formats::quote_found(formats::TextScanner(text, name).peek_word()));

@@ -57,7 +57,7 @@ TessellateResult tessellate(formats::Input& input, const TessellateOptions& opti
     result.curves = made.curves;
     result.deviation = made.deviation / unit.millimetres;
   } catch (const Standard_Failure& failure) {
-    throw DataError::at(input.name(), "OpenCASCADE failed: {}", failure.GetMessageString());
+    throw DataError::at(input.name(), "OpenCASCADE failed: {}", message_of(failure));
   }
   for (Vec3& p : result.surface.points) p = {p.x / unit.millimetres, p.y / unit.millimetres, p.z / unit.millimetres};
   result.bodies = model.bodies.size();
