@@ -314,7 +314,8 @@ PYTHON
   }
   fails "$(i4 triangle_tags '[1]')" "surface/triangle_tags.npy: expected a row for each of the 4 triangles, found 1"
   fails "$(i4 sides '[(1, 0)]')" "surface/sides.npy: expected a row for each of the 4 triangles, found 1"
-  fails "$(i4 sides '[(1, 1)] * 4')" "surface/sides.npy: row 0: expected two regions, found 1 on both sides"
+  fails "$(i4 sides '[(0, 0)] * 4')" "surface/sides.npy: row 0: expected a region on a side, found none"
+  fails "$(i4 sides '[(1, 1)] * 4')" "expected a surface that encloses something, found only sheets that do not"
   fails "$(i4 sides '[(-1, 0)] * 4')" "surface/sides.npy: row 0: expected regions from 0 to 4, found -1, 0"
   fails "$(i4 triangles '[(0, 1, 9)]')" "surface/triangles.npy: row 0: expected points from 0 to 3, found 9"
   fails "{'curves': np.array([(0, 0)], '<i4')}" "surface/curves.npy: row 0: expected an edge of a triangle, found 0, 0"

@@ -357,6 +357,39 @@ assert_is_whole() {
   assert_same_bytes whole.vtu merged.vtu
 }
 
+# surface_of BUNDLE: a checksum of each member of the surface.
+surface_of() {
+  local member
+  for member in $(tar tf "$1" | grep ^surface/ | sort); do echo "$member $(tar xOf "$1" "$member" | sha256sum)"; done
+}
+
+@test "the surface and the CAD's faces go through parts and pieces, to fitcad and to nodes of second order" {
+  if [[ ! -x "$HEXPIPE_BIN/tessellate" ]]; then skip "tessellate is not built"; fi
+  optimized_only "it is about results"
+  tessellate -q "$DATA/simp.step" --unit mm | tetmesh -q --size 12 -o mesh.tar
+  local whole
+  whole=$(surface_of mesh.tar)
+  assert_equal "$(wc -l <<<"$whole")" 8
+  solve_parts mesh.tar 2 k
+  for bundle in k/part-0001.tar k/graph-0000.tar k/solved.tar; do assert_equal "$(surface_of $bundle)" "$whole"; done
+  assemble -q k/solved.tar | fitcad -q -o fitted.msh --stats fitted.json
+  assert $PYTHON -c 'import json; found = json.load(open("fitted.json")); assert found["distance"]["vertices"] < 1e-6 * found["diagonal"]'
+  # Without the surface, a warning says that nodes lie on arcs through the vertices.
+  run_apart assemble k/solved.tar --order 2 -o order-2.vtu
+  assert_success
+  refute_regex "$stderr" "arcs"
+  assemble_parts k
+  merge-parts k/pieces/*.tar -o pieces.tar
+  assert_equal "$(surface_of pieces.tar)" "$whole"
+  fitcad -q pieces.tar -o pieces.msh
+  # Parts of other surfaces are not of one mesh.
+  mkdir other
+  tar xf k/graph-0001.tar -C other
+  $PYTHON -c 'import numpy; p = numpy.load("other/surface/points.npy"); p[0] += 1e-9; numpy.save("other/surface/points.npy", p)'
+  (cd other && tar tf ../k/graph-0001.tar | tar cf ../other.tar --no-recursion -T -)
+  assert_fails_with 1 "other.tar: surface/points.npy: expected the same as in the first bundle, found other bytes" merge-parts k/graph-0000.tar other.tar
+}
+
 @test "pieces are files of VTK with a .pvtu, points that several have are the same in all" {
   bar --length 8 --regions >bar.mesh
   solve_parts bar.mesh 3 k $ALL

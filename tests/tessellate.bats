@@ -173,8 +173,129 @@ PYTHON
   assert_success
   assert_equal "$stderr" "tessellate: warning: closed-shell.step: there are no solids: shells that are closed are taken for bodies, 1 body"
   assert_equal "$(surface shell.tar 'round(volume(), 9)')" 64.0
-  assert_fails_with 1 "sheets.step: expected bodies, found no solid, and 1 shell of 5 faces that is not closed" tessellate sheets.step
+  assert_fails_with 1 "sheets.step: expected bodies, found no solid, and 1 shell of 5 faces that is not closed; 4 edges of a single face, the first from \(.*, 30\) to \(.*, 30\)$" tessellate sheets.step
   assert_fails_with 1 "nothing.step: expected bodies, found no solid and no face" tessellate nothing.step
+}
+
+@test "faces that belong to no body are told, and kept as baffles if asked for" {
+  step baffle floating-baffle poking-baffle baffle-outside touching
+  run_apart tessellate baffle.step -o without.tar
+  assert_success
+  assert_equal "$stderr" "tessellate: warning: baffle.step: a face that belongs to no body is left out (see --keep-baffles)"
+  assert_equal "$(surface without.tar 'len(triangles), sides.tolist() == [[1, 0]] * 12')" "(12, True)"
+  local kind
+  for kind in baffle floating-baffle; do
+    run_apart tessellate "$kind.step" --keep-baffles -o "$kind.tar"
+    assert_success
+    assert_equal "$stderr" ""
+    assert_equal "$(surface "$kind.tar" 'sides.tolist().count([1, 1]), {names["surfaces"][str(t)] for t, s in zip(triangle_tags, sides.tolist()) if s == [1, 1]}')" "(2, {'vane'})"
+  done
+  # Where it stands, the faces of the room are cut, and share its edges.
+  assert_equal "$(surface baffle.tar 'sorted(set(names["surfaces"].values())), len(set(map(tuple, points.tolist())))')" "(['inlet', 'outlet', 'vane'], 12)"
+  # Half of it is inside.
+  run_apart tessellate poking-baffle.step --keep-baffles -o poking.tar
+  assert_equal "$stderr" "tessellate: warning: poking-baffle.step: 1 face outside of all bodies, or on their boundary, is no baffle and left out"
+  assert_equal "$(surface poking.tar 'points[:, 2].max(), sides.tolist().count([1, 1])')" "(4.0, 2)"
+  run_apart tessellate baffle-outside.step --keep-baffles -o outside.tar
+  assert_equal "$stderr" "tessellate: warning: baffle-outside.step: 1 face outside of all bodies, or on their boundary, is no baffle and left out"
+  # Without sheets, it joins bodies that touch.
+  tessellate touching.step --keep-baffles -o kept.tar
+  tessellate touching.step --join -o joined.tar
+  assert_equal "$(surface kept.tar 'sides.tolist()')" "$(surface joined.tar 'sides.tolist()')"
+}
+
+@test "a baffle of CAD is in the mesh, with hexes on both sides, on the CAD's face" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  optimized_only "it is about results"
+  step baffle
+  tessellate baffle.step --keep-baffles -o baffle.tar
+  run_apart tetmesh baffle.tar --size 0.5 -o dropped.tar
+  assert_success
+  assert_equal "$stderr" "tetmesh: warning: baffle.tar: 2 triangles with the same on both sides are left out"
+  tetmesh -q baffle.tar --size 0.5 --keep-baffles | findhex -q | buildgraph -q | initsol -q --iterations 100 | assemble -q -o case.tar
+  fitcad -q case.tar -o case.msh
+  mkdir constant
+  fitcad -q case.tar -o constant/polyMesh
+  run grep -c '^ *vane' constant/polyMesh/faceZones
+  assert_output 1
+  run $PYTHON - <<'PYTHON'
+import meshio, contextlib, io
+with contextlib.redirect_stdout(io.StringIO()):
+    mesh = meshio.read("case.msh")
+number = mesh.field_data["vane"][0]
+for block, tags in zip(mesh.cells, mesh.cell_data["gmsh:physical"]):
+    vane = block.data[tags == number]
+    if block.type in ("quad", "triangle") and len(vane):
+        print(block.type, len(vane), set(mesh.points[vane.ravel()][:, 0].tolist()))
+PYTHON
+  assert_output "quad 32 {3.0}"
+}
+
+@test "IGES of other programs: a real part, numbers filled up by zeros, and what may follow the last line" {
+  run_apart tessellate "$DATA/rounded-cube.igs" -o cube.tar
+  assert_success
+  assert_equal "$stderr" "tessellate: warning: $DATA/rounded-cube.igs: there are no solids: its faces are sewn to bodies, 1 body"
+  assert_equal "$(surface cube.tar 'open_edges(), len(points) > 50')" "(0, True)"
+  tessellate -q - <"$DATA/rounded-cube.igs" >piped.tar
+  assert_equal "$(surface piped.tar 'triangles.tolist()')" "$(surface cube.tar 'triangles.tolist()')"
+  sed -E 's/^(.{72})([SGDPT]) {6}(.)/\1\2000000\3/; s/^(.{72})([SGDPT]) {5}(..)/\1\200000\3/' "$DATA/rounded-cube.igs" >zeros.igs
+  run ! cmp -s zeros.igs "$DATA/rounded-cube.igs"
+  tessellate -q zeros.igs -o zeros.tar
+  assert_equal "$(surface zeros.tar 'triangles.tolist()')" "$(surface cube.tar 'triangles.tolist()')"
+  { cat "$DATA/rounded-cube.igs"; printf '\n\032'; } >followed.igs
+  tessellate -q followed.igs -o followed.tar
+  assert_equal "$(surface followed.tar 'triangles.tolist()')" "$(surface cube.tar 'triangles.tolist()')"
+  sed '$d' "$DATA/rounded-cube.igs" >cut.igs
+  assert_fails_with 1 "cut.igs: expected a line of section T at the end of an IGES file" tessellate cut.igs
+}
+
+@test "entities that cannot be read are told; a face without triangles is an error that names it" {
+  step box
+  sed "0,/(0.0,0.0,30.0)/s//(0.0,0.0,NAN)/" box.step >nan.step
+  run_apart tessellate nan.step -o nan.tar
+  assert_success
+  assert_equal "$stderr" "tessellate: warning: nan.step: an entity is faulty, and may be taken for something else; the first is #9: Parameter n0.3 (coordinates) not a Real"
+  sed -E "0,/EDGE_CURVE\('',#[0-9]+/s//EDGE_CURVE('',#99999/" box.step >dangling.step
+  assert_fails_with 1 "dangling.step: expected bodies, found no solid and no face; .* faulty, and may be taken for something else; the first is #21: " tessellate dangling.step
+  sed -E "0,/PLANE\('',(#[0-9]+)\)/s//CYLINDRICAL_SURFACE('',\1,0.001)/" box.step >thin.step
+  assert_fails_with 1 "thin.step: face 1 of body 1: OpenCASCADE cannot make triangles of it" tessellate thin.step
+  sed -E "0,/PLANE\('',(#[0-9]+)\)/s//SPHERICAL_SURFACE('',\1,0.)/" box.step >point.step
+  assert_fails_with 1 "point.step: OpenCASCADE failed: LProp_NotDefined$" tessellate point.step
+}
+
+@test "names that bodies and faces share, or that differ by capitals alone, are told apart where a format needs it" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  step clash odd-names
+  tessellate clash.step | tetmesh -q --size 15 | findhex -q | buildgraph -q | initsol -q --iterations 20 -o clash.tar
+  run_apart assemble clash.tar -o clash.inp
+  assert_success
+  run grep -E '^\*NSET, NSET=[Ww]' clash.inp
+  assert_equal "$(sed -E 's/.*SET=//' <<<"$output" | tr 'a-z' 'A-Z' | sort -u | wc -l)" 4
+  tessellate -q odd-names.step | tetmesh -q --size 15 | findhex -q | buildgraph -q | initsol -q --iterations 20 -o odd.tar
+  local format
+  for format in mesh msh msh22 vtk vtu inp su2 bdf; do
+    run_apart assemble odd.tar -o "odd.$format"
+    assert_success
+  done
+  # Abaqus' names have 80 characters.
+  run grep -cE 'x{81}' odd.inp
+  assert_output 0
+}
+
+@test "where OpenCASCADE crashes, a line says on which file" {
+  optimized_only "the sanitizer catches the signal"
+  mkfifo endless.step
+  exec {writer}<>endless.step
+  tessellate endless.step -o x.tar 2>crash.txt &
+  local tool=$! code=0
+  # By then it waits for the rest of the file.
+  sleep 1
+  kill -SEGV "$tool"
+  wait "$tool" || code=$?
+  exec {writer}>&-
+  assert_equal "$code" 1
+  assert_equal "$(cat crash.txt)" "tessellate: endless.step: OpenCASCADE crashed on it"
+  [[ ! -e x.tar ]]
 }
 
 @test "files that are empty, cut off or no CAD are errors of one line" {

@@ -201,6 +201,117 @@ PYTHON
   assert_equal "$(volumes_of fin.mesh | tail -1)" "$(volumes_of cube.mesh | tail -1)"
 }
 
+# baffle KIND OPTIONS...: KIND.obj, and from it KIND.msh, through the whole pipe.
+baffle() {
+  local kind=$1
+  shift
+  $PYTHON "$DATA/baffles.py" "$kind" >"$kind.obj"
+  tetmesh "$kind.obj" --keep-baffles "$@" | findhex -q | buildgraph -q | initsol -q --iterations 100 | assemble -q -o "$kind.msh"
+}
+
+# inside MESH GROUP: the facets of a group by kind, what kinds of cells are on their sides, and their area.
+inside() {
+  $PYTHON - "$@" <<'PYTHON'
+import collections, contextlib, io, sys
+import meshio, numpy as np
+with contextlib.redirect_stdout(io.StringIO()):
+    mesh, name = meshio.read(sys.argv[1]), sys.argv[2]
+faces = {"hexahedron": ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
+         "tetra": ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)),
+         "pyramid": ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)),
+         "wedge": ((0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (0, 2, 5, 3))}
+cells, regions, area, kinds = collections.Counter(), set(), 0, collections.Counter()
+for block, tags in zip(mesh.cells, mesh.cell_data["gmsh:physical"]):
+    for face in faces.get(block.type, ()):
+        for corners in block.data[:, list(face)]:
+            cells[frozenset(corners.tolist())] += 1
+    if block.type in faces:
+        regions.update(tags.tolist())
+for block, tags in zip(mesh.cells, mesh.cell_data["gmsh:physical"]):
+    if block.type not in ("triangle", "quad"):
+        continue
+    for corners in block.data[tags == mesh.field_data[name][0]]:
+        kinds[block.type] += 1
+        assert cells[frozenset(corners.tolist())] == 2, "a cell on both sides"
+        p = mesh.points[corners]
+        for i in range(2, len(p)):
+            area += np.linalg.norm(np.cross(p[i - 1] - p[0], p[i] - p[0])) / 2
+print(dict(kinds), f"{area:.4f}", len(regions))
+PYTHON
+}
+
+@test "baffles are kept if asked for: hexes on both sides share their quads, and they keep their names" {
+  optimized_only "it is about results"
+  local kind
+  for kind in standing floating through-roof; do baffle "$kind" -q --size 0.5; done
+  run inside standing.msh vane
+  assert_output "{'quad': 32} 8.0000 1"
+  run inside floating.msh vane
+  assert_output "{'quad': 16} 4.0000 1"
+  # What is outside goes.
+  run inside through-roof.msh vane
+  assert_output "{'quad': 16} 4.0000 1"
+  # Without the option, there is none.
+  tetmesh -q standing.obj --size 0.5 -o none.msh
+  run ! grep -q vane none.msh
+}
+
+@test "baffles cross, bulge and close to a ring; the surface is made anew and each keeps its area" {
+  optimized_only "it is about results"
+  baffle cross -q --size 0.5
+  run inside cross.msh vane
+  assert_output "{'quad': 32} 8.0000 1"
+  run inside cross.msh fence
+  assert_output "{'quad': 32} 8.0000 1"
+  baffle tee -q --size 0.5
+  run inside tee.msh fence
+  assert_output "{'quad': 16} 4.0000 1"
+  # A dome that is wider than its rim: a body with a hole, without the option.
+  run_apart baffle dome --size 0.5
+  assert_success
+  assert_equal "$stderr" ""
+  run inside dome.msh dome
+  assert_output --regexp " 12\.6[0-9]+ 1$"
+  assert_fails_with 1 "dome.obj:[0-9]+: expected a closed surface, found 4 edges of a single triangle" tetmesh dome.obj -o x.mesh
+  # A flat ring between circles of 0.8 and 1.6: 5.96, less what chords of a size cut off.
+  baffle ring -q --size 0.5
+  run inside ring.msh strip
+  assert_output --regexp " 5\.[789][0-9]+ 1$"
+}
+
+@test "baffles with --surface keep, on a lattice and in a bundle" {
+  $PYTHON "$DATA/baffles.py" floating >floating.obj
+  tetmesh floating.obj --keep-baffles --surface keep --points none -o kept.msh
+  run inside kept.msh vane
+  assert_output "{'triangle': 8} 4.0000 1"
+  tetmesh floating.obj --keep-baffles --points lattice --size 1 -o lattice.msh
+  run inside lattice.msh vane
+  assert_output --regexp "^\{'triangle': [0-9]+\} 4.0000 1$"
+}
+
+@test "baffles that cannot be kept are refused or told" {
+  local kind
+  for kind in moebius crossing touching outside none through-roof; do $PYTHON "$DATA/baffles.py" "$kind" >"$kind.obj"; done
+  assert_fails_with 1 "moebius.obj:[0-9]+: expected a baffle with two sides, found one that has a single side, like Möbius' strip$" tetmesh moebius.obj --keep-baffles
+  for kind in crossing touching; do
+    assert_fails_with 1 "$kind.obj:[0-9]+: expected a surface that does not intersect itself, found .*; a baffle shares whole edges with what it meets$" tetmesh "$kind.obj" --keep-baffles
+  done
+  run_apart tetmesh outside.obj --keep-baffles --size 2 -o outside.mesh
+  assert_success
+  assert_equal "$stderr" "tetmesh: warning: outside.obj: 8 triangles with the same on both sides are left out
+tetmesh: warning: outside.obj: --keep-baffles finds no sheet that ends inside"
+  run_apart tetmesh none.obj --keep-baffles --size 2 -o none.mesh
+  assert_success
+  assert_equal "$stderr" "tetmesh: warning: none.obj: --keep-baffles finds no sheet that ends inside"
+  run_apart tetmesh through-roof.obj --keep-baffles --size 2 -o through-roof.mesh
+  assert_success
+  assert_equal "$stderr" "tetmesh: warning: through-roof.obj: 8 triangles with the same on both sides are left out"
+  run tetmesh none.obj --keep-baffles --repair -o x.mesh
+  assert_failure 2
+  run tetmesh none.obj --keep-baffles --unite -o x.mesh
+  assert_failure 2
+}
+
 @test "a body with a hole is no fin, wherever it touches another" {
   local touching="$DATA/touching"
   assert_fails_with 1 "edge-touch-hole.off:31: expected a closed surface, found 11 triangles that enclose a space with a hole; an edge of the hole is from \(4, 2, 2\) to \(4, 4, 2\) \(see --repair\)$" \

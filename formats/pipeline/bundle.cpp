@@ -392,6 +392,13 @@ std::string BundleReader::read_text(std::size_t limit) {
   return text;
 }
 
+std::string BundleReader::read_bytes_as_they_come() {
+  std::string bytes;
+  std::vector<char> chunk(std::min<std::uint64_t>(size_, 1 << 20));
+  while (const std::size_t count = read_some(chunk.data(), chunk.size())) bytes.append(chunk.data(), count);
+  return bytes;
+}
+
 void BundleReader::copy_to(BundleWriter& writer) {
   writer.begin_member(name_, size_);
   std::vector<char> chunk(std::min<std::uint64_t>(size_, 1 << 20));

@@ -128,6 +128,8 @@ class BundleReader {
   std::size_t read_some(char* bytes, std::size_t most);
   // The current member as text; throws DataError when larger than `limit`.
   std::string read_text(std::size_t limit = 64 << 20);
+  // The current member's bytes. Memory grows with them, so that a member that only claims to be huge costs nothing.
+  std::string read_bytes_as_they_come();
   // Copies the current member, unchanged, to another bundle.
   void copy_to(BundleWriter& writer);
 

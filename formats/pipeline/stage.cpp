@@ -378,6 +378,10 @@ void Stage::State::read_bundle(formats::Input& input, StageData& data) {
       if (request.dislocations && read_dislocations(reader, data, copy)) continue;
       if (takes(*role) && read_member(reader, data, copy, request.cover)) continue;
     }
+    if (request.surface_members && !is_replaced && is_surface_member(reader.name())) {
+      data.surface_members.push_back({reader.name(), reader.read_bytes_as_they_come()});
+      continue;
+    }
     if (request.shape && read_shape(reader, data, copy)) continue;
     if (request.surface && !is_replaced && read_surface(reader, data, copy)) continue;
     if (is_history_entry(reader.name())) {

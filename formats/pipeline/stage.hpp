@@ -21,6 +21,8 @@ struct StageRequest {
   bool cover = false;         // the graph's clique cover, too, where there is one
   bool shape = false;         // the CAD's faces and curves, too, where a bundle has them
   bool surface = false;       // the triangles that the mesh was made of, too, where a bundle has them
+  bool surface_members =
+      false;                  // all members of the surface, too, as they are, for a tool that makes bundles of its own
   bool dislocations = false;  // of the mesh, too, where a bundle has them
   bool part = false;          // what a part of a mesh has beside mesh and candidates, too, where it is one
   // A bundle's graph gives its weights only, as a graph without edges: the edges may be most of what there is to hold.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/graph/clique_cover.hpp"
@@ -33,6 +34,11 @@ struct CandidateVolumes {
   std::vector<double> volume;
 };
 
+// A member of a bundle, unread.
+struct RawMember {
+  std::string name, bytes;
+};
+
 // What a stage has read. A role that the stage did not ask for, or that is not there, stays empty.
 struct StageData {
   std::optional<TetMesh> mesh;
@@ -46,6 +52,7 @@ struct StageData {
   std::optional<CandidateKeys> candidate_keys;  // likewise
   std::optional<ExactShape> shape;              // with StageRequest::shape
   std::optional<formats::SurfaceSoup> surface;  // with StageRequest::surface
+  std::vector<RawMember> surface_members;       // with StageRequest::surface_members
   DislocationSegments dislocations;             // with StageRequest::dislocations
   CandidateVolumes volumes;                     // with StageRequest::volumes; empty where they are not known
   formats::GroupNames names;                    // of the tags of mesh and result

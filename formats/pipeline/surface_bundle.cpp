@@ -66,9 +66,8 @@ class Checker {
       if (behind < 0 || before < 0 || behind > most || before > most)
         throw DataError::at(soup_.name, "surface/sides.npy: row {}: expected regions from 0 to {}, found {}, {}", i,
                             most, behind, before);
-      if (behind == before)
-        throw DataError::at(soup_.name, "surface/sides.npy: row {}: expected two regions, found {} on both sides", i,
-                            behind);
+      if (behind == 0 && before == 0)
+        throw DataError::at(soup_.name, "surface/sides.npy: row {}: expected a region on a side, found none", i);
     }
   }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""bodies.py [--only WORD] [--cad FOLDER] [--search SECONDS] [--threads N] - bodies that touch, against each of them alone.
+"""bodies.py [--only WORD] [--cad FOLDER] [--rims] [--search SECONDS] [--threads N] - bodies that touch, against each of them alone.
 
 Makes models of several bodies by gmsh's OpenCASCADE (its boolean fragments, so that bodies share their faces), runs them through
 tessellate | tetmesh | findhex | buildgraph | initsol | lns | assemble, and each of their bodies by itself with the same options.
@@ -8,6 +8,9 @@ tests/checkers/meshstats.py --exact. The goal: no body loses more than a point b
 
 --cad: also joins each STEP file of a folder (parts of HexMe, as tests/data/simp.step) with a plate under it, and with a block in
 which its lower fifth sits.
+
+--rims: also meshes each body with the curves that the others print on it: its triangles, tags and curves as they are in the joined
+surface. What it loses against the body alone is the price of these curves, and not of meshing bodies together.
 """
 import argparse
 import json
@@ -113,12 +116,15 @@ def shares(bundle):
     return {region: (v, 100 * of_hexes.get(region, 0) / v) for region, v in volume.items()}
 
 
-def mesh(model, size, folder, args):
+def mesh(model, size, folder, args, surface=None):
+    """Of a model, or of a surface bundle."""
     file = lambda name: os.path.join(folder, name)
     tool = lambda name: os.path.join(BIN, name)
     threads = ["--threads", str(args.threads)] if args.threads else []
-    run([tool("tessellate"), model, "--join", "-o", file("surface.tar")])
-    warnings = run([tool("tetmesh"), file("surface.tar"), "--size", str(size), *threads, "--stats", file("tetmesh.json"), "-o", file("mesh.tar")])[1]
+    if surface is None:
+        surface = file("surface.tar")
+        run([tool("tessellate"), model, "--join", "-o", surface])
+    warnings = run([tool("tetmesh"), surface, "--size", str(size), *threads, "--stats", file("tetmesh.json"), "-o", file("mesh.tar")])[1]
     run([tool("findhex"), file("mesh.tar"), *threads, "-o", file("candidates.tar")])
     run([tool("buildgraph"), file("candidates.tar"), *threads, "-o", file("graph.tar")])
     run([tool("initsol"), file("graph.tar"), *threads, "--time-limit", str(args.search), "-o", file("first.tar")])
@@ -132,10 +138,47 @@ def mesh(model, size, folder, args):
         return shares(file("result.tar")), json.load(stats)["size"], warnings
 
 
+def write_with_rims(joined, region, target):
+    """A surface bundle of one body, cut out of that of all."""
+    arrays = {}
+    with tarfile.open(joined) as tar:
+        for member in tar.getmembers():
+            if member.name.startswith("surface/") and member.name.endswith(".npy"):
+                arrays[member.name] = np.load(BytesIO(tar.extractfile(member).read()))
+    sides = arrays["surface/sides.npy"]
+    behind, before = sides[:, 0] == region, sides[:, 1] == region
+    triangles = arrays["surface/triangles.npy"].copy()
+    triangles[before] = triangles[before][:, ::-1]
+    kept = behind | before
+    triangles = triangles[kept]
+    used, numbers = np.unique(triangles, return_inverse=True)
+    number = np.full(len(arrays["surface/points.npy"]), -1, "<i4")
+    number[used] = np.arange(len(used))
+    edges = {frozenset(e) for t in triangles.tolist() for e in ((t[0], t[1]), (t[1], t[2]), (t[2], t[0]))}
+    on_it = np.array([frozenset(c) in edges for c in arrays["surface/curves.npy"].tolist()], bool)
+    out = {
+        "points": arrays["surface/points.npy"][used],
+        "triangles": numbers.reshape(-1, 3).astype("<i4"),
+        "triangle_tags": arrays["surface/triangle_tags.npy"][kept],
+        "sides": np.tile(np.array([[1, 0]], "<i4"), (len(triangles), 1)),
+        "curves": number[arrays["surface/curves.npy"][on_it]],
+        "curve_tags": arrays["surface/curve_tags.npy"][on_it],
+    }
+    with tarfile.open(target, "w") as tar:
+        for key, array in out.items():
+            data = BytesIO()
+            np.save(data, array)
+            info = tarfile.TarInfo(f"surface/{key}.npy")
+            info.size = data.tell()
+            data.seek(0)
+            tar.addfile(info, data)
+
+
 def compare(name, size, commands, folder, args):
     """Prints a row for each body; returns the points that each gains by being joined."""
     model, count = write_model(commands, None, folder)
     joined, size, warnings = mesh(model, size, folder, args)
+    os.rename(os.path.join(folder, "surface.tar"), os.path.join(folder, "joined.tar"))
     left = dict(joined)
     gains = []
     for body in range(count):
@@ -144,7 +187,12 @@ def compare(name, size, commands, folder, args):
         # Both are known by their volume: no two bodies of a model that differ have the same one.
         region = min(left, key=lambda r: abs(left[r][0] - volume))
         gains.append(left[region][1] - share)
-        print(f"| {name} | {body + 1} | {share:.1f} | {left[region][1]:.1f} | {gains[-1]:+.1f} | {'; '.join(w.split(': ', 1)[-1] for w in warnings)} |", flush=True)
+        rims = ""
+        if args.rims:
+            write_with_rims(os.path.join(folder, "joined.tar"), region, os.path.join(folder, "rims.tar"))
+            ((_, with_rims),) = mesh(None, size, folder, args, os.path.join(folder, "rims.tar"))[0].values()
+            rims = f" {with_rims:.1f} |"
+        print(f"| {name} | {body + 1} | {share:.1f} |{rims} {left[region][1]:.1f} | {gains[-1]:+.1f} | {'; '.join(w.split(': ', 1)[-1] for w in warnings)} |", flush=True)
         del left[region]
     return gains
 
@@ -153,6 +201,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", default="", help="models with this in their name")
     parser.add_argument("--cad", help="folder of STEP files")
+    parser.add_argument("--rims", action="store_true", help="also each body with the curves of the others")
     parser.add_argument("--search", type=float, default=2, help="seconds of initsol, and of lns")
     parser.add_argument("--threads", type=int, default=1, help="of each tool")
     args = parser.parse_args()
@@ -163,7 +212,8 @@ def main():
                 path = os.path.abspath(os.path.join(args.cad, file))
                 models[f"{file[:-5]} on a plate"] = (None, ON_A_PLATE % path)
                 models[f"{file[:-5]} in a block"] = (None, IN_A_BLOCK % path)
-    print("| model | body | alone % | joined % | gain | |\n|---|---|---|---|---|---|", flush=True)
+    column, rule = (" with rims % |", "---|") if args.rims else ("", "")
+    print(f"| model | body | alone % |{column} joined % | gain | |\n|---|---|---|{rule}---|---|---|", flush=True)
     gains = []
     for name, (size, commands) in models.items():
         if args.only not in name:

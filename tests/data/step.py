@@ -58,6 +58,11 @@ class Step:
         else:
             self.items.append(self.add(f"MANIFOLD_SOLID_BREP('{name}',{shell})"))
 
+    def sheet(self, points, name):
+        """A face of four corners that belongs to no body."""
+        shell = self.shell(points, {"face": (0, 1, 2, 3)}, {"face": name}, closed=False)
+        self.items.append(self.add(f"SHELL_BASED_SURFACE_MODEL('',({shell}))"))
+
     def colour(self, item, red, green, blue):
         rgb = self.add(f"COLOUR_RGB('',{float(red)},{float(green)},{float(blue)})")
         fill = self.add(f"FILL_AREA_STYLE('',({self.add(f'FILL_AREA_STYLE_COLOUR({chr(39)*2},{rgb})')}))")
@@ -123,6 +128,15 @@ def grid(count):
     return bodies(*[((3 * (i % 10), 3 * (i // 10 % 10), 3 * (i // 100)), (3 * (i % 10) + 2, 3 * (i // 10 % 10) + 2, 3 * (i // 100) + 2)) for i in range(count)])
 
 
+def baffles(*spans):
+    """A room 6 x 4 x 4 with sheets at x = 3, from y and z to y and z."""
+    step = Step()
+    step.box((0, 0, 0), (6, 4, 4), "room", {"left": "inlet", "right": "outlet"})
+    for i, (low, high) in enumerate(spans):
+        step.sheet([(3, low[0], low[1]), (3, high[0], low[1]), (3, high[0], high[1]), (3, low[0], high[1])], "vane" if i == 0 else f"vane {i + 1}")
+    return step
+
+
 def roof(rise):
     """A box 4 x 4 x 2 whose top rises to a ridge in the middle, which is less sharp than 40 degrees."""
     step = Step()
@@ -139,6 +153,7 @@ KINDS = {
     "named": lambda: box({"left": "inlet", "right": "outlet"}, "pipe").text(),
     "one-name": lambda: box({"left": "wall", "right": "wall"}).text(),
     "odd-names": lambda: box({"left": "Ein\\X2\\006C00E400DF\\X0\\ 1", "right": "a ''b'' \"c\"", "top": "x" * 200}, "St\\X\\FCck").text(),
+    "clash": lambda: box({"left": "wall", "right": "WALL", "top": "surface_1", "bottom": "Wall"}, "wall").text(),
     "metres": lambda: box(unit="m").text(),
     "inches": lambda: box(unit="inch").text(),
     "coloured": lambda: coloured().text(),
@@ -150,6 +165,10 @@ KINDS = {
     "overlapping": lambda: bodies(((0, 0, 0), (4, 4, 4)), ((2, 2, 2), (6, 6, 6))).text(),
     "apart": lambda: bodies(((0, 0, 0), (4, 4, 4)), ((5, 0, 0), (9, 4, 4))).text(),
     "many": lambda: grid(500).text(),
+    "baffle": lambda: baffles(((0, 0), (4, 2))).text(),
+    "floating-baffle": lambda: baffles(((1, 1), (3, 3))).text(),
+    "poking-baffle": lambda: baffles(((1, 2), (3, 6))).text(),
+    "baffle-outside": lambda: baffles(((1, 4), (3, 6))).text(),
     "roof": lambda: roof(0.4).text(),
 }
 

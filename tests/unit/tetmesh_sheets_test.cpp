@@ -57,6 +57,50 @@ TEST(Sheets, SidesThatTheFileTellsAreBelieved) {
   EXPECT_EQ(told.triangles.size(), 12u);
 }
 
+// A cube with a square in its middle plane, which ends inside.
+Facets cube_with_baffle() {
+  const Vec3 a{0.25, 0.5, 0.25}, b{0.75, 0.5, 0.25}, c{0.75, 0.5, 0.75}, d{0.25, 0.5, 0.75};
+  return joined(box({0, 0, 0}, {1, 1, 1}), Facets{{a, b, c}, {d, c, a}});  // pointing to both sides
+}
+
+TEST(Sheets, BafflesAreKeptAndTurnedToOneSide) {
+  SurfaceSoup soup = soup_of(cube_with_baffle());
+  EXPECT_EQ(find_sides(soup, ShellRule::oriented, BaffleRule::keep).baffles, 2u);
+  const Surface surface = find_sheets(std::move(soup));
+  ASSERT_EQ(surface.shells.size(), 2u);
+  EXPECT_EQ(surface.shells[1].behind, 1);
+  EXPECT_EQ(surface.shells[1].in_front, 1);
+  EXPECT_EQ(surface.region_count, 1);
+  EXPECT_NEAR(surface.volume(), 1, 1e-12);
+  const auto normal = [&](std::size_t t) {
+    const auto [a, b, c] = surface.triangles[t];
+    return cross(surface.points[b] - surface.points[a], surface.points[c] - surface.points[a]);
+  };
+  EXPECT_GT(dot(normal(12), normal(13)), 0);
+}
+
+TEST(Sheets, BafflesOutsideGo) {
+  const Vec3 a{2, 0, 0}, b{3, 0, 0}, c{2, 1, 0};
+  SurfaceSoup soup = soup_of(joined(box({0, 0, 0}, {1, 1, 1}), Facets{{a, b, c}}));
+  const SheetReport report = find_sides(soup, ShellRule::oriented, BaffleRule::keep);
+  EXPECT_EQ(report.baffles, 0u);
+  EXPECT_EQ(report.fins, 1u);
+  EXPECT_EQ(soup.triangles.size(), 12u);
+}
+
+TEST(SheetCut, TheFreeBorderOfABaffleIsAFeature) {
+  SurfaceSoup soup = soup_of(cube_with_baffle());
+  find_sides(soup, ShellRule::oriented, BaffleRule::keep);
+  const Surface surface = find_sheets(std::move(soup));
+  const SheetCut cut = cut_along_joints(surface);
+  EXPECT_TRUE(cut.is_manifold);
+  EXPECT_EQ(cut.joints.size(), 4u);
+  const FeatureMesh mesh(surface, 40);
+  std::size_t features = 0;
+  for (const auto e : mesh.edges()) features += mesh.is_boundary(e) && mesh.is_feature(e) ? 1 : 0;
+  EXPECT_EQ(features, 4u);
+}
+
 TEST(SheetCut, PartsAtTheRimOfAnInterface) {
   const SheetCut cut = cut_along_joints(sheets_of(boxes_with_common_face()));
   EXPECT_EQ(cut.point_of.size(), 8 + 8 + 4u);

@@ -1,5 +1,8 @@
 #include "tools/merge-parts/part_reader.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "common/run/error.hpp"
 
 namespace hexpipe::merge_parts {
@@ -40,6 +43,26 @@ std::string common_member(const PartReaders& parts) {
 
 void next(PartReaders& parts) {
   for (PartReader& part : parts) part.next();
+}
+
+void copy_common(PartReaders& parts, pipeline::BundleWriter& out) {
+  constexpr std::size_t block = 64 << 10;
+  pipeline::BundleReader& first = parts.front().bundle();
+  const auto fail = [](PartReader& part) {
+    throw DataError::at(part.bundle().where(), "expected the same as in the first bundle, found other bytes");
+  };
+  for (PartReader& part : parts)
+    if (part.bundle().size() != first.size()) fail(part);
+  out.begin_member(first.name(), first.size());
+  std::array<char, block> bytes{}, others{};
+  while (const std::size_t count = first.read_some(bytes.data(), block)) {
+    for (std::size_t p = 1; p < parts.size(); ++p) {
+      parts[p].bundle().read_some(others.data(), count);
+      if (!std::equal(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(count), bytes.begin()))
+        fail(parts[p]);
+    }
+    out.write(bytes.data(), count);
+  }
 }
 
 }  // namespace hexpipe::merge_parts

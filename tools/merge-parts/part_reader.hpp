@@ -42,5 +42,7 @@ using PartReaders = std::vector<PartReader>;
 // The name of the member at which all parts stand; empty at the end. Throws DataError when they differ.
 std::string common_member(const PartReaders& parts);
 void next(PartReaders& parts);
+// Copies the member at which all stand. Throws DataError when it is not the same in all.
+void copy_common(PartReaders& parts, pipeline::BundleWriter& out);
 
 }  // namespace hexpipe::merge_parts

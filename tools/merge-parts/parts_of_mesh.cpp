@@ -12,6 +12,7 @@
 #include "common/run/error.hpp"
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/members.hpp"
+#include "formats/pipeline/surface_bundle.hpp"
 #include "tools/merge-parts/history.hpp"
 #include "tools/merge-parts/interleaving.hpp"
 #include "tools/merge-parts/part_numbers.hpp"
@@ -90,6 +91,8 @@ class Merger {
 
   void merge_member(const std::string& name) {
     if (take_about_part(name) || merge_names(name)) return;
+    // All parts have the surface of the whole.
+    if (pipeline::is_surface_member(name)) return copy_common(parts_, out_);
     const auto role = pipeline::role_of_member(name);
     if (role) history_.write_before(*role, counts_, out_);
     if (!merge_mesh(name) && !merge_candidates(name) && !merge_graph(name) && !merge_solution(name))

@@ -17,6 +17,7 @@
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/members.hpp"
 #include "formats/pipeline/part_bundle.hpp"
+#include "formats/pipeline/surface_bundle.hpp"
 #include "formats/streams/input.hpp"
 #include "formats/streams/output.hpp"
 #include "formats/streams/output_group.hpp"
@@ -88,7 +89,7 @@ class PieceReader {
 
   const History& settings() const { return settings_; }
   const formats::GroupNames& names() const { return names_; }
-  std::size_t size() const { return order_.size(); }
+  const std::string& first() const { return order_.front(); }
 
  private:
   MeshPiece first_;
@@ -166,6 +167,14 @@ void write_pieces(PieceReader& reader, const std::string& path) {
   files.commit();
 }
 
+// All pieces have the surface of the whole.
+void copy_surface(const std::string& piece, pipeline::BundleWriter& writer) {
+  formats::Input input = formats::Input::open(piece);
+  pipeline::BundleReader reader(input);
+  while (reader.next())
+    if (pipeline::is_surface_member(reader.name())) reader.copy_to(writer);
+}
+
 void write_whole(PieceReader& reader, const std::string& path, bool compress) {
   const std::string ending(pipeline::ending_of(path));
   const auto& formats = formats::mesh_format_names();
@@ -178,6 +187,7 @@ void write_whole(PieceReader& reader, const std::string& path, bool compress) {
     formats::write_mixed_mesh(mesh, ending, output);
   } else {
     pipeline::BundleWriter writer(output, compress || ending == pipeline::compressed_bundle_format);
+    copy_surface(reader.first(), writer);
     pipeline::write_members(writer, mesh);
     if (!reader.names().empty()) writer.add_text(std::string(formats::names_member), text_of(reader.names()));
     pipeline::write_history(writer, reader.settings());

@@ -63,27 +63,6 @@ Interleaving order_by_kinds(const std::vector<std::vector<std::uint8_t>>& kinds)
   return order;
 }
 
-// The member at which all stand, which has to be the same in all.
-void copy_common(PartReaders& parts, pipeline::BundleWriter& out) {
-  constexpr std::size_t block = 64 << 10;
-  pipeline::BundleReader& first = parts.front().bundle();
-  const auto fail = [](PartReader& part) {
-    throw DataError::at(part.bundle().where(), "expected the same as in the first bundle, found other bytes");
-  };
-  for (PartReader& part : parts)
-    if (part.bundle().size() != first.size()) fail(part);
-  out.begin_member(first.name(), first.size());
-  std::array<char, block> bytes{}, others{};
-  while (const std::size_t count = first.read_some(bytes.data(), block)) {
-    for (std::size_t p = 1; p < parts.size(); ++p) {
-      parts[p].bundle().read_some(others.data(), count);
-      if (!std::equal(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(count), bytes.begin()))
-        fail(parts[p]);
-    }
-    out.write(bytes.data(), count);
-  }
-}
-
 class CandidateShares {
  public:
   CandidateShares(PartReaders& parts, const Shared& shared, pipeline::BundleWriter& out)

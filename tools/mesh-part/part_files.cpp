@@ -50,10 +50,11 @@ std::string PartFiles::name_of(std::int32_t part) const {
 }
 
 void PartFiles::write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history,
-                      const formats::GroupNames& names) {
+                      const formats::GroupNames& names, const std::vector<pipeline::RawMember>& surface) {
   formats::Output& output = files_.add(fmt::format("{}/{}", directory_, name_of(part.part.part)));
   pipeline::BundleWriter writer(output, compress_);
   pipeline::write_members(writer, part.part);
+  for (const pipeline::RawMember& member : surface) writer.add_text(member.name, member.bytes);
   pipeline::write_members(writer, part.mesh);
   if (!names.empty()) writer.add_text(std::string(formats::names_member), text_of(names));
   pipeline::write_history(writer, history);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/pipeline/stage_data.hpp"
 #include "formats/streams/group_names.hpp"
 #include "formats/streams/output_group.hpp"
 #include "tools/mesh-part/mesh_cutter.hpp"
@@ -18,9 +19,9 @@ class PartFiles {
   // run with more parts or with the other compression.
   PartFiles(std::string directory, std::int32_t parts, bool compress);
 
-  // `history`: the entries that the part begins with; `names`: those of the whole mesh.
+  // `history`: the entries that the part begins with; `names` and `surface`: those of the whole mesh.
   void write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history,
-             const formats::GroupNames& names);
+             const formats::GroupNames& names, const std::vector<pipeline::RawMember>& surface);
   // Unless it is called, nothing new stays. Throws DataError when a part cannot be put in place; earlier ones stay.
   void commit() { files_.commit(); }
 

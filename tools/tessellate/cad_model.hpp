@@ -1,6 +1,7 @@
 #pragma once
 // A CAD model: how it is read (STEP, IGES and BREP, recognized by content), its bodies, and the names of its shapes.
 
+#include <Standard_Failure.hxx>
 #include <TopoDS_Shape.hxx>
 #include <map>
 #include <string>
@@ -43,12 +44,16 @@ struct LengthUnit {
 };
 
 struct CadModel {
-  std::vector<CadBody> bodies;  // in millimetres, or in the file's own unit if it names none
-  ShapeNames names;             // of faces and edges
-  LengthUnit unit;              // of the file
+  std::vector<CadBody> bodies;       // in millimetres, or in the file's own unit if it names none
+  std::vector<TopoDS_Shape> sheets;  // faces beside bodies, which belong to none; likewise
+  ShapeNames names;                  // of faces and edges
+  LengthUnit unit;                   // of the file
   bool names_unit = true;
   std::vector<std::string> warnings;  // what was healed or left out
 };
+
+// What OpenCASCADE says about a failure, or at least its kind.
+std::string message_of(const Standard_Failure& failure);
 
 // Throws DataError if the file is empty, cut off, not CAD, or without bodies. Closed shells and faces that can be sewn
 // to such become bodies, with a warning.
@@ -61,7 +66,11 @@ void make_bodies(const TopoDS_Shape& whole, const std::string& source, CadModel&
 // Heals the bodies that OpenCASCADE finds faulty, with a warning.
 void heal_bodies(CadModel& model);
 
-// Lets bodies that touch share their common faces, edges and vertices. Throws DataError for bodies that overlap.
+// Adds the faces of the whole that belong to no solid to the sheets.
+void find_sheets(const TopoDS_Shape& whole, CadModel& model);
+
+// Lets bodies that touch share their common faces, edges and vertices, and puts sheets into the bodies that they lie
+// in, as internal faces. What lies in none is left out, which is told. Throws DataError for bodies that overlap.
 void join_bodies(const std::string& source, CadModel& model);
 
 }  // namespace hexpipe::tessellate

@@ -50,6 +50,9 @@ int main(int argc, char** argv) {
         ->group(group::first)
         ->check(CLI::IsMember({"m", "mm"}));
     app.add_flag("--join", options.join, "Let bodies that touch share their common faces, edges and corners");
+    app.add_flag(
+        "--keep-baffles", options.keep_baffles,
+        "Keep faces inside that bound no body, joined to the faces that they meet, for tetmesh --keep-baffles");
     outside_history(
         app.add_option("-o,--output", output_path, "Write to a file, not to standard output: .tar, .obj, .stl or .msh"))
         ->group(group::first)

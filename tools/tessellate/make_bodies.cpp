@@ -18,9 +18,13 @@
 #include <TopTools_ListOfShape.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
 #include <TopoDS_Solid.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <cmath>
+#include <gp_Pnt.hxx>
+#include <utility>
 #include <vector>
 
 #include "common/run/error.hpp"
@@ -72,6 +76,15 @@ int add_closed_shells(const TopoDS_Shape& shape, CadModel& model) {
   return open;
 }
 
+// Adds the faces of open shells to the sheets.
+void add_open_shells(const TopoDS_Shape& shape, CadModel& model) {
+  for (TopExp_Explorer shell(shape, TopAbs_SHELL); shell.More(); shell.Next()) {
+    if (BRep_Tool::IsClosed(shell.Current())) continue;
+    for (TopExp_Explorer face(shell.Current(), TopAbs_FACE); face.More(); face.Next())
+      model.sheets.push_back(face.Current());
+  }
+}
+
 // Passes names from the parts of a shape to the parts that a change made of them.
 template <class ChangeOf>
 void carry_names(const TopoDS_Shape& shape, ShapeNames& names, ChangeOf&& changed) {
@@ -82,7 +95,12 @@ void carry_names(const TopoDS_Shape& shape, ShapeNames& names, ChangeOf&& change
     }
 }
 
-TopoDS_Shape sewn(const TopoDS_Shape& whole, ShapeNames& names) {
+struct SewnFaces {
+  TopoDS_Shape shape;
+  std::string gap;  // how many edges have a single face, and where the first is; empty if none
+};
+
+SewnFaces sewn(const TopoDS_Shape& whole, ShapeNames& names) {
   BRepBuilderAPI_Sewing sewing(sewing_tolerance * diagonal_of(whole));
   for (TopExp_Explorer face(whole, TopAbs_FACE); face.More(); face.Next()) sewing.Add(face.Current());
   sewing.Perform();
@@ -90,25 +108,48 @@ TopoDS_Shape sewn(const TopoDS_Shape& whole, ShapeNames& names) {
     if (sewing.IsModified(part)) set(sewing.Modified(part));
     if (part.ShapeType() == TopAbs_EDGE && sewing.IsModifiedSubShape(part)) set(sewing.ModifiedSubShape(part));
   });
-  return sewing.SewedShape();
+  std::string gap;
+  if (sewing.NbFreeEdges() > 0) {
+    const TopoDS_Edge edge = sewing.FreeEdge(1);
+    const gp_Pnt from = BRep_Tool::Pnt(TopExp::FirstVertex(edge)), to = BRep_Tool::Pnt(TopExp::LastVertex(edge));
+    gap = fmt::format("; {} of a single face, the first from ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g})",
+                      counted(sewing.NbFreeEdges(), "edge"), from.X(), from.Y(), from.Z(), to.X(), to.Y(), to.Z());
+  }
+  return {sewing.SewedShape(), std::move(gap)};
 }
 
 }  // namespace
 
 void make_bodies(const TopoDS_Shape& whole, const std::string& source, CadModel& model) {
   const int faces = count_of(whole, TopAbs_FACE);
-  if (faces == 0) throw DataError::at(source, "expected bodies, found no solid and no face");
-  int open = add_closed_shells(whole, model);
+  if (faces == 0)
+    throw DataError::at(source, "expected bodies, found no solid and no face{}",
+                        model.warnings.empty() ? "" : "; " + model.warnings.front());
+  TopoDS_Shape shells = whole;
+  int open = add_closed_shells(shells, model);
   const char* act = "shells that are closed are taken for bodies";
+  std::string gap;
   if (model.bodies.empty()) {
-    open = add_closed_shells(sewn(whole, model.names), model);
+    SewnFaces made = sewn(whole, model.names);
+    shells = made.shape;
+    gap = std::move(made.gap);
+    open = add_closed_shells(shells, model);
     act = "its faces are sewn to bodies";
   }
   if (model.bodies.empty())
-    throw DataError::at(source, "expected bodies, found no solid, and {} of {} that {} not closed",
-                        open > 0 ? counted(open, "shell") : "sheets", counted(faces, "face"), open == 1 ? "is" : "are");
-  model.warnings.push_back(fmt::format("there are no solids: {}, {}{}", act, counted_bodies(model.bodies.size()),
-                                       open > 0 ? fmt::format(", and {} left out", counted(open, "open shell")) : ""));
+    throw DataError::at(source, "expected bodies, found no solid, and {} of {} that {} not closed{}",
+                        open > 0 ? counted(open, "shell") : "sheets", counted(faces, "face"), open == 1 ? "is" : "are",
+                        gap);
+  model.warnings.push_back(fmt::format("there are no solids: {}, {}", act, counted_bodies(model.bodies.size())));
+  add_open_shells(shells, model);
+}
+
+void find_sheets(const TopoDS_Shape& whole, CadModel& model) {
+  for (TopExp_Explorer shell(whole, TopAbs_SHELL, TopAbs_SOLID); shell.More(); shell.Next())
+    for (TopExp_Explorer face(shell.Current(), TopAbs_FACE); face.More(); face.Next())
+      model.names.set(face.Current(), model.names.of(shell.Current()));
+  for (TopExp_Explorer face(whole, TopAbs_FACE, TopAbs_SOLID); face.More(); face.Next())
+    model.sheets.push_back(face.Current());
 }
 
 void heal_bodies(CadModel& model) {
@@ -134,11 +175,37 @@ void heal_bodies(CadModel& model) {
                                          counted_bodies(faulty)));
 }
 
+namespace {
+
+// What the general fuse has made of a shape.
+TopTools_ListOfShape parts_of(const TopoDS_Shape& shape, BRepAlgoAPI_BuilderAlgo& fuse) {
+  TopTools_ListOfShape parts = fuse.Modified(shape);
+  if (parts.IsEmpty() && !fuse.IsDeleted(shape)) parts.Append(shape);
+  return parts;
+}
+
+// Tells how many of the sheets' faces lie in no body, or on the boundary of one.
+void tell_lost_sheets(CadModel& model, BRepAlgoAPI_BuilderAlgo& fuse) {
+  TopTools_MapOfShape inside;
+  for (const CadBody& body : model.bodies)
+    for (TopExp_Explorer face(body.solid, TopAbs_FACE); face.More(); face.Next())
+      if (face.Current().Orientation() == TopAbs_INTERNAL) inside.Add(face.Current());
+  int lost = 0;
+  for (const TopoDS_Shape& sheet : model.sheets)
+    for (const TopoDS_Shape& part : parts_of(sheet, fuse)) lost += inside.Contains(part) ? 0 : 1;
+  if (lost > 0)
+    model.warnings.push_back(fmt::format("{} outside of all bodies, or on their boundary, {} no baffle{} and left out",
+                                         counted(lost, "face"), lost == 1 ? "is" : "are", lost == 1 ? "" : "s"));
+}
+
+}  // namespace
+
 void join_bodies(const std::string& source, CadModel& model) {
-  if (model.bodies.size() < 2) return;
+  if (model.bodies.size() + model.sheets.size() < 2) return;
   BRepAlgoAPI_BuilderAlgo fuse;
   TopTools_ListOfShape arguments;
   for (const CadBody& body : model.bodies) arguments.Append(body.solid);
+  for (const TopoDS_Shape& sheet : model.sheets) arguments.Append(sheet);
   fuse.SetArguments(arguments);
   fuse.SetNonDestructive(Standard_True);
   fuse.SetRunParallel(Standard_False);
@@ -146,13 +213,15 @@ void join_bodies(const std::string& source, CadModel& model) {
   if (fuse.HasErrors()) throw DataError::at(source, "OpenCASCADE cannot join its bodies (--join)");
   std::vector<CadBody> joined;
   TopTools_MapOfShape seen;
-  for (const CadBody& body : model.bodies) {
-    carry_names(body.solid, model.names, [&](const TopoDS_Shape& part, const auto& set) {
+  const auto carry = [&](const TopoDS_Shape& shape) {
+    carry_names(shape, model.names, [&](const TopoDS_Shape& part, const auto& set) {
       for (const TopoDS_Shape& made : fuse.Modified(part)) set(made);
     });
-    TopTools_ListOfShape parts = fuse.Modified(body.solid);
-    if (parts.IsEmpty() && !fuse.IsDeleted(body.solid)) parts.Append(body.solid);
-    for (const TopoDS_Shape& part : parts) {
+  };
+  for (const TopoDS_Shape& sheet : model.sheets) carry(sheet);
+  for (const CadBody& body : model.bodies) {
+    carry(body.solid);
+    for (const TopoDS_Shape& part : parts_of(body.solid, fuse)) {
       if (!seen.Add(part))
         throw DataError::at(source, "expected bodies that touch at most, found some that overlap; the second is '{}'",
                             body.name.empty() ? fmt::format("{}", &body - model.bodies.data() + 1) : body.name);
@@ -160,6 +229,7 @@ void join_bodies(const std::string& source, CadModel& model) {
     }
   }
   model.bodies = std::move(joined);
+  tell_lost_sheets(model, fuse);
 }
 
 }  // namespace hexpipe::tessellate

@@ -5,18 +5,23 @@
 
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <IGESBasic_SubfigureDef.hxx>
 #include <IGESCAFControl_Reader.hxx>
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESModel.hxx>
+#include <Interface_Check.hxx>
+#include <Interface_CheckIterator.hxx>
 #include <Interface_Static.hxx>
 #include <STEPCAFControl_Controller.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <Standard_Failure.hxx>
+#include <StepData_StepModel.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TDocStd_Document.hxx>
 #include <TopExp_Explorer.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <XSControl_WorkSession.hxx>
 #include <algorithm>
 #include <cstdlib>
 #include <optional>
@@ -32,9 +37,24 @@ namespace {
 
 constexpr std::string_view step_begin = "ISO-10303-21", step_end = "END-ISO-10303-21";
 
+// Whether a line of IGES ends with the number 1 behind the letter of its section. Some programs fill numbers up by
+// blanks, others by zeros.
+bool is_first_of_section(char section, std::string_view line) {
+  if (!line.ends_with('1')) return false;
+  line.remove_suffix(1);
+  const std::size_t last = line.find_last_not_of(" 0");
+  return last != std::string_view::npos && line[last] == section;
+}
+
 bool looks_like_iges(std::string_view bytes) {
   return bytes.size() > 80 && bytes.substr(0, 80).find('\n') == std::string_view::npos && bytes[72] == 'S' &&
-         bytes.substr(73, 7) == "      1";
+         is_first_of_section('S', bytes.substr(0, 80));
+}
+
+// The last section has one line. Blank lines and the end mark of DOS may follow it.
+bool ends_as_iges(std::string_view bytes) {
+  bytes = bytes.substr(0, bytes.find_last_not_of(" \t\r\n\x1a") + 1);
+  return is_first_of_section('T', bytes.substr(bytes.rfind('\n') + 1));
 }
 
 bool looks_like_brep(std::string_view bytes) {
@@ -95,7 +115,27 @@ TopoDS_Shape whole_of(const Handle(TDocStd_Document) & document) {
 }
 
 void finish(const TopoDS_Shape& whole, const std::string& name, CadModel& model) {
-  if (model.bodies.empty()) make_bodies(whole, name, model);
+  if (model.bodies.empty())
+    make_bodies(whole, name, model);
+  else
+    find_sheets(whole, model);
+}
+
+// OpenCASCADE takes a default for what it cannot read, 0 for a coordinate.
+void tell_faulty_entities(const Handle(XSControl_WorkSession) & session, CadModel& model) {
+  const auto entities = Handle(StepData_StepModel)::DownCast(session->Model());
+  std::size_t faulty = 0;
+  std::string first;
+  Interface_CheckIterator checks = session->ModelCheckList();
+  for (checks.Start(); checks.More(); checks.Next()) {
+    const Handle(Interface_Check) check = checks.Value();
+    if (checks.Number() < 1 || check->NbFails() == 0) continue;
+    if (++faulty == 1)
+      first = fmt::format("#{}: {}", entities->IdentLabel(entities->Value(checks.Number())), check->CFail(1));
+  }
+  if (faulty > 0)
+    model.warnings.push_back(fmt::format("{} faulty, and may be taken for something else; the first is {}",
+                                         faulty == 1 ? "an entity is" : fmt::format("{} entities are", faulty), first));
 }
 
 CadModel read_step(const std::string& bytes, const std::string& name) {
@@ -110,6 +150,7 @@ CadModel read_step(const std::string& bytes, const std::string& name) {
   if (reader.ChangeReader().ReadStream("", stream) != IFSelect_RetDone)
     throw DataError::at(name, "expected a STEP file, found one that OpenCASCADE cannot read: its syntax is wrong");
   CadModel model;
+  tell_faulty_entities(reader.Reader().WS(), model);
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.ChangeReader().FileUnits(lengths, angles, solid_angles);
   if (lengths.IsEmpty())
@@ -158,18 +199,28 @@ class NamedFile {
   bool made_ = false;
 };
 
+// OpenCASCADE crashes at a subfigure without a name.
+bool names_are_whole(const Handle(IGESData_IGESModel) & model) {
+  for (Standard_Integer i = 1; i <= model->NbEntities(); ++i) {
+    const auto subfigure = Handle(IGESBasic_SubfigureDef)::DownCast(model->Entity(i));
+    if (!subfigure.IsNull() && subfigure->Name().IsNull()) return false;
+  }
+  return true;
+}
+
 CadModel read_iges(const std::string& bytes, const std::string& name, const std::string& path) {
-  const std::string_view last = std::string_view(bytes).substr(bytes.rfind('\n', bytes.size() - 2) + 1);
-  if (last.size() < 73 || last[72] != 'T')
+  if (!ends_as_iges(bytes))
     throw DataError::at(name, "expected a line of section T at the end of an IGES file, found none: it is cut off");
   const NamedFile file(path, bytes);
   IGESCAFControl_Reader reader;
   reader.SetColorMode(Standard_True);
-  reader.SetNameMode(Standard_True);
   reader.SetLayerMode(Standard_True);
   if (reader.ReadFile(file.path().c_str()) != IFSelect_RetDone)
     throw DataError::at(name, "expected an IGES file, found one that OpenCASCADE cannot read");
   CadModel model;
+  const bool has_names = names_are_whole(reader.IGESModel());
+  reader.SetNameMode(has_names);
+  if (!has_names) model.warnings.push_back("a subfigure has no name; OpenCASCADE then reads no names at all");
   const Handle(TCollection_HAsciiString) unit = reader.IGESModel()->GlobalSection().UnitName();
   if (unit.IsNull())
     model.names_unit = false;
@@ -200,6 +251,11 @@ CadModel read_brep(const std::string& bytes, const std::string& name) {
 
 }  // namespace
 
+std::string message_of(const Standard_Failure& failure) {
+  const std::string_view message = failure.GetMessageString();
+  return std::string(message.empty() ? failure.DynamicType()->Name() : message);
+}
+
 CadModel read_cad(formats::Input& input) {
   const std::string bytes = input.read_all();
   const std::string& name = input.name();
@@ -210,7 +266,7 @@ CadModel read_cad(formats::Input& input) {
     if (looks_like_brep(text)) return read_brep(bytes, name);
     if (looks_like_iges(text)) return read_iges(bytes, name, input.path());
   } catch (const Standard_Failure& failure) {
-    throw DataError::at(name, "OpenCASCADE cannot read it: {}", failure.GetMessageString());
+    throw DataError::at(name, "OpenCASCADE cannot read it: {}", message_of(failure));
   }
   throw DataError::at(name, "expected CAD in STEP, IGES or BREP, found {}",
                       formats::quote_found(formats::TextScanner(text, name).peek_word()));

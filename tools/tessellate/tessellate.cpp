@@ -10,6 +10,7 @@
 #include "common/run/messages.hpp"
 #include "common/run/progress.hpp"
 #include "tools/tessellate/cad_model.hpp"
+#include "tools/tessellate/crash_message.hpp"
 #include "tools/tessellate/triangulate.hpp"
 
 namespace hexpipe::tessellate {
@@ -21,9 +22,19 @@ LengthUnit wanted_unit(const CadModel& model, const TessellateOptions& options) 
   return model.unit;
 }
 
+void leave_out_sheets(CadModel& model) {
+  const std::size_t count = model.sheets.size();
+  if (count > 0)
+    model.warnings.push_back(fmt::format("{} that {} to no body {} left out (see --keep-baffles)",
+                                         count == 1 ? "a face" : fmt::format("{} faces", count),
+                                         count == 1 ? "belongs" : "belong", count == 1 ? "is" : "are"));
+  model.sheets.clear();
+}
+
 }  // namespace
 
 TessellateResult tessellate(formats::Input& input, const TessellateOptions& options) {
+  const CrashMessage crash_message(input.name());
   const MutedCout muted;
   Message::DefaultMessenger()->ChangePrinters().Clear();
   std::optional<Step> step(std::in_place, "reading the model", 0, 0.4);
@@ -33,8 +44,9 @@ TessellateResult tessellate(formats::Input& input, const TessellateOptions& opti
   try {
     step.emplace("checking bodies", 0.4, 0.6);
     heal_bodies(model);
-    if (options.join) join_bodies(input.name(), model);
-    TriangulationOptions triangulation{.angle = options.angle};
+    if (!options.keep_baffles) leave_out_sheets(model);
+    if (options.join || options.keep_baffles) join_bodies(input.name(), model);
+    TriangulationOptions triangulation{.angle = options.angle, .keep_baffles = options.keep_baffles};
     if (options.deviation) triangulation.deviation = *options.deviation * unit.millimetres;
     step.emplace("making triangles", 0.6);
     Triangulation made = triangulate(model, triangulation, input.name());
@@ -45,7 +57,7 @@ TessellateResult tessellate(formats::Input& input, const TessellateOptions& opti
     result.curves = made.curves;
     result.deviation = made.deviation / unit.millimetres;
   } catch (const Standard_Failure& failure) {
-    throw DataError::at(input.name(), "OpenCASCADE failed: {}", failure.GetMessageString());
+    throw DataError::at(input.name(), "OpenCASCADE failed: {}", message_of(failure));
   }
   for (Vec3& p : result.surface.points) p = {p.x / unit.millimetres, p.y / unit.millimetres, p.z / unit.millimetres};
   result.bodies = model.bodies.size();

@@ -177,6 +177,7 @@ void Triangulator::add_body(std::size_t body) {
   double volume = 0;
   bool is_alone = true;
   for (std::size_t i = first; i < result_.surface.triangles.size(); ++i) {
+    if (result_.surface.sides[i][0] == result_.surface.sides[i][1]) continue;  // a baffle
     const auto [a, b, c] = result_.surface.triangles[i];
     volume += det(nodes_[a] - nodes_[0], nodes_[b] - nodes_[0], nodes_[c] - nodes_[0]);
     is_alone = is_alone && result_.surface.sides[i][0] == region;
@@ -187,14 +188,17 @@ void Triangulator::add_body(std::size_t body) {
 }
 
 void Triangulator::add_face(const TopoDS_Face& face, std::int32_t region) {
-  if (face.Orientation() == TopAbs_INTERNAL || face.Orientation() == TopAbs_EXTERNAL) return;
+  const bool is_inside = face.Orientation() == TopAbs_INTERNAL;
+  if (face.Orientation() == TopAbs_EXTERNAL || (is_inside && !options_.keep_baffles)) return;
   const int number = faces_.FindIndex(face);
   if (const auto found = done_.find(number); found != done_.end()) {
     // The triangles of the body on the other side get this region. If it is the same body, they are a wall inside and
-    // go.
+    // go, or stay as a baffle.
+    const std::array<std::int32_t, 2> of_wall =
+        options_.keep_baffles ? std::array{region, region} : std::array<std::int32_t, 2>{0, 0};
     for (const std::size_t t : found->second.triangles) {
       auto& sides = result_.surface.sides[t];
-      sides = sides[0] == region ? std::array<std::int32_t, 2>{0, 0} : std::array<std::int32_t, 2>{sides[0], region};
+      sides = sides[0] == region ? of_wall : std::array<std::int32_t, 2>{sides[0], region};
     }
     return;
   }
@@ -213,7 +217,7 @@ void Triangulator::add_face(const TopoDS_Face& face, std::int32_t region) {
     nodes.triangles.push_back(result_.surface.triangles.size());
     result_.surface.triangles.push_back({nodes.first + a - 1, nodes.first + b - 1, nodes.first + c - 1});
     result_.surface.tags.push_back(tags_[number - 1]);
-    result_.surface.sides.push_back({region, 0});
+    result_.surface.sides.push_back({region, is_inside ? region : 0});
     face_of_triangle_.push_back(number);
   }
 }
@@ -302,7 +306,7 @@ void Triangulator::number_points() {
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
     Triangle t = surface.triangles[i];
     for (Vertex& v : t) v = same_.of(v);
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || surface.sides[i][0] == surface.sides[i][1]) continue;
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || surface.sides[i] == std::array<std::int32_t, 2>{}) continue;
     for (Vertex& v : t) v = number_of(v);
     surface.triangles[kept] = t;
     surface.tags[kept] = surface.tags[i];

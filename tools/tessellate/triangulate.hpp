@@ -14,6 +14,7 @@ struct TriangulationOptions {
   std::optional<double> deviation = {};  // nothing: a hundredth of the size that tetmesh would choose
   double angle = 15;                     // degrees, between neighbours on a smooth face
   double smooth_angle = 2;               // degrees: a curve between faces that differ by no more does not count
+  bool keep_baffles = false;             // faces inside stay, with the same body on both sides
 };
 
 struct Triangulation {

@@ -99,6 +99,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> given_sizes;
   std::vector<std::string> tag_names;
   std::string path = "-", surface_kind = "remesh", points = "best", shells = "oriented", weld = "0.0001%";
+  bool keeps_baffles = false;
   const auto declare = [&](CLI::App& app) {
     command_line = &app;
     app.add_option("input", path, "A surface in any format; '-' or nothing: standard input")->type_name("FILE");
@@ -191,7 +192,11 @@ int main(int argc, char** argv) {
                  "Refuse a surface with any fault. Without it, those that change no shape are mended with a warning: "
                  "triangles without area, copies and strays, points that differ by rounding or lie on an edge")
         ->excludes(repair);
-    app.add_flag("--unite", options.unite, "Make one body of bodies that overlap");
+    CLI::Option* const unite = app.add_flag("--unite", options.unite, "Make one body of bodies that overlap");
+    app.add_flag("--keep-baffles", keeps_baffles,
+                 "Keep sheets inside, with the same region on both sides; without it, they are left out")
+        ->excludes(repair)
+        ->excludes(unite);
     app.add_option("--weld", weld,
                    "With --repair: points this near to each other become one; a length, or with % of the diagonal")
         ->type_name("LENGTH")
@@ -227,6 +232,7 @@ int main(int argc, char** argv) {
     choose_points(points, options);
     refuse_idle_options([&](const char* name) { return command_line->count(name) > 0; }, options, points);
     options.shells = shell_rules.at(shells);
+    if (keeps_baffles) options.baffles = solid::BaffleRule::keep;
     for (const std::string& text : tag_names) options.tag_names.push_back(solid::parse_tag_name(text));
     options.seed = context.common.seed;
     options.weld = sizing::parse_length(weld);

@@ -41,7 +41,8 @@ struct TetmeshOptions {
   std::uint64_t seed = 1;
   double most_points = 2e7;  // inside
   bool mend = true;          // where nothing is changed by it; see solid::mend
-  bool unite = false;        // bodies that overlap: solid::unite_bodies
+  solid::BaffleRule baffles = solid::BaffleRule::drop;
+  bool unite = false;  // bodies that overlap: solid::unite_bodies
   bool repair = false;
   sizing::Length weld = {1e-4, true};
   std::size_t largest_hole = solid::RepairOptions{}.largest_hole;

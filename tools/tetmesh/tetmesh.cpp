@@ -129,12 +129,16 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
   std::optional<Step> step(std::in_place, "checking the surface", 0, 0.02);
   std::optional<solid::RepairReport> repaired;
   if (options.repair) repaired = solid::repair(soup, {sizing::in_units(options.weld, soup), options.largest_hole});
-  if (options.mend && !options.repair) repaired = solid::mend(soup);
+  if (options.mend && !options.repair) repaired = solid::mend(soup, options.baffles);
   std::size_t united = 0;
   if (options.unite) united = unite(soup);
   std::vector<std::string> warnings;
-  const char* remedy = !soup.sides.empty() ? "" : options.repair ? " (see wrap)" : " (see --repair)";
-  solid::Surface tagged = solid::boundary_of(std::move(soup), options.shells, remedy, warnings);
+  const bool keeps_baffles = options.baffles == solid::BaffleRule::keep;
+  const char* remedy = !soup.sides.empty() ? ""
+                       : keeps_baffles     ? "; a baffle shares whole edges with what it meets"
+                       : options.repair    ? " (see wrap)"
+                                           : " (see --repair)";
+  solid::Surface tagged = solid::boundary_of(std::move(soup), options.shells, options.baffles, remedy, warnings);
   if (options.tag_angle) solid::tag_by_angle(tagged, *options.tag_angle);
   solid::name_tags(tagged, options.tag_names);
   const solid::Surface surface = std::move(tagged);

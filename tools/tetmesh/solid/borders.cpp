@@ -206,6 +206,10 @@ std::size_t cut_at_border_points(SurfaceSoup& soup, double tolerance) {
   return count;
 }
 
+bool has_borders(const SurfaceSoup& soup) {
+  return !borders_of(soup).empty();
+}
+
 std::size_t remove_stray_sheets(SurfaceSoup& soup) {
   constexpr std::size_t few = 4;
   constexpr double small_share = 0.01;

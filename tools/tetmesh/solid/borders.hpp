@@ -27,9 +27,12 @@ std::size_t cut_at_border_points(formats::SurfaceSoup& soup, double tolerance);
 // large or larger.
 bool is_sheet(double area, double border);
 
-// Removes open pieces that share no edge with others and are sheets. They have at most four triangles, or a hundredth of the area of the closed
-// pieces, of which there must be some. Two triangles back to back are such a piece, too. Returns the number of
-// triangles that went. No triangle may repeat a vertex.
+// Removes open pieces that share no edge with others and are sheets. They have at most four triangles, or a hundredth
+// of the area of the closed pieces, of which there must be some. Two triangles back to back are such a piece, too.
+// Returns the number of triangles that went. No triangle may repeat a vertex.
 std::size_t remove_stray_sheets(formats::SurfaceSoup& soup);
+
+// Whether an edge has a single triangle.
+bool has_borders(const formats::SurfaceSoup& soup);
 
 }  // namespace hexpipe::tetmesh::solid

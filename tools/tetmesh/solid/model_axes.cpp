@@ -100,7 +100,9 @@ class AxesFinder {
     std::vector<Vec3> edges;
     double total = 0;
     geometry::for_each_edge(surface_.points.size(), surface_.triangles, [&](std::span<const geometry::HalfEdge> edge) {
-      const Vec3 n = area_normal(geometry::triangle_of(edge[0])), m = area_normal(geometry::triangle_of(edge[1]));
+      // The free border of a baffle has a single triangle, whose direction counts like a sharp edge's.
+      const Vec3 n = area_normal(geometry::triangle_of(edge[0]));
+      const Vec3 m = edge.size() > 1 ? area_normal(geometry::triangle_of(edge[1])) : -n;
       if (dot(n, m) > feature_cosine * norm(n) * norm(m)) return;
       edges.push_back(surface_.points[geometry::end_of(surface_.triangles, edge[0])] -
                       surface_.points[geometry::start_of(surface_.triangles, edge[0])]);

@@ -38,12 +38,12 @@ class Repairer {
   }
 
   // See mend().
-  RepairReport mend() {
+  RepairReport mend(BaffleRule baffles) {
     if (!is_harmed()) return report_;
     remove_degenerate();
     if (soup_.sides.empty()) {
       remove_duplicates(turn_of);
-      join_all_borders();
+      baffles == BaffleRule::keep ? join_borders() : join_all_borders();
     }
     if (report_.anything()) finish();
     return report_;
@@ -435,8 +435,8 @@ RepairReport repair(formats::SurfaceSoup& soup, const RepairOptions& options) {
   return Repairer(soup, options).repair();
 }
 
-RepairReport mend(formats::SurfaceSoup& soup) {
-  return Repairer(soup, {}).mend();
+RepairReport mend(formats::SurfaceSoup& soup, BaffleRule baffles) {
+  return Repairer(soup, {}).mend(baffles);
 }
 
 }  // namespace hexpipe::tetmesh::solid

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "formats/surfaces/surface_files.hpp"
+#include "tools/tetmesh/solid/shells.hpp"
 
 namespace hexpipe::tetmesh::solid {
 
@@ -38,9 +39,9 @@ nlohmann::ordered_json to_json(const RepairReport& report);
 // repeated ones; other surfaces stay as they are:
 // - removes triangles without area, as repair() does, and copies of triangles of the same orientation;
 // - makes one point of points of borders that differ by rounding, cuts triangles where other points lie on their
-// borders, and removes stray sheets, if no border is left then: borders.hpp.
-// Where the surface says what is on its sides, only triangles without area go.
-RepairReport mend(formats::SurfaceSoup& soup);
+// borders, and removes stray sheets, if no border is left then: borders.hpp. Where the surface says what is on its
+// sides, only triangles without area go. Where baffles are kept, sheets are no strays, and borders may be left.
+RepairReport mend(formats::SurfaceSoup& soup, BaffleRule baffles = BaffleRule::drop);
 
 // Mends, and repairs in this order:
 // - welds points;

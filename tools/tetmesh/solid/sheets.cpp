@@ -80,8 +80,8 @@ void for_each_wedge(const formats::SurfaceSoup& soup, std::span<const HalfEdge> 
 
 class SideFinder {
  public:
-  SideFinder(formats::SurfaceSoup& soup, ShellRule rule, std::string_view remedy)
-      : soup_(soup), rule_(rule), remedy_(remedy) {}
+  SideFinder(formats::SurfaceSoup& soup, ShellRule rule, BaffleRule baffles, std::string_view remedy)
+      : soup_(soup), rule_(rule), baffles_(baffles), remedy_(remedy) {}
 
   SheetReport join() {
     agree_on_overlaps();
@@ -115,11 +115,16 @@ class SideFinder {
   void judge_rooms();
   bool is_fin(std::int32_t t) { return rooms_->of(behind(t)) == rooms_->of(before(t)); }
   void set_sides();
+  bool is_baffle(std::int32_t t) const {
+    const auto [back, front] = soup_.sides[t];
+    return baffles_ == BaffleRule::keep && back == front && back != outside_region;
+  }
   void drop_fins();
   void refuse_open_bodies() const;
 
   formats::SurfaceSoup& soup_;
   ShellRule rule_;
+  BaffleRule baffles_;
   std::string_view remedy_;
   std::vector<bool> is_interface_;        // by triangle: two bodies had it
   std::optional<JoinedSets> rooms_;       // sets of sides; the last number is the outside
@@ -287,10 +292,15 @@ void SideFinder::set_sides() {
   drop_fins();
 }
 
-// Drops triangles with the same region on both sides, and the vertices and edges that only they have.
+// Drops triangles with the same on both sides that are no baffles, and the vertices and edges that only they have.
 void SideFinder::drop_fins() {
   std::vector<bool> kept;
-  for (const auto& [back, front] : soup_.sides) kept.push_back(back != front);
+  std::size_t baffles = 0;
+  for (std::int32_t t = 0; t < count(); ++t) {
+    kept.push_back(soup_.sides[t][0] != soup_.sides[t][1] || is_baffle(t));
+    baffles += is_baffle(t) ? 1 : 0;
+  }
+  report_.baffles = baffles;
   const auto fins = static_cast<std::size_t>(std::ranges::count(kept, false));
   if (fins == kept.size())
     throw DataError::at(soup_.name, "expected a surface that encloses something, found only sheets that do not");
@@ -313,14 +323,15 @@ void SideFinder::drop_fins() {
 }
 
 // The triangles of a body with a hole have the same on both sides, like fins. But such a body is larger than a sheet
-// with its border could be. Files that tell the sides themselves are believed.
+// with its border could be. Files that tell the sides themselves are believed, and so are users who keep baffles: these
+// may bulge.
 void SideFinder::refuse_open_bodies() const {
   struct Piece {
     std::size_t triangles = 0;
     double area = 0, border = 0;
     HalfEdge open = no_index;  // an edge of a single triangle
   };
-  const auto has_same_on_both = [&](std::int32_t t) { return soup_.sides[t][0] == soup_.sides[t][1]; };
+  const auto has_same_on_both = [&](std::int32_t t) { return soup_.sides[t][0] == soup_.sides[t][1] && !is_baffle(t); };
   JoinedSets sets(soup_.triangles.size());
   std::vector<std::int32_t> fins;  // at an edge
   const auto find_fins = [&](std::span<const HalfEdge> edge) {
@@ -359,6 +370,44 @@ void SideFinder::refuse_open_bodies() const {
   }
 }
 
+// Turns the triangles of each baffle so that neighbours agree with the first one. At edges where baffles cross or meet
+// other sheets, they part.
+void orient_baffles(Surface& surface) {
+  std::map<std::int32_t, std::vector<std::array<HalfEdge, 2>>> edges;  // by triangle; its own half-edge comes first
+  const auto is_baffle = [&](std::int32_t t) { return surface.sides[t][0] == surface.sides[t][1]; };
+  geometry::for_each_edge(surface.points.size(), surface.triangles, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() != 2) return;
+    const std::int32_t t = geometry::triangle_of(edge[0]), u = geometry::triangle_of(edge[1]);
+    if (!is_baffle(t) || !is_baffle(u)) return;
+    edges[t].push_back({edge[0], edge[1]});
+    edges[u].push_back({edge[1], edge[0]});
+  });
+  std::vector<bool> is_seen(surface.triangles.size()), is_turned(surface.triangles.size());
+  std::vector<std::int32_t> queue;
+  const auto visit = [&](std::int32_t t, bool turned) {
+    if (is_seen[t] && is_turned[t] != turned)
+      throw DataError::at(surface.place_of(t),
+                          "expected a baffle with two sides, found one that has a single side, like Möbius' strip");
+    if (is_seen[t]) return;
+    is_seen[t] = true;
+    is_turned[t] = turned;
+    queue.push_back(t);
+  };
+  for (const auto& [first, unused] : edges) {
+    if (!is_seen[first]) visit(first, false);
+    while (!queue.empty()) {
+      const std::int32_t t = queue.back();
+      queue.pop_back();
+      for (const auto& [here, there] : edges[t]) {
+        const bool agree = geometry::start_of(surface.triangles, here) == geometry::end_of(surface.triangles, there);
+        visit(geometry::triangle_of(there), agree == is_turned[t]);
+      }
+    }
+  }
+  for (std::size_t t = 0; t < is_turned.size(); ++t)
+    if (is_turned[t]) std::swap(surface.triangles[t][1], surface.triangles[t][2]);
+}
+
 bool has_several_fans(const formats::SurfaceSoup& soup) {
   // Corners of one fan are one set.
   JoinedSets corners(3 * soup.triangles.size());
@@ -375,6 +424,11 @@ bool has_several_fans(const formats::SurfaceSoup& soup) {
     known = corners.of(h);
   }
   return false;
+}
+
+// Whether the soup says that triangles have the same on both sides.
+bool tells_fins(const formats::SurfaceSoup& soup) {
+  return std::ranges::any_of(soup.sides, [](const auto& sides) { return sides[0] == sides[1]; });
 }
 
 }  // namespace
@@ -399,12 +453,12 @@ std::vector<std::string> SheetReport::sentences() const {
   return result;
 }
 
-SheetReport find_sides(formats::SurfaceSoup& soup, ShellRule rule, std::string_view remedy) {
-  return SideFinder(soup, rule, remedy).find();
+SheetReport find_sides(formats::SurfaceSoup& soup, ShellRule rule, BaffleRule baffles, std::string_view remedy) {
+  return SideFinder(soup, rule, baffles, remedy).find();
 }
 
-SheetReport join_bodies(formats::SurfaceSoup& soup) {
-  return SideFinder(soup, ShellRule::oriented, {}).join();
+SheetReport join_bodies(formats::SurfaceSoup& soup, BaffleRule baffles) {
+  return SideFinder(soup, ShellRule::oriented, baffles, {}).join();
 }
 
 Surface find_sheets(formats::SurfaceSoup soup) {
@@ -412,10 +466,11 @@ Surface find_sheets(formats::SurfaceSoup soup) {
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     auto& [back, front] = surface.sides[t];
     surface.region_count = std::max({surface.region_count, back, front});
-    if (front == outside_region || (back != outside_region && back < front)) continue;
+    if (front == outside_region || (back != outside_region && back <= front)) continue;
     std::swap(back, front);
     std::swap(surface.triangles[t][1], surface.triangles[t][2]);
   }
+  orient_baffles(surface);
   JoinedSets sheets(surface.triangles.size());
   geometry::for_each_edge(surface.points.size(), surface.triangles, [&](std::span<const HalfEdge> edge) {
     if (edge.size() != 2) return;
@@ -439,16 +494,23 @@ Surface find_sheets(formats::SurfaceSoup soup) {
   return surface;
 }
 
-Surface boundary_of(formats::SurfaceSoup soup, ShellRule rule, std::string_view remedy,
+Surface boundary_of(formats::SurfaceSoup soup, ShellRule rule, BaffleRule baffles, std::string_view remedy,
                     std::vector<std::string>& warnings) {
-  if (meets_in_sheets(soup)) {
+  const auto is_in_sheets = [&] {
+    return meets_in_sheets(soup) || tells_fins(soup) || (baffles == BaffleRule::keep && has_borders(soup));
+  };
+  std::size_t kept = 0;
+  if (is_in_sheets()) {
     check_areas(soup, remedy);
     const bool has_sides = !soup.sides.empty();
-    const SheetReport found = has_sides ? join_bodies(soup) : find_sides(soup, rule, remedy);
+    const SheetReport found = has_sides ? join_bodies(soup, baffles) : find_sides(soup, rule, baffles, remedy);
+    kept = found.baffles;
     for (const std::string& sentence : found.sentences())
       warnings.push_back(fmt::format("{}: {}", soup.name, sentence));
   }
-  if (meets_in_sheets(soup)) return find_sheets(std::move(soup));
+  if (baffles == BaffleRule::keep && kept == 0)
+    warnings.push_back(fmt::format("{}: --keep-baffles finds no sheet that ends inside", soup.name));
+  if (is_in_sheets()) return find_sheets(std::move(soup));
   check_surface(soup, remedy);
   return find_shells(std::move(soup), rule);
 }

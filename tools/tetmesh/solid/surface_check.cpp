@@ -195,8 +195,9 @@ void check_vertices(const formats::SurfaceSoup& soup, std::span<const geometry::
 const char* hint_for_cad(const formats::SurfaceSoup& soup) {
   if (soup.sides.empty()) return "";
   const auto is_first = [](const auto& sides) { return sides[0] <= 1 && sides[1] <= 1; };
-  return std::ranges::all_of(soup.sides, is_first) ? "; from CAD, try a smaller --deviation or --angle of tessellate"
-                                                   : "; where bodies touch, tessellate --join makes one face of two";
+  return std::ranges::all_of(soup.sides, is_first)
+             ? "; from CAD, try another --deviation, larger or smaller, or --angle of tessellate"
+             : "; where bodies touch, tessellate --join makes one face of two";
 }
 
 // How many of the pairs are of two bodies that --unite takes: they are closed, as far as the edges go that they have

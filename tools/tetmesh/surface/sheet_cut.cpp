@@ -52,7 +52,8 @@ class SheetCutter {
         const std::size_t next = (i + 1) % steps.size();
         if (together[i] || together[next]) continue;
         if (steps[i].is_along == behind_both || steps[next].is_along != behind_both) continue;
-        if (sides(steps[i].half_edge) != sides(steps[next].half_edge)) continue;
+        const auto [behind, in_front] = sides(steps[i].half_edge);
+        if (behind == in_front || sides(steps[next].half_edge) != std::array{behind, in_front}) continue;
         together[i] = together[next] = true;
         stay_together(steps[i].half_edge, steps[next].half_edge);
       }

@@ -98,11 +98,11 @@ bool SurfaceReader::is_diagonal(geometry::HalfEdge h) const {
 }
 
 void SurfaceReader::add_edge(std::span<const geometry::HalfEdge> edge) {
-  const geometry::HalfEdge h = edge[0], twin = edge[1];
+  const geometry::HalfEdge h = edge[0], twin = edge.back();
   const Vec3 along = normalized(end(h) - start(h));
-  // Where sheets meet, there are more triangles.
-  const bool is_crease = edge.size() > 2 || dot(normals_[geometry::triangle_of(h)],
-                                                normals_[geometry::triangle_of(twin)]) < feature_cosine_;
+  // Where sheets meet, there are more triangles, and at the free border of a baffle there is one.
+  const bool is_crease = edge.size() != 2 || dot(normals_[geometry::triangle_of(h)],
+                                                 normals_[geometry::triangle_of(twin)]) < feature_cosine_;
   const double weight = 1 - 0.5 * is_diagonal(h) - 0.5 * is_diagonal(twin);
   for (const Vertex v : {geometry::start_of(surface_.triangles, h), geometry::end_of(surface_.triangles, h)}) {
     if (is_crease) {
