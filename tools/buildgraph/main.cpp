@@ -30,6 +30,13 @@ int main(int argc, char** argv) {
   const auto declare = [&](CLI::App& app) {
     app.add_option("--weight", weight, "The weight of a candidate: quality, volume, count (1 each) or quality*volume")
         ->check(CLI::IsMember(weights));
+    app.add_option(
+           "--quad-reward", options.quad_reward,
+           "Rewards chosen candidates that share quads: each quad that one could share and does not costs this, "
+           "in weights of a candidate of quality 1. The quads become vertices of the graph; assemble then "
+           "exchanges no hexes")
+        ->type_name("SHARE")
+        ->check(number_between(0, 10));
     begin_group(app, "Graph");
     app.add_option("--weight-scale", options.conflicts.weight_scale, "Weights are multiplied by this, then rounded")
         ->check(number_between(1e-100, 1e100));
