@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 
+#include "common/mesh/adjacency.hpp"
 #include "common/mesh/cell_topology.hpp"
 #include "common/run/error.hpp"
 
@@ -41,6 +42,21 @@ bool can_be_shared(std::span<const QuadOfCandidate> at_quad, const graph::Confli
   return false;
 }
 
+void append(std::span<const QuadOfCandidate> at_quad, QuadList& list) {
+  list.quads.push_back(at_quad.front().quad);
+  for (const QuadOfCandidate& at : at_quad) list.candidates_at.push_back(at.candidate);
+  list.offsets.push_back(std::ssize(list.candidates_at));
+}
+
+// The triangles of either diagonal are two of these four.
+bool is_on(const KeySet<3>& boundary, const VertexKey<4>& quad) {
+  const auto& [a, b, c, d] = quad;
+  int found = 0;
+  for (const VertexKey<3>& triangle : {VertexKey<3>{a, b, c}, {a, b, d}, {a, c, d}, {b, c, d}})
+    found += boundary.contains(triangle) ? 1 : 0;
+  return found >= 2;
+}
+
 double worth_at_best(const Candidates& candidates, CandidateIndex i, WeightKind kind) {
   const bool by_volume = kind == WeightKind::volume || kind == WeightKind::quality_volume;
   return by_volume ? candidates.volume[i] : 1;
@@ -48,7 +64,7 @@ double worth_at_best(const Candidates& candidates, CandidateIndex i, WeightKind 
 
 // Makes room for one more neighbour of a candidate for each of its quads: in place, because a large graph has no room
 // for a copy. Returns where the new neighbours of each candidate begin.
-std::vector<std::int64_t> make_room(const SharedQuads& quads, graph::ConflictGraph& graph) {
+std::vector<std::int64_t> make_room(const QuadList& quads, graph::ConflictGraph& graph) {
   const std::int32_t candidates = graph.vertex_count();
   std::vector<std::int64_t> places(static_cast<std::size_t>(candidates), 0);
   for (const CandidateIndex i : quads.candidates_at) ++places[i];
@@ -76,22 +92,34 @@ void check_sum(const graph::ConflictGraph& graph, const char* source) {
 
 }  // namespace
 
-SharedQuads find_shared_quads(const Candidates& candidates, const graph::ConflictGraph& graph) {
-  SharedQuads shared;
+InnerQuads find_inner_quads(const Candidates& candidates, const graph::ConflictGraph& graph,
+                            const KeySet<3>& boundary) {
+  InnerQuads inner;
   const std::vector<QuadOfCandidate> all = quads_of(candidates);
   for (auto begin = all.begin(); begin != all.end();) {
     const auto end = std::find_if(begin, all.end(), [&](const auto& other) { return other.quad != begin->quad; });
-    if (can_be_shared({begin, end}, graph)) {
-      shared.quads.push_back(begin->quad);
-      for (auto at = begin; at != end; ++at) shared.candidates_at.push_back(at->candidate);
-      shared.offsets.push_back(std::ssize(shared.candidates_at));
-    }
+    if (can_be_shared({begin, end}, graph))
+      append({begin, end}, inner.shared);
+    else if (!boundary.empty() && !is_on(boundary, begin->quad))
+      append({begin, end}, inner.lonely);
     begin = end;
   }
-  return shared;
+  return inner;
 }
 
-std::vector<std::int64_t> prices_of(const SharedQuads& quads, const Candidates& candidates,
+KeySet<3> boundary_of(const TetMesh& mesh, const char* source) {
+  const TetAdjacency adjacency(mesh, source);
+  KeySet<3> boundary;
+  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh.tets.size()); ++t)
+    for (int facet = 0; facet < 4; ++facet) {
+      if (adjacency.tet_beyond(t, facet) != no_index) continue;
+      const auto& [a, b, c] = TetTopology::triangles[facet];
+      boundary.insert(key_of<3>({mesh.tets[t][a], mesh.tets[t][b], mesh.tets[t][c]}));
+    }
+  return boundary;
+}
+
+std::vector<std::int64_t> prices_of(const QuadList& quads, const Candidates& candidates,
                                     const ConflictOptions& weighing, double share, const char* source) {
   constexpr double too_large = 0x1p61;  // the weight of a quad is twice its price
   std::vector<std::int64_t> prices(quads.size());
@@ -109,7 +137,7 @@ std::vector<std::int64_t> prices_of(const SharedQuads& quads, const Candidates& 
   return prices;
 }
 
-void add_quad_vertices(const SharedQuads& quads, const std::vector<std::int64_t>& prices, graph::ConflictGraph& graph,
+void add_quad_vertices(const QuadList& quads, const std::vector<std::int64_t>& prices, graph::ConflictGraph& graph,
                        const char* source) {
   const std::int32_t candidates = graph.vertex_count();
   if (quads.size() >= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max() - candidates))
@@ -129,6 +157,15 @@ void add_quad_vertices(const SharedQuads& quads, const std::vector<std::int64_t>
   }
   for (const std::int64_t price : prices) graph.weights.push_back(2 * price);
   check_sum(graph, source);
+}
+
+void pay_for_lonely_quads(const QuadList& lonely, const std::vector<std::int64_t>& prices,
+                          graph::ConflictGraph& graph) {
+  for (std::size_t q = 0; q < lonely.size(); ++q)
+    for (std::int64_t i = lonely.offsets[q]; i < lonely.offsets[q + 1]; ++i) {
+      std::int64_t& weight = graph.weights[lonely.candidates_at[i]];
+      weight = std::max<std::int64_t>(0, weight - prices[q]);
+    }
 }
 
 }  // namespace hexpipe::conflicts

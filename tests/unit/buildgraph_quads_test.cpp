@@ -48,7 +48,7 @@ Candidates cells_at_a_quad() {
 TEST(QuadVertices, AreQuadsThatCandidatesCanShare) {
   const Candidates cells = cells_at_a_quad();
   ConflictGraph graph = hexpipe::testing::make_graph({10, 20, 30, 40}, {{1, 2}});
-  SharedQuads quads = find_shared_quads(cells, graph);
+  QuadList quads = find_inner_quads(cells, graph, {}).shared;
   EXPECT_THAT(quads.quads, ElementsAre(VertexKey<4>{4, 5, 6, 7}));
   EXPECT_THAT(quads.candidates_at, ElementsAre(0, 1, 2));
 
@@ -60,14 +60,41 @@ TEST(QuadVertices, AreQuadsThatCandidatesCanShare) {
   EXPECT_EQ(graph, hexpipe::testing::make_graph({15, 25, 35, 40, 10}, {{1, 2}, {0, 4}, {1, 4}, {2, 4}}));
 
   const ConflictGraph all_in_conflict = hexpipe::testing::make_graph({1, 1, 1, 1}, {{0, 1}, {0, 2}, {1, 2}});
-  EXPECT_THAT(find_shared_quads(cells, all_in_conflict).quads, IsEmpty());
+  EXPECT_THAT(find_inner_quads(cells, all_in_conflict, {}).shared.quads, IsEmpty());
+}
+
+TEST(QuadVertices, LonelyQuadsArePaidForAtOnce) {
+  const Candidates cells = cells_at_a_quad();
+  ConflictGraph graph = hexpipe::testing::make_graph({10, 20, 30, 3}, {{1, 2}});
+  EXPECT_THAT(find_inner_quads(cells, graph, {}).lonely.quads, IsEmpty()) << "nobody knows the boundary";
+  // All quads of the first hex but 4567 are on the boundary, with either diagonal, and so is half a quad of the last.
+  KeySet<3> boundary{{0, 1, 2}, {0, 2, 3}, {0, 1, 5}, {0, 4, 5}, {1, 2, 5},   {2, 5, 6},
+                     {2, 3, 7}, {2, 6, 7}, {0, 3, 4}, {3, 4, 7}, {20, 21, 22}};
+  const InnerQuads quads = find_inner_quads(cells, graph, boundary);
+  EXPECT_EQ(quads.shared.quads.size(), 1);
+  EXPECT_EQ(std::ranges::count(quads.lonely.candidates_at, 0), 0);
+  EXPECT_EQ(std::ranges::count(quads.lonely.candidates_at, 1), 2);
+  EXPECT_EQ(std::ranges::count(quads.lonely.candidates_at, 2), 5);
+  EXPECT_EQ(std::ranges::count(quads.lonely.candidates_at, 3), 6);
+  pay_for_lonely_quads(quads.lonely, std::vector<std::int64_t>(quads.lonely.size(), 1), graph);
+  EXPECT_THAT(graph.weights, ElementsAre(10, 18, 25, 0));
+}
+
+TEST(QuadVertices, FindTheBoundary) {
+  TetMesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  mesh.tets = {{0, 1, 2, 3}, {1, 2, 3, 4}};
+  const KeySet<3> boundary = boundary_of(mesh, "test");
+  EXPECT_EQ(boundary.size(), 6);
+  EXPECT_FALSE(boundary.contains({1, 2, 3}));
+  EXPECT_TRUE(boundary.contains({2, 3, 4}));
 }
 
 TEST(QuadVertices, RefuseWeightsThatDoNotFit) {
   constexpr std::int64_t large = std::numeric_limits<std::int64_t>::max() / 2;
   const Candidates cells = cells_at_a_quad();
   ConflictGraph graph = hexpipe::testing::make_graph({large, large, 0, 0}, {{1, 2}});
-  const SharedQuads quads = find_shared_quads(cells, graph);
+  const QuadList quads = find_inner_quads(cells, graph, {}).shared;
   EXPECT_THAT([&] { add_quad_vertices(quads, {large / 4}, graph, "test"); },
               ThrowsMessage<DataError>(HasSubstr("--weight-scale")));
   EXPECT_THAT([&] { prices_of(quads, cells, {.weight_scale = 1e20}, 1, "test"); },
@@ -77,13 +104,13 @@ TEST(QuadVertices, RefuseWeightsThatDoNotFit) {
 // A plain graph, and quads between two of its cliques each.
 struct Problem {
   ConflictGraph plain;
-  SharedQuads quads;
+  QuadList quads;
   std::vector<std::int64_t> prices;
 };
 
 void add_quad(const std::vector<std::int32_t>& a, const std::vector<std::int32_t>& b, std::int64_t price,
               Problem& problem) {
-  SharedQuads& quads = problem.quads;
+  QuadList& quads = problem.quads;
   std::vector<std::int32_t> both;
   std::ranges::set_symmetric_difference(a, b, std::back_inserter(both));
   quads.quads.push_back({});

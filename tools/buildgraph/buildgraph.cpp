@@ -33,22 +33,26 @@ Candidates cells_alone(const Candidates& candidates) {
           .boundary_tets = {}};
 }
 
-void add_quads(const Candidates& cells, const BuildgraphOptions& options, const char* source,
-               BuildgraphResult& result) {
-  pipeline::GraphProduct& product = result.product;
-  conflicts::SharedQuads quads = conflicts::find_shared_quads(cells, product.graph);
-  const auto prices = conflicts::prices_of(quads, cells, options.conflicts, options.quad_reward, source);
-  conflicts::add_quad_vertices(quads, prices, product.graph, source);
-  product.quads = std::move(quads.quads);
+void add_quads(const Candidates& cells, const KeySet<3>& boundary, const BuildgraphOptions& options, const char* source,
+               pipeline::GraphProduct& product) {
+  conflicts::InnerQuads quads = conflicts::find_inner_quads(cells, product.graph, boundary);
+  const auto prices = [&](const conflicts::QuadList& list) {
+    return conflicts::prices_of(list, cells, options.conflicts, options.quad_reward, source);
+  };
+  conflicts::add_quad_vertices(quads.shared, prices(quads.shared), product.graph, source);
+  conflicts::pay_for_lonely_quads(quads.lonely, prices(quads.lonely), product.graph);
+  product.quads = std::move(quads.shared.quads);
 }
 
-BuildgraphResult whole_graph(Candidates candidates, const BuildgraphOptions& options, const char* source) {
+// `boundary`: of the mesh, for quads.
+BuildgraphResult whole_graph(Candidates candidates, const KeySet<3>& boundary, const BuildgraphOptions& options,
+                             const char* source) {
   const graph::CliqueCover known = options.cover ? graph::cliques_of_tets(candidates) : graph::CliqueCover();
   const bool has_quads = options.quad_reward > 0;
   const Candidates cells = has_quads ? cells_alone(candidates) : Candidates();
   BuildgraphResult result{
       .product = {.graph = conflicts::conflict_graph(std::move(candidates), options.conflicts, source)}};
-  if (has_quads) add_quads(cells, options, source, result);
+  if (has_quads) add_quads(cells, boundary, options, source, result.product);
   if (options.cover) result.product.cover = graph::greedy_edge_clique_cover(result.product.graph, known);
   return result;
 }
@@ -94,8 +98,11 @@ BuildgraphResult buildgraph(pipeline::StageData data, const BuildgraphOptions& o
   if (data.part) return {.product = read_graph_of_part(std::move(data), options, source)};
   if (!options.neighbours.empty())
     throw UsageError("--neighbours goes with the candidates of a part of a mesh, as mesh-part makes them");
-  const auto build = options.reduce ? reduced_graph : whole_graph;
-  return build(std::move(*data.candidates), options, source.c_str());
+  if (options.reduce) return reduced_graph(std::move(*data.candidates), options, source.c_str());
+  KeySet<3> boundary;
+  if (data.mesh && options.quad_reward > 0) boundary = conflicts::boundary_of(*data.mesh, source.c_str());
+  data.mesh.reset();
+  return whole_graph(std::move(*data.candidates), boundary, options, source.c_str());
 }
 
 }  // namespace hexpipe::buildgraph

@@ -32,8 +32,8 @@ int main(int argc, char** argv) {
         ->check(CLI::IsMember(weights));
     app.add_option(
            "--quad-reward", options.quad_reward,
-           "Rewards chosen candidates that share quads: each quad that one could share and does not costs this, "
-           "in weights of a candidate of quality 1. The quads become vertices of the graph; assemble then "
+           "Rewards chosen candidates that share quads: each quad inside the mesh that only one chosen candidate has "
+           "costs this, in weights of a candidate of quality 1. The quads become vertices of the graph; assemble then "
            "exchanges no hexes")
         ->type_name("SHARE")
         ->check(number_between(0, 10));
@@ -70,6 +70,7 @@ int main(int argc, char** argv) {
     if (!options.reduced_candidates.empty()) reduced.emplace(options.reduced_candidates);
     pipeline::StageRequest request{.needs = {Role::candidates}, .part = true};
     if (options.reduce || !options.neighbours.empty()) request.hold_back = {Role::candidates};
+    if (options.quad_reward > 0) request.wants = {Role::mesh};
     pipeline::StageData data = stage.read(request);
     phases.end("read");
     const BuildgraphResult result = buildgraph::buildgraph(std::move(data), options, stage.source_of(Role::candidates));

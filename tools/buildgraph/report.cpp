@@ -23,7 +23,9 @@ GraphSummary summarize(const BuildgraphResult& result) {
   const double pairs = 0.5 * static_cast<double>(summary.vertices) * static_cast<double>(summary.vertices - 1);
   summary.density = pairs > 0 ? static_cast<double>(summary.edges) / pairs : 0;
   summary.total_weight = std::accumulate(graph.weights.begin(), graph.weights.end(), std::int64_t{0});
-  summary.without_weight = std::count(graph.weights.begin(), graph.weights.end(), 0);
+  // Candidates that pay for quads may come down to 0 themselves; prices tell whether the scale is too small then.
+  const auto first = summary.quads ? graph.weights.end() - *summary.quads : graph.weights.begin();
+  summary.without_weight = std::count(first, graph.weights.end(), 0);
   return summary;
 }
 
