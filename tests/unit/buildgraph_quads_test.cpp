@@ -101,6 +101,16 @@ TEST(QuadVertices, RefuseWeightsThatDoNotFit) {
               ThrowsMessage<DataError>(HasSubstr("--weight-scale")));
 }
 
+TEST(QuadVertices, AreInACliqueForEachSide) {
+  // 4 and 5 are quads: 4 between the cliques 0 1 and 2 3, 5 beside 3 alone.
+  const ConflictGraph graph =
+      hexpipe::testing::make_graph({1, 1, 1, 1, 1, 1}, {{0, 1}, {2, 3}, {0, 4}, {1, 4}, {2, 4}, {3, 4}, {3, 5}});
+  CliqueCover cover;
+  add_cliques_at_last(graph, 4, cover);
+  EXPECT_THAT(cover.offsets, ElementsAre(0, 3, 6, 8));
+  EXPECT_THAT(cover.members, ElementsAre(0, 1, 4, 2, 3, 4, 3, 5));
+}
+
 // A plain graph, and quads between two of its cliques each.
 struct Problem {
   ConflictGraph plain;

@@ -50,7 +50,10 @@ int main(int argc, char** argv) {
     const pipeline::StageData data =
         stage.read({.needs = {Role::graph, Role::solution}, .wants = {Role::candidates}, .cover = true});
     KnownCliques known{data.cover, std::nullopt};
-    if (data.candidates) known.of_tets = graph::cliques_of_tets(*data.candidates);
+    if (data.candidates) {
+      known.of_tets = graph::cliques_of_tets(*data.candidates);
+      graph::add_cliques_at_last(*data.graph, data.graph->vertex_count() - pipeline::quad_count(data), *known.of_tets);
+    }
     const Deadline deadline = context.deadline();
     Step step("proving a bound");
     const std::int64_t weight = graph::total_weight(*data.solution, *data.graph);
