@@ -64,6 +64,64 @@ setup_file() {
   assert [ ! -e out.graph ]
 }
 
+@test "--quad-reward puts the price of open quads into the graph, and all tools take it" {
+  buildgraph "$INPUTS/hexes.tar" -o plain.tar
+  buildgraph "$INPUTS/hexes.tar" --quad-reward 0 -o zero.tar
+  buildgraph "$INPUTS/hexes.tar" --quad-reward 0.2 --stats graph.json -v -o quads.tar 2>said
+  assert_equal "$(tar xOf plain.tar graph/weights.npy | sha256sum)" "$(tar xOf zero.tar graph/weights.npy | sha256sum)"
+  assert_equal "$(tar tf zero.tar | grep -c quads)" 0
+  holds 'graph["quads"] == 62' graph.json
+  grep -q "of the vertices are quads that candidates can share" said
+  initsol quads.tar --iterations 3000 -o start.tar
+  lns start.tar --iterations 30 --stats lns.json -o choice.tar
+  certify choice.tar --iterations 30 --stats certify.json --certificate proof.txt -o certified.tar
+  for bundle in quads start choice certified; do
+    "$CHECKERS/bundle_check.py" $bundle.tar
+    run "$CHECKERS/quads_check.py" plain.tar $bundle.tar
+    assert_success
+  done
+  assert_output --partial "value $($PYTHON -c 'import json; print(json.load(open("lns.json"))["value"])')"
+  holds 'lns["value"] <= certify["value_bound"] and lns["value"] == certify["value"]' lns.json certify.json
+  run "$CHECKERS/bound_check.py" quads.tar proof.txt
+  assert_success
+  # A file has no place for the quads, but the same vertices.
+  buildgraph "$INPUTS/hexes.tar" --quad-reward 0.2 -o quads.graph 2>/dev/null
+  initsol quads.graph --iterations 3000 -o start.sol
+  assemble quads.tar --solution start.sol -o file.vtu
+  assemble start.tar -v --stats mesh.json -o bundle.vtu 2>said
+  assert_same_bytes file.vtu bundle.vtu
+  holds '"exchange" not in mesh' mesh.json
+  assemble certified.tar -v -o certified.vtu 2>said
+  grep -q "the choice weighs $($PYTHON -c 'import json; print(json.load(open("certify.json"))["value"])')" said
+  assemble start.tar --exchange quads --stats exchanged.json -o exchanged.vtu
+  holds '"exchange" in exchanged' exchanged.json
+}
+
+@test "--quad-reward needs all candidates and conflicts" {
+  assert_fails_with 2 "buildgraph: --quad-reward does not go with --part" buildgraph "$INPUTS/hexes.tar" --quad-reward 0.1 --part 1/2 -o out.tar
+  assert_fails_with 2 "buildgraph: --quad-reward does not go with --part and --reduce" buildgraph "$INPUTS/hexes.tar" --quad-reward 0.1 --reduce -o out.tar
+  assert_fails_with 2 "buildgraph: .*--quad-reward" buildgraph "$INPUTS/hexes.tar" --quad-reward -1 -o out.tar
+  assert_fails_with 1 "candidates: expected (prices|weights) .*--weight-scale" buildgraph "$INPUTS/hexes.tar" --quad-reward 10 --weight-scale 1e16 -o out.tar
+}
+
+@test "a graph with too few vertices for its quads is refused" {
+  buildgraph "$INPUTS/hexes.tar" --quad-reward 0.2 -o quads.tar
+  $PYTHON - <<PYTHON
+import io, tarfile
+import numpy as np
+with tarfile.open("quads.tar") as old, tarfile.open("cut.tar", "w", format=tarfile.PAX_FORMAT) as new:
+    for member in old:
+        data = old.extractfile(member).read()
+        if member.name == "graph/quads.npy":
+            out = io.BytesIO()
+            np.save(out, np.load(io.BytesIO(data))[1:])
+            data = out.getvalue()
+            member.size = len(data)
+        new.addfile(member, io.BytesIO(data))
+PYTHON
+  assert_fails_with 1 "certify: .*expected a vertex for each of the [0-9]+ candidates and [0-9]+ quads, found" shell 'initsol cut.tar --iterations 0 | certify --iterations 1 -o out.tar'
+}
+
 @test "bad options end with 2" {
   assert_fails_with 2 "buildgraph: .*--weight" buildgraph "$INPUTS/hexes.cand" --weight size -o out.graph
   assert_fails_with 2 "buildgraph: .*--weight-scale" buildgraph "$INPUTS/hexes.cand" --weight-scale 0 -o out.graph

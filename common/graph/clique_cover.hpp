@@ -43,6 +43,10 @@ CliqueCover maximal_cliques(const ConflictGraph& graph, const CliqueCover& cliqu
 // have more than half.
 CliqueCover cliques_of_tets(const Candidates& candidates);
 
+// Adds cliques that have all edges of the vertices from `first` on, whose neighbours are all below `first`: for a quad
+// (conflicts/quad_vertices.hpp), one for each side.
+void add_cliques_at_last(const ConflictGraph& graph, std::int32_t first, CliqueCover& cover);
+
 // Throws DataError naming `source` when offsets do not ascend, members are out of range, unsorted or repeated, two
 // members of a clique are not joined by an edge, or an edge is in no clique. O(edges + pairs in cliques).
 void validate(const CliqueCover& cover, const ConflictGraph& graph, const char* source);

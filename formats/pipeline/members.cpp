@@ -18,6 +18,7 @@ constexpr const char* part_json = "mesh/part.json";
 constexpr const char* mesh_ridges = "mesh/ridges.npy";
 constexpr const char* mesh_dislocations = "mesh/dislocations.npy";
 constexpr const char* graph_weights = "graph/weights.npy";
+constexpr const char* graph_quads = "graph/quads.npy";
 constexpr const char* candidate_kinds = "candidates/kind.npy";
 constexpr const char* candidate_volumes = "candidates/volume.npy";
 constexpr const char* piece_json = "result/piece.json";
@@ -276,6 +277,13 @@ bool read_weights(BundleReader& reader, StageData& data, BundleWriter* copy) {
   return true;
 }
 
+bool read_quads(BundleReader& reader, StageData& data, BundleWriter* copy) {
+  if (reader.name() != graph_quads) return false;
+  data.quads = reader.read_array<QuadsOfGraph::value_type>();
+  if (copy) copy->add_array(graph_quads, *data.quads);
+  return true;
+}
+
 bool read_volumes(BundleReader& reader, StageData& data, BundleWriter* copy) {
   const auto take = [&](auto& array) {
     using Row = typename std::remove_cvref_t<decltype(array)>::value_type;
@@ -398,6 +406,9 @@ void write_members(BundleWriter& writer, const graph::CliqueCover& cover) {
 }
 void write_members(BundleWriter& writer, const graph::IndependentSet& solution) {
   visit_members_of_solution(solution, writing_to(writer));
+}
+void write_quads(BundleWriter& writer, const QuadsOfGraph& quads) {
+  writer.add_array(graph_quads, quads);
 }
 void write_gap_members(BundleWriter& writer, const SolutionGaps& gaps) {
   visit_members_of_gaps(gaps, writing_to(writer));

@@ -21,6 +21,9 @@ bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy, bool
 // The same for the weights of the graph alone, as a graph without edges.
 bool read_weights(BundleReader& reader, StageData& data, BundleWriter* copy);
 
+// The same for the quads of the graph.
+bool read_quads(BundleReader& reader, StageData& data, BundleWriter* copy);
+
 // The same for kind and volume of candidates alone.
 bool read_volumes(BundleReader& reader, StageData& data, BundleWriter* copy);
 
@@ -43,6 +46,7 @@ void write_members(BundleWriter& writer, const Candidates& candidates);
 void write_members(BundleWriter& writer, const graph::ConflictGraph& graph);
 void write_members(BundleWriter& writer, const graph::CliqueCover& cover);
 void write_members(BundleWriter& writer, const graph::IndependentSet& solution);
+void write_quads(BundleWriter& writer, const QuadsOfGraph& quads);
 void write_gap_members(BundleWriter& writer, const SolutionGaps& gaps);
 void write_dislocations(BundleWriter& writer, const DislocationSegments& segments);
 void write_members(BundleWriter& writer, const MixedMesh& result);

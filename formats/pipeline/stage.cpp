@@ -21,6 +21,7 @@
 #include "formats/pipeline/bundle.hpp"
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/members.hpp"
+#include "formats/pipeline/quads_of_choice.hpp"
 #include "formats/pipeline/surface_bundle.hpp"
 
 namespace hexpipe::pipeline {
@@ -107,7 +108,7 @@ bool holds(const StageData& data, Role role) {
 // The number of things that a solution chooses from, where it is known.
 std::int64_t vertex_count_for_solution(const StageData& data, const std::string& source) {
   if (data.graph) return data.graph->vertex_count();
-  if (data.candidates) return static_cast<std::int64_t>(data.candidates->size());
+  if (data.candidates) return static_cast<std::int64_t>(data.candidates->size()) + quad_count(data);
   throw DataError::at(source, "expected a graph or candidates beside the solution, found neither");
 }
 
@@ -165,6 +166,7 @@ void write_role(Role role, const StageData& data, BundleWriter& writer) {
       break;
     case Role::graph:
       write_members(writer, *data.graph);
+      if (data.quads) write_quads(writer, *data.quads);
       if (data.cover) write_members(writer, *data.cover);
       break;
     case Role::solution:
@@ -190,6 +192,7 @@ void write_members(BundleWriter& writer, const CandidatesProduct& product) {
 void write_members(BundleWriter& writer, const GraphProduct& product) {
   if (product.candidates) write_members(writer, *product.candidates);
   write_members(writer, product.graph);
+  if (product.quads) write_quads(writer, *product.quads);
   if (product.cover) write_members(writer, *product.cover);
 }
 
@@ -373,6 +376,7 @@ void Stage::State::read_bundle(formats::Input& input, StageData& data) {
       seen.insert(*role);
       sources[*role] = input.name();
       if (request.part && read_part_member(reader, data, copy)) continue;
+      if (read_quads(reader, data, copy)) continue;
       if (request.weights_only && read_weights(reader, data, copy)) continue;
       if (request.volumes && !takes(*role) && read_volumes(reader, data, copy)) continue;
       if (request.dislocations && read_dislocations(reader, data, copy)) continue;
@@ -449,7 +453,8 @@ void Stage::State::read_files(std::map<Role, formats::Input>& files, StageData& 
       while (reader.next())
         if (has_tags && reader.name() == formats::names_member)
           data.names = formats::parse_group_names(reader.read_text(), reader.where());
-        else if (role_of_member(reader.name()) == role && !(request.part && read_part_member(reader, data, nullptr)) &&
+        else if (role_of_member(reader.name()) == role && !(role == Role::graph && read_quads(reader, data, nullptr)) &&
+                 !(request.part && read_part_member(reader, data, nullptr)) &&
                  !(request.dislocations && read_dislocations(reader, data, nullptr)))
           read_member(reader, data, nullptr, request.cover || bundle);
       if (!holds(data, role))
@@ -525,9 +530,14 @@ void Stage::State::check(const StageData& data) const {
     validate(*data.candidate_keys, data.candidates->size(), source_of(Role::candidates).c_str());
   if (data.graph) {
     graph::validate(*data.graph, source_of(Role::graph).c_str());
-    if (data.candidates && data.candidates->size() != data.graph->weights.size())
-      throw DataError::at(source_of(Role::graph), "expected a vertex for each of the {} candidates, found {}",
-                          data.candidates->size(), data.graph->weights.size());
+    const std::size_t vertices = data.graph->weights.size();
+    const auto quads = static_cast<std::size_t>(quad_count(data));
+    if (quads > vertices)
+      throw DataError::at(source_of(Role::graph), "expected a vertex for each of the {} quads, found {}", quads,
+                          vertices);
+    if (data.candidates && data.candidates->size() + quads != vertices)
+      throw DataError::at(source_of(Role::graph), "expected a vertex for each of the {} candidates{}, found {}",
+                          data.candidates->size(), quads > 0 ? fmt::format(" and {} quads", quads) : "", vertices);
   }
   if (data.cover) graph::validate(*data.cover, *data.graph, source_of(Role::graph).c_str());
   if (data.solution && data.graph) graph::validate(*data.solution, *data.graph, source_of(Role::solution).c_str());

@@ -28,6 +28,9 @@ using SolutionGaps = std::vector<std::int64_t>;
 // Both ends of each straight segment of the lines along which rows of points end.
 using DislocationSegments = std::vector<std::array<double, 6>>;
 
+// The corners of the quads whose vertices stand behind those of the candidates in the graph (quad_vertices.hpp).
+using QuadsOfGraph = std::vector<std::array<Vertex, 4>>;
+
 // The part of the candidates that tells how much a choice fills: a row for each candidate.
 struct CandidateVolumes {
   std::vector<CellKind> kind;
@@ -44,6 +47,7 @@ struct StageData {
   std::optional<TetMesh> mesh;
   std::optional<Candidates> candidates;
   std::optional<graph::ConflictGraph> graph;
+  std::optional<QuadsOfGraph> quads;        // where the graph has vertices of quads, also if it is not read
   std::optional<graph::CliqueCover> cover;  // with StageRequest::cover
   std::optional<graph::IndependentSet> solution;
   std::optional<SolutionGaps> gaps;
@@ -75,6 +79,7 @@ struct GraphProduct {
   graph::ConflictGraph graph;
   std::optional<graph::CliqueCover> cover{};
   std::optional<CandidatesProduct> candidates{};  // in place of those that the stage held back
+  std::optional<QuadsOfGraph> quads{};
 };
 
 struct SolutionProduct {

@@ -105,4 +105,5 @@ def main():
         print_tables([measure(path, level, options, folder) for path in models])
 
 
-main()
+if __name__ == "__main__":
+    main()

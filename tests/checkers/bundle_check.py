@@ -18,6 +18,7 @@ MEMBERS = {  # member: (dtype, columns; 0 = one dimension)
     "candidates/volume.npy": ("<f8", 0), "candidates/tets.npy": ("<i4", 0), "candidates/tet_offsets.npy": ("<i8", 0),
     "candidates/boundary_tets.npy": ("<i4", 0), "candidates/boundary_tet_offsets.npy": ("<i8", 0),
     "graph/offsets.npy": ("<i8", 0), "graph/neighbours.npy": ("<i4", 0), "graph/weights.npy": ("<i8", 0),
+    "graph/quads.npy": ("<i4", 4),
     "graph/clique_offsets.npy": ("<i8", 0), "graph/clique_members.npy": ("<i4", 0),
     "solution/chosen.npy": ("<i4", 0),
     "result/points.npy": ("<f8", 3), "result/hexes.npy": ("<i4", 8), "result/prisms.npy": ("<i4", 6),
@@ -98,7 +99,9 @@ def check_graph(data):
     count = offsets(data, "graph/offsets.npy", "graph/neighbours.npy")
     start, to, weights = (data[f"graph/{n}.npy"] for n in ("offsets", "neighbours", "weights"))
     require(len(weights) == count and (weights >= 0).all(), "weights do not fit the graph")
-    require("candidates/kind.npy" not in data or len(data["candidates/kind.npy"]) == count, "graph and candidates differ")
+    quads = len(data.get("graph/quads.npy", ()))
+    require("candidates/kind.npy" not in data or len(data["candidates/kind.npy"]) + quads == count,
+            "graph and candidates differ")
     in_range(data, "graph/neighbours.npy", count)
     source = np.repeat(np.arange(count, dtype=np.int64), np.diff(start))
     key = source * count + to

@@ -188,7 +188,7 @@ TEST(Buildgraph, NeedsNoMemoryForNumbersThatAreNotThere) {
 TEST(Buildgraph, OfNothingIsEmpty) {
   const ConflictGraph graph = conflict_graph({}, {}, "test");
   EXPECT_EQ(graph, ConflictGraph{});
-  EXPECT_EQ(summarize({.product = {.graph = graph}}).density, 0);
+  EXPECT_EQ(summarize({.product = {.graph = graph}, .dominated = 0}).density, 0);
 }
 
 TEST(Weights, AreRoundedAfterScaling) {

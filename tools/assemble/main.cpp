@@ -13,6 +13,7 @@
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
+#include "formats/pipeline/quads_of_choice.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "formats/pipeline/surface_file.hpp"
 #include "tools/assemble/assemble.hpp"
@@ -207,8 +208,9 @@ pipeline::StageData read_input(pipeline::Stage& stage, const CommandLine& line) 
 nlohmann::ordered_json proven_gap(const pipeline::StageData& data) {
   const auto bound = mwis::ground::bound_in(data.history);
   if (!data.graph || !bound) return nullptr;
-  const std::int64_t weight = graph::total_weight(*data.solution, *data.graph);
-  return {{"weight", weight}, {"bound", *bound}, {"gap", mwis::ground::gap_to(*bound, weight)}};
+  const std::int64_t of_quads = pipeline::weight_of_quads(data);
+  const std::int64_t weight = graph::total_weight(*data.solution, *data.graph) - of_quads, most = *bound - of_quads;
+  return {{"weight", weight}, {"bound", most}, {"gap", mwis::ground::gap_to(most, weight)}};
 }
 
 pieces::SolvedPart solved_part(pipeline::StageData data, const choice::InputNames& names) {
@@ -297,7 +299,7 @@ nlohmann::ordered_json report_second_order(RunContext& context, const order::Sec
 }
 
 void run(RunContext& context, CommandLine& line) {
-  const AssembleOptions options = options_of(line);
+  AssembleOptions options = options_of(line);
   LayerOptions layers = layer_options_of(line);
   const auto requirements = line.require.empty() ? std::vector<Requirement>{} : parse_requirements(line.require);
   context.options["conformity"] = line.conformity;
@@ -323,6 +325,11 @@ void run(RunContext& context, CommandLine& line) {
                                  .solution = stage.source_of(Role::solution)};
   const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
   const auto choice = graph_of_bundle ? proven_gap(data) : nullptr;
+  if (data.quads && line.exchange_option->count() == 0) {
+    options.exchange = AssembleOptions::Exchange::none;
+    context.options["exchange"] = "none";
+  }
+  pipeline::drop_quads(data);
   PartResult result = line.by_part() ? assemble_one_part(std::move(data), line, options, names)
                                      : assemble_whole(std::move(data), options, std::move(layers), names);
   std::optional<order::SecondOrderCounts> second_order;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/conflicts/quad_vertices.hpp"
 #include "common/graph/clique_cover.hpp"
 #include "common/run/error.hpp"
 #include "tools/buildgraph/neighbours.hpp"
@@ -13,21 +14,46 @@
 namespace hexpipe::buildgraph {
 namespace {
 
-BuildgraphResult reduced_graph(Candidates candidates, const conflicts::ConflictOptions& conflicts, bool with_cover,
-                               const char* source) {
-  BuildgraphResult result{.product = {.graph = conflicts::conflict_graph(candidates, conflicts, source)}};
+BuildgraphResult reduced_graph(Candidates candidates, const BuildgraphOptions& options, const char* source) {
+  BuildgraphResult result{.product = {.graph = conflicts::conflict_graph(candidates, options.conflicts, source)}};
   graph::ConflictGraph& graph = result.product.graph;
   result.dominated = reduce(candidates, graph);
-  if (with_cover) result.product.cover = graph::greedy_edge_clique_cover(graph, graph::cliques_of_tets(candidates));
+  if (options.cover) result.product.cover = graph::greedy_edge_clique_cover(graph, graph::cliques_of_tets(candidates));
   result.product.candidates = pipeline::CandidatesProduct{.candidates = std::move(candidates)};
   return result;
 }
 
-BuildgraphResult whole_graph(Candidates candidates, const conflicts::ConflictOptions& conflicts, bool with_cover,
+// Without tets, which take half of the memory.
+Candidates cells_alone(const Candidates& candidates) {
+  return {.vertices = candidates.vertices,
+          .kind = candidates.kind,
+          .quality = candidates.quality,
+          .volume = candidates.volume,
+          .tets = {},
+          .boundary_tets = {}};
+}
+
+void add_quads(const Candidates& cells, const KeySet<3>& boundary, const BuildgraphOptions& options, const char* source,
+               pipeline::GraphProduct& product) {
+  conflicts::InnerQuads quads = conflicts::find_inner_quads(cells, product.graph, boundary);
+  const auto prices = [&](const conflicts::QuadList& list) {
+    return conflicts::prices_of(list, cells, options.conflicts, options.quad_reward, source);
+  };
+  conflicts::add_quad_vertices(quads.shared, prices(quads.shared), product.graph, source);
+  conflicts::pay_for_lonely_quads(quads.lonely, prices(quads.lonely), product.graph);
+  product.quads = std::move(quads.shared.quads);
+}
+
+// `boundary`: of the mesh, for quads.
+BuildgraphResult whole_graph(Candidates candidates, const KeySet<3>& boundary, const BuildgraphOptions& options,
                              const char* source) {
-  const graph::CliqueCover known = with_cover ? graph::cliques_of_tets(candidates) : graph::CliqueCover();
-  BuildgraphResult result{.product = {.graph = conflicts::conflict_graph(std::move(candidates), conflicts, source)}};
-  if (with_cover) result.product.cover = graph::greedy_edge_clique_cover(result.product.graph, known);
+  const graph::CliqueCover known = options.cover ? graph::cliques_of_tets(candidates) : graph::CliqueCover();
+  const bool has_quads = options.quad_reward > 0;
+  const Candidates cells = has_quads ? cells_alone(candidates) : Candidates();
+  BuildgraphResult result{
+      .product = {.graph = conflicts::conflict_graph(std::move(candidates), options.conflicts, source)}};
+  if (has_quads) add_quads(cells, boundary, options, source, result.product);
+  if (options.cover) result.product.cover = graph::greedy_edge_clique_cover(result.product.graph, known);
   return result;
 }
 
@@ -52,9 +78,9 @@ pipeline::GraphProduct graph_of_part(PartCandidates all, std::int32_t part, cons
 
 pipeline::GraphProduct read_graph_of_part(pipeline::StageData data, const BuildgraphOptions& options,
                                           const std::string& source) {
-  if (options.conflicts.share.count > 1 || options.reduce || options.cover)
-    throw UsageError(
-        fmt::format("--part, --reduce and --cover need the whole graph, not that of {}", title_of(*data.part)));
+  if (options.conflicts.share.count > 1 || options.reduce || options.cover || options.quad_reward > 0)
+    throw UsageError(fmt::format("--part, --reduce, --cover and --quad-reward need the whole graph, not that of {}",
+                                 title_of(*data.part)));
   if (!data.candidate_keys)
     throw DataError::at(source, "expected candidates with their keys, as findhex makes them of a part, found none");
   PartCandidates own{std::move(*data.candidates), std::move(*data.candidate_keys)};
@@ -72,8 +98,11 @@ BuildgraphResult buildgraph(pipeline::StageData data, const BuildgraphOptions& o
   if (data.part) return {.product = read_graph_of_part(std::move(data), options, source)};
   if (!options.neighbours.empty())
     throw UsageError("--neighbours goes with the candidates of a part of a mesh, as mesh-part makes them");
-  const auto build = options.reduce ? reduced_graph : whole_graph;
-  return build(std::move(*data.candidates), options.conflicts, options.cover, source.c_str());
+  if (options.reduce) return reduced_graph(std::move(*data.candidates), options, source.c_str());
+  KeySet<3> boundary;
+  if (data.mesh && options.quad_reward > 0) boundary = conflicts::boundary_of(*data.mesh, source.c_str());
+  data.mesh.reset();
+  return whole_graph(std::move(*data.candidates), boundary, options, source.c_str());
 }
 
 }  // namespace hexpipe::buildgraph

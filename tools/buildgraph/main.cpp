@@ -30,6 +30,13 @@ int main(int argc, char** argv) {
   const auto declare = [&](CLI::App& app) {
     app.add_option("--weight", weight, "The weight of a candidate: quality, volume, count (1 each) or quality*volume")
         ->check(CLI::IsMember(weights));
+    app.add_option(
+           "--quad-reward", options.quad_reward,
+           "Rewards chosen candidates that share quads: each quad inside the mesh that only one chosen candidate has "
+           "costs this, in weights of a candidate of quality 1. The quads become vertices of the graph; assemble then "
+           "exchanges no hexes")
+        ->type_name("SHARE")
+        ->check(number_between(0, 10));
     begin_group(app, "Graph");
     app.add_option("--weight-scale", options.conflicts.weight_scale, "Weights are multiplied by this, then rounded")
         ->check(number_between(1e-100, 1e100));
@@ -63,6 +70,7 @@ int main(int argc, char** argv) {
     if (!options.reduced_candidates.empty()) reduced.emplace(options.reduced_candidates);
     pipeline::StageRequest request{.needs = {Role::candidates}, .part = true};
     if (options.reduce || !options.neighbours.empty()) request.hold_back = {Role::candidates};
+    if (options.quad_reward > 0) request.wants = {Role::mesh};
     pipeline::StageData data = stage.read(request);
     phases.end("read");
     const BuildgraphResult result = buildgraph::buildgraph(std::move(data), options, stage.source_of(Role::candidates));

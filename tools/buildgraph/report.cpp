@@ -11,6 +11,7 @@ GraphSummary summarize(const BuildgraphResult& result) {
   const graph::ConflictGraph& graph = result.product.graph;
   GraphSummary summary;
   summary.dominated = result.dominated;
+  if (const auto& quads = result.product.quads) summary.quads = std::ssize(*quads);
   if (const auto& cover = result.product.cover) {
     summary.cliques = cover->size();
     summary.clique_members = static_cast<std::int64_t>(cover->members.size());
@@ -22,7 +23,9 @@ GraphSummary summarize(const BuildgraphResult& result) {
   const double pairs = 0.5 * static_cast<double>(summary.vertices) * static_cast<double>(summary.vertices - 1);
   summary.density = pairs > 0 ? static_cast<double>(summary.edges) / pairs : 0;
   summary.total_weight = std::accumulate(graph.weights.begin(), graph.weights.end(), std::int64_t{0});
-  summary.without_weight = std::count(graph.weights.begin(), graph.weights.end(), 0);
+  // Candidates that pay for quads may come down to 0 themselves; prices tell whether the scale is too small then.
+  const auto first = summary.quads ? graph.weights.end() - *summary.quads : graph.weights.begin();
+  summary.without_weight = std::count(first, graph.weights.end(), 0);
   return summary;
 }
 
@@ -43,6 +46,8 @@ std::vector<std::string> summary_lines(const GraphSummary& summary) {
   lines.push_back(fmt::format("{} vertices, {} edges, greatest degree {}, density {:.3g}, total weight {}",
                               summary.vertices, summary.edges, summary.max_degree, summary.density,
                               summary.total_weight));
+  if (summary.quads)
+    lines.push_back(fmt::format("{} of the vertices are quads that candidates can share", *summary.quads));
   if (summary.cliques)
     lines.push_back(fmt::format("the edges are covered by {} cliques of {} vertices together", *summary.cliques,
                                 *summary.clique_members));
@@ -51,6 +56,7 @@ std::vector<std::string> summary_lines(const GraphSummary& summary) {
 
 nlohmann::ordered_json history_of(const GraphSummary& summary) {
   nlohmann::ordered_json history{{"vertices", summary.vertices}, {"edges", summary.edges}};
+  if (summary.quads) history["quads"] = *summary.quads;
   if (summary.dominated) history["dominated"] = *summary.dominated;
   if (summary.cliques) history["cliques"] = *summary.cliques;
   return history;

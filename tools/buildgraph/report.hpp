@@ -12,6 +12,7 @@ namespace hexpipe::buildgraph {
 
 struct GraphSummary {
   std::int64_t vertices = 0, edges = 0;
+  std::optional<std::int64_t> quads;  // among the vertices, if --quad-reward makes some
   std::int64_t max_degree = 0;
   double density = 0;  // edges / pairs of vertices
   std::int64_t total_weight = 0;

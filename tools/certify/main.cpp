@@ -10,6 +10,7 @@
 #include "common/run/option_checks.hpp"
 #include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
+#include "formats/pipeline/quads_of_choice.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "tools/certify/certify.hpp"
 
@@ -49,7 +50,10 @@ int main(int argc, char** argv) {
     const pipeline::StageData data =
         stage.read({.needs = {Role::graph, Role::solution}, .wants = {Role::candidates}, .cover = true});
     KnownCliques known{data.cover, std::nullopt};
-    if (data.candidates) known.of_tets = graph::cliques_of_tets(*data.candidates);
+    if (data.candidates) {
+      known.of_tets = graph::cliques_of_tets(*data.candidates);
+      graph::add_cliques_at_last(*data.graph, data.graph->vertex_count() - pipeline::quad_count(data), *known.of_tets);
+    }
     const Deadline deadline = context.deadline();
     Step step("proving a bound");
     const std::int64_t weight = graph::total_weight(*data.solution, *data.graph);
@@ -61,6 +65,16 @@ int main(int argc, char** argv) {
     const double seconds = deadline.elapsed();
     context.statistics.update(to_json(result));
     context.note(summary(result));
+    if (const auto chosen = pipeline::without_quads(result.solution, data)) {
+      const std::int64_t most = result.bound - pipeline::weight_of_quads(data);
+      const double gap = mwis::ground::gap_to(most, chosen->value);
+      context.statistics["candidates"] = chosen->count;
+      context.statistics["value"] = chosen->value;
+      context.statistics["value_bound"] = most;
+      context.statistics["value_gap"] = gap;
+      context.note(
+          fmt::format("{}; at most {} is possible: gap {:.4f} %", pipeline::summary(*chosen), most, 100 * gap));
+    }
     pipeline::SolutionProduct product{.solution = std::move(result.solution)};
     if (stage.writes_bundle())
       product.gaps = mwis::bounds::gap_shares(*data.graph, result.cover, result.dual.prices, product.solution);

@@ -5,11 +5,14 @@
 
 namespace hexpipe::initsol {
 
-std::vector<double> merits(const graph::ConflictGraph& graph, GreedyOrder order, std::span<const double> quality) {
-  if (order == GreedyOrder::quality) return {quality.begin(), quality.end()};
+std::vector<double> merits(const graph::ConflictGraph& graph, GreedyOrder order, std::span<const double> quality,
+                           std::int32_t quads) {
+  const std::int32_t others = graph.vertex_count() - quads;
   std::vector<double> merits(graph.weights.begin(), graph.weights.end());
+  if (order == GreedyOrder::quality) std::ranges::copy(quality.first(static_cast<std::size_t>(others)), merits.begin());
   if (order == GreedyOrder::weight_degree)
-    for (std::int32_t v = 0; v < graph.vertex_count(); ++v) merits[v] /= static_cast<double>(graph.degree(v) + 1);
+    for (std::int32_t v = 0; v < others; ++v) merits[v] /= static_cast<double>(graph.degree(v) + 1);
+  std::fill(merits.begin() + others, merits.end(), -1.0);
   return merits;
 }
 

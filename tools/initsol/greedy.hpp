@@ -17,7 +17,9 @@ enum class GreedyOrder {
 };
 
 // The merit of every vertex; only GreedyOrder::quality needs `quality`.
-std::vector<double> merits(const graph::ConflictGraph& graph, GreedyOrder order, std::span<const double> quality);
+// The last `quads` vertices have less merit than all others.
+std::vector<double> merits(const graph::ConflictGraph& graph, GreedyOrder order, std::span<const double> quality,
+                           std::int32_t quads = 0);
 
 // Takes the highest merit first, equal merits in the order of their vertices. The set is maximal.
 graph::IndependentSet greedy(const graph::ConflictGraph& graph, std::span<const double> merits);

@@ -8,6 +8,7 @@
 #include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/pipeline/choice_progress.hpp"
+#include "formats/pipeline/quads_of_choice.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "tools/initsol/initsol.hpp"
 
@@ -30,9 +31,10 @@ constexpr std::int64_t usual_iterations_a_vertex = 15;
 std::vector<double> quality_for(const pipeline::StageData& data) {
   if (!data.candidates)
     throw DataError("--greedy quality needs candidates: found none in the bundle, give --candidates");
-  if (data.candidates->size() != data.graph->weights.size())
-    throw DataError(fmt::format("expected as many candidates as vertices of the graph, {}, found {}",
-                                data.graph->vertex_count(), data.candidates->size()));
+  const std::int32_t vertices = data.graph->vertex_count() - pipeline::quad_count(data);
+  if (data.candidates->size() != static_cast<std::size_t>(vertices))
+    throw DataError(fmt::format("expected as many candidates as vertices of the graph, {}, found {}", vertices,
+                                data.candidates->size()));
   return data.candidates->quality;
 }
 
@@ -108,7 +110,7 @@ InitsolOptions checked_options(const CommandLine& line, const CommonOptions& com
   return options;
 }
 
-void run(RunContext& context, const InitsolOptions& options) {
+void run(RunContext& context, InitsolOptions options) {
   pipeline::Stage stage(context);
   mwis::ground::SearchLog log(context.common.log_file);
   const bool by_quality = options.order == GreedyOrder::quality;
@@ -118,6 +120,7 @@ void run(RunContext& context, const InitsolOptions& options) {
                   .volumes = true});
   const std::vector<double> quality = by_quality ? quality_for(data) : std::vector<double>{};
 
+  options.quads = pipeline::quad_count(data);
   const Deadline deadline = context.deadline();
   Step step("choosing hexes");
   pipeline::ChoiceProgress progress(step, data, !context.streams.files.contains(Role::graph));
@@ -134,6 +137,11 @@ void run(RunContext& context, const InitsolOptions& options) {
                                                    {"complete", result.complete}});
   context.note(fmt::format("{} chosen, weight {}{} (greedy {}), {} moves", result.solution.size(), result.weight,
                            result.complete ? " (optimal)" : "", result.greedy_weight, result.iterations));
+  if (const auto chosen = pipeline::without_quads(result.solution, data)) {
+    context.statistics["candidates"] = chosen->count;
+    context.statistics["value"] = chosen->value;
+    context.note(summary(*chosen));
+  }
   stage.write(pipeline::SolutionProduct{result.solution},
               {{"weight", result.weight}, {"iterations", result.iterations}, {"complete", result.complete}});
   // After the solution, so that a full disk under the log does not cost it.

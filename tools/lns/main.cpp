@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "common/run/tool_main.hpp"
 #include "formats/choice/fragments_file.hpp"
 #include "formats/pipeline/choice_progress.hpp"
+#include "formats/pipeline/quads_of_choice.hpp"
 #include "formats/pipeline/stage.hpp"
 
 using namespace hexpipe;
@@ -23,6 +25,14 @@ namespace {
 // For a search without a limit. Each doubling of the time gains half as much or less, so about this share is left to
 // gain when the search ends.
 constexpr double usual_worth = 5e-5;
+
+// Without the vertices of quads behind the candidates.
+std::vector<std::uint64_t> candidates_of(std::span<const std::int32_t> fragment, std::int32_t candidates) {
+  std::vector<std::uint64_t> result;
+  for (const std::int32_t v : fragment)
+    if (v < candidates) result.push_back(static_cast<std::uint64_t>(v));
+  return result;
+}
 
 }  // namespace
 
@@ -70,6 +80,7 @@ int main(int argc, char** argv) {
 
     if (data.gaps)
       options.first_places = mwis::bounds::holds_most_of_gap(data.graph->vertex_count(), *data.solution, *data.gaps);
+    const std::int32_t candidates = data.graph->vertex_count() - pipeline::quad_count(data);
     const Deadline deadline = context.deadline();
     Step step("improving the choice");
     pipeline::ChoiceProgress progress(step, data, graph_of_bundle);
@@ -77,8 +88,8 @@ int main(int argc, char** argv) {
     const mwis::local_search::LnsResult result = mwis::local_search::improve_by_lns(
         *data.graph, *data.solution, options, deadline, [&](const mwis::local_search::LnsProgress& now) {
           log.record(deadline.elapsed(), now.iteration, now.weight);
-          if (fragments && !now.fragment.empty())
-            fragments->add(std::vector<std::uint64_t>(now.fragment.begin(), now.fragment.end()));
+          if (fragments)
+            if (const auto shown = candidates_of(now.fragment, candidates); !shown.empty()) fragments->add(shown);
           progress.show(now.weight, now.solution);
         });
     const double seconds = deadline.elapsed();
@@ -90,6 +101,11 @@ int main(int argc, char** argv) {
     context.note(fmt::format("{} chosen, weight {}{}, {} of {} fragments were improved", result.solution.size(),
                              result.weight, result.complete ? " (optimal)" : "", result.improvements,
                              result.iterations));
+    if (const auto chosen = pipeline::without_quads(result.solution, data)) {
+      context.statistics["candidates"] = chosen->count;
+      context.statistics["value"] = chosen->value;
+      context.note(summary(*chosen));
+    }
     nlohmann::ordered_json details{
         {"weight", result.weight}, {"iterations", result.iterations}, {"complete", result.complete}};
     if (options.free_running) details["depends_on_timing"] = true;

@@ -8,6 +8,7 @@
 #include "common/run/option_checks.hpp"
 #include "common/run/progress.hpp"
 #include "common/run/tool_main.hpp"
+#include "formats/pipeline/quads_of_choice.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "tools/viewmesh/options.hpp"
 #include "tools/viewmesh/page.hpp"
@@ -86,6 +87,7 @@ int main(int argc, char** argv) {
     pipeline::StageData data = stage.read({.wants = {Role::mesh, Role::candidates, Role::solution, Role::result},
                                            .dislocations = true,
                                            .weights_only = true});
+    pipeline::drop_quads(data);
     const std::string source = !context.streams.operand || context.streams.operand == "-"
                                    ? context.streams.files.empty() ? "stdin" : "the files"
                                    : *context.streams.operand;

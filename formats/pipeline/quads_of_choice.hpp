@@ -1,0 +1,31 @@
+#pragma once
+// A choice from a graph with vertices of quads (common/conflicts/quad_vertices.hpp), which stand behind those of the
+// candidates.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "formats/pipeline/stage_data.hpp"
+
+namespace hexpipe::pipeline {
+
+// The number of quads in a graph, 0 for a plain one.
+std::int32_t quad_count(const StageData& data);
+
+// What the vertices of quads weigh together. A solution's weight less this is that of its candidates, less the prices
+// of open quads. The graph may be read without its edges.
+std::int64_t weight_of_quads(const StageData& data);
+
+struct ChosenCandidates {
+  std::int64_t count, value;  // the value: weights less the prices of open quads
+};
+// Nothing if the graph has no quads.
+std::optional<ChosenCandidates> without_quads(const graph::IndependentSet& solution, const StageData& data);
+// For -v.
+std::string summary(const ChosenCandidates& chosen);
+
+// Leaves the candidates in the solution, if there is one, and the vertices of quads out.
+void drop_quads(StageData& data);
+
+}  // namespace hexpipe::pipeline
