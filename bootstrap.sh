@@ -24,9 +24,10 @@ test_packages=(
   netcdf-bin python3-netcdf4 python3-h5py libmed-tools cgns-convert
   chromium chromium-driver python3-selenium gnuplot-nox man-db
 )
-# The clang of the tests under sanitizers: CGAL of Debian 12 does not compile with clang 19, Debian 13 has no clang 16.
-clang_packages_12=(clang-16 libclang-rt-16-dev lld-16)
-clang_packages_13=(clang-19 libclang-rt-19-dev lld-19)
+# Compiles the tests under sanitizers. Debian 13 has no clang 16; with clang 19 the CGAL of Debian 12 does not compile.
+clang_packages() {
+  echo "clang-$1" "libclang-rt-$1-dev" "lld-$1" "llvm-$1"
+}
 
 is_installed() {
   dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'ok installed'
@@ -46,7 +47,7 @@ install_packages() {
   if ((EUID != 0)); then as_root=(sudo); fi
   "${as_root[@]}" apt-get update -q
   for package in "${missing[@]}"; do
-    if [[ " ${test_packages[*]} " != *" $package "* ]] || is_offered "$package"; then
+    if [[ " ${build_packages[*]} " == *" $package "* ]] || is_offered "$package"; then
       offered+=("$package")
     else
       echo "bootstrap.sh: this release has no package $package; tests that need it are skipped" >&2
@@ -63,12 +64,10 @@ case "${1:-}" in
     exit
     ;;
   tests)
-    if grep -q '^VERSION_ID="12"' /etc/os-release; then
-      test_packages+=("${clang_packages_12[@]}")
-    else
-      test_packages+=("${clang_packages_13[@]}")
-    fi
-    install_packages "${build_packages[@]}" "${test_packages[@]}"
+    clang=19
+    if grep -q '^VERSION_ID="12"' /etc/os-release; then clang=16; fi
+    # shellcheck disable=SC2046
+    install_packages "${build_packages[@]}" "${test_packages[@]}" $(clang_packages "$clang")
     exit
     ;;
   *)

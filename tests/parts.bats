@@ -182,7 +182,7 @@ PYTHON
   assert_fails_with 1 "whole.tar: expected a part of a mesh, as mesh-part makes them, found a whole" $build --neighbours whole.tar -o out.tar
   assert_fails_with 2 "--neighbours goes with the candidates of a part" buildgraph whole.tar --neighbours four/candidates-0000.tar -o out.tar
   for option in --reduce --cover "--part 1/2"; do
-    assert_fails_with 2 "buildgraph: --part, --reduce and --cover need the whole graph" $build --neighbours four/candidates-*.tar $option -o out.tar
+    assert_fails_with 2 "buildgraph: --part, --reduce, --cover and --quad-reward need the whole graph" $build --neighbours four/candidates-*.tar $option -o out.tar
   done
   assert_fails_with 2 "findhex: --part does not go with a mesh that is part 1 of 4 already" findhex four/part-0001.tar --part 1/2 -o out.tar
   assert [ ! -e out.tar ]

@@ -21,6 +21,8 @@ done
 for preset in ci ci-sanitize; do
   if [[ $preset == ci-sanitize && -n $clang ]]; then
     export CC="clang-$clang" CXX="clang++-$clang" LDFLAGS="-fuse-ld=lld"
+    # Leaks of libraries are known by the names of their functions.
+    export ASAN_SYMBOLIZER_PATH="/usr/lib/llvm-$clang/bin/llvm-symbolizer"
   fi
   cmake --preset "$preset"
   cmake --build --preset "$preset" --parallel "$jobs"

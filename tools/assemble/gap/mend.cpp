@@ -20,7 +20,7 @@ namespace {
 constexpr int most_mending_passes = 3;
 // Few cells are poor; the third round mended 5 and the fourth none on most models.
 constexpr int most_rounds = 3;
-constexpr int rounds_to_raise = 5;
+constexpr int rounds_of_moves = 5;
 // Parts of the shortest edge.
 constexpr std::array<double, 3> steps{0.3, 0.12, 0.05};
 constexpr std::array<Vec3, 6> directions{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
@@ -66,7 +66,7 @@ bool Mender::raise(const std::vector<Vertex>& vertices) {
   if (vertices.empty()) return false;
   patch_.take(vertices, {});
   const double before = patch_.least();
-  patch_.raise(least_quality, rounds_to_raise);
+  patch_.raise(least_quality, rounds_of_moves);
   if (patch_.least() < before + least_rise || !patch_.keeps_floors()) return false;
   if (patch_.cost() > patch_.cost_before() - least_gain) return false;
   patch_.carry_out(gap_, {});
