@@ -88,11 +88,14 @@ setup_file() {
   buildgraph "$INPUTS/hexes.tar" --quad-reward 0.2 -o quads.graph 2>/dev/null
   initsol quads.graph --iterations 3000 -o start.sol
   assemble quads.tar --solution start.sol -o file.vtu
-  assemble start.tar -v --stats mesh.json -o bundle.vtu 2>said
+  assemble start.tar --stats mesh.json -o bundle.vtu
   assert_same_bytes file.vtu bundle.vtu
+  assemble start.tar -o mesh.tar
+  tar xOf mesh.tar --wildcards 'history/*-assemble.json' >history.json
+  holds 'history["options"]["exchange"] == "none"' history.json
   holds '"exchange" not in mesh' mesh.json
   assemble certified.tar -v -o certified.vtu 2>said
-  grep -q "the choice weighs $($PYTHON -c 'import json; print(json.load(open("certify.json"))["value"])')" said
+  grep -q "the choice weighs $($PYTHON -c 'import json; print(json.load(open("certify.json"))["value"])')," said
   assemble start.tar --exchange quads --stats exchanged.json -o exchanged.vtu
   holds '"exchange" in exchanged' exchanged.json
 }
@@ -104,7 +107,20 @@ setup_file() {
   assert_fails_with 1 "candidates: expected (prices|weights) .*--weight-scale" buildgraph "$INPUTS/hexes.tar" --quad-reward 10 --weight-scale 1e16 -o out.tar
 }
 
-@test "a graph with too few vertices for its quads is refused" {
+@test "fragments of lns and lns-mpi are candidates, whatever quads a graph has" {
+  if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
+  tetmesh "$DATA/bracket.stl" --size 8 | findhex | buildgraph --quad-reward 0.2 --stats graph.json -o quads.tar
+  initsol quads.tar --iterations 0 -o start.tar
+  for tool in lns lns-mpi; do
+    if ! command -v $tool >/dev/null; then continue; fi
+    $tool start.tar --iterations 100 --fragments $tool.txt --stats found.json -o choice.tar
+    holds 'found["improvements"] > 0' found.json
+    assert [ -s $tool.txt ]
+    holds 'max(map(int, open("'$tool.txt'").read().split())) <= graph["vertices"] - graph["quads"]' graph.json
+  done
+}
+
+@test "a graph whose vertices are not its candidates and quads is refused" {
   buildgraph "$INPUTS/hexes.tar" --quad-reward 0.2 -o quads.tar
   $PYTHON - <<PYTHON
 import io, tarfile

@@ -231,6 +231,8 @@ PYTHON
 
 @test "damaged Exodus files end in one line" {
   need exo
+  # The search for leaks of clang 16 crashes on what NetCDF leaves of such a file.
+  export ASAN_OPTIONS="${ASAN_OPTIONS:-}:detect_leaks=0"
   survives_damage exo
 }
 

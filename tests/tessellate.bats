@@ -288,8 +288,8 @@ PYTHON
   exec {writer}<>endless.step
   tessellate endless.step -o x.tar 2>crash.txt &
   local tool=$! code=0
-  # By then it waits for the rest of the file.
-  sleep 1
+  # Until it handles SIGSEGV.
+  until ((0x$(awk '/^SigCgt/ {print $2}' "/proc/$tool/status") & 0x400)); do sleep 0.1; done
   kill -SEGV "$tool"
   wait "$tool" || code=$?
   exec {writer}>&-

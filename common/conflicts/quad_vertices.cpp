@@ -74,8 +74,9 @@ std::vector<std::int64_t> make_room(const QuadList& quads, graph::ConflictGraph&
     const std::int64_t begin = graph.offsets[i], end = graph.offsets[i + 1];
     graph.offsets[i + 1] = end + shift;
     shift -= places[i];
-    std::copy_backward(graph.neighbours.begin() + begin, graph.neighbours.begin() + end,
-                       graph.neighbours.begin() + end + shift);
+    if (shift > 0)
+      std::copy_backward(graph.neighbours.begin() + begin, graph.neighbours.begin() + end,
+                         graph.neighbours.begin() + end + shift);
     places[i] = end + shift;
   }
   return places;

@@ -45,10 +45,10 @@ KeySet<3> boundary_of(const TetMesh& mesh, const char* source);
 std::vector<std::int64_t> prices_of(const QuadList& quads, const Candidates& candidates,
                                     const ConflictOptions& weighing, double share, const char* source);
 
-// Appends the vertices of shared quads to those of the candidates. The weight of a solution is then that of its
-// candidates, less the prices of open quads, plus twice the sum of all prices. The quads that it chooses have no chosen
-// candidate. Throws DataError naming `source` when the vertices are 2^31 or more, or the sum of weights does not fit 64
-// bits.
+// Appends the vertices of shared quads to those of the candidates. A solution then has quads without a chosen
+// candidate, too. If it has all of these, its weight is that of its candidates, less the prices of open quads, plus
+// twice the sum of all prices. Throws DataError naming `source` when the vertices are 2^31 or more, or the sum of
+// weights does not fit 64 bits.
 void add_quad_vertices(const QuadList& shared, const std::vector<std::int64_t>& prices, graph::ConflictGraph& graph,
                        const char* source);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/mwis/ground/target_weight.hpp"
+#include "formats/pipeline/quads_of_choice.hpp"
 
 namespace hexpipe::pipeline {
 namespace {
@@ -25,6 +26,7 @@ double volume_in(const std::vector<nlohmann::ordered_json>& history) {
 ChoiceProgress::ChoiceProgress(Step& step, const StageData& data, bool graph_of_bundle)
     : step_(step), volumes_(data.volumes), mesh_volume_(volume_in(data.history)) {
   if (graph_of_bundle) bound_ = mwis::ground::bound_in(data.history);
+  if (data.quads) of_quads_ = weight_of_quads(data);
 }
 
 void ChoiceProgress::show(std::int64_t weight, const std::function<graph::IndependentSet()>& solution) {
@@ -46,7 +48,8 @@ std::string ChoiceProgress::text_of(std::int64_t weight, const graph::Independen
   }
   std::string text = hexes > 0 ? fmt::format("{} hexes", hexes) : fmt::format("{} chosen", chosen.size());
   if (hexes > 0 && mesh_volume_ > 0) text += fmt::format(", {:.1f} % of the volume", 100 * volume / mesh_volume_);
-  if (bound_) text += fmt::format(", gap {:.3f} %", 100 * mwis::ground::gap_to(*bound_, weight));
+  if (bound_)
+    text += fmt::format(", gap {:.3f} %", 100 * mwis::ground::gap_to(*bound_ - of_quads_, weight - of_quads_));
   return text;
 }
 

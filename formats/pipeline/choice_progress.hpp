@@ -1,6 +1,6 @@
 #pragma once
-// Says in the line of progress what a search has chosen: hexes, the share of the volume that they fill, and how far that
-// can be from the best choice.
+// Says in the line of progress what a search has chosen: hexes, the share of the volume that they fill, and how far
+// that can be from the best choice.
 
 #include <cstdint>
 #include <functional>
@@ -30,6 +30,7 @@ class ChoiceProgress {
   const CandidateVolumes& volumes_;
   double mesh_volume_ = 0;  // 0: not known
   std::optional<std::int64_t> bound_;
+  std::int64_t of_quads_ = 0;  // what their vertices weigh, which is no gain
   Stopwatch watch_;
   double next_ = 0;
 };

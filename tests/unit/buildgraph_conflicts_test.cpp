@@ -230,10 +230,10 @@ TEST(Report, WarnsOfWeightsThatVanish) {
   pipeline::StageData data;
   data.candidates = c;
   BuildgraphOptions options{{WeightKind::volume, 1e6}};
-  EXPECT_THAT(warnings_about(summarize(buildgraph::buildgraph(data, options, "test"))),
+  EXPECT_THAT(warnings_about(summarize(buildgraph::buildgraph(data, options, {}))),
               ElementsAre(HasSubstr("1 of 1 weights")));
   options.conflicts.weight_scale = 1e12;
-  EXPECT_THAT(warnings_about(summarize(buildgraph::buildgraph(data, options, "test"))), IsEmpty());
+  EXPECT_THAT(warnings_about(summarize(buildgraph::buildgraph(data, options, {}))), IsEmpty());
 }
 
 TEST(SortedSet, ListsInOrderAndEmptiesItself) {

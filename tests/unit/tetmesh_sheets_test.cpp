@@ -57,6 +57,14 @@ TEST(Sheets, SidesThatTheFileTellsAreBelieved) {
   EXPECT_EQ(told.triangles.size(), 12u);
 }
 
+TEST(Sheets, ABodyThatIsToldAndHasAHoleIsNoBaffle) {
+  Facets open = box({0, 0, 0}, {1, 1, 1});
+  open.pop_back();
+  SurfaceSoup told = soup_of(open);
+  told.sides.assign(told.triangles.size(), {1, 0});
+  EXPECT_THROW(join_bodies(told, BaffleRule::keep), DataError);
+}
+
 // A cube with a square in its middle plane, which ends inside.
 Facets cube_with_baffle() {
   const Vec3 a{0.25, 0.5, 0.25}, b{0.75, 0.5, 0.25}, c{0.75, 0.5, 0.75}, d{0.25, 0.5, 0.75};

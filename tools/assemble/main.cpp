@@ -62,7 +62,7 @@ void declare_options(CLI::App& app, CommandLine& line) {
       app.add_option("--exchange", line.exchange,
                      "quads: exchanges chosen hexes for other candidates, by volume and quality, less a cost for each "
                      "quad that faces tets; none: keeps the choice, as always with --conformity none and with "
-                     "--neighbours")
+                     "--neighbours, and unless this option is given for a graph of buildgraph --quad-reward")
           ->check(CLI::IsMember(exchanges))
           ->capture_default_str();
   line.fill_option =
@@ -325,16 +325,19 @@ void run(RunContext& context, CommandLine& line) {
                                  .solution = stage.source_of(Role::solution)};
   const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
   const auto choice = graph_of_bundle ? proven_gap(data) : nullptr;
-  if (data.quads && line.exchange_option->count() == 0) {
-    options.exchange = AssembleOptions::Exchange::none;
-    context.options["exchange"] = "none";
-  }
+  const bool chosen_with_quads = data.quads && line.exchange_option->count() == 0;
+  if (chosen_with_quads) options.exchange = AssembleOptions::Exchange::none;
   pipeline::drop_quads(data);
   PartResult result = line.by_part() ? assemble_one_part(std::move(data), line, options, names)
                                      : assemble_whole(std::move(data), options, std::move(layers), names);
   std::optional<order::SecondOrderCounts> second_order;
   if (line.order == 2) second_order = add_second_order(line, std::move(surface), result);
   auto details = report(context, result.statistics, choice);
+  // The stage has had the options of the command line.
+  if (chosen_with_quads) {
+    context.options["exchange"] = "none";
+    details["options"] = context.options;
+  }
   if (line.by_part())
     context.note(result.piece.settled ? "this piece is settled"
                                       : "this piece has something new to say: another round has to follow");

@@ -94,13 +94,14 @@ pipeline::GraphProduct read_graph_of_part(pipeline::StageData data, const Buildg
 
 }  // namespace
 
-BuildgraphResult buildgraph(pipeline::StageData data, const BuildgraphOptions& options, const std::string& source) {
+BuildgraphResult buildgraph(pipeline::StageData data, const BuildgraphOptions& options, const InputNames& names) {
+  const std::string& source = names.candidates;
   if (data.part) return {.product = read_graph_of_part(std::move(data), options, source)};
   if (!options.neighbours.empty())
     throw UsageError("--neighbours goes with the candidates of a part of a mesh, as mesh-part makes them");
   if (options.reduce) return reduced_graph(std::move(*data.candidates), options, source.c_str());
   KeySet<3> boundary;
-  if (data.mesh && options.quad_reward > 0) boundary = conflicts::boundary_of(*data.mesh, source.c_str());
+  if (data.mesh && options.quad_reward > 0) boundary = conflicts::boundary_of(*data.mesh, names.mesh.c_str());
   data.mesh.reset();
   return whole_graph(std::move(*data.candidates), boundary, options, source.c_str());
 }

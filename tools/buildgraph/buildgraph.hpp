@@ -16,9 +16,14 @@ struct BuildgraphResult {
   std::optional<std::int64_t> dominated{};  // how many candidates BuildgraphOptions::reduce left out
 };
 
-// Builds the graph of the candidates that a stage read from `source`, whole or a part of a mesh. Throws UsageError when
-// options do not go with the input, and DataError naming `source` when a part lacks keys, weights do not fit (see
-// weights_of), or there are 2^31 candidates or more.
-BuildgraphResult buildgraph(pipeline::StageData data, const BuildgraphOptions& options, const std::string& source);
+// What errors call the input.
+struct InputNames {
+  std::string candidates = "candidates", mesh = "mesh";
+};
+
+// Builds the graph of the candidates that a stage read, whole or a part of a mesh. Throws UsageError when options do
+// not go with the input, and DataError naming it when a part lacks keys, weights do not fit (see weights_of), or there
+// are 2^31 candidates or more.
+BuildgraphResult buildgraph(pipeline::StageData data, const BuildgraphOptions& options, const InputNames& names);
 
 }  // namespace hexpipe::buildgraph

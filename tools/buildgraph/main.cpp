@@ -73,7 +73,8 @@ int main(int argc, char** argv) {
     if (options.quad_reward > 0) request.wants = {Role::mesh};
     pipeline::StageData data = stage.read(request);
     phases.end("read");
-    const BuildgraphResult result = buildgraph::buildgraph(std::move(data), options, stage.source_of(Role::candidates));
+    const InputNames names{.candidates = stage.source_of(Role::candidates), .mesh = stage.source_of(Role::mesh)};
+    const BuildgraphResult result = buildgraph::buildgraph(std::move(data), options, names);
     phases.end("build");
     const GraphSummary summary = summarize(result);
     for (const auto& warning : warnings_about(summary)) context.warn(warning);

@@ -31,8 +31,9 @@ GraphSummary summarize(const BuildgraphResult& result) {
 
 std::vector<std::string> warnings_about(const GraphSummary& summary) {
   if (summary.without_weight == 0) return {};
-  return {fmt::format("{} of {} weights are rounded to 0: a greater --weight-scale keeps them apart",
-                      summary.without_weight, summary.vertices)};
+  return {fmt::format("{} of {} weights{} are rounded to 0: a greater --weight-scale keeps them apart",
+                      summary.without_weight, summary.quads.value_or(summary.vertices),
+                      summary.quads ? " of quads" : "")};
 }
 
 std::vector<std::string> summary_lines(const GraphSummary& summary) {

@@ -61,8 +61,9 @@ class Job {
       rounds_.improved = [&](std::span<const std::int32_t> fragment) {
         std::vector<std::uint64_t> numbers;
         numbers.reserve(fragment.size());
-        for (const std::int32_t v : fragment) numbers.push_back(local.keys[v]);
-        improved.put_all(std::span<const std::uint64_t>(numbers));
+        for (const std::int32_t v : fragment)
+          if (local.keys[v] < source_->candidates()) numbers.push_back(local.keys[v]);
+        if (!numbers.empty()) improved.put_all(std::span<const std::uint64_t>(numbers));
       };
     Step step("improving the choice");
     step_ = &step;
@@ -97,7 +98,9 @@ class Job {
   void choose_target() {
     if (!options_.target_gap) return;
     const std::optional<std::int64_t> bound = options_.known_bound ? options_.known_bound : source_->bound();
-    ranks_.together([&] { rounds_.search.target = mwis::ground::target_weight(*options_.target_gap, bound); });
+    ranks_.together([&] {
+      rounds_.search.target = mwis::ground::target_weight(*options_.target_gap, bound, source_->weight_of_quads());
+    });
   }
 
   // The keys that an earlier run chose.

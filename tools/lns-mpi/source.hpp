@@ -3,6 +3,7 @@
 // that were made separately and never meet in one place.
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -27,10 +28,15 @@ class Source {
   std::int32_t blocks() const { return blocks_; }
   // The lowest bound that certify has proven, if the input's history has one.
   std::optional<std::int64_t> bound() const { return bound_; }
+  // Vertices from this number on are quads (buildgraph --quad-reward), and what these weigh.
+  std::uint64_t candidates() const { return candidates_; }
+  std::int64_t weight_of_quads() const { return weight_of_quads_; }
 
  protected:
   std::int32_t blocks_ = 0;
   std::optional<std::int64_t> bound_;
+  std::uint64_t candidates_ = std::numeric_limits<std::uint64_t>::max();
+  std::int64_t weight_of_quads_ = 0;
 };
 
 // Cuts a conflict graph into blocks of about the same size, with few edges between them.

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "common/mwis/ground/target_weight.hpp"
+#include "formats/pipeline/quads_of_choice.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "tools/lns-mpi/source.hpp"
 
@@ -97,15 +98,23 @@ class WholeGraph : public Source {
             fmt::format("expected at least a block for each of {} ranks, found {}", ranks.count(), blocks_));
       cut = cut_into_blocks(*data.graph, blocks_);
       if (!context_.streams.files.contains(Role::graph)) bound_ = mwis::ground::bound_in(data.history);
+      if (data.quads) {
+        candidates_ = static_cast<std::uint64_t>(data.graph->vertex_count() - pipeline::quad_count(data));
+        weight_of_quads_ = pipeline::weight_of_quads(data);
+      }
     });
     Packer packer;
     packer.put(blocks_);
     packer.put(bound_.value_or(unknown_bound));
+    packer.put(candidates_);
+    packer.put(weight_of_quads_);
     Bytes facts = packer.take();
     ranks.broadcast(facts);
     Unpacker unpacker(facts);
     blocks_ = unpacker.get<std::int32_t>();
     if (const auto bound = unpacker.get<std::int64_t>(); bound != unknown_bound) bound_ = bound;
+    candidates_ = unpacker.get<std::uint64_t>();
+    weight_of_quads_ = unpacker.get<std::int64_t>();
     if (!ranks.is_first()) return receive_rows(ranks);
     return scatter_rows(ranks, BlockOwners(blocks_, ranks.count()), *data.graph, *data.solution, cut);
   }

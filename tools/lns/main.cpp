@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
     const pipeline::StageData data = stage.read({.needs = {Role::graph, Role::solution}, .volumes = true});
     const bool graph_of_bundle = !context.streams.files.contains(Role::graph);
     const auto bound = target.bound || !graph_of_bundle ? target.bound : mwis::ground::bound_in(data.history);
-    if (target.gap) options.target = mwis::ground::target_weight(*target.gap, bound);
+    if (target.gap) options.target = mwis::ground::target_weight(*target.gap, bound, pipeline::weight_of_quads(data));
 
     if (data.gaps)
       options.first_places = mwis::bounds::holds_most_of_gap(data.graph->vertex_count(), *data.solution, *data.gaps);

@@ -210,7 +210,8 @@ void join_bodies(const std::string& source, CadModel& model) {
   fuse.SetNonDestructive(Standard_True);
   fuse.SetRunParallel(Standard_False);
   fuse.Build();
-  if (fuse.HasErrors()) throw DataError::at(source, "OpenCASCADE cannot join its bodies (--join)");
+  if (fuse.HasErrors())
+    throw DataError::at(source, "OpenCASCADE cannot join its bodies and faces (--join, --keep-baffles)");
   std::vector<CadBody> joined;
   TopTools_MapOfShape seen;
   const auto carry = [&](const TopoDS_Shape& shape) {

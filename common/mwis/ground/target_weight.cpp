@@ -38,9 +38,9 @@ double gap_to(std::int64_t bound, std::int64_t weight) {
   return bound > 0 ? static_cast<double>(bound - weight) / static_cast<double>(bound) : 0;
 }
 
-std::int64_t target_weight(double gap, std::optional<std::int64_t> bound) {
+std::int64_t target_weight(double gap, std::optional<std::int64_t> bound, std::int64_t constant) {
   if (!bound) throw DataError("--target-gap needs a bound: pipe the solution through certify first, or give --bound");
-  return *bound - static_cast<std::int64_t>(std::floor(static_cast<long double>(*bound) * gap));
+  return *bound - static_cast<std::int64_t>(std::floor(static_cast<long double>(*bound - constant) * gap));
 }
 
 }  // namespace hexpipe::mwis::ground

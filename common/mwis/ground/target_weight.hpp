@@ -15,7 +15,8 @@ std::optional<std::int64_t> bound_in(const std::vector<nlohmann::ordered_json>& 
 // How far a weight is from a bound, as a share of the bound; 0 if the bound is 0.
 double gap_to(std::int64_t bound, std::int64_t weight);
 
-// The least weight whose gap to the bound is at most `gap`. Throws DataError when no bound is known.
-std::int64_t target_weight(double gap, std::optional<std::int64_t> bound);
+// The least weight whose gap to the bound is at most `gap`. `constant` is in weights and bounds, but not in the gap:
+// what vertices of quads weigh. Throws DataError when no bound is known.
+std::int64_t target_weight(double gap, std::optional<std::int64_t> bound, std::int64_t constant = 0);
 
 }  // namespace hexpipe::mwis::ground

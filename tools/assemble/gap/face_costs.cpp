@@ -172,6 +172,7 @@ double cost_of_faces(const GapMesh& gap, std::span<const GapCell> cells, std::sp
 }
 
 double cost_of_faces(const GapMesh& gap, GapIndex c) {
+  if (!gap.counts_faces()) return 0;
   FaceCost& known = gap.face_cost_of(c);
   if (const std::uint64_t age = gap.age_of_cell(c); known.age != age) {
     FacesOf faces = faces_of(gap, gap.cell(c).kind, gap.cell(c).vertices());

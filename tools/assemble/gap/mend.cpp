@@ -58,8 +58,9 @@ class Mender {
   GapMesh& gap_;
   Refill refill_;
   Patch patch_;
-  std::vector<std::uint64_t> seen_;    // by cell: its age when nothing helped it
-  std::vector<std::uint64_t> stayed_;  // by vertex: its age when no step helped it
+  // Ages when nothing helped. Changes beyond the neighbours do not raise them, which costs a chance at most.
+  std::vector<std::uint64_t> seen_;    // by cell
+  std::vector<std::uint64_t> stayed_;  // by vertex
 };
 
 bool Mender::raise(const std::vector<Vertex>& vertices) {

@@ -124,7 +124,8 @@ void StarMerger::offer(Vertex v, Wanted&& is_wanted) {
     if (is_wanted(other)) offer_pair(v, other);
 }
 
-// Both vertices of a pair offer it, and so do those around a merge; what comes of it is the same.
+// Both vertices of a pair offer it, and so do those around a merge: the offer is the same. A merge that was refused
+// because of cells beyond the room is not tried again when only these change.
 bool StarMerger::is_new(Vertex from, Vertex into) {
   const auto [a, b] = std::minmax(from, into);
   const auto with_age = [&](Vertex v) { return std::uint64_t{gap_.age_of(v)} << 32 | static_cast<std::uint32_t>(v); };

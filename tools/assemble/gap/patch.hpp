@@ -32,9 +32,9 @@ class Patch {
   void take(std::span<const Vertex> moving, const Replacement& replacement);
   void place(Vertex v, const Vec3& at) { points_[local_of(v)] = at; }
 
-  // Moves the vertices, one after the other, at most `rounds` times and not after a round from the second on that
-  // did not raise the least quality, where the worst cell around one is below `goal` and becomes better. Chosen cells
-  // stay valid and as good as they have to be (least_hex), or as they were.
+  // Moves each vertex in turn where the worst cell around it is below `goal` and becomes better. Ends after `rounds`
+  // rounds, or after the second or a later one that did not raise the least quality. Chosen cells stay valid and as
+  // good as they have to be (least_hex), or as they were.
   void raise(double goal, int rounds);
 
   // The least quality among the cells that are not chosen.

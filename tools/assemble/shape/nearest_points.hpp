@@ -10,7 +10,7 @@
 
 namespace hexpipe::assemble::shape {
 
-// Both may be degenerate.
+// Either may be degenerate.
 Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& to);
 Vec3 nearest_on_triangle(const std::array<Vec3, 3>& triangle, const Vec3& to);
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -355,6 +356,7 @@ void untangle(MixedMesh& mesh, int rounds, const SlidingSurface* sliding) {
 }
 
 SmoothCounts smooth(MixedMesh& mesh, int rounds, const SlidingSurface* sliding, Settled* settled) {
+  assert(settled == nullptr || sliding != nullptr);
   Smoother smoother(mesh, sliding, hex_weight);
   if (settled != nullptr) smoother.skip(*settled);
   SmoothCounts counts;

@@ -43,7 +43,10 @@ class Repairer {
     remove_degenerate();
     if (soup_.sides.empty()) {
       remove_duplicates(turn_of);
-      baffles == BaffleRule::keep ? join_borders() : join_all_borders();
+      if (baffles == BaffleRule::keep)
+        join_borders();
+      else
+        join_all_borders();
     }
     if (report_.anything()) finish();
     return report_;

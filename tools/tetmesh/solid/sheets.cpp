@@ -86,7 +86,10 @@ class SideFinder {
   SheetReport join() {
     agree_on_overlaps();
     join_repeated();
-    if (!soup_.sides.empty()) drop_fins();
+    if (!soup_.sides.empty()) {
+      drop_fins();
+      if (baffles_ == BaffleRule::keep) refuse_open_borders();
+    }
     check_intersections(soup_, remedy_);
     return report_;
   }
@@ -121,6 +124,7 @@ class SideFinder {
   }
   void drop_fins();
   void refuse_open_bodies() const;
+  void refuse_open_borders() const;
 
   formats::SurfaceSoup& soup_;
   ShellRule rule_;
@@ -320,6 +324,16 @@ void SideFinder::drop_fins() {
   soup_.curve_tags.resize(next);
   soup_ = formats::merge_equal_points(std::move(soup_));  // also drops the points of fins
   soup_.file_vertices.clear();
+}
+
+// Where the file tells the sides, only a baffle may end inside.
+void SideFinder::refuse_open_borders() const {
+  geometry::for_each_edge(soup_.points.size(), soup_.triangles, [&](std::span<const HalfEdge> edge) {
+    const std::int32_t t = geometry::triangle_of(edge.front());
+    if (edge.size() == 1 && !is_baffle(t))
+      throw DataError::at(soup_.place_of(t),
+                          "expected a closed surface, found an edge of a single triangle that is no baffle");
+  });
 }
 
 // The triangles of a body with a hole have the same on both sides, like fins. But such a body is larger than a sheet
