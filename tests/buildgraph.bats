@@ -108,6 +108,7 @@ setup_file() {
 }
 
 @test "fragments of lns and lns-mpi are candidates, whatever quads a graph has" {
+  optimized_only "it is about results"
   if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
   tetmesh "$DATA/bracket.stl" --size 8 | findhex | buildgraph --quad-reward 0.2 --stats graph.json -o quads.tar
   initsol quads.tar --iterations 0 -o start.tar

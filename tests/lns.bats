@@ -232,6 +232,7 @@ PYTHON
 }
 
 @test "--fragments writes what was improved, a line each" {
+  optimized_only "it is about results"
   ring --iterations 300 --no-reductions -o out.sol --fragments parts --stats stats.json
   "$PYTHON" - <<'PYTHON'
 import json

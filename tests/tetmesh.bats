@@ -99,6 +99,7 @@ regions() {
 }
 
 @test "the same tessellation out of the axes, where TetGen fails in some orders of its input" {
+  optimized_only "it is about results"
   for turn in 1 2 3 4; do
     $SURFACES turned "$DATA/plate-holes.stl" $turn >turned.obj
     for points in none lattice; do
@@ -530,6 +531,7 @@ END
 }
 
 @test "--stats tells where rows end, and the bundle has the lines inside" {
+  optimized_only "it is about results"
   local part="$DATA/plate-holes.stl"
   tetmesh -q "$part" --size 11 --points frame -o frame.tar --stats stats.json
   $PYTHON -c "assert $(stats row_ends) > 0"
@@ -549,6 +551,7 @@ assert d['at_singularities'] + d['closed'] <= d['length'], d"
 }
 
 @test "--stretch joins rows on faces with features, as far as it may" {
+  optimized_only "it is about results"
   local part="$DATA/plate-holes.stl"
   tetmesh -q "$part" --size 11 --points none -o base.mesh
   tetmesh -q "$part" --size 11 --points none --stretch 0 -o zero.mesh
@@ -726,6 +729,7 @@ END
 }
 
 @test "--repair mends what is an error without it, and says so" {
+  optimized_only "it is about results"
   cd "$FILES"
   for file in hole flipped duplicated degenerate inward; do
     run tetmesh --strict $file.stl -o "$BATS_TEST_TMPDIR/out.tar"
@@ -787,6 +791,7 @@ END
 }
 
 @test "best keeps the points of which more is estimated to become hexes" {
+  optimized_only "it is about results"
   local part="$DATA/bracket.stl"
   for points in best frame lattice; do tetmesh -q "$part" --size 8 --points $points -o $points.mesh --stats $points.json; done
   assert_different_bytes frame.mesh lattice.mesh
@@ -850,6 +855,7 @@ PYTHON
 }
 
 @test "--improve finds points that become more hexes" {
+  optimized_only "it is about results"
   local part="$DATA/bracket.stl" threads kind rounds=12
   # Each round takes TetGen five runs. Few are enough to look for faults of memory.
   if sanitized; then rounds=3; fi
@@ -876,6 +882,7 @@ PYTHON
 }
 
 @test "--improve keeps a kept surface, and every flat face of a new one where it was" {
+  optimized_only "it is about results"
   local rounds=12 kept_rounds=5
   if sanitized; then rounds=2 kept_rounds=2; fi
   tetmesh -q "$DATA/notch.stl" --surface keep --size 0.1 -o before.mesh
@@ -928,6 +935,7 @@ PYTHON
 }
 
 @test "--size-field: edges are as long as it says, in every format" {
+  optimized_only "it is about results"
   $SURFACES sized
   local ratio
   for points in lattice frame; do
@@ -992,6 +1000,7 @@ PYTHON
 }
 
 @test "a part out of the axes gets the hexes of one along them" {
+  optimized_only "it is about results"
   $SURFACES turned "$DATA/bracket.stl" 1 >turned.obj
   for part in "$DATA/bracket.stl" turned.obj; do
     tetmesh -q "$part" --surface keep --size 5 -o out.tar --stats $(basename "${part%.*}").json
@@ -1021,6 +1030,7 @@ PYTHON
 }
 
 @test "shells: apart, holes by orientation, regions in regions, and the rules" {
+  optimized_only "it is about results"
   tetmesh -q "$FILES/apart.stl" -o out.tar
   assert_equal "$(regions out.tar)" "1:1 2:8"
   tetmesh -q "$FILES/hollow.stl" -o out.tar
