@@ -48,15 +48,6 @@ void append(std::span<const QuadOfCandidate> at_quad, QuadList& list) {
   list.offsets.push_back(std::ssize(list.candidates_at));
 }
 
-// The triangles of either diagonal are two of these four.
-bool is_on(const KeySet<3>& boundary, const VertexKey<4>& quad) {
-  const auto& [a, b, c, d] = quad;
-  int found = 0;
-  for (const VertexKey<3>& triangle : {VertexKey<3>{a, b, c}, {a, b, d}, {a, c, d}, {b, c, d}})
-    found += boundary.contains(triangle) ? 1 : 0;
-  return found >= 2;
-}
-
 double worth_at_best(const Candidates& candidates, CandidateIndex i, WeightKind kind) {
   const bool by_volume = kind == WeightKind::volume || kind == WeightKind::quality_volume;
   return by_volume ? candidates.volume[i] : 1;
@@ -111,12 +102,7 @@ InnerQuads find_inner_quads(const Candidates& candidates, const graph::ConflictG
 KeySet<3> boundary_of(const TetMesh& mesh, const char* source) {
   const TetAdjacency adjacency(mesh, source);
   KeySet<3> boundary;
-  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh.tets.size()); ++t)
-    for (int facet = 0; facet < 4; ++facet) {
-      if (adjacency.tet_beyond(t, facet) != no_index) continue;
-      const auto& [a, b, c] = TetTopology::triangles[facet];
-      boundary.insert(key_of<3>({mesh.tets[t][a], mesh.tets[t][b], mesh.tets[t][c]}));
-    }
+  for_each_boundary_facet(mesh, adjacency, [&](const Triangle& facet) { boundary.insert(key_of(facet)); });
   return boundary;
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "common/mesh/cell_topology.hpp"
 #include "common/mesh/tet_mesh.hpp"
 
 namespace hexpipe {
@@ -51,6 +52,17 @@ class TetAdjacency {
   std::vector<std::int64_t> neighbour_offsets_;
   std::vector<Vertex> neighbours_;
 };
+
+// Calls visit(triangle) for each facet of only one tet. It points out of this.
+template <class Visit>
+void for_each_boundary_facet(const TetMesh& mesh, const TetAdjacency& adjacency, Visit&& visit) {
+  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh.tets.size()); ++t)
+    for (int facet = 0; facet < 4; ++facet) {
+      if (adjacency.tet_beyond(t, facet) != no_index) continue;
+      const auto& [a, b, c] = TetTopology::triangles[facet];
+      visit(Triangle{mesh.tets[t][a], mesh.tets[t][b], mesh.tets[t][c]});
+    }
+}
 
 // Completes mesh.triangles: appends every facet on the boundary or between two regions that no triangle names yet, with
 // tag `tag`. It points out of its tet; at an interface, out of the tet with the lower index. Returns the number of

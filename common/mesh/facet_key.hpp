@@ -57,6 +57,15 @@ inline std::array<Triangle, 2> triangles_of(const Quad& q, int diagonal) {
   return {{{q[1], q[2], q[3]}, {q[1], q[3], q[0]}}};
 }
 
+// Whether two triangles of a quad are among these, whichever diagonal cuts it: then it lies on the surface that they
+// are of. The quad's corners may come in any order.
+inline bool is_on(const KeySet<3>& triangles, const Quad& quad) {
+  int found = 0;
+  for (int diagonal = 0; diagonal < 2; ++diagonal)
+    for (const Triangle& triangle : triangles_of(quad, diagonal)) found += triangles.contains(key_of(triangle)) ? 1 : 0;
+  return found >= 2;
+}
+
 // Whether two quads with the same four vertices have the same diagonals.
 inline bool same_diagonals(const Quad& a, const Quad& b) {
   return edge_key(a[0], a[2]) == edge_key(b[0], b[2]) || edge_key(a[0], a[2]) == edge_key(b[1], b[3]);

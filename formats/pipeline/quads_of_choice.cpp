@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "common/mwis/ground/target_weight.hpp"
+
 namespace hexpipe::pipeline {
 namespace {
 
@@ -29,15 +31,23 @@ std::int64_t weight_of_quads(const StageData& data) {
   return std::accumulate(weights.begin() + first_quad(data), weights.end(), std::int64_t{0});
 }
 
-std::optional<ChosenCandidates> without_quads(const graph::IndependentSet& solution, const StageData& data) {
-  if (!data.quads) return std::nullopt;
-  return ChosenCandidates{candidates_in(solution, data),
-                          graph::total_weight(solution, *data.graph) - weight_of_quads(data)};
-}
-
-std::string summary(const ChosenCandidates& chosen) {
-  return fmt::format("{} of the chosen are candidates, worth {} with the prices of open quads paid", chosen.count,
-                     chosen.value);
+void report_candidates(RunContext& context, const graph::IndependentSet& solution, const StageData& data,
+                       std::optional<std::int64_t> bound) {
+  if (!data.quads) return;
+  const std::int64_t of_quads = weight_of_quads(data), count = candidates_in(solution, data);
+  const std::int64_t value = graph::total_weight(solution, *data.graph) - of_quads;
+  context.statistics["candidates"] = count;
+  context.statistics["value"] = value;
+  std::string line =
+      fmt::format("{} of the chosen are candidates, worth {} with the prices of open quads paid", count, value);
+  if (bound) {
+    const std::int64_t most = *bound - of_quads;
+    const double gap = mwis::ground::gap_to(most, value);
+    context.statistics["value_bound"] = most;
+    context.statistics["value_gap"] = gap;
+    line += fmt::format("; at most {} is possible: gap {:.4f} %", most, 100 * gap);
+  }
+  context.note(line);
 }
 
 void drop_quads(StageData& data) {

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 
+#include "common/run/run_context.hpp"
 #include "formats/pipeline/stage_data.hpp"
 
 namespace hexpipe::pipeline {
@@ -17,13 +17,10 @@ std::int32_t quad_count(const StageData& data);
 // less this, is that of its candidates, less the prices of open quads. The graph may be read without its edges.
 std::int64_t weight_of_quads(const StageData& data);
 
-struct ChosenCandidates {
-  std::int64_t count, value;  // the value: weights less the prices of open quads
-};
-// Nothing if the graph has no quads.
-std::optional<ChosenCandidates> without_quads(const graph::IndependentSet& solution, const StageData& data);
-// For -v.
-std::string summary(const ChosenCandidates& chosen);
+// Tells --stats and -v how many candidates a solution has, and its value: weights less the prices of open quads. Says
+// nothing if the graph has no quads. `bound`: no solution weighs more, where that is known.
+void report_candidates(RunContext& context, const graph::IndependentSet& solution, const StageData& data,
+                       std::optional<std::int64_t> bound = std::nullopt);
 
 // Leaves the candidates in the solution, if there is one, and the vertices of quads out.
 void drop_quads(StageData& data);

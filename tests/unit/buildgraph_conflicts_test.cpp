@@ -10,6 +10,7 @@
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
 #include "common/run/random.hpp"
+#include "random_graphs.hpp"
 #include "tools/buildgraph/buildgraph.hpp"
 #include "tools/buildgraph/report.hpp"
 
@@ -19,28 +20,18 @@ using namespace conflicts;
 using namespace graph;
 namespace {
 
+using testing::add_candidate;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
 
-void add(Candidates& to, CellKind kind, std::vector<Vertex> corners, std::vector<std::int32_t> tets) {
-  corners.resize(8, -1);
-  std::copy(corners.begin(), corners.end(), to.vertices.emplace_back().begin());
-  to.kind.push_back(kind);
-  to.quality.push_back(0.5);
-  to.volume.push_back(2);
-  to.tets.insert(to.tets.end(), tets.begin(), tets.end());
-  to.tet_offsets.push_back(static_cast<std::int64_t>(to.tets.size()));
-  to.boundary_tet_offsets.push_back(0);
-}
-
 // Tets are numbered by cell unless a test says otherwise.
 bool conflict(CellKind a, std::vector<Vertex> corners_a, CellKind b, std::vector<Vertex> corners_b,
               std::vector<std::int32_t> tets_a = {0}, std::vector<std::int32_t> tets_b = {1}) {
   Candidates pair;
-  add(pair, a, std::move(corners_a), std::move(tets_a));
-  add(pair, b, std::move(corners_b), std::move(tets_b));
+  add_candidate(pair, a, std::move(corners_a), tets_a);
+  add_candidate(pair, b, std::move(corners_b), tets_b);
   EXPECT_EQ(in_conflict(pair, 0, 1), in_conflict(pair, 1, 0));
   const ConflictGraph graph = conflict_graph(pair, {}, "test");
   EXPECT_EQ(graph.edge_count() == 1, in_conflict(pair, 0, 1));
@@ -102,8 +93,8 @@ TEST(ConflictRules, ASharedInteriorTetIsAConflict) {
 
 TEST(ConflictRules, BoundaryTetsTakeNoPart) {
   Candidates pair;
-  add(pair, hex, first_hex, {0});
-  add(pair, hex, {4, 5, 6, 7, 14, 15, 16, 17}, {1});
+  add_candidate(pair, hex, first_hex, {0});
+  add_candidate(pair, hex, {4, 5, 6, 7, 14, 15, 16, 17}, {1});
   pair.boundary_tets = {2, 2};
   pair.boundary_tet_offsets = {0, 1, 2};
   EXPECT_FALSE(in_conflict(pair, 0, 1));
@@ -133,7 +124,7 @@ Candidates random_candidates(std::size_t count, std::int32_t vertices, std::int3
         if (std::find(corners.begin(), corners.begin() + c, all[next]) == corners.begin() + c) corners[c++] = all[next];
       }
     }
-    add(candidates, kind, corners, own);
+    add_candidate(candidates, kind, corners, own);
   }
   return candidates;
 }
@@ -193,7 +184,7 @@ TEST(Buildgraph, OfNothingIsEmpty) {
 
 TEST(Weights, AreRoundedAfterScaling) {
   Candidates c;
-  add(c, hex, first_hex, {0});
+  add_candidate(c, hex, first_hex, {0});
   c.quality[0] = 0.12345678;
   c.volume[0] = 3;
   EXPECT_THAT(weights_of(c, WeightKind::quality, 1e6, "test"), ElementsAre(123457));
@@ -205,8 +196,8 @@ TEST(Weights, AreRoundedAfterScaling) {
 
 TEST(Weights, ThatDoNotFitAreErrors) {
   Candidates c;
-  add(c, hex, first_hex, {0});
-  add(c, hex, first_hex, {1});
+  add_candidate(c, hex, first_hex, {0});
+  add_candidate(c, hex, first_hex, {1});
   c.volume = {5e12, 5e12};
   EXPECT_THAT(weights_of(c, WeightKind::volume, 9e5, "test"), ElementsAre(4500000000000000000, 4500000000000000000));
   EXPECT_THAT([&] { weights_of(c, WeightKind::volume, 1e6, "test"); },
@@ -225,7 +216,7 @@ TEST(Weights, ThatDoNotFitAreErrors) {
 
 TEST(Report, WarnsOfWeightsThatVanish) {
   Candidates c;
-  add(c, hex, first_hex, {0});
+  add_candidate(c, hex, first_hex, {0});
   c.volume = {1e-9};
   pipeline::StageData data;
   data.candidates = c;

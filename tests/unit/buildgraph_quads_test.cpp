@@ -19,29 +19,20 @@ using namespace conflicts;
 using namespace graph;
 namespace {
 
+using testing::add_candidate;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
 
-void add_cell(Candidates& to, CellKind kind, std::vector<Vertex> corners, double volume = 2) {
-  corners.resize(8, -1);
-  std::copy(corners.begin(), corners.end(), to.vertices.emplace_back().begin());
-  to.kind.push_back(kind);
-  to.quality.push_back(0.5);
-  to.volume.push_back(volume);
-  to.tet_offsets.push_back(0);
-  to.boundary_tet_offsets.push_back(0);
-}
-
 // A hex, a prism and a hex that share its quad 4567 (the prism and the second hex on the other side), and a hex that
 // shares a quad with nobody.
 Candidates cells_at_a_quad() {
   Candidates cells;
-  add_cell(cells, CellKind::hex, {0, 1, 2, 3, 4, 5, 6, 7}, 1);
-  add_cell(cells, CellKind::prism, {4, 5, 10, 7, 6, 11}, 2);
-  add_cell(cells, CellKind::hex, {4, 5, 6, 7, 14, 15, 16, 17}, 6);
-  add_cell(cells, CellKind::hex, {20, 21, 22, 23, 24, 25, 26, 27});
+  add_candidate(cells, CellKind::hex, {0, 1, 2, 3, 4, 5, 6, 7}, {}, 1);
+  add_candidate(cells, CellKind::prism, {4, 5, 10, 7, 6, 11}, {}, 2);
+  add_candidate(cells, CellKind::hex, {4, 5, 6, 7, 14, 15, 16, 17}, {}, 6);
+  add_candidate(cells, CellKind::hex, {20, 21, 22, 23, 24, 25, 26, 27}, {});
   return cells;
 }
 

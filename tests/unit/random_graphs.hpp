@@ -1,5 +1,5 @@
 #pragma once
-// Small conflict graphs for tests, and their heaviest independent sets by trying everything.
+// Small conflict graphs for tests, their heaviest independent sets by trying everything, and lists of candidates.
 
 #include <algorithm>
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/graph/conflict_graph.hpp"
+#include "common/mesh/candidates.hpp"
 #include "common/run/random.hpp"
 
 namespace hexpipe::testing {
@@ -24,6 +25,19 @@ inline ConflictGraph make_graph(std::vector<std::int64_t> weights,
     graph.offsets.push_back(static_cast<std::int64_t>(graph.neighbours.size()));
   }
   return graph;
+}
+
+// A candidate of quality 0.5.
+inline void add_candidate(Candidates& to, CellKind kind, std::vector<Vertex> corners,
+                          const std::vector<std::int32_t>& tets, double volume = 2) {
+  corners.resize(8, -1);
+  std::copy(corners.begin(), corners.end(), to.vertices.emplace_back().begin());
+  to.kind.push_back(kind);
+  to.quality.push_back(0.5);
+  to.volume.push_back(volume);
+  to.tets.insert(to.tets.end(), tets.begin(), tets.end());
+  to.tet_offsets.push_back(static_cast<std::int64_t>(to.tets.size()));
+  to.boundary_tet_offsets.push_back(0);
 }
 
 inline std::vector<std::int64_t> random_weights(std::int32_t vertices, std::int64_t heaviest, Random& random) {

@@ -65,16 +65,7 @@ int main(int argc, char** argv) {
     const double seconds = deadline.elapsed();
     context.statistics.update(to_json(result));
     context.note(summary(result));
-    if (const auto chosen = pipeline::without_quads(result.solution, data)) {
-      const std::int64_t most = result.bound - pipeline::weight_of_quads(data);
-      const double gap = mwis::ground::gap_to(most, chosen->value);
-      context.statistics["candidates"] = chosen->count;
-      context.statistics["value"] = chosen->value;
-      context.statistics["value_bound"] = most;
-      context.statistics["value_gap"] = gap;
-      context.note(
-          fmt::format("{}; at most {} is possible: gap {:.4f} %", pipeline::summary(*chosen), most, 100 * gap));
-    }
+    pipeline::report_candidates(context, result.solution, data, result.bound);
     pipeline::SolutionProduct product{.solution = std::move(result.solution)};
     if (stage.writes_bundle())
       product.gaps = mwis::bounds::gap_shares(*data.graph, result.cover, result.dual.prices, product.solution);

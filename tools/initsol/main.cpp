@@ -137,11 +137,7 @@ void run(RunContext& context, InitsolOptions options) {
                                                    {"complete", result.complete}});
   context.note(fmt::format("{} chosen, weight {}{} (greedy {}), {} moves", result.solution.size(), result.weight,
                            result.complete ? " (optimal)" : "", result.greedy_weight, result.iterations));
-  if (const auto chosen = pipeline::without_quads(result.solution, data)) {
-    context.statistics["candidates"] = chosen->count;
-    context.statistics["value"] = chosen->value;
-    context.note(summary(*chosen));
-  }
+  pipeline::report_candidates(context, result.solution, data);
   stage.write(pipeline::SolutionProduct{result.solution},
               {{"weight", result.weight}, {"iterations", result.iterations}, {"complete", result.complete}});
   // After the solution, so that a full disk under the log does not cost it.

@@ -101,11 +101,7 @@ int main(int argc, char** argv) {
     context.note(fmt::format("{} chosen, weight {}{}, {} of {} fragments were improved", result.solution.size(),
                              result.weight, result.complete ? " (optimal)" : "", result.improvements,
                              result.iterations));
-    if (const auto chosen = pipeline::without_quads(result.solution, data)) {
-      context.statistics["candidates"] = chosen->count;
-      context.statistics["value"] = chosen->value;
-      context.note(summary(*chosen));
-    }
+    pipeline::report_candidates(context, result.solution, data);
     nlohmann::ordered_json details{
         {"weight", result.weight}, {"iterations", result.iterations}, {"complete", result.complete}};
     if (options.free_running) details["depends_on_timing"] = true;

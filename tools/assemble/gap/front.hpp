@@ -40,7 +40,7 @@ class SmallFacet {
     const auto& f = *this;
     return is_quad() ? SmallFacet{f[0], f[3], f[2], f[1]} : SmallFacet{f[0], f[2], f[1], end};
   }
-  bool has(Corner c) const { return f(0) == c || f(1) == c || f(2) == c || f(3) == c; }
+  bool has(Corner c) const { return (*this)[0] == c || (*this)[1] == c || (*this)[2] == c || (*this)[3] == c; }
   // The corners of a triangle alone.
   std::size_t number_of_triangle() const { return digits_ >> 4; }
   bool operator==(const SmallFacet&) const = default;
@@ -49,7 +49,6 @@ class SmallFacet {
   static constexpr Corner end = 15;
   SmallFacet(Corner a, Corner b, Corner c, Corner d)
       : digits_(static_cast<std::uint16_t>(a << 12 | b << 8 | c << 4 | d)) {}
-  Corner f(std::size_t i) const { return (*this)[i]; }
 
   std::uint16_t digits_ = 0;
 };

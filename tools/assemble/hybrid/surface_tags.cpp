@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "common/mesh/cell_topology.hpp"
-
 namespace hexpipe::assemble::hybrid {
 namespace {
 
@@ -92,13 +90,9 @@ bool SurfaceTags::covers_partly(const Quad& quad, int diagonal) const {
 
 BoundaryQuads::BoundaryQuads(const TetMesh& mesh, const TetAdjacency& adjacency, const SurfaceTags& tags)
     : tags_(tags), is_outer_(tags.size()) {
-  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh.tets.size()); ++t)
-    for (int facet = 0; facet < 4; ++facet) {
-      if (adjacency.tet_beyond(t, facet) != no_index) continue;
-      const auto& f = TetTopology::triangles[facet];
-      const auto triangle = tags.find({mesh.tets[t][f[0]], mesh.tets[t][f[1]], mesh.tets[t][f[2]]});
-      if (triangle) is_outer_[*triangle] = true;
-    }
+  for_each_boundary_facet(mesh, adjacency, [&](const Triangle& facet) {
+    if (const auto triangle = tags.find(facet)) is_outer_[*triangle] = true;
+  });
 }
 
 bool BoundaryQuads::contains(const Quad& quad) const {

@@ -23,13 +23,6 @@ Quad quad_of(const ChosenHex& hex, const LocalQuad& local) {
   return quad;
 }
 
-bool is_on(const KeySet<3>& boundary, const Quad& quad) {
-  int triangles = 0;
-  for (int diagonal = 0; diagonal < 2; ++diagonal)
-    for (const Triangle& triangle : triangles_of(quad, diagonal)) triangles += boundary.contains(key_of(triangle));
-  return triangles >= 2;
-}
-
 }  // namespace
 
 double JudgedMesh::hex_volume() const {
