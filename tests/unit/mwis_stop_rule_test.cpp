@@ -9,7 +9,7 @@ using namespace mwis::local_search;
 namespace {
 
 TEST(StopRule, EndsWhenTheLastHalfGainedTooLittle) {
-  StopRule rule(10, 100);
+  StopRule rule(10, 100, 100);
   rule.record(0, 1000);
   rule.record(99, 1000);
   EXPECT_FALSE(rule.is_done()) << "not judged so early";
@@ -23,8 +23,22 @@ TEST(StopRule, EndsWhenTheLastHalfGainedTooLittle) {
   EXPECT_FALSE(rule.is_done()) << "10 since 105";
 }
 
+TEST(StopRule, JudgesASampleByWhatTheWholeWouldGain) {
+  StopRule rule(10, 100, 1000);
+  rule.record(0, 1000);
+  rule.record(51, 1001);
+  rule.record(100, 1001);
+  EXPECT_FALSE(rule.is_done()) << "1 in the last half of a tenth of the work";
+  rule.record(102, 1001);
+  EXPECT_TRUE(rule.is_done()) << "nothing since 51";
+  rule.record(500, 1006);
+  EXPECT_FALSE(rule.is_done()) << "10 of the whole";
+  rule.record(550, 1006);
+  EXPECT_TRUE(rule.is_done()) << "nine of the whole";
+}
+
 TEST(StopRule, NeverEndsWithoutALeastGain) {
-  StopRule rule(0, 1);
+  StopRule rule(0, 1, 1);
   rule.record(0, 1000);
   rule.record(1e12, 1000);
   EXPECT_FALSE(rule.is_done());

@@ -106,7 +106,10 @@ InitsolOptions checked_options(const CommandLine& line, const CommonOptions& com
   options.tabu.escape = escapes.at(line.escape);
   options.seed = common.seed;
   options.iterations = common.iterations.value_or(options.iterations);
-  if (!common.iterations && !common.time_limit) options.iterations_a_vertex = usual_iterations_a_vertex;
+  if (!common.iterations && !common.time_limit) {
+    options.iterations_a_vertex = usual_iterations_a_vertex;
+    options.tries_first = true;
+  }
   return options;
 }
 
@@ -155,7 +158,7 @@ int main(int argc, char** argv) {
       .product = Role::solution,
       .random = true,
       .searches = true,
-      .ends_by_itself = "when the temperature has fallen slowly enough for the graph"};
+      .ends_by_itself = "when it has cooled slowly enough for the graph"};
   CommandLine line;
   return tool_main(
       argc, argv, info, [&](CLI::App& app) { declare(app, line); },

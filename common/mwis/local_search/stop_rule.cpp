@@ -1,5 +1,7 @@
 #include "common/mwis/local_search/stop_rule.hpp"
 
+#include <algorithm>
+
 namespace hexpipe::mwis::local_search {
 
 void StopRule::record(double work, std::int64_t weight) {
@@ -10,7 +12,8 @@ void StopRule::record(double work, std::int64_t weight) {
 
 bool StopRule::is_done() const {
   if (least_gain_ <= 0 || work_ < least_work_ || points_.empty()) return false;
-  return static_cast<double>(points_.back().weight - points_[half_].weight) < least_gain_;
+  const double to_whole = std::max(1.0, whole_work_ / work_);
+  return to_whole * static_cast<double>(points_.back().weight - points_[half_].weight) < least_gain_;
 }
 
 }  // namespace hexpipe::mwis::local_search

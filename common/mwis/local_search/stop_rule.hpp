@@ -11,8 +11,10 @@ namespace hexpipe::mwis::local_search {
 class StopRule {
  public:
   // `least_gain` is for the last half, in units of weight; 0: the search goes on for ever. Nothing is judged before
-  // `least_work`.
-  StopRule(double least_gain, double least_work) : least_gain_(least_gain), least_work_(least_work) {}
+  // `least_work`. Between it and `whole_work` the search has seen a sample of the graph, and is judged by what it would
+  // gain if it went on to the whole work as it did in its last half.
+  StopRule(double least_gain, double least_work, double whole_work)
+      : least_gain_(least_gain), least_work_(least_work), whole_work_(whole_work) {}
 
   // The total work done and the weight reached; neither decreases.
   void record(double work, std::int64_t weight);
@@ -24,7 +26,7 @@ class StopRule {
     std::int64_t weight;
   };
 
-  double least_gain_, least_work_;
+  double least_gain_, least_work_, whole_work_;
   double work_ = 0;
   std::vector<Point> points_;  // the points where the weight rose
   std::size_t half_ = 0;       // the last of them in the first half of the work, if there is one
